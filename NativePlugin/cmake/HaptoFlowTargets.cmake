@@ -1,0 +1,61 @@
+# What every native target of the project shares: language level, warnings, sanitizers, and where
+# third-party headers come from.
+
+set(CMAKE_CXX_STANDARD 20)
+set(CMAKE_CXX_STANDARD_REQUIRED ON)
+set(CMAKE_CXX_EXTENSIONS OFF)
+set(CMAKE_POSITION_INDEPENDENT_CODE ON)
+set(CMAKE_CXX_VISIBILITY_PRESET hidden)
+set(CMAKE_VISIBILITY_INLINES_HIDDEN ON)
+
+find_package(glm REQUIRED)
+find_package(nlohmann_json REQUIRED)
+find_package(Threads REQUIRED)
+
+add_library(haptoflow_options INTERFACE)
+if(CMAKE_CXX_COMPILER_ID MATCHES "GNU|Clang")
+  target_compile_options(haptoflow_options INTERFACE -Wall -Wextra -Wconversion -Wshadow -Werror)
+  # Contraction into fused multiply-adds differs between processors; without it a render is the same everywhere.
+  target_compile_options(haptoflow_options INTERFACE -ffp-contract=off)
+elseif(MSVC)
+  target_compile_options(haptoflow_options INTERFACE /W4 /WX /utf-8)
+endif()
+if(HAPTOFLOW_SANITIZERS)
+  add_compile_options(-fsanitize=${HAPTOFLOW_SANITIZERS} -fno-omit-frame-pointer -fno-sanitize-recover=all)
+  add_link_options(-fsanitize=${HAPTOFLOW_SANITIZERS})
+endif()
+
+# ONNX Runtime: headers only. The library is opened at run time, never linked (its SONAME differs from its
+# file name on Linux, which would keep a linked plugin from loading inside Unity).
+set(haptoflow_onnxruntime_headers
+    "${HAPTOFLOW_ONNXRUNTIME_DIR}/Plugins/iOS~/onnxruntime.xcframework/ios-arm64/onnxruntime.framework/Headers")
+if(NOT EXISTS "${haptoflow_onnxruntime_headers}/onnxruntime_c_api.h")
+  message(FATAL_ERROR
+          "ONNX Runtime's headers are not in ${haptoflow_onnxruntime_headers}: run `npm ci` in the repository "
+          "root, or set HAPTOFLOW_ONNXRUNTIME_DIR to an unpacked com.github.asus4.onnxruntime package.")
+endif()
+add_library(haptoflow_onnxruntime_headers INTERFACE)
+target_include_directories(haptoflow_onnxruntime_headers SYSTEM INTERFACE "${haptoflow_onnxruntime_headers}")
+
+# haptoflow_add_library(NAME SOURCES ... [DEPENDS ...]): one static library per folder of NativePlugin/src.
+function(haptoflow_add_library name)
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "SOURCES;DEPENDS;PRIVATE_DEPENDS")
+  add_library(${name} STATIC ${arg_SOURCES})
+  target_include_directories(${name} PUBLIC "${PROJECT_SOURCE_DIR}/NativePlugin/src")
+  target_link_libraries(${name} PUBLIC ${arg_DEPENDS} PRIVATE haptoflow_options ${arg_PRIVATE_DEPENDS})
+endfunction()
+
+# haptoflow_add_test(NAME SOURCES ... DEPENDS ...): one GoogleTest program, every test of it known to ctest.
+function(haptoflow_add_test name)
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "SOURCES;DEPENDS")
+  add_executable(${name} ${arg_SOURCES})
+  target_link_libraries(${name} PRIVATE ${arg_DEPENDS} haptoflow_options GTest::gmock GTest::gtest GTest::gtest_main)
+  target_compile_definitions(
+    ${name}
+    PRIVATE HAPTOFLOW_TEST_GOLDEN_DIR="${PROJECT_SOURCE_DIR}/Tests/Golden"
+            HAPTOFLOW_TEST_DEFAULT_MODEL="${PROJECT_SOURCE_DIR}/Packages/com.haptoflow.runtime/Runtime/Models/default.haptoflow"
+            HAPTOFLOW_TEST_ONNXRUNTIME="${HAPTOFLOW_ONNXRUNTIME_DIR}/Plugins/Linux/x64/libonnxruntime.so"
+            HAPTOFLOW_TEST_CLI="$<TARGET_FILE:haptoflow_cli>")
+  add_dependencies(${name} haptoflow_cli)
+  gtest_discover_tests(${name} DISCOVERY_MODE PRE_TEST)
+endfunction()

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <span>
+
+namespace haptoflow::inference {
+
+inline constexpr std::size_t segmentSamples = 200;
+inline constexpr std::size_t embeddingSize = 64;
+inline constexpr double waveformRateHz = 2000.0;
+
+enum class SolverKind { euler, midpoint, heun };
+
+struct SolverSettings {
+    SolverKind kind = SolverKind::midpoint;
+    int steps = 2;
+};
+
+/// What one segment is generated from. Pointers stay the caller's and are read during `generate` only.
+struct SegmentRequest {
+    std::array<float, embeddingSize> embedding{};
+    /// vx, vy in m/s in the surface's tangent axes, force in N; already inside the trained range.
+    std::array<float, 3> motion{};
+    /// The 200 committed samples before the segment, m/s^2.
+    std::span<const float, segmentSamples> previous;
+    /// Standard normal noise, the solver's starting point.
+    std::span<const float, segmentSamples> noise;
+};
+
+/// Turns contact states into segments. Worker thread; one user at a time; may allocate.
+class SegmentGenerator {
+public:
+    SegmentGenerator() = default;
+    SegmentGenerator(const SegmentGenerator&) = delete;
+    SegmentGenerator& operator=(const SegmentGenerator&) = delete;
+    virtual ~SegmentGenerator() = default;
+
+    /// Writes requests.size() segments of 200 samples in m/s^2, one after the other, into `segments`
+    /// (requests.size() * 200 floats). Throws InferenceError when a graph fails; `segments` is then unspecified.
+    virtual void generate(std::span<const SegmentRequest> requests, std::span<float> segments) = 0;
+
+    /// RMS in m/s^2 that the model expects for each (embedding, motion) of `requests`; writes one float each.
+    virtual void levels(std::span<const SegmentRequest> requests, std::span<float> levelsMps2) = 0;
+};
+
+}  // namespace haptoflow::inference

@@ -1,0 +1,1 @@
+"""HaptoFlow's training pipeline: recordings, networks, training, evaluation, export."""

@@ -1,0 +1,56 @@
+"""`haptoflow-training`: one entry, one subcommand a module, imported only when it is asked for.
+
+Exit codes: 0 done, 2 wrong usage, 3 bad input, 4 internal error.
+"""
+
+from __future__ import annotations
+
+import argparse
+import importlib
+import sys
+from collections.abc import Sequence
+
+from haptoflow_training.errors import InputError
+
+_COMMANDS: dict[str, str] = {
+    "record": "record synthetic recordings in the published data set's layout",
+    "report-recorder": "compare the synthetic recorder with its published targets, per material",
+    "inspect": "count and validate the recordings of a data set folder",
+    "prepare": "turn recordings into memory-mapped 2 kHz training arrays",
+    "train": "train the level model and the network from one TOML file, resumable",
+    "export": "write a trained run into a .haptoflow model file",
+    "stroke": "write a hand-like stroke as CSV for `haptoflow render`",
+}
+
+
+def _parser(chosen: str | None) -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser(
+        prog="haptoflow-training",
+        description="Recordings in, a .haptoflow model file out.",
+        epilog="`haptoflow-training COMMAND --help` explains one command with examples.",
+    )
+    subparsers = parser.add_subparsers(dest="command", required=True, metavar="COMMAND")
+    for name, summary in _COMMANDS.items():
+        if name == chosen:
+            module = importlib.import_module(f"haptoflow_training.commands.{name.replace('-', '_')}")
+            module.register(subparsers, summary)
+        else:
+            subparsers.add_parser(name, help=summary, add_help=False)
+    return parser
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    words = list(sys.argv[1:] if arguments is None else arguments)
+    chosen = next((word for word in words if word in _COMMANDS), None)
+    options = _parser(chosen).parse_args(words)
+    try:
+        return int(options.run(options))
+    except InputError as error:
+        print(f"haptoflow-training: {error}", file=sys.stderr)
+        return 3
+    except BrokenPipeError:
+        return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

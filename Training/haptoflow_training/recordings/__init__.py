@@ -1,0 +1,1 @@
+"""Recordings of a tool on a surface: published, synthetic, and prepared for training."""

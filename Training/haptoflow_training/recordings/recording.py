@@ -1,0 +1,76 @@
+"""One recording of a stylus on a surface, as every reader returns it and every recorder makes it."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+Protocol = Literal["machine", "hand"]
+
+STANDARD_GRAVITY_MPS2 = 9.80665
+
+_NAME_PATTERN = re.compile(r"^(\d+)_(\d+|hand)_(\d+)_(\d+)_(\d+)$")
+
+
+@dataclass(frozen=True, order=True)
+class RecordingIdentity:
+    """What the name `<texture_id>_<direction>_<velocity>_<force>_<repeat>` says.
+
+    `direction_degrees` is clockwise (0, 45 ... 315) for the `machine` protocol and None for `hand`, whose names
+    carry the word `hand` in its place; `speed_mmps` and `force_millinewtons` are then the medians asked for.
+    """
+
+    texture_id: int
+    direction_degrees: int | None
+    speed_mmps: int
+    force_millinewtons: int
+    repeat: int
+
+    @property
+    def protocol(self) -> Protocol:
+        return "hand" if self.direction_degrees is None else "machine"
+
+    @property
+    def name(self) -> str:
+        direction = "hand" if self.direction_degrees is None else str(self.direction_degrees)
+        return f"{self.texture_id}_{direction}_{self.speed_mmps}_{self.force_millinewtons}_{self.repeat}"
+
+    @classmethod
+    def parse(cls, name: str) -> RecordingIdentity:
+        """Read a file's stem; ValueError names what is wrong."""
+        match = _NAME_PATTERN.match(name)
+        if match is None:
+            raise ValueError(
+                f"'{name}' is not <texture_id>_<direction>_<velocity>_<force>_<repeat> (for example 0_135_40_500_0)"
+            )
+        texture, direction, speed, force, repeat = match.groups()
+        return cls(
+            int(texture), None if direction == "hand" else int(direction), int(speed), int(force), int(repeat)
+        )
+
+
+@dataclass(frozen=True)
+class Recording:
+    """Three sensors with clocks of their own; nothing resampled, nothing filtered.
+
+    acceleration_time_seconds: [n] float64, increasing, irregular. acceleration_g: [n, 3] float, g, gravity on Z.
+    force_time_seconds: [m] float64. force_newtons: [m] float. position_time_seconds: [k] float64.
+    position_mm: [k, 2] float, millimetres, X and Y of the scan area.
+    """
+
+    identity: RecordingIdentity
+    label: str
+    acceleration_time_seconds: NDArray[np.float64]
+    acceleration_g: NDArray[np.floating]
+    force_time_seconds: NDArray[np.float64]
+    force_newtons: NDArray[np.floating]
+    position_time_seconds: NDArray[np.float64]
+    position_mm: NDArray[np.floating]
+
+    @property
+    def duration_seconds(self) -> float:
+        return float(self.acceleration_time_seconds[-1] - self.acceleration_time_seconds[0])
