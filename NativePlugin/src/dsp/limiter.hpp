@@ -1,0 +1,35 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+namespace haptoflow::dsp {
+
+/// Takes m/s^2 to the output's +-1: exactly linear to a knee at 0.7, above it a smooth, monotone approach to 1 that
+/// never gets there, however large the input. Memoryless, so it adds no delay.
+/// Audio thread: allocates nothing, waits for nothing.
+class SoftLimiter {
+public:
+    static constexpr float knee = 0.7F;
+
+    /// `fullScaleMps2` is the acceleration that would be 1 without a knee. Throws std::invalid_argument unless it is
+    /// finite and above 0.
+    explicit SoftLimiter(float fullScaleMps2 = 60.0F);
+
+    /// The limited value of one sample; 0 for NaN and infinities, uncounted.
+    [[nodiscard]] float limit(float mps2) const noexcept;
+    /// Limits in place and counts.
+    void process(std::span<float> samples) noexcept;
+
+    /// How many samples `process` has replaced by 0 because they were not finite.
+    [[nodiscard]] std::uint64_t nonFiniteCount() const noexcept { return nonFiniteCount_; }
+    /// How many samples `process` has bent, that is, found above the knee.
+    [[nodiscard]] std::uint64_t limitedCount() const noexcept { return limitedCount_; }
+
+private:
+    float fullScaleMps2_;
+    std::uint64_t nonFiniteCount_ = 0;
+    std::uint64_t limitedCount_ = 0;
+};
+
+}  // namespace haptoflow::dsp

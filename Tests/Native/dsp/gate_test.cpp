@@ -1,0 +1,139 @@
+#include "dsp/gate.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <stdexcept>
+#include <vector>
+
+#include "test_signals.hpp"
+
+namespace haptoflow::dsp {
+namespace {
+
+using testing::Uniform;
+using testing::whiteNoise;
+
+constexpr double everyRate[] = {2000.0, 8000.0, 11025.0, 44100.0, 48000.0, 192000.0};
+
+std::size_t samplesIn(double seconds, double rate) {
+    return static_cast<std::size_t>(seconds * rate + 1e-6);
+}
+
+TEST(GateTest, OpensWithinTwoMillisecondsAndClosesWithinFiveAtAnyRate) {
+    for (const double rate : everyRate) {
+        Gate gate(rate);
+        gate.open();
+        for (std::size_t i = 0; i + 1 < samplesIn(0.002, rate); ++i) {
+            ASSERT_LT(gate.nextGain(), 1.0F) << rate;
+        }
+        ASSERT_EQ(gate.nextGain(), 1.0F) << rate;
+        gate.close();
+        for (std::size_t i = 0; i + 1 < samplesIn(0.005, rate); ++i) {
+            ASSERT_GT(gate.nextGain(), 0.0F) << rate;
+            ASSERT_FALSE(gate.isClosed());
+        }
+        ASSERT_EQ(gate.nextGain(), 0.0F) << rate;
+        ASSERT_TRUE(gate.isClosed());
+    }
+}
+
+TEST(GateTest, TheClosingRampIsARaisedCosine) {
+    Gate gate(48000.0);
+    gate.open();
+    for (int i = 0; i < 96; ++i) {
+        (void)gate.nextGain();
+    }
+    gate.close();
+    for (int i = 1; i <= 240; ++i) {
+        const double expected = 0.5 + 0.5 * std::cos(std::numbers::pi * i / 240.0);
+        ASSERT_NEAR(gate.nextGain(), expected, 1e-6) << i;
+    }
+}
+
+TEST(GateTest, NoTurnAtAnySampleMakesAStepLargerThanTheSteepestRamp) {
+    for (const double rate : everyRate) {
+        Gate gate(rate);
+        Uniform uniform(31);
+        // The opening ramp's steepest slope: pi / 2 over 2 ms.
+        const double largest = std::numbers::pi / 2.0 / static_cast<double>(samplesIn(0.002, rate)) + 1e-6;
+        double previous = 0.0;
+        bool sawOpen = false;
+        bool sawClosed = false;
+        for (int i = 0; i < 200000; ++i) {
+            if (i < 100000 || uniform(0.0, 1.0) < 0.003) {
+                uniform(0.0, 1.0) < 0.5 ? gate.open() : gate.close();
+            }
+            const double gain = gate.nextGain();
+            ASSERT_LE(std::abs(gain - previous), largest) << "sample " << i << " at " << rate << " Hz";
+            ASSERT_GE(gain, 0.0);
+            ASSERT_LE(gain, 1.0);
+            sawOpen = sawOpen || gain == 1.0;
+            sawClosed = sawClosed || (i > 0 && gain == 0.0);
+            previous = gain;
+        }
+        EXPECT_TRUE(sawOpen && sawClosed) << "the walk never reached both ends at " << rate << " Hz";
+    }
+}
+
+TEST(GateTest, FromAnywhereItIsClosedFiveMillisecondsAfterTheWord) {
+    for (const double rate : everyRate) {
+        Uniform uniform(32);
+        for (int round = 0; round < 200; ++round) {
+            Gate gate(rate);
+            gate.open();
+            const std::size_t opened = uniform.whole(0, 2 * samplesIn(0.002, rate));
+            for (std::size_t i = 0; i < opened; ++i) {
+                (void)gate.nextGain();
+            }
+            gate.close();
+            for (std::size_t i = 0; i < samplesIn(0.005, rate); ++i) {
+                (void)gate.nextGain();
+            }
+            ASSERT_TRUE(gate.isClosed());
+        }
+    }
+}
+
+TEST(GateTest, ClosedIsSilentBitForBitEvenForNotANumber) {
+    Gate gate(48000.0);
+    std::vector<float> samples = whiteNoise(100, 10.0, 33);
+    samples[3] = std::numeric_limits<float>::quiet_NaN();
+    samples[4] = -std::numeric_limits<float>::infinity();
+    gate.process(samples);
+    for (const float sample : samples) {
+        ASSERT_EQ(sample, 0.0F);
+        ASSERT_FALSE(std::signbit(sample));
+    }
+}
+
+TEST(GateTest, FullyOpenLeavesTheSignalUntouched) {
+    Gate gate(48000.0);
+    gate.open();
+    std::vector<float> samples = whiteNoise(1000, 10.0, 34);
+    const std::vector<float> original = samples;
+    gate.process(samples);
+    EXPECT_TRUE(std::equal(samples.begin() + 96, samples.end(), original.begin() + 96));
+    EXPECT_FALSE(std::equal(samples.begin(), samples.begin() + 90, original.begin()));
+}
+
+TEST(GateTest, ResetClosesAtOnce) {
+    Gate gate(48000.0);
+    gate.open();
+    for (int i = 0; i < 200; ++i) {
+        (void)gate.nextGain();
+    }
+    gate.reset();
+    EXPECT_TRUE(gate.isClosed());
+    EXPECT_EQ(gate.nextGain(), 0.0F);
+}
+
+TEST(GateTest, ARateItCannotServeIsRefused) {
+    EXPECT_THROW(Gate{0.0}, std::invalid_argument);
+    EXPECT_THROW(Gate{std::numeric_limits<double>::quiet_NaN()}, std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace haptoflow::dsp

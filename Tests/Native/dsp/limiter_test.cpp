@@ -1,0 +1,93 @@
+#include "dsp/limiter.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <vector>
+
+#include "test_signals.hpp"
+
+namespace haptoflow::dsp {
+namespace {
+
+using testing::Uniform;
+
+constexpr float infinity = std::numeric_limits<float>::infinity();
+constexpr float notANumber = std::numeric_limits<float>::quiet_NaN();
+
+TEST(LimiterTest, BelowTheKneeItIsExactlyLinear) {
+    const SoftLimiter limiter(60.0F);
+    Uniform uniform(41);
+    for (int i = 0; i < 10000; ++i) {
+        const auto input = static_cast<float>(uniform(-41.99, 41.99));
+        ASSERT_EQ(limiter.limit(input), input / 60.0F);
+    }
+    EXPECT_EQ(limiter.limit(30.0F), 0.5F);
+    EXPECT_EQ(limiter.limit(0.0F), 0.0F);
+}
+
+TEST(LimiterTest, AboveTheKneeItNeverFallsAndNeverReachesOne) {
+    const SoftLimiter limiter(1.0F);
+    float previous = limiter.limit(0.6F);
+    for (float input = 0.6F; input < 1e30F; input *= 1.0001F) {
+        const float output = limiter.limit(input);
+        ASSERT_GE(output, previous) << "at " << input;
+        ASSERT_LT(output, 1.0F) << "at " << input;
+        previous = output;
+    }
+    EXPECT_GT(previous, 0.999F);
+    EXPECT_LT(limiter.limit(std::numeric_limits<float>::max()), 1.0F);
+    EXPECT_LT(SoftLimiter(1e-30F).limit(1e30F), 1.0F) << "the quotient overflows to infinity";
+}
+
+TEST(LimiterTest, ItKeepsTellingLoudFromLouderFarAboveTheKnee) {
+    const SoftLimiter limiter(60.0F);
+    for (float input = 40.0F; input < 6000.0F; input *= 1.05F) {
+        ASSERT_GT(limiter.limit(input * 1.05F), limiter.limit(input)) << "at " << input << " m/s^2";
+    }
+}
+
+TEST(LimiterTest, ValueAndSlopeAreContinuousAtTheKnee) {
+    const SoftLimiter limiter(1.0F);
+    const double step = 1e-3;
+    const auto at = [&](double input) { return static_cast<double>(limiter.limit(static_cast<float>(input))); };
+    EXPECT_NEAR(at(0.7 + 1e-6), 0.7, 2e-6);
+    const double below = (at(0.7) - at(0.7 - step)) / step;
+    const double above = (at(0.7 + step) - at(0.7)) / step;
+    EXPECT_NEAR(below, 1.0, 1e-3);
+    EXPECT_NEAR(above, 1.0, 5e-3);
+}
+
+TEST(LimiterTest, ItIsOdd) {
+    const SoftLimiter limiter(60.0F);
+    for (float input = 0.01F; input < 1e8F; input *= 1.01F) {
+        ASSERT_EQ(limiter.limit(-input), -limiter.limit(input));
+    }
+}
+
+TEST(LimiterTest, NonFiniteSamplesBecomeZeroAndAreCounted) {
+    SoftLimiter limiter(60.0F);
+    std::vector<float> samples = {notANumber, 6.0F, infinity, -infinity, 1e30F, -48.0F};
+    limiter.process(samples);
+    EXPECT_EQ(samples[0], 0.0F);
+    EXPECT_EQ(samples[1], 0.1F);
+    EXPECT_EQ(samples[2], 0.0F);
+    EXPECT_EQ(samples[3], 0.0F);
+    EXPECT_GT(samples[4], 0.99F);
+    EXPECT_LT(samples[5], -0.7F);
+    EXPECT_EQ(limiter.nonFiniteCount(), 3U);
+    EXPECT_EQ(limiter.limitedCount(), 2U);
+    limiter.process(std::span(samples).first(1));
+    EXPECT_EQ(limiter.nonFiniteCount(), 3U);
+}
+
+TEST(LimiterTest, AFullScaleThatIsNoPositiveNumberIsRefused) {
+    for (const float fullScale : {0.0F, -60.0F, notANumber, infinity}) {
+        EXPECT_THROW(SoftLimiter{fullScale}, std::invalid_argument) << fullScale;
+    }
+}
+
+}  // namespace
+}  // namespace haptoflow::dsp

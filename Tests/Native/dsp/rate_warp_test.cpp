@@ -1,0 +1,237 @@
+#include "dsp/rate_warp.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <complex>
+#include <limits>
+#include <numbers>
+
+#include "test_signals.hpp"
+
+namespace haptoflow::dsp {
+namespace {
+
+using testing::decibels;
+using testing::lineSpectrum;
+using testing::rootMeanSquare;
+using testing::tone;
+using testing::Uniform;
+using testing::whiteNoise;
+using testing::wholeHertzNoise;
+
+constexpr double rateHz = 2000.0;
+
+/// Feeds a warp from a waveform, block after block, as the callback does.
+struct Player {
+    RateWarp warp{};
+    std::vector<float> waveform;
+    std::size_t position = 0;
+
+    std::vector<float> play(std::size_t count) {
+        std::vector<float> output(count);
+        const std::size_t needed = warp.inputNeeded(count);
+        EXPECT_LE(position + needed, waveform.size()) << "the test's waveform is too short";
+        warp.process(std::span<const float>(waveform).subspan(position, needed), output);
+        position += needed;
+        return output;
+    }
+};
+
+std::size_t settle(Player& player, double ratio) {
+    player.warp.setTargetRatio(ratio);
+    constexpr std::size_t count = 1000;
+    (void)player.play(count);
+    EXPECT_DOUBLE_EQ(player.warp.ratio(), ratio);
+    return count;
+}
+
+TEST(RateWarpTest, AtRatioOneItIsADelayOfTenSamplesBitForBit) {
+    Player player{.waveform = whiteNoise(1000, 10.0, 71)};
+    const std::vector<float> output = player.play(900);
+    EXPECT_TRUE(player.warp.isTransparent());
+    for (std::size_t i = 0; i < output.size(); ++i) {
+        ASSERT_EQ(output[i], i < 10 ? 0.0F : player.waveform[i - 10]);
+    }
+}
+
+TEST(RateWarpTest, BackFromAnyRatioItIsTheSameDelayBitForBitAgain) {
+    Uniform uniform(72);
+    Player player{.waveform = whiteNoise(400000, 10.0, 73)};
+    for (int round = 0; round < 40; ++round) {
+        player.warp.setTargetRatio(round % 4 == 0 ? 1.0 + uniform(0.0, 0.02) : uniform(1.0, 4.0));
+        (void)player.play(uniform.whole(1, 700));
+        player.warp.setTargetRatio(1.0);
+        (void)player.play(400);
+        ASSERT_TRUE(player.warp.isTransparent()) << "round " << round << ", ratio " << player.warp.ratio();
+        ASSERT_EQ(player.warp.consumedSamples(), player.position);
+        const std::size_t start = player.position;
+        const std::vector<float> output = player.play(50);
+        for (std::size_t i = 0; i < output.size(); ++i) {
+            ASSERT_EQ(output[i], player.waveform[start + i - RateWarp::latencyOutputSamples]) << "round " << round;
+        }
+    }
+}
+
+TEST(RateWarpTest, AToneComesOutAtItsFrequencyTimesTheRatioAtItsOwnAmplitude) {
+    // Output frequencies are whole hertz, so that one second holds whole periods.
+    for (const double ratio : {1.2, 1.5, 2.0, 2.5, 3.3, 4.0}) {
+        for (const std::size_t outputHz : {30U, 200U, 400U, 600U}) {
+            const double inputHz = static_cast<double>(outputHz) / ratio;
+            Player player{.waveform = tone(20000, inputHz, 1.0, rateHz)};
+            settle(player, ratio);
+            const auto lines = lineSpectrum(player.play(2000), 0, 2000);
+            EXPECT_NEAR(decibels(std::abs(lines[outputHz])), 0.0, 0.1) << inputHz << " Hz at ratio " << ratio;
+            for (std::size_t k = 0; k < lines.size(); ++k) {
+                if (k != outputHz) {
+                    ASSERT_LT(decibels(std::abs(lines[k])), -60.0) << "stray line at " << k << " Hz, ratio " << ratio;
+                }
+            }
+        }
+    }
+}
+
+TEST(RateWarpTest, WhatWouldLandAboveHalfTheRateIsGoneInsteadOfFoldedDown) {
+    for (const double ratio : {1.2, 1.7, 2.5, 4.0}) {
+        const double lowestHz = std::ceil(1000.0 / ratio);
+        Player player{.waveform = wholeHertzNoise(10, static_cast<int>(lowestHz) + 1, 999, 2000, 74)};
+        settle(player, ratio);
+        const std::vector<float> output = player.play(2000);
+        const double passed = rootMeanSquare(player.waveform, 0, 2000);
+        EXPECT_LT(decibels(rootMeanSquare(output, 0, output.size()) / passed), -60.0) << "ratio " << ratio;
+    }
+}
+
+TEST(RateWarpTest, NoiseUpToHalfTheRateAtRatioTwoAndAHalfShowsOnlyItsOwnLowerPart) {
+    // With only every 10th hertz occupied, lines land on multiples of 25 Hz; whatever lies between has folded.
+    std::vector<float> waveform(20000, 0.0F);
+    Uniform uniform(75);
+    for (int frequency = 10; frequency < 1000; frequency += 10) {
+        const double phase = uniform(0.0, 2.0 * std::numbers::pi);
+        for (std::size_t i = 0; i < waveform.size(); ++i) {
+            waveform[i] += static_cast<float>(
+                std::sin(phase + 2.0 * std::numbers::pi * frequency * static_cast<double>(i) / rateHz));
+        }
+    }
+    // Shifts every alias off the grid: 2,000 - 2.5 f is a multiple of 25 too, so occupy 10 k + 3 Hz besides.
+    const std::vector<float> shifted = tone(waveform.size(), 603.0, 1.0, rateHz);
+    for (std::size_t i = 0; i < waveform.size(); ++i) {
+        waveform[i] += shifted[i];
+    }
+    Player player{.waveform = waveform};
+    settle(player, 2.5);
+    const auto lines = lineSpectrum(player.play(4000), 0, 4000);  // 0.5 Hz apart
+    for (std::size_t k = 0; k < lines.size(); ++k) {
+        const double frequency = static_cast<double>(k) * 0.5;
+        const bool occupied = std::fmod(frequency, 25.0) == 0.0 && frequency > 0.0;
+        if (!occupied) {
+            ASSERT_LT(decibels(std::abs(lines[k])), -60.0) << frequency << " Hz";
+        } else if (frequency <= 600.0) {
+            ASSERT_NEAR(decibels(std::abs(lines[k])), 0.0, 0.1) << frequency << " Hz";
+        }
+    }
+}
+
+TEST(RateWarpTest, SweepingTheRatioUpAndDownAddsNoClick) {
+    Player player{.waveform = tone(40000, 50.0, 1.0, rateHz)};
+    std::vector<float> output = player.play(100);
+    for (const double ratio : {4.0, 1.0, 2.2, 1.05, 3.0, 1.0}) {
+        player.warp.setTargetRatio(ratio);
+        for (int block = 0; block < 50; ++block) {
+            const std::vector<float> samples = player.play(10);
+            output.insert(output.end(), samples.begin(), samples.end());
+        }
+    }
+    ASSERT_TRUE(player.warp.isTransparent());
+    // No tone from 50 to 200 Hz has a second difference above (2 pi 200 / 2000)^2; the sweep itself adds a little.
+    const double largest = std::pow(2.0 * std::numbers::pi * 200.0 / rateHz, 2.0) * 1.05;
+    for (std::size_t i = 40; i + 1 < output.size(); ++i) {
+        const double second = static_cast<double>(output[i + 1]) - 2.0 * output[i] + output[i - 1];
+        ASSERT_LT(std::abs(second), largest) << "sample " << i;
+        ASSERT_LT(std::abs(output[i]), 1.02) << "sample " << i;
+    }
+}
+
+TEST(RateWarpTest, EveryOutputIsTheWaveformAtTheReadPositionWhichMovesWithoutAJerk) {
+    constexpr double frequency = 100.0;
+    Player player{.waveform = tone(40000, frequency, 1.0, rateHz)};
+    (void)player.play(50);
+    double position = player.warp.readPosition();
+    double step = 1.0;
+    for (const double ratio : {4.0, 1.0, 1.004, 1.0, 2.2, 1.0}) {
+        player.warp.setTargetRatio(ratio);
+        for (int i = 0; i < 400; ++i) {
+            const float output = player.play(1).front();
+            const double expected = std::sin(2.0 * std::numbers::pi * frequency * position / rateHz);
+            ASSERT_NEAR(output, expected, 0.01) << "output " << i << " on the way to ratio " << ratio;
+            const double next = player.warp.readPosition();
+            ASSERT_GE(next - position, 1.0 - 1e-9);
+            ASSERT_LE(next - position, 4.0 + 1e-9);
+            // 10 ms time constant: 5 % of the largest distance, 3, in a sample.
+            ASSERT_LE(std::abs(next - position - step), 0.151) << "output " << i << " on the way to ratio " << ratio;
+            step = next - position;
+            position = next;
+        }
+        EXPECT_NEAR(step, ratio, 1e-6);
+    }
+    EXPECT_TRUE(player.warp.isTransparent());
+}
+
+TEST(RateWarpTest, AnyPartitionIntoBlocksGivesTheSameBits) {
+    Player whole{.waveform = whiteNoise(10000, 1.0, 76)};
+    Player blocks{.waveform = whole.waveform};
+    for (const double ratio : {1.0, 3.7, 1.3, 1.0}) {
+        whole.warp.setTargetRatio(ratio);
+        blocks.warp.setTargetRatio(ratio);
+        const std::vector<float> expected = whole.play(330);
+        std::vector<float> output;
+        while (output.size() < expected.size()) {
+            const std::vector<float> samples = blocks.play(std::min<std::size_t>(7, expected.size() - output.size()));
+            output.insert(output.end(), samples.begin(), samples.end());
+        }
+        ASSERT_EQ(output, expected);
+        ASSERT_EQ(whole.position, blocks.position);
+    }
+}
+
+TEST(RateWarpTest, ConsumptionKeepsStepWithTheRatioAndTheReadPositionTrailsByTenTimesIt) {
+    Player player{.waveform = whiteNoise(20000, 1.0, 77)};
+    settle(player, 2.5);
+    const std::size_t before = player.position;
+    (void)player.play(400);
+    EXPECT_EQ(player.position - before, 1000U);
+    EXPECT_DOUBLE_EQ(player.warp.latencyInputSamples(), 25.0);
+    // Between two outputs the position is already the next one's, up to r ahead.
+    EXPECT_NEAR(static_cast<double>(player.position) - player.warp.readPosition(), 25.0 - 1.25, 2.0);
+}
+
+TEST(RateWarpTest, RatiosOutsideOneToFourAreClampedAndNonFiniteOnesIgnored) {
+    Player player{.waveform = whiteNoise(20000, 1.0, 78)};
+    player.warp.setTargetRatio(100.0);
+    (void)player.play(1000);
+    EXPECT_DOUBLE_EQ(player.warp.ratio(), RateWarp::maximumRatio);
+    player.warp.setTargetRatio(std::numeric_limits<double>::quiet_NaN());
+    player.warp.setTargetRatio(std::numeric_limits<double>::infinity());
+    (void)player.play(100);
+    EXPECT_DOUBLE_EQ(player.warp.ratio(), RateWarp::maximumRatio);
+    player.warp.setTargetRatio(-3.0);
+    (void)player.play(400);
+    EXPECT_TRUE(player.warp.isTransparent());
+}
+
+TEST(RateWarpTest, ABlockNeverConsumesMoreThanFourTimesItsLengthPlusThirty) {
+    Player player{.waveform = whiteNoise(400000, 1.0, 79)};
+    Uniform uniform(80);
+    for (int i = 0; i < 500; ++i) {
+        player.warp.setTargetRatio(uniform(0.5, 4.5));
+        const std::size_t count = uniform.whole(1, 100);
+        ASSERT_LE(player.warp.inputNeeded(count), 4 * count + 30);
+        for (const float sample : player.play(count)) {
+            ASSERT_TRUE(std::isfinite(sample));
+            ASSERT_LT(std::abs(sample), 4.0F);
+        }
+    }
+}
+
+}  // namespace
+}  // namespace haptoflow::dsp

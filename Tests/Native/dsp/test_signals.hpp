@@ -1,0 +1,43 @@
+#pragma once
+
+#include <complex>
+#include <cstddef>
+#include <cstdint>
+#include <random>
+#include <vector>
+
+namespace haptoflow::dsp::testing {
+
+/// Uniform in [lowest, highest); the same sequence on every standard library.
+class Uniform {
+public:
+    explicit Uniform(std::uint32_t seed) : engine_(seed) {}
+    double operator()(double lowest, double highest) {
+        return lowest + (highest - lowest) * (static_cast<double>(engine_()) / 4294967296.0);
+    }
+    /// An integer in [lowest, highest].
+    std::size_t whole(std::size_t lowest, std::size_t highest) { return lowest + engine_() % (highest - lowest + 1); }
+
+private:
+    std::mt19937 engine_;
+};
+
+/// White noise, uniform in +-amplitude.
+std::vector<float> whiteNoise(std::size_t count, double amplitude, std::uint32_t seed);
+
+/// amplitude sin(2 pi frequency n / rate).
+std::vector<float> tone(std::size_t count, double frequencyHz, double amplitude, double sampleRateHz);
+
+/// Noise of period one second: a unit sine of random phase at every whole hertz from `lowestHz` to `highestHz`. Over
+/// one period its spectrum is exact, with no window and no leakage.
+std::vector<float> wholeHertzNoise(std::size_t seconds, int lowestHz, int highestHz, std::size_t sampleRateHz,
+                                   std::uint32_t seed);
+
+/// Complex amplitude of every line of `count` samples from `first`: 1 for a unit sine that fits them; lines
+/// 0..count/2.
+std::vector<std::complex<double>> lineSpectrum(const std::vector<float>& samples, std::size_t first, std::size_t count);
+
+double decibels(double amplitudeRatio);
+double rootMeanSquare(const std::vector<float>& samples, std::size_t first, std::size_t count);
+
+}  // namespace haptoflow::dsp::testing
