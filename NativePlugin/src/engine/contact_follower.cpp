@@ -1,0 +1,20 @@
+#include "engine/contact_follower.hpp"
+
+#include <cmath>
+
+namespace haptoflow::engine {
+
+ContactAction ContactFollower::update(const ContactState& state) noexcept {
+    const float speed = std::hypot(state.velocityMps[0], state.velocityMps[1]);
+    const bool newTouch = state.touchCounter != touchCounter_;
+    touchCounter_ = state.touchCounter;
+    const bool wasSliding = sliding_;
+    const float threshold = wasSliding && !newTouch ? slideEndMps : slideStartMps;
+    sliding_ = state.touching && speed >= threshold;
+    if (sliding_) {
+        return wasSliding && !newTouch ? ContactAction::slide : ContactAction::onset;
+    }
+    return wasSliding ? ContactAction::release : ContactAction::rest;
+}
+
+}  // namespace haptoflow::engine

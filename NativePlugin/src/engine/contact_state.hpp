@@ -1,0 +1,40 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+namespace haptoflow::engine {
+
+/// A label of the model and its share of a blend.
+struct LabelWeight {
+    std::uint32_t label = 0;
+    float weight = 0.0F;
+};
+
+/// What a surface feels like: up to four labels. Weights need not sum to one; negative ones count as zero.
+struct MaterialBlend {
+    static constexpr std::size_t capacity = 4;
+    std::array<LabelWeight, capacity> entries{};
+    std::size_t count = 0;
+};
+
+/// What the stylus does to a surface, as published once a frame.
+struct ContactState {
+    double timeSeconds = 0.0;
+    bool touching = false;
+    /// One more at each touch-down: a tap shorter than a frame still shows.
+    std::uint32_t touchCounter = 0;
+    /// Tangential velocity in the surface's own two axes.
+    std::array<float, 2> velocityMps{};
+    float forceNewtons = 0.0F;
+    /// Speed into the surface, latched at touch-down.
+    float approachSpeedMps = 0.0F;
+    MaterialBlend material{};
+};
+
+/// Makes every field finite and physical: speed to 20 m/s, force to 0-1,000 N, weights to 0-1.
+/// Returns how many fields had to be changed.
+std::uint32_t sanitise(ContactState& state) noexcept;
+
+}  // namespace haptoflow::engine

@@ -1,0 +1,36 @@
+#include "engine/range_law.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace haptoflow::engine {
+namespace {
+
+constexpr double largestGain = 16.0;
+constexpr double largestReadingRate = 4.0;
+
+/// value / edge where that is above 1.
+double excess(double value, double edge) {
+    return edge > 0.0 ? std::max(1.0, value / edge) : 1.0;
+}
+
+}  // namespace
+
+RangedMotion applyRangeLaw(const model::ModelHeader& header, const Material& material,
+                           const std::array<float, 2>& velocityMps, float forceNewtons) noexcept {
+    const double vx = velocityMps[0];
+    const double vy = velocityMps[1];
+    const double force = forceNewtons;
+    const double speedExcess = excess(std::hypot(vx, vy), header.speedMps.maximum);
+    const double forceExcess = excess(force, header.forceNewtons.maximum);
+
+    RangedMotion ranged;
+    ranged.motion = {static_cast<float>(vx / speedExcess), static_cast<float>(vy / speedExcess),
+                     static_cast<float>(std::max(force, header.forceNewtons.minimum) / forceExcess)};
+    ranged.levelGain = std::min(largestGain, std::pow(speedExcess, material.speedLevelExponent) *
+                                                 std::pow(forceExcess, material.forceLevelExponent));
+    ranged.readingRate = std::clamp(std::pow(speedExcess, material.frequencyExponent), 1.0, largestReadingRate);
+    return ranged;
+}
+
+}  // namespace haptoflow::engine

@@ -1,0 +1,48 @@
+#include "engine/seed_retrieval.hpp"
+
+#include <cmath>
+#include <limits>
+
+namespace haptoflow::engine {
+namespace {
+
+// Below these, conditions are alike to the hand.
+constexpr double restMps = 0.002;
+constexpr double restNewtons = 0.05;
+constexpr double forceShare = 0.5;
+constexpr double directionShare = 0.1;
+
+double distance(const model::SeedEntry& seed, const std::array<float, 3>& motion) {
+    const double speed = std::hypot(motion[0], motion[1]);
+    const double seedSpeed = std::hypot(seed.velocityMps[0], seed.velocityMps[1]);
+    const double speedGap = std::log((speed + restMps) / (seedSpeed + restMps));
+    const double forceGap = std::log((motion[2] + restNewtons) / (seed.forceNewtons + restNewtons));
+    const double along =
+        (seed.velocityMps[0] * motion[0] + seed.velocityMps[1] * motion[1]) / (speed * seedSpeed + restMps * restMps);
+    return speedGap * speedGap + forceShare * forceGap * forceGap + directionShare * (1.0 - along * along);
+}
+
+}  // namespace
+
+std::span<const float> retrieveSeed(const model::ModelFile& model, std::size_t label,
+                                    const std::array<float, 3>& motion) noexcept {
+    const auto& seeds = model.header().seeds;
+    double nearest = std::numeric_limits<double>::infinity();
+    std::size_t chosen = seeds.size();
+    for (std::size_t i = 0; i < seeds.size(); ++i) {
+        if (seeds[i].label != label) {
+            continue;
+        }
+        const double gap = distance(seeds[i], motion);
+        if (gap < nearest) {
+            nearest = gap;
+            chosen = i;
+        }
+    }
+    if (chosen == seeds.size()) {
+        return {};
+    }
+    return model.seed(chosen);
+}
+
+}  // namespace haptoflow::engine

@@ -1,0 +1,110 @@
+#include "engine/voice.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace haptoflow::engine {
+namespace {
+
+// As long as the resampler's kernel: older samples cannot be heard any more.
+constexpr std::size_t primedSamples = 64;
+
+}  // namespace
+
+Voice::Voice(double outputRateHz, float fullScaleMps2)
+    : outputRateHz_(outputRateHz),
+      level_(inference::waveformRateHz),
+      resampler_(outputRateHz),
+      gate_(outputRateHz),
+      limiter_(fullScaleMps2) {}
+
+void Voice::onset(std::span<const float> seed, float levelMps2) noexcept {
+    std::array<float, WaveformTimeline::seedSamples> levelled{};
+    const float level = std::isfinite(levelMps2) ? levelMps2 : 0.0F;
+    for (std::size_t i = 0; i < std::min(seed.size(), levelled.size()); ++i) {
+        levelled[i] = seed[i] * level;
+    }
+    const bool fromSilence = gate_.isClosed();
+    if (fromSilence) {
+        timeline_.clear();
+        warp_.reset();
+        resampler_.reset();
+        level_.reset(level_.target());
+    }
+    timeline_.open(levelled);
+    if (fromSilence) {
+        prime();
+    }
+    gate_.open();
+}
+
+void Voice::prime() noexcept {
+    timeline_.history(timeline_.head(), past_);
+    pastLeft_ = primedSamples;
+    // What the filters delay is read ahead now, so that the seed's first sample is the next one to sound.
+    const std::size_t ahead = dsp::RateWarp::latencyOutputSamples + resampler_.latencyInputSamples();
+    auto left = static_cast<std::size_t>(static_cast<double>(primedSamples + ahead) * outputRateHz_ /
+                                         inference::waveformRateHz);
+    std::array<float, blockSamples> unheard{};
+    while (left > 0) {
+        const std::size_t count = std::min(left, unheard.size());
+        produce(std::span(unheard).first(count));
+        left -= count;
+    }
+    pastLeft_ = 0;
+}
+
+std::int64_t Voice::commit(std::int64_t start, std::span<const float, inference::segmentSamples> segment) noexcept {
+    return timeline_.commit(start, segment);
+}
+
+void Voice::setRangeLaw(double levelGain, double readingRate) noexcept {
+    if (gate_.isClosed()) {
+        level_.reset(static_cast<float>(levelGain));
+    } else {
+        level_.setTarget(static_cast<float>(levelGain));
+    }
+    warp_.setTargetRatio(readingRate);
+}
+
+void Voice::readWaveform(std::span<float> out) noexcept {
+    const std::size_t unplayed = std::min(pastLeft_, out.size());
+    std::copy_n(past_.end() - static_cast<std::ptrdiff_t>(pastLeft_), unplayed, out.begin());
+    pastLeft_ -= unplayed;
+    const std::span<float> fresh = out.subspan(unplayed);
+    const std::int64_t start = timeline_.head();
+    timeline_.read(fresh);
+    if (sink_ != nullptr && !fresh.empty()) {
+        sink_->played(start, fresh);
+    }
+    level_.process(out);
+}
+
+void Voice::produce(std::span<float> out) noexcept {
+    // At the lowest output rate a block needs 17 samples at 2 kHz, and the warp at most 4 for each plus 30.
+    std::array<float, 32> steady{};
+    std::array<float, 160> waveform{};
+    const std::size_t steadyCount = std::min(resampler_.inputNeeded(out.size()), steady.size());
+    const auto steadySpan = std::span(steady).first(steadyCount);
+    const std::size_t waveformCount = std::min(warp_.inputNeeded(steadyCount), waveform.size());
+    const auto waveformSpan = std::span(waveform).first(waveformCount);
+    readWaveform(waveformSpan);
+    warp_.process(waveformSpan, steadySpan);
+    resampler_.process(steadySpan, out);
+}
+
+void Voice::render(std::span<float> out) noexcept {
+    while (!out.empty()) {
+        const auto block = out.first(std::min(out.size(), blockSamples));
+        out = out.subspan(block.size());
+        if (gate_.isClosed()) {
+            std::ranges::fill(block, 0.0F);
+            continue;
+        }
+        produce(block);
+        gate_.process(block);
+        limiter_.process(block);
+    }
+}
+
+}  // namespace haptoflow::engine

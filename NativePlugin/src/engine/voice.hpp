@@ -1,0 +1,75 @@
+#pragma once
+
+#include "dsp/gate.hpp"
+#include "dsp/level_smoother.hpp"
+#include "dsp/limiter.hpp"
+#include "dsp/rate_warp.hpp"
+#include "dsp/waveform_resampler.hpp"
+#include "engine/waveform_timeline.hpp"
+
+#include <array>
+#include <cstdint>
+#include <span>
+
+namespace haptoflow::engine {
+
+/// Sees what a voice plays, in waveform time and before any gain. Called from `Voice::render`: it must not block.
+class WaveformSink {
+public:
+    WaveformSink() = default;
+    WaveformSink(const WaveformSink&) = delete;
+    WaveformSink& operator=(const WaveformSink&) = delete;
+    virtual ~WaveformSink() = default;
+    virtual void played(std::int64_t start, std::span<const float> samplesMps2) noexcept = 0;
+};
+
+/// One stylus tip's signal: timeline, level, reading rate, output rate, gate, limiter, in this order.
+///
+/// While the gate is closed nothing is read: the waveform clock stands still and `render` writes zeros.
+/// Everything here is bounded, allocates nothing (but for construction) and waits for nothing; one thread.
+class Voice {
+public:
+    /// Throws std::invalid_argument for a rate outside 8-192 kHz or a full scale that is not above 0.
+    Voice(double outputRateHz, float fullScaleMps2);
+
+    /// Touch-down, or sliding resumed: `seed` (400 samples of RMS 1) sounds at `levelMps2` with the next sample.
+    /// An empty seed starts from silence.
+    void onset(std::span<const float> seed, float levelMps2) noexcept;
+    /// See WaveformTimeline::commit.
+    std::int64_t commit(std::int64_t start, std::span<const float, inference::segmentSamples> segment) noexcept;
+    /// Lift-off: silence within 5 ms, whatever else happens.
+    void release() noexcept { gate_.close(); }
+    /// What the range law asks for; both glide.
+    void setRangeLaw(double levelGain, double readingRate) noexcept;
+
+    /// Writes the next samples, +-1.
+    void render(std::span<float> out) noexcept;
+
+    /// True while nothing sounds and nothing is read.
+    [[nodiscard]] bool isSilent() const noexcept { return gate_.isClosed(); }
+    [[nodiscard]] const WaveformTimeline& timeline() const noexcept { return timeline_; }
+    [[nodiscard]] const dsp::SoftLimiter& limiter() const noexcept { return limiter_; }
+    /// Null for none. Must outlive the voice or be taken away.
+    void setSink(WaveformSink* sink) noexcept { sink_ = sink; }
+
+private:
+    static constexpr std::size_t blockSamples = 64;
+
+    void produce(std::span<float> out) noexcept;
+    void readWaveform(std::span<float> out) noexcept;
+    void prime() noexcept;
+
+    double outputRateHz_;
+    WaveformTimeline timeline_;
+    dsp::LevelSmoother level_;
+    dsp::RateWarp warp_;
+    dsp::WaveformResampler resampler_;
+    dsp::Gate gate_;
+    dsp::SoftLimiter limiter_;
+    WaveformSink* sink_ = nullptr;
+    // The unplayed past that fills the filters before a touch sounds, newest last, and how much of it is left.
+    std::array<float, inference::segmentSamples> past_{};
+    std::size_t pastLeft_ = 0;
+};
+
+}  // namespace haptoflow::engine

@@ -1,0 +1,59 @@
+#pragma once
+
+#include "dsp/splice.hpp"
+#include "inference/segment_generator.hpp"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+namespace haptoflow::engine {
+
+/// One voice's waveform in waveform time: 2 kHz samples since the voice opened, advanced by reading and nothing else.
+///
+/// Committed are the samples from 200 behind the head to `coveredUntil()`. A segment takes over at the sample that it
+/// was generated for; what the running one still had behind it is discarded (the paper's overwriting buffer).
+/// Allocates nothing; one thread.
+class WaveformTimeline {
+public:
+    static constexpr std::size_t seedSamples = 2 * inference::segmentSamples;
+
+    /// Touch-down: 200 samples of `seed` (400, m/s^2) become the past unplayed, 200 follow from the head on. Where an
+    /// earlier touch still has samples there, a splice hands over.
+    void open(std::span<const float, seedSamples> seedMps2) noexcept;
+    /// `segment` (200, m/s^2) takes over at `start`. One that comes late loses what the head has passed; one that is
+    /// past altogether changes nothing. Returns the sample at which it took over, or -1.
+    std::int64_t commit(std::int64_t start, std::span<const float, inference::segmentSamples> segment) noexcept;
+    /// The 200 committed samples before `start`; zeros where none were committed. `start` within 200 of the head.
+    void history(std::int64_t start, std::span<float, inference::segmentSamples> out) const noexcept;
+    /// Reads and advances. Beyond the last committed sample it reads zeros; the last 5 ms before that point fade.
+    void read(std::span<float> out) noexcept;
+    /// Drops everything that was not read; the clock goes on.
+    void clear() noexcept;
+
+    /// The next sample to be read.
+    [[nodiscard]] std::int64_t head() const noexcept { return head_; }
+    /// The first sample that no segment covers.
+    [[nodiscard]] std::int64_t coveredUntil() const noexcept { return coveredUntil_; }
+    /// Samples read for which no segment was there.
+    [[nodiscard]] std::uint64_t uncoveredSamples() const noexcept { return uncoveredSamples_; }
+
+private:
+    static constexpr std::int64_t capacity = 1024;
+
+    [[nodiscard]] float& at(std::int64_t sample) noexcept { return ring_[static_cast<std::size_t>(sample % capacity)]; }
+    [[nodiscard]] float at(std::int64_t sample) const noexcept {
+        return ring_[static_cast<std::size_t>(sample % capacity)];
+    }
+    void overwrite(std::int64_t start, std::span<const float> samples) noexcept;
+
+    std::array<float, capacity> ring_{};
+    // Starts where a whole past fits before it, so that no index is negative.
+    std::int64_t head_ = inference::segmentSamples;
+    std::int64_t coveredUntil_ = inference::segmentSamples;
+    float endGain_ = 1.0F;
+    std::uint64_t uncoveredSamples_ = 0;
+};
+
+}  // namespace haptoflow::engine

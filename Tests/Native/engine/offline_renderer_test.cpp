@@ -1,0 +1,222 @@
+#include "engine/offline_renderer.hpp"
+
+#include "engine/test_model.hpp"
+#include "inference/inference_error.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <numbers>
+#include <vector>
+
+namespace haptoflow::engine {
+namespace {
+
+using inference::segmentSamples;
+
+/// Answers every request with a function of it, and remembers how often it was asked.
+class FakeGenerator final : public inference::SegmentGenerator {
+public:
+    using Answer = std::function<void(const inference::SegmentRequest&, std::span<float>)>;
+    explicit FakeGenerator(Answer answer) : answer_(std::move(answer)) {}
+
+    void generate(std::span<const inference::SegmentRequest> requests, std::span<float> segments) override {
+        for (std::size_t i = 0; i < requests.size(); ++i) {
+            ++generated;
+            answer_(requests[i], segments.subspan(i * segmentSamples, segmentSamples));
+        }
+    }
+    void levels(std::span<const inference::SegmentRequest> requests, std::span<float> levelsMps2) override {
+        std::fill_n(levelsMps2.begin(), requests.size(), 1.0F);
+    }
+    int generated = 0;
+
+private:
+    Answer answer_;
+};
+
+/// Goes on with a 100 Hz tone from where the past stopped: two past samples determine it.
+void continueTone(const inference::SegmentRequest& request, std::span<float> segment) {
+    const double factor = 2.0 * std::cos(2.0 * std::numbers::pi * 100.0 / 2000.0);
+    double before = request.previous[segmentSamples - 2];
+    double last = request.previous[segmentSamples - 1];
+    for (float& sample : segment) {
+        const double next = factor * last - before;
+        before = last;
+        last = next;
+        sample = static_cast<float>(next);
+    }
+}
+
+void whiteNoise(const inference::SegmentRequest& request, std::span<float> segment) {
+    std::ranges::copy(request.noise, segment.begin());
+}
+
+std::vector<ContactState> slide(double seconds, double rateHz = 72.0) {
+    std::vector<ContactState> states;
+    for (double t = 0.0; t < seconds; t += 1.0 / rateHz) {
+        ContactState state;
+        state.timeSeconds = t;
+        state.touching = true;
+        state.touchCounter = 1;
+        state.velocityMps = {0.1F, 0.0F};
+        state.forceNewtons = 1.0F;
+        state.material.entries[0] = {.label = 0, .weight = 1.0F};
+        state.material.count = 1;
+        states.push_back(state);
+    }
+    return states;
+}
+
+TEST(OfflineRendererTest, SameStatesAndSeedGiveTheSameSamplesAndAnotherSeedOthers) {
+    const model::ModelFile model = testing::smallModel();
+    FakeGenerator generator(whiteNoise);
+    const std::vector<ContactState> states = slide(0.5);
+    const OfflineRender first = renderOffline(model, generator, states, {.seed = 7});
+    const OfflineRender second = renderOffline(model, generator, states, {.seed = 7});
+    const OfflineRender other = renderOffline(model, generator, states, {.seed = 8});
+    EXPECT_EQ(first.samples, second.samples);
+    EXPECT_NE(first.samples, other.samples);
+    EXPECT_EQ(first.samples.size(), static_cast<std::size_t>(std::llround((states.back().timeSeconds + 0.1) * 48000)));
+}
+
+TEST(OfflineRendererTest, EverySegmentGoesOnFromTheCommittedSamplesBeforeIt) {
+    const model::ModelFile model = testing::smallModel();
+    FakeGenerator generator(continueTone);
+    // The seed alternates from sample to sample; the first segment turns it into the tone that its last two samples
+    // determine, and from there on the tone must never break.
+    const OfflineRender render = renderOffline(model, generator, slide(2.0), {});
+    ASSERT_GT(render.waveformMps2.size(), 3500U);
+    const double factor = 2.0 * std::cos(2.0 * std::numbers::pi * 100.0 / 2000.0);
+    for (std::size_t i = 100; i < 3500; ++i) {
+        const double expected = factor * render.waveformMps2[i - 1] - render.waveformMps2[i - 2];
+        ASSERT_NEAR(render.waveformMps2[i], expected, 1e-2) << "sample " << i;
+    }
+    EXPECT_EQ(render.underruns, 0U);
+}
+
+TEST(OfflineRendererTest, WithoutTouchNothingIsGeneratedAndNothingSounds) {
+    const model::ModelFile model = testing::smallModel();
+    FakeGenerator generator(whiteNoise);
+    std::vector<ContactState> states = slide(1.0);
+    for (ContactState& state : states) {
+        state.touching = false;
+    }
+    const OfflineRender render = renderOffline(model, generator, states, {});
+    EXPECT_EQ(generator.generated, 0);
+    EXPECT_EQ(render.peak, 0.0);
+    EXPECT_TRUE(render.waveformMps2.empty());
+}
+
+TEST(OfflineRendererTest, ATipThatRestsOnTheSurfaceCostsNoInference) {
+    const model::ModelFile model = testing::smallModel();
+    FakeGenerator generator(whiteNoise);
+    std::vector<ContactState> states = slide(1.0);
+    for (ContactState& state : states) {
+        state.velocityMps = {0.0F, 0.0F};
+    }
+    const OfflineRender render = renderOffline(model, generator, states, {});
+    EXPECT_EQ(generator.generated, 0);
+    EXPECT_EQ(render.skipped, states.size());
+}
+
+TEST(OfflineRendererTest, AFailedRunPublishesNothingIsCountedAndFadesInsteadOfBreakingOff) {
+    const model::ModelFile model = testing::smallModel();
+    int calls = 0;
+    FakeGenerator generator([&calls](const inference::SegmentRequest& request, std::span<float> segment) {
+        if (++calls > 20 && calls <= 40) {
+            throw inference::InferenceError("refused by the test");
+        }
+        continueTone(request, segment);
+    });
+    const OfflineRender render = renderOffline(model, generator, slide(1.0), {});
+    EXPECT_EQ(render.failures, 20U);
+    EXPECT_GT(render.underruns, 0U);
+    EXPECT_EQ(render.nonFinite, 0U);
+}
+
+TEST(OfflineRendererTest, UpdatesThatStopForATenthOfASecondSilenceTheVoiceAndSlidingResumes) {
+    const model::ModelFile model = testing::smallModel();
+    FakeGenerator generator(continueTone);
+    std::vector<ContactState> states = slide(1.0);
+    for (std::size_t i = 36; i < states.size(); ++i) {
+        states[i].timeSeconds += 0.5;
+    }
+    const OfflineRender render = renderOffline(model, generator, states, {});
+    const auto quietFrom = static_cast<std::size_t>((states[35].timeSeconds + 0.1055) * 48000.0);
+    const auto quietTo = static_cast<std::size_t>(states[36].timeSeconds * 48000.0);
+    ASSERT_LT(quietFrom, quietTo);
+    for (std::size_t i = quietFrom; i < quietTo; ++i) {
+        ASSERT_EQ(render.samples[i], 0.0F) << "sample " << i;
+    }
+    EXPECT_EQ(render.onsets, 2U);
+    EXPECT_NE(render.samples[quietTo + 480], 0.0F);
+}
+
+TEST(OfflineRendererTest, RuinedStatesAreSanitisedAndCountedAndTheOutputStaysFinite) {
+    const model::ModelFile model = testing::smallModel();
+    FakeGenerator generator(whiteNoise);
+    std::vector<ContactState> states = slide(1.0);
+    for (std::size_t i = 5; i < states.size(); i += 3) {
+        states[i].velocityMps[0] = std::numeric_limits<float>::quiet_NaN();
+        states[i].forceNewtons = std::numeric_limits<float>::infinity();
+        states[i].material.entries[0].weight = -std::numeric_limits<float>::infinity();
+    }
+    const OfflineRender render = renderOffline(model, generator, states, {});
+    EXPECT_GT(render.sanitised, 60U);
+    EXPECT_TRUE(std::ranges::all_of(render.samples, [](float sample) { return std::abs(sample) < 1.0F; }));
+}
+
+class UpdateRateTest : public ::testing::TestWithParam<double> {};
+
+TEST_P(UpdateRateTest, EveryUpdateOfASlideGivesOneSegmentAndNoUnderrun) {
+    const model::ModelFile model = testing::smallModel();
+    FakeGenerator generator(continueTone);
+    const std::vector<ContactState> states = slide(1.0, GetParam());
+    const OfflineRender render = renderOffline(model, generator, states, {});
+    EXPECT_EQ(generator.generated, static_cast<int>(states.size()));
+    EXPECT_EQ(render.underruns, 0U);
+}
+
+INSTANTIATE_TEST_SUITE_P(Hertz, UpdateRateTest, ::testing::Values(30.0, 45.0, 72.0, 90.0, 120.0, 500.0, 1000.0),
+                         [](const auto& rate) { return std::to_string(static_cast<int>(rate.param)); });
+
+TEST(OfflineRendererTest, TheLeadDecidesWhenANewLabelIsFirstHeard) {
+    const model::ModelFile model = testing::smallModel();
+    // Silent until the label changes, then constant: the first sample that is not zero shows the switch.
+    const auto answer = [&model](const inference::SegmentRequest& request, std::span<float> segment) {
+        const bool mesh = request.embedding[3] == model.embedding(1)[3];
+        std::ranges::fill(segment, mesh ? 1.0F : 0.0F);
+    };
+    std::vector<ContactState> states = slide(1.0);
+    for (std::size_t i = 36; i < states.size(); ++i) {
+        states[i].material.entries[0].label = 1;
+    }
+    for (const double leadMs : {2.0, 8.0, 20.0}) {
+        FakeGenerator generator(answer);
+        const OfflineRender render = renderOffline(model, generator, states, {.leadMs = leadMs});
+        const auto from = static_cast<std::size_t>(states[30].timeSeconds * 48000.0);
+        const auto first = std::find_if(render.samples.begin() + static_cast<std::ptrdiff_t>(from),
+                                        render.samples.end(), [](float sample) { return sample > 1e-3F; });
+        const double heardMs = 1000.0 * static_cast<double>(first - render.samples.begin()) / 48000.0;
+        const double changedMs = 1000.0 * states[36].timeSeconds;
+        // 5 ms of reading ahead, up to 2 ms of splice and of the resampler's delay.
+        EXPECT_GE(heardMs - changedMs, leadMs);
+        EXPECT_LE(heardMs - changedMs, leadMs + 9.0);
+    }
+}
+
+TEST(OfflineRendererTest, SettingsOutOfRangeAreRefused) {
+    const model::ModelFile model = testing::smallModel();
+    FakeGenerator generator(whiteNoise);
+    const std::vector<ContactState> states = slide(0.1);
+    EXPECT_THROW((void)renderOffline(model, generator, states, {.leadMs = -1.0}), std::invalid_argument);
+    EXPECT_THROW((void)renderOffline(model, generator, states, {.outputRateHz = 4000.0}), std::invalid_argument);
+    EXPECT_THROW((void)renderOffline(model, generator, states, {.fullScaleMps2 = 0.0F}), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace haptoflow::engine

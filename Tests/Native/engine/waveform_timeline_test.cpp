@@ -1,0 +1,160 @@
+#include "engine/waveform_timeline.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+namespace haptoflow::engine {
+namespace {
+
+using Seed = std::array<float, WaveformTimeline::seedSamples>;
+using Segment = std::array<float, inference::segmentSamples>;
+
+Seed countingSeed() {
+    Seed seed{};
+    for (std::size_t i = 0; i < seed.size(); ++i) {
+        seed[i] = static_cast<float>(i) + 1.0F;
+    }
+    return seed;
+}
+
+Segment constantSegment(float value) {
+    Segment segment{};
+    segment.fill(value);
+    return segment;
+}
+
+std::vector<float> readSamples(WaveformTimeline& timeline, std::size_t count) {
+    std::vector<float> samples(count);
+    timeline.read(samples);
+    return samples;
+}
+
+TEST(WaveformTimelineTest, AtTouchDownTheSeedsSecondHalfSoundsAndItsFirstHalfIsThePast) {
+    WaveformTimeline timeline;
+    const Seed seed = countingSeed();
+    timeline.open(seed);
+
+    Segment past{};
+    timeline.history(timeline.head(), past);
+    EXPECT_TRUE(std::equal(past.begin(), past.end(), seed.begin()));
+    const std::vector<float> heard = readSamples(timeline, 150);
+    EXPECT_TRUE(std::equal(heard.begin(), heard.end(), seed.begin() + 200));
+}
+
+TEST(WaveformTimelineTest, ASegmentThatGoesOnAsTheRunningOneDoesLeavesNoTrace) {
+    WaveformTimeline timeline;
+    const Seed seed = countingSeed();
+    timeline.open(seed);
+    Segment continuation{};
+    for (std::size_t i = 0; i < continuation.size(); ++i) {
+        continuation[i] = static_cast<float>(i) + 251.0F;
+    }
+    const std::int64_t start = timeline.head() + 50;
+    EXPECT_EQ(timeline.commit(start, continuation), start);
+
+    const std::vector<float> heard = readSamples(timeline, 200);
+    for (std::size_t i = 0; i < heard.size(); ++i) {
+        ASSERT_EQ(heard[i], static_cast<float>(i) + 201.0F) << "sample " << i;
+    }
+}
+
+TEST(WaveformTimelineTest, ThePastOfASegmentHoldsTheSamplesNotYetPlayed) {
+    WaveformTimeline timeline;
+    timeline.open(countingSeed());
+    Segment past{};
+    timeline.history(timeline.head() + 30, past);
+    EXPECT_EQ(past.front(), 31.0F);
+    EXPECT_EQ(past.back(), 230.0F);
+}
+
+TEST(WaveformTimelineTest, ALateSegmentLosesWhatTheHeadHasPassed) {
+    WaveformTimeline timeline;
+    timeline.open(countingSeed());
+    const std::int64_t start = timeline.head() + 10;
+    readSamples(timeline, 25);
+    Segment late{};
+    for (std::size_t i = 0; i < late.size(); ++i) {
+        late[i] = 1000.0F + static_cast<float>(i);
+    }
+    EXPECT_EQ(timeline.commit(start, late), timeline.head());
+    EXPECT_EQ(timeline.coveredUntil(), start + 200);
+    const std::vector<float> heard = readSamples(timeline, 20);
+    EXPECT_EQ(heard[10], 1025.0F);
+}
+
+TEST(WaveformTimelineTest, ASegmentThatIsPastAltogetherChangesNothing) {
+    WaveformTimeline timeline;
+    timeline.open(countingSeed());
+    const std::int64_t start = timeline.head() - 60;
+    readSamples(timeline, 150);
+    const std::int64_t covered = timeline.coveredUntil();
+    EXPECT_EQ(timeline.commit(start, constantSegment(9.0F)), -1);
+    EXPECT_EQ(timeline.coveredUntil(), covered);
+}
+
+TEST(WaveformTimelineTest, ASegmentBeyondTheCommittedSamplesIsRefusedSinceItWouldLeaveAHole) {
+    WaveformTimeline timeline;
+    timeline.open(countingSeed());
+    EXPECT_EQ(timeline.commit(timeline.coveredUntil() + 1, constantSegment(1.0F)), -1);
+}
+
+TEST(WaveformTimelineTest, WithoutANewSegmentTheWaveFadesInFiveMillisecondsAndTheMissingSamplesAreCounted) {
+    WaveformTimeline timeline;
+    Seed seed{};
+    seed.fill(1.0F);
+    timeline.open(seed);
+    const std::vector<float> heard = readSamples(timeline, 260);
+    EXPECT_EQ(heard[189], 1.0F);
+    for (std::size_t i = 190; i < heard.size(); ++i) {
+        ASSERT_LE(std::abs(heard[i] - heard[i - 1]), 0.1001F) << "sample " << i;
+    }
+    EXPECT_EQ(heard[201], 0.0F);
+    EXPECT_EQ(timeline.uncoveredSamples(), 60U);
+}
+
+TEST(WaveformTimelineTest, AfterAnUnderrunTheNextSegmentRisesInsteadOfJumping) {
+    WaveformTimeline timeline;
+    Seed seed{};
+    seed.fill(1.0F);
+    timeline.open(seed);
+    readSamples(timeline, 230);
+    EXPECT_EQ(timeline.commit(timeline.head() - 5, constantSegment(1.0F)), timeline.head());
+    const std::vector<float> heard = readSamples(timeline, 30);
+    EXPECT_LE(heard[0], 0.1001F);
+    for (std::size_t i = 1; i < heard.size(); ++i) {
+        ASSERT_LE(std::abs(heard[i] - heard[i - 1]), 0.1001F) << "sample " << i;
+    }
+    EXPECT_EQ(heard.back(), 1.0F);
+}
+
+TEST(WaveformTimelineTest, TheClockCountsWhatIsReadAndGoesOnOverADayOfSegments) {
+    WaveformTimeline timeline;
+    timeline.open(countingSeed());
+    const std::int64_t origin = timeline.head();
+    std::vector<float> block(1000);
+    constexpr std::int64_t dayOfBlocks = 24LL * 3600 * 2;
+    for (std::int64_t i = 0; i < dayOfBlocks; ++i) {
+        timeline.read(block);
+    }
+    EXPECT_EQ(timeline.head() - origin, dayOfBlocks * 1000);
+    EXPECT_EQ(timeline.commit(timeline.head(), constantSegment(2.0F)), timeline.head());
+    EXPECT_EQ(readSamples(timeline, 100).back(), 2.0F);
+}
+
+TEST(WaveformTimelineTest, ClearedThePastIsSilence) {
+    WaveformTimeline timeline;
+    timeline.open(countingSeed());
+    timeline.clear();
+    Segment past = constantSegment(1.0F);
+    timeline.history(timeline.head(), past);
+    EXPECT_TRUE(std::ranges::all_of(past, [](float sample) { return sample == 0.0F; }));
+    EXPECT_EQ(readSamples(timeline, 1).front(), 0.0F);
+}
+
+}  // namespace
+}  // namespace haptoflow::engine
