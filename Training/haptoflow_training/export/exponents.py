@@ -1,0 +1,56 @@
+"""Exponents per label for speeds and forces beyond the recordings, fitted to the recordings themselves."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from haptoflow_training.export.recorded_windows import draw_windows
+from haptoflow_training.training.batches import Store
+
+_SLIDING_MPS = 0.008
+
+
+@dataclass(frozen=True)
+class LabelExponents:
+    """level ~ speed^level_speed force^level_force; frequency ~ speed^frequency."""
+
+    level_speed: float
+    level_force: float
+    frequency: float
+
+
+def _centroid_hz(waves: np.ndarray, rate_hz: float) -> np.ndarray:
+    """Power-weighted mean frequency between 20 Hz and 900 Hz, per window."""
+    spectrum = np.abs(np.fft.rfft(waves * np.hanning(waves.shape[1]), axis=1)) ** 2
+    frequencies = np.fft.rfftfreq(waves.shape[1], 1.0 / rate_hz)
+    band = (frequencies >= 20.0) & (frequencies <= 900.0)
+    power = spectrum[:, band]
+    return (power * frequencies[band]).sum(axis=1) / (power.sum(axis=1) + 1e-12)
+
+
+def fit_exponents(store: Store, label_index: int, *, periodic: bool, seed: int) -> LabelExponents:
+    """Least squares of log RMS over log speed and log force in the upper half of the recorded speeds, where the
+    law will be continued; the frequency exponent of a periodic label is 1 (v / wavelength), that of another is
+    the slope of the log spectral centroid."""
+    windows = draw_windows(store, label_index, samples=400, count=3000, seed=seed)
+    sliding = (windows.speed_mps > _SLIDING_MPS) & (windows.unsteadiness < 0.35) & (windows.motion[:, 2] > 0.05)
+    if sliding.sum() >= 40:
+        sliding &= windows.speed_mps >= np.median(windows.speed_mps[sliding])
+    if sliding.sum() < 20:
+        return LabelExponents(0.0, 0.0, 1.0 if periodic else 0.0)
+    speed = np.log(windows.speed_mps[sliding])
+    force = np.log(windows.motion[sliding, 2])
+    design = np.stack([np.ones_like(speed), speed, force], axis=1)
+    level, *_ = np.linalg.lstsq(design, np.log(windows.rms_mps2[sliding] + 1e-9), rcond=None)
+    if periodic:
+        frequency = 1.0
+    else:
+        centroid, *_ = np.linalg.lstsq(design, np.log(_centroid_hz(windows.waves[sliding], 2000.0)), rcond=None)
+        frequency = float(np.clip(centroid[1], 0.0, 1.0))
+    return LabelExponents(
+        level_speed=float(np.clip(level[1], 0.0, 2.0)),
+        level_force=float(np.clip(level[2], -0.5, 1.5)),
+        frequency=frequency,
+    )

@@ -1,0 +1,122 @@
+"""Writing and reading `.haptoflow` files: Documentation~/model-format.md is the specification."""
+
+from __future__ import annotations
+
+import json
+import os
+import struct
+import zlib
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from haptoflow_training.errors import InputError
+
+MAGIC = b"HAPTFLOW"
+VERSION = 1
+ALIGNMENT = 64
+_PREAMBLE = struct.Struct("<8sIIQI")
+_PREAMBLE_BYTES = _PREAMBLE.size + 4
+
+
+@dataclass(frozen=True)
+class ModelFile:
+    """header: the JSON header; tensors: float32 arrays by blob name; graphs: ONNX bytes by blob name."""
+
+    header: dict[str, Any]
+    tensors: dict[str, NDArray[np.float32]]
+    graphs: dict[str, bytes]
+
+
+def _aligned(offset: int) -> int:
+    return -(-offset // ALIGNMENT) * ALIGNMENT
+
+
+def _encode_header(header: dict[str, Any], blobs: list[tuple[dict[str, Any], bytes]]) -> tuple[bytes, list[int]]:
+    """The padded header and each blob's offset: the offsets depend on the header's length and stand inside it, so
+    the length is raised until both agree."""
+    length = 0
+    while True:
+        offsets, position = [], _PREAMBLE_BYTES + length
+        for _, content in blobs:
+            position = _aligned(position)
+            offsets.append(position)
+            position += len(content)
+        entries = [dict(entry, offset=offset) for (entry, _), offset in zip(blobs, offsets, strict=True)]
+        text = json.dumps({**header, "blobs": entries}, ensure_ascii=False, allow_nan=False).encode("utf-8")
+        needed = _aligned(_PREAMBLE_BYTES + len(text)) - _PREAMBLE_BYTES
+        if needed <= length:
+            return text.ljust(length, b" "), offsets
+        length = needed
+
+
+def encode_model_file(model: ModelFile) -> bytes:
+    """The file's bytes; ValueError where a tensor is not finite float32 or a header value is not JSON."""
+    blobs: list[tuple[dict[str, Any], bytes]] = []
+    for name, tensor in model.tensors.items():
+        if tensor.dtype != np.float32 or not np.isfinite(tensor).all():
+            raise ValueError(f"tensor '{name}' must be finite float32, is {tensor.dtype}")
+        content = np.ascontiguousarray(tensor).astype("<f4").tobytes()
+        blobs.append((_blob_entry(name, "float32", list(tensor.shape), content), content))
+    for name, graph in model.graphs.items():
+        blobs.append((_blob_entry(name, "onnx", [], graph), graph))
+
+    header, offsets = _encode_header(model.header, blobs)
+    total = offsets[-1] + len(blobs[-1][1]) if blobs else _PREAMBLE_BYTES + len(header)
+    preamble = _PREAMBLE.pack(MAGIC, VERSION, len(header), total, zlib.crc32(header))
+    parts = bytearray(preamble + struct.pack("<I", zlib.crc32(preamble)) + header)
+    for offset, (_, content) in zip(offsets, blobs, strict=True):
+        parts.extend(b"\0" * (offset - len(parts)))
+        parts.extend(content)
+    return bytes(parts)
+
+
+def _blob_entry(name: str, kind: str, shape: list[int], content: bytes) -> dict[str, Any]:
+    return {"name": name, "type": kind, "shape": shape, "bytes": len(content), "crc32": zlib.crc32(content)}
+
+
+def write_model_file(path: Path, model: ModelFile) -> int:
+    """Write atomically; returns the file's CRC-32. A full disk leaves the old file as it was."""
+    content = encode_model_file(model)
+    path.parent.mkdir(parents=True, exist_ok=True)
+    temporary = path.with_suffix(path.suffix + ".part")
+    try:
+        temporary.write_bytes(content)
+        os.replace(temporary, path)
+    except OSError as error:
+        temporary.unlink(missing_ok=True)
+        raise InputError(f"{path}: cannot be written ({error.strerror})") from error
+    return zlib.crc32(content)
+
+
+def read_model_file(path: Path) -> ModelFile:
+    """Read a file that this pipeline wrote; InputError names what is damaged. (The engine's reader is the strict
+    one: it trusts no byte.)"""
+    try:
+        content = path.read_bytes()
+    except OSError as error:
+        raise InputError(f"{path}: cannot be read ({error.strerror})") from error
+    if len(content) < _PREAMBLE_BYTES or content[:8] != MAGIC:
+        raise InputError(f"{path}: is not a .haptoflow file")
+    _, version, header_length, total, header_crc = _PREAMBLE.unpack_from(content)
+    if version != VERSION:
+        raise InputError(f"{path}: format version {version}, expected {VERSION}")
+    if total != len(content):
+        raise InputError(f"{path}: {len(content)} bytes long, the file says {total}: truncated or damaged")
+    header_bytes = content[_PREAMBLE_BYTES : _PREAMBLE_BYTES + header_length]
+    if zlib.crc32(header_bytes) != header_crc:
+        raise InputError(f"{path}: the header's checksum does not match: damaged")
+    header = json.loads(header_bytes)
+    tensors, graphs = {}, {}
+    for entry in header["blobs"]:
+        blob = content[entry["offset"] : entry["offset"] + entry["bytes"]]
+        if len(blob) != entry["bytes"] or zlib.crc32(blob) != entry["crc32"]:
+            raise InputError(f"{path}: blob '{entry['name']}' is damaged")
+        if entry["type"] == "onnx":
+            graphs[entry["name"]] = blob
+        else:
+            tensors[entry["name"]] = np.frombuffer(blob, dtype="<f4").reshape(entry["shape"])
+    return ModelFile({key: value for key, value in header.items() if key != "blobs"}, tensors, graphs)

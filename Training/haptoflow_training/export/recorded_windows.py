@@ -1,0 +1,52 @@
+"""Windows of the training recordings with their condition: what seeds and exponents are taken from."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from haptoflow_training.training.batches import Store
+
+
+@dataclass(frozen=True)
+class RecordedWindows:
+    """waves [n, samples] in m/s^2; motion [n, 3]: mean vx, vy (m/s) and force (N); unsteadiness [n]: standard
+    deviation of log speed over the window."""
+
+    waves: NDArray[np.float32]
+    motion: NDArray[np.float32]
+    unsteadiness: NDArray[np.float32]
+
+    @property
+    def speed_mps(self) -> NDArray[np.float32]:
+        return np.hypot(self.motion[:, 0], self.motion[:, 1])
+
+    @property
+    def rms_mps2(self) -> NDArray[np.float32]:
+        return np.sqrt(np.square(self.waves).mean(axis=1))
+
+
+def draw_windows(store: Store, label_index: int, *, samples: int, count: int, seed: int) -> RecordedWindows:
+    """`count` random windows of the label's training recordings, wholly inside one recording each."""
+    recordings = [
+        recording
+        for recording in store.recordings
+        if recording.split == "train" and recording.label_index == label_index and recording.length > samples
+    ]
+    if not recordings:
+        raise ValueError(f"label '{store.labels[label_index]}' has no training recording of {samples} samples")
+    generator = np.random.default_rng([seed, label_index])
+    room = np.array([recording.length - samples for recording in recordings])
+    chosen = generator.choice(len(recordings), size=count, p=room / room.sum())
+    starts = np.array([recording.start for recording in recordings])[chosen]
+    starts = starts + (generator.random(count) * room[chosen]).astype(np.int64)
+    windows = starts[:, None] + np.arange(samples)[None, :]
+    motion = store.motion[windows]
+    speed = np.hypot(motion[..., 0], motion[..., 1])
+    return RecordedWindows(
+        waves=(store.waveform[windows] * np.float32(store.peak_mps2)).astype(np.float32),
+        motion=motion.mean(axis=1).astype(np.float32),
+        unsteadiness=np.log(speed + 0.002).std(axis=1).astype(np.float32),
+    )

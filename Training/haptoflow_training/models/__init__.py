@@ -1,0 +1,1 @@
+"""Networks: the velocity field, the level model, and the representations they work on."""

@@ -1,0 +1,97 @@
+"""What the networks are told: where in time the flow is, which material, how the stylus moves.
+
+HaptoFlow (paper, section 3.1): material embedding, motion and flow time, 64 values each, are concatenated and
+injected into every level through FiLM.
+"""
+
+from __future__ import annotations
+
+import math
+
+import torch
+from torch import Tensor, nn
+
+EMBEDDING_SIZE = 64
+CONDITION_SIZE = 3 * EMBEDDING_SIZE
+
+REFERENCE_SPEED_MPS = 0.06
+REST_SPEED_MPS = 0.0005
+REST_FORCE_NEWTONS = 0.02
+
+# Octaves of log speed resolved by sine and cosine features: a ruled surface's fundamental is speed over
+# wavelength, so the network has to tell speeds a per cent apart.
+_LOG_SPEED_HARMONICS = (0.5, 1.0, 2.0, 4.0, 8.0)
+
+
+def log_speed(motion: Tensor) -> Tensor:
+    """log((speed + 0.5 mm/s) / 60 mm/s) of motion [B, 3] (vx, vy in m/s, force in N); [B, 1]."""
+    speed_mps = motion[:, 0:2].square().sum(dim=1, keepdim=True).add(1e-12).sqrt()
+    return ((speed_mps + REST_SPEED_MPS) / REFERENCE_SPEED_MPS).log()
+
+
+def log_force(motion: Tensor) -> Tensor:
+    """log(force + 0.02 N) of motion [B, 3]; [B, 1]. Negative forces count as zero."""
+    return (motion[:, 2:3].clamp(min=0.0) + REST_FORCE_NEWTONS).log()
+
+
+class MotionFeatures(nn.Module):
+    """Physical motion [B, 3] to well-scaled features; normalisation lives here, inside the exported graph."""
+
+    size = 2 + 4 + 2 * len(_LOG_SPEED_HARMONICS) + 2
+
+    def forward(self, motion: Tensor) -> Tensor:
+        speed_mps = motion[:, 0:2].square().sum(dim=1, keepdim=True).add(1e-12).sqrt()
+        speed = log_speed(motion)
+        force = log_force(motion)
+        direction = motion[:, 0:2] / (speed_mps + 0.002)
+        # Twice the angle: most surfaces feel the same forwards and backwards along their grain.
+        axial = torch.cat(
+            [
+                direction[:, 0:1].square() - direction[:, 1:2].square(),
+                2.0 * direction[:, 0:1] * direction[:, 1:2],
+            ],
+            dim=1,
+        )
+        waves = [
+            function(harmonic * speed) for harmonic in _LOG_SPEED_HARMONICS for function in (torch.sin, torch.cos)
+        ]
+        return torch.cat(
+            [speed * 0.5, force * 0.5, direction, axial, *waves, speed_mps, motion[:, 2:3] * 0.2], dim=1
+        )
+
+
+class MotionEncoder(nn.Module):
+    """Motion [B, 3] to 64 values by a multi-layer perceptron."""
+
+    def __init__(self, hidden: int = 128) -> None:
+        super().__init__()
+        self.features = MotionFeatures()
+        self.layers = nn.Sequential(
+            nn.Linear(MotionFeatures.size, hidden),
+            nn.SiLU(),
+            nn.Linear(hidden, hidden),
+            nn.SiLU(),
+            nn.Linear(hidden, EMBEDDING_SIZE),
+        )
+
+    def forward(self, motion: Tensor) -> Tensor:
+        return self.layers(self.features(motion))
+
+
+class TimeEncoder(nn.Module):
+    """Flow time [B, 1] in [0, 1] to 64 values: sinusoids of geometrically spaced frequency, then two layers."""
+
+    frequencies: Tensor
+
+    def __init__(self) -> None:
+        super().__init__()
+        half = EMBEDDING_SIZE // 2
+        frequencies = torch.exp(torch.linspace(0.0, math.log(100.0), half)).reshape(1, half)
+        self.register_buffer("frequencies", frequencies, persistent=False)
+        self.layers = nn.Sequential(
+            nn.Linear(EMBEDDING_SIZE, EMBEDDING_SIZE), nn.SiLU(), nn.Linear(EMBEDDING_SIZE, EMBEDDING_SIZE)
+        )
+
+    def forward(self, time: Tensor) -> Tensor:
+        angles = time * self.frequencies
+        return self.layers(torch.cat([angles.sin(), angles.cos()], dim=1))

@@ -1,0 +1,51 @@
+"""How strong a material vibrates: log RMS from embedding and motion, fitted by Gaussian likelihood.
+
+The network then only shapes the wave: target and previous waveform are divided by the level, the result is
+multiplied by it, so that quiet materials are learnt as well as loud ones and speed zero stays controllable.
+"""
+
+from __future__ import annotations
+
+import torch
+from torch import Tensor, nn
+
+from haptoflow_training.models.conditioning import EMBEDDING_SIZE, MotionFeatures, log_force, log_speed
+
+_CORRECTION_LIMIT = 0.9
+
+
+class LevelModel(nn.Module):
+    """log level [B, 1] (natural log of the RMS in m/s^2) from embedding [B, 64] and motion [B, 3].
+
+    A power law of speed and force per material, RMS = k v^p F^q (facts of the published textures), plus a bounded
+    learnt correction. The law's three coefficients are linear in the embedding, so labels can be blended.
+    """
+
+    def __init__(self, hidden: int = 96) -> None:
+        super().__init__()
+        self.power_law = nn.Linear(EMBEDDING_SIZE, 3)
+        self.features = MotionFeatures()
+        self.correction = nn.Sequential(
+            nn.Linear(EMBEDDING_SIZE + MotionFeatures.size, hidden),
+            nn.SiLU(),
+            nn.Linear(hidden, hidden),
+            nn.SiLU(),
+            nn.Linear(hidden, 1),
+        )
+        with torch.no_grad():
+            self.power_law.bias.copy_(torch.tensor([-1.0, 0.9, 0.2]))
+
+    def forward(self, embedding: Tensor, motion: Tensor) -> Tensor:
+        law = self.power_law(embedding)
+        correction = self.correction(torch.cat([embedding, self.features(motion)], dim=1))
+        return (
+            law[:, 0:1]
+            + law[:, 1:2] * log_speed(motion)
+            + law[:, 2:3] * log_force(motion)
+            + _CORRECTION_LIMIT * torch.tanh(correction)
+        )
+
+
+def level_loss(log_level: Tensor, mean_square_mps2: Tensor) -> Tensor:
+    """Negative log-likelihood of a zero-mean Gaussian wave: s + 0.5 meansquare exp(-2 s), both [B, 1]."""
+    return (log_level + 0.5 * mean_square_mps2 * torch.exp(-2.0 * log_level)).mean()

@@ -1,0 +1,1 @@
+"""Training runs: configuration, batches, losses, the loop, its log."""

@@ -1,0 +1,129 @@
+"""Training pairs drawn from the store: previous waveform, segment, condition."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Protocol
+
+import numpy as np
+import torch
+from numpy.typing import NDArray
+from torch import Tensor
+
+from haptoflow_training.training.config import BatchConfig
+
+SEGMENT_SAMPLES = 200
+LEVEL_WINDOW_SAMPLES = 100
+
+
+class StoredRecording(Protocol):
+    """What the batches need to know of a recording in the store."""
+
+    label_index: int
+    protocol: str
+    split: str
+    start: int
+    length: int
+
+
+class Store(Protocol):
+    """The memory-mapped store of `prepare`: waveform [n] in units of peak_mps2, motion [n, 3]."""
+
+    waveform: NDArray[np.float32]
+    motion: NDArray[np.float32]
+    peak_mps2: float
+    labels: list[str]
+    recordings: list[StoredRecording]
+
+
+@dataclass(frozen=True)
+class SegmentBatch:
+    """waveforms in m/s^2: previous [B, 1, 200], segment [B, 1, 200]; label [B]; motion [B, 3];
+    level_motion [B, 3] and level_mean_square_mps2 [B, 1]: a 50 ms window for the level model."""
+
+    previous: Tensor
+    segment: Tensor
+    label: Tensor
+    motion: Tensor
+    level_motion: Tensor
+    level_mean_square_mps2: Tensor
+
+
+class SegmentBatches:
+    """Draws batches: label uniform, protocol by share, recording uniform, position uniform.
+
+    Only windows that lie wholly inside recordings of `split` are drawn, so nothing leaks between splits.
+    """
+
+    def __init__(self, store: Store, split: str, config: BatchConfig, seed: int) -> None:
+        self._store = store
+        self._config = config
+        self._generator = np.random.default_rng(seed)
+        long_enough = [
+            recording
+            for recording in store.recordings
+            if recording.split == split and recording.length >= 2 * SEGMENT_SAMPLES + 1
+        ]
+        if not long_enough:
+            raise ValueError(f"no recording of split '{split}' is longer than two segments")
+        self._starts = np.array([recording.start for recording in long_enough], dtype=np.int64)
+        self._lengths = np.array([recording.length for recording in long_enough], dtype=np.int64)
+        self._labels = np.array([recording.label_index for recording in long_enough], dtype=np.int64)
+        machine = np.array([recording.protocol == "machine" for recording in long_enough])
+        self._groups = [
+            tuple(np.flatnonzero((self._labels == label) & chosen) for chosen in (machine, ~machine))
+            for label in range(len(store.labels))
+        ]
+        self._present = np.array([label for label, groups in enumerate(self._groups) if any(map(len, groups))])
+
+    def _draw_recordings(self, count: int) -> NDArray[np.int64]:
+        labels = self._generator.choice(self._present, size=count)
+        from_machine = self._generator.random(count) < self._config.machine_share
+        position = self._generator.random(count)
+        chosen = np.empty(count, dtype=np.int64)
+        for row, label in enumerate(labels):
+            machine, hand = self._groups[label]
+            group = machine if (from_machine[row] and len(machine)) or not len(hand) else hand
+            chosen[row] = group[int(position[row] * len(group))]
+        return chosen
+
+    def draw(self, count: int) -> SegmentBatch:
+        """A fresh batch of `count` pairs."""
+        config, generator = self._config, self._generator
+        recordings = self._draw_recordings(count)
+        room = self._lengths[recordings] - 2 * SEGMENT_SAMPLES
+        split_point = self._starts[recordings] + SEGMENT_SAMPLES + (generator.random(count) * room).astype(np.int64)
+        offsets = np.arange(-SEGMENT_SAMPLES, SEGMENT_SAMPLES)
+        windows = split_point[:, None] + offsets[None, :]
+        waves = self._store.waveform[windows] * np.float32(self._store.peak_mps2)
+        motions = self._store.motion[windows[:, SEGMENT_SAMPLES:]]
+
+        hop = generator.integers(config.hop_samples[0], config.hop_samples[1] + 1, size=count)
+        inside = np.arange(SEGMENT_SAMPLES)[None, :] < hop[:, None]
+        motion = (motions * inside[:, :, None]).sum(axis=1) / hop[:, None]
+
+        previous = waves[:, :SEGMENT_SAMPLES].copy()
+        switched = np.flatnonzero(generator.random(count) < config.switch_probability)
+        if len(switched):
+            previous[switched] = previous[generator.permutation(count)[: len(switched)]]
+        previous[generator.random(count) < config.silence_probability] = 0.0
+
+        level_motion = motions[:, :LEVEL_WINDOW_SAMPLES].mean(axis=1)
+        level_wave = waves[:, SEGMENT_SAMPLES : SEGMENT_SAMPLES + LEVEL_WINDOW_SAMPLES]
+        return SegmentBatch(
+            previous=torch.from_numpy(previous).unsqueeze(1),
+            segment=torch.from_numpy(waves[:, SEGMENT_SAMPLES:].copy()).unsqueeze(1),
+            label=torch.from_numpy(self._labels[recordings]),
+            motion=torch.from_numpy(motion.astype(np.float32)),
+            level_motion=torch.from_numpy(level_motion.astype(np.float32)),
+            level_mean_square_mps2=torch.from_numpy(
+                np.square(level_wave).mean(axis=1, keepdims=True).astype(np.float32)
+            ),
+        )
+
+    def state(self) -> dict[str, object]:
+        """The generator's state, for a checkpoint."""
+        return dict(self._generator.bit_generator.state)
+
+    def restore(self, state: dict[str, object]) -> None:
+        self._generator.bit_generator.state = state

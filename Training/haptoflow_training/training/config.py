@@ -1,0 +1,178 @@
+"""One TOML file describes one training run; every key is checked, so that a typo is an error and not a default."""
+
+from __future__ import annotations
+
+import dataclasses
+import tomllib
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any, TypeVar
+
+from haptoflow_training.errors import InputError
+
+
+@dataclass(frozen=True)
+class DataConfig:
+    """Where the recordings come from.
+
+    source: `synthetic` (the recorder makes them) or `folders` (`folders` lists data set roots).
+    labels_file: which textures teach which label, for `folders`; empty for configs/labels-cluster.toml.
+    labels: only these; empty for all.
+    machine_* and hand_* say how much the synthetic recorder makes of each protocol.
+    """
+
+    source: str = "synthetic"
+    folders: tuple[str, ...] = ()
+    labels_file: str = ""
+    labels: tuple[str, ...] = ()
+    recordings_seed: int = 1
+    machine_directions: tuple[int, ...] = (0, 45, 90, 135, 180, 225, 270, 315)
+    machine_speeds_mmps: tuple[int, ...] = (20, 30, 40, 50, 60)
+    machine_forces_millinewtons: tuple[int, ...] = (500, 1000)
+    machine_repeats: int = 2
+    hand_recordings_per_label: int = 24
+    hand_duration_seconds: float = 8.0
+
+
+@dataclass(frozen=True)
+class ModelConfig:
+    """Shape of the velocity field; `representation` is handed to `build_representation`."""
+
+    width: int = 64
+    previous_width: int = 32
+    patch: int = 8
+    representation: dict[str, Any] = field(default_factory=lambda: {"kind": "raw"})
+
+
+@dataclass(frozen=True)
+class OptimiserConfig:
+    """AdamW with warm-up, cosine decay over the second half, gradient clipping and a moving average."""
+
+    learning_rate: float = 6e-4
+    weight_decay: float = 1e-4
+    batch_size: int = 96
+    level_steps: int = 1500
+    steps: int = 24000
+    level_polish_steps: int = 2000
+    warm_up_steps: int = 200
+    average_decay: float = 0.999
+    gradient_clip: float = 2.0
+
+
+@dataclass(frozen=True)
+class BatchConfig:
+    """How training pairs are drawn.
+
+    hop_samples: the condition of a pair is the mean motion over this many leading samples of the segment, drawn
+    from [min, max] (the hops of 120 Hz to 30 Hz updates). silence_probability: previous waveform zeroed, as at
+    touch-down. machine_share: share of pairs from machine recordings where both
+    protocols exist. switch_probability: previous waveform taken from another recording, as at a label switch.
+    """
+
+    hop_samples: tuple[int, int] = (16, 66)
+    silence_probability: float = 0.05
+    switch_probability: float = 0.03
+    machine_share: float = 0.35
+
+
+@dataclass(frozen=True)
+class SolverConfig:
+    """The solver the exported tier uses by default and the one used for validation figures."""
+
+    kind: str = "midpoint"
+    steps: int = 2
+
+
+@dataclass(frozen=True)
+class TrainingConfig:
+    """A whole run. `name` and `description` end in the model file's header."""
+
+    name: str = "default"
+    description: str = ""
+    licence: str = "MIT"
+    seed: int = 1
+    threads: int = 2
+    data: DataConfig = field(default_factory=DataConfig)
+    model: ModelConfig = field(default_factory=ModelConfig)
+    optimiser: OptimiserConfig = field(default_factory=OptimiserConfig)
+    batch: BatchConfig = field(default_factory=BatchConfig)
+    solver: SolverConfig = field(default_factory=SolverConfig)
+
+    def to_dict(self) -> dict[str, Any]:
+        return dataclasses.asdict(self)
+
+
+_Section = TypeVar("_Section")
+
+
+def _convert(value: Any, default: Any, key: str, path: Path) -> Any:
+    if isinstance(default, bool) or isinstance(default, str):
+        expected: tuple[type, ...] = (type(default),)
+    elif isinstance(default, float):
+        expected = (float, int)
+    else:
+        expected = (list, tuple) if isinstance(default, tuple) else (type(default),)
+    if not isinstance(value, expected) or (isinstance(value, bool) and not isinstance(default, bool)):
+        wanted = "a list" if isinstance(default, tuple) else type(default).__name__
+        raise InputError(f"{path}: key '{key}' is {value!r}, expected {wanted} (for example {default!r})")
+    if isinstance(default, float):
+        return float(value)
+    return tuple(value) if isinstance(default, tuple) else value
+
+
+def _read_section(section: type[_Section], table: dict[str, Any], prefix: str, path: Path) -> _Section:
+    defaults = section()
+    known = {entry.name: getattr(defaults, entry.name) for entry in dataclasses.fields(section)}  # type: ignore[arg-type]
+    values: dict[str, Any] = {}
+    for key, value in table.items():
+        name = f"{prefix}{key}"
+        if key not in known:
+            raise InputError(f"{path}: unknown key '{name}'; known here: {', '.join(sorted(known))}")
+        default = known[key]
+        if dataclasses.is_dataclass(default):
+            if not isinstance(value, dict):
+                raise InputError(f"{path}: '{name}' must be a table [{name}]")
+            values[key] = _read_section(type(default), value, f"{name}.", path)
+        else:
+            values[key] = _convert(value, default, name, path)
+    return section(**values)
+
+
+def load_config(path: Path) -> TrainingConfig:
+    """Read and check a run's TOML file; InputError names file, key and what was expected."""
+    try:
+        table = tomllib.loads(path.read_text(encoding="utf-8"))
+    except OSError as error:
+        raise InputError(f"{path}: cannot be read ({error.strerror}); name a run's TOML file") from error
+    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
+        raise InputError(f"{path}: is not TOML ({error})") from error
+    return config_from_dict(table, path)
+
+
+def config_from_dict(table: dict[str, Any], path: Path) -> TrainingConfig:
+    """The configuration in `table`, checked; `path` names its origin in messages."""
+    config = _read_section(TrainingConfig, table, "", path)
+    _check(config, path)
+    return config
+
+
+def _check(config: TrainingConfig, path: Path) -> None:
+    optimiser = config.optimiser
+    rules = (
+        (config.data.source in ("synthetic", "folders"), "data.source", "'synthetic' or 'folders'"),
+        (config.solver.kind in ("euler", "midpoint", "heun"), "solver.kind", "'euler', 'midpoint' or 'heun'"),
+        (1 <= config.solver.steps <= 16, "solver.steps", "1 to 16"),
+        (optimiser.learning_rate > 0.0, "optimiser.learning_rate", "above 0"),
+        (optimiser.batch_size >= 1, "optimiser.batch_size", "at least 1"),
+        (optimiser.steps >= 1, "optimiser.steps", "at least 1"),
+        (0.0 <= optimiser.average_decay < 1.0, "optimiser.average_decay", "0 to below 1"),
+        (
+            len(config.batch.hop_samples) == 2 and 1 <= config.batch.hop_samples[0] <= config.batch.hop_samples[1] <= 200,
+            "batch.hop_samples",
+            "two numbers, 1 <= min <= max <= 200",
+        ),
+        (config.model.width >= 8, "model.width", "at least 8"),
+    )
+    for holds, key, expected in rules:
+        if not holds:
+            raise InputError(f"{path}: key '{key}' is out of range, expected {expected}")

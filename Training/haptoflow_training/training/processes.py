@@ -1,0 +1,50 @@
+"""One process or several: torchrun's environment decides (start with `torchrun --redirects 1 --tee 1`)."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+
+import torch
+from torch import distributed
+
+
+@dataclass(frozen=True)
+class Processes:
+    """rank 0 writes files and speaks; count processes share each batch."""
+
+    rank: int
+    count: int
+
+    @property
+    def is_first(self) -> bool:
+        return self.rank == 0
+
+    def mean(self, value: torch.Tensor) -> torch.Tensor:
+        """The mean of a scalar over all processes."""
+        if self.count == 1:
+            return value
+        total = value.detach().clone()
+        distributed.all_reduce(total)
+        return total / self.count
+
+    def wait(self) -> None:
+        """Until every process is here."""
+        if self.count > 1:
+            distributed.barrier()
+
+
+@contextmanager
+def join_processes() -> Iterator[Processes]:
+    """Join torchrun's group when its environment is there; alone otherwise."""
+    count = int(os.environ.get("WORLD_SIZE", "1"))
+    if count == 1:
+        yield Processes(rank=0, count=1)
+        return
+    distributed.init_process_group("gloo")
+    try:
+        yield Processes(rank=distributed.get_rank(), count=distributed.get_world_size())
+    finally:
+        distributed.destroy_process_group()

@@ -1,0 +1,186 @@
+"""From a run's [data] section to a prepared store: synthetic recordings, or data set folders."""
+
+from __future__ import annotations
+
+import dataclasses
+import json
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from haptoflow_training.errors import InputError
+from haptoflow_training.export.exporter import Provenance
+from haptoflow_training.export.label_info import LabelInfo
+from haptoflow_training.preprocessing.preparation import prepare_store
+from haptoflow_training.preprocessing.store import SegmentStore
+from haptoflow_training.recordings.cluster_dataset import open_dataset
+from haptoflow_training.recordings.labels import load_labels
+from haptoflow_training.recordings.recording import Recording, RecordingIdentity
+from haptoflow_training.recordings.synthetic import (
+    Material,
+    hand_conditions,
+    load_materials,
+    machine_conditions,
+    record_hand_condition,
+    record_machine_condition,
+)
+from haptoflow_training.recordings.synthetic.materials import select_materials
+from haptoflow_training.training.config import DataConfig
+
+SYNTHETIC_STATEMENT = "trained on synthetic recordings"
+
+
+@dataclass(frozen=True)
+class SyntheticRecording:
+    """A recording that is made when it is asked for, in the worker that prepares it."""
+
+    material: Material
+    identity: RecordingIdentity
+    seed: int
+    hand_duration_seconds: float
+
+    @property
+    def label(self) -> str:
+        return self.material.label
+
+    def load(self) -> Recording:
+        if self.identity.protocol == "hand":
+            return record_hand_condition(
+                self.material, self.identity, seed=self.seed, duration_seconds=self.hand_duration_seconds
+            )
+        return record_machine_condition(self.material, self.identity, seed=self.seed)
+
+
+@dataclass(frozen=True)
+class Source:
+    """A store with what the model file has to say of its labels and origin."""
+
+    store: SegmentStore
+    labels: list[LabelInfo]
+    provenance: Provenance
+
+
+def synthetic_recordings(data: DataConfig) -> Iterator[SyntheticRecording]:
+    """What `data` asks of the recorder: both protocols, material by material."""
+    for material in _materials(data):
+        identities = machine_conditions(
+            material,
+            directions=data.machine_directions,
+            speeds_mmps=data.machine_speeds_mmps,
+            forces_millinewtons=data.machine_forces_millinewtons,
+            repeats=data.machine_repeats,
+        ) + hand_conditions(material, seed=data.recordings_seed, recordings=data.hand_recordings_per_label)
+        for identity in identities:
+            yield SyntheticRecording(material, identity, data.recordings_seed, data.hand_duration_seconds)
+
+
+def _materials(data: DataConfig) -> tuple[Material, ...]:
+    return select_materials(load_materials(), data.labels or None)
+
+
+def _fingerprint(data: DataConfig) -> dict[str, Any]:
+    """What the store was made from, as JSON gives it back: a store made from something else is made anew."""
+    made_from: dict[str, Any] = {"data": dataclasses.asdict(data)}
+    if data.source == "synthetic":
+        made_from["materials"] = [dataclasses.asdict(material) for material in _materials(data)]
+    result: dict[str, Any] = json.loads(json.dumps(made_from))
+    return result
+
+
+def _open_or_prepare(data: DataConfig, out: Path, recordings: Any, labels: list[str], workers: int) -> SegmentStore:
+    fingerprint = _fingerprint(data)
+    if (out / "store.json").exists():
+        store = SegmentStore.open(out)
+        if store.provenance.get("made_from") == fingerprint:
+            return store
+    return prepare_store(
+        recordings,
+        labels,
+        out,
+        seed=data.recordings_seed,
+        provenance={"made_from": fingerprint},
+        workers=workers,
+    )
+
+
+def synthetic_label_infos(data: DataConfig) -> list[LabelInfo]:
+    """The labels of the synthetic materials, with the finest ruling of a periodic one as its wavelength."""
+    return [
+        LabelInfo(
+            name=material.label,
+            category=material.category,
+            stiffness_newtons_per_metre=material.stiffness_newtons_per_metre,
+            friction_coefficient=material.friction,
+            wavelength_metres=(
+                1e-3 * max(material.rulings, key=lambda ruling: ruling.relative_height).wavelength_mm
+                if material.rulings
+                else None
+            ),
+        )
+        for material in _materials(data)
+    ]
+
+
+def open_source(data: DataConfig, store_folder: Path, workers: int) -> Source:
+    """Prepare (or reuse) the store that `data` describes; InputError where folders hold nothing usable."""
+    if data.source == "synthetic":
+        infos = synthetic_label_infos(data)
+        store = _open_or_prepare(
+            data, store_folder, synthetic_recordings(data), [info.name for info in infos], workers
+        )
+        return Source(
+            store,
+            infos,
+            Provenance(
+                statement=SYNTHETIC_STATEMENT,
+                recordings=(
+                    f"synthetic recorder, seed {data.recordings_seed}: protocols machine and hand, "
+                    f"{len(store.recordings)} recordings of {len(infos)} labels"
+                ),
+                licence="MIT",
+                created="",
+            ),
+        )
+    return _open_folders(data, store_folder, workers)
+
+
+def _open_folders(data: DataConfig, store_folder: Path, workers: int) -> Source:
+    if not data.folders:
+        raise InputError("data.folders is empty: name the data set's folder there, or pass --recordings DIR")
+    label_map = load_labels(Path(data.labels_file) if data.labels_file else None)
+    if data.labels:
+        label_map = label_map.select(data.labels)
+    datasets = [open_dataset(Path(folder), label_map) for folder in data.folders]
+    entries = [entry for dataset in datasets for entry in dataset]
+    if not entries:
+        raise InputError(
+            f"{', '.join(data.folders)}: no recording whose texture a label names; look with `haptoflow-training inspect`"
+        )
+    found = {entry.label for entry in entries}
+    definitions = [definition for definition in label_map.definitions if definition.name in found]
+    store = _open_or_prepare(data, store_folder, entries, [definition.name for definition in definitions], workers)
+    synthetic = any(dataset.synthetic for dataset in datasets)
+    return Source(
+        store,
+        [
+            LabelInfo(
+                definition.name,
+                definition.category,
+                definition.stiffness_newtons_per_metre,
+                definition.friction_coefficient,
+                definition.wavelength_metres,
+            )
+            for definition in definitions
+        ],
+        Provenance(
+            statement=SYNTHETIC_STATEMENT if synthetic else "trained on the Cluster Haptic Texture Dataset",
+            recordings=(
+                f"{len(store.recordings)} recordings of {len(definitions)} labels"
+                if synthetic
+                else f"Cluster Haptic Texture Dataset, {len(store.recordings)} recordings of {len(definitions)} labels"
+            ),
+            licence="MIT" if synthetic else "recordings CC BY 4.0 (DOI 10.6084/m9.figshare.29438288)",
+            created="",
+        ),
+    )
