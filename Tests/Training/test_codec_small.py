@@ -1,0 +1,243 @@
+from __future__ import annotations
+
+import csv
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+import torch
+from numpy.typing import NDArray
+
+from haptoflow_training.errors import InputError
+from haptoflow_training.models.codec.reconstruction_loss import (
+    signal_to_noise_ratio_db,
+    spectral_loss,
+    time_loss,
+)
+from haptoflow_training.models.codec.small_codec import SmallCodec, SmallCodecShape
+from haptoflow_training.models.codec.small_codec_config import SmallCodecConfig, read_small_codec_config
+from haptoflow_training.training.codec_trainer import SegmentSampler, train_small_codec, validate
+
+CONFIGS = Path(__file__).resolve().parents[2] / "Training" / "configs"
+
+
+@dataclass(frozen=True)
+class Span:
+    start: int
+    length: int
+    split: str
+
+
+@dataclass(frozen=True)
+class Store:
+    waveform: NDArray[np.float32]
+    recordings: tuple[Span, ...]
+
+
+@dataclass
+class StoppingStore:
+    """Fails at the n-th reading, as a killed run would."""
+
+    store: Store
+    readings_left: int
+    recordings: tuple[Span, ...] = field(init=False)
+
+    def __post_init__(self) -> None:
+        self.recordings = self.store.recordings
+
+    @property
+    def waveform(self) -> NDArray[np.float32]:
+        self.readings_left -= 1
+        if self.readings_left < 0:
+            raise KeyboardInterrupt
+        return self.store.waveform
+
+
+def _texture(generator: np.random.Generator, samples: int) -> NDArray[np.float32]:
+    """A tone in low-passed noise, scaled at random: what a material's acceleration looks like."""
+    noise = np.convolve(generator.standard_normal(samples + 7), np.hanning(8), mode="valid")
+    time_seconds = np.arange(samples) / 2000.0
+    frequency_hz = generator.uniform(40.0, 300.0)
+    wave = noise / noise.std() + 1.5 * np.sin(2.0 * np.pi * frequency_hz * time_seconds)
+    return (wave * 10.0 ** generator.uniform(-2.0, 0.0)).astype(np.float32)
+
+
+@pytest.fixture(scope="module")
+def store() -> Store:
+    generator = np.random.default_rng(5)
+    length = 4000
+    splits = ("train",) * 8 + ("validation",) * 2 + ("test",)
+    waveform = np.concatenate([_texture(generator, length) for _ in splits])
+    return Store(waveform, tuple(Span(k * length, length, split) for k, split in enumerate(splits)))
+
+
+def _config(folder: Path, steps: int) -> SmallCodecConfig:
+    return SmallCodecConfig(
+        output_folder=folder,
+        shape=SmallCodecShape(latent_channels=16, width=8),
+        steps=steps,
+        batch=16,
+        learning_rate=3e-3,
+        validate_every_steps=max(1, steps // 5),
+        validation_segments=64,
+        threads=1,
+    )
+
+
+@pytest.fixture(scope="module")
+def trained(store: Store, tmp_path_factory: pytest.TempPathFactory) -> tuple[SmallCodec, SmallCodecConfig]:
+    config = _config(tmp_path_factory.mktemp("trained"), 100)
+    return train_small_codec(store, config), config
+
+
+def test_a_segment_becomes_25_positions_and_200_samples_again() -> None:
+    codec = SmallCodec(SmallCodecShape(latent_channels=20, width=8))
+    latent = codec.encode(torch.randn(3, 1, 200))
+    assert codec.latent_shape == (20, 25)
+    assert latent.shape == (3, 20, 25)
+    assert codec.decode(latent).shape == (3, 1, 200)
+
+
+def test_training_reaches_ten_decibels_on_recordings_it_has_not_seen(
+    store: Store, trained: tuple[SmallCodec, SmallCodecConfig]
+) -> None:
+    codec, config = trained
+    unseen = SegmentSampler(store, "test").draw(np.random.default_rng(9), 64)
+    assert validate(codec, unseen) > 10.0
+    assert validate(SmallCodec(config.shape), unseen) < 1.0
+
+
+@torch.no_grad()
+def test_the_latents_of_a_trained_codec_have_unit_scale_in_every_channel(
+    store: Store, trained: tuple[SmallCodec, SmallCodecConfig]
+) -> None:
+    latent = trained[0].encode(SegmentSampler(store, "train").draw(np.random.default_rng(11), 512))
+    assert latent.mean(dim=(0, 2)).abs().max() < 0.15
+    torch.testing.assert_close(latent.std(dim=(0, 2)), torch.ones(16), atol=0.15, rtol=0.0)
+
+
+def test_the_log_shows_the_validation_ratio_rising(trained: tuple[SmallCodec, SmallCodecConfig]) -> None:
+    with (trained[1].output_folder / "log.csv").open(newline="", encoding="utf-8") as file:
+        rows = list(csv.DictReader(file))
+    assert [int(row["step"]) for row in rows] == [20, 40, 60, 80, 100]
+    assert float(rows[-1]["validation_snr_db"]) > float(rows[0]["validation_snr_db"]) + 3.0
+
+
+def test_a_resumed_run_equals_the_uninterrupted_one(store: Store, tmp_path: Path) -> None:
+    straight = train_small_codec(store, _config(tmp_path / "straight", 10))
+    stopping = StoppingStore(store, readings_left=3 + 7)
+    with pytest.raises(KeyboardInterrupt):
+        train_small_codec(stopping, _config(tmp_path / "stopped", 10))
+    assert not (tmp_path / "stopped" / "small-codec.pt").exists()
+    counting = StoppingStore(store, readings_left=10_000)
+    resumed = train_small_codec(counting, _config(tmp_path / "stopped", 10))
+
+    # Two probes, the validation draw, the four steps after the checkpoint of step 6, the statistics' draw.
+    assert 10_000 - counting.readings_left == 3 + 4 + 1
+    expected = straight.state_dict()
+    assert all(torch.equal(value, expected[name]) for name, value in resumed.state_dict().items())
+    lines = (tmp_path / "stopped" / "log.csv").read_text(encoding="utf-8").splitlines()
+    assert lines[0] == "step,time_loss,spectral_loss,validation_snr_db,learning_rate,elapsed_seconds"
+    assert [line.split(",")[0] for line in lines[1:]] == ["2", "4", "6", "8", "10"]
+
+
+def test_a_checkpoint_of_another_configuration_is_refused(store: Store, tmp_path: Path) -> None:
+    config = _config(tmp_path, 2)
+    train_small_codec(store, config)
+    with pytest.raises(InputError, match=r"checkpoint\.pt: .* other values of learning_rate, seed"):
+        train_small_codec(store, replace(config, seed=2, learning_rate=1e-4))
+
+
+def test_a_checkpoint_of_another_program_is_refused(store: Store, tmp_path: Path) -> None:
+    torch.save({"config": {"seed": 1}}, tmp_path / "checkpoint.pt")
+    with pytest.raises(InputError, match=r"checkpoint\.pt: not a checkpoint of the small codec"):
+        train_small_codec(store, _config(tmp_path, 2))
+
+
+def test_a_store_without_validation_recordings_is_refused(store: Store, tmp_path: Path) -> None:
+    only_training = Store(store.waveform, tuple(span for span in store.recordings if span.split == "train"))
+    with pytest.raises(InputError, match="no segment of split 'validation'"):
+        train_small_codec(only_training, _config(tmp_path, 2))
+
+
+@pytest.mark.parametrize("value", [0.0, np.nan, np.inf])
+def test_a_store_without_a_finite_signal_is_refused(tmp_path: Path, value: float) -> None:
+    spans = (Span(0, 1000, "train"), Span(1000, 1000, "validation"))
+    with pytest.raises(InputError, match="split 'train' are silent or not finite"):
+        train_small_codec(Store(np.full(2000, value, np.float32), spans), _config(tmp_path, 2))
+
+
+def test_segments_stay_inside_recordings_of_their_split() -> None:
+    marks = np.repeat(np.arange(1, 6, dtype=np.float32), 250)
+    spans = tuple(Span(k * 250, 250, "train" if k % 2 == 0 else "test") for k in range(5))
+    segments = SegmentSampler(Store(marks, spans), "train").draw(np.random.default_rng(1), 200)
+    assert segments.shape == (200, 1, 200)
+    # A constant recording gives constant segments; a window across two recordings would not.
+    assert segments.std(dim=2).max() < 1e-6
+
+
+def test_segments_have_unit_scale_give_or_take_the_gain_spread(store: Store) -> None:
+    segments = SegmentSampler(store, "train").draw(np.random.default_rng(2), 400)
+    level_db = 10.0 * torch.log10(segments.square().mean(dim=(1, 2)))
+    assert level_db.abs().max() <= 9.001
+    assert level_db.std() > 4.0
+
+
+def test_a_saved_codec_decodes_as_the_trained_one(trained: tuple[SmallCodec, SmallCodecConfig]) -> None:
+    codec, config = trained
+    loaded = SmallCodec.load(config.output_folder / "small-codec.pt").eval()
+    waveform = torch.randn(2, 1, 200)
+    assert loaded.shape == codec.shape
+    assert torch.equal(loaded.decode(loaded.encode(waveform)), codec.decode(codec.encode(waveform)))
+
+
+def test_a_file_of_another_kind_is_no_small_codec(tmp_path: Path) -> None:
+    torch.save({"kind": "something else"}, tmp_path / "other.pt")
+    with pytest.raises(InputError, match=r"other\.pt: not a small codec"):
+        SmallCodec.load(tmp_path / "other.pt")
+
+
+def test_the_spectral_loss_sees_a_wrong_frequency_and_forgives_a_shift() -> None:
+    time_seconds = torch.arange(200) / 2000.0
+    tone, shifted, higher = (
+        torch.sin(2.0 * torch.pi * frequency_hz * time_seconds + phase).reshape(1, 1, -1)
+        for frequency_hz, phase in ((100.0, 0.0), (100.0, 1.5), (250.0, 0.0))
+    )
+    assert spectral_loss(tone, tone) == 0.0
+    assert spectral_loss(shifted, tone) < 0.5 * spectral_loss(higher, tone)
+    assert time_loss(shifted, tone) > 0.9
+
+
+def test_signal_to_noise_ratio_of_a_tenth_of_the_amplitude_is_twenty_decibels() -> None:
+    original = torch.randn(4, 1, 200)
+    assert signal_to_noise_ratio_db(original * 1.1, original) == pytest.approx(20.0, abs=1e-3)
+
+
+def test_the_shipped_configuration_is_read() -> None:
+    config = read_small_codec_config(CONFIGS / "codec-small.toml")
+    assert config.shape.latent_channels == 16
+    assert config.steps == 6000
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ("[training]\nseed = 1", "output_folder is missing"),
+        ("[training]\noutput_folder = 'a'\nstep = 3", r"\[training\] step is unknown, expected one of batch"),
+        ("[training]\noutput_folder = 'a'\nsteps = 0", r"steps = 0, expected a whole number of at least 1"),
+        ("[training]\noutput_folder = 'a'\nsteps = true", r"steps = True, expected a whole number"),
+        ("[training]\noutput_folder = 'a'\nlearning_rate = nan", r"learning_rate = nan, expected a number"),
+        ("[training]\noutput_folder = 3", "output_folder = 3, expected a folder as text"),
+        ("[codec]\nwidth = 2.5\n[training]\noutput_folder = 'a'", r"\[codec\] width = 2.5, expected a whole"),
+        ("[training]\noutput_folder = 'a'\nshape = 3", r"\[training\] shape is unknown"),
+        ("[optimiser]", "'optimiser' is unknown"),
+        ("codec = 3", "'codec' is a value"),
+        ("[training", "not a TOML file"),
+    ],
+)
+def test_a_wrong_configuration_names_file_and_key(tmp_path: Path, text: str, message: str) -> None:
+    path = tmp_path / "codec.toml"
+    path.write_text(text, encoding="utf-8")
+    with pytest.raises(InputError, match=rf"codec\.toml: .*{message}"):
+        read_small_codec_config(path)

@@ -1,0 +1,1 @@
+"""Waveform codecs whose latents the velocity field can work on instead of samples."""
