@@ -1,0 +1,374 @@
+from __future__ import annotations
+
+import json
+import os
+import pickle
+import shutil
+from pathlib import Path
+
+import numpy as np
+import pandas
+import pytest
+from dataset_samples import small_recording
+
+from haptoflow_training.errors import InputError
+from haptoflow_training.recordings import cluster_dataset_files
+from haptoflow_training.recordings.cluster_dataset import ClusterDataset, open_dataset
+from haptoflow_training.recordings.cluster_dataset_files import DatasetFileError, read_table
+from haptoflow_training.recordings.cluster_dataset_textures import read_texture_list
+from haptoflow_training.recordings.dataset_layout import published_name
+from haptoflow_training.recordings.dataset_writer import (
+    TextureEntry,
+    write_provenance,
+    write_recording,
+    write_texture_list,
+)
+from haptoflow_training.recordings.labels import load_labels
+from haptoflow_training.recordings.recording import Recording
+
+NAMES = ["0_0_20_500_0", "0_135_40_500_0", "66_90_60_1000_1", "0_hand_400_1500_3"]
+KINDS = ("accel", "force", "position")
+
+
+def assert_same(first: Recording, second: Recording) -> None:
+    assert first.identity == second.identity
+    for sensor in ("acceleration_time_seconds", "force_time_seconds", "position_time_seconds"):
+        np.testing.assert_array_equal(getattr(first, sensor), getattr(second, sensor))
+    for sensor in ("acceleration_g", "force_newtons", "position_mm"):
+        np.testing.assert_array_equal(getattr(first, sensor), getattr(second, sensor))
+
+
+@pytest.fixture
+def file_release(tmp_path: Path) -> Path:
+    root = tmp_path / "files"
+    for name in NAMES:
+        write_recording(root, small_recording(name, seconds=0.8))
+    return root
+
+
+def csv_in_place_of_parquet(path: Path) -> pandas.DataFrame:
+    return pandas.read_csv(path)
+
+
+def to_hub_release(root: Path) -> Path:
+    """The same columns, one folder a texture; the table reader of these tests reads CSV under that name."""
+    for path in sorted((root / "sensor_data").glob("*/*.csv")):
+        folder = path.parent / path.stem.split("_")[0]
+        folder.mkdir(exist_ok=True)
+        path.rename(folder / f"{path.stem}.parquet")
+    return root
+
+
+def sensor_file(root: Path, kind: str, name: str = NAMES[1]) -> Path:
+    return root / "sensor_data" / kind / f"{name}.csv"
+
+
+def only_problem(dataset: ClusterDataset) -> DatasetFileError:
+    """The one problem that loading every recording meets."""
+    found = []
+    for entry in dataset:
+        try:
+            entry.load()
+        except DatasetFileError as error:
+            found.append(error)
+    assert len(found) == 1
+    return found[0]
+
+
+def test_the_writer_lays_files_and_headers_out_as_the_file_release_does(file_release: Path) -> None:
+    headers = {"accel": "time,X,Y,Z", "force": "time,force", "position": "time,X,Y"}
+    for kind, header in headers.items():
+        for name in NAMES:
+            assert sensor_file(file_release, kind, name).read_text().splitlines()[0] == header
+    assert len(list(file_release.rglob("*.*"))) == 3 * len(NAMES)
+
+
+def test_what_is_written_comes_back_without_loss_from_the_file_release(file_release: Path) -> None:
+    dataset = open_dataset(file_release)
+    assert not dataset.problems
+    assert sorted(entry.identity.name for entry in dataset) == sorted(NAMES)
+    for entry in dataset:
+        assert_same(entry.load(), small_recording(entry.identity.name, seconds=0.8))
+
+
+def test_what_is_written_comes_back_without_loss_from_the_hub_release(file_release: Path) -> None:
+    dataset = open_dataset(to_hub_release(file_release), table_reader=csv_in_place_of_parquet)
+    assert not dataset.problems and len(dataset) == len(NAMES)
+    assert dataset.recordings[0].acceleration_path.parent.name == "0"
+    for entry in dataset:
+        assert_same(entry.load(), small_recording(entry.identity.name, seconds=0.8))
+
+
+def test_parquet_without_an_engine_names_the_remedy(
+    file_release: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def no_engine(path: Path) -> None:
+        raise ImportError("Unable to find a usable engine")
+
+    monkeypatch.setattr(pandas, "read_parquet", no_engine)
+    entry = open_dataset(to_hub_release(file_release)).recordings[0]
+    with pytest.raises(InputError, match=r"parquet.*pip install pyarrow"):
+        entry.load()
+
+
+def test_values_that_are_not_quantised_lose_nothing_that_a_sensor_could_tell(tmp_path: Path) -> None:
+    recording = small_recording(seconds=0.5)
+    exact = recording.acceleration_g * np.pi
+    write_recording(tmp_path, Recording(**{**recording.__dict__, "acceleration_g": exact}))
+    np.testing.assert_allclose(open_dataset(tmp_path).recordings[0].load().acceleration_g, exact, rtol=1e-8)
+
+
+def test_a_recording_that_is_not_finite_is_not_written(tmp_path: Path) -> None:
+    recording = small_recording(seconds=0.5)
+    recording.position_mm[3, 0] = np.inf
+    with pytest.raises(ValueError, match="position holds values that are not finite"):
+        write_recording(tmp_path, recording)
+    assert not list(tmp_path.rglob("*position*/*"))
+
+
+def test_a_file_appears_by_renaming_a_whole_one(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    renamed: list[str] = []
+    replace = os.replace
+
+    def noting(source: Path, target: Path) -> None:
+        assert source.name.startswith(".") and not target.exists()
+        assert source.read_text().endswith("\n")
+        renamed.append(target.name)
+        replace(source, target)
+
+    monkeypatch.setattr(os, "replace", noting)
+    write_recording(tmp_path, small_recording(seconds=0.5))
+    assert renamed == ["0_90_40_500_0.csv"] * 3
+
+
+def test_a_file_half_written_is_never_seen(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    write_recording(tmp_path, small_recording(seconds=0.5))
+    before = {path: path.read_bytes() for path in tmp_path.rglob("*.csv")}
+
+    def half(self: Path, data: bytes) -> None:
+        assert self.name.startswith("."), "a reader could see this file"
+        with self.open("wb") as file:
+            file.write(data[: len(data) // 2])
+        raise OSError("No space left on device")
+
+    monkeypatch.setattr(Path, "write_bytes", half)
+    with pytest.raises(OSError, match="No space"):
+        write_recording(tmp_path, small_recording(seconds=0.6))
+    assert {path: path.read_bytes() for path in tmp_path.rglob("*.csv")} == before
+
+
+@pytest.mark.parametrize(
+    ("kind", "text", "found"),
+    [
+        ("accel", "", "empty file"),
+        ("accel", "t,x,y,z\n0,0,0,0\n1,0,0,0\n", "columns t,x,y,z"),
+        ("accel", "time,X,Y\n0,0,0\n1,0,0\n", "columns time,X,Y"),
+        ("force", "time,force\n", "0 rows"),
+        ("force", "time,force\n0,0.5\n0.1,\n", "no number in row 3, column force"),
+        ("force", "time,force\n0,0.5\nnan,0.5\n", "no number in row 3, column time"),
+        ("force", "time,force\n0,0.5\n1,inf\n", "no number in row 3, column force"),
+        ("force", "time,force\n0,0.5\n0.1,soft\n", "text among the numbers"),
+        ("position", "time,X,Y\n0,0,0\n0.2,1,0\n0.1,2,0\n", "time runs back at row 4"),
+        ("position", "time,X,Y\n0,0,0\n0,1,0\n0,2,0\n", "2 of 3 time stamps repeat"),
+        ("accel", "\x00\x01\x02" * 40, ""),
+    ],
+)
+def test_a_broken_file_is_named_with_what_was_expected(
+    file_release: Path, kind: str, text: str, found: str
+) -> None:
+    path = sensor_file(file_release, kind)
+    path.write_text(text)
+    problem = only_problem(open_dataset(file_release))
+    assert problem.path == path
+    assert found in problem.found
+    assert problem.expected
+
+
+def test_a_stray_repeated_time_stamp_is_dropped(file_release: Path) -> None:
+    path = sensor_file(file_release, "accel")
+    lines = path.read_text().splitlines()
+    path.write_text("\n".join([*lines[:100], lines[99], *lines[100:]]) + "\n")
+    entry = next(entry for entry in open_dataset(file_release) if entry.identity.name == NAMES[1])
+    assert_same(entry.load(), small_recording(NAMES[1], seconds=0.8))
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_a_missing_sibling_is_a_problem_and_the_rest_stays_readable(file_release: Path, kind: str) -> None:
+    sensor_file(file_release, kind).unlink()
+    dataset = open_dataset(file_release)
+    assert [problem.path for problem in dataset.problems] == [sensor_file(file_release, kind)]
+    assert dataset.problems[0].found == "missing file"
+    assert len(dataset) == len(NAMES) - 1
+
+
+def test_a_missing_sensor_folder_is_a_problem_for_each_recording(file_release: Path) -> None:
+    shutil.rmtree(file_release / "sensor_data" / "position")
+    dataset = open_dataset(file_release)
+    assert len(dataset) == 0 and len(dataset.problems) == len(NAMES)
+
+
+def test_a_file_of_another_name_is_a_problem_and_hidden_files_are_not(file_release: Path) -> None:
+    folder = file_release / "sensor_data" / "accel"
+    (folder / "readme.csv").write_text("hello")
+    (folder / ".123.0_0_20_500_0.csv").write_text("unfinished")
+    problems = open_dataset(file_release).problems
+    assert [problem.path.name for problem in problems] == ["readme.csv"]
+
+
+def test_a_folder_without_sensor_data_is_refused(tmp_path: Path) -> None:
+    with pytest.raises(InputError, match="expected the folder that holds sensor_data"):
+        open_dataset(tmp_path)
+
+
+def test_recordings_come_sorted_and_are_read_one_at_a_time(file_release: Path) -> None:
+    loaded = []
+
+    def noting(path: Path) -> pandas.DataFrame:
+        loaded.append(path.name)
+        return read_table(path)
+
+    dataset = open_dataset(file_release, table_reader=noting)
+    assert not loaded
+    assert [entry.identity.texture_id for entry in dataset] == [0, 0, 0, 66]
+    dataset.recordings[3].load()
+    assert loaded == ["66_90_60_1000_1.csv"] * 3
+
+
+def test_recording_files_travel_to_another_process_and_so_do_their_errors(file_release: Path) -> None:
+    entry = open_dataset(file_release).recordings[0]
+    assert pickle.loads(pickle.dumps(entry)) == entry
+    error = DatasetFileError(Path("a.csv"), "empty file", "columns")
+    again = pickle.loads(pickle.dumps(error))
+    assert (again.path, again.found, str(again)) == (error.path, error.found, str(error))
+
+
+def test_the_texture_list_is_written_and_read_back(tmp_path: Path) -> None:
+    entries = [TextureEntry(0, "wood", {"Friction coefficient": 0.22}), TextureEntry(7, "metal mesh", {})]
+    write_texture_list(tmp_path, entries)
+    assert list(read_texture_list(tmp_path).values()) == entries
+
+
+@pytest.mark.parametrize(
+    ("headings", "title_rows"),
+    [
+        (["id", "name", "static friction", "kinetic friction"], 0),
+        (["ID", "Texture Name", "Static friction coefficient", "Kinetic Friction Coefficient"], 0),
+        (["No.", "Material", "μ static friction", "μ kinetic friction"], 2),
+    ],
+)
+def test_a_texture_list_is_understood_with_other_headings(
+    tmp_path: Path, headings: list[str], title_rows: int
+) -> None:
+    rows = [[None] * 4] * title_rows + [
+        headings, [38, " Granite ", 0.4, 0.3], [48, "Concrete", None, 0.5], [None] * 4
+    ]
+    pandas.DataFrame(rows).to_excel(tmp_path / "texture_list.xlsx", header=False, index=False)
+    found = read_texture_list(tmp_path)
+    assert {key: entry.name for key, entry in found.items()} == {38: "Granite", 48: "Concrete"}
+    assert sorted(found[38].friction_coefficients.values()) == [0.3, 0.4]
+    assert list(found[48].friction_coefficients.values()) == [0.5]
+
+
+def test_without_a_texture_list_the_published_names_serve(file_release: Path) -> None:
+    assert open_dataset(file_release).textures == {0: "Nyatoh", 66: "Steel"}
+    known = {38: "Granite", 48: "Concrete", 49: "HDPE", 64: "Carbon fiber", 73: "Titanium", 81: "Sandpaper"}
+    known |= {82: "Alumina", 86: "Earth style porcelain", 87: "Jute", 101: "Seal skin", 104: "cloth 104"}
+    assert {texture_id: published_name(texture_id) for texture_id in known} == known
+
+
+def test_a_damaged_texture_list_is_a_problem_and_not_the_end(file_release: Path) -> None:
+    (file_release / "texture_list.xlsx").write_bytes(b"not a workbook")
+    dataset = open_dataset(file_release)
+    assert [problem.path.name for problem in dataset.problems] == ["texture_list.xlsx"]
+    assert dataset.textures[66] == "Steel"
+
+
+def test_labels_are_found_by_id_and_by_the_name_in_the_texture_list(tmp_path: Path) -> None:
+    for name in ("0_0_20_500_0", "1_0_20_500_0", "105_0_20_500_0"):
+        write_recording(tmp_path, small_recording(name, seconds=0.5))
+    write_texture_list(
+        tmp_path,
+        [
+            TextureEntry(0, "Nyatoh", {}),
+            TextureEntry(1, "Oak", {}),
+            TextureEntry(105, "cotton-broadcloth", {}),
+        ],
+    )
+    dataset = open_dataset(tmp_path, load_labels())
+    assert [(entry.identity.texture_id, entry.label) for entry in dataset] == [(0, "wood"), (105, "cotton")]
+    assert [entry.identity.texture_id for entry in dataset.unlabelled] == [1]
+
+
+def test_a_synthetic_folder_finds_its_labels_by_name_because_its_ids_are_its_own(tmp_path: Path) -> None:
+    for name in ("0_0_20_500_0", "38_0_20_500_0"):
+        write_recording(tmp_path, small_recording(name, seconds=0.5))
+    write_texture_list(tmp_path, [TextureEntry(0, "stone", {}), TextureEntry(38, "carpet", {})])
+    write_provenance(
+        tmp_path, source="synthetic recorder", licence="MIT", synthetic=True, details={"seed": 3}
+    )
+    dataset = open_dataset(tmp_path, load_labels())
+    assert dataset.labels == ["stone"] and len(dataset.unlabelled) == 1
+    assert open_dataset(tmp_path).labels == ["stone", "carpet"]
+    assert json.loads((tmp_path / "provenance.json").read_text())["seed"] == 3
+
+
+def test_a_folder_without_provenance_is_the_published_data_set_with_its_licence(file_release: Path) -> None:
+    dataset = open_dataset(file_release)
+    assert not dataset.synthetic
+    assert dataset.provenance["licence"] == "CC BY 4.0"
+
+
+def test_the_labels_file_of_the_data_set_covers_the_ten_groups() -> None:
+    labels = load_labels()
+    categories = {definition.category for definition in labels.definitions}
+    assert categories == {
+        "wood", "stone", "polymer", "metal", "glass", "composite", "ceramic", "biodegradable", "cloth"
+    }  # fmt: skip
+    assert len(set(labels.names)) == len(labels.names)
+
+
+GOOD_LABEL = (
+    '[[label]]\nname = "wood"\ncategory = "wood"\ntextures = [0]\n'
+    "stiffness_newtons_per_metre = 1200.0\nfriction_coefficient = 0.22\n"
+)
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ("", r"no \[\[label\]\] entries"),
+        ("[[label", "not valid TOML"),
+        (GOOD_LABEL.replace("textures = [0]\n", ""), "label 1: key 'textures' is missing"),
+        (GOOD_LABEL.replace("[0]", "[true]"), "label 1: key 'textures'"),
+        (GOOD_LABEL.replace("1200.0", "-1"), "label 1: key 'stiffness_newtons_per_metre' is -1"),
+        (GOOD_LABEL + "colour = 3\n", "label 1: unknown key 'colour'"),
+        (GOOD_LABEL + GOOD_LABEL, "label 'wood' occurs twice"),
+        (
+            GOOD_LABEL + GOOD_LABEL.replace('name = "wood"', 'name = "oak"'),
+            "texture 0 belongs to 'wood' and to 'oak'",
+        ),
+    ],
+)
+def test_a_wrong_labels_file_is_refused_by_entry_and_key(tmp_path: Path, text: str, words: str) -> None:
+    path = tmp_path / "labels.toml"
+    path.write_text(text)
+    with pytest.raises(InputError, match=words):
+        load_labels(path)
+
+
+def test_a_selection_of_labels_keeps_the_order_asked_for() -> None:
+    assert load_labels().select(["metal", "wood"]).names == ["metal", "wood"]
+    with pytest.raises(InputError, match="label 'cheese' is not defined"):
+        load_labels().select(["cheese"])
+
+
+def test_an_unreadable_file_is_a_named_problem(file_release: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    def refuse(path: Path) -> None:
+        raise PermissionError(13, "Permission denied")
+
+    with pytest.raises(DatasetFileError, match="cannot be read \\(Permission denied\\)"):
+        cluster_dataset_files.read_sensor(
+            sensor_file(file_release, "force"), cluster_dataset_files.SensorKind(
+                "force", ("time", "force")
+            ), refuse
+        )

@@ -1,0 +1,108 @@
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import pytest
+from dataset_samples import small_recording
+
+from haptoflow_training.cli import main
+from haptoflow_training.recordings.cluster_dataset import open_dataset
+from haptoflow_training.recordings.dataset_inspection import inspect_dataset
+from haptoflow_training.recordings.dataset_writer import TextureEntry, write_recording, write_texture_list
+
+NAMES = ["0_0_20_500_0", "0_0_20_500_1", "0_90_40_1000_0", "66_0_20_500_0", "66_hand_400_1500_3"]
+
+
+@pytest.fixture
+def root(tmp_path: Path) -> Path:
+    for name in NAMES:
+        write_recording(tmp_path, small_recording(name, seconds=0.8))
+    write_texture_list(tmp_path, [TextureEntry(0, "Nyatoh", {}), TextureEntry(66, "Steel", {})])
+    audio = tmp_path / "sensor_data" / "audio"
+    audio.mkdir()
+    (audio / "0_0_20_500_0.wav").write_bytes(b"RIFF")
+    return tmp_path
+
+
+def test_inspect_counts_by_every_part_of_a_name(root: Path) -> None:
+    assert inspect_dataset(open_dataset(root)).counts() == {
+        "protocol": {"hand": 1, "machine": 4},
+        "material": {"Nyatoh": 3, "Steel": 2},
+        "speed_mmps": {"20": 3, "40": 1},
+        "direction_degrees": {"0": 3, "90": 1},
+        "force_millinewtons": {"500": 3, "1000": 1},
+        "repeat": {"0": 3, "1": 1},
+    }
+
+
+def test_inspect_finds_rates_and_irregularity_from_the_time_stamps(root: Path) -> None:
+    clocks = inspect_dataset(open_dataset(root)).clocks
+    assert clocks["acceleration"].rate_hz == pytest.approx(1 / 170e-6, rel=0.01)
+    assert clocks["acceleration"].irregularity == pytest.approx(72 / 170, rel=0.05)
+    assert clocks["force"].rate_hz == pytest.approx(1000.0)
+    assert clocks["position"].rate_hz == pytest.approx(100.0)
+    assert clocks["position"].irregularity == pytest.approx(0.0, abs=1e-6)
+
+
+def test_inspect_lists_coverage_against_the_grid_of_the_folder(root: Path) -> None:
+    assert inspect_dataset(open_dataset(root)).coverage() == [
+        {"material": "Nyatoh", "machine": 3, "machine_grid": 16, "hand": 0},
+        {"material": "Steel", "machine": 1, "machine_grid": 16, "hand": 1},
+    ]
+
+
+def test_inspect_names_missing_and_broken_files_and_still_succeeds(
+    root: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (root / "sensor_data" / "force" / "66_0_20_500_0.csv").unlink()
+    (root / "sensor_data" / "accel" / "0_0_20_500_1.csv").write_text("time,X\n0,1\n1,2\n")
+    assert main(["inspect", str(root)]) == 0
+    printed = capsys.readouterr().out
+    assert "3 recordings" in printed and "2 problems:" in printed
+    assert "66_0_20_500_0.csv: missing file; expected the sibling of accel/66_0_20_500_0.csv" in printed
+    assert "0_0_20_500_1.csv: columns time,X; expected columns time,X,Y,Z" in printed
+
+
+def test_inspect_prints_json_that_holds_the_whole_report(
+    root: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["inspect", str(root), "--json"]) == 0
+    report = json.loads(capsys.readouterr().out)
+    assert report["recordings"] == 5 and report["audio_files"] == 1 and report["problems"] == []
+    assert report["duration_seconds"]["total"] == pytest.approx(4.0, abs=0.01)
+    assert report["provenance"]["licence"] == "CC BY 4.0"
+
+
+def test_inspect_counts_by_label_where_a_labels_file_is_given(
+    root: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    labels = root / "labels.toml"
+    labels.write_text(
+        '[[label]]\nname = "timber"\ncategory = "wood"\ntextures = ["nyatoh"]\n'
+        "stiffness_newtons_per_metre = 1200\nfriction_coefficient = 0.2\n"
+    )
+    assert main(["inspect", str(root), "--labels", str(labels), "--json"]) == 0
+    report = json.loads(capsys.readouterr().out)
+    assert report["counts"]["material"] == {"timber": 3} and report["unlabelled"] == 2
+
+
+def test_inspect_exits_3_where_nothing_is_readable(root: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    for path in (root / "sensor_data" / "accel").iterdir():
+        path.write_text("")
+    assert main(["inspect", str(root)]) == 3
+    assert "no recording could be read; the first problem" in capsys.readouterr().err
+
+
+def test_inspect_exits_3_for_a_folder_that_is_no_data_set(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["inspect", str(tmp_path / "nowhere")]) == 3
+    assert "expected the folder that holds sensor_data" in capsys.readouterr().err
+
+
+def test_inspect_help_teaches_with_examples(capsys: pytest.CaptureFixture[str]) -> None:
+    with pytest.raises(SystemExit) as stop:
+        main(["inspect", "--help"])
+    assert stop.value.code == 0
+    assert "examples:" in capsys.readouterr().out

@@ -1,0 +1,202 @@
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from dataset_samples import small_recording
+
+from haptoflow_training.errors import InputError
+from haptoflow_training.preprocessing import filters, motion
+from haptoflow_training.preprocessing.padding import pad_recording
+from haptoflow_training.preprocessing.pipeline import PreparedRecording, preprocess_recording
+from haptoflow_training.preprocessing.settings import PreprocessingSettings
+from haptoflow_training.recordings.recording import STANDARD_GRAVITY_MPS2, Recording
+
+SETTINGS = PreprocessingSettings()
+
+
+def tone_recording(hertz: float, amplitude_g: float = 0.5, seconds: float = 2.0) -> Recording:
+    """A tone on X, gravity on Z, sampled at its true, irregular time stamps."""
+    recording = small_recording(seconds=seconds)
+    time = recording.acceleration_time_seconds
+    tone = amplitude_g * np.sin(2 * np.pi * hertz * time)
+    acceleration = np.column_stack([tone, np.zeros_like(tone), np.full_like(tone, -1.0)])
+    return replace(recording, acceleration_g=acceleration)
+
+
+@pytest.mark.parametrize("hertz", [40.0, 150.0, 400.0])
+def test_a_tone_keeps_its_frequency_and_amplitude_in_metres_per_second_squared(hertz: float) -> None:
+    prepared = preprocess_recording(tone_recording(hertz), SETTINGS)
+    time = 0.0005 * np.arange(len(prepared.waveform_mps2))
+    basis = np.column_stack([np.sin(2 * np.pi * hertz * time), np.cos(2 * np.pi * hertz * time)])
+    weights, residual, *_ = np.linalg.lstsq(basis, prepared.waveform_mps2.astype(np.float64), rcond=None)
+    assert np.hypot(*weights) == pytest.approx(0.5 * STANDARD_GRAVITY_MPS2, rel=0.02)
+    assert residual[0] / np.sum(prepared.waveform_mps2**2) < 1e-3
+
+
+def test_the_waveform_stands_in_step_with_the_true_time_stamps() -> None:
+    recording = tone_recording(100.0)
+    prepared = preprocess_recording(recording, SETTINGS)
+    start = max(recording.acceleration_time_seconds[0], 0.0) + 0.3
+    time = start + 0.0005 * np.arange(len(prepared.waveform_mps2))
+    expected = 0.5 * STANDARD_GRAVITY_MPS2 * np.sin(2 * np.pi * 100.0 * time)
+    assert np.abs(prepared.waveform_mps2 - expected)[100:-100].max() < 0.05 * expected.max()
+
+
+def test_a_constant_acceleration_such_as_gravity_leaves_nothing() -> None:
+    prepared = preprocess_recording(tone_recording(50.0, amplitude_g=0.0), SETTINGS)
+    assert np.abs(prepared.waveform_mps2).max() < 1e-6
+
+
+@pytest.mark.parametrize("hertz", [1100.0, 1300.0])
+def test_a_tone_above_the_band_leaves_less_than_half_a_percent(hertz: float) -> None:
+    prepared = preprocess_recording(tone_recording(hertz), SETTINGS)
+    assert np.sqrt(2 * np.mean(prepared.waveform_mps2**2)) < 0.005 * 0.5 * STANDARD_GRAVITY_MPS2
+
+
+def test_decimation_is_flat_to_900_hz_and_60_db_down_at_nyquist() -> None:
+    time = np.arange(16000) / 8000.0
+
+    def gain_db(hertz: float) -> float:
+        out = filters.decimate(np.sin(2 * np.pi * hertz * time), 8000, 2000)
+        assert len(out) == 4000
+        return float(20 * np.log10(np.sqrt(2 * np.mean(out[400:-400] ** 2)) + 1e-12))
+
+    assert max(abs(gain_db(hertz)) for hertz in (20.0, 300.0, 700.0, 900.0)) < 0.05
+    assert gain_db(999.0) < -60.0
+    assert gain_db(1101.0) < -60.0
+
+
+def test_0_3_seconds_are_trimmed_from_both_ends() -> None:
+    recording = small_recording(seconds=2.0)
+    full = preprocess_recording(recording, replace(SETTINGS, trim_seconds=0.0))
+    trimmed = preprocess_recording(recording, SETTINGS)
+    assert len(full.waveform_mps2) - len(trimmed.waveform_mps2) == pytest.approx(1200, abs=1)
+
+
+def test_the_motion_of_a_straight_pass_is_its_speed_along_its_direction() -> None:
+    prepared = preprocess_recording(small_recording("0_45_40_1000_0", seconds=2.0), SETTINGS)
+    steady = prepared.motion[200:-200]
+    np.testing.assert_allclose(steady[:, :2], 0.04 / np.sqrt(2), atol=0.0015)
+    np.testing.assert_allclose(steady[:, 2], 1.0, atol=0.01)
+
+
+def test_velocity_follows_a_hand_at_3_hertz_within_2_percent() -> None:
+    time = np.arange(400) / 100.0
+    position = np.column_stack([60.0 * np.sin(2 * np.pi * 3 * time), np.zeros(400)])
+    grid = np.arange(1000, 7000) / 2000.0
+    found = motion.velocity_mps(time, position, grid, 0.09)[:, 0]
+    true = 0.06 * 2 * np.pi * 3 * np.cos(2 * np.pi * 3 * grid)
+    assert np.abs(found - true).max() < 0.02 * true.max()
+
+
+def test_velocity_is_zero_at_rest_before_and_after_a_pass() -> None:
+    time = np.arange(300) / 100.0
+    position = np.column_stack([40.0 * np.clip(time - 1.0, 0.0, 1.0), np.zeros(300)])
+    found = motion.velocity_mps(time, position, np.array([0.0, 0.5, 1.5, 2.5, 2.99]), 0.09)[:, 0]
+    np.testing.assert_allclose(found, [0.0, 0.0, 0.04, 0.0, 0.0], atol=1e-9)
+
+
+def test_force_steps_of_a_load_cell_are_smoothed_without_delay_and_never_negative() -> None:
+    time = np.arange(6000) / 6000.0
+    held = np.floor(time * 80) / 80
+    grid = np.arange(2000) / 2000.0
+    found = motion.force_newtons(time, held, grid, 50.0)
+    np.testing.assert_allclose(found[200:-200], grid[200:-200] - 0.5 / 80, atol=0.002)
+    assert motion.force_newtons(time, -held, grid, 50.0).min() >= 0.0
+
+
+def test_everything_prepared_is_finite_single_precision_and_of_one_length() -> None:
+    prepared = preprocess_recording(small_recording("0_hand_400_1500_3"), SETTINGS)
+    assert prepared.waveform_mps2.dtype == prepared.motion.dtype == np.float32
+    assert prepared.motion.shape == (len(prepared.waveform_mps2), 3)
+    assert np.all(np.isfinite(prepared.waveform_mps2)) and np.all(np.isfinite(prepared.motion))
+
+
+def _broken(recording: Recording, how: str) -> Recording:
+    time = recording.acceleration_time_seconds.copy()
+    acceleration = np.array(recording.acceleration_g)
+    if how == "time":
+        time[500] = time[499]
+        return replace(recording, acceleration_time_seconds=time)
+    if how == "nan":
+        acceleration[7, 1] = np.nan
+        return replace(recording, acceleration_g=acceleration)
+    if how == "gap":
+        keep = (time < 0.8) | (time > 0.9)
+        return replace(recording, acceleration_time_seconds=time[keep], acceleration_g=acceleration[keep])
+    if how == "apart":
+        return replace(recording, force_time_seconds=recording.force_time_seconds + 100.0)
+    return small_recording(seconds=0.65)
+
+
+@pytest.mark.parametrize(
+    ("how", "words"),
+    [
+        ("time", "acceleration time stops rising after sample 499"),
+        ("nan", "not finite"),
+        ("gap", "acceleration misses 0.1"),
+        ("apart", "three sensors of the same pass"),
+        ("short", "left after trimming"),
+    ],
+)
+def test_a_recording_that_cannot_be_prepared_is_refused_by_name(how: str, words: str) -> None:
+    with pytest.raises(InputError, match=f"0_90_40_500_0.*{words}"):
+        preprocess_recording(_broken(small_recording(), how), SETTINGS)
+
+
+@pytest.mark.parametrize(
+    "wrong",
+    [
+        {"high_rate_hz": 7000},
+        {"padding_probability": 1.5},
+        {"low_pass_hz": 5000.0},
+        {"validation_share": 0.4},
+    ],
+)
+def test_settings_out_of_range_are_refused_by_their_key(wrong: dict[str, float]) -> None:
+    with pytest.raises(InputError, match=next(iter(wrong))):
+        PreprocessingSettings(**wrong)
+
+
+def _loud(samples: int = 2000) -> PreparedRecording:
+    moving = np.tile(np.array([0.04, 0.03, 0.5], dtype=np.float32), (samples, 1))
+    return PreparedRecording(np.ones(samples, dtype=np.float32), moving)
+
+
+def test_padding_puts_whole_silent_segments_before_and_after_with_the_probability_asked_for() -> None:
+    padded = [pad_recording(_loud(), f"0_90_40_500_{number}", SETTINGS, 1) for number in range(1000)]
+    before = np.array([entry.padding_before for entry in padded])
+    after = np.array([entry.padding_after for entry in padded])
+    for found in (before, after):
+        assert set(found) == {0, 200, 400, 600}
+        assert (found > 0).mean() == pytest.approx(0.3, abs=0.05)
+    assert (before != after).any()
+
+
+def test_padding_is_silent_without_velocity_and_fades_into_the_recording_in_10_ms() -> None:
+    settings = replace(SETTINGS, padding_probability=1.0)
+    forces = set()
+    velocity_fade = (0.5 - 0.5 * np.cos(np.pi * (np.arange(20) + 0.5) / 20))[:, None] * [0.04, 0.03]
+    for number in range(60):
+        padded = pad_recording(_loud(), f"0_90_40_500_{number}", settings, 1)
+        wave, moving = padded.prepared.waveform_mps2, padded.prepared.motion
+        front, back = padded.padding_before, padded.padding_after
+        assert len(wave) == len(moving) == 2000 + front + back
+        silent = np.r_[0:front, len(wave) - back : len(wave)]
+        assert not np.any(wave[silent]) and not np.any(moving[silent, :2])
+        assert np.all(np.diff(wave[front : front + 20]) > 0) and np.all(wave[front + 20 : -back - 20] == 1.0)
+        assert np.abs(np.diff(wave)).max() < 0.09
+        np.testing.assert_allclose(moving[front : front + 20, :2], velocity_fade, atol=1e-6)
+        forces.add((round(float(moving[0, 2]), 3), round(float(moving[front - 1, 2]), 3)))
+    assert forces == {(0.5, 0.5), (0.0, 0.5), (0.0, 0.0)}
+
+
+def test_padding_depends_on_seed_and_name_alone() -> None:
+    def drawn(seed: int) -> list[tuple[int, int]]:
+        found = [pad_recording(_loud(), f"0_90_40_500_{number}", SETTINGS, seed) for number in range(40)]
+        return [(entry.padding_before, entry.padding_after) for entry in found]
+
+    assert drawn(1) == drawn(1)
+    assert drawn(1) != drawn(2)

@@ -1,0 +1,259 @@
+from __future__ import annotations
+
+import errno
+import json
+import os
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+from dataset_samples import small_recording
+
+from haptoflow_training.errors import InputError
+from haptoflow_training.preprocessing import preparation
+from haptoflow_training.preprocessing.pipeline import preprocess_recording
+from haptoflow_training.preprocessing.preparation import prepare_store
+from haptoflow_training.preprocessing.settings import PreprocessingSettings
+from haptoflow_training.preprocessing.split import SPLITS
+from haptoflow_training.preprocessing.store import SegmentStore
+from haptoflow_training.recordings.recording import Recording, RecordingIdentity
+
+SETTINGS = PreprocessingSettings()
+LABELS = ["stone", "wood"]
+
+
+@dataclass(frozen=True)
+class OnDemand:
+    """A recording that is made in the worker that prepares it."""
+
+    name: str
+    label: str
+
+    @property
+    def identity(self) -> RecordingIdentity:
+        return RecordingIdentity.parse(self.name)
+
+    def load(self) -> Recording:
+        return small_recording(self.name, self.label, seconds=1.2)
+
+
+def some_recordings(directions: tuple[int, ...] = (0, 90, 180), repeats: int = 2) -> list[Recording]:
+    machine = [
+        small_recording(f"{texture}_{direction}_{speed}_500_{repeat}", LABELS[texture], seconds=1.2)
+        for texture in (0, 1)
+        for direction in directions
+        for speed in (20, 40)
+        for repeat in range(repeats)
+    ]
+    return machine + [small_recording(f"1_hand_{100 + n}_800_{n}", "wood", seconds=1.2) for n in range(4)]
+
+
+@pytest.fixture(scope="module")
+def store(tmp_path_factory: pytest.TempPathFactory) -> SegmentStore:
+    out = tmp_path_factory.mktemp("prepared") / "store"
+    return prepare_store(
+        some_recordings(), LABELS, out, SETTINGS, seed=4, progress=False, provenance={"licence": "MIT"}
+    )
+
+
+def test_a_store_opened_again_is_the_store_that_was_written(store: SegmentStore) -> None:
+    again = SegmentStore.open(store.path)
+    assert again.recordings == store.recordings and again.settings == SETTINGS
+    assert again.labels == LABELS and again.provenance == {"licence": "MIT"} and again.seed == 4
+    np.testing.assert_array_equal(again.waveform, store.waveform)
+    with pytest.raises(ValueError, match="read-only"):
+        again.waveform[0] = 1.0
+
+
+def test_a_stored_recording_is_what_preprocessing_made_of_it_in_units_of_the_peak(
+    store: SegmentStore
+) -> None:
+    for recording, stored in zip(some_recordings(), store.recordings, strict=True):
+        prepared = preprocess_recording(recording, SETTINGS)
+        inside = slice(stored.recorded_samples.start + 20, stored.recorded_samples.stop - 20)
+        np.testing.assert_allclose(
+            store.waveform[inside] * store.peak_mps2, prepared.waveform_mps2[20:-20], rtol=1e-5, atol=1e-6
+        )
+        np.testing.assert_array_equal(store.motion[inside], prepared.motion[20:-20])
+        assert stored.name == recording.identity.name and stored.label == recording.label
+        assert stored.label_index == LABELS.index(stored.label)
+        assert stored.peak_mps2 == pytest.approx(np.abs(prepared.waveform_mps2).max())
+
+
+def test_recordings_lie_one_behind_the_other_and_fill_the_arrays(store: SegmentStore) -> None:
+    expected = 0
+    for stored in store.recordings:
+        assert stored.start == expected
+        expected += stored.length
+    assert store.waveform.shape == (expected,) and store.motion.shape == (expected, 3)
+    assert any(stored.padding_before for stored in store.recordings)
+
+
+def test_the_peak_is_the_80th_percentile_of_the_training_recordings_peaks(store: SegmentStore) -> None:
+    peaks = [stored.peak_mps2 for stored in store.split("train")]
+    assert store.peak_mps2 == pytest.approx(np.percentile(peaks, 80.0))
+    header = json.loads((store.path / "store.json").read_text())
+    assert header["normalisation"] == {"unit": "m/s^2", "peak_mps2": store.peak_mps2}
+    assert header["sample_rate_hz"] == 2000
+
+
+def test_every_recording_is_in_one_split_and_all_splits_occur(store: SegmentStore) -> None:
+    names = [{stored.name for stored in store.split(split)} for split in SPLITS]
+    assert all(names)
+    assert sum(map(len, names)) == len(set.union(*names)) == len(store.recordings)
+
+
+def test_no_window_of_training_touches_a_sample_of_another_split(store: SegmentStore) -> None:
+    touched = {}
+    for split in SPLITS:
+        starts, owners = store.window_starts(split, 400, 37)
+        assert len(starts)
+        mask = np.zeros(len(store.waveform), dtype=bool)
+        mask[(starts[:, None] + np.arange(400)).ravel()] = True
+        touched[split] = mask
+        assert {store.recordings[index].split for index in owners} == {split}
+    assert not np.any(touched["train"] & touched["validation"])
+    assert not np.any(touched["train"] & touched["test"])
+    assert not np.any(touched["validation"] & touched["test"])
+
+
+def test_no_pass_over_a_track_of_the_surface_is_in_two_splits(store: SegmentStore) -> None:
+    track = {}
+    for stored in store.recordings:
+        if stored.protocol == "machine":
+            key = (stored.texture_id, stored.direction_degrees, stored.speed_mmps, stored.force_millinewtons)
+            assert track.setdefault(key, stored.split) == stored.split
+
+
+def test_a_recording_keeps_its_split_and_its_silence_when_others_are_added(
+    store: SegmentStore, tmp_path: Path
+) -> None:
+    more = some_recordings(directions=(0, 45, 90, 180))[::-1]
+    larger = prepare_store(more, LABELS, tmp_path / "larger", SETTINGS, seed=4, progress=False)
+    found = {stored.name: stored for stored in larger.recordings}
+    assert len(found) > len(store.recordings)
+    for stored in store.recordings:
+        other = found[stored.name]
+        assert (stored.split, stored.padding_before, stored.padding_after, stored.length) == (
+            (other.split, other.padding_before, other.padding_after, other.length)
+        )
+
+
+def test_held_out_directions_and_speeds_land_in_the_test_split(tmp_path: Path) -> None:
+    settings = replace(SETTINGS, held_out_directions=(90,), held_out_speeds_mmps=(40,))
+    store = prepare_store(some_recordings(), LABELS, tmp_path / "store", settings, seed=4, progress=False)
+    held_out = [one for one in store.recordings if one.direction_degrees == 90 or one.speed_mmps == 40]
+    assert held_out and {one.split for one in held_out} == {"test"}
+    assert store.split("train")
+
+
+def test_two_workers_make_the_same_store_as_one(tmp_path: Path) -> None:
+    entries = [OnDemand(f"1_{direction}_40_500_0", "wood") for direction in range(0, 360, 45)]
+    alone = prepare_store(entries, LABELS, tmp_path / "one", SETTINGS, seed=2, progress=False)
+    shared = prepare_store(entries, LABELS, tmp_path / "two", SETTINGS, seed=2, progress=False, workers=2)
+    for name in ("store.json", "waveform.f32", "motion.f32"):
+        assert (alone.path / name).read_bytes() == (shared.path / name).read_bytes()
+
+
+def test_a_broken_recording_is_skipped_with_its_reason_and_the_rest_is_kept(tmp_path: Path) -> None:
+    good, bad = small_recording("1_0_20_500_0", seconds=1.2), small_recording("1_0_30_500_0", seconds=1.2)
+    bad.force_newtons[3] = np.nan
+    store = prepare_store([bad, good], LABELS, tmp_path / "store", SETTINGS, progress=False)
+    assert [stored.name for stored in store.recordings] == ["1_0_20_500_0"]
+    assert [skipped.name for skipped in store.skipped] == ["1_0_30_500_0"]
+    assert "force holds values that are not finite" in store.skipped[0].reason
+
+
+def test_nothing_usable_is_an_error_that_names_the_first_problem(tmp_path: Path) -> None:
+    with pytest.raises(
+        InputError, match=r"no recording could be prepared \(1 were skipped.*1_0_20_500_0.*trimming"
+    ):
+        prepare_store(
+            [small_recording("1_0_20_500_0", seconds=0.65)], LABELS, tmp_path / "s", SETTINGS, progress=False
+        )
+    assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.parametrize(
+    ("names", "label", "words"),
+    [
+        (["1_0_20_500_0"] * 2, "wood", "came twice"),
+        (["1_0_20_500_0"], "cheese", "label 'cheese'; expected one of stone"),
+    ],
+)
+def test_a_name_given_twice_or_an_unknown_label_is_refused(
+    names: list[str], label: str, words: str, tmp_path: Path
+) -> None:
+    with pytest.raises(InputError, match=words):
+        prepare_store(
+            (OnDemand(name, label) for name in names), LABELS, tmp_path / "store", SETTINGS, progress=False
+        )
+
+
+def test_a_full_disk_is_an_input_error_and_leaves_the_older_store_as_it_was(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    out = tmp_path / "store"
+    prepare_store([OnDemand("1_0_20_500_0", "wood")], LABELS, out, SETTINGS, progress=False)
+    before = {path.name: path.read_bytes() for path in out.iterdir()}
+
+    def refuse(*_: object) -> None:
+        raise OSError(errno.ENOSPC, "No space left on device")
+
+    monkeypatch.setattr(preparation, "_append", refuse)
+    with pytest.raises(InputError, match="No space left on device; make room"):
+        prepare_store([OnDemand("1_0_30_500_0", "wood")], LABELS, out, SETTINGS, progress=False)
+    assert {path.name: path.read_bytes() for path in out.iterdir()} == before
+    assert [path.name for path in tmp_path.iterdir()] == ["store"]
+
+
+def test_a_rename_that_fails_puts_the_older_store_back(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    out = tmp_path / "store"
+    prepare_store([OnDemand("1_0_20_500_0", "wood")], LABELS, out, SETTINGS, progress=False)
+    rename = os.replace
+
+    def refuse_the_new(source: Path, target: Path) -> None:
+        if source.name.endswith(".unfinished"):
+            raise PermissionError(errno.EACCES, "Permission denied")
+        rename(source, target)
+
+    monkeypatch.setattr(os, "replace", refuse_the_new)
+    with pytest.raises(InputError, match="Permission denied"):
+        prepare_store([OnDemand("1_0_30_500_0", "wood")], LABELS, out, SETTINGS, progress=False)
+    assert [stored.name for stored in SegmentStore.open(out).recordings] == ["1_0_20_500_0"]
+    assert [path.name for path in tmp_path.iterdir()] == ["store"]
+
+
+def test_an_older_store_is_replaced_but_a_folder_of_other_files_is_not(tmp_path: Path) -> None:
+    out = tmp_path / "store"
+    prepare_store([OnDemand("1_0_20_500_0", "wood")], LABELS, out, SETTINGS, progress=False)
+    newer = prepare_store([OnDemand("1_0_30_500_0", "wood")], LABELS, out, SETTINGS, progress=False)
+    assert [stored.name for stored in newer.recordings] == ["1_0_30_500_0"]
+    assert [path.name for path in tmp_path.iterdir()] == ["store"]
+    (out / "notes.txt").write_text("mine")
+    with pytest.raises(InputError, match="holds files that are not a store"):
+        prepare_store([OnDemand("1_0_20_500_0", "wood")], LABELS, out, SETTINGS, progress=False)
+    assert (out / "notes.txt").read_text() == "mine"
+
+
+@pytest.mark.parametrize(
+    ("damage", "words"),
+    [
+        (lambda root: (root / "store.json").unlink(), "an unfinished store"),
+        (lambda root: (root / "motion.f32").write_bytes(b"1234"), "motion.f32: 4 bytes long, expected"),
+        (lambda root: (root / "waveform.f32").unlink(), "waveform.f32: missing"),
+        (lambda root: (root / "store.json").write_text("{"), "not readable as JSON"),
+        (lambda root: (root / "store.json").write_text('{"version": 99}'), "store version 99, expected 1"),
+        (lambda root: (root / "store.json").write_text('{"version": 1}'), "damaged"),
+        (lambda root: [path.unlink() for path in root.iterdir()], "not a store"),
+    ],
+)
+def test_a_damaged_store_is_refused_by_what_is_wrong_with_it(damage, words: str, tmp_path: Path) -> None:
+    out = tmp_path / "store"
+    prepare_store([OnDemand("1_0_20_500_0", "wood")], LABELS, out, SETTINGS, progress=False)
+    damage(out)
+    with pytest.raises(InputError, match=words):
+        SegmentStore.open(out)

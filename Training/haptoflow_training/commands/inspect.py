@@ -1,0 +1,103 @@
+"""`haptoflow-training inspect`: what is in a data set folder, and what is wrong with it."""
+
+from __future__ import annotations
+
+import argparse
+import json
+from collections.abc import Iterator
+from pathlib import Path
+
+from tqdm import tqdm
+
+from haptoflow_training.errors import InputError
+from haptoflow_training.recordings.cluster_dataset import open_dataset
+from haptoflow_training.recordings.dataset_inspection import Inspection, inspect_dataset
+from haptoflow_training.recordings.labels import load_labels
+
+_DESCRIPTION = """\
+Read every recording of a data set folder once and report what it holds: recordings by material, speed,
+direction, force, repeat and protocol; the sample rates found, from the time stamps; durations; coverage of
+the grid; and every missing or broken file with what was expected of it.
+
+DIR is the folder that holds sensor_data/, in the file release's layout
+(sensor_data/accel/0_135_40_500_0.csv), the hub release's
+(sensor_data/accel/0/0_135_40_500_0.parquet; needs `pip install pyarrow`), or written by `record`."""
+
+_EXAMPLES = """\
+examples:
+  haptoflow-training inspect cluster-haptic-texture
+  haptoflow-training inspect cluster-haptic-texture --labels configs/labels-cluster.toml
+  haptoflow-training inspect recordings --json > report.json
+
+exit codes: 0 read (problems, if any, are listed), 2 wrong usage, 3 nothing could be read"""
+
+
+def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser], summary: str) -> None:
+    parser = subparsers.add_parser(
+        "inspect",
+        help=summary,
+        description=_DESCRIPTION,
+        epilog=_EXAMPLES,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+    parser.add_argument("folder", metavar="DIR", type=Path, help="the folder that holds sensor_data/")
+    parser.add_argument(
+        "--labels", metavar="FILE", type=Path, help="count by the labels of this TOML file, not by texture"
+    )
+    parser.add_argument("--json", action="store_true", help="print the report as JSON")
+    parser.set_defaults(run=run)
+
+
+def run(options: argparse.Namespace) -> int:
+    labels = load_labels(options.labels) if options.labels else None
+    dataset = open_dataset(options.folder, labels)
+    bar = tqdm(dataset.recordings, unit=" recordings", desc="inspect", disable=None)
+    inspection = inspect_dataset(dataset, bar)
+    if options.json:
+        print(json.dumps(inspection.to_json(), indent=1))
+    else:
+        print("\n".join(_lines(inspection)))
+    if not inspection.readable:
+        raise InputError(_nothing_readable(inspection))
+    return 0
+
+
+def _nothing_readable(inspection: Inspection) -> str:
+    dataset = inspection.dataset
+    if dataset.unlabelled and not dataset.recordings:
+        count = len(dataset.unlabelled)
+        return f"{dataset.root}: none of {count} recordings has a label; name their textures in --labels"
+    first = f"; the first problem: {inspection.problems[0]}" if inspection.problems else ""
+    return f"{dataset.root}: no recording could be read{first}"
+
+
+def _lines(inspection: Inspection) -> Iterator[str]:
+    report = inspection.to_json()
+    durations = report["duration_seconds"]
+    yield f"{report['root']}: {report['recordings']} recordings, {durations['total'] / 60:.1f} minutes"
+    yield f"  source        {report['provenance'].get('source')} ({report['provenance'].get('licence')})"
+    yield (
+        f"  duration      {durations['shortest']:.2f} to {durations['longest']:.2f} s, "
+        f"median {durations['median']:.2f} s"
+    )
+    for sensor, clock in report["clocks"].items():
+        yield f"  {sensor:<14}{clock['rate_hz']:.1f} Hz, irregularity {100 * clock['irregularity']:.0f} %"
+    yield f"  audio         {report['audio_files']} files (not used)"
+    if report["unlabelled"]:
+        yield f"  unlabelled    {report['unlabelled']} recordings of textures that no label names"
+    for axis, counts in report["counts"].items():
+        if axis != "material" and counts:
+            yield f"  {axis:<20}" + ", ".join(f"{value}: {count}" for value, count in counts.items())
+    yield from _coverage_table(report["coverage"])
+    if report["problems"]:
+        yield f"{len(report['problems'])} problems:"
+        yield from (f"  {problem}" for problem in inspection.problems)
+
+
+def _coverage_table(rows: list[dict[str, object]]) -> Iterator[str]:
+    if not rows:
+        return
+    width = max(len("material"), *(len(str(row["material"])) for row in rows))
+    yield f"  {'material':<{width}}  {'machine':>7}  {'of grid':>7}  {'hand':>5}"
+    for row in rows:
+        yield f"  {row['material']:<{width}}  {row['machine']:>7}  {row['machine_grid']:>7}  {row['hand']:>5}"

@@ -1,0 +1,109 @@
+"""`haptoflow-training prepare`: recordings in, a memory-mapped store of 2 kHz training arrays out."""
+
+from __future__ import annotations
+
+import argparse
+import time
+from pathlib import Path
+
+from haptoflow_training.errors import InputError
+from haptoflow_training.preprocessing.preparation import prepare_store
+from haptoflow_training.preprocessing.settings import PreprocessingSettings
+from haptoflow_training.preprocessing.split import SPLITS
+from haptoflow_training.preprocessing.store import SegmentStore
+from haptoflow_training.recordings.cluster_dataset import ClusterDataset, open_dataset
+from haptoflow_training.recordings.labels import LabelMap, load_labels
+
+_DESCRIPTION = """\
+Turn recordings into what training reads: one axis of vibration (DFT321) at 2 kHz with the velocity and force
+of every sample, split 70:10:20 by recording, silence put at some ends. The store is a folder of three files;
+it appears when it is complete, and an older one at the same place is replaced only then.
+
+Broken recordings are skipped and listed. Without --labels, a published data set takes the labels of
+configs/labels-cluster.toml, and synthetic recordings take their textures' names."""
+
+_EXAMPLES = """\
+examples:
+  haptoflow-training prepare --recordings cluster-haptic-texture --out store
+  haptoflow-training prepare --recordings machine hand --out store --seed 7 --workers 2
+  haptoflow-training prepare --recordings machine --out store --hold-out-direction 135 --hold-out-speed 50"""
+
+
+def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser], summary: str) -> None:
+    parser = subparsers.add_parser(
+        "prepare",
+        help=summary,
+        description=_DESCRIPTION,
+        epilog=_EXAMPLES,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+    add = parser.add_argument
+    add("--recordings", metavar="DIR", type=Path, nargs="+", required=True, help="folders with sensor_data/")
+    add("--labels", metavar="FILE", type=Path, help="TOML file: labels and their textures")
+    add("--out", metavar="STORE", type=Path, required=True, help="folder of the store")
+    add("--seed", metavar="N", type=int, default=0, help="draws the split and the silence (default 0)")
+    add("--workers", metavar="N", type=int, default=1, help="processes; the result is the same (default 1)")
+    held_out = {"type": int, "action": "append", "default": [], "help": "test only; may be repeated"}
+    add("--hold-out-direction", metavar="DEGREES", **held_out)
+    add("--hold-out-speed", metavar="MM/S", **held_out)
+    parser.set_defaults(run=run)
+
+
+def run(options: argparse.Namespace) -> int:
+    datasets = [_open(folder, options.labels) for folder in options.recordings]
+    entries = [entry for dataset in datasets for entry in dataset]
+    if not entries:
+        first = next(
+            (f"; the first problem: {problem}" for dataset in datasets for problem in dataset.problems), ""
+        )
+        raise InputError(f"{', '.join(map(str, options.recordings))}: no recording with a label{first}")
+    for dataset in datasets:
+        for problem in dataset.problems:
+            print(f"skipped: {problem}")
+        if dataset.unlabelled:
+            count = len(dataset.unlabelled)
+            print(f"{dataset.root}: {count} recordings are left out: no label names their texture")
+    settings = PreprocessingSettings(
+        held_out_directions=tuple(options.hold_out_direction),
+        held_out_speeds_mmps=tuple(options.hold_out_speed),
+    )
+    begun = time.perf_counter()
+    store = prepare_store(
+        entries,
+        _labels(datasets, options.labels),
+        options.out,
+        settings,
+        options.seed,
+        provenance={"recordings": [dataset.provenance for dataset in datasets]},
+        workers=options.workers,
+    )
+    _report(store, time.perf_counter() - begun)
+    return 0
+
+
+def _open(folder: Path, labels_path: Path | None) -> ClusterDataset:
+    dataset = open_dataset(folder, load_labels(labels_path) if labels_path else None)
+    if labels_path is None and not dataset.synthetic:
+        return open_dataset(folder, load_labels())
+    return dataset
+
+
+def _labels(datasets: list[ClusterDataset], labels_path: Path | None) -> list[str]:
+    """In the order of the labels file; labels without a recording get no index."""
+    present = list(dict.fromkeys(label for dataset in datasets for label in dataset.labels))
+    if labels_path is None and any(dataset.synthetic for dataset in datasets):
+        return present
+    order: LabelMap = load_labels(labels_path)
+    return [name for name in order.names if name in present]
+
+
+def _report(store: SegmentStore, elapsed_seconds: float) -> None:
+    seconds = len(store.waveform) / store.sample_rate_hz
+    shares = ", ".join(f"{name} {len(store.split(name))}" for name in SPLITS)
+    print(
+        f"{store.path}: {len(store.recordings)} recordings ({shares}), {seconds / 60:.1f} minutes, "
+        f"{len(store.labels)} labels, 1.0 = {store.peak_mps2:.2f} m/s^2; "
+        f"{seconds / max(elapsed_seconds, 1e-9):.0f} x real time"
+    )
+    for skipped in store.skipped:
+        print(f"skipped: {skipped.name}: {skipped.reason}")

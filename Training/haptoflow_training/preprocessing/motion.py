@@ -1,0 +1,56 @@
+"""Velocity and force on the grid of the waveform, from sensors with clocks of their own."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy import signal
+from scipy.interpolate import CubicSpline
+
+from haptoflow_training.preprocessing.filters import zero_phase_low_pass
+
+
+def velocity_mps(
+    time_seconds: NDArray[np.float64],
+    position_mm: NDArray[np.floating],
+    grid_seconds: NDArray[np.float64],
+    window_seconds: float,
+) -> NDArray[np.float64]:
+    """Positions [k, 2] in mm at `time_seconds` -> velocities [n, 2] in m/s at `grid_seconds` (clamped at the
+    ends).
+
+    The slope of a cubic fitted to a window of samples (Savitzky-Golay): constant speed and constant
+    acceleration pass without bias, position steps of 0.1 mm are averaged. Beyond its ends the stylus rests.
+    """
+    step = float(np.median(np.diff(time_seconds)))
+    count = max(2, 1 + round((time_seconds[-1] - time_seconds[0]) / step))
+    uniform = np.linspace(time_seconds[0], time_seconds[-1], count)
+    positions = np.column_stack(
+        [np.interp(uniform, time_seconds, axis) for axis in np.asarray(position_mm).T]
+    )
+    step = float(uniform[1] - uniform[0])
+    window = max(5, 2 * round(window_seconds / step / 2) + 1)
+    resting = np.pad(positions, ((window // 2, window // 2), (0, 0)), mode="edge")
+    slopes = signal.savgol_filter(resting, window, 3, deriv=1, delta=step, axis=0)[
+        window // 2 : -(window // 2)
+    ]
+    clamped = np.clip(grid_seconds, uniform[0], uniform[-1])
+    if count < 4:
+        return np.column_stack([np.interp(clamped, uniform, axis) for axis in slopes.T]) / 1000.0
+    return CubicSpline(uniform, slopes, axis=0)(clamped) / 1000.0
+
+
+def force_newtons(
+    time_seconds: NDArray[np.float64],
+    force: NDArray[np.floating],
+    grid_seconds: NDArray[np.float64],
+    low_pass_hz: float,
+) -> NDArray[np.float64]:
+    """Forces [m] in N at `time_seconds` -> [n] at `grid_seconds`, never negative.
+
+    A load cell holds its value between conversions and trembles with the frame; a zero-phase 2nd-order
+    low-pass takes both off without delaying the force of a tap.
+    """
+    on_grid = np.interp(grid_seconds, time_seconds, force)
+    rate_hz = 1.0 / float(grid_seconds[1] - grid_seconds[0])
+    return np.maximum(zero_phase_low_pass(on_grid, low_pass_hz, rate_hz, order=2), 0.0)

@@ -1,0 +1,129 @@
+"""One recording -> one axis of vibration at 2 kHz, with the motion of every sample."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.interpolate import CubicSpline
+
+from haptoflow_training.errors import InputError
+from haptoflow_training.preprocessing import filters, motion
+from haptoflow_training.preprocessing.dft321 import dft321
+from haptoflow_training.preprocessing.settings import PreprocessingSettings
+from haptoflow_training.recordings.recording import STANDARD_GRAVITY_MPS2, Recording
+
+_CONTEXT_SECONDS = 0.2
+
+
+@dataclass(frozen=True)
+class PreparedRecording:
+    """waveform_mps2: [n] float32, m/s^2. motion: [n, 3] float32: vx, vy in m/s, force in N. All finite, n
+    > 0.
+    """
+
+    waveform_mps2: NDArray[np.float32]
+    motion: NDArray[np.float32]
+
+
+def preprocess_recording(recording: Recording, settings: PreprocessingSettings) -> PreparedRecording:
+    """InputError names the recording and the sensor where it cannot be prepared."""
+    _require_usable(recording, settings)
+    start, stop = _common_span(recording)
+    # Filters see a little of what the trim takes away, so that no filter rings where the cut is.
+    context = min(_CONTEXT_SECONDS, settings.trim_seconds)
+    step = 1.0 / settings.sample_rate_hz
+    kept = int((stop - start - 2 * settings.trim_seconds) / step)
+    lead = round(context / step)
+    if kept < settings.segment_samples:
+        raise InputError(
+            f"recording {recording.identity.name}: {max(kept, 0) * step:.2f} s are left after trimming "
+            f"{settings.trim_seconds} s from both ends; "
+            f"expected {settings.segment_samples * step:.2f} s at least"
+        )
+    origin = start + settings.trim_seconds - lead * step
+    grid = origin + step * np.arange(lead + kept + lead)
+    grid = grid[grid <= stop]
+    waveform = _waveform(recording, origin, len(grid), settings)
+    velocity = motion.velocity_mps(
+        recording.position_time_seconds, recording.position_mm, grid, settings.velocity_window_seconds
+    )
+    force = motion.force_newtons(
+        recording.force_time_seconds, recording.force_newtons, grid, settings.force_low_pass_hz
+    )
+    middle = slice(lead, lead + kept)
+    return PreparedRecording(
+        waveform[middle].astype(np.float32),
+        np.column_stack([velocity, force])[middle].astype(np.float32),
+    )
+
+
+def _waveform(
+    recording: Recording, origin_seconds: float, count: int, settings: PreprocessingSettings
+) -> NDArray[np.float64]:
+    factor = settings.high_rate_hz // settings.sample_rate_hz
+    high_grid = origin_seconds + np.arange(count * factor) / settings.high_rate_hz
+    time = recording.acceleration_time_seconds
+    margin = 16
+    first = max(0, int(np.searchsorted(time, high_grid[0])) - margin)
+    last = int(np.searchsorted(time, high_grid[-1])) + margin
+    axes = np.asarray(recording.acceleration_g[first:last], dtype=np.float64)
+    axes = (axes - axes.mean(axis=0)) * STANDARD_GRAVITY_MPS2
+    clamped = np.minimum(high_grid, time[-1])
+    # The time stamps are irregular, and six times the band: a cubic spline through them is band-limited
+    # enough.
+    uniform = CubicSpline(time[first:last], axes, axis=0)(clamped)
+    uniform = filters.zero_phase_high_pass(uniform, settings.high_pass_hz, settings.high_rate_hz)
+    combined = dft321(uniform, settings.high_rate_hz, settings.dft321_frame_seconds)
+    combined = filters.zero_phase_low_pass(combined, settings.low_pass_hz, settings.high_rate_hz)
+    return filters.decimate(combined, settings.high_rate_hz, settings.sample_rate_hz)
+
+
+def _common_span(recording: Recording) -> tuple[float, float]:
+    clocks = (
+        recording.acceleration_time_seconds,
+        recording.force_time_seconds,
+        recording.position_time_seconds,
+    )
+    start = max(float(clock[0]) for clock in clocks)
+    stop = min(float(clock[-1]) for clock in clocks)
+    acceleration = recording.duration_seconds
+    if stop - start < 0.5 * acceleration:
+        raise InputError(
+            f"recording {recording.identity.name}: acceleration lasts {acceleration:.2f} s "
+            f"but force and position share only {max(stop - start, 0.0):.2f} s of it; "
+            "expected three sensors of the same pass"
+        )
+    return start, stop
+
+
+def _require_usable(recording: Recording, settings: PreprocessingSettings) -> None:
+    name = recording.identity.name
+    sensors = (
+        ("acceleration", recording.acceleration_time_seconds, recording.acceleration_g, (3,)),
+        ("force", recording.force_time_seconds, recording.force_newtons, ()),
+        ("position", recording.position_time_seconds, recording.position_mm, (2,)),
+    )
+    for sensor, time, values, tail in sensors:
+        if np.shape(values) != (len(time), *tail):
+            raise InputError(
+                f"recording {name}: {sensor} has shape {np.shape(values)}; expected {(len(time), *tail)}"
+            )
+        if len(time) < 4:
+            raise InputError(f"recording {name}: {sensor} has {len(time)} samples; expected 4 at least")
+        if not (np.all(np.isfinite(time)) and np.all(np.isfinite(values))):
+            raise InputError(
+                f"recording {name}: {sensor} holds values that are not finite; expected numbers only"
+            )
+        steps = np.diff(time)
+        if not np.all(steps > 0):
+            raise InputError(
+                f"recording {name}: {sensor} time stops rising after sample {int(np.argmin(steps > 0))}; "
+                "expected every time stamp to be later than the one before"
+            )
+        if sensor == "acceleration" and float(steps.max()) > settings.longest_gap_seconds:
+            raise InputError(
+                f"recording {name}: {sensor} misses {steps.max():.3f} s after "
+                f"{time[int(steps.argmax())]:.3f} s; expected no gap above {settings.longest_gap_seconds} s"
+            )

@@ -1,0 +1,234 @@
+"""Recordings in, a finished store out: one recording in memory at a time, all or nothing on disk."""
+
+from __future__ import annotations
+
+import os
+import shutil
+from collections import deque
+from collections.abc import Iterable, Iterator
+from concurrent.futures import Future, ProcessPoolExecutor
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, BinaryIO, Protocol
+
+import numpy as np
+from tqdm import tqdm
+
+from haptoflow_training.errors import InputError
+from haptoflow_training.preprocessing import store as store_module
+from haptoflow_training.preprocessing.padding import PaddedRecording, pad_recording
+from haptoflow_training.preprocessing.pipeline import preprocess_recording
+from haptoflow_training.preprocessing.settings import PreprocessingSettings
+from haptoflow_training.preprocessing.split import split_of
+from haptoflow_training.preprocessing.store import SegmentStore, SkippedRecording, StoredRecording
+from haptoflow_training.recordings.recording import Recording, RecordingIdentity
+
+_PEAK_PERCENTILE = 80.0
+_RESCALE_SAMPLES = 1 << 20
+
+
+class LoadableRecording(Protocol):
+    """A recording still on disk: a worker loads it, so that reading is shared out too."""
+
+    @property
+    def identity(self) -> RecordingIdentity: ...
+
+    @property
+    def label(self) -> str: ...
+
+    def load(self) -> Recording: ...
+
+
+@dataclass(frozen=True)
+class _Prepared:
+    identity: RecordingIdentity
+    label: str
+    padded: PaddedRecording | None
+    problem: str | None
+    peak_mps2: float = 0.0
+
+
+def prepare_store(
+    recordings: Iterable[Recording | LoadableRecording],
+    labels: list[str],
+    out: Path,
+    settings: PreprocessingSettings | None = None,
+    seed: int = 0,
+    progress: bool = True,
+    *,
+    provenance: dict[str, Any] | None = None,
+    workers: int = 1,
+) -> SegmentStore:
+    """Prepare every recording, in order, into the folder `out`; an older store there gives way at the end.
+
+    A recording that cannot be prepared is skipped and listed in the store. InputError: none was usable, a
+    name came twice, a label is not in `labels`, or the disk is full; `out` is then as it was before. The
+    result is the same for any number of `workers`.
+    """
+    settings = settings or PreprocessingSettings()
+    out = Path(out).absolute()
+    if out.exists() and not _is_store_or_empty(out):
+        raise InputError(f"{out}: holds files that are not a store; choose another folder for --out")
+    unfinished = out.with_name(out.name + ".unfinished")
+    try:
+        shutil.rmtree(unfinished, ignore_errors=True)
+        unfinished.mkdir(parents=True)
+        prepared = _prepare_each(recordings, labels, settings, seed, workers)
+        bar = tqdm(prepared, disable=not progress, unit=" recordings", desc="prepare")
+        stored, skipped = _append_all(bar, labels, unfinished, settings, seed)
+        peak_mps2 = _peak(stored, skipped)
+        _rescale(unfinished / store_module.WAVEFORM_FILE, peak_mps2)
+        store_module.write_header(
+            unfinished,
+            labels=labels,
+            recordings=stored,
+            skipped=skipped,
+            peak_mps2=peak_mps2,
+            seed=seed,
+            settings=settings,
+            provenance=provenance or {},
+        )
+        _replace(unfinished, out)
+    except OSError as error:
+        raise InputError(
+            f"{error.filename or out}: {error.strerror or error}; "
+            "make room or choose another folder for --out (nothing was replaced)"
+        ) from error
+    finally:
+        shutil.rmtree(unfinished, ignore_errors=True)
+    return SegmentStore.open(out)
+
+
+def _prepare_each(
+    recordings: Iterable[Recording | LoadableRecording],
+    labels: list[str],
+    settings: PreprocessingSettings,
+    seed: int,
+    workers: int,
+) -> Iterator[_Prepared]:
+    checked = _checked(recordings, labels)
+    if workers <= 1:
+        yield from (_prepare_one(item, settings, seed) for item in checked)
+        return
+    pending: deque[Future[_Prepared]] = deque()
+    with ProcessPoolExecutor(workers) as pool:
+        try:
+            for item in checked:
+                pending.append(pool.submit(_prepare_one, item, settings, seed))
+                if len(pending) > 2 * workers:
+                    yield pending.popleft().result()
+            while pending:
+                yield pending.popleft().result()
+        finally:
+            pool.shutdown(wait=True, cancel_futures=True)
+
+
+def _checked(
+    recordings: Iterable[Recording | LoadableRecording], labels: list[str]
+) -> Iterator[Recording | LoadableRecording]:
+    names: set[str] = set()
+    for item in recordings:
+        name = item.identity.name
+        if name in names:
+            raise InputError(
+                f"recording {name} came twice; prepare folders with the same names into separate stores"
+            )
+        if item.label not in labels:
+            raise InputError(
+                f"recording {name} has label '{item.label}'; expected one of {', '.join(labels)}"
+            )
+        names.add(name)
+        yield item
+
+
+def _prepare_one(
+    item: Recording | LoadableRecording, settings: PreprocessingSettings, seed: int
+) -> _Prepared:
+    try:
+        recording = item if isinstance(item, Recording) else item.load()
+        prepared = preprocess_recording(recording, settings)
+    except InputError as error:
+        return _Prepared(item.identity, item.label, None, str(error))
+    peak_mps2 = float(np.abs(prepared.waveform_mps2).max())
+    if peak_mps2 == 0.0:
+        return _Prepared(item.identity, item.label, None, "acceleration never changes; expected a vibration")
+    padded = pad_recording(prepared, item.identity.name, settings, seed)
+    return _Prepared(item.identity, item.label, padded, None, peak_mps2)
+
+
+def _append_all(
+    prepared: Iterable[_Prepared], labels: list[str], folder: Path, settings: PreprocessingSettings, seed: int
+) -> tuple[list[StoredRecording], list[SkippedRecording]]:
+    stored: list[StoredRecording] = []
+    skipped: list[SkippedRecording] = []
+    start = 0
+    waveform_path, motion_path = folder / store_module.WAVEFORM_FILE, folder / store_module.MOTION_FILE
+    with waveform_path.open("wb") as waveform_file, motion_path.open("wb") as motion_file:
+        for item in prepared:
+            if item.padded is None:
+                skipped.append(SkippedRecording(item.identity.name, item.problem or ""))
+                continue
+            length = len(item.padded.prepared.waveform_mps2)
+            _append(waveform_file, item.padded.prepared.waveform_mps2)
+            _append(motion_file, item.padded.prepared.motion)
+            identity = item.identity
+            stored.append(
+                StoredRecording(
+                    name=identity.name,
+                    label=item.label,
+                    label_index=labels.index(item.label),
+                    texture_id=identity.texture_id,
+                    protocol=identity.protocol,
+                    direction_degrees=identity.direction_degrees,
+                    speed_mmps=identity.speed_mmps,
+                    force_millinewtons=identity.force_millinewtons,
+                    repeat=identity.repeat,
+                    split=split_of(identity, settings, seed),
+                    start=start,
+                    length=length,
+                    padding_before=item.padded.padding_before,
+                    padding_after=item.padded.padding_after,
+                    peak_mps2=item.peak_mps2,
+                )
+            )
+            start += length
+    return stored, skipped
+
+
+def _append(file: BinaryIO, values: np.ndarray) -> None:
+    file.write(np.ascontiguousarray(values, dtype=store_module.STORED_FLOAT).tobytes())
+
+
+def _peak(stored: list[StoredRecording], skipped: list[SkippedRecording]) -> float:
+    """The 80th percentile of the training recordings' peaks: what is tested has no say in the scale."""
+    if not stored:
+        first = f"; the first problem: {skipped[0].name}: {skipped[0].reason}" if skipped else ""
+        raise InputError(f"no recording could be prepared ({len(skipped)} were skipped{first})")
+    training = [recording.peak_mps2 for recording in stored if recording.split == "train"]
+    return float(np.percentile(training or [recording.peak_mps2 for recording in stored], _PEAK_PERCENTILE))
+
+
+def _rescale(path: Path, peak_mps2: float) -> None:
+    waveform = np.memmap(path, dtype=store_module.STORED_FLOAT, mode="r+")
+    for start in range(0, len(waveform), _RESCALE_SAMPLES):
+        waveform[start : start + _RESCALE_SAMPLES] /= np.float32(peak_mps2)
+    waveform.flush()
+
+
+def _is_store_or_empty(out: Path) -> bool:
+    ours = {store_module.STORE_FILE, store_module.WAVEFORM_FILE, store_module.MOTION_FILE}
+    return out.is_dir() and {entry.name for entry in out.iterdir()} <= ours
+
+
+def _replace(finished: Path, out: Path) -> None:
+    previous = out.with_name(out.name + ".previous")
+    if out.exists():
+        shutil.rmtree(previous, ignore_errors=True)
+        os.replace(out, previous)
+    try:
+        os.replace(finished, out)
+    except OSError:
+        if previous.exists():
+            os.replace(previous, out)
+        raise
+    shutil.rmtree(previous, ignore_errors=True)

@@ -1,0 +1,180 @@
+"""The store of prepared recordings: `store.json` beside two raw little-endian arrays, opened without copying.
+
+`waveform.f32` [total] holds m/s^2 divided by `peak_mps2`; `motion.f32` [total, 3] holds vx, vy in m/s and
+force in N. `store.json` is written last: a folder without it is unfinished.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import json
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from haptoflow_training.errors import InputError
+from haptoflow_training.preprocessing.settings import PreprocessingSettings
+from haptoflow_training.preprocessing.split import Split
+from haptoflow_training.recordings.recording import Protocol
+
+STORE_VERSION = 1
+STORE_FILE = "store.json"
+WAVEFORM_FILE = "waveform.f32"
+MOTION_FILE = "motion.f32"
+STORED_FLOAT = np.dtype("<f4")
+
+
+@dataclass(frozen=True)
+class StoredRecording:
+    """Where one recording lies in the arrays: [start, start + length), silence put at its ends included."""
+
+    name: str
+    label: str
+    label_index: int
+    texture_id: int
+    protocol: Protocol
+    direction_degrees: int | None
+    speed_mmps: int
+    force_millinewtons: int
+    repeat: int
+    split: Split
+    start: int
+    length: int
+    padding_before: int
+    padding_after: int
+    peak_mps2: float
+
+    @property
+    def samples(self) -> slice:
+        return slice(self.start, self.start + self.length)
+
+    @property
+    def recorded_samples(self) -> slice:
+        """Without the silence that preparation put before and after."""
+        return slice(self.start + self.padding_before, self.start + self.length - self.padding_after)
+
+
+@dataclass(frozen=True)
+class SkippedRecording:
+    """A recording that could not be prepared, and why."""
+
+    name: str
+    reason: str
+
+
+@dataclass(frozen=True)
+class SegmentStore:
+    """waveform: [total] float32, unit scale (not clipped: a fifth of the recordings peaks above 1).
+    motion: [total, 3] float32: vx, vy in m/s, force in N. Both are read-only memory maps, safe to share."""
+
+    path: Path
+    waveform: NDArray[np.float32]
+    motion: NDArray[np.float32]
+    labels: list[str]
+    recordings: list[StoredRecording]
+    skipped: list[SkippedRecording]
+    peak_mps2: float
+    sample_rate_hz: int
+    seed: int
+    settings: PreprocessingSettings
+    provenance: dict[str, Any]
+
+    def split(self, name: Split) -> list[StoredRecording]:
+        return [recording for recording in self.recordings if recording.split == name]
+
+    def window_starts(
+        self, split: Split, window_samples: int, hop_samples: int
+    ) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+        """(starts [w], recording index [w]) of every window that lies wholly inside one recording of
+        `split`.
+        """
+        starts, owners = [], []
+        for index, recording in enumerate(self.recordings):
+            if recording.split == split:
+                last = recording.start + recording.length - window_samples
+                found = np.arange(recording.start, last + 1, hop_samples, dtype=np.int64)
+                starts.append(found)
+                owners.append(np.full(len(found), index, dtype=np.int64))
+        empty = np.zeros(0, dtype=np.int64)
+        return np.concatenate([empty, *starts]), np.concatenate([empty, *owners])
+
+    @classmethod
+    def open(cls, path: Path | str) -> SegmentStore:
+        """InputError names file and remedy where the store is missing, unfinished, damaged or newer."""
+        root = Path(path)
+        header = _read_header(root)
+        try:
+            recordings = [StoredRecording(**entry) for entry in header["recordings"]]
+            skipped = [SkippedRecording(**entry) for entry in header["skipped"]]
+            total = sum(recording.length for recording in recordings)
+            return cls(
+                path=root,
+                waveform=_map(root / WAVEFORM_FILE, (total,)),
+                motion=_map(root / MOTION_FILE, (total, 3)),
+                labels=list(header["labels"]),
+                recordings=recordings,
+                skipped=skipped,
+                peak_mps2=float(header["normalisation"]["peak_mps2"]),
+                sample_rate_hz=int(header["sample_rate_hz"]),
+                seed=int(header["seed"]),
+                settings=PreprocessingSettings.from_json(header["settings"]),
+                provenance=header["provenance"],
+            )
+        except (KeyError, TypeError, ValueError) as error:
+            raise InputError(f"{root / STORE_FILE}: damaged ({error}); run prepare again") from error
+
+
+def write_header(
+    root: Path,
+    *,
+    labels: list[str],
+    recordings: list[StoredRecording],
+    skipped: list[SkippedRecording],
+    peak_mps2: float,
+    seed: int,
+    settings: PreprocessingSettings,
+    provenance: dict[str, Any],
+) -> None:
+    """Declare the store in `root` finished."""
+    header = {
+        "version": STORE_VERSION,
+        "sample_rate_hz": settings.sample_rate_hz,
+        "normalisation": {"unit": "m/s^2", "peak_mps2": peak_mps2},
+        "labels": labels,
+        "seed": seed,
+        "settings": settings.to_json(),
+        "provenance": provenance,
+        "skipped": [dataclasses.asdict(entry) for entry in skipped],
+        "recordings": [dataclasses.asdict(recording) for recording in recordings],
+    }
+    (root / STORE_FILE).write_text(json.dumps(header, indent=1) + "\n", encoding="utf-8")
+
+
+def _read_header(root: Path) -> dict[str, Any]:
+    header_path = root / STORE_FILE
+    if not header_path.is_file():
+        if (root / WAVEFORM_FILE).exists() or (root / MOTION_FILE).exists():
+            raise InputError(f"{root}: an unfinished store ({STORE_FILE} is missing); run prepare again")
+        raise InputError(f"{root}: not a store; expected a folder with {STORE_FILE}, made by prepare")
+    try:
+        header = json.loads(header_path.read_text(encoding="utf-8"))
+    except (OSError, UnicodeDecodeError, json.JSONDecodeError) as error:
+        raise InputError(f"{header_path}: not readable as JSON ({error}); run prepare again") from error
+    version = header.get("version") if isinstance(header, dict) else None
+    if version != STORE_VERSION:
+        raise InputError(
+            f"{header_path}: store version {version}, expected {STORE_VERSION}; run prepare again"
+        )
+    return header
+
+
+def _map(path: Path, shape: tuple[int, ...]) -> NDArray[np.float32]:
+    expected = int(np.prod(shape)) * STORED_FLOAT.itemsize
+    found = path.stat().st_size if path.is_file() else -1
+    if found != expected:
+        what = "missing" if found < 0 else f"{found} bytes long"
+        raise InputError(f"{path}: {what}, expected {expected} bytes; run prepare again")
+    return np.memmap(path, dtype=STORED_FLOAT, mode="r", shape=shape)

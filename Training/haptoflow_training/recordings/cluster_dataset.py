@@ -1,0 +1,210 @@
+"""The Cluster Haptic Texture Dataset and its likes: an index of the folder now, samples when asked for."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+from haptoflow_training.errors import InputError
+from haptoflow_training.recordings.cluster_dataset_files import (
+    DatasetFileError,
+    TableReader,
+    read_sensor,
+    read_table,
+)
+from haptoflow_training.recordings.cluster_dataset_textures import read_texture_list, texture_names
+from haptoflow_training.recordings.dataset_layout import (
+    ACCELERATION,
+    AUDIO_ENDINGS,
+    AUDIO_FOLDERS,
+    FORCE,
+    POSITION,
+    PROVENANCE_FILE,
+    PUBLISHED_LICENCE,
+    PUBLISHED_SOURCE,
+    SENSOR_FOLDER,
+    SENSOR_KINDS,
+)
+from haptoflow_training.recordings.labels import LabelMap
+from haptoflow_training.recordings.recording import Recording, RecordingIdentity
+
+_ENDINGS = (".csv", ".parquet")
+
+
+@dataclass(frozen=True)
+class DatasetProblem:
+    """A file that is missing or not as the layout has it; the rest of the data set stays usable."""
+
+    path: Path
+    found: str
+    expected: str
+
+    def __str__(self) -> str:
+        return f"{self.path}: {self.found}; expected {self.expected}"
+
+
+@dataclass(frozen=True)
+class RecordingFiles:
+    """One recording on disk; `load` reads its three sensor files. Safe to hand to another process."""
+
+    identity: RecordingIdentity
+    label: str
+    acceleration_path: Path
+    force_path: Path
+    position_path: Path
+    table_reader: TableReader = read_table
+
+    def load(self) -> Recording:
+        """DatasetFileError (an InputError) names the file that is not as the layout has it."""
+        acceleration = read_sensor(self.acceleration_path, ACCELERATION, self.table_reader)
+        force = read_sensor(self.force_path, FORCE, self.table_reader)
+        position = read_sensor(self.position_path, POSITION, self.table_reader)
+        return Recording(self.identity, self.label, *acceleration, *force, *position)
+
+
+@dataclass(frozen=True)
+class ClusterDataset:
+    """What lies under `root`. problems: what the folder listing alone shows to be wrong.
+
+    textures: id -> name. unlabelled: complete recordings whose texture no label lists.
+    """
+
+    root: Path
+    recordings: tuple[RecordingFiles, ...]
+    textures: dict[int, str]
+    unlabelled: tuple[RecordingFiles, ...]
+    audio_files: int
+    provenance: dict[str, Any]
+    problems: tuple[DatasetProblem, ...] = field(default=())
+
+    @property
+    def synthetic(self) -> bool:
+        return bool(self.provenance.get("synthetic"))
+
+    @property
+    def labels(self) -> list[str]:
+        """The labels that occur, by their lowest texture id."""
+        return list(dict.fromkeys(entry.label for entry in self.recordings))
+
+    def __iter__(self) -> Iterator[RecordingFiles]:
+        return iter(self.recordings)
+
+    def __len__(self) -> int:
+        return len(self.recordings)
+
+
+def open_dataset(
+    root: Path | str, labels: LabelMap | None = None, table_reader: TableReader = read_table
+) -> ClusterDataset:
+    """Index a folder of either release, sorted by identity; reads names and the texture list, no samples.
+
+    Without `labels` every texture's name is its label. With it, textures that no label lists are
+    `unlabelled`; a synthetic root numbers its textures on its own, so there a label is found by its name.
+    InputError where the folder does not hold `sensor_data/accel`.
+    """
+    root = Path(root)
+    sensors = root / SENSOR_FOLDER
+    if not (sensors / ACCELERATION.folder).is_dir():
+        raise InputError(
+            f"{root}: no {SENSOR_FOLDER}/{ACCELERATION.folder} in it; "
+            f"expected the folder that holds {SENSOR_FOLDER}"
+        )
+    problems: list[DatasetProblem] = []
+    found = {kind.folder: _list_sensor(sensors / kind.folder, problems) for kind in SENSOR_KINDS}
+    provenance = _provenance(root, problems)
+    synthetic = bool(provenance.get("synthetic"))
+    identities = sorted(set().union(*(set(files) for files in found.values())), key=_sort_key)
+    try:
+        listed = read_texture_list(root)
+    except DatasetFileError as error:
+        problems.append(DatasetProblem(error.path, error.found, error.expected))
+        listed = {}
+    textures = texture_names({identity.texture_id for identity in identities}, listed, synthetic=synthetic)
+    complete: list[RecordingFiles] = []
+    unlabelled: list[RecordingFiles] = []
+    for identity in identities:
+        missing = [kind.folder for kind in SENSOR_KINDS if identity not in found[kind.folder]]
+        if missing:
+            present = next(files[identity] for files in found.values() if identity in files)
+            problems.extend(_missing(sensors, present, folder) for folder in missing)
+            continue
+        name = textures[identity.texture_id]
+        label = name if labels is None else _label(labels, identity.texture_id, name, synthetic)
+        paths = (found[kind.folder][identity] for kind in SENSOR_KINDS)
+        files = RecordingFiles(identity, label or name, *paths, table_reader)
+        (unlabelled if label is None else complete).append(files)
+    return ClusterDataset(
+        root, tuple(complete), textures, tuple(unlabelled), _count_audio(sensors), provenance, tuple(problems)
+    )
+
+
+def _label(labels: LabelMap, texture_id: int, name: str, synthetic: bool) -> str | None:
+    if synthetic:
+        return name if name in labels.names else None
+    return labels.label_of(texture_id, name)
+
+
+def _sort_key(identity: RecordingIdentity) -> tuple[int, int, int, int, int]:
+    direction = -1 if identity.direction_degrees is None else identity.direction_degrees
+    return identity.texture_id, direction, identity.speed_mmps, identity.force_millinewtons, identity.repeat
+
+
+def _list_sensor(folder: Path, problems: list[DatasetProblem]) -> dict[RecordingIdentity, Path]:
+    files: dict[RecordingIdentity, Path] = {}
+    if not folder.is_dir():
+        return files
+    paths = [path for pattern in ("*", "*/*") for path in folder.glob(pattern) if path.suffix in _ENDINGS]
+    for path in sorted(paths):
+        if path.name.startswith("."):
+            continue
+        try:
+            identity = RecordingIdentity.parse(path.stem)
+        except ValueError:
+            problems.append(
+                DatasetProblem(
+                    path, "a name of another form", "<texture_id>_<direction>_<velocity>_<force>_<repeat>"
+                )
+            )
+            continue
+        if identity in files:
+            problems.append(
+                DatasetProblem(path, f"the same recording as {files[identity]}", "one file of a recording")
+            )
+            continue
+        files[identity] = path
+    return files
+
+
+def _missing(sensors: Path, present: Path, folder: str) -> DatasetProblem:
+    inside = present.relative_to(sensors)
+    return DatasetProblem(
+        sensors.joinpath(folder, *inside.parts[1:]), "missing file", f"the sibling of {inside.as_posix()}"
+    )
+
+
+def _provenance(root: Path, problems: list[DatasetProblem]) -> dict[str, Any]:
+    published = {"source": PUBLISHED_SOURCE, "licence": PUBLISHED_LICENCE, "synthetic": False}
+    path = root / PROVENANCE_FILE
+    if not path.is_file():
+        return published
+    try:
+        document = json.loads(path.read_text(encoding="utf-8"))
+    except (OSError, ValueError) as error:
+        document = str(error)
+    if isinstance(document, dict):
+        return document
+    expected = "a JSON object with source, licence and synthetic"
+    problems.append(DatasetProblem(path, "not a JSON object", expected))
+    return {"source": f"unknown ({PROVENANCE_FILE} is damaged)", "licence": "unknown", "synthetic": False}
+
+
+def _count_audio(sensors: Path) -> int:
+    return sum(
+        path.suffix in AUDIO_ENDINGS
+        for folder in AUDIO_FOLDERS
+        for pattern in ("*", "*/*")
+        for path in (sensors / folder).glob(pattern)
+    )

@@ -1,0 +1,100 @@
+"""One sensor file of the data set -> time and values, checked; what is wrong is named, never guessed."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from haptoflow_training.errors import InputError
+from haptoflow_training.recordings.dataset_layout import SensorKind
+
+if TYPE_CHECKING:
+    import pandas
+
+TableReader = Callable[[Path], "pandas.DataFrame"]
+
+_TOLERATED_REPEATS = 0.01
+
+
+class DatasetFileError(InputError):
+    """A file of the data set is not as the layout has it."""
+
+    def __init__(self, path: Path, found: str, expected: str) -> None:
+        super().__init__(f"{path}: {found}; expected {expected}")
+        self.path = path
+        self.found = found
+        self.expected = expected
+
+    def __reduce__(self) -> tuple[type[DatasetFileError], tuple[Path, str, str]]:
+        return DatasetFileError, (self.path, self.found, self.expected)
+
+
+def read_table(path: Path) -> pandas.DataFrame:
+    """CSV or Parquet by the file's ending; Parquet needs pyarrow or fastparquet."""
+    import pandas
+
+    if path.suffix == ".parquet":
+        try:
+            return pandas.read_parquet(path)
+        except ImportError as error:
+            raise InputError(
+                f"{path}: Parquet needs pyarrow or fastparquet, neither is installed; "
+                "run `pip install pyarrow`"
+            ) from error
+    return pandas.read_csv(path, encoding="utf-8-sig", skipinitialspace=True)
+
+
+def read_sensor(
+    path: Path, kind: SensorKind, table_reader: TableReader = read_table
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """(time [n] in seconds, strictly rising; values [n] or [n, columns - 1]), all finite.
+
+    DatasetFileError where the file is empty, has other columns, holds text or gaps, or its clock runs back. A
+    time stamp that repeats the one before is dropped, up to 1 % of the rows.
+    """
+    header = f"columns {','.join(kind.columns)}"
+    try:
+        if path.stat().st_size == 0:
+            raise DatasetFileError(path, "empty file", header)
+        table = table_reader(path)
+    except InputError:
+        raise
+    except OSError as error:
+        raise DatasetFileError(path, f"cannot be read ({error.strerror or error})", header) from error
+    except Exception as error:  # pandas and its Parquet engines raise many kinds for a damaged file
+        raise DatasetFileError(path, f"not a table ({str(error).splitlines()[0]})", header) from error
+    found = [str(column).strip() for column in table.columns]
+    if not set(kind.columns) <= set(found):
+        raise DatasetFileError(path, f"columns {','.join(found)}", header)
+    table = table.set_axis(found, axis=1)[list(kind.columns)]
+    try:
+        numbers = table.to_numpy(dtype=np.float64)
+    except (TypeError, ValueError) as error:
+        raise DatasetFileError(path, f"text among the numbers ({error})", "numbers only") from error
+    if len(numbers) < 2:
+        raise DatasetFileError(path, f"{len(numbers)} rows", "2 rows at least")
+    broken = ~np.isfinite(numbers).all(axis=1)
+    if broken.any():
+        row = int(broken.argmax())
+        column = kind.columns[int((~np.isfinite(numbers[row])).argmax())]
+        raise DatasetFileError(path, f"no number in row {row + 2}, column {column}", "finite numbers only")
+    numbers = _rising(path, numbers)
+    values = numbers[:, 1:]
+    return numbers[:, 0].copy(), (values[:, 0] if values.shape[1] == 1 else values).copy()
+
+
+def _rising(path: Path, numbers: NDArray[np.float64]) -> NDArray[np.float64]:
+    steps = np.diff(numbers[:, 0])
+    if (steps < 0).any():
+        row = int((steps < 0).argmax()) + 3
+        raise DatasetFileError(path, f"time runs back at row {row}", "rising time stamps")
+    repeated = np.concatenate([[False], steps == 0])
+    if repeated.mean() > _TOLERATED_REPEATS or repeated.sum() > len(numbers) - 2:
+        raise DatasetFileError(
+            path, f"{int(repeated.sum())} of {len(numbers)} time stamps repeat", "rising time stamps"
+        )
+    return numbers[~repeated] if repeated.any() else numbers

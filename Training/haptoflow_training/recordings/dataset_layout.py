@@ -1,0 +1,85 @@
+"""Where the Cluster Haptic Texture Dataset keeps what, in both of its published releases.
+
+File release: `sensor_data/<kind>/<name>.csv`; hub release: `sensor_data/<kind>/<texture_id>/<name>.parquet`.
+The columns are the same.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+SENSOR_FOLDER = "sensor_data"
+TEXTURE_LIST_FILE = "texture_list.xlsx"
+PROVENANCE_FILE = "provenance.json"
+
+
+@dataclass(frozen=True)
+class SensorKind:
+    """One sensor's folder and its columns in order."""
+
+    folder: str
+    columns: tuple[str, ...]
+
+
+ACCELERATION = SensorKind("accel", ("time", "X", "Y", "Z"))
+FORCE = SensorKind("force", ("time", "force"))
+POSITION = SensorKind("position", ("time", "X", "Y"))
+SENSOR_KINDS = (ACCELERATION, FORCE, POSITION)
+AUDIO_FOLDERS = ("audio", "raw_audio")
+AUDIO_ENDINGS = (".wav", ".flac")
+
+PUBLISHED_LICENCE = "CC BY 4.0"
+PUBLISHED_SOURCE = "Cluster Haptic Texture Dataset, https://doi.org/10.6084/m9.figshare.29438288"
+
+_GROUPS: tuple[tuple[int, int, str], ...] = (
+    (0, 37, "wood"),
+    (38, 48, "stone"),
+    (49, 64, "polymer"),
+    (65, 73, "metal"),
+    (74, 78, "glass"),
+    (79, 81, "composite"),
+    (82, 86, "ceramic"),
+    (87, 101, "biodegradable"),
+    (102, 117, "cloth"),
+)
+
+# Only groups whose names are known one for each id; the others are known by texture_list.xlsx alone.
+_NAMES: dict[int, str] = {
+    0: "Nyatoh",
+    37: "Cedar",
+    **dict(
+        enumerate(
+            (
+                *("Granite", "Basalt", "Oya stone", "Plutonic rock", "Towada stone", "Andesite", "Limestone"),
+                *("Travertine", "Natural slate", "Marble", "Concrete"),
+                *("HDPE", "LDPE", "PP", "Styrofoam", "ABS", "PVC", "PMMA", "PTFE", "PET", "PLA"),
+                *("Paper phenol", "Linen phenol", "Melamine sponge", "PU sponge", "Silicon", "Carbon fiber"),
+                *("Stainless steel", "Steel", "Cast iron", "Aluminum", "Lead", "Copper", "Brass", "Bronze"),
+                "Titanium",
+            ),
+            start=38,
+        )
+    ),
+    **dict(
+        enumerate(
+            (
+                *("Linoleum", "Tar paper", "Sandpaper"),
+                *("Alumina", "Porcelain", "Terracotta", "Brick", "Earth style porcelain"),
+                *("Jute", "Cotton", "Wool felt", "Sheep fur", "Rabbit fur", "Cow fur"),
+                *("Goat skin", "Horse skin", "Crocodile skin", "Cow skin", "Cow leather", "Snake skin"),
+                *("Ray skin", "Lizard skin", "Seal skin"),
+            ),
+            start=79,
+        )
+    ),
+}
+
+
+def published_group(texture_id: int) -> str | None:
+    """The material group of a published texture id, None outside 0-117."""
+    return next((group for first, last, group in _GROUPS if first <= texture_id <= last), None)
+
+
+def published_name(texture_id: int) -> str:
+    """The published name where it is known, else the group and the id (`cloth 104`)."""
+    return _NAMES.get(texture_id) or f"{published_group(texture_id) or 'texture'} {texture_id}"

@@ -1,0 +1,142 @@
+"""Labels and the textures behind them, from a TOML file: which recordings teach which material."""
+
+from __future__ import annotations
+
+import re
+import tomllib
+from collections.abc import Iterable
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from haptoflow_training.errors import InputError
+
+DEFAULT_LABELS_PATH = Path(__file__).resolve().parents[2] / "configs" / "labels-cluster.toml"
+
+_REQUIRED = ("name", "category", "textures", "stiffness_newtons_per_metre", "friction_coefficient")
+_OPTIONAL = ("wavelength_metres",)
+
+
+@dataclass(frozen=True)
+class LabelDefinition:
+    """One label. textures: ids, or names as texture_list.xlsx has them. stiffness: default spring, N/m.
+    friction_coefficient: kinetic. wavelength_metres: of a ruled or woven surface, else None."""
+
+    name: str
+    category: str
+    textures: tuple[int | str, ...]
+    stiffness_newtons_per_metre: float
+    friction_coefficient: float
+    wavelength_metres: float | None = None
+
+
+@dataclass(frozen=True)
+class LabelMap:
+    """Labels in the order of their index in a store and a model file."""
+
+    definitions: tuple[LabelDefinition, ...]
+
+    @property
+    def names(self) -> list[str]:
+        return [definition.name for definition in self.definitions]
+
+    def label_of(self, texture_id: int, texture_name: str) -> str | None:
+        """The label that lists this texture by id or by name, None where none does."""
+        plain = plain_name(texture_name)
+        for definition in self.definitions:
+            for texture in definition.textures:
+                if texture == texture_id or (isinstance(texture, str) and plain_name(texture) == plain):
+                    return definition.name
+        return None
+
+    def select(self, names: Iterable[str]) -> LabelMap:
+        """Only these labels, in the order given; InputError for one that is not defined."""
+        by_name = {definition.name: definition for definition in self.definitions}
+        wanted = list(names)
+        for name in wanted:
+            if name not in by_name:
+                raise InputError(f"label '{name}' is not defined; expected one of {', '.join(by_name)}")
+        return LabelMap(tuple(by_name[name] for name in wanted))
+
+
+def plain_name(name: str) -> str:
+    """A texture's name without case, spaces and punctuation: releases spell them differently."""
+    return re.sub(r"[^a-z0-9]", "", name.casefold())
+
+
+def load_labels(path: Path | str | None = None) -> LabelMap:
+    """Read a labels file; InputError names the file, the entry, the key and what was expected."""
+    source = DEFAULT_LABELS_PATH if path is None else Path(path)
+    try:
+        document = tomllib.loads(source.read_text(encoding="utf-8"))
+    except OSError as error:
+        raise InputError(
+            f"{source}: cannot be read ({error.strerror}); expected a labels file in TOML"
+        ) from error
+    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
+        raise InputError(f"{source}: not valid TOML ({error})") from error
+    entries = document.get("label")
+    if not isinstance(entries, list) or not entries:
+        raise InputError(f"{source}: no [[label]] entries; expected one for each label")
+    definitions = tuple(
+        _definition(f"{source}: label {number}", entry) for number, entry in enumerate(entries, 1)
+    )
+    _require_unique(source, definitions)
+    return LabelMap(definitions)
+
+
+def _definition(where: str, entry: Any) -> LabelDefinition:
+    if not isinstance(entry, dict):
+        raise InputError(f"{where} is {entry!r}; expected a [[label]] table")
+    for key in _REQUIRED:
+        if key not in entry:
+            raise InputError(f"{where}: key '{key}' is missing; expected {', '.join(_REQUIRED)}")
+    for key in entry:
+        if key not in _REQUIRED + _OPTIONAL:
+            raise InputError(f"{where}: unknown key '{key}'; expected {', '.join(_REQUIRED + _OPTIONAL)}")
+    for key in ("name", "category"):
+        if not isinstance(entry[key], str) or not entry[key].strip():
+            raise InputError(f"{where}: key '{key}' is {entry[key]!r}; expected a name")
+    textures = entry["textures"]
+    if not isinstance(textures, list) or not textures or not all(
+        _is_texture(texture) for texture in textures
+    ):
+        raise InputError(f"{where}: key 'textures' is {textures!r}; expected a list of ids or names")
+    return LabelDefinition(
+        entry["name"],
+        entry["category"],
+        tuple(textures),
+        _positive(where, entry, "stiffness_newtons_per_metre"),
+        _positive(where, entry, "friction_coefficient"),
+        _positive(where, entry, "wavelength_metres") if "wavelength_metres" in entry else None,
+    )
+
+
+def _is_texture(value: Any) -> bool:
+    return (isinstance(value, int) and not isinstance(value, bool) and value >= 0) or (
+        isinstance(value, str) and bool(plain_name(value))
+    )
+
+
+def _positive(where: str, entry: dict[str, Any], key: str) -> float:
+    value = entry[key]
+    if isinstance(value, bool) or not isinstance(value, (int, float)) or not 0 < value < float("inf"):
+        raise InputError(f"{where}: key '{key}' is {value!r}; expected a number above 0")
+    return float(value)
+
+
+def _require_unique(source: Path, definitions: tuple[LabelDefinition, ...]) -> None:
+    names: set[str] = set()
+    owner: dict[int | str, str] = {}
+    for definition in definitions:
+        if definition.name in names:
+            raise InputError(f"{source}: label '{definition.name}' occurs twice; give each label one entry")
+        names.add(definition.name)
+        for texture in definition.textures:
+            key = plain_name(texture) if isinstance(texture, str) else texture
+            if key in owner:
+                raise InputError(
+                    f"{source}: texture {texture!r} belongs to '{owner[key]}' and to '{definition.name}'; "
+                    "expected one"
+                )
+            owner[key] = definition.name
