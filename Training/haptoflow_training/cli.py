@@ -20,6 +20,7 @@ _COMMANDS: dict[str, str] = {
     "train": "train the level model and the network from one TOML file, resumable",
     "export": "write a trained run into a .haptoflow model file",
     "stroke": "write a hand-like stroke as CSV for `haptoflow render`",
+    "discriminate": "check that a classifier trained on recordings names what the engine renders",
 }
 
 

@@ -12,6 +12,9 @@ from torch import Tensor, nn
 from haptoflow_training.models.conditioning import EMBEDDING_SIZE, MotionFeatures, log_force, log_speed
 
 _CORRECTION_LIMIT = 0.9
+# Nothing below a hundredth of a metre per second squared can be felt; without a floor, digital silence at rest
+# would pull the law towards minus infinity.
+LEVEL_FLOOR_MPS2 = 0.01
 
 
 class LevelModel(nn.Module):
@@ -47,5 +50,7 @@ class LevelModel(nn.Module):
 
 
 def level_loss(log_level: Tensor, mean_square_mps2: Tensor) -> Tensor:
-    """Negative log-likelihood of a zero-mean Gaussian wave: s + 0.5 meansquare exp(-2 s), both [B, 1]."""
-    return (log_level + 0.5 * mean_square_mps2 * torch.exp(-2.0 * log_level)).mean()
+    """Negative log-likelihood of a zero-mean Gaussian wave over a floor of 0.01 m/s^2 RMS:
+    s + 0.5 meansquare exp(-2 s), both [B, 1]."""
+    power = mean_square_mps2 + LEVEL_FLOOR_MPS2**2
+    return (log_level + 0.5 * power * torch.exp(-2.0 * log_level)).mean()

@@ -14,6 +14,8 @@ from haptoflow_training.training.config import BatchConfig
 
 SEGMENT_SAMPLES = 200
 LEVEL_WINDOW_SAMPLES = 100
+# Where inside a segment its motion is told, for the level to follow: every 10 ms, both ends included.
+_KNOTS = np.linspace(0, SEGMENT_SAMPLES - 1, 11).round().astype(np.int64)
 
 
 class StoredRecording(Protocol):
@@ -38,13 +40,17 @@ class Store(Protocol):
 
 @dataclass(frozen=True)
 class SegmentBatch:
-    """waveforms in m/s^2: previous [B, 1, 200], segment [B, 1, 200]; label [B]; motion [B, 3];
-    level_motion [B, 3] and level_mean_square_mps2 [B, 1]: a 50 ms window for the level model."""
+    """waveforms in m/s^2: previous [B, 1, 200], segment [B, 1, 200]; label [B]; motion [B, 3]: the condition.
+
+    motion_path [B, 11, 3]: the motion at evenly spaced samples of the segment, its ends included.
+    level_motion [B, 3] and level_mean_square_mps2 [B, 1]: a 50 ms window for the level model.
+    """
 
     previous: Tensor
     segment: Tensor
     label: Tensor
     motion: Tensor
+    motion_path: Tensor
     level_motion: Tensor
     level_mean_square_mps2: Tensor
 
@@ -115,6 +121,7 @@ class SegmentBatches:
             segment=torch.from_numpy(waves[:, SEGMENT_SAMPLES:].copy()).unsqueeze(1),
             label=torch.from_numpy(self._labels[recordings]),
             motion=torch.from_numpy(motion.astype(np.float32)),
+            motion_path=torch.from_numpy(motions[:, _KNOTS].astype(np.float32)),
             level_motion=torch.from_numpy(level_motion.astype(np.float32)),
             level_mean_square_mps2=torch.from_numpy(
                 np.square(level_wave).mean(axis=1, keepdims=True).astype(np.float32)

@@ -16,8 +16,10 @@ def interpolate(noise: Tensor, target: Tensor, time: Tensor) -> Tensor:
     return (1.0 - weight) * noise + weight * target
 
 
-def flow_matching_loss(field: Field, target: Tensor, generator: torch.Generator | None = None) -> Tensor:
-    """E |u(x_t, t) - (x_1 - x_0)|^2 with x_0 ~ N(0, I), t ~ U(0, 1); target [B, C, N] in unit scale.
+def flow_matching_loss(
+    field: Field, target: Tensor, generator: torch.Generator | None = None, weight: Tensor | None = None
+) -> Tensor:
+    """E |u(x_t, t) - (x_1 - x_0)|^2 with x_0 ~ N(0, I), t ~ U(0, 1); target [B, C, N] in unit scale, weight [B].
 
     Times are stratified over the batch: the same expectation, less variance.
     """
@@ -25,7 +27,8 @@ def flow_matching_loss(field: Field, target: Tensor, generator: torch.Generator 
     noise = torch.randn(target.shape, generator=generator, dtype=target.dtype)
     strata = (torch.arange(count).unsqueeze(1) + torch.rand(count, 1, generator=generator)) / count
     time = strata[torch.randperm(count, generator=generator)].to(target.dtype)
-    return (field(interpolate(noise, target, time), time) - (target - noise)).square().mean()
+    error = (field(interpolate(noise, target, time), time) - (target - noise)).square().mean(dim=(1, 2))
+    return error.mean() if weight is None else (weight * error).sum() / weight.sum()
 
 
 def solve(field: Field, noise: Tensor, kind: str, steps: int) -> Tensor:

@@ -15,7 +15,7 @@ from haptoflow_training.export.label_info import LabelInfo
 from haptoflow_training.preprocessing.preparation import prepare_store
 from haptoflow_training.preprocessing.store import SegmentStore
 from haptoflow_training.recordings.cluster_dataset import open_dataset
-from haptoflow_training.recordings.labels import load_labels
+from haptoflow_training.recordings.labels import LabelDefinition, load_labels
 from haptoflow_training.recordings.recording import Recording, RecordingIdentity
 from haptoflow_training.recordings.synthetic import (
     Material,
@@ -148,39 +148,42 @@ def open_source(data: DataConfig, store_folder: Path, workers: int) -> Source:
 def _open_folders(data: DataConfig, store_folder: Path, workers: int) -> Source:
     if not data.folders:
         raise InputError("data.folders is empty: name the data set's folder there, or pass --recordings DIR")
-    label_map = load_labels(Path(data.labels_file) if data.labels_file else None)
-    if data.labels:
-        label_map = label_map.select(data.labels)
-    datasets = [open_dataset(Path(folder), label_map) for folder in data.folders]
-    entries = [entry for dataset in datasets for entry in dataset]
+    roots = [open_dataset(Path(folder), None) for folder in data.folders]
+    synthetic = all(root.synthetic for root in roots)
+    if synthetic:
+        known = {info.name: info for info in synthetic_label_infos(DataConfig())}
+    else:
+        label_map = load_labels(Path(data.labels_file) if data.labels_file else None)
+        roots = [open_dataset(Path(folder), label_map) for folder in data.folders]
+        known = {definition.name: _label_info(definition) for definition in label_map.definitions}
+    entries = [entry for root in roots for entry in root if not data.labels or entry.label in data.labels]
     if not entries:
         raise InputError(
             f"{', '.join(data.folders)}: no recording whose texture a label names; look with `haptoflow-training inspect`"
         )
     found = {entry.label for entry in entries}
-    definitions = [definition for definition in label_map.definitions if definition.name in found]
-    store = _open_or_prepare(data, store_folder, entries, [definition.name for definition in definitions], workers)
-    synthetic = any(dataset.synthetic for dataset in datasets)
+    infos = [info for name, info in known.items() if name in found]
+    store = _open_or_prepare(data, store_folder, entries, [info.name for info in infos], workers)
+    counted = f"{len(store.recordings)} recordings of {len(infos)} labels"
+    if synthetic:
+        return Source(store, infos, Provenance(SYNTHETIC_STATEMENT, f"synthetic recorder: {counted}", "MIT", ""))
     return Source(
         store,
-        [
-            LabelInfo(
-                definition.name,
-                definition.category,
-                definition.stiffness_newtons_per_metre,
-                definition.friction_coefficient,
-                definition.wavelength_metres,
-            )
-            for definition in definitions
-        ],
+        infos,
         Provenance(
-            statement=SYNTHETIC_STATEMENT if synthetic else "trained on the Cluster Haptic Texture Dataset",
-            recordings=(
-                f"{len(store.recordings)} recordings of {len(definitions)} labels"
-                if synthetic
-                else f"Cluster Haptic Texture Dataset, {len(store.recordings)} recordings of {len(definitions)} labels"
-            ),
-            licence="MIT" if synthetic else "recordings CC BY 4.0 (DOI 10.6084/m9.figshare.29438288)",
+            statement="trained on the Cluster Haptic Texture Dataset",
+            recordings=f"Cluster Haptic Texture Dataset (DOI 10.6084/m9.figshare.29438288): {counted}",
+            licence="CC BY 4.0",
             created="",
         ),
+    )
+
+
+def _label_info(definition: LabelDefinition) -> LabelInfo:
+    return LabelInfo(
+        definition.name,
+        definition.category,
+        definition.stiffness_newtons_per_metre,
+        definition.friction_coefficient,
+        definition.wavelength_metres,
     )

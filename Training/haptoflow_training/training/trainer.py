@@ -55,14 +55,28 @@ class Losses(nn.Module):
         embedding = model.embedding(batch.label)
         # The field sees waves of unit scale; it must not move the level to make its own task easier.
         log_level = model.log_level(batch.label, batch.motion).detach()
-        segment = model.representation.encode(unit_scale(batch.segment, log_level))
+        segment = model.representation.encode(self._steady_segment(batch, embedding))
         scaled_previous = unit_scale(batch.previous, log_level).clamp(-PREVIOUS_LIMIT, PREVIOUS_LIMIT)
         previous = model.representation.encode(scaled_previous)
 
         def field(noisy: Tensor, moment: Tensor) -> Tensor:
             return model.field(noisy, moment, previous, embedding, batch.motion)
 
-        return level, flow_matching_loss(field, segment, generator)
+        # A burst that the level cannot foresee (an impact, the first motion after a rest) is learnt, but must not
+        # outweigh a hundred ordinary segments.
+        weight = 1.0 / segment.square().mean(dim=(1, 2)).clamp(min=1.0)
+        return level, flow_matching_loss(field, segment, generator, weight)
+
+    def _steady_segment(self, batch: SegmentBatch, embedding: Tensor) -> Tensor:
+        """The segment in unit scale as if the motion went on as it began: each sample is divided by the level of its
+        own moment, since at run time the hand's next tenth of a second is not known."""
+        rows, knots, _ = batch.motion_path.shape
+        path = batch.motion_path.reshape(rows * knots, 3)
+        with torch.no_grad():
+            log_level = self.model.level(embedding.repeat_interleave(knots, dim=0), path).reshape(rows, 1, knots)
+        samples = batch.segment.shape[-1]
+        log_level = nn.functional.interpolate(log_level, size=samples, mode="linear", align_corners=True)
+        return batch.segment * torch.exp(-log_level)
 
 
 def build_model(config: TrainingConfig, label_count: int) -> HaptoFlowModel:

@@ -1,0 +1,124 @@
+#include "model_location.hpp"
+
+#include "exit_codes.hpp"
+#include "inference/inference_error.hpp"
+
+#include <cstdlib>
+#include <optional>
+#include <system_error>
+#include <vector>
+
+#if defined(_WIN32)
+#include <windows.h>
+#elif defined(__APPLE__)
+#include <mach-o/dyld.h>
+#endif
+
+namespace haptoflow::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+#if defined(_WIN32)
+constexpr const char* runtimeFile = "onnxruntime.dll";
+#if defined(_M_ARM64) || defined(__aarch64__)
+constexpr const char* runtimeFolder = "Windows/arm64";
+#else
+constexpr const char* runtimeFolder = "Windows/x64";
+#endif
+#elif defined(__APPLE__)
+constexpr const char* runtimeFile = "libonnxruntime.dylib";
+constexpr const char* runtimeFolder = "macOS/arm64";
+#else
+constexpr const char* runtimeFile = "libonnxruntime.so";
+constexpr const char* runtimeFolder = "Linux/x64";
+#endif
+
+fs::path executableFolder() {
+#if defined(_WIN32)
+    std::vector<wchar_t> name(32'768);
+    const DWORD length = GetModuleFileNameW(nullptr, name.data(), static_cast<DWORD>(name.size()));
+    return fs::path(std::wstring(name.data(), length)).parent_path();
+#elif defined(__APPLE__)
+    std::vector<char> name(32'768);
+    auto size = static_cast<std::uint32_t>(name.size());
+    if (_NSGetExecutablePath(name.data(), &size) != 0) {
+        return {};
+    }
+    std::error_code ignored;
+    return fs::canonical(name.data(), ignored).parent_path();
+#else
+    std::error_code ignored;
+    return fs::read_symlink("/proc/self/exe", ignored).parent_path();
+#endif
+}
+
+std::optional<fs::path> fromEnvironment(const char* variable) {
+    // Nothing in this process changes the environment.
+    const char* value = std::getenv(variable);  // NOLINT(concurrency-mt-unsafe)
+    if (value == nullptr || *value == '\0') {
+        return std::nullopt;
+    }
+    return fs::path(value);
+}
+
+/// The first of the candidates that is a file; the environment's word, where it has one, is the only candidate.
+fs::path find(const std::string& what, const char* variable, const std::vector<fs::path>& candidates,
+              const std::string& remedy) {
+    std::error_code ignored;
+    if (const auto named = fromEnvironment(variable)) {
+        if (fs::is_regular_file(*named, ignored)) {
+            return *named;
+        }
+        throw InputError(named->string() + ": no such file; it is what the environment variable " + variable +
+                         " names as " + what);
+    }
+    std::string message = what + " was not found. Looked at " + variable + " (not set)";
+    for (const fs::path& candidate : candidates) {
+        const fs::path tidy = candidate.lexically_normal();
+        if (fs::is_regular_file(tidy, ignored)) {
+            return tidy;
+        }
+        message += ", " + tidy.string();
+    }
+    throw InputError(message + ". " + remedy);
+}
+
+}  // namespace
+
+fs::path findModel(const std::string& given) {
+    if (!given.empty()) {
+        return given;
+    }
+    const fs::path folder = executableFolder();
+    return find("the default model", "HAPTOFLOW_MODEL",
+                {folder / "default.haptoflow",
+                 folder / "../../Packages/com.haptoflow.runtime/Runtime/Models/default.haptoflow"},
+                "Name a model with --model, or run the program that `npm run build` makes inside a checkout.");
+}
+
+fs::path findOnnxRuntime() {
+    const fs::path folder = executableFolder();
+    const fs::path package = folder / "../../node_modules/com.github.asus4.onnxruntime/Plugins";
+    return find("ONNX Runtime's library", "HAPTOFLOW_ONNXRUNTIME",
+                {folder / runtimeFile, package / runtimeFolder / runtimeFile},
+                "Run `npm ci` and `npm run build` in the repository's root, or set the variable to the library.");
+}
+
+model::ModelFile readModel(const fs::path& path) {
+    try {
+        return model::ModelFile::read(path);
+    } catch (const model::ModelError& error) {
+        throw InputError(error.what());
+    }
+}
+
+std::shared_ptr<const inference::Runtime> openRuntime() {
+    try {
+        return inference::Runtime::open(findOnnxRuntime());
+    } catch (const inference::RuntimeUnavailable& error) {
+        throw InputError(error.what());
+    }
+}
+
+}  // namespace haptoflow::cli

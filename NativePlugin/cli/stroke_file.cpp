@@ -1,0 +1,239 @@
+#include "stroke_file.hpp"
+
+#include "exit_codes.hpp"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <fstream>
+#include <glm/common.hpp>
+#include <iterator>
+#include <optional>
+#include <system_error>
+
+namespace haptoflow::cli {
+namespace {
+
+constexpr double largestValue = 1e9;
+constexpr std::size_t mostFrames = 10'000'000;
+constexpr std::array<std::string_view, 9> columnNames{"t", "x", "y", "z", "force", "qx", "qy", "qz", "qw"};
+constexpr std::string_view headerForm = "t,x,y,z[,force][,qx,qy,qz,qw]";
+
+std::string_view trimmed(std::string_view text) {
+    constexpr std::string_view blank = " \t\r";
+    const std::size_t first = text.find_first_not_of(blank);
+    return first == std::string_view::npos ? std::string_view()
+                                           : text.substr(first, text.find_last_not_of(blank) - first + 1);
+}
+
+std::vector<std::string_view> splitCells(std::string_view line) {
+    std::vector<std::string_view> cells;
+    for (std::size_t start = 0; start <= line.size();) {
+        const std::size_t comma = std::min(line.find(',', start), line.size());
+        cells.push_back(trimmed(line.substr(start, comma - start)));
+        start = comma + 1;
+    }
+    return cells;
+}
+
+struct Layout {
+    bool force = false;
+    bool orientation = false;
+    [[nodiscard]] std::size_t columns() const { return 4U + (force ? 1U : 0U) + (orientation ? 4U : 0U); }
+    [[nodiscard]] std::string_view nameOf(std::size_t column) const {
+        return columnNames[column >= 4 && !force ? column + 1 : column];
+    }
+};
+
+/// Reads line by line and knows where it is.
+class StrokeReader {
+public:
+    StrokeReader(std::string_view text, const std::string& file) : rest_(text), file_(file) {
+        if (rest_.starts_with("\xEF\xBB\xBF")) {
+            rest_.remove_prefix(3);
+        }
+    }
+
+    Stroke read() {
+        if (!nextLine()) {
+            fail("expected the header " + std::string(headerForm) + ", found an empty file");
+        }
+        readHeader();
+        Stroke stroke;
+        while (nextLine()) {
+            if (trimmed(line_).empty()) {
+                requireNothingMore();
+                break;
+            }
+            stroke.samples.push_back(readSample());
+            const std::size_t count = stroke.samples.size();
+            if (count > 1 && stroke.samples[count - 1].timeSeconds < stroke.samples[count - 2].timeSeconds) {
+                fail(0, "expected a time not before the line above");
+            }
+        }
+        if (stroke.samples.empty()) {
+            fail("expected one or more samples after the header, found none");
+        }
+        return stroke;
+    }
+
+private:
+    bool nextLine() {
+        if (rest_.empty()) {
+            return false;
+        }
+        const std::size_t end = std::min(rest_.find('\n'), rest_.size());
+        line_ = rest_.substr(0, end);
+        rest_.remove_prefix(std::min(end + 1, rest_.size()));
+        ++lineNumber_;
+        return true;
+    }
+
+    [[noreturn]] void fail(const std::string& complaint) const {
+        throw InputError(file_ + ":" + std::to_string(std::max<std::size_t>(1, lineNumber_)) + ": " + complaint);
+    }
+
+    [[noreturn]] void fail(std::size_t column, const std::string& expected) const {
+        const std::vector<std::string_view> cells = splitCells(line_);
+        fail("column " + std::string(layout_.nameOf(column)) + ": " + expected + ", found \"" +
+             std::string(cells[column].substr(0, 40)) + "\"");
+    }
+
+    void readHeader() {
+        const std::vector<std::string_view> cells = splitCells(line_);
+        for (const bool force : {false, true}) {
+            for (const bool orientation : {false, true}) {
+                layout_ = {force, orientation};
+                bool same = cells.size() == layout_.columns();
+                for (std::size_t column = 0; same && column < cells.size(); ++column) {
+                    same = cells[column] == layout_.nameOf(column);
+                }
+                if (same) {
+                    return;
+                }
+            }
+        }
+        fail("expected the header " + std::string(headerForm) + " with commas between the names, found \"" +
+             std::string(trimmed(line_).substr(0, 80)) + "\"");
+    }
+
+    void requireNothingMore() {
+        while (nextLine()) {
+            if (!trimmed(line_).empty()) {
+                --lineNumber_;
+                fail("an empty line between samples; remove it");
+            }
+        }
+    }
+
+    double number(const std::vector<std::string_view>& cells, std::size_t column) const {
+        double value = 0.0;
+        const std::string_view cell = cells[column];
+        const char* end = cell.data() + cell.size();
+        // from_chars knows no plus sign; one sign is enough.
+        const bool plus = cell.starts_with('+') && !cell.starts_with("+-");
+        const char* begin = plus ? cell.data() + 1 : cell.data();
+        const auto [stop, error] = std::from_chars(begin, end, value);
+        if (error != std::errc() || stop != end || !(std::abs(value) <= largestValue)) {
+            fail(column, "expected a number within +-1e9 with a decimal point");
+        }
+        return value;
+    }
+
+    contact::TipSample readSample() const {
+        const std::vector<std::string_view> cells = splitCells(line_);
+        if (cells.size() != layout_.columns()) {
+            fail("expected " + std::to_string(layout_.columns()) + " values as in the header, found " +
+                 std::to_string(cells.size()) + " (decimals need a point, not a comma)");
+        }
+        contact::TipSample sample;
+        sample.timeSeconds = number(cells, 0);
+        sample.positionMetres = {number(cells, 1), number(cells, 2), number(cells, 3)};
+        std::size_t column = 4;
+        if (layout_.force) {
+            if (!cells[column].empty()) {
+                sample.forceNewtons = number(cells, column);
+                if (*sample.forceNewtons < 0.0) {
+                    fail(column, "expected newtons, 0 or more, or nothing where the stylus measured none");
+                }
+            }
+            ++column;
+        }
+        if (layout_.orientation) {
+            const glm::dquat turn(number(cells, column + 3), number(cells, column), number(cells, column + 1),
+                                  number(cells, column + 2));
+            const double length = glm::length(turn);
+            if (!(length > 1e-6)) {
+                fail(column, "expected a quaternion qx,qy,qz,qw other than zero");
+            }
+            sample.orientation = turn / length;
+        }
+        return sample;
+    }
+
+    std::string_view rest_;
+    std::string_view line_;
+    const std::string& file_;
+    Layout layout_;
+    std::size_t lineNumber_ = 0;
+};
+
+}  // namespace
+
+Stroke parseStroke(std::string_view text, const std::string& fileName) {
+    return StrokeReader(text, fileName).read();
+}
+
+Stroke readStrokeFile(const std::string& path) {
+    std::ifstream file(path, std::ios::binary);
+    if (!file) {
+        throw InputError(path + ": cannot be opened; expected a stroke file (CSV)");
+    }
+    const std::string text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+    return parseStroke(text, path);
+}
+
+contact::TipSample sampleStroke(const Stroke& stroke, double timeSeconds) {
+    const auto& samples = stroke.samples;
+    const auto after =
+        std::upper_bound(samples.begin(), samples.end(), timeSeconds,
+                         [](double time, const contact::TipSample& sample) { return time < sample.timeSeconds; });
+    contact::TipSample result;
+    if (after == samples.begin()) {
+        result = samples.front();
+    } else if (after == samples.end()) {
+        result = samples.back();
+    } else {
+        const contact::TipSample& a = *(after - 1);
+        const contact::TipSample& b = *after;
+        const double u = (timeSeconds - a.timeSeconds) / (b.timeSeconds - a.timeSeconds);
+        result.positionMetres = glm::mix(a.positionMetres, b.positionMetres, u);
+        result.forceNewtons = u < 0.5 ? a.forceNewtons : b.forceNewtons;
+        if (a.forceNewtons && b.forceNewtons) {
+            result.forceNewtons = glm::mix(*a.forceNewtons, *b.forceNewtons, u);
+        }
+        if (a.orientation && b.orientation) {
+            result.orientation = glm::normalize(glm::slerp(*a.orientation, *b.orientation, u));
+        }
+    }
+    result.timeSeconds = timeSeconds;
+    return result;
+}
+
+std::size_t frameCount(const Stroke& stroke, double updateRateHz, const std::string& fileName) {
+    const double seconds = stroke.samples.back().timeSeconds - stroke.samples.front().timeSeconds;
+    // A last frame that misses the last sample by rounding alone still counts.
+    const double frames = std::floor(seconds * updateRateHz + 1e-6) + 1.0;
+    if (frames > static_cast<double>(mostFrames)) {
+        throw InputError(fileName + ": " + std::to_string(seconds) +
+                         " s at the scene's update_rate are more than ten million frames; expected a shorter stroke");
+    }
+    return static_cast<std::size_t>(frames);
+}
+
+contact::TipSample frameAt(const Stroke& stroke, double updateRateHz, std::size_t index) {
+    return sampleStroke(stroke, stroke.samples.front().timeSeconds + static_cast<double>(index) / updateRateHz);
+}
+
+}  // namespace haptoflow::cli

@@ -1,0 +1,8 @@
+"""Tests import the package from the tree and their own helpers from this folder."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+
+sys.path[:0] = [str(Path(__file__).parents[2] / "Training"), str(Path(__file__).parent)]

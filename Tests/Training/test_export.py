@@ -1,0 +1,98 @@
+"""From a trained run to a model file: header, seeds, exponents, graphs, golden vectors."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import numpy as np
+import onnx
+import pytest
+from test_trainer import ALONE, _config
+from training_fixtures import FakeStore, make_store
+
+from haptoflow_training.errors import InputError
+from haptoflow_training.export.exponents import fit_exponents
+from haptoflow_training.export.exporter import Provenance, export_run
+from haptoflow_training.export.label_info import LabelInfo
+from haptoflow_training.export.model_file import ModelFile, read_model_file
+from haptoflow_training.export.seed_bank import build_seed_bank
+from haptoflow_training.training.trainer import Trainer
+
+INFOS = [LabelInfo("tone", "metal", 900.0, 0.3, 0.002), LabelInfo("noise", "stone", 1500.0, 0.6)]
+PROVENANCE = Provenance("trained on nothing real", "a test", "MIT", "")
+
+
+@pytest.fixture(scope="module")
+def exported(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, ModelFile, FakeStore]:
+    folder = tmp_path_factory.mktemp("export")
+    store = make_store(seconds=6.0, recordings_per_split=4)
+    Trainer(_config(), store, folder / "run", ALONE).run()
+    export_run(folder / "run", store, INFOS, PROVENANCE, folder / "m.haptoflow", folder / "parity.json")
+    return folder, read_model_file(folder / "m.haptoflow"), store
+
+
+def test_the_header_says_origin_labels_range_and_tier(exported: tuple[Path, ModelFile, FakeStore]) -> None:
+    header = exported[1].header
+    assert header["provenance"]["statement"] == "trained on nothing real"
+    assert header["provenance"]["configuration"]["optimiser"]["steps"] == 30
+    assert [label["name"] for label in header["labels"]] == ["tone", "noise"]
+    assert header["labels"][0]["periodic"] and not header["labels"][1]["periodic"]
+    assert 0.55 < header["range"]["speed_mps"][1] <= 0.61
+    assert header["tiers"][0]["kind"] == "flow"
+    assert header["measurements"]["steps"] == 60
+
+
+def test_graphs_are_opset_16_with_named_inputs_and_a_dynamic_batch(
+    exported: tuple[Path, ModelFile, FakeStore]
+) -> None:
+    field = onnx.load_from_string(exported[1].graphs["standard.field"])
+    assert [value.name for value in field.graph.input] == ["noisy", "time", "previous", "embedding", "motion"]
+    assert [value.name for value in field.graph.output] == ["velocity"]
+    assert field.opset_import[0].version == 16
+    assert field.graph.input[0].type.tensor_type.shape.dim[0].dim_param == "batch"
+    level = onnx.load_from_string(exported[1].graphs["level"])
+    assert [value.name for value in level.graph.output] == ["log_level"]
+
+
+def test_no_path_of_the_training_machine_is_in_the_file(exported: tuple[Path, ModelFile, FakeStore]) -> None:
+    content = (exported[0] / "m.haptoflow").read_bytes()
+    assert str(Path(__file__).parents[2]).encode() not in content
+    assert str(exported[0]).encode() not in content
+
+
+def test_seeds_are_recordings_of_unit_level_with_their_conditions(exported: tuple[Path, ModelFile, FakeStore]) -> None:
+    store = exported[2]
+    bank = build_seed_bank(store, seed=1)
+    assert len(bank.entries) == len(bank.waves) >= 10
+    np.testing.assert_allclose(np.sqrt(np.square(bank.waves).mean(axis=1)), 1.0, rtol=1e-3)
+    tones = [wave for wave, entry in zip(bank.waves, bank.entries, strict=True) if entry["label"] == "tone"]
+    spectra = np.abs(np.fft.rfft(tones, axis=1))
+    assert (spectra.argmax(axis=1) == 30).all(), "150 Hz is bin 30 of 400 samples at 2 kHz"
+
+
+def test_exponents_are_those_of_the_recordings() -> None:
+    store = make_store(seconds=8.0, recordings_per_split=8)
+    tone = fit_exponents(store, 0, periodic=True, seed=1)
+    assert tone.level_speed == pytest.approx(1.0, abs=0.08)
+    assert tone.level_force == pytest.approx(0.3, abs=0.08)
+    assert tone.frequency == 1.0
+    noise = fit_exponents(store, 1, periodic=False, seed=1)
+    assert noise.level_speed == pytest.approx(0.5, abs=0.08)
+    assert noise.frequency == pytest.approx(0.0, abs=0.05)
+
+
+def test_golden_vectors_name_the_file_they_belong_to(exported: tuple[Path, ModelFile, FakeStore]) -> None:
+    import zlib
+
+    golden = json.loads((exported[0] / "parity.json").read_text(encoding="utf-8"))
+    assert golden["model_crc32"] == f"{zlib.crc32((exported[0] / 'm.haptoflow').read_bytes()):08x}"
+    assert len(golden["cases"]) == 10
+    for case in golden["cases"]:
+        assert len(case["segment"]) == len(case["noise"]) == len(case["previous"]) == 200
+        assert np.abs(case["segment"]).max() > 0.0
+
+
+def test_labels_that_were_not_trained_are_refused(exported: tuple[Path, ModelFile, FakeStore], tmp_path: Path) -> None:
+    with pytest.raises(InputError, match="trained on labels"):
+        export_run(exported[0] / "run", exported[2], INFOS[::-1], PROVENANCE, tmp_path / "x.haptoflow")

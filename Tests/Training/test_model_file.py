@@ -1,0 +1,79 @@
+"""The `.haptoflow` writer and its reader: layout, alignment, checksums, damage."""
+
+from __future__ import annotations
+
+import struct
+import zlib
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from haptoflow_training.errors import InputError
+from haptoflow_training.export.model_file import ModelFile, encode_model_file, read_model_file, write_model_file
+
+MODEL = ModelFile(
+    header={"name": "tést", "labels": [{"name": "wood"}]},
+    tensors={"embedding": np.arange(128, dtype=np.float32).reshape(2, 64), "seeds": np.ones((1, 400), np.float32)},
+    graphs={"field": b"graph bytes", "level": b"x" * 1000},
+)
+
+
+def test_what_is_written_is_read_back(tmp_path: Path) -> None:
+    path = tmp_path / "model.haptoflow"
+    checksum = write_model_file(path, MODEL)
+    assert checksum == zlib.crc32(path.read_bytes())
+    read = read_model_file(path)
+    assert read.header == MODEL.header
+    assert read.graphs == MODEL.graphs
+    np.testing.assert_array_equal(read.tensors["embedding"], MODEL.tensors["embedding"])
+
+
+def test_the_preamble_says_magic_version_lengths_and_checksums() -> None:
+    content = encode_model_file(MODEL)
+    magic, version, header_length, total, header_crc, own_crc = struct.unpack_from("<8sIIQII", content)
+    assert (magic, version, total) == (b"HAPTFLOW", 1, len(content))
+    assert zlib.crc32(content[32 : 32 + header_length]) == header_crc
+    assert zlib.crc32(content[:28]) == own_crc
+
+
+def test_header_and_blobs_end_and_start_on_multiples_of_64(tmp_path: Path) -> None:
+    for name_length in range(1, 140):
+        model = ModelFile({"name": "n" * name_length}, MODEL.tensors, MODEL.graphs)
+        content = encode_model_file(model)
+        (header_length,) = struct.unpack_from("<I", content, 12)
+        assert (32 + header_length) % 64 == 0
+        path = tmp_path / "m.haptoflow"
+        path.write_bytes(content)
+        assert read_model_file(path).header["name"] == "n" * name_length
+
+
+@pytest.mark.parametrize(
+    ("damage", "complaint"),
+    [
+        (lambda content: content[:-1], "truncated"),
+        (lambda content: b"NOTAMODL" + content[8:], "not a .haptoflow file"),
+        (lambda content: content[:8] + b"\x02" + content[9:], "version 2"),
+        (lambda content: content[:40] + b"#" + content[41:], "header"),
+        (lambda content: content[:-3] + b"#" + content[-2:], "'level'"),
+    ],
+    ids=["truncated", "other magic", "newer", "header", "blob"],
+)
+def test_damage_is_named(tmp_path: Path, damage: object, complaint: str) -> None:
+    path = tmp_path / "broken.haptoflow"
+    path.write_bytes(damage(encode_model_file(MODEL)))  # type: ignore[operator]
+    with pytest.raises(InputError, match=complaint):
+        read_model_file(path)
+
+
+def test_a_tensor_that_is_not_finite_is_refused() -> None:
+    with pytest.raises(ValueError, match="'embedding'"):
+        encode_model_file(ModelFile({}, {"embedding": np.array([np.nan], np.float32)}, {}))
+
+
+def test_a_folder_that_cannot_be_written_is_named(tmp_path: Path) -> None:
+    blocked = tmp_path / "model.haptoflow"
+    blocked.mkdir()
+    with pytest.raises(InputError, match="model.haptoflow"):
+        write_model_file(blocked, MODEL)
+    assert list(tmp_path.iterdir()) == [blocked]

@@ -1,0 +1,107 @@
+"""The loop: it learns, it resumes to the same weights, it shares a batch between processes."""
+
+from __future__ import annotations
+
+import json
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+import torch
+from training_fixtures import make_store
+
+from haptoflow_training.errors import InputError
+from haptoflow_training.training.config import BatchConfig, ModelConfig, OptimiserConfig, TrainingConfig
+from haptoflow_training.training.processes import Processes
+from haptoflow_training.training.trainer import Trainer, TrainingStopped, load_trained
+
+ALONE = Processes(rank=0, count=1)
+
+
+def _config(steps: int = 30) -> TrainingConfig:
+    return TrainingConfig(
+        name="test",
+        model=ModelConfig(width=16, previous_width=8),
+        optimiser=OptimiserConfig(
+            batch_size=8, level_steps=20, steps=steps, level_polish_steps=10, warm_up_steps=5, average_decay=0.9
+        ),
+        batch=BatchConfig(),
+    )
+
+
+def test_training_lowers_both_validation_losses(tmp_path: Path) -> None:
+    trainer = Trainer(_config(steps=150), make_store(), tmp_path, ALONE)
+    level_before, field_before = trainer.validate()
+    trainer.run()
+    level_after, field_after = trainer.validate()
+    assert level_after < level_before
+    assert field_after < field_before
+
+
+def test_a_run_leaves_its_configuration_seed_commit_metrics_and_plot(tmp_path: Path) -> None:
+    Trainer(_config(), make_store(), tmp_path, ALONE).run()
+    run = json.loads((tmp_path / "run.json").read_text(encoding="utf-8"))
+    assert run["configuration"]["optimiser"]["batch_size"] == 8
+    assert run["seed"] == 1
+    assert run["commit"]
+    assert run["steps"] == 60
+    assert "validation_field_loss" in (tmp_path / "metrics.csv").read_text(encoding="utf-8").splitlines()[0]
+    assert (tmp_path / "metrics.png").stat().st_size > 1000
+
+
+def test_a_stopped_run_goes_on_to_the_weights_of_one_that_was_never_stopped(tmp_path: Path) -> None:
+    store = make_store()
+    Trainer(_config(), store, tmp_path / "whole", ALONE).run()
+
+    interrupted = Trainer(_config(), store, tmp_path / "halves", ALONE)
+    train_step = interrupted._train_step
+
+    def stop_in_the_middle(*arguments: object) -> object:
+        result = train_step(*arguments)  # type: ignore[arg-type]
+        interrupted._stop = interrupted._step == 33
+        return result
+
+    interrupted._train_step = stop_in_the_middle  # type: ignore[method-assign,assignment]
+    with pytest.raises(TrainingStopped, match="step 33 of 60"):
+        interrupted.run()
+    Trainer(_config(), store, tmp_path / "halves", ALONE).run()
+
+    whole, halves = (load_trained(tmp_path / name)[2].state_dict() for name in ("whole", "halves"))
+    for name, weights in whole.items():
+        torch.testing.assert_close(halves[name], weights, msg=name)
+
+
+def test_a_folder_of_another_configuration_is_refused(tmp_path: Path) -> None:
+    store = make_store()
+    Trainer(_config(), store, tmp_path, ALONE).run()
+    with pytest.raises(InputError, match="another configuration"):
+        Trainer(_config(steps=31), store, tmp_path, ALONE).run()
+
+
+def test_a_loss_that_is_not_finite_stops_the_run_with_a_remedy(tmp_path: Path) -> None:
+    store = make_store()
+    store.waveform[: len(store.waveform) // 3] = float("nan")
+    with pytest.raises(InputError, match="learning_rate"):
+        Trainer(_config(), store, tmp_path, ALONE).run()
+
+
+def test_a_run_that_was_never_trained_cannot_be_loaded(tmp_path: Path) -> None:
+    with pytest.raises(InputError, match="train first"):
+        load_trained(tmp_path)
+
+
+def test_two_processes_under_torchrun_end_with_one_set_of_weights(tmp_path: Path) -> None:
+    script = Path(__file__).with_name("two_process_training.py")
+    environment = dict(os.environ, OMP_NUM_THREADS="1", PYTHONPATH=os.pathsep.join(sys.path))
+    subprocess.run(
+        [sys.executable, "-m", "torch.distributed.run", "--standalone", "--redirects", "1", "--tee", "1",
+         "--nproc_per_node", "2", str(script), str(tmp_path)],
+        env=environment, check=True, capture_output=True, timeout=240,
+    )  # fmt: skip
+    first, second = (torch.load(tmp_path / f"weights-{rank}.pt") for rank in (0, 1))
+    run = json.loads((tmp_path / "run" / "run.json").read_text(encoding="utf-8"))
+    assert run["processes"] == 2
+    for name, weights in first.items():
+        torch.testing.assert_close(second[name], weights, rtol=0.0, atol=0.0, msg=name)

@@ -1,0 +1,59 @@
+"""A small store in memory: two labels whose waves and levels are known, so that tests need no recordings."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+RATE_HZ = 2000
+
+
+@dataclass(frozen=True)
+class FakeRecording:
+    label_index: int
+    protocol: str
+    split: str
+    start: int
+    length: int
+
+
+@dataclass(frozen=True)
+class FakeStore:
+    waveform: NDArray[np.float32]
+    motion: NDArray[np.float32]
+    peak_mps2: float
+    labels: list[str]
+    recordings: list[FakeRecording]
+
+
+def make_store(*, seconds: float = 4.0, recordings_per_split: int = 2, seed: int = 3) -> FakeStore:
+    """Label `tone`: 150 Hz, RMS = 2 v^1 F^0.3; label `noise`: white, RMS = 5 v^0.5. Speeds 0.02-0.6 m/s, 0.3-3 N."""
+    generator = np.random.default_rng(seed)
+    waves, motions, recordings, start = [], [], [], 0
+    length = int(seconds * RATE_HZ)
+    time = np.arange(length) / RATE_HZ
+    for split in ("train", "validation", "test"):
+        for label in range(2):
+            for number in range(recordings_per_split):
+                speed = np.exp(np.linspace(np.log(0.02), np.log(0.6), length))[:: (1 if number % 2 == 0 else -1)]
+                force = 0.3 * 10.0 ** generator.random() * np.ones(length)
+                angle = generator.random() * 2.0 * np.pi
+                if label == 0:
+                    wave = np.sqrt(2.0) * np.sin(2.0 * np.pi * 150.0 * time + angle) * 2.0 * speed * force**0.3
+                else:
+                    wave = generator.normal(size=length) * 5.0 * np.sqrt(speed)
+                waves.append(wave)
+                motions.append(np.stack([speed * np.cos(angle), speed * np.sin(angle), force], axis=1))
+                protocol = "machine" if number % 2 == 0 else "hand"
+                recordings.append(FakeRecording(label, protocol, split, start, length))
+                start += length
+    peak = 10.0
+    return FakeStore(
+        (np.concatenate(waves) / peak).astype(np.float32),
+        np.concatenate(motions).astype(np.float32),
+        peak,
+        ["tone", "noise"],
+        recordings,
+    )

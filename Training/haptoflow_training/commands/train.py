@@ -1,0 +1,84 @@
+"""`haptoflow-training train`: recordings to a trained run to a model file, in one go."""
+
+from __future__ import annotations
+
+import argparse
+import dataclasses
+import sys
+from pathlib import Path
+
+from haptoflow_training.export.exporter import export_run
+from haptoflow_training.training.config import TrainingConfig, load_config
+from haptoflow_training.training.processes import join_processes
+from haptoflow_training.training.recordings_source import open_source
+from haptoflow_training.training.run_log import write_json
+from haptoflow_training.training.trainer import Trainer, TrainingStopped
+
+CONFIGURATIONS = Path(__file__).parents[2] / "configs"
+
+
+def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser], summary: str) -> None:
+    parser = subparsers.add_parser(
+        "train",
+        help=summary,
+        description=(
+            "Prepares the recordings that the configuration names (once), trains the level model and the velocity "
+            "field, and writes checkpoint.pt, metrics.csv, metrics.png and run.json into --out. Run it again to go on "
+            "after an interruption: the result is the same."
+        ),
+        epilog=(
+            "examples:\n"
+            "  haptoflow-training train --out out/train/default --export default.haptoflow\n"
+            "  haptoflow-training train --config cluster.toml --recordings ~/cluster-haptic --out out/train/real\n"
+            "  torchrun --redirects 1 --tee 1 --nproc_per_node 2 -m haptoflow_training train --out out/train/two"
+        ),
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+    parser.add_argument(
+        "--config", type=Path, default=CONFIGURATIONS / "default.toml", help="the run's TOML file (default: %(default)s)"
+    )
+    parser.add_argument("--out", type=Path, required=True, help="folder of the run; made, or gone on with")
+    parser.add_argument(
+        "--store", type=Path, help="folder of the prepared recordings (default: `store` beside the run's folder)"
+    )
+    parser.add_argument(
+        "--recordings", type=Path, nargs="+", metavar="DIR", help="data set folders, in place of the configuration's"
+    )
+    parser.add_argument("--export", type=Path, metavar="FILE", help="write the .haptoflow model file here at the end")
+    parser.add_argument("--parity", type=Path, metavar="FILE", help="write golden vectors of the exported model here")
+    parser.add_argument("--workers", type=int, default=2, help="processes that prepare recordings (default: 2)")
+    parser.set_defaults(run=run)
+
+
+def configuration(options: argparse.Namespace) -> TrainingConfig:
+    """The configuration file with the command line's --recordings put in."""
+    config = load_config(options.config)
+    if options.recordings:
+        data = dataclasses.replace(
+            config.data, source="folders", folders=tuple(str(folder) for folder in options.recordings)
+        )
+        config = dataclasses.replace(config, data=data)
+    return config
+
+
+def run(options: argparse.Namespace) -> int:
+    config = configuration(options)
+    store_folder = options.store or options.out.parent / "store"
+    with join_processes() as processes:
+        if processes.is_first:
+            open_source(config.data, store_folder, options.workers)
+        processes.wait()
+        source = open_source(config.data, store_folder, options.workers)
+        trainer = Trainer(config, source.store, options.out, processes)
+        try:
+            trainer.run()
+        except TrainingStopped as stop:
+            print(f"haptoflow-training: {stop}", file=sys.stderr)
+            return 0
+        if processes.is_first and options.export is not None:
+            checksum = export_run(
+                options.out, source.store, source.labels, source.provenance, options.export, options.parity
+            )
+            write_json(options.out / "export.json", {"file": options.export.name, "crc32": f"{checksum:08x}"})
+            print(f"{options.export}: {options.export.stat().st_size / 2**20:.2f} MiB, CRC-32 {checksum:08x}")
+    return 0

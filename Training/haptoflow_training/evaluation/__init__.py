@@ -1,0 +1,1 @@
+"""Whether what the engine renders is what was recorded."""
