@@ -1,0 +1,68 @@
+#include "capi/boundary.hpp"
+
+#include "inference/inference_error.hpp"
+#include "model/model_error.hpp"
+
+#include <array>
+#include <new>
+
+namespace haptoflow::capi {
+namespace {
+
+// Of fixed size, so that reporting that memory ran out needs none.
+thread_local std::array<char, 1024> message{};
+
+haptoflow_status report(haptoflow_status status, const char* text) noexcept {
+    const std::size_t length = std::min(std::strlen(text), message.size() - 1);
+    std::memcpy(message.data(), text, length);
+    message[length] = '\0';
+    return status;
+}
+
+haptoflow_status statusOf(model::ModelStatus status) noexcept {
+    switch (status) {
+        case model::ModelStatus::unreadable:
+            return HAPTOFLOW_MODEL_UNREADABLE;
+        case model::ModelStatus::notAModel:
+            return HAPTOFLOW_NOT_A_MODEL;
+        case model::ModelStatus::truncated:
+            return HAPTOFLOW_MODEL_TRUNCATED;
+        case model::ModelStatus::tooNew:
+            return HAPTOFLOW_MODEL_TOO_NEW;
+        case model::ModelStatus::oversized:
+            return HAPTOFLOW_MODEL_OVERSIZED;
+        case model::ModelStatus::damaged:
+            return HAPTOFLOW_MODEL_DAMAGED;
+        case model::ModelStatus::inconsistent:
+            return HAPTOFLOW_MODEL_INCONSISTENT;
+    }
+    return HAPTOFLOW_INTERNAL_ERROR;
+}
+
+}  // namespace
+
+haptoflow_status reportCurrentException() noexcept {
+    try {
+        throw;
+    } catch (const model::ModelError& error) {
+        return report(statusOf(error.status()), error.what());
+    } catch (const inference::RuntimeUnavailable& error) {
+        return report(HAPTOFLOW_RUNTIME_UNAVAILABLE, error.what());
+    } catch (const inference::InferenceError& error) {
+        return report(HAPTOFLOW_INFERENCE_FAILED, error.what());
+    } catch (const std::invalid_argument& error) {
+        return report(HAPTOFLOW_INVALID_ARGUMENT, error.what());
+    } catch (const std::bad_alloc&) {
+        return report(HAPTOFLOW_OUT_OF_MEMORY, "out of memory");
+    } catch (const std::exception& error) {
+        return report(HAPTOFLOW_INTERNAL_ERROR, error.what());
+    } catch (...) {
+        return report(HAPTOFLOW_INTERNAL_ERROR, "an exception of an unknown type");
+    }
+}
+
+const char* lastMessage() noexcept {
+    return message.data();
+}
+
+}  // namespace haptoflow::capi

@@ -1,0 +1,69 @@
+#pragma once
+
+#include "haptoflow/haptoflow.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstring>
+#include <stdexcept>
+#include <string>
+
+namespace haptoflow::capi {
+
+/// Turns the exception that is being handled into a status and remembers its message for this thread.
+[[nodiscard]] haptoflow_status reportCurrentException() noexcept;
+
+/// The message of the last failed call on this thread.
+[[nodiscard]] const char* lastMessage() noexcept;
+
+/// Runs the body of a C function; nothing that it throws leaves.
+template <typename Action>
+[[nodiscard]] haptoflow_status guarded(Action&& action) noexcept {
+    try {
+        action();
+        return HAPTOFLOW_OK;
+    } catch (...) {
+        return reportCurrentException();
+    }
+}
+
+/// `pointer`, which must not be null. Throws std::invalid_argument naming it.
+template <typename Type>
+[[nodiscard]] Type* require(Type* pointer, const char* name) {
+    if (pointer == nullptr) {
+        throw std::invalid_argument(std::string(name) + " is null");
+    }
+    return pointer;
+}
+
+/// No descriptor will ever be larger; a larger struct_size is memory that was never filled in.
+inline constexpr std::size_t largestDescriptor = 4096;
+
+inline void checkStructSize(std::size_t found, std::size_t minimum, const char* name) {
+    if (found < minimum || found > largestDescriptor) {
+        throw std::invalid_argument(std::string(name) + ": struct_size is " + std::to_string(found) +
+                                    "; set it to sizeof the struct");
+    }
+}
+
+/// A copy of a caller's descriptor of any version; what the caller's version lacks is zero. `minimum` is the size of
+/// the first version's mandatory fields. Throws std::invalid_argument.
+template <typename Descriptor>
+[[nodiscard]] Descriptor readDescriptor(const Descriptor* descriptor, std::size_t minimum, const char* name) {
+    const std::size_t size = require(descriptor, name)->struct_size;
+    checkStructSize(size, minimum, name);
+    Descriptor copy{};
+    std::memcpy(&copy, descriptor, std::min(size, sizeof(Descriptor)));
+    return copy;
+}
+
+/// Fills a caller's descriptor of any version as far as it reaches; struct_size stays. Throws std::invalid_argument.
+template <typename Descriptor>
+void writeDescriptor(Descriptor* target, Descriptor content, const char* name) {
+    const std::size_t size = require(target, name)->struct_size;
+    checkStructSize(size, sizeof(content.struct_size), name);
+    content.struct_size = target->struct_size;
+    std::memcpy(target, &content, std::min(size, sizeof(Descriptor)));
+}
+
+}  // namespace haptoflow::capi

@@ -1,0 +1,142 @@
+#include "capi/handles.hpp"
+#include "inference/tier_graphs.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <vector>
+
+using namespace haptoflow;
+using namespace haptoflow::capi;
+
+static_assert(inference::segmentSamples == HAPTOFLOW_SEGMENT_SAMPLES);
+static_assert(inference::embeddingSize == HAPTOFLOW_EMBEDDING_SIZE);
+static_assert(inference::largestBatch == HAPTOFLOW_MAXIMUM_BATCH);
+
+namespace {
+
+constexpr uint32_t usualBatch = 8;
+constexpr std::size_t motionSize = HAPTOFLOW_MOTION_SIZE;
+
+// What the first version of the options could not do without; steps and maximum_batch have defaults.
+constexpr std::size_t mandatoryOptions = offsetof(haptoflow_generator_options, steps);
+constexpr std::size_t mandatoryBatch = offsetof(haptoflow_batch, previous_mps2);
+
+inference::SolverSettings solverSettings(haptoflow_solver solver, int32_t steps,
+                                         const inference::SolverSettings& tierSolver) {
+    switch (solver) {
+        case HAPTOFLOW_SOLVER_OF_TIER:
+            if (steps != 0) {
+                throw std::invalid_argument("steps must be 0 with HAPTOFLOW_SOLVER_OF_TIER");
+            }
+            return tierSolver;
+        case HAPTOFLOW_SOLVER_EULER:
+            return {inference::SolverKind::euler, steps};
+        case HAPTOFLOW_SOLVER_MIDPOINT:
+            return {inference::SolverKind::midpoint, steps};
+        case HAPTOFLOW_SOLVER_HEUN:
+            return {inference::SolverKind::heun, steps};
+        default:
+            throw std::invalid_argument("solver is " + std::to_string(solver) + "; expected 0 to 3");
+    }
+}
+
+const model::Tier& chosenTier(const model::ModelFile& model, const char* name) {
+    if (name == nullptr) {
+        return model.header().tiers[model.header().defaultTier];
+    }
+    const model::Tier* tier = model.findTier(name);
+    if (tier == nullptr) {
+        throw std::invalid_argument(std::string("the model has no tier \"") + name + '"');
+    }
+    return *tier;
+}
+
+/// A waveform that stands in where none is needed.
+constexpr std::array<float, inference::segmentSamples> silence{};
+
+std::span<const float, inference::segmentSamples> waveformAt(const float* waveforms, std::size_t index) {
+    if (waveforms == nullptr) {
+        return silence;
+    }
+    return std::span<const float, inference::segmentSamples>(waveforms + index * inference::segmentSamples,
+                                                             inference::segmentSamples);
+}
+
+std::vector<inference::SegmentRequest> requestsOf(const haptoflow_batch* batch, bool withWaveforms) {
+    const auto given = readDescriptor(batch, withWaveforms ? sizeof(haptoflow_batch) : mandatoryBatch, "batch");
+    (void)require(given.embeddings, "batch: embeddings");
+    (void)require(given.motions, "batch: motions");
+    if (withWaveforms) {
+        (void)require(given.previous_mps2, "batch: previous_mps2");
+        (void)require(given.noise, "batch: noise");
+    }
+    std::vector<inference::SegmentRequest> requests;
+    requests.reserve(given.count);
+    for (std::size_t index = 0; index < given.count; ++index) {
+        inference::SegmentRequest request{{},
+                                          {},
+                                          waveformAt(withWaveforms ? given.previous_mps2 : nullptr, index),
+                                          waveformAt(withWaveforms ? given.noise : nullptr, index)};
+        std::copy_n(given.embeddings + index * inference::embeddingSize, inference::embeddingSize,
+                    request.embedding.begin());
+        std::copy_n(given.motions + index * motionSize, motionSize, request.motion.begin());
+        requests.push_back(request);
+    }
+    return requests;
+}
+
+}  // namespace
+
+haptoflow_status haptoflow_generator_create(const haptoflow_generator_options* options,
+                                            haptoflow_generator** generator) {
+    return guarded([&] {
+        const auto given = readDescriptor(options, mandatoryOptions, "options");
+        (void)require(generator, "generator");
+        const auto runtime = runtimes().get(given.runtime);
+        const auto open = models().get(given.model);
+        const model::Tier& tier = chosenTier(open->model, given.tier);
+        const auto tierSolver = inference::defaultSolver(tier);
+        const uint32_t batch = given.maximum_batch != 0 ? given.maximum_batch : usualBatch;
+        *generator = generators().open(std::shared_ptr<OpenGenerator>(new OpenGenerator{
+            {},
+            tierSolver,
+            {runtime, open->model, tier.name, solverSettings(given.solver, given.steps, tierSolver), batch}}));
+    });
+}
+
+haptoflow_status haptoflow_generator_close(haptoflow_generator** generator) {
+    return guarded([&] { closeHandle(generators(), generator, "generator"); });
+}
+
+haptoflow_status haptoflow_generator_set_solver(haptoflow_generator* generator, haptoflow_solver solver,
+                                                int32_t steps) {
+    return guarded([&] {
+        const auto open = generators().get(generator);
+        const std::lock_guard lock(open->mutex);
+        open->generator.setSolver(solverSettings(solver, steps, open->tierSolver));
+    });
+}
+
+haptoflow_status haptoflow_generator_generate(haptoflow_generator* generator, const haptoflow_batch* batch,
+                                              float* segments_mps2) {
+    return guarded([&] {
+        const auto open = generators().get(generator);
+        const auto requests = requestsOf(batch, true);
+        const std::span<float> segments(require(segments_mps2, "segments_mps2"),
+                                        requests.size() * inference::segmentSamples);
+        const std::lock_guard lock(open->mutex);
+        open->generator.generate(requests, segments);
+    });
+}
+
+haptoflow_status haptoflow_generator_levels(haptoflow_generator* generator, const haptoflow_batch* batch,
+                                            float* levels_mps2) {
+    return guarded([&] {
+        const auto open = generators().get(generator);
+        const auto requests = requestsOf(batch, false);
+        const std::span<float> levels(require(levels_mps2, "levels_mps2"), requests.size());
+        const std::lock_guard lock(open->mutex);
+        open->generator.levels(requests, levels);
+    });
+}

@@ -1,0 +1,58 @@
+#include "capi/boundary.hpp"
+#include "inference/gaussian_noise.hpp"
+
+#include <span>
+
+using namespace haptoflow;
+using namespace haptoflow::capi;
+
+const char* haptoflow_version(void) {
+    return HAPTOFLOW_VERSION;
+}
+
+const char* haptoflow_status_name(haptoflow_status status) {
+    switch (status) {
+        case HAPTOFLOW_OK:
+            return "HAPTOFLOW_OK";
+        case HAPTOFLOW_INVALID_ARGUMENT:
+            return "HAPTOFLOW_INVALID_ARGUMENT";
+        case HAPTOFLOW_OUT_OF_MEMORY:
+            return "HAPTOFLOW_OUT_OF_MEMORY";
+        case HAPTOFLOW_INTERNAL_ERROR:
+            return "HAPTOFLOW_INTERNAL_ERROR";
+        case HAPTOFLOW_MODEL_UNREADABLE:
+            return "HAPTOFLOW_MODEL_UNREADABLE";
+        case HAPTOFLOW_NOT_A_MODEL:
+            return "HAPTOFLOW_NOT_A_MODEL";
+        case HAPTOFLOW_MODEL_TRUNCATED:
+            return "HAPTOFLOW_MODEL_TRUNCATED";
+        case HAPTOFLOW_MODEL_TOO_NEW:
+            return "HAPTOFLOW_MODEL_TOO_NEW";
+        case HAPTOFLOW_MODEL_OVERSIZED:
+            return "HAPTOFLOW_MODEL_OVERSIZED";
+        case HAPTOFLOW_MODEL_DAMAGED:
+            return "HAPTOFLOW_MODEL_DAMAGED";
+        case HAPTOFLOW_MODEL_INCONSISTENT:
+            return "HAPTOFLOW_MODEL_INCONSISTENT";
+        case HAPTOFLOW_RUNTIME_UNAVAILABLE:
+            return "HAPTOFLOW_RUNTIME_UNAVAILABLE";
+        case HAPTOFLOW_INFERENCE_FAILED:
+            return "HAPTOFLOW_INFERENCE_FAILED";
+        default:
+            return "HAPTOFLOW_UNKNOWN_STATUS";
+    }
+}
+
+const char* haptoflow_last_message(void) {
+    return lastMessage();
+}
+
+haptoflow_status haptoflow_noise_fill(uint64_t seed, uint32_t voice, uint64_t segment, float* noise, uint64_t count) {
+    return guarded([&] {
+        if (count > uint64_t{1} << 32U) {
+            throw std::invalid_argument("count is above 2^32");
+        }
+        const std::span<float> target(require(noise, "noise"), static_cast<std::size_t>(count));
+        inference::fillStandardNormal({seed, voice, segment}, target);
+    });
+}

@@ -1,0 +1,135 @@
+#include "capi/handles.hpp"
+#include "capi/utf8_path.hpp"
+#include "model/file_layout.hpp"
+
+#include <algorithm>
+#include <cstddef>
+#include <vector>
+
+using namespace haptoflow;
+using namespace haptoflow::capi;
+
+namespace {
+
+model::ModelFile openModel(const haptoflow_model_options& options) {
+    if ((options.bytes == nullptr) == (options.path == nullptr)) {
+        throw std::invalid_argument("options: exactly one of bytes and path must be set");
+    }
+    if (options.path != nullptr) {
+        return model::ModelFile::read(utf8Path(options.path));
+    }
+    // Refused here, before as much memory is asked for.
+    if (options.byte_count > model::maximumFileBytes) {
+        throw model::ModelError(model::ModelStatus::oversized,
+                                "byte_count is " + std::to_string(options.byte_count) + "; the limit is 268435456");
+    }
+    const auto* first = static_cast<const std::byte*>(options.bytes);
+    return model::ModelFile::parse(std::vector<std::byte>(first, first + options.byte_count));
+}
+
+template <typename Element>
+const Element& elementAt(const std::vector<Element>& elements, uint32_t index, const char* what) {
+    if (index >= elements.size()) {
+        throw std::invalid_argument("index " + std::to_string(index) + ": the model has " +
+                                    std::to_string(elements.size()) + ' ' + what);
+    }
+    return elements[index];
+}
+
+haptoflow_label_info describe(const model::Label& label) {
+    haptoflow_label_info info{};
+    info.is_periodic = label.wavelengthMetres ? 1 : 0;
+    info.name = label.name.c_str();
+    info.category = label.category.c_str();
+    info.stiffness_newtons_per_metre = label.stiffnessNewtonsPerMetre;
+    info.friction_coefficient = label.frictionCoefficient;
+    info.wavelength_metres = label.wavelengthMetres.value_or(0.0);
+    info.speed_level_exponent = label.speedLevelExponent;
+    info.force_level_exponent = label.forceLevelExponent;
+    info.frequency_exponent = label.frequencyExponent;
+    return info;
+}
+
+haptoflow_solver solverOf(model::TierSolver solver) {
+    switch (solver) {
+        case model::TierSolver::euler:
+            return HAPTOFLOW_SOLVER_EULER;
+        case model::TierSolver::heun:
+            return HAPTOFLOW_SOLVER_HEUN;
+        case model::TierSolver::midpoint:
+            break;
+    }
+    return HAPTOFLOW_SOLVER_MIDPOINT;
+}
+
+haptoflow_tier_info describe(const model::Tier& tier, bool isDefault) {
+    haptoflow_tier_info info{};
+    info.steps = tier.steps;
+    info.name = tier.name.c_str();
+    // The names are literals, which end with a zero byte.
+    info.kind = model::kindName(tier.kind).data();
+    info.accuracy_json = tier.accuracyJson.c_str();
+    info.cost_json = tier.costJson.c_str();
+    info.solver = solverOf(tier.solver);
+    info.is_default = isDefault ? 1 : 0;
+    info.parameter_count = tier.parameters;
+    return info;
+}
+
+}  // namespace
+
+haptoflow_status haptoflow_model_open(const haptoflow_model_options* options, haptoflow_model** model) {
+    return guarded([&] {
+        const auto given = readDescriptor(options, sizeof(haptoflow_model_options), "options");
+        (void)require(model, "model");
+        *model = models().open(std::make_shared<OpenModel>(openModel(given)));
+    });
+}
+
+haptoflow_status haptoflow_model_close(haptoflow_model** model) {
+    return guarded([&] { closeHandle(models(), model, "model"); });
+}
+
+haptoflow_status haptoflow_model_header(const haptoflow_model* model, const char** header_json) {
+    return guarded([&] {
+        const auto open = models().get(model);
+        *require(header_json, "header_json") = open->headerText.c_str();
+    });
+}
+
+haptoflow_status haptoflow_model_label_count(const haptoflow_model* model, uint32_t* count) {
+    return guarded([&] {
+        const auto open = models().get(model);
+        *require(count, "count") = static_cast<uint32_t>(open->model.header().labels.size());
+    });
+}
+
+haptoflow_status haptoflow_model_label(const haptoflow_model* model, uint32_t index, haptoflow_label_info* info) {
+    return guarded([&] {
+        const auto open = models().get(model);
+        writeDescriptor(info, describe(elementAt(open->model.header().labels, index, "labels")), "info");
+    });
+}
+
+haptoflow_status haptoflow_model_embedding(const haptoflow_model* model, uint32_t index, float* embedding) {
+    return guarded([&] {
+        const auto open = models().get(model);
+        (void)elementAt(open->model.header().labels, index, "labels");
+        std::ranges::copy(open->model.embedding(index), require(embedding, "embedding"));
+    });
+}
+
+haptoflow_status haptoflow_model_tier_count(const haptoflow_model* model, uint32_t* count) {
+    return guarded([&] {
+        const auto open = models().get(model);
+        *require(count, "count") = static_cast<uint32_t>(open->model.header().tiers.size());
+    });
+}
+
+haptoflow_status haptoflow_model_tier(const haptoflow_model* model, uint32_t index, haptoflow_tier_info* info) {
+    return guarded([&] {
+        const auto open = models().get(model);
+        const model::ModelHeader& header = open->model.header();
+        writeDescriptor(info, describe(elementAt(header.tiers, index, "tiers"), index == header.defaultTier), "info");
+    });
+}

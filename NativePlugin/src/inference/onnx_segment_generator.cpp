@@ -1,0 +1,196 @@
+#include "inference/onnx_segment_generator.hpp"
+
+#include "inference/gaussian_noise.hpp"
+#include "inference/tier_graphs.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+namespace haptoflow::inference {
+namespace {
+
+constexpr float previousLimit = 8.0F;
+constexpr float quietestLogLevel = -20.0F;
+constexpr float loudestLogLevel = 20.0F;
+
+const model::Tier& requireTier(const model::ModelFile& model, std::string_view name) {
+    const model::Tier* tier = model.findTier(name);
+    if (tier != nullptr) {
+        return *tier;
+    }
+    std::string message = "the model has no tier \"" + std::string(name) + "\"; it has";
+    for (const model::Tier& each : model.header().tiers) {
+        message += " \"" + each.name + '"';
+    }
+    throw std::invalid_argument(message);
+}
+
+std::size_t requireBatch(std::size_t batch) {
+    if (batch < 1 || batch > largestBatch) {
+        throw std::invalid_argument("a maximum batch of 1 to 256, not " + std::to_string(batch));
+    }
+    return batch;
+}
+
+void requireSize(std::size_t found, std::size_t expected, const char* what) {
+    if (found != expected) {
+        throw std::invalid_argument(std::string(what) + " for " + std::to_string(expected) + " numbers, not " +
+                                    std::to_string(found));
+    }
+}
+
+/// A latent point has more numbers than a request brings noise for; the rest comes from a generator keyed by the
+/// noise itself, so that equal requests stay equal.
+NoiseKey keyOfNoise(std::span<const float> noise) {
+    std::uint64_t hash = 0xCBF29CE484222325U;
+    for (const float value : noise) {
+        hash = (hash ^ std::bit_cast<std::uint32_t>(value)) * 0x100000001B3U;
+    }
+    return {hash, 0, 0};
+}
+
+bool allFinite(std::span<const float> values) {
+    return std::all_of(values.begin(), values.end(), [](float value) { return std::isfinite(value); });
+}
+
+/// Calls `action(first, count)` for consecutive parts of at most `maximum` elements.
+template <typename Action>
+void inBatches(std::size_t total, std::size_t maximum, Action action) {
+    for (std::size_t first = 0; first < total; first += maximum) {
+        action(first, std::min(maximum, total - first));
+    }
+}
+
+}  // namespace
+
+OnnxSegmentGenerator::OnnxSegmentGenerator(std::shared_ptr<const Runtime> runtime, const model::ModelFile& model,
+                                           std::string_view tier, SolverSettings solver, std::size_t maximumBatch)
+    : kind_(requireTier(model, tier).kind),
+      maximumBatch_(requireBatch(maximumBatch)),
+      pointSize_(pointSize(requireTier(model, tier))),
+      level_(loadLevel(runtime, model, requireTier(model, tier), maximumBatch)),
+      field_(runtime, model, requireTier(model, tier), maximumBatch),
+      levelsMps2_(maximumBatch),
+      previous_(maximumBatch * segmentSamples),
+      points_(maximumBatch * pointSize_),
+      result_(maximumBatch * pointSize_) {
+    const model::Tier& found = requireTier(model, tier);
+    if (found.representation == model::TierRepresentation::latent) {
+        decoder_.emplace(loadDecoder(std::move(runtime), model, found, maximumBatch));
+    }
+    setSolver(solver);
+}
+
+void OnnxSegmentGenerator::setSolver(SolverSettings solver) {
+    checkSolverSettings(solver);
+    settings_ = solver;
+}
+
+void OnnxSegmentGenerator::generate(std::span<const SegmentRequest> requests, std::span<float> segments) {
+    requireSize(segments.size(), requests.size() * segmentSamples, "segments need room");
+    inBatches(requests.size(), maximumBatch_, [&](std::size_t first, std::size_t count) {
+        generateBatch(requests.subspan(first, count), segments.subspan(first * segmentSamples, count * segmentSamples));
+    });
+}
+
+void OnnxSegmentGenerator::levels(std::span<const SegmentRequest> requests, std::span<float> levelsMps2) {
+    requireSize(levelsMps2.size(), requests.size(), "levels need room");
+    inBatches(requests.size(), maximumBatch_, [&](std::size_t first, std::size_t count) {
+        runLevel(requests.subspan(first, count));
+        std::copy_n(levelsMps2_.begin(), count, levelsMps2.subspan(first).begin());
+    });
+}
+
+void OnnxSegmentGenerator::evaluateField(std::span<const SegmentRequest> requests, float time, float interval,
+                                         std::span<float> velocities) {
+    if (decoder_) {
+        throw std::invalid_argument("the field of a latent tier does not start at a segment's noise");
+    }
+    requireSize(velocities.size(), requests.size() * segmentSamples, "velocities need room");
+    inBatches(requests.size(), maximumBatch_, [&](std::size_t first, std::size_t count) {
+        prepare(requests.subspan(first, count));
+        const std::size_t size = count * pointSize_;
+        field_.evaluate(std::span(points_).first(size), time, interval, velocities.subspan(first * pointSize_, size));
+    });
+}
+
+void OnnxSegmentGenerator::generateBatch(std::span<const SegmentRequest> requests, std::span<float> segments) {
+    prepare(requests);
+    const auto points = std::span(points_).first(requests.size() * pointSize_);
+    if (kind_ == model::TierKind::direct) {
+        const auto result = std::span(result_).first(points.size());
+        field_.evaluate(points, 0.0F, 1.0F, result);
+        std::ranges::copy(result, points.begin());
+    } else {
+        const bool average = kind_ == model::TierKind::averageVelocity;
+        solver_.integrate(field_, average ? SolverSettings{SolverKind::euler, settings_.steps} : settings_, points);
+    }
+
+    std::span<const float> waveforms = points;
+    if (decoder_) {
+        decoder_->setBatch(requests.size());
+        std::ranges::copy(points, decoder_->input(0).begin());
+        decoder_->run();
+        waveforms = decoder_->output();
+    }
+    for (std::size_t index = 0; index < segments.size(); ++index) {
+        segments[index] = waveforms[index] * levelsMps2_[index / segmentSamples];
+    }
+    if (!allFinite(segments)) {
+        throw InferenceError("the field graph returned a waveform that is not finite");
+    }
+}
+
+void OnnxSegmentGenerator::runLevel(std::span<const SegmentRequest> requests) {
+    level_.setBatch(requests.size());
+    const auto embeddings = level_.input(level_input::embedding);
+    const auto motions = level_.input(level_input::motion);
+    for (std::size_t index = 0; index < requests.size(); ++index) {
+        std::ranges::copy(requests[index].embedding, embeddings.subspan(index * embeddingSize).begin());
+        std::ranges::copy(requests[index].motion, motions.subspan(index * 3).begin());
+    }
+    level_.run();
+    for (std::size_t index = 0; index < requests.size(); ++index) {
+        const float logLevel = level_.output()[index];
+        if (!std::isfinite(logLevel) || logLevel > loudestLogLevel) {
+            throw InferenceError("the level graph returned a logarithm of " + std::to_string(logLevel) +
+                                 "; expected a number up to 20");
+        }
+        // Below, the segment is silent for any hand, and dividing by the level would overflow.
+        levelsMps2_[index] = std::exp(std::max(logLevel, quietestLogLevel));
+    }
+}
+
+void OnnxSegmentGenerator::prepare(std::span<const SegmentRequest> requests) {
+    runLevel(requests);
+    field_.setBatch(requests.size());
+    std::ranges::copy(level_.input(level_input::embedding), field_.embeddings().begin());
+    std::ranges::copy(level_.input(level_input::motion), field_.motions().begin());
+
+    const auto previous = std::span(previous_).first(requests.size() * segmentSamples);
+    for (std::size_t index = 0; index < previous.size(); ++index) {
+        const std::size_t row = index / segmentSamples;
+        const float scaled = requests[row].previous[index % segmentSamples] / levelsMps2_[row];
+        previous[index] = std::clamp(scaled, -previousLimit, previousLimit);
+    }
+    field_.setPrevious(previous);
+
+    for (std::size_t index = 0; index < requests.size(); ++index) {
+        const auto point = std::span(points_).subspan(index * pointSize_, pointSize_);
+        if (point.size() == segmentSamples) {
+            std::ranges::copy(requests[index].noise, point.begin());
+        } else {
+            fillStandardNormal(keyOfNoise(requests[index].noise), point);
+        }
+    }
+}
+
+RunCounts OnnxSegmentGenerator::runCounts() const noexcept {
+    return {level_.runs(), field_.fieldRuns(), field_.encoderRuns(), decoder_ ? decoder_->runs() : 0};
+}
+
+}  // namespace haptoflow::inference

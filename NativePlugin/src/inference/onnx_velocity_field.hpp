@@ -1,0 +1,41 @@
+#pragma once
+
+#include "inference/onnx_graph.hpp"
+#include "inference/velocity_field.hpp"
+#include "model/model_file.hpp"
+
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <span>
+
+namespace haptoflow::inference {
+
+/// The field graph of a tier under the conditions of one batch: previous waveforms, embeddings, motions. For a tier
+/// of kind `direct`, `evaluate` returns the point that the graph maps to instead of a velocity.
+class OnnxVelocityField final : public VelocityField {
+public:
+    /// Throws model::ModelError where a graph is not what the format says.
+    OnnxVelocityField(std::shared_ptr<const Runtime> runtime, const model::ModelFile& model, const model::Tier& tier,
+                      std::size_t maximumBatch);
+
+    void setBatch(std::size_t batch);
+    /// The conditions of the batch, to be filled before `evaluate`: batch * 64, batch * 3.
+    [[nodiscard]] std::span<float> embeddings();
+    [[nodiscard]] std::span<float> motions();
+    /// batch * 200 numbers in unit scale; a latent tier encodes them here, once for all steps. Throws InferenceError.
+    void setPrevious(std::span<const float> waveforms);
+
+    /// Throws InferenceError.
+    void evaluate(std::span<const float> point, float time, float interval, std::span<float> velocity) override;
+
+    [[nodiscard]] std::uint64_t fieldRuns() const noexcept { return field_.runs(); }
+    [[nodiscard]] std::uint64_t encoderRuns() const noexcept { return encoder_ ? encoder_->runs() : 0; }
+
+private:
+    OnnxGraph field_;
+    bool takesInterval_;
+    std::optional<OnnxGraph> encoder_;
+};
+
+}  // namespace haptoflow::inference

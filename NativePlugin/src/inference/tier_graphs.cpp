@@ -1,0 +1,71 @@
+#include "inference/tier_graphs.hpp"
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace haptoflow::inference {
+namespace {
+
+const std::vector<std::int64_t> waveformShape{1, static_cast<std::int64_t>(segmentSamples)};
+const TensorSignature embedding{"embedding", {static_cast<std::int64_t>(embeddingSize)}};
+const TensorSignature motion{"motion", {3}};
+
+const std::vector<std::int64_t>& pointShape(const model::Tier& tier) {
+    return tier.representation == model::TierRepresentation::latent ? tier.latentShape : waveformShape;
+}
+
+OnnxGraph load(std::shared_ptr<const Runtime> runtime, const model::ModelFile& model, const model::Tier& tier,
+               const std::string& blob, GraphSignature signature, std::size_t maximumBatch) {
+    return {std::move(runtime), model.blob(blob), "tier \"" + tier.name + "\", graph \"" + blob + '"',
+            std::move(signature), maximumBatch};
+}
+
+}  // namespace
+
+std::size_t pointSize(const model::Tier& tier) {
+    return TensorSignature{"", pointShape(tier)}.size();
+}
+
+OnnxGraph loadField(std::shared_ptr<const Runtime> runtime, const model::ModelFile& model, const model::Tier& tier,
+                    std::size_t maximumBatch) {
+    const bool direct = tier.kind == model::TierKind::direct;
+    GraphSignature signature{
+        {{"noisy", pointShape(tier)}, {"time", {1}}, {"previous", pointShape(tier)}, embedding, motion},
+        {direct ? "segment" : "velocity", pointShape(tier)}};
+    if (tier.kind == model::TierKind::averageVelocity) {
+        signature.inputs.push_back({"interval", {1}});
+    }
+    return load(std::move(runtime), model, tier, tier.field, std::move(signature), maximumBatch);
+}
+
+OnnxGraph loadLevel(std::shared_ptr<const Runtime> runtime, const model::ModelFile& model, const model::Tier& tier,
+                    std::size_t maximumBatch) {
+    return load(std::move(runtime), model, tier, tier.level, {{embedding, motion}, {"log_level", {1}}}, maximumBatch);
+}
+
+OnnxGraph loadEncoder(std::shared_ptr<const Runtime> runtime, const model::ModelFile& model, const model::Tier& tier,
+                      std::size_t maximumBatch) {
+    return load(std::move(runtime), model, tier, tier.encoder,
+                {{{"waveform", waveformShape}}, {"latent", pointShape(tier)}}, maximumBatch);
+}
+
+OnnxGraph loadDecoder(std::shared_ptr<const Runtime> runtime, const model::ModelFile& model, const model::Tier& tier,
+                      std::size_t maximumBatch) {
+    return load(std::move(runtime), model, tier, tier.decoder,
+                {{{"latent", pointShape(tier)}}, {"waveform", waveformShape}}, maximumBatch);
+}
+
+SolverSettings defaultSolver(const model::Tier& tier) noexcept {
+    switch (tier.solver) {
+        case model::TierSolver::euler:
+            return {SolverKind::euler, tier.steps};
+        case model::TierSolver::heun:
+            return {SolverKind::heun, tier.steps};
+        case model::TierSolver::midpoint:
+            break;
+    }
+    return {SolverKind::midpoint, tier.steps};
+}
+
+}  // namespace haptoflow::inference

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string_view>
+
+namespace haptoflow::model {
+
+inline constexpr std::string_view fileMagic = "HAPTFLOW";
+inline constexpr std::uint32_t formatVersion = 1;
+inline constexpr std::size_t prefixBytes = 32;
+inline constexpr std::size_t blobAlignment = 64;
+inline constexpr std::uint64_t maximumHeaderBytes = 4'194'304;
+inline constexpr std::uint64_t maximumFileBytes = 268'435'456;
+
+/// Where the JSON header lies, once the first 32 bytes and the header's checksum have been verified.
+struct FileLayout {
+    /// The header without the spaces that pad it.
+    std::string_view headerText;
+    /// Offset of the first byte after the header; a multiple of 64.
+    std::size_t headerEnd = 0;
+};
+
+/// Checks the first 32 bytes and the header's checksum and padding. The result views `file`.
+/// Throws ModelError.
+[[nodiscard]] FileLayout readLayout(std::span<const std::byte> file);
+
+}  // namespace haptoflow::model

@@ -1,0 +1,150 @@
+#include "model/header_node.hpp"
+
+#include "model/model_error.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+namespace haptoflow::model {
+namespace {
+
+std::string inWords(double value) {
+    std::ostringstream stream;
+    stream.imbue(std::locale::classic());
+    stream << value;
+    return stream.str();
+}
+
+bool isControl(char character) {
+    const auto code = static_cast<unsigned char>(character);
+    return code < 0x20 || code == 0x7F;
+}
+
+}  // namespace
+
+HeaderNode::HeaderNode(const nlohmann::json& value, std::string path) : value_(&value), path_(std::move(path)) {}
+
+void HeaderNode::refuse(const std::string& expectation) const {
+    throw ModelError(ModelStatus::inconsistent, "header key \"" + path_ + "\": expected " + expectation);
+}
+
+std::optional<HeaderNode> HeaderNode::find(std::string_view key) const {
+    if (!value_->is_object()) {
+        refuse("an object");
+    }
+    const auto member = value_->find(key);
+    if (member == value_->end()) {
+        return std::nullopt;
+    }
+    std::string path = path_.empty() ? std::string(key) : path_ + '.' + std::string(key);
+    return HeaderNode(*member, std::move(path));
+}
+
+HeaderNode HeaderNode::at(std::string_view key) const {
+    auto member = find(key);
+    if (!member) {
+        refuse("a member \"" + std::string(key) + "\"");
+    }
+    return *std::move(member);
+}
+
+std::vector<HeaderNode> HeaderNode::elements(std::size_t minimum, std::size_t maximum) const {
+    if (!value_->is_array()) {
+        refuse("an array");
+    }
+    if (value_->size() > maximum) {
+        throw ModelError(ModelStatus::oversized, "header key \"" + path_ + "\": " + std::to_string(value_->size()) +
+                                                     " elements; the limit is " + std::to_string(maximum));
+    }
+    if (value_->size() < minimum) {
+        refuse("at least " + std::to_string(minimum) + " elements");
+    }
+    std::vector<HeaderNode> nodes;
+    nodes.reserve(value_->size());
+    for (std::size_t index = 0; index < value_->size(); ++index) {
+        nodes.emplace_back((*value_)[index], path_ + '[' + std::to_string(index) + ']');
+    }
+    return nodes;
+}
+
+std::vector<double> HeaderNode::numbers(std::size_t count, double minimum, double maximum) const {
+    if (!value_->is_array() || value_->size() != count) {
+        refuse("an array of " + std::to_string(count) + " numbers");
+    }
+    std::vector<double> result;
+    result.reserve(count);
+    for (const HeaderNode& node : elements(count, count)) {
+        result.push_back(node.number(minimum, maximum));
+    }
+    return result;
+}
+
+double HeaderNode::number(double minimum, double maximum) const {
+    const double value = value_->is_number() ? value_->get<double>() : std::nan("");
+    if (!(value >= minimum && value <= maximum)) {
+        refuse("a number from " + inWords(minimum) + " to " + inWords(maximum));
+    }
+    return value;
+}
+
+std::int64_t HeaderNode::integer(std::int64_t minimum, std::int64_t maximum) const {
+    // A JSON integer above 2^63 - 1 is held as unsigned and would wrap when read as signed.
+    const bool representable =
+        value_->is_number_integer() &&
+        (!value_->is_number_unsigned() || value_->get<std::uint64_t>() <= static_cast<std::uint64_t>(INT64_MAX));
+    const std::int64_t value = representable ? value_->get<std::int64_t>() : 0;
+    if (!representable || value < minimum || value > maximum) {
+        refuse("an integer from " + std::to_string(minimum) + " to " + std::to_string(maximum));
+    }
+    return value;
+}
+
+bool HeaderNode::boolean() const {
+    if (!value_->is_boolean()) {
+        refuse("true or false");
+    }
+    return value_->get<bool>();
+}
+
+bool HeaderNode::isNull() const {
+    return value_->is_null();
+}
+
+std::string HeaderNode::text(std::size_t maximumBytes) const {
+    if (!value_->is_string()) {
+        refuse("a string");
+    }
+    const auto& content = value_->get_ref<const std::string&>();
+    if (content.size() > maximumBytes) {
+        throw ModelError(ModelStatus::oversized, "header key \"" + path_ + "\": " + std::to_string(content.size()) +
+                                                     " bytes of text; the limit is " + std::to_string(maximumBytes));
+    }
+    if (std::any_of(content.begin(), content.end(), isControl)) {
+        refuse("text without control characters");
+    }
+    return content;
+}
+
+std::string HeaderNode::name(std::size_t maximumBytes) const {
+    std::string content = text(maximumBytes);
+    if (content.empty()) {
+        refuse("text that is not empty");
+    }
+    return content;
+}
+
+std::string HeaderNode::objectText() const {
+    if (!value_->is_object()) {
+        refuse("an object");
+    }
+    return value_->dump();
+}
+
+std::string HeaderNode::anyText() const {
+    return value_->dump();
+}
+
+}  // namespace haptoflow::model

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <stdexcept>
+#include <string>
+#include <string_view>
+
+namespace haptoflow::model {
+
+enum class ModelStatus {
+    /// The path cannot be opened or read.
+    unreadable,
+    /// The first eight bytes are not the format's magic.
+    notAModel,
+    /// Fewer bytes than the file itself announces.
+    truncated,
+    /// A format version that this reader does not know.
+    tooNew,
+    /// A length or a count above the format's limits.
+    oversized,
+    /// A checksum, a gap or the JSON syntax is broken: the bytes are not those that were written.
+    damaged,
+    /// The bytes are intact, and what they say breaks a rule of the format.
+    inconsistent,
+};
+
+/// The status's name as it appears in messages, for example "too new".
+[[nodiscard]] std::string_view statusName(ModelStatus status) noexcept;
+
+/// A model file was refused. The message names the offset or header key and what was expected there.
+class ModelError : public std::runtime_error {
+public:
+    ModelError(ModelStatus status, const std::string& message);
+
+    [[nodiscard]] ModelStatus status() const noexcept { return status_; }
+
+private:
+    ModelStatus status_;
+};
+
+}  // namespace haptoflow::model

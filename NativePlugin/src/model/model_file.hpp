@@ -1,0 +1,59 @@
+#pragma once
+
+#include "model/model_error.hpp"
+#include "model/model_header.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <string_view>
+#include <vector>
+
+namespace haptoflow::model {
+
+/// A `.haptoflow` file of version 1, held in memory and verified down to its last byte. Immutable after
+/// construction: any thread may read, any number at once. Spans and views live as long as the object.
+class ModelFile {
+public:
+    /// Takes the bytes of a whole file. Throws ModelError.
+    [[nodiscard]] static ModelFile parse(std::vector<std::byte> bytes);
+    /// Reads a file. Throws ModelError, whose message then begins with the path.
+    [[nodiscard]] static ModelFile read(const std::filesystem::path& path);
+
+    ModelFile(ModelFile&&) noexcept = default;
+    ModelFile& operator=(ModelFile&&) noexcept = default;
+    ModelFile(const ModelFile&) = delete;
+    ModelFile& operator=(const ModelFile&) = delete;
+    ~ModelFile() = default;
+
+    [[nodiscard]] const ModelHeader& header() const noexcept { return header_; }
+    /// The JSON header as it stands in the file, without padding.
+    [[nodiscard]] std::string_view headerText() const noexcept;
+    [[nodiscard]] std::size_t byteCount() const noexcept { return bytes_.size(); }
+    /// CRC-32 of the whole file, by which a set of measurements can name the model that it belongs to.
+    [[nodiscard]] std::uint32_t checksum() const noexcept;
+
+    /// The label of that name, or null.
+    [[nodiscard]] const Label* findLabel(std::string_view name) const noexcept;
+    /// The tier of that name, or null.
+    [[nodiscard]] const Tier* findTier(std::string_view name) const noexcept;
+
+    /// A blob's bytes, aligned to at least 16. Throws std::out_of_range for a name that is not in the header.
+    [[nodiscard]] std::span<const std::byte> blob(std::string_view name) const;
+    /// The material embedding of header().labels[label].
+    [[nodiscard]] std::span<const float, embeddingSize> embedding(std::size_t label) const;
+    /// The waveform of header().seeds[seed]: 400 samples at 2 kHz with an RMS of 1.
+    [[nodiscard]] std::span<const float, seedSamples> seed(std::size_t seed) const;
+
+private:
+    ModelFile() = default;
+
+    std::vector<std::byte> bytes_;
+    std::size_t headerTextBytes_ = 0;
+    ModelHeader header_;
+    std::vector<float> embeddings_;
+    std::vector<float> seeds_;
+};
+
+}  // namespace haptoflow::model

@@ -1,0 +1,151 @@
+#include "model/model_header.hpp"
+
+#include "model/bounded_json.hpp"
+#include "model/header_node.hpp"
+#include "model/label_header.hpp"
+#include "model/model_blobs.hpp"
+#include "model/name_index.hpp"
+#include "model/tier_header.hpp"
+
+#include <algorithm>
+
+namespace haptoflow::model {
+namespace {
+
+constexpr std::size_t textBytes = 4096;
+constexpr double maximumSpeedMps = 100.0;
+constexpr double maximumForceNewtons = 1000.0;
+
+bool isDate(const std::string& text) {
+    const std::string_view pattern = "0000-00-00";
+    if (text.size() != pattern.size()) {
+        return false;
+    }
+    for (std::size_t index = 0; index < text.size(); ++index) {
+        const bool digit = text[index] >= '0' && text[index] <= '9';
+        if (pattern[index] == '0' ? !digit : text[index] != '-') {
+            return false;
+        }
+    }
+    const int month = std::stoi(text.substr(5, 2));
+    const int day = std::stoi(text.substr(8, 2));
+    return month >= 1 && month <= 12 && day >= 1 && day <= 31;
+}
+
+Provenance readProvenance(const HeaderNode& node) {
+    Provenance provenance;
+    provenance.statement = node.at("statement").name(textBytes);
+    provenance.recordings = node.at("recordings").text(textBytes);
+    provenance.licence = node.at("licence").text(textBytes);
+    provenance.seed = node.at("seed").integer(INT64_MIN, INT64_MAX);
+    provenance.commit = node.at("commit").text(nameBytes);
+    provenance.configurationJson = node.at("configuration").anyText();
+    const HeaderNode created = node.at("created");
+    provenance.created = created.text(nameBytes);
+    if (!provenance.created.empty() && !isDate(provenance.created)) {
+        created.refuse("a date as YYYY-MM-DD, or an empty string");
+    }
+    return provenance;
+}
+
+TrainedInterval readInterval(const HeaderNode& bounds, const HeaderNode& percentiles, double limit) {
+    TrainedInterval interval;
+    const auto edges = bounds.numbers(2, 0.0, limit);
+    if (edges[0] >= edges[1]) {
+        bounds.refuse("[min, max] with min below max");
+    }
+    interval.minimum = edges[0];
+    interval.maximum = edges[1];
+    const auto values = percentiles.numbers(interval.percentiles.size(), 0.0, limit);
+    if (!std::is_sorted(values.begin(), values.end())) {
+        percentiles.refuse("five numbers in rising order");
+    }
+    std::copy(values.begin(), values.end(), interval.percentiles.begin());
+    return interval;
+}
+
+SeedEntry readSeed(const HeaderNode& node, const NameIndex& labelNames) {
+    SeedEntry seed;
+    seed.label = labelNames.at(node.at("label"), "label");
+    const auto velocity = node.at("velocity_mps").numbers(2, -maximumSpeedMps, maximumSpeedMps);
+    seed.velocityMps = {velocity[0], velocity[1]};
+    seed.forceNewtons = node.at("force_newtons").number(0.0, maximumForceNewtons);
+    return seed;
+}
+
+void checkFixedValues(const HeaderNode& root) {
+    (void)root.at("sample_rate_hz").number(2000.0, 2000.0);
+    (void)root.at("segment_samples").integer(200, 200);
+    (void)root.at("embedding_size").integer(embeddingSize, embeddingSize);
+    const HeaderNode unit = root.at("normalisation").at("unit");
+    if (unit.text(nameBytes) != "m/s^2") {
+        unit.refuse("\"m/s^2\"");
+    }
+}
+
+/// The blob called `name`, which must be a float32 matrix of `columns` columns.
+const Blob& requireMatrix(const HeaderNode& node, const std::string& name, const std::vector<Blob>& blobs,
+                          std::size_t columns) {
+    const auto blob = std::find_if(blobs.begin(), blobs.end(), [&](const Blob& each) { return each.name == name; });
+    if (blob == blobs.end() || blob->type != BlobType::float32 || blob->shape.size() != 2 ||
+        blob->shape[1] != static_cast<std::int64_t>(columns)) {
+        node.refuse("a blob \"" + name + "\" of type \"float32\" and shape [rows, " + std::to_string(columns) + ']');
+    }
+    return *blob;
+}
+
+}  // namespace
+
+ModelHeader readHeader(std::string_view text) {
+    const nlohmann::json json = parseBoundedJson(text);
+    const HeaderNode root(json, "");
+    checkFixedValues(root);
+
+    ModelHeader header;
+    header.name = root.at("name").name(nameBytes);
+    header.description = root.at("description").text(textBytes);
+    header.provenance = readProvenance(root.at("provenance"));
+    header.peakMps2 = root.at("normalisation").at("peak_mps2").number(1e-9, 1e6);
+    const HeaderNode range = root.at("range");
+    header.speedMps = readInterval(range.at("speed_mps"), range.at("speed_percentiles_mps"), maximumSpeedMps);
+    header.forceNewtons =
+        readInterval(range.at("force_newtons"), range.at("force_percentiles_newtons"), maximumForceNewtons);
+
+    NameIndex blobNames;
+    for (const HeaderNode& node : root.at("blobs").elements(1, maximumBlobs)) {
+        header.blobs.push_back(readBlob(node));
+        blobNames.add(node, header.blobs.back().name, header.blobs.size() - 1);
+    }
+    const Blob& embedding = requireMatrix(root.at("blobs"), "embedding", header.blobs, embeddingSize);
+
+    NameIndex labelNames;
+    for (const HeaderNode& node : root.at("labels").elements(1, maximumLabels)) {
+        header.labels.push_back(readLabel(node, static_cast<std::size_t>(embedding.shape[0])));
+        labelNames.add(node, header.labels.back().name, header.labels.size() - 1);
+    }
+
+    NameIndex tierNames;
+    for (const HeaderNode& node : root.at("tiers").elements(1, maximumTiers)) {
+        header.tiers.push_back(readTier(node, blobNames, header.blobs));
+        tierNames.add(node, header.tiers.back().name, header.tiers.size() - 1);
+    }
+    header.defaultTier = tierNames.at(root.at("default_tier"), "tier");
+
+    const HeaderNode bank = root.at("seed_bank");
+    (void)bank.at("samples").integer(seedSamples, seedSamples);
+    header.seedTensor = bank.at("tensor").name(nameBytes);
+    const Blob& seeds = requireMatrix(bank.at("tensor"), header.seedTensor, header.blobs, seedSamples);
+    for (const HeaderNode& node : bank.at("entries").elements(1, maximumSeeds)) {
+        header.seeds.push_back(readSeed(node, labelNames));
+    }
+    if (seeds.shape[0] != static_cast<std::int64_t>(header.seeds.size())) {
+        bank.at("entries").refuse("as many entries as the seed tensor has rows (" + std::to_string(seeds.shape[0]) +
+                                  ')');
+    }
+    if (const auto measurements = root.find("measurements")) {
+        (void)measurements->objectText();
+    }
+    return header;
+}
+
+}  // namespace haptoflow::model

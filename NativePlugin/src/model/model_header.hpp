@@ -1,0 +1,117 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace haptoflow::model {
+
+inline constexpr std::size_t maximumLabels = 4096;
+inline constexpr std::size_t maximumTiers = 64;
+inline constexpr std::size_t maximumBlobs = 1024;
+inline constexpr std::size_t maximumSeeds = 65'536;
+inline constexpr std::size_t embeddingSize = 64;
+inline constexpr std::size_t seedSamples = 400;
+
+struct Provenance {
+    std::string statement;
+    std::string recordings;
+    std::string licence;
+    std::int64_t seed = 0;
+    std::string commit;
+    /// The training configuration as compact JSON.
+    std::string configurationJson;
+    /// YYYY-MM-DD, or empty.
+    std::string created;
+};
+
+/// A trained interval and the 5th, 25th, 50th, 75th and 95th percentile of the training samples in it.
+struct TrainedInterval {
+    double minimum = 0.0;
+    double maximum = 0.0;
+    std::array<double, 5> percentiles{};
+};
+
+struct Label {
+    std::string name;
+    std::size_t embeddingRow = 0;
+    double speedLevelExponent = 0.0;
+    double forceLevelExponent = 0.0;
+    double frequencyExponent = 0.0;
+    /// Set for a periodic label (woven, ruled): its fundamental is speed / wavelength.
+    std::optional<double> wavelengthMetres;
+    double stiffnessNewtonsPerMetre = 0.0;
+    double frictionCoefficient = 0.0;
+    std::string category;
+};
+
+enum class TierKind { flow, averageVelocity, direct };
+enum class TierSolver { euler, midpoint, heun };
+enum class TierRepresentation { raw, latent };
+
+struct Tier {
+    std::string name;
+    TierKind kind = TierKind::flow;
+    /// Names of ONNX blobs; `encoder` and `decoder` are empty unless the representation is latent.
+    std::string field;
+    std::string level;
+    std::string encoder;
+    std::string decoder;
+    TierSolver solver = TierSolver::midpoint;
+    int steps = 1;
+    std::int64_t parameters = 0;
+    TierRepresentation representation = TierRepresentation::raw;
+    /// Dimensions of one latent without the batch; empty unless the representation is latent.
+    std::vector<std::int64_t> latentShape;
+    /// Measured figures as compact JSON objects.
+    std::string accuracyJson;
+    std::string costJson;
+};
+
+struct SeedEntry {
+    /// Index into ModelHeader::labels.
+    std::size_t label = 0;
+    std::array<double, 2> velocityMps{};
+    double forceNewtons = 0.0;
+};
+
+enum class BlobType { float32, onnx };
+
+struct Blob {
+    std::string name;
+    BlobType type = BlobType::float32;
+    std::vector<std::int64_t> shape;
+    std::size_t offset = 0;
+    std::size_t bytes = 0;
+    std::uint32_t crc32 = 0;
+};
+
+/// What the JSON header says, every value checked by itself and against the others; the blobs' bytes are not.
+struct ModelHeader {
+    std::string name;
+    std::string description;
+    Provenance provenance;
+    double peakMps2 = 0.0;
+    TrainedInterval speedMps;
+    TrainedInterval forceNewtons;
+    std::vector<Label> labels;
+    std::vector<Tier> tiers;
+    /// Index into `tiers`.
+    std::size_t defaultTier = 0;
+    std::string seedTensor;
+    std::vector<SeedEntry> seeds;
+    std::vector<Blob> blobs;
+};
+
+/// Reads the header's text. Throws ModelError naming the key.
+[[nodiscard]] ModelHeader readHeader(std::string_view text);
+
+/// "flow", "average-velocity" or "direct"; and so on: the words of the file.
+[[nodiscard]] std::string_view kindName(TierKind kind) noexcept;
+[[nodiscard]] std::string_view solverName(TierSolver solver) noexcept;
+
+}  // namespace haptoflow::model

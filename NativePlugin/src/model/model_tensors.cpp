@@ -1,0 +1,54 @@
+#include "model/model_tensors.hpp"
+
+#include "model/model_error.hpp"
+
+#include <bit>
+#include <cmath>
+#include <string>
+
+namespace haptoflow::model {
+namespace {
+
+constexpr float largestMagnitude = 1e6F;
+constexpr double seedRmsTolerance = 0.01;
+
+float readFloat(std::span<const std::byte> bytes) {
+    std::uint32_t bits = 0;
+    for (std::size_t index = sizeof(float); index > 0; --index) {
+        bits = (bits << 8U) | std::to_integer<std::uint32_t>(bytes[index - 1]);
+    }
+    return std::bit_cast<float>(bits);
+}
+
+}  // namespace
+
+std::vector<float> readTensor(std::span<const std::byte> file, const Blob& blob) {
+    const auto bytes = file.subspan(blob.offset, blob.bytes);
+    std::vector<float> values(blob.bytes / sizeof(float));
+    for (std::size_t index = 0; index < values.size(); ++index) {
+        values[index] = readFloat(bytes.subspan(index * sizeof(float), sizeof(float)));
+        // Written so that a NaN, which compares false, is refused too.
+        if (!(std::fabs(values[index]) <= largestMagnitude)) {
+            throw ModelError(ModelStatus::inconsistent, "tensor \"" + blob.name + "\": number " +
+                                                            std::to_string(index) +
+                                                            " is not finite or above 1e6 in magnitude");
+        }
+    }
+    return values;
+}
+
+void checkSeedRows(std::span<const float> seeds) {
+    for (std::size_t row = 0; row < seeds.size() / seedSamples; ++row) {
+        double sumOfSquares = 0.0;
+        for (const float value : seeds.subspan(row * seedSamples, seedSamples)) {
+            sumOfSquares += static_cast<double>(value) * static_cast<double>(value);
+        }
+        const double rms = std::sqrt(sumOfSquares / static_cast<double>(seedSamples));
+        if (std::fabs(rms - 1.0) > seedRmsTolerance) {
+            throw ModelError(ModelStatus::inconsistent, "seed " + std::to_string(row) + " has an RMS of " +
+                                                            std::to_string(rms) + "; expected 1 within 1 %");
+        }
+    }
+}
+
+}  // namespace haptoflow::model

@@ -1,0 +1,94 @@
+#include "model/tier_header.hpp"
+
+#include <array>
+#include <string>
+#include <utility>
+
+namespace haptoflow::model {
+namespace {
+
+template <typename Value>
+using Word = std::pair<std::string_view, Value>;
+
+constexpr std::array<Word<TierKind>, 3> kindWords = {
+    {{"flow", TierKind::flow}, {"average-velocity", TierKind::averageVelocity}, {"direct", TierKind::direct}}};
+constexpr std::array<Word<TierSolver>, 3> solverWords = {
+    {{"euler", TierSolver::euler}, {"midpoint", TierSolver::midpoint}, {"heun", TierSolver::heun}}};
+constexpr std::array<Word<TierRepresentation>, 2> representationWords = {
+    {{"raw", TierRepresentation::raw}, {"latent", TierRepresentation::latent}}};
+
+template <typename Value, std::size_t Count>
+Value readWord(const HeaderNode& node, const std::array<Word<Value>, Count>& words) {
+    const std::string found = node.text(nameBytes);
+    std::string expectation = "one of";
+    for (const auto& [word, value] : words) {
+        if (found == word) {
+            return value;
+        }
+        expectation += " \"" + std::string(word) + '"';
+    }
+    node.refuse(expectation);
+}
+
+template <typename Value, std::size_t Count>
+std::string_view findWord(const std::array<Word<Value>, Count>& words, Value wanted) noexcept {
+    for (const auto& [word, value] : words) {
+        if (value == wanted) {
+            return word;
+        }
+    }
+    return "unknown";
+}
+
+std::string readGraphName(const HeaderNode& node, const NameIndex& blobNames, const std::vector<Blob>& blobs) {
+    const Blob& blob = blobs[blobNames.at(node, "blob")];
+    if (blob.type != BlobType::onnx) {
+        node.refuse("the name of a blob of type \"onnx\"");
+    }
+    return blob.name;
+}
+
+std::vector<std::int64_t> readLatentShape(const HeaderNode& node) {
+    std::vector<std::int64_t> shape;
+    std::int64_t product = 1;
+    for (const HeaderNode& dimension : node.elements(1, 3)) {
+        shape.push_back(dimension.integer(1, 4096));
+        product *= shape.back();
+    }
+    if (product > 65'536) {
+        node.refuse("a latent of at most 65536 numbers");
+    }
+    return shape;
+}
+
+}  // namespace
+
+Tier readTier(const HeaderNode& node, const NameIndex& blobNames, const std::vector<Blob>& blobs) {
+    Tier tier;
+    tier.name = node.at("name").name(nameBytes);
+    tier.kind = readWord(node.at("kind"), kindWords);
+    tier.field = readGraphName(node.at("field"), blobNames, blobs);
+    tier.level = readGraphName(node.at("level"), blobNames, blobs);
+    tier.solver = readWord(node.at("solver"), solverWords);
+    tier.steps = static_cast<int>(node.at("steps").integer(1, 16));
+    tier.parameters = node.at("parameters").integer(0, INT64_C(1) << 32);
+    tier.representation = readWord(node.at("representation"), representationWords);
+    if (tier.representation == TierRepresentation::latent) {
+        tier.latentShape = readLatentShape(node.at("latent_shape"));
+        tier.encoder = readGraphName(node.at("encoder"), blobNames, blobs);
+        tier.decoder = readGraphName(node.at("decoder"), blobNames, blobs);
+    }
+    tier.accuracyJson = node.at("accuracy").objectText();
+    tier.costJson = node.at("cost").objectText();
+    return tier;
+}
+
+std::string_view kindName(TierKind kind) noexcept {
+    return findWord(kindWords, kind);
+}
+
+std::string_view solverName(TierSolver solver) noexcept {
+    return findWord(solverWords, solver);
+}
+
+}  // namespace haptoflow::model

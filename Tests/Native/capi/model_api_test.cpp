@@ -1,0 +1,140 @@
+#include "open_handles.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstring>
+
+namespace haptoflow::capi::testing {
+namespace {
+
+haptoflow_status openBytes(const void* bytes, std::size_t count, haptoflow_model** model) {
+    const haptoflow_model_options options{sizeof(options), bytes, count, nullptr};
+    return haptoflow_model_open(&options, model);
+}
+
+TEST(ModelApiTest, OpensAModelFromBytesThatMayGoAfterwards) {
+    auto bytes = tinyModelBytes();
+    haptoflow_model* model = nullptr;
+    ASSERT_EQ(openBytes(bytes.data(), bytes.size(), &model), HAPTOFLOW_OK) << message();
+    std::fill(bytes.begin(), bytes.end(), '\0');
+    const char* header = nullptr;
+    ASSERT_EQ(haptoflow_model_header(model, &header), HAPTOFLOW_OK);
+    EXPECT_EQ(nlohmann::json::parse(header)["name"], "tiny");
+    EXPECT_EQ(haptoflow_model_close(&model), HAPTOFLOW_OK);
+    EXPECT_EQ(model, nullptr);
+}
+
+TEST(ModelApiTest, TellsEachWayAFileCanBeWrongApart) {
+    const auto valid = tinyModelBytes();
+    haptoflow_model* model = nullptr;
+
+    auto changed = valid;
+    changed[0] = 'X';
+    EXPECT_EQ(openBytes(changed.data(), changed.size(), &model), HAPTOFLOW_NOT_A_MODEL);
+    EXPECT_EQ(openBytes(valid.data(), valid.size() - 1, &model), HAPTOFLOW_MODEL_TRUNCATED);
+    changed = valid;
+    changed[100] = static_cast<char>(changed[100] ^ 1);
+    EXPECT_EQ(openBytes(changed.data(), changed.size(), &model), HAPTOFLOW_MODEL_DAMAGED);
+    EXPECT_THAT(message(), ::testing::HasSubstr("checksum at byte 24"));
+    changed = valid;
+    changed.push_back('\0');
+    EXPECT_EQ(openBytes(changed.data(), changed.size(), &model), HAPTOFLOW_MODEL_INCONSISTENT);
+    EXPECT_EQ(openBytes(valid.data(), std::size_t{1} << 40U, &model), HAPTOFLOW_MODEL_OVERSIZED);
+    EXPECT_EQ(model, nullptr);
+}
+
+TEST(ModelApiTest, NamesThePathThatCannotBeRead) {
+    const haptoflow_model_options options{sizeof(options), nullptr, 0, "/nowhere/a.haptoflow"};
+    haptoflow_model* model = nullptr;
+    EXPECT_EQ(haptoflow_model_open(&options, &model), HAPTOFLOW_MODEL_UNREADABLE);
+    EXPECT_THAT(message(), ::testing::StartsWith("/nowhere/a.haptoflow"));
+}
+
+TEST(ModelApiTest, WantsBytesOrAPathAndNotBoth) {
+    const auto bytes = tinyModelBytes();
+    haptoflow_model* model = nullptr;
+    const haptoflow_model_options both{sizeof(both), bytes.data(), bytes.size(), tinyModelPath.c_str()};
+    EXPECT_EQ(haptoflow_model_open(&both, &model), HAPTOFLOW_INVALID_ARGUMENT);
+    const haptoflow_model_options neither{sizeof(neither), nullptr, 0, nullptr};
+    EXPECT_EQ(haptoflow_model_open(&neither, &model), HAPTOFLOW_INVALID_ARGUMENT);
+}
+
+class OpenModelTest : public WithTinyModel {};
+
+TEST_F(OpenModelTest, ListsTheLabels) {
+    uint32_t count = 0;
+    ASSERT_EQ(haptoflow_model_label_count(model_, &count), HAPTOFLOW_OK);
+    ASSERT_EQ(count, 2U);
+    haptoflow_label_info info{};
+    info.struct_size = sizeof(info);
+    ASSERT_EQ(haptoflow_model_label(model_, 1, &info), HAPTOFLOW_OK);
+    EXPECT_STREQ(info.name, "ruled");
+    EXPECT_STREQ(info.category, "test");
+    EXPECT_EQ(info.is_periodic, 1U);
+    EXPECT_DOUBLE_EQ(info.wavelength_metres, 0.001);
+    EXPECT_DOUBLE_EQ(info.stiffness_newtons_per_metre, 600.0);
+    EXPECT_DOUBLE_EQ(info.friction_coefficient, 0.3);
+    EXPECT_DOUBLE_EQ(info.speed_level_exponent, 0.5);
+    EXPECT_DOUBLE_EQ(info.force_level_exponent, 0.25);
+    EXPECT_DOUBLE_EQ(info.frequency_exponent, 1.0);
+    EXPECT_EQ(haptoflow_model_label(model_, 2, &info), HAPTOFLOW_INVALID_ARGUMENT);
+    EXPECT_THAT(message(), ::testing::HasSubstr("2 labels"));
+}
+
+TEST_F(OpenModelTest, GivesTheEmbeddingOfALabel) {
+    std::array<float, HAPTOFLOW_EMBEDDING_SIZE> embedding{};
+    ASSERT_EQ(haptoflow_model_embedding(model_, 1, embedding.data()), HAPTOFLOW_OK);
+    EXPECT_NEAR(embedding[10], std::sin(2.0), 1e-6);
+    EXPECT_EQ(haptoflow_model_embedding(model_, 9, embedding.data()), HAPTOFLOW_INVALID_ARGUMENT);
+}
+
+TEST_F(OpenModelTest, ListsTheTiers) {
+    uint32_t count = 0;
+    ASSERT_EQ(haptoflow_model_tier_count(model_, &count), HAPTOFLOW_OK);
+    ASSERT_EQ(count, 5U);
+    haptoflow_tier_info info{};
+    info.struct_size = sizeof(info);
+    ASSERT_EQ(haptoflow_model_tier(model_, 0, &info), HAPTOFLOW_OK);
+    EXPECT_STREQ(info.name, "draft");
+    EXPECT_STREQ(info.kind, "average-velocity");
+    EXPECT_EQ(info.is_default, 0U);
+    ASSERT_EQ(haptoflow_model_tier(model_, 2, &info), HAPTOFLOW_OK);
+    EXPECT_STREQ(info.name, "fine");
+    EXPECT_EQ(info.solver, HAPTOFLOW_SOLVER_HEUN);
+    EXPECT_EQ(info.steps, 8);
+    EXPECT_EQ(info.parameter_count, 267);
+    EXPECT_STREQ(info.cost_json, "{}");
+    ASSERT_EQ(haptoflow_model_tier(model_, 1, &info), HAPTOFLOW_OK);
+    EXPECT_EQ(info.is_default, 1U);
+}
+
+TEST_F(OpenModelTest, FillsAnOlderStructOnlyAsFarAsItReaches) {
+    haptoflow_label_info info{};
+    std::memset(static_cast<void*>(&info), 0x55, sizeof(info));
+    info.struct_size = offsetof(haptoflow_label_info, friction_coefficient);
+    ASSERT_EQ(haptoflow_model_label(model_, 0, &info), HAPTOFLOW_OK);
+    EXPECT_STREQ(info.name, "plain");
+    EXPECT_DOUBLE_EQ(info.stiffness_newtons_per_metre, 600.0);
+    EXPECT_EQ(info.struct_size, offsetof(haptoflow_label_info, friction_coefficient));
+    const std::array<unsigned char, sizeof(double)> untouched{0x55, 0x55, 0x55, 0x55, 0x55, 0x55, 0x55, 0x55};
+    EXPECT_EQ(std::memcmp(&info.friction_coefficient, untouched.data(), untouched.size()), 0);
+}
+
+TEST_F(OpenModelTest, FillsANewerStructAsFarAsItKnows) {
+    struct {
+        haptoflow_tier_info known;
+        std::array<unsigned char, 32> later;
+    } info{};
+    info.later.fill(0x55);
+    info.known.struct_size = sizeof(info);
+    ASSERT_EQ(haptoflow_model_tier(model_, 1, &info.known), HAPTOFLOW_OK);
+    EXPECT_STREQ(info.known.name, "standard");
+    EXPECT_EQ(info.known.struct_size, sizeof(info));
+    EXPECT_THAT(info.later, ::testing::Each(0x55));
+}
+
+}  // namespace
+}  // namespace haptoflow::capi::testing

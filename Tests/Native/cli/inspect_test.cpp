@@ -1,0 +1,118 @@
+#include <nlohmann/json.hpp>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <sys/wait.h>
+
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <memory>
+#include <stdexcept>
+#include <string>
+
+namespace haptoflow::cli {
+namespace {
+
+using ::testing::HasSubstr;
+
+const std::string tinyModel = HAPTOFLOW_TEST_GOLDEN_DIR "/model/tiny.haptoflow";
+
+struct Finished {
+    int exitCode = -1;
+    std::string output;
+};
+
+/// Runs `haptoflow inspect` with these arguments; the output is standard output and standard error together.
+Finished inspect(const std::string& arguments) {
+    const std::string command = "'" HAPTOFLOW_TEST_CLI "' inspect " + arguments + " 2>&1";
+    FILE* pipe = popen(command.c_str(), "r");
+    if (pipe == nullptr) {
+        throw std::runtime_error("the program cannot be started: " HAPTOFLOW_TEST_CLI);
+    }
+    Finished run;
+    char part[4096];
+    while (const std::size_t count = std::fread(part, 1, sizeof(part), pipe)) {
+        run.output.append(part, count);
+    }
+    run.exitCode = WEXITSTATUS(pclose(pipe));
+    return run;
+}
+
+std::string bytesOf(const std::string& path) {
+    std::ifstream stream(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+}
+
+/// A file in the temporary folder, gone with the test.
+class ScratchFile {
+public:
+    explicit ScratchFile(const std::string& content)
+        : path_((std::filesystem::temp_directory_path() /
+                 ("inspect_" + std::string(::testing::UnitTest::GetInstance()->current_test_info()->name())))
+                    .string()) {
+        std::ofstream(path_, std::ios::binary) << content;
+    }
+    ScratchFile(const ScratchFile&) = delete;
+    ScratchFile& operator=(const ScratchFile&) = delete;
+    ~ScratchFile() { std::remove(path_.c_str()); }
+
+    [[nodiscard]] const std::string& path() const { return path_; }
+
+private:
+    std::string path_;
+};
+
+TEST(InspectTest, ShowsProvenanceLabelsAndTiersInWords) {
+    const Finished run = inspect(tinyModel);
+    EXPECT_EQ(run.exitCode, 0) << run.output;
+    for (const char* part : {"tiny\n", "not trained: written by hand for the tests", "all checksums verified",
+                             "Labels (2)", "ruled", "600", "Tiers, the most accurate last (5)", "average-velocity",
+                             "standard (default)", "midpoint", "267", "not measured"}) {
+        EXPECT_THAT(run.output, HasSubstr(part));
+    }
+}
+
+TEST(InspectTest, PrintsTheHeaderWithSizeAndChecksumAsJson) {
+    const Finished run = inspect(tinyModel + " --json");
+    ASSERT_EQ(run.exitCode, 0) << run.output;
+    const nlohmann::json report = nlohmann::json::parse(run.output);
+    EXPECT_EQ(report["header"]["name"], "tiny");
+    EXPECT_EQ(report["header"]["tiers"].size(), 5U);
+    EXPECT_EQ(report["file"]["bytes"], std::filesystem::file_size(tinyModel));
+    EXPECT_EQ(report["file"]["checksums_verified"], true);
+    EXPECT_EQ(report["file"]["crc32"].get<std::string>().size(), 8U);
+}
+
+TEST(InspectTest, RefusesAMissingFileAndNamesIt) {
+    const Finished run = inspect("/nowhere/a.haptoflow");
+    EXPECT_EQ(run.exitCode, 3);
+    EXPECT_THAT(run.output, HasSubstr("/nowhere/a.haptoflow: there is no such file"));
+}
+
+TEST(InspectTest, RefusesADamagedFileAndNamesTheChecksum) {
+    std::string content = bytesOf(tinyModel);
+    ASSERT_GT(content.size(), 1000U);
+    content[200] = static_cast<char>(content[200] ^ 4);
+    const ScratchFile file(content);
+    const Finished run = inspect(file.path() + " --json");
+    EXPECT_EQ(run.exitCode, 3);
+    EXPECT_THAT(run.output, HasSubstr(file.path()));
+    EXPECT_THAT(run.output, HasSubstr("checksum at byte 24"));
+}
+
+TEST(InspectTest, RefusesAFileOfAnotherKind) {
+    const ScratchFile file("RIFF....WAVEfmt and so on, long enough to be looked at");
+    const Finished run = inspect(file.path());
+    EXPECT_EQ(run.exitCode, 3);
+    EXPECT_THAT(run.output, HasSubstr("not a .haptoflow file"));
+}
+
+TEST(InspectTest, RefusesToRunWithoutAFile) {
+    EXPECT_EQ(inspect("").exitCode, 2);
+}
+
+}  // namespace
+}  // namespace haptoflow::cli

@@ -1,0 +1,255 @@
+#include "scene_file.hpp"
+
+#include "exit_codes.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <glm/geometric.hpp>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <sstream>
+
+namespace haptoflow::cli {
+namespace {
+
+using nlohmann::json;
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+
+json goodScene() {
+    return json::parse(R"({
+        "surfaces": [
+            {"name": "desk", "shape": {"box": {"size": [0.4, 0.02, 0.3]}}, "position": [0.1, 0.2, 0.3],
+             "rotation": [0, 0, 0, 2], "material": "wood", "stiffness": 800, "grain": [0, 0, 1]},
+            {"name": "ball", "shape": {"sphere": {"radius": 0.05}}, "material": {"cork": 3, "wood": 1},
+             "motion": {"loop": true, "keyframes": [{"t": 0}, {"t": 1, "position": [1, 0, 0]}]}},
+            {"name": "pill", "shape": {"capsule": {"radius": 0.02, "height": 0.1}}, "material": "wood"},
+            {"name": "floor", "shape": {"plane": {}}, "material": "wood"},
+            {"name": "sheet", "shape": {"mesh": {"vertices": [[0,0,0],[0,0,1],[1,0,0]], "triangles": [[0,1,2]]}},
+             "material": "wood"}
+        ],
+        "stylus": {"tip_radius": 0.002}, "update_rate": 120})");
+}
+
+/// What the reader says about the good scene after `change`.
+template <typename Change>
+std::string complaintAfter(Change&& change) {
+    json document = goodScene();
+    change(document);
+    try {
+        static_cast<void>(parseScene(document, "scene.json"));
+    } catch (const InputError& error) {
+        return error.what();
+    }
+    return "no complaint";
+}
+
+std::string complaintAbout(const std::string& pointer, const json& value) {
+    return complaintAfter([&](json& document) { document[json::json_pointer(pointer)] = value; });
+}
+
+class TemporaryFile {
+public:
+    explicit TemporaryFile(const std::string& text)
+        : path_(std::filesystem::temp_directory_path() /
+                ("haptoflow_scene_file_test_" +
+                 std::string(::testing::UnitTest::GetInstance()->current_test_info()->name()) + ".json")) {
+        std::ofstream(path_, std::ios::binary) << text;
+    }
+    TemporaryFile(const TemporaryFile&) = delete;
+    TemporaryFile& operator=(const TemporaryFile&) = delete;
+    ~TemporaryFile() { std::filesystem::remove(path_); }
+    [[nodiscard]] std::string path() const { return path_.string(); }
+
+private:
+    std::filesystem::path path_;
+};
+
+std::string complaintAboutText(const std::string& text) {
+    const TemporaryFile file(text);
+    try {
+        static_cast<void>(readSceneFile(file.path()));
+    } catch (const InputError& error) {
+        return error.what();
+    }
+    return "no complaint";
+}
+
+std::string readText(const std::filesystem::path& path) {
+    std::ifstream file(path, std::ios::binary);
+    std::ostringstream text;
+    text << file.rdbuf();
+    return text.str();
+}
+
+std::string documentation(const std::string& name) {
+    return readText(std::filesystem::path(HAPTOFLOW_TEST_DOCUMENTATION_DIR) / name);
+}
+
+TEST(SceneFileTest, EveryKeyOfASceneArrives) {
+    const contact::Scene scene = parseScene(goodScene(), "scene.json");
+    ASSERT_EQ(scene.surfaces.size(), 5U);
+    EXPECT_DOUBLE_EQ(scene.tipRadiusMetres, 0.002);
+    EXPECT_DOUBLE_EQ(scene.updateRateHz, 120.0);
+    const contact::Surface& desk = scene.surfaces[0];
+    EXPECT_EQ(desk.name, "desk");
+    EXPECT_EQ(std::get<contact::Box>(desk.shape).sizeMetres, glm::dvec3(0.4, 0.02, 0.3));
+    EXPECT_EQ(desk.pose.positionMetres, glm::dvec3(0.1, 0.2, 0.3));
+    EXPECT_EQ(desk.pose.rotation, glm::dquat(1.0, 0.0, 0.0, 0.0));
+    EXPECT_EQ(desk.grain, glm::dvec3(0.0, 0.0, 1.0));
+    EXPECT_DOUBLE_EQ(desk.stiffnessNewtonsPerMetre.value_or(0.0), 800.0);
+    EXPECT_EQ(desk.material, (std::vector<std::pair<std::string, double>>{{"wood", 1.0}}));
+    const contact::Surface& ball = scene.surfaces[1];
+    EXPECT_EQ(ball.material, (std::vector<std::pair<std::string, double>>{{"cork", 0.75}, {"wood", 0.25}}));
+    ASSERT_TRUE(ball.motion);
+    EXPECT_TRUE(ball.motion->loops());
+    EXPECT_DOUBLE_EQ(ball.motion->poseAt(0.5).positionMetres.x, 0.5);
+    EXPECT_FALSE(ball.stiffnessNewtonsPerMetre);
+    EXPECT_DOUBLE_EQ(std::get<contact::Capsule>(scene.surfaces[2].shape).heightMetres, 0.1);
+    EXPECT_FALSE(std::get<std::shared_ptr<const contact::TriangleMesh>>(scene.surfaces[4].shape)->isClosed());
+}
+
+TEST(SceneFileTest, StylusAndUpdateRateHaveDefaults) {
+    json document = goodScene();
+    document.erase("stylus");
+    document.erase("update_rate");
+    const contact::Scene scene = parseScene(document, "scene.json");
+    EXPECT_DOUBLE_EQ(scene.tipRadiusMetres, 0.001);
+    EXPECT_DOUBLE_EQ(scene.updateRateHz, 90.0);
+}
+
+TEST(SceneFileTest, WrongValuesAreNamedByFilePathAndExpectation) {
+    const std::vector<std::tuple<std::string, json, std::string, std::string>> mistakes{
+        {"/surfaces/0/shape/box/size", {0.4, 0.0, 0.3}, "surfaces[0].shape.box.size", "edge lengths"},
+        {"/surfaces/0/shape/box/size", {0.4, -0.1, 0.3}, "surfaces[0].shape.box.size", "edge lengths"},
+        {"/surfaces/0/shape/box/size", {0.4, 0.1}, "surfaces[0].shape.box.size", "edge lengths"},
+        {"/surfaces/0/shape/box/size/1", "x", "surfaces[0].shape.box.size[1]", "a number"},
+        {"/surfaces/0/shape/box/size/1", nullptr, "surfaces[0].shape.box.size[1]", "a number"},
+        {"/surfaces/1/shape/sphere/radius", 0, "surfaces[1].shape.sphere.radius", "metres"},
+        {"/surfaces/1/shape/sphere/radius", true, "surfaces[1].shape.sphere.radius", "metres"},
+        {"/surfaces/2/shape/capsule/height", 0.03, "surfaces[2].shape.capsule.height", "twice the radius"},
+        {"/surfaces/0/position", {0, 0}, "surfaces[0].position", "[x, y, z]"},
+        {"/surfaces/0/position/2", 1e12, "surfaces[0].position[2]", "1e9"},
+        {"/surfaces/0/rotation", {0, 0, 0, 0}, "surfaces[0].rotation", "other than zero"},
+        {"/surfaces/0/rotation", {0, 0, 0}, "surfaces[0].rotation", "quaternion"},
+        {"/surfaces/0/grain", {0, 0, 0}, "surfaces[0].grain", "direction"},
+        {"/surfaces/0/stiffness", -1, "surfaces[0].stiffness", "N/m"},
+        {"/surfaces/0/name", "", "surfaces[0].name", "a name"},
+        {"/surfaces/1/name", "desk", "surfaces[1].name", "no other surface"},
+        {"/surfaces/0/material", 3, "surfaces[0].material", "a label"},
+        {"/surfaces/0/material", {{"wood", -1}}, "surfaces[0].material.wood", "weight"},
+        {"/surfaces/0/material", {{"wood", 0}}, "surfaces[0].material", "above 0"},
+        {"/surfaces/0/material", json::object(), "surfaces[0].material", "above 0"},
+        {"/surfaces/0/shape",
+         {{"box", {{"size", {1, 1, 1}}}}, {"plane", json::object()}},
+         "surfaces[0].shape",
+         "one key"},
+        {"/surfaces/0/shape", "box", "surfaces[0].shape", "an object"},
+        {"/surfaces/1/motion/keyframes", {{{"t", 0}}}, "surfaces[1].motion.keyframes", "two or more"},
+        {"/surfaces/1/motion/keyframes/1/t", 0, "surfaces[1].motion.keyframes[1].t", "after"},
+        {"/surfaces/1/motion/keyframes/1/rotation", {0, 0, 0, 0}, "surfaces[1].motion.keyframes[1].rotation", "zero"},
+        {"/surfaces/1/motion/loop", 1, "surfaces[1].motion.loop", "true or false"},
+        {"/surfaces/1/position", {0, 0, 0}, "surfaces[1]", "both a motion and a position"},
+        {"/surfaces/4/shape/mesh/triangles/0", {0, 1, 3}, "surfaces[4].shape.mesh.triangles[0]", "0 to 2"},
+        {"/surfaces/4/shape/mesh/triangles/0", {0, -1, 2}, "surfaces[4].shape.mesh.triangles[0]", "0 to 2"},
+        {"/surfaces/4/shape/mesh/triangles/0", {0, 1, 1}, "surfaces[4].shape.mesh", "area"},
+        {"/surfaces/4/shape/mesh/triangles", json::array(), "surfaces[4].shape.mesh.triangles", "one or more"},
+        {"/surfaces/4/shape/mesh/vertices/0", {0, 0}, "surfaces[4].shape.mesh.vertices[0]", "vertex"},
+        {"/surfaces", json::array(), "surfaces", "one or more"},
+        {"/stylus/tip_radius", 0, "stylus.tip_radius", "metres"},
+        {"/update_rate", 0, "update_rate", "Hz"},
+        {"/update_rate", "90", "update_rate", "Hz"}};
+    for (const auto& [pointer, value, path, expectation] : mistakes) {
+        EXPECT_THAT(complaintAbout(pointer, value),
+                    AllOf(HasSubstr("scene.json: " + path + ": "), HasSubstr(expectation)))
+            << pointer << " = " << value;
+    }
+}
+
+TEST(SceneFileTest, UnknownAndMissingKeysAreNamedWithTheKnownOnes) {
+    EXPECT_THAT(complaintAbout("/surfaces/0/colour", "red"),
+                AllOf(HasSubstr("surfaces[0]: unknown key \"colour\""), HasSubstr("material, stiffness")));
+    EXPECT_THAT(complaintAbout("/surfaces/0/shape/box/radius", 1), HasSubstr("surfaces[0].shape.box: unknown key"));
+    EXPECT_THAT(complaintAbout("/surfaces/3/shape/plane/size", 1), HasSubstr("surfaces[3].shape.plane: unknown key"));
+    EXPECT_THAT(complaintAbout("/surfaces/0/shape/cube", 1), HasSubstr("surfaces[0].shape: unknown key \"cube\""));
+    EXPECT_THAT(complaintAbout("/updateRate", 90), HasSubstr("top level: unknown key \"updateRate\""));
+    EXPECT_THAT(complaintAfter([](json& document) { document["surfaces"][0].erase("material"); }),
+                HasSubstr("surfaces[0]: missing key \"material\""));
+    EXPECT_THAT(complaintAfter([](json& document) { document = json::array(); }), HasSubstr("top level: expected"));
+}
+
+TEST(SceneFileTest, BrokenJsonIsNamedByLineAndColumn) {
+    EXPECT_THAT(complaintAboutText("{\n  \"surfaces\": [\n    {,}\n"), HasSubstr(".json:3:6: not valid JSON"));
+    EXPECT_THAT(complaintAboutText(""), HasSubstr(".json:1:1: not valid JSON"));
+    EXPECT_THAT(complaintAboutText("{\"surfaces\": NaN}"), HasSubstr("not valid JSON"));
+    EXPECT_THAT(complaintAboutText("{\"update_rate\": 1e999}"), HasSubstr("too large"));
+    EXPECT_THAT(complaintAboutText("{\"name\": \"\xff\"}"), HasSubstr("not valid JSON"));
+}
+
+TEST(SceneFileTest, AKeyThatStandsTwiceIsAnError) {
+    EXPECT_THAT(complaintAboutText(R"({"update_rate": 90, "update_rate": 72})"),
+                HasSubstr("\"update_rate\" stands twice"));
+}
+
+TEST(SceneFileTest, AFileThatIsNotThereIsNamed) {
+    EXPECT_THROW(static_cast<void>(readSceneFile("no/such/scene.json")), InputError);
+}
+
+TEST(SceneFileTest, TheSchemaKnowsTheSameKeysAsTheReader) {
+    const json schema = json::parse(documentation("scene.schema.json"));
+    const auto keysOf = [](const json& object) {
+        std::string keys;
+        for (const auto& [key, unused] : object.at("properties").items()) {
+            keys += key + " ";
+        }
+        return keys;
+    };
+    const auto keysInComplaint = [](const std::string& pointer) {
+        const std::string complaint = complaintAbout(pointer + "/unheard-of", 1);
+        std::istringstream names(complaint.substr(complaint.find("known are ") + 10));
+        std::set<std::string> sorted;
+        for (std::string name; std::getline(names >> std::ws, name, ',');) {
+            sorted.insert(name);
+        }
+        std::string keys;
+        for (const std::string& name : sorted) {
+            keys += name == "none" ? "" : name + " ";
+        }
+        return keys;
+    };
+    const json& definitions = schema.at("$defs");
+    EXPECT_EQ(keysOf(schema), keysInComplaint(""));
+    EXPECT_EQ(keysOf(definitions.at("surface")), keysInComplaint("/surfaces/0"));
+    EXPECT_EQ(keysOf(definitions.at("shape")), keysInComplaint("/surfaces/0/shape"));
+    EXPECT_EQ(keysOf(definitions.at("motion")), keysInComplaint("/surfaces/1/motion"));
+    EXPECT_EQ(keysOf(definitions.at("keyframe")), keysInComplaint("/surfaces/1/motion/keyframes/0"));
+    EXPECT_EQ(keysOf(schema.at("properties").at("stylus")), keysInComplaint("/stylus"));
+    const json& shapes = definitions.at("shape").at("properties");
+    EXPECT_EQ(keysOf(shapes.at("box")), keysInComplaint("/surfaces/0/shape/box"));
+    EXPECT_EQ(keysOf(shapes.at("sphere")), keysInComplaint("/surfaces/1/shape/sphere"));
+    EXPECT_EQ(keysOf(shapes.at("capsule")), keysInComplaint("/surfaces/2/shape/capsule"));
+    EXPECT_EQ(keysOf(shapes.at("plane")), keysInComplaint("/surfaces/3/shape/plane"));
+    EXPECT_EQ(keysOf(shapes.at("mesh")), keysInComplaint("/surfaces/4/shape/mesh"));
+}
+
+TEST(SceneFileTest, EverySceneOfTheDocumentationIsRead) {
+    const std::string page = documentation("scene-and-stroke.md");
+    int scenes = 0;
+    for (std::size_t begin = page.find("```json\n"); begin != std::string::npos;
+         begin = page.find("```json\n", begin)) {
+        begin += 8;
+        const std::size_t end = page.find("```", begin);
+        const contact::Scene scene = parseScene(json::parse(page.substr(begin, end - begin)), "scene-and-stroke.md");
+        EXPECT_FALSE(scene.surfaces.empty());
+        ++scenes;
+        begin = end;
+    }
+    EXPECT_GE(scenes, 1);
+}
+
+}  // namespace
+}  // namespace haptoflow::cli

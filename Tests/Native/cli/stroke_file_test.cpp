@@ -1,0 +1,149 @@
+#include "stroke_file.hpp"
+
+#include "exit_codes.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <clocale>
+#include <cmath>
+#include <fstream>
+#include <glm/geometric.hpp>
+#include <locale>
+#include <numbers>
+#include <sstream>
+
+namespace haptoflow::cli {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+
+std::string complaintAbout(const std::string& text) {
+    try {
+        static_cast<void>(parseStroke(text, "stroke.csv"));
+    } catch (const InputError& error) {
+        return error.what();
+    }
+    return "no complaint";
+}
+
+TEST(StrokeFileTest, EveryColumnArrives) {
+    const Stroke stroke = parseStroke(
+        "t,x,y,z,force,qx,qy,qz,qw\n"
+        "0.5,1e-3,-2,+3,0.7,0,0,0,2\n"
+        "0.6,0,0,0,,0,1,0,0\n",
+        "stroke.csv");
+    ASSERT_EQ(stroke.samples.size(), 2U);
+    EXPECT_DOUBLE_EQ(stroke.samples[0].timeSeconds, 0.5);
+    EXPECT_EQ(stroke.samples[0].positionMetres, glm::dvec3(0.001, -2.0, 3.0));
+    EXPECT_DOUBLE_EQ(stroke.samples[0].forceNewtons.value_or(-1.0), 0.7);
+    EXPECT_EQ(stroke.samples[0].orientation, glm::dquat(1.0, 0.0, 0.0, 0.0));
+    EXPECT_FALSE(stroke.samples[1].forceNewtons);
+    EXPECT_EQ(stroke.samples[1].orientation, glm::dquat(0.0, 0.0, 1.0, 0.0));
+}
+
+TEST(StrokeFileTest, OptionalColumnsMayBeLeftOut) {
+    EXPECT_FALSE(parseStroke("t,x,y,z\n0,0,0,0\n", "s").samples[0].forceNewtons);
+    EXPECT_FALSE(parseStroke("t,x,y,z\n0,0,0,0\n", "s").samples[0].orientation);
+    EXPECT_TRUE(parseStroke("t,x,y,z,qx,qy,qz,qw\n0,0,0,0,0,0,0,1\n", "s").samples[0].orientation);
+    EXPECT_TRUE(parseStroke("t,x,y,z,force\n0,0,0,0,1\n", "s").samples[0].forceNewtons);
+}
+
+TEST(StrokeFileTest, WindowsLineEndsByteOrderMarkSpacesAndTrailingEmptyLinesAreFine) {
+    const Stroke stroke = parseStroke("\xEF\xBB\xBFt, x, y, z\r\n 0 ,1 ,2,\t3\r\n1,1,2,3\r\n\r\n  \r\n", "stroke.csv");
+    ASSERT_EQ(stroke.samples.size(), 2U);
+    EXPECT_EQ(stroke.samples[0].positionMetres, glm::dvec3(1.0, 2.0, 3.0));
+    EXPECT_EQ(parseStroke("t,x,y,z\n0,1,2,3", "stroke.csv").samples.size(), 1U);
+}
+
+TEST(StrokeFileTest, MistakesAreNamedByFileLineAndColumn) {
+    EXPECT_THAT(complaintAbout(""), HasSubstr("stroke.csv:1: expected the header t,x,y,z"));
+    EXPECT_THAT(complaintAbout("t,x,y\n"), HasSubstr("stroke.csv:1: expected the header"));
+    EXPECT_THAT(complaintAbout("t;x;y;z\n0;0;0;0\n"), HasSubstr("commas between the names, found \"t;x;y;z\""));
+    EXPECT_THAT(complaintAbout("t,x,y,z,qx\n"), HasSubstr("expected the header"));
+    EXPECT_THAT(complaintAbout("t,x,y,z\n"), HasSubstr("stroke.csv:1: expected one or more samples"));
+    EXPECT_THAT(complaintAbout("t,x,y,z\n0,0,zero,0\n"),
+                AllOf(HasSubstr("stroke.csv:2: column y: "), HasSubstr("found \"zero\"")));
+    EXPECT_THAT(complaintAbout("t,x,y,z\n0,0,0,0\n1,0,0\n"), HasSubstr("stroke.csv:3: expected 4 values"));
+    EXPECT_THAT(complaintAbout("t,x,y,z\n0,5,0,0,0\n"), HasSubstr("decimals need a point"));
+    EXPECT_THAT(complaintAbout("t,x,y,z\n0,0,0,nan\n"), HasSubstr("stroke.csv:2: column z"));
+    EXPECT_THAT(complaintAbout("t,x,y,z\ninf,0,0,0\n"), HasSubstr("stroke.csv:2: column t"));
+    EXPECT_THAT(complaintAbout("t,x,y,z\n0,1e400,0,0\n"), HasSubstr("stroke.csv:2: column x"));
+    EXPECT_THAT(complaintAbout("t,x,y,z\n0,1m,0,0\n"), HasSubstr("stroke.csv:2: column x"));
+    EXPECT_THAT(complaintAbout("t,x,y,z\n0,+-1,0,0\n"), HasSubstr("stroke.csv:2: column x"));
+    EXPECT_THAT(complaintAbout("t,x,y,z\n0,,0,0\n"), HasSubstr("stroke.csv:2: column x"));
+    EXPECT_THAT(complaintAbout("t,x,y,z\n0,0,0,0\n\n1,0,0,0\n"), HasSubstr("stroke.csv:3: an empty line"));
+    EXPECT_THAT(complaintAbout("t,x,y,z,force\n0,0,0,0,-1\n"), HasSubstr("stroke.csv:2: column force"));
+    EXPECT_THAT(complaintAbout("t,x,y,z,qx,qy,qz,qw\n0,0,0,0,0,0,0,0\n"), HasSubstr("stroke.csv:2: column qx"));
+    EXPECT_THROW(static_cast<void>(readStrokeFile("no/such/stroke.csv")), InputError);
+}
+
+TEST(StrokeFileTest, TimesMayRepeatButNotGoBack) {
+    EXPECT_EQ(parseStroke("t,x,y,z\n0,0,0,0\n0,1,0,0\n", "s").samples.size(), 2U);
+    EXPECT_THAT(complaintAbout("t,x,y,z\n0,0,0,0\n1,0,0,0\n0.5,0,0,0\n"),
+                AllOf(HasSubstr("stroke.csv:4: column t"), HasSubstr("not before")));
+}
+
+class CommaDecimals : public std::numpunct<char> {
+protected:
+    [[nodiscard]] char do_decimal_point() const override { return ','; }
+};
+
+TEST(StrokeFileTest, NumbersNeedAPointWhateverTheLocale) {
+    const std::locale before = std::locale::global(std::locale(std::locale::classic(), new CommaDecimals));
+    // Where the system has it, the C library's locale too.
+    std::setlocale(LC_NUMERIC, "de_DE.UTF-8");
+    const Stroke stroke = parseStroke("t,x,y,z\n0.25,0,0,0\n", "s");
+    std::locale::global(before);
+    std::setlocale(LC_NUMERIC, "C");
+    EXPECT_DOUBLE_EQ(stroke.samples[0].timeSeconds, 0.25);
+}
+
+TEST(StrokeFileTest, TheTipBetweenSamplesLiesOnTheStraightLineAndTurnsTheShortWay) {
+    const Stroke stroke = parseStroke(
+        "t,x,y,z,force,qx,qy,qz,qw\n"
+        "1,0,0,0,1,0,0,0,1\n"
+        "2,4,0,0,3,0,-1,0,0\n",
+        "s");
+    const contact::TipSample tip = sampleStroke(stroke, 1.25);
+    EXPECT_DOUBLE_EQ(tip.timeSeconds, 1.25);
+    EXPECT_DOUBLE_EQ(tip.positionMetres.x, 1.0);
+    EXPECT_DOUBLE_EQ(tip.forceNewtons.value_or(0.0), 1.5);
+    ASSERT_TRUE(tip.orientation);
+    EXPECT_NEAR(std::abs(tip.orientation->w), std::cos(std::numbers::pi / 8.0), 1e-9);
+    EXPECT_DOUBLE_EQ(sampleStroke(stroke, 0.0).positionMetres.x, 0.0);
+    EXPECT_DOUBLE_EQ(sampleStroke(stroke, 9.0).positionMetres.x, 4.0);
+    EXPECT_DOUBLE_EQ(sampleStroke(stroke, 9.0).timeSeconds, 9.0);
+}
+
+TEST(StrokeFileTest, OfSamplesAtTheSameTimeTheLastCounts) {
+    const Stroke stroke = parseStroke("t,x,y,z\n0,0,0,0\n1,1,0,0\n1,5,0,0\n2,6,0,0\n", "s");
+    EXPECT_DOUBLE_EQ(sampleStroke(stroke, 1.0).positionMetres.x, 5.0);
+    EXPECT_NEAR(sampleStroke(stroke, 0.999999).positionMetres.x, 1.0, 1e-5);
+}
+
+TEST(StrokeFileTest, FramesRunFromTheFirstSampleToTheLast) {
+    const Stroke stroke = parseStroke("t,x,y,z\n5,0,0,0\n6,1,0,0\n", "s");
+    ASSERT_EQ(frameCount(stroke, 90.0, "s"), 91U);
+    EXPECT_DOUBLE_EQ(frameAt(stroke, 90.0, 0).timeSeconds, 5.0);
+    EXPECT_NEAR(frameAt(stroke, 90.0, 45).positionMetres.x, 0.5, 1e-12);
+    EXPECT_NEAR(frameAt(stroke, 90.0, 90).timeSeconds, 6.0, 1e-12);
+    EXPECT_EQ(frameCount(parseStroke("t,x,y,z\n5,0,0,0\n", "s"), 90.0, "s"), 1U);
+    EXPECT_THROW(static_cast<void>(frameCount(parseStroke("t,x,y,z\n0,0,0,0\n1e9,0,0,0\n", "s"), 90.0, "s")),
+                 InputError);
+}
+
+TEST(StrokeFileTest, TheStrokeOfTheDocumentationIsRead) {
+    std::ifstream file(std::string(HAPTOFLOW_TEST_DOCUMENTATION_DIR) + "/scene-and-stroke.md");
+    std::ostringstream page;
+    page << file.rdbuf();
+    const std::string text = page.str();
+    const std::size_t begin = text.find("```csv\n");
+    ASSERT_NE(begin, std::string::npos);
+    const std::size_t end = text.find("```", begin + 7);
+    EXPECT_GE(parseStroke(text.substr(begin + 7, end - begin - 7), "scene-and-stroke.md").samples.size(), 2U);
+}
+
+}  // namespace
+}  // namespace haptoflow::cli

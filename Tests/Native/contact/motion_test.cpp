@@ -1,0 +1,64 @@
+#include "contact/motion.hpp"
+
+#include "test_scenes.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <stdexcept>
+
+namespace haptoflow::contact {
+namespace {
+
+using testing::turned;
+
+const glm::dquat upright(1.0, 0.0, 0.0, 0.0);
+
+TEST(MotionTest, TwoKeyframesAreAStraightLineAtConstantSpeedAndRestAtItsEnds) {
+    const Motion motion({{1.0, {{0.0, 0.0, 0.0}, upright}}, {3.0, {{0.4, 0.0, 0.0}, upright}}}, false);
+    EXPECT_NEAR(motion.poseAt(1.5).positionMetres.x, 0.1, 1e-12);
+    EXPECT_NEAR(motion.poseAt(2.5).positionMetres.x, 0.3, 1e-12);
+    EXPECT_DOUBLE_EQ(motion.poseAt(0.0).positionMetres.x, 0.0);
+    EXPECT_DOUBLE_EQ(motion.poseAt(9.0).positionMetres.x, 0.4);
+}
+
+TEST(MotionTest, VelocityIsContinuousAtInnerKeyframesAndAcrossAClosedLoop) {
+    const Motion motion({{0.0, {{0.0, 0.0, 0.0}, upright}},
+                         {0.3, {{0.1, 0.0, 0.2}, upright}},
+                         {1.0, {{0.3, 0.1, 0.0}, upright}},
+                         {1.4, {{0.0, 0.0, 0.0}, upright}}},
+                        true);
+    const double h = 1e-6;
+    for (const double time : {0.3, 1.0, 1.4, 2.8}) {
+        const glm::dvec3 before = (motion.poseAt(time).positionMetres - motion.poseAt(time - h).positionMetres) / h;
+        const glm::dvec3 after = (motion.poseAt(time + h).positionMetres - motion.poseAt(time).positionMetres) / h;
+        EXPECT_LT(glm::distance(before, after), 1e-4) << "at " << time;
+    }
+}
+
+TEST(MotionTest, RotationTurnsTheShortWayAtConstantRate) {
+    const Motion motion({{0.0, {{}, upright}}, {1.0, {{}, -turned(90.0, {0.0, 1.0, 0.0})}}}, false);
+    const glm::dvec3 x = motion.poseAt(0.5).directionToWorld({1.0, 0.0, 0.0});
+    EXPECT_NEAR(testing::degreesBetween(x, {1.0, 0.0, 0.0}), 45.0, 1e-9);
+}
+
+TEST(MotionTest, LoopRepeatsForeverInBothDirections) {
+    const Motion motion(
+        {{1.0, {{0.0, 0.0, 0.0}, upright}}, {1.5, {{0.1, 0.0, 0.0}, upright}}, {2.0, {{0.0, 0.0, 0.0}, upright}}},
+        true);
+    EXPECT_NEAR(motion.poseAt(1001.25).positionMetres.x, motion.poseAt(1.25).positionMetres.x, 1e-9);
+    EXPECT_NEAR(motion.poseAt(-0.75).positionMetres.x, motion.poseAt(1.25).positionMetres.x, 1e-9);
+}
+
+TEST(MotionTest, DamagedTimesAreRefusedAndDamagedRotationsBecomeTheIdentity) {
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    EXPECT_THROW(Motion({{0.0, {}}}, false), std::invalid_argument);
+    EXPECT_THROW(Motion({{0.0, {}}, {0.0, {}}}, false), std::invalid_argument);
+    EXPECT_THROW(Motion({{0.0, {}}, {nan, {}}}, false), std::invalid_argument);
+    const Motion motion({{0.0, {{}, {0.0, 0.0, 0.0, 0.0}}}, {1.0, {{}, {nan, 0.0, 0.0, 0.0}}}}, false);
+    EXPECT_EQ(motion.poseAt(0.5).rotation, upright);
+    EXPECT_EQ(motion.poseAt(nan).rotation, upright);
+}
+
+}  // namespace
+}  // namespace haptoflow::contact

@@ -1,0 +1,92 @@
+#include "inference/onnx_segment_generator.hpp"
+#include "tiny_model.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+
+// The default model through ONNX Runtime against the same weights in Python, where they were trained.
+
+namespace haptoflow::inference::testing {
+namespace {
+
+constexpr double tolerance = 1e-4;
+
+class DefaultModelParityTest : public ::testing::Test {
+protected:
+    void SetUp() override {
+        golden_ = haptoflow::testing::readGolden("model/default.parity.json");
+        model_.emplace(model::ModelFile::read(HAPTOFLOW_TEST_DEFAULT_MODEL));
+        const auto text = golden_.at("model_crc32").get<std::string>();
+        const auto expected = std::strtoul(text.c_str(), nullptr, 16);
+        ASSERT_EQ(text.size(), 8U) << "model_crc32 must be eight hexadecimal digits";
+        ASSERT_EQ(model_->checksum(), expected)
+            << "default.parity.json belongs to another default.haptoflow: run the training's export again";
+    }
+
+    template <typename Compare>
+    void forEveryCase(Compare compare) {
+        for (const auto& row : haptoflow::testing::goldenRows(golden_, "cases")) {
+            const auto tier = row.at("tier").get<std::string>();
+            const SolverSettings solver{solverNamed(row.at("solver")), row.at("steps").get<int>()};
+            SCOPED_TRACE(tier + ' ' + row.at("solver").get<std::string>() + ' ' + std::to_string(solver.steps));
+            RequestBatch batch;
+            batch.add(row.at("embedding"), row.at("motion"), row.at("previous"), row.at("noise"));
+            const auto requests = batch.requests();
+            OnnxSegmentGenerator generator(testRuntime(), *model_, tier, solver, 1);
+            compare(row, requests, generator);
+        }
+    }
+
+    static double largestDifference(const std::vector<float>& found, const std::vector<double>& expected,
+                                    double scale) {
+        EXPECT_EQ(found.size(), expected.size());
+        double largest = 0.0;
+        for (std::size_t index = 0; index < std::min(found.size(), expected.size()); ++index) {
+            largest = std::max(largest, std::fabs(static_cast<double>(found[index]) - expected[index]) / scale);
+        }
+        return largest;
+    }
+
+    nlohmann::json golden_;
+    std::optional<model::ModelFile> model_;
+};
+
+TEST_F(DefaultModelParityTest, LevelsAgreeWithPython) {
+    forEveryCase([](const auto& row, const auto& requests, OnnxSegmentGenerator& generator) {
+        std::vector<float> level(1);
+        generator.levels(requests, level);
+        EXPECT_NEAR(std::log(static_cast<double>(level[0])), row.at("log_level").template get<double>(), tolerance);
+    });
+}
+
+TEST_F(DefaultModelParityTest, TheFieldAtTheNoiseAgreesWithPython) {
+    forEveryCase([](const auto& row, const auto& requests, OnnxSegmentGenerator& generator) {
+        std::vector<float> velocity(segmentSamples);
+        const float interval = 1.0F / row.at("steps").template get<float>();
+        generator.evaluateField(requests, 0.0F, interval, velocity);
+        EXPECT_LE(largestDifference(velocity, row.at("field_at_start"), 1.0), tolerance);
+    });
+}
+
+TEST_F(DefaultModelParityTest, SegmentsAgreeWithPython) {
+    forEveryCase([](const auto& row, const auto& requests, OnnxSegmentGenerator& generator) {
+        std::vector<float> segment(segmentSamples);
+        generator.generate(requests, segment);
+        const double level = std::exp(row.at("log_level").template get<double>());
+        EXPECT_LE(largestDifference(segment, row.at("segment"), level), tolerance);
+    });
+}
+
+TEST_F(DefaultModelParityTest, EveryTierHasACase) {
+    for (const model::Tier& tier : model_->header().tiers) {
+        const auto& rows = haptoflow::testing::goldenRows(golden_, "cases");
+        EXPECT_TRUE(std::any_of(rows.begin(), rows.end(), [&](const auto& row) { return row.at("tier") == tier.name; }))
+            << tier.name;
+    }
+}
+
+}  // namespace
+}  // namespace haptoflow::inference::testing

@@ -1,0 +1,125 @@
+#include "../model/model_builder.hpp"
+#include "inference/onnx_segment_generator.hpp"
+#include "tiny_model.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+// Models whose graphs are not what the format says; the graphs lie in tiny.haptoflow, where no tier names them.
+
+namespace haptoflow::inference::testing {
+namespace {
+
+using model::testing::Bytes;
+using model::testing::ModelBuilder;
+
+model::ModelFile modelWith(const std::string& fieldBlob, const std::string& levelBlob,
+                           const std::string& kind = "flow") {
+    ModelBuilder builder;
+    for (auto& blob : builder.blobs) {
+        if (blob.name == "field" || blob.name == "level") {
+            const auto graph = tinyModel().blob(blob.name == "field" ? fieldBlob : levelBlob);
+            blob.bytes = Bytes(graph.begin(), graph.end());
+        }
+    }
+    builder.header["tiers"][0]["kind"] = kind;
+    return model::ModelFile::parse(builder.build());
+}
+
+OnnxSegmentGenerator makeGenerator(const model::ModelFile& model) {
+    return {testRuntime(), model, "draft", {SolverKind::euler, 1}, 4};
+}
+
+void expectRefused(const std::string& fieldBlob, const std::string& levelBlob, const std::string& part,
+                   const std::string& kind = "flow") {
+    try {
+        (void)makeGenerator(modelWith(fieldBlob, levelBlob, kind));
+        ADD_FAILURE() << fieldBlob << " and " << levelBlob << " were accepted";
+    } catch (const model::ModelError& error) {
+        EXPECT_EQ(error.status(), model::ModelStatus::inconsistent);
+        EXPECT_THAT(error.what(), ::testing::StartsWith("tier \"draft\", graph \""));
+        EXPECT_THAT(error.what(), ::testing::HasSubstr(part));
+    }
+}
+
+TEST(GraphCheckTest, AcceptsTheGraphsThatFit) {
+    EXPECT_NO_THROW((void)makeGenerator(modelWith("flow_field", "level")));
+}
+
+TEST(GraphCheckTest, RefusesAnotherNumberOfSamples) {
+    expectRefused("wrong_shape", "level", "input \"noisy\" has the shape [?,1,199]; expected [B,1,200]");
+}
+
+TEST(GraphCheckTest, RefusesAnotherNumberOfDimensions) {
+    expectRefused("wrong_rank", "level", "input \"noisy\" has the shape [?,200]; expected [B,1,200]");
+}
+
+TEST(GraphCheckTest, RefusesAFixedBatch) {
+    expectRefused("wrong_batch", "level", "fixed batch of 1");
+}
+
+TEST(GraphCheckTest, RefusesAnotherNumberType) {
+    expectRefused("wrong_type", "level", "float32");
+}
+
+TEST(GraphCheckTest, RefusesAnInputThatTheFormatDoesNotKnow) {
+    expectRefused("wrong_input", "level", "has an input \"wave\"");
+}
+
+TEST(GraphCheckTest, RefusesAnOutputOfAnotherName) {
+    expectRefused("wrong_output", "level", "has no output \"velocity\"");
+}
+
+TEST(GraphCheckTest, RefusesAnIntervalInAFlowTier) {
+    expectRefused("average_field", "level", "has an input \"interval\"");
+    EXPECT_NO_THROW((void)makeGenerator(modelWith("average_field", "level", "average-velocity")));
+}
+
+TEST(GraphCheckTest, AsksADirectTierForASegment) {
+    expectRefused("flow_field", "level", "has no output \"segment\"", "direct");
+}
+
+TEST(GraphCheckTest, RefusesALevelGraphThatIsAField) {
+    expectRefused("flow_field", "flow_field", "\"level\"");
+}
+
+TEST(GraphCheckTest, RefusesBytesThatAreNotAGraph) {
+    expectRefused("not_onnx", "level", "loading the graph");
+}
+
+class NotFiniteTest : public ::testing::Test {
+protected:
+    static std::vector<float> run(const model::ModelFile& model, const std::array<float, 3>& motion) {
+        const std::array<float, segmentSamples> previous{};
+        std::array<float, segmentSamples> noise{};
+        noise.fill(-1.0F);
+        const SegmentRequest request{{}, motion, previous, noise};
+        std::vector<float> segment(segmentSamples);
+        makeGenerator(model).generate({&request, 1}, segment);
+        return segment;
+    }
+};
+
+TEST_F(NotFiniteTest, AFieldThatReturnsNanIsAnError) {
+    EXPECT_THROW((void)run(modelWith("not_finite_field", "level"), {0.1F, 0.0F, 1.0F}), InferenceError);
+}
+
+TEST_F(NotFiniteTest, ALevelOfMinusInfinityIsAnError) {
+    EXPECT_THROW((void)run(modelWith("flow_field", "not_finite_level"), {0.0F, 0.0F, 1.0F}), InferenceError);
+}
+
+TEST_F(NotFiniteTest, ALevelThatIsNanIsAnError) {
+    EXPECT_THROW((void)run(modelWith("flow_field", "not_finite_level"), {-1.0F, 0.0F, 1.0F}), InferenceError);
+}
+
+TEST_F(NotFiniteTest, ALevelBeyondAnyVibrationIsAnError) {
+    EXPECT_THROW((void)run(modelWith("flow_field", "not_finite_level"), {1e9F, 0.0F, 1.0F}), InferenceError);
+}
+
+TEST_F(NotFiniteTest, AVanishingLevelIsSilenceNotAnError) {
+    const auto segment = run(modelWith("flow_field", "not_finite_level"), {1e-30F, 0.0F, 1.0F});
+    EXPECT_THAT(segment, ::testing::Each(::testing::AllOf(::testing::Gt(-1e-7F), ::testing::Lt(1e-7F))));
+}
+
+}  // namespace
+}  // namespace haptoflow::inference::testing

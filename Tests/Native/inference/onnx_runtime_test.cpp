@@ -1,0 +1,80 @@
+#include "inference/onnx_runtime.hpp"
+
+#include "inference/inference_error.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <onnxruntime_c_api.h>
+
+namespace haptoflow::inference {
+namespace {
+
+template <typename Action>
+std::string refusalOf(Action action) {
+    try {
+        action();
+    } catch (const RuntimeUnavailable& error) {
+        return error.what();
+    }
+    ADD_FAILURE() << "no RuntimeUnavailable was thrown";
+    return {};
+}
+
+const OrtApi* ORT_API_CALL noApi(std::uint32_t /*version*/) noexcept {
+    return nullptr;
+}
+
+const char* ORT_API_CALL oldVersion() noexcept {
+    return "1.2.3";
+}
+
+TEST(OnnxRuntimeTest, OpensTheLibraryByPathAndNamesItsVersion) {
+    const auto runtime = Runtime::open(HAPTOFLOW_TEST_ONNXRUNTIME);
+    EXPECT_THAT(runtime->version(), ::testing::MatchesRegex("[0-9]+\\.[0-9]+\\.[0-9]+.*"));
+}
+
+TEST(OnnxRuntimeTest, NamesThePathOfALibraryThatIsNotThere) {
+    EXPECT_THAT(refusalOf([] { (void)Runtime::open("/nowhere/libonnxruntime.so"); }),
+                ::testing::StartsWith("/nowhere/libonnxruntime.so: cannot be loaded"));
+}
+
+TEST(OnnxRuntimeTest, RefusesAFileThatIsNotALibrary) {
+    const std::string path = HAPTOFLOW_TEST_GOLDEN_DIR "/model/tiny.haptoflow";
+    EXPECT_THAT(refusalOf([&] { (void)Runtime::open(path); }), ::testing::StartsWith(path));
+}
+
+TEST(OnnxRuntimeTest, RefusesAnotherLibrary) {
+    EXPECT_THAT(refusalOf([] { (void)Runtime::open("libm.so.6"); }), ::testing::HasSubstr("OrtGetApiBase"));
+}
+
+TEST(OnnxRuntimeTest, RefusesANullApiBase) {
+    EXPECT_THAT(refusalOf([] { (void)Runtime::fromApiBase(nullptr); }), ::testing::HasSubstr("returned nothing"));
+}
+
+TEST(OnnxRuntimeTest, RefusesAVersionThatDoesNotKnowTheApi) {
+    const OrtApiBase base{noApi, oldVersion};
+    EXPECT_THAT(refusalOf([&] { (void)Runtime::fromApiBase(&base); }), ::testing::HasSubstr("1.2.3 is too old: 1.16"));
+}
+
+TEST(OnnxRuntimeTest, SeveralRuntimesLiveSideBySide) {
+    auto first = Runtime::open(HAPTOFLOW_TEST_ONNXRUNTIME);
+    const auto second = Runtime::open(HAPTOFLOW_TEST_ONNXRUNTIME);
+    first.reset();
+    EXPECT_NO_THROW(second->check(nullptr, "nothing"));
+    OrtStatus* status = second->api().CreateStatus(ORT_FAIL, "made by the test");
+    EXPECT_THROW(second->check(status, "a failure"), InferenceError);
+}
+
+TEST(OnnxRuntimeTest, AFailureKeepsWhatWasDoneAndWhy) {
+    const auto runtime = Runtime::open(HAPTOFLOW_TEST_ONNXRUNTIME);
+    try {
+        runtime->check(runtime->api().CreateStatus(ORT_FAIL, "made by the test"), "trying");
+        FAIL() << "a failure was not reported";
+    } catch (const InferenceError& error) {
+        EXPECT_STREQ(error.what(), "trying: made by the test");
+    }
+}
+
+}  // namespace
+}  // namespace haptoflow::inference

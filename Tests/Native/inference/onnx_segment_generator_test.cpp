@@ -1,0 +1,241 @@
+#include "inference/onnx_segment_generator.hpp"
+
+#include "inference/tier_graphs.hpp"
+#include "tiny_model.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+namespace haptoflow::inference::testing {
+namespace {
+
+using ::testing::HasSubstr;
+
+OnnxSegmentGenerator makeGenerator(const std::string& tier, SolverSettings solver, std::size_t maximumBatch = 4) {
+    return {testRuntime(), tinyModel(), tier, solver, maximumBatch};
+}
+
+std::vector<float> generate(OnnxSegmentGenerator& generator, std::span<const SegmentRequest> requests) {
+    std::vector<float> segments(requests.size() * segmentSamples);
+    generator.generate(requests, segments);
+    return segments;
+}
+
+/// Largest difference, in units of the segment's own level.
+double unitScaleDifference(const std::vector<float>& left, const std::vector<float>& right,
+                           const std::vector<float>& levelsMps2) {
+    EXPECT_EQ(left.size(), right.size());
+    double largest = 0.0;
+    for (std::size_t index = 0; index < left.size(); ++index) {
+        const double difference = std::fabs(static_cast<double>(left[index]) - static_cast<double>(right[index]));
+        largest = std::max(largest, difference / static_cast<double>(levelsMps2.at(index / segmentSamples)));
+    }
+    return largest;
+}
+
+TEST(OnnxSegmentGeneratorTest, AgreesWithNumpyForEverySolverStepAndTier) {
+    const nlohmann::json golden = haptoflow::testing::readGolden("model/tiny.expected.json");
+    const auto requests = goldenBatch().requests();
+    for (const auto& row : haptoflow::testing::goldenRows(golden, "cases")) {
+        const auto tier = row.at("tier").get<std::string>();
+        const SolverSettings solver{solverNamed(row.at("solver")), row.at("steps").get<int>()};
+        SCOPED_TRACE(tier + ' ' + row.at("solver").get<std::string>() + ' ' + std::to_string(solver.steps));
+        std::vector<float> expected;
+        for (const auto& segment : row.at("segments_mps2")) {
+            const auto values = segment.get<std::vector<float>>();
+            expected.insert(expected.end(), values.begin(), values.end());
+        }
+        ASSERT_EQ(expected.size(), requests.size() * segmentSamples);
+        const auto levels = row.at("levels_mps2").get<std::vector<float>>();
+        OnnxSegmentGenerator generator = makeGenerator(tier, solver);
+        EXPECT_LE(unitScaleDifference(generate(generator, requests), expected, levels), 1e-5);
+    }
+}
+
+TEST(OnnxSegmentGeneratorTest, LevelsAgreeWithNumpyAndCostNoFieldRun) {
+    const nlohmann::json golden = haptoflow::testing::readGolden("model/tiny.expected.json");
+    const auto expected = golden.at("cases").at(0).at("levels_mps2").get<std::vector<float>>();
+    const auto requests = goldenBatch().requests();
+    ASSERT_EQ(expected.size(), requests.size());
+    OnnxSegmentGenerator generator = makeGenerator("standard", {});
+    std::vector<float> levels(requests.size());
+    generator.levels(requests, levels);
+    for (std::size_t index = 0; index < levels.size(); ++index) {
+        EXPECT_NEAR(levels[index] / expected[index], 1.0F, 1e-5F);
+    }
+    EXPECT_EQ(generator.runCounts().level, 1U);
+    EXPECT_EQ(generator.runCounts().field, 0U);
+}
+
+TEST(OnnxSegmentGeneratorTest, ABatchOfVoicesIsOneRunPerEvaluation) {
+    const auto requests = goldenBatch().requests();
+    OnnxSegmentGenerator generator = makeGenerator("standard", {SolverKind::heun, 8});
+    (void)generate(generator, requests);
+    EXPECT_EQ(generator.runCounts().level, 1U);
+    EXPECT_EQ(generator.runCounts().field, 16U);
+}
+
+TEST(OnnxSegmentGeneratorTest, LoadingCountsNoRun) {
+    const OnnxSegmentGenerator generator = makeGenerator("latent", {});
+    EXPECT_EQ(generator.runCounts().level + generator.runCounts().field + generator.runCounts().encoder +
+                  generator.runCounts().decoder,
+              0U);
+}
+
+TEST(OnnxSegmentGeneratorTest, RequestsBeyondTheMaximumBatchGoThroughInParts) {
+    const auto requests = goldenBatch().requests();
+    OnnxSegmentGenerator whole = makeGenerator("standard", {SolverKind::midpoint, 2}, 3);
+    OnnxSegmentGenerator parts = makeGenerator("standard", {SolverKind::midpoint, 2}, 2);
+    const auto expected = generate(whole, requests);
+    const auto found = generate(parts, requests);
+    EXPECT_LE(unitScaleDifference(found, expected, {1.0F, 1.0F, 1.0F}), 1e-5);
+    EXPECT_EQ(whole.runCounts().level, 1U);
+    EXPECT_EQ(parts.runCounts().level, 2U);
+    EXPECT_EQ(parts.runCounts().field, 8U);
+}
+
+TEST(OnnxSegmentGeneratorTest, ARequestGetsTheSameSegmentAloneAndInABatch) {
+    const auto requests = goldenBatch().requests();
+    OnnxSegmentGenerator generator = makeGenerator("latent", {SolverKind::midpoint, 2});
+    const auto together = generate(generator, requests);
+    for (std::size_t index = 0; index < requests.size(); ++index) {
+        const auto alone = generate(generator, std::span(requests).subspan(index, 1));
+        for (std::size_t sample = 0; sample < segmentSamples; ++sample) {
+            EXPECT_NEAR(alone[sample], together[index * segmentSamples + sample], 1e-4F);
+        }
+    }
+    EXPECT_EQ(generate(generator, requests), together);
+}
+
+TEST(OnnxSegmentGeneratorTest, NoRequestsMeanNoRuns) {
+    OnnxSegmentGenerator generator = makeGenerator("standard", {});
+    generator.generate({}, {});
+    generator.levels({}, {});
+    EXPECT_EQ(generator.runCounts().level, 0U);
+}
+
+TEST(OnnxSegmentGeneratorTest, TheSolverCanBeChangedBetweenBatches) {
+    const auto requests = goldenBatch().requests();
+    OnnxSegmentGenerator changed = makeGenerator("standard", {SolverKind::euler, 1});
+    (void)generate(changed, requests);
+    changed.setSolver({SolverKind::heun, 5});
+    OnnxSegmentGenerator fresh = makeGenerator("standard", {SolverKind::heun, 5});
+    EXPECT_EQ(generate(changed, requests), generate(fresh, requests));
+    EXPECT_EQ(changed.runCounts().field, 11U);
+}
+
+TEST(OnnxSegmentGeneratorTest, AnAverageVelocityTierIsSteppedByEulerWhateverIsAsked) {
+    const auto requests = goldenBatch().requests();
+    OnnxSegmentGenerator asked = makeGenerator("draft", {SolverKind::heun, 3});
+    OnnxSegmentGenerator plain = makeGenerator("draft", {SolverKind::euler, 3});
+    EXPECT_EQ(generate(asked, requests), generate(plain, requests));
+    EXPECT_EQ(asked.runCounts().field, 3U);
+}
+
+TEST(OnnxSegmentGeneratorTest, ADirectTierIsEvaluatedOnce) {
+    const auto requests = goldenBatch().requests();
+    OnnxSegmentGenerator generator = makeGenerator("direct", {SolverKind::heun, 16});
+    (void)generate(generator, requests);
+    EXPECT_EQ(generator.runCounts().field, 1U);
+}
+
+TEST(OnnxSegmentGeneratorTest, ALatentTierEncodesAndDecodesOncePerBatch) {
+    const auto requests = goldenBatch().requests();
+    OnnxSegmentGenerator generator = makeGenerator("latent", {SolverKind::euler, 4});
+    (void)generate(generator, requests);
+    EXPECT_EQ(generator.runCounts().encoder, 1U);
+    EXPECT_EQ(generator.runCounts().field, 4U);
+    EXPECT_EQ(generator.runCounts().decoder, 1U);
+}
+
+TEST(OnnxSegmentGeneratorTest, TheFieldAtTheNoiseIsWhatOneEulerStepAdds) {
+    const auto requests = goldenBatch().requests();
+    OnnxSegmentGenerator generator = makeGenerator("standard", {SolverKind::euler, 1});
+    const auto segments = generate(generator, requests);
+    std::vector<float> levels(requests.size());
+    generator.levels(requests, levels);
+    std::vector<float> atStart(segments.size());
+    generator.evaluateField(requests, 0.0F, 1.0F, atStart);
+    std::vector<float> later(segments.size());
+    generator.evaluateField(requests, 0.5F, 1.0F, later);
+    for (std::size_t index = 0; index < segments.size(); ++index) {
+        const std::size_t row = index / segmentSamples;
+        const float noise = requests[row].noise[index % segmentSamples];
+        EXPECT_NEAR(atStart[index], segments[index] / levels[row] - noise, 1e-5F);
+        EXPECT_NEAR(later[index] - atStart[index], 0.75F * 0.25F, 1e-5F);
+    }
+}
+
+TEST(OnnxSegmentGeneratorTest, TheFieldOfALatentTierCannotBeAskedAtASegment) {
+    const auto requests = goldenBatch().requests();
+    OnnxSegmentGenerator generator = makeGenerator("latent", {});
+    std::vector<float> velocities(requests.size() * segmentSamples);
+    EXPECT_THROW(generator.evaluateField(requests, 0.0F, 1.0F, velocities), std::invalid_argument);
+}
+
+TEST(OnnxSegmentGeneratorTest, ANoiseThatIsNotFiniteIsAnErrorAndTheNextBatchIsFine) {
+    auto requests = goldenBatch().requests();
+    OnnxSegmentGenerator generator = makeGenerator("standard", {SolverKind::midpoint, 2});
+    const auto expected = generate(generator, requests);
+    std::array<float, segmentSamples> broken{};
+    broken[17] = std::numeric_limits<float>::quiet_NaN();
+    auto brokenRequests = requests;
+    brokenRequests[1].noise = broken;
+    std::vector<float> segments(expected.size());
+    EXPECT_THROW(generator.generate(brokenRequests, segments), InferenceError);
+    EXPECT_EQ(generate(generator, requests), expected);
+}
+
+TEST(OnnxSegmentGeneratorTest, NamesTheTiersThatThereAreWhenAskedForAnother) {
+    try {
+        (void)makeGenerator("ultra", {});
+        FAIL() << "a tier that is not there was accepted";
+    } catch (const std::invalid_argument& error) {
+        EXPECT_THAT(error.what(), HasSubstr("\"ultra\""));
+        EXPECT_THAT(error.what(), HasSubstr("\"draft\" \"standard\" \"fine\""));
+    }
+}
+
+TEST(OnnxSegmentGeneratorTest, RefusesSettingsOutOfRange) {
+    EXPECT_THROW((void)makeGenerator("standard", {SolverKind::euler, 0}), std::invalid_argument);
+    EXPECT_THROW((void)makeGenerator("standard", {SolverKind::euler, 17}), std::invalid_argument);
+    EXPECT_THROW((void)makeGenerator("standard", {}, 0), std::invalid_argument);
+    EXPECT_THROW((void)makeGenerator("standard", {}, 257), std::invalid_argument);
+    OnnxSegmentGenerator generator = makeGenerator("standard", {});
+    EXPECT_THROW(generator.setSolver({SolverKind::euler, 17}), std::invalid_argument);
+    EXPECT_EQ(generator.solver().steps, 2);
+}
+
+TEST(OnnxSegmentGeneratorTest, RefusesRoomOfTheWrongSize) {
+    const auto requests = goldenBatch().requests();
+    OnnxSegmentGenerator generator = makeGenerator("standard", {});
+    std::vector<float> room(requests.size() * segmentSamples - 1);
+    EXPECT_THROW(generator.generate(requests, room), std::invalid_argument);
+    EXPECT_THROW(generator.levels(requests, room), std::invalid_argument);
+}
+
+TEST(OnnxSegmentGeneratorTest, ReadsATiersOwnSolver) {
+    const SolverSettings standard = defaultSolver(*tinyModel().findTier("standard"));
+    EXPECT_EQ(standard.kind, SolverKind::midpoint);
+    EXPECT_EQ(standard.steps, 2);
+    const SolverSettings fine = defaultSolver(*tinyModel().findTier("fine"));
+    EXPECT_EQ(fine.kind, SolverKind::heun);
+    EXPECT_EQ(fine.steps, 8);
+    EXPECT_EQ(defaultSolver(*tinyModel().findTier("draft")).kind, SolverKind::euler);
+}
+
+TEST(OnnxSegmentGeneratorTest, OutlivesTheModelItWasMadeFrom) {
+    auto model =
+        std::make_unique<model::ModelFile>(model::ModelFile::read(HAPTOFLOW_TEST_GOLDEN_DIR "/model/tiny.haptoflow"));
+    OnnxSegmentGenerator generator(testRuntime(), *model, "standard", {}, 4);
+    model.reset();
+    const auto requests = goldenBatch().requests();
+    OnnxSegmentGenerator other = makeGenerator("standard", {});
+    EXPECT_EQ(generate(generator, requests), generate(other, requests));
+}
+
+}  // namespace
+}  // namespace haptoflow::inference::testing

@@ -1,0 +1,177 @@
+#include "inference/solver.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <functional>
+#include <numbers>
+#include <stdexcept>
+#include <utility>
+#include <vector>
+
+namespace haptoflow::inference {
+namespace {
+
+using Formula = std::function<void(std::span<const float>, float, std::span<float>)>;
+
+/// A field given by a formula; remembers when it was asked, and for which interval.
+class FormulaField : public VelocityField {
+public:
+    explicit FormulaField(Formula formula) : formula_(std::move(formula)) {}
+
+    void evaluate(std::span<const float> point, float time, float interval, std::span<float> velocity) override {
+        times.push_back(time);
+        intervals.push_back(interval);
+        formula_(point, time, velocity);
+    }
+
+    std::vector<float> times;
+    std::vector<float> intervals;
+
+private:
+    Formula formula_;
+};
+
+/// u = -x, so that x(1) = x(0) / e.
+void decay(std::span<const float> point, float /*time*/, std::span<float> velocity) {
+    for (std::size_t index = 0; index < point.size(); ++index) {
+        velocity[index] = -point[index];
+    }
+}
+
+/// A quarter turn: (1, 0) arrives at (0, 1).
+void rotate(std::span<const float> point, float /*time*/, std::span<float> velocity) {
+    const auto rate = static_cast<float>(std::numbers::pi / 2.0);
+    velocity[0] = -rate * point[1];
+    velocity[1] = rate * point[0];
+}
+
+float integrateOne(Formula formula, SolverSettings settings, float start) {
+    FormulaField field(std::move(formula));
+    Solver solver;
+    std::array<float, 1> point{start};
+    solver.integrate(field, settings, point);
+    return point[0];
+}
+
+double decayError(SolverKind kind, int steps) {
+    return std::fabs(static_cast<double>(integrateOne(decay, {kind, steps}, 1.0F)) - std::exp(-1.0));
+}
+
+/// What halving the step does to the error, as a power of two.
+double convergenceOrder(SolverKind kind) {
+    return std::log2(decayError(kind, 8) / decayError(kind, 16));
+}
+
+TEST(SolverTest, EulerConvergesWithTheFirstPowerOfTheStep) {
+    EXPECT_NEAR(convergenceOrder(SolverKind::euler), 1.0, 0.1);
+}
+
+TEST(SolverTest, MidpointConvergesWithTheSecondPowerOfTheStep) {
+    EXPECT_NEAR(convergenceOrder(SolverKind::midpoint), 2.0, 0.1);
+}
+
+TEST(SolverTest, HeunConvergesWithTheSecondPowerOfTheStep) {
+    EXPECT_NEAR(convergenceOrder(SolverKind::heun), 2.0, 0.1);
+}
+
+TEST(SolverTest, OneStepOfDecayIsWhatTheFormulasSay) {
+    EXPECT_FLOAT_EQ(integrateOne(decay, {SolverKind::euler, 1}, 2.0F), 0.0F);
+    EXPECT_FLOAT_EQ(integrateOne(decay, {SolverKind::midpoint, 1}, 2.0F), 1.0F);
+    EXPECT_FLOAT_EQ(integrateOne(decay, {SolverKind::heun, 1}, 2.0F), 1.0F);
+}
+
+TEST(SolverTest, OneStepTellsMidpointFromHeunInACurvedTimeField) {
+    const Formula parabola = [](auto /*point*/, float time, std::span<float> velocity) {
+        velocity[0] = 3.0F * time * time;
+    };
+    EXPECT_FLOAT_EQ(integrateOne(parabola, {SolverKind::euler, 1}, 5.0F), 5.0F);
+    EXPECT_FLOAT_EQ(integrateOne(parabola, {SolverKind::midpoint, 1}, 5.0F), 5.75F);
+    EXPECT_FLOAT_EQ(integrateOne(parabola, {SolverKind::heun, 1}, 5.0F), 6.5F);
+    EXPECT_NEAR(integrateOne(parabola, {SolverKind::midpoint, 16}, 5.0F), 6.0F, 2e-3);
+    EXPECT_NEAR(integrateOne(parabola, {SolverKind::heun, 16}, 5.0F), 6.0F, 4e-3);
+}
+
+TEST(SolverTest, SecondOrderSolversAreExactWhereTheVelocityGrowsEvenlyWithTime) {
+    const Formula ramp = [](auto /*point*/, float time, std::span<float> velocity) { velocity[0] = 2.0F * time; };
+    EXPECT_FLOAT_EQ(integrateOne(ramp, {SolverKind::midpoint, 1}, 0.0F), 1.0F);
+    EXPECT_FLOAT_EQ(integrateOne(ramp, {SolverKind::heun, 1}, 0.0F), 1.0F);
+    EXPECT_FLOAT_EQ(integrateOne(ramp, {SolverKind::euler, 2}, 0.0F), 0.5F);
+}
+
+TEST(SolverTest, EverySolverIsExactInAConstantField) {
+    const Formula constant = [](auto /*point*/, float /*time*/, std::span<float> velocity) { velocity[0] = 0.75F; };
+    for (const SolverKind kind : {SolverKind::euler, SolverKind::midpoint, SolverKind::heun}) {
+        for (int steps = 1; steps <= maximumSolverSteps; ++steps) {
+            EXPECT_NEAR(integrateOne(constant, {kind, steps}, 1.0F), 1.75F, 1e-6F) << steps;
+        }
+    }
+}
+
+TEST(SolverTest, ARotationArrivesAQuarterTurnLater) {
+    for (const SolverKind kind : {SolverKind::midpoint, SolverKind::heun}) {
+        FormulaField field(rotate);
+        Solver solver;
+        std::array<float, 2> point{1.0F, 0.0F};
+        solver.integrate(field, {kind, 16}, point);
+        EXPECT_NEAR(point[0], 0.0F, 5e-3);
+        EXPECT_NEAR(point[1], 1.0F, 5e-3);
+    }
+}
+
+TEST(SolverTest, EulerAsksAtTheStartOfEachStepForItsInterval) {
+    FormulaField field(decay);
+    std::array<float, 1> point{1.0F};
+    Solver().integrate(field, {SolverKind::euler, 4}, point);
+    EXPECT_THAT(field.times, ::testing::ElementsAre(0.0F, 0.25F, 0.5F, 0.75F));
+    EXPECT_THAT(field.intervals, ::testing::Each(0.25F));
+}
+
+TEST(SolverTest, MidpointAsksAtTheStartAndInTheMiddle) {
+    FormulaField field(decay);
+    std::array<float, 1> point{1.0F};
+    Solver().integrate(field, {SolverKind::midpoint, 2}, point);
+    EXPECT_THAT(field.times, ::testing::ElementsAre(0.0F, 0.25F, 0.5F, 0.75F));
+}
+
+TEST(SolverTest, HeunAsksAtBothEndsAndReachesOneExactly) {
+    FormulaField field(decay);
+    std::array<float, 1> point{1.0F};
+    Solver().integrate(field, {SolverKind::heun, 3}, point);
+    ASSERT_EQ(field.times.size(), 6U);
+    EXPECT_EQ(field.times.back(), 1.0F);
+    EXPECT_EQ(field.times[1], field.times[2]);
+}
+
+TEST(SolverTest, CountsItsEvaluationsTruthfully) {
+    for (const SolverKind kind : {SolverKind::euler, SolverKind::midpoint, SolverKind::heun}) {
+        FormulaField field(decay);
+        std::array<float, 1> point{1.0F};
+        Solver().integrate(field, {kind, 5}, point);
+        EXPECT_EQ(field.times.size(), static_cast<std::size_t>(fieldEvaluations({kind, 5})));
+    }
+}
+
+TEST(SolverTest, ServesPointsOfDifferentSizesOneAfterTheOther) {
+    Solver solver;
+    FormulaField field(decay);
+    for (const std::size_t size : {1U, 600U, 200U}) {
+        std::vector<float> point(size, 1.0F);
+        solver.integrate(field, {SolverKind::midpoint, 1}, point);
+        EXPECT_THAT(point, ::testing::Each(0.5F));
+    }
+}
+
+TEST(SolverTest, RefusesStepsOutsideOneToSixteen) {
+    FormulaField field(decay);
+    std::array<float, 1> point{1.0F};
+    for (const int steps : {-1, 0, 17}) {
+        EXPECT_THROW(Solver().integrate(field, {SolverKind::euler, steps}, point), std::invalid_argument);
+    }
+    EXPECT_TRUE(field.times.empty());
+}
+
+}  // namespace
+}  // namespace haptoflow::inference

@@ -1,0 +1,136 @@
+#include "refusal.hpp"
+
+namespace haptoflow::model::testing {
+namespace {
+
+constexpr std::size_t versionOffset = 8;
+constexpr std::size_t headerLengthOffset = 12;
+constexpr std::size_t fileLengthOffset = 16;
+
+Bytes validFile() {
+    return ModelBuilder().build();
+}
+
+TEST(FileLayoutTest, RefusesAnEmptyFileAsTruncated) {
+    expectRefusal({}, ModelStatus::truncated, "0 bytes");
+}
+
+TEST(FileLayoutTest, RefusesAnotherMagicAsNotAModel) {
+    Bytes file = validFile();
+    file[7] = std::byte{'X'};
+    expectRefusal(file, ModelStatus::notAModel, "HAPTFLOW");
+}
+
+TEST(FileLayoutTest, RefusesAShortFileOfAnotherKindAsNotAModel) {
+    expectRefusal({std::byte{'R'}, std::byte{'I'}, std::byte{'F'}, std::byte{'F'}}, ModelStatus::notAModel, "HAPTFLOW");
+}
+
+TEST(FileLayoutTest, RefusesEveryShorterLengthOfAValidFile) {
+    const Bytes file = validFile();
+    for (std::size_t length = 0; length < file.size(); length += 13) {
+        expectRefusal(Bytes(file.begin(), file.begin() + static_cast<std::ptrdiff_t>(length)), ModelStatus::truncated,
+                      "bytes");
+    }
+}
+
+TEST(FileLayoutTest, RefusesAnAppendedByte) {
+    Bytes file = validFile();
+    file.push_back(std::byte{0});
+    expectRefusal(file, ModelStatus::inconsistent, "appended");
+}
+
+TEST(FileLayoutTest, RefusesANewerVersionAndNamesTheRemedy) {
+    Bytes file = validFile();
+    writeUnsigned(file, versionOffset, 4, 2);
+    resealPrefix(file);
+    expectRefusal(file, ModelStatus::tooNew, "update HaptoFlow");
+}
+
+TEST(FileLayoutTest, RefusesVersionZero) {
+    Bytes file = validFile();
+    writeUnsigned(file, versionOffset, 4, 0);
+    resealPrefix(file);
+    expectRefusal(file, ModelStatus::inconsistent, "version 0");
+}
+
+TEST(FileLayoutTest, CallsAFlippedVersionBitDamagedNotNewer) {
+    Bytes file = validFile();
+    file[versionOffset] ^= std::byte{0x40};
+    expectRefusal(file, ModelStatus::damaged, "checksum at byte 28");
+}
+
+TEST(FileLayoutTest, RefusesAHeaderLengthAboveTheLimit) {
+    Bytes file = validFile();
+    writeUnsigned(file, headerLengthOffset, 4, 4'194'305);
+    resealPrefix(file);
+    expectRefusal(file, ModelStatus::oversized, "4194305");
+}
+
+TEST(FileLayoutTest, RefusesAHeaderLengthBelowTwo) {
+    Bytes file = validFile();
+    writeUnsigned(file, headerLengthOffset, 4, 1);
+    resealPrefix(file);
+    expectRefusal(file, ModelStatus::inconsistent, "header length 1");
+}
+
+TEST(FileLayoutTest, RefusesAHeaderThatReachesBeyondTheFile) {
+    Bytes file = validFile();
+    writeUnsigned(file, headerLengthOffset, 4, 4'194'272);
+    resealPrefix(file);
+    expectRefusal(file, ModelStatus::inconsistent, "inside the file");
+}
+
+TEST(FileLayoutTest, RefusesAHeaderThatEndsOffAMultipleOf64) {
+    Bytes file = validFile();
+    writeUnsigned(file, headerLengthOffset, 4, readUnsigned(file, headerLengthOffset, 4) - 1);
+    resealHeader(file);
+    expectRefusal(file, ModelStatus::inconsistent, "multiple of 64");
+}
+
+TEST(FileLayoutTest, RefusesAFileLengthAboveTheLimit) {
+    Bytes file = validFile();
+    writeUnsigned(file, fileLengthOffset, 8, 268'435'457);
+    resealPrefix(file);
+    expectRefusal(file, ModelStatus::oversized, "268435457");
+}
+
+TEST(FileLayoutTest, RefusesAFileLengthAtTheEdgeOf64Bits) {
+    Bytes file = validFile();
+    writeUnsigned(file, fileLengthOffset, 8, ~std::uint64_t{0});
+    resealPrefix(file);
+    expectRefusal(file, ModelStatus::oversized, "18446744073709551615");
+}
+
+TEST(FileLayoutTest, RefusesAFileLengthBelowTheFirstPart) {
+    Bytes file = validFile();
+    writeUnsigned(file, fileLengthOffset, 8, 3);
+    resealPrefix(file);
+    expectRefusal(file, ModelStatus::inconsistent, "says 3 bytes");
+}
+
+TEST(FileLayoutTest, RefusesAHeaderThatDoesNotMatchItsChecksum) {
+    Bytes file = validFile();
+    file[40] ^= std::byte{1};
+    expectRefusal(file, ModelStatus::damaged, "checksum at byte 24");
+}
+
+TEST(FileLayoutTest, RefusesPaddingOtherThanSpaces) {
+    ModelBuilder builder;
+    builder.editText = [](std::string& text) { text.back() = '\n'; };
+    expectRefusal(builder.build(), ModelStatus::inconsistent, "spaces");
+}
+
+TEST(FileLayoutTest, RefusesAHeaderOfSpacesOnly) {
+    ModelBuilder builder;
+    builder.editText = [](std::string& text) { text.assign(text.size(), ' '); };
+    expectRefusal(builder.build(), ModelStatus::inconsistent, "one object");
+}
+
+TEST(FileLayoutTest, RefusesAHeaderThatIsAnArray) {
+    ModelBuilder builder;
+    builder.editText = [](std::string& text) { text = "[]" + std::string(text.size() - 2, ' '); };
+    expectRefusal(builder.build(), ModelStatus::inconsistent, "one object");
+}
+
+}  // namespace
+}  // namespace haptoflow::model::testing

@@ -1,0 +1,159 @@
+#include "refusal.hpp"
+
+namespace haptoflow::model::testing {
+namespace {
+
+using Json = nlohmann::json;
+
+TEST(HeaderTest, RefusesAHeaderWithoutAnyOneOfItsKeys) {
+    for (const char* key : {"name", "description", "provenance", "sample_rate_hz", "segment_samples", "normalisation",
+                            "range", "embedding_size", "labels", "tiers", "default_tier", "seed_bank"}) {
+        expectHeaderRefusal([key](Json& header) { header.erase(key); }, '"' + std::string(key) + '"');
+    }
+}
+
+TEST(HeaderTest, RefusesProvenanceWithoutAnyOneOfItsKeys) {
+    for (const char* key : {"statement", "recordings", "licence", "seed", "commit", "configuration", "created"}) {
+        expectHeaderRefusal([key](Json& header) { header["provenance"].erase(key); }, key);
+    }
+}
+
+TEST(HeaderTest, IgnoresKeysThatItDoesNotKnow) {
+    ModelBuilder builder;
+    builder.header["written_later"] = {1, 2, 3};
+    builder.header["labels"][0]["smell"] = "pine";
+    EXPECT_NO_THROW((void)ModelFile::parse(builder.build()));
+}
+
+TEST(HeaderTest, RefusesAnEmptyName) {
+    expectHeaderRefusal([](Json& header) { header["name"] = ""; }, "not empty");
+}
+
+TEST(HeaderTest, RefusesANameOfTheWrongType) {
+    expectHeaderRefusal([](Json& header) { header["name"] = 3; }, "\"name\": expected a string");
+}
+
+TEST(HeaderTest, RefusesControlCharactersInText) {
+    expectHeaderRefusal([](Json& header) { header["description"] = "a\u001b[2Jb"; }, "control characters");
+}
+
+TEST(HeaderTest, RefusesANameAboveTheLimit) {
+    expectHeaderRefusal([](Json& header) { header["name"] = std::string(129, 'a'); }, "the limit is 128",
+                        ModelStatus::oversized);
+}
+
+TEST(HeaderTest, RefusesAnEmptyStatementOfProvenance) {
+    expectHeaderRefusal([](Json& header) { header["provenance"]["statement"] = ""; }, "provenance.statement");
+}
+
+TEST(HeaderTest, RefusesASeedOfTrainingThatIsNotAnInteger) {
+    expectHeaderRefusal([](Json& header) { header["provenance"]["seed"] = 1.5; }, "provenance.seed");
+    expectHeaderRefusal([](Json& header) { header["provenance"]["seed"] = UINT64_MAX; }, "provenance.seed");
+}
+
+TEST(HeaderTest, AcceptsAnEmptyDateAndRefusesAnInventedOne) {
+    ModelBuilder builder;
+    builder.header["provenance"]["created"] = "";
+    EXPECT_NO_THROW((void)ModelFile::parse(builder.build()));
+    for (const char* text : {"yesterday", "2025-13-01", "2025-1-1", "2025-01-32", "2025/01/01"}) {
+        expectHeaderRefusal([text](Json& header) { header["provenance"]["created"] = text; }, "YYYY-MM-DD");
+    }
+}
+
+TEST(HeaderTest, RefusesAnotherSampleRate) {
+    expectHeaderRefusal([](Json& header) { header["sample_rate_hz"] = 4000; }, "sample_rate_hz");
+}
+
+TEST(HeaderTest, RefusesAnotherSegmentLength) {
+    expectHeaderRefusal([](Json& header) { header["segment_samples"] = 199; }, "segment_samples");
+}
+
+TEST(HeaderTest, RefusesAnotherEmbeddingSize) {
+    expectHeaderRefusal([](Json& header) { header["embedding_size"] = 32; }, "embedding_size");
+}
+
+TEST(HeaderTest, RefusesAnotherUnit) {
+    expectHeaderRefusal([](Json& header) { header["normalisation"]["unit"] = "g"; }, "m/s^2");
+}
+
+TEST(HeaderTest, RefusesAPeakThatIsNotPositive) {
+    expectHeaderRefusal([](Json& header) { header["normalisation"]["peak_mps2"] = 0; }, "peak_mps2");
+}
+
+TEST(HeaderTest, RefusesARangeWithoutWidth) {
+    expectHeaderRefusal([](Json& header) { header["range"]["speed_mps"] = {0.2, 0.2}; }, "range.speed_mps");
+    expectHeaderRefusal([](Json& header) { header["range"]["force_newtons"] = {3.0, 1.0}; }, "range.force_newtons");
+}
+
+TEST(HeaderTest, RefusesANegativeOrAbsurdRange) {
+    expectHeaderRefusal([](Json& header) { header["range"]["speed_mps"] = {-0.1, 0.2}; }, "range.speed_mps[0]");
+    expectHeaderRefusal([](Json& header) { header["range"]["force_newtons"] = {0.1, 1e9}; }, "range.force_newtons[1]");
+}
+
+TEST(HeaderTest, RefusesARangeOfThreeNumbers) {
+    expectHeaderRefusal([](Json& header) { header["range"]["speed_mps"] = {0.1, 0.2, 0.3}; }, "an array of 2 numbers");
+}
+
+TEST(HeaderTest, RefusesPercentilesThatFall) {
+    expectHeaderRefusal(
+        [](Json& header) {
+            header["range"]["speed_percentiles_mps"] = {0.1, 0.05, 0.2, 0.3, 0.4};
+        },
+        "rising order");
+}
+
+TEST(HeaderTest, RefusesFourPercentiles) {
+    expectHeaderRefusal(
+        [](Json& header) {
+            header["range"]["force_percentiles_newtons"] = {1, 2, 3, 4};
+        },
+        "force_percentiles_newtons");
+}
+
+TEST(HeaderTest, RefusesADefaultTierThatIsNotThere) {
+    expectHeaderRefusal([](Json& header) { header["default_tier"] = "fine"; }, "default_tier");
+}
+
+TEST(HeaderTest, RefusesMeasurementsThatAreNotAnObject) {
+    expectHeaderRefusal([](Json& header) { header["measurements"] = 5; }, "measurements");
+}
+
+TEST(HeaderTest, RefusesSeedsOfAnotherLength) {
+    expectHeaderRefusal([](Json& header) { header["seed_bank"]["samples"] = 200; }, "seed_bank.samples");
+}
+
+TEST(HeaderTest, RefusesASeedOfALabelThatIsNotThere) {
+    expectHeaderRefusal([](Json& header) { header["seed_bank"]["entries"][1]["label"] = "felt"; },
+                        "seed_bank.entries[1].label");
+}
+
+TEST(HeaderTest, RefusesASeedWithAnAbsurdVelocityOrForce) {
+    expectHeaderRefusal(
+        [](Json& header) {
+            header["seed_bank"]["entries"][0]["velocity_mps"] = {0.0, 1e6};
+        },
+        "entries[0].velocity_mps[1]");
+    expectHeaderRefusal([](Json& header) { header["seed_bank"]["entries"][0]["force_newtons"] = -1; },
+                        "entries[0].force_newtons");
+}
+
+TEST(HeaderTest, RefusesASeedBankWithFewerEntriesThanRows) {
+    expectHeaderRefusal([](Json& header) { header["seed_bank"]["entries"].erase(2); }, "as many entries");
+}
+
+TEST(HeaderTest, RefusesASeedTensorThatIsNotThere) {
+    expectHeaderRefusal([](Json& header) { header["seed_bank"]["tensor"] = "nothing"; }, "\"nothing\"");
+}
+
+TEST(HeaderTest, RefusesASeedTensorOfAnotherWidth) {
+    expectHeaderRefusal([](Json& header) { header["seed_bank"]["tensor"] = "embedding"; }, "[rows, 400]");
+}
+
+TEST(HeaderTest, RefusesMoreSeedsThanTheLimit) {
+    expectHeaderRefusal(
+        [](Json& header) { header["seed_bank"]["entries"] = Json(Json::array_t(maximumSeeds + 1, Json(0))); },
+        "the limit is 65536", ModelStatus::oversized);
+}
+
+}  // namespace
+}  // namespace haptoflow::model::testing

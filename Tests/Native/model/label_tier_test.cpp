@@ -1,0 +1,173 @@
+#include "refusal.hpp"
+
+namespace haptoflow::model::testing {
+namespace {
+
+using Json = nlohmann::json;
+
+void expectLabelRefusal(const char* key, const Json& value, const std::string& part) {
+    expectHeaderRefusal([&](Json& header) { header["labels"][0][key] = value; }, part);
+}
+
+void expectTierRefusal(const char* key, const Json& value, const std::string& part) {
+    expectHeaderRefusal([&](Json& header) { header["tiers"][1][key] = value; }, part);
+}
+
+TEST(LabelTest, RefusesALabelWithoutAnyOneOfItsKeys) {
+    for (const char* key : {"name", "embedding_row", "level_exponents", "frequency_exponent", "periodic",
+                            "wavelength_metres", "stiffness_newtons_per_metre", "friction_coefficient", "category"}) {
+        expectHeaderRefusal([key](Json& header) { header["labels"][1].erase(key); }, key);
+    }
+}
+
+TEST(LabelTest, RefusesAModelWithoutLabels) {
+    expectHeaderRefusal([](Json& header) { header["labels"] = Json::array(); }, "labels");
+}
+
+TEST(LabelTest, RefusesMoreLabelsThanTheLimit) {
+    expectHeaderRefusal([](Json& header) { header["labels"] = Json(Json::array_t(maximumLabels + 1, Json(0))); },
+                        "the limit is 4096", ModelStatus::oversized);
+}
+
+TEST(LabelTest, RefusesTheSameNameTwice) {
+    expectLabelRefusal("name", "metal mesh", "appears twice");
+}
+
+TEST(LabelTest, RefusesAnEmptyOrUpperCaseName) {
+    expectLabelRefusal("name", "", "labels[0].name");
+    expectLabelRefusal("name", "Oak", "lower case");
+}
+
+TEST(LabelTest, RefusesAnEmbeddingRowOutsideTheTensor) {
+    expectLabelRefusal("embedding_row", 2, "labels[0].embedding_row");
+    expectLabelRefusal("embedding_row", -1, "labels[0].embedding_row");
+    expectLabelRefusal("embedding_row", 0.5, "labels[0].embedding_row");
+}
+
+TEST(LabelTest, RefusesExponentsOutOfRange) {
+    expectLabelRefusal("level_exponents", {{"speed", 5.0}, {"force", 0.0}}, "level_exponents.speed");
+    expectLabelRefusal("level_exponents", {{"speed", 0.0}, {"force", -5.0}}, "level_exponents.force");
+    expectLabelRefusal("frequency_exponent", -0.1, "frequency_exponent");
+}
+
+TEST(LabelTest, RefusesAPeriodicLabelWithoutWavelength) {
+    expectLabelRefusal("periodic", true, "wavelength_metres");
+}
+
+TEST(LabelTest, RefusesAWavelengthOfALabelThatIsNotPeriodic) {
+    expectLabelRefusal("wavelength_metres", 0.001, "not periodic");
+}
+
+TEST(LabelTest, RefusesAWavelengthOfZero) {
+    expectHeaderRefusal([](Json& header) { header["labels"][1]["wavelength_metres"] = 0; }, "wavelength_metres");
+}
+
+TEST(LabelTest, RefusesStiffnessAndFrictionOutOfRange) {
+    expectLabelRefusal("stiffness_newtons_per_metre", 0, "stiffness_newtons_per_metre");
+    expectLabelRefusal("stiffness_newtons_per_metre", 1e7, "stiffness_newtons_per_metre");
+    expectLabelRefusal("friction_coefficient", -0.1, "friction_coefficient");
+}
+
+TEST(LabelTest, RefusesAnEmptyCategory) {
+    expectLabelRefusal("category", "", "labels[0].category");
+}
+
+TEST(TierTest, RefusesATierWithoutAnyOneOfItsKeys) {
+    for (const char* key :
+         {"name", "kind", "field", "level", "solver", "steps", "parameters", "representation", "accuracy", "cost"}) {
+        expectHeaderRefusal([key](Json& header) { header["tiers"][0].erase(key); }, key);
+    }
+}
+
+TEST(TierTest, RefusesAModelWithoutTiers) {
+    expectHeaderRefusal([](Json& header) { header["tiers"] = Json::array(); }, "tiers");
+}
+
+TEST(TierTest, RefusesMoreTiersThanTheLimit) {
+    expectHeaderRefusal([](Json& header) { header["tiers"] = Json(Json::array_t(maximumTiers + 1, Json(0))); },
+                        "the limit is 64", ModelStatus::oversized);
+}
+
+TEST(TierTest, RefusesTheSameNameTwice) {
+    expectTierRefusal("name", "draft", "appears twice");
+}
+
+TEST(TierTest, RefusesAKindThatItDoesNotKnow) {
+    expectTierRefusal("kind", "diffusion", "\"average-velocity\"");
+}
+
+TEST(TierTest, RefusesASolverThatItDoesNotKnow) {
+    expectTierRefusal("solver", "rk45", "\"heun\"");
+}
+
+TEST(TierTest, RefusesStepsOutsideOneToSixteen) {
+    expectTierRefusal("steps", 0, "tiers[1].steps");
+    expectTierRefusal("steps", 17, "tiers[1].steps");
+}
+
+TEST(TierTest, RefusesANegativeNumberOfParameters) {
+    expectTierRefusal("parameters", -1, "tiers[1].parameters");
+}
+
+TEST(TierTest, RefusesGraphsThatAreNotThere) {
+    expectTierRefusal("field", "nothing", "tiers[1].field");
+    expectTierRefusal("level", "nothing", "tiers[1].level");
+}
+
+TEST(TierTest, RefusesATensorWhereAGraphBelongs) {
+    expectTierRefusal("field", "embedding", "type \"onnx\"");
+}
+
+TEST(TierTest, RefusesFiguresThatAreNotAnObject) {
+    expectTierRefusal("accuracy", 0.5, "tiers[1].accuracy");
+    expectTierRefusal("cost", Json::array(), "tiers[1].cost");
+}
+
+TEST(TierTest, RefusesARepresentationThatItDoesNotKnow) {
+    expectTierRefusal("representation", "spectrum", "\"latent\"");
+}
+
+TEST(TierTest, ReadsALatentTier) {
+    ModelBuilder builder;
+    Json& tier = builder.header["tiers"][1];
+    tier["representation"] = "latent";
+    tier["latent_shape"] = {16, 8};
+    tier["encoder"] = "level";
+    tier["decoder"] = "field";
+    const ModelFile model = ModelFile::parse(builder.build());
+    EXPECT_EQ(model.header().tiers[1].latentShape, (std::vector<std::int64_t>{16, 8}));
+    EXPECT_EQ(model.header().tiers[1].encoder, "level");
+    EXPECT_EQ(model.header().tiers[1].decoder, "field");
+}
+
+TEST(TierTest, RefusesALatentTierWithoutShapeEncoderOrDecoder) {
+    for (const char* key : {"latent_shape", "encoder", "decoder"}) {
+        expectHeaderRefusal(
+            [key](Json& header) {
+                Json& tier = header["tiers"][1];
+                tier["representation"] = "latent";
+                tier["latent_shape"] = {16, 8};
+                tier["encoder"] = "level";
+                tier["decoder"] = "field";
+                tier.erase(key);
+            },
+            key);
+    }
+}
+
+TEST(TierTest, RefusesALatentThatIsEmptyOrHuge) {
+    for (const Json& shape : {Json::array(), Json({0}), Json({4096, 4096, 4096})}) {
+        expectHeaderRefusal(
+            [&shape](Json& header) {
+                Json& tier = header["tiers"][1];
+                tier["representation"] = "latent";
+                tier["latent_shape"] = shape;
+                tier["encoder"] = "level";
+                tier["decoder"] = "field";
+            },
+            "latent_shape");
+    }
+}
+
+}  // namespace
+}  // namespace haptoflow::model::testing

@@ -1,0 +1,199 @@
+#include "model/model_file.hpp"
+
+#include "refusal.hpp"
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+namespace haptoflow::model::testing {
+namespace {
+
+class TemporaryFile {
+public:
+    explicit TemporaryFile(const std::string& name)
+        : path_(std::filesystem::temp_directory_path() / ("haptoflow_" + name + '_' + uniqueSuffix())) {}
+    TemporaryFile(const TemporaryFile&) = delete;
+    TemporaryFile& operator=(const TemporaryFile&) = delete;
+    ~TemporaryFile() {
+        std::error_code ignored;
+        std::filesystem::remove(path_, ignored);
+    }
+
+    [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+    void write(const Bytes& bytes) const {
+        std::ofstream stream(path_, std::ios::binary);
+        stream.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+    }
+
+private:
+    static std::string uniqueSuffix() {
+        return std::to_string(
+                   reinterpret_cast<std::uintptr_t>(::testing::UnitTest::GetInstance()->current_test_info())) +
+               std::to_string(std::filesystem::file_time_type::clock::now().time_since_epoch().count());
+    }
+
+    std::filesystem::path path_;
+};
+
+TEST(ModelFileTest, ReadsEveryValueOfAValidModel) {
+    const ModelFile model = ModelFile::parse(ModelBuilder().build());
+    const ModelHeader& header = model.header();
+
+    EXPECT_EQ(header.name, "test model");
+    EXPECT_EQ(header.description, "Made by the tests.");
+    EXPECT_EQ(header.provenance.statement, "trained on nothing");
+    EXPECT_EQ(header.provenance.seed, 7);
+    EXPECT_EQ(header.provenance.configurationJson, R"({"width":8})");
+    EXPECT_EQ(header.provenance.created, "2025-01-31");
+    EXPECT_DOUBLE_EQ(header.peakMps2, 25.0);
+    EXPECT_DOUBLE_EQ(header.speedMps.minimum, 0.01);
+    EXPECT_DOUBLE_EQ(header.forceNewtons.maximum, 4.0);
+    EXPECT_DOUBLE_EQ(header.speedMps.percentiles[2], 0.1);
+    EXPECT_DOUBLE_EQ(header.forceNewtons.percentiles[4], 3.0);
+
+    ASSERT_EQ(header.labels.size(), 2U);
+    EXPECT_EQ(header.labels[1].name, "metal mesh");
+    EXPECT_EQ(header.labels[1].embeddingRow, 1U);
+    EXPECT_EQ(header.labels[1].wavelengthMetres, 0.002);
+    EXPECT_EQ(header.labels[0].wavelengthMetres, std::nullopt);
+    EXPECT_DOUBLE_EQ(header.labels[0].speedLevelExponent, 0.5);
+    EXPECT_DOUBLE_EQ(header.labels[0].forceLevelExponent, 0.25);
+    EXPECT_DOUBLE_EQ(header.labels[0].stiffnessNewtonsPerMetre, 800.0);
+
+    ASSERT_EQ(header.tiers.size(), 2U);
+    EXPECT_EQ(header.tiers[header.defaultTier].name, "standard");
+    EXPECT_EQ(header.tiers[1].solver, TierSolver::midpoint);
+    EXPECT_EQ(header.tiers[1].steps, 2);
+    EXPECT_EQ(header.tiers[0].parameters, 12345);
+    EXPECT_EQ(header.tiers[0].accuracyJson, R"({"spectral_error_db":1.5})");
+    EXPECT_EQ(header.tiers[0].costJson, "{}");
+
+    ASSERT_EQ(header.seeds.size(), 3U);
+    EXPECT_EQ(header.seeds[2].label, 1U);
+    EXPECT_DOUBLE_EQ(header.seeds[1].velocityMps[0], 0.2);
+    EXPECT_DOUBLE_EQ(header.seeds[1].forceNewtons, 2.0);
+}
+
+TEST(ModelFileTest, GivesTheEmbeddingRowThatALabelNames) {
+    ModelBuilder builder;
+    builder.header["labels"][0]["embedding_row"] = 1;
+    const ModelFile model = ModelFile::parse(builder.build());
+    EXPECT_FLOAT_EQ(model.embedding(0)[0], 0.64F);
+    EXPECT_FLOAT_EQ(model.embedding(0)[63], 1.27F);
+    EXPECT_THROW((void)model.embedding(2), std::out_of_range);
+}
+
+TEST(ModelFileTest, GivesSeedsRowByRow) {
+    ModelBuilder builder;
+    std::vector<float> seeds(3 * seedSamples, 1.0F);
+    seeds[seedSamples] = -1.0F;
+    builder.blobs[1].bytes = bytesOf(seeds);
+    const ModelFile model = ModelFile::parse(builder.build());
+    EXPECT_EQ(model.seed(0)[0], 1.0F);
+    EXPECT_EQ(model.seed(1)[0], -1.0F);
+    EXPECT_EQ(model.seed(1)[1], 1.0F);
+    EXPECT_THROW((void)model.seed(3), std::out_of_range);
+}
+
+TEST(ModelFileTest, GivesBlobsByName) {
+    const ModelFile model = ModelFile::parse(ModelBuilder().build());
+    EXPECT_EQ(model.blob("field").size(), 100U);
+    EXPECT_EQ(model.blob("field")[99], std::byte{0x5A});
+    EXPECT_EQ(model.blob("level").size(), 37U);
+    EXPECT_THROW((void)model.blob("nothing"), std::out_of_range);
+}
+
+TEST(ModelFileTest, FindsLabelsAndTiersByName) {
+    const ModelFile model = ModelFile::parse(ModelBuilder().build());
+    ASSERT_NE(model.findLabel("metal mesh"), nullptr);
+    EXPECT_EQ(model.findLabel("metal mesh"), &model.header().labels[1]);
+    EXPECT_EQ(model.findLabel("felt"), nullptr);
+    ASSERT_NE(model.findTier("draft"), nullptr);
+    EXPECT_EQ(model.findTier("draft")->steps, 1);
+    EXPECT_EQ(model.findTier("fine"), nullptr);
+}
+
+TEST(ModelFileTest, StaysValidWhenMoved) {
+    ModelFile first = ModelFile::parse(ModelBuilder().build());
+    const ModelFile second = std::move(first);
+    EXPECT_EQ(second.blob("field")[0], std::byte{0x5A});
+    EXPECT_EQ(second.header().labels.size(), 2U);
+    EXPECT_FLOAT_EQ(second.embedding(1)[0], 0.64F);
+}
+
+TEST(ModelFileTest, ReturnsTheHeaderTextWithoutPadding) {
+    const ModelFile model = ModelFile::parse(ModelBuilder().build());
+    EXPECT_EQ(model.headerText().front(), '{');
+    EXPECT_EQ(model.headerText().back(), '}');
+    EXPECT_EQ(nlohmann::json::parse(model.headerText())["name"], "test model");
+}
+
+TEST(ModelFileTest, ReadsAFileFromDisk) {
+    const TemporaryFile file("valid.haptoflow");
+    const Bytes bytes = ModelBuilder().build();
+    file.write(bytes);
+    const ModelFile model = ModelFile::read(file.path());
+    EXPECT_EQ(model.byteCount(), bytes.size());
+    EXPECT_EQ(model.checksum(), crc32(bytes));
+}
+
+TEST(ModelFileTest, NamesThePathOfAMissingFile) {
+    const TemporaryFile file("missing.haptoflow");
+    try {
+        (void)ModelFile::read(file.path());
+        FAIL() << "a missing file was read";
+    } catch (const ModelError& error) {
+        EXPECT_EQ(error.status(), ModelStatus::unreadable);
+        EXPECT_THAT(error.what(), ::testing::StartsWith(file.path().string()));
+    }
+}
+
+TEST(ModelFileTest, NamesThePathOfADamagedFileAndKeepsItsStatus) {
+    const TemporaryFile file("damaged.haptoflow");
+    Bytes bytes = ModelBuilder().build();
+    bytes[50] ^= std::byte{2};
+    file.write(bytes);
+    try {
+        (void)ModelFile::read(file.path());
+        FAIL() << "a damaged file was read";
+    } catch (const ModelError& error) {
+        EXPECT_EQ(error.status(), ModelStatus::damaged);
+        EXPECT_THAT(error.what(), ::testing::StartsWith(file.path().string()));
+    }
+}
+
+TEST(ModelFileTest, RefusesAFolder) {
+    try {
+        (void)ModelFile::read(std::filesystem::temp_directory_path());
+        FAIL() << "a folder was read";
+    } catch (const ModelError& error) {
+        EXPECT_EQ(error.status(), ModelStatus::unreadable);
+    }
+}
+
+TEST(ModelFileTest, RefusesAHugeFileWithoutReadingIt) {
+    const TemporaryFile file("huge.haptoflow");
+    file.write({});
+    std::filesystem::resize_file(file.path(), 268'435'457);
+    try {
+        (void)ModelFile::read(file.path());
+        FAIL() << "a huge file was read";
+    } catch (const ModelError& error) {
+        EXPECT_EQ(error.status(), ModelStatus::oversized);
+    }
+}
+
+TEST(ModelFileTest, ReadsTheFileThatPythonWrote) {
+    const ModelFile model = ModelFile::read(HAPTOFLOW_TEST_GOLDEN_DIR "/model/tiny.haptoflow");
+    EXPECT_EQ(model.header().name, "tiny");
+    ASSERT_EQ(model.header().labels.size(), 2U);
+    EXPECT_EQ(model.header().labels[1].name, "ruled");
+    EXPECT_EQ(model.header().labels[1].wavelengthMetres, 0.001);
+    // Row r, column c of the embedding holds sin(r + 0.1 c); see make_tiny_model.py.
+    EXPECT_NEAR(model.embedding(1)[10], std::sin(2.0), 1e-7);
+    EXPECT_NEAR(model.seed(0)[1], std::sqrt(2.0) * std::sin(2.0 * 3.14159265358979 * 20.0 / 400.0), 1e-6);
+}
+
+}  // namespace
+}  // namespace haptoflow::model::testing

@@ -1,0 +1,267 @@
+#include "refusal.hpp"
+
+#include "model/file_layout.hpp"
+
+#include <bit>
+#include <cstdint>
+#include <map>
+
+// Deterministic mutations of a valid file. Run under the sanitizers they show that no byte of a file is trusted; run
+// without, that every mutant is either refused with a ModelError or readable through every accessor.
+
+namespace haptoflow::model::testing {
+namespace {
+
+using Json = nlohmann::json;
+
+class Random {
+public:
+    explicit Random(std::uint64_t seed) : state_(seed) {}
+    std::uint64_t next() {
+        state_ += 0x9E3779B97F4A7C15U;
+        std::uint64_t value = state_;
+        value = (value ^ (value >> 30U)) * 0xBF58476D1CE4E5B9U;
+        value = (value ^ (value >> 27U)) * 0x94D049BB133111EBU;
+        return value ^ (value >> 31U);
+    }
+    std::size_t below(std::size_t bound) { return static_cast<std::size_t>(next() % bound); }
+
+private:
+    std::uint64_t state_;
+};
+
+double touchEverything(const ModelFile& model) {
+    double sum = static_cast<double>(model.checksum()) + static_cast<double>(model.headerText().size());
+    for (std::size_t label = 0; label < model.header().labels.size(); ++label) {
+        for (const float value : model.embedding(label)) {
+            sum += static_cast<double>(value);
+        }
+    }
+    for (std::size_t seed = 0; seed < model.header().seeds.size(); ++seed) {
+        for (const float value : model.seed(seed)) {
+            sum += static_cast<double>(value);
+        }
+        sum += static_cast<double>(model.header().labels.at(model.header().seeds[seed].label).name.size());
+    }
+    for (const Blob& blob : model.header().blobs) {
+        for (const std::byte value : model.blob(blob.name)) {
+            sum += std::to_integer<int>(value);
+        }
+    }
+    for (const Tier& tier : model.header().tiers) {
+        sum += static_cast<double>(model.blob(tier.field).size() + model.blob(tier.level).size());
+    }
+    return sum;
+}
+
+/// What became of the mutants; the tests ask that both kinds occur where both must.
+struct Outcome {
+    int accepted = 0;
+    std::map<ModelStatus, int> refused;
+
+    [[nodiscard]] int refusals() const {
+        int sum = 0;
+        for (const auto& [status, count] : refused) {
+            sum += count;
+        }
+        return sum;
+    }
+};
+
+void tryMutant(Bytes file, Outcome& outcome) {
+    try {
+        const ModelFile model = ModelFile::parse(std::move(file));
+        EXPECT_TRUE(std::isfinite(touchEverything(model)));
+        ++outcome.accepted;
+    } catch (const ModelError& error) {
+        EXPECT_STRNE(error.what(), "");
+        ++outcome.refused[error.status()];
+    }
+}
+
+/// Replaces every checksum by the true one, so that a mutant gets as far as its contents carry it.
+Bytes reseal(Bytes file) {
+    if (file.size() >= prefixBytes) {
+        resealHeader(file);
+    }
+    return file;
+}
+
+Json nastyValue(Random& random) {
+    static const std::vector<Json> values = {nullptr,
+                                             true,
+                                             0,
+                                             -1,
+                                             1,
+                                             16,
+                                             64,
+                                             200,
+                                             INT64_MAX,
+                                             INT64_MIN,
+                                             UINT64_MAX,
+                                             0x100000000,
+                                             0.5,
+                                             -0.0,
+                                             1e-308,
+                                             1.7e308,
+                                             "",
+                                             "oak",
+                                             "field",
+                                             "embedding",
+                                             std::string(5000, 'x'),
+                                             "a\tb",
+                                             Json::array(),
+                                             Json::object(),
+                                             Json::array({0, 0}),
+                                             Json::array({1, 64}),
+                                             Json::array({INT64_MAX, INT64_MAX}),
+                                             Json::array({0.1, 0.2, 0.3, 0.4, 0.5})};
+    return values[random.below(values.size())];
+}
+
+/// A random value somewhere in `root`.
+Json& pick(Json& root, Random& random) {
+    Json* node = &root;
+    while (node->is_structured() && !node->empty() && random.below(4) != 0) {
+        auto child = node->begin();
+        std::advance(child, static_cast<std::ptrdiff_t>(random.below(node->size())));
+        node = &*child;
+    }
+    return *node;
+}
+
+void mutateJson(Json& root, Random& random) {
+    Json& node = pick(root, random);
+    switch (random.below(5)) {
+        case 0:
+            if (node.is_object() && !node.empty()) {
+                auto victim = node.begin();
+                std::advance(victim, static_cast<std::ptrdiff_t>(random.below(node.size())));
+                node.erase(victim);
+                return;
+            }
+            node = nastyValue(random);
+            return;
+        case 1:
+            if (node.is_array() && !node.empty()) {
+                const std::size_t index = random.below(node.size());
+                if (random.below(2) == 0) {
+                    node.erase(index);
+                } else {
+                    node.push_back(Json(node[index]));
+                }
+                return;
+            }
+            node = nastyValue(random);
+            return;
+        case 2: {
+            Json copy = pick(root, random);
+            if (copy.dump().size() < 1000) {
+                pick(root, random) = std::move(copy);
+            }
+            return;
+        }
+        case 3:
+            if (node.is_number_integer()) {
+                node = node.get<std::int64_t>() + static_cast<std::int64_t>(random.below(129)) - 64;
+                return;
+            }
+            node = nastyValue(random);
+            return;
+        default:
+            node = nastyValue(random);
+    }
+}
+
+TEST(MutationTest, EveryChangedByteIsNoticed) {
+    const Bytes valid = ModelBuilder().build();
+    Random random(1);
+    Outcome outcome;
+    constexpr int mutants = 8000;
+    for (int index = 0; index < mutants; ++index) {
+        Bytes file = valid;
+        file[random.below(file.size())] ^= static_cast<std::byte>(1 + random.below(255));
+        tryMutant(std::move(file), outcome);
+    }
+    EXPECT_EQ(outcome.accepted, 0);
+    EXPECT_EQ(outcome.refusals(), mutants);
+}
+
+TEST(MutationTest, ChangedHeaderBytesBehindTrueChecksumsAreRefusedOrReadable) {
+    const Bytes valid = ModelBuilder().build();
+    const std::size_t textBytes = ModelFile::parse(valid).headerText().size();
+    Random random(2);
+    Outcome outcome;
+    for (int index = 0; index < 12'000; ++index) {
+        Bytes file = valid;
+        for (std::size_t change = 0; change <= random.below(4); ++change) {
+            file[prefixBytes + random.below(textBytes)] = static_cast<std::byte>(random.below(256));
+        }
+        tryMutant(reseal(std::move(file)), outcome);
+    }
+    EXPECT_GT(outcome.accepted, 0);
+    EXPECT_GT(outcome.refused[ModelStatus::damaged], 0);
+    EXPECT_GT(outcome.refused[ModelStatus::inconsistent], 0);
+}
+
+TEST(MutationTest, ChangedHeaderValuesBehindTrueChecksumsAreRefusedOrReadable) {
+    Random random(3);
+    Outcome outcome;
+    ModelBuilder builder;
+    builder.editLaidOut = [&random](Json& header) {
+        for (std::size_t change = 0; change <= random.below(3); ++change) {
+            mutateJson(header, random);
+        }
+    };
+    int built = 0;
+    for (int index = 0; index < 12'000; ++index) {
+        try {
+            tryMutant(builder.build(), outcome);
+            ++built;
+        } catch (const std::length_error&) {
+            // A mutant whose header outgrew the room that the builder leaves is no file.
+        }
+    }
+    EXPECT_GT(built, 9'000);
+    EXPECT_GT(outcome.accepted, 0);
+    EXPECT_GT(outcome.refused[ModelStatus::inconsistent], 0);
+    EXPECT_GT(outcome.refused[ModelStatus::oversized], 0);
+}
+
+TEST(MutationTest, ChangedLengthsAndOffsetsBehindTrueChecksumsAreRefusedOrReadable) {
+    const Bytes valid = ModelBuilder().build();
+    Random random(4);
+    Outcome outcome;
+    for (int index = 0; index < 8000; ++index) {
+        Bytes file = valid;
+        if (random.below(2) == 0) {
+            file.resize(random.below(2 * file.size()));
+        }
+        if (file.size() >= prefixBytes && random.below(2) == 0) {
+            writeUnsigned(file, 16, 8, file.size());
+        }
+        if (file.size() >= prefixBytes && random.below(2) == 0) {
+            writeUnsigned(file, 12, 4, random.next() >> random.below(60));
+        }
+        tryMutant(reseal(std::move(file)), outcome);
+    }
+    EXPECT_GT(outcome.refused[ModelStatus::truncated], 0);
+    EXPECT_GT(outcome.refused[ModelStatus::inconsistent], 0);
+    EXPECT_GT(outcome.refused[ModelStatus::oversized], 0);
+}
+
+TEST(MutationTest, ChangedTensorsBehindTrueChecksumsAreRefusedOrReadable) {
+    Random random(5);
+    Outcome outcome;
+    for (int index = 0; index < 4000; ++index) {
+        ModelBuilder builder;
+        Bytes& bytes = builder.blobs[random.below(2)].bytes;
+        writeUnsigned(bytes, 4 * random.below(bytes.size() / 4), 4, random.next());
+        tryMutant(builder.build(), outcome);
+    }
+    EXPECT_GT(outcome.accepted, 0);
+    EXPECT_GT(outcome.refused[ModelStatus::inconsistent], 0);
+}
+
+}  // namespace
+}  // namespace haptoflow::model::testing
