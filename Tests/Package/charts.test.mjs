@@ -1,0 +1,46 @@
+import assert from 'node:assert/strict';
+import test from 'node:test';
+import { bandLane, labelStretches, niceCeiling, waveformLane } from '../../scripts/demo/charts.mjs';
+import { parseCsv } from '../../scripts/demo/csv.mjs';
+import { readContacts } from '../../scripts/demo/stroke_path.mjs';
+
+test('axes end at 1, 2 or 5 times a power of ten', () => {
+  assert.deepEqual([0, 0.03, 1, 1.2, 4.9, 5.1, 99].map(niceCeiling), [1, 0.05, 1, 2, 5, 10, 100]);
+});
+
+test('stretches of one label are joined and end where the next begins', () => {
+  const labels = ['wood', 'wood', null, 'stone', 'wood'];
+  const readings = labels.map((label, index) => ({ timeSeconds: index, label }));
+  assert.deepEqual(labelStretches(readings), [
+    { label: 'wood', begin: 0, end: 2 },
+    { label: 'stone', begin: 3, end: 4 },
+    { label: 'wood', begin: 4, end: 4 },
+  ]);
+});
+
+test('a band escapes its label', () => {
+  assert.ok(!bandLane([{ timeSeconds: 0, label: '<i>' }], 1).includes('<i>'));
+});
+
+test('the waveform axis is in m/s^2 and covers the peak', () => {
+  const lane = waveformLane(Float32Array.from([0, 0.5, -0.25, 0]), 60, 'w');
+  assert.ok(lane.includes('+50') && lane.includes('−50'));
+});
+
+test('a CSV without a column that is needed says which', () => {
+  assert.throws(() => parseCsv('t,x\n0,1\n', 'stroke.csv', ['t', 'y']), /stroke\.csv, line 1: .* y not there/);
+});
+
+test('a CSV row of the wrong length says which', () => {
+  assert.throws(() => parseCsv('t,x\n0,1\n1\n', 'stroke.csv', ['t']), /row 2: expected 2 fields, got 1/);
+});
+
+test('contacts carry the label of the surface, the speed and where the stroke is', () => {
+  const scene = { surfaces: [{ name: 'board', material: { stone: 0.2, wood: 0.8 } }] };
+  const contact = 't,surface,touching,vx_mps,vy_mps,force_n\n5,,0,0,0,0\n5.5,board,1,0.3,0.4,1.5\n';
+  const stroke = 't,x,y,z\n5,0,0,0\n6,1,2,4\n';
+  const [before, during] = readContacts(contact, stroke, scene);
+  assert.deepEqual([before.touching, before.label, before.timeSeconds], [false, null, 0]);
+  assert.deepEqual([during.label, during.speedMps, during.forceNewtons, during.timeSeconds], ['wood', 0.5, 1.5, 0.5]);
+  assert.deepEqual(during.position, [0.5, 1, 2]);
+});

@@ -1,0 +1,98 @@
+// Run after the demo: what it left in out/demo must be what the page and the report promise.
+import assert from 'node:assert/strict';
+import { existsSync, readFileSync } from 'node:fs';
+import path from 'node:path';
+import test from 'node:test';
+import { tracedLabels } from '../../scripts/demo/renders.mjs';
+import { readFloatWav } from '../../scripts/demo/wav.mjs';
+import { inRepository } from '../../scripts/lib/repository.mjs';
+
+const folder = inRepository('out', 'demo');
+const fullScaleMps2 = 60;
+const report = JSON.parse(readFileSync(path.join(folder, 'report.json'), 'utf8'));
+const waveOf = (render) => readFloatWav(readFileSync(path.join(folder, render.wav)), render.wav);
+
+/** Level in m/s^2 over the blocks of 5 ms in which something sounds. */
+function soundingLevel(samples) {
+  let [energy, count] = [0, 0];
+  for (let begin = 0; begin < samples.length; begin += 240) {
+    const block = samples.subarray(begin, begin + 240);
+    if (block.every((value) => Math.abs(value) < 1e-5)) continue;
+    energy += block.reduce((sum, value) => sum + value * value, 0);
+    count += block.length;
+  }
+  return count > 0 ? fullScaleMps2 * Math.sqrt(energy / count) : 0;
+}
+
+test('the report lists the crossing scene and every traced label', () => {
+  assert.deepEqual(report.renders.map(({ name }) => name), ['crossing', ...tracedLabels]);
+  assert.equal(typeof report.model, 'string');
+});
+
+test('every object of the report has exactly the keys that are promised', () => {
+  const keys = ['name', 'labels', 'wav', 'seconds', 'rms_mps2', 'peak', 'segments', 'inference_ms', 'nonfinite', 'underruns'];
+  assert.deepEqual(Object.keys(report), ['model', 'renders']);
+  for (const render of report.renders) {
+    assert.deepEqual(Object.keys(render), keys, render.name);
+    assert.deepEqual(Object.keys(render.inference_ms), ['p50', 'p99'], render.name);
+  }
+});
+
+test('every traced render names the label it was asked for', () => {
+  for (const render of report.renders.slice(1)) assert.deepEqual(render.labels, [render.name]);
+});
+
+test('every file is as long, as strong and as loud as its report says', () => {
+  for (const render of report.renders) {
+    const { samples, rateHz } = waveOf(render);
+    assert.equal(rateHz, 48000, render.name);
+    assert.ok(Math.abs(samples.length / rateHz - render.seconds) < 0.001, `${render.name}: length`);
+    const level = soundingLevel(samples);
+    assert.ok(Math.abs(level - render.rms_mps2) <= 0.03 * render.rms_mps2, `${render.name}: ${level} and ${render.rms_mps2} m/s^2`);
+    const peak = samples.reduce((most, value) => Math.max(most, Math.abs(value)), 0);
+    assert.ok(Math.abs(peak - render.peak) < 1e-3, `${render.name}: peak ${peak} and ${render.peak}`);
+  }
+});
+
+test('every file is finite, within full scale and not silent', () => {
+  for (const render of report.renders) {
+    const { samples } = waveOf(render);
+    assert.ok(samples.every((value) => Number.isFinite(value) && Math.abs(value) <= 1), render.name);
+    assert.ok(render.rms_mps2 > 0.01, `${render.name}: ${render.rms_mps2} m/s^2`);
+  }
+});
+
+test('every render ran the network and counted no fault', () => {
+  for (const render of report.renders) {
+    assert.ok(render.segments > 0, render.name);
+    assert.ok(render.inference_ms.p50 > 0 && render.inference_ms.p99 >= render.inference_ms.p50, render.name);
+    assert.equal(render.nonfinite, 0, render.name);
+    assert.equal(render.underruns, 0, render.name);
+  }
+});
+
+test('the crossing is silent before the first touch', () => {
+  const { samples, rateHz } = waveOf(report.renders[0]);
+  assert.ok(samples.subarray(0, Math.round(0.2 * rateHz)).every((value) => Math.abs(value) < 1e-6));
+});
+
+test('labels differ in level: stone is stronger than glass', () => {
+  const level = (name) => report.renders.find((render) => render.name === name).rms_mps2;
+  assert.ok(level('stone') > 1.5 * level('glass'), `stone ${level('stone')}, glass ${level('glass')} m/s^2`);
+});
+
+test('the page is one file that asks nothing of the network', () => {
+  const page = readFileSync(path.join(folder, 'index.html'), 'utf8');
+  assert.ok(!/(?:src|href)="(?!data:|#)/.test(page), 'a source or link leads outside the page');
+  assert.ok(!/url\(|@import|https?:/.test(page), 'a style or script leads outside the page');
+  assert.equal(page.match(/<audio /g).length, report.renders.length);
+  assert.equal(page.match(/src="data:image\/png/g).length, report.renders.length);
+  assert.ok(page.includes('trained on synthetic recordings'));
+  assert.ok(!/undefined|NaN/.test(page.replace(/data:[^"]*/g, '')), 'a value of the page is missing');
+});
+
+test('the scenes that were rendered lie beside the sound', () => {
+  for (const render of report.renders) {
+    assert.ok(existsSync(path.join(folder, 'scenes', render.wav.replace(/\.wav$/, '.scene.json'))), render.name);
+  }
+});

@@ -1,0 +1,56 @@
+import assert from 'node:assert/strict';
+import test from 'node:test';
+import { demoPage } from '../../scripts/demo/page.mjs';
+import { assembleReport } from '../../scripts/demo/report.mjs';
+import { readContacts } from '../../scripts/demo/stroke_path.mjs';
+
+const rateHz = 48000;
+
+/** One second of a 100 Hz tone on a ball, touched from 0.5 s on. */
+function renderOf(name, amplitude, model = 'default.haptoflow') {
+  const scene = { surfaces: [{ name: 'ball', shape: { sphere: { radius: 0.1 } }, position: [0, 0, 0], material: 'wood' }] };
+  const contactCsv = 't,surface,touching,vx_mps,vy_mps,force_n\n0,,0,0,0,0\n0.5,ball,1,0.3,0.4,1\n1,ball,1,0.3,0.4,1\n';
+  const samples = Float32Array.from({ length: rateHz }, (_, index) => amplitude * Math.sin((2 * Math.PI * 100 * index) / rateHz));
+  const report = {
+    model, labels: ['wood'], wav: 'x.wav', seconds: 1, rms_mps2: (60 * amplitude) / Math.SQRT2, peak: amplitude, segments: 36,
+    inference_ms: { p50: 0.41, p99: 0.73 }, nonfinite: 0, underruns: 0,
+  };
+  return { name, scene, samples, rateHz, report, contacts: readContacts(contactCsv, 't,x,y,z\n0,0,0.2,0\n1,0,0.1,0\n', scene) };
+}
+
+const pageOf = (renders) => demoPage(assembleReport(renders), renders);
+const audioOf = (page) => [...page.matchAll(/data:audio\/wav;base64,([^"]+)"/g)].map(([, text]) => Buffer.from(text, 'base64'));
+const peakOf = (wav) => {
+  let peak = 0;
+  for (let at = 44; at < wav.length; at += 2) peak = Math.max(peak, Math.abs(wav.readInt16LE(at)));
+  return peak / 32767;
+};
+
+test('the players share one gain: the loudest reaches -1 dBFS, a signal ten times weaker stays so', () => {
+  const [loud, quiet] = audioOf(pageOf([renderOf('crossing', 0.2), renderOf('wood', 0.02)])).map(peakOf);
+  assert.ok(Math.abs(20 * Math.log10(loud) + 1) < 0.01, `${loud}`);
+  assert.ok(Math.abs(loud / quiet - 10) < 0.02, `${loud / quiet}`);
+});
+
+test('the page states the gain, the model, its origin and the measured figures', () => {
+  const page = pageOf([renderOf('crossing', 0.2), renderOf('wood', 0.02)]);
+  assert.ok(page.includes('+13.0 dB'));
+  assert.ok(page.includes('default.haptoflow') && page.includes('trained on synthetic recordings'));
+  for (const figure of ['8.49', '12.0', '0.41', '0.73']) assert.ok(page.includes(`>${figure}<`), figure);
+});
+
+test('the page asks nothing of the network and has no hole in it', () => {
+  const page = pageOf([renderOf('crossing', 0.2), renderOf('wood', 0.02)]);
+  assert.ok(!/(?:src|href)="(?!data:|#)/.test(page));
+  assert.ok(!/\{\{|undefined|NaN/.test(page.replace(/data:[^"]*/g, '')));
+});
+
+test('names with markup in them are shown, not obeyed', () => {
+  const page = pageOf([renderOf('crossing', 0.2, '<u>model'), renderOf('<script>boom', 0.02, '<u>model')]);
+  assert.ok(!page.includes('<script>boom') && !page.includes('<u>model'));
+});
+
+test('silent renders still make a page', () => {
+  const page = pageOf([renderOf('crossing', 0), renderOf('wood', 0)]);
+  assert.ok(!/NaN|Infinity/.test(page.replace(/data:[^"]*/g, '')));
+});

@@ -1,0 +1,71 @@
+import assert from 'node:assert/strict';
+import { spawnSync } from 'node:child_process';
+import { chmodSync, mkdtempSync, readFileSync, readdirSync, rmSync, symlinkSync, writeFileSync } from 'node:fs';
+import os from 'node:os';
+import path from 'node:path';
+import test from 'node:test';
+import { inRepository } from '../../scripts/lib/repository.mjs';
+
+const posixOnly = process.platform === 'win32' ? 'run is a POSIX script' : false;
+const { scripts } = JSON.parse(readFileSync(inRepository('package.json'), 'utf8'));
+
+/** Runs ./run on a machine that has only the programs given: name -> shell text. */
+function onBareMachine(programs, args) {
+  const folder = mkdtempSync(path.join(os.tmpdir(), 'haptoflow-run-'));
+  try {
+    for (const tool of ['dirname', 'sed', 'expand', 'env', 'sh', 'cat']) {
+      const found = spawnSync('sh', ['-c', `command -v ${tool}`], { encoding: 'utf8' }).stdout.trim();
+      if (found.startsWith('/')) symlinkSync(found, path.join(folder, tool));
+    }
+    for (const [name, text] of Object.entries(programs)) {
+      writeFileSync(path.join(folder, name), `#!/bin/sh\n${text}\n`);
+      chmodSync(path.join(folder, name), 0o755);
+    }
+    return spawnSync('/bin/sh', [inRepository('run'), ...args], { encoding: 'utf8', env: { PATH: folder, BIN: folder } });
+  } finally {
+    rmSync(folder, { recursive: true, force: true });
+  }
+}
+
+test('every npm script is a file of scripts/ whose first line says what it does', () => {
+  for (const [name, command] of Object.entries(scripts)) {
+    assert.equal(command, `node scripts/${name}.mjs`);
+    assert.match(readFileSync(inRepository('scripts', `${name}.mjs`), 'utf8'), new RegExp(`^// ${name}: \\w`));
+  }
+  const files = readdirSync(inRepository('scripts')).filter((name) => name.endsWith('.mjs'));
+  assert.deepEqual(files.map((name) => name.replace('.mjs', '')).sort(), Object.keys(scripts).sort());
+});
+
+test('without arguments every script is listed in one line, and nothing is installed', { skip: posixOnly }, () => {
+  const result = onBareMachine({ 'apt-get': 'echo INSTALLED' }, []);
+  assert.equal(result.status, 0, result.stderr);
+  assert.ok(!result.stdout.includes('INSTALLED'));
+  for (const name of Object.keys(scripts)) assert.match(result.stdout, new RegExp(`^  ${name} +\\w.+$`, 'm'));
+});
+
+test('root without Node gets Node from apt-get and npm runs with the arguments', { skip: posixOnly }, () => {
+  const install = 'case "$*" in *install*) printf "#!/bin/sh\\nexit 0\\n" > $BIN/node; printf "#!/bin/sh\\necho npm \\$*\\n" > $BIN/npm; chmod +x $BIN/node $BIN/npm;; esac';
+  const chmod = 'exec /bin/chmod "$@"';
+  const result = onBareMachine({ id: 'echo 0', 'apt-get': install, chmod }, ['demo', '--flag', 'two words']);
+  assert.equal(result.status, 0, result.stderr);
+  assert.match(result.stdout, /npm run --silent demo -- --flag two words$/m);
+});
+
+test('without root and sudo the one command to type is printed and the exit code is 2', { skip: posixOnly }, () => {
+  const result = onBareMachine({ id: 'echo 1000', 'apt-get': 'echo INSTALLED', sudo: 'exit 1' }, ['test']);
+  assert.equal(result.status, 2);
+  assert.match(result.stderr, /sudo apt-get update && sudo apt-get install -y .* nodejs npm/);
+  assert.ok(!result.stdout.includes('INSTALLED'));
+});
+
+test('a Node that is too old counts as missing', { skip: posixOnly }, () => {
+  const result = onBareMachine({ node: 'exit 1', npm: 'echo npm', id: 'echo 1000', 'apt-get': 'exit 0' }, ['test']);
+  assert.equal(result.status, 2);
+});
+
+test('a script that does not exist is refused before anything is installed', { skip: posixOnly }, () => {
+  const result = onBareMachine({ id: 'echo 0', 'apt-get': 'echo INSTALLED' }, ['dmeo']);
+  assert.equal(result.status, 2);
+  assert.match(result.stderr, /no script "dmeo"/);
+  assert.ok(!result.stdout.includes('INSTALLED'));
+});

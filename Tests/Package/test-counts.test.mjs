@@ -1,0 +1,35 @@
+import assert from 'node:assert/strict';
+import test from 'node:test';
+import { closingLine, countsOfJunit, countsOfTap, judged } from '../../scripts/lib/test_counts.mjs';
+
+test('ctest\'s JUnit file is read, disabled tests counted as skipped', () => {
+  const xml = '<?xml version="1.0"?>\n<testsuite name="Linux"\n\ttests="9"\n\tfailures="2"\n\tdisabled="1"\n\tskipped="1"\n\thostname="">';
+  assert.deepEqual(countsOfJunit(xml), { passed: 5, failed: 2, skipped: 2 });
+});
+
+test('pytest\'s JUnit file is read, errors counted as failed', () => {
+  const xml = '<testsuites><testsuite name="pytest" errors="1" failures="1" skipped="2" tests="10" time="1.0"></testsuite></testsuites>';
+  assert.deepEqual(countsOfJunit(xml), { passed: 6, failed: 2, skipped: 2 });
+});
+
+test('node\'s TAP is read, cancelled tests counted as failed', () => {
+  const tap = '# tests 5\n# pass 2\n# fail 1\n# cancelled 1\n# skipped 1\n# todo 0\n';
+  assert.deepEqual(countsOfTap(tap), { passed: 2, failed: 2, skipped: 1 });
+});
+
+test('a runner that ran nothing has failed, even with exit code 0', () => {
+  assert.equal(judged({ passed: 0, failed: 0, skipped: 3 }, 0).failed, 1);
+});
+
+test('a runner that ended badly has failed, even where every test it counted passed', () => {
+  assert.equal(judged({ passed: 7, failed: 0, skipped: 0 }, 139).failed, 1);
+});
+
+test('a runner whose failures explain its exit code keeps its count', () => {
+  assert.deepEqual(judged({ passed: 7, failed: 2, skipped: 0 }, 1), { passed: 7, failed: 2, skipped: 0 });
+});
+
+test('the closing line names skipped tests only where there are some', () => {
+  assert.equal(closingLine({ passed: 3, failed: 0, skipped: 0 }), '3 passed, 0 failed');
+  assert.equal(closingLine({ passed: 3, failed: 1, skipped: 2 }), '3 passed, 1 failed, 2 skipped');
+});

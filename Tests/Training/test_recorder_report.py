@@ -1,0 +1,150 @@
+"""Measuring the recorder against its published targets, and the commands that record and report."""
+
+from __future__ import annotations
+
+import json
+import shutil
+
+import numpy as np
+import pytest
+
+from haptoflow_training.cli import main
+from haptoflow_training.recordings.synthetic import load_materials
+from haptoflow_training.recordings.synthetic.calibration import calibrate
+from haptoflow_training.recordings.synthetic.materials import DEFAULT_MATERIALS_PATH, Targets
+from haptoflow_training.recordings.synthetic.measurement import (
+    TOLERANCE,
+    Design,
+    Deviation,
+    band_level,
+    centroid_hz,
+    measure,
+    slope_db_per_octave,
+)
+
+MATERIALS = {material.label: material for material in load_materials()}
+SMALL = Design(
+    speeds_mmps=(40.0, 100.0, 200.0),
+    forces_newtons=(0.5, 1.0, 2.0),
+    directions_degrees=(0.0, 45.0, 90.0, 135.0),
+    duration_seconds=1.3,
+    reference_repeats=2,
+)
+
+
+def test_the_band_level_is_the_rms_between_20_and_500_hz():
+    frequency = np.arange(0.0, 1001.0, 5.0)
+    inside = (frequency >= 20) & (frequency <= 500)
+    assert band_level(frequency, np.where(inside, 0.0, 9.0)) == 0.0
+    assert band_level(frequency, np.full(len(frequency), 4.0)) == pytest.approx(np.sqrt(4.0 * 485.0))
+
+
+def test_the_centroid_is_weighted_by_power():
+    frequency = np.arange(0.0, 1001.0, 5.0)
+    spectrum = np.where(frequency == 100, 3.0, 0.0) + np.where(frequency == 300, 1.0, 0.0)
+    assert centroid_hz(frequency, spectrum) == pytest.approx(150.0)
+
+
+def test_the_slope_of_a_power_law_is_its_exponent():
+    frequency = np.arange(5.0, 1001.0, 1.0)
+    assert slope_db_per_octave(frequency, frequency**-3.0) == pytest.approx(-9.03, abs=0.1)
+
+
+def test_a_deviation_passes_only_within_every_tolerance():
+    targets = Targets(1.0, 1.0, 0.2, 100.0, -8.0)
+    assert Deviation.of(targets, targets).passes()
+    for wrong in (
+        Targets(1.25, 1.0, 0.2, 100.0, -8.0),
+        Targets(1.0, 1.2, 0.2, 100.0, -8.0),
+        Targets(1.0, 1.0, 0.4, 100.0, -8.0),
+        Targets(1.0, 1.0, 0.2, 120.0, -8.0),
+        Targets(1.0, 1.0, 0.2, 100.0, -10.5),
+    ):
+        assert not Deviation.of(wrong, targets).passes()
+    assert (TOLERANCE.level_db, TOLERANCE.p, TOLERANCE.q) == (1.5, 0.15, 0.15)
+
+
+@pytest.mark.parametrize("label", ["glass", "metal mesh", "carpet"])
+def test_a_material_measured_afresh_meets_its_targets(label):
+    measured = measure(MATERIALS[label], seed=31, design=SMALL)
+    deviation = Deviation.of(measured.targets(), MATERIALS[label].targets)
+    assert deviation.passes(), deviation
+
+
+def test_calibration_mends_a_material_that_was_put_out_of_tune():
+    ceramic = MATERIALS["ceramic"]
+    wrong = ceramic.with_calibrated(
+        height_micrometres=3.0 * ceramic.calibrated.height_micrometres,
+        height_exponent=ceramic.calibrated.height_exponent + 0.7,
+        force_exponent=ceramic.calibrated.force_exponent - 0.4,
+        absorption_db_per_octave=ceramic.calibrated.absorption_db_per_octave + 3.0,
+    )
+    before = Deviation.of(measure(wrong, seed=7, design=SMALL).targets(), ceramic.targets)
+    _, measured = calibrate(wrong, seed=7, design=SMALL, rounds=3)
+    assert not before.passes()
+    assert Deviation.of(measured.targets(), ceramic.targets).passes()
+
+
+def test_the_report_names_a_material_that_misses_its_target_and_writes_table_numbers_and_picture(
+    tmp_path, monkeypatch, capsys
+):
+    from haptoflow_training.commands import report_recorder
+
+    monkeypatch.setattr(report_recorder, "_measure", lambda each: measure(each, seed=31, design=_TINY))
+    monkeypatch.setattr(report_recorder, "ProcessPoolExecutor", _SameProcess)
+    path = tmp_path / "materials.toml"
+    text = DEFAULT_MATERIALS_PATH.read_text()
+    path.write_text(text.replace("k = 0.28, p = 0.7", "k = 1.5, p = 0.7"))
+    out = tmp_path / "report"
+    words = ["report-recorder", "--materials", str(path), "--labels", "glass,metal", "--out", str(out)]
+    assert main(words) == 3
+    message = capsys.readouterr().err
+    assert "glass" in message and "metal" not in message.split("materials.toml:")[1]
+    document = json.loads((out / "recorder-report.json").read_text())
+    assert [entry["label"] for entry in document["materials"]] == ["glass", "metal"]
+    assert document["materials"][0]["passes"] is False and document["materials"][1]["passes"] is True
+    assert "| metal |" in (out / "recorder-report.md").read_text()
+    assert (out / "images" / "recorder-spectra.png").read_bytes().startswith(b"\x89PNG")
+
+
+_TINY = Design((50.0, 100.0, 200.0), (0.5, 2.0), (0.0, 45.0, 90.0, 135.0), 1.2, 2)
+
+
+class _SameProcess:
+    def __init__(self, workers):
+        self.map = map
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *error):
+        return None
+
+
+def test_record_writes_a_data_set_that_says_it_is_synthetic_and_completes_an_unfinished_one(tmp_path, capsys):
+    words = ["record", "--protocol", "hand", "--labels", "wood,paper", "--recordings-per-label", "2"]
+    words += ["--duration-seconds", "2", "--jobs", "2", "--seed", "4"]
+    assert main([*words, "--out", str(tmp_path / "a")]) == 0
+    provenance = json.loads((tmp_path / "a" / "provenance.json").read_text())
+    assert provenance["synthetic"] is True and provenance["seed"] == 4
+    assert (tmp_path / "a" / "texture_list.xlsx").is_file()
+    files = sorted((tmp_path / "a" / "sensor_data" / "accel").glob("*_hand_*.csv"))
+    assert len(files) == 4 and {each.name.split("_")[0] for each in files} == {"0", "16"}
+
+    shutil.copytree(tmp_path / "a", tmp_path / "b")
+    lost = tmp_path / "b" / "sensor_data" / "force" / files[1].name
+    lost.unlink()
+    kept = tmp_path / "b" / "sensor_data" / "accel" / files[0].name
+    kept.write_text("untouched")
+    capsys.readouterr()
+    assert main([*words, "--out", str(tmp_path / "b")]) == 0
+    assert "3 of 4" in capsys.readouterr().out
+    assert lost.read_bytes() == (tmp_path / "a" / "sensor_data" / "force" / files[1].name).read_bytes()
+    assert kept.read_text() == "untouched"
+
+
+def test_record_refuses_an_unknown_label_and_no_recordings(tmp_path, capsys):
+    assert main(["record", "--out", str(tmp_path), "--labels", "marzipan"]) == 3
+    assert "marzipan" in capsys.readouterr().err
+    assert main(["record", "--out", str(tmp_path), "--recordings-per-label", "0"]) == 3
+    assert "--recordings-per-label" in capsys.readouterr().err

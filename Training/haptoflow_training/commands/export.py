@@ -1,0 +1,39 @@
+"""`haptoflow-training export`: a finished run becomes a `.haptoflow` file, without training again."""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+
+from haptoflow_training.export.exporter import export_run
+from haptoflow_training.training.recordings_source import open_source
+from haptoflow_training.training.trainer import load_trained
+
+
+def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser], summary: str) -> None:
+    parser = subparsers.add_parser(
+        "export",
+        help=summary,
+        description=(
+            "Writes the moving average of a finished run as a model file. The run's recordings are needed again, for "
+            "seeds, exponents and ranges: the store is reused where it is, made anew where it is not."
+        ),
+        epilog="example:\n  haptoflow-training export --run out/train/default --out default.haptoflow",
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+    parser.add_argument("--run", dest="folder", type=Path, required=True, help="folder of the run (checkpoint.pt)")
+    parser.add_argument("--store", type=Path, help="prepared recordings (default: `store` beside the run's folder)")
+    parser.add_argument("--out", type=Path, required=True, metavar="FILE", help="the model file")
+    parser.add_argument("--parity", type=Path, metavar="FILE", help="also write golden vectors for the engine's tests")
+    parser.add_argument("--workers", type=int, default=2, help="processes that prepare recordings (default: 2)")
+    parser.set_defaults(run=run)
+
+
+def run(options: argparse.Namespace) -> int:
+    config, _, _ = load_trained(options.folder)
+    source = open_source(config.data, options.store or options.folder.parent / "store", options.workers)
+    checksum = export_run(
+        options.folder, source.store, source.labels, source.provenance, options.out, options.parity
+    )
+    print(f"{options.out}: {options.out.stat().st_size / 2**20:.2f} MiB, CRC-32 {checksum:08x}")
+    return 0

@@ -1,0 +1,24 @@
+"""The synthetic recorder: a stylus dragged over a height profile, and the sensors that ride on it."""
+
+from haptoflow_training.recordings.synthetic.materials import Material, load_materials
+from haptoflow_training.recordings.synthetic.protocols import (
+    hand_conditions,
+    machine_conditions,
+    record_hand,
+    record_hand_condition,
+    record_machine,
+    record_machine_condition,
+)
+from haptoflow_training.recordings.synthetic.recorder import record_condition
+
+__all__ = [
+    "Material",
+    "hand_conditions",
+    "load_materials",
+    "machine_conditions",
+    "record_condition",
+    "record_hand",
+    "record_hand_condition",
+    "record_machine",
+    "record_machine_condition",
+]

@@ -1,0 +1,128 @@
+"""From the surface under a moving tip to the acceleration of the tool, on the simulation's uniform clock."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.signal import sosfilt
+
+from haptoflow_training.recordings.synthetic import filters
+from haptoflow_training.recordings.synthetic.features import (
+    impact_acceleration,
+    ruling_height,
+    slip_acceleration,
+)
+from haptoflow_training.recordings.synthetic.materials import Material
+from haptoflow_training.recordings.synthetic.surface import TipPath, random_height
+
+SIMULATION_RATE_HZ = 8000.0
+# A Hertzian contact's stiffness grows as F^(1/3), its resonance as the root of that.
+_RESONANCE_FORCE_EXPONENT = 1.0 / 6.0
+_SOFT_FORCE_NEWTONS, _STIFF_FORCE_NEWTONS = 0.3, 3.0
+# Relative resonance and damping of the tool along the surface: it leans on the grip there.
+_TANGENTIAL_RESONANCE, _TANGENTIAL_DAMPING = 0.8, 1.2
+_LATERAL_SHARE = 0.5
+# Level at which a tip pressed with 1 N spends most of its time in the air.
+_BOUNCE_MPS2 = 50.0
+_EFFECTIVE_MASS_KG = 0.02
+# Below this force the tip leaves the surface: level goes to zero whatever the force exponent.
+_TOUCH_NEWTONS = 0.02
+
+
+def tool_acceleration(
+    material: Material, path: TipPath, force_newtons: NDArray[np.float64]
+) -> NDArray[np.float64]:
+    """Acceleration [n, 3] in m/s^2 (X, Y in the surface, Z along its normal), without gravity or noise.
+
+    path and force_newtons [n] are on a clock of SIMULATION_RATE_HZ. Silent where the tip rests.
+    """
+    rate = SIMULATION_RATE_HZ
+    height, tilt = random_height(material, path)
+    for number, ruling in enumerate(material.rulings):
+        height += ruling_height(material, ruling, number, path)
+    impacts = impact_acceleration(material, path, rate)
+    slips = slip_acceleration(material, path, force_newtons, rate)
+
+    tail = _shared_sections(material, rate)
+    stiffness = np.clip(
+        np.log(np.maximum(force_newtons, 1e-3) / _SOFT_FORCE_NEWTONS)
+        / math.log(_STIFF_FORCE_NEWTONS / _SOFT_FORCE_NEWTONS),
+        0.0,
+        1.0,
+    )
+    normal = _through_contact(material, 1e-6 * height, impacts, stiffness, 1.0, 1.0, tail)
+    along = material.tangential_share * _through_contact(
+        material, 1e-6 * height, 0.5 * impacts + slips / material.tangential_share, stiffness,
+        _TANGENTIAL_RESONANCE, _TANGENTIAL_DAMPING, tail,
+    )
+    across = _LATERAL_SHARE * material.tangential_share * _through_contact(
+        material, 1e-6 * tilt, -0.5 * impacts, stiffness, _TANGENTIAL_RESONANCE, _TANGENTIAL_DAMPING, tail
+    )
+
+    speed = np.hypot(*path.velocity_mmps.T)
+    heading = path.velocity_mmps / np.sqrt(speed**2 + 1.0)[:, None]
+    gain = np.maximum(force_newtons, _TOUCH_NEWTONS) ** material.calibrated.force_exponent
+    gain = gain * np.clip(force_newtons / _TOUCH_NEWTONS, 0.0, 1.0)
+    if material.nap != 0.0:
+        grain = math.radians(material.grain_degrees)
+        gain = gain * (1.0 - material.nap * (heading @ np.array([math.cos(grain), math.sin(grain)])))
+    gain = gain * _bounce_gain(material, speed, force_newtons)
+    return np.stack(
+        [
+            gain * (along * heading[:, 0] - across * heading[:, 1]),
+            gain * (along * heading[:, 1] + across * heading[:, 0]),
+            _pressed(gain * normal, force_newtons),
+        ],
+        axis=1,
+    )
+
+
+def _shared_sections(material: Material, rate_hz: float) -> NDArray[np.float64]:
+    sections = [filters.absorption(material.calibrated.absorption_db_per_octave, rate_hz)]
+    sections += [filters.peak(*mode, rate_hz) for mode in material.tool_modes]
+    return np.concatenate(sections)
+
+
+def _through_contact(
+    material: Material,
+    height_metres: NDArray[np.float64],
+    acceleration: NDArray[np.float64],
+    stiffness: NDArray[np.float64],
+    relative_resonance: float,
+    relative_damping: float,
+    tail: NDArray[np.float64],
+) -> NDArray[np.float64]:
+    """The contact at a low and at a high force, blended sample by sample by `stiffness` (0 to 1)."""
+    rate, damping = SIMULATION_RATE_HZ, material.contact_damping * relative_damping
+    struck = bool(np.any(acceleration))
+    blended = np.zeros(len(height_metres))
+    for force, share in ((_SOFT_FORCE_NEWTONS, 1.0 - stiffness), (_STIFF_FORCE_NEWTONS, stiffness)):
+        if not np.any(share):
+            continue
+        resonance = material.calibrated.contact_resonance_hz * relative_resonance
+        resonance *= force**_RESONANCE_FORCE_EXPONENT
+        from_height = filters.contact_from_height(resonance, damping, rate)
+        part = sosfilt(from_height, height_metres - height_metres[0])
+        if struck:
+            part += sosfilt(filters.contact_from_acceleration(resonance, damping, rate), acceleration)
+        blended += share * part
+    return sosfilt(tail, blended)
+
+
+def _bounce_gain(
+    material: Material, speed_mmps: NDArray[np.float64], force_newtons: NDArray[np.float64]
+) -> NDArray[np.float64]:
+    """Below 1 where the level that full contact would give throws the tip off: level saturates with speed."""
+    targets = material.targets
+    force = np.maximum(force_newtons, 0.05)
+    level = targets.k * (speed_mmps / 100.0) ** targets.p * force**targets.q
+    return (1.0 + (level / (_BOUNCE_MPS2 * force**0.2)) ** 2) ** -0.5
+
+
+def _pressed(normal: NDArray[np.float64], force_newtons: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Off the surface only force and weight accelerate the tip: downward it stops at F / mass + g."""
+    floor = np.maximum(force_newtons, 0.0) / _EFFECTIVE_MASS_KG + 9.81
+    falling = np.minimum(normal, 0.0) / floor
+    return np.maximum(normal, 0.0) + floor * falling / (1.0 + falling**4) ** 0.25

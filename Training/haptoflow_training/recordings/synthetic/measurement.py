@@ -1,0 +1,158 @@
+"""Measure a material as the published field statistics were: a sweep of speed and force, its laws."""
+
+from __future__ import annotations
+
+from dataclasses import asdict, dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.signal import welch
+
+from haptoflow_training.preprocessing.pipeline import preprocess_recording
+from haptoflow_training.preprocessing.settings import PreprocessingSettings
+from haptoflow_training.recordings.synthetic.materials import Material, Targets
+from haptoflow_training.recordings.synthetic.recorder import record_condition
+
+REFERENCE_SPEED_MMPS, REFERENCE_FORCE_NEWTONS = 100.0, 1.0
+_LEVEL_BAND_HZ = (20.0, 500.0)
+_SLOPE_BAND_HZ = (60.0, 450.0)
+_RESOLUTION_HZ = 5.0
+_SPECTRUM_FLOOR = 1e-12
+
+
+@dataclass(frozen=True)
+class Design:
+    """Which conditions are measured; powers are averaged over the directions."""
+
+    speeds_mmps: tuple[float, ...] = (20.0, 50.0, 100.0, 150.0, 200.0)
+    forces_newtons: tuple[float, ...] = (0.3, 1.0, 2.0)
+    directions_degrees: tuple[float, ...] = (0.0, 45.0, 90.0, 135.0)
+    duration_seconds: float = 1.8
+    reference_repeats: int = 3
+
+
+@dataclass(frozen=True)
+class Measurement:
+    """What came out, in the terms of `Targets`, with the spectrum at the reference condition.
+
+    frequency_hz [n]; spectrum [n] in (m/s^2)^2/Hz; crest: the 99.9th percentile of |a| over its RMS.
+    """
+
+    k: float
+    p: float
+    q: float
+    centroid_hz: float
+    slope_db_per_octave: float
+    crest: float
+    frequency_hz: NDArray[np.float64]
+    spectrum: NDArray[np.float64]
+
+    def targets(self) -> Targets:
+        return Targets(self.k, self.p, self.q, self.centroid_hz, self.slope_db_per_octave)
+
+
+@dataclass(frozen=True)
+class Deviation:
+    """Measured minus target: level in dB, exponents, centroid as a share, slope in dB per octave."""
+
+    level_db: float
+    p: float
+    q: float
+    centroid: float
+    slope_db_per_octave: float
+
+    @classmethod
+    def of(cls, measured: Targets, targets: Targets) -> Deviation:
+        return cls(
+            20.0 * float(np.log10(measured.k / targets.k)),
+            measured.p - targets.p,
+            measured.q - targets.q,
+            measured.centroid_hz / targets.centroid_hz - 1.0,
+            measured.slope_db_per_octave - targets.slope_db_per_octave,
+        )
+
+    def passes(self) -> bool:
+        return all(abs(getattr(self, name)) <= limit for name, limit in asdict(TOLERANCE).items())
+
+
+# How far a calibrated material may be from its published targets.
+TOLERANCE = Deviation(1.5, 0.15, 0.15, 0.15, 2.0)
+
+
+def measure(material: Material, *, seed: int, design: Design = Design()) -> Measurement:
+    """Record the design's conditions, prepare them as training does, and fit RMS = k (v/100)^p F^q.
+
+    The sensor's own noise, measured at rest, is subtracted as power. p and q are a least-squares fit of log
+    RMS over all conditions; k, centroid, slope are those of the reference condition, 100 mm/s and 1 N.
+    """
+    resting = _spectrum(_waveforms(material, 0.0, 1.0, seed, design, 1))
+    rows, levels = [], []
+    for speed in design.speeds_mmps:
+        for force in design.forces_newtons:
+            frequency, power = _spectrum(_waveforms(material, speed, force, seed, design, 1))
+            rows.append([1.0, np.log(speed / REFERENCE_SPEED_MMPS), np.log(force / REFERENCE_FORCE_NEWTONS)])
+            levels.append(np.log(band_level(frequency, np.maximum(power - resting[1], _SPECTRUM_FLOOR))))
+    _, p, q = np.linalg.lstsq(np.array(rows), np.array(levels), rcond=None)[0]
+
+    waveforms = _waveforms(
+        material, REFERENCE_SPEED_MMPS, REFERENCE_FORCE_NEWTONS, seed + 1000, design, design.reference_repeats
+    )
+    frequency, power = _spectrum(waveforms)
+    power = np.maximum(power - resting[1], _SPECTRUM_FLOOR)
+    crest = float(np.mean([np.percentile(np.abs(each), 99.9) / np.std(each) for each in waveforms]))
+    return Measurement(
+        band_level(frequency, power), float(p), float(q), centroid_hz(frequency, power),
+        slope_db_per_octave(frequency, power), crest, frequency, power,
+    )
+
+
+def band_level(frequency_hz: NDArray[np.float64], spectrum: NDArray[np.float64]) -> float:
+    """RMS in m/s^2 between 20 and 500 Hz of a power spectral density."""
+    inside = (frequency_hz >= _LEVEL_BAND_HZ[0]) & (frequency_hz <= _LEVEL_BAND_HZ[1])
+    return float(np.sqrt(np.sum(spectrum[inside]) * (frequency_hz[1] - frequency_hz[0])))
+
+
+def centroid_hz(frequency_hz: NDArray[np.float64], spectrum: NDArray[np.float64]) -> float:
+    """Power-weighted mean frequency between 20 and 500 Hz."""
+    inside = (frequency_hz >= _LEVEL_BAND_HZ[0]) & (frequency_hz <= _LEVEL_BAND_HZ[1])
+    return float(np.sum(frequency_hz[inside] * spectrum[inside]) / np.sum(spectrum[inside]))
+
+
+def slope_db_per_octave(frequency_hz: NDArray[np.float64], spectrum: NDArray[np.float64]) -> float:
+    """Straight line through third-octave means of the density in dB, 60-450 Hz.
+
+    Third octaves weigh every octave alike and give a ruled surface's comb the slope of its envelope.
+    """
+    edges = _SLOPE_BAND_HZ[0] * (_SLOPE_BAND_HZ[1] / _SLOPE_BAND_HZ[0]) ** np.linspace(0.0, 1.0, 10)
+    means = [
+        np.mean(spectrum[(frequency_hz >= low) & (frequency_hz < high)])
+        for low, high in zip(edges[:-1], edges[1:])
+    ]
+    octaves = 0.5 * (np.log2(edges[:-1]) + np.log2(edges[1:]))
+    return float(np.polyfit(octaves, 10.0 * np.log10(means), 1)[0])
+
+
+def _waveforms(
+    material: Material, speed_mmps: float, force_newtons: float, seed: int, design: Design, repeats: int
+) -> list[NDArray[np.float64]]:
+    waveforms = []
+    for repeat in range(repeats):
+        for number, degrees in enumerate(design.directions_degrees):
+            angle = np.radians(degrees)
+            recording = record_condition(
+                material,
+                velocity_mps=(1e-3 * speed_mmps * np.cos(angle), 1e-3 * speed_mmps * np.sin(angle)),
+                force_newtons=force_newtons,
+                duration_seconds=design.duration_seconds,
+                seed=seed + 10 * number + 100 * repeat,
+            )
+            prepared = preprocess_recording(recording, PreprocessingSettings())
+            waveforms.append(prepared.waveform_mps2.astype(np.float64))
+    return waveforms
+
+
+def _spectrum(waveforms: list[NDArray[np.float64]]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    rate = PreprocessingSettings().sample_rate_hz
+    size = int(rate / _RESOLUTION_HZ)
+    spectra = [welch(waveform, rate, nperseg=size)[1] for waveform in waveforms]
+    return np.fft.rfftfreq(size, 1.0 / rate), np.mean(spectra, axis=0)

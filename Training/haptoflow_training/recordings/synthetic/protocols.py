@@ -1,0 +1,139 @@
+"""The two protocols: the published data set's machine design, and free hand strokes.
+
+Every recording is seeded by (seed, its identity): order, subset and parallelism change nothing.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+import numpy as np
+
+from haptoflow_training.recordings.recording import Recording, RecordingIdentity
+from haptoflow_training.recordings.synthetic.carriers import hand_ride, machine_pass
+from haptoflow_training.recordings.synthetic.materials import Material, select_materials
+from haptoflow_training.recordings.synthetic.recorder import record_ride
+
+MACHINE_DIRECTIONS_DEGREES = tuple(range(0, 360, 45))
+MACHINE_SPEEDS_MMPS = (20, 30, 40, 50, 60)
+MACHINE_FORCES_MILLINEWTONS = (500, 1000)
+MACHINE_REPEATS = 2
+SLOWEST_HAND_MMPS, FASTEST_HAND_MMPS = 15.0, 900.0
+LIGHTEST_HAND_NEWTONS, HEAVIEST_HAND_NEWTONS = 0.15, 3.5
+
+
+def machine_conditions(
+    material: Material,
+    *,
+    directions: Sequence[int] = MACHINE_DIRECTIONS_DEGREES,
+    speeds_mmps: Sequence[int] = MACHINE_SPEEDS_MMPS,
+    forces_millinewtons: Sequence[int] = MACHINE_FORCES_MILLINEWTONS,
+    repeats: int = MACHINE_REPEATS,
+) -> list[RecordingIdentity]:
+    """The identities of one material's machine recordings."""
+    return [
+        RecordingIdentity(material.texture_id, direction, speed, force, repeat)
+        for direction in directions
+        for speed in speeds_mmps
+        for force in forces_millinewtons
+        for repeat in range(repeats)
+    ]
+
+
+def hand_conditions(material: Material, *, seed: int, recordings: int) -> list[RecordingIdentity]:
+    """The identities of one material's hand recordings: speeds and forces spread evenly on a log scale.
+
+    The first n of a longer list are not the list of n: speeds are stratified over `recordings`.
+    """
+    rng = np.random.default_rng([seed, material.texture_id, 2])
+    order = rng.permutation(recordings)
+    identities = []
+    for repeat in range(recordings):
+        share = (repeat + rng.random()) / recordings
+        press = (order[repeat] + rng.random()) / recordings
+        speed = SLOWEST_HAND_MMPS * (FASTEST_HAND_MMPS / SLOWEST_HAND_MMPS) ** share
+        force = LIGHTEST_HAND_NEWTONS * (HEAVIEST_HAND_NEWTONS / LIGHTEST_HAND_NEWTONS) ** press
+        identities.append(
+            RecordingIdentity(material.texture_id, None, round(speed), round(1e3 * force), repeat)
+        )
+    return identities
+
+
+def record_machine_condition(material: Material, identity: RecordingIdentity, *, seed: int) -> Recording:
+    """One machine pass."""
+    if identity.direction_degrees is None:
+        raise ValueError(f"{identity.name} is not a machine recording")
+    rng = _generator(seed, identity)
+    ride = machine_pass(
+        rng,
+        direction_degrees=float(identity.direction_degrees),
+        speed_mmps=float(identity.speed_mmps),
+        force_newtons=1e-3 * identity.force_millinewtons,
+    )
+    return record_ride(material, identity, ride, rng)
+
+
+def record_hand_condition(
+    material: Material, identity: RecordingIdentity, *, seed: int, duration_seconds: float = 8.0
+) -> Recording:
+    """One free hand stroke."""
+    rng = _generator(seed, identity)
+    ride = hand_ride(
+        rng,
+        duration_seconds=duration_seconds,
+        median_speed_mmps=float(identity.speed_mmps),
+        median_force_newtons=1e-3 * identity.force_millinewtons,
+    )
+    return record_ride(material, identity, ride, rng)
+
+
+def record_machine(
+    materials: Sequence[Material],
+    *,
+    seed: int,
+    labels: Sequence[str] | None = None,
+    directions: Sequence[int] = MACHINE_DIRECTIONS_DEGREES,
+    speeds_mmps: Sequence[int] = MACHINE_SPEEDS_MMPS,
+    forces_millinewtons: Sequence[int] = MACHINE_FORCES_MILLINEWTONS,
+    repeats: int = MACHINE_REPEATS,
+) -> Iterator[Recording]:
+    """The published design (8 directions x 5 speeds x 2 forces x 2 repeats a material), or a subset of it."""
+    for material in select_materials(materials, labels):
+        for identity in machine_conditions(
+            material,
+            directions=directions,
+            speeds_mmps=speeds_mmps,
+            forces_millinewtons=forces_millinewtons,
+            repeats=repeats,
+        ):
+            yield record_machine_condition(material, identity, seed=seed)
+
+
+def record_hand(
+    materials: Sequence[Material],
+    *,
+    seed: int,
+    labels: Sequence[str] | None = None,
+    recordings_per_label: int = 40,
+    duration_seconds: float = 8.0,
+) -> Iterator[Recording]:
+    """Free hand strokes, 0-1500 mm/s and 0.1-5 N varying within each recording."""
+    if duration_seconds < 2.0:
+        raise ValueError("a hand recording lasts 2 s or more: rests at both ends take 0.7 s")
+    for material in select_materials(materials, labels):
+        for identity in hand_conditions(material, seed=seed, recordings=recordings_per_label):
+            yield record_hand_condition(material, identity, seed=seed, duration_seconds=duration_seconds)
+
+
+def _generator(seed: int, identity: RecordingIdentity) -> np.random.Generator:
+    direction = 360 if identity.direction_degrees is None else identity.direction_degrees
+    return np.random.default_rng(
+        [
+            seed,
+            identity.texture_id,
+            direction,
+            identity.speed_mmps,
+            identity.force_millinewtons,
+            identity.repeat,
+        ]
+    )

@@ -1,0 +1,95 @@
+"""The sensors: what an accelerometer, a load cell and a position read-out make of the simulated truth.
+
+Accelerometer: +-16 g, 75 ug/sqrt(Hz), 1 mg steps, gravity of -1 g on Z, time stamps 130-210 us apart.
+Load cell: 6 kHz clock, a new value 80 times a second, 10 mN steps, within +-0.05 N.
+Position: 100 Hz, 0.01 mm steps.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.ndimage import map_coordinates, spline_filter1d
+from scipy.signal import sosfilt
+
+from haptoflow_training.recordings.recording import STANDARD_GRAVITY_MPS2, Recording, RecordingIdentity
+from haptoflow_training.recordings.synthetic import filters
+
+_FULL_SCALE_G = 16.0
+_STEP_G = 1e-3
+_NOISE_G_PER_ROOT_HZ = 75e-6
+_SHORTEST_STEP_SECONDS, _LONGEST_STEP_SECONDS = 130e-6, 210e-6
+_MOUNT_RESONANCE = (1400.0, 4.0, 2.0)
+_LOAD_CELL_HZ, _LOAD_CELL_UPDATES_HZ, _LOAD_CELL_STEP_NEWTONS = 6000.0, 80.0, 0.01
+_LOAD_CELL_ACCURACY_NEWTONS = 0.05
+_POSITION_HZ, _POSITION_STEP_MM = 100.0, 0.01
+
+
+def sense(
+    identity: RecordingIdentity,
+    label: str,
+    rng: np.random.Generator,
+    *,
+    rate_hz: float,
+    acceleration_mps2: NDArray[np.float64],
+    force_newtons: NDArray[np.float64],
+    position_mm: NDArray[np.float64],
+    noise: bool = True,
+) -> Recording:
+    """A Recording from truth on a uniform clock: acceleration [n, 3], force [n], position [n, 2].
+
+    Without `noise` the clocks and ranges stay, noise, steps and offsets go.
+    """
+    duration = len(force_newtons) / rate_hz
+    stamps = _irregular_stamps(rng, duration - 2.0 / rate_hz)
+    mounted = sosfilt(filters.peak(*_MOUNT_RESONANCE, rate_hz), acceleration_mps2, axis=0)
+    sensed = np.empty((len(stamps), 3))
+    cells = (stamps * rate_hz)[None, :]
+    for axis in range(3):
+        coefficients = spline_filter1d(mounted[:, axis] / STANDARD_GRAVITY_MPS2, mode="nearest")
+        sensed[:, axis] = map_coordinates(coefficients, cells, order=3, mode="nearest", prefilter=False)
+    sensed[:, 2] -= 1.0
+    if noise:
+        bandwidth_hz = 0.5 * len(stamps) / duration
+        sensed += _NOISE_G_PER_ROOT_HZ * math.sqrt(bandwidth_hz) * rng.standard_normal(sensed.shape)
+    sensed = soft_limit(sensed, _FULL_SCALE_G)
+    if noise:
+        sensed = np.round(sensed / _STEP_G) * _STEP_G
+
+    force_time, force = _load_cell(rng, rate_hz, force_newtons, noise)
+    position_time = np.arange(int(duration * _POSITION_HZ)) / _POSITION_HZ
+    position = position_mm[np.minimum(np.round(position_time * rate_hz).astype(int), len(position_mm) - 1)]
+    if noise:
+        position = np.round(position / _POSITION_STEP_MM) * _POSITION_STEP_MM
+    return Recording(identity, label, stamps, sensed, force_time, force, position_time, position)
+
+
+def soft_limit(values: NDArray[np.float64], limit: float) -> NDArray[np.float64]:
+    """Values that approach +-limit smoothly and are within 1 % of themselves up to 0.6 of it."""
+    ratio = (values / limit) ** 2
+    return values / (1.0 + ratio**4) ** 0.125
+
+
+def _irregular_stamps(rng: np.random.Generator, duration_seconds: float) -> NDArray[np.float64]:
+    count = int(duration_seconds / _SHORTEST_STEP_SECONDS) + 1
+    spread = rng.beta(1.2, 2.5, size=count)
+    steps = _SHORTEST_STEP_SECONDS + (_LONGEST_STEP_SECONDS - _SHORTEST_STEP_SECONDS) * spread
+    stamps = np.round(np.concatenate([[0.0], np.cumsum(steps)]), 6)
+    return stamps[: np.searchsorted(stamps, duration_seconds)]
+
+
+def _load_cell(
+    rng: np.random.Generator, rate_hz: float, force_newtons: NDArray[np.float64], noise: bool
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    count = int(len(force_newtons) / rate_hz * _LOAD_CELL_HZ)
+    time = np.arange(count) / _LOAD_CELL_HZ
+    if not noise:
+        return time, np.interp(time, np.arange(len(force_newtons)) / rate_hz, force_newtons)
+    update = np.floor(time * _LOAD_CELL_UPDATES_HZ).astype(int)
+    at = (np.arange(update[-1] + 1) / _LOAD_CELL_UPDATES_HZ * rate_hz).astype(int)
+    at = np.minimum(at, len(force_newtons) - 1)
+    error = rng.uniform(-0.03, 0.03) + np.clip(0.006 * rng.standard_normal(len(at)), -0.02, 0.02)
+    held = force_newtons[at] + np.clip(error, -_LOAD_CELL_ACCURACY_NEWTONS, _LOAD_CELL_ACCURACY_NEWTONS)
+    return time, (np.round(held / _LOAD_CELL_STEP_NEWTONS) * _LOAD_CELL_STEP_NEWTONS)[update]

@@ -1,0 +1,1 @@
+"""Hand-like movement: the sigma-lognormal model and strokes built from it."""

@@ -1,0 +1,208 @@
+"""Strokes as a hand makes them: free planar scribbling for the recorder, scripted way-points for scenes."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.signal import butter, sosfiltfilt
+
+from haptoflow_training.strokes.sigma_lognormal import Submovement, summed_velocity
+
+# Fastest tip that the strokes reach: the 99th percentile of real pen strokes in VR is 1.4 m/s.
+FASTEST_SPEED_MPS = 1.5
+# Root mean square of physiological postural tremor of a supported hand, 8-12 Hz.
+DEFAULT_TREMOR_METRES = 5e-5
+TREMOR_BAND_HZ = (8.0, 12.0)
+
+
+@dataclass(frozen=True)
+class PlanarStroke:
+    """time_seconds [n] uniform from 0; position_metres [n, 2]; velocity_mps [n, 2], the position's
+    derivative.
+    """
+
+    time_seconds: NDArray[np.float64]
+    position_metres: NDArray[np.float64]
+    velocity_mps: NDArray[np.float64]
+
+    @property
+    def speed_mps(self) -> NDArray[np.float64]:
+        return np.hypot(self.velocity_mps[:, 0], self.velocity_mps[:, 1])
+
+
+@dataclass(frozen=True)
+class SpatialStroke:
+    """time_seconds [n] uniform from 0; position_metres [n, 3]; force_newtons [n] or None."""
+
+    time_seconds: NDArray[np.float64]
+    position_metres: NDArray[np.float64]
+    force_newtons: NDArray[np.float64] | None
+
+
+def random_planar_stroke(
+    rng: np.random.Generator,
+    *,
+    duration_seconds: float,
+    rate_hz: float,
+    median_speed_mps: float,
+    extent_metres: float,
+) -> PlanarStroke:
+    """Free scribbling: overlapping submovements with curves, reversals, pauses, slow and fast passages.
+
+    The median speed of the moving samples (above 5 % of the median asked for) is `median_speed_mps`; no
+    sample is faster than FASTEST_SPEED_MPS. The tip starts in the middle of a square of side `extent_metres`
+    and heads back when it nears an edge, so that it leaves the square at most by about one submovement.
+    """
+    time = np.arange(int(round(duration_seconds * rate_hz))) / rate_hz
+    submovements = _random_submovements(rng, duration_seconds, median_speed_mps, extent_metres)
+    velocity = _with_median(summed_velocity(submovements, time), median_speed_mps)
+    ramp = np.clip(np.minimum(time, time[-1] - time) / 0.08, 0.0, 1.0)
+    velocity *= (0.5 - 0.5 * np.cos(math.pi * ramp))[:, None]
+    step = velocity / rate_hz
+    position = np.cumsum(step, axis=0) - step
+    return PlanarStroke(time, position, velocity)
+
+
+def _random_submovements(
+    rng: np.random.Generator, duration_seconds: float, median_speed_mps: float, extent_metres: float
+) -> list[Submovement]:
+    clock, position, heading = 0.0, np.zeros(2), rng.uniform(-math.pi, math.pi)
+    half = extent_metres / 2.0
+    submovements: list[Submovement] = []
+    while clock < duration_seconds:
+        duration = float(np.clip(0.55 * math.exp(0.35 * rng.standard_normal()), 0.2, 1.4))
+        distance = median_speed_mps * duration * 0.62 * math.exp(0.55 * rng.standard_normal())
+        distance = min(distance, extent_metres)
+        if rng.random() < 0.18:
+            heading += math.pi + 0.3 * rng.standard_normal()
+        else:
+            heading += 0.45 * rng.standard_normal()
+        ahead = position + distance * np.array([math.cos(heading), math.sin(heading)])
+        if np.max(np.abs(ahead)) > half:
+            goal = rng.uniform(-0.6, 0.6, size=2) * half
+            heading = math.atan2(*(goal - position)[::-1])
+        curve = 0.9 * rng.standard_normal()
+        submovements.append(
+            Submovement.lasting(
+                clock,
+                duration,
+                distance,
+                sigma=float(rng.uniform(0.22, 0.4)),
+                start_angle=heading - curve / 2,
+                end_angle=heading + curve / 2,
+            )
+        )
+        position = position + distance * np.array([math.cos(heading), math.sin(heading)])
+        heading += curve / 2
+        clock += duration * float(rng.uniform(0.22, 0.5))
+        if rng.random() < 0.03:
+            clock += duration + float(rng.uniform(0.1, 0.5))
+    return submovements
+
+
+def _with_median(velocity: NDArray[np.float64], median_speed_mps: float) -> NDArray[np.float64]:
+    """Scale to the median, rounding off the peaks towards FASTEST_SPEED_MPS."""
+    limited = velocity
+    for _ in range(3):
+        speed = np.hypot(limited[:, 0], limited[:, 1])
+        moving = speed[speed > 0.05 * median_speed_mps]
+        if moving.size:
+            velocity = velocity * (median_speed_mps / float(np.median(moving)))
+        speed = np.hypot(velocity[:, 0], velocity[:, 1])
+        limited = velocity / ((1.0 + (speed / FASTEST_SPEED_MPS) ** 8) ** 0.125)[:, None]
+    return limited
+
+
+def force_profile(
+    rng: np.random.Generator,
+    *,
+    duration_seconds: float,
+    rate_hz: float,
+    median_force_newtons: float,
+    speed_mps: NDArray[np.float64] | None = None,
+    lowest_newtons: float = 0.1,
+    highest_newtons: float = 5.0,
+) -> NDArray[np.float64]:
+    """Normal force [n] in newtons: slow wandering on a log scale, partly coupled to `speed_mps` [n] when
+    given.
+
+    The coupling's sign and strength differ from stroke to stroke (some hands press harder when fast, others
+    lift).
+    """
+    count = int(round(duration_seconds * rate_hz))
+    knots = max(4, int(duration_seconds * 2.5) + 4)
+    wander = np.interp(
+        np.linspace(0.0, knots - 1.0, count), np.arange(knots), rng.standard_normal(knots)
+    ) * float(rng.uniform(0.2, 0.6))
+    if speed_mps is not None:
+        scale = float(np.median(speed_mps)) + 1e-3
+        wander = wander + float(rng.normal(0.05, 0.2)) * np.tanh(np.log((speed_mps + 0.1 * scale) / scale))
+    smooth = _low_pass(wander, 4.0, rate_hz)
+    smooth -= float(np.median(smooth))
+    return np.clip(median_force_newtons * np.exp(smooth), lowest_newtons, highest_newtons)
+
+
+def tremor(
+    rng: np.random.Generator, count: int, rate_hz: float, rms_metres: float, axes: int
+) -> NDArray[np.float64]:
+    """Physiological tremor [count, axes] in metres: noise between 8 and 12 Hz of the root mean square asked
+    for.
+    """
+    margin = int(rate_hz)
+    noise = rng.standard_normal((count + 2 * margin, axes))
+    band = [min(edge, 0.45 * rate_hz) for edge in TREMOR_BAND_HZ]
+    shaped = sosfiltfilt(butter(2, band, "bandpass", fs=rate_hz, output="sos"), noise, axis=0)
+    return rms_metres * (shaped / np.std(shaped, axis=0))[margin : margin + count]
+
+
+def scripted_stroke(
+    waypoints_metres: Sequence[Sequence[float]],
+    *,
+    segment_seconds: float | Sequence[float],
+    rate_hz: float = 120.0,
+    seed: int = 0,
+    tremor_metres: float = DEFAULT_TREMOR_METRES,
+    force_newtons: Sequence[float] | None = None,
+) -> SpatialStroke:
+    """Sigma-lognormal movement through way-points [[x, y, z], ...], one submovement a leg.
+
+    Legs overlap, so the tip rounds a way-point without stopping; a repeated way-point is a pause.
+    `force_newtons` gives one force for each way-point and changes with the same progress. Deterministic by
+    seed. ValueError where the way-points, times or rates cannot make a stroke.
+    """
+    points = np.asarray(waypoints_metres, dtype=np.float64)
+    if points.ndim != 2 or points.shape[1] != 3 or len(points) < 2 or not np.all(np.isfinite(points)):
+        raise ValueError("way-points must be two or more finite [x, y, z] triples in metres")
+    legs = np.broadcast_to(np.asarray(segment_seconds, dtype=np.float64), (len(points) - 1,))
+    if np.any(legs <= 0.0) or not np.all(np.isfinite(legs)) or not 30.0 <= rate_hz <= 10_000.0:
+        raise ValueError("segment_seconds must be above zero and rate_hz between 30 and 10000")
+    forces = None if force_newtons is None else np.asarray(force_newtons, dtype=np.float64)
+    if forces is not None and (forces.shape != (len(points),) or np.any(forces < 0.0)):
+        raise ValueError("force_newtons must give one force of zero or more for each way-point")
+
+    rng = np.random.default_rng(seed)
+    edges = np.concatenate([[0.0], np.cumsum(legs)])
+    time = np.arange(int(math.floor(edges[-1] * rate_hz + 1e-9)) + 1) / rate_hz
+    position = np.tile(points[0], (len(time), 1))
+    force = None if forces is None else np.full(len(time), forces[0])
+    for leg, (begin, end) in enumerate(zip(edges[:-1], edges[1:])):
+        # A lognormal starts slowly: begin early and end late, so that neighbours meet while both still move.
+        start = max(0.0, begin - 0.5 * legs[leg])
+        finish = min(edges[-1], end + 0.5 * legs[leg])
+        movement = Submovement.lasting(start, finish - start, 1.0, sigma=float(rng.uniform(0.26, 0.34)))
+        progress = movement.progress(time)
+        position += progress[:, None] * (points[leg + 1] - points[leg])
+        if force is not None and forces is not None:
+            force += progress * (forces[leg + 1] - forces[leg])
+    if tremor_metres > 0.0:
+        position += tremor(rng, len(time), rate_hz, tremor_metres, 3)
+    return SpatialStroke(time, position, force)
+
+
+def _low_pass(values: NDArray[np.float64], cutoff_hz: float, rate_hz: float) -> NDArray[np.float64]:
+    sections = butter(2, min(cutoff_hz, 0.45 * rate_hz), fs=rate_hz, output="sos")
+    return sosfiltfilt(sections, values, padlen=min(len(values) - 1, int(rate_hz / 2)))

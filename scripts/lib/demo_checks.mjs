@@ -1,0 +1,11 @@
+import { mkdirSync, writeFileSync } from 'node:fs';
+import { inRepository } from './repository.mjs';
+import { closingLine } from './test_counts.mjs';
+import { runNodeTests } from './test_runners.mjs';
+
+// Checks what `npm run demo` left in out/demo; the counts go to out/test/demo-summary.json.
+const counts = await runNodeTests([inRepository('Tests', 'Package', 'demo-outputs.check.mjs')]);
+mkdirSync(inRepository('out', 'test'), { recursive: true });
+writeFileSync(inRepository('out', 'test', 'demo-summary.json'), `${JSON.stringify(counts, null, 2)}\n`);
+console.log(`demo outputs: ${closingLine(counts)}`);
+process.exitCode = counts.failed > 0 ? 1 : 0;

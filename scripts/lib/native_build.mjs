@@ -1,0 +1,36 @@
+import { existsSync, readFileSync } from 'node:fs';
+import os from 'node:os';
+import { CommandError, runOrFail } from './process.mjs';
+import { inRepository } from './repository.mjs';
+
+/** The value of a variable in a CMakeCache.txt, null where it is not set. */
+export function cachedVariable(cacheText, name) {
+  return cacheText.match(new RegExp(`^${name}:[A-Z]+=(.*)$`, 'm'))?.[1] ?? null;
+}
+
+/**
+ * Configures a preset where it is not configured yet (or lacks the tests that are asked for) and builds it.
+ * @param {{preset?: string, tests?: boolean, targets?: string[]}} options targets: empty builds all
+ */
+export async function buildNative({ preset = 'release', tests = false, targets = [] } = {}) {
+  const folder = presetFolder(preset);
+  const cache = inRepository(folder, 'CMakeCache.txt');
+  const cached = existsSync(cache) ? readFileSync(cache, 'utf8') : '';
+  const configured = existsSync(inRepository(folder, 'build.ninja'));
+  const hasTests = cachedVariable(cached, 'HAPTOFLOW_BUILD_TESTS') === 'ON';
+  if (!configured || (tests && !hasTests)) {
+    console.log(`build: configuring ${folder}`);
+    await runOrFail('cmake', ['--preset', preset, `-DHAPTOFLOW_BUILD_TESTS=${tests ? 'ON' : 'OFF'}`], { quiet: true });
+  }
+  console.log(`build: ${targets.length > 0 ? targets.join(', ') : 'everything'} in ${folder}`);
+  const targetArgs = targets.length > 0 ? ['--target', ...targets] : [];
+  await runOrFail('cmake', ['--build', '--preset', preset, '-j', String(os.cpus().length), ...targetArgs], { quiet: !process.stdout.isTTY });
+}
+
+/** The build folder of a configure preset, relative to the repository. */
+export function presetFolder(preset) {
+  const presets = JSON.parse(readFileSync(inRepository('CMakePresets.json'), 'utf8')).configurePresets;
+  const found = presets.find((candidate) => candidate.name === preset && candidate.binaryDir);
+  if (!found) throw new CommandError(`CMakePresets.json has no configure preset "${preset}" with a binaryDir`, 2);
+  return found.binaryDir.replace('${sourceDir}/', '');
+}

@@ -1,0 +1,65 @@
+import { spawn, spawnSync } from 'node:child_process';
+import { repositoryRoot } from './repository.mjs';
+
+/** A failure whose message is all that a person needs: main prints it without a stack. */
+export class CommandError extends Error {
+  /** @param {string} message what went wrong and what to do  @param {number} exitCode 1 failed, 2 cannot start */
+  constructor(message, exitCode = 1) {
+    super(message);
+    this.exitCode = exitCode;
+  }
+}
+
+/**
+ * Runs a child to its end with this process's output and no input.
+ * @param {string} command @param {string[]} args
+ * @param {{env?: Record<string, string>, quiet?: boolean, shell?: boolean}} options quiet: collect output instead of showing it
+ * @returns {Promise<{exitCode: number, output: string}>} output is empty unless quiet
+ */
+export function run(command, args, options = {}) {
+  return new Promise((resolve, reject) => {
+    const child = spawn(command, args, {
+      cwd: repositoryRoot,
+      env: { ...process.env, ...options.env },
+      stdio: ['ignore', options.quiet ? 'pipe' : 'inherit', options.quiet ? 'pipe' : 'inherit'],
+      shell: options.shell ?? false,
+    });
+    const chunks = [];
+    child.stdout?.on('data', (chunk) => chunks.push(chunk));
+    child.stderr?.on('data', (chunk) => chunks.push(chunk));
+    child.on('error', (error) =>
+      reject(new CommandError(`cannot start \`${command}\`: ${error.code === 'ENOENT' ? 'it is not installed' : error.message}`, 2)),
+    );
+    child.on('close', (code, signal) => {
+      const output = Buffer.concat(chunks).toString('utf8');
+      resolve({ exitCode: code ?? 1, output: signal ? `${output}\nended by ${signal}` : output });
+    });
+  });
+}
+
+/** Like `run`, but a non-zero exit is a CommandError that shows the command and, when quiet, its output. */
+export async function runOrFail(command, args, options = {}) {
+  const { exitCode, output } = await run(command, args, options);
+  if (exitCode !== 0) {
+    const shown = [command, ...args].map((word) => (/^[\w./=:@%+~,-]+$/.test(word) ? word : `'${word}'`)).join(' ');
+    throw new CommandError(`${output.trimEnd()}${output ? '\n' : ''}\`${shown}\` ended with ${exitCode}`);
+  }
+  return output;
+}
+
+/** True when `command args` starts and ends with 0. */
+export function succeeds(command, args) {
+  const result = spawnSync(command, args, { stdio: 'ignore' });
+  return result.error === undefined && result.status === 0;
+}
+
+/** Runs a script's main function; a CommandError ends the process with its message alone. */
+export async function runMain(name, main) {
+  try {
+    process.exitCode = (await main(process.argv.slice(2))) ?? 0;
+  } catch (error) {
+    if (!(error instanceof CommandError)) throw error;
+    console.error(`${name}: ${error.message}`);
+    process.exitCode = error.exitCode;
+  }
+}

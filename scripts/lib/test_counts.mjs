@@ -1,0 +1,36 @@
+/** What test runners say about themselves, read into one form: {passed, failed, skipped}. */
+
+const attribute = (tag, name) => Number(tag.match(new RegExp(`\\b${name}="(\\d+)"`))?.[1] ?? 0);
+
+/** Of a JUnit file: ctest's (one <testsuite>) or pytest's (<testsuites> around one). Errors count as failed. */
+export function countsOfJunit(xml) {
+  const suites = xml.match(/<testsuite\s[^>]*>/g) ?? [];
+  const sum = (name) => suites.reduce((total, tag) => total + attribute(tag, name), 0);
+  const failed = sum('failures') + sum('errors');
+  const skipped = sum('skipped') + sum('disabled');
+  return { passed: sum('tests') - failed - skipped, failed, skipped };
+}
+
+/** Of the closing lines that `node --test --test-reporter=tap` prints. Cancelled tests count as failed. */
+export function countsOfTap(output) {
+  const line = (name) => Number(output.match(new RegExp(`^# ${name} (\\d+)$`, 'm'))?.[1] ?? 0);
+  return { passed: line('pass'), failed: line('fail') + line('cancelled'), skipped: line('skipped') + line('todo') };
+}
+
+export const addCounts = (a, b) => ({ passed: a.passed + b.passed, failed: a.failed + b.failed, skipped: a.skipped + b.skipped });
+
+export const noCounts = { passed: 0, failed: 0, skipped: 0 };
+
+/**
+ * A runner's verdict. One that ended badly without naming a failed test, or that ran no test at all, has failed once
+ * more: nothing that did not run may pass.
+ */
+export function judged(counts, exitCode) {
+  const ranNothing = counts.passed + counts.failed === 0;
+  return (exitCode !== 0 && counts.failed === 0) || ranNothing ? { ...counts, failed: counts.failed + 1 } : counts;
+}
+
+/** The last line of a test run. */
+export function closingLine({ passed, failed, skipped }) {
+  return `${passed} passed, ${failed} failed${skipped > 0 ? `, ${skipped} skipped` : ''}`;
+}

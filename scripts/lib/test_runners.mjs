@@ -1,0 +1,70 @@
+import { existsSync, mkdirSync, readdirSync, readFileSync, rmSync } from 'node:fs';
+import os from 'node:os';
+import { buildNative, presetFolder } from './native_build.mjs';
+import { run } from './process.mjs';
+import { inRepository } from './repository.mjs';
+import { pythonOrFail } from './setup.mjs';
+import { addCounts, countsOfJunit, countsOfTap, judged, noCounts } from './test_counts.mjs';
+
+const results = (name) => inRepository('out', 'test', name);
+
+/** Folders of Tests/Native whose programs read untrusted input or hand memory across the C ABI. */
+const sanitizedFolders = ['model', 'contact', 'capi'];
+
+/** Runs a command that writes a JUnit file and judges what it wrote; a stale file cannot stand in for a new one. */
+async function judgeJunit(file, command, args, env) {
+  mkdirSync(results('.'), { recursive: true });
+  rmSync(results(file), { force: true });
+  const { exitCode } = await run(command, args, { env });
+  const counts = existsSync(results(file)) ? countsOfJunit(readFileSync(results(file), 'utf8')) : noCounts;
+  return judged(counts, exitCode);
+}
+
+async function native() {
+  await buildNative({ tests: true });
+  return judgeJunit('native.xml', 'ctest', ['--preset', 'release', '-j', String(os.cpus().length), '--progress', '--output-junit', results('native.xml')]);
+}
+
+async function sanitizers() {
+  const preset = 'asan-ubsan';
+  await buildNative({ preset, tests: true, targets: sanitizedFolders.map((folder) => `${folder}_tests`) });
+  const env = {
+    LSAN_OPTIONS: `suppressions=${inRepository('Tests', 'Native', 'lsan.supp')}:print_suppressions=0`,
+    UBSAN_OPTIONS: 'print_stacktrace=1',
+  };
+  let counts = noCounts;
+  for (const folder of sanitizedFolders) {
+    const file = `sanitizers-${folder}.xml`;
+    const tests = inRepository(presetFolder(preset), 'Tests', 'Native', folder);
+    const args = ['--test-dir', tests, '-j', String(os.cpus().length), '--output-on-failure', '--progress', '--output-junit', results(file)];
+    counts = addCounts(counts, await judgeJunit(file, 'ctest', args, env));
+  }
+  return counts;
+}
+
+async function training() {
+  const args = ['-m', 'pytest', inRepository('Tests', 'Training'), '-q', '--junitxml', results('training.xml')];
+  const env = { OPENBLAS_NUM_THREADS: '1', PYTHONPATH: inRepository('Training'), PYTHONDONTWRITEBYTECODE: '1' };
+  return judgeJunit('training.xml', pythonOrFail(), args, env);
+}
+
+async function packageTests() {
+  const folder = inRepository('Tests', 'Package');
+  const files = readdirSync(folder).filter((name) => name.endsWith('.test.mjs')).map((name) => inRepository('Tests', 'Package', name));
+  return runNodeTests(files);
+}
+
+/** Runs files of node:test, shows what failed, and counts. */
+export async function runNodeTests(files) {
+  const { exitCode, output } = await run(process.execPath, ['--test', '--test-reporter=tap', ...files], { quiet: true });
+  if (exitCode !== 0) console.log(output);
+  return judged(countsOfTap(output), exitCode);
+}
+
+/** The runners of `npm test`: what each needs installed, and how it runs. Names are what --only takes. */
+export const runners = {
+  native: { purposes: ['build', 'test'], execute: native },
+  sanitizers: { purposes: ['build', 'test'], execute: sanitizers },
+  training: { purposes: ['python'], execute: training },
+  package: { purposes: [], execute: packageTests },
+};

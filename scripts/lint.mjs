@@ -1,0 +1,40 @@
+// lint: checks format, C++ rules, syntax and the house's own rules (--all: clang-tidy on every file)
+import { parseArgs } from 'node:util';
+import { buildNative } from './lib/native_build.mjs';
+import { CommandError, runMain } from './lib/process.mjs';
+import { setUp } from './lib/setup.mjs';
+import { checkFormat, checkTidy } from './lint/cpp_checks.mjs';
+import { checkContent, checkJson, checkThreadTags } from './lint/house_checks.mjs';
+import { checkPythonSyntax, checkScriptSyntax } from './lint/syntax_checks.mjs';
+import { changedFiles, repositoryFiles } from './lint/files.mjs';
+
+await runMain('lint', async (words) => {
+  let all;
+  try {
+    ({ values: { all } } = parseArgs({ args: words, options: { all: { type: 'boolean', default: false } } }));
+  } catch (error) {
+    throw new CommandError(error.message, 2);
+  }
+  await setUp(['build', 'test', 'lint']);
+  await buildNative({ tests: true, targets: ['help'] });
+
+  const files = await repositoryFiles();
+  const tidied = all ? files : await changedFiles(files);
+  const checks = [
+    ['format of C++', () => checkFormat(files)],
+    ['clang-tidy', () => checkTidy(tidied)],
+    ['syntax of Python', () => checkPythonSyntax(files)],
+    ['syntax of scripts', () => checkScriptSyntax(files)],
+    ['JSON', () => checkJson(files)],
+    ['thread tags of the C ABI', () => checkThreadTags(files)],
+    ['content', () => checkContent(files)],
+  ];
+  let found = 0;
+  for (const [name, check] of checks) {
+    const { checked, complaints } = await check();
+    complaints.forEach((complaint) => console.log(complaint));
+    console.log(`lint: ${name}: ${checked} files, ${complaints.length === 0 ? 'good' : `${complaints.length} complaints`}`);
+    found += complaints.length;
+  }
+  return found > 0 ? 1 : 0;
+});

@@ -1,0 +1,37 @@
+import { readFileSync } from 'node:fs';
+import os from 'node:os';
+import path from 'node:path';
+import { run } from '../lib/process.mjs';
+import { presetFolder } from '../lib/native_build.mjs';
+import { inRepository, repositoryRoot } from '../lib/repository.mjs';
+import { endingIn } from './files.mjs';
+
+const lines = (output) => output.split('\n').filter((line) => line.trim() !== '');
+
+/** clang-format would change nothing. */
+export async function checkFormat(files) {
+  const sources = endingIn(files, '.cpp', '.hpp', '.h');
+  const { exitCode, output } = await run('clang-format', ['--dry-run', '-Werror', ...sources], { quiet: true });
+  const complaints = lines(output).filter((line) => line.includes(': error: '));
+  return { checked: sources.length, complaints: exitCode !== 0 && complaints.length === 0 ? lines(output) : complaints };
+}
+
+/** clang-tidy finds nothing in the files that the release build compiles. */
+export async function checkTidy(files) {
+  const folder = presetFolder('release');
+  const commands = JSON.parse(readFileSync(inRepository(folder, 'compile_commands.json'), 'utf8'));
+  const compiled = new Set(commands.map(({ file }) => path.relative(repositoryRoot, file)));
+  const queue = endingIn(files, '.cpp').filter((name) => compiled.has(name));
+  const checked = queue.length;
+  const complaints = [];
+  const worker = async () => {
+    for (let name = queue.shift(); name !== undefined; name = queue.shift()) {
+      const { exitCode, output } = await run('clang-tidy', ['-p', folder, '--quiet', name], { quiet: true });
+      if (exitCode === 0) continue;
+      const errors = lines(output).filter((line) => /: (error|warning): /.test(line));
+      complaints.push(...(errors.length > 0 ? errors : [`${name}: clang-tidy ended with ${exitCode}`]));
+    }
+  };
+  await Promise.all(os.cpus().map(worker));
+  return { checked, complaints };
+}

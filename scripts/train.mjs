@@ -1,0 +1,18 @@
+// train: trains the default model and writes its .haptoflow file (arguments: those of haptoflow-training train)
+import { run, runMain } from './lib/process.mjs';
+import { inRepository } from './lib/repository.mjs';
+import { pythonOrFail, setUp } from './lib/setup.mjs';
+
+// The default model and what the tests compare it with belong together: one run writes both.
+const defaults = [
+  '--out', inRepository('out', 'train', 'default'),
+  '--export', inRepository('Packages', 'com.haptoflow.runtime', 'Runtime', 'Models', 'default.haptoflow'),
+  '--parity', inRepository('Tests', 'Golden', 'model', 'default.parity.json'),
+];
+
+await runMain('train', async (words) => {
+  await setUp(['python']);
+  const args = ['-m', 'haptoflow_training', 'train', ...(words.length > 0 ? words : defaults)];
+  const { exitCode } = await run(pythonOrFail(), args, { env: { PYTHONPATH: inRepository('Training'), OPENBLAS_NUM_THREADS: '1' } });
+  return exitCode;
+});
