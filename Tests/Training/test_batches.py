@@ -64,7 +64,8 @@ def test_the_machine_share_holds_where_both_protocols_exist() -> None:
     store = make_store()
     batches = SegmentBatches(store, "train", BatchConfig(machine_share=0.8), 5)
     chosen = batches._draw_recordings(2000)
-    machine = [index for index, r in enumerate(r for r in store.recordings if r.split == "train") if r.protocol == "machine"]
+    trained = [recording for recording in store.recordings if recording.split == "train"]
+    machine = [index for index, recording in enumerate(trained) if recording.protocol == "machine"]
     assert np.isin(chosen, machine).mean() == pytest.approx(0.8, abs=0.05)
 
 

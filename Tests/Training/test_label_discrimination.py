@@ -79,7 +79,8 @@ def test_the_report_counts_names_levels_and_order(tmp_path: Path) -> None:
         return StrokeOutcome(label, "0_hand_1_1_0", named, label, rms * 1.122, rms, 1.0, 0.0)
 
     report = DiscriminationReport(
-        ["a", "b", "c"], [outcome("a", "a", 1.0), outcome("b", "a", 2.0), outcome("c", "c", 3.0), outcome("c", "c", 4.0)]
+        ["a", "b", "c"],
+        [outcome("a", "a", 1.0), outcome("b", "a", 2.0), outcome("c", "c", 3.0), outcome("c", "c", 4.0)],
     )
     assert report.render_accuracy == 0.75
     assert report.recording_accuracy == 1.0

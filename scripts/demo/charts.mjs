@@ -3,11 +3,11 @@ import { colourOfLabel, escapeMarkup } from './labels.mjs';
 const pictureWidth = 1000;
 const pictureHeight = 100;
 
-/** The smallest of 1, 2, 5 times a power of ten that is not below `value`; 1 for zero. */
+/** The smallest of 1, 1.5, 2, 3, 4, 5, 6, 8 times a power of ten that is not below `value`; 1 for zero. */
 export function niceCeiling(value) {
   if (!(value > 0)) return 1;
   const power = 10 ** Math.floor(Math.log10(value));
-  return [1, 2, 5, 10].map((factor) => factor * power).find((candidate) => candidate >= value * (1 - 1e-9));
+  return [1, 1.5, 2, 3, 4, 5, 6, 8, 10].map((factor) => factor * power).find((candidate) => candidate >= value * (1 - 1e-9));
 }
 
 const shown = (value) => Number(value.toPrecision(3)).toString();

@@ -276,8 +276,8 @@ HAPTOFLOW_API haptoflow_status haptoflow_generator_generate(haptoflow_generator*
  * embeddings and motions only. When it fails, what levels_mps2 holds is unspecified.
  * Errors: INVALID_ARGUMENT, INFERENCE_FAILED, OUT_OF_MEMORY.
  * [worker-thread] Blocks while another thread uses this generator and for the runs themselves. */
-HAPTOFLOW_API haptoflow_status haptoflow_generator_levels(haptoflow_generator* generator,
-                                                          const haptoflow_batch* batch, float* levels_mps2);
+HAPTOFLOW_API haptoflow_status haptoflow_generator_levels(haptoflow_generator* generator, const haptoflow_batch* batch,
+                                                          float* levels_mps2);
 
 /* -------------------------------------------------------------------------------------------------------- noise */
 

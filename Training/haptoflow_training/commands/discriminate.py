@@ -27,7 +27,8 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser], su
             "counts how often the classifier names the label. Recordings of the same strokes are judged beside them: "
             "no render can be told apart better than those."
         ),
-        epilog="example:\n  haptoflow-training discriminate --engine build/native/haptoflow --out Training/results/labels",
+        epilog="example:\n  haptoflow-training discriminate --engine build/native/haptoflow"
+        " --out Training/results/default",
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
     parser.add_argument("--engine", type=Path, required=True, help="the built command line, build/native/haptoflow")

@@ -35,7 +35,10 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser], su
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
     parser.add_argument(
-        "--config", type=Path, default=CONFIGURATIONS / "default.toml", help="the run's TOML file (default: %(default)s)"
+        "--config",
+        type=Path,
+        default=CONFIGURATIONS / "default.toml",
+        help="the run's TOML file (default: %(default)s)",
     )
     parser.add_argument("--out", type=Path, required=True, help="folder of the run; made, or gone on with")
     parser.add_argument(

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import subprocess
+import warnings
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -86,6 +87,9 @@ def render_motion(
         raise InputError(f"{engine}: cannot be run ({error.strerror}); build it with `npm run build`") from error
     if done.returncode != 0:
         raise InputError(f"{engine} render failed: {done.stderr.strip()}")
-    _, samples = wavfile.read(wav)
+    with warnings.catch_warnings():
+        # The writer's padding chunk is legal; SciPy warns of every chunk it does not know.
+        warnings.simplefilter("ignore", wavfile.WavFileWarning)
+        _, samples = wavfile.read(wav)
     waveform = resample_poly(samples.astype(np.float64), 1, _RENDER_RATE_HZ // 2000) * FULL_SCALE_MPS2
     return EngineRender(waveform[: len(motion)], json.loads(report.read_text(encoding="utf-8")))

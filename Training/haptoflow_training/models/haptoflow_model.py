@@ -21,7 +21,9 @@ def unit_scale(wave_mps2: Tensor, log_level: Tensor) -> Tensor:
 class HaptoFlowModel(nn.Module):
     """The trainable model behind a `.haptoflow` file, one tier."""
 
-    def __init__(self, *, label_count: int, representation: Representation, width: int, previous_width: int, patch: int):
+    def __init__(
+        self, *, label_count: int, representation: Representation, width: int, previous_width: int, patch: int
+    ) -> None:
         super().__init__()
         channels, positions = representation.shape
         self.representation = representation

@@ -122,7 +122,8 @@ def _convert(value: Any, default: Any, key: str, path: Path) -> Any:
 
 def _read_section(section: type[_Section], table: dict[str, Any], prefix: str, path: Path) -> _Section:
     defaults = section()
-    known = {entry.name: getattr(defaults, entry.name) for entry in dataclasses.fields(section)}  # type: ignore[arg-type]
+    fields = dataclasses.fields(section)  # type: ignore[arg-type]
+    known = {entry.name: getattr(defaults, entry.name) for entry in fields}
     values: dict[str, Any] = {}
     for key, value in table.items():
         name = f"{prefix}{key}"
@@ -167,7 +168,8 @@ def _check(config: TrainingConfig, path: Path) -> None:
         (optimiser.steps >= 1, "optimiser.steps", "at least 1"),
         (0.0 <= optimiser.average_decay < 1.0, "optimiser.average_decay", "0 to below 1"),
         (
-            len(config.batch.hop_samples) == 2 and 1 <= config.batch.hop_samples[0] <= config.batch.hop_samples[1] <= 200,
+            len(config.batch.hop_samples) == 2
+            and 1 <= config.batch.hop_samples[0] <= config.batch.hop_samples[1] <= 200,
             "batch.hop_samples",
             "two numbers, 1 <= min <= max <= 200",
         ),

@@ -159,7 +159,8 @@ def _open_folders(data: DataConfig, store_folder: Path, workers: int) -> Source:
     entries = [entry for root in roots for entry in root if not data.labels or entry.label in data.labels]
     if not entries:
         raise InputError(
-            f"{', '.join(data.folders)}: no recording whose texture a label names; look with `haptoflow-training inspect`"
+            f"{', '.join(data.folders)}: no recording whose texture a label names; "
+            "look with `haptoflow-training inspect`"
         )
     found = {entry.label for entry in entries}
     infos = [info for name, info in known.items() if name in found]

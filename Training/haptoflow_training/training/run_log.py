@@ -77,6 +77,9 @@ def plot_metrics(log: MetricsLog, path: Path) -> None:
         points = [(int(row["step"]), float(row[name])) for row in rows if row[name] not in ("", "nan")]
         if points:
             axis.plot(*zip(*points, strict=True), linewidth=1.0)
+            values = [value for _, value in points]
+            if 0.0 < min(values) and max(values) > 50.0 * min(values):
+                axis.set_yscale("log")
         axis.set_title(name.replace("_", " "))
         axis.set_xlabel("step")
         axis.grid(alpha=0.3)
