@@ -6,6 +6,7 @@ import csv
 import json
 import os
 import subprocess
+import warnings
 from collections import defaultdict
 from pathlib import Path
 
@@ -81,6 +82,8 @@ def renders(tmp_path_factory: pytest.TempPathFactory) -> dict[str, tuple[dict[st
     scene = folder / "scene.json"
     _scene(scene)
     results = {}
+    # The writer's padding chunk is legal; SciPy warns of every chunk it does not know.
+    warnings.simplefilter("ignore", wavfile.WavFileWarning)
     for number, (name, stroke) in enumerate(strokes.items()):
         path, wav, report = (folder / f"{number}{ending}" for ending in (".csv", ".wav", ".json"))
         np.savetxt(path, _onto_table(stroke), fmt="%.7f", delimiter=",", header="t,x,y,z", comments="")
