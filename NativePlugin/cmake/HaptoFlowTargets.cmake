@@ -23,6 +23,11 @@ endif()
 if(HAPTOFLOW_SANITIZERS)
   add_compile_options(-fsanitize=${HAPTOFLOW_SANITIZERS} -fno-omit-frame-pointer -fno-sanitize-recover=all)
   add_link_options(-fsanitize=${HAPTOFLOW_SANITIZERS})
+  if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+    # Instrumented code of the standard library's own headers (std::regex) trips this warning of GCC 12 wrongly; the
+    # release build keeps it.
+    target_compile_options(haptoflow_options INTERFACE -Wno-maybe-uninitialized)
+  endif()
 endif()
 
 # ONNX Runtime: headers only. The library is opened at run time, never linked (its SONAME differs from its

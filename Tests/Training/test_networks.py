@@ -78,8 +78,9 @@ def test_the_default_field_has_about_half_a_million_parameters() -> None:
 
 def test_motion_features_are_finite_from_rest_to_twenty_metres_a_second() -> None:
     motion = torch.tensor([[0.0, 0.0, 0.0], [20.0, 0.0, 1000.0], [-1e-9, 1e-9, -3.0]])
-    features = MotionFeatures()(motion)
-    assert features.shape == (3, MotionFeatures.size)
+    module = MotionFeatures()
+    features = module(motion)
+    assert features.shape == (3, module.size)
     assert torch.isfinite(features).all()
 
 

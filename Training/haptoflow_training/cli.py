@@ -18,6 +18,7 @@ _COMMANDS: dict[str, str] = {
     "inspect": "count and validate the recordings of a data set folder",
     "prepare": "turn recordings into memory-mapped 2 kHz training arrays",
     "train": "train the level model and the network from one TOML file, resumable",
+    "train-tiers": "train a model file with several tiers over one embedding and level",
     "export": "write a trained run into a .haptoflow model file",
     "stroke": "write a hand-like stroke as CSV for `haptoflow render`",
     "discriminate": "check that a classifier trained on recordings names what the engine renders",

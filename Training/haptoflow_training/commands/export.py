@@ -22,6 +22,10 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser], su
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
     parser.add_argument("--run", dest="folder", type=Path, required=True, help="folder of the run (checkpoint.pt)")
+    parser.add_argument(
+        "--tier", dest="tiers", type=Path, nargs="+", default=[], metavar="FOLDER",
+        help="runs trained with `--base` of this run: further tiers of the file",
+    )  # fmt: skip
     parser.add_argument("--store", type=Path, help="prepared recordings (default: `store` beside the run's folder)")
     parser.add_argument("--out", type=Path, required=True, metavar="FILE", help="the model file")
     parser.add_argument("--parity", type=Path, metavar="FILE", help="also write golden vectors for the engine's tests")
@@ -33,7 +37,13 @@ def run(options: argparse.Namespace) -> int:
     config, _, _ = load_trained(options.folder)
     source = open_source(config.data, options.store or options.folder.parent / "store", options.workers)
     checksum = export_run(
-        options.folder, source.store, source.labels, source.provenance, options.out, options.parity
+        options.folder,
+        source.store,
+        source.labels,
+        source.provenance,
+        options.out,
+        options.parity,
+        options.tiers,
     )
     print(f"{options.out}: {options.out.stat().st_size / 2**20:.2f} MiB, CRC-32 {checksum:08x}")
     return 0

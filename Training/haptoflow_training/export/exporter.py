@@ -14,18 +14,17 @@ from haptoflow_training.errors import InputError
 from haptoflow_training.export.exponents import fit_exponents
 from haptoflow_training.export.label_info import LabelInfo
 from haptoflow_training.export.model_file import ModelFile, write_model_file
-from haptoflow_training.export.onnx_graphs import export_level_model, export_velocity_field
+from haptoflow_training.export.onnx_graphs import export_field, export_level_model
 from haptoflow_training.export.parity import write_parity
 from haptoflow_training.export.seed_bank import SEED_SAMPLES, build_seed_bank
+from haptoflow_training.export.trained_tier import TrainedTier, load_tiers
 from haptoflow_training.models.conditioning import EMBEDDING_SIZE
-from haptoflow_training.models.haptoflow_model import HaptoFlowModel
 from haptoflow_training.models.velocity_field import parameter_count
 from haptoflow_training.training.batches import SEGMENT_SAMPLES, SegmentBatches, Store
 from haptoflow_training.training.config import TrainingConfig
 from haptoflow_training.training.run_log import source_commit
 from haptoflow_training.training.trainer import load_trained
 
-_TIER = "standard"
 _PERCENTILES = (5, 25, 50, 75, 95)
 
 
@@ -72,9 +71,24 @@ def _label_entry(store: Store, row: int, info: LabelInfo, seed: int) -> dict[str
     }
 
 
+def _tier_entry(tier: TrainedTier) -> dict[str, Any]:
+    return {
+        "name": tier.name,
+        "kind": tier.kind,
+        "field": f"{tier.name}.field",
+        "level": "level",
+        "solver": tier.solver,
+        "steps": tier.steps,
+        "parameters": parameter_count(tier.model.field),
+        "representation": "raw",
+        "accuracy": {},
+        "cost": {},
+    }
+
+
 def _header(
     config: TrainingConfig,
-    model: HaptoFlowModel,
+    tiers: Sequence[TrainedTier],
     store: Store,
     infos: Sequence[LabelInfo],
     provenance: Provenance,
@@ -100,21 +114,8 @@ def _header(
         "range": _range(store),
         "embedding_size": EMBEDDING_SIZE,
         "labels": [_label_entry(store, row, info, config.seed) for row, info in enumerate(infos)],
-        "tiers": [
-            {
-                "name": _TIER,
-                "kind": "flow",
-                "field": "standard.field",
-                "level": "level",
-                "solver": config.solver.kind,
-                "steps": config.solver.steps,
-                "parameters": parameter_count(model.field),
-                "representation": "raw",
-                "accuracy": {},
-                "cost": {},
-            }
-        ],
-        "default_tier": _TIER,
+        "tiers": [_tier_entry(tier) for tier in tiers],
+        "default_tier": config.tier,
         "seed_bank": {"samples": SEED_SAMPLES, "tensor": "seeds", "entries": seed_entries},
         "measurements": measurements,
     }
@@ -127,31 +128,29 @@ def export_run(
     provenance: Provenance,
     out: Path,
     parity: Path | None = None,
+    further_tiers: Sequence[Path] = (),
 ) -> int:
-    """Write the finished run in `folder` to `out`, and golden vectors to `parity`; returns the file's CRC-32."""
+    """Write the finished run in `folder` to `out`, and golden vectors to `parity`; returns the file's CRC-32.
+
+    further_tiers: folders of runs trained with `--base folder`, each one more tier of the same file.
+    """
+    tiers = load_tiers([folder, *further_tiers])
     config, labels, model = load_trained(folder)
     if [info.name for info in infos] != labels:
         raise InputError(f"{folder}: trained on labels {labels}, described are {[info.name for info in infos]}")
-    if config.model.representation.get("kind", "raw") != "raw":
-        raise InputError(
-            f"{folder}: representation '{config.model.representation['kind']}' cannot be exported yet: the engine "
-            "runs raw segments; train with representation kind 'raw'"
-        )
     bank = build_seed_bank(store, seed=config.seed)
     run_file = folder / "run.json"
     measurements = json.loads(run_file.read_text(encoding="utf-8")) if run_file.exists() else {}
     measurements.pop("configuration", None)
-    header = _header(config, model, store, infos, provenance, bank.entries, measurements)
+    header = _header(config, tiers, store, infos, provenance, bank.entries, measurements)
+    graphs = {f"{tier.name}.field": export_field(tier.model.field, tier.kind) for tier in tiers}
     file = ModelFile(
         header=header,
         tensors={"embedding": model.embedding.weight.detach().numpy().copy(), "seeds": bank.waves},
-        graphs={
-            "standard.field": export_velocity_field(model.field),
-            "level": export_level_model(model.level),
-        },
+        graphs={**graphs, "level": export_level_model(model.level)},
     )
     checksum = write_model_file(out, file)
     if parity is not None:
         batch = SegmentBatches(store, "validation", config.batch, config.seed).draw(10)
-        write_parity(parity, model, batch, tier=_TIER, model_crc32=checksum, seed=config.seed)
+        write_parity(parity, tiers, batch, model_crc32=checksum, seed=config.seed)
     return checksum

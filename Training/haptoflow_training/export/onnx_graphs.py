@@ -1,4 +1,4 @@
-"""ONNX graphs of the velocity field and the level model, opset 16, dynamic batch."""
+"""ONNX graphs of a tier's network and of the level model, opset 16, dynamic batch."""
 
 from __future__ import annotations
 
@@ -40,21 +40,54 @@ def _export(module: nn.Module, inputs: dict[str, Tensor], output: str) -> bytes:
     return graph.SerializeToString()
 
 
-def export_velocity_field(field: VelocityField) -> bytes:
-    """Inputs noisy, time, previous, embedding, motion; output velocity (model-format.md, Graphs)."""
+class _OneStep(nn.Module):
+    """A network taught to be whole in one step, as a graph: noise in, segment out, flow time folded to a constant."""
+
+    def __init__(self, field: nn.Module) -> None:
+        super().__init__()
+        self.field = field
+
+    def forward(self, noisy: Tensor, previous: Tensor, embedding: Tensor, motion: Tensor) -> Tensor:
+        return noisy + self.field(noisy, torch.zeros(1, 1).expand(noisy.shape[0], 1), previous, embedding, motion)
+
+
+class _AverageVelocity(nn.Module):
+    """The average field with its inputs in the order of the format."""
+
+    def __init__(self, field: nn.Module) -> None:
+        super().__init__()
+        self.field = field
+
+    def forward(
+        self, noisy: Tensor, time: Tensor, interval: Tensor, previous: Tensor, embedding: Tensor, motion: Tensor
+    ) -> Tensor:
+        return self.field(noisy, time, previous, embedding, motion, interval)
+
+
+def export_field(field: VelocityField, kind: str) -> bytes:
+    """The graph of a tier of `kind` "flow", "average-velocity" or "direct" (model-format.md, Graphs).
+
+    A direct tier's graph has no flow time: a field taught by the energy distance is only valid in one step from 0.
+    """
     batch = 2
     wave = torch.zeros(batch, field.channels, field.positions)
-    return _export(
-        field,
-        {
-            "noisy": wave,
-            "time": torch.zeros(batch, 1),
-            "previous": wave.clone(),
-            "embedding": torch.zeros(batch, EMBEDDING_SIZE),
-            "motion": torch.full((batch, 3), 0.1),
-        },
-        "velocity",
-    )
+    moment = torch.zeros(batch, 1)
+    conditions = {
+        "previous": wave.clone(),
+        "embedding": torch.zeros(batch, EMBEDDING_SIZE),
+        "motion": torch.full((batch, 3), 0.1),
+    }
+    if kind == "flow":
+        return _export(field, {"noisy": wave, "time": moment, **conditions}, "velocity")
+    if kind == "average-velocity":
+        return _export(
+            _AverageVelocity(field),
+            {"noisy": wave, "time": moment, "interval": moment.clone(), **conditions},
+            "velocity",
+        )
+    if kind == "direct":
+        return _export(_OneStep(field), {"noisy": wave, **conditions}, "segment")
+    raise ValueError(f"unknown tier kind '{kind}'")
 
 
 def export_level_model(level: LevelModel) -> bytes:

@@ -7,36 +7,38 @@ from typing import Any
 
 import torch
 
-from haptoflow_training.models.haptoflow_model import PREVIOUS_LIMIT, HaptoFlowModel, unit_scale
+from haptoflow_training.export.trained_tier import TrainedTier
+from haptoflow_training.models.haptoflow_model import PREVIOUS_LIMIT, unit_scale
 from haptoflow_training.training.batches import SegmentBatch
-from haptoflow_training.training.flow_matching import solve
 from haptoflow_training.training.run_log import write_json
 
-_SOLVERS = (("euler", 1), ("euler", 8), ("midpoint", 2), ("heun", 3), ("midpoint", 4))
+_SOLVERS = {
+    "flow": (("euler", 1), ("euler", 8), ("midpoint", 2), ("heun", 3), ("midpoint", 4)),
+    "average-velocity": (("euler", 1), ("euler", 2), ("euler", 4)),
+    "direct": (("euler", 1),),
+}
 
 
 @torch.no_grad()
 def write_parity(
-    path: Path, model: HaptoFlowModel, batch: SegmentBatch, *, tier: str, model_crc32: int, seed: int
+    path: Path, tiers: list[TrainedTier], batch: SegmentBatch, *, model_crc32: int, seed: int
 ) -> None:
-    """Write one case per row of `batch`, solvers in turn, with the model's own recordings as previous waveforms."""
+    """Write one case per row of `batch`, tiers and solvers in turn, previous waveforms from recordings."""
     generator = torch.Generator().manual_seed(seed)
     cases: list[dict[str, Any]] = []
     for row in range(batch.label.shape[0]):
-        kind, steps = _SOLVERS[row % len(_SOLVERS)]
-        embedding = model.embedding(batch.label[row : row + 1])
+        tier = tiers[row % len(tiers)]
+        kind, steps = _SOLVERS[tier.kind][row // len(tiers) % len(_SOLVERS[tier.kind])]
+        embedding = tier.model.embedding(batch.label[row : row + 1])
         motion, previous = batch.motion[row : row + 1], batch.previous[row : row + 1]
-        log_level = model.level(embedding, motion)
+        log_level = tier.model.level(embedding, motion)
         scaled = unit_scale(previous, log_level).clamp(-PREVIOUS_LIMIT, PREVIOUS_LIMIT)
         noise = torch.randn(1, 1, 200, generator=generator)
-
-        def field(noisy: torch.Tensor, time: torch.Tensor) -> torch.Tensor:
-            return model.field(noisy, time, scaled, embedding, motion)
-
-        segment = solve(field, noise, kind, steps) * torch.exp(log_level).unsqueeze(-1)
+        start, interval = torch.zeros(1, 1), torch.full((1, 1), 1.0 / steps)
+        segment = tier.generate(noise, scaled, embedding, motion, kind, steps) * torch.exp(log_level).unsqueeze(-1)
         cases.append(
             {
-                "tier": tier,
+                "tier": tier.name,
                 "solver": kind,
                 "steps": steps,
                 "embedding": embedding.flatten().tolist(),
@@ -44,7 +46,7 @@ def write_parity(
                 "previous": previous.flatten().tolist(),
                 "noise": noise.flatten().tolist(),
                 "log_level": log_level.item(),
-                "field_at_start": field(noise, torch.zeros(1, 1)).flatten().tolist(),
+                "field_at_start": tier.evaluate(noise, start, interval, scaled, embedding, motion).flatten().tolist(),
                 "segment": segment.flatten().tolist(),
             }
         )

@@ -20,7 +20,9 @@ REST_FORCE_NEWTONS = 0.02
 
 # Octaves of log speed resolved by sine and cosine features: a ruled surface's fundamental is speed over
 # wavelength, so the network has to tell speeds a per cent apart.
-_LOG_SPEED_HARMONICS = (0.5, 1.0, 2.0, 4.0, 8.0)
+FINE_LOG_SPEED_HARMONICS = (0.5, 1.0, 2.0, 4.0, 8.0)
+# A level changes slowly with speed; finer features would only learn the places that recordings happened to visit.
+SMOOTH_LOG_SPEED_HARMONICS = (0.5, 1.0)
 
 
 def log_speed(motion: Tensor) -> Tensor:
@@ -37,7 +39,10 @@ def log_force(motion: Tensor) -> Tensor:
 class MotionFeatures(nn.Module):
     """Physical motion [B, 3] to well-scaled features; normalisation lives here, inside the exported graph."""
 
-    size = 2 + 4 + 2 * len(_LOG_SPEED_HARMONICS) + 2
+    def __init__(self, log_speed_harmonics: tuple[float, ...] = FINE_LOG_SPEED_HARMONICS) -> None:
+        super().__init__()
+        self.size = 2 + 4 + 2 * len(log_speed_harmonics) + 2
+        self._harmonics = log_speed_harmonics
 
     def forward(self, motion: Tensor) -> Tensor:
         speed_mps = motion[:, 0:2].square().sum(dim=1, keepdim=True).add(1e-12).sqrt()
@@ -53,7 +58,7 @@ class MotionFeatures(nn.Module):
             dim=1,
         )
         waves = [
-            function(harmonic * speed) for harmonic in _LOG_SPEED_HARMONICS for function in (torch.sin, torch.cos)
+            function(harmonic * speed) for harmonic in self._harmonics for function in (torch.sin, torch.cos)
         ]
         return torch.cat(
             [speed * 0.5, force * 0.5, direction, axial, *waves, speed_mps, motion[:, 2:3] * 0.2], dim=1
@@ -67,7 +72,7 @@ class MotionEncoder(nn.Module):
         super().__init__()
         self.features = MotionFeatures()
         self.layers = nn.Sequential(
-            nn.Linear(MotionFeatures.size, hidden),
+            nn.Linear(self.features.size, hidden),
             nn.SiLU(),
             nn.Linear(hidden, hidden),
             nn.SiLU(),

@@ -22,7 +22,14 @@ class HaptoFlowModel(nn.Module):
     """The trainable model behind a `.haptoflow` file, one tier."""
 
     def __init__(
-        self, *, label_count: int, representation: Representation, width: int, previous_width: int, patch: int
+        self,
+        *,
+        label_count: int,
+        representation: Representation,
+        width: int,
+        previous_width: int,
+        patch: int,
+        average: bool = False,
     ) -> None:
         super().__init__()
         channels, positions = representation.shape
@@ -30,7 +37,12 @@ class HaptoFlowModel(nn.Module):
         self.embedding = nn.Embedding(label_count, EMBEDDING_SIZE)
         self.level = LevelModel()
         self.field = VelocityField(
-            channels=channels, positions=positions, patch=patch, width=width, previous_width=previous_width
+            channels=channels,
+            positions=positions,
+            patch=patch,
+            width=width,
+            previous_width=previous_width,
+            average=average,
         )
 
     def log_level(self, label: Tensor, motion: Tensor) -> Tensor:

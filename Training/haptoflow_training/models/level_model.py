@@ -9,7 +9,13 @@ from __future__ import annotations
 import torch
 from torch import Tensor, nn
 
-from haptoflow_training.models.conditioning import EMBEDDING_SIZE, MotionFeatures, log_force, log_speed
+from haptoflow_training.models.conditioning import (
+    EMBEDDING_SIZE,
+    SMOOTH_LOG_SPEED_HARMONICS,
+    MotionFeatures,
+    log_force,
+    log_speed,
+)
 
 _CORRECTION_LIMIT = 0.9
 # Nothing below a hundredth of a metre per second squared can be felt; without a floor, digital silence at rest
@@ -27,9 +33,9 @@ class LevelModel(nn.Module):
     def __init__(self, hidden: int = 96) -> None:
         super().__init__()
         self.power_law = nn.Linear(EMBEDDING_SIZE, 3)
-        self.features = MotionFeatures()
+        self.features = MotionFeatures(SMOOTH_LOG_SPEED_HARMONICS)
         self.correction = nn.Sequential(
-            nn.Linear(EMBEDDING_SIZE + MotionFeatures.size, hidden),
+            nn.Linear(EMBEDDING_SIZE + self.features.size, hidden),
             nn.SiLU(),
             nn.Linear(hidden, hidden),
             nn.SiLU(),

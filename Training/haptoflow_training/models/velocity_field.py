@@ -65,10 +65,18 @@ class VelocityField(nn.Module):
 
     noisy and previous: [B, C, N] with C channels of the representation (1 for raw samples) and N its positions
     (200); time: [B, 1]; embedding: [B, 64]; motion: [B, 3]. Returns [B, C, N]. N must divide by `patch`.
+    With `average`, the field is the average velocity over [t, t + interval] (MeanFlow) and takes interval [B, 1].
     """
 
     def __init__(
-        self, *, channels: int = 1, positions: int = 200, patch: int = 8, width: int = 64, previous_width: int = 32
+        self,
+        *,
+        channels: int = 1,
+        positions: int = 200,
+        patch: int = 8,
+        width: int = 64,
+        previous_width: int = 32,
+        average: bool = False,
     ) -> None:
         super().__init__()
         if positions % patch != 0:
@@ -79,6 +87,7 @@ class VelocityField(nn.Module):
         patch_size = channels * patch
 
         self.time = TimeEncoder()
+        self.interval = TimeEncoder() if average else None
         self.motion = MotionEncoder()
         self.enter = _convolution(patch_size, width, 1)
         self.previous_fine = _convolution(patch_size, previous_width, 3)
@@ -109,8 +118,19 @@ class VelocityField(nn.Module):
         wave = patches.reshape(-1, self.channels, self.patch, self.patches)
         return wave.permute(0, 1, 3, 2).reshape(-1, self.channels, self.positions)
 
-    def forward(self, noisy: Tensor, time: Tensor, previous: Tensor, embedding: Tensor, motion: Tensor) -> Tensor:
-        condition = torch.cat([embedding, self.motion(motion), self.time(time)], dim=1)
+    def forward(
+        self,
+        noisy: Tensor,
+        time: Tensor,
+        previous: Tensor,
+        embedding: Tensor,
+        motion: Tensor,
+        interval: Tensor | None = None,
+    ) -> Tensor:
+        moment = self.time(time)
+        if self.interval is not None and interval is not None:
+            moment = moment + self.interval(interval)
+        condition = torch.cat([embedding, self.motion(motion), moment], dim=1)
         film = self.film(condition).unsqueeze(-1).unsqueeze(-1).split(self._film_sizes, dim=1)
 
         # Mirrored, so that the newest sample of the past lies beside the first sample of the new segment.

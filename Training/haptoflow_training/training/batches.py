@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 from dataclasses import dataclass
 from typing import Protocol
 
@@ -14,6 +15,8 @@ from haptoflow_training.training.config import BatchConfig
 
 SEGMENT_SAMPLES = 200
 LEVEL_WINDOW_SAMPLES = 100
+# A recording that lies wholly inside a held-out band is drawn from after this many tries all the same.
+_HELD_OUT_TRIES = 12
 # Where inside a segment its motion is told, for the level to follow: every 10 ms, both ends included.
 _KNOTS = np.linspace(0, SEGMENT_SAMPLES - 1, 11).round().astype(np.int64)
 
@@ -39,6 +42,19 @@ class Store(Protocol):
 
 
 @dataclass(frozen=True)
+class Chain:
+    """What came before a batch's previous waveform, for the network to live through on its own output.
+
+    start [B, 1, 200]: the waveform before the first hop, m/s^2. motion [B, K, 3]: the condition of each hop.
+    hop_samples: samples that each hop appends.
+    """
+
+    start: Tensor
+    motion: Tensor
+    hop_samples: int
+
+
+@dataclass(frozen=True)
 class SegmentBatch:
     """waveforms in m/s^2: previous [B, 1, 200], segment [B, 1, 200]; label [B]; motion [B, 3]: the condition.
 
@@ -53,6 +69,7 @@ class SegmentBatch:
     motion_path: Tensor
     level_motion: Tensor
     level_mean_square_mps2: Tensor
+    chain: Chain | None = None
 
 
 class SegmentBatches:
@@ -93,18 +110,73 @@ class SegmentBatches:
             chosen[row] = group[int(position[row] * len(group))]
         return chosen
 
+    def _draw_split_points(self, recordings: NDArray[np.int64], lead_in: int) -> NDArray[np.int64]:
+        """Where previous waveform and segment meet: `lead_in` samples and a segment after the recording's start at least,
+        outside the held-out bands."""
+        before = lead_in + SEGMENT_SAMPLES
+        room = self._lengths[recordings] - before - SEGMENT_SAMPLES
+        first = self._starts[recordings] + before
+        points = first + (self._generator.random(len(recordings)) * room).astype(np.int64)
+        for _ in range(_HELD_OUT_TRIES):
+            held = np.flatnonzero(self._is_held_out(points))
+            if not len(held):
+                break
+            points[held] = first[held] + (self._generator.random(len(held)) * room[held]).astype(np.int64)
+        return points
+
+    def _is_held_out(self, points: NDArray[np.int64]) -> NDArray[np.bool_]:
+        motion = self._store.motion[points]
+        held = np.zeros(len(points), dtype=np.bool_)
+        for value, band in (
+            (np.hypot(motion[:, 0], motion[:, 1]), self._config.held_out_speed_mps),
+            (motion[:, 2], self._config.held_out_force_newtons),
+        ):
+            if band:
+                held |= (value >= band[0]) & (value < band[1])
+        return held
+
+    def draw_chains(self, count: int) -> SegmentBatch:
+        """A fresh batch whose previous waveforms can be replaced by what the network makes over several hops.
+
+        The hop is one of the live engine's, 30 to 120 Hz, the same for the whole batch; chains begin in silence with
+        `chain_silence_probability`, as at touch-down.
+        """
+        config, generator = self._config, self._generator
+        hop = int(generator.integers(config.hop_samples[0], config.hop_samples[1] + 1))
+        longest = (int(self._lengths.min()) - 2 * SEGMENT_SAMPLES - 1) // hop
+        hops = min(int(generator.integers(config.chain_hops[0], config.chain_hops[1] + 1)), longest)
+        lead_in = hops * hop
+        recordings = self._draw_recordings(count)
+        split_point = self._draw_split_points(recordings, lead_in)
+        batch = self._pairs(recordings, split_point, np.full(count, hop))
+        windows = split_point[:, None] + np.arange(-lead_in - SEGMENT_SAMPLES, 0)[None, :]
+        start = self._store.waveform[windows[:, :SEGMENT_SAMPLES]] * np.float32(self._store.peak_mps2)
+        start[generator.random(count) < config.chain_silence_probability] = 0.0
+        motion = self._store.motion[windows[:, SEGMENT_SAMPLES:]].reshape(count, hops, hop, 3).mean(axis=2)
+        chain = Chain(
+            start=torch.from_numpy(start).unsqueeze(1),
+            motion=torch.from_numpy(motion.astype(np.float32)),
+            hop_samples=hop,
+        )
+        return dataclasses.replace(batch, chain=chain)
+
     def draw(self, count: int) -> SegmentBatch:
         """A fresh batch of `count` pairs."""
         config, generator = self._config, self._generator
         recordings = self._draw_recordings(count)
-        room = self._lengths[recordings] - 2 * SEGMENT_SAMPLES
-        split_point = self._starts[recordings] + SEGMENT_SAMPLES + (generator.random(count) * room).astype(np.int64)
+        split_point = self._draw_split_points(recordings, 0)
+        hop = generator.integers(config.hop_samples[0], config.hop_samples[1] + 1, size=count)
+        return self._pairs(recordings, split_point, hop)
+
+    def _pairs(
+        self, recordings: NDArray[np.int64], split_point: NDArray[np.int64], hop: NDArray[np.int64]
+    ) -> SegmentBatch:
+        config, generator, count = self._config, self._generator, len(recordings)
         offsets = np.arange(-SEGMENT_SAMPLES, SEGMENT_SAMPLES)
         windows = split_point[:, None] + offsets[None, :]
         waves = self._store.waveform[windows] * np.float32(self._store.peak_mps2)
         motions = self._store.motion[windows[:, SEGMENT_SAMPLES:]]
 
-        hop = generator.integers(config.hop_samples[0], config.hop_samples[1] + 1, size=count)
         inside = np.arange(SEGMENT_SAMPLES)[None, :] < hop[:, None]
         motion = (motions * inside[:, :, None]).sum(axis=1) / hop[:, None]
 

@@ -46,7 +46,7 @@ class ModelConfig:
 
 @dataclass(frozen=True)
 class OptimiserConfig:
-    """AdamW with warm-up, cosine decay over the second half, gradient clipping and a moving average."""
+    """AdamW with warm-up, cosine decay over each phase's second half, gradient clipping and a moving average."""
 
     learning_rate: float = 6e-4
     weight_decay: float = 1e-4
@@ -63,16 +63,48 @@ class OptimiserConfig:
 class BatchConfig:
     """How training pairs are drawn.
 
+    held_out_speed_mps, held_out_force_newtons: [from, to]: pairs whose segment begins inside the band are not drawn;
+    empty for none.
     hop_samples: the condition of a pair is the mean motion over this many leading samples of the segment, drawn
     from [min, max] (the hops of 120 Hz to 30 Hz updates). silence_probability: previous waveform zeroed, as at
     touch-down. machine_share: share of pairs from machine recordings where both
     protocols exist. switch_probability: previous waveform taken from another recording, as at a label switch.
+    chain_hops: how many hops a chain of the self-forcing phase runs on its own output. chain_silence_probability:
+    chains that begin in silence.
     """
 
+    held_out_speed_mps: tuple[float, ...] = ()
+    held_out_force_newtons: tuple[float, ...] = ()
     hop_samples: tuple[int, int] = (16, 66)
+    chain_hops: tuple[int, int] = (1, 8)
+    chain_silence_probability: float = 0.3
     silence_probability: float = 0.05
     switch_probability: float = 0.03
     machine_share: float = 0.35
+
+
+@dataclass(frozen=True)
+class RecipeConfig:
+    """How the network is taught, phase after phase; a phase of 0 steps is left out.
+
+    objective: what the first phase (`optimiser.steps`) learns: `flow` (conditional flow matching) or
+    `average-velocity` (MeanFlow).
+    reflow_steps: straightens a flow on `reflow_pairs` pairs of noise and segment that the network itself made.
+    energy_steps: one-step fine-tuning by a spectral energy distance; afterwards the network is a `direct` tier.
+    self_forcing_steps: the objective of the phase before, on the network's own output as previous waveform.
+    shares_base: keep the embedding and level model of another run (`--base`), as a further tier of its file does.
+    """
+
+    objective: str = "flow"
+    reflow_steps: int = 0
+    reflow_pairs: int = 36000
+    reflow_learning_rate: float = 4e-4
+    energy_steps: int = 0
+    energy_batch_size: int = 48
+    energy_learning_rate: float = 5e-4
+    self_forcing_steps: int = 0
+    self_forcing_learning_rate: float = 3e-4
+    shares_base: bool = False
 
 
 @dataclass(frozen=True)
@@ -85,9 +117,10 @@ class SolverConfig:
 
 @dataclass(frozen=True)
 class TrainingConfig:
-    """A whole run. `name` and `description` end in the model file's header."""
+    """A whole run. `name` and `description` end in the model file's header; `tier` names what it trains there."""
 
     name: str = "default"
+    tier: str = "standard"
     description: str = ""
     licence: str = "MIT"
     seed: int = 1
@@ -96,6 +129,7 @@ class TrainingConfig:
     model: ModelConfig = field(default_factory=ModelConfig)
     optimiser: OptimiserConfig = field(default_factory=OptimiserConfig)
     batch: BatchConfig = field(default_factory=BatchConfig)
+    recipe: RecipeConfig = field(default_factory=RecipeConfig)
     solver: SolverConfig = field(default_factory=SolverConfig)
 
     def to_dict(self) -> dict[str, Any]:
@@ -140,14 +174,36 @@ def _read_section(section: type[_Section], table: dict[str, Any], prefix: str, p
 
 
 def load_config(path: Path) -> TrainingConfig:
-    """Read and check a run's TOML file; InputError names file, key and what was expected."""
+    """Read and check a run's TOML file; InputError names file, key and what was expected.
+
+    `extends = "other.toml"` takes every key that the file does not set from that file beside it.
+    """
+    return config_from_dict(_read_table(path, ()), path)
+
+
+def _read_table(path: Path, extended_by: tuple[Path, ...]) -> dict[str, Any]:
+    if path in extended_by:
+        raise InputError(f"{path}: key 'extends' leads back to the file itself; end the chain in a file without it")
     try:
         table = tomllib.loads(path.read_text(encoding="utf-8"))
     except OSError as error:
         raise InputError(f"{path}: cannot be read ({error.strerror}); name a run's TOML file") from error
     except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
         raise InputError(f"{path}: is not TOML ({error})") from error
-    return config_from_dict(table, path)
+    parent = table.pop("extends", None)
+    if parent is None:
+        return table
+    if not isinstance(parent, str):
+        raise InputError(f"{path}: key 'extends' is {parent!r}, expected the name of a TOML file beside it")
+    return _merged(_read_table(path.parent / parent, (*extended_by, path)), table)
+
+
+def _merged(below: dict[str, Any], above: dict[str, Any]) -> dict[str, Any]:
+    merged = dict(below)
+    for key, value in above.items():
+        old = merged.get(key)
+        merged[key] = _merged(old, value) if isinstance(old, dict) and isinstance(value, dict) else value
+    return merged
 
 
 def config_from_dict(table: dict[str, Any], path: Path) -> TrainingConfig:
@@ -165,7 +221,7 @@ def _check(config: TrainingConfig, path: Path) -> None:
         (1 <= config.solver.steps <= 16, "solver.steps", "1 to 16"),
         (optimiser.learning_rate > 0.0, "optimiser.learning_rate", "above 0"),
         (optimiser.batch_size >= 1, "optimiser.batch_size", "at least 1"),
-        (optimiser.steps >= 1, "optimiser.steps", "at least 1"),
+        (optimiser.steps >= 0, "optimiser.steps", "at least 0"),
         (0.0 <= optimiser.average_decay < 1.0, "optimiser.average_decay", "0 to below 1"),
         (
             len(config.batch.hop_samples) == 2
@@ -173,7 +229,36 @@ def _check(config: TrainingConfig, path: Path) -> None:
             "batch.hop_samples",
             "two numbers, 1 <= min <= max <= 200",
         ),
+        *(
+            (len(band) in (0, 2) and tuple(sorted(band)) == band, f"batch.{name}", "empty, or [from, to]")
+            for name, band in (
+                ("held_out_speed_mps", config.batch.held_out_speed_mps),
+                ("held_out_force_newtons", config.batch.held_out_force_newtons),
+            )
+        ),
+        (
+            len(config.batch.chain_hops) == 2 and 1 <= config.batch.chain_hops[0] <= config.batch.chain_hops[1] <= 50,
+            "batch.chain_hops",
+            "two numbers, 1 <= min <= max <= 50",
+        ),
         (config.model.width >= 8, "model.width", "at least 8"),
+        (config.tier in ("draft", "standard", "fine"), "tier", "'draft', 'standard' or 'fine'"),
+        (config.recipe.objective in ("flow", "average-velocity"), "recipe.objective", "'flow' or 'average-velocity'"),
+        (
+            config.recipe.objective == "flow" or config.recipe.reflow_steps == config.recipe.energy_steps == 0,
+            "recipe.objective",
+            "'flow' where reflow_steps or energy_steps follow",
+        ),
+        (
+            config.recipe.energy_steps == 0 or config.model.representation.get("kind", "raw") == "raw",
+            "recipe.energy_steps",
+            "0 with a latent representation: the energy distance compares waveforms",
+        ),
+        (
+            config.recipe.self_forcing_steps == 0 or config.recipe.energy_steps > 0 or config.recipe.reflow_steps == 0,
+            "recipe.self_forcing_steps",
+            "0 after reflow alone: its pairs have a fixed past",
+        ),
     )
     for holds, key, expected in rules:
         if not holds:

@@ -61,6 +61,16 @@ class MetricsLog:
             return list(csv.DictReader(file))
 
 
+def last_step(path: Path) -> int:
+    """The step of the last whole row of a metrics.csv, 0 where there is none yet."""
+    try:
+        rows = path.read_text(encoding="utf-8").splitlines()[1:]
+    except OSError:
+        return 0
+    steps = [row.split(",", 1)[0] for row in rows]
+    return max((int(step) for step in steps if step.isdigit()), default=0)
+
+
 def plot_metrics(log: MetricsLog, path: Path) -> None:
     """Draw every figure of the log over the steps, one panel a figure."""
     import matplotlib

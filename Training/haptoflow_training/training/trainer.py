@@ -20,14 +20,14 @@ from torch.nn.parallel import DistributedDataParallel
 from tqdm import tqdm
 
 from haptoflow_training.errors import InputError
-from haptoflow_training.models.haptoflow_model import PREVIOUS_LIMIT, HaptoFlowModel, unit_scale
-from haptoflow_training.models.level_model import level_loss
+from haptoflow_training.models.haptoflow_model import HaptoFlowModel
 from haptoflow_training.models.representation import build_representation
-from haptoflow_training.training.batches import SegmentBatch, SegmentBatches, Store
+from haptoflow_training.training.batches import SegmentBatches, Store
 from haptoflow_training.training.config import TrainingConfig, config_from_dict
-from haptoflow_training.training.flow_matching import flow_matching_loss
+from haptoflow_training.training.losses import Losses, Objective
 from haptoflow_training.training.moving_average import MovingAverage
 from haptoflow_training.training.processes import Processes
+from haptoflow_training.training.reflow import ReflowPairs, join_pairs
 from haptoflow_training.training.run_log import MetricsLog, plot_metrics, source_commit, write_json
 
 _COLUMNS = ("step", "phase", "field_loss", "level_loss", "validation_field_loss", "validation_level_loss", "seconds")
@@ -40,45 +40,6 @@ class TrainingStopped(Exception):
     """The run was asked to stop; its checkpoint is written."""
 
 
-class Losses(nn.Module):
-    """Both losses in one forward pass, so that several processes synchronise all gradients at once."""
-
-    def __init__(self, model: HaptoFlowModel) -> None:
-        super().__init__()
-        self.model = model
-
-    def forward(self, batch: SegmentBatch, with_field: bool, generator: torch.Generator) -> tuple[Tensor, Tensor]:
-        model = self.model
-        level = level_loss(model.log_level(batch.label, batch.level_motion), batch.level_mean_square_mps2)
-        if not with_field:
-            return level, torch.zeros(())
-        embedding = model.embedding(batch.label)
-        # The field sees waves of unit scale; it must not move the level to make its own task easier.
-        log_level = model.log_level(batch.label, batch.motion).detach()
-        segment = model.representation.encode(self._steady_segment(batch, embedding))
-        scaled_previous = unit_scale(batch.previous, log_level).clamp(-PREVIOUS_LIMIT, PREVIOUS_LIMIT)
-        previous = model.representation.encode(scaled_previous)
-
-        def field(noisy: Tensor, moment: Tensor) -> Tensor:
-            return model.field(noisy, moment, previous, embedding, batch.motion)
-
-        # A burst that the level cannot foresee (an impact, the first motion after a rest) is learnt, but must not
-        # outweigh a hundred ordinary segments.
-        weight = 1.0 / segment.square().mean(dim=(1, 2)).clamp(min=1.0)
-        return level, flow_matching_loss(field, segment, generator, weight)
-
-    def _steady_segment(self, batch: SegmentBatch, embedding: Tensor) -> Tensor:
-        """The segment in unit scale as if the motion went on as it began: each sample is divided by the level of its
-        own moment, since at run time the hand's next tenth of a second is not known."""
-        rows, knots, _ = batch.motion_path.shape
-        path = batch.motion_path.reshape(rows * knots, 3)
-        with torch.no_grad():
-            log_level = self.model.level(embedding.repeat_interleave(knots, dim=0), path).reshape(rows, 1, knots)
-        samples = batch.segment.shape[-1]
-        log_level = nn.functional.interpolate(log_level, size=samples, mode="linear", align_corners=True)
-        return batch.segment * torch.exp(-log_level)
-
-
 def build_model(config: TrainingConfig, label_count: int) -> HaptoFlowModel:
     """The untrained model that `config` describes."""
     return HaptoFlowModel(
@@ -87,35 +48,74 @@ def build_model(config: TrainingConfig, label_count: int) -> HaptoFlowModel:
         width=config.model.width,
         previous_width=config.model.previous_width,
         patch=config.model.patch,
+        average=config.recipe.objective == "average-velocity",
     )
 
 
 @dataclass(frozen=True)
 class _Phase:
+    """steps of one objective. own_previous: on chains of the network's own output (self-forcing)."""
+
     name: str
+    objective: Objective
     first_step: int
     steps: int
+    learning_rate: float
+    batch_size: int
+    own_previous: bool = False
 
     @property
     def end(self) -> int:
         return self.first_step + self.steps
 
 
+def _phases(config: TrainingConfig) -> tuple[_Phase, ...]:
+    optimiser, recipe = config.optimiser, config.recipe
+    flow: Objective = "average-velocity" if recipe.objective == "average-velocity" else "flow"
+    last: Objective = "energy" if recipe.energy_steps else "reflow" if recipe.reflow_steps else flow
+    # A tier that shares another run's level has nothing to fit there.
+    level_steps, polish_steps = (0, 0) if recipe.shares_base else (optimiser.level_steps, optimiser.level_polish_steps)
+    batch, energy_batch = optimiser.batch_size, recipe.energy_batch_size
+    forced_batch = energy_batch if last == "energy" else batch
+    planned: list[tuple[str, Objective, int, float, int, bool]] = [
+        ("level", "level", level_steps, optimiser.learning_rate, 8 * batch, False),
+        ("field", flow, optimiser.steps, optimiser.learning_rate, batch, False),
+        ("reflow", "reflow", recipe.reflow_steps, recipe.reflow_learning_rate, batch, False),
+        ("energy", "energy", recipe.energy_steps, recipe.energy_learning_rate, energy_batch, False),
+        ("self-forcing", last, recipe.self_forcing_steps, recipe.self_forcing_learning_rate, forced_batch, True),
+        ("polish", "level", polish_steps, optimiser.learning_rate, 8 * batch, False),
+    ]
+    phases: list[_Phase] = []
+    for name, objective, steps, learning_rate, batch_size, own_previous in planned:
+        if steps:
+            first = phases[-1].end if phases else 0
+            phases.append(_Phase(name, objective, first, steps, learning_rate, batch_size, own_previous))
+    return tuple(phases)
+
+
+def planned_steps(config: TrainingConfig) -> list[int]:
+    """Steps of each phase that a run of `config` goes through."""
+    return [phase.steps for phase in _phases(config)]
+
+
 class Trainer:
     """Trains one configuration on one store into one folder."""
 
-    def __init__(self, config: TrainingConfig, store: Store, folder: Path, processes: Processes) -> None:
+    def __init__(
+        self, config: TrainingConfig, store: Store, folder: Path, processes: Processes, base: Path | None = None
+    ) -> None:
         self._config, self._store, self._folder, self._processes = config, store, folder, processes
         optimiser = config.optimiser
-        self._phases = (
-            _Phase("level", 0, optimiser.level_steps),
-            _Phase("field", optimiser.level_steps, optimiser.steps),
-            _Phase("polish", optimiser.level_steps + optimiser.steps, optimiser.level_polish_steps),
-        )
+        self._phases = _phases(config)
         torch.set_num_threads(config.threads)
         torch.manual_seed(config.seed)
         self.model = build_model(config, len(store.labels))
-        self._losses = Losses(self.model)
+        if config.recipe.shares_base:
+            if base is None:
+                raise InputError("recipe.shares_base needs the run whose level is kept: give --base FOLDER")
+            adopt_base(self.model, base, list(store.labels))
+        self._losses = Losses(self.model, config.solver, train_level=not config.recipe.shares_base)
+        self._pairs: ReflowPairs | None = None
         self._average = MovingAverage(self.model, optimiser.average_decay)
         self._optimiser = torch.optim.AdamW(
             self.model.parameters(), lr=optimiser.learning_rate, weight_decay=optimiser.weight_decay
@@ -123,7 +123,6 @@ class Trainer:
         seed = config.seed * 1000 + processes.rank
         self._noise = torch.Generator().manual_seed(seed)
         self._batches = SegmentBatches(store, "train", config.batch, seed)
-        self._batch_size = max(1, optimiser.batch_size // processes.count)
         self._validation = SegmentBatches(store, "validation", config.batch, 7).draw(_VALIDATION_BATCH)
         self._step = 0
         self._seconds = 0.0
@@ -164,7 +163,7 @@ class Trainer:
         self._stop = True
 
     def _learning_rate(self, phase: _Phase) -> float:
-        peak, done = self._config.optimiser.learning_rate, self._step - phase.first_step
+        peak, done = phase.learning_rate, self._step - phase.first_step
         warm = min(1.0, (done + 1) / max(1, self._config.optimiser.warm_up_steps))
         late = max(0.0, done / phase.steps - 0.5) * 2.0
         return peak * warm * (0.02 + 0.98 * 0.5 * (1.0 + math.cos(math.pi * late)))
@@ -193,19 +192,34 @@ class Trainer:
         bar.close()
 
     def _enter(self, phase: _Phase) -> None:
-        if phase.name != "polish":
-            return
-        # The level is fitted anew to the averaged embedding, which is the one that will be exported.
-        if self._step == phase.first_step:
+        if self._step == phase.first_step and phase.name in ("reflow", "energy", "polish"):
+            # These phases refine what would be exported; the last noisy step is not where they should begin.
             self.model.load_state_dict(self.averaged_model.state_dict())
-        for parameter in (*self.model.field.parameters(), *self.model.embedding.parameters()):
-            parameter.requires_grad_(False)
+        if phase.objective == "reflow":
+            self._pairs = self._make_pairs()
+        if phase.name == "polish":
+            # The level is fitted anew to the averaged embedding, which is the one that will be exported.
+            for parameter in (*self.model.field.parameters(), *self.model.embedding.parameters()):
+                parameter.requires_grad_(False)
+
+    def _make_pairs(self) -> ReflowPairs:
+        """Noise and what the flow makes of it; the same set whenever a run is resumed would need the flow's old
+        weights, so a resumed run draws its pairs from the network as it is."""
+        generator = torch.Generator().manual_seed(self._config.seed + 17)
+        size, count = 500, self._config.recipe.reflow_pairs // self._processes.count
+        teacher = Losses(self.averaged_model, self._config.solver)
+        parts = []
+        for _ in tqdm(range(0, count, size), desc="pairs", unit="batch", disable=not self._processes.is_first):
+            parts.append(teacher.make_pairs(self._batches.draw(size), generator))
+        return join_pairs(parts)
 
     def _train_step(self, losses: nn.Module, phase: _Phase) -> tuple[Tensor, Tensor]:
         for group in self._optimiser.param_groups:
             group["lr"] = self._learning_rate(phase)
-        batch = self._batches.draw(self._batch_size if phase.name == "field" else 8 * self._batch_size)
-        level, field = losses(batch, phase.name == "field", self._noise)
+        size = max(1, phase.batch_size // self._processes.count)
+        batch = self._batches.draw_chains(size) if phase.own_previous else self._batches.draw(size)
+        pairs = self._pairs.draw(size, self._noise) if self._pairs and phase.objective == "reflow" else None
+        level, field = losses(batch, phase.objective, self._noise, pairs)
         total = level + field
         if not torch.isfinite(total):
             raise InputError(
@@ -221,10 +235,12 @@ class Trainer:
         return level.detach(), field.detach()
 
     @torch.no_grad()
-    def validate(self) -> tuple[float, float]:
-        """(level loss, field loss) of the averaged model on fixed pairs of the validation split."""
+    def validate(self, phase: _Phase | None = None) -> tuple[float, float]:
+        """(level loss, loss of the phase's objective) of the averaged model on fixed pairs of the validation split."""
         generator = torch.Generator().manual_seed(99)
-        level, field = Losses(self.averaged_model)(self._validation, True, generator)
+        losses = Losses(self.averaged_model, self._config.solver)
+        objective = phase.objective if phase is not None and phase.objective in ("energy", "average-velocity") else "flow"
+        level, field = losses(self._validation, objective, generator)
         return level.item(), field.item()
 
     def _report(self, log: MetricsLog | None, phase: _Phase, level: Tensor, field: Tensor, bar: tqdm) -> None:
@@ -232,14 +248,14 @@ class Trainer:
         if log is None:
             return
         validate = self._step % (10 * _LOG_EVERY) == 0 or self._step == phase.end
-        validation_level, validation_field = self.validate() if validate else (math.nan, math.nan)
+        validation_level, validation_field = self.validate(phase) if validate else (math.nan, math.nan)
         log.append(
             {
                 "step": self._step,
                 "phase": phase.name,
-                "field_loss": field.item() if phase.name == "field" else math.nan,
+                "field_loss": field.item() if phase.objective != "level" else math.nan,
                 "level_loss": level.item(),
-                "validation_field_loss": validation_field if phase.name != "level" else math.nan,
+                "validation_field_loss": validation_field if phase.objective != "level" else math.nan,
                 "validation_level_loss": validation_level,
                 "seconds": round(self._seconds, 1),
             }
@@ -281,7 +297,8 @@ class Trainer:
         self._batches.restore(own["batches"])
 
     def _write_summary(self) -> None:
-        level, field = self.validate()
+        field_phases = [phase for phase in self._phases if phase.objective != "level"]
+        level, field = self.validate(field_phases[-1] if field_phases else None)
         write_json(
             self._folder / "run.json",
             {
@@ -302,6 +319,17 @@ def _save_atomically(content: dict[str, object], path: Path) -> None:
     temporary = path.with_suffix(".part")
     torch.save(content, temporary)
     os.replace(temporary, path)
+
+
+def adopt_base(model: HaptoFlowModel, folder: Path, labels: list[str]) -> None:
+    """Give `model` the embedding and level of the finished run in `folder`, and hold them still."""
+    _, base_labels, base = load_trained(folder)
+    if base_labels != labels:
+        raise InputError(f"--base {folder}: trained on labels {base_labels}, this run has {labels}")
+    model.embedding.load_state_dict(base.embedding.state_dict())
+    model.level.load_state_dict(base.level.state_dict())
+    for parameter in (*model.embedding.parameters(), *model.level.parameters()):
+        parameter.requires_grad_(False)
 
 
 def load_trained(folder: Path) -> tuple[TrainingConfig, list[str], HaptoFlowModel]:

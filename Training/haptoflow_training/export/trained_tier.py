@@ -1,0 +1,91 @@
+"""A finished run as a tier of a model file: how its network is to be run."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+import torch
+from torch import Tensor
+
+from haptoflow_training.errors import InputError
+from haptoflow_training.models.haptoflow_model import HaptoFlowModel
+from haptoflow_training.training.config import TrainingConfig
+from haptoflow_training.training.flow_matching import solve
+from haptoflow_training.training.trainer import load_trained
+
+# The order of a file's tiers: the most accurate comes last.
+TIER_NAMES = ("draft", "standard", "fine")
+
+
+@dataclass(frozen=True)
+class TrainedTier:
+    """kind, solver and steps as in model-format.md."""
+
+    config: TrainingConfig
+    labels: list[str]
+    model: HaptoFlowModel
+
+    @property
+    def name(self) -> str:
+        return self.config.tier
+
+    @property
+    def kind(self) -> str:
+        if self.config.recipe.energy_steps:
+            return "direct"
+        return "average-velocity" if self.config.recipe.objective == "average-velocity" else "flow"
+
+    @property
+    def solver(self) -> str:
+        return self.config.solver.kind if self.kind == "flow" else "euler"
+
+    @property
+    def steps(self) -> int:
+        return 1 if self.kind == "direct" else self.config.solver.steps
+
+    def evaluate(
+        self, noisy: Tensor, time: Tensor, interval: Tensor, previous: Tensor, embedding: Tensor, motion: Tensor
+    ) -> Tensor:
+        """What the exported graph returns: the velocity, or the segment of a direct tier."""
+        made = self.model.field(noisy, time, previous, embedding, motion, interval)
+        return noisy + made if self.kind == "direct" else made
+
+    def generate(
+        self, noise: Tensor, previous: Tensor, embedding: Tensor, motion: Tensor, solver: str, steps: int
+    ) -> Tensor:
+        """A segment in unit scale [B, 1, 200] from noise, as the engine makes it."""
+
+        def field(noisy: Tensor, time: Tensor) -> Tensor:
+            interval = torch.full_like(time, 1.0 / steps)
+            return self.evaluate(noisy, time, interval, previous, embedding, motion)
+
+        if self.kind == "direct":
+            return field(noise, torch.zeros(noise.shape[0], 1))
+        return solve(field, noise, solver if self.kind == "flow" else "euler", steps)
+
+
+def load_tiers(folders: list[Path]) -> list[TrainedTier]:
+    """The finished runs in `folders`, in the file's order; they must share labels, embedding and level."""
+    tiers = [TrainedTier(*load_trained(folder)) for folder in folders]
+    first = tiers[0]
+    for tier, folder in zip(tiers, folders, strict=True):
+        if tier.config.model.representation.get("kind", "raw") != "raw":
+            raise InputError(
+                f"{folder}: representation '{tier.config.model.representation['kind']}' cannot be exported yet: "
+                "the exporter writes raw segments; train with representation kind 'raw'"
+            )
+        shared = (tier.model.embedding, first.model.embedding), (tier.model.level, first.model.level)
+        same = all(
+            torch.equal(own, other)
+            for module, base in shared
+            for own, other in zip(module.state_dict().values(), base.state_dict().values(), strict=True)
+        )
+        if tier.labels != first.labels or not same:
+            raise InputError(
+                f"{folder}: does not share labels, embedding and level with {folders[0]}: train it with --base"
+            )
+    names = [tier.name for tier in tiers]
+    if len(set(names)) != len(names):
+        raise InputError(f"tiers {', '.join(names)}: each may stand once in a file; set `tier` in the configurations")
+    return sorted(tiers, key=lambda tier: TIER_NAMES.index(tier.name))

@@ -1,0 +1,171 @@
+"""What a training step minimises, objective by objective, on one batch."""
+
+from __future__ import annotations
+
+from typing import Literal
+
+import torch
+from torch import Tensor, nn
+
+from haptoflow_training.models.haptoflow_model import PREVIOUS_LIMIT, HaptoFlowModel, unit_scale
+from haptoflow_training.models.level_model import level_loss
+from haptoflow_training.training.batches import Chain, SegmentBatch
+from haptoflow_training.training.config import SolverConfig
+from haptoflow_training.training.energy_distance import energy_distance_loss
+from haptoflow_training.training.flow_matching import flow_matching_loss, solve
+from haptoflow_training.training.mean_flow import AverageField, mean_flow_loss
+from haptoflow_training.training.reflow import ReflowPairs, reflow_loss
+
+Objective = Literal["level", "flow", "average-velocity", "reflow", "energy"]
+
+
+class Losses(nn.Module):
+    """Level and field loss in one forward pass, so that several processes synchronise all gradients at once.
+
+    train_level False keeps the level as it is: a tier that shares another run's.
+    """
+
+    def __init__(self, model: HaptoFlowModel, solver: SolverConfig, *, train_level: bool = True) -> None:
+        super().__init__()
+        self.model = model
+        self._solver = solver
+        self._train_level = train_level
+
+    def forward(
+        self,
+        batch: SegmentBatch,
+        objective: Objective,
+        generator: torch.Generator,
+        pairs: ReflowPairs | None = None,
+    ) -> tuple[Tensor, Tensor]:
+        level = self._level_loss(batch)
+        if objective == "level":
+            return level, torch.zeros(())
+        if objective == "reflow":
+            if pairs is None:
+                raise ValueError("the reflow objective needs pairs")
+            return level, self._reflow_loss(pairs, generator)
+        return level, self._field_loss(batch, objective, generator)
+
+    def _level_loss(self, batch: SegmentBatch) -> Tensor:
+        if not self._train_level:
+            return torch.zeros(())
+        return level_loss(self.model.log_level(batch.label, batch.level_motion), batch.level_mean_square_mps2)
+
+    def _reflow_loss(self, pairs: ReflowPairs, generator: torch.Generator) -> Tensor:
+        embedding = self.model.embedding(pairs.label)
+
+        def field(noisy: Tensor, time: Tensor) -> Tensor:
+            return self.model.field(noisy, time, pairs.previous, embedding, pairs.motion)
+
+        return reflow_loss(field, pairs, generator)
+
+    def _field_loss(self, batch: SegmentBatch, objective: Objective, generator: torch.Generator) -> Tensor:
+        model = self.model
+        embedding = model.embedding(batch.label)
+        # The field sees waves of unit scale; it must not move the level to make its own task easier.
+        log_level = model.log_level(batch.label, batch.motion).detach()
+        segment = model.representation.encode(self._steady_segment(batch, embedding))
+        recorded_previous = _scaled(batch.previous, log_level)
+        own_past = batch.chain is not None
+        previous = recorded_previous
+        if batch.chain is not None:
+            own_previous = self.live_through(batch.chain, batch.label, objective, generator)
+            previous = _scaled(own_previous, log_level)
+        # A burst that the level cannot foresee (an impact, the first motion after a rest) is learnt, but must not
+        # outweigh a hundred ordinary segments.
+        power = segment.square().mean(dim=(1, 2)).clamp(min=1.0)
+        encoded_previous = model.representation.encode(previous)
+
+        def bound(rows: slice) -> AverageField:
+            def field(noisy: Tensor, time: Tensor, interval: Tensor) -> Tensor:
+                return model.field(
+                    noisy, time, encoded_previous[rows], embedding[rows], batch.motion[rows], interval
+                )
+
+            return field
+
+        def field(noisy: Tensor, time: Tensor) -> Tensor:
+            return model.field(noisy, time, encoded_previous, embedding, batch.motion)
+
+        if objective == "flow":
+            return flow_matching_loss(field, segment, generator, 1.0 / power)
+        if objective == "average-velocity":
+            return mean_flow_loss(bound, segment, generator, 1.0 / power)
+        start = torch.zeros(segment.shape[0], 1)
+        noises = [torch.randn(segment.shape, generator=generator) for _ in range(2)]
+        first, second = ((noise + field(noise, start)).squeeze(1) for noise in noises)
+        return energy_distance_loss(
+            segment.squeeze(1),
+            recorded_previous.squeeze(1),
+            (first, second),
+            previous.squeeze(1),
+            power.rsqrt(),
+            own_past=own_past,
+        )
+
+    @torch.no_grad()
+    def live_through(
+        self, chain: Chain, label: Tensor, objective: Objective, generator: torch.Generator
+    ) -> Tensor:
+        """The previous waveform [B, 1, 200] in m/s^2 that the network itself leaves after the chain's hops."""
+        model, previous = self.model, chain.start
+        for hop in range(chain.motion.shape[1]):
+            segment = self.generate(previous, label, chain.motion[:, hop], objective, generator)
+            appended = segment[:, :, : chain.hop_samples]
+            previous = torch.cat([previous[:, :, appended.shape[2] :], appended], dim=2)
+        return previous
+
+    @torch.no_grad()
+    def generate(
+        self, previous_mps2: Tensor, label: Tensor, motion: Tensor, objective: Objective, generator: torch.Generator
+    ) -> Tensor:
+        """One segment [B, 1, 200] in m/s^2, made as the objective's tier is run."""
+        model = self.model
+        embedding = model.embedding(label)
+        log_level = model.level(embedding, motion)
+        previous = model.representation.encode(_scaled(previous_mps2, log_level))
+        noise = torch.randn(label.shape[0], *model.representation.shape, generator=generator)
+
+        def field(noisy: Tensor, time: Tensor) -> Tensor:
+            return model.field(noisy, time, previous, embedding, motion)
+
+        start = torch.zeros(label.shape[0], 1)
+        if objective == "average-velocity":
+            made = noise + model.field(noise, start, previous, embedding, motion, torch.ones_like(start))
+        elif objective == "energy":
+            made = noise + field(noise, start)
+        else:
+            made = solve(field, noise, self._solver.kind, self._solver.steps)
+        return model.representation.decode(made) * torch.exp(log_level).unsqueeze(-1)
+
+    @torch.no_grad()
+    def make_pairs(
+        self, batch: SegmentBatch, generator: torch.Generator
+    ) -> tuple[Tensor, Tensor, Tensor, SegmentBatch]:
+        """(noise, what the flow makes of it, previous in unit scale, batch): what reflow straightens."""
+        model = self.model
+        embedding = model.embedding(batch.label)
+        previous = _scaled(batch.previous, model.level(embedding, batch.motion))
+        previous = model.representation.encode(previous)
+        noise = torch.randn(batch.label.shape[0], *model.representation.shape, generator=generator)
+
+        def field(noisy: Tensor, time: Tensor) -> Tensor:
+            return model.field(noisy, time, previous, embedding, batch.motion)
+
+        return noise, solve(field, noise, "midpoint", 4), previous, batch
+
+    def _steady_segment(self, batch: SegmentBatch, embedding: Tensor) -> Tensor:
+        """The segment in unit scale as if the motion went on as it began: each sample is divided by the level of its
+        own moment, since at run time the hand's next tenth of a second is not known."""
+        rows, knots, _ = batch.motion_path.shape
+        path = batch.motion_path.reshape(rows * knots, 3)
+        with torch.no_grad():
+            log_level = self.model.level(embedding.repeat_interleave(knots, dim=0), path).reshape(rows, 1, knots)
+        samples = batch.segment.shape[-1]
+        log_level = nn.functional.interpolate(log_level, size=samples, mode="linear", align_corners=True)
+        return batch.segment * torch.exp(-log_level)
+
+
+def _scaled(wave_mps2: Tensor, log_level: Tensor) -> Tensor:
+    return unit_scale(wave_mps2, log_level).clamp(-PREVIOUS_LIMIT, PREVIOUS_LIMIT)
