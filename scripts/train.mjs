@@ -1,10 +1,11 @@
-// train: trains the default model and writes its .haptoflow file (arguments: those of haptoflow-training train)
+// train: trains the default model, all tiers, and writes its .haptoflow file (with arguments: haptoflow-training train)
 import { run, runMain } from './lib/process.mjs';
 import { inRepository } from './lib/repository.mjs';
 import { pythonOrFail, setUp } from './lib/setup.mjs';
 
 // The default model and what the tests compare it with belong together: one run writes both.
 const defaults = [
+  'train-tiers',
   '--out', inRepository('out', 'train', 'default'),
   '--export', inRepository('Packages', 'com.haptoflow.runtime', 'Runtime', 'Models', 'default.haptoflow'),
   '--parity', inRepository('Tests', 'Golden', 'model', 'default.parity.json'),
@@ -12,7 +13,7 @@ const defaults = [
 
 await runMain('train', async (words) => {
   await setUp(['python']);
-  const args = ['-m', 'haptoflow_training', 'train', ...(words.length > 0 ? words : defaults)];
+  const args = ['-m', 'haptoflow_training', ...(words.length > 0 ? ['train', ...words] : defaults)];
   const { exitCode } = await run(pythonOrFail(), args, { env: { PYTHONPATH: inRepository('Training'), OPENBLAS_NUM_THREADS: '1' } });
   return exitCode;
 });

@@ -8,7 +8,7 @@ import pytest
 import torch
 
 from haptoflow_training.models.conditioning import EMBEDDING_SIZE, MotionFeatures
-from haptoflow_training.models.haptoflow_model import unit_scale
+from haptoflow_training.models.unit_scale import unit_scale
 from haptoflow_training.models.level_model import LevelModel, level_loss
 from haptoflow_training.models.velocity_field import VelocityField, parameter_count
 

@@ -7,20 +7,62 @@ from pathlib import Path
 import pytest
 
 from haptoflow_training.errors import InputError
-from haptoflow_training.training.config import config_from_dict, load_config
+from haptoflow_training.evaluation.row_plan import load_plan
+from haptoflow_training.training.config import TrainingConfig, config_from_dict, load_config
+from haptoflow_training.training.trainer import planned_steps
 
 CONFIGURATIONS = Path(__file__).parents[2] / "Training" / "configs"
 
 
-def _load(tmp_path: Path, text: str) -> object:
+def _load(tmp_path: Path, text: str) -> TrainingConfig:
     path = tmp_path / "run.toml"
     path.write_text(text, encoding="utf-8")
     return load_config(path)
 
 
-@pytest.mark.parametrize("name", ["default.toml", "cluster.toml"])
-def test_the_shipped_configurations_load(name: str) -> None:
-    assert load_config(CONFIGURATIONS / name).optimiser.steps > 0
+TRAININGS = sorted(
+    path.relative_to(CONFIGURATIONS).as_posix()
+    for path in (CONFIGURATIONS / "cluster.toml", *CONFIGURATIONS.glob("default/*.toml"), *CONFIGURATIONS.glob("evaluation/*.toml"))
+    if path.name != "rows.toml"
+)
+
+
+@pytest.mark.parametrize("name", TRAININGS)
+def test_the_shipped_configurations_load_and_train_something(name: str) -> None:
+    assert sum(planned_steps(load_config(CONFIGURATIONS / name))) > 0
+
+
+def test_a_configuration_takes_what_it_does_not_set_from_the_one_it_extends(tmp_path: Path) -> None:
+    (tmp_path / "base.toml").write_text("seed = 5\n[optimiser]\nsteps = 7\nbatch_size = 3\n", encoding="utf-8")
+    config = _load(tmp_path, 'extends = "base.toml"\n[optimiser]\nsteps = 9\n')
+    assert (config.seed, config.optimiser.steps, config.optimiser.batch_size) == (5, 9, 3)
+
+
+def test_a_configuration_that_extends_itself_is_refused(tmp_path: Path) -> None:
+    (tmp_path / "other.toml").write_text('extends = "run.toml"', encoding="utf-8")
+    with pytest.raises(InputError, match="leads back"):
+        _load(tmp_path, 'extends = "other.toml"')
+
+
+def test_every_row_of_the_evaluation_names_a_model_or_a_training_that_is_there() -> None:
+    for row in load_plan(CONFIGURATIONS / "evaluation" / "rows.toml"):
+        if row.model and not row.model.endswith(".haptoflow"):
+            assert (CONFIGURATIONS / "evaluation" / f"{row.model}.toml").is_file(), row.name
+
+
+@pytest.mark.parametrize(
+    ("text", "complaint"),
+    [
+        ('[[row]]\nname = "a"\nfamily = "b"', "'model' is missing"),
+        ('[[row]]\nname = "a"\nfamly = "b"', "unknown key 'famly'"),
+        ('[[row]]\nname = "silence"\nfamily = "b"\n[[row]]\nname = "silence"\nfamily = "b"', "stands there twice"),
+        ("", "no \\[\\[row"),
+    ],
+)
+def test_a_wrong_plan_is_refused_with_its_row_and_key(tmp_path: Path, text: str, complaint: str) -> None:
+    (tmp_path / "rows.toml").write_text(text, encoding="utf-8")
+    with pytest.raises(InputError, match=complaint):
+        load_plan(tmp_path / "rows.toml")
 
 
 @pytest.mark.parametrize(
@@ -33,6 +75,10 @@ def test_the_shipped_configurations_load(name: str) -> None:
         ("[optimiser]\nlearning_rate = -1.0", "'optimiser.learning_rate' is out of range"),
         ("[solver]\nkind = 'rk4'", "'solver.kind' is out of range"),
         ("[solver]\nsteps = 17", "'solver.steps' is out of range"),
+        ("[recipe]\nobjective = 'magic'", "'recipe.objective' is out of range"),
+        ("[recipe]\nobjective = 'average-velocity'\nenergy_steps = 5", "'recipe.objective' is out of range"),
+        ("[batch]\nheld_out_speed_mps = [0.3, 0.2]", "'batch.held_out_speed_mps' is out of range"),
+        ("extends = 'nowhere.toml'", "nowhere.toml"),
         ("[batch]\nhop_samples = [50, 20]", "'batch.hop_samples' is out of range"),
         ("data = 3", "'data' must be a table"),
         ("not toml at all", "is not TOML"),
@@ -42,7 +88,7 @@ def test_a_wrong_key_or_value_is_named_with_its_file(tmp_path: Path, text: str, 
     with pytest.raises(InputError) as raised:
         _load(tmp_path, text)
     assert complaint in str(raised.value)
-    assert "run.toml" in str(raised.value)
+    assert "run.toml" in str(raised.value) or "nowhere.toml" in str(raised.value)
 
 
 def test_a_missing_file_is_named() -> None:
@@ -51,5 +97,5 @@ def test_a_missing_file_is_named() -> None:
 
 
 def test_a_configuration_survives_the_way_through_a_checkpoint() -> None:
-    config = load_config(CONFIGURATIONS / "default.toml")
+    config = load_config(CONFIGURATIONS / "default" / "standard.toml")
     assert config_from_dict(config.to_dict(), Path("checkpoint.pt")) == config

@@ -19,8 +19,10 @@ _COMMANDS: dict[str, str] = {
     "prepare": "turn recordings into memory-mapped 2 kHz training arrays",
     "train": "train the level model and the network from one TOML file, resumable",
     "train-tiers": "train a model file with several tiers over one embedding and level",
+    "train-codec": "train the small codec behind latent tiers",
     "export": "write a trained run into a .haptoflow model file",
     "stroke": "write a hand-like stroke as CSV for `haptoflow render`",
+    "evaluate": "accuracy over time: every row of the plan, measured through the engine",
     "discriminate": "check that a classifier trained on recordings names what the engine renders",
 }
 

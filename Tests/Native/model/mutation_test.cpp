@@ -163,7 +163,8 @@ void mutateJson(Json& root, Random& random) {
         }
         case 3:
             if (node.is_number_integer()) {
-                node = node.get<std::int64_t>() + static_cast<std::int64_t>(random.below(129)) - 64;
+                // Unsigned, for an earlier change may have left a number at the edge of its type.
+                node = static_cast<std::int64_t>(node.get<std::uint64_t>() + random.below(129) - 64U);
                 return;
             }
             node = nastyValue(random);

@@ -14,8 +14,6 @@ from haptoflow_training.training.recordings_source import open_source
 from haptoflow_training.training.run_log import write_json
 from haptoflow_training.training.trainer import Trainer, TrainingStopped
 
-CONFIGURATIONS = Path(__file__).parents[2] / "configs"
-
 
 def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser], summary: str) -> None:
     parser = subparsers.add_parser(
@@ -28,17 +26,18 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser], su
         ),
         epilog=(
             "examples:\n"
-            "  haptoflow-training train --out out/train/default --export default.haptoflow\n"
             "  haptoflow-training train --config cluster.toml --recordings ~/cluster-haptic --out out/train/real\n"
-            "  torchrun --redirects 1 --tee 1 --nproc_per_node 2 -m haptoflow_training train --out out/train/two"
+            "  haptoflow-training train --config Training/configs/evaluation/plain.toml --out out/train/plain\n"
+            "  torchrun --redirects 1 --tee 1 --nproc_per_node 2 -m haptoflow_training train --config … --out …\n"
+            "`haptoflow-training train-tiers` trains the whole default model."
         ),
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
     parser.add_argument(
         "--config",
         type=Path,
-        default=CONFIGURATIONS / "default.toml",
-        help="the run's TOML file (default: %(default)s)",
+        required=True,
+        help="the run's TOML file, for example Training/configs/cluster.toml",
     )
     parser.add_argument("--out", type=Path, required=True, help="folder of the run; made, or gone on with")
     parser.add_argument(
@@ -47,6 +46,7 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser], su
     parser.add_argument(
         "--recordings", type=Path, nargs="+", metavar="DIR", help="data set folders, in place of the configuration's"
     )
+    parser.add_argument("--seed", type=int, help="in place of the configuration's seed")
     parser.add_argument(
         "--base", type=Path, metavar="FOLDER", help="finished run whose embedding and level a further tier keeps"
     )
@@ -64,6 +64,8 @@ def configuration(options: argparse.Namespace) -> TrainingConfig:
             config.data, source="folders", folders=tuple(str(folder) for folder in options.recordings)
         )
         config = dataclasses.replace(config, data=data)
+    if options.seed is not None:
+        config = dataclasses.replace(config, seed=options.seed)
     return config
 
 

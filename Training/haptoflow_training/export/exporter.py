@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import tempfile
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -14,11 +15,13 @@ from haptoflow_training.errors import InputError
 from haptoflow_training.export.exponents import fit_exponents
 from haptoflow_training.export.label_info import LabelInfo
 from haptoflow_training.export.model_file import ModelFile, write_model_file
-from haptoflow_training.export.onnx_graphs import export_field, export_level_model
+from haptoflow_training.export.onnx_graphs import export_baseline, export_field, export_level_model
 from haptoflow_training.export.parity import write_parity
 from haptoflow_training.export.seed_bank import SEED_SAMPLES, build_seed_bank
 from haptoflow_training.export.trained_tier import TrainedTier, load_tiers
+from haptoflow_training.models.baselines import Baseline
 from haptoflow_training.models.conditioning import EMBEDDING_SIZE
+from haptoflow_training.models.representation import CodecRepresentation
 from haptoflow_training.models.velocity_field import parameter_count
 from haptoflow_training.training.batches import SEGMENT_SAMPLES, SegmentBatches, Store
 from haptoflow_training.training.config import TrainingConfig
@@ -72,7 +75,8 @@ def _label_entry(store: Store, row: int, info: LabelInfo, seed: int) -> dict[str
 
 
 def _tier_entry(tier: TrainedTier) -> dict[str, Any]:
-    return {
+    representation = tier.model.representation
+    entry = {
         "name": tier.name,
         "kind": tier.kind,
         "field": f"{tier.name}.field",
@@ -80,10 +84,14 @@ def _tier_entry(tier: TrainedTier) -> dict[str, Any]:
         "solver": tier.solver,
         "steps": tier.steps,
         "parameters": parameter_count(tier.model.field),
-        "representation": "raw",
+        "representation": "latent" if representation.is_latent else "raw",
         "accuracy": {},
         "cost": {},
     }
+    if representation.is_latent:
+        entry["latent_shape"] = list(representation.shape)
+        entry |= {name: f"{tier.name}.{name}" for name in ("encoder", "decoder")}
+    return entry
 
 
 def _header(
@@ -121,6 +129,19 @@ def _header(
     }
 
 
+def _graphs(tier: TrainedTier) -> dict[str, bytes]:
+    field, representation = tier.model.field, tier.model.representation
+    graph = export_baseline(field) if isinstance(field, Baseline) else export_field(field, tier.kind)
+    graphs = {f"{tier.name}.field": graph}
+    if isinstance(representation, CodecRepresentation):
+        with tempfile.TemporaryDirectory() as folder:
+            for name in ("encoder", "decoder"):
+                path = Path(folder) / f"{name}.onnx"
+                getattr(representation, f"export_{name}")(path)
+                graphs[f"{tier.name}.{name}"] = path.read_bytes()
+    return graphs
+
+
 def export_run(
     folder: Path,
     store: Store,
@@ -131,6 +152,8 @@ def export_run(
     further_tiers: Sequence[Path] = (),
 ) -> int:
     """Write the finished run in `folder` to `out`, and golden vectors to `parity`; returns the file's CRC-32.
+
+    Golden vectors are of the raw tiers: a latent one starts from noise that only the engine extends.
 
     further_tiers: folders of runs trained with `--base folder`, each one more tier of the same file.
     """
@@ -143,7 +166,7 @@ def export_run(
     measurements = json.loads(run_file.read_text(encoding="utf-8")) if run_file.exists() else {}
     measurements.pop("configuration", None)
     header = _header(config, tiers, store, infos, provenance, bank.entries, measurements)
-    graphs = {f"{tier.name}.field": export_field(tier.model.field, tier.kind) for tier in tiers}
+    graphs = {name: graph for tier in tiers for name, graph in _graphs(tier).items()}
     file = ModelFile(
         header=header,
         tensors={"embedding": model.embedding.weight.detach().numpy().copy(), "seeds": bank.waves},
@@ -152,5 +175,6 @@ def export_run(
     checksum = write_model_file(out, file)
     if parity is not None:
         batch = SegmentBatches(store, "validation", config.batch, config.seed).draw(10)
-        write_parity(parity, tiers, batch, model_crc32=checksum, seed=config.seed)
+        raw = [tier for tier in tiers if not tier.model.representation.is_latent]
+        write_parity(parity, raw, batch, model_crc32=checksum, seed=config.seed)
     return checksum

@@ -9,8 +9,8 @@ import onnx
 import torch
 from torch import Tensor, nn
 
+from haptoflow_training.models.baselines import Baseline, BaselineGraph
 from haptoflow_training.models.conditioning import EMBEDDING_SIZE
-from haptoflow_training.models.level_model import LevelModel
 from haptoflow_training.models.velocity_field import VelocityField
 
 OPSET = 16
@@ -64,6 +64,18 @@ class _AverageVelocity(nn.Module):
         return self.field(noisy, time, previous, embedding, motion, interval)
 
 
+def export_baseline(baseline: Baseline) -> bytes:
+    """A baseline as a direct tier's graph, with the inputs that it reads."""
+    wave = torch.zeros(2, 1, 200)
+    examples = {
+        "noisy": wave,
+        "previous": wave.clone(),
+        "embedding": torch.zeros(2, EMBEDDING_SIZE),
+        "motion": torch.full((2, 3), 0.1),
+    }
+    return _export(BaselineGraph(baseline), {name: examples[name] for name in baseline.inputs}, "segment")
+
+
 def export_field(field: VelocityField, kind: str) -> bytes:
     """The graph of a tier of `kind` "flow", "average-velocity" or "direct" (model-format.md, Graphs).
 
@@ -90,7 +102,7 @@ def export_field(field: VelocityField, kind: str) -> bytes:
     raise ValueError(f"unknown tier kind '{kind}'")
 
 
-def export_level_model(level: LevelModel) -> bytes:
+def export_level_model(level: nn.Module) -> bytes:
     """Inputs embedding, motion; output log_level."""
     batch = 2
     return _export(

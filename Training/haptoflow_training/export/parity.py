@@ -8,7 +8,7 @@ from typing import Any
 import torch
 
 from haptoflow_training.export.trained_tier import TrainedTier
-from haptoflow_training.models.haptoflow_model import PREVIOUS_LIMIT, unit_scale
+from haptoflow_training.models.unit_scale import PREVIOUS_LIMIT, unit_scale
 from haptoflow_training.training.batches import SegmentBatch
 from haptoflow_training.training.run_log import write_json
 

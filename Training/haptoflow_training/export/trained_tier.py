@@ -9,6 +9,7 @@ import torch
 from torch import Tensor
 
 from haptoflow_training.errors import InputError
+from haptoflow_training.models.baselines import Baseline
 from haptoflow_training.models.haptoflow_model import HaptoFlowModel
 from haptoflow_training.training.config import TrainingConfig
 from haptoflow_training.training.flow_matching import solve
@@ -32,7 +33,7 @@ class TrainedTier:
 
     @property
     def kind(self) -> str:
-        if self.config.recipe.energy_steps:
+        if self.config.recipe.energy_steps or isinstance(self.model.field, Baseline):
             return "direct"
         return "average-velocity" if self.config.recipe.objective == "average-velocity" else "flow"
 
@@ -48,6 +49,8 @@ class TrainedTier:
         self, noisy: Tensor, time: Tensor, interval: Tensor, previous: Tensor, embedding: Tensor, motion: Tensor
     ) -> Tensor:
         """What the exported graph returns: the velocity, or the segment of a direct tier."""
+        if isinstance(self.model.field, Baseline):
+            return self.model.field(noisy, previous, embedding, motion)
         made = self.model.field(noisy, time, previous, embedding, motion, interval)
         return noisy + made if self.kind == "direct" else made
 
@@ -70,11 +73,6 @@ def load_tiers(folders: list[Path]) -> list[TrainedTier]:
     tiers = [TrainedTier(*load_trained(folder)) for folder in folders]
     first = tiers[0]
     for tier, folder in zip(tiers, folders, strict=True):
-        if tier.config.model.representation.get("kind", "raw") != "raw":
-            raise InputError(
-                f"{folder}: representation '{tier.config.model.representation['kind']}' cannot be exported yet: "
-                "the exporter writes raw segments; train with representation kind 'raw'"
-            )
         shared = (tier.model.embedding, first.model.embedding), (tier.model.level, first.model.level)
         same = all(
             torch.equal(own, other)

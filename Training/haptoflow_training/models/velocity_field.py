@@ -65,7 +65,7 @@ class VelocityField(nn.Module):
 
     noisy and previous: [B, C, N] with C channels of the representation (1 for raw samples) and N its positions
     (200); time: [B, 1]; embedding: [B, 64]; motion: [B, 3]. Returns [B, C, N]. N must divide by `patch`.
-    With `average`, the field is the average velocity over [t, t + interval] (MeanFlow) and takes interval [B, 1].
+    Without `hears_previous`, the previous waveform has no effect. With `average`, the field is the average velocity over [t, t + interval] (MeanFlow) and takes interval [B, 1].
     """
 
     def __init__(
@@ -77,8 +77,10 @@ class VelocityField(nn.Module):
         width: int = 64,
         previous_width: int = 32,
         average: bool = False,
+        hears_previous: bool = True,
     ) -> None:
         super().__init__()
+        self.hears_previous = hears_previous
         if positions % patch != 0:
             raise ValueError(f"{positions} positions do not divide into patches of {patch}")
         self.channels, self.positions, self.patch = channels, positions, patch
@@ -133,6 +135,8 @@ class VelocityField(nn.Module):
         condition = torch.cat([embedding, self.motion(motion), moment], dim=1)
         film = self.film(condition).unsqueeze(-1).unsqueeze(-1).split(self._film_sizes, dim=1)
 
+        if not self.hears_previous:
+            previous = torch.zeros_like(previous)
         # Mirrored, so that the newest sample of the past lies beside the first sample of the new segment.
         past = self.previous_fine(self._to_patches(torch.flip(previous, dims=[2])))
         past_coarse = self.previous_coarse(nn.functional.silu(past))

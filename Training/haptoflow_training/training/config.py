@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any, TypeVar
 
 from haptoflow_training.errors import InputError
+from haptoflow_training.models.baselines import ARCHITECTURES
 
 
 @dataclass(frozen=True)
@@ -36,8 +37,15 @@ class DataConfig:
 
 @dataclass(frozen=True)
 class ModelConfig:
-    """Shape of the velocity field; `representation` is handed to `build_representation`."""
+    """What is trained. architecture: `unet` (the velocity field, `width` to `patch`) or one of the baselines.
 
+    `representation` is handed to `build_representation`. hears_previous: false leaves the previous waveform out; level:
+    `law` or `constant` (one level for everything): both to show what they are worth.
+    """
+
+    architecture: str = "unet"
+    hears_previous: bool = True
+    level: str = "law"
     width: int = 64
     previous_width: int = 32
     patch: int = 8
@@ -73,14 +81,14 @@ class BatchConfig:
     chains that begin in silence.
     """
 
-    held_out_speed_mps: tuple[float, ...] = ()
-    held_out_force_newtons: tuple[float, ...] = ()
     hop_samples: tuple[int, int] = (16, 66)
-    chain_hops: tuple[int, int] = (1, 8)
-    chain_silence_probability: float = 0.3
     silence_probability: float = 0.05
     switch_probability: float = 0.03
     machine_share: float = 0.35
+    chain_hops: tuple[int, int] = (1, 8)
+    chain_silence_probability: float = 0.3
+    held_out_speed_mps: tuple[float, ...] = ()
+    held_out_force_newtons: tuple[float, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -242,6 +250,17 @@ def _check(config: TrainingConfig, path: Path) -> None:
             "two numbers, 1 <= min <= max <= 50",
         ),
         (config.model.width >= 8, "model.width", "at least 8"),
+        (
+            config.model.architecture in ("unet", *ARCHITECTURES),
+            "model.architecture",
+            f"'unet' or a baseline: {', '.join(ARCHITECTURES)}",
+        ),
+        (
+            config.model.architecture == "unet" or config.recipe == RecipeConfig(),
+            "recipe",
+            "left out for a baseline, which is trained by its own loss alone",
+        ),
+        (config.model.level in ("law", "constant"), "model.level", "'law' or 'constant'"),
         (config.tier in ("draft", "standard", "fine"), "tier", "'draft', 'standard' or 'fine'"),
         (config.recipe.objective in ("flow", "average-velocity"), "recipe.objective", "'flow' or 'average-velocity'"),
         (

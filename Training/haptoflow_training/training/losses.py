@@ -7,7 +7,8 @@ from typing import Literal
 import torch
 from torch import Tensor, nn
 
-from haptoflow_training.models.haptoflow_model import PREVIOUS_LIMIT, HaptoFlowModel, unit_scale
+from haptoflow_training.models.haptoflow_model import HaptoFlowModel
+from haptoflow_training.models.unit_scale import PREVIOUS_LIMIT, unit_scale
 from haptoflow_training.models.level_model import level_loss
 from haptoflow_training.training.batches import Chain, SegmentBatch
 from haptoflow_training.training.config import SolverConfig
@@ -16,7 +17,8 @@ from haptoflow_training.training.flow_matching import flow_matching_loss, solve
 from haptoflow_training.training.mean_flow import AverageField, mean_flow_loss
 from haptoflow_training.training.reflow import ReflowPairs, reflow_loss
 
-Objective = Literal["level", "flow", "average-velocity", "reflow", "energy"]
+# `own`: what a baseline is trained for in its own paper.
+Objective = Literal["level", "flow", "average-velocity", "reflow", "energy", "own"]
 
 
 class Losses(nn.Module):
@@ -88,6 +90,9 @@ class Losses(nn.Module):
         def field(noisy: Tensor, time: Tensor) -> Tensor:
             return model.field(noisy, time, encoded_previous, embedding, batch.motion)
 
+        if objective == "own":
+            own = model.field.loss(segment, encoded_previous, embedding, batch.motion, generator)
+            return (own / power).sum() / power.reciprocal().sum()
         if objective == "flow":
             return flow_matching_loss(field, segment, generator, 1.0 / power)
         if objective == "average-velocity":

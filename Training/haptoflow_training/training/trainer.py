@@ -20,8 +20,11 @@ from torch.nn.parallel import DistributedDataParallel
 from tqdm import tqdm
 
 from haptoflow_training.errors import InputError
+from haptoflow_training.models.baselines import Baseline, build_baseline
 from haptoflow_training.models.haptoflow_model import HaptoFlowModel
+from haptoflow_training.models.level_model import ConstantLevel, LevelModel
 from haptoflow_training.models.representation import build_representation
+from haptoflow_training.models.velocity_field import VelocityField
 from haptoflow_training.training.batches import SegmentBatches, Store
 from haptoflow_training.training.config import TrainingConfig, config_from_dict
 from haptoflow_training.training.losses import Losses, Objective
@@ -42,14 +45,24 @@ class TrainingStopped(Exception):
 
 def build_model(config: TrainingConfig, label_count: int) -> HaptoFlowModel:
     """The untrained model that `config` describes."""
-    return HaptoFlowModel(
-        label_count=label_count,
-        representation=build_representation(config.model.representation),
-        width=config.model.width,
-        previous_width=config.model.previous_width,
-        patch=config.model.patch,
-        average=config.recipe.objective == "average-velocity",
-    )
+    shape = config.model
+    representation = build_representation(shape.representation)
+    channels, positions = representation.shape
+    field: VelocityField | Baseline
+    if shape.architecture == "unet":
+        field = VelocityField(
+            channels=channels,
+            positions=positions,
+            patch=shape.patch,
+            width=shape.width,
+            previous_width=shape.previous_width,
+            average=config.recipe.objective == "average-velocity",
+            hears_previous=shape.hears_previous,
+        )
+    else:
+        field = build_baseline(shape.architecture)
+    level = LevelModel() if shape.level == "law" else ConstantLevel()
+    return HaptoFlowModel(label_count=label_count, representation=representation, level=level, field=field)
 
 
 @dataclass(frozen=True)
@@ -72,6 +85,8 @@ class _Phase:
 def _phases(config: TrainingConfig) -> tuple[_Phase, ...]:
     optimiser, recipe = config.optimiser, config.recipe
     flow: Objective = "average-velocity" if recipe.objective == "average-velocity" else "flow"
+    if config.model.architecture != "unet":
+        flow = "own"
     last: Objective = "energy" if recipe.energy_steps else "reflow" if recipe.reflow_steps else flow
     # A tier that shares another run's level has nothing to fit there.
     level_steps, polish_steps = (0, 0) if recipe.shares_base else (optimiser.level_steps, optimiser.level_polish_steps)
@@ -239,7 +254,10 @@ class Trainer:
         """(level loss, loss of the phase's objective) of the averaged model on fixed pairs of the validation split."""
         generator = torch.Generator().manual_seed(99)
         losses = Losses(self.averaged_model, self._config.solver)
-        objective = phase.objective if phase is not None and phase.objective in ("energy", "average-velocity") else "flow"
+        asked = phase.objective if phase is not None else self._phases[-1].objective
+        if asked in ("level", "reflow"):
+            asked = next((entry.objective for entry in self._phases if entry.name == "field"), "level")
+        objective = asked
         level, field = losses(self._validation, objective, generator)
         return level.item(), field.item()
 
@@ -283,7 +301,8 @@ class Trainer:
     def _load(self) -> None:
         content = torch.load(self.checkpoint_path, map_location="cpu")
         own = torch.load(self._folder / f"generators-{self._processes.rank}.pt", map_location="cpu")
-        if content["config"] != self._config.to_dict() or content["labels"] != list(self._store.labels):
+        same_config = config_from_dict(content["config"], self.checkpoint_path) == self._config
+        if not same_config or content["labels"] != list(self._store.labels):
             raise InputError(
                 f"{self.checkpoint_path} belongs to another configuration: choose another --out, or delete the folder"
             )

@@ -1,0 +1,61 @@
+"""The closed loop: hops, conditions, splices and past as the engine has them."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from haptoflow_training.evaluation.closed_loop import hop_positions, run_closed_loop, spliced
+
+
+class Probe:
+    """Keeps what it is asked and answers with segments that count upwards."""
+
+    def __init__(self) -> None:
+        self.motions: list[np.ndarray] = []
+        self.pasts: list[np.ndarray] = []
+
+    def generate(
+        self, embeddings: np.ndarray, motions: np.ndarray, previous_mps2: np.ndarray, noise: np.ndarray
+    ) -> np.ndarray:
+        self.motions.append(motions.copy())
+        self.pasts.append(previous_mps2.copy())
+        return np.tile(1000.0 * len(self.pasts) + np.arange(200), (len(embeddings), 1)).astype(np.float32)
+
+
+def test_seventy_two_updates_a_second_are_27_or_28_samples_apart() -> None:
+    positions = hop_positions(2000, 72.0)
+    assert len(positions) == 72
+    assert set(np.diff(positions)) == {27, 28}
+
+
+@pytest.mark.parametrize("rate_hz", [30.0, 72.0, 120.0])
+def test_each_past_is_the_two_hundred_samples_before_the_segment(rate_hz: float) -> None:
+    probe = Probe()
+    run = run_closed_loop(probe, np.zeros((2, 64), np.float32), np.zeros((2, 1500, 3), np.float32),
+                          update_rate_hz=rate_hz, seed=1)  # fmt: skip
+    padded = np.concatenate([np.zeros((2, 200), np.float32), run.waves], axis=1)
+    for start, past in zip(run.hop_starts, probe.pasts, strict=True):
+        np.testing.assert_array_equal(past, padded[:, start : start + 200])
+
+
+def test_a_segment_is_told_the_motion_before_it_and_not_the_motion_to_come() -> None:
+    probe = Probe()
+    motions = np.zeros((1, 400, 3), dtype=np.float32)
+    motions[0, 200:, 0] = 1.0
+    run = run_closed_loop(probe, np.zeros((1, 64), np.float32), motions, update_rate_hz=40.0, seed=1)
+    told = np.array([motion[0, 0] for motion in probe.motions])
+    np.testing.assert_array_equal(told, (run.hop_starts > 200).astype(np.float32))
+
+
+def test_a_segment_that_goes_on_as_the_old_one_did_passes_unchanged() -> None:
+    wave = np.random.default_rng(1).standard_normal((3, 200)).astype(np.float32)
+    np.testing.assert_allclose(spliced(wave, wave), wave, rtol=1e-5)
+
+
+def test_the_level_holds_across_a_splice_of_strangers() -> None:
+    generator = np.random.default_rng(2)
+    old, new = (generator.standard_normal((20000, 200)).astype(np.float32) for _ in range(2))
+    power = np.square(spliced(old, new)).mean(axis=0)
+    # The correlation is estimated from 32 samples and never negative: a bias of a few per cent.
+    np.testing.assert_allclose(power[:8], 1.0, atol=0.1)

@@ -1,0 +1,93 @@
+"""Metrics of the evaluation on waves whose figures are known."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from haptoflow_training.evaluation import metrics
+from haptoflow_training.evaluation.accuracy import summary
+
+RATE_HZ = 2000
+
+
+def _noise(seconds: float, seed: int) -> np.ndarray:
+    return np.random.default_rng(seed).standard_normal(int(seconds * RATE_HZ))
+
+
+def _tone(frequency_hz: float, seconds: float) -> np.ndarray:
+    return np.sqrt(2.0) * np.sin(2.0 * np.pi * frequency_hz * np.arange(int(seconds * RATE_HZ)) / RATE_HZ)
+
+
+def test_a_wave_scores_perfectly_against_itself() -> None:
+    wave = _noise(4.0, 1)
+    assert metrics.gfc_recording(wave, wave) == pytest.approx(1.0)
+    assert metrics.gfc_segment(wave, wave) == pytest.approx(1.0)
+    assert metrics.relative_rmse(wave, wave) == 0.0
+    assert metrics.level_error_db(wave, wave) == 0.0
+    assert metrics.log_spectral_distance_db(wave, wave) == 0.0
+    assert np.abs(metrics.critical_band_errors_db(wave, wave)).max() == 0.0
+
+
+def test_half_the_amplitude_is_minus_six_decibels_and_costs_gfc_nothing() -> None:
+    wave = _noise(4.0, 1)
+    assert metrics.level_error_db(0.5 * wave, wave) == pytest.approx(-6.02, abs=0.01)
+    assert metrics.log_spectral_distance_db(0.5 * wave, wave) == pytest.approx(6.02, abs=0.01)
+    np.testing.assert_allclose(metrics.critical_band_errors_db(0.5 * wave, wave), -6.02, atol=0.01)
+    assert metrics.gfc_recording(0.5 * wave, wave) == pytest.approx(1.0)
+
+
+def test_the_two_traps_silence_beats_an_independent_draw_in_rmse_and_segments_punish_correct_randomness() -> None:
+    wave, draw = _noise(8.0, 1), _noise(8.0, 2)
+    assert metrics.relative_rmse(np.zeros_like(wave), wave) == pytest.approx(1.0, abs=0.01)
+    assert metrics.relative_rmse(draw, wave) == pytest.approx(np.sqrt(2.0), abs=0.03)
+    assert metrics.gfc_segment(draw, wave) < 0.85
+    assert metrics.gfc_recording(draw, wave) > 0.98
+
+
+def test_an_independent_draw_of_eight_seconds_stays_within_a_decibel_of_spectral_distance() -> None:
+    assert metrics.log_spectral_distance_db(_noise(8.0, 1), _noise(8.0, 2)) < 1.0
+
+
+def test_the_fundamental_is_found_between_bins() -> None:
+    wave = _tone(123.4, 4.0) + 0.3 * _noise(4.0, 3)
+    assert metrics.fundamental_hz(wave, 120.0) == pytest.approx(123.4, rel=0.002)
+
+
+def test_harmonics_of_a_tone_hold_its_power_and_of_noise_only_their_share_of_the_band() -> None:
+    assert metrics.harmonic_share(_tone(100.0, 4.0), 100.0) > 0.99
+    assert metrics.harmonic_share(_noise(4.0, 1), 100.0) == pytest.approx(0.06, abs=0.02)
+
+
+def test_a_step_at_every_hop_shows_in_the_jump_ratio() -> None:
+    wave, hops = _noise(4.0, 1), np.arange(0, 8000, 28)
+    assert metrics.hop_jump_ratio(wave, hops) == pytest.approx(1.0, abs=0.1)
+    stepped = wave + 3.0 * (np.arange(8000) // 28 % 2)
+    assert metrics.hop_jump_ratio(stepped, hops) > 2.0
+
+
+def test_a_level_that_grows_by_two_decibels_a_minute_drifts_by_two() -> None:
+    seconds = 60.0
+    growing = _noise(seconds, 1) * 10.0 ** (np.linspace(0.0, 2.0, int(seconds * RATE_HZ)) / 20.0)
+    assert metrics.drift_db_per_minute(growing) == pytest.approx(2.0, abs=0.3)
+
+
+def test_a_power_law_has_no_kink_and_a_corner_has_its_size() -> None:
+    assert metrics.kink_db(np.linspace(0.0, 40.0, 20)) == pytest.approx(0.0, abs=1e-9)
+    assert metrics.kink_db(np.concatenate([np.zeros(5), np.arange(1.0, 6.0)])) == pytest.approx(1.0)
+
+
+def test_a_summary_takes_the_median_over_labels_and_its_interval_covers_it() -> None:
+    rows = [
+        {"label": label, "level_error_db": error, "gfc_recording": 0.9 + 0.01 * error, "gfc_segment": 0.8, "rmse": 1.4,
+         "lsd_db": 1.0, "continuity": None, "band_errors_db": [error] * 9}
+        for label, errors in {"a": (0.0, 2.0), "b": (3.0, 5.0), "c": (-9.0, -7.0)}.items()
+        for error in errors
+    ]  # fmt: skip
+    figures = summary(rows)
+    assert figures["level_error_db"] == pytest.approx(1.0)
+    assert figures["level_error_worst_db"] == 9.0
+    assert figures["gfc_label_worst"] == pytest.approx(0.82)
+    low, high = figures["level_error_db_interval"]
+    assert low <= 1.0 <= high and high > low
+    assert figures["continuity"] is None and figures["f0_error_percent"] is None

@@ -1,0 +1,193 @@
+"""The training recipes: each one's loss is least where it should be, and each phase leaves a network that runs."""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+import torch
+from test_trainer import ALONE, _config
+from training_fixtures import make_store
+
+from haptoflow_training.errors import InputError
+from haptoflow_training.export.trained_tier import TrainedTier, load_tiers
+from haptoflow_training.training.batches import SegmentBatches
+from haptoflow_training.training.config import BatchConfig, RecipeConfig, SolverConfig
+from haptoflow_training.training.energy_distance import WINDOW_SAMPLES, energy_distance_loss, magnitudes
+from haptoflow_training.training.losses import Losses
+from haptoflow_training.training.mean_flow import mean_flow_loss
+from haptoflow_training.training.reflow import ReflowPairs, reflow_loss
+from haptoflow_training.training.trainer import Trainer, build_model, load_trained, planned_steps
+
+
+def _noise(count: int, samples: int, seed: int) -> torch.Tensor:
+    return torch.randn(count, samples, generator=torch.Generator().manual_seed(seed))
+
+
+def _energy(draw: Callable[[int], torch.Tensor]) -> float:
+    recorded, past = _noise(256, 200, 1), _noise(256, 200, 2)
+    loss = energy_distance_loss(recorded, past, (draw(3), draw(4)), past, torch.ones(256), own_past=False)
+    return loss.item()
+
+
+@pytest.mark.parametrize("window", WINDOW_SAMPLES)
+def test_white_noise_has_mean_power_one_in_every_window(window: int) -> None:
+    power = magnitudes(_noise(400, 400, 5), window).square().mean(dim=(0, 1))
+    assert power[1:-1].mean().item() == pytest.approx(1.0, rel=0.05)
+
+
+def test_the_energy_distance_prefers_the_true_process_to_its_mean_to_a_copy_of_one_draw_and_to_a_wrong_level() -> None:
+    true = _energy(lambda seed: _noise(256, 200, seed))
+    assert true < _energy(lambda seed: torch.zeros(256, 200)) - 0.1, "the conditional mean"
+    assert true < _energy(lambda seed: _noise(256, 200, 3)) - 0.1, "no variety"
+    for gain in (0.8, 1.25):
+        assert true < _energy(lambda seed: gain * _noise(256, 200, seed)) - 0.005, f"level times {gain}"
+
+
+def test_the_energy_distance_prefers_a_tone_that_goes_on_to_one_that_starts_anew() -> None:
+    phase = 2.0 * math.pi * torch.rand(64, 1, generator=torch.Generator().manual_seed(1))
+    time = torch.arange(400)
+    tone = math.sqrt(2.0) * torch.sin(2.0 * math.pi * 0.07 * time + phase)
+    past, going_on = tone[:, :200], tone[:, 200:]
+    anew = going_on.roll(7, dims=0)
+    weight = torch.ones(64)
+    losses = [
+        energy_distance_loss(going_on, past, (made, made), past, weight, own_past=own).item()
+        for own in (False, True)
+        for made in (going_on, anew)
+    ]
+    assert losses[0] < losses[1] - 0.3
+    assert losses[2] < losses[3] - 0.1, "own past: by spectra alone"
+
+
+def test_the_average_velocity_of_a_straight_flow_has_no_mean_flow_loss() -> None:
+    target = torch.full((16, 1, 8), 2.0)
+
+    def straight(rows: slice) -> Callable[[torch.Tensor, torch.Tensor, torch.Tensor], torch.Tensor]:
+        # One target: the velocity at (x, t) is (target - x) / (1 - t), constant along each path.
+        return lambda state, time, interval: (2.0 - state) / (1.0 - time.unsqueeze(-1) + 1e-6)
+
+    generator = torch.Generator().manual_seed(0)
+    assert mean_flow_loss(straight, target, generator, torch.ones(16)).item() < 1e-3
+
+
+def test_a_mean_flow_learnt_from_two_points_jumps_to_them_in_one_step() -> None:
+    torch.manual_seed(0)
+    layers = torch.nn.Sequential(torch.nn.Linear(3, 64), torch.nn.SiLU(), torch.nn.Linear(64, 64), torch.nn.SiLU(),
+                                 torch.nn.Linear(64, 1))  # fmt: skip
+
+    def field(state: torch.Tensor, time: torch.Tensor, interval: torch.Tensor) -> torch.Tensor:
+        return layers(torch.cat([state[:, :, 0], time, interval], dim=1)).unsqueeze(-1)
+
+    optimiser = torch.optim.Adam(layers.parameters(), lr=3e-3)
+    generator = torch.Generator().manual_seed(1)
+    for _ in range(500):
+        target = 3.0 * torch.randint(0, 2, (128, 1, 1), generator=generator).float() - 1.5
+        loss = mean_flow_loss(lambda rows: field, target, generator, torch.ones(128))
+        optimiser.zero_grad()
+        loss.backward()
+        optimiser.step()
+    start = torch.randn(400, 1, 1, generator=generator)
+    made = start + field(start, torch.zeros(400, 1), torch.ones(400, 1))
+    assert (made.abs() - 1.5).abs().median().item() < 0.35
+    assert made.std().item() == pytest.approx(1.5, abs=0.3), "the plain flow's one step would land on the mean, 0"
+
+
+def test_reflow_is_least_for_the_field_that_joins_each_pair_straight() -> None:
+    noise, target = _noise(32, 8, 1).unsqueeze(1), _noise(32, 8, 2).unsqueeze(1)
+    pairs = ReflowPairs(noise, target, noise, torch.zeros(32, dtype=torch.long), torch.zeros(32, 3))
+    generator = torch.Generator().manual_seed(0)
+    assert reflow_loss(lambda state, time: target - noise, pairs, generator).item() < 1e-10
+    assert reflow_loss(lambda state, time: torch.zeros_like(state), pairs, generator).item() > 1.0
+
+
+def test_a_chain_of_recorded_segments_would_end_in_the_recorded_previous_waveform() -> None:
+    store = make_store()
+    batches = SegmentBatches(store, "train", BatchConfig(chain_silence_probability=0.0, switch_probability=0.0,
+                                                         silence_probability=0.0), 4)  # fmt: skip
+    batch = batches.draw_chains(16)
+    assert batch.chain is not None
+    lead_in = batch.chain.motion.shape[1] * batch.chain.hop_samples
+    for row in range(16):
+        previous = (batch.previous[row, 0].numpy() / 10.0).astype("float32")
+        start = (batch.chain.start[row, 0].numpy() / 10.0).astype("float32")
+        found = [
+            place
+            for place in range(200, len(store.waveform))
+            if abs(store.waveform[place - 1] - previous[-1]) < 1e-7 and abs(store.waveform[place - 200] - previous[0]) < 1e-7
+        ]
+        assert any(abs(store.waveform[place - lead_in - 1] - start[-1]) < 1e-7 for place in found)
+
+
+def test_living_through_a_chain_appends_each_hop_of_what_was_generated() -> None:
+    store = make_store()
+    model = build_model(_config(), 2).eval()
+    losses = Losses(model, SolverConfig("euler", 1))
+    chain = SegmentBatches(store, "train", BatchConfig(chain_hops=(2, 2)), 4).draw_chains(3).chain
+    assert chain is not None
+    label = torch.tensor([0, 1, 0])
+    lived = losses.live_through(chain, label, "flow", torch.Generator().manual_seed(1))
+    generator = torch.Generator().manual_seed(1)
+    first = losses.generate(chain.start, label, chain.motion[:, 0], "flow", generator)[:, :, : chain.hop_samples]
+    kept = torch.cat([chain.start[:, :, chain.hop_samples :], first], dim=2)
+    second = losses.generate(kept, label, chain.motion[:, 1], "flow", generator)[:, :, : chain.hop_samples]
+    torch.testing.assert_close(lived, torch.cat([kept[:, :, chain.hop_samples :], second], dim=2))
+
+
+RECIPES = {
+    "flow and self-forcing": (RecipeConfig(self_forcing_steps=4), "flow"),
+    "average velocity": (RecipeConfig(objective="average-velocity", self_forcing_steps=4), "average-velocity"),
+    "reflow": (RecipeConfig(reflow_steps=6, reflow_pairs=600), "flow"),
+    "energy and self-forcing": (RecipeConfig(energy_steps=6, energy_batch_size=6, self_forcing_steps=4), "direct"),
+}
+
+
+@pytest.mark.parametrize("name", RECIPES)
+def test_a_recipe_runs_through_its_phases_and_says_how_its_network_is_to_be_run(name: str, tmp_path: Path) -> None:
+    recipe, kind = RECIPES[name]
+    config = dataclasses.replace(_config(steps=10), recipe=recipe)
+    Trainer(config, make_store(), tmp_path, ALONE).run()
+    rows = (tmp_path / "metrics.csv").read_text(encoding="utf-8").splitlines()
+    assert len({row.split(",")[1] for row in rows[1:]}) == len(planned_steps(config))
+    tier = TrainedTier(*load_trained(tmp_path))
+    assert tier.kind == kind
+    made = tier.generate(torch.randn(3, 1, 200), torch.zeros(3, 1, 200), torch.randn(3, 64), torch.rand(3, 3),
+                         tier.solver, tier.steps)  # fmt: skip
+    assert made.shape == (3, 1, 200) and torch.isfinite(made).all()
+
+
+def test_a_further_tier_keeps_the_level_and_embedding_of_its_base(tmp_path: Path) -> None:
+    store = make_store()
+    Trainer(_config(steps=5), store, tmp_path / "base", ALONE).run()
+    config = dataclasses.replace(_config(steps=5), tier="draft", recipe=RecipeConfig(shares_base=True))
+    Trainer(config, store, tmp_path / "draft", ALONE, tmp_path / "base").run()
+    tiers = load_tiers([tmp_path / "base", tmp_path / "draft"])
+    assert [tier.name for tier in tiers] == ["draft", "standard"]
+    assert torch.equal(tiers[0].model.embedding.weight, tiers[1].model.embedding.weight)
+
+
+def test_tiers_that_share_no_level_are_refused(tmp_path: Path) -> None:
+    store = make_store()
+    for tier, seed in (("standard", 1), ("draft", 2)):
+        Trainer(dataclasses.replace(_config(steps=5), tier=tier, seed=seed), store, tmp_path / tier, ALONE).run()
+    with pytest.raises(InputError, match="--base"):
+        load_tiers([tmp_path / "standard", tmp_path / "draft"])
+
+
+def test_pairs_of_held_out_bands_are_not_drawn() -> None:
+    config = BatchConfig(held_out_speed_mps=(0.05, 0.1))
+    batch = SegmentBatches(make_store(recordings_per_split=6), "train", config, 6).draw(2000)
+    speed = batch.motion_path[:, 0, :2].square().sum(dim=1).sqrt()
+    share = ((speed >= 0.05) & (speed < 0.1)).float().mean().item()
+    assert share < 0.002, "a fifth of all pairs lies there otherwise"
+
+
+def test_a_held_out_force_band_is_left_out_where_a_recording_reaches_beyond_it() -> None:
+    store = make_store(recordings_per_split=6)
+    store.motion[:, 2] = 1.0 + 0.5 * torch.sin(torch.arange(len(store.motion)) / 300.0).numpy()
+    batch = SegmentBatches(store, "train", BatchConfig(held_out_force_newtons=(1.2, 1.4)), 6).draw(2000)
+    force = batch.motion_path[:, 0, 2]
+    assert ((force >= 1.2) & (force < 1.4)).float().mean().item() < 0.002

@@ -1,0 +1,163 @@
+"""haptoflow-training evaluate: accuracy over time, every row of the plan."""
+
+from __future__ import annotations
+
+import argparse
+import json
+import os
+import sys
+from pathlib import Path
+from typing import Any
+
+from tqdm import tqdm
+
+from haptoflow_training.errors import InputError
+from haptoflow_training.evaluation import accuracy
+from haptoflow_training.evaluation.accuracy_time import table
+from haptoflow_training.evaluation.accuracy_time_report import draw_chart, draw_spectra, write_document
+from haptoflow_training.evaluation.engine_library import EngineGenerator, EngineLibrary, default_engine
+from haptoflow_training.evaluation.reference_set import ReferencePair, conditions, reference_set
+from haptoflow_training.evaluation.row_plan import PlannedRow, load_plan
+from haptoflow_training.evaluation.row_runner import UPDATE_RATE_HZ, Workplace, measure_row, train_model
+from haptoflow_training.evaluation.timing import Milliseconds, TimedSource, time_sources
+from haptoflow_training.recordings.synthetic import load_materials
+from haptoflow_training.training.run_log import write_json
+
+_ROOT = Path(__file__).resolve().parents[3]
+
+
+def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser], summary: str) -> None:
+    parser = subparsers.add_parser(
+        "evaluate",
+        help=summary,
+        description=(
+            "Measures every row of the plan on recordings that nobody trained on: accuracy in open and closed loop, "
+            "milliseconds per segment through the engine. Trains the models that rows need (about ten minutes of one "
+            "core each), keeps what is measured, and goes on where it was stopped."
+        ),
+        epilog=(
+            "examples:\n"
+            "  haptoflow-training evaluate --quick        what is there, no training, a few minutes\n"
+            "  haptoflow-training evaluate --rows plain-euler-1 standard\n"
+        ),
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+    parser.add_argument("--plan", type=Path, default=_ROOT / "Training" / "configs" / "evaluation" / "rows.toml")
+    parser.add_argument("--rows", nargs="+", metavar="NAME", help="only these rows (default: all)")
+    parser.add_argument("--quick", action="store_true", help="only rows marked quick; nothing is trained or written down")
+    parser.add_argument("--no-train", action="store_true", help="leave out rows whose models are not trained yet")
+    parser.add_argument("--work", type=Path, default=_ROOT / "out" / "evaluate", help="trainings and measured rows")
+    parser.add_argument(
+        "--store", type=Path, default=_ROOT / "out" / "train" / "default" / "store", help="prepared recordings"
+    )
+    parser.add_argument("--out", type=Path, default=_ROOT / "Training" / "results", help="where accuracy-time.json goes")
+    parser.add_argument("--document", type=Path, default=_ROOT / "Documentation~" / "accuracy-and-time.md")
+    parser.add_argument("--workers", type=int, default=os.cpu_count() or 1, help="processes that record (default: cores)")
+    parser.set_defaults(run=run)
+
+
+def run(options: argparse.Namespace) -> int:
+    plan = load_plan(options.plan)
+    chosen = [row for row in plan if not options.rows or row.name in options.rows]
+    if options.rows and len(chosen) != len(set(options.rows)):
+        unknown = set(options.rows) - {row.name for row in plan}
+        raise InputError(f"{options.plan}: no row {', '.join(sorted(unknown))}")
+    if options.quick:
+        chosen = [row for row in chosen if row.quick]
+    place = Workplace(_ROOT, options.plan, options.work, options.store)
+    engine = default_engine(_ROOT)
+    if not (options.quick or options.no_train):
+        for row in chosen:
+            for seed in row.seeds:
+                if not row.is_reference:
+                    train_model(place, row, seed)
+    present = [row for row in chosen if row.is_reference or place.model_file(row, row.seeds[0]).exists()]
+    for row in (entry for entry in chosen if entry not in present):
+        print(f"evaluate: {row.name} is left out: {row.model} is not trained yet", file=sys.stderr)
+
+    pairs = _pairs(options)
+    measured: dict[str, list[dict[str, Any]]] = {}
+    for row in tqdm(present, desc="rows", unit="row"):
+        seeds = [seed for seed in row.seeds if row.is_reference or place.model_file(row, seed).exists()]
+        measured[row.name] = [measure_row(place, engine, pairs, row, seed) for seed in seeds]
+    hot, paced = _time_rows(place, engine, [row for row in present if not row.is_reference], options.quick)
+    result = table(plan, measured, hot, paced)
+    _print(result)
+    if not options.quick:
+        _write(options, place, engine, pairs, plan, result)
+    return 0
+
+
+def _pairs(options: argparse.Namespace) -> list[ReferencePair]:
+    with tqdm(total=len(conditions(load_materials())), desc="recordings", unit="recording") as bar:
+        return reference_set(options.work / "reference.npz", options.workers, bar.update)
+
+
+def _time_rows(
+    place: Workplace, engine: EngineLibrary, rows: list[PlannedRow], quick: bool
+) -> tuple[dict[str, Milliseconds], dict[str, Milliseconds]]:
+    generators = [
+        EngineGenerator(engine, place.model_file(row, row.seeds[0]), row.tier or None, row.solver, row.steps)
+        for row in rows
+    ]
+    sources = [TimedSource(row.name, generator) for row, generator in zip(rows, generators, strict=True)]
+    blocks = 4 if quick else 10
+    with tqdm(total=2 * blocks * len(rows), desc="times", unit="block") as bar:
+        hot = time_sources(sources, blocks=blocks, runs_per_block=60, period_seconds=0.0, seed=5, advance=bar.update)
+        paced = time_sources(
+            sources, blocks=blocks, runs_per_block=30, period_seconds=1.0 / UPDATE_RATE_HZ, seed=6, advance=bar.update
+        )
+    for generator in generators:
+        generator.close()
+    return hot, paced
+
+
+def _print(result: dict[str, Any]) -> None:
+    print(f"{'row':20}{'ms':>8}{'level dB':>10}{'p90':>7}{'GFC':>8}{'worst':>8}{'LSD dB':>8}{'f0 %':>7}{'seams':>7}{'drift':>7}")
+    for row in result["rows"]:
+        hot = row["ms_per_segment"]
+        cells = (row["level_error_db"], row["level_error_p90_db"], row["gfc_recording"], row["gfc_label_worst"])
+        more = (row["lsd_db"], row["f0_error_percent"], row["continuity"], row["drift_db_per_min"])
+        print(
+            f"{row['name']:20}{_shown(hot and hot['p50'], 8, 3)}{_shown(cells[0], 10, 2)}{_shown(cells[1], 7, 2)}"
+            f"{_shown(cells[2], 8, 4)}{_shown(cells[3], 8, 3)}{_shown(more[0], 8, 2)}{_shown(more[1], 7, 2)}"
+            f"{_shown(more[2], 7, 2)}{_shown(more[3], 7, 2)}"
+        )
+
+
+def _shown(value: float | None, width: int, digits: int) -> str:
+    return " " * width if value is None else f"{value:{width}.{digits}f}"
+
+
+def _write(
+    options: argparse.Namespace,
+    place: Workplace,
+    engine: EngineLibrary,
+    pairs: list[ReferencePair],
+    plan: list[PlannedRow],
+    result: dict[str, Any],
+) -> None:
+    out = options.out / "accuracy-time.json"
+    options.out.mkdir(parents=True, exist_ok=True)
+    if options.rows and out.exists():
+        result = _merged(json.loads(out.read_text(encoding="utf-8")), result, [row.name for row in plan])
+    write_json(out, result)
+    images = options.document.parent / "images"
+    images.mkdir(exist_ok=True)
+    draw_chart(result, images / "accuracy-time.png")
+    standard = next((row for row in plan if row.extended and place.model_file(row, row.seeds[0]).exists()), None)
+    if standard is not None:
+        model = place.model_file(standard, standard.seeds[0])
+        with EngineGenerator(engine, model, standard.tier or None) as generator:
+            made = accuracy.generate_set(
+                generator, generator.embeddings, pairs, update_rate_hz=UPDATE_RATE_HZ, seed=31, open_loop=False
+            )
+        draw_spectra(pairs, made.closed, images / "label-spectra.png")
+    write_document(result, options.document, images, True, standard is not None)
+    print(f"evaluate: {out} and {options.document}")
+
+
+def _merged(old: dict[str, Any], new: dict[str, Any], order: list[str]) -> dict[str, Any]:
+    """Rows measured now replace their old ones; the others stay as they are, with the times of their own run."""
+    rows = {row["name"]: row for row in [*old["rows"], *new["rows"]]}
+    return {**new, "rows": [rows[name] for name in order if name in rows]}

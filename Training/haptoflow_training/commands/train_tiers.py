@@ -1,0 +1,116 @@
+"""haptoflow-training train-tiers: a whole model file, several tiers over one embedding and level model."""
+
+from __future__ import annotations
+
+import argparse
+import os
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+from tqdm import tqdm
+
+from haptoflow_training.errors import InputError
+from haptoflow_training.export.exporter import export_run
+from haptoflow_training.training.config import load_config
+from haptoflow_training.training.recordings_source import open_source
+from haptoflow_training.training.run_log import last_step, write_json
+from haptoflow_training.training.trainer import planned_steps
+
+CONFIGURATIONS = Path(__file__).resolve().parents[2] / "configs" / "default"
+
+
+def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser], summary: str) -> None:
+    parser = subparsers.add_parser(
+        "train-tiers",
+        help=summary,
+        description=(
+            "Trains what the tiers share (embedding, level model), then the tiers, --lanes of them at a time, each on "
+            "one core, and writes one model file. Run it again to go on after an interruption."
+        ),
+        epilog=(
+            "example:\n"
+            "  haptoflow-training train-tiers --out out/train/default --export default.haptoflow\n"
+            "Each tier's log and curves lie in its folder below --out."
+        ),
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+    parser.add_argument(
+        "--configs", type=Path, default=CONFIGURATIONS, metavar="DIR",
+        help="folder with base.toml and one TOML file for each tier (default: %(default)s)",
+    )  # fmt: skip
+    parser.add_argument("--out", type=Path, required=True, help="folder of the runs; made, or gone on with")
+    parser.add_argument("--lanes", type=int, default=os.cpu_count() or 1, help="trainings at a time (default: cores)")
+    parser.add_argument("--workers", type=int, default=2, help="processes that prepare recordings (default: 2)")
+    parser.add_argument("--export", type=Path, metavar="FILE", help="write the .haptoflow model file here at the end")
+    parser.add_argument("--parity", type=Path, metavar="FILE", help="write golden vectors of the exported model here")
+    parser.set_defaults(run=run)
+
+
+def run(options: argparse.Namespace) -> int:
+    base_file = options.configs / "base.toml"
+    config = load_config(base_file)
+    tier_files = sorted(path for path in options.configs.glob("*.toml") if path != base_file)
+    if not tier_files:
+        raise InputError(f"{options.configs}: no tier beside base.toml; write one that extends it")
+    store = options.out / "store"
+    source = open_source(config.data, store, options.workers)
+    base = options.out / "base"
+    _train_all([base_file], options.out, 1, [])
+    # The longest first, so that the short ones fill the lane beside it.
+    tier_files.sort(key=lambda path: -sum(planned_steps(load_config(path))) * load_config(path).model.width)
+    _train_all(tier_files, options.out, options.lanes, ["--base", str(base)])
+    if options.export is None:
+        return 0
+    folders = [options.out / path.stem for path in tier_files]
+    default = options.out / "standard" if options.out / "standard" in folders else folders[0]
+    checksum = export_run(
+        default,
+        source.store,
+        source.labels,
+        source.provenance,
+        options.export,
+        options.parity,
+        [folder for folder in folders if folder != default],
+    )
+    write_json(options.out / "export.json", {"file": options.export.name, "crc32": f"{checksum:08x}"})
+    print(f"{options.export}: {options.export.stat().st_size / 2**20:.2f} MiB, CRC-32 {checksum:08x}")
+    return 0
+
+
+def _train_all(files: list[Path], out: Path, lanes: int, more: list[str]) -> None:
+    """Train each file in a process of its own, `lanes` at a time; InputError names the log of one that failed."""
+    waiting = list(files)
+    running: dict[Path, subprocess.Popen[bytes]] = {}
+    total = sum(sum(planned_steps(load_config(path))) for path in files)
+    with tqdm(total=total, unit="step", desc=", ".join(path.stem for path in files)) as bar:
+        try:
+            while waiting or running:
+                while waiting and len(running) < lanes:
+                    path = waiting.pop(0)
+                    running[path] = _start(path, out, more)
+                time.sleep(1.0)
+                bar.n = sum(last_step(out / path.stem / "metrics.csv") for path in files)
+                bar.refresh()
+                for path, process in list(running.items()):
+                    if process.poll() is None:
+                        continue
+                    del running[path]
+                    if process.returncode != 0 or not (out / path.stem / "run.json").exists():
+                        raise InputError(f"{path}: training stopped; {out / path.stem / 'train.log'} says why")
+        finally:
+            for process in running.values():
+                process.terminate()
+            for process in running.values():
+                process.wait()
+
+
+def _start(path: Path, out: Path, more: list[str]) -> subprocess.Popen[bytes]:
+    folder = out / path.stem
+    folder.mkdir(parents=True, exist_ok=True)
+    command = [sys.executable, "-m", "haptoflow_training", "train", "--config", str(path), "--out", str(folder)]
+    command += ["--store", str(out / "store"), *more]
+    environment = {**os.environ, "OPENBLAS_NUM_THREADS": "1"}
+    with (folder / "train.log").open("ab") as log:
+        return subprocess.Popen(command, stdout=log, stderr=subprocess.STDOUT, env=environment)

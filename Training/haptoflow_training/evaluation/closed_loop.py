@@ -1,0 +1,92 @@
+"""Closed loop: the network lives on its own output, hop after hop, as it does under a stylus."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+SAMPLE_RATE_HZ = 2000
+SEGMENT_SAMPLES = 200
+SPLICE_SAMPLES = 4
+_CORRELATION_SAMPLES = 32
+
+_Floats = NDArray[np.float32]
+
+
+class SegmentSource(Protocol):
+    """What makes segments [n, 200] in m/s^2: the engine, or a reference row of the evaluation."""
+
+    def generate(self, embeddings: _Floats, motions: _Floats, previous_mps2: _Floats, noise: _Floats) -> _Floats: ...
+
+
+@dataclass(frozen=True)
+class ClosedLoopRun:
+    """waves [n, samples] in m/s^2; hop_starts: where each new segment took over."""
+
+    waves: _Floats
+    hop_starts: NDArray[np.int64]
+
+
+def hop_positions(samples: int, update_rate_hz: float) -> NDArray[np.int64]:
+    """Sample positions of the updates, from 0 on, before `samples`."""
+    count = int(np.ceil(samples * update_rate_hz / SAMPLE_RATE_HZ))
+    positions = np.floor(np.arange(count) * SAMPLE_RATE_HZ / update_rate_hz + 1e-9).astype(np.int64)
+    return positions[positions < samples]
+
+
+def spliced(continuation: _Floats, successor: _Floats) -> _Floats:
+    """The successor [n, 200] with its first samples taken over from the running segment, as the engine's splice does:
+    gains (1 - a) / k and a / k with k = sqrt((1-a)^2 + a^2 + 2 a (1-a) rho) hold the level for any correlation rho."""
+    one, other = continuation[:, :_CORRELATION_SAMPLES], successor[:, :_CORRELATION_SAMPLES]
+    power = np.sqrt((one**2).sum(axis=1) * (other**2).sum(axis=1))
+    product = (one * other).sum(axis=1)
+    correlation = np.where(power > 1e-20, np.clip(product / np.maximum(power, 1e-20), 0.0, 1.0), 1.0)[:, None]
+    progress = (np.arange(SPLICE_SAMPLES) + 1.0) / (SPLICE_SAMPLES + 1.0)
+    norm = np.sqrt((1 - progress) ** 2 + progress**2 + 2 * progress * (1 - progress) * correlation)
+    result = successor.copy()
+    seam = (1 - progress) / norm * continuation[:, :SPLICE_SAMPLES] + progress / norm * successor[:, :SPLICE_SAMPLES]
+    result[:, :SPLICE_SAMPLES] = seam
+    return result
+
+
+def run_closed_loop(
+    source: SegmentSource,
+    embeddings: _Floats,
+    motions: _Floats,
+    *,
+    update_rate_hz: float,
+    seed: int,
+    advance: Callable[[int], None] = lambda count: None,
+) -> ClosedLoopRun:
+    """Render `motions` [n, samples, 3] for `embeddings` [n, 64], from silence.
+
+    Each segment is told the mean motion of the hop before it, which is all that a tracker can know, and takes over
+    by the engine's splice.
+    """
+    rows, samples, _ = motions.shape
+    out = np.zeros((rows, samples + SEGMENT_SAMPLES), dtype=np.float32)
+    starts = hop_positions(samples, update_rate_hz)
+    generator = np.random.default_rng(seed)
+    past = np.zeros((rows, SEGMENT_SAMPLES), dtype=np.float32)
+    before = 0
+    for start in starts:
+        known = motions[:, before:start] if start > before else motions[:, :1]
+        noise = generator.standard_normal((rows, SEGMENT_SAMPLES)).astype(np.float32)
+        segment = source.generate(embeddings, known.mean(axis=1).astype(np.float32), past, noise)
+        if start > 0:
+            segment = spliced(out[:, start : start + SEGMENT_SAMPLES], segment)
+        out[:, start : start + SEGMENT_SAMPLES] = segment
+        before = start
+        following = start + int(np.ceil(SAMPLE_RATE_HZ / update_rate_hz))
+        after = starts[np.searchsorted(starts, start, side="right") :]
+        following = int(after[0]) if len(after) else following
+        # Before the wave's beginning lies silence.
+        first = following - SEGMENT_SAMPLES
+        past = np.zeros((rows, SEGMENT_SAMPLES), dtype=np.float32)
+        past[:, max(0, -first) :] = out[:, max(0, first) : following]
+        advance(1)
+    return ClosedLoopRun(out[:, :samples], starts)

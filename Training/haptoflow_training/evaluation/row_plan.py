@@ -1,0 +1,68 @@
+"""Which rows the evaluation has: one TOML file names them, their models and how those are trained."""
+
+from __future__ import annotations
+
+import tomllib
+from dataclasses import dataclass, fields
+from pathlib import Path
+from typing import Any
+
+from haptoflow_training.errors import InputError
+from haptoflow_training.evaluation.reference_rows import REFERENCE_ROWS
+
+
+@dataclass(frozen=True)
+class PlannedRow:
+    """model: a .haptoflow file from the repository's root, or the name of a training in the plan's own folder (its
+    TOML file without the ending); empty for a reference row. quick: measured by --quick too. extended: the long
+    measurements too (ten minutes of drift, speeds by update rates, level across speed). time_only: random weights of a
+    true size, no accuracy is measured."""
+
+    name: str
+    family: str
+    model: str = ""
+    tier: str = ""
+    solver: str = "tier"
+    steps: int = 0
+    evaluations: int = 0
+    seeds: tuple[int, ...] = (1,)
+    quick: bool = False
+    extended: bool = False
+    time_only: bool = False
+
+    @property
+    def is_reference(self) -> bool:
+        return self.name in REFERENCE_ROWS
+
+
+def load_plan(path: Path) -> list[PlannedRow]:
+    """The rows of a plan; InputError names file, row and key."""
+    try:
+        table = tomllib.loads(path.read_text(encoding="utf-8"))
+    except (OSError, tomllib.TOMLDecodeError) as error:
+        raise InputError(f"{path}: cannot be read as a plan ({error})") from error
+    known = {field.name for field in fields(PlannedRow)}
+    rows: list[PlannedRow] = []
+    for number, entry in enumerate(table.get("row", [])):
+        where = f"{path}: row {entry.get('name', number + 1)!r}"
+        for key in entry:
+            if key not in known:
+                raise InputError(f"{where}: unknown key '{key}', expected {', '.join(sorted(known))}")
+        rows.append(_row(entry, where))
+    names = [row.name for row in rows]
+    for name in names:
+        if names.count(name) > 1:
+            raise InputError(f"{path}: row '{name}' stands there twice")
+    if not rows:
+        raise InputError(f"{path}: no [[row]] in it")
+    return rows
+
+
+def _row(entry: dict[str, Any], where: str) -> PlannedRow:
+    for key in ("name", "family"):
+        if not isinstance(entry.get(key), str):
+            raise InputError(f"{where}: key '{key}' is missing, expected text")
+    row = PlannedRow(**{**entry, "seeds": tuple(entry.get("seeds", (1,)))})
+    if not row.is_reference and not row.model:
+        raise InputError(f"{where}: key 'model' is missing; only {', '.join(REFERENCE_ROWS)} have none")
+    return row

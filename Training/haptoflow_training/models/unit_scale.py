@@ -1,0 +1,14 @@
+"""Unit scale: waves divided by their level, which is what every network here sees and makes."""
+
+from __future__ import annotations
+
+import torch
+from torch import Tensor
+
+# What a previous waveform is limited to: a burst that no level foresaw must not drive the network out of its range.
+PREVIOUS_LIMIT = 8.0
+
+
+def unit_scale(wave_mps2: Tensor, log_level: Tensor) -> Tensor:
+    """[B, 1, N] in m/s^2 divided by the level exp(log_level) [B, 1]."""
+    return wave_mps2 * torch.exp(-log_level).unsqueeze(-1)
