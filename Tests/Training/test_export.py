@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import json
 from pathlib import Path
 
@@ -12,11 +13,14 @@ from test_trainer import ALONE, _config
 from training_fixtures import FakeStore, make_store
 
 from haptoflow_training.errors import InputError
+from haptoflow_training.export.annotation import annotate_model
 from haptoflow_training.export.exponents import fit_exponents
 from haptoflow_training.export.exporter import Provenance, export_run
 from haptoflow_training.export.label_info import LabelInfo
 from haptoflow_training.export.model_file import ModelFile, read_model_file
 from haptoflow_training.export.seed_bank import build_seed_bank
+from haptoflow_training.models.codec.small_codec import SmallCodec, SmallCodecShape
+from haptoflow_training.training.config import ModelConfig
 from haptoflow_training.training.trainer import Trainer
 
 INFOS = [LabelInfo("tone", "metal", 900.0, 0.3, 0.002), LabelInfo("noise", "stone", 1500.0, 0.6)]
@@ -96,3 +100,52 @@ def test_golden_vectors_name_the_file_they_belong_to(exported: tuple[Path, Model
 def test_labels_that_were_not_trained_are_refused(exported: tuple[Path, ModelFile, FakeStore], tmp_path: Path) -> None:
     with pytest.raises(InputError, match="trained on labels"):
         export_run(exported[0] / "run", exported[2], INFOS[::-1], PROVENANCE, tmp_path / "x.haptoflow")
+
+
+def test_measured_figures_go_into_the_header_and_the_golden_vectors_follow(
+    exported: tuple[Path, ModelFile, FakeStore], tmp_path: Path
+) -> None:
+    for name in ("m.haptoflow", "parity.json"):
+        (tmp_path / name).write_bytes((exported[0] / name).read_bytes())
+    row = {"level_error_db": -0.2, "gfc_recording": 0.99, "f0_error_percent": None,
+           "ms_per_segment": {"p50": 0.2, "p99": 0.3}, "ms_paced": {"p50": 0.4, "p99": 0.6}}  # fmt: skip
+    checksum = annotate_model(tmp_path / "m.haptoflow", "a machine", {"standard": row}, tmp_path / "parity.json")
+    tier = read_model_file(tmp_path / "m.haptoflow").header["tiers"][0]
+    assert tier["accuracy"] == {"level_error_db": -0.2, "gfc_recording": 0.99}
+    assert tier["cost"] == {"machine": "a machine", "ms_p50": 0.2, "ms_live_p50": 0.4, "ms_live_p99": 0.6}
+    golden = json.loads((tmp_path / "parity.json").read_text(encoding="utf-8"))
+    assert int(golden["model_crc32"], 16) == checksum
+    assert golden["cases"] == json.loads((exported[0] / "parity.json").read_text(encoding="utf-8"))["cases"]
+
+
+def test_a_run_in_latents_is_exported_with_its_encoder_and_decoder(tmp_path: Path) -> None:
+    SmallCodec(SmallCodecShape()).save(tmp_path / "codec.pt")
+    store = make_store(seconds=6.0, recordings_per_split=4)
+    model = ModelConfig(
+        width=16, previous_width=8, patch=5,
+        representation={"kind": "small-codec", "checkpoint": str(tmp_path / "codec.pt")},
+    )  # fmt: skip
+    Trainer(dataclasses.replace(_config(steps=4), model=model), store, tmp_path / "run", ALONE).run()
+    export_run(tmp_path / "run", store, INFOS, PROVENANCE, tmp_path / "m.haptoflow")
+    file = read_model_file(tmp_path / "m.haptoflow")
+    tier = file.header["tiers"][0]
+    assert tier["representation"] == "latent"
+    encoder, decoder = (onnx.load_from_string(file.graphs[tier[name]]) for name in ("encoder", "decoder"))
+    latent = [size.dim_value for size in encoder.graph.output[0].type.tensor_type.shape.dim[1:]]
+    assert latent == tier["latent_shape"]
+    assert [value.name for value in decoder.graph.input] == ["latent"]
+    field = onnx.load_from_string(file.graphs[tier["field"]])
+    assert [size.dim_value for size in field.graph.input[0].type.tensor_type.shape.dim[1:]] == latent
+
+
+def test_a_baseline_becomes_a_direct_tier_with_the_inputs_that_it_reads(tmp_path: Path) -> None:
+    store = make_store(seconds=6.0, recordings_per_split=4)
+    config = dataclasses.replace(_config(steps=4), model=ModelConfig(architecture="spsi"))
+    Trainer(config, store, tmp_path / "run", ALONE).run()
+    export_run(tmp_path / "run", store, INFOS, PROVENANCE, tmp_path / "m.haptoflow", tmp_path / "parity.json")
+    file = read_model_file(tmp_path / "m.haptoflow")
+    assert file.header["tiers"][0]["kind"] == "direct"
+    field = onnx.load_from_string(file.graphs["standard.field"])
+    assert [value.name for value in field.graph.input] == ["noisy", "embedding", "motion"]
+    cases = json.loads((tmp_path / "parity.json").read_text(encoding="utf-8"))["cases"]
+    assert {case["solver"] for case in cases} == {"euler"}

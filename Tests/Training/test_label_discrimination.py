@@ -95,7 +95,7 @@ def test_the_report_counts_names_levels_and_order(tmp_path: Path) -> None:
 def test_the_shipped_model_s_renders_of_unseen_strokes_are_named_right_and_in_order_of_level(tmp_path: Path) -> None:
     assert ENGINE.is_file(), f"{ENGINE} is missing: build it with `npm run build`"
     materials = load_materials()
-    classifier = train_classifier(materials, 10, 1001, lambda count: None)
+    classifier = train_classifier(materials, 10, 1001, lambda count: None, workers=2)
     report = discriminate(
         classifier, materials, engine=ENGINE, model=None, strokes_per_label=3, seed=2002, folder=tmp_path,
         advance=lambda count: None,

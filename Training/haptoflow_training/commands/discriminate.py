@@ -36,6 +36,7 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser], su
     parser.add_argument("--recordings-per-label", type=int, default=16, help="of the classifier (default: 16)")
     parser.add_argument("--strokes-per-label", type=int, default=4, help="rendered and named (default: 4)")
     parser.add_argument("--seed", type=int, default=1001, help="of all recordings; the training used others")
+    parser.add_argument("--workers", type=int, default=2, help="processes that record (default: 2)")
     parser.add_argument("--out", type=Path, required=True, help="folder of the report (JSON, Markdown, picture)")
     parser.set_defaults(run=run)
 
@@ -43,7 +44,7 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser], su
 def run(options: argparse.Namespace) -> int:
     materials = load_materials()
     bar = tqdm(total=len(materials) * (options.recordings_per_label + options.strokes_per_label), unit="recording")
-    classifier = train_classifier(materials, options.recordings_per_label, options.seed, bar.update)
+    classifier = train_classifier(materials, options.recordings_per_label, options.seed, bar.update, options.workers)
     with tempfile.TemporaryDirectory() as folder:
         report: DiscriminationReport = discriminate(
             classifier,

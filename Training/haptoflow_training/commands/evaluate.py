@@ -20,6 +20,8 @@ from haptoflow_training.evaluation.reference_set import ReferencePair, condition
 from haptoflow_training.evaluation.row_plan import PlannedRow, load_plan
 from haptoflow_training.evaluation.row_runner import UPDATE_RATE_HZ, Workplace, measure_row, train_model
 from haptoflow_training.evaluation.timing import Milliseconds, TimedSource, time_sources
+from haptoflow_training.export.annotation import annotate_model
+from haptoflow_training.export.model_file import read_model_file
 from haptoflow_training.recordings.synthetic import load_materials
 from haptoflow_training.training.run_log import write_json
 
@@ -71,21 +73,28 @@ def run(options: argparse.Namespace) -> int:
             for seed in row.seeds:
                 if not row.is_reference:
                     train_model(place, row, seed)
-    present = [row for row in chosen if row.is_reference or place.model_file(row, row.seeds[0]).exists()]
+    present = [row for row in chosen if row.is_reference or _is_there(place.model_file(row, row.seeds[0]), row.tier)]
     for row in (entry for entry in chosen if entry not in present):
-        print(f"evaluate: {row.name} is left out: {row.model} is not trained yet", file=sys.stderr)
+        missing = f"{row.model} has no tier '{row.tier}'" if row.tier else f"{row.model} is not trained yet"
+        print(f"evaluate: {row.name} is left out: {missing}", file=sys.stderr)
 
-    pairs = _pairs(options)
+    yardstick = accuracy.make_yardstick(_pairs(options))
     measured: dict[str, list[dict[str, Any]]] = {}
     for row in tqdm(present, desc="rows", unit="row"):
         seeds = [seed for seed in row.seeds if row.is_reference or place.model_file(row, seed).exists()]
-        measured[row.name] = [measure_row(place, engine, pairs, row, seed) for seed in seeds]
+        measured[row.name] = [measure_row(place, engine, yardstick, row, seed) for seed in seeds]
     hot, paced = _time_rows(place, engine, [row for row in present if not row.is_reference], options.quick)
     result = table(plan, measured, hot, paced)
     _print(result)
     if not options.quick:
-        _write(options, place, engine, pairs, plan, result)
+        _write(options, place, engine, yardstick.pairs, plan, result)
     return 0
+
+
+def _is_there(model: Path, tier: str) -> bool:
+    if not model.exists():
+        return False
+    return not tier or any(entry["name"] == tier for entry in read_model_file(model).header["tiers"])
 
 
 def _pairs(options: argparse.Namespace) -> list[ReferencePair]:
@@ -142,6 +151,7 @@ def _write(
     if options.rows and out.exists():
         result = _merged(json.loads(out.read_text(encoding="utf-8")), result, [row.name for row in plan])
     write_json(out, result)
+    _annotate(place, plan, result)
     images = options.document.parent / "images"
     images.mkdir(exist_ok=True)
     draw_chart(result, images / "accuracy-time.png")
@@ -155,6 +165,16 @@ def _write(
         draw_spectra(pairs, made.closed, images / "label-spectra.png")
     write_document(result, options.document, images, True, standard is not None)
     print(f"evaluate: {out} and {options.document}")
+
+
+def _annotate(place: Workplace, plan: list[PlannedRow], result: dict[str, Any]) -> None:
+    """The shipped model carries its own tiers' figures."""
+    measured = {row["name"]: row for row in result["rows"]}
+    tiers = {row.tier: row for row in plan if row.tier and row.name in measured and row.model.endswith(".haptoflow")}
+    for file in {row.model for row in tiers.values()}:
+        rows = {tier: measured[row.name] for tier, row in tiers.items() if row.model == file}
+        parity = place.root / "Tests" / "Golden" / "model" / "default.parity.json"
+        annotate_model(place.root / file, result["machine"], rows, parity)
 
 
 def _merged(old: dict[str, Any], new: dict[str, Any], order: list[str]) -> dict[str, Any]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import os
+import signal
 import subprocess
 import sys
 import time
@@ -81,6 +82,8 @@ def run(options: argparse.Namespace) -> int:
 
 def _train_all(files: list[Path], out: Path, lanes: int, more: list[str]) -> None:
     """Train each file in a process of its own, `lanes` at a time; InputError names the log of one that failed."""
+    # Without a handler, a terminated parent would leave its trainings running.
+    signal.signal(signal.SIGTERM, lambda number, frame: sys.exit(128 + number))
     waiting = list(files)
     running: dict[Path, subprocess.Popen[bytes]] = {}
     total = sum(sum(planned_steps(load_config(path))) for path in files)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import zlib
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -113,17 +114,31 @@ def _measure_pair(
     return result
 
 
-def label_discrimination(pairs: Sequence[ReferencePair], waves: Sequence[_Floats]) -> float:
-    """Share of waves that a classifier trained on the independent recordings gives their own label."""
+@dataclass(frozen=True)
+class Yardstick:
+    """What every row is held against. classifier: trained on the independent recordings."""
+
+    pairs: list[ReferencePair]
+    classifier: LabelClassifier
+    checksum: int
+
+
+def make_yardstick(pairs: list[ReferencePair]) -> Yardstick:
+    """Train the classifier and fingerprint the recordings, once for all rows."""
     training: dict[str, list[Any]] = {}
     for pair in pairs:
         training.setdefault(pair.condition.label, []).append(window_features(pair.independent, pair.motion))
     classifier = LabelClassifier({label: concatenate(parts) for label, parts in training.items()})
+    return Yardstick(pairs, classifier, zlib.crc32(b"".join(pair.recorded.tobytes() for pair in pairs)))
+
+
+def label_discrimination(yardstick: Yardstick, waves: Sequence[_Floats]) -> float:
+    """Share of waves that the classifier gives their own label."""
     right, asked = 0, 0
-    for pair, wave in zip(pairs, waves, strict=True):
+    for pair, wave in zip(yardstick.pairs, waves, strict=True):
         features = window_features(wave, pair.motion)
         if len(features):
-            right += classifier.name(features) == pair.condition.label
+            right += yardstick.classifier.name(features) == pair.condition.label
             asked += 1
     return right / max(1, asked)
 

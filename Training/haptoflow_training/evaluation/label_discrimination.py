@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import json
 from collections.abc import Callable, Sequence
+from concurrent.futures import ProcessPoolExecutor
 from dataclasses import asdict, dataclass
+from itertools import repeat
 from pathlib import Path
 
 import numpy as np
@@ -92,17 +94,25 @@ def _prepared(material: Material, recordings: int, seed: int) -> list[tuple[str,
     ]
 
 
+def _training_features(material: Material, recordings: int, seed: int) -> WindowFeatures:
+    prepared = _prepared(material, recordings, seed)
+    return concatenate([window_features(entry.waveform_mps2, entry.motion) for _, entry in prepared])
+
+
 def train_classifier(
-    materials: Sequence[Material], recordings_per_label: int, seed: int, advance: Callable[[int], object]
+    materials: Sequence[Material],
+    recordings_per_label: int,
+    seed: int,
+    advance: Callable[[int], object],
+    workers: int = 1,
 ) -> LabelClassifier:
     """From fresh hand recordings of every material; `advance` is told of each label's recordings."""
     training: dict[str, WindowFeatures] = {}
-    for material in materials:
-        prepared = _prepared(material, recordings_per_label, seed)
-        training[material.label] = concatenate(
-            [window_features(entry.waveform_mps2, entry.motion) for _, entry in prepared]
-        )
-        advance(recordings_per_label)
+    with ProcessPoolExecutor(max_workers=workers) as pool:
+        made = pool.map(_training_features, materials, repeat(recordings_per_label), repeat(seed))
+        for material, features in zip(materials, made, strict=False):
+            training[material.label] = features
+            advance(recordings_per_label)
     return LabelClassifier(training)
 
 

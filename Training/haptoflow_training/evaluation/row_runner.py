@@ -16,12 +16,14 @@ from tqdm import tqdm
 
 from haptoflow_training.errors import InputError
 from haptoflow_training.evaluation import accuracy
+from haptoflow_training.evaluation.accuracy import Yardstick
 from haptoflow_training.evaluation.closed_loop import hop_positions, run_closed_loop
 from haptoflow_training.evaluation.engine_library import EngineGenerator, EngineLibrary
 from haptoflow_training.evaluation.metrics import kink_db, rms
 from haptoflow_training.evaluation.reference_rows import reference_waves
 from haptoflow_training.evaluation.reference_set import ReferencePair
 from haptoflow_training.evaluation.row_plan import PlannedRow
+from haptoflow_training.export.model_file import read_model_file
 from haptoflow_training.training.config import load_config
 from haptoflow_training.training.run_log import write_json
 
@@ -86,43 +88,44 @@ def _run(command: list[str], folder: Path) -> None:
 
 
 def measure_row(
-    place: Workplace, engine: EngineLibrary, pairs: list[ReferencePair], row: PlannedRow, seed: int
+    place: Workplace, engine: EngineLibrary, yardstick: Yardstick, row: PlannedRow, seed: int
 ) -> dict[str, Any]:
     """Figures of one row and seed, from its file where it was measured before on the same model and recordings."""
     path = place.row_file(row, seed)
-    made_from = _made_from(place, pairs, row, seed)
+    made_from = _made_from(place, yardstick, row, seed)
     if path.exists():
         stored: dict[str, Any] = json.loads(path.read_text(encoding="utf-8"))
         if stored.get("made_from") == made_from:
             return stored
     if row.is_reference:
-        figures = _reference_figures(pairs, row)
+        figures = _reference_figures(yardstick, row)
     elif row.time_only:
         with EngineGenerator(engine, place.model_file(row, seed), row.tier or None, row.solver, row.steps) as generator:
             figures = {"summary": {}, "discrimination": None, "drift_db_per_min": None, **_sizes(generator, row)}
     else:
-        figures = _engine_figures(place, engine, pairs, row, seed)
+        figures = _engine_figures(place, engine, yardstick, row, seed)
     result = {"made_from": made_from, "name": row.name, "seed": seed, **figures}
     path.parent.mkdir(parents=True, exist_ok=True)
     write_json(path, result)
     return result
 
 
-def _made_from(place: Workplace, pairs: list[ReferencePair], row: PlannedRow, seed: int) -> dict[str, Any]:
+def _made_from(place: Workplace, yardstick: Yardstick, row: PlannedRow, seed: int) -> dict[str, Any]:
     model = place.model_file(row, seed)
-    crc = 0 if row.is_reference else zlib.crc32(model.read_bytes())
-    recordings = zlib.crc32(b"".join(pair.recorded.tobytes() for pair in pairs))
-    return {"model_crc32": f"{crc:08x}", "recordings_crc32": f"{recordings:08x}", "extended": row.extended}
+    # Of what computes alone: the header carries figures that this evaluation writes.
+    crc = 0 if row.is_reference else zlib.crc32(b"".join(read_model_file(model).graphs.values()))
+    return {"graphs_crc32": f"{crc:08x}", "recordings_crc32": f"{yardstick.checksum:08x}", "extended": row.extended}
 
 
-def _reference_figures(pairs: list[ReferencePair], row: PlannedRow) -> dict[str, Any]:
+def _reference_figures(yardstick: Yardstick, row: PlannedRow) -> dict[str, Any]:
+    pairs = yardstick.pairs
     waves = reference_waves(row.name, pairs, _SEED)
     nothing = [np.zeros(0, dtype=np.float32)] * len(pairs)
     starts = [hop_positions(len(wave), UPDATE_RATE_HZ) for wave in waves]
     rows = accuracy.measure(pairs, accuracy.GeneratedSet(waves, nothing, starts))
     return {
         "summary": accuracy.summary(rows),
-        "discrimination": accuracy.label_discrimination(pairs, waves),
+        "discrimination": accuracy.label_discrimination(yardstick, waves),
         "conditions": rows,
         "parameters": 0,
         "bytes": 0,
@@ -131,9 +134,9 @@ def _reference_figures(pairs: list[ReferencePair], row: PlannedRow) -> dict[str,
 
 
 def _engine_figures(
-    place: Workplace, engine: EngineLibrary, pairs: list[ReferencePair], row: PlannedRow, seed: int
+    place: Workplace, engine: EngineLibrary, yardstick: Yardstick, row: PlannedRow, seed: int
 ) -> dict[str, Any]:
-    model = place.model_file(row, seed)
+    model, pairs = place.model_file(row, seed), yardstick.pairs
     drift_seconds = _LONG_DRIFT_SECONDS if row.extended else _SHORT_DRIFT_SECONDS
     hops = accuracy.hops_of(pairs, UPDATE_RATE_HZ) + int(drift_seconds * UPDATE_RATE_HZ)
     with EngineGenerator(engine, model, row.tier or None, row.solver, row.steps) as generator:
@@ -148,7 +151,7 @@ def _engine_figures(
         rows = accuracy.measure(pairs, made)
         result: dict[str, Any] = {
             "summary": accuracy.summary(rows),
-            "discrimination": accuracy.label_discrimination(pairs, made.closed),
+            "discrimination": accuracy.label_discrimination(yardstick, made.closed),
             "conditions": rows,
             **_sizes(generator, row),
             "drift_db_per_min": drift[0],
