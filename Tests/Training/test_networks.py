@@ -7,6 +7,7 @@ import math
 import pytest
 import torch
 
+from haptoflow_training.models.band_limit import BandLimit
 from haptoflow_training.models.conditioning import EMBEDDING_SIZE, MotionFeatures
 from haptoflow_training.models.unit_scale import unit_scale
 from haptoflow_training.models.level_model import LevelModel, level_loss
@@ -113,3 +114,20 @@ def test_the_level_model_learns_a_power_law_of_speed_and_force() -> None:
 def test_unit_scale_divides_by_the_level() -> None:
     wave = torch.full((1, 1, 200), 6.0)
     torch.testing.assert_close(unit_scale(wave, torch.tensor([[math.log(3.0)]])), torch.full((1, 1, 200), 2.0))
+
+
+def test_the_band_limit_keeps_what_recordings_have_and_takes_the_noise_above_it() -> None:
+    band_limit = BandLimit()
+    noise = torch.randn(400, 1, 400, generator=torch.Generator().manual_seed(1))
+    limited = band_limit(noise[:, :, :200], noise[:, :, 200:])
+    power = [torch.fft.rfft(wave * torch.hann_window(200), dim=2).abs().square().mean(dim=(0, 1)) for wave in
+             (limited, noise[:, :, 200:])]  # fmt: skip
+    gain_db = 10.0 * torch.log10(power[0] / power[1])
+    assert gain_db[2:90].abs().max().item() < 0.5, "20 to 900 Hz"
+    assert gain_db[99].item() < -15.0, "990 Hz"
+
+
+def test_the_band_limit_hears_the_past_so_that_a_tone_crosses_the_seam_whole() -> None:
+    tone = torch.sin(0.3 * torch.arange(400.0)).reshape(1, 1, 400)
+    limited = BandLimit()(tone[:, :, :200], tone[:, :, 200:])
+    torch.testing.assert_close(limited[:, :, :160], tone[:, :, 200:360], atol=0.01, rtol=0.0)

@@ -117,14 +117,15 @@ def test_a_chain_of_recorded_segments_would_end_in_the_recorded_previous_wavefor
         found = [
             place
             for place in range(200, len(store.waveform))
-            if abs(store.waveform[place - 1] - previous[-1]) < 1e-7 and abs(store.waveform[place - 200] - previous[0]) < 1e-7
+            if abs(store.waveform[place - 1] - previous[-1]) < 1e-7
+            and abs(store.waveform[place - 200] - previous[0]) < 1e-7
         ]
         assert any(abs(store.waveform[place - lead_in - 1] - start[-1]) < 1e-7 for place in found)
 
 
 def test_living_through_a_chain_appends_each_hop_of_what_was_generated() -> None:
     store = make_store()
-    model = build_model(_config(), 2).eval()
+    model = build_model(_config(), [(), ()]).eval()
     losses = Losses(model, SolverConfig("euler", 1))
     chain = SegmentBatches(store, "train", BatchConfig(chain_hops=(2, 2)), 4).draw_chains(3).chain
     assert chain is not None

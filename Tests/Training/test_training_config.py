@@ -22,7 +22,8 @@ def _load(tmp_path: Path, text: str) -> TrainingConfig:
 
 TRAININGS = sorted(
     path.relative_to(CONFIGURATIONS).as_posix()
-    for path in (CONFIGURATIONS / "cluster.toml", *CONFIGURATIONS.glob("default/*.toml"), *CONFIGURATIONS.glob("evaluation/*.toml"))
+    for pattern in ("cluster.toml", "default/*.toml", "evaluation/*.toml")
+    for path in CONFIGURATIONS.glob(pattern)
     if path.name != "rows.toml"
 )
 

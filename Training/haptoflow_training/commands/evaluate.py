@@ -46,15 +46,15 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser], su
     )
     parser.add_argument("--plan", type=Path, default=_ROOT / "Training" / "configs" / "evaluation" / "rows.toml")
     parser.add_argument("--rows", nargs="+", metavar="NAME", help="only these rows (default: all)")
-    parser.add_argument("--quick", action="store_true", help="only rows marked quick; nothing is trained or written down")
+    parser.add_argument("--quick", action="store_true", help="only rows marked quick; nothing is trained or published")
     parser.add_argument("--no-train", action="store_true", help="leave out rows whose models are not trained yet")
     parser.add_argument("--work", type=Path, default=_ROOT / "out" / "evaluate", help="trainings and measured rows")
     parser.add_argument(
         "--store", type=Path, default=_ROOT / "out" / "train" / "default" / "store", help="prepared recordings"
     )
-    parser.add_argument("--out", type=Path, default=_ROOT / "Training" / "results", help="where accuracy-time.json goes")
+    parser.add_argument("--out", type=Path, default=_ROOT / "Training" / "results", help="for accuracy-time.json")
     parser.add_argument("--document", type=Path, default=_ROOT / "Documentation~" / "accuracy-and-time.md")
-    parser.add_argument("--workers", type=int, default=os.cpu_count() or 1, help="processes that record (default: cores)")
+    parser.add_argument("--workers", type=int, default=os.cpu_count() or 1, help="recording processes (default: cores)")
     parser.set_defaults(run=run)
 
 
@@ -122,13 +122,14 @@ def _time_rows(
 
 
 def _print(result: dict[str, Any]) -> None:
-    print(f"{'row':20}{'ms':>8}{'level dB':>10}{'p90':>7}{'GFC':>8}{'worst':>8}{'LSD dB':>8}{'f0 %':>7}{'seams':>7}{'drift':>7}")
+    names = (("ms", 8), ("level dB", 10), ("p90", 7), ("GFC", 8), ("worst", 8), ("LSD dB", 8), ("f0 %", 7))
+    print(f"{'row':22}" + "".join(f"{name:>{width}}" for name, width in (*names, ("seams", 7), ("drift", 7))))
     for row in result["rows"]:
         hot = row["ms_per_segment"]
         cells = (row["level_error_db"], row["level_error_p90_db"], row["gfc_recording"], row["gfc_label_worst"])
         more = (row["lsd_db"], row["f0_error_percent"], row["continuity"], row["drift_db_per_min"])
         print(
-            f"{row['name']:20}{_shown(hot and hot['p50'], 8, 3)}{_shown(cells[0], 10, 2)}{_shown(cells[1], 7, 2)}"
+            f"{row['name']:22}{_shown(hot and hot['p50'], 8, 3)}{_shown(cells[0], 10, 2)}{_shown(cells[1], 7, 2)}"
             f"{_shown(cells[2], 8, 4)}{_shown(cells[3], 8, 3)}{_shown(more[0], 8, 2)}{_shown(more[1], 7, 2)}"
             f"{_shown(more[2], 7, 2)}{_shown(more[3], 7, 2)}"
         )

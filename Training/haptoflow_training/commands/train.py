@@ -77,7 +77,7 @@ def run(options: argparse.Namespace) -> int:
             open_source(config.data, store_folder, options.workers)
         processes.wait()
         source = open_source(config.data, store_folder, options.workers)
-        trainer = Trainer(config, source.store, options.out, processes, options.base)
+        trainer = Trainer(config, source.store, options.out, processes, options.base, source.wave_vectors)
         try:
             trainer.run()
         except TrainingStopped as stop:

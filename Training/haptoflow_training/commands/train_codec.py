@@ -18,7 +18,8 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser], su
         description="Trains the small codec on prepared recordings; run it again to go on after an interruption.",
         epilog=(
             "example:\n"
-            "  haptoflow-training train-codec --config Training/configs/codec-small.toml --store out/train/default/store"
+            "  haptoflow-training train-codec --config Training/configs/codec-small.toml \\\n"
+            "    --store out/train/default/store"
         ),
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )

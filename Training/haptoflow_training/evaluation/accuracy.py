@@ -56,7 +56,9 @@ def generate_set(
             [np.pad(pairs[row].motion, ((0, longest - len(pairs[row].motion)), (0, 0)), mode="edge") for row in rows]
         )
         chosen = np.stack([embeddings[pairs[row].condition.label_index] for row in rows])
-        run = run_closed_loop(source, chosen, motions, update_rate_hz=update_rate_hz, seed=seed + first, advance=advance)
+        run = run_closed_loop(
+            source, chosen, motions, update_rate_hz=update_rate_hz, seed=seed + first, advance=advance
+        )
         for place, row in enumerate(rows):
             length = len(pairs[row].recorded)
             closed[row] = run.waves[place, :length]
@@ -169,7 +171,7 @@ def hops_of(pairs: Sequence[ReferencePair], update_rate_hz: float) -> int:
 
 
 def summary(rows: Sequence[dict[str, Any]], seed: int = 0) -> dict[str, Any]:
-    """Medians over labels of each label's mean, tails over conditions, with 95 % bootstrap intervals over recordings."""
+    """Medians over labels of each label's mean, tails over conditions, 95 % bootstrap intervals over recordings."""
     result: dict[str, Any] = {}
     for key in ("level_error_db", "gfc_recording", "gfc_segment", "rmse", "lsd_db", "continuity"):
         _add(result, key, rows, key, seed)

@@ -146,7 +146,8 @@ class EngineGenerator:
 
     def generate(self, embeddings: _Floats, motions: _Floats, previous_mps2: _Floats, noise: _Floats) -> _Floats:
         """Segments [n, 200] in m/s^2 from embeddings [n, 64], motions [n, 3], previous and noise [n, 200]."""
-        arrays = [np.ascontiguousarray(array, dtype=np.float32) for array in (embeddings, motions, previous_mps2, noise)]
+        given = (embeddings, motions, previous_mps2, noise)
+        arrays = [np.ascontiguousarray(array, dtype=np.float32) for array in given]
         count = len(arrays[0])
         pointers = [array.ctypes.data_as(_pointer) for array in arrays]
         batch = _Batch(ctypes.sizeof(_Batch), count, *pointers)

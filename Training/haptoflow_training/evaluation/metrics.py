@@ -47,10 +47,8 @@ def gfc_segment(generated: _Wave, recorded: _Wave, segment: int = 200) -> float:
     """The same, segment by segment, averaged: what the paper reports. Correct randomness costs it about 0.2."""
     count = min(len(generated), len(recorded)) // segment
     window = np.hanning(segment + 1)[:-1]
-    pair = [
-        np.abs(np.fft.rfft(np.asarray(wave[: count * segment], dtype=np.float64).reshape(count, segment) * window, 1024))
-        for wave in (generated, recorded)
-    ]
+    cut = [np.asarray(wave[: count * segment], dtype=np.float64) for wave in (generated, recorded)]
+    pair = [np.abs(np.fft.rfft(wave.reshape(count, segment) * window, 1024)) for wave in cut]
     product = (pair[0] * pair[1]).sum(axis=1)
     return float((product / (np.sqrt((pair[0] ** 2).sum(axis=1) * (pair[1] ** 2).sum(axis=1)) + _FLOOR)).mean())
 

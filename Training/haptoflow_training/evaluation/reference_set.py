@@ -33,7 +33,7 @@ _Floats = NDArray[np.float32]
 CONSTANT_SPEEDS_MPS = (0.03, 0.08, 0.15, 0.275, 0.5, 1.0, 1.5)
 _FORCES_NEWTONS = (0.5, 1.35, 2.5)
 _DIRECTIONS_DEGREES = (0.0, 225.0, 110.0)
-# Long enough that the spectra of two recordings of the same condition agree: GFC 0.996 instead of 0.988 at 8 s.
+# At 8 s, two recordings of the same condition agree to a GFC of 0.988 only: too low a ceiling.
 _SECONDS = 24.0
 _TRIM_SECONDS = 0.3
 _HAND_SEED = 4003
@@ -99,7 +99,8 @@ def _record_pair(task: tuple[Material, Condition, int]) -> tuple[_Floats, _Float
     material, condition, strokes = task
     if condition.kind == "varying":
         identity = hand_conditions(material, seed=_HAND_SEED, recordings=strokes)[condition.seed]
-        recorded, motion = _prepared(record_hand_condition(material, identity, seed=_HAND_SEED, duration_seconds=_SECONDS))
+        stroke = record_hand_condition(material, identity, seed=_HAND_SEED, duration_seconds=_SECONDS)
+        recorded, motion = _prepared(stroke)
         again = record_condition(
             material,
             velocity_mps=(motion[:, 0], motion[:, 1]),

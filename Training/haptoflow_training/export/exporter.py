@@ -15,11 +15,10 @@ from haptoflow_training.errors import InputError
 from haptoflow_training.export.exponents import fit_exponents
 from haptoflow_training.export.label_info import LabelInfo
 from haptoflow_training.export.model_file import ModelFile, write_model_file
-from haptoflow_training.export.onnx_graphs import export_baseline, export_field, export_level_model
+from haptoflow_training.export.onnx_graphs import export_level_model, export_network
 from haptoflow_training.export.parity import write_parity
 from haptoflow_training.export.seed_bank import SEED_SAMPLES, build_seed_bank
 from haptoflow_training.export.trained_tier import TrainedTier, load_tiers
-from haptoflow_training.models.baselines import Baseline
 from haptoflow_training.models.conditioning import EMBEDDING_SIZE
 from haptoflow_training.models.representation import CodecRepresentation
 from haptoflow_training.models.velocity_field import parameter_count
@@ -130,9 +129,8 @@ def _header(
 
 
 def _graphs(tier: TrainedTier) -> dict[str, bytes]:
-    field, representation = tier.model.field, tier.model.representation
-    graph = export_baseline(field) if isinstance(field, Baseline) else export_field(field, tier.kind)
-    graphs = {f"{tier.name}.field": graph}
+    representation = tier.model.representation
+    graphs = {f"{tier.name}.field": export_network(tier.model, tier.kind)}
     if isinstance(representation, CodecRepresentation):
         with tempfile.TemporaryDirectory() as folder:
             for name in ("encoder", "decoder"):

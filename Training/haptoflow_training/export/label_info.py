@@ -7,13 +7,24 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True)
 class LabelInfo:
-    """Defaults of a material: spring stiffness, kinetic friction, and the wavelength of a ruled or woven surface."""
+    """Defaults of a material: spring stiffness, kinetic friction, and the wavelength of a ruled or woven surface.
+
+    wave_vectors_per_mm: (x, y) of each family of ribs in cycles per millimetre, across the ribs.
+    """
 
     name: str
     category: str
     stiffness_newtons_per_metre: float
     friction_coefficient: float
     wavelength_metres: float | None = None
+    wave_vectors_per_mm: tuple[tuple[float, float], ...] = ()
+
+    @property
+    def known_wave_vectors(self) -> tuple[tuple[float, float], ...]:
+        """Where only a wavelength is known, its ribs are taken to lie across the x axis of the recordings."""
+        if self.wave_vectors_per_mm or self.wavelength_metres is None:
+            return self.wave_vectors_per_mm
+        return ((1e-3 / self.wavelength_metres, 0.0),)
 
     @property
     def periodic(self) -> bool:

@@ -11,7 +11,7 @@ from torch import Tensor, nn
 
 from haptoflow_training.models.baselines import Baseline, BaselineGraph
 from haptoflow_training.models.conditioning import EMBEDDING_SIZE
-from haptoflow_training.models.velocity_field import VelocityField
+from haptoflow_training.models.haptoflow_model import HaptoFlowModel
 
 OPSET = 16
 
@@ -43,12 +43,12 @@ def _export(module: nn.Module, inputs: dict[str, Tensor], output: str) -> bytes:
 class _OneStep(nn.Module):
     """A network taught to be whole in one step, as a graph: noise in, segment out, flow time folded to a constant."""
 
-    def __init__(self, field: nn.Module) -> None:
+    def __init__(self, model: HaptoFlowModel) -> None:
         super().__init__()
-        self.field = field
+        self.model = model
 
     def forward(self, noisy: Tensor, previous: Tensor, embedding: Tensor, motion: Tensor) -> Tensor:
-        return noisy + self.field(noisy, torch.zeros(1, 1).expand(noisy.shape[0], 1), previous, embedding, motion)
+        return self.model.one_step(noisy, previous, embedding, motion)
 
 
 class _AverageVelocity(nn.Module):
@@ -64,7 +64,7 @@ class _AverageVelocity(nn.Module):
         return self.field(noisy, time, previous, embedding, motion, interval)
 
 
-def export_baseline(baseline: Baseline) -> bytes:
+def _export_baseline(baseline: Baseline) -> bytes:
     """A baseline as a direct tier's graph, with the inputs that it reads."""
     wave = torch.zeros(2, 1, 200)
     examples = {
@@ -76,12 +76,14 @@ def export_baseline(baseline: Baseline) -> bytes:
     return _export(BaselineGraph(baseline), {name: examples[name] for name in baseline.inputs}, "segment")
 
 
-def export_field(field: VelocityField, kind: str) -> bytes:
+def export_network(model: HaptoFlowModel, kind: str) -> bytes:
     """The graph of a tier of `kind` "flow", "average-velocity" or "direct" (model-format.md, Graphs).
 
     A direct tier's graph has no flow time: a field taught by the energy distance is only valid in one step from 0.
     """
-    batch = 2
+    batch, field = 2, model.field
+    if isinstance(field, Baseline):
+        return _export_baseline(field)
     wave = torch.zeros(batch, field.channels, field.positions)
     moment = torch.zeros(batch, 1)
     conditions = {
@@ -98,7 +100,7 @@ def export_field(field: VelocityField, kind: str) -> bytes:
             "velocity",
         )
     if kind == "direct":
-        return _export(_OneStep(field), {"noisy": wave, **conditions}, "segment")
+        return _export(_OneStep(model), {"noisy": wave, **conditions}, "segment")
     raise ValueError(f"unknown tier kind '{kind}'")
 
 

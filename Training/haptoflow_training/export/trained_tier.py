@@ -51,8 +51,9 @@ class TrainedTier:
         """What the exported graph returns: the velocity, or the segment of a direct tier."""
         if isinstance(self.model.field, Baseline):
             return self.model.field(noisy, previous, embedding, motion)
-        made = self.model.field(noisy, time, previous, embedding, motion, interval)
-        return noisy + made if self.kind == "direct" else made
+        if self.kind == "direct":
+            return self.model.one_step(noisy, previous, embedding, motion)
+        return self.model.field(noisy, time, previous, embedding, motion, interval)
 
     def generate(
         self, noise: Tensor, previous: Tensor, embedding: Tensor, motion: Tensor, solver: str, steps: int

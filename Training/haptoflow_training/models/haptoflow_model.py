@@ -2,10 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
+import torch
 from torch import Tensor, nn
 
+from haptoflow_training.models.band_limit import BandLimit
 from haptoflow_training.models.baselines import Baseline
 from haptoflow_training.models.conditioning import EMBEDDING_SIZE
+from haptoflow_training.models.label_embedding import LabelEmbedding
 from haptoflow_training.models.representation import Representation
 from haptoflow_training.models.velocity_field import VelocityField
 
@@ -13,13 +18,24 @@ class HaptoFlowModel(nn.Module):
     """The trainable model behind one tier of a `.haptoflow` file: embedding, level and the network itself."""
 
     def __init__(
-        self, *, label_count: int, representation: Representation, level: nn.Module, field: VelocityField | Baseline
+        self,
+        *,
+        wave_vectors: Sequence[Sequence[tuple[float, float]]],
+        representation: Representation,
+        level: nn.Module,
+        field: VelocityField | Baseline,
     ) -> None:
         super().__init__()
         self.representation = representation
-        self.embedding = nn.Embedding(label_count, EMBEDDING_SIZE)
+        self.embedding = LabelEmbedding(EMBEDDING_SIZE, wave_vectors)
         self.level = level
         self.field = field
+        self.band_limit = BandLimit()
+
+    def one_step(self, noise: Tensor, previous: Tensor, embedding: Tensor, motion: Tensor) -> Tensor:
+        """The segment [B, 1, 200] that a network taught to be whole in one step makes; all in unit scale."""
+        start = torch.zeros(1, 1).expand(noise.shape[0], 1)
+        return self.band_limit(previous, noise + self.field(noise, start, previous, embedding, motion))
 
     def log_level(self, label: Tensor, motion: Tensor) -> Tensor:
         """[B, 1]: natural logarithm of the RMS in m/s^2 expected for label [B] and motion [B, 3]."""

@@ -12,6 +12,7 @@ import torch
 from torch import Tensor, nn
 
 from haptoflow_training.models.conditioning import CONDITION_SIZE, MotionEncoder, TimeEncoder
+from haptoflow_training.models.rib_comb import COMB_CHANNELS, RibComb
 
 
 class RmsNorm(nn.Module):
@@ -65,7 +66,9 @@ class VelocityField(nn.Module):
 
     noisy and previous: [B, C, N] with C channels of the representation (1 for raw samples) and N its positions
     (200); time: [B, 1]; embedding: [B, 64]; motion: [B, 3]. Returns [B, C, N]. N must divide by `patch`.
-    Without `hears_previous`, the previous waveform has no effect. With `average`, the field is the average velocity over [t, t + interval] (MeanFlow) and takes interval [B, 1].
+    Without `hears_previous`, the previous waveform has no effect. With `average`, the field is the average velocity
+    over [t, t + interval] (MeanFlow) and takes interval [B, 1]. With `ribs` (raw samples only), it hears what the ribs
+    of a ruled surface would do next.
     """
 
     def __init__(
@@ -78,6 +81,7 @@ class VelocityField(nn.Module):
         previous_width: int = 32,
         average: bool = False,
         hears_previous: bool = True,
+        ribs: bool = False,
     ) -> None:
         super().__init__()
         self.hears_previous = hears_previous
@@ -91,7 +95,8 @@ class VelocityField(nn.Module):
         self.time = TimeEncoder()
         self.interval = TimeEncoder() if average else None
         self.motion = MotionEncoder()
-        self.enter = _convolution(patch_size, width, 1)
+        self.comb = RibComb(positions) if ribs else None
+        self.enter = _convolution(patch_size + (COMB_CHANNELS * patch if ribs else 0), width, 1)
         self.previous_fine = _convolution(patch_size, previous_width, 3)
         self.previous_coarse = _convolution(previous_width, previous_width, 3, stride=2)
 
@@ -112,9 +117,9 @@ class VelocityField(nn.Module):
             nn.Linear(CONDITION_SIZE, CONDITION_SIZE), nn.SiLU(), nn.Linear(CONDITION_SIZE, sum(self._film_sizes))
         )
 
-    def _to_patches(self, wave: Tensor) -> Tensor:
-        patches = wave.reshape(-1, self.channels, self.patches, self.patch)
-        return patches.permute(0, 1, 3, 2).reshape(-1, self.channels * self.patch, 1, self.patches)
+    def _to_patches(self, wave: Tensor, channels: int) -> Tensor:
+        patches = wave.reshape(-1, channels, self.patches, self.patch)
+        return patches.permute(0, 1, 3, 2).reshape(-1, channels * self.patch, 1, self.patches)
 
     def _from_patches(self, patches: Tensor) -> Tensor:
         wave = patches.reshape(-1, self.channels, self.patch, self.patches)
@@ -138,10 +143,14 @@ class VelocityField(nn.Module):
         if not self.hears_previous:
             previous = torch.zeros_like(previous)
         # Mirrored, so that the newest sample of the past lies beside the first sample of the new segment.
-        past = self.previous_fine(self._to_patches(torch.flip(previous, dims=[2])))
+        past = self.previous_fine(self._to_patches(torch.flip(previous, dims=[2]), self.channels))
         past_coarse = self.previous_coarse(nn.functional.silu(past))
 
-        entered = self.enter(self._to_patches(noisy))
+        patches = self._to_patches(noisy, self.channels)
+        if self.comb is not None:
+            combed = self.comb(noisy, previous, embedding, motion)
+            patches = torch.cat([patches, self._to_patches(combed, COMB_CHANNELS)], dim=1)
+        entered = self.enter(patches)
         fine = self.fine_down(torch.cat([entered, past], dim=1), film[0], film[1])
         coarse = self.coarse(torch.cat([self.down(fine), past_coarse], dim=1), film[2], film[3])
         merged = self.fine_up(torch.cat([self.up(coarse), fine], dim=1), film[4], film[5])

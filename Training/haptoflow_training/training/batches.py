@@ -111,7 +111,7 @@ class SegmentBatches:
         return chosen
 
     def _draw_split_points(self, recordings: NDArray[np.int64], lead_in: int) -> NDArray[np.int64]:
-        """Where previous waveform and segment meet: `lead_in` samples and a segment after the recording's start at least,
+        """Where previous waveform and segment meet: `lead_in` samples and a segment after the recording's start or later,
         outside the held-out bands."""
         before = lead_in + SEGMENT_SAMPLES
         room = self._lengths[recordings] - before - SEGMENT_SAMPLES

@@ -19,7 +19,8 @@ class DataConfig:
     source: `synthetic` (the recorder makes them) or `folders` (`folders` lists data set roots).
     labels_file: which textures teach which label, for `folders`; empty for configs/labels-cluster.toml.
     labels: only these; empty for all.
-    machine_* and hand_* say how much the synthetic recorder makes of each protocol.
+    machine_* and hand_* say how much the synthetic recorder makes of each protocol; hand_guided_share: of the hand's
+    recordings, those in which speed and direction hold for a while.
     """
 
     source: str = "synthetic"
@@ -33,17 +34,20 @@ class DataConfig:
     machine_repeats: int = 2
     hand_recordings_per_label: int = 24
     hand_duration_seconds: float = 8.0
+    hand_guided_share: float = 0.0
 
 
 @dataclass(frozen=True)
 class ModelConfig:
     """What is trained. architecture: `unet` (the velocity field, `width` to `patch`) or one of the baselines.
 
+    ribs: the field hears what the ribs of ruled surfaces would do next (raw samples only).
     `representation` is handed to `build_representation`. hears_previous: false leaves the previous waveform out; level:
     `law` or `constant` (one level for everything): both to show what they are worth.
     """
 
     architecture: str = "unet"
+    ribs: bool = False
     hears_previous: bool = True
     level: str = "law"
     width: int = 64
@@ -259,6 +263,11 @@ def _check(config: TrainingConfig, path: Path) -> None:
             config.model.architecture == "unet" or config.recipe == RecipeConfig(),
             "recipe",
             "left out for a baseline, which is trained by its own loss alone",
+        ),
+        (
+            not config.model.ribs or config.model.representation.get("kind", "raw") == "raw",
+            "model.ribs",
+            "false with a latent representation",
         ),
         (config.model.level in ("law", "constant"), "model.level", "'law' or 'constant'"),
         (config.tier in ("draft", "standard", "fine"), "tier", "'draft', 'standard' or 'fine'"),

@@ -20,7 +20,7 @@ from torch import Tensor
 WINDOW_SAMPLES = (16, 32, 64, 128, 200, 400)
 _SHORT_PAST_SAMPLES = 64
 _SEAM_SAMPLES = 64
-_POWER_FLOOR = 1e-4
+_POWER_FLOOR = 1e-5
 
 
 @lru_cache(maxsize=None)
@@ -65,7 +65,13 @@ def _spectra(past: Tensor, segment: Tensor) -> list[Tensor]:
 
 
 def energy_distance_loss(
-    recorded: Tensor, recorded_past: Tensor, drawn: tuple[Tensor, Tensor], past: Tensor, weight: Tensor, *, own_past: bool
+    recorded: Tensor,
+    recorded_past: Tensor,
+    drawn: tuple[Tensor, Tensor],
+    past: Tensor,
+    weight: Tensor,
+    *,
+    own_past: bool,
 ) -> Tensor:
     """The loss of a batch; waves [B, 200] in unit scale, weight [B].
 

@@ -97,9 +97,10 @@ class Losses(nn.Module):
             return flow_matching_loss(field, segment, generator, 1.0 / power)
         if objective == "average-velocity":
             return mean_flow_loss(bound, segment, generator, 1.0 / power)
-        start = torch.zeros(segment.shape[0], 1)
         noises = [torch.randn(segment.shape, generator=generator) for _ in range(2)]
-        first, second = ((noise + field(noise, start)).squeeze(1) for noise in noises)
+        first, second = (
+            model.one_step(noise, previous, embedding, batch.motion).squeeze(1) for noise in noises
+        )
         return energy_distance_loss(
             segment.squeeze(1),
             recorded_previous.squeeze(1),
@@ -139,7 +140,7 @@ class Losses(nn.Module):
         if objective == "average-velocity":
             made = noise + model.field(noise, start, previous, embedding, motion, torch.ones_like(start))
         elif objective == "energy":
-            made = noise + field(noise, start)
+            made = model.one_step(noise, previous, embedding, motion)
         else:
             made = solve(field, noise, self._solver.kind, self._solver.steps)
         return model.representation.decode(made) * torch.exp(log_level).unsqueeze(-1)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 import json
+import math
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
@@ -39,6 +40,7 @@ class SyntheticRecording:
     identity: RecordingIdentity
     seed: int
     hand_duration_seconds: float
+    hand_guided_share: float
 
     @property
     def label(self) -> str:
@@ -47,7 +49,11 @@ class SyntheticRecording:
     def load(self) -> Recording:
         if self.identity.protocol == "hand":
             return record_hand_condition(
-                self.material, self.identity, seed=self.seed, duration_seconds=self.hand_duration_seconds
+                self.material,
+                self.identity,
+                seed=self.seed,
+                duration_seconds=self.hand_duration_seconds,
+                guided_share=self.hand_guided_share,
             )
         return record_machine_condition(self.material, self.identity, seed=self.seed)
 
@@ -59,6 +65,11 @@ class Source:
     store: SegmentStore
     labels: list[LabelInfo]
     provenance: Provenance
+
+    @property
+    def wave_vectors(self) -> list[tuple[tuple[float, float], ...]]:
+        """Of each label's ribs, cycles per millimetre."""
+        return [info.known_wave_vectors for info in self.labels]
 
 
 def synthetic_recordings(data: DataConfig) -> Iterator[SyntheticRecording]:
@@ -72,7 +83,9 @@ def synthetic_recordings(data: DataConfig) -> Iterator[SyntheticRecording]:
             repeats=data.machine_repeats,
         ) + hand_conditions(material, seed=data.recordings_seed, recordings=data.hand_recordings_per_label)
         for identity in identities:
-            yield SyntheticRecording(material, identity, data.recordings_seed, data.hand_duration_seconds)
+            yield SyntheticRecording(
+                material, identity, data.recordings_seed, data.hand_duration_seconds, data.hand_guided_share
+            )
 
 
 def _materials(data: DataConfig) -> tuple[Material, ...]:
@@ -116,6 +129,13 @@ def synthetic_label_infos(data: DataConfig) -> list[LabelInfo]:
                 1e-3 * max(material.rulings, key=lambda ruling: ruling.relative_height).wavelength_mm
                 if material.rulings
                 else None
+            ),
+            wave_vectors_per_mm=tuple(
+                (
+                    math.cos(math.radians(ruling.direction_degrees)) / ruling.wavelength_mm,
+                    math.sin(math.radians(ruling.direction_degrees)) / ruling.wavelength_mm,
+                )
+                for ruling in material.rulings
             ),
         )
         for material in _materials(data)

@@ -10,6 +10,7 @@ import math
 import os
 import signal
 import time
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from types import FrameType
@@ -43,8 +44,11 @@ class TrainingStopped(Exception):
     """The run was asked to stop; its checkpoint is written."""
 
 
-def build_model(config: TrainingConfig, label_count: int) -> HaptoFlowModel:
-    """The untrained model that `config` describes."""
+WaveVectors = Sequence[Sequence[tuple[float, float]]]
+
+
+def build_model(config: TrainingConfig, wave_vectors: WaveVectors) -> HaptoFlowModel:
+    """The untrained model that `config` describes. wave_vectors: of each label's ribs, empty for none."""
     shape = config.model
     representation = build_representation(shape.representation)
     channels, positions = representation.shape
@@ -58,11 +62,12 @@ def build_model(config: TrainingConfig, label_count: int) -> HaptoFlowModel:
             previous_width=shape.previous_width,
             average=config.recipe.objective == "average-velocity",
             hears_previous=shape.hears_previous,
+            ribs=shape.ribs,
         )
     else:
         field = build_baseline(shape.architecture)
     level = LevelModel() if shape.level == "law" else ConstantLevel()
-    return HaptoFlowModel(label_count=label_count, representation=representation, level=level, field=field)
+    return HaptoFlowModel(wave_vectors=wave_vectors, representation=representation, level=level, field=field)
 
 
 @dataclass(frozen=True)
@@ -117,14 +122,20 @@ class Trainer:
     """Trains one configuration on one store into one folder."""
 
     def __init__(
-        self, config: TrainingConfig, store: Store, folder: Path, processes: Processes, base: Path | None = None
+        self,
+        config: TrainingConfig,
+        store: Store,
+        folder: Path,
+        processes: Processes,
+        base: Path | None = None,
+        wave_vectors: WaveVectors | None = None,
     ) -> None:
         self._config, self._store, self._folder, self._processes = config, store, folder, processes
         optimiser = config.optimiser
         self._phases = _phases(config)
         torch.set_num_threads(config.threads)
         torch.manual_seed(config.seed)
-        self.model = build_model(config, len(store.labels))
+        self.model = build_model(config, wave_vectors or [()] * len(store.labels))
         if config.recipe.shares_base:
             if base is None:
                 raise InputError("recipe.shares_base needs the run whose level is kept: give --base FOLDER")
@@ -358,6 +369,6 @@ def load_trained(folder: Path) -> tuple[TrainingConfig, list[str], HaptoFlowMode
         raise InputError(f"{path} does not exist: train first (`haptoflow-training train --out {folder}`)")
     content = torch.load(path, map_location="cpu")
     config = config_from_dict(content["config"], path)
-    model = build_model(config, len(content["labels"]))
+    model = build_model(config, [()] * len(content["labels"]))
     model.load_state_dict(content["average"]["module"])
     return config, content["labels"], model.eval().requires_grad_(False)

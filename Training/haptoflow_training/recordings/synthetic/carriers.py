@@ -23,6 +23,8 @@ _TRACK_SPREAD_MM = 8.0
 _HAND_EXTENT_METRES = 0.3
 _HAND_TREMOR_METRES = 3e-6
 _FULL_STEP_MM = 0.2
+_CHANGE_SECONDS = 0.06
+FASTEST_MMPS, HEAVIEST_NEWTONS = 1500.0, 5.0
 # Hz and damping of the printer frame.
 _FRAME_RESONANCE = (90.0, 0.25)
 
@@ -103,6 +105,41 @@ def hand_ride(
     carrier = np.zeros((count, 3))
     carrier[1:-1] = np.diff(shaking, 2, axis=0) * SIMULATION_RATE_HZ**2
     return Ride(path, np.interp(time, stroke.time_seconds, force), carrier)
+
+
+def guided_ride(
+    rng: np.random.Generator,
+    *,
+    duration_seconds: float,
+    median_speed_mmps: float,
+    median_force_newtons: float,
+) -> Ride:
+    """A hand that rests on a moving surface, as on a turntable: speed, direction and force hold for half a second to
+    one and a half, then go over to others. Free strokes never hold still for a tenth of a second, and nobody can
+    learn the pitch of ribs from them.
+    """
+    count = int(duration_seconds * SIMULATION_RATE_HZ)
+    time = np.arange(count) / SIMULATION_RATE_HZ
+    changes = np.cumsum(rng.uniform(0.5, 1.5, size=int(duration_seconds / 0.5) + 2))
+    hold = np.searchsorted(changes, time)
+    holds = int(hold[-1]) + 1
+    # Within a hold everything still drifts a little, as a turntable does.
+    within = time - np.concatenate([[0.0], changes])[hold]
+    log_speed = np.clip(rng.normal(0.0, 0.5, holds), -1.2, 1.2)[hold] + rng.normal(0.0, 0.03, holds)[hold] * within
+    angle = rng.uniform(0.0, 2.0 * math.pi, holds)[hold] + rng.normal(0.0, 0.1, holds)[hold] * within
+    press = np.exp(rng.normal(0.0, 0.3, holds))[hold]
+    speed = np.minimum(median_speed_mmps * np.exp(log_speed), FASTEST_MMPS)
+    ramp = np.clip(np.minimum(time, duration_seconds - time) / REST_SECONDS - 1.0, 0.0, 1.0)
+    moving = 0.5 - 0.5 * np.cos(math.pi * ramp)
+    velocity = (speed * moving)[:, None] * np.stack([np.cos(angle), np.sin(angle)], axis=1)
+    kernel = np.hanning(int(_CHANGE_SECONDS * SIMULATION_RATE_HZ) + 2)[1:-1]
+    smooth = [
+        np.convolve(np.pad(values, len(kernel) // 2, mode="edge"), kernel / kernel.sum(), mode="same")
+        for values in (*velocity.T, np.minimum(median_force_newtons * press, HEAVIEST_NEWTONS))
+    ]
+    trim = slice(len(kernel) // 2, len(kernel) // 2 + count)
+    path = path_from_velocity(rng.uniform(-500.0, 500.0, size=2), np.stack([smooth[0][trim], smooth[1][trim]], axis=1))
+    return Ride(path, smooth[2][trim], np.zeros((count, 3)))
 
 
 def _inertia(velocity_mmps: NDArray[np.float64]) -> NDArray[np.float64]:

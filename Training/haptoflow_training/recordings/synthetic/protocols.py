@@ -10,7 +10,7 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 
 from haptoflow_training.recordings.recording import Recording, RecordingIdentity
-from haptoflow_training.recordings.synthetic.carriers import hand_ride, machine_pass
+from haptoflow_training.recordings.synthetic.carriers import guided_ride, hand_ride, machine_pass
 from haptoflow_training.recordings.synthetic.materials import Material, select_materials
 from haptoflow_training.recordings.synthetic.recorder import record_ride
 
@@ -74,11 +74,17 @@ def record_machine_condition(material: Material, identity: RecordingIdentity, *,
 
 
 def record_hand_condition(
-    material: Material, identity: RecordingIdentity, *, seed: int, duration_seconds: float = 8.0
+    material: Material,
+    identity: RecordingIdentity,
+    *,
+    seed: int,
+    duration_seconds: float = 8.0,
+    guided_share: float = 0.0,
 ) -> Recording:
-    """One free hand stroke."""
+    """One hand stroke: free, or guided for `guided_share` of all, spread evenly over the repeats."""
     rng = _generator(seed, identity)
-    ride = hand_ride(
+    guided = int((identity.repeat + 1) * guided_share) > int(identity.repeat * guided_share)
+    ride = (guided_ride if guided else hand_ride)(
         rng,
         duration_seconds=duration_seconds,
         median_speed_mmps=float(identity.speed_mmps),
