@@ -178,6 +178,13 @@ def test_tiers_that_share_no_level_are_refused(tmp_path: Path) -> None:
         load_tiers([tmp_path / "standard", tmp_path / "draft"])
 
 
+@pytest.mark.parametrize("shares_base", [True, False])
+def test_a_base_and_the_wish_to_share_it_go_together(shares_base: bool, tmp_path: Path) -> None:
+    config = dataclasses.replace(_config(), recipe=RecipeConfig(shares_base=shares_base))
+    with pytest.raises(InputError, match="go together"):
+        Trainer(config, make_store(), tmp_path, ALONE, None if shares_base else tmp_path / "base")
+
+
 def test_pairs_of_held_out_bands_are_not_drawn() -> None:
     config = BatchConfig(held_out_speed_mps=(0.05, 0.1))
     batch = SegmentBatches(make_store(recordings_per_split=6), "train", config, 6).draw(2000)

@@ -136,9 +136,12 @@ class Trainer:
         torch.set_num_threads(config.threads)
         torch.manual_seed(config.seed)
         self.model = build_model(config, wave_vectors or [()] * len(store.labels))
-        if config.recipe.shares_base:
-            if base is None:
-                raise InputError("recipe.shares_base needs the run whose level is kept: give --base FOLDER")
+        if config.recipe.shares_base != (base is not None):
+            raise InputError(
+                "--base FOLDER and recipe.shares_base = true go together: the one names the run whose level is kept, "
+                "the other says that it is"
+            )
+        if base is not None:
             adopt_base(self.model, base, list(store.labels))
         self._losses = Losses(self.model, config.solver, train_level=not config.recipe.shares_base)
         self._pairs: ReflowPairs | None = None

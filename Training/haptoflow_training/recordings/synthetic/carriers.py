@@ -115,8 +115,9 @@ def guided_ride(
     median_force_newtons: float,
 ) -> Ride:
     """A hand that rests on a moving surface, as on a turntable: speed, direction and force hold for half a second to
-    one and a half, then go over to others, 0.6 to 3.3 times `median_speed_mmps`. Free strokes never hold still for a tenth of a second, and nobody can
-    learn the pitch of ribs from them.
+    one and a half, then go over to others, the speed 0.6 to 3.3 times `median_speed_mmps`.
+
+    Free strokes never hold still for a tenth of a second, and nobody can learn the pitch of ribs from them.
     """
     count = int(duration_seconds * SIMULATION_RATE_HZ)
     time = np.arange(count) / SIMULATION_RATE_HZ
