@@ -1,0 +1,69 @@
+"""The native library through ctypes: what the evaluation measures is what the engine makes."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from haptoflow_training.errors import InputError
+from haptoflow_training.evaluation.engine_library import EngineGenerator, EngineLibrary, default_engine
+from haptoflow_training.evaluation.timing import TimedSource, time_sources
+
+ROOT = Path(__file__).parents[2]
+GOLDEN = ROOT / "Tests" / "Golden" / "model"
+
+
+@pytest.fixture(scope="module")
+def engine() -> EngineLibrary:
+    return default_engine(ROOT)
+
+
+def _golden_cases() -> list[dict[str, object]]:
+    cases: list[dict[str, object]] = json.loads((GOLDEN / "default.parity.json").read_text(encoding="utf-8"))["cases"]
+    assert cases
+    return cases
+
+
+def test_segments_of_a_batch_are_those_that_python_made_of_the_same_weights(engine: EngineLibrary) -> None:
+    model = ROOT / "Packages" / "com.haptoflow.runtime" / "Runtime" / "Models" / "default.haptoflow"
+    for case in _golden_cases():
+        with EngineGenerator(engine, model, str(case["tier"]), str(case["solver"]), int(str(case["steps"]))) as generator:
+            arrays = [
+                np.array([case[key], case[key]], dtype=np.float32)
+                for key in ("embedding", "motion", "previous", "noise")
+            ]
+            made = generator.generate(*arrays)
+        tolerance = 1e-4 * float(np.exp(float(str(case["log_level"]))))
+        np.testing.assert_allclose(made[0], np.array(case["segment"]), atol=tolerance)
+        np.testing.assert_allclose(made[1], made[0], atol=1e-6)
+
+
+def test_a_refused_model_says_why(engine: EngineLibrary, tmp_path: Path) -> None:
+    damaged = bytearray((GOLDEN / "tiny.haptoflow").read_bytes())
+    damaged[-1] ^= 1
+    (tmp_path / "damaged.haptoflow").write_bytes(bytes(damaged))
+    with pytest.raises(InputError, match="haptoflow_model_open: .+"):
+        EngineGenerator(engine, tmp_path / "damaged.haptoflow")
+
+
+def test_a_library_that_is_not_built_names_the_command_that_builds_it(tmp_path: Path) -> None:
+    with pytest.raises(InputError, match="npm run build"):
+        default_engine(tmp_path)
+
+
+def test_every_source_is_timed_as_often_as_asked_whatever_the_order() -> None:
+    class Counting:
+        runs = 0
+
+        def generate(self, embeddings: np.ndarray, motions: np.ndarray, past: np.ndarray, noise: np.ndarray) -> np.ndarray:
+            self.runs += 1
+            return past
+
+    counting = [Counting(), Counting()]
+    sources = [TimedSource(str(number), source) for number, source in enumerate(counting)]
+    times = time_sources(sources, blocks=3, runs_per_block=5, period_seconds=0.001, seed=1)
+    assert [source.runs for source in counting] == [3 * (3 + 5)] * 2
+    assert all(0.0 < entry.p50 <= entry.p99 for entry in times.values())
