@@ -1,18 +1,22 @@
 """The edge of the recordings' band, as a last filter of one-step networks.
 
-Recordings end a little below 1 kHz, noise does not. A network of patches cannot cancel the noise it starts from in the
-last octave tenth; a filter of 65 samples that is trained with it can.
+Recordings end a little below 1 kHz, in the skirt of their decimation; noise does not. A network of patches cannot
+cancel the noise it starts from in the last tenth of an octave; a filter that begins with that skirt and is trained with
+the network can.
 """
 
 from __future__ import annotations
 
 import torch
-from scipy.signal import firwin
+from scipy.signal import firwin2
 from torch import Tensor, nn
 
-TAPS = 65
+TAPS = 129
 _REACH = TAPS // 2
-_EDGE_HZ, _SAMPLE_RATE_HZ = 955.0, 2000.0
+_SAMPLE_RATE_HZ = 2000.0
+# What preprocessing leaves of a flat spectrum, read off mean spectra of recordings: Hz and dB.
+_SKIRT_HZ = (0.0, 921.0, 937.0, 945.0, 953.0, 960.0, 968.0, 976.0, 984.0, 992.0, 1000.0)
+_SKIRT_DB = (0.0, 0.0, -1.0, -3.5, -6.0, -10.0, -14.0, -20.0, -28.0, -39.0, -48.0)
 
 
 class BandLimit(nn.Module):
@@ -23,7 +27,8 @@ class BandLimit(nn.Module):
 
     def __init__(self) -> None:
         super().__init__()
-        taps = torch.tensor(firwin(TAPS, _EDGE_HZ, fs=_SAMPLE_RATE_HZ), dtype=torch.float32)
+        gains = [10.0 ** (level / 20.0) for level in _SKIRT_DB]
+        taps = torch.tensor(firwin2(TAPS, _SKIRT_HZ, gains, fs=_SAMPLE_RATE_HZ), dtype=torch.float32)
         self.weight = nn.Parameter(taps.reshape(1, 1, TAPS))
 
     def forward(self, previous: Tensor, segment: Tensor) -> Tensor:
