@@ -66,7 +66,7 @@ def run(options: argparse.Namespace) -> int:
         raise InputError(f"{options.plan}: no row {', '.join(sorted(unknown))}")
     if options.quick:
         chosen = [row for row in chosen if row.quick]
-    place = Workplace(_ROOT, options.plan, options.work, options.store)
+    place = Workplace(_ROOT, options.plan, options.work, options.store, options.quick)
     engine = default_engine(_ROOT)
     if not (options.quick or options.no_train):
         for row in chosen:

@@ -38,12 +38,14 @@ _SWEEP_SECONDS = 4.0
 
 @dataclass(frozen=True)
 class Workplace:
-    """root: the repository. work: where trainings, models and rows are kept (not committed)."""
+    """root: the repository. work: where trainings, models and rows are kept (not committed). quick: leave out the long
+    measurements, and keep the results apart from the whole ones."""
 
     root: Path
     plan: Path
     work: Path
     store: Path
+    quick: bool = False
 
     def model_file(self, row: PlannedRow, seed: int) -> Path:
         if row.model.endswith(".haptoflow"):
@@ -51,7 +53,7 @@ class Workplace:
         return self.work / "models" / f"{row.model}-{seed}.haptoflow"
 
     def row_file(self, row: PlannedRow, seed: int) -> Path:
-        return self.work / "rows" / f"{row.name}-{seed}.json"
+        return self.work / ("rows-quick" if self.quick else "rows") / f"{row.name}-{seed}.json"
 
 
 def train_model(place: Workplace, row: PlannedRow, seed: int) -> None:
@@ -137,7 +139,8 @@ def _engine_figures(
     place: Workplace, engine: EngineLibrary, yardstick: Yardstick, row: PlannedRow, seed: int
 ) -> dict[str, Any]:
     model, pairs = place.model_file(row, seed), yardstick.pairs
-    drift_seconds = _LONG_DRIFT_SECONDS if row.extended else _SHORT_DRIFT_SECONDS
+    extended = row.extended and not place.quick
+    drift_seconds = _LONG_DRIFT_SECONDS if extended else _SHORT_DRIFT_SECONDS
     hops = accuracy.hops_of(pairs, UPDATE_RATE_HZ) + int(drift_seconds * UPDATE_RATE_HZ)
     with EngineGenerator(engine, model, row.tier or None, row.solver, row.steps) as generator:
         with tqdm(total=hops, desc=f"{row.name}, seed {seed}", unit="hop", leave=False) as bar:
@@ -158,7 +161,7 @@ def _engine_figures(
             "drift_worst_db_per_min": drift[1],
             "drift_seconds": drift_seconds,
         }
-        if row.extended:
+        if extended:
             result["fast"] = _fast_speeds(generator, pairs)
             result["kink_db"] = _level_kinks(generator)
         return result
