@@ -39,7 +39,7 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser], su
         ),
         epilog=(
             "examples:\n"
-            "  haptoflow-training evaluate --quick        what is there, no training, a few minutes\n"
+            "  haptoflow-training evaluate --quick        what is there, no training, about a quarter of an hour\n"
             "  haptoflow-training evaluate --rows plain-euler-1 standard\n"
         ),
         formatter_class=argparse.RawDescriptionHelpFormatter,
