@@ -6,14 +6,14 @@ import csv
 import json
 import os
 import subprocess
-import warnings
 from collections import defaultdict
 from pathlib import Path
 
 import numpy as np
 import pytest
 from numpy.typing import NDArray
-from scipy.io import wavfile
+
+from haptoflow_training.evaluation.engine_render import read_wav
 
 ROOT = Path(__file__).parents[2]
 STROKES = ROOT.parent / "shared" / "strokes" / "vr-pen-on-surface" / "strokes.csv"
@@ -82,8 +82,6 @@ def renders(tmp_path_factory: pytest.TempPathFactory) -> dict[str, tuple[dict[st
     scene = folder / "scene.json"
     _scene(scene)
     results = {}
-    # The writer's padding chunk is legal; SciPy warns of every chunk it does not know.
-    warnings.simplefilter("ignore", wavfile.WavFileWarning)
     for number, (name, stroke) in enumerate(strokes.items()):
         path, wav, report = (folder / f"{number}{ending}" for ending in (".csv", ".wav", ".json"))
         np.savetxt(path, _onto_table(stroke), fmt="%.7f", delimiter=",", header="t,x,y,z", comments="")
@@ -92,7 +90,7 @@ def renders(tmp_path_factory: pytest.TempPathFactory) -> dict[str, tuple[dict[st
              "--rate", "48000", "--seed", "3", "--quiet"],
             check=True, capture_output=True,
         )  # fmt: skip
-        results[name] = (json.loads(report.read_text(encoding="utf-8")), wavfile.read(wav)[1])
+        results[name] = (json.loads(report.read_text(encoding="utf-8")), read_wav(wav))
     return results
 
 

@@ -33,6 +33,11 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser], su
     parser.set_defaults(run=run)
 
 
+def announce(out: Path, checksum: int) -> None:
+    """Say what was written."""
+    print(f"{out}: {out.stat().st_size / 2**20:.2f} MiB, CRC-32 {checksum:08x}")
+
+
 def run(options: argparse.Namespace) -> int:
     config, _, _ = load_trained(options.folder)
     source = open_source(config.data, options.store or options.folder.parent / "store", options.workers)
@@ -45,5 +50,5 @@ def run(options: argparse.Namespace) -> int:
         options.parity,
         options.tiers,
     )
-    print(f"{options.out}: {options.out.stat().st_size / 2**20:.2f} MiB, CRC-32 {checksum:08x}")
+    announce(options.out, checksum)
     return 0

@@ -7,6 +7,7 @@ import dataclasses
 import sys
 from pathlib import Path
 
+from haptoflow_training.commands.export import announce
 from haptoflow_training.export.exporter import export_run
 from haptoflow_training.training.config import TrainingConfig, load_config
 from haptoflow_training.training.processes import join_processes
@@ -88,5 +89,5 @@ def run(options: argparse.Namespace) -> int:
                 options.out, source.store, source.labels, source.provenance, options.export, options.parity
             )
             write_json(options.out / "export.json", {"file": options.export.name, "crc32": f"{checksum:08x}"})
-            print(f"{options.export}: {options.export.stat().st_size / 2**20:.2f} MiB, CRC-32 {checksum:08x}")
+            announce(options.export, checksum)
     return 0

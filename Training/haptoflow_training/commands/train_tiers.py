@@ -12,6 +12,7 @@ from pathlib import Path
 
 from tqdm import tqdm
 
+from haptoflow_training.commands.export import announce
 from haptoflow_training.errors import InputError
 from haptoflow_training.export.exporter import export_run
 from haptoflow_training.training.config import load_config
@@ -76,7 +77,7 @@ def run(options: argparse.Namespace) -> int:
         [folder for folder in folders if folder != default],
     )
     write_json(options.out / "export.json", {"file": options.export.name, "crc32": f"{checksum:08x}"})
-    print(f"{options.export}: {options.export.stat().st_size / 2**20:.2f} MiB, CRC-32 {checksum:08x}")
+    announce(options.export, checksum)
     return 0
 
 

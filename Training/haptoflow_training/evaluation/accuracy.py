@@ -24,7 +24,7 @@ _BOOTSTRAP_DRAWS = 500
 
 @dataclass(frozen=True)
 class GeneratedSet:
-    """closed: one closed-loop wave for each pair; opened: segments from true previous waveforms, joined, or None."""
+    """closed: one closed-loop wave for each pair; opened: segments from true previous waveforms, joined, or empty."""
 
     closed: list[_Floats]
     opened: list[_Floats]
@@ -174,7 +174,7 @@ def summary(rows: Sequence[dict[str, Any]], seed: int = 0) -> dict[str, Any]:
     """Medians over labels of each label's mean, tails over conditions, 95 % bootstrap intervals over recordings."""
     result: dict[str, Any] = {}
     for key in ("level_error_db", "gfc_recording", "gfc_segment", "rmse", "lsd_db", "continuity"):
-        _add(result, key, rows, key, seed)
+        _add(result, key, rows, seed)
     errors = np.abs([row["level_error_db"] for row in rows])
     result["level_error_p90_db"] = float(np.quantile(errors, 0.9))
     result["level_error_worst_db"] = float(errors.max())
@@ -189,18 +189,18 @@ def summary(rows: Sequence[dict[str, Any]], seed: int = 0) -> dict[str, Any]:
     return result
 
 
-def _add(result: dict[str, Any], name: str, rows: Sequence[dict[str, Any]], key: str, seed: int) -> None:
+def _add(result: dict[str, Any], key: str, rows: Sequence[dict[str, Any]], seed: int) -> None:
     grouped: dict[str, list[float]] = {}
     for row in rows:
         if row[key] is not None:
             grouped.setdefault(row["label"], []).append(row[key])
     if not grouped:
-        result[name] = None
+        result[key] = None
         return
-    result[name] = float(np.median([np.mean(values) for values in grouped.values()]))
+    result[key] = float(np.median([np.mean(values) for values in grouped.values()]))
     generator = np.random.default_rng(seed)
     draws = [
         np.median([np.mean(generator.choice(values, size=len(values))) for values in grouped.values()])
         for _ in range(_BOOTSTRAP_DRAWS)
     ]
-    result[f"{name}_interval"] = [float(value) for value in np.quantile(draws, [0.025, 0.975])]
+    result[f"{key}_interval"] = [float(value) for value in np.quantile(draws, [0.025, 0.975])]

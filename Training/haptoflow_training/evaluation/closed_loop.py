@@ -68,25 +68,20 @@ def run_closed_loop(
     by the engine's splice.
     """
     rows, samples, _ = motions.shape
-    out = np.zeros((rows, samples + SEGMENT_SAMPLES), dtype=np.float32)
+    # Before the wave's beginning lies silence, long enough to be the first segment's past.
+    out = np.zeros((rows, SEGMENT_SAMPLES + samples + SEGMENT_SAMPLES), dtype=np.float32)
+    wave = out[:, SEGMENT_SAMPLES:]
     starts = hop_positions(samples, update_rate_hz)
     generator = np.random.default_rng(seed)
-    past = np.zeros((rows, SEGMENT_SAMPLES), dtype=np.float32)
     before = 0
     for start in starts:
         known = motions[:, before:start] if start > before else motions[:, :1]
+        past = out[:, start : start + SEGMENT_SAMPLES].copy()
         noise = generator.standard_normal((rows, SEGMENT_SAMPLES)).astype(np.float32)
         segment = source.generate(embeddings, known.mean(axis=1).astype(np.float32), past, noise)
         if start > 0:
-            segment = spliced(out[:, start : start + SEGMENT_SAMPLES], segment)
-        out[:, start : start + SEGMENT_SAMPLES] = segment
+            segment = spliced(wave[:, start : start + SEGMENT_SAMPLES], segment)
+        wave[:, start : start + SEGMENT_SAMPLES] = segment
         before = start
-        following = start + int(np.ceil(SAMPLE_RATE_HZ / update_rate_hz))
-        after = starts[np.searchsorted(starts, start, side="right") :]
-        following = int(after[0]) if len(after) else following
-        # Before the wave's beginning lies silence.
-        first = following - SEGMENT_SAMPLES
-        past = np.zeros((rows, SEGMENT_SAMPLES), dtype=np.float32)
-        past[:, max(0, -first) :] = out[:, max(0, first) : following]
         advance(1)
-    return ClosedLoopRun(out[:, :samples], starts)
+    return ClosedLoopRun(wave[:, :samples], starts)

@@ -62,6 +62,15 @@ def write_stroke(path: Path, motion: NDArray[np.floating]) -> None:
     np.savetxt(path, columns, fmt="%.7f", delimiter=",", header="t,x,y,z,force", comments="")
 
 
+def read_wav(path: Path) -> NDArray[np.float32]:
+    """Samples of a file that the engine wrote, +-1 = 60 m/s^2."""
+    with warnings.catch_warnings():
+        # The writer's padding chunk is legal; SciPy warns of every chunk it does not know.
+        warnings.simplefilter("ignore", wavfile.WavFileWarning)
+        samples: NDArray[np.float32] = wavfile.read(path)[1]
+    return samples
+
+
 def render_motion(
     engine: Path,
     label: str,
@@ -87,9 +96,5 @@ def render_motion(
         raise InputError(f"{engine}: cannot be run ({error.strerror}); build it with `npm run build`") from error
     if done.returncode != 0:
         raise InputError(f"{engine} render failed: {done.stderr.strip()}")
-    with warnings.catch_warnings():
-        # The writer's padding chunk is legal; SciPy warns of every chunk it does not know.
-        warnings.simplefilter("ignore", wavfile.WavFileWarning)
-        _, samples = wavfile.read(wav)
-    waveform = resample_poly(samples.astype(np.float64), 1, _RENDER_RATE_HZ // 2000) * FULL_SCALE_MPS2
+    waveform = resample_poly(read_wav(wav).astype(np.float64), 1, _RENDER_RATE_HZ // 2000) * FULL_SCALE_MPS2
     return EngineRender(waveform[: len(motion)], json.loads(report.read_text(encoding="utf-8")))

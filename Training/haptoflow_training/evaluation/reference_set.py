@@ -73,8 +73,7 @@ def conditions(materials: tuple[Material, ...], strokes_per_label: int = 1) -> l
             force = _FORCES_NEWTONS[(index + number) % len(_FORCES_NEWTONS)]
             direction = _DIRECTIONS_DEGREES[number % len(_DIRECTIONS_DEGREES)]
             fundamental = 0.0
-            if material.rulings:
-                ruling = max(material.rulings, key=lambda entry: entry.relative_height)
+            if ruling := material.dominant_ruling:
                 # Across the ribs, where a fundamental can be told at all.
                 direction = ruling.direction_degrees
                 fundamental = 1000.0 * speed / ruling.wavelength_mm

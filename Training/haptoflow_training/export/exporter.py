@@ -25,7 +25,6 @@ from haptoflow_training.models.velocity_field import parameter_count
 from haptoflow_training.training.batches import SEGMENT_SAMPLES, SegmentBatches, Store
 from haptoflow_training.training.config import TrainingConfig
 from haptoflow_training.training.run_log import source_commit
-from haptoflow_training.training.trainer import load_trained
 
 _PERCENTILES = (5, 25, 50, 75, 95)
 
@@ -151,14 +150,14 @@ def export_run(
 ) -> int:
     """Write the finished run in `folder` to `out`, and golden vectors to `parity`; returns the file's CRC-32.
 
-    Golden vectors are of the raw tiers: a latent one starts from noise that only the engine extends.
-
-    further_tiers: folders of runs trained with `--base folder`, each one more tier of the same file.
+    Golden vectors are of the raw tiers: a latent one starts from noise that only the engine extends. further_tiers:
+    folders of runs trained with `--base folder`, each one more tier of the same file.
     """
     tiers = load_tiers([folder, *further_tiers])
-    config, labels, model = load_trained(folder)
-    if [info.name for info in infos] != labels:
-        raise InputError(f"{folder}: trained on labels {labels}, described are {[info.name for info in infos]}")
+    default = next(tier for tier in tiers if tier.folder == folder)
+    config, model = default.config, default.model
+    if [info.name for info in infos] != default.labels:
+        raise InputError(f"{folder}: trained on labels {default.labels}, described are {[info.name for info in infos]}")
     bank = build_seed_bank(store, seed=config.seed)
     run_file = folder / "run.json"
     measurements = json.loads(run_file.read_text(encoding="utf-8")) if run_file.exists() else {}

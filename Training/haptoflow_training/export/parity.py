@@ -8,7 +8,7 @@ from typing import Any
 import torch
 
 from haptoflow_training.export.trained_tier import TrainedTier
-from haptoflow_training.models.unit_scale import PREVIOUS_LIMIT, unit_scale
+from haptoflow_training.models.unit_scale import scaled_previous
 from haptoflow_training.training.batches import SegmentBatch
 from haptoflow_training.training.run_log import write_json
 
@@ -32,7 +32,7 @@ def write_parity(
         embedding = tier.model.embedding(batch.label[row : row + 1])
         motion, previous = batch.motion[row : row + 1], batch.previous[row : row + 1]
         log_level = tier.model.level(embedding, motion)
-        scaled = unit_scale(previous, log_level).clamp(-PREVIOUS_LIMIT, PREVIOUS_LIMIT)
+        scaled = scaled_previous(previous, log_level)
         noise = torch.randn(1, 1, 200, generator=generator)
         start, interval = torch.zeros(1, 1), torch.full((1, 1), 1.0 / steps)
         segment = tier.generate(noise, scaled, embedding, motion, kind, steps) * torch.exp(log_level).unsqueeze(-1)

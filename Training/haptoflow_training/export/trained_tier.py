@@ -21,11 +21,12 @@ TIER_NAMES = ("draft", "standard", "fine")
 
 @dataclass(frozen=True)
 class TrainedTier:
-    """kind, solver and steps as in model-format.md."""
+    """kind, solver and steps as in model-format.md. folder: the run's, where it was read from one."""
 
     config: TrainingConfig
     labels: list[str]
     model: HaptoFlowModel
+    folder: Path | None = None
 
     @property
     def name(self) -> str:
@@ -71,7 +72,7 @@ class TrainedTier:
 
 def load_tiers(folders: list[Path]) -> list[TrainedTier]:
     """The finished runs in `folders`, in the file's order; they must share labels, embedding and level."""
-    tiers = [TrainedTier(*load_trained(folder)) for folder in folders]
+    tiers = [TrainedTier(*load_trained(folder), folder) for folder in folders]
     first = tiers[0]
     for tier, folder in zip(tiers, folders, strict=True):
         shared = (tier.model.embedding, first.model.embedding), (tier.model.level, first.model.level)

@@ -14,6 +14,7 @@ from haptoflow_training.models.label_embedding import LabelEmbedding
 from haptoflow_training.models.representation import Representation
 from haptoflow_training.models.velocity_field import VelocityField
 
+
 class HaptoFlowModel(nn.Module):
     """The trainable model behind one tier of a `.haptoflow` file: embedding, level and the network itself."""
 

@@ -12,3 +12,8 @@ PREVIOUS_LIMIT = 8.0
 def unit_scale(wave_mps2: Tensor, log_level: Tensor) -> Tensor:
     """[B, 1, N] in m/s^2 divided by the level exp(log_level) [B, 1]."""
     return wave_mps2 * torch.exp(-log_level).unsqueeze(-1)
+
+
+def scaled_previous(previous_mps2: Tensor, log_level: Tensor) -> Tensor:
+    """The previous waveform [B, 1, N] as the network hears it: in unit scale, limited."""
+    return unit_scale(previous_mps2, log_level).clamp(-PREVIOUS_LIMIT, PREVIOUS_LIMIT)

@@ -8,8 +8,8 @@ import torch
 from torch import Tensor, nn
 
 from haptoflow_training.models.haptoflow_model import HaptoFlowModel
-from haptoflow_training.models.unit_scale import PREVIOUS_LIMIT, unit_scale
 from haptoflow_training.models.level_model import level_loss
+from haptoflow_training.models.unit_scale import scaled_previous
 from haptoflow_training.training.batches import Chain, SegmentBatch
 from haptoflow_training.training.config import SolverConfig
 from haptoflow_training.training.energy_distance import energy_distance_loss
@@ -68,12 +68,12 @@ class Losses(nn.Module):
         # The field sees waves of unit scale; it must not move the level to make its own task easier.
         log_level = model.log_level(batch.label, batch.motion).detach()
         segment = model.representation.encode(self._steady_segment(batch, embedding))
-        recorded_previous = _scaled(batch.previous, log_level)
+        recorded_previous = scaled_previous(batch.previous, log_level)
         own_past = batch.chain is not None
         previous = recorded_previous
         if batch.chain is not None:
             own_previous = self.live_through(batch.chain, batch.label, objective, generator)
-            previous = _scaled(own_previous, log_level)
+            previous = scaled_previous(own_previous, log_level)
         # A burst that the level cannot foresee (an impact, the first motion after a rest) is learnt, but must not
         # outweigh a hundred ordinary segments.
         power = segment.square().mean(dim=(1, 2)).clamp(min=1.0)
@@ -98,9 +98,7 @@ class Losses(nn.Module):
         if objective == "average-velocity":
             return mean_flow_loss(bound, segment, generator, 1.0 / power)
         noises = [torch.randn(segment.shape, generator=generator) for _ in range(2)]
-        first, second = (
-            model.one_step(noise, previous, embedding, batch.motion).squeeze(1) for noise in noises
-        )
+        first, second = (model.one_step(noise, previous, embedding, batch.motion).squeeze(1) for noise in noises)
         return energy_distance_loss(
             segment.squeeze(1),
             recorded_previous.squeeze(1),
@@ -130,7 +128,7 @@ class Losses(nn.Module):
         model = self.model
         embedding = model.embedding(label)
         log_level = model.level(embedding, motion)
-        previous = model.representation.encode(_scaled(previous_mps2, log_level))
+        previous = model.representation.encode(scaled_previous(previous_mps2, log_level))
         noise = torch.randn(label.shape[0], *model.representation.shape, generator=generator)
 
         def field(noisy: Tensor, time: Tensor) -> Tensor:
@@ -152,7 +150,7 @@ class Losses(nn.Module):
         """(noise, what the flow makes of it, previous in unit scale, batch): what reflow straightens."""
         model = self.model
         embedding = model.embedding(batch.label)
-        previous = _scaled(batch.previous, model.level(embedding, batch.motion))
+        previous = scaled_previous(batch.previous, model.level(embedding, batch.motion))
         previous = model.representation.encode(previous)
         noise = torch.randn(batch.label.shape[0], *model.representation.shape, generator=generator)
 
@@ -171,7 +169,3 @@ class Losses(nn.Module):
         samples = batch.segment.shape[-1]
         log_level = nn.functional.interpolate(log_level, size=samples, mode="linear", align_corners=True)
         return batch.segment * torch.exp(-log_level)
-
-
-def _scaled(wave_mps2: Tensor, log_level: Tensor) -> Tensor:
-    return unit_scale(wave_mps2, log_level).clamp(-PREVIOUS_LIMIT, PREVIOUS_LIMIT)

@@ -126,9 +126,7 @@ def synthetic_label_infos(data: DataConfig) -> list[LabelInfo]:
             stiffness_newtons_per_metre=material.stiffness_newtons_per_metre,
             friction_coefficient=material.friction,
             wavelength_metres=(
-                1e-3 * max(material.rulings, key=lambda ruling: ruling.relative_height).wavelength_mm
-                if material.rulings
-                else None
+                1e-3 * material.dominant_ruling.wavelength_mm if material.dominant_ruling else None
             ),
             wave_vectors_per_mm=tuple(
                 (

@@ -268,10 +268,9 @@ class Trainer:
         """(level loss, loss of the phase's objective) of the averaged model on fixed pairs of the validation split."""
         generator = torch.Generator().manual_seed(99)
         losses = Losses(self.averaged_model, self._config.solver)
-        asked = phase.objective if phase is not None else self._phases[-1].objective
-        if asked in ("level", "reflow"):
-            asked = next((entry.objective for entry in self._phases if entry.name == "field"), "level")
-        objective = asked
+        objective = (phase or self._phases[-1]).objective
+        if objective in ("level", "reflow"):
+            objective = next((entry.objective for entry in self._phases if entry.name == "field"), "level")
         level, field = losses(self._validation, objective, generator)
         return level.item(), field.item()
 

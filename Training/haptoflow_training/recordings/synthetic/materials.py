@@ -84,6 +84,11 @@ class Material:
     stick_slip_length_mm: float = 0.6
     stick_slip_critical_mmps: float = 150.0
 
+    @property
+    def dominant_ruling(self) -> Ruling | None:
+        """The highest family of ribs, whose wavelength is the label's; None for a random surface."""
+        return max(self.rulings, key=lambda ruling: ruling.relative_height, default=None)
+
     def with_calibrated(self, **values: float) -> Material:
         return replace(self, calibrated=replace(self.calibrated, **values))
 
