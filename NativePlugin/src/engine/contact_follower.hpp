@@ -12,6 +12,8 @@ enum class ContactAction {
     rest,
     /// A touch begins, or sliding resumes: a seed sounds.
     onset,
+    /// The tip slid over the surface and left it since the last state: a seed sounds and ends.
+    tap,
     /// Sliding goes on: the next segment is wanted.
     slide,
     /// Contact or sliding ended: silence within 5 ms.
@@ -30,6 +32,7 @@ public:
 
 private:
     std::uint32_t touchCounter_ = 0;
+    bool begun_ = false;
     bool sliding_ = false;
 };
 

@@ -1,24 +1,15 @@
 #include "engine/offline_renderer.hpp"
 
-#include "engine/contact_follower.hpp"
-#include "engine/material.hpp"
-#include "engine/range_law.hpp"
-#include "engine/seed_retrieval.hpp"
-#include "engine/voice.hpp"
-#include "inference/gaussian_noise.hpp"
-#include "inference/inference_error.hpp"
+#include "engine/inference_round.hpp"
+#include "engine/live_voice.hpp"
+#include "engine/onset_levels.hpp"
 
 #include <algorithm>
-#include <array>
-#include <chrono>
 #include <cmath>
 #include <stdexcept>
 
 namespace haptoflow::engine {
 namespace {
-
-// A contact state that is not followed by another within this time is stale: the stylus is gone.
-constexpr double staleSeconds = 0.1;
 
 class Recorder final : public WaveformSink {
 public:
@@ -28,143 +19,104 @@ public:
         }
         samples_.insert(samples_.end(), samplesMps2.begin(), samplesMps2.end());
     }
-    [[nodiscard]] std::vector<float> take() noexcept { return std::move(samples_); }
-    [[nodiscard]] std::int64_t origin() const noexcept { return origin_; }
+    void tookOver(std::int64_t sample) noexcept override { seams_.push_back(sample); }
+
+    [[nodiscard]] std::vector<float> takeSamples() noexcept { return std::move(samples_); }
+    /// As indices into the samples.
+    [[nodiscard]] std::vector<std::int64_t> takeSeams() noexcept {
+        for (std::int64_t& seam : seams_) {
+            seam -= origin_;
+        }
+        return std::move(seams_);
+    }
 
 private:
     std::vector<float> samples_;
+    std::vector<std::int64_t> seams_;
     std::int64_t origin_ = 0;
 };
 
+LiveVoiceSettings voiceSettings(const OfflineSettings& settings) {
+    LiveVoiceSettings voice;
+    voice.planner.seed = settings.seed;
+    voice.planner.fixedLeadSamples =
+        static_cast<std::int64_t>(std::ceil(settings.leadMs * inference::waveformRateHz / 1000.0));
+    // Every contact state is asked for, however close it follows.
+    voice.planner.shortestHopSamples = 0;
+    voice.outputRateHz = settings.outputRateHz;
+    voice.fullScaleMps2 = settings.fullScaleMps2;
+    return voice;
+}
+
+/// The three ends of a live voice, taken in turn by one thread.
 class OfflineRenderer {
 public:
     OfflineRenderer(const model::ModelFile& model, inference::SegmentGenerator& generator,
                     const OfflineSettings& settings)
-        : model_(model),
-          generator_(generator),
+        : generator_(generator),
           settings_(settings),
-          voice_(settings.outputRateHz, settings.fullScaleMps2),
-          leadSamples_(static_cast<std::int64_t>(std::ceil(settings.leadMs * inference::waveformRateHz / 1000.0))) {
-        voice_.setSink(&recorder_);
+          levels_(model, generator),
+          voice_(model, levels_, workerAlive_, voiceSettings(settings)) {
+        voice_.renderer.setSink(&recorder_);
     }
 
     OfflineRender run(std::span<const ContactState> states, const RenderProgress& progress) {
         const double startSeconds = states.empty() ? 0.0 : states.front().timeSeconds;
-        double previousSeconds = startSeconds;
+        double nowSeconds = startSeconds;
         for (std::size_t i = 0; i < states.size(); ++i) {
             ContactState state = states[i];
             result_.sanitised += sanitise(state);
-            const double nowSeconds = std::max(state.timeSeconds, previousSeconds);
-            if (nowSeconds - previousSeconds > staleSeconds) {
-                renderUntil(previousSeconds + staleSeconds - startSeconds);
-                voice_.release();
-            }
+            nowSeconds = std::max(state.timeSeconds, nowSeconds);
             renderUntil(nowSeconds - startSeconds);
-            follow(state);
-            previousSeconds = nowSeconds;
+            publish(state);
             if (progress) {
                 progress(static_cast<double>(i + 1) / static_cast<double>(states.size()));
             }
         }
-        voice_.release();
-        renderUntil(previousSeconds - startSeconds + settings_.tailSeconds);
+        publish(liftedOff(states));
+        renderUntil(nowSeconds - startSeconds + settings_.tailSeconds);
         finish();
         return std::move(result_);
     }
 
 private:
+    static ContactState liftedOff(std::span<const ContactState> states) {
+        ContactState state;
+        state.touchCounter = states.empty() ? 0 : states.back().touchCounter;
+        return state;
+    }
+
     void renderUntil(double seconds) {
         const auto end = static_cast<std::size_t>(std::llround(seconds * settings_.outputRateHz));
         const std::size_t begin = result_.samples.size();
-        if (end <= begin) {
-            return;
-        }
-        const std::uint64_t uncovered = voice_.timeline().uncoveredSamples();
-        const bool sounding = follower_.sliding();
-        result_.samples.resize(end);
-        voice_.render(std::span(result_.samples).subspan(begin));
-        if (sounding && voice_.timeline().uncoveredSamples() > uncovered) {
-            ++result_.underruns;
+        if (end > begin) {
+            result_.samples.resize(end);
+            voice_.renderer.render(std::span(result_.samples).subspan(begin), settings_.outputRateHz);
         }
     }
 
-    void follow(const ContactState& state) {
-        switch (follower_.update(state)) {
-            case ContactAction::rest:
-                result_.skipped += state.touching ? 1U : 0U;
-                break;
-            case ContactAction::release:
-                voice_.release();
-                break;
-            case ContactAction::onset:
-                begin(state);
-                advance(state);
-                break;
-            case ContactAction::slide:
-                // The stream was silenced by a gap in the updates: it has to begin anew.
-                if (voice_.isSilent()) {
-                    begin(state);
-                }
-                advance(state);
-                break;
-        }
-    }
-
-    inference::SegmentRequest request(const Material& material, const RangedMotion& ranged) const {
-        return {.embedding = material.embedding, .motion = ranged.motion, .previous = history_, .noise = noise_};
-    }
-
-    void begin(const ContactState& state) {
-        const Material material = resolveMaterial(model_, state.material);
-        const RangedMotion ranged = applyRangeLaw(model_.header(), material, state.velocityMps, state.forceNewtons);
-        voice_.setRangeLaw(ranged.levelGain, ranged.readingRate);
-        const auto seed = retrieveSeed(model_, material.dominantLabel, ranged.motion);
-        float levelMps2 = 0.0F;
-        const std::array requests{request(material, ranged)};
-        try {
-            generator_.levels(requests, std::span(&levelMps2, 1));
-        } catch (const inference::InferenceError&) {
-            ++result_.failures;
-        }
-        voice_.onset(seed, levelMps2);
-        ++result_.onsets;
-    }
-
-    void advance(const ContactState& state) {
-        const Material material = resolveMaterial(model_, state.material);
-        const RangedMotion ranged = applyRangeLaw(model_.header(), material, state.velocityMps, state.forceNewtons);
-        voice_.setRangeLaw(ranged.levelGain, ranged.readingRate);
-        // Read faster, the head passes more of the waveform in the same lead time.
-        const std::int64_t start = voice_.timeline().head() +
-                                   static_cast<std::int64_t>(static_cast<double>(leadSamples_) * ranged.readingRate);
-        voice_.timeline().history(start, history_);
-        inference::fillStandardNormal({.seed = settings_.seed, .voice = 0, .segment = segmentCount_}, noise_);
-        ++segmentCount_;
-        const auto began = std::chrono::steady_clock::now();
-        const std::array requests{request(material, ranged)};
-        try {
-            generator_.generate(requests, segment_);
-        } catch (const inference::InferenceError&) {
-            // Nothing is published; the running segment goes on to its end and fades there.
-            ++result_.failures;
-            return;
-        }
-        const std::chrono::duration<double, std::milli> spent = std::chrono::steady_clock::now() - began;
-        result_.inferenceMs.push_back(spent.count());
-        const std::int64_t takeOver = voice_.commit(start, segment_);
-        if (takeOver >= 0) {
-            result_.seams.push_back(takeOver);
+    void publish(const ContactState& state) {
+        voice_.publisher.publish(state);
+        // The callback's end takes note of the contact, so that the worker's end finds its stream begun.
+        voice_.renderer.render({}, settings_.outputRateHz);
+        LiveVoice* const voices[] = {&voice_};
+        const RoundResult round = round_.run(voices, generator_);
+        if (round.segments > 0) {
+            result_.inferenceMs.push_back(round.milliseconds / static_cast<double>(round.segments));
         }
     }
 
     void finish() {
-        for (std::int64_t& seam : result_.seams) {
-            seam -= recorder_.origin();
-        }
-        result_.waveformMps2 = recorder_.take();
+        result_.seams = recorder_.takeSeams();
+        result_.waveformMps2 = recorder_.takeSamples();
         result_.seamStatistics = measureSeams(result_.waveformMps2, result_.seams, dsp::Splice::maximumLength);
-        result_.nonFinite = voice_.limiter().nonFiniteCount();
-        result_.limited = voice_.limiter().limitedCount();
+        const VoiceCounters& counters = voice_.channels.counters;
+        result_.onsets = counters.onsets;
+        result_.skipped = counters.skipped;
+        result_.failures = counters.failures;
+        result_.underruns = counters.underruns;
+        result_.nonFinite = counters.nonFiniteSamples;
+        result_.limited = counters.limitedSamples;
         double squares = 0.0;
         std::size_t sounding = 0;
         for (const float sample : result_.samples) {
@@ -178,17 +130,13 @@ private:
         }
     }
 
-    const model::ModelFile& model_;
     inference::SegmentGenerator& generator_;
     OfflineSettings settings_;
-    Voice voice_;
+    std::atomic<bool> workerAlive_{true};
+    OnsetLevels levels_;
+    LiveVoice voice_;
     Recorder recorder_;
-    ContactFollower follower_;
-    std::int64_t leadSamples_;
-    std::uint64_t segmentCount_ = 0;
-    std::array<float, inference::segmentSamples> history_{};
-    std::array<float, inference::segmentSamples> noise_{};
-    std::array<float, inference::segmentSamples> segment_{};
+    InferenceRound round_;
     OfflineRender result_;
 };
 

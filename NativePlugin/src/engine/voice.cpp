@@ -12,11 +12,15 @@ constexpr std::size_t primedSamples = 64;
 }  // namespace
 
 Voice::Voice(double outputRateHz, float fullScaleMps2)
-    : outputRateHz_(outputRateHz),
+    : output_(std::make_unique<OutputStage>(outputRateHz)),
       level_(inference::waveformRateHz),
-      resampler_(outputRateHz),
-      gate_(outputRateHz),
       limiter_(fullScaleMps2) {}
+
+std::unique_ptr<OutputStage> Voice::exchangeOutput(std::unique_ptr<OutputStage> output) noexcept {
+    output->strength.reset(output_->strength.target());
+    std::swap(output_, output);
+    return output;
+}
 
 void Voice::onset(std::span<const float> seed, float levelMps2) noexcept {
     std::array<float, WaveformTimeline::seedSamples> levelled{};
@@ -24,26 +28,33 @@ void Voice::onset(std::span<const float> seed, float levelMps2) noexcept {
     for (std::size_t i = 0; i < std::min(seed.size(), levelled.size()); ++i) {
         levelled[i] = seed[i] * level;
     }
-    const bool fromSilence = gate_.isClosed();
+    const bool fromSilence = isSilent();
     if (fromSilence) {
         timeline_.clear();
-        warp_.reset();
-        resampler_.reset();
-        level_.reset(level_.target());
     }
     timeline_.open(levelled);
     if (fromSilence) {
         prime();
     }
-    gate_.open();
+    output_->gate.open();
+}
+
+void Voice::resume() noexcept {
+    if (isSilent()) {
+        prime();
+    }
+    output_->gate.open();
 }
 
 void Voice::prime() noexcept {
+    warp_.reset();
+    output_->resampler.reset();
+    level_.reset(level_.target());
     timeline_.history(timeline_.head(), past_);
     pastLeft_ = primedSamples;
     // What the filters delay is read ahead now, so that the seed's first sample is the next one to sound.
-    const std::size_t ahead = dsp::RateWarp::latencyOutputSamples + resampler_.latencyInputSamples();
-    auto left = static_cast<std::size_t>(static_cast<double>(primedSamples + ahead) * outputRateHz_ /
+    const std::size_t ahead = dsp::RateWarp::latencyOutputSamples + output_->resampler.latencyInputSamples();
+    auto left = static_cast<std::size_t>(static_cast<double>(primedSamples + ahead) * output_->rateHz /
                                          inference::waveformRateHz);
     std::array<float, blockSamples> unheard{};
     while (left > 0) {
@@ -52,14 +63,21 @@ void Voice::prime() noexcept {
         left -= count;
     }
     pastLeft_ = 0;
+    // Only now: read faster, the filters would swallow most of a seed before it is heard.
+    warp_.setTargetRatio(readingRate_);
 }
 
 std::int64_t Voice::commit(std::int64_t start, std::span<const float, inference::segmentSamples> segment) noexcept {
-    return timeline_.commit(start, segment);
+    const std::int64_t takeOver = timeline_.commit(start, segment);
+    if (sink_ != nullptr && takeOver >= 0) {
+        sink_->tookOver(takeOver);
+    }
+    return takeOver;
 }
 
 void Voice::setRangeLaw(double levelGain, double readingRate) noexcept {
-    if (gate_.isClosed()) {
+    readingRate_ = readingRate;
+    if (isSilent()) {
         level_.reset(static_cast<float>(levelGain));
     } else {
         level_.setTarget(static_cast<float>(levelGain));
@@ -84,27 +102,41 @@ void Voice::produce(std::span<float> out) noexcept {
     // At the lowest output rate a block needs 17 samples at 2 kHz, and the warp at most 4 for each plus 30.
     std::array<float, 32> steady{};
     std::array<float, 160> waveform{};
-    const std::size_t steadyCount = std::min(resampler_.inputNeeded(out.size()), steady.size());
+    const std::size_t steadyCount = std::min(output_->resampler.inputNeeded(out.size()), steady.size());
     const auto steadySpan = std::span(steady).first(steadyCount);
     const std::size_t waveformCount = std::min(warp_.inputNeeded(steadyCount), waveform.size());
     const auto waveformSpan = std::span(waveform).first(waveformCount);
     readWaveform(waveformSpan);
     warp_.process(waveformSpan, steadySpan);
-    resampler_.process(steadySpan, out);
+    output_->resampler.process(steadySpan, out);
 }
 
 void Voice::render(std::span<float> out) noexcept {
     while (!out.empty()) {
         const auto block = out.first(std::min(out.size(), blockSamples));
         out = out.subspan(block.size());
-        if (gate_.isClosed()) {
+        if (isSilent()) {
             std::ranges::fill(block, 0.0F);
             continue;
         }
         produce(block);
-        gate_.process(block);
+        output_->gate.process(block);
+        output_->strength.process(block);
         limiter_.process(block);
+        for (float& sample : block) {
+            sample = std::clamp(sample, -ceiling_, ceiling_);
+        }
     }
+}
+
+void Voice::renderStop(std::span<float> out) noexcept {
+    const std::size_t count = out.size();
+    render(out);
+    for (std::size_t i = 0; i < count; ++i) {
+        out[i] *= static_cast<float>(count - 1 - i) / static_cast<float>(count);
+    }
+    output_->gate.reset();
+    timeline_.clear();
 }
 
 }  // namespace haptoflow::engine

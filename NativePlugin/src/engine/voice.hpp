@@ -1,14 +1,14 @@
 #pragma once
 
-#include "dsp/gate.hpp"
 #include "dsp/level_smoother.hpp"
 #include "dsp/limiter.hpp"
 #include "dsp/rate_warp.hpp"
-#include "dsp/waveform_resampler.hpp"
+#include "engine/output_stage.hpp"
 #include "engine/waveform_timeline.hpp"
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <span>
 
 namespace haptoflow::engine {
@@ -21,9 +21,11 @@ public:
     WaveformSink& operator=(const WaveformSink&) = delete;
     virtual ~WaveformSink() = default;
     virtual void played(std::int64_t start, std::span<const float> samplesMps2) noexcept = 0;
+    /// A segment takes over at that sample.
+    virtual void tookOver(std::int64_t sample) noexcept = 0;
 };
 
-/// One stylus tip's signal: timeline, level, reading rate, output rate, gate, limiter, in this order.
+/// One stylus tip's signal: timeline, level, reading rate, output rate, gate, strength, limiter, ceiling, in this order.
 ///
 /// While the gate is closed nothing is read: the waveform clock stands still and `render` writes zeros.
 /// Everything here is bounded, allocates nothing (but for construction) and waits for nothing; one thread.
@@ -38,15 +40,30 @@ public:
     /// See WaveformTimeline::commit.
     std::int64_t commit(std::int64_t start, std::span<const float, inference::segmentSamples> segment) noexcept;
     /// Lift-off: silence within 5 ms, whatever else happens.
-    void release() noexcept { gate_.close(); }
+    void release() noexcept { output_->gate.close(); }
+    /// Goes on where a release has stopped, as if nothing had been between. Does nothing before the first onset.
+    void resume() noexcept;
+    /// Silent at the end of the block that `out` is, whatever its length: a straight line down to zero over it, and
+    /// what was committed is dropped.
+    void renderStop(std::span<float> out) noexcept;
     /// What the range law asks for; both glide.
     void setRangeLaw(double levelGain, double readingRate) noexcept;
+
+    /// Gain of the output before the limiter, 0 to 1; glides.
+    void setStrength(float strength) noexcept { output_->strength.setTarget(strength); }
+    /// Largest magnitude of the output, 0 to 1, at once.
+    void setCeiling(float ceiling) noexcept { ceiling_ = ceiling; }
 
     /// Writes the next samples, +-1.
     void render(std::span<float> out) noexcept;
 
+    [[nodiscard]] double outputRateHz() const noexcept { return output_->rateHz; }
+    /// Goes over to another output rate; the voice must be silent. Returns the stage that was in use, for another
+    /// thread to delete.
+    [[nodiscard]] std::unique_ptr<OutputStage> exchangeOutput(std::unique_ptr<OutputStage> output) noexcept;
+
     /// True while nothing sounds and nothing is read.
-    [[nodiscard]] bool isSilent() const noexcept { return gate_.isClosed(); }
+    [[nodiscard]] bool isSilent() const noexcept { return output_->gate.isClosed(); }
     [[nodiscard]] const WaveformTimeline& timeline() const noexcept { return timeline_; }
     [[nodiscard]] const dsp::SoftLimiter& limiter() const noexcept { return limiter_; }
     /// Null for none. Must outlive the voice or be taken away.
@@ -59,13 +76,13 @@ private:
     void readWaveform(std::span<float> out) noexcept;
     void prime() noexcept;
 
-    double outputRateHz_;
+    std::unique_ptr<OutputStage> output_;
     WaveformTimeline timeline_;
     dsp::LevelSmoother level_;
     dsp::RateWarp warp_;
-    dsp::WaveformResampler resampler_;
-    dsp::Gate gate_;
     dsp::SoftLimiter limiter_;
+    float ceiling_ = 1.0F;
+    double readingRate_ = 1.0;
     WaveformSink* sink_ = nullptr;
     // The unplayed past that fills the filters before a touch sounds, newest last, and how much of it is left.
     std::array<float, inference::segmentSamples> past_{};

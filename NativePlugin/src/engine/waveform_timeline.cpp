@@ -7,6 +7,8 @@ namespace {
 
 constexpr std::int64_t segmentLength = inference::segmentSamples;
 constexpr std::int64_t fadeSamples = 10;
+constexpr auto pastLimit = static_cast<std::int64_t>(TimelineView::pastSamples);
+constexpr auto aheadLimit = static_cast<std::int64_t>(TimelineView::aheadSamples);
 
 }  // namespace
 
@@ -23,8 +25,9 @@ std::int64_t WaveformTimeline::commit(std::int64_t start,
                                       std::span<const float, inference::segmentSamples> segment) noexcept {
     const std::int64_t takeOver = std::max(start, head_);
     const std::int64_t late = takeOver - start;
+    const std::int64_t end = start + segmentLength;
     // A segment from further ahead than what is committed would leave a hole.
-    if (late >= segmentLength || takeOver > std::max(coveredUntil_, head_)) {
+    if (late >= segmentLength || takeOver > std::max(coveredUntil_, head_) || end - head_ > aheadLimit) {
         return -1;
     }
     overwrite(takeOver, segment.subspan(static_cast<std::size_t>(late)));
@@ -72,6 +75,24 @@ void WaveformTimeline::read(std::span<float> out) noexcept {
             at(head_) = sample;
         }
         ++head_;
+    }
+}
+
+void WaveformTimeline::view(TimelineView& out) const noexcept {
+    out.head = head_;
+    out.coveredUntil = std::clamp(coveredUntil_, head_, head_ + aheadLimit);
+    const std::int64_t begin = head_ - pastLimit;
+    for (std::int64_t sample = begin; sample < out.coveredUntil; ++sample) {
+        out.samplesMps2[static_cast<std::size_t>(sample - begin)] = at(sample);
+    }
+}
+
+void WaveformTimeline::restore(const TimelineView& from) noexcept {
+    head_ = from.head;
+    coveredUntil_ = from.coveredUntil;
+    const std::int64_t begin = head_ - pastLimit;
+    for (std::int64_t sample = begin; sample < coveredUntil_; ++sample) {
+        at(sample) = from.samplesMps2[static_cast<std::size_t>(sample - begin)];
     }
 }
 

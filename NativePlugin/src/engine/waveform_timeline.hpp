@@ -10,6 +10,18 @@
 
 namespace haptoflow::engine {
 
+/// What is committed of a timeline, for another thread to plan with.
+struct TimelineView {
+    /// Room for the past, and for what may be committed ahead of the head.
+    static constexpr std::size_t pastSamples = inference::segmentSamples;
+    static constexpr std::size_t aheadSamples = 3 * inference::segmentSamples;
+
+    std::int64_t head = 0;
+    std::int64_t coveredUntil = 0;
+    /// Samples from head - pastSamples to coveredUntil, m/s^2.
+    std::array<float, pastSamples + aheadSamples> samplesMps2{};
+};
+
 /// One voice's waveform in waveform time: 2 kHz samples since the voice opened, advanced by reading and nothing else.
 ///
 /// Committed are the samples from 200 behind the head to `coveredUntil()`. A segment takes over at the sample that it
@@ -23,7 +35,7 @@ public:
     /// earlier touch still has samples there, a splice hands over.
     void open(std::span<const float, seedSamples> seedMps2) noexcept;
     /// `segment` (200, m/s^2) takes over at `start`. One that comes late loses what the head has passed; one that is
-    /// past altogether changes nothing. Returns the sample at which it took over, or -1.
+    /// past altogether, or that would leave a hole or reach further than a view, changes nothing. Returns the sample at which it took over, or -1.
     std::int64_t commit(std::int64_t start, std::span<const float, inference::segmentSamples> segment) noexcept;
     /// The 200 committed samples before `start`; zeros where none were committed. `start` within 200 of the head.
     void history(std::int64_t start, std::span<float, inference::segmentSamples> out) const noexcept;
@@ -31,6 +43,11 @@ public:
     void read(std::span<float> out) noexcept;
     /// Drops everything that was not read; the clock goes on.
     void clear() noexcept;
+
+    /// Writes what is committed, as far as the view reaches.
+    void view(TimelineView& out) const noexcept;
+    /// Becomes the timeline that was viewed, as far as histories and commits can tell.
+    void restore(const TimelineView& from) noexcept;
 
     /// The next sample to be read.
     [[nodiscard]] std::int64_t head() const noexcept { return head_; }

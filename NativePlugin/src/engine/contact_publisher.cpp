@@ -1,0 +1,62 @@
+#include "engine/contact_publisher.hpp"
+
+#include "engine/material.hpp"
+#include "engine/range_law.hpp"
+#include "engine/seed_retrieval.hpp"
+
+#include <algorithm>
+
+namespace haptoflow::engine {
+
+ContactPublisher::ContactPublisher(const model::ModelFile& model, const OnsetLevels& levels,
+                                   VoiceChannels& channels) noexcept
+    : model_(model), levels_(levels), channels_(channels) {}
+
+ContactAction ContactPublisher::publish(ContactState state) noexcept {
+    VoiceCounters& counters = channels_.counters;
+    counters.sanitised.fetch_add(sanitise(state), std::memory_order_relaxed);
+    counters.updates.fetch_add(1, std::memory_order_relaxed);
+    ++updates_;
+
+    const ContactAction action = follower_.update(state);
+    const Material material = resolveMaterial(model_, state.material);
+    const RangedMotion ranged = applyRangeLaw(model_.header(), material, state.velocityMps, state.forceNewtons);
+    if (action == ContactAction::onset || action == ContactAction::tap) {
+        ++onsets_;
+        retrieve(state, material.dominantLabel, ranged.motion);
+    }
+    if (action == ContactAction::rest && state.touching) {
+        counters.skipped.fetch_add(1, std::memory_order_relaxed);
+    }
+
+    AudioMessage& audio = channels_.toAudio.draft();
+    audio.onset = onsets_;
+    audio.touch = state.touchCounter;
+    audio.sliding = follower_.sliding();
+    audio.levelGain = static_cast<float>(ranged.levelGain);
+    audio.readingRate = ranged.readingRate;
+    audio.seedMps2 = seedMps2_;
+    channels_.toAudio.post();
+
+    WorkerMessage& worker = channels_.toWorker.draft();
+    worker.onset = onsets_;
+    worker.sliding = follower_.sliding();
+    worker.update = updates_;
+    worker.embedding = material.embedding;
+    worker.motion = ranged.motion;
+    worker.readingRate = ranged.readingRate;
+    channels_.toWorker.post();
+    return action;
+}
+
+void ContactPublisher::retrieve(const ContactState& state, std::size_t label,
+                                const std::array<float, 3>& motion) noexcept {
+    const auto seed = retrieveSeed(model_, label, motion);
+    const float levelMps2 = levels_.at(state.material, motion);
+    seedMps2_.fill(0.0F);
+    for (std::size_t i = 0; i < std::min(seed.size(), seedMps2_.size()); ++i) {
+        seedMps2_[i] = seed[i] * levelMps2;
+    }
+}
+
+}  // namespace haptoflow::engine

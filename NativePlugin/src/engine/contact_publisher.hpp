@@ -1,0 +1,35 @@
+#pragma once
+
+#include "engine/contact_follower.hpp"
+#include "engine/contact_state.hpp"
+#include "engine/onset_levels.hpp"
+#include "engine/voice_channels.hpp"
+#include "model/model_file.hpp"
+
+#include <array>
+#include <cstdint>
+
+namespace haptoflow::engine {
+
+/// The main thread's end of a voice: turns contact states into messages to callback and worker. Wait-free, allocates
+/// nothing; one thread at a time. Model and levels must outlive it.
+class ContactPublisher {
+public:
+    ContactPublisher(const model::ModelFile& model, const OnsetLevels& levels, VoiceChannels& channels) noexcept;
+
+    /// Returns what the state means for the voice. The state is sanitised first, and what had to be changed counted.
+    ContactAction publish(ContactState state) noexcept;
+
+private:
+    void retrieve(const ContactState& state, std::size_t label, const std::array<float, 3>& motion) noexcept;
+
+    const model::ModelFile& model_;
+    const OnsetLevels& levels_;
+    VoiceChannels& channels_;
+    ContactFollower follower_;
+    std::uint32_t onsets_ = 0;
+    std::uint64_t updates_ = 0;
+    std::array<float, WaveformTimeline::seedSamples> seedMps2_{};
+};
+
+}  // namespace haptoflow::engine

@@ -1,0 +1,36 @@
+#pragma once
+
+#include "engine/live_voice.hpp"
+#include "inference/segment_generator.hpp"
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+namespace haptoflow::engine {
+
+/// What one round of inference did.
+struct RoundResult {
+    /// Voices that wanted a segment; 0 where nothing was run.
+    std::size_t voices = 0;
+    std::size_t segments = 0;
+    bool failed = false;
+    double milliseconds = 0.0;
+};
+
+/// One look at all voices: those that want a segment get one, all in the same batch, and then those that need another
+/// behind it. Worker thread; keeps its buffers from round to round.
+class InferenceRound {
+public:
+    /// A graph that fails leaves its voices without a new segment, counted in each.
+    RoundResult run(std::span<LiveVoice* const> voices, inference::SegmentGenerator& generator);
+
+private:
+    void generate(inference::SegmentGenerator& generator, RoundResult& result);
+
+    std::vector<LiveVoice*> wanting_;
+    std::vector<inference::SegmentRequest> requests_;
+    std::vector<float> segments_;
+};
+
+}  // namespace haptoflow::engine

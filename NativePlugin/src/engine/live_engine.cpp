@@ -1,0 +1,212 @@
+#include "engine/live_engine.hpp"
+
+#include "dsp/denormals.hpp"
+#include "engine/thread_priority.hpp"
+#include "inference/inference_error.hpp"
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <exception>
+#include <stdexcept>
+
+namespace haptoflow::engine {
+namespace {
+
+constexpr double largestLeadMs = 50.0;
+
+const LiveEngineSettings& checked(const LiveEngineSettings& settings) {
+    if (!(settings.updateRateHz >= 1.0 && settings.updateRateHz <= 10000.0)) {
+        throw std::invalid_argument("update rate is " + std::to_string(settings.updateRateHz) +
+                                    " Hz; expected 1 to 10000 Hz");
+    }
+    if (settings.fixedLeadMs && !(*settings.fixedLeadMs >= 0.0 && *settings.fixedLeadMs <= largestLeadMs)) {
+        throw std::invalid_argument("lead is " + std::to_string(*settings.fixedLeadMs) + " ms; expected 0 to 50 ms");
+    }
+    if (!(settings.quality.budgetMs > 0.0)) {
+        throw std::invalid_argument("the budget for inference must be above 0 ms");
+    }
+    return settings;
+}
+
+std::shared_ptr<const model::ModelFile> checked(std::shared_ptr<const model::ModelFile> model,
+                                                const std::vector<EngineTier>& tiers) {
+    if (model == nullptr || tiers.empty()) {
+        throw std::invalid_argument("an engine needs a model and at least one tier");
+    }
+    return model;
+}
+
+}  // namespace
+
+LiveEngine::LiveEngine(std::shared_ptr<const model::ModelFile> model, std::vector<EngineTier> tiers,
+                       std::size_t startTier, const LiveEngineSettings& settings)
+    : model_(checked(std::move(model), tiers)),
+      tiers_(std::move(tiers)),
+      settings_(checked(settings)),
+      levels_(std::make_unique<OnsetLevels>(*model_, *tiers_.front().generator)),
+      quality_(tiers_.size(), settings.quality, startTier) {
+    if (settings_.hasWorker) {
+        worker_ = std::thread([this] { work(); });
+    }
+}
+
+LiveEngine::~LiveEngine() {
+    stop();
+}
+
+void LiveEngine::stop() noexcept {
+    stopping_.store(true, std::memory_order_release);
+    signal_.post();
+    if (worker_.joinable()) {
+        worker_.join();
+    }
+    alive_.store(false, std::memory_order_release);
+}
+
+std::shared_ptr<LiveVoice> LiveEngine::addVoice(double outputRateHz) {
+    const std::lock_guard lock(voicesMutex_);
+    LiveVoiceSettings settings;
+    settings.planner.seed = settings_.seed;
+    settings.planner.voice = voicesMade_;
+    if (settings_.fixedLeadMs) {
+        settings.planner.fixedLeadSamples =
+            static_cast<std::int64_t>(std::ceil(*settings_.fixedLeadMs * inference::waveformRateHz / 1000.0));
+    }
+    settings.outputRateHz = outputRateHz;
+    settings.fullScaleMps2 = settings_.fullScaleMps2;
+    auto voice = std::make_shared<LiveVoice>(*model_, *levels_, alive_, settings);
+    voices_.push_back(voice);
+    roundVoices_.reserve(voices_.size());
+    ++voicesMade_;
+    return voice;
+}
+
+void LiveEngine::removeVoice(const LiveVoice& voice) noexcept {
+    const std::lock_guard lock(voicesMutex_);
+    std::erase_if(voices_, [&voice](const auto& each) { return each.get() == &voice; });
+}
+
+ContactAction LiveEngine::publish(LiveVoice& voice, const ContactState& state) noexcept {
+    const ContactAction action = voice.publisher.publish(state);
+    const bool wantsOutput = voice.channels.wantedRateHz.load(std::memory_order_relaxed) != 0.0;
+    if (action != ContactAction::rest || wantsOutput) {
+        signal_.post();
+    }
+    return action;
+}
+
+RoundResult LiveEngine::step() {
+    const std::lock_guard lock(voicesMutex_);
+    const dsp::ScopedFlushDenormals flush;
+    std::size_t tier = 0;
+    {
+        const std::lock_guard figuresLock(figuresMutex_);
+        tier = quality_.tier();
+    }
+    roundVoices_.clear();
+    for (const auto& voice : voices_) {
+        roundVoices_.push_back(voice.get());
+    }
+    const RoundResult result = round_.run(roundVoices_, *tiers_[tier].generator);
+    const std::lock_guard figuresLock(figuresMutex_);
+    figures_.voices = voices_.size();
+    if (result.voices > 0) {
+        ++figures_.rounds;
+        figures_.segments += result.segments;
+        figures_.lastRoundMs = result.milliseconds;
+        if (result.failed) {
+            ++figures_.failedRounds;
+        } else if (tier == quality_.tier()) {
+            quality_.ran(result.milliseconds, result.voices);
+        }
+    }
+    return result;
+}
+
+std::optional<std::size_t> LiveEngine::tierToMeasure() const {
+    const std::lock_guard lock(figuresMutex_);
+    return quality_.tierToMeasure();
+}
+
+void LiveEngine::work() noexcept {
+    nameThisThread("haptoflow");
+    (void)raiseThisThreadsPriority();
+    try {
+        while (!stopping_.load(std::memory_order_acquire)) {
+            const std::optional<std::size_t> toMeasure = tierToMeasure();
+            bool woken = true;
+            if (toMeasure) {
+                woken = signal_.waitFor(1000.0 / settings_.updateRateHz);
+            } else {
+                signal_.wait();
+            }
+            if (stopping_.load(std::memory_order_acquire)) {
+                break;
+            }
+            wakes_.fetch_add(1, std::memory_order_relaxed);
+            if (woken) {
+                step();
+            } else {
+                measureOnce(*toMeasure);
+            }
+        }
+    } catch (const std::exception&) {
+        // Out of memory, or a lock that the system refuses: the voices see that nobody generates any more.
+    }
+    alive_.store(false, std::memory_order_release);
+}
+
+void LiveEngine::measureOnce(std::size_t tier) {
+    const dsp::ScopedFlushDenormals flush;
+    constexpr std::array<float, inference::segmentSamples> silence{};
+    inference::SegmentRequest request{
+        .embedding = {},
+        .motion = {static_cast<float>(model_->header().speedMps.maximum) * 0.5F, 0.0F,
+                   static_cast<float>(model_->header().forceNewtons.maximum) * 0.5F},
+        .previous = silence,
+        .noise = silence};
+    std::ranges::copy(model_->embedding(0), request.embedding.begin());
+    std::array<float, inference::segmentSamples> segment{};
+    // A tier that cannot run is never chosen: it costs more than any budget.
+    double milliseconds = 1e9;
+    const auto began = std::chrono::steady_clock::now();
+    try {
+        tiers_[tier].generator->generate(std::span(&request, 1), segment);
+        const std::chrono::duration<double, std::milli> spent = std::chrono::steady_clock::now() - began;
+        milliseconds = spent.count();
+    } catch (const inference::InferenceError&) {
+    }
+    const std::lock_guard lock(figuresMutex_);
+    quality_.measured(tier, milliseconds);
+}
+
+void LiveEngine::setQuality(const QualitySettings& quality) {
+    if (!(quality.budgetMs > 0.0) || (quality.fixedTier && *quality.fixedTier >= tiers_.size())) {
+        throw std::invalid_argument("quality: a tier that the model has, and a budget above 0 ms");
+    }
+    {
+        const std::lock_guard lock(figuresMutex_);
+        quality_.setSettings(quality);
+    }
+    signal_.post();
+}
+
+EngineStatistics LiveEngine::statistics() const {
+    const std::lock_guard lock(figuresMutex_);
+    EngineStatistics statistics = figures_;
+    statistics.wakes = wakes_.load(std::memory_order_relaxed);
+    statistics.tier = quality_.tier();
+    statistics.measuring = quality_.tierToMeasure().has_value();
+    statistics.stepsDown = quality_.stepsDown();
+    statistics.stepsUp = quality_.stepsUp();
+    statistics.budgetMs = quality_.budgetMs();
+    for (std::size_t tier = 0; tier < tiers_.size(); ++tier) {
+        const RunTimes& times = quality_.times(tier);
+        statistics.tiers.push_back({times.count(), times.percentile(0.5), times.percentile(0.99)});
+    }
+    return statistics;
+}
+
+}  // namespace haptoflow::engine

@@ -1,0 +1,32 @@
+#pragma once
+
+#include "engine/contact_publisher.hpp"
+#include "engine/segment_planner.hpp"
+#include "engine/voice_channels.hpp"
+#include "engine/voice_renderer.hpp"
+
+namespace haptoflow::engine {
+
+struct LiveVoiceSettings {
+    PlannerSettings planner{};
+    double outputRateHz = 48000.0;
+    float fullScaleMps2 = 60.0F;
+};
+
+/// One stylus tip's voice: three ends for three threads, and what they share. What `model` and `levels` and
+/// `workerAlive` name must outlive it.
+struct LiveVoice {
+    /// Throws std::invalid_argument for settings out of range.
+    LiveVoice(const model::ModelFile& model, const OnsetLevels& levels, const std::atomic<bool>& workerAlive,
+              const LiveVoiceSettings& settings)
+        : publisher(model, levels, channels),
+          renderer(channels, workerAlive, settings.outputRateHz, settings.fullScaleMps2),
+          planner(channels, settings.planner) {}
+
+    VoiceChannels channels;
+    ContactPublisher publisher;
+    VoiceRenderer renderer;
+    SegmentPlanner planner;
+};
+
+}  // namespace haptoflow::engine

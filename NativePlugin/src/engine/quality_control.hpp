@@ -1,0 +1,82 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+namespace haptoflow::engine {
+
+/// Milliseconds that a tier takes for one voice's segment, over the last runs.
+class RunTimes {
+public:
+    static constexpr std::size_t window = 128;
+
+    void add(double milliseconds) noexcept;
+    [[nodiscard]] std::size_t count() const noexcept { return count_; }
+    /// 0 before the first. `share` in [0, 1]: 0.5 for the median, 0.99 for the 99th percentile.
+    [[nodiscard]] double percentile(double share) const noexcept;
+    void clear() noexcept { count_ = 0; }
+
+private:
+    std::array<float, window> milliseconds_{};
+    std::size_t count_ = 0;
+};
+
+struct QualitySettings {
+    /// Empty for auto; otherwise the tier that stays.
+    std::optional<std::size_t> fixedTier;
+    /// What one round of inference may take, all touching voices together.
+    double budgetMs = 3.47;
+};
+
+/// Decides which tier of the model generates the next segments. Tiers are numbered from the cheapest to the most
+/// accurate. Automatic: after measuring, the most accurate whose 99th percentile fits the budget; one down when rounds
+/// overrun, one up again only after a long time without, and with room to spare. Any thread, one at a time.
+class QualityControl {
+public:
+    /// How often each tier is run before automatic quality decides.
+    static constexpr std::size_t measuringRuns = 20;
+
+    QualityControl(std::size_t tiers, const QualitySettings& settings, std::size_t startTier);
+
+    [[nodiscard]] std::size_t tier() const noexcept { return tier_; }
+    [[nodiscard]] bool isAutomatic() const noexcept { return !settings_.fixedTier.has_value(); }
+    /// The next tier that wants a measuring run; nothing when all are known.
+    [[nodiscard]] std::optional<std::size_t> tierToMeasure() const noexcept;
+    /// A measuring run of one voice's segment. After the last one, automatic quality takes its first decision.
+    void measured(std::size_t tier, double milliseconds) noexcept;
+    /// A live round for so many voices by the present tier.
+    void ran(double milliseconds, std::size_t voices) noexcept;
+    void setSettings(const QualitySettings& settings) noexcept;
+
+    [[nodiscard]] double budgetMs() const noexcept { return settings_.budgetMs; }
+    [[nodiscard]] const RunTimes& times(std::size_t tier) const { return times_.at(tier); }
+    [[nodiscard]] std::uint64_t stepsDown() const noexcept { return stepsDown_; }
+    [[nodiscard]] std::uint64_t stepsUp() const noexcept { return stepsUp_; }
+
+private:
+    static constexpr std::uint32_t overrunsToStepDown = 3;
+    static constexpr std::uint64_t overrunWindowRounds = 32;
+    // At 72 updates a second: 5 s at first, doubled with each step down, up to 80 s.
+    static constexpr std::uint64_t firstPatienceRounds = 360;
+    static constexpr std::uint64_t longestPatienceRounds = 5760;
+    static constexpr double roomToStepUp = 0.7;
+
+    void chooseFirst() noexcept;
+    void stepDown() noexcept;
+    void considerStepUp(std::size_t voices) noexcept;
+
+    QualitySettings settings_;
+    std::vector<RunTimes> times_;
+    std::size_t tier_;
+    std::uint64_t roundsSinceOverrun_ = 0;
+    std::uint64_t roundsInWindow_ = 0;
+    std::uint32_t overruns_ = 0;
+    std::uint64_t patienceRounds_ = firstPatienceRounds;
+    std::uint64_t stepsDown_ = 0;
+    std::uint64_t stepsUp_ = 0;
+};
+
+}  // namespace haptoflow::engine

@@ -1,0 +1,154 @@
+#include "engine/segment_planner.hpp"
+
+#include "inference/gaussian_noise.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <new>
+#include <stdexcept>
+
+namespace haptoflow::engine {
+namespace {
+
+// What has to be covered beyond the next update, so that one that comes late finds the voice still sounding.
+constexpr double reserveSamples = 40.0;
+constexpr auto segmentLength = static_cast<std::int64_t>(inference::segmentSamples);
+
+std::int64_t scaled(std::int64_t samples, double readingRate) noexcept {
+    return static_cast<std::int64_t>(static_cast<double>(samples) * readingRate);
+}
+
+}  // namespace
+
+SegmentPlanner::SegmentPlanner(VoiceChannels& channels, const PlannerSettings& settings) noexcept
+    : channels_(channels), settings_(settings) {}
+
+bool SegmentPlanner::wake() noexcept {
+    channels_.toWorker.fetch();
+    if (channels_.playhead.fetch()) {
+        learn();
+    }
+    const WorkerMessage& contact = channels_.toWorker.current();
+    const Playhead& playhead = channels_.playhead.current();
+    if (contact.update == generatedUpdate_ || !contact.sliding) {
+        return false;
+    }
+    const bool isPlaying = playhead.running && playhead.onset == contact.onset;
+    const bool isNewStream = playhead.stream != stream_;
+    const std::int64_t head = playhead.timeline.head;
+    // A clock that stands still needs nothing, and a full queue belongs to a callback that does not take.
+    if (!isPlaying || (!isNewStream && head == lastHead_) || channels_.segments.room() < 2) {
+        return false;
+    }
+    restorePast();
+    const std::int64_t lead = leadSamples(playhead.blockAdvance, contact.readingRate);
+    const std::int64_t start = std::min(head + lead, std::max(mirror_.coveredUntil(), head));
+    if (!isNewStream && start < lastStart_ + settings_.shortestHopSamples) {
+        return false;
+    }
+    const std::uint64_t updates = contact.update - generatedUpdate_;
+    if (updates > 1 && !isNewStream) {
+        channels_.counters.skipped.fetch_add(updates - 1, std::memory_order_relaxed);
+    }
+    hop_ = isNewStream ? 0 : head - lastHead_;
+    generatedUpdate_ = contact.update;
+    stream_ = playhead.stream;
+    lastHead_ = head;
+    lastStart_ = start;
+    channels_.counters.leadSamples.store(static_cast<std::uint32_t>(lead), std::memory_order_relaxed);
+    request_.embedding = contact.embedding;
+    request_.motion = contact.motion;
+    prepare(start);
+    return true;
+}
+
+void SegmentPlanner::learn() noexcept {
+    const Playhead& playhead = channels_.playhead.current();
+    for (Sent& sent : sent_) {
+        if (!sent.observed && sent.segment.sequence <= playhead.takenSequence) {
+            sent.observed = true;
+            // Only the newest one's block is known; the others came with it or before.
+            if (sent.segment.sequence == playhead.takenSequence && sent.segment.stream == playhead.stream) {
+                const auto advanced = static_cast<double>(playhead.headAtTake - sent.plannedHead);
+                lead_.observe(static_cast<std::int64_t>(std::ceil(advanced / sent.readingRate)));
+            }
+        }
+    }
+}
+
+void SegmentPlanner::restorePast() noexcept {
+    const Playhead& playhead = channels_.playhead.current();
+    mirror_.restore(playhead.timeline);
+    for (std::uint64_t sequence = playhead.takenSequence + 1; sequence <= sequence_; ++sequence) {
+        const QueuedSegment& segment = sent_[sequence % sent_.size()].segment;
+        if (segment.sequence == sequence && segment.stream == playhead.stream) {
+            mirror_.commit(segment.start, segment.samplesMps2);
+        }
+    }
+}
+
+std::int64_t SegmentPlanner::leadSamples(std::int64_t blockAdvance, double readingRate) const noexcept {
+    const auto block = static_cast<std::int64_t>(std::ceil(static_cast<double>(blockAdvance) / readingRate));
+    return scaled(settings_.fixedLeadSamples.value_or(lead_.samples(block)), readingRate);
+}
+
+void SegmentPlanner::prepare(std::int64_t start) noexcept {
+    plannedStart_ = start;
+    mirror_.history(start, history_);
+    inference::fillStandardNormal({.seed = settings_.seed, .voice = settings_.voice, .segment = segments_}, noise_);
+    ++segments_;
+}
+
+bool SegmentPlanner::deliver(std::span<const float, inference::segmentSamples> segmentMps2) noexcept {
+    channels_.counters.inferences.fetch_add(1, std::memory_order_relaxed);
+    const WorkerMessage& contact = channels_.toWorker.current();
+    const Playhead& playhead = channels_.playhead.current();
+    ++sequence_;
+    Sent& sent = sent_[sequence_ % sent_.size()];
+    sent.segment.sequence = sequence_;
+    sent.segment.stream = stream_;
+    sent.segment.start = plannedStart_;
+    std::ranges::copy(segmentMps2, sent.segment.samplesMps2.begin());
+    sent.plannedHead = playhead.timeline.head;
+    sent.readingRate = contact.readingRate;
+    sent.observed = false;
+    if (!channels_.segments.push(sent.segment)) {
+        --sequence_;
+        return false;
+    }
+    mirror_.commit(plannedStart_, sent.segment.samplesMps2);
+
+    const std::int64_t head = playhead.timeline.head;
+    const auto lead = static_cast<double>(leadSamples(playhead.blockAdvance, contact.readingRate));
+    const double wanted = static_cast<double>(hop_) + lead + reserveSamples * contact.readingRate;
+    const std::int64_t next = plannedStart_ + segmentLength;
+    const std::int64_t furthest = static_cast<std::int64_t>(TimelineView::aheadSamples) - segmentLength;
+    if (static_cast<double>(next - head) >= wanted || next - head > furthest || channels_.segments.room() < 2) {
+        return false;
+    }
+    prepare(next);
+    return true;
+}
+
+void SegmentPlanner::fail() noexcept {
+    channels_.counters.failures.fetch_add(1, std::memory_order_relaxed);
+}
+
+void SegmentPlanner::serveOutputRate() noexcept {
+    delete channels_.usedOutput.exchange(nullptr, std::memory_order_acq_rel);
+    const double rateHz = channels_.wantedRateHz.exchange(0.0, std::memory_order_acq_rel);
+    if (rateHz == 0.0) {
+        return;
+    }
+    try {
+        delete channels_.freshOutput.exchange(new OutputStage(rateHz), std::memory_order_acq_rel);
+    } catch (const std::invalid_argument&) {
+        // Not a rate that audio runs at; the callback asks again when it changes.
+        return;
+    } catch (const std::bad_alloc&) {
+        return;
+    }
+}
+
+}  // namespace haptoflow::engine

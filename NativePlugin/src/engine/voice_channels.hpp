@@ -1,0 +1,119 @@
+#pragma once
+
+#include "engine/mailbox.hpp"
+#include "engine/output_stage.hpp"
+#include "engine/segment_queue.hpp"
+#include "engine/waveform_timeline.hpp"
+#include "inference/segment_generator.hpp"
+
+#include <array>
+#include <atomic>
+#include <cstdint>
+#include <memory>
+
+namespace haptoflow::engine {
+
+/// What the callback has to know of a contact.
+struct AudioMessage {
+    /// One more at each onset: touch-down, or sliding resumed.
+    std::uint32_t onset = 0;
+    /// ContactState::touchCounter: a panic silences a touch, however often sliding resumes in it.
+    std::uint32_t touch = 0;
+    bool sliding = false;
+    float levelGain = 1.0F;
+    double readingRate = 1.0;
+    /// The current onset's seed in m/s^2, repeated in every message: an onset survives being overwritten.
+    std::array<float, WaveformTimeline::seedSamples> seedMps2{};
+};
+
+/// What the worker has to know of a contact.
+struct WorkerMessage {
+    std::uint32_t onset = 0;
+    bool sliding = false;
+    /// One more at each publishing: a state is generated for once.
+    std::uint64_t update = 0;
+    std::array<float, inference::embeddingSize> embedding{};
+    /// vx, vy in m/s and force in N, inside the trained range.
+    std::array<float, 3> motion{};
+    double readingRate = 1.0;
+};
+
+/// Where a voice's playback stands, as the callback left it at the end of a block.
+struct Playhead {
+    /// Counts onsets as they were played; 0 before the first.
+    std::uint64_t stream = 0;
+    /// AudioMessage::onset of that stream.
+    std::uint32_t onset = 0;
+    /// False while nothing is read: the clock stands still.
+    bool running = false;
+    /// Sequence of the newest segment that the callback took or dropped, and the head when it did.
+    std::uint64_t takenSequence = 0;
+    std::int64_t headAtTake = 0;
+    /// The most waveform samples that one block has consumed, at the present reading rate.
+    std::int64_t blockAdvance = 0;
+    TimelineView timeline;
+};
+
+/// Commands to the callback that are neither contacts nor segments. Any thread sets them; they last until changed.
+struct VoiceControls {
+    std::atomic<float> strength{1.0F};
+    /// Largest magnitude of the output, 0 to 1.
+    std::atomic<float> ceiling{1.0F};
+    std::atomic<bool> muted{false};
+    std::atomic<bool> paused{false};
+    /// One more at each panic.
+    std::atomic<std::uint32_t> panics{0};
+};
+
+/// What a voice has done; every counter only grows. Any thread reads.
+struct VoiceCounters {
+    std::atomic<std::uint64_t> updates{0};
+    std::atomic<std::uint64_t> onsets{0};
+    std::atomic<std::uint64_t> taps{0};
+    /// Segments generated.
+    std::atomic<std::uint64_t> inferences{0};
+    /// Updates for which nothing was generated: no sliding, no playback, or a newer update came first.
+    std::atomic<std::uint64_t> skipped{0};
+    /// Runs that failed; the running segment went on.
+    std::atomic<std::uint64_t> failures{0};
+    /// Blocks in which a sounding voice wanted samples that no segment covered.
+    std::atomic<std::uint64_t> underruns{0};
+    /// Segments that took over later than planned, and segments that came too late altogether or for an earlier touch.
+    std::atomic<std::uint64_t> late{0};
+    std::atomic<std::uint64_t> dropped{0};
+    /// Fields of contact states that had to be made finite and physical.
+    std::atomic<std::uint64_t> sanitised{0};
+    std::atomic<std::uint64_t> staleStops{0};
+    std::atomic<std::uint64_t> nonFiniteSamples{0};
+    std::atomic<std::uint64_t> limitedSamples{0};
+    std::atomic<std::uint64_t> renderedFrames{0};
+    std::atomic<std::uint64_t> rateChanges{0};
+    /// Waveform samples by which a new segment leads the read head.
+    std::atomic<std::uint32_t> leadSamples{0};
+};
+
+/// Everything that publisher, worker and callback of one voice share. Each part has one writer and one reader.
+struct VoiceChannels {
+    Mailbox<AudioMessage> toAudio;
+    Mailbox<WorkerMessage> toWorker;
+    Mailbox<Playhead> playhead;
+    SegmentQueue segments;
+    VoiceControls controls;
+    VoiceCounters counters;
+
+    /// The callback asks for an output stage of this rate; 0 when it has what it needs.
+    std::atomic<double> wantedRateHz{0.0};
+    /// Made by the worker, taken by the callback; and the one it replaced, for the worker to delete.
+    std::atomic<OutputStage*> freshOutput{nullptr};
+    std::atomic<OutputStage*> usedOutput{nullptr};
+
+    VoiceChannels() = default;
+    VoiceChannels(const VoiceChannels&) = delete;
+    VoiceChannels& operator=(const VoiceChannels&) = delete;
+    ~VoiceChannels() {
+        delete freshOutput.load();
+        delete usedOutput.load();
+    }
+};
+
+}  // namespace haptoflow::engine

@@ -1,0 +1,126 @@
+#include "engine/wake_signal.hpp"
+
+#include <cerrno>
+#include <system_error>
+
+#if defined(_WIN32)
+#define NOMINMAX
+#include <windows.h>
+#elif defined(__APPLE__)
+#include <dispatch/dispatch.h>
+#else
+#include <semaphore.h>
+#include <time.h>
+#endif
+
+namespace haptoflow::engine {
+
+#if defined(_WIN32)
+
+struct WakeSignal::Semaphore {
+    HANDLE handle = CreateEventW(nullptr, FALSE, FALSE, nullptr);
+};
+
+WakeSignal::WakeSignal() : semaphore_(std::make_unique<Semaphore>()) {
+    if (semaphore_->handle == nullptr) {
+        throw std::system_error(static_cast<int>(GetLastError()), std::system_category(), "wake signal");
+    }
+}
+
+WakeSignal::~WakeSignal() {
+    CloseHandle(semaphore_->handle);
+}
+
+void WakeSignal::post() noexcept {
+    SetEvent(semaphore_->handle);
+}
+
+void WakeSignal::wait() noexcept {
+    WaitForSingleObject(semaphore_->handle, INFINITE);
+}
+
+bool WakeSignal::waitFor(double milliseconds) noexcept {
+    return WaitForSingleObject(semaphore_->handle, static_cast<DWORD>(milliseconds)) == WAIT_OBJECT_0;
+}
+
+#elif defined(__APPLE__)
+
+struct WakeSignal::Semaphore {
+    dispatch_semaphore_t handle = dispatch_semaphore_create(0);
+};
+
+WakeSignal::WakeSignal() : semaphore_(std::make_unique<Semaphore>()) {}
+
+WakeSignal::~WakeSignal() {
+    dispatch_release(semaphore_->handle);
+}
+
+void WakeSignal::post() noexcept {
+    dispatch_semaphore_signal(semaphore_->handle);
+}
+
+void WakeSignal::wait() noexcept {
+    dispatch_semaphore_wait(semaphore_->handle, DISPATCH_TIME_FOREVER);
+    while (dispatch_semaphore_wait(semaphore_->handle, DISPATCH_TIME_NOW) == 0) {
+    }
+}
+
+bool WakeSignal::waitFor(double milliseconds) noexcept {
+    const dispatch_time_t until = dispatch_time(DISPATCH_TIME_NOW, static_cast<int64_t>(milliseconds * 1e6));
+    if (dispatch_semaphore_wait(semaphore_->handle, until) != 0) {
+        return false;
+    }
+    while (dispatch_semaphore_wait(semaphore_->handle, DISPATCH_TIME_NOW) == 0) {
+    }
+    return true;
+}
+
+#else
+
+struct WakeSignal::Semaphore {
+    sem_t handle{};
+};
+
+WakeSignal::WakeSignal() : semaphore_(std::make_unique<Semaphore>()) {
+    if (sem_init(&semaphore_->handle, 0, 0) != 0) {
+        throw std::system_error(errno, std::generic_category(), "wake signal");
+    }
+}
+
+WakeSignal::~WakeSignal() {
+    sem_destroy(&semaphore_->handle);
+}
+
+void WakeSignal::post() noexcept {
+    sem_post(&semaphore_->handle);
+}
+
+void WakeSignal::wait() noexcept {
+    while (sem_wait(&semaphore_->handle) != 0 && errno == EINTR) {
+    }
+    while (sem_trywait(&semaphore_->handle) == 0) {
+    }
+}
+
+bool WakeSignal::waitFor(double milliseconds) noexcept {
+    timespec until{};
+    clock_gettime(CLOCK_REALTIME, &until);
+    constexpr long second = 1'000'000'000L;
+    const auto nanoseconds = static_cast<long long>(milliseconds * 1e6) + until.tv_nsec;
+    until.tv_sec += static_cast<time_t>(nanoseconds / second);
+    until.tv_nsec = static_cast<long>(nanoseconds % second);
+    int result = sem_timedwait(&semaphore_->handle, &until);
+    while (result != 0 && errno == EINTR) {
+        result = sem_timedwait(&semaphore_->handle, &until);
+    }
+    if (result != 0) {
+        return false;
+    }
+    while (sem_trywait(&semaphore_->handle) == 0) {
+    }
+    return true;
+}
+
+#endif
+
+}  // namespace haptoflow::engine
