@@ -12,7 +12,7 @@
  * - Handles are opaque and never used twice: a call with a handle that was closed, or with anything else that is not an
  *   open handle of that kind, returns HAPTOFLOW_INVALID_ARGUMENT. An open handle keeps alive what it was made from.
  * - Text is UTF-8 and ends with a zero byte. Text that the library returns belongs to the library.
- * - Units are in the names: m/s^2 (mps2), m/s (mps), newtons. Waveforms run at 2000 samples per second.
+ * - Units are in the names: m/s^2 (mps2), m/s (mps), newtons, ms. Waveforms run at 2000 samples per second.
  * - No C++ exception leaves the library.
  *
  * Thread tags, one on every function
@@ -22,6 +22,11 @@
  *                  Never call it from an audio callback, and from a main thread only while something loads.
  * [worker-thread]  May be called from any thread that can wait for a network: it allocates inside ONNX Runtime and
  *                  takes up to milliseconds. Never call it from an audio callback. Calls on one generator queue up.
+ * [publisher]      May be called from any thread that is not an audio callback; takes microseconds and waits for
+ *                  nobody. Two threads must not publish on one voice at the same time: the second is refused.
+ * [audio-callback] Made for the audio callback: takes microseconds, never allocates, locks, logs or enters the kernel.
+ *                  May be called from any thread; two must not render one voice at the same time: the second is refused
+ *                  and gets silence.
  */
 #ifndef HAPTOFLOW_H
 #define HAPTOFLOW_H
@@ -59,6 +64,8 @@ enum {
     HAPTOFLOW_OUT_OF_MEMORY = 2,
     /* A defect of this library. */
     HAPTOFLOW_INTERNAL_ERROR = 3,
+    /* Another thread is publishing on, or rendering, this voice. */
+    HAPTOFLOW_BUSY = 4,
     /* The model file cannot be opened or read. */
     HAPTOFLOW_MODEL_UNREADABLE = 10,
     /* The bytes are not a .haptoflow file. */
@@ -278,6 +285,216 @@ HAPTOFLOW_API haptoflow_status haptoflow_generator_generate(haptoflow_generator*
  * [worker-thread] Blocks while another thread uses this generator and for the runs themselves. */
 HAPTOFLOW_API haptoflow_status haptoflow_generator_levels(haptoflow_generator* generator, const haptoflow_batch* batch,
                                                           float* levels_mps2);
+
+/* ------------------------------------------------------------------------------------------------------- engines */
+
+/* All voices of one model, and the one thread that generates for them. The thread sleeps while nothing slides. */
+typedef struct haptoflow_engine haptoflow_engine;
+
+typedef int32_t haptoflow_quality;
+enum {
+    /* Measures the model's tiers on this machine while nothing touches, takes the most accurate that fits the budget,
+     * one less when the machine cannot keep up, and one more when it can again. */
+    HAPTOFLOW_QUALITY_AUTO = 0,
+    HAPTOFLOW_QUALITY_DRAFT = 1,
+    HAPTOFLOW_QUALITY_STANDARD = 2,
+    HAPTOFLOW_QUALITY_FINE = 3
+};
+
+typedef struct haptoflow_engine_options {
+    uint32_t struct_size;
+    /* The tier of that name; where the model has none, the nearest that it has. */
+    haptoflow_quality quality;
+    const haptoflow_runtime* runtime;
+    const haptoflow_model* model;
+    /* Contact states a second, 1 to 10000; 0 for 72. Sets the budget and the pace of measuring, nothing else. */
+    double update_rate_hz;
+    /* Share of the time between two contact states that inference may take, above 0 to 1; 0 for 0.25. */
+    double budget_share;
+    /* What acceleration is +-1 in the output, above 0; 0 for 60. A soft knee begins at 0.7 of it. */
+    double full_scale_mps2;
+    /* Key of all noise. */
+    uint64_t seed;
+    /* Voices that one run of a graph takes, 1 to 64; 0 for 8. More voices are served in several runs. */
+    uint32_t batch_voices;
+    /* 1 for an engine without a thread of its own: the caller calls haptoflow_engine_step. 0 otherwise. */
+    uint32_t without_worker;
+    /* From a contact state to the first sample generated from it, above 0 to 50 ms; 0 for the shortest that the engine
+     * finds to hold on this machine. Fixed, an engine without worker is deterministic. */
+    double fixed_lead_ms;
+} haptoflow_engine_options;
+
+/* Times of the tier at an index of the model (haptoflow_model_tier), for one voice's segment on this machine. */
+typedef struct haptoflow_tier_times {
+    uint32_t struct_size;
+    /* 1 for the tier that generates at present, 0 otherwise. */
+    uint32_t is_current;
+    /* Runs behind the figures; 0 where the tier was neither used nor measured. At most the last 128 count. */
+    uint64_t runs;
+    double median_ms;
+    double percentile_99_ms;
+} haptoflow_tier_times;
+
+typedef struct haptoflow_engine_statistics {
+    uint32_t struct_size;
+    /* Index of the tier that generates at present. */
+    uint32_t tier;
+    uint32_t voices;
+    /* 1 while automatic quality still measures, 0 otherwise. */
+    uint32_t is_measuring;
+    /* Rounds of inference, segments in them, rounds in which a graph failed. */
+    uint64_t rounds;
+    uint64_t segments;
+    uint64_t failed_rounds;
+    /* How often the worker was woken, for whatever reason. */
+    uint64_t wakes;
+    /* How often automatic quality went to a cheaper, and to a more accurate tier. */
+    uint64_t quality_steps_down;
+    uint64_t quality_steps_up;
+    /* What a round may take, and what the last one took, all its voices together. */
+    double budget_ms;
+    double last_round_ms;
+} haptoflow_engine_statistics;
+
+/* Loads all tiers of the model and starts the worker. Close it with haptoflow_engine_close.
+ * Errors: INVALID_ARGUMENT, MODEL_INCONSISTENT, INFERENCE_FAILED, OUT_OF_MEMORY.
+ * [loader-thread] Blocks while ONNX Runtime optimises the graphs. */
+HAPTOFLOW_API haptoflow_status haptoflow_engine_create(const haptoflow_engine_options* options,
+                                                       haptoflow_engine** engine);
+
+/* Ends the worker, destroys the engine's voices and sets *engine to null; a null handle is fine. Voices that are being
+ * rendered finish their block first. Errors: INVALID_ARGUMENT.
+ * [loader-thread] Blocks for the present round of inference and the present blocks. */
+HAPTOFLOW_API haptoflow_status haptoflow_engine_close(haptoflow_engine** engine);
+
+/* From the next segment on. Errors: INVALID_ARGUMENT. [publisher] */
+HAPTOFLOW_API haptoflow_status haptoflow_engine_set_quality(haptoflow_engine* engine, haptoflow_quality quality);
+
+/* One round of inference for all voices that want one. Engines without worker only. Errors: INVALID_ARGUMENT.
+ * [worker-thread] */
+HAPTOFLOW_API haptoflow_status haptoflow_engine_step(haptoflow_engine* engine);
+
+/* Errors: INVALID_ARGUMENT. [publisher] */
+HAPTOFLOW_API haptoflow_status haptoflow_engine_get_statistics(const haptoflow_engine* engine,
+                                                               haptoflow_engine_statistics* statistics);
+
+/* Figures of the tier at index, in the model's order. Errors: INVALID_ARGUMENT. [publisher] */
+HAPTOFLOW_API haptoflow_status haptoflow_engine_tier_times(const haptoflow_engine* engine, uint32_t index,
+                                                           haptoflow_tier_times* times);
+
+/* -------------------------------------------------------------------------------------------------------- voices */
+
+/* The signal of one stylus tip. A number, never used twice; 0 is none. At most HAPTOFLOW_MAXIMUM_VOICES at a time, all
+ * engines of the process together. */
+typedef uint64_t haptoflow_voice;
+
+#define HAPTOFLOW_MAXIMUM_VOICES 64
+#define HAPTOFLOW_MAXIMUM_BLEND 4
+/* As a channel: all of them. */
+#define HAPTOFLOW_ALL_CHANNELS (-1)
+
+typedef struct haptoflow_contact_state {
+    uint32_t struct_size;
+    /* 1 while the tip touches a surface, 0 otherwise. */
+    uint32_t touching;
+    /* One more at each touch-down: a touch that came and went since the last state is still felt. */
+    uint32_t touch_counter;
+    /* Entries used of labels and weights, 0 to HAPTOFLOW_MAXIMUM_BLEND. */
+    uint32_t label_count;
+    /* Indices into the model's labels; unknown ones are left out. A blend of none is the model's first label. */
+    uint32_t labels[HAPTOFLOW_MAXIMUM_BLEND];
+    /* 0 to 1 each; they need not sum to one. */
+    float weights[HAPTOFLOW_MAXIMUM_BLEND];
+    /* Along two axes fixed to the surface, relative to its own motion. Limited to 20 m/s each. */
+    float velocity_mps[2];
+    /* Along the surface's normal, 0 to 1000 N. */
+    float force_newtons;
+    /* Into the surface, at touch-down. */
+    float approach_speed_mps;
+} haptoflow_contact_state;
+
+typedef struct haptoflow_voice_statistics {
+    uint32_t struct_size;
+    /* Waveform samples by which a new segment leads what sounds; 2 samples are 1 ms. */
+    uint32_t lead_samples;
+    /* Contact states published; segments generated; states for which nothing was generated. */
+    uint64_t updates;
+    uint64_t inferences;
+    uint64_t skipped;
+    /* Touches that began to sound, and those of them that were over within one block. */
+    uint64_t onsets;
+    uint64_t taps;
+    /* Blocks that wanted samples which no segment covered; segments that came late; that came for nothing. */
+    uint64_t underruns;
+    uint64_t late;
+    uint64_t dropped;
+    /* Runs that failed. */
+    uint64_t failures;
+    /* Fields of contact states that were not finite or out of range, and were made so. */
+    uint64_t sanitised;
+    /* Touches silenced because no contact state came for 100 ms. */
+    uint64_t stale_stops;
+    /* Samples that were not finite (and became 0), and samples bent by the limiter. */
+    uint64_t non_finite_samples;
+    uint64_t limited_samples;
+    /* Frames rendered; changes of the output's sample rate; calls refused because another thread was inside. */
+    uint64_t rendered_frames;
+    uint64_t rate_changes;
+    uint64_t refused_calls;
+} haptoflow_voice_statistics;
+
+/* sample_rate_hz is the output's, 8000 to 192000; 0 for 48000. It may change later: see haptoflow_voice_render.
+ * Errors: INVALID_ARGUMENT (also when there are too many voices), OUT_OF_MEMORY.
+ * [loader-thread] Blocks for the present round of inference. */
+HAPTOFLOW_API haptoflow_status haptoflow_voice_create(haptoflow_engine* engine, double sample_rate_hz,
+                                                      haptoflow_voice* voice);
+
+/* Destroys *voice and sets it to 0; 0 is fine. Errors: INVALID_ARGUMENT.
+ * [loader-thread] Blocks for the present round of inference, and for calls on this voice that are under way. */
+HAPTOFLOW_API haptoflow_status haptoflow_voice_destroy(haptoflow_voice* voice);
+
+/* What the tip does now: once a frame, also while nothing touches. A touch sounds with the next block; a touch without
+ * news for 100 ms of output falls silent. Values that are not finite or out of range are made so and counted.
+ * Errors: INVALID_ARGUMENT, BUSY.
+ * [publisher] */
+HAPTOFLOW_API haptoflow_status haptoflow_voice_publish(haptoflow_voice voice, const haptoflow_contact_state* state);
+
+/* Writes frame_count frames of the voice into one channel of interleaved samples, or into all with
+ * HAPTOFLOW_ALL_CHANNELS; other channels stay as they are. Samples are +-1. channel_count is 1 to 64.
+ * Where sample_rate_hz is not what it was, the voice fades within 5 ms, is silent until the worker has prepared for the
+ * new rate, and goes on. A voice that is not open, or busy, writes zeros.
+ * Errors: INVALID_ARGUMENT, BUSY; the message is not set by this function.
+ * [audio-callback] */
+HAPTOFLOW_API haptoflow_status haptoflow_voice_render(haptoflow_voice voice, float* interleaved, uint32_t frame_count,
+                                                      uint32_t channel_count, int32_t channel, double sample_rate_hz);
+
+/* Gain of the output before the limiter, 0 to 1; glides within 10 ms. Errors: INVALID_ARGUMENT. [publisher] */
+HAPTOFLOW_API haptoflow_status haptoflow_voice_set_strength(haptoflow_voice voice, float strength);
+
+/* Largest magnitude of the output, 0 to 1: whatever else happens, no sample is above it. Errors: INVALID_ARGUMENT.
+ * [publisher] */
+HAPTOFLOW_API haptoflow_status haptoflow_voice_set_ceiling(haptoflow_voice voice, float ceiling);
+
+/* Muted (1) a voice falls silent within a block and 5 ms and costs no inference. Errors: INVALID_ARGUMENT. [publisher] */
+HAPTOFLOW_API haptoflow_status haptoflow_voice_set_muted(haptoflow_voice voice, uint32_t muted);
+
+/* The same for an application that is suspended: independent of muting. Errors: INVALID_ARGUMENT. [publisher] */
+HAPTOFLOW_API haptoflow_status haptoflow_voice_set_paused(haptoflow_voice voice, uint32_t paused);
+
+/* Silence at the end of the next block, whatever its length. The voice sounds again with the next touch-down, that is,
+ * with another touch_counter. Errors: INVALID_ARGUMENT. [publisher] */
+HAPTOFLOW_API haptoflow_status haptoflow_voice_panic(haptoflow_voice voice);
+
+/* Panic for every voice of the process. Never fails. [publisher] */
+HAPTOFLOW_API haptoflow_status haptoflow_panic(void);
+
+/* Errors: INVALID_ARGUMENT. [publisher] */
+HAPTOFLOW_API haptoflow_status haptoflow_voice_get_statistics(haptoflow_voice voice,
+                                                              haptoflow_voice_statistics* statistics);
+
+/* The voice's place among the process's voices, 0 to HAPTOFLOW_MAXIMUM_VOICES - 1: what the parameter "Voice" of
+ * Unity's mixer effect names. Places are used again. Errors: INVALID_ARGUMENT. [publisher] */
+HAPTOFLOW_API haptoflow_status haptoflow_voice_place(haptoflow_voice voice, uint32_t* place);
 
 /* -------------------------------------------------------------------------------------------------------- noise */
 

@@ -17,4 +17,9 @@ GeneratorTable& generators() {
     return table;
 }
 
+EngineTable& engines() {
+    static auto& table = *new EngineTable("engine");
+    return table;
+}
+
 }  // namespace haptoflow::capi

@@ -2,10 +2,12 @@
 
 #include "capi/boundary.hpp"
 #include "capi/handle_table.hpp"
+#include "engine/live_engine.hpp"
 #include "haptoflow/haptoflow.h"
 #include "inference/onnx_segment_generator.hpp"
 #include "model/model_file.hpp"
 
+#include <memory>
 #include <mutex>
 #include <string>
 #include <utility>
@@ -26,14 +28,25 @@ struct OpenGenerator {
     inference::OnnxSegmentGenerator generator;
 };
 
+struct OpenEngine {
+    OpenEngine(std::shared_ptr<engine::LiveEngine> live, bool worker) : engine(std::move(live)), hasWorker(worker) {}
+
+    std::shared_ptr<engine::LiveEngine> engine;
+    bool hasWorker;
+    /// Steps by hand queue up.
+    std::mutex stepping;
+};
+
 using RuntimeTable = HandleTable<haptoflow_runtime, const inference::Runtime>;
 using ModelTable = HandleTable<haptoflow_model, const OpenModel>;
 using GeneratorTable = HandleTable<haptoflow_generator, OpenGenerator>;
+using EngineTable = HandleTable<haptoflow_engine, OpenEngine>;
 
 // The tables are never destroyed: ONNX Runtime may be gone by the time that static objects are.
 [[nodiscard]] RuntimeTable& runtimes();
 [[nodiscard]] ModelTable& models();
 [[nodiscard]] GeneratorTable& generators();
+[[nodiscard]] EngineTable& engines();
 
 /// Closes *handle and makes it null; a null handle is fine, a null pointer to one is not.
 template <typename Table, typename Handle>

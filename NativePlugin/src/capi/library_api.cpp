@@ -20,6 +20,8 @@ const char* haptoflow_status_name(haptoflow_status status) {
             return "HAPTOFLOW_OUT_OF_MEMORY";
         case HAPTOFLOW_INTERNAL_ERROR:
             return "HAPTOFLOW_INTERNAL_ERROR";
+        case HAPTOFLOW_BUSY:
+            return "HAPTOFLOW_BUSY";
         case HAPTOFLOW_MODEL_UNREADABLE:
             return "HAPTOFLOW_MODEL_UNREADABLE";
         case HAPTOFLOW_NOT_A_MODEL:

@@ -7,13 +7,15 @@ namespace haptoflow::engine {
 
 RoundResult InferenceRound::run(std::span<LiveVoice* const> voices, inference::SegmentGenerator& generator) {
     wanting_.clear();
+    RoundResult result;
     for (LiveVoice* voice : voices) {
         voice->planner.serveOutputRate();
         if (voice->planner.wake()) {
             wanting_.push_back(voice);
+        } else {
+            result.awaitsOnset = result.awaitsOnset || voice->planner.awaitsOnset();
         }
     }
-    RoundResult result;
     result.voices = wanting_.size();
     const auto began = std::chrono::steady_clock::now();
     while (!wanting_.empty() && !result.failed) {

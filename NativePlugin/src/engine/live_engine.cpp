@@ -15,6 +15,8 @@ namespace haptoflow::engine {
 namespace {
 
 constexpr double largestLeadMs = 50.0;
+constexpr double onsetLookMs = 2.0;
+constexpr int longestOnsetLooks = 50;
 
 const LiveEngineSettings& checked(const LiveEngineSettings& settings) {
     if (!(settings.updateRateHz >= 1.0 && settings.updateRateHz <= 10000.0)) {
@@ -135,27 +137,35 @@ void LiveEngine::work() noexcept {
     (void)raiseThisThreadsPriority();
     try {
         while (!stopping_.load(std::memory_order_acquire)) {
-            const std::optional<std::size_t> toMeasure = tierToMeasure();
-            bool woken = true;
-            if (toMeasure) {
-                woken = signal_.waitFor(1000.0 / settings_.updateRateHz);
-            } else {
-                signal_.wait();
+            if (!sleep()) {
+                if (const auto tier = tierToMeasure()) {
+                    measureOnce(*tier);
+                    continue;
+                }
             }
-            if (stopping_.load(std::memory_order_acquire)) {
-                break;
-            }
-            wakes_.fetch_add(1, std::memory_order_relaxed);
-            if (woken) {
-                step();
-            } else {
-                measureOnce(*toMeasure);
+            if (!stopping_.load(std::memory_order_acquire)) {
+                wakes_.fetch_add(1, std::memory_order_relaxed);
+                const RoundResult result = step();
+                onsetLooks_ = result.awaitsOnset ? onsetLooks_ + 1 : 0;
             }
         }
     } catch (const std::exception&) {
         // Out of memory, or a lock that the system refuses: the voices see that nobody generates any more.
     }
     alive_.store(false, std::memory_order_release);
+}
+
+bool LiveEngine::sleep() {
+    // The callback, which plays the onset, wakes nobody; a device that does not ask at all is not waited for.
+    if (onsetLooks_ > 0 && onsetLooks_ < longestOnsetLooks) {
+        (void)signal_.waitFor(onsetLookMs);
+        return true;
+    }
+    if (tierToMeasure()) {
+        return signal_.waitFor(1000.0 / settings_.updateRateHz);
+    }
+    signal_.wait();
+    return true;
 }
 
 void LiveEngine::measureOnce(std::size_t tier) {

@@ -93,6 +93,8 @@ public:
 
 private:
     void work() noexcept;
+    /// False where time for a measuring run has come.
+    [[nodiscard]] bool sleep();
     void measureOnce(std::size_t tier);
     [[nodiscard]] std::optional<std::size_t> tierToMeasure() const;
 
@@ -113,6 +115,8 @@ private:
     QualityControl quality_;
     EngineStatistics figures_;
 
+    // How often in a row the worker has looked whether an onset is played. Worker only.
+    int onsetLooks_ = 0;
     std::atomic<std::uint64_t> wakes_{0};
     std::atomic<bool> alive_{true};
     std::atomic<bool> stopping_{false};

@@ -63,6 +63,13 @@ bool SegmentPlanner::wake() noexcept {
     return true;
 }
 
+bool SegmentPlanner::awaitsOnset() const noexcept {
+    const WorkerMessage& contact = channels_.toWorker.current();
+    const Playhead& playhead = channels_.playhead.current();
+    return contact.sliding && contact.update != generatedUpdate_ &&
+           !(playhead.running && playhead.onset == contact.onset);
+}
+
 void SegmentPlanner::learn() noexcept {
     const Playhead& playhead = channels_.playhead.current();
     for (Sent& sent : sent_) {

@@ -31,6 +31,8 @@ public:
 
     /// Looks at the newest contact and playhead. True where a segment is wanted; `request` then says which.
     [[nodiscard]] bool wake() noexcept;
+    /// True while a contact slides whose onset the callback has not played yet: look again soon, nobody will call.
+    [[nodiscard]] bool awaitsOnset() const noexcept;
     /// Valid until `deliver` or the next `wake`.
     [[nodiscard]] const inference::SegmentRequest& request() const noexcept { return request_; }
     /// The segment that was asked for, on its way to the callback. True where the same contact needs another behind

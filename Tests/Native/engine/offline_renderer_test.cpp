@@ -1,6 +1,7 @@
 #include "engine/offline_renderer.hpp"
 
-#include "engine/test_model.hpp"
+#include "fake_generators.hpp"
+#include "test_model.hpp"
 #include "inference/inference_error.hpp"
 
 #include <gtest/gtest.h>
@@ -16,27 +17,8 @@ namespace haptoflow::engine {
 namespace {
 
 using inference::segmentSamples;
-
-/// Answers every request with a function of it, and remembers how often it was asked.
-class FakeGenerator final : public inference::SegmentGenerator {
-public:
-    using Answer = std::function<void(const inference::SegmentRequest&, std::span<float>)>;
-    explicit FakeGenerator(Answer answer) : answer_(std::move(answer)) {}
-
-    void generate(std::span<const inference::SegmentRequest> requests, std::span<float> segments) override {
-        for (std::size_t i = 0; i < requests.size(); ++i) {
-            ++generated;
-            answer_(requests[i], segments.subspan(i * segmentSamples, segmentSamples));
-        }
-    }
-    void levels(std::span<const inference::SegmentRequest> requests, std::span<float> levelsMps2) override {
-        std::fill_n(levelsMps2.begin(), requests.size(), 1.0F);
-    }
-    int generated = 0;
-
-private:
-    Answer answer_;
-};
+using testing::FakeGenerator;
+using testing::whiteNoise;
 
 /// Goes on with a 100 Hz tone from where the past stopped: two past samples determine it.
 void continueTone(const inference::SegmentRequest& request, std::span<float> segment) {
@@ -49,10 +31,6 @@ void continueTone(const inference::SegmentRequest& request, std::span<float> seg
         last = next;
         sample = static_cast<float>(next);
     }
-}
-
-void whiteNoise(const inference::SegmentRequest& request, std::span<float> segment) {
-    std::ranges::copy(request.noise, segment.begin());
 }
 
 std::vector<ContactState> slide(double seconds, double rateHz = 72.0) {

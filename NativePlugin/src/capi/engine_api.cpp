@@ -1,0 +1,170 @@
+#include "capi/handles.hpp"
+#include "capi/voice_table.hpp"
+#include "inference/tier_graphs.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <string>
+#include <utility>
+#include <vector>
+
+using namespace haptoflow;
+using namespace haptoflow::capi;
+
+namespace {
+
+constexpr uint32_t usualBatchVoices = 8;
+constexpr double usualUpdateRateHz = 72.0;
+constexpr double usualBudgetShare = 0.25;
+constexpr double usualFullScaleMps2 = 60.0;
+
+// The first version could not do without these; everything behind has a default.
+constexpr std::size_t mandatoryOptions = offsetof(haptoflow_engine_options, update_rate_hz);
+
+double orDefault(double value, double usual) {
+    return value == 0.0 ? usual : value;
+}
+
+/// Place in the model of the tier that a quality means.
+std::size_t tierOfQuality(const model::ModelHeader& header, haptoflow_quality quality) {
+    const auto named = [&header](const char* name, std::size_t otherwise) {
+        const auto found = std::ranges::find(header.tiers, name, &model::Tier::name);
+        return found == header.tiers.end() ? otherwise : static_cast<std::size_t>(found - header.tiers.begin());
+    };
+    switch (quality) {
+        case HAPTOFLOW_QUALITY_AUTO:
+        case HAPTOFLOW_QUALITY_STANDARD:
+            return named("standard", header.defaultTier);
+        case HAPTOFLOW_QUALITY_DRAFT:
+            return named("draft", 0);
+        case HAPTOFLOW_QUALITY_FINE:
+            return named("fine", header.tiers.size() - 1);
+        default:
+            throw std::invalid_argument("quality is " + std::to_string(quality) + "; expected 0 to 3");
+    }
+}
+
+engine::QualitySettings qualitySettings(const model::ModelHeader& header, haptoflow_quality quality, double budgetMs) {
+    engine::QualitySettings settings;
+    settings.budgetMs = budgetMs;
+    const std::size_t tier = tierOfQuality(header, quality);
+    if (quality != HAPTOFLOW_QUALITY_AUTO) {
+        settings.fixedTier = tier;
+    }
+    return settings;
+}
+
+engine::LiveEngineSettings engineSettings(const haptoflow_engine_options& given, const model::ModelHeader& header) {
+    const double budgetShare = orDefault(given.budget_share, usualBudgetShare);
+    if (!(budgetShare > 0.0 && budgetShare <= 1.0)) {
+        throw std::invalid_argument("options: budget_share is " + std::to_string(budgetShare) +
+                                    "; expected above 0 to 1");
+    }
+    engine::LiveEngineSettings settings;
+    settings.updateRateHz = orDefault(given.update_rate_hz, usualUpdateRateHz);
+    settings.quality = qualitySettings(header, given.quality, 1000.0 * budgetShare / settings.updateRateHz);
+    settings.fullScaleMps2 = static_cast<float>(orDefault(given.full_scale_mps2, usualFullScaleMps2));
+    settings.seed = given.seed;
+    settings.hasWorker = given.without_worker == 0;
+    if (given.fixed_lead_ms != 0.0) {
+        settings.fixedLeadMs = given.fixed_lead_ms;
+    }
+    return settings;
+}
+
+}  // namespace
+
+haptoflow_status haptoflow_engine_create(const haptoflow_engine_options* options, haptoflow_engine** engine) {
+    return guarded([&] {
+        const auto given = readDescriptor(options, mandatoryOptions, "options");
+        (void)require(engine, "engine");
+        const auto runtime = runtimes().get(given.runtime);
+        const auto open = models().get(given.model);
+        const model::ModelHeader& header = open->model.header();
+        const uint32_t batch = given.batch_voices != 0 ? given.batch_voices : usualBatchVoices;
+        if (batch > HAPTOFLOW_MAXIMUM_VOICES) {
+            throw std::invalid_argument("options: batch_voices is " + std::to_string(batch) + "; expected 1 to 64");
+        }
+        const auto settings = engineSettings(given, header);
+        std::vector<engine::EngineTier> tiers;
+        for (const model::Tier& tier : header.tiers) {
+            tiers.push_back({tier.name, std::make_unique<inference::OnnxSegmentGenerator>(
+                                            runtime, open->model, tier.name, inference::defaultSolver(tier), batch)});
+        }
+        auto live = std::make_shared<engine::LiveEngine>(
+            std::shared_ptr<const model::ModelFile>(open, &open->model), std::move(tiers),
+            tierOfQuality(header, HAPTOFLOW_QUALITY_AUTO), settings);
+        *engine = engines().open(std::make_shared<OpenEngine>(std::move(live), settings.hasWorker));
+    });
+}
+
+haptoflow_status haptoflow_engine_close(haptoflow_engine** engine) {
+    return guarded([&] {
+        if (*require(engine, "engine") == nullptr) {
+            return;
+        }
+        const auto open = engines().get(*engine);
+        engines().close(*engine);
+        *engine = nullptr;
+        open->engine->stop();
+        voices().closeAll(*open->engine);
+    });
+}
+
+haptoflow_status haptoflow_engine_set_quality(haptoflow_engine* engine, haptoflow_quality quality) {
+    return guarded([&] {
+        const auto open = engines().get(engine);
+        engine::LiveEngine& live = *open->engine;
+        live.setQuality(qualitySettings(live.model().header(), quality, live.statistics().budgetMs));
+    });
+}
+
+haptoflow_status haptoflow_engine_step(haptoflow_engine* engine) {
+    return guarded([&] {
+        const auto open = engines().get(engine);
+        if (open->hasWorker) {
+            throw std::invalid_argument("the engine has a worker: only one made with without_worker is stepped");
+        }
+        const std::lock_guard lock(open->stepping);
+        open->engine->step();
+    });
+}
+
+haptoflow_status haptoflow_engine_get_statistics(const haptoflow_engine* engine,
+                                                 haptoflow_engine_statistics* statistics) {
+    return guarded([&] {
+        const auto open = engines().get(engine);
+        const engine::EngineStatistics found = open->engine->statistics();
+        haptoflow_engine_statistics content{};
+        content.tier = static_cast<uint32_t>(found.tier);
+        content.voices = static_cast<uint32_t>(found.voices);
+        content.is_measuring = found.measuring ? 1 : 0;
+        content.rounds = found.rounds;
+        content.segments = found.segments;
+        content.failed_rounds = found.failedRounds;
+        content.wakes = found.wakes;
+        content.quality_steps_down = found.stepsDown;
+        content.quality_steps_up = found.stepsUp;
+        content.budget_ms = found.budgetMs;
+        content.last_round_ms = found.lastRoundMs;
+        writeDescriptor(statistics, content, "statistics");
+    });
+}
+
+haptoflow_status haptoflow_engine_tier_times(const haptoflow_engine* engine, uint32_t index,
+                                             haptoflow_tier_times* times) {
+    return guarded([&] {
+        const auto open = engines().get(engine);
+        const engine::EngineStatistics found = open->engine->statistics();
+        if (index >= found.tiers.size()) {
+            throw std::invalid_argument("tier " + std::to_string(index) + " of " + std::to_string(found.tiers.size()));
+        }
+        haptoflow_tier_times content{};
+        content.is_current = found.tier == index ? 1 : 0;
+        content.runs = found.tiers[index].runs;
+        content.median_ms = found.tiers[index].medianMs;
+        content.percentile_99_ms = found.tiers[index].percentile99Ms;
+        writeDescriptor(times, content, "times");
+    });
+}

@@ -1,0 +1,172 @@
+#include "capi/handles.hpp"
+#include "capi/voice_rendering.hpp"
+#include "capi/voice_table.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <string>
+
+using namespace haptoflow;
+using namespace haptoflow::capi;
+
+static_assert(engine::MaterialBlend::capacity == HAPTOFLOW_MAXIMUM_BLEND);
+
+namespace {
+
+constexpr double usualSampleRateHz = 48000.0;
+
+// Through the force; the approach speed is only for effects.
+constexpr std::size_t mandatoryState = offsetof(haptoflow_contact_state, approach_speed_mps);
+
+VoiceTable::Use requireVoice(haptoflow_voice voice) {
+    VoiceTable::Use use = voices().use(voice);
+    if (!use) {
+        throw std::invalid_argument("not an open voice");
+    }
+    return use;
+}
+
+engine::ContactState contactState(const haptoflow_contact_state& given) {
+    engine::ContactState state;
+    state.touching = given.touching != 0;
+    state.touchCounter = given.touch_counter;
+    state.velocityMps = {given.velocity_mps[0], given.velocity_mps[1]};
+    state.forceNewtons = given.force_newtons;
+    state.approachSpeedMps = given.approach_speed_mps;
+    state.material.count = given.label_count;
+    for (std::size_t i = 0; i < engine::MaterialBlend::capacity; ++i) {
+        state.material.entries[i] = {given.labels[i], given.weights[i]};
+    }
+    return state;
+}
+
+float requireUnit(float value, const char* name) {
+    if (!(value >= 0.0F && value <= 1.0F)) {
+        throw std::invalid_argument(std::string(name) + " is " + std::to_string(value) + "; expected 0 to 1");
+    }
+    return value;
+}
+
+}  // namespace
+
+haptoflow_status haptoflow_voice_create(haptoflow_engine* engine, double sample_rate_hz, haptoflow_voice* voice) {
+    return guarded([&] {
+        (void)require(voice, "voice");
+        const auto open = engines().get(engine);
+        const double rateHz = sample_rate_hz == 0.0 ? usualSampleRateHz : sample_rate_hz;
+        auto opened = std::make_unique<OpenVoice>();
+        opened->engine = open->engine;
+        opened->voice = open->engine->addVoice(rateHz);
+        engine::LiveVoice& live = *opened->voice;
+        try {
+            *voice = voices().open(std::move(opened));
+        } catch (...) {
+            open->engine->removeVoice(live);
+            throw;
+        }
+    });
+}
+
+haptoflow_status haptoflow_voice_destroy(haptoflow_voice* voice) {
+    return guarded([&] {
+        if (*require(voice, "voice") == 0) {
+            return;
+        }
+        if (!voices().close(*voice)) {
+            throw std::invalid_argument("not an open voice");
+        }
+        *voice = 0;
+    });
+}
+
+haptoflow_status haptoflow_voice_publish(haptoflow_voice voice, const haptoflow_contact_state* state) {
+    bool isBusy = false;
+    const haptoflow_status status = guarded([&] {
+        const auto given = readDescriptor(state, mandatoryState, "state");
+        const VoiceTable::Use use = requireVoice(voice);
+        if (use->publishing.test_and_set(std::memory_order_acquire)) {
+            use->refusedCalls.fetch_add(1, std::memory_order_relaxed);
+            isBusy = true;
+            return;
+        }
+        (void)use->engine->publish(*use->voice, contactState(given));
+        use->publishing.clear(std::memory_order_release);
+    });
+    return isBusy ? HAPTOFLOW_BUSY : status;
+}
+
+haptoflow_status haptoflow_voice_render(haptoflow_voice voice, float* interleaved, uint32_t frame_count,
+                                        uint32_t channel_count, int32_t channel, double sample_rate_hz) {
+    const ChannelTarget target{interleaved, frame_count, channel_count, channel};
+    if (!target.isValid()) {
+        return HAPTOFLOW_INVALID_ARGUMENT;
+    }
+    return renderInto(voices().use(voice), target, sample_rate_hz);
+}
+
+haptoflow_status haptoflow_voice_set_strength(haptoflow_voice voice, float strength) {
+    return guarded([&] { requireVoice(voice)->voice->channels.controls.strength = requireUnit(strength, "strength"); });
+}
+
+haptoflow_status haptoflow_voice_set_ceiling(haptoflow_voice voice, float ceiling) {
+    return guarded([&] { requireVoice(voice)->voice->channels.controls.ceiling = requireUnit(ceiling, "ceiling"); });
+}
+
+haptoflow_status haptoflow_voice_set_muted(haptoflow_voice voice, uint32_t muted) {
+    return guarded([&] { requireVoice(voice)->voice->channels.controls.muted = muted != 0; });
+}
+
+haptoflow_status haptoflow_voice_set_paused(haptoflow_voice voice, uint32_t paused) {
+    return guarded([&] { requireVoice(voice)->voice->channels.controls.paused = paused != 0; });
+}
+
+haptoflow_status haptoflow_voice_panic(haptoflow_voice voice) {
+    return guarded([&] { requireVoice(voice)->voice->channels.controls.panics.fetch_add(1); });
+}
+
+haptoflow_status haptoflow_panic() {
+    for (std::size_t place = 0; place < VoiceTable::capacity; ++place) {
+        if (const VoiceTable::Use use = voices().useAt(place)) {
+            use->voice->channels.controls.panics.fetch_add(1);
+        }
+    }
+    return HAPTOFLOW_OK;
+}
+
+haptoflow_status haptoflow_voice_get_statistics(haptoflow_voice voice, haptoflow_voice_statistics* statistics) {
+    return guarded([&] {
+        const VoiceTable::Use use = requireVoice(voice);
+        const engine::VoiceCounters& counters = use->voice->channels.counters;
+        haptoflow_voice_statistics content{};
+        content.lead_samples = counters.leadSamples;
+        content.updates = counters.updates;
+        content.inferences = counters.inferences;
+        content.skipped = counters.skipped;
+        content.onsets = counters.onsets;
+        content.taps = counters.taps;
+        content.underruns = counters.underruns;
+        content.late = counters.late;
+        content.dropped = counters.dropped;
+        content.failures = counters.failures;
+        content.sanitised = counters.sanitised;
+        content.stale_stops = counters.staleStops;
+        content.non_finite_samples = counters.nonFiniteSamples;
+        content.limited_samples = counters.limitedSamples;
+        content.rendered_frames = counters.renderedFrames;
+        content.rate_changes = counters.rateChanges;
+        content.refused_calls = use->refusedCalls;
+        writeDescriptor(statistics, content, "statistics");
+    });
+}
+
+haptoflow_status haptoflow_voice_place(haptoflow_voice voice, uint32_t* place) {
+    return guarded([&] {
+        (void)require(place, "place");
+        const std::size_t found = voices().placeOf(voice);
+        if (found == VoiceTable::capacity) {
+            throw std::invalid_argument("not an open voice");
+        }
+        *place = static_cast<uint32_t>(found);
+    });
+}

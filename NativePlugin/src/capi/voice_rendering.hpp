@@ -1,0 +1,28 @@
+#pragma once
+
+#include "capi/voice_table.hpp"
+#include "haptoflow/haptoflow.h"
+
+#include <cstdint>
+
+namespace haptoflow::capi {
+
+/// Where a voice's samples go: one channel of interleaved frames, or all.
+struct ChannelTarget {
+    static constexpr std::uint32_t maximumChannels = 64;
+
+    float* interleaved = nullptr;
+    std::uint32_t frameCount = 0;
+    std::uint32_t channelCount = 0;
+    /// HAPTOFLOW_ALL_CHANNELS or an index.
+    std::int32_t channel = HAPTOFLOW_ALL_CHANNELS;
+
+    [[nodiscard]] bool isValid() const noexcept;
+};
+
+/// Renders the voice into a valid target; zeros where there is none, or where another thread renders it. Wait-free:
+/// made for the audio callback.
+[[nodiscard]] haptoflow_status renderInto(const VoiceTable::Use& use, const ChannelTarget& target,
+                                          double sampleRateHz) noexcept;
+
+}  // namespace haptoflow::capi

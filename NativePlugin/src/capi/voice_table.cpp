@@ -1,0 +1,91 @@
+#include "capi/voice_table.hpp"
+
+#include <chrono>
+#include <stdexcept>
+#include <thread>
+#include <utility>
+
+namespace haptoflow::capi {
+namespace {
+
+constexpr haptoflow_voice placeBits = 0xFF;
+constexpr int generationShift = 8;
+
+}  // namespace
+
+VoiceTable& voices() {
+    // Never destroyed: an audio thread may still ask when static objects go.
+    static auto& table = *new VoiceTable;
+    return table;
+}
+
+haptoflow_voice VoiceTable::open(std::unique_ptr<OpenVoice> voice) {
+    const std::lock_guard lock(mutex_);
+    for (std::size_t index = 0; index < capacity; ++index) {
+        Place& place = places_[index];
+        if (place.voice != nullptr) {
+            continue;
+        }
+        ++place.generation;
+        const haptoflow_voice handle = (place.generation << generationShift) | index;
+        place.voice = std::move(voice);
+        place.handle.store(handle);
+        return handle;
+    }
+    throw std::invalid_argument("all " + std::to_string(capacity) + " voices are in use: destroy one first");
+}
+
+bool VoiceTable::close(haptoflow_voice handle) {
+    const std::lock_guard lock(mutex_);
+    const std::size_t index = handle & placeBits;
+    return index < capacity && closeLocked(places_[index], handle);
+}
+
+void VoiceTable::closeAll(const engine::LiveEngine& engine) {
+    const std::lock_guard lock(mutex_);
+    for (Place& place : places_) {
+        if (place.voice != nullptr && place.voice->engine.get() == &engine) {
+            closeLocked(place, place.handle.load());
+        }
+    }
+}
+
+bool VoiceTable::closeLocked(Place& place, haptoflow_voice handle) {
+    if (handle == 0 || place.handle.load() != handle) {
+        return false;
+    }
+    // From here on nobody new gets in; those inside are waited for. Sequentially consistent, like the entry below: of
+    // "handle gone" and "user there" each side sees the other's.
+    place.handle.store(0);
+    while (place.users.load() != 0) {
+        std::this_thread::sleep_for(std::chrono::microseconds(100));
+    }
+    place.voice->engine->removeVoice(*place.voice->voice);
+    place.voice.reset();
+    return true;
+}
+
+VoiceTable::Use VoiceTable::use(haptoflow_voice handle) noexcept {
+    const std::size_t index = handle & placeBits;
+    if (handle == 0 || index >= capacity) {
+        return {};
+    }
+    Place& place = places_[index];
+    place.users.fetch_add(1);
+    if (place.handle.load() != handle) {
+        place.users.fetch_sub(1, std::memory_order_release);
+        return {};
+    }
+    return {&place.users, place.voice.get()};
+}
+
+VoiceTable::Use VoiceTable::useAt(std::size_t place) noexcept {
+    return place < capacity ? use(places_[place].handle.load()) : Use{};
+}
+
+std::size_t VoiceTable::placeOf(haptoflow_voice handle) const noexcept {
+    const std::size_t index = handle & placeBits;
+    return handle != 0 && index < capacity && places_[index].handle.load() == handle ? index : capacity;
+}
+
+}  // namespace haptoflow::capi

@@ -1,0 +1,87 @@
+#pragma once
+
+#include "engine/live_engine.hpp"
+#include "haptoflow/haptoflow.h"
+
+#include <array>
+#include <atomic>
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <utility>
+
+namespace haptoflow::capi {
+
+/// A voice with the engine that serves it, kept alive until the voice is destroyed.
+struct OpenVoice {
+    std::shared_ptr<engine::LiveEngine> engine;
+    std::shared_ptr<engine::LiveVoice> voice;
+    std::atomic_flag publishing{};
+    std::atomic_flag rendering{};
+    std::atomic<std::uint64_t> refusedCalls{0};
+    /// Whoever holds `rendering` renders into it. As long as any platform's block; longer ones go in pieces.
+    std::array<float, 8192> block{};
+};
+
+/// The process's voices in a fixed number of places. A handle is a place and a count of how often that place was used,
+/// so that looking one up needs no lock, and one that was destroyed is recognised. Destroying waits for the users.
+class VoiceTable {
+public:
+    static constexpr std::size_t capacity = HAPTOFLOW_MAXIMUM_VOICES;
+
+    /// A user's hold on a voice; null where the handle is not open. Wait-free.
+    class Use {
+    public:
+        Use() = default;
+        Use(const Use&) = delete;
+        Use& operator=(const Use&) = delete;
+        Use(Use&& other) noexcept : users_(std::exchange(other.users_, nullptr)), voice_(other.voice_) {}
+        Use& operator=(Use&&) = delete;
+        ~Use() {
+            if (users_ != nullptr) {
+                users_->fetch_sub(1, std::memory_order_release);
+            }
+        }
+        [[nodiscard]] OpenVoice* get() const noexcept { return voice_; }
+        [[nodiscard]] OpenVoice* operator->() const noexcept { return voice_; }
+        [[nodiscard]] explicit operator bool() const noexcept { return voice_ != nullptr; }
+
+    private:
+        friend class VoiceTable;
+        Use(std::atomic<std::uint32_t>* users, OpenVoice* voice) noexcept : users_(users), voice_(voice) {}
+
+        std::atomic<std::uint32_t>* users_ = nullptr;
+        OpenVoice* voice_ = nullptr;
+    };
+
+    /// Throws std::invalid_argument when every place is taken.
+    [[nodiscard]] haptoflow_voice open(std::unique_ptr<OpenVoice> voice);
+    /// Waits until nobody uses the voice any more. False where the handle is not open.
+    bool close(haptoflow_voice handle);
+    /// Closes all voices of that engine.
+    void closeAll(const engine::LiveEngine& engine);
+
+    [[nodiscard]] Use use(haptoflow_voice handle) noexcept;
+    /// The voice at that place, if there is one.
+    [[nodiscard]] Use useAt(std::size_t place) noexcept;
+    /// The place of a handle that is open; capacity otherwise.
+    [[nodiscard]] std::size_t placeOf(haptoflow_voice handle) const noexcept;
+
+private:
+    struct Place {
+        // 0 while free, otherwise the handle.
+        std::atomic<haptoflow_voice> handle{0};
+        std::atomic<std::uint32_t> users{0};
+        std::unique_ptr<OpenVoice> voice;
+        std::uint64_t generation = 0;
+    };
+
+    bool closeLocked(Place& place, haptoflow_voice handle);
+
+    std::mutex mutex_;
+    std::array<Place, capacity> places_;
+};
+
+[[nodiscard]] VoiceTable& voices();
+
+}  // namespace haptoflow::capi

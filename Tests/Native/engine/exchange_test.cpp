@@ -1,0 +1,108 @@
+#include "engine/mailbox.hpp"
+#include "engine/segment_queue.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cstdint>
+#include <thread>
+
+namespace haptoflow::engine {
+namespace {
+
+struct Message {
+    std::uint64_t number = 0;
+    std::array<std::uint64_t, 64> copies{};
+};
+
+TEST(MailboxTest, TheNewestMessageIsFetchedOnceAndOlderOnesAreGone) {
+    Mailbox<int> mailbox;
+    EXPECT_FALSE(mailbox.fetch());
+    for (const int number : {1, 2, 3}) {
+        mailbox.draft() = number;
+        mailbox.post();
+    }
+    EXPECT_TRUE(mailbox.fetch());
+    EXPECT_EQ(mailbox.current(), 3);
+    EXPECT_FALSE(mailbox.fetch());
+    EXPECT_EQ(mailbox.current(), 3);
+}
+
+TEST(MailboxTest, AReaderBesideAWriterNeverSeesAHalfWrittenOrAnOlderMessage) {
+    Mailbox<Message> mailbox;
+    constexpr std::uint64_t count = 20000;
+    std::thread writer([&mailbox] {
+        for (std::uint64_t number = 1; number <= count; ++number) {
+            Message& draft = mailbox.draft();
+            draft.number = number;
+            draft.copies.fill(number);
+            mailbox.post();
+        }
+    });
+    std::uint64_t last = 0;
+    bool isWhole = true;
+    while (last < count) {
+        if (!mailbox.fetch()) {
+            std::this_thread::yield();
+            continue;
+        }
+        const Message& message = mailbox.current();
+        isWhole = isWhole && message.number > last &&
+                  std::ranges::all_of(message.copies, [&](std::uint64_t copy) { return copy == message.number; });
+        last = message.number;
+    }
+    writer.join();
+    EXPECT_TRUE(isWhole);
+}
+
+TEST(SegmentQueueTest, SegmentsComeOutInOrderAndAFullQueueRefuses) {
+    SegmentQueue queue;
+    EXPECT_EQ(queue.front(), nullptr);
+    QueuedSegment segment;
+    for (std::uint64_t sequence = 1; sequence <= SegmentQueue::capacity; ++sequence) {
+        segment.sequence = sequence;
+        EXPECT_TRUE(queue.push(segment));
+    }
+    EXPECT_EQ(queue.room(), 0U);
+    EXPECT_FALSE(queue.push(segment));
+    for (std::uint64_t sequence = 1; sequence <= SegmentQueue::capacity; ++sequence) {
+        ASSERT_NE(queue.front(), nullptr);
+        EXPECT_EQ(queue.front()->sequence, sequence);
+        queue.pop();
+    }
+    EXPECT_EQ(queue.front(), nullptr);
+}
+
+TEST(SegmentQueueTest, BetweenTwoThreadsNoSegmentIsLostOrTorn) {
+    SegmentQueue queue;
+    constexpr std::uint64_t count = 20000;
+    std::thread writer([&queue] {
+        QueuedSegment segment;
+        for (std::uint64_t sequence = 1; sequence <= count; ++sequence) {
+            segment.sequence = sequence;
+            segment.samplesMps2.fill(static_cast<float>(sequence));
+            while (!queue.push(segment)) {
+                std::this_thread::yield();
+            }
+        }
+    });
+    bool isWhole = true;
+    for (std::uint64_t expected = 1; expected <= count; ++expected) {
+        const QueuedSegment* segment = queue.front();
+        while (segment == nullptr) {
+            std::this_thread::yield();
+            segment = queue.front();
+        }
+        isWhole = isWhole && segment->sequence == expected &&
+                  segment->samplesMps2.front() == static_cast<float>(expected) &&
+                  segment->samplesMps2.back() == static_cast<float>(expected);
+        queue.pop();
+    }
+    writer.join();
+    EXPECT_TRUE(isWhole);
+}
+
+}  // namespace
+}  // namespace haptoflow::engine

@@ -1,0 +1,60 @@
+#pragma once
+
+#include "inference/segment_generator.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <functional>
+#include <numbers>
+#include <span>
+#include <utility>
+
+namespace haptoflow::engine::testing {
+
+/// Answers every request with a function of it, and remembers how often it was asked.
+class FakeGenerator final : public inference::SegmentGenerator {
+public:
+    using Answer = std::function<void(const inference::SegmentRequest&, std::span<float>)>;
+    explicit FakeGenerator(Answer answer, float levelMps2 = 1.0F)
+        : answer_(std::move(answer)), levelMps2_(levelMps2) {}
+
+    void generate(std::span<const inference::SegmentRequest> requests, std::span<float> segments) override {
+        ++rounds;
+        for (std::size_t i = 0; i < requests.size(); ++i) {
+            ++generated;
+            answer_(requests[i], segments.subspan(i * inference::segmentSamples, inference::segmentSamples));
+        }
+    }
+    void levels(std::span<const inference::SegmentRequest> requests, std::span<float> levelsMps2) override {
+        std::fill_n(levelsMps2.begin(), requests.size(), levelMps2_);
+    }
+    int rounds = 0;
+    int generated = 0;
+
+private:
+    Answer answer_;
+    float levelMps2_;
+};
+
+inline constexpr double toneHz = 100.0;
+
+/// Goes on with a 100 Hz tone of amplitude 1 from where the past stopped: phase and direction come from the last two
+/// samples; out of silence it begins at zero.
+inline void continueTone(const inference::SegmentRequest& request, std::span<float> segment) {
+    const double step = 2.0 * std::numbers::pi * toneHz / inference::waveformRateHz;
+    const double before = request.previous[inference::segmentSamples - 2];
+    const double last = request.previous[inference::segmentSamples - 1];
+    // Of sin(p) and sin(p - step) the phase p.
+    const double cosine = (last * std::cos(step) - before) / std::sin(step);
+    const double phase = std::abs(last) + std::abs(cosine) < 1e-6 ? 0.0 : std::atan2(last, cosine);
+    for (std::size_t i = 0; i < segment.size(); ++i) {
+        segment[i] = static_cast<float>(std::sin(phase + step * static_cast<double>(i + 1)));
+    }
+}
+
+inline void whiteNoise(const inference::SegmentRequest& request, std::span<float> segment) {
+    std::ranges::copy(request.noise, segment.begin());
+}
+
+}  // namespace haptoflow::engine::testing

@@ -1,0 +1,202 @@
+// Real threads: the worker, publishers and audio callbacks of several voices at once.
+#include "engine/live_engine.hpp"
+
+#include "fake_generators.hpp"
+#include "simulated_device.hpp"
+#include "test_model.hpp"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <chrono>
+#include <thread>
+#include <vector>
+
+namespace haptoflow::engine {
+namespace {
+
+using testing::FakeGenerator;
+
+class LiveEngineTest : public ::testing::Test {
+protected:
+    [[nodiscard]] LiveEngineSettings settings(bool hasWorker) const {
+        LiveEngineSettings settings;
+        settings.quality.fixedTier = 0;
+        settings.hasWorker = hasWorker;
+        return settings;
+    }
+
+    [[nodiscard]] std::unique_ptr<LiveEngine> engine(const LiveEngineSettings& settings, int tiers = 1) const {
+        std::vector<EngineTier> ready;
+        for (int tier = 0; tier < tiers; ++tier) {
+            ready.push_back({std::to_string(tier), std::make_unique<FakeGenerator>(testing::continueTone)});
+        }
+        return std::make_unique<LiveEngine>(model_, std::move(ready), 0, settings);
+    }
+
+    /// Renders until the condition holds, at most about ten seconds of wall time.
+    template <typename Condition>
+    static bool renderUntil(LiveVoice& voice, Condition condition) {
+        std::vector<float> block(256);
+        for (int i = 0; i < 10000 && !condition(); ++i) {
+            voice.renderer.render(block, 48000.0);
+            std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        }
+        return condition();
+    }
+
+    std::shared_ptr<const model::ModelFile> model_ =
+        std::make_shared<const model::ModelFile>(testing::smallModel());
+};
+
+TEST_F(LiveEngineTest, SteppedByHandItServesAllTouchingVoicesInOneBatchAndTheOthersNotAtAll) {
+    auto generator = std::make_unique<FakeGenerator>(testing::continueTone);
+    FakeGenerator& seen = *generator;
+    std::vector<EngineTier> tiers;
+    tiers.push_back({"only", std::move(generator)});
+    LiveEngine engine(model_, std::move(tiers), 0, settings(false));
+    std::vector<std::shared_ptr<LiveVoice>> voices;
+    for (int i = 0; i < 5; ++i) {
+        voices.push_back(engine.addVoice(48000.0));
+    }
+    std::vector<float> block(256);
+    for (int update = 0; update < 10; ++update) {
+        for (std::size_t i = 0; i < voices.size(); ++i) {
+            engine.publish(*voices[i], i < 3 ? testing::sliding() : testing::lifted(0));
+        }
+        for (const auto& voice : voices) {
+            for (int blocks = 0; blocks < 3; ++blocks) {
+                voice->renderer.render(block, 48000.0);
+            }
+        }
+        const RoundResult result = engine.step();
+        EXPECT_EQ(result.voices, 3U);
+    }
+    EXPECT_EQ(seen.rounds, 10);
+    EXPECT_EQ(seen.generated, 30);
+    EXPECT_EQ(voices[4]->channels.counters.inferences, 0U);
+    EXPECT_EQ(engine.statistics().segments, 30U);
+}
+
+TEST_F(LiveEngineTest, WhileNothingTouchesTheWorkerSleepsAndInfersNothing) {
+    const auto engine = this->engine(settings(true));
+    const auto voice = engine->addVoice(48000.0);
+    const std::uint64_t wakes = engine->statistics().wakes;
+    std::vector<float> block(256);
+    for (int update = 0; update < 500; ++update) {
+        engine->publish(*voice, testing::lifted(0));
+        voice->renderer.render(block, 48000.0);
+    }
+    EXPECT_EQ(engine->statistics().wakes, wakes);
+    EXPECT_EQ(engine->statistics().rounds, 0U);
+}
+
+TEST_F(LiveEngineTest, ATouchIsGeneratedForByTheWorkerAndEndsWithIt) {
+    const auto engine = this->engine(settings(true));
+    const auto voice = engine->addVoice(48000.0);
+    const VoiceCounters& counters = voice->channels.counters;
+    EXPECT_TRUE(renderUntil(*voice, [&] {
+        engine->publish(*voice, testing::sliding());
+        return counters.inferences >= 20;
+    }));
+    engine->stop();
+    std::vector<float> block(256);
+    voice->renderer.render(block, 48000.0);
+    voice->renderer.render(block, 48000.0);
+    engine->publish(*voice, testing::sliding());
+    voice->renderer.render(block, 48000.0);
+    EXPECT_EQ(testing::peak(block), 0.0F) << "nobody generates any more";
+    engine->removeVoice(*voice);
+}
+
+TEST_F(LiveEngineTest, ManyVoicesPublishersAndCallbacksAtOnceLeaveEveryWaveWhole) {
+    const auto engine = this->engine(settings(true));
+    constexpr int count = 4;
+    std::atomic<bool> done{false};
+    std::vector<std::shared_ptr<LiveVoice>> voices;
+    std::vector<std::thread> threads;
+    std::array<std::atomic<float>, count> peaks{};
+    for (int i = 0; i < count; ++i) {
+        voices.push_back(engine->addVoice(48000.0));
+    }
+    for (std::size_t i = 0; i < count; ++i) {
+        LiveVoice& voice = *voices[i];
+        threads.emplace_back([&, i] {
+            std::vector<float> block(128 + 64 * i);
+            while (!done) {
+                voice.renderer.render(block, 48000.0);
+                peaks[i] = std::max(peaks[i].load(), testing::peak(block));
+                std::this_thread::sleep_for(std::chrono::microseconds(900));
+            }
+        });
+        threads.emplace_back([&, i] {
+            ContactState state = testing::sliding();
+            for (int update = 0; !done; ++update) {
+                state.touching = update % 50 < 45;
+                state.touchCounter = static_cast<std::uint32_t>(update / 50 + 1);
+                state.velocityMps = {0.05F + 0.01F * static_cast<float>(i), 0.1F};
+                engine->publish(voice, state);
+                voice.channels.controls.muted = update % 97 == 96;
+                std::this_thread::sleep_for(std::chrono::milliseconds(2));
+            }
+        });
+    }
+    threads.emplace_back([&] {
+        for (int i = 0; !done; ++i) {
+            const auto passing = engine->addVoice(44100.0);
+            engine->publish(*passing, testing::sliding());
+            std::this_thread::sleep_for(std::chrono::milliseconds(3));
+            engine->removeVoice(*passing);
+            (void)engine->statistics();
+        }
+    });
+    std::this_thread::sleep_for(std::chrono::milliseconds(1200));
+    done = true;
+    for (std::thread& thread : threads) {
+        thread.join();
+    }
+    for (std::size_t i = 0; i < count; ++i) {
+        const VoiceCounters& counters = voices[i]->channels.counters;
+        EXPECT_GT(counters.inferences, 20U);
+        EXPECT_GT(counters.onsets, 3U);
+        EXPECT_EQ(counters.nonFiniteSamples, 0U);
+        EXPECT_GT(peaks[i], 0.2F / 60.0F);
+        EXPECT_LT(peaks[i], 3.0F / 60.0F);
+        engine->removeVoice(*voices[i]);
+    }
+}
+
+TEST_F(LiveEngineTest, AutomaticQualityMeasuresEveryTierWhileNothingTouchesAndThenDecides) {
+    LiveEngineSettings automatic = settings(true);
+    automatic.quality.fixedTier.reset();
+    automatic.quality.budgetMs = 1000.0;
+    automatic.updateRateHz = 2000.0;
+    const auto engine = this->engine(automatic, 3);
+    for (int i = 0; i < 10000 && engine->statistics().measuring; ++i) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    const EngineStatistics statistics = engine->statistics();
+    EXPECT_FALSE(statistics.measuring);
+    EXPECT_EQ(statistics.tier, 2U);
+    for (const TierTimes& tier : statistics.tiers) {
+        EXPECT_EQ(tier.runs, QualityControl::measuringRuns);
+        EXPECT_GT(tier.percentile99Ms, 0.0);
+    }
+}
+
+TEST_F(LiveEngineTest, SettingsOutOfRangeAreRefused) {
+    LiveEngineSettings bad = settings(false);
+    bad.updateRateHz = 0.0;
+    EXPECT_THROW((void)engine(bad), std::invalid_argument);
+    bad = settings(false);
+    bad.fixedLeadMs = 51.0;
+    EXPECT_THROW((void)engine(bad), std::invalid_argument);
+    bad = settings(false);
+    bad.quality.budgetMs = 0.0;
+    EXPECT_THROW((void)engine(bad), std::invalid_argument);
+    EXPECT_THROW(LiveEngine(model_, {}, 0, settings(false)), std::invalid_argument);
+    EXPECT_THROW((void)engine(settings(false))->addVoice(4000.0), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace haptoflow::engine

@@ -1,0 +1,393 @@
+#include "simulated_device.hpp"
+#include "test_model.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <random>
+#include <vector>
+
+namespace haptoflow::engine {
+namespace {
+
+using testing::FakeGenerator;
+using testing::SimulatedDevice;
+
+constexpr double rateHz = 48000.0;
+/// -60 dB of what the seed's amplitude gives at full scale 60.
+constexpr float silence = 1e-3F / 60.0F;
+
+class LiveVoiceTest : public ::testing::Test {
+protected:
+    model::ModelFile model_ = testing::smallModel();
+    FakeGenerator tone_{testing::continueTone};
+
+    static std::optional<ContactState> slide(double) { return testing::sliding(); }
+};
+
+std::span<const float> from(const SimulatedDevice& device, std::size_t frame) {
+    return std::span<const float>(device.output).subspan(frame);
+}
+
+TEST_F(LiveVoiceTest, AtTouchDownTheSeedSoundsInTheVeryNextBlock) {
+    SimulatedDevice device(model_, tone_);
+    device.renderBlock();
+    EXPECT_EQ(testing::peak(device.output), 0.0F);
+    device.publish(testing::sliding());
+    const std::size_t before = device.output.size();
+    device.renderBlock();
+    EXPECT_GT(testing::peak(from(device, before)), 0.2F / 60.0F);
+    EXPECT_EQ(device.counters().onsets, 1U);
+}
+
+TEST_F(LiveVoiceTest, OnsetDoesNotWaitForInferenceAndTheSeedLastsUntilTheFirstSegment) {
+    testing::DeviceSettings settings;
+    settings.latencySeconds = [](double) { return 0.05; };
+    SimulatedDevice device(model_, tone_, settings);
+    device.run(0.5, slide);
+    EXPECT_EQ(device.counters().underruns, 0U);
+    EXPECT_GT(device.counters().inferences, 5U);
+}
+
+TEST_F(LiveVoiceTest, ATapThatCameAndWentBetweenTwoBlocksIsHeardForTenMillisecondsAndEnds) {
+    SimulatedDevice device(model_, tone_);
+    device.run(0.1, [](double) { return testing::lifted(0); });
+    ContactState tap = testing::sliding();
+    tap.touchCounter = 1;
+    device.publish(tap);
+    device.publish(testing::lifted(1));
+    const std::size_t begin = device.output.size();
+    for (int block = 0; block < 8; ++block) {
+        device.renderBlock();
+    }
+    EXPECT_GT(testing::peak(from(device, begin)), 0.2F / 60.0F);
+    EXPECT_LT(testing::peak(from(device, begin + 768)), silence) << "10 ms, a block, and 5 ms to fade";
+    EXPECT_EQ(device.counters().taps, 1U);
+}
+
+TEST_F(LiveVoiceTest, ATapThatOnlyTheTouchCounterTellsOfIsHeard) {
+    SimulatedDevice device(model_, tone_);
+    device.run(0.1, [](double) { return testing::lifted(0); });
+    ContactState afterwards = testing::sliding();
+    afterwards.touching = false;
+    device.publish(afterwards);
+    const std::size_t begin = device.output.size();
+    for (int block = 0; block < 8; ++block) {
+        device.renderBlock();
+    }
+    EXPECT_GT(testing::peak(from(device, begin)), 0.2F / 60.0F);
+    EXPECT_LT(testing::peak(from(device, begin + 768)), silence);
+}
+
+TEST_F(LiveVoiceTest, NothingOfAnEarlierTouchSoundsAfterANewOne) {
+    // Segments of the first touch are all ones, and one of them is still under way when the second begins.
+    FakeGenerator ones([](const inference::SegmentRequest&, std::span<float> segment) {
+        std::ranges::fill(segment, 1.0F);
+    });
+    testing::DeviceSettings settings;
+    settings.latencySeconds = [](double) { return 0.02; };
+    SimulatedDevice device(model_, ones, settings);
+    device.run(0.301, slide);
+    device.publish(testing::lifted(1));
+    device.run(0.008, [](double) { return testing::lifted(1); });
+    ContactState second = testing::sliding();
+    second.touchCounter = 2;
+    const std::uint64_t droppedBefore = device.counters().dropped;
+    device.run(0.015, [&second](double) { return second; });
+    EXPECT_GE(device.counters().dropped, droppedBefore + 1) << "the segment of the first touch";
+}
+
+TEST_F(LiveVoiceTest, AfterLiftOffThereIsSilenceWithinOneBlockAndFiveMilliseconds) {
+    for (const std::size_t block : {64U, 128U, 256U, 512U, 1024U}) {
+        testing::DeviceSettings settings;
+        settings.blockFrames = block;
+        SimulatedDevice device(model_, tone_, settings);
+        device.run(0.4, slide);
+        device.publish(testing::lifted());
+        const std::size_t begin = device.output.size();
+        device.run(0.2, [](double) { return testing::lifted(); });
+        EXPECT_GT(testing::peak(device.output), 0.5F / 60.0F);
+        EXPECT_LT(testing::peak(from(device, begin + block + 240)), silence) << block;
+    }
+}
+
+TEST_F(LiveVoiceTest, AContactThatNobodyRenewsFallsSilentAfterATenthOfASecondAndIsFeltAgainWhenItIs) {
+    SimulatedDevice device(model_, tone_);
+    device.run(0.4, slide);
+    device.publish(testing::sliding());
+    const std::size_t begin = device.output.size();
+    device.run(0.3, [](double) { return std::nullopt; });
+    EXPECT_GT(testing::peak(from(device, begin).first(4000)), 0.5F / 60.0F);
+    EXPECT_LT(testing::peak(from(device, begin + 4800 + 256 + 240)), silence);
+    EXPECT_EQ(device.counters().staleStops, 1U);
+    const std::size_t again = device.output.size();
+    device.run(0.1, slide);
+    EXPECT_GT(testing::peak(from(device, again)), 0.5F / 60.0F);
+}
+
+TEST_F(LiveVoiceTest, PauseMuteAndWorkerDeathSilenceWithinOneBlockAndFiveMilliseconds) {
+    const std::vector<std::function<void(SimulatedDevice&, bool)>> switches{
+        [](SimulatedDevice& device, bool off) { device.controls().paused = off; },
+        [](SimulatedDevice& device, bool off) { device.controls().muted = off; },
+        [](SimulatedDevice& device, bool off) { device.workerAlive = !off; },
+    };
+    for (const auto& turn : switches) {
+        SimulatedDevice device(model_, tone_);
+        device.run(0.4, slide);
+        turn(device, true);
+        const std::size_t begin = device.output.size();
+        device.run(0.2, slide);
+        EXPECT_LT(testing::peak(from(device, begin + 256 + 240)), silence);
+        const std::uint64_t inferences = device.counters().inferences;
+        device.run(0.2, slide);
+        EXPECT_EQ(device.counters().inferences, inferences) << "silent, a voice costs no inference";
+        turn(device, false);
+        const std::size_t again = device.output.size();
+        device.run(0.2, slide);
+        EXPECT_GT(testing::peak(from(device, again)), 0.5F / 60.0F);
+    }
+}
+
+TEST_F(LiveVoiceTest, PanicIsSilentAtTheEndOfTheNextBlockAndStaysSoUntilANewTouch) {
+    for (const std::size_t block : {64U, 256U}) {
+        testing::DeviceSettings settings;
+        settings.blockFrames = block;
+        SimulatedDevice device(model_, tone_, settings);
+        device.run(0.4, slide);
+        const float ordinaryStep = testing::largestStep(device.output);
+        device.controls().panics.fetch_add(1);
+        const std::size_t begin = device.output.size();
+        device.run(0.3, slide);
+        EXPECT_LT(testing::peak(from(device, begin + block)), silence) << block;
+        EXPECT_LT(testing::largestStep(from(device, begin - 1)), ordinaryStep + 1.0F / 60.0F / static_cast<float>(block));
+        // Sliding that stops and resumes is the same touch.
+        device.run(0.1, [](double) { return testing::sliding(0.0F); });
+        device.run(0.1, slide);
+        EXPECT_LT(testing::peak(from(device, begin + block)), silence);
+        const std::size_t again = device.output.size();
+        device.run(0.1, [](double) {
+            ContactState state = testing::sliding();
+            state.touchCounter = 2;
+            return state;
+        });
+        EXPECT_GT(testing::peak(from(device, again)), 0.5F / 60.0F);
+    }
+}
+
+TEST_F(LiveVoiceTest, SlidingThatStopsCostsNoInferenceAndResumesAtOnce) {
+    SimulatedDevice device(model_, tone_);
+    device.run(0.4, slide);
+    device.run(0.1, [](double) { return testing::sliding(0.0F); });
+    const std::uint64_t inferences = device.counters().inferences;
+    const std::uint64_t skipped = device.counters().skipped;
+    const std::size_t quiet = device.output.size();
+    device.run(1.0, [](double) { return testing::sliding(0.0F); });
+    EXPECT_EQ(device.counters().inferences, inferences);
+    EXPECT_GE(device.counters().skipped, skipped + 70);
+    EXPECT_EQ(testing::peak(from(device, quiet)), 0.0F);
+    device.publish(testing::sliding());
+    const std::size_t again = device.output.size();
+    device.renderBlock();
+    EXPECT_GT(testing::peak(from(device, again)), 0.2F / 60.0F);
+}
+
+TEST_F(LiveVoiceTest, WithoutTouchNothingIsInferredAndOnlyZerosAreWritten) {
+    SimulatedDevice device(model_, tone_);
+    device.run(2.0, [](double) { return testing::lifted(0); });
+    EXPECT_EQ(tone_.generated, 0);
+    EXPECT_EQ(device.counters().inferences, 0U);
+    EXPECT_TRUE(device.waveform.samples.empty());
+    EXPECT_TRUE(std::ranges::all_of(device.output, [](float sample) { return sample == 0.0F; }));
+}
+
+TEST_F(LiveVoiceTest, TheSplicesOfASteadySlideLeaveNoTraceInTheWave) {
+    SimulatedDevice device(model_, tone_);
+    device.run(2.0, slide);
+    const auto& wave = device.waveform.samples;
+    const double factor = 2.0 * std::cos(2.0 * M_PI * testing::toneHz / 2000.0);
+    ASSERT_GT(wave.size(), 3500U);
+    for (std::size_t i = 300; i < wave.size(); ++i) {
+        ASSERT_NEAR(wave[i], factor * wave[i - 1] - wave[i - 2], 2e-3) << "sample " << i;
+    }
+    EXPECT_EQ(device.counters().underruns, 0U);
+    EXPECT_EQ(device.counters().late, 0U);
+    EXPECT_GT(device.waveform.seams.size(), 100U);
+}
+
+class StallTest : public LiveVoiceTest, public ::testing::WithParamInterface<double> {};
+
+TEST_P(StallTest, ALateWorkerNeverMakesAStepAndTheVoiceRecovers) {
+    const double stall = GetParam();
+    testing::DeviceSettings settings;
+    settings.latencySeconds = [stall](double now) { return std::fmod(now, 1.0) < 0.014 && now > 0.5 ? stall : 0.002; };
+    SimulatedDevice device(model_, tone_, settings);
+    device.run(4.9, slide);
+    // The tone's own steepest step, a fade of 10 samples, and a splice of 4 from one phase to another.
+    const auto steady = std::span<const float>(device.waveform.samples).subspan(400);
+    EXPECT_LE(testing::largestStep(steady), 0.32F + 2.0F / 4.0F);
+    EXPECT_LE(testing::peak(device.output), 1.0F);
+    if (stall >= 0.1) {
+        EXPECT_GT(device.counters().underruns, 0U);
+    }
+    if (stall <= 0.02) {
+        EXPECT_EQ(device.counters().underruns, 0U);
+    }
+    const std::size_t recent = device.output.size() - 9600;
+    EXPECT_GT(testing::peak(from(device, recent)), 0.9F / 60.0F);
+}
+
+INSTANTIATE_TEST_SUITE_P(Milliseconds, StallTest, ::testing::Values(0.005, 0.02, 0.08, 0.1, 0.5),
+                         [](const auto& stall) { return std::to_string(static_cast<int>(1000.0 * stall.param)); });
+
+TEST_F(LiveVoiceTest, RandomStallsNeverMakeAStep) {
+    std::mt19937 random(3);
+    std::uniform_real_distribution<double> share(0.0, 1.0);
+    testing::DeviceSettings settings;
+    settings.latencySeconds = [&](double) { return share(random) < 0.1 ? 0.3 * share(random) : 0.004 * share(random); };
+    SimulatedDevice device(model_, tone_, settings);
+    device.run(20.0, slide);
+    EXPECT_LE(testing::largestStep(std::span<const float>(device.waveform.samples).subspan(400)), 0.32F + 0.5F);
+    EXPECT_GT(device.counters().inferences, 300U);
+}
+
+struct Blocks {
+    std::size_t frames;
+    std::size_t burst;
+};
+
+class LeadTest : public LiveVoiceTest, public ::testing::WithParamInterface<Blocks> {};
+
+TEST_P(LeadTest, TheLearntLeadIsJustLongEnoughThatHardlyAnySegmentComesLate) {
+    testing::DeviceSettings settings;
+    settings.blockFrames = GetParam().frames;
+    settings.burstBlocks = GetParam().burst;
+    SimulatedDevice device(model_, tone_, settings);
+    device.run(10.0, slide);
+    const double blockSamples = 2000.0 * static_cast<double>(settings.blockFrames * settings.burstBlocks) / rateHz;
+    EXPECT_EQ(device.counters().underruns, 0U);
+    EXPECT_LE(device.counters().late, 15U) << "of 720";
+    EXPECT_LE(device.counters().leadSamples, 4.0 + 2.0 * blockSamples + 2.0);
+}
+
+INSTANTIATE_TEST_SUITE_P(Device, LeadTest,
+                         ::testing::Values(Blocks{64, 1}, Blocks{128, 1}, Blocks{256, 1}, Blocks{512, 1},
+                                           Blocks{1024, 1}, Blocks{256, 2}, Blocks{512, 2}),
+                         [](const auto& blocks) {
+                             return std::to_string(blocks.param.frames) + "x" + std::to_string(blocks.param.burst);
+                         });
+
+TEST_F(LiveVoiceTest, AnotherOutputRateCostsAFadeAndNothingElse) {
+    SimulatedDevice device(model_, tone_);
+    device.run(0.5, slide);
+    const std::uint64_t onsets = device.counters().onsets;
+    const float ordinaryStep = testing::largestStep(device.output);
+    device.setRate(24000.0);
+    const std::size_t begin = device.output.size();
+    device.run(0.5, slide);
+    EXPECT_EQ(device.counters().rateChanges, 1U);
+    EXPECT_EQ(device.counters().onsets, onsets) << "the touch goes on";
+    EXPECT_LE(testing::largestStep(from(device, begin - 1)), 3.0F * ordinaryStep);
+    const auto settled = from(device, begin + 2400);
+    EXPECT_GT(testing::peak(settled), 0.9F / 60.0F);
+    int crossings = 0;
+    for (std::size_t i = 1; i < settled.size(); ++i) {
+        crossings += (settled[i - 1] < 0.0F) != (settled[i] < 0.0F) ? 1 : 0;
+    }
+    const double seconds = static_cast<double>(settled.size()) / 24000.0;
+    EXPECT_NEAR(crossings / seconds, 2.0 * testing::toneHz, 10.0) << "the tone keeps its pitch";
+}
+
+TEST_F(LiveVoiceTest, ARateThatNoOutputRunsAtIsSilentAndHarmless) {
+    SimulatedDevice device(model_, tone_);
+    device.run(0.3, slide);
+    for (const double impossible : {1.0, -5.0, 1e9}) {
+        device.setRate(48000.0);
+        std::vector<float> block(256, 1.0F);
+        device.voice().renderer.render(block, impossible);
+        device.publish(testing::sliding());
+        device.voice().renderer.render(block, impossible);
+        EXPECT_EQ(testing::peak(block), 0.0F);
+        device.run(0.2, slide);
+        EXPECT_GT(testing::peak(from(device, device.output.size() - 4800)), 0.9F / 60.0F);
+    }
+}
+
+TEST_F(LiveVoiceTest, TheBlockLengthMayChangeAtAnyMoment) {
+    SimulatedDevice device(model_, tone_);
+    std::size_t block = 1;
+    for (int i = 0; i < 60; ++i) {
+        device.setBlock(block);
+        device.run(0.02, slide);
+        block = block * 7 % 1021 + 1;
+    }
+    EXPECT_EQ(device.counters().underruns, 0U);
+    EXPECT_LE(testing::largestStep(std::span<const float>(device.waveform.samples).subspan(400)), 0.33F + 0.5F);
+}
+
+TEST_F(LiveVoiceTest, StrengthGlidesAndTheCeilingHoldsWhateverTheNetworkReturns) {
+    FakeGenerator loud([](const inference::SegmentRequest& request, std::span<float> segment) {
+        for (std::size_t i = 0; i < segment.size(); ++i) {
+            segment[i] = 1000.0F * request.noise[i];
+        }
+    });
+    SimulatedDevice device(model_, loud);
+    device.controls().ceiling = 0.25F;
+    device.run(0.5, slide);
+    EXPECT_EQ(testing::peak(device.output), 0.25F);
+    device.controls().strength = 0.0F;
+    device.run(0.1, slide);
+    EXPECT_EQ(testing::peak(from(device, device.output.size() - 2400)), 0.0F);
+}
+
+TEST_F(LiveVoiceTest, AFailedRunPublishesNothingIsCountedAndTheVoiceFadesWhereItsSegmentEnds) {
+    int calls = 0;
+    FakeGenerator failing([&calls](const inference::SegmentRequest& request, std::span<float> segment) {
+        if (++calls > 20 && calls <= 40) {
+            throw std::runtime_error("refused by the test");
+        }
+        testing::continueTone(request, segment);
+    });
+    SimulatedDevice device(model_, failing);
+    device.run(1.5, slide);
+    EXPECT_EQ(device.counters().failures, 20U);
+    EXPECT_GT(device.counters().underruns, 0U);
+    EXPECT_LE(testing::largestStep(std::span<const float>(device.waveform.samples).subspan(400)), 0.32F + 0.5F);
+    EXPECT_GT(testing::peak(from(device, device.output.size() - 4800)), 0.9F / 60.0F);
+}
+
+TEST_F(LiveVoiceTest, UpdatesFasterThanHopsAreSkippedAndTheNewestWins) {
+    testing::DeviceSettings settings;
+    settings.updateHz = 1000.0;
+    settings.latencySeconds = [](double) { return 0.0003; };
+    SimulatedDevice device(model_, tone_, settings);
+    device.run(1.0, slide);
+    EXPECT_LE(device.counters().inferences, 205U) << "a hop is 5 ms at least";
+    EXPECT_GE(device.counters().skipped, 700U);
+    EXPECT_EQ(device.counters().underruns, 0U);
+}
+
+TEST_F(LiveVoiceTest, ADeviceThatStopsAskingStopsInferenceToo) {
+    SimulatedDevice device(model_, tone_);
+    device.run(0.3, slide);
+    const std::uint64_t inferences = device.counters().inferences;
+    for (int update = 0; update < 200; ++update) {
+        device.publish(testing::sliding());
+    }
+    EXPECT_LE(device.counters().inferences, inferences + 1);
+}
+
+TEST_F(LiveVoiceTest, ReadFourTimesFasterTheVoiceStillNeverRunsDry) {
+    for (const double updateHz : {30.0, 72.0, 120.0}) {
+        testing::DeviceSettings settings;
+        settings.updateHz = updateHz;
+        SimulatedDevice device(model_, tone_, settings);
+        // The model's range ends at 0.4 m/s.
+        device.run(2.0, [](double) { return testing::sliding(19.0F); });
+        EXPECT_EQ(device.counters().underruns, 0U) << updateHz;
+    }
+}
+
+}  // namespace
+}  // namespace haptoflow::engine

@@ -1,0 +1,157 @@
+#include "engine/lead_estimator.hpp"
+#include "engine/quality_control.hpp"
+
+#include <gtest/gtest.h>
+
+#include <stdexcept>
+
+namespace haptoflow::engine {
+namespace {
+
+constexpr double budgetMs = 3.0;
+
+/// Three tiers, measured at so many milliseconds each.
+QualityControl measuredControl(double first, double second, double third) {
+    QualityControl control(3, {.fixedTier = std::nullopt, .budgetMs = budgetMs}, 1);
+    const std::array<double, 3> times{first, second, third};
+    while (const auto tier = control.tierToMeasure()) {
+        control.measured(*tier, times.at(*tier));
+    }
+    return control;
+}
+
+void runRounds(QualityControl& control, int rounds, double milliseconds, std::size_t voices = 1) {
+    for (int round = 0; round < rounds; ++round) {
+        control.ran(milliseconds, voices);
+    }
+}
+
+TEST(RunTimesTest, PercentilesAreThoseOfTheLastRuns) {
+    RunTimes times;
+    EXPECT_EQ(times.percentile(0.99), 0.0);
+    for (int run = 1; run <= 100; ++run) {
+        times.add(run);
+    }
+    EXPECT_EQ(times.percentile(0.5), 50.0);
+    EXPECT_EQ(times.percentile(0.99), 99.0);
+    for (int run = 0; run < 128; ++run) {
+        times.add(7.0);
+    }
+    EXPECT_EQ(times.percentile(0.99), 7.0) << "the first hundred are forgotten";
+}
+
+TEST(QualityControlTest, TheMostAccurateTierThatFitsTheBudgetIsTaken) {
+    EXPECT_EQ(measuredControl(0.2, 0.5, 1.5).tier(), 2U);
+    EXPECT_EQ(measuredControl(0.2, 0.5, 3.5).tier(), 1U);
+    EXPECT_EQ(measuredControl(2.0, 4.0, 8.0).tier(), 0U);
+    EXPECT_EQ(measuredControl(20.0, 40.0, 80.0).tier(), 0U) << "too slow a machine still gets the cheapest";
+}
+
+TEST(QualityControlTest, EachTierIsMeasuredTwentyTimesBeforeItDecides) {
+    QualityControl control(2, {.fixedTier = std::nullopt, .budgetMs = budgetMs}, 0);
+    int runs = 0;
+    while (const auto tier = control.tierToMeasure()) {
+        EXPECT_EQ(control.tier(), 0U);
+        control.measured(*tier, 0.1);
+        ++runs;
+    }
+    EXPECT_EQ(runs, 40);
+    EXPECT_EQ(control.tier(), 1U);
+}
+
+TEST(QualityControlTest, RareOverrunsChangeNothingAndThreeCloseTogetherStepDown) {
+    QualityControl control = measuredControl(0.2, 0.5, 1.5);
+    for (int i = 0; i < 20; ++i) {
+        runRounds(control, 40, 1.5);
+        control.ran(9.0, 1);
+    }
+    EXPECT_EQ(control.tier(), 2U);
+    runRounds(control, 3, 9.0);
+    EXPECT_EQ(control.tier(), 1U);
+    EXPECT_EQ(control.stepsDown(), 1U);
+}
+
+TEST(QualityControlTest, BelowTheCheapestTierThereIsNothing) {
+    QualityControl control = measuredControl(0.2, 0.5, 1.5);
+    runRounds(control, 100, 50.0);
+    EXPECT_EQ(control.tier(), 0U);
+    EXPECT_EQ(control.stepsDown(), 2U);
+}
+
+TEST(QualityControlTest, ItStepsUpAgainOnlyAfterALongQuietTimeAndLongerAfterEachFall) {
+    QualityControl control = measuredControl(0.2, 0.5, 1.5);
+    const auto quietRoundsUntilUp = [&control] {
+        runRounds(control, 3, 9.0);
+        const std::size_t fallen = control.tier();
+        int rounds = 0;
+        while (control.tier() == fallen && rounds < 100000) {
+            control.ran(0.5, 1);
+            ++rounds;
+        }
+        return rounds;
+    };
+    const int first = quietRoundsUntilUp();
+    const int second = quietRoundsUntilUp();
+    EXPECT_GE(first, 72 * 5);
+    EXPECT_GE(second, 2 * first - 2);
+    EXPECT_EQ(control.stepsUp(), 2U);
+}
+
+TEST(QualityControlTest, ItDoesNotStepUpToWhatWouldNotFitForSoManyVoices) {
+    QualityControl control = measuredControl(0.2, 0.5, 1.5);
+    runRounds(control, 3, 9.0, 4);
+    ASSERT_EQ(control.tier(), 1U);
+    runRounds(control, 5000, 2.0, 4);
+    EXPECT_EQ(control.tier(), 1U) << "four voices of 1.5 ms are more than the budget";
+    runRounds(control, 5000, 0.5, 1);
+    EXPECT_EQ(control.tier(), 2U);
+}
+
+TEST(QualityControlTest, AFixedTierStaysWhateverItCosts) {
+    QualityControl control(3, {.fixedTier = 2, .budgetMs = budgetMs}, 0);
+    EXPECT_EQ(control.tierToMeasure(), std::nullopt);
+    runRounds(control, 1000, 50.0);
+    EXPECT_EQ(control.tier(), 2U);
+    EXPECT_EQ(control.times(2).percentile(0.5), 50.0) << "what it costs is known all the same";
+}
+
+TEST(QualityControlTest, QualityMayBeChangedAtAnyTime) {
+    QualityControl control = measuredControl(0.2, 0.5, 1.5);
+    control.setSettings({.fixedTier = 0, .budgetMs = budgetMs});
+    EXPECT_EQ(control.tier(), 0U);
+    control.setSettings({.fixedTier = std::nullopt, .budgetMs = budgetMs});
+    EXPECT_EQ(control.tier(), 2U);
+    EXPECT_THROW(QualityControl(3, {.fixedTier = 3, .budgetMs = budgetMs}, 0), std::invalid_argument);
+}
+
+TEST(LeadEstimatorTest, BeforeAnythingIsKnownItAllowsTwoBlocksAndFourMilliseconds) {
+    EXPECT_EQ(LeadEstimator{}.samples(11), 30);
+}
+
+TEST(LeadEstimatorTest, OneStallDoesNotLengthenItAndTwoDo) {
+    LeadEstimator lead;
+    for (int i = 0; i < 200; ++i) {
+        lead.observe(12);
+    }
+    EXPECT_EQ(lead.samples(11), 13);
+    lead.observe(60);
+    EXPECT_EQ(lead.samples(11), 13);
+    lead.observe(60);
+    EXPECT_EQ(lead.samples(11), 61);
+    for (int i = 0; i < 128; ++i) {
+        lead.observe(12);
+    }
+    EXPECT_EQ(lead.samples(11), 13) << "and is forgotten again";
+}
+
+TEST(LeadEstimatorTest, ItIsNeverShorterThanABlockNorLongerThanFiftyMilliseconds) {
+    LeadEstimator lead;
+    for (int i = 0; i < 200; ++i) {
+        lead.observe(0);
+    }
+    EXPECT_EQ(lead.samples(43), 43);
+    EXPECT_EQ(lead.samples(400), 100);
+}
+
+}  // namespace
+}  // namespace haptoflow::engine

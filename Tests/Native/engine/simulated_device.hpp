@@ -1,0 +1,202 @@
+#pragma once
+
+#include "engine/live_voice.hpp"
+#include "fake_generators.hpp"
+
+#include <array>
+#include <atomic>
+#include <cmath>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <vector>
+
+namespace haptoflow::engine::testing {
+
+/// Sees what is played in waveform time, and where segments took over.
+class WaveformRecorder final : public WaveformSink {
+public:
+    void played(std::int64_t start, std::span<const float> samplesMps2) noexcept override {
+        if (samples.empty()) {
+            origin = start;
+        }
+        samples.insert(samples.end(), samplesMps2.begin(), samplesMps2.end());
+    }
+    void tookOver(std::int64_t sample) noexcept override { seams.push_back(sample - origin); }
+
+    std::vector<float> samples;
+    std::vector<std::int64_t> seams;
+    std::int64_t origin = 0;
+};
+
+struct DeviceSettings {
+    double rateHz = 48000.0;
+    std::size_t blockFrames = 256;
+    /// Blocks that the device asks for one right after the other.
+    std::size_t burstBlocks = 1;
+    double updateHz = 72.0;
+    /// From the worker's look at the contact to its segment being there, as a function of the time of looking.
+    std::function<double(double)> latencySeconds = [](double) { return 0.002; };
+    float fullScaleMps2 = 60.0F;
+    std::optional<std::int64_t> fixedLeadSamples;
+};
+
+/// Main thread, worker and audio device of one voice on one simulated clock: contact states at their rate, blocks at
+/// theirs, segments as late as the settings say. Deterministic; real threads have tests of their own.
+class SimulatedDevice {
+public:
+    /// What the hand does at a time; nothing where no state is published then.
+    using Hand = std::function<std::optional<ContactState>(double)>;
+
+    SimulatedDevice(const model::ModelFile& model, inference::SegmentGenerator& generator,
+                    const DeviceSettings& settings = {})
+        : settings_(settings),
+          generator_(generator),
+          levels_(model, generator),
+          voice_(model, levels_, workerAlive, voiceSettings(settings)) {
+        voice_.renderer.setSink(&waveform);
+    }
+
+    /// Goes on for so long. `output` grows by what was played.
+    void run(double seconds, const Hand& hand) {
+        const double end = now_ + seconds;
+        const double period = static_cast<double>(settings_.blockFrames * settings_.burstBlocks) / settings_.rateHz;
+        while (true) {
+            const double next = std::min({nextUpdate_, nextBlock_, pending_ ? pendingAt_ : end});
+            if (next >= end) {
+                break;
+            }
+            now_ = next;
+            if (pending_ && pendingAt_ <= next) {
+                deliver();
+            } else if (nextUpdate_ <= next) {
+                nextUpdate_ += 1.0 / settings_.updateHz;
+                if (const auto state = hand(now_)) {
+                    publish(*state);
+                }
+            } else {
+                nextBlock_ += period;
+                for (std::size_t block = 0; block < settings_.burstBlocks; ++block) {
+                    renderBlock();
+                }
+                if (voice_.planner.awaitsOnset()) {
+                    wakeWorker();
+                }
+            }
+        }
+        now_ = end;
+    }
+
+    void publish(const ContactState& state) {
+        voice_.publisher.publish(state);
+        wakeWorker();
+    }
+
+    void renderBlock() {
+        const std::size_t begin = output.size();
+        output.resize(begin + settings_.blockFrames);
+        voice_.renderer.render(std::span(output).subspan(begin), settings_.rateHz);
+    }
+
+    void setRate(double rateHz) { settings_.rateHz = rateHz; }
+    void setBlock(std::size_t frames) { settings_.blockFrames = frames; }
+
+    [[nodiscard]] const VoiceCounters& counters() const { return voice_.channels.counters; }
+    [[nodiscard]] VoiceControls& controls() { return voice_.channels.controls; }
+    [[nodiscard]] LiveVoice& voice() { return voice_; }
+    [[nodiscard]] double now() const { return now_; }
+
+    std::atomic<bool> workerAlive{true};
+    std::vector<float> output;
+    WaveformRecorder waveform;
+
+private:
+    static LiveVoiceSettings voiceSettings(const DeviceSettings& settings) {
+        LiveVoiceSettings voice;
+        voice.planner.fixedLeadSamples = settings.fixedLeadSamples;
+        voice.outputRateHz = settings.rateHz;
+        voice.fullScaleMps2 = settings.fullScaleMps2;
+        return voice;
+    }
+
+    void wakeWorker() {
+        voice_.planner.serveOutputRate();
+        // Busy: the post stays in the semaphore until the run is over.
+        if (pending_) {
+            missedWake_ = true;
+            return;
+        }
+        if (!workerAlive || !voice_.planner.wake()) {
+            return;
+        }
+        const inference::SegmentRequest& request = voice_.planner.request();
+        try {
+            generator_.generate(std::span(&request, 1), segment_);
+        } catch (const std::exception&) {
+            voice_.planner.fail();
+            return;
+        }
+        pending_ = true;
+        pendingAt_ = now_ + settings_.latencySeconds(now_);
+    }
+
+    void deliver() {
+        pending_ = false;
+        while (voice_.planner.deliver(segment_)) {
+            const inference::SegmentRequest& request = voice_.planner.request();
+            generator_.generate(std::span(&request, 1), segment_);
+        }
+        if (missedWake_) {
+            missedWake_ = false;
+            wakeWorker();
+        }
+    }
+
+    DeviceSettings settings_;
+    inference::SegmentGenerator& generator_;
+    OnsetLevels levels_;
+    LiveVoice voice_;
+    double now_ = 0.0;
+    double nextUpdate_ = 0.0;
+    double nextBlock_ = 0.0;
+    bool pending_ = false;
+    bool missedWake_ = false;
+    double pendingAt_ = 0.0;
+    std::array<float, inference::segmentSamples> segment_{};
+};
+
+/// A tip that slides over the model's first label.
+inline ContactState sliding(float speedMps = 0.1F, float forceNewtons = 1.0F) {
+    ContactState state;
+    state.touching = true;
+    state.touchCounter = 1;
+    state.velocityMps = {speedMps, 0.0F};
+    state.forceNewtons = forceNewtons;
+    state.material.entries[0] = {.label = 0, .weight = 1.0F};
+    state.material.count = 1;
+    return state;
+}
+
+inline ContactState lifted(std::uint32_t touchCounter = 1) {
+    ContactState state;
+    state.touchCounter = touchCounter;
+    return state;
+}
+
+inline float peak(std::span<const float> samples) {
+    float largest = 0.0F;
+    for (const float sample : samples) {
+        largest = std::max(largest, std::abs(sample));
+    }
+    return largest;
+}
+
+inline float largestStep(std::span<const float> samples) {
+    float step = 0.0F;
+    for (std::size_t i = 1; i < samples.size(); ++i) {
+        step = std::max(step, std::abs(samples[i] - samples[i - 1]));
+    }
+    return step;
+}
+
+}  // namespace haptoflow::engine::testing
