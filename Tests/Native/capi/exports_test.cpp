@@ -62,7 +62,7 @@ TEST(ExportsTest, EveryFunctionOfTheHeaderHasACommentWithOneThreadTag) {
     const auto count = std::distance(std::sregex_iterator(text.begin(), text.end(), function), std::sregex_iterator());
     const auto functions = declaredFunctions();
     EXPECT_EQ(functions.size(), static_cast<std::size_t>(count)) << "a function stands without a comment before it";
-    const std::regex tag(R"(\[(any|loader|worker)-thread\])");
+    const std::regex tag(R"(\[((any|loader|worker)-thread|publisher|audio-callback)\])");
     for (const auto& [name, comment] : functions) {
         const auto tags =
             std::distance(std::sregex_iterator(comment.begin(), comment.end(), tag), std::sregex_iterator());

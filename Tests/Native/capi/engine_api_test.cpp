@@ -1,0 +1,244 @@
+#include "open_engine.hpp"
+
+#include <array>
+#include <chrono>
+#include <cstring>
+#include <set>
+#include <thread>
+
+namespace haptoflow::capi::testing {
+namespace {
+
+TEST(EngineApiTest, ATouchOnTheShippedModelSoundsInTheNextBlockAndGoesOnByInference) {
+    OpenEngine open(defaultModelPath);
+    EXPECT_EQ(peak(open.render(480)), 0.0F);
+    open.publish(slidingState());
+    EXPECT_GT(peak(open.render(480)), 0.001F);
+    for (int update = 0; update < 40; ++update) {
+        EXPECT_GT(peak(open.update(slidingState())), 0.001F);
+    }
+    EXPECT_EQ(open.statistics().inferences, 40U);
+    EXPECT_EQ(open.statistics().underruns, 0U);
+}
+
+TEST(EngineApiTest, WithoutWorkerTheSameCallsGiveTheSameSamplesAndAnotherSeedOthers) {
+    const auto play = [](uint64_t seed) {
+        OpenEngine open(tinyModelPath, false, HAPTOFLOW_QUALITY_STANDARD, seed);
+        std::vector<float> heard;
+        for (int update = 0; update < 30; ++update) {
+            const std::vector<float> part = open.update(slidingState());
+            heard.insert(heard.end(), part.begin(), part.end());
+        }
+        return heard;
+    };
+    const std::vector<float> first = play(7);
+    EXPECT_EQ(first, play(7));
+    EXPECT_NE(first, play(8));
+}
+
+TEST(EngineApiTest, TheVoiceWritesItsChannelAndLeavesTheOthersAlone) {
+    OpenEngine open(tinyModelPath);
+    open.publish(slidingState());
+    std::vector<float> interleaved(4 * 256, 9.0F);
+    ASSERT_EQ(haptoflow_voice_render(open.voice, interleaved.data(), 256, 4, 2, 48000.0), HAPTOFLOW_OK);
+    float loudest = 0.0F;
+    for (std::size_t i = 0; i < interleaved.size(); ++i) {
+        if (i % 4 == 2) {
+            loudest = std::max(loudest, std::abs(interleaved[i]));
+        } else {
+            ASSERT_EQ(interleaved[i], 9.0F);
+        }
+    }
+    EXPECT_GT(loudest, 0.0F);
+    EXPECT_LE(loudest, 1.0F);
+    ASSERT_EQ(haptoflow_voice_render(open.voice, interleaved.data(), 256, 4, HAPTOFLOW_ALL_CHANNELS, 48000.0),
+              HAPTOFLOW_OK);
+    for (std::size_t frame = 0; frame < 256; ++frame) {
+        ASSERT_EQ(interleaved[4 * frame], interleaved[4 * frame + 3]);
+    }
+}
+
+TEST(EngineApiTest, CallbackArgumentsThatMakeNoSenseAreRefusedWithoutAMessage) {
+    OpenEngine open(tinyModelPath);
+    std::array<float, 8> samples{};
+    (void)haptoflow_noise_fill(0, 0, 0, nullptr, 1);
+    const std::string before = message();
+    EXPECT_EQ(haptoflow_voice_render(open.voice, nullptr, 8, 1, 0, 48000.0), HAPTOFLOW_INVALID_ARGUMENT);
+    EXPECT_EQ(haptoflow_voice_render(open.voice, samples.data(), 8, 0, 0, 48000.0), HAPTOFLOW_INVALID_ARGUMENT);
+    EXPECT_EQ(haptoflow_voice_render(open.voice, samples.data(), 8, 65, 0, 48000.0), HAPTOFLOW_INVALID_ARGUMENT);
+    EXPECT_EQ(haptoflow_voice_render(open.voice, samples.data(), 8, 1, 1, 48000.0), HAPTOFLOW_INVALID_ARGUMENT);
+    EXPECT_EQ(haptoflow_voice_render(open.voice, samples.data(), 8, 1, -2, 48000.0), HAPTOFLOW_INVALID_ARGUMENT);
+    EXPECT_EQ(haptoflow_voice_render(open.voice, nullptr, 0, 1, 0, 48000.0), HAPTOFLOW_OK);
+    EXPECT_EQ(message(), before);
+}
+
+TEST(EngineApiTest, AVoiceThatIsNotOpenIsRefusedEverywhereAndItsBlockIsSilent) {
+    OpenEngine open(tinyModelPath);
+    haptoflow_voice gone = 0;
+    ASSERT_EQ(haptoflow_voice_create(open.engine, 0.0, &gone), HAPTOFLOW_OK);
+    const haptoflow_voice copy = gone;
+    ASSERT_EQ(haptoflow_voice_destroy(&gone), HAPTOFLOW_OK);
+    EXPECT_EQ(gone, 0U);
+    for (const haptoflow_voice wrong : {haptoflow_voice{0}, copy, haptoflow_voice{63}, ~haptoflow_voice{0}}) {
+        haptoflow_voice handle = wrong;
+        const haptoflow_contact_state state = slidingState();
+        std::array<float, 4> samples{1.0F, 1.0F, 1.0F, 1.0F};
+        haptoflow_voice_statistics statistics{};
+        statistics.struct_size = sizeof(statistics);
+        uint32_t place = 0;
+        EXPECT_EQ(haptoflow_voice_publish(wrong, &state), HAPTOFLOW_INVALID_ARGUMENT);
+        EXPECT_EQ(haptoflow_voice_render(wrong, samples.data(), 4, 1, 0, 48000.0), HAPTOFLOW_INVALID_ARGUMENT);
+        EXPECT_EQ(samples, (std::array<float, 4>{}));
+        EXPECT_EQ(haptoflow_voice_set_strength(wrong, 1.0F), HAPTOFLOW_INVALID_ARGUMENT);
+        EXPECT_EQ(haptoflow_voice_set_ceiling(wrong, 1.0F), HAPTOFLOW_INVALID_ARGUMENT);
+        EXPECT_EQ(haptoflow_voice_set_muted(wrong, 1), HAPTOFLOW_INVALID_ARGUMENT);
+        EXPECT_EQ(haptoflow_voice_set_paused(wrong, 1), HAPTOFLOW_INVALID_ARGUMENT);
+        EXPECT_EQ(haptoflow_voice_panic(wrong), HAPTOFLOW_INVALID_ARGUMENT);
+        EXPECT_EQ(haptoflow_voice_get_statistics(wrong, &statistics), HAPTOFLOW_INVALID_ARGUMENT);
+        EXPECT_EQ(haptoflow_voice_place(wrong, &place), HAPTOFLOW_INVALID_ARGUMENT);
+        EXPECT_EQ(haptoflow_voice_destroy(&handle), wrong == 0 ? HAPTOFLOW_OK : HAPTOFLOW_INVALID_ARGUMENT);
+    }
+}
+
+TEST(EngineApiTest, ClosingTheEngineSilencesAndDestroysItsVoices) {
+    OpenEngine open(tinyModelPath);
+    open.publish(slidingState());
+    EXPECT_GT(peak(open.render(256)), 0.0F);
+    ASSERT_EQ(haptoflow_engine_close(&open.engine), HAPTOFLOW_OK);
+    EXPECT_EQ(open.engine, nullptr);
+    std::array<float, 64> samples{};
+    EXPECT_EQ(haptoflow_voice_render(open.voice, samples.data(), 64, 1, 0, 48000.0), HAPTOFLOW_INVALID_ARGUMENT);
+    EXPECT_EQ(samples, (std::array<float, 64>{}));
+}
+
+TEST(EngineApiTest, SixtyFourVoicesFitEachInItsOwnPlaceAndTheNextIsRefused) {
+    OpenEngine open(tinyModelPath);
+    std::vector<haptoflow_voice> voices;
+    std::set<uint32_t> places;
+    for (int i = 1; i < HAPTOFLOW_MAXIMUM_VOICES; ++i) {
+        voices.emplace_back();
+        ASSERT_EQ(haptoflow_voice_create(open.engine, 0.0, &voices.back()), HAPTOFLOW_OK) << message();
+        uint32_t place = 99;
+        ASSERT_EQ(haptoflow_voice_place(voices.back(), &place), HAPTOFLOW_OK);
+        places.insert(place);
+    }
+    EXPECT_EQ(places.size(), 63U);
+    EXPECT_LT(*places.rbegin(), 64U);
+    haptoflow_voice tooMany = 0;
+    EXPECT_EQ(haptoflow_voice_create(open.engine, 0.0, &tooMany), HAPTOFLOW_INVALID_ARGUMENT);
+    EXPECT_EQ(open.engineStatistics().voices, 0U) << "no round has looked at them";
+    ASSERT_EQ(haptoflow_voice_destroy(&voices[5]), HAPTOFLOW_OK);
+    EXPECT_EQ(haptoflow_voice_create(open.engine, 0.0, &voices[5]), HAPTOFLOW_OK);
+}
+
+TEST(EngineApiTest, DescriptorsOfOlderAndNewerCallersBothWork) {
+    OpenEngine open(tinyModelPath);
+    haptoflow_contact_state older = slidingState();
+    older.struct_size = offsetof(haptoflow_contact_state, approach_speed_mps);
+    EXPECT_EQ(haptoflow_voice_publish(open.voice, &older), HAPTOFLOW_OK) << message();
+    older.struct_size = offsetof(haptoflow_contact_state, force_newtons);
+    EXPECT_EQ(haptoflow_voice_publish(open.voice, &older), HAPTOFLOW_INVALID_ARGUMENT);
+    struct Newer {
+        haptoflow_contact_state known;
+        double unknown[8];
+    } newer{slidingState(), {}};
+    newer.known.struct_size = sizeof(newer);
+    EXPECT_EQ(haptoflow_voice_publish(open.voice, &newer.known), HAPTOFLOW_OK) << message();
+
+    haptoflow_voice_statistics statistics{};
+    std::memset(&statistics, 0xEE, sizeof(statistics));
+    statistics.struct_size = offsetof(haptoflow_voice_statistics, inferences);
+    ASSERT_EQ(haptoflow_voice_get_statistics(open.voice, &statistics), HAPTOFLOW_OK);
+    EXPECT_EQ(statistics.updates, 2U);
+    EXPECT_EQ(statistics.inferences, 0xEEEEEEEEEEEEEEEEU) << "beyond the caller's struct nothing is written";
+
+    haptoflow_engine_options options{};
+    options.struct_size = offsetof(haptoflow_engine_options, update_rate_hz);
+    options.runtime = open.runtime;
+    options.model = open.model;
+    haptoflow_engine* engine = nullptr;
+    EXPECT_EQ(haptoflow_engine_create(&options, &engine), HAPTOFLOW_OK) << message();
+    EXPECT_EQ(haptoflow_engine_close(&engine), HAPTOFLOW_OK);
+}
+
+TEST(EngineApiTest, OptionsOutOfRangeAreRefusedByName) {
+    OpenEngine open(tinyModelPath);
+    haptoflow_engine_options options{};
+    options.struct_size = sizeof(options);
+    options.runtime = open.runtime;
+    options.model = open.model;
+    options.without_worker = 1;
+    haptoflow_engine* engine = nullptr;
+    const auto refusal = [&](auto change) {
+        haptoflow_engine_options changed = options;
+        change(changed);
+        EXPECT_EQ(haptoflow_engine_create(&changed, &engine), HAPTOFLOW_INVALID_ARGUMENT);
+        return message();
+    };
+    EXPECT_THAT(refusal([](auto& o) { o.quality = 7; }), ::testing::HasSubstr("quality"));
+    EXPECT_THAT(refusal([](auto& o) { o.update_rate_hz = -1.0; }), ::testing::HasSubstr("update rate"));
+    EXPECT_THAT(refusal([](auto& o) { o.budget_share = 1.5; }), ::testing::HasSubstr("budget_share"));
+    EXPECT_THAT(refusal([](auto& o) { o.batch_voices = 65; }), ::testing::HasSubstr("batch_voices"));
+    EXPECT_THAT(refusal([](auto& o) { o.fixed_lead_ms = 51.0; }), ::testing::HasSubstr("lead"));
+    EXPECT_THAT(refusal([](auto& o) { o.model = nullptr; }), ::testing::HasSubstr("model"));
+    EXPECT_EQ(haptoflow_voice_set_strength(open.voice, 1.5F), HAPTOFLOW_INVALID_ARGUMENT);
+    EXPECT_EQ(haptoflow_voice_set_ceiling(open.voice, std::nanf("")), HAPTOFLOW_INVALID_ARGUMENT);
+    haptoflow_voice voice = 0;
+    EXPECT_EQ(haptoflow_voice_create(open.engine, 4000.0, &voice), HAPTOFLOW_INVALID_ARGUMENT);
+}
+
+TEST(EngineApiTest, AnEngineWithAWorkerIsNotSteppedByHand) {
+    OpenEngine open(tinyModelPath, true);
+    EXPECT_EQ(haptoflow_engine_step(open.engine), HAPTOFLOW_INVALID_ARGUMENT);
+    EXPECT_THAT(message(), ::testing::HasSubstr("worker"));
+}
+
+TEST(EngineApiTest, QualityNamesATierWhichIsReadableWithItsMeasuredTime) {
+    OpenEngine open(defaultModelPath, false, HAPTOFLOW_QUALITY_FINE);
+    uint32_t tiers = 0;
+    ASSERT_EQ(haptoflow_model_tier_count(open.model, &tiers), HAPTOFLOW_OK);
+    EXPECT_EQ(open.engineStatistics().tier, tiers - 1);
+    ASSERT_EQ(haptoflow_engine_set_quality(open.engine, HAPTOFLOW_QUALITY_DRAFT), HAPTOFLOW_OK);
+    EXPECT_EQ(open.engineStatistics().tier, 0U);
+    for (int update = 0; update < 5; ++update) {
+        (void)open.update(slidingState());
+    }
+    haptoflow_tier_times times{};
+    times.struct_size = sizeof(times);
+    ASSERT_EQ(haptoflow_engine_tier_times(open.engine, 0, &times), HAPTOFLOW_OK);
+    EXPECT_EQ(times.is_current, 1U);
+    EXPECT_EQ(times.runs, 5U);
+    EXPECT_GT(times.median_ms, 0.0);
+    EXPECT_EQ(haptoflow_engine_tier_times(open.engine, tiers, &times), HAPTOFLOW_INVALID_ARGUMENT);
+    EXPECT_EQ(haptoflow_engine_set_quality(open.engine, -1), HAPTOFLOW_INVALID_ARGUMENT);
+}
+
+TEST(EngineApiTest, PanicSilencesEveryVoiceOfTheProcess) {
+    OpenEngine first(tinyModelPath);
+    OpenEngine second(tinyModelPath);
+    for (OpenEngine* open : {&first, &second}) {
+        open->publish(slidingState());
+        EXPECT_GT(peak(open->render(256)), 0.0F);
+    }
+    ASSERT_EQ(haptoflow_panic(), HAPTOFLOW_OK);
+    for (OpenEngine* open : {&first, &second}) {
+        (void)open->render(256);
+        open->publish(slidingState());
+        EXPECT_EQ(peak(open->render(4800)), 0.0F);
+    }
+}
+
+TEST(EngineApiTest, TheWorkerServesAVoiceThatIsPublishedAndRenderedAtTheLivePace) {
+    OpenEngine open(tinyModelPath, true);
+    for (int update = 0; update < 2000 && open.statistics().inferences < 10; ++update) {
+        open.publish(slidingState());
+        (void)open.render(240);
+        std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    }
+    EXPECT_GE(open.statistics().inferences, 10U);
+    EXPECT_EQ(open.statistics().failures, 0U);
+    EXPECT_GE(open.engineStatistics().rounds, 10U);
+}
+
+}  // namespace
+}  // namespace haptoflow::capi::testing

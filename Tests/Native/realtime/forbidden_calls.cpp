@@ -1,0 +1,139 @@
+#include "realtime/forbidden_calls.hpp"
+
+#include <dlfcn.h>
+#include <pthread.h>
+#include <semaphore.h>
+
+#include <atomic>
+#include <cerrno>
+#include <cstddef>
+#include <cstdlib>
+
+// glibc's own names of its allocator: what the interposed functions pass on to without asking the loader, which
+// allocates itself.
+extern "C" {
+void* __libc_malloc(std::size_t size);
+void __libc_free(void* memory);
+void* __libc_calloc(std::size_t count, std::size_t size);
+void* __libc_realloc(void* memory, std::size_t size);
+void* __libc_memalign(std::size_t alignment, std::size_t size);
+}
+
+namespace haptoflow::realtime {
+namespace {
+
+thread_local int watching = 0;
+std::atomic<std::uint64_t> calls{0};
+std::atomic<const char*> lastCall{""};
+
+void note(const char* name) noexcept {
+    if (watching > 0) {
+        calls.fetch_add(1, std::memory_order_relaxed);
+        lastCall.store(name, std::memory_order_relaxed);
+    }
+}
+
+template <typename Function>
+Function next(const char* name) noexcept {
+    return reinterpret_cast<Function>(dlsym(RTLD_NEXT, name));
+}
+
+}  // namespace
+
+WatchedSection::WatchedSection() noexcept {
+    ++watching;
+}
+
+WatchedSection::~WatchedSection() {
+    --watching;
+}
+
+std::uint64_t forbiddenCalls() noexcept {
+    return calls.load();
+}
+
+const char* lastForbiddenCall() noexcept {
+    return lastCall.load();
+}
+
+}  // namespace haptoflow::realtime
+
+using haptoflow::realtime::next;
+using haptoflow::realtime::note;
+
+extern "C" {
+
+void* malloc(std::size_t size) {
+    note("malloc");
+    return __libc_malloc(size);
+}
+
+void free(void* memory) {
+    note("free");
+    __libc_free(memory);
+}
+
+void* calloc(std::size_t count, std::size_t size) {
+    note("calloc");
+    return __libc_calloc(count, size);
+}
+
+void* realloc(void* memory, std::size_t size) {
+    note("realloc");
+    return __libc_realloc(memory, size);
+}
+
+void* aligned_alloc(std::size_t alignment, std::size_t size) {
+    note("aligned_alloc");
+    return __libc_memalign(alignment, size);
+}
+
+int posix_memalign(void** memory, std::size_t alignment, std::size_t size) {
+    note("posix_memalign");
+    *memory = __libc_memalign(alignment, size);
+    return *memory == nullptr ? ENOMEM : 0;
+}
+
+int pthread_mutex_lock(pthread_mutex_t* mutex) noexcept {
+    note("pthread_mutex_lock");
+    static const auto original = next<int (*)(pthread_mutex_t*)>("pthread_mutex_lock");
+    return original(mutex);
+}
+
+int pthread_mutex_trylock(pthread_mutex_t* mutex) noexcept {
+    note("pthread_mutex_trylock");
+    static const auto original = next<int (*)(pthread_mutex_t*)>("pthread_mutex_trylock");
+    return original(mutex);
+}
+
+int pthread_rwlock_rdlock(pthread_rwlock_t* lock) noexcept {
+    note("pthread_rwlock_rdlock");
+    static const auto original = next<int (*)(pthread_rwlock_t*)>("pthread_rwlock_rdlock");
+    return original(lock);
+}
+
+int pthread_cond_signal(pthread_cond_t* condition) noexcept {
+    note("pthread_cond_signal");
+    static const auto original = next<int (*)(pthread_cond_t*)>("pthread_cond_signal");
+    return original(condition);
+}
+
+int sem_post(sem_t* semaphore) noexcept {
+    note("sem_post");
+    static const auto original = next<int (*)(sem_t*)>("sem_post");
+    return original(semaphore);
+}
+
+int sem_wait(sem_t* semaphore) {
+    note("sem_wait");
+    static const auto original = next<int (*)(sem_t*)>("sem_wait");
+    return original(semaphore);
+}
+
+int sem_trywait(sem_t* semaphore) noexcept {
+    note("sem_trywait");
+    static const auto original = next<int (*)(sem_t*)>("sem_trywait");
+    return original(semaphore);
+}
+
+}  // extern "C"

@@ -1,0 +1,128 @@
+// The callback under load, watched: whatever it calls that it must not is counted, in the C library by interposition
+// and in the kernel by a filter on the thread.
+#include "capi/open_engine.hpp"
+#include "realtime/forbidden_calls.hpp"
+#include "realtime/system_call_trap.hpp"
+
+#include <gtest/gtest.h>
+
+#include <sys/syscall.h>
+#include <unistd.h>
+
+#include <array>
+#include <atomic>
+#include <cstdlib>
+#include <mutex>
+#include <thread>
+
+namespace haptoflow::realtime {
+namespace {
+
+using capi::testing::OpenEngine;
+
+/// HAPTOFLOW_TEST_CALLBACKS: the soak asks for a million.
+std::uint64_t callbackCount() {
+    const char* asked = std::getenv("HAPTOFLOW_TEST_CALLBACKS");
+    return asked != nullptr ? std::strtoull(asked, nullptr, 10) : 30'000;
+}
+
+/// How far the device is: it runs only as far as the hand, so that a contact state comes every 13 ms of its output
+/// however fast the machine goes through them.
+struct Pace {
+    static constexpr std::uint64_t callbacksOfAnUpdate = 8;
+    std::atomic<std::uint64_t> allowedCallbacks{0};
+    std::atomic<bool> done{false};
+};
+
+/// What happens to a voice while it is rendered: touches, taps, panics, mutes, new labels, ruined states.
+void disturb(haptoflow_voice voice, Pace& pace) {
+    for (std::uint32_t update = 0; !pace.done; ++update) {
+        haptoflow_contact_state state = capi::testing::slidingState();
+        state.touch_counter = update / 40;
+        state.touching = update % 40 < 34 ? 1 : 0;
+        state.labels[0] = update % 3;
+        state.velocity_mps[1] = update % 29 == 0 ? std::nanf("") : 0.02F * static_cast<float>(update % 17);
+        state.force_newtons = update % 31 == 0 ? INFINITY : 0.5F + 0.1F * static_cast<float>(update % 7);
+        (void)haptoflow_voice_publish(voice, &state);
+        (void)haptoflow_voice_set_muted(voice, update % 53 == 52 ? 1 : 0);
+        (void)haptoflow_voice_set_strength(voice, 0.5F + 0.5F * static_cast<float>(update % 2));
+        if (update % 101 == 100) {
+            (void)haptoflow_voice_panic(voice);
+        }
+        pace.allowedCallbacks += Pace::callbacksOfAnUpdate;
+        std::this_thread::sleep_for(std::chrono::microseconds(700));
+    }
+}
+
+TEST(RealTimeTest, TheWatchesSeeWhatTheyAreMeantToSee) {
+    const std::uint64_t before = forbiddenCalls();
+    std::mutex mutex;
+    {
+        const WatchedSection watched;
+        std::free(std::malloc(16));
+        const std::lock_guard lock(mutex);
+    }
+    EXPECT_GE(forbiddenCalls(), before + 3) << "malloc, free and the lock";
+    const std::uint64_t trappedBefore = trappedSystemCalls();
+    std::atomic<bool> hasFilter{false};
+    std::thread thread([&hasFilter] {
+        hasFilter = trapSystemCalls();
+        (void)syscall(SYS_getppid);
+        leaveThread();
+    });
+    thread.join();
+    ASSERT_TRUE(hasFilter) << "this kernel does not let a thread filter its own system calls";
+    EXPECT_EQ(trappedSystemCalls(), trappedBefore + 1);
+    EXPECT_EQ(lastTrappedSystemCall(), SYS_getppid);
+}
+
+TEST(RealTimeTest, InNoCallbackUnderLoadIsThereAnAllocationALockOrASystemCall) {
+    OpenEngine open(capi::testing::defaultModelPath, true);
+    const std::uint64_t callbacks = callbackCount();
+    Pace pace;
+    std::atomic<bool> hasFilter{false};
+    std::atomic<bool> isFinite{true};
+    std::atomic<float> loudest{0.0F};
+    const std::uint64_t forbiddenBefore = forbiddenCalls();
+    const std::uint64_t trappedBefore = trappedSystemCalls();
+
+    std::thread audio([&] {
+        constexpr std::array rates{48000.0, 48000.0, 24000.0};
+        constexpr std::array<std::uint32_t, 4> blocks{64, 128, 31, 96};
+        std::array<float, 256> block{};
+        // The first touch of the allocator may set up this thread's own arena.
+        std::free(std::malloc(16));
+        hasFilter = trapSystemCalls();
+        for (std::uint64_t callback = 0; callback < callbacks; ++callback) {
+            const WatchedSection watched;
+            while (callback >= pace.allowedCallbacks) {
+                __builtin_ia32_pause();
+            }
+            const std::uint32_t frames = blocks[callback % blocks.size()];
+            (void)haptoflow_voice_render(open.voice, block.data(), frames, 1, 0,
+                                         rates[callback / 4'000 % rates.size()]);
+            for (std::uint32_t i = 0; i < frames; ++i) {
+                isFinite = isFinite && std::isfinite(block[i]);
+                loudest = std::max(loudest.load(), std::abs(block[i]));
+            }
+        }
+        pace.done = true;
+        leaveThread();
+    });
+    disturb(open.voice, pace);
+    audio.join();
+
+    ASSERT_TRUE(hasFilter);
+    EXPECT_EQ(forbiddenCalls(), forbiddenBefore) << "last: " << lastForbiddenCall();
+    EXPECT_EQ(trappedSystemCalls(), trappedBefore) << "last: " << lastTrappedSystemCall();
+    EXPECT_TRUE(isFinite);
+    // That there was something to watch.
+    const haptoflow_voice_statistics statistics = open.statistics();
+    EXPECT_GT(loudest, 0.001F);
+    EXPECT_GT(statistics.inferences, 10U);
+    EXPECT_GT(statistics.onsets, 3U);
+    EXPECT_GT(statistics.rate_changes, 0U);
+}
+
+}  // namespace
+}  // namespace haptoflow::realtime
