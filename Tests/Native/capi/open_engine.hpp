@@ -34,8 +34,9 @@ inline haptoflow_contact_state liftedState(uint32_t touchCounter = 1) {
 /// determined.
 class OpenEngine {
 public:
-    explicit OpenEngine(const std::string& modelPath, bool hasWorker = false, haptoflow_quality quality = HAPTOFLOW_QUALITY_DRAFT,
-                        uint64_t seed = 1) {
+    explicit OpenEngine(const std::string& modelPath, bool hasWorker = false,
+                        haptoflow_quality quality = HAPTOFLOW_QUALITY_DRAFT, uint64_t seed = 1,
+                        double rateHz = 48000.0) {
         const haptoflow_model_options modelOptions{sizeof(modelOptions), nullptr, 0, modelPath.c_str()};
         EXPECT_EQ(haptoflow_model_open(&modelOptions, &model), HAPTOFLOW_OK) << message();
         haptoflow_engine_options options{};
@@ -47,7 +48,7 @@ public:
         options.without_worker = hasWorker ? 0 : 1;
         options.fixed_lead_ms = hasWorker ? 0.0 : 8.0;
         EXPECT_EQ(haptoflow_engine_create(&options, &engine), HAPTOFLOW_OK) << message();
-        EXPECT_EQ(haptoflow_voice_create(engine, 48000.0, &voice), HAPTOFLOW_OK) << message();
+        EXPECT_EQ(haptoflow_voice_create(engine, rateHz, &voice), HAPTOFLOW_OK) << message();
     }
     OpenEngine(const OpenEngine&) = delete;
     OpenEngine& operator=(const OpenEngine&) = delete;

@@ -1,0 +1,111 @@
+// The network on its own output for a long time, at constant input: level and spectrum must stay where they were.
+// HAPTOFLOW_TEST_LOOP_SECONDS sets how long a label runs; the soak asks for ten minutes.
+#include "open_engine.hpp"
+
+#include <array>
+#include <cmath>
+#include <complex>
+#include <cstdlib>
+#include <numbers>
+
+namespace haptoflow::capi::testing {
+namespace {
+
+constexpr double outputHz = 8000.0;
+constexpr std::size_t decimation = 4;
+constexpr std::size_t frameSamples = 400;
+constexpr std::size_t bins = frameSamples / 2;
+
+double loopSeconds() {
+    const char* asked = std::getenv("HAPTOFLOW_TEST_LOOP_SECONDS");
+    return asked != nullptr ? std::strtod(asked, nullptr) : 24.0;
+}
+
+/// Mean magnitude spectrum, 0 to 1 kHz in steps of 5 Hz, of frames that overlap by half.
+std::vector<double> meanSpectrum(const std::vector<float>& waveform) {
+    static const auto turns = [] {
+        std::array<std::complex<double>, frameSamples> table;
+        for (std::size_t i = 0; i < frameSamples; ++i) {
+            table[i] = std::polar(1.0, -2.0 * std::numbers::pi * static_cast<double>(i) / frameSamples);
+        }
+        return table;
+    }();
+    std::vector<double> sum(bins);
+    for (std::size_t begin = 0; begin + frameSamples <= waveform.size(); begin += frameSamples / 2) {
+        for (std::size_t bin = 0; bin < bins; ++bin) {
+            std::complex<double> value;
+            for (std::size_t i = 0; i < frameSamples; ++i) {
+                const double window = 0.5 - 0.5 * turns[i].real();
+                value += window * static_cast<double>(waveform[begin + i]) * turns[bin * i % frameSamples];
+            }
+            sum[bin] += std::abs(value);
+        }
+    }
+    return sum;
+}
+
+/// Goodness-of-fit coefficient: the cosine between two spectra.
+double goodnessOfFit(const std::vector<double>& first, const std::vector<double>& second) {
+    double product = 0.0;
+    double firstSquares = 0.0;
+    double secondSquares = 0.0;
+    for (std::size_t bin = 0; bin < first.size(); ++bin) {
+        product += first[bin] * second[bin];
+        firstSquares += first[bin] * first[bin];
+        secondSquares += second[bin] * second[bin];
+    }
+    return product / std::sqrt(firstSquares * secondSquares);
+}
+
+double levelDecibels(const std::vector<float>& waveform) {
+    double squares = 0.0;
+    for (const float sample : waveform) {
+        squares += static_cast<double>(sample) * static_cast<double>(sample);
+    }
+    return 10.0 * std::log10(squares / static_cast<double>(waveform.size()));
+}
+
+class ClosedLoopTest : public ::testing::TestWithParam<uint32_t> {};
+
+TEST_P(ClosedLoopTest, AtConstantInputLevelAndSpectrumStayWhereTheyWere) {
+    OpenEngine open(defaultModelPath, false, HAPTOFLOW_QUALITY_STANDARD, 1, outputHz);
+    uint32_t labels = 0;
+    ASSERT_EQ(haptoflow_model_label_count(open.model, &labels), HAPTOFLOW_OK);
+    ASSERT_LT(GetParam(), labels);
+    const double seconds = loopSeconds();
+    haptoflow_contact_state state = slidingState(0.12F, 1.0F);
+    state.labels[0] = GetParam();
+
+    std::vector<float> waveform;
+    double rendered = 0.0;
+    std::size_t phase = 0;
+    for (uint32_t update = 0; rendered < seconds; ++update) {
+        open.publish(state);
+        (void)open.render(0, outputHz);
+        ASSERT_EQ(haptoflow_engine_step(open.engine), HAPTOFLOW_OK) << message();
+        const auto frames =
+            static_cast<uint32_t>(outputHz * (update + 1) / 72.0) - static_cast<uint32_t>(outputHz * update / 72.0);
+        const std::vector<float> block = open.render(frames, outputHz);
+        ASSERT_TRUE(allFinite(block));
+        for (const float sample : block) {
+            if (phase++ % decimation == 0) {
+                waveform.push_back(sample);
+            }
+        }
+        rendered += static_cast<double>(frames) / outputHz;
+    }
+    EXPECT_EQ(open.statistics().underruns, 0U);
+    EXPECT_EQ(open.statistics().limited_samples, 0U);
+
+    // The first second still holds the seed.
+    const auto part = static_cast<std::ptrdiff_t>(2000.0 * std::min(60.0, seconds / 3.0));
+    const std::vector<float> first(waveform.begin() + 2000, waveform.begin() + 2000 + part);
+    const std::vector<float> last(waveform.end() - part, waveform.end());
+    EXPECT_LT(std::abs(levelDecibels(last) - levelDecibels(first)), 1.0);
+    EXPECT_GE(goodnessOfFit(meanSpectrum(first), meanSpectrum(last)), 0.98);
+}
+
+INSTANTIATE_TEST_SUITE_P(Label, ClosedLoopTest, ::testing::Range(0U, 20U));
+
+}  // namespace
+}  // namespace haptoflow::capi::testing

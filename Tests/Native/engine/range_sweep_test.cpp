@@ -1,0 +1,110 @@
+// The shipped model and the range law together: what the level does while a hand speeds up, or presses harder, slowly
+// and far beyond what was recorded.
+#include "engine/material.hpp"
+#include "engine/range_law.hpp"
+#include "inference/onnx_runtime.hpp"
+#include "inference/onnx_segment_generator.hpp"
+#include "model/model_file.hpp"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <string>
+#include <vector>
+
+namespace haptoflow::engine {
+namespace {
+
+constexpr std::array<float, inference::segmentSamples> silence{};
+
+class RangeSweepTest : public ::testing::Test {
+protected:
+    /// Level in decibels, gain of the range law included, for each motion of a sweep over one label.
+    std::vector<double> levels(std::size_t label, const std::vector<std::array<float, 3>>& motions) {
+        MaterialBlend blend;
+        blend.entries[0] = {.label = static_cast<std::uint32_t>(label), .weight = 1.0F};
+        blend.count = 1;
+        const Material material = resolveMaterial(model_, blend);
+        std::vector<inference::SegmentRequest> requests;
+        std::vector<double> result;
+        for (const auto& motion : motions) {
+            const RangedMotion ranged =
+                applyRangeLaw(model_.header(), material, {motion[0], motion[1]}, motion[2]);
+            requests.push_back({.embedding = material.embedding,
+                                .motion = ranged.motion,
+                                .previous = silence,
+                                .noise = silence});
+            result.push_back(20.0 * std::log10(ranged.levelGain));
+        }
+        std::vector<float> found(requests.size());
+        generator_.levels(requests, found);
+        for (std::size_t i = 0; i < found.size(); ++i) {
+            result[i] += 20.0 * std::log10(static_cast<double>(found[i]));
+        }
+        return result;
+    }
+
+    /// Values from `lowest` to `highest`, each the same share above the one before.
+    static std::vector<double> sweep(double lowest, double highest, std::size_t count) {
+        std::vector<double> values(count);
+        for (std::size_t i = 0; i < count; ++i) {
+            values[i] = lowest * std::pow(highest / lowest, static_cast<double>(i) / static_cast<double>(count - 1));
+        }
+        return values;
+    }
+
+    /// The largest change of slope from one step to the next, in decibels a doubling.
+    static double largestKink(const std::vector<double>& decibels, double doublingsOfAStep) {
+        double largest = 0.0;
+        for (std::size_t i = 1; i + 1 < decibels.size(); ++i) {
+            const double change = decibels[i + 1] - 2.0 * decibels[i] + decibels[i - 1];
+            largest = std::max(largest, std::abs(change) / doublingsOfAStep);
+        }
+        return largest;
+    }
+
+    static constexpr std::size_t steps = 160;
+    // From step to step the slope may turn, but not break: a clamp would break it by 3 to 6.
+    static constexpr double largestAllowedKink = 2.5;
+
+    model::ModelFile model_ = model::ModelFile::read(HAPTOFLOW_TEST_DEFAULT_MODEL);
+    inference::OnnxSegmentGenerator generator_{inference::Runtime::open(HAPTOFLOW_TEST_ONNXRUNTIME), model_,
+                                               model_.header().tiers[model_.header().defaultTier].name,
+                                               {inference::SolverKind::euler, 1}, 256};
+};
+
+TEST_F(RangeSweepTest, FromStandstillToTwoMetresASecondTheLevelHasNeitherAStepNorAKink) {
+    const std::vector<double> speeds = sweep(0.004, 2.0, steps);
+    std::vector<std::array<float, 3>> motions;
+    for (const double speed : speeds) {
+        motions.push_back({static_cast<float>(0.8 * speed), static_cast<float>(0.6 * speed), 1.0F});
+    }
+    for (std::size_t label = 0; label < model_.header().labels.size(); ++label) {
+        const std::vector<double> decibels = levels(label, motions);
+        for (std::size_t i = 1; i < decibels.size(); ++i) {
+            ASSERT_LT(std::abs(decibels[i] - decibels[i - 1]), 1.0) << model_.header().labels[label].name;
+        }
+        EXPECT_LT(largestKink(decibels, std::log2(speeds[1] / speeds[0])), largestAllowedKink)
+            << model_.header().labels[label].name;
+    }
+}
+
+TEST_F(RangeSweepTest, FromATouchToTenNewtonsTheLevelHasNeitherAStepNorAKink) {
+    const std::vector<double> forces = sweep(0.02, 10.0, steps);
+    std::vector<std::array<float, 3>> motions;
+    for (const double newtons : forces) {
+        motions.push_back({0.15F, 0.1F, static_cast<float>(newtons)});
+    }
+    for (std::size_t label = 0; label < model_.header().labels.size(); ++label) {
+        const std::vector<double> decibels = levels(label, motions);
+        for (std::size_t i = 1; i < decibels.size(); ++i) {
+            ASSERT_LT(std::abs(decibels[i] - decibels[i - 1]), 1.0) << model_.header().labels[label].name;
+        }
+        EXPECT_LT(largestKink(decibels, std::log2(forces[1] / forces[0])), largestAllowedKink)
+            << model_.header().labels[label].name;
+    }
+}
+
+}  // namespace
+}  // namespace haptoflow::engine
