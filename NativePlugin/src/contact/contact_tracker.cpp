@@ -32,7 +32,22 @@ bool notNegative(double value) {
     return value >= 0.0 && isUsable(value);
 }
 
-void check(const Scene& scene, const ContactSettings& settings) {
+bool hasExtent(const Shape& shape) {
+    if (const auto* box = std::get_if<Box>(&shape)) {
+        return positive(box->sizeMetres.x) && positive(box->sizeMetres.y) && positive(box->sizeMetres.z);
+    }
+    if (const auto* sphere = std::get_if<Sphere>(&shape)) {
+        return positive(sphere->radiusMetres);
+    }
+    if (const auto* capsule = std::get_if<Capsule>(&shape)) {
+        return positive(capsule->radiusMetres) && positive(capsule->heightMetres);
+    }
+    const auto* mesh = std::get_if<std::shared_ptr<const TriangleMesh>>(&shape);
+    return mesh == nullptr || *mesh != nullptr;
+}
+
+/// The scene, once it and the settings are known to be in range.
+Scene checked(Scene scene, const ContactSettings& settings) {
     const VelocitySettings& velocity = settings.velocity;
     require(notNegative(scene.tipRadiusMetres), "tipRadiusMetres must be 0 or more");
     require(positive(settings.maximumForceNewtons), "maximumForceNewtons must be above 0");
@@ -50,20 +65,10 @@ void check(const Scene& scene, const ContactSettings& settings) {
     require(notNegative(velocity.smallestMoveMetres), "smallestMoveMetres must be 0 or more");
     require(positive(velocity.fastestMps), "fastestMps must be above 0");
     require(positive(velocity.shortestJumpSeconds), "shortestJumpSeconds must be above 0");
-}
-
-bool hasExtent(const Shape& shape) {
-    if (const auto* box = std::get_if<Box>(&shape)) {
-        return positive(box->sizeMetres.x) && positive(box->sizeMetres.y) && positive(box->sizeMetres.z);
+    for (const Surface& surface : scene.surfaces) {
+        require(hasExtent(surface.shape), "every shape must have sizes above 0 and every mesh must be there");
     }
-    if (const auto* sphere = std::get_if<Sphere>(&shape)) {
-        return positive(sphere->radiusMetres);
-    }
-    if (const auto* capsule = std::get_if<Capsule>(&shape)) {
-        return positive(capsule->radiusMetres) && positive(capsule->heightMetres);
-    }
-    const auto* mesh = std::get_if<std::shared_ptr<const TriangleMesh>>(&shape);
-    return mesh == nullptr || *mesh != nullptr;
+    return scene;
 }
 
 double stiffnessOf(const Surface& surface, const ContactSettings& settings) {
@@ -87,11 +92,11 @@ double stiffnessOf(const Surface& surface, const ContactSettings& settings) {
 }  // namespace
 
 ContactTracker::ContactTracker(Scene scene, ContactSettings settings)
-    : scene_(std::move(scene)), settings_(std::move(settings)), history_(settings_.velocity) {
-    check(scene_, settings_);
+    : scene_(checked(std::move(scene), settings)),
+      settings_(std::move(settings)),
+      broadPhase_(scene_.surfaces, scene_.tipRadiusMetres + settings_.releaseDistanceMetres),
+      history_(settings_.velocity) {
     for (const Surface& surface : scene_.surfaces) {
-        require(hasExtent(surface.shape), "every shape must have sizes above 0 and every mesh must be there");
-        bounds_.push_back(boundingSphere(surface.shape));
         stiffnessNewtonsPerMetre_.push_back(stiffnessOf(surface, settings_));
         frames_.emplace_back(surface.grain);
     }
@@ -163,8 +168,7 @@ void ContactTracker::forgetContinuity() noexcept {
 std::optional<ContactTracker::Candidate> ContactTracker::query(std::size_t surface) {
     const Pose pose = scene_.surfaces[surface].poseAt(nowSeconds_);
     const glm::dvec3 tip = pose.pointToLocal(*tipMetres_);
-    const double reach = scene_.tipRadiusMetres + settings_.releaseDistanceMetres;
-    if (glm::distance(tip, bounds_[surface].centreMetres) > bounds_[surface].radiusMetres + reach) {
+    if (!broadPhase_.reaches(surface, tip)) {
         ++statistics_.surfacesRuledOut;
         return std::nullopt;
     }
@@ -182,18 +186,18 @@ std::optional<ContactTracker::Candidate> ContactTracker::query(std::size_t surfa
 
 ContactTracker::Nearby ContactTracker::findNearby() {
     Nearby nearby;
-    for (std::size_t surface = 0; surface < scene_.surfaces.size(); ++surface) {
+    broadPhase_.visitNear(*tipMetres_, [&](std::size_t surface) {
         const std::optional<Candidate> candidate = query(surface);
         if (!candidate) {
-            continue;
+            return;
         }
         if (touched_ == surface) {
             nearby.current = candidate;
         }
-        if (!nearby.deepest || candidate->penetrationMetres > nearby.deepest->penetrationMetres) {
+        if (!nearby.deepest || candidate->isDeeperThan(*nearby.deepest)) {
             nearby.deepest = candidate;
         }
-    }
+    });
     return nearby;
 }
 

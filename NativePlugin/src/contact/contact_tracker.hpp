@@ -1,5 +1,6 @@
 #pragma once
 
+#include "contact/broad_phase.hpp"
 #include "contact/contact_types.hpp"
 #include "contact/scene.hpp"
 #include "contact/tangent_frame.hpp"
@@ -16,7 +17,10 @@ namespace haptoflow::contact {
 /// A touch begins where the tip sphere cuts into a surface and ends where a gap of `releaseDistanceMetres` has
 /// opened; between surfaces the deepest contact wins, but the one already touched keeps the tip until another is
 /// deeper by `switchMarginMetres`. Inside a box or a closed mesh the normal is that of the nearest face, and the
-/// face of the previous frame keeps it by the same margin, so that it changes once, not back and forth.
+/// face of the previous frame keeps it by the same margin, so that it changes once, not back and forth. Of surfaces
+/// that are equally deep the first of the scene counts.
+///
+/// A frame asks only surfaces near the tip (see BroadPhase) and allocates nothing.
 class ContactTracker {
 public:
     /// Copies the scene. Throws std::invalid_argument when a setting, the tip radius or a shape is out of range.
@@ -36,6 +40,12 @@ private:
         SurfacePoint local;
         Pose pose;
         double penetrationMetres = 0.0;
+
+        /// A total order, so that the order of the search does not show.
+        [[nodiscard]] bool isDeeperThan(const Candidate& other) const noexcept {
+            return penetrationMetres > other.penetrationMetres ||
+                   (penetrationMetres == other.penetrationMetres && surface < other.surface);
+        }
     };
     struct Nearby {
         std::optional<Candidate> current;
@@ -52,7 +62,7 @@ private:
 
     Scene scene_;
     ContactSettings settings_;
-    std::vector<BoundingSphere> bounds_;
+    BroadPhase broadPhase_;
     std::vector<double> stiffnessNewtonsPerMetre_;
     std::vector<TangentFrame> frames_;
     TipHistory history_;

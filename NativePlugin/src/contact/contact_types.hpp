@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <functional>
 #include <glm/gtc/quaternion.hpp>
@@ -60,6 +61,12 @@ struct VelocitySettings {
     double fastestMps = 20.0;
     /// The shortest time over which a jump's speed is judged, so that jittering time stamps are no teleports.
     double shortestJumpSeconds = 0.005;
+
+    /// A move longer than this in so much time is a teleport. The fastest speed itself is none, however its times and
+    /// places are rounded.
+    [[nodiscard]] double longestMoveMetres(double seconds) const noexcept {
+        return (1.0 + 1e-6) * fastestMps * std::max(seconds, shortestJumpSeconds);
+    }
 };
 
 struct ContactSettings {
@@ -88,8 +95,9 @@ struct ContactStatistics {
     /// The time went backwards and the past was dropped.
     std::uint64_t clockRestarts = 0;
     std::uint64_t touchDowns = 0;
-    /// Surfaces whose exact distance was computed, and those that the bounding sphere ruled out.
+    /// The narrow phase: surfaces whose exact distance was computed.
     std::uint64_t surfaceQueries = 0;
+    /// The broad phase's vain effort: surfaces that it looked at and whose bounding sphere was out of reach.
     std::uint64_t surfacesRuledOut = 0;
 };
 

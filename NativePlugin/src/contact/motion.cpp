@@ -73,4 +73,19 @@ Pose Motion::poseAt(double timeSeconds) const noexcept {
             unitRotation(glm::slerp(a.pose.rotation, b.pose.rotation, u))};
 }
 
+Bounds Motion::bounds() const noexcept {
+    Bounds bounds;
+    for (std::size_t right = 1; right < keyframes_.size(); ++right) {
+        const Keyframe& a = keyframes_[right - 1];
+        const Keyframe& b = keyframes_[right];
+        const double third = (b.timeSeconds - a.timeSeconds) / 3.0;
+        // The cubic lies within the hull of its four Bezier points.
+        bounds.include(a.pose.positionMetres);
+        bounds.include(a.pose.positionMetres + third * velocityAtKeyframe(right - 1));
+        bounds.include(b.pose.positionMetres - third * velocityAtKeyframe(right));
+        bounds.include(b.pose.positionMetres);
+    }
+    return bounds;
+}
+
 }  // namespace haptoflow::contact

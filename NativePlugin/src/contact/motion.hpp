@@ -1,5 +1,6 @@
 #pragma once
 
+#include "contact/bounds.hpp"
 #include "contact/pose.hpp"
 
 #include <cstddef>
@@ -23,6 +24,8 @@ public:
     Motion(std::vector<Keyframe> keyframes, bool loop);
 
     [[nodiscard]] Pose poseAt(double timeSeconds) const noexcept;
+    /// Around every position on the path, in metres, give or take rounding.
+    [[nodiscard]] Bounds bounds() const noexcept;
     [[nodiscard]] const std::vector<Keyframe>& keyframes() const noexcept { return keyframes_; }
     [[nodiscard]] bool loops() const noexcept { return loop_; }
 

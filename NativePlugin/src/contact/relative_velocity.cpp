@@ -1,6 +1,5 @@
 #include "contact/relative_velocity.hpp"
 
-#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <glm/geometric.hpp>
@@ -63,8 +62,8 @@ glm::dvec3 recentSlope(const TipHistory& history, Takes&& takes, PlaceOf&& place
             const double age = recent.newestTime() - frame->timeSeconds;
             const bool wanted = age <= settings.windowSeconds || recent.count() < 2 ||
                                 (recent.count() < fewestMeasurements && age <= sparseWindows * settings.windowSeconds);
-            const double step = std::max(recent.oldestTime() - frame->timeSeconds, settings.shortestJumpSeconds);
-            if (!wanted || glm::distance(place, recent.oldestPlace()) > settings.fastestMps * step) {
+            const double step = recent.oldestTime() - frame->timeSeconds;
+            if (!wanted || glm::distance(place, recent.oldestPlace()) > settings.longestMoveMetres(step)) {
                 break;
             }
         }

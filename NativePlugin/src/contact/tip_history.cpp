@@ -35,7 +35,7 @@ TipStep TipHistory::add(double timeSeconds, const glm::dvec3& positionMetres) {
     if (timeSeconds - latestSeconds_ > settings_.longestGapSeconds) {
         return start(TipStep::resumed, timeSeconds, positionMetres);
     }
-    if (moved > settings_.fastestMps * std::max(sinceMeasured, settings_.shortestJumpSeconds)) {
+    if (moved > settings_.longestMoveMetres(sinceMeasured)) {
         return start(TipStep::teleported, timeSeconds, positionMetres);
     }
     latestSeconds_ = timeSeconds;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <numeric>
 #include <stdexcept>
@@ -15,6 +16,8 @@ namespace haptoflow::contact {
 namespace {
 
 constexpr std::uint32_t faceFeature = 6;
+
+constexpr double everywhere = std::numeric_limits<double>::infinity();
 
 struct OnTriangle {
     glm::dvec3 pointMetres;
@@ -90,7 +93,7 @@ TriangleMesh::TriangleMesh(std::vector<glm::dvec3> vertices, const std::vector<T
         }
         bounds_.include(boxes[index]);
     }
-    tree_.emplace(boxes);
+    tree_ = BoundsTree(boxes);
 }
 
 void TriangleMesh::joinVertices() {
@@ -223,7 +226,7 @@ MeshPoint TriangleMesh::describe(const Nearest& nearest, const glm::dvec3& point
 
 MeshPoint TriangleMesh::closestPoint(const glm::dvec3& point) const {
     Nearest nearest;
-    tree_->visitNear(point, [&](std::uint32_t triangle) {
+    tree_.visitNear(point, everywhere, [&](std::uint32_t triangle) {
         improve(nearest, triangle, point);
         return nearest.squaredDistance;
     });
@@ -232,7 +235,7 @@ MeshPoint TriangleMesh::closestPoint(const glm::dvec3& point) const {
 
 std::optional<MeshPoint> TriangleMesh::closestPointFacing(const glm::dvec3& point, const glm::dvec3& direction) const {
     Nearest nearest;
-    tree_->visitNear(point, [&](std::uint32_t triangle) {
+    tree_.visitNear(point, everywhere, [&](std::uint32_t triangle) {
         if (glm::dot(sides_[triangle].normals[faceFeature], direction) > sameSideCosine) {
             improve(nearest, triangle, point);
         }

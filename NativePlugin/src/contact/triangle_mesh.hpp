@@ -1,10 +1,11 @@
 #pragma once
 
-#include "contact/triangle_bvh.hpp"
+#include "contact/bounds_tree.hpp"
 
 #include <array>
 #include <cstdint>
 #include <glm/vec3.hpp>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -76,7 +77,7 @@ private:
     std::vector<Triangle> triangles_;
     std::vector<Sides> sides_;
     Bounds bounds_;
-    std::optional<TriangleBvh> tree_;
+    BoundsTree tree_;
     bool closed_ = false;
 };
 

@@ -4,7 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
+#include <random>
 #include <stdexcept>
 
 namespace haptoflow::contact {
@@ -58,6 +60,36 @@ TEST(MotionTest, DamagedTimesAreRefusedAndDamagedRotationsBecomeTheIdentity) {
     const Motion motion({{0.0, {{}, {0.0, 0.0, 0.0, 0.0}}}, {1.0, {{}, {nan, 0.0, 0.0, 0.0}}}}, false);
     EXPECT_EQ(motion.poseAt(0.5).rotation, upright);
     EXPECT_EQ(motion.poseAt(nan).rotation, upright);
+}
+
+TEST(MotionTest, EveryPlaceOnThePathIsWithinTheBounds) {
+    std::mt19937 random(59);
+    std::uniform_real_distribution<double> spread(-1.0, 1.0);
+    for (int trial = 0; trial < 100; ++trial) {
+        std::vector<Keyframe> keyframes;
+        double time = spread(random);
+        for (int index = 0; index < 2 + trial % 5; ++index) {
+            keyframes.push_back({time, {{spread(random), spread(random), spread(random)}, {1.0, 0.0, 0.0, 0.0}}});
+            time += std::pow(10.0, 2.0 * spread(random));
+        }
+        if (trial % 3 == 0) {
+            keyframes.back().pose = keyframes.front().pose;
+        }
+        const Motion motion(keyframes, trial % 2 == 0);
+        const Bounds bounds = motion.bounds();
+        for (int step = -100; step <= 1100; ++step) {
+            const double now =
+                keyframes[0].timeSeconds + (keyframes.back().timeSeconds - keyframes[0].timeSeconds) * (step / 1000.0);
+            EXPECT_LE(bounds.squaredDistanceTo(motion.poseAt(now).positionMetres), 1e-24);
+        }
+    }
+}
+
+TEST(MotionTest, BoundsOfAStraightPathAreItsEnds) {
+    const Motion motion(
+        {{0.0, {{1.0, 2.0, 3.0}, {1.0, 0.0, 0.0, 0.0}}}, {4.0, {{-1.0, 2.5, 7.0}, {1.0, 0.0, 0.0, 0.0}}}}, false);
+    EXPECT_LT(glm::distance(motion.bounds().lowest, glm::dvec3(-1.0, 2.0, 3.0)), 1e-12);
+    EXPECT_LT(glm::distance(motion.bounds().highest, glm::dvec3(1.0, 2.5, 7.0)), 1e-12);
 }
 
 }  // namespace
