@@ -14,6 +14,7 @@ from training_fixtures import make_store
 
 from haptoflow_training.models.label_embedding import LabelEmbedding, rib_frequencies_hz
 from haptoflow_training.models.rib_comb import RibComb
+from haptoflow_training.models.velocity_field import VelocityField
 from haptoflow_training.recordings.synthetic.carriers import FASTEST_MMPS, guided_ride
 from haptoflow_training.recordings.synthetic.contact import SIMULATION_RATE_HZ
 from haptoflow_training.training.config import ModelConfig, RecipeConfig
@@ -47,16 +48,43 @@ def test_the_comb_carries_a_tone_and_its_overtone_on_with_their_phases(speed_mps
     fundamental = 400.0 * speed_mps
     tones = [f for f in (fundamental, 2.0 * fundamental) if f < 960.0]
     motion = torch.tensor([[speed_mps, 0.0, 1.0]])
-    combed = RibComb()(torch.randn(1, 1, 200), _wave(tones, -200, 0), EMBEDDING(torch.tensor([0])), motion)
+    combed, _ = RibComb()(torch.randn(1, 1, 200), _wave(tones, -200, 0), EMBEDDING(torch.tensor([0])), motion)
     truth = _wave(tones, 0, 200)[0, 0]
     error = (combed[0, 0] - truth).square().mean().sqrt() / truth.square().mean().sqrt()
     assert error.item() < 0.25, "a ramp of 100 ms tells harmonics 20 Hz apart from their neighbours"
     assert combed[0, 1].abs().max().item() == 0.0, "a second family of ribs that is not there"
 
 
+def test_lines_are_the_comb_s_harmonics_one_by_one_and_the_noise_s_own_share() -> None:
+    fundamental = 200.0
+    motion = torch.tensor([[0.5, 0.0, 1.0]])
+    noise = _wave([fundamental], 0, 200)
+    past = _wave([fundamental, 2.0 * fundamental], -200, 0)
+    channels, lines = RibComb()(noise, past, EMBEDDING(torch.tensor([0])), motion)
+    carried, fresh, own = lines.reshape(3, 2, 8, 200)
+    torch.testing.assert_close(carried.sum(dim=1), channels[0, 0:2])
+    torch.testing.assert_close(fresh.sum(dim=1), channels[0, 2:4])
+    torch.testing.assert_close(own[0, 0], noise[0, 0], rtol=0.0, atol=1e-3)
+    assert own[0, 1:].abs().max().item() < 1e-3, "the noise has nothing at the overtones"
+    assert own[1].abs().max().item() == 0.0, "a second family of ribs that is not there"
+
+
+def test_a_network_taught_nothing_adds_no_lines_and_one_with_unit_gains_carries_the_past_on() -> None:
+    field = VelocityField(width=16, previous_width=8, ribs=True)
+    motion = torch.tensor([[0.5, 0.0, 1.0]])
+    past = _wave([200.0], -200, 0)
+    embedding = EMBEDDING(torch.tensor([0]))
+    arguments = (torch.zeros(1, 1, 200), torch.zeros(1, 1), past, embedding, motion)
+    assert field(*arguments).abs().max().item() == 0.0
+    assert field.line_gains is not None
+    with torch.no_grad():
+        field.line_gains.bias[:16] = 1.0
+    torch.testing.assert_close(field(*arguments), _wave([200.0], 0, 200), rtol=0.0, atol=0.05)
+
+
 def test_fresh_harmonics_have_unit_size_and_a_phase_of_the_noise() -> None:
     motion = torch.tensor([[0.5, 0.0, 1.0]] * 2)
-    combed = RibComb()(torch.randn(2, 1, 200), torch.zeros(2, 1, 200), EMBEDDING(torch.tensor([0, 0])), motion)
+    combed, _ = RibComb()(torch.randn(2, 1, 200), torch.zeros(2, 1, 200), EMBEDDING(torch.tensor([0, 0])), motion)
     harmonics = 4
     power = combed[:, 2].square().mean(dim=1)
     torch.testing.assert_close(power, torch.full((2,), harmonics / 2.0), rtol=0.15, atol=0.0)
@@ -69,7 +97,7 @@ def test_fresh_harmonics_have_unit_size_and_a_phase_of_the_noise() -> None:
 )
 def test_where_no_rib_can_sound_the_comb_is_silent_and_finite(label: int, speed_mps: float) -> None:
     motion = torch.tensor([[speed_mps, 0.0, 1.0]])
-    combed = RibComb()(torch.randn(1, 1, 200), torch.randn(1, 1, 200), EMBEDDING(torch.tensor([label])), motion)
+    combed, _ = RibComb()(torch.randn(1, 1, 200), torch.randn(1, 1, 200), EMBEDDING(torch.tensor([label])), motion)
     assert combed.abs().max().item() == 0.0
 
 

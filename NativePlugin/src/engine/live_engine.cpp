@@ -82,12 +82,16 @@ std::shared_ptr<LiveVoice> LiveEngine::addVoice(double outputRateHz) {
     voices_.push_back(voice);
     roundVoices_.reserve(voices_.size());
     ++voicesMade_;
+    const std::lock_guard figuresLock(figuresMutex_);
+    figures_.voices = voices_.size();
     return voice;
 }
 
 void LiveEngine::removeVoice(const LiveVoice& voice) noexcept {
     const std::lock_guard lock(voicesMutex_);
     std::erase_if(voices_, [&voice](const auto& each) { return each.get() == &voice; });
+    const std::lock_guard figuresLock(figuresMutex_);
+    figures_.voices = voices_.size();
 }
 
 ContactAction LiveEngine::publish(LiveVoice& voice, const ContactState& state) noexcept {
@@ -113,7 +117,6 @@ RoundResult LiveEngine::step() {
     }
     const RoundResult result = round_.run(roundVoices_, *tiers_[tier].generator);
     const std::lock_guard figuresLock(figuresMutex_);
-    figures_.voices = voices_.size();
     if (result.voices > 0) {
         ++figures_.rounds;
         figures_.segments += result.segments;

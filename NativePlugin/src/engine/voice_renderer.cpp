@@ -141,8 +141,12 @@ void VoiceRenderer::begin() noexcept {
 }
 
 void VoiceRenderer::takeSegments() noexcept {
-    for (const QueuedSegment* segment = channels_.segments.front(); segment != nullptr;
-         segment = channels_.segments.front()) {
+    // Bounded: a worker that went wild could otherwise keep the callback here.
+    for (std::size_t taken = 0; taken < SegmentQueue::capacity; ++taken) {
+        const QueuedSegment* segment = channels_.segments.front();
+        if (segment == nullptr) {
+            return;
+        }
         takenSequence_ = segment->sequence;
         headAtTake_ = voice_.timeline().head();
         const bool isMine = sounding_ && segment->stream == stream_;

@@ -1,6 +1,6 @@
 """The edge of the recordings' band, as a last filter of one-step networks.
 
-Recordings end a little below 1 kHz, in the skirt of their decimation; noise does not. A network of patches cannot
+Recordings fade towards 1 kHz, in the skirt of their decimation; noise does not. A network of patches cannot
 cancel the noise it starts from in the last tenth of an octave; a filter that begins with that skirt and is trained with
 the network can.
 """
@@ -14,9 +14,9 @@ from torch import Tensor, nn
 TAPS = 129
 _REACH = TAPS // 2
 _SAMPLE_RATE_HZ = 2000.0
-# What preprocessing leaves of a flat spectrum, read off mean spectra of recordings: Hz and dB.
-_SKIRT_HZ = (0.0, 921.0, 937.0, 945.0, 953.0, 960.0, 968.0, 976.0, 984.0, 992.0, 1000.0)
-_SKIRT_DB = (0.0, 0.0, -1.0, -3.5, -6.0, -10.0, -14.0, -20.0, -28.0, -39.0, -48.0)
+# What the step down to 2 kHz leaves of a flat spectrum: Hz and dB (preprocessing/filters.py).
+_SKIRT_HZ = (0.0, 950.0, 970.0, 985.0, 1000.0)
+_SKIRT_DB = (0.0, 0.0, -0.8, -2.7, -6.0)
 
 
 class BandLimit(nn.Module):

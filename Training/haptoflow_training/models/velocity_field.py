@@ -12,7 +12,7 @@ import torch
 from torch import Tensor, nn
 
 from haptoflow_training.models.conditioning import CONDITION_SIZE, MotionEncoder, TimeEncoder
-from haptoflow_training.models.rib_comb import COMB_CHANNELS, RibComb
+from haptoflow_training.models.rib_comb import COMB_CHANNELS, LINES, RibComb
 
 
 class RmsNorm(nn.Module):
@@ -96,6 +96,10 @@ class VelocityField(nn.Module):
         self.interval = TimeEncoder() if average else None
         self.motion = MotionEncoder()
         self.comb = RibComb(positions) if ribs else None
+        self.line_gains = nn.Linear(CONDITION_SIZE, LINES) if ribs else None
+        if self.line_gains is not None:
+            nn.init.zeros_(self.line_gains.weight)
+            nn.init.zeros_(self.line_gains.bias)
         self.enter = _convolution(patch_size + (COMB_CHANNELS * patch if ribs else 0), width, 1)
         self.previous_fine = _convolution(patch_size, previous_width, 3)
         self.previous_coarse = _convolution(previous_width, previous_width, 3, stride=2)
@@ -147,14 +151,17 @@ class VelocityField(nn.Module):
         past_coarse = self.previous_coarse(nn.functional.silu(past))
 
         patches = self._to_patches(noisy, self.channels)
-        if self.comb is not None:
-            combed = self.comb(noisy, previous, embedding, motion)
+        lines: Tensor | None = None
+        if self.comb is not None and self.line_gains is not None:
+            combed, harmonics = self.comb(noisy, previous, embedding, motion)
             patches = torch.cat([patches, self._to_patches(combed, COMB_CHANNELS)], dim=1)
+            lines = self.line_gains(condition).unsqueeze(1) @ harmonics
         entered = self.enter(patches)
         fine = self.fine_down(torch.cat([entered, past], dim=1), film[0], film[1])
         coarse = self.coarse(torch.cat([self.down(fine), past_coarse], dim=1), film[2], film[3])
         merged = self.fine_up(torch.cat([self.up(coarse), fine], dim=1), film[4], film[5])
-        return self._from_patches(self.leave(merged))
+        made = self._from_patches(self.leave(merged))
+        return made if lines is None else made + lines
 
 
 def parameter_count(module: nn.Module) -> int:
