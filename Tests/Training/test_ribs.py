@@ -82,6 +82,13 @@ def test_a_network_taught_nothing_adds_no_lines_and_one_with_unit_gains_carries_
     torch.testing.assert_close(field(*arguments), _wave([200.0], 0, 200), rtol=0.0, atol=0.05)
 
 
+def test_a_line_that_has_grown_beyond_all_power_there_is_is_carried_on_no_larger_than_that() -> None:
+    motion = torch.tensor([[0.5, 0.0, 1.0]])
+    past = 5.0 * _wave([200.0], -200, 0)
+    _, lines = RibComb()(torch.zeros(1, 1, 200), past, EMBEDDING(torch.tensor([0])), motion)
+    assert lines[0, 0].abs().max().item() == pytest.approx(1.5, abs=0.02)
+
+
 def test_fresh_harmonics_have_unit_size_and_a_phase_of_the_noise() -> None:
     motion = torch.tensor([[0.5, 0.0, 1.0]] * 2)
     combed, _ = RibComb()(torch.randn(2, 1, 200), torch.zeros(2, 1, 200), EMBEDDING(torch.tensor([0, 0])), motion)

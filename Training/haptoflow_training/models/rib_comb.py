@@ -21,6 +21,9 @@ HARMONICS = 8
 COMB_CHANNELS = 2 * WAVE_VECTORS
 # Carried on, fresh, and the noise's own share at that pitch, each harmonic of each wave vector.
 LINES = 3 * WAVE_VECTORS * HARMONICS
+# In unit scale a line of all the power there is has an amplitude of 1.4: one that has grown beyond is not carried on as
+# it is, so that a line whose gain is a little above 1 in the loop cannot run away.
+_LARGEST_AMPLITUDE = 1.5
 # Below this fundamental the past cannot tell one harmonic from the next; above the other, a harmonic leaves the band.
 _LOWEST_FUNDAMENTAL_HZ, _HIGHEST_HZ = 15.0, 960.0
 
@@ -65,6 +68,7 @@ class RibComb(nn.Module):
         ahead, aside = advance.cos(), advance.sin()
         turned_real, turned_imaginary = real * ahead + imaginary * aside, imaginary * ahead - real * aside
         carried = turned_real * cosine + turned_imaginary * sine
+        amplitude_inverse = torch.rsqrt(turned_real.square() + turned_imaginary.square() + 1e-6)
 
         drawn = noisy.unsqueeze(2)
         real, imaginary = (drawn * cosine).sum(dim=3, keepdim=True), (drawn * sine).sum(dim=3, keepdim=True)
@@ -74,5 +78,6 @@ class RibComb(nn.Module):
         channels = torch.cat([carried.sum(dim=2), fresh.sum(dim=2)], dim=1)
         # A projection on the whole segment; twice its mean is a harmonic's own share.
         own = own * (2.0 / noisy.shape[2])
-        lines = torch.stack([carried, fresh, own], dim=1).reshape(-1, LINES, noisy.shape[2])
+        bounded = carried * torch.clamp(_LARGEST_AMPLITUDE * amplitude_inverse, max=1.0)
+        lines = torch.stack([bounded, fresh, own], dim=1).reshape(-1, LINES, noisy.shape[2])
         return channels, lines
