@@ -20,12 +20,14 @@ int run(int argc, char** argv) {
         "  haptoflow render scene.json --stroke stroke.csv -o felt.wav\n"
         "  haptoflow contact scene.json --stroke stroke.csv\n"
         "  haptoflow inspect default.haptoflow\n"
+        "  haptoflow bench --quick\n"
         "Exit codes: 0 done, 2 wrong usage, 3 bad input file, 4 internal error.");
 
     CommandOutcome outcome;
     addRenderCommand(app, outcome);
     addContactCommand(app, outcome);
     addInspectCommand(app, outcome);
+    addBenchCommand(app, outcome);
 
     try {
         app.parse(argc, argv);

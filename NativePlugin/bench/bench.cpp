@@ -1,0 +1,134 @@
+#include "bench/bench.hpp"
+
+#include "bench/callback_bench.hpp"
+#include "bench/contact_bench.hpp"
+#include "bench/distribution.hpp"
+#include "bench/idle_bench.hpp"
+#include "bench/inference_bench.hpp"
+#include "bench/latency_bench.hpp"
+#include "bench/machine.hpp"
+
+#include <algorithm>
+#include <iomanip>
+#include <sstream>
+#include <utility>
+
+namespace haptoflow::bench {
+namespace {
+
+struct Measurement {
+    std::string_view name;
+    /// About its share of a whole run's time, for the progress bar.
+    double weight;
+    std::function<nlohmann::ordered_json(const Advance&)> run;
+};
+
+std::string hexadecimal(std::uint32_t value) {
+    std::ostringstream stream;
+    stream << std::hex << std::setw(8) << std::setfill('0') << value;
+    return stream.str();
+}
+
+nlohmann::ordered_json identity(const std::filesystem::path& path, const model::ModelFile& model) {
+    return {{"name", model.header().name},
+            {"file", path.filename().string()},
+            {"crc32", hexadecimal(model.checksum())},
+            {"provenance", model.header().provenance.statement}};
+}
+
+nlohmann::ordered_json goals() {
+    return {{"callback_us", "below 1 % of the block at p99, one voice"},
+            {"onset_ms", "one block; in bursts, one burst"},
+            {"contact_to_sound_ms", "the voice's lead, one block and 1 ms; the output's filters come on top"},
+            {"stop_ms", "one block and 5 ms"},
+            {"speedup_vs_paper_architecture", "at least 60, hot"},
+            {"idle", "no inference"}};
+}
+
+nlohmann::ordered_json references() {
+    return {{"callback_us", "as many voices that write silence: p50 to p50"},
+            {"onset_ms", "the goal: p99 to goal"},
+            {"contact_to_sound_ms", "the goal: p99 to goal"},
+            {"stop_ms", "the goal: p99 to goal"},
+            {"inference_ms", "the paper's architecture through the same engine: its p50 to this p50"},
+            {"voices", "the same segments one by one: p50 to p50"},
+            {"idle", "the same two threads without engine: percent to percent"},
+            {"memory", "the model file: MiB to MiB"},
+            {"load", "plain reading of the model file: p50 to p50"},
+            {"contact", "the smallest scene: p50 to p50"}};
+}
+
+nlohmann::ordered_json notesFor(const nlohmann::ordered_json& report, const Subjects& subjects) {
+    nlohmann::ordered_json notes = nlohmann::ordered_json::array();
+    if (report.contains("inference_ms") && subjects.paper == nullptr) {
+        notes.push_back(
+            "speedup_vs_paper_architecture was not measured: no model of the paper's architecture was named; "
+            "`npm run bench` makes one, --paper-model names one");
+    }
+    if (report.contains("onset_ms") && !report.contains("contact_to_sound_ms")) {
+        notes.push_back("contact_to_sound_ms was not measured: it needs a model with seeds of two labels");
+    }
+    return notes;
+}
+
+}  // namespace
+
+nlohmann::ordered_json runBench(const BenchOptions& options, const BenchProgress& progress) {
+    const BenchPlan& plan = options.plan;
+    nlohmann::ordered_json loading;
+    progress(0.0, "load");
+    const nlohmann::ordered_json loadBefore = loadAverage();
+    const Subjects subjects = openSubjects(options.files, options.seed, loading);
+
+    const std::vector<Measurement> all{
+        {"callback", 14.0, [&](const Advance& advance) { return measureCallback(subjects, plan, advance); }},
+        {"latency", 130.0, [&](const Advance& advance) { return measureLatency(subjects, plan, advance); }},
+        {"inference", 35.0, [&](const Advance& advance) { return measureInference(subjects, plan, advance); }},
+        {"voices", 10.0, [&](const Advance& advance) { return measureVoices(subjects, plan, advance); }},
+        {"idle", 6.0, [&](const Advance& advance) { return measureIdle(subjects, plan, advance); }},
+        {"contact", 2.0, [&](const Advance& advance) { return measureContact(subjects.seed, plan, advance); }},
+    };
+    std::vector<Measurement> chosen;
+    double total = 5.0;
+    for (const Measurement& measurement : all) {
+        if (options.only.empty() || std::ranges::find(options.only, measurement.name) != options.only.end()) {
+            chosen.push_back(measurement);
+            total += measurement.weight;
+        }
+    }
+    double done = 0.0;
+    const auto advanceOf = [&](std::string_view name, double weight) {
+        return
+            [&progress, &done, total, name, weight](double share) { progress((done + weight * share) / total, name); };
+    };
+    measureLoads(options.files, subjects, plan, advanceOf("load", 5.0), loading);
+    done = 5.0;
+    nlohmann::ordered_json measured;
+    for (const Measurement& measurement : chosen) {
+        progress(done / total, measurement.name);
+        measured.update(measurement.run(advanceOf(measurement.name, measurement.weight)));
+        done += measurement.weight;
+    }
+    progress(1.0, "done");
+
+    nlohmann::ordered_json report{{"haptoflow", options.version},
+                                  {"date", today()},
+                                  {"model", identity(options.files.model, *subjects.model)},
+                                  {"quality", subjects.standard().name}};
+    if (subjects.paper != nullptr) {
+        report["paper_model"] = identity(options.files.paperModel, *subjects.paper);
+    }
+    report["machine"] = machineWords(subjects.runtime->version());
+    report["machine"]["load_average"] = {{"before", loadBefore}, {"after", loadAverage()}};
+    report["events"] = plan.events;
+    report["update_rate_hz"] = updateRateHz;
+    report["sample_rate_hz"] = outputRateHz;
+    report.update(measured);
+    report.update(loading);
+    report["goals"] = goals();
+    report["references"] = references();
+    report["notes"] = notesFor(report, subjects);
+    return report;
+}
+
+}  // namespace haptoflow::bench

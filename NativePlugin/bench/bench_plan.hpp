@@ -1,0 +1,54 @@
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <string_view>
+#include <vector>
+
+namespace haptoflow::bench {
+
+inline constexpr double outputRateHz = 48000.0;
+inline constexpr double updateRateHz = 72.0;
+/// The block length whose figures stand for the others where one is asked for.
+inline constexpr std::size_t usualBlockFrames = 256;
+
+/// How an audio device asks for sound.
+struct DeviceShape {
+    std::size_t blockFrames = usualBlockFrames;
+    /// Callbacks that come one right after the other.
+    std::size_t burstBlocks = 1;
+
+    [[nodiscard]] double blockSeconds() const noexcept { return static_cast<double>(blockFrames) / outputRateHz; }
+    /// From one burst to the next.
+    [[nodiscard]] double periodSeconds() const noexcept { return blockSeconds() * static_cast<double>(burstBlocks); }
+};
+
+/// How much is measured. `events` scales all counts: more of them cost time and make percentiles firmer.
+struct BenchPlan {
+    std::size_t events = 120;
+    /// The first is the usual block, without bursts.
+    std::vector<DeviceShape> devices{{256, 1}, {128, 1}, {512, 1}, {1024, 1}, {256, 2}, {1024, 2}};
+    std::vector<std::size_t> callbackVoices{1, 2, 8};
+    std::vector<std::size_t> batchVoices{1, 2, 4, 8, 16, 32, 64};
+    std::vector<std::size_t> surfaces{10, 100, 1000, 10000};
+
+    /// Every measurement, about three minutes.
+    [[nodiscard]] static BenchPlan full() { return {}; }
+    /// Every measurement on three devices with fewer events, about half a minute.
+    [[nodiscard]] static BenchPlan quick() {
+        BenchPlan plan;
+        plan.events = 24;
+        plan.devices = {{256, 1}, {1024, 1}, {256, 2}};
+        return plan;
+    }
+
+    [[nodiscard]] std::size_t callbackBlocks() const noexcept { return 20 * events; }
+    [[nodiscard]] double callbackPacedSeconds() const noexcept { return 0.02 * static_cast<double>(events); }
+    [[nodiscard]] std::size_t inferenceRuns() const noexcept { return 2 * events; }
+    [[nodiscard]] std::size_t batchRuns() const noexcept { return std::max<std::size_t>(2, events / 5); }
+    [[nodiscard]] double idleSeconds() const noexcept { return 0.02 * static_cast<double>(events); }
+    [[nodiscard]] std::size_t loads() const noexcept { return std::max<std::size_t>(2, events / 10); }
+    [[nodiscard]] std::size_t contactUpdates() const noexcept { return 20 * events; }
+};
+
+}  // namespace haptoflow::bench

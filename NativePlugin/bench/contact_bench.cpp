@@ -1,0 +1,129 @@
+#include "bench/contact_bench.hpp"
+
+#include "bench/distribution.hpp"
+#include "contact/contact_tracker.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <deque>
+#include <random>
+#include <utility>
+#include <vector>
+
+namespace haptoflow::bench {
+namespace {
+
+constexpr double microseconds = 1e6;
+constexpr double spacingMetres = 0.05;
+constexpr double topMetres = 0.02;
+constexpr std::size_t blocksOfEach = 20;
+
+contact::Shape shapeOf(std::size_t index) {
+    switch (index % 3) {
+        case 0:
+            return contact::Box{.sizeMetres = {0.04, 2.0 * topMetres, 0.04}};
+        case 1:
+            return contact::Sphere{.radiusMetres = topMetres};
+        default:
+            return contact::Capsule{.radiusMetres = 0.01, .heightMetres = 2.0 * topMetres};
+    }
+}
+
+/// A square carpet of surfaces whose tops are level.
+contact::Scene carpet(std::size_t surfaces) {
+    const auto columns = static_cast<std::size_t>(std::ceil(std::sqrt(static_cast<double>(surfaces))));
+    contact::Scene scene;
+    for (std::size_t index = 0; index < surfaces; ++index) {
+        contact::Surface surface;
+        surface.name = "surface " + std::to_string(index);
+        surface.shape = shapeOf(index);
+        const std::size_t row = index / columns;
+        surface.pose.positionMetres = {static_cast<double>(index % columns) * spacingMetres, 0.0,
+                                       static_cast<double>(row) * spacingMetres};
+        surface.material = {{"wood", 1.0}};
+        scene.surfaces.push_back(std::move(surface));
+    }
+    return scene;
+}
+
+/// A tip on its way over a carpet: 0.2 m/s from one place to the next, half a millimetre deep in the tops.
+class Stroller {
+public:
+    Stroller(std::size_t surfaces, std::uint64_t seed)
+        : extentMetres_(spacingMetres * std::ceil(std::sqrt(static_cast<double>(surfaces)))),
+          random_(seed),
+          tracker_(carpet(surfaces)) {}
+
+    void stroll(std::size_t updates) {
+        for (std::size_t update = 0; update < updates; ++update) {
+            advance();
+            contact::TipSample sample;
+            sample.timeSeconds = seconds_;
+            sample.positionMetres = tip_;
+            microseconds_.push_back(microseconds * secondsOf([&] { touching_ += tracker_.update(sample).touching; }));
+        }
+    }
+
+    [[nodiscard]] nlohmann::ordered_json figures(std::size_t surfaces) const {
+        nlohmann::ordered_json row{{"surfaces", surfaces}};
+        const nlohmann::ordered_json figures = toJson(distributionOf(microseconds_));
+        row["us_per_update"] = figures["p50"];
+        row.update(figures);
+        const auto updates = static_cast<double>(tracker_.statistics().samples);
+        row["touching_share"] = rounded(static_cast<double>(touching_) / updates);
+        row["exact_queries_per_update"] = rounded(static_cast<double>(tracker_.statistics().surfaceQueries) / updates);
+        return row;
+    }
+
+private:
+    void advance() {
+        constexpr double step = 0.2 / 90.0;
+        seconds_ += 1.0 / 90.0;
+        while (leftMetres_ < step) {
+            std::uniform_real_distribution<double> place(0.0, extentMetres_);
+            const glm::dvec3 goal{place(random_), topMetres + 0.0005, place(random_)};
+            leftMetres_ = glm::length(goal - tip_);
+            direction_ = (goal - tip_) / std::max(leftMetres_, 1e-9);
+        }
+        tip_ += direction_ * step;
+        leftMetres_ -= step;
+    }
+
+    double extentMetres_;
+    std::mt19937_64 random_;
+    contact::ContactTracker tracker_;
+    glm::dvec3 tip_{0.0, topMetres + 0.0005, 0.0};
+    glm::dvec3 direction_{0.0};
+    double leftMetres_ = 0.0;
+    double seconds_ = 0.0;
+    std::size_t touching_ = 0;
+    std::vector<double> microseconds_;
+};
+
+}  // namespace
+
+nlohmann::ordered_json measureContact(std::uint64_t seed, const BenchPlan& plan, const Advance& advance) {
+    std::deque<Stroller> strollers;
+    std::vector<std::size_t> order;
+    for (const std::size_t surfaces : plan.surfaces) {
+        order.insert(order.end(), blocksOfEach, strollers.size());
+        strollers.emplace_back(surfaces, seed);
+    }
+    std::mt19937_64 random(seed);
+    std::ranges::shuffle(order, random);
+    std::size_t done = 0;
+    for (const std::size_t index : order) {
+        strollers[index].stroll((plan.contactUpdates() + blocksOfEach - 1) / blocksOfEach);
+        advance(static_cast<double>(++done) / static_cast<double>(order.size()));
+    }
+    nlohmann::ordered_json rows = nlohmann::ordered_json::array();
+    for (std::size_t index = 0; index < strollers.size(); ++index) {
+        rows.push_back(strollers[index].figures(plan.surfaces[index]));
+    }
+    for (auto& row : rows) {
+        row["ratio"] = ratioOf(row["us_per_update"].get<double>(), rows[0]["us_per_update"].get<double>());
+    }
+    return {{"contact", rows}};
+}
+
+}  // namespace haptoflow::bench

@@ -1,0 +1,102 @@
+#include "bench/contact_script.hpp"
+
+#include "bench/bench_clock.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace haptoflow::bench {
+namespace {
+
+constexpr double updateSeconds = 1.0 / updateRateHz;
+// Nothing sounds before a script begins, and its device has started.
+constexpr double quietSeconds = 0.05;
+// Nearer to the end than this, a state would be published twice.
+constexpr double shortestSeconds = 1e-4;
+
+/// Writes states from `begin` to `end` at the update rate, the first at `begin`.
+void hold(std::vector<TimedState>& states, const engine::ContactState& state, double begin, double end) {
+    for (int update = 0; begin + update * updateSeconds < end - shortestSeconds; ++update) {
+        states.push_back({begin + update * updateSeconds, state});
+        states.back().state.timeSeconds = states.back().seconds;
+    }
+}
+
+}  // namespace
+
+TouchScript touchScript(const Hand& hand, const DeviceShape& shape, std::size_t touches, std::uint32_t firstTouch,
+                        std::mt19937_64& random) {
+    const double period = shape.periodSeconds();
+    std::uniform_real_distribution<double> phase(0.0, std::max(period, updateSeconds));
+    std::uniform_int_distribution<std::size_t> place(0, hand.labelCount() - 1);
+    TouchScript script;
+    double now = 0.0;
+    std::uint32_t counter = firstTouch;
+    hold(script.states, Hand::lifted(counter - 1), now, quietSeconds);
+    now = quietSeconds;
+    for (std::size_t index = 0; index < touches; ++index, ++counter) {
+        // What sounds first and what sounds last needs a period each, and the fade 5 ms.
+        const double touchSeconds = period + 0.03 + phase(random);
+        const double pauseSeconds = period + 0.02 + phase(random);
+        Touch touch;
+        touch.down = script.states.size();
+        hold(script.states, hand.sliding(counter, place(random)), now, now + touchSeconds);
+        now += touchSeconds;
+        touch.lift = script.states.size();
+        hold(script.states, Hand::lifted(counter), now, now + pauseSeconds);
+        now += pauseSeconds;
+        script.touches.push_back(touch);
+    }
+    script.states.push_back({now, Hand::lifted(counter - 1)});
+    return script;
+}
+
+StepScript stepScript(const Hand& hand, const DeviceShape& shape, std::size_t steps, std::uint32_t firstTouch,
+                      std::mt19937_64& random) {
+    const auto updates = std::max(2.0, std::ceil(1.5 * shape.periodSeconds() / updateSeconds));
+    const double holdSeconds = updates * updateSeconds;
+    std::uniform_real_distribution<double> phase(0.0, updateSeconds);
+    StepScript script;
+    double now = 0.0;
+    std::uint32_t counter = firstTouch;
+    hold(script.states, Hand::lifted(counter - 1), now, quietSeconds);
+    now = quietSeconds;
+    while (script.steps.size() < steps) {
+        // The first label of a stroke waits for the seed to be over.
+        const double firstSeconds = 0.15 + phase(random);
+        for (std::size_t place = 0; place < hand.labelCount(); ++place) {
+            if (place > 0) {
+                script.steps.push_back({script.states.size(), place});
+            }
+            const double seconds = place == 0 ? firstSeconds : holdSeconds;
+            hold(script.states, hand.sliding(counter, place), now, now + seconds);
+            now += seconds;
+        }
+        // The last step must sound before the tip leaves.
+        const double tailSeconds = 2.0 * shape.periodSeconds() + 0.06;
+        hold(script.states, hand.sliding(counter, hand.labelCount() - 1), now, now + tailSeconds);
+        now += tailSeconds;
+        const double pauseSeconds = shape.periodSeconds() + 0.02;
+        hold(script.states, Hand::lifted(counter), now, now + pauseSeconds);
+        now += pauseSeconds;
+        ++counter;
+    }
+    script.states.push_back({now, Hand::lifted(counter - 1)});
+    return script;
+}
+
+std::vector<Published> playScript(engine::LiveEngine& engine, engine::LiveVoice& voice,
+                                  const std::vector<TimedState>& states) {
+    std::vector<Published> published;
+    published.reserve(states.size());
+    const double start = nowSeconds();
+    for (const TimedState& timed : states) {
+        sleepUntil(start + timed.seconds);
+        const std::uint32_t lead = voice.channels.counters.leadSamples.load(std::memory_order_relaxed);
+        published.push_back({nowSeconds(), lead});
+        engine.publish(voice, timed.state);
+    }
+    return published;
+}
+
+}  // namespace haptoflow::bench

@@ -1,0 +1,71 @@
+#include "bench/idle_bench.hpp"
+
+#include "bench/distribution.hpp"
+#include "bench/process_usage.hpp"
+#include "bench/real_time_device.hpp"
+#include "bench/watched_generators.hpp"
+
+#include <algorithm>
+
+namespace haptoflow::bench {
+namespace {
+
+constexpr int turns = 4;
+
+struct Busy {
+    double cpuSeconds = 0.0;
+    double wallSeconds = 0.0;
+
+    [[nodiscard]] double percent() const { return rounded(100.0 * cpuSeconds / wallSeconds); }
+};
+
+/// Two threads in real time: a device that calls `render`, and this one, which calls `update`.
+template <typename Render, typename Update>
+void pass(double seconds, Busy& busy, Render render, Update update) {
+    const double cpuBefore = processCpuSeconds();
+    const double start = nowSeconds();
+    {
+        const RealTimeDevice device(DeviceShape{}, 2.0 * seconds, render);
+        int count = 0;
+        do {
+            update();
+            ++count;
+            sleepUntil(start + count / updateRateHz);
+        } while (nowSeconds() < start + seconds);
+    }
+    busy.wallSeconds += nowSeconds() - start;
+    busy.cpuSeconds += processCpuSeconds() - cpuBefore;
+}
+
+}  // namespace
+
+nlohmann::ordered_json measureIdle(const Subjects& subjects, const BenchPlan& plan, const Advance& advance) {
+    auto counting = std::make_unique<CountingGenerator>(subjects.generator(*subjects.model, subjects.standard(), 1));
+    const CountingGenerator& counted = *counting;
+    const auto engine = subjects.engineWith(std::move(counting), true);
+    const auto voice = engine->addVoice(outputRateHz);
+    // Making the engine asks the network for levels.
+    const std::uint64_t runsBefore = counted.runs;
+    const std::uint64_t wakesBefore = engine->statistics().wakes;
+    Busy idle;
+    Busy reference;
+    const double seconds = plan.idleSeconds() / turns;
+    for (int turn = 0; turn < turns; ++turn) {
+        pass(
+            seconds, reference, [](std::span<float> block) { std::ranges::fill(block, 0.0F); }, [] {});
+        pass(
+            seconds, idle, [&voice](std::span<float> block) { voice->renderer.render(block, outputRateHz); },
+            [&] { engine->publish(*voice, Hand::lifted(0)); });
+        advance((turn + 1.0) / turns);
+    }
+    return {{"idle",
+             {{"inferences", counted.runs - runsBefore},
+              {"cpu_percent", idle.percent()},
+              {"without_engine_cpu_percent", reference.percent()},
+              {"ratio", ratioOf(idle.percent(), reference.percent())},
+              {"worker_wakes", engine->statistics().wakes - wakesBefore},
+              {"updates", voice->channels.counters.updates.load()},
+              {"frames", voice->channels.counters.renderedFrames.load()}}}};
+}
+
+}  // namespace haptoflow::bench

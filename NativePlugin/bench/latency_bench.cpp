@@ -1,0 +1,197 @@
+#include "bench/latency_bench.hpp"
+
+#include "bench/distribution.hpp"
+#include "bench/real_time_device.hpp"
+#include "bench/watched_generators.hpp"
+#include "dsp/rate_warp.hpp"
+#include "dsp/waveform_resampler.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace haptoflow::bench {
+namespace {
+
+constexpr std::size_t eventsPerRound = 25;
+// A machine that is busy elsewhere loses events; after so many rounds more than needed it has lost too many.
+constexpr std::size_t spareRounds = 3;
+constexpr double milliseconds = 1000.0;
+
+struct DeviceRun {
+    DeviceShape shape;
+    Latencies latencies;
+    std::vector<double> leadSeconds;
+    std::size_t lateCalls = 0;
+};
+
+struct Measured {
+    std::vector<DeviceRun> onsets;
+    std::vector<DeviceRun> stops;
+    std::vector<DeviceRun> steps;
+};
+
+/// An engine with its worker and one voice, for as many recordings as are wanted.
+class Rig {
+public:
+    explicit Rig(std::unique_ptr<engine::LiveEngine> engine)
+        : engine_(std::move(engine)), voice_(engine_->addVoice(outputRateHz)) {}
+
+    [[nodiscard]] std::pair<Recording, std::vector<Published>> play(const DeviceShape& shape,
+                                                                    const std::vector<TimedState>& states) {
+        // Room for a machine that is late.
+        RealTimeDevice device(shape, states.back().seconds + 2.0,
+                              [this](std::span<float> block) { voice_->renderer.render(block, outputRateHz); });
+        auto published = playScript(*engine_, *voice_, states);
+        return {device.finish(), std::move(published)};
+    }
+
+private:
+    std::unique_ptr<engine::LiveEngine> engine_;
+    std::shared_ptr<engine::LiveVoice> voice_;
+};
+
+/// Calls `round(events)` until `measured()` has reached `wanted`, or too many rounds have lost too much.
+template <typename Round, typename Count>
+void inRounds(std::size_t wanted, const char* what, Round round, Count measured) {
+    const std::size_t rounds = (wanted + eventsPerRound - 1) / eventsPerRound + spareRounds;
+    for (std::size_t index = 0; index < rounds && measured() < wanted; ++index) {
+        round(std::min(eventsPerRound, wanted - measured()));
+    }
+    if (measured() == 0) {
+        throw MeasurementError(std::string("no ") + what +
+                               " was heard from the simulated device: a model that is silent, or a machine too busy");
+    }
+}
+
+void measureTouches(const Subjects& subjects, const DeviceShape& shape, std::size_t events, Measured& measured) {
+    const Hand hand(*subjects.model);
+    Rig rig(subjects.standardEngine(true));
+    std::mt19937_64 random(subjects.seed);
+    std::uint32_t firstTouch = 1;
+    DeviceRun onsets{.shape = shape, .latencies = {}, .leadSeconds = {}};
+    DeviceRun stops = onsets;
+    inRounds(
+        events, "touch",
+        [&](std::size_t count) {
+            const TouchScript script = touchScript(hand, shape, count, firstTouch, random);
+            firstTouch += static_cast<std::uint32_t>(count);
+            const auto [recording, published] = rig.play(shape, script.states);
+            findOnsets(recording, published, script, shape, onsets.latencies);
+            findStops(recording, published, script, shape, stops.latencies);
+            onsets.lateCalls += recording.lateCalls;
+        },
+        [&] { return std::min(onsets.latencies.seconds.size(), stops.latencies.seconds.size()); });
+    stops.lateCalls = onsets.lateCalls;
+    measured.onsets.push_back(std::move(onsets));
+    measured.stops.push_back(std::move(stops));
+}
+
+void measureSteps(const Subjects& subjects, const DeviceShape& shape, std::size_t events, Measured& measured) {
+    const Hand hand(*subjects.model);
+    std::vector<std::uint32_t> labels;
+    for (std::size_t place = 0; place < hand.labelCount(); ++place) {
+        labels.push_back(hand.label(place));
+    }
+    auto standard = subjects.generator(*subjects.model, subjects.standard(), 1);
+    Rig rig(
+        subjects.engineWith(std::make_unique<MarkingGenerator>(std::move(standard), *subjects.model, labels), true));
+    std::mt19937_64 random(subjects.seed);
+    std::uint32_t firstTouch = 1;
+    DeviceRun steps{.shape = shape, .latencies = {}, .leadSeconds = {}};
+    bool learns = true;
+    inRounds(
+        events, "label step",
+        [&](std::size_t count) {
+            const StepScript script = stepScript(hand, shape, count, firstTouch, random);
+            firstTouch += static_cast<std::uint32_t>(script.states.size());
+            const auto [recording, published] = rig.play(shape, script.states);
+            // The first round is the one in which the voice learns its lead.
+            if (std::exchange(learns, false)) {
+                return;
+            }
+            findSteps(recording, published, script, shape, engine::LiveEngineSettings{}.fullScaleMps2, steps.latencies);
+            for (const LabelStep& step : script.steps) {
+                steps.leadSeconds.push_back(published[step.index + 1].leadSamples / inference::waveformRateHz);
+            }
+            steps.lateCalls += recording.lateCalls;
+        },
+        [&] { return steps.latencies.seconds.size(); });
+    measured.steps.push_back(std::move(steps));
+}
+
+double shareWithin(const Latencies& latencies, double allowanceSeconds) {
+    std::size_t within = 0;
+    for (std::size_t index = 0; index < latencies.seconds.size(); ++index) {
+        within += latencies.seconds[index] <= latencies.goalSeconds[index] + allowanceSeconds ? 1 : 0;
+    }
+    return static_cast<double>(within) / static_cast<double>(latencies.seconds.size());
+}
+
+nlohmann::ordered_json rowOf(const DeviceRun& run) {
+    nlohmann::ordered_json row{{"block_frames", run.shape.blockFrames}, {"burst_blocks", run.shape.burstBlocks}};
+    const Distribution latency = distributionOf(run.latencies.seconds);
+    row.update(toJson(latency, milliseconds));
+    const double goal = rounded(distributionOf(run.latencies.goalSeconds).p50 * milliseconds);
+    row["goal"] = goal;
+    row["ratio"] = ratioOf(row["p99"].get<double>(), goal);
+    row["within_goal"] = rounded(shareWithin(run.latencies, 0.0));
+    row["missed"] = run.latencies.missed;
+    row["late_calls"] = run.lateCalls;
+    return row;
+}
+
+/// The usual device's figures, then every device's.
+nlohmann::ordered_json sectionOf(const std::vector<nlohmann::ordered_json>& rows) {
+    nlohmann::ordered_json section = rows.front();
+    section["rows"] = rows;
+    return section;
+}
+
+double filterDelaySeconds() {
+    const dsp::WaveformResampler resampler(outputRateHz);
+    constexpr double lowFrequencyHz = 50.0;
+    return dsp::RateWarp::latencyOutputSamples / inference::waveformRateHz +
+           resampler.groupDelaySeconds(lowFrequencyHz);
+}
+
+nlohmann::ordered_json stepRow(const DeviceRun& run, double filterSeconds) {
+    nlohmann::ordered_json row = rowOf(run);
+    const Distribution lead = distributionOf(run.leadSeconds);
+    row["lead"] = {{"p50", rounded(lead.p50 * milliseconds)}, {"worst", rounded(lead.worst * milliseconds)}};
+    row["filter_delay"] = rounded(filterSeconds * milliseconds);
+    row["within_goal_and_filters"] = rounded(shareWithin(run.latencies, filterSeconds));
+    return row;
+}
+
+}  // namespace
+
+nlohmann::ordered_json measureLatency(const Subjects& subjects, const BenchPlan& plan, const Advance& advance) {
+    const bool canStep = Hand(*subjects.model).labelCount() > 1;
+    Measured measured;
+    double done = 0.0;
+    const auto share = 1.0 / static_cast<double>(2 * plan.devices.size());
+    for (const DeviceShape& shape : plan.devices) {
+        measureTouches(subjects, shape, plan.events, measured);
+        advance(done += share);
+        if (canStep) {
+            measureSteps(subjects, shape, plan.events, measured);
+        }
+        advance(done += share);
+    }
+    const auto rowsOf = [](const std::vector<DeviceRun>& runs, auto toRow) {
+        std::vector<nlohmann::ordered_json> rows;
+        std::ranges::transform(runs, std::back_inserter(rows), toRow);
+        return rows;
+    };
+    nlohmann::ordered_json report;
+    report["onset_ms"] = sectionOf(rowsOf(measured.onsets, rowOf));
+    if (canStep) {
+        const double filterSeconds = filterDelaySeconds();
+        report["contact_to_sound_ms"] =
+            sectionOf(rowsOf(measured.steps, [=](const DeviceRun& run) { return stepRow(run, filterSeconds); }));
+    }
+    report["stop_ms"] = sectionOf(rowsOf(measured.stops, rowOf));
+    return report;
+}
+
+}  // namespace haptoflow::bench

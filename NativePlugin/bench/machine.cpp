@@ -1,0 +1,124 @@
+#include "bench/machine.hpp"
+
+#include "bench/distribution.hpp"
+
+#include <array>
+#include <cstdlib>
+#include <ctime>
+#include <fstream>
+#include <thread>
+
+#if defined(_WIN32)
+#define NOMINMAX
+#include <windows.h>
+#elif defined(__APPLE__)
+#include <sys/sysctl.h>
+#include <sys/utsname.h>
+#else
+#include <sys/utsname.h>
+#endif
+
+namespace haptoflow::bench {
+namespace {
+
+#if defined(_WIN32)
+
+std::string processorName() {
+    std::array<char, 256> name{};
+    auto bytes = static_cast<DWORD>(name.size());
+    const LSTATUS status = RegGetValueA(HKEY_LOCAL_MACHINE, "HARDWARE\\DESCRIPTION\\System\\CentralProcessor\\0",
+                                        "ProcessorNameString", RRF_RT_REG_SZ, nullptr, name.data(), &bytes);
+    return status == ERROR_SUCCESS ? name.data() : "";
+}
+
+std::string systemName() {
+    return "Windows";
+}
+
+#else
+
+#if defined(__APPLE__)
+
+std::string processorName() {
+    std::array<char, 256> name{};
+    std::size_t bytes = name.size() - 1;
+    return sysctlbyname("machdep.cpu.brand_string", name.data(), &bytes, nullptr, 0) == 0 ? name.data() : "";
+}
+
+#else
+
+std::string processorName() {
+    std::ifstream file("/proc/cpuinfo");
+    for (std::string line; std::getline(file, line);) {
+        const std::size_t colon = line.find(": ");
+        if (line.starts_with("model name") && colon != std::string::npos) {
+            return line.substr(colon + 2);
+        }
+    }
+    return "";
+}
+
+#endif
+
+std::string systemName() {
+    utsname names{};
+    return uname(&names) == 0 ? std::string(names.sysname) + ' ' + names.release + ' ' + names.machine : "";
+}
+
+#endif
+
+std::string orUnknown(const std::string& text) {
+    return text.empty() ? "unknown" : text;
+}
+
+}  // namespace
+
+nlohmann::ordered_json machineWords(const std::string& onnxRuntimeVersion) {
+#if defined(__clang__)
+    const std::string compiler = std::string("clang ") + __clang_version__;
+#elif defined(__GNUC__)
+    const std::string compiler = std::string("gcc ") + __VERSION__;
+#elif defined(_MSC_VER)
+    const std::string compiler = "MSVC " + std::to_string(_MSC_VER);
+#else
+    const std::string compiler = "unknown";
+#endif
+#if defined(NDEBUG)
+    const char* const build = "release";
+#else
+    const char* const build = "with assertions";
+#endif
+    return {{"processor", orUnknown(processorName())},
+            {"cores", std::thread::hardware_concurrency()},
+            {"system", orUnknown(systemName())},
+            {"compiler", compiler},
+            {"build", build},
+            {"onnxruntime", onnxRuntimeVersion}};
+}
+
+nlohmann::ordered_json loadAverage() {
+#if defined(_WIN32)
+    return nullptr;
+#else
+    double average = 0.0;
+    if (getloadavg(&average, 1) != 1) {
+        return nullptr;
+    }
+    return rounded(average);
+#endif
+}
+
+std::string today() {
+    const std::time_t now = std::time(nullptr);
+    std::tm date{};
+#if defined(_WIN32)
+    gmtime_s(&date, &now);
+#else
+    gmtime_r(&now, &date);
+#endif
+    std::array<char, 16> text{};
+    std::strftime(text.data(), text.size(), "%Y-%m-%d", &date);
+    return text.data();
+}
+
+}  // namespace haptoflow::bench

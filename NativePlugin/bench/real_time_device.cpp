@@ -1,0 +1,60 @@
+#include "bench/real_time_device.hpp"
+
+#include "bench/bench_clock.hpp"
+#include "engine/thread_priority.hpp"
+
+#include <cmath>
+#include <utility>
+
+namespace haptoflow::bench {
+
+RealTimeDevice::RealTimeDevice(const DeviceShape& shape, double longestSeconds, Callback callback)
+    : shape_(shape), callback_(std::move(callback)) {
+    const auto bursts = static_cast<std::size_t>(std::ceil(longestSeconds / shape.periodSeconds()));
+    recording_.samples.resize(bursts * shape.burstBlocks * shape.blockFrames);
+    recording_.blocks.reserve(bursts * shape.burstBlocks);
+    thread_ = std::thread([this] { run(); });
+}
+
+RealTimeDevice::~RealTimeDevice() {
+    stopping_ = true;
+    if (thread_.joinable()) {
+        thread_.join();
+    }
+}
+
+Recording RealTimeDevice::finish() {
+    stopping_ = true;
+    thread_.join();
+    recording_.samples.resize(written_);
+    return std::move(recording_);
+}
+
+void RealTimeDevice::run() {
+    engine::nameThisThread("device");
+    // A host's audio thread comes before others too; where the process may not ask for it, nothing changes.
+    (void)engine::raiseThisThreadsPriority();
+    const double period = shape_.periodSeconds();
+    double due = nowSeconds();
+    while (!stopping_ && written_ < recording_.samples.size()) {
+        due += period;
+        sleepUntil(due);
+        const double now = nowSeconds();
+        recording_.lateCalls += now - due > 0.5 * period ? 1 : 0;
+        // What a driver has lost it does not ask for again.
+        due = now - due > period ? now : due;
+        for (std::size_t block = 0; block < shape_.burstBlocks; ++block) {
+            renderBlock(now + static_cast<double>(block) * shape_.blockSeconds());
+        }
+    }
+}
+
+void RealTimeDevice::renderBlock(double playsAtSeconds) {
+    const auto block = std::span(recording_.samples).subspan(written_, shape_.blockFrames);
+    const double seconds = secondsOf([&] { callback_(block); });
+    recording_.blocks.push_back(
+        {.playsAtSeconds = playsAtSeconds, .renderSeconds = seconds, .firstFrame = written_, .frames = block.size()});
+    written_ += block.size();
+}
+
+}  // namespace haptoflow::bench

@@ -1,0 +1,84 @@
+#pragma once
+
+#include "engine/live_engine.hpp"
+#include "inference/onnx_runtime.hpp"
+#include "inference/onnx_segment_generator.hpp"
+#include "model/model_file.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <stdexcept>
+#include <vector>
+
+namespace haptoflow::bench {
+
+/// Voices in one batch, as the C interface has it where nobody says otherwise.
+inline constexpr std::size_t usualBatch = 8;
+
+/// Something that should have been measured was not there: no sound, no segment.
+class MeasurementError : public std::runtime_error {
+public:
+    using std::runtime_error::runtime_error;
+};
+
+/// What is measured, open and ready. Read from any thread.
+struct Subjects {
+    std::shared_ptr<const inference::Runtime> runtime;
+    std::shared_ptr<const model::ModelFile> model;
+    /// The paper's architecture; null where nobody named its file.
+    std::shared_ptr<const model::ModelFile> paper;
+    /// Key of all noise and of every random order.
+    std::uint64_t seed = 1;
+
+    /// The tier "standard", or the model's default where it has none of that name.
+    [[nodiscard]] const model::Tier& standard() const;
+    /// A tier of `file` with its own solver.
+    [[nodiscard]] std::unique_ptr<inference::OnnxSegmentGenerator> generator(const model::ModelFile& file,
+                                                                             const model::Tier& tier,
+                                                                             std::size_t batch) const;
+    /// An engine with one fixed tier.
+    [[nodiscard]] std::unique_ptr<engine::LiveEngine> engineWith(std::unique_ptr<inference::SegmentGenerator> generator,
+                                                                 bool hasWorker) const;
+    /// The same with the tier "standard", of `usualBatch` voices.
+    [[nodiscard]] std::unique_ptr<engine::LiveEngine> standardEngine(bool hasWorker) const;
+};
+
+/// The contact states of a tip that slides over a model's labels in the middle of its recorded range.
+class Hand {
+public:
+    /// At most this many of the labels that have a seed, in the model's order; at least one.
+    static constexpr std::size_t mostLabels = 16;
+
+    explicit Hand(const model::ModelFile& model);
+
+    [[nodiscard]] std::size_t labelCount() const noexcept { return labels_.size(); }
+    /// Index into the model's labels.
+    [[nodiscard]] std::uint32_t label(std::size_t place) const { return labels_.at(place); }
+    /// `speedShare` and the fixed force are shares of the recorded range.
+    [[nodiscard]] engine::ContactState sliding(std::uint32_t touch, std::size_t place, double speedShare = 0.3) const;
+    [[nodiscard]] static engine::ContactState lifted(std::uint32_t touch);
+
+private:
+    std::vector<std::uint32_t> labels_;
+    model::TrainedInterval speedMps_;
+    model::TrainedInterval forceNewtons_;
+};
+
+/// Requests as live voices make them: labels and motions of the recorded range, noise for the past and the start.
+class RandomRequests {
+public:
+    RandomRequests(const model::ModelFile& model, std::size_t count, std::uint64_t seed);
+
+    /// The next `count` of them, from the start again after the last; `count` is at most what there are.
+    [[nodiscard]] std::span<const inference::SegmentRequest> next(std::size_t count);
+
+private:
+    std::vector<float> waves_;
+    std::vector<inference::SegmentRequest> requests_;
+    std::size_t at_ = 0;
+};
+
+}  // namespace haptoflow::bench

@@ -1,0 +1,59 @@
+#pragma once
+
+#include "inference/segment_generator.hpp"
+#include "model/model_file.hpp"
+
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+namespace haptoflow::bench {
+
+/// Counts what the network behind it is asked for.
+class CountingGenerator final : public inference::SegmentGenerator {
+public:
+    explicit CountingGenerator(std::unique_ptr<inference::SegmentGenerator> behind) : behind_(std::move(behind)) {}
+
+    void generate(std::span<const inference::SegmentRequest> requests, std::span<float> segments) override {
+        runs.fetch_add(1, std::memory_order_relaxed);
+        behind_->generate(requests, segments);
+    }
+    void levels(std::span<const inference::SegmentRequest> requests, std::span<float> levelsMps2) override {
+        runs.fetch_add(1, std::memory_order_relaxed);
+        behind_->levels(requests, levelsMps2);
+    }
+
+    /// Any thread reads.
+    std::atomic<std::uint64_t> runs{0};
+
+private:
+    std::unique_ptr<inference::SegmentGenerator> behind_;
+};
+
+/// Takes the time that the network behind it takes, then writes over each segment a constant that says for which label
+/// it was generated: so that a recording shows when the first sample of a new label sounds.
+class MarkingGenerator final : public inference::SegmentGenerator {
+public:
+    /// `labels`: the model's labels that are told apart, by their place in this list.
+    MarkingGenerator(std::unique_ptr<inference::SegmentGenerator> behind, const model::ModelFile& model,
+                     std::span<const std::uint32_t> labels);
+
+    void generate(std::span<const inference::SegmentRequest> requests, std::span<float> segments) override;
+    void levels(std::span<const inference::SegmentRequest> requests, std::span<float> levelsMps2) override {
+        behind_->levels(requests, levelsMps2);
+    }
+
+    /// m/s^2: one step higher for each place. Sixteen of them stay below the limiter's knee.
+    [[nodiscard]] static float markMps2(std::size_t place) noexcept { return 2.0F * static_cast<float>(place + 1); }
+
+private:
+    [[nodiscard]] std::size_t placeOf(const std::array<float, inference::embeddingSize>& embedding) const;
+
+    std::unique_ptr<inference::SegmentGenerator> behind_;
+    std::vector<std::array<float, inference::embeddingSize>> embeddings_;
+};
+
+}  // namespace haptoflow::bench

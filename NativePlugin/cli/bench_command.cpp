@@ -1,0 +1,154 @@
+#include "bench/bench.hpp"
+
+#include "bench/bench_table.hpp"
+#include "commands.hpp"
+#include "exit_codes.hpp"
+#include "inference/onnx_runtime.hpp"
+#include "model_location.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <system_error>
+#include <vector>
+
+#if defined(_WIN32)
+#include <io.h>
+#else
+#include <unistd.h>
+#endif
+
+namespace haptoflow::cli {
+namespace {
+
+struct BenchCommandOptions {
+    std::string modelPath;
+    std::string paperModelPath;
+    std::string outputPath;
+    std::vector<std::string> only;
+    std::optional<std::size_t> events;
+    bool quick = false;
+    bool json = false;
+    bool quiet = false;
+};
+
+bool standardErrorIsTerminal() {
+#if defined(_WIN32)
+    return _isatty(_fileno(stderr)) != 0;
+#else
+    return isatty(STDERR_FILENO) != 0;
+#endif
+}
+
+bench::BenchProgress progressBar(bool quiet) {
+    if (quiet || !standardErrorIsTerminal()) {
+        return [](double, std::string_view) {};
+    }
+    return [](double share, std::string_view what) {
+        constexpr int width = 40;
+        const int filled = static_cast<int>(share * width);
+        const bool isDone = share >= 1.0;
+        std::fprintf(stderr, "\rbench [%s%s] %3d %% %-12s%s",
+                     std::string(static_cast<std::size_t>(filled), '#').c_str(),
+                     std::string(static_cast<std::size_t>(width - filled), ' ').c_str(),
+                     static_cast<int>(share * 100.0), std::string(what).c_str(), isDone ? "\n" : "");
+        std::fflush(stderr);
+    };
+}
+
+/// Before minutes of measuring, not after: the file must be one that can be written. Leaves things as they were.
+void requireWritable(const std::filesystem::path& path) {
+    std::error_code ignored;
+    const bool existed = std::filesystem::exists(path, ignored);
+    if (!std::ofstream(path, std::ios::app)) {
+        throw InputError(path.string() + ": cannot be written: name a file in a folder that exists");
+    }
+    if (!existed) {
+        std::filesystem::remove(path, ignored);
+    }
+}
+
+void writeReport(const std::string& path, const nlohmann::ordered_json& report) {
+    std::ofstream file(path);
+    file << report.dump(2) << '\n';
+    if (!file.flush()) {
+        throw InputError(path + ": could not be written to its end; is the disk full?");
+    }
+}
+
+nlohmann::ordered_json measure(const BenchCommandOptions& options) {
+    bench::BenchOptions wanted;
+    wanted.files = {.runtimeLibrary = findOnnxRuntime(),
+                    .model = findModel(options.modelPath),
+                    .paperModel = options.paperModelPath};
+    wanted.plan = options.quick ? bench::BenchPlan::quick() : bench::BenchPlan::full();
+    wanted.plan.events = options.events.value_or(wanted.plan.events);
+    wanted.only = options.only;
+    wanted.version = HAPTOFLOW_VERSION;
+    try {
+        return bench::runBench(wanted, progressBar(options.quiet));
+    } catch (const model::ModelError& error) {
+        throw InputError(error.what());
+    } catch (const inference::RuntimeUnavailable& error) {
+        throw InputError(error.what());
+    }
+}
+
+void runBench(const BenchCommandOptions& options) {
+    if (!options.outputPath.empty()) {
+        requireWritable(options.outputPath);
+    }
+    const nlohmann::ordered_json report = measure(options);
+    if (options.json) {
+        std::cout << report.dump(2) << '\n';
+    } else {
+        bench::printTables(std::cout, report);
+    }
+    if (!options.outputPath.empty()) {
+        writeReport(options.outputPath, report);
+    }
+}
+
+}  // namespace
+
+void addBenchCommand(CLI::App& app, CommandOutcome& outcome) {
+    CLI::App* command = app.add_subcommand("bench", "Measure callback, latencies, inference, memory and contact");
+    const auto options = std::make_shared<BenchCommandOptions>();
+    command->add_option("--model", options->modelPath, "Model file (default: the one shipped)")->type_name("FILE");
+    command
+        ->add_option("--paper-model", options->paperModelPath,
+                     "Model file of the paper's architecture, to compare with (`npm run bench` makes one)")
+        ->type_name("FILE");
+    command->add_flag("--quick", options->quick, "Fewer events and devices: half a minute for a first look");
+    command
+        ->add_option("--only", options->only, "Some measurements: callback, latency, inference, voices, idle, contact")
+        ->delimiter(',')
+        ->check(
+            CLI::IsMember(std::vector<std::string>(bench::measurementNames.begin(), bench::measurementNames.end())));
+    command
+        ->add_option("--events", options->events,
+                     "Events behind each latency; all other counts follow (default: 120, quick 24). Below 100 the p99 "
+                     "is the worst")
+        ->check(CLI::Range(1, 10000));
+    command->add_flag("--json", options->json, "Print the report as JSON in place of tables");
+    command->add_option("-o,--output", options->outputPath, "Write the report as JSON too")->type_name("BENCH.json");
+    command->add_flag("--quiet", options->quiet, "No progress bar");
+    command->footer(
+        "Examples:\n"
+        "  haptoflow bench --quick\n"
+        "  haptoflow bench --only inference --paper-model paper.haptoflow --json\n"
+        "Leave the machine alone while it runs: what else wants a core is in every figure.");
+    command->callback([options, &outcome] {
+        runBench(*options);
+        outcome.exitCode = exitDone;
+    });
+}
+
+}  // namespace haptoflow::cli

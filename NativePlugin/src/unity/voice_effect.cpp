@@ -1,0 +1,105 @@
+#include "unity/voice_effect.hpp"
+
+#include <algorithm>
+
+namespace haptoflow::unity {
+namespace {
+
+std::uint32_t framesIn(double seconds, double sampleRateHz) noexcept {
+    return std::max(1U, static_cast<std::uint32_t>(seconds * sampleRateHz));
+}
+
+/// Zeros into the target's channels.
+void silence(const capi::ChannelTarget& target, double sampleRateHz) noexcept {
+    (void)capi::renderInto(capi::VoiceTable::Use{}, target, sampleRateHz);
+}
+
+}  // namespace
+
+void VoiceEffect::process(const AudioBlock& block, const BlockContext& context) noexcept {
+    passThrough(block);
+    const Route wanted = parameters_.route();
+    const float strength = parameters_.strength();
+    const bool hasGap = missedBlocks(context.tick, block.frames);
+    if (startAnew_.exchange(false, std::memory_order_relaxed)) {
+        route_ = wanted;
+        gain_.jump(context.isSounding ? strength : 0.0F);
+    } else if (hasGap) {
+        gain_.jump(0.0F);
+    }
+
+    std::uint32_t done = 0;
+    if (!context.isSounding || wanted != route_) {
+        if (!gain_.isSettledAt(0.0F)) {
+            done = std::min(block.frames, framesIn(stopSeconds, context.sampleRateHz));
+            gain_.head(0.0F, done);
+            play(target(block, 0, done), context.sampleRateHz);
+        }
+        claim_.giveBack();
+        route_ = wanted;
+    }
+    if (done == block.frames) {
+        return;
+    }
+    const capi::ChannelTarget rest = target(block, done, block.frames - done);
+    if (!context.isSounding) {
+        if (rest.isValid()) {
+            silence(rest, context.sampleRateHz);
+        }
+        return;
+    }
+    if (gain_.target() != strength) {
+        gain_.head(strength, framesIn(glideSeconds, context.sampleRateHz));
+    }
+    play(rest, context.sampleRateHz);
+}
+
+bool VoiceEffect::missedBlocks(std::uint64_t tick, std::uint32_t frames) noexcept {
+    // Only after blocks that did follow one another: a host that counts differently must not fade every block.
+    const bool follows = tick == nextTick_;
+    const bool hasGap = ticksFollow_ && !follows;
+    ticksFollow_ = follows;
+    nextTick_ = tick + frames;
+    return hasGap;
+}
+
+capi::ChannelTarget VoiceEffect::target(const AudioBlock& block, std::uint32_t first,
+                                        std::uint32_t count) const noexcept {
+    return {block.out + std::size_t{first} * block.outChannels, count, block.outChannels, route_.channel};
+}
+
+void VoiceEffect::play(const capi::ChannelTarget& target, double sampleRateHz) noexcept {
+    if (!target.isValid()) {
+        claim_.giveBack();
+        gain_.jump(0.0F);
+        return;
+    }
+    const capi::VoiceTable::Use voice = capi::voices().useAt(route_.place);
+    if (voice && !claim_.hold(route_.place, target.frameCount, sampleRateHz)) {
+        voice->refusedCalls.fetch_add(1, std::memory_order_relaxed);
+        silence(target, sampleRateHz);
+        gain_.jump(0.0F);
+        return;
+    }
+    // A place without a voice needs no ramp when one opens there: voices begin in silence.
+    if (capi::renderInto(voice, target, sampleRateHz) == HAPTOFLOW_BUSY) {
+        gain_.jump(0.0F);
+        return;
+    }
+    applyGain(target);
+}
+
+void VoiceEffect::applyGain(const capi::ChannelTarget& target) noexcept {
+    if (gain_.isSettledAt(1.0F)) {
+        return;
+    }
+    const bool isAll = target.channel == HAPTOFLOW_ALL_CHANNELS;
+    const std::size_t width = isAll ? target.channelCount : 1;
+    float* samples = target.interleaved + (isAll ? 0 : target.channel);
+    for (std::uint32_t frame = 0; frame < target.frameCount; ++frame, samples += target.channelCount) {
+        const float gain = gain_.next();
+        std::for_each_n(samples, width, [gain](float& sample) { sample *= gain; });
+    }
+}
+
+}  // namespace haptoflow::unity

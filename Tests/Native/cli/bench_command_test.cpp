@@ -1,0 +1,320 @@
+#include "bench/distribution.hpp"
+#include "bench/latency_bench.hpp"
+#include "bench/watched_generators.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <numeric>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace haptoflow::cli {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::Not;
+using Json = nlohmann::json;
+
+const std::string tinyModel = HAPTOFLOW_TEST_GOLDEN_DIR "/model/tiny.haptoflow";
+
+struct Finished {
+    int exitCode = -1;
+    std::string output;
+    std::string errors;
+};
+
+/// Runs `haptoflow bench` with these arguments and with the repository's ONNX Runtime.
+Finished runBench(const std::string& arguments) {
+    const auto errors = std::filesystem::temp_directory_path() /
+                        ("bench_" + std::string(::testing::UnitTest::GetInstance()->current_test_info()->name()));
+    const std::string command = "HAPTOFLOW_ONNXRUNTIME='" HAPTOFLOW_TEST_ONNXRUNTIME "' '" HAPTOFLOW_TEST_CLI
+                                "' bench " +
+                                arguments + " 2>'" + errors.string() + "'";
+    FILE* pipe = popen(command.c_str(), "r");
+    if (pipe == nullptr) {
+        throw std::runtime_error("the program cannot be started: " HAPTOFLOW_TEST_CLI);
+    }
+    Finished run;
+    char part[4096];
+    while (const std::size_t count = std::fread(part, 1, sizeof(part), pipe)) {
+        run.output.append(part, count);
+    }
+    run.exitCode = WEXITSTATUS(pclose(pipe));
+    std::ifstream stream(errors);
+    run.errors.assign(std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>());
+    std::filesystem::remove(errors);
+    return run;
+}
+
+/// The report of a run with next to no events; the tiny model stands in for the paper's architecture too. Each test
+/// asks for what it looks at, because ctest runs each in a process of its own.
+Json reportOf(const std::string& measurements) {
+    const std::string only = measurements == "all" ? "" : " --only " + measurements;
+    const Finished run =
+        runBench("--quick --events 2 --json --model " + tinyModel + " --paper-model " + tinyModel + only);
+    if (run.exitCode != 0) {
+        throw std::runtime_error("bench ended with " + std::to_string(run.exitCode) + ": " + run.errors);
+    }
+    return Json::parse(run.output);
+}
+
+void expectRanked(const Json& figures, const std::string& where) {
+    const double p50 = figures.at("p50");
+    const double p99 = figures.at("p99");
+    const double worst = figures.at("worst");
+    EXPECT_GE(figures.at("count"), 1) << where;
+    EXPECT_LE(p50, p99) << where;
+    EXPECT_LE(p99, worst) << where;
+    EXPECT_GT(worst, 0.0) << where;
+}
+
+void expectRatio(const Json& ratio, const Json& numerator, const Json& denominator, const std::string& where) {
+    const double expected = numerator.get<double>() / denominator.get<double>();
+    EXPECT_NEAR(ratio.get<double>(), expected, 1e-5 * expected) << where;
+}
+
+TEST(BenchCommandTest, TheReportHasEveryKeyOfTheContractAndNoneForWhatDoesNotExist) {
+    const Json report = reportOf("all");
+    for (const char* key : {"callback_us", "onset_ms", "contact_to_sound_ms", "stop_ms", "inference_ms",
+                            "speedup_vs_paper_architecture", "voices", "idle", "memory_mib", "load_ms", "contact"}) {
+        EXPECT_TRUE(report.contains(key)) << key;
+    }
+    EXPECT_FALSE(report.contains("effects"));
+    EXPECT_TRUE(report["notes"].empty()) << report["notes"];
+}
+
+TEST(BenchCommandTest, TheReportSaysOfWhatAndWhereItIsAndNotOnWhichHost) {
+    const Json report = reportOf("contact");
+    EXPECT_EQ(report["model"]["name"], "tiny");
+    EXPECT_EQ(report["model"]["file"], "tiny.haptoflow");
+    EXPECT_EQ(report["model"]["crc32"].get<std::string>().size(), 8U);
+    EXPECT_THAT(report["date"].get<std::string>(), ::testing::MatchesRegex("20[0-9]{2}-[0-9]{2}-[0-9]{2}"));
+    EXPECT_GE(report["machine"]["cores"], 1);
+    EXPECT_FALSE(report["machine"]["processor"].get<std::string>().empty());
+    char host[256]{};
+    ASSERT_EQ(gethostname(host, sizeof(host) - 1), 0);
+    if (std::string(host).size() > 3) {
+        EXPECT_THAT(report.dump(), Not(HasSubstr(host)));
+    }
+    EXPECT_THAT(report.dump(), Not(HasSubstr(HAPTOFLOW_TEST_GOLDEN_DIR)));
+}
+
+TEST(BenchCommandTest, CallbackRowsAreOfOneTwoAndEightVoicesWithTheirShareOfTheBlock) {
+    const Json rows = reportOf("callback")["callback_us"];
+    ASSERT_EQ(rows.size(), 3U);
+    std::vector<int> voices;
+    for (const Json& row : rows) {
+        voices.push_back(row["voices"]);
+        for (const Json& pace : {row, row["paced"]}) {
+            expectRanked(pace, "callback");
+            expectRanked(pace["silence"], "silence");
+            expectRatio(pace["ratio"], pace["p50"], pace["silence"]["p50"], "callback to silence");
+            expectRatio(pace["percent_of_block"]["p99"], pace["p99"], 5333.3333 / 100.0, "share of the block");
+        }
+    }
+    EXPECT_THAT(voices, ::testing::ElementsAre(1, 2, 8));
+}
+
+TEST(BenchCommandTest, LatenciesHaveARowForEachDeviceWithItsGoalAndTheUsualBlocksFiguresInFront) {
+    const Json report = reportOf("latency");
+    for (const char* key : {"onset_ms", "contact_to_sound_ms", "stop_ms"}) {
+        const Json& section = report[key];
+        ASSERT_EQ(section["rows"].size(), 3U) << key;
+        EXPECT_EQ(section["block_frames"], 256) << key;
+        EXPECT_EQ(section["p99"], section["rows"][0]["p99"]) << key;
+        for (const Json& row : section["rows"]) {
+            expectRanked(row, key);
+            expectRatio(row["ratio"], row["p99"], row["goal"], key);
+            EXPECT_GE(row["within_goal"], 0.0) << key;
+            EXPECT_LE(row["within_goal"], 1.0) << key;
+        }
+    }
+    for (std::size_t device = 0; device < 3; ++device) {
+        const Json& onset = report["onset_ms"]["rows"][device];
+        const double period = onset["block_frames"].get<double>() * onset["burst_blocks"].get<double>() / 48.0;
+        EXPECT_NEAR(onset["goal"], period, 1e-3);
+        EXPECT_NEAR(report["stop_ms"]["rows"][device]["goal"], period + 5.0, 1e-3);
+        const Json& step = report["contact_to_sound_ms"]["rows"][device];
+        EXPECT_GE(step["goal"], period + 1.0 - 1e-3);
+        EXPECT_LE(step["goal"], step["lead"]["worst"].get<double>() + period + 1.0 + 1e-3);
+        EXPECT_NEAR(step["filter_delay"], 6.2, 0.2) << "5 ms of warp and the resampler's 1.2 ms";
+        EXPECT_GE(step["within_goal_and_filters"], step["within_goal"]);
+    }
+}
+
+TEST(BenchCommandTest, EveryQualityIsTimedHotAndPacedAndTheSpeedUpIsTheRatioOfTheMedians) {
+    const Json report = reportOf("inference");
+    ASSERT_EQ(report["inference_ms"].size(), 5U);
+    for (const auto& [name, tier] : report["inference_ms"].items()) {
+        expectRanked(tier, name);
+        expectRanked(tier["paced"], name);
+        expectRatio(tier["ratio"], report["paper_architecture_ms"]["p50"], tier["p50"], name);
+    }
+    EXPECT_EQ(report["speedup_vs_paper_architecture"], report["inference_ms"]["standard"]["ratio"]);
+    EXPECT_EQ(report["speedup_vs_paper_architecture_paced"], report["inference_ms"]["standard"]["paced"]["ratio"]);
+}
+
+TEST(BenchCommandTest, VoicesAreBatchedBesideOneByOneUpToSixtyFour) {
+    const Json rows = reportOf("voices")["voices"];
+    ASSERT_EQ(rows.size(), 7U);
+    for (std::size_t row = 0; row < rows.size(); ++row) {
+        EXPECT_EQ(rows[row]["count"], 1 << row);
+        expectRanked(rows[row]["batched"], "batched");
+        EXPECT_EQ(rows[row]["ms_per_update"], rows[row]["batched"]["p50"]);
+        expectRatio(rows[row]["ratio"], rows[row]["batched"]["p50"], rows[row]["one_by_one"]["p50"], "voices");
+    }
+}
+
+TEST(BenchCommandTest, IdleInfersNothingAndWakesNobody) {
+    const Json idle = reportOf("idle")["idle"];
+    EXPECT_EQ(idle["inferences"], 0);
+    EXPECT_EQ(idle["worker_wakes"], 0);
+    EXPECT_GE(idle["updates"], 4);
+    EXPECT_GE(idle["cpu_percent"], 0.0);
+}
+
+TEST(BenchCommandTest, MemoryIsTheSumOfItsPartsAndLoadingIsModelAndEngine) {
+    const Json report = reportOf("contact");
+    const Json& memory = report["memory"];
+    const double parts =
+        memory["runtime_mib"].get<double>() + memory["model_mib"].get<double>() + memory["engine_mib"].get<double>();
+    EXPECT_GT(parts, 1.0) << "ONNX Runtime alone is larger";
+    EXPECT_NEAR(report["memory_mib"], parts, 1e-3);
+    expectRanked(report["load"]["again"], "load");
+    EXPECT_EQ(report["load_ms"], report["load"]["again"]["p50"]);
+    expectRatio(report["load"]["ratio"], report["load_ms"], report["load"]["plain_read"]["p50"], "load");
+}
+
+TEST(BenchCommandTest, ContactGrowsFromTenToTenThousandSurfacesAndTheTipTouches) {
+    const Json rows = reportOf("contact")["contact"];
+    ASSERT_EQ(rows.size(), 4U);
+    int surfaces = 10;
+    for (const Json& row : rows) {
+        EXPECT_EQ(row["surfaces"], surfaces);
+        expectRanked(row, "contact");
+        EXPECT_EQ(row["us_per_update"], row["p50"]);
+        expectRatio(row["ratio"], row["p50"], rows[0]["p50"], "contact");
+        EXPECT_GT(row["touching_share"], 0.0) << surfaces;
+        surfaces *= 10;
+    }
+}
+
+TEST(BenchCommandTest, WithoutThePapersModelThereIsANoteAndNoSpeedUp) {
+    const auto path = std::filesystem::temp_directory_path() / "bench_without_paper.json";
+    const Finished run = runBench("--only inference --events 1 --model " + tinyModel + " -o '" + path.string() + "'");
+    ASSERT_EQ(run.exitCode, 0) << run.errors;
+    EXPECT_THAT(run.output,
+                AllOf(HasSubstr("inference, one segment"), HasSubstr("note: speedup_vs_paper_architecture")));
+    EXPECT_THAT(run.output, Not(HasSubstr("callback")));
+    EXPECT_EQ(run.errors, "") << "no progress bar where standard error is no terminal";
+    std::ifstream stream(path);
+    const Json report = Json::parse(stream);
+    std::filesystem::remove(path);
+    EXPECT_FALSE(report.contains("speedup_vs_paper_architecture"));
+    EXPECT_FALSE(report.contains("callback_us"));
+    EXPECT_TRUE(report.contains("load_ms"));
+    ASSERT_EQ(report["notes"].size(), 1U);
+    EXPECT_THAT(report["notes"][0].get<std::string>(), HasSubstr("--paper-model"));
+}
+
+TEST(BenchCommandTest, WrongUseEndsWithTwoAndWrongFilesWithThree) {
+    EXPECT_EQ(runBench("--only latncy").exitCode, 2);
+    EXPECT_EQ(runBench("--events 0").exitCode, 2);
+    const Finished missing = runBench("--model /nowhere/a.haptoflow");
+    EXPECT_EQ(missing.exitCode, 3);
+    EXPECT_THAT(missing.errors, HasSubstr("/nowhere/a.haptoflow: there is no such file"));
+    const Finished paper = runBench("--model " + tinyModel + " --paper-model /nowhere/p.haptoflow");
+    EXPECT_EQ(paper.exitCode, 3);
+    EXPECT_THAT(paper.errors, HasSubstr("/nowhere/p.haptoflow"));
+    const Finished unwritable = runBench("--model " + tinyModel + " -o /nowhere/bench.json");
+    EXPECT_EQ(unwritable.exitCode, 3);
+    EXPECT_THAT(unwritable.errors, HasSubstr("/nowhere/bench.json: cannot be written"));
+}
+
+TEST(BenchDistributionTest, PercentilesAreMeasuredValuesByNearestRank) {
+    std::vector<double> values(200);
+    std::iota(values.begin(), values.end(), 1.0);
+    std::ranges::reverse(values);
+    const bench::Distribution distribution = bench::distributionOf(values);
+    EXPECT_EQ(distribution.p50, 100.0);
+    EXPECT_EQ(distribution.p99, 198.0);
+    EXPECT_EQ(distribution.worst, 200.0);
+    EXPECT_EQ(bench::distributionOf({3.0}).p99, 3.0);
+    EXPECT_THROW((void)bench::distributionOf({}), std::invalid_argument);
+}
+
+/// A recording of blocks of 10 frames at 1 kHz from time 100 s on, without gaps.
+bench::Recording recordingOf(std::vector<float> samples) {
+    bench::Recording recording;
+    recording.rateHz = 1000.0;
+    recording.samples = std::move(samples);
+    for (std::size_t frame = 0; frame < recording.samples.size(); frame += 10) {
+        recording.blocks.push_back({.playsAtSeconds = 100.0 + 0.001 * static_cast<double>(frame),
+                                    .renderSeconds = 0.0,
+                                    .firstFrame = frame,
+                                    .frames = 10});
+    }
+    return recording;
+}
+
+TEST(BenchLatencyTest, OnsetAndStopAreReadFromTheSamplesWithinSixtyDecibelsOfThePeak) {
+    std::vector<float> samples(100, 0.0F);
+    std::fill(samples.begin() + 30, samples.begin() + 60, -0.5F);
+    samples[20] = 0.0004F;
+    samples[65] = 0.0006F;
+    samples[80] = 0.0004F;
+    const bench::Recording recording = recordingOf(samples);
+    bench::TouchScript script;
+    script.touches = {{.down = 0, .lift = 1}};
+    const std::vector<bench::Published> published{{100.0105, 0}, {100.0505, 0}, {100.1, 0}};
+    bench::Latencies onsets;
+    bench::Latencies stops;
+    const bench::DeviceShape shape{.blockFrames = 480, .burstBlocks = 2};
+    bench::findOnsets(recording, published, script, shape, onsets);
+    bench::findStops(recording, published, script, shape, stops);
+    ASSERT_EQ(onsets.seconds.size(), 1U);
+    EXPECT_NEAR(onsets.seconds[0], 0.0195, 1e-9);
+    EXPECT_NEAR(onsets.goalSeconds[0], 0.02, 1e-9);
+    ASSERT_EQ(stops.seconds.size(), 1U);
+    EXPECT_NEAR(stops.seconds[0], 0.0155, 1e-9) << "to the end of that sample";
+    EXPECT_NEAR(stops.goalSeconds[0], 0.025, 1e-9);
+}
+
+TEST(BenchLatencyTest, ATouchThatNothingIsHeardOfIsCountedAsMissed) {
+    bench::TouchScript script;
+    script.touches = {{.down = 0, .lift = 1}};
+    bench::Latencies onsets;
+    bench::findOnsets(recordingOf(std::vector<float>(50, 0.0F)), {{100.0, 0}, {100.02, 0}, {100.05, 0}}, script, {},
+                      onsets);
+    EXPECT_TRUE(onsets.seconds.empty());
+    EXPECT_EQ(onsets.missed, 1U);
+}
+
+TEST(BenchLatencyTest, ALabelStepIsHeardWhereTheOutputPassesTheMiddleOfTwoMarks) {
+    constexpr float fullScale = 60.0F;
+    std::vector<float> samples(100, bench::MarkingGenerator::markMps2(0) / fullScale);
+    std::fill(samples.begin() + 40, samples.end(), bench::MarkingGenerator::markMps2(1) / fullScale);
+    bench::StepScript script;
+    script.steps = {{.index = 1, .place = 1}};
+    bench::Latencies steps;
+    bench::findSteps(recordingOf(samples), {{100.0, 8}, {100.0155, 8}, {100.03, 20}}, script, {}, fullScale, steps);
+    ASSERT_EQ(steps.seconds.size(), 1U);
+    EXPECT_NEAR(steps.seconds[0], 0.0245, 1e-9);
+    EXPECT_NEAR(steps.goalSeconds[0], 0.010 + 256.0 / 48000.0 + 0.001, 1e-9) << "the lead noted with the next state";
+}
+
+}  // namespace
+}  // namespace haptoflow::cli

@@ -1,0 +1,156 @@
+#include "unity_host.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstring>
+#include <filesystem>
+#include <span>
+
+namespace haptoflow::unity::testing {
+namespace {
+
+bool endsWithin(std::span<const char> field) {
+    return field.front() != '\0' && std::ranges::find(field, '\0') != field.end();
+}
+
+TEST(DefinitionTest, TheLibrarysFileNameIsOneThatUnityLoadsAtItsStart) {
+    EXPECT_THAT(std::filesystem::path(UnityHost::libraryPath).filename().string(),
+                ::testing::MatchesRegex("(lib)?audioplugin_haptoflow\\..*"));
+}
+
+TEST(DefinitionTest, TheLibraryDefinesOneEffect) {
+    const UnityHost host;
+    ASSERT_EQ(host.definitions().size(), 1U);
+    EXPECT_STREQ(host.definitions()[0]->name.data(), "HaptoFlow Voice");
+}
+
+TEST(DefinitionTest, AskingAgainGivesTheSameDefinitions) {
+    EXPECT_EQ(UnityHost().definitions()[0], UnityHost().definitions()[0]);
+}
+
+TEST(DefinitionTest, TheDefinitionSaysWhichLayoutItHas) {
+    const UnityHost host;
+    const AudioEffectDefinition& definition = *host.definitions()[0];
+    EXPECT_EQ(definition.structSize, 136U);
+    EXPECT_EQ(definition.parameterStructSize, 64U);
+    EXPECT_EQ(definition.apiVersion, 0x010402U);
+    EXPECT_EQ(definition.pluginVersion, HAPTOFLOW_TEST_VERSION_MAJOR * 0x10000U +
+                                            HAPTOFLOW_TEST_VERSION_MINOR * 0x100U + HAPTOFLOW_TEST_VERSION_PATCH);
+    EXPECT_EQ(definition.channels, 0U) << "a number of channels makes it a generator";
+    EXPECT_EQ(definition.flags, 0U);
+}
+
+TEST(DefinitionTest, EveryCallbackIsThere) {
+    const UnityHost host;
+    const AudioEffectDefinition& definition = *host.definitions()[0];
+    EXPECT_NE(definition.create, nullptr);
+    EXPECT_NE(definition.release, nullptr);
+    EXPECT_NE(definition.reset, nullptr);
+    EXPECT_NE(definition.process, nullptr);
+    EXPECT_NE(definition.setPosition, nullptr);
+    EXPECT_NE(definition.setParameter, nullptr);
+    EXPECT_NE(definition.getParameter, nullptr);
+    EXPECT_NE(definition.getBuffer, nullptr);
+}
+
+TEST(DefinitionTest, EveryTextEndsWithinItsField) {
+    const UnityHost host;
+    const AudioEffectDefinition& definition = *host.definitions()[0];
+    EXPECT_TRUE(endsWithin(definition.name));
+    ASSERT_EQ(definition.parameterCount, 3U);
+    for (std::uint32_t i = 0; i < definition.parameterCount; ++i) {
+        EXPECT_TRUE(endsWithin(definition.parameters[i].name)) << i;
+        EXPECT_TRUE(endsWithin(definition.parameters[i].unit)) << i;
+        ASSERT_NE(definition.parameters[i].description, nullptr) << i;
+        EXPECT_GT(std::strlen(definition.parameters[i].description), 60U) << i;
+    }
+}
+
+TEST(DefinitionTest, EveryParametersRangeHoldsItsDefault) {
+    const UnityHost host;
+    const AudioEffectDefinition& definition = *host.definitions()[0];
+    for (std::uint32_t i = 0; i < definition.parameterCount; ++i) {
+        const AudioParameterDefinition& parameter = definition.parameters[i];
+        EXPECT_LT(parameter.minimum, parameter.maximum) << parameter.name.data();
+        EXPECT_LE(parameter.minimum, parameter.defaultValue) << parameter.name.data();
+        EXPECT_GE(parameter.maximum, parameter.defaultValue) << parameter.name.data();
+        EXPECT_GT(parameter.displayScale, 0.0F) << parameter.name.data();
+        EXPECT_GT(parameter.displayExponent, 0.0F) << parameter.name.data();
+    }
+}
+
+TEST(DefinitionTest, ANewEffectHasEachParametersDefault) {
+    const UnityHost host;
+    HostedEffect effect(*host.definitions()[0]);
+    for (std::uint32_t i = 0; i < effect.definition().parameterCount; ++i) {
+        const AudioParameterDefinition& parameter = effect.definition().parameters[i];
+        EXPECT_EQ(effect.get(parameter.name.data()), parameter.defaultValue) << parameter.name.data();
+    }
+}
+
+TEST(DefinitionTest, SeekingAndReadingBuffersIsNotSupported) {
+    const UnityHost host;
+    HostedEffect effect(*host.definitions()[0]);
+    float sample = 5.0F;
+    EXPECT_EQ(effect.definition().setPosition(&effect.state(), 100), resultUnsupported);
+    EXPECT_EQ(effect.definition().getBuffer(&effect.state(), "Waveform", &sample, 1), resultUnsupported);
+    EXPECT_EQ(sample, 5.0F);
+}
+
+TEST(DefinitionTest, NullPointersAreRefusedAndNeverFollowed) {
+    const UnityHost host;
+    const AudioEffectDefinition& effect = *host.definitions()[0];
+    AudioEffectState empty{};
+    empty.structSize = sizeof(empty);
+    for (AudioEffectState* state : {static_cast<AudioEffectState*>(nullptr), &empty}) {
+        EXPECT_EQ(effect.release(state), resultUnsupported);
+        EXPECT_EQ(effect.reset(state), resultUnsupported);
+        EXPECT_EQ(effect.process(state, nullptr, nullptr, 64, 2, 2), resultUnsupported);
+        EXPECT_EQ(effect.process(state, nullptr, nullptr, 0, 2, 2), resultOk);
+        EXPECT_EQ(effect.setPosition(state, 0), resultUnsupported);
+        EXPECT_EQ(effect.setParameter(state, 0, 0.5F), resultUnsupported);
+        EXPECT_EQ(effect.getParameter(state, 0, nullptr, nullptr), resultUnsupported);
+        EXPECT_EQ(effect.getBuffer(state, nullptr, nullptr, 1), resultUnsupported);
+    }
+    EXPECT_EQ(effect.create(nullptr), resultUnsupported);
+}
+
+TEST(DefinitionTest, AGroupWhoseEffectCouldNotBeMadeStillPlaysItsInput) {
+    const UnityHost host;
+    AudioEffectState empty{};
+    empty.structSize = sizeof(empty);
+    Sound in = Sound::pattern(8, 2);
+    Sound out(8, 2);
+    EXPECT_EQ(host.definitions()[0]->process(&empty, in.samples.data(), out.samples.data(), 8, 2, 2),
+              resultUnsupported);
+    EXPECT_EQ(out.samples, in.samples);
+}
+
+TEST(DefinitionTest, TheStateOfAnOlderHostIsEnoughAndOneThatIsTooShortIsRefused) {
+    const UnityHost host;
+    const AudioEffectDefinition& effect = *host.definitions()[0];
+    // The host's own field and all behind it are missing; what is there must stay as it is.
+    for (const std::uint32_t size : {56U, 80U, 200U}) {
+        AudioEffectState state{};
+        state.structSize = size;
+        state.sampleRateHz = 48000;
+        state.flags = flagPlaying;
+        state.spatializerData = &state;
+        state.dspBufferSize = 99;
+        EXPECT_EQ(effect.create(&state), resultOk) << size;
+        Sound sound = Sound::pattern(32, 2);
+        EXPECT_EQ(effect.process(&state, sound.samples.data(), sound.samples.data(), 32, 2, 2), resultOk) << size;
+        EXPECT_EQ(effect.release(&state), resultOk) << size;
+        EXPECT_EQ(state.spatializerData, &state);
+        EXPECT_EQ(state.dspBufferSize, 99U);
+    }
+    AudioEffectState state{};
+    state.structSize = 40;
+    EXPECT_EQ(effect.create(&state), resultUnsupported);
+    EXPECT_EQ(state.effectData, nullptr);
+}
+
+}  // namespace
+}  // namespace haptoflow::unity::testing

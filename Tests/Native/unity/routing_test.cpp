@@ -1,0 +1,184 @@
+#include "stepped_voice.hpp"
+
+#include <gmock/gmock.h>
+
+#include <array>
+
+namespace haptoflow::unity::testing {
+namespace {
+
+using ::testing::Each;
+
+using RoutingTest = VoiceEffectTest;
+
+TEST_F(RoutingTest, TheRoutedChannelCarriesWhatTheCInterfaceWouldHaveWrittenAndTheOtherItsInput) {
+    SteppedVoice same(runtime_, model_);
+    HostedEffect effect(definition());
+    effect.set("Voice", voice_.place());
+    effect.set("Channel", 1.0F);
+    for (int i = 0; i < 20; ++i) {
+        voice_.slide();
+        same.slide();
+        Sound expected = Sound::pattern(frameOfAudio, 2);
+        const Sound heard = effect.process(expected, 2);
+        same.renderInto(expected, 1);
+        ASSERT_EQ(heard.samples, expected.samples) << i;
+        EXPECT_GT(loudest(heard.channel(1)), 1e-3F) << i;
+        voice_.generate();
+        same.generate();
+    }
+    EXPECT_GT(voice_.statistics().inferences, 15U);
+}
+
+TEST_F(RoutingTest, WithoutAChannelOfItsOwnTheVoiceIsOnAllOfThem) {
+    SteppedVoice same(runtime_, model_);
+    HostedEffect effect(definition());
+    const Sound heard = play(voice_, effect, 10, 6);
+    const std::vector<float> expected = reference(same, 10);
+    for (std::size_t channel = 0; channel < 6; ++channel) {
+        EXPECT_EQ(heard.channel(channel), expected) << channel;
+    }
+}
+
+TEST_F(RoutingTest, TheLengthOfTheBlocksChangesNothing) {
+    SteppedVoice same(runtime_, model_);
+    HostedEffect effect(definition());
+    Sound heard(0, 2);
+    for (int i = 0; i < 12; ++i) {
+        voice_.slide();
+        for (const std::size_t length : {1U, 0U, 64U, 7U, 255U, 1U, 152U}) {
+            heard.append(effect.process(length));
+        }
+        voice_.generate();
+    }
+    EXPECT_EQ(heard.channel(0), reference(same, 12));
+}
+
+TEST_F(RoutingTest, ABlockOfAnyLengthIsFilled) {
+    SteppedVoice same(runtime_, model_);
+    HostedEffect effect(definition());
+    effect.set("Channel", 0.0F);
+    voice_.slide();
+    same.slide();
+    Sound expected = Sound::pattern(20000, 2);
+    const Sound heard = effect.process(expected, 2);
+    same.renderInto(expected, 0);
+    EXPECT_EQ(heard.samples, expected.samples);
+    EXPECT_GT(loudest(heard.channel(0)), 1e-3F);
+    EXPECT_EQ(voice_.statistics().rendered_frames, 20000U);
+}
+
+TEST_F(RoutingTest, APlaceWithoutAVoiceIsSilentOnTheRoutedChannelOnly) {
+    HostedEffect effect(definition());
+    effect.set("Voice", 40.0F);
+    effect.set("Channel", 0.0F);
+    const Sound in = Sound::pattern(256, 2);
+    const Sound heard = effect.process(in, 2);
+    EXPECT_THAT(heard.channel(0), Each(0.0F));
+    EXPECT_EQ(heard.channel(1), in.channel(1));
+    EXPECT_EQ(voice_.statistics().rendered_frames, 0U);
+}
+
+TEST_F(RoutingTest, AChannelThatTheOutputLacksPlaysNothingAndCostsNothing) {
+    HostedEffect effect(definition());
+    effect.set("Channel", 5.0F);
+    voice_.slide();
+    const Sound in = Sound::pattern(256, 2);
+    EXPECT_EQ(effect.process(in, 2).samples, in.samples);
+    EXPECT_EQ(voice_.statistics().rendered_frames, 0U);
+}
+
+TEST_F(RoutingTest, NeitherMoreThan64ChannelsNorNoneAreAVoicesOutput) {
+    HostedEffect effect(definition());
+    const Sound in = Sound::pattern(16, 65);
+    EXPECT_EQ(effect.process(in, 65).samples, in.samples);
+    EXPECT_EQ(effect.definition().process(&effect.state(), nullptr, nullptr, 16, 2, 0), resultUnsupported);
+    EXPECT_EQ(effect.definition().process(&effect.state(), nullptr, nullptr, 16, 2, -2), resultUnsupported);
+    EXPECT_EQ(effect.definition().process(&effect.state(), nullptr, nullptr, 16, 2, 2), resultUnsupported);
+    EXPECT_EQ(voice_.statistics().rendered_frames, 0U);
+}
+
+struct ChannelCounts {
+    std::size_t in;
+    std::size_t out;
+};
+
+constexpr auto channelCounts =
+    std::to_array<ChannelCounts>({{0, 2}, {1, 1}, {1, 2}, {2, 1}, {2, 2}, {2, 8}, {6, 2}, {8, 8}});
+
+TEST(ChannelCountsTest, OutputChannelsAreTheInputsOfTheSameIndexAlsoWhereBothAreOneBuffer) {
+    const UnityHost host;
+    for (const auto [inChannels, outChannels] : channelCounts) {
+        HostedEffect effect(host.effect("HaptoFlow Voice"));
+        const ::testing::ScopedTrace trace(__FILE__, __LINE__, inChannels * 10 + outChannels);
+        const Sound in = Sound::pattern(100, inChannels);
+        const std::size_t routed = outChannels - 1;
+        effect.set("Channel", static_cast<float>(routed));
+        for (const Sound& heard : {effect.process(in, outChannels), effect.processInPlace(in, outChannels)}) {
+            for (std::size_t channel = 0; channel < routed; ++channel) {
+                const auto expected = channel < inChannels ? in.channel(channel) : std::vector<float>(100);
+                EXPECT_EQ(heard.channel(channel), expected) << channel;
+            }
+            EXPECT_THAT(heard.channel(routed), Each(0.0F));
+        }
+    }
+}
+
+TEST_F(RoutingTest, TheVoiceIsTheSameWhateverComesInAndHoweverManyChannelsGoOut) {
+    SteppedVoice same(runtime_, model_);
+    HostedEffect effect(definition());
+    effect.set("Channel", 0.0F);
+    for (const auto [inChannels, outChannels] : channelCounts) {
+        voice_.slide();
+        const Sound heard = effect.process(Sound::pattern(frameOfAudio, inChannels), outChannels);
+        voice_.generate();
+        EXPECT_EQ(heard.channel(0), reference(same, 1)) << inChannels << " to " << outChannels;
+    }
+}
+
+TEST_F(RoutingTest, AnInputBufferThatIsNotThereIsSilence) {
+    HostedEffect effect(definition());
+    effect.set("Channel", 0.0F);
+    Sound out = Sound::pattern(32, 2);
+    EXPECT_EQ(effect.definition().process(&effect.state(), nullptr, out.samples.data(), 32, 2, 2), resultOk);
+    EXPECT_THAT(out.samples, Each(0.0F));
+}
+
+TEST_F(RoutingTest, HalfTheStrengthIsHalfTheVoice) {
+    SteppedVoice same(runtime_, model_);
+    HostedEffect effect(definition());
+    effect.set("Strength", 0.5F);
+    const Sound heard = play(voice_, effect, 8);
+    std::vector<float> expected = reference(same, 8);
+    for (float& sample : expected) {
+        sample *= 0.5F;
+    }
+    EXPECT_EQ(heard.channel(0), expected);
+    EXPECT_EQ(heard.channel(1), expected);
+}
+
+TEST_F(RoutingTest, AnotherStrengthIsReachedInAStraightLineWithin10Ms) {
+    SteppedVoice same(runtime_, model_);
+    HostedEffect effect(definition());
+    (void)play(voice_, effect, 5);
+    (void)reference(same, 5);
+    effect.set("Strength", 0.25F);
+    const std::vector<float> heard = play(voice_, effect, 2).channel(0);
+    const std::vector<float> whole = reference(same, 2);
+    for (std::size_t i = 0; i < heard.size(); ++i) {
+        const float gain = i < 480 ? 1.0F - 0.75F * static_cast<float>(i + 1) / 480.0F : 0.25F;
+        ASSERT_NEAR(heard[i], gain * whole[i], 1e-6F) << i;
+    }
+}
+
+TEST_F(RoutingTest, AnotherSampleRateIsTakenUpOnceTheWorkerHasPreparedForIt) {
+    HostedEffect effect(definition());
+    (void)play(voice_, effect, 5);
+    effect.setSampleRate(24000);
+    (void)play(voice_, effect, 3);
+    EXPECT_GT(loudest(play(voice_, effect, 5).samples), 1e-3F);
+    EXPECT_EQ(voice_.statistics().rate_changes, 1U);
+}
+
+}  // namespace
+}  // namespace haptoflow::unity::testing

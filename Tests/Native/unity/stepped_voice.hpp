@@ -1,0 +1,129 @@
+#pragma once
+
+#include "capi/open_handles.hpp"
+#include "haptoflow/haptoflow.h"
+#include "unity_host.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdint>
+
+namespace haptoflow::unity::testing {
+
+/// What a display frame is in these tests: 10 ms at 48 kHz.
+inline constexpr std::size_t frameOfAudio = 480;
+
+/// A voice of an engine of its own, which generates when it is told to. Two of them are the same, sample by sample.
+class SteppedVoice {
+public:
+    SteppedVoice(const haptoflow_runtime* runtime, const haptoflow_model* model) {
+        haptoflow_engine_options options{};
+        options.struct_size = sizeof(options);
+        options.quality = HAPTOFLOW_QUALITY_STANDARD;
+        options.runtime = runtime;
+        options.model = model;
+        options.seed = 11;
+        options.without_worker = 1;
+        options.fixed_lead_ms = 8.0;
+        EXPECT_EQ(haptoflow_engine_create(&options, &engine_), HAPTOFLOW_OK) << haptoflow_last_message();
+        EXPECT_EQ(haptoflow_voice_create(engine_, 48000.0, &voice_), HAPTOFLOW_OK) << haptoflow_last_message();
+    }
+    SteppedVoice(const SteppedVoice&) = delete;
+    SteppedVoice& operator=(const SteppedVoice&) = delete;
+    ~SteppedVoice() { EXPECT_EQ(haptoflow_engine_close(&engine_), HAPTOFLOW_OK) << haptoflow_last_message(); }
+
+    /// The tip slides, a little differently each time.
+    void slide() {
+        ++slides_;
+        publish(1, 0.15F + 0.1F * std::sin(0.7F * static_cast<float>(slides_)));
+    }
+    void lift() { publish(0, 0.0F); }
+    void generate() { EXPECT_EQ(haptoflow_engine_step(engine_), HAPTOFLOW_OK) << haptoflow_last_message(); }
+
+    /// Renders through the C interface into those samples.
+    void renderInto(Sound& sound, std::int32_t channel) const {
+        EXPECT_EQ(haptoflow_voice_render(voice_, sound.samples.data(), static_cast<std::uint32_t>(sound.frames),
+                                         static_cast<std::uint32_t>(sound.channels), channel, 48000.0),
+                  HAPTOFLOW_OK);
+    }
+
+    [[nodiscard]] haptoflow_voice_statistics statistics() const {
+        haptoflow_voice_statistics statistics{};
+        statistics.struct_size = sizeof(statistics);
+        EXPECT_EQ(haptoflow_voice_get_statistics(voice_, &statistics), HAPTOFLOW_OK) << haptoflow_last_message();
+        return statistics;
+    }
+    [[nodiscard]] float place() const {
+        std::uint32_t place = 0;
+        EXPECT_EQ(haptoflow_voice_place(voice_, &place), HAPTOFLOW_OK) << haptoflow_last_message();
+        return static_cast<float>(place);
+    }
+
+private:
+    void publish(std::uint32_t touching, float speedMps) {
+        haptoflow_contact_state state{};
+        state.struct_size = sizeof(state);
+        state.touching = touching;
+        state.touch_counter = 1;
+        state.label_count = 1;
+        state.weights[0] = 1.0F;
+        state.velocity_mps[0] = speedMps;
+        state.force_newtons = 1.0F;
+        EXPECT_EQ(haptoflow_voice_publish(voice_, &state), HAPTOFLOW_OK) << haptoflow_last_message();
+    }
+
+    haptoflow_engine* engine_ = nullptr;
+    haptoflow_voice voice_ = 0;
+    int slides_ = 0;
+};
+
+/// The mixer effect and the tiny model.
+class VoiceEffectTest : public capi::testing::WithTinyModel {
+protected:
+    [[nodiscard]] const AudioEffectDefinition& definition() const { return host_.effect("HaptoFlow Voice"); }
+
+    /// So many display frames of sliding, each one block.
+    static Sound play(SteppedVoice& voice, HostedEffect& effect, int displayFrames, std::size_t channels = 2) {
+        Sound heard(0, channels);
+        for (int i = 0; i < displayFrames; ++i) {
+            voice.slide();
+            heard.append(effect.process(frameOfAudio, channels));
+            voice.generate();
+        }
+        return heard;
+    }
+    /// The same, rendered by the C interface into one channel.
+    static std::vector<float> reference(SteppedVoice& voice, int displayFrames) {
+        Sound heard(0, 1);
+        for (int i = 0; i < displayFrames; ++i) {
+            voice.slide();
+            Sound block(frameOfAudio, 1);
+            voice.renderInto(block, 0);
+            heard.append(block);
+            voice.generate();
+        }
+        return heard.samples;
+    }
+
+    static float loudest(std::span<const float> samples) {
+        float found = 0.0F;
+        for (const float sample : samples) {
+            found = std::max(found, std::abs(sample));
+        }
+        return found;
+    }
+    static float largestStep(std::span<const float> samples, float before = 0.0F) {
+        float found = 0.0F;
+        for (const float sample : samples) {
+            found = std::max(found, std::abs(sample - before));
+            before = sample;
+        }
+        return found;
+    }
+
+    UnityHost host_;
+    SteppedVoice voice_{runtime_, model_};
+};
+
+}  // namespace haptoflow::unity::testing

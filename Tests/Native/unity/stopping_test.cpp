@@ -1,0 +1,203 @@
+#include "stepped_voice.hpp"
+
+#include <gmock/gmock.h>
+
+#include <span>
+
+namespace haptoflow::unity::testing {
+namespace {
+
+using ::testing::Each;
+
+constexpr std::size_t stopFrames = 240;
+
+/// The effect on channel 1 of two, with a voice that has been sliding for a while.
+class StoppingTest : public VoiceEffectTest {
+protected:
+    StoppingTest() {
+        effect.set("Channel", 1.0F);
+        const std::vector<float> heard = play(voice_, effect, 10).channel(1);
+        usualStep = largestStep(heard);
+        last = heard.back();
+        EXPECT_GT(usualStep, 1e-4F);
+    }
+
+    [[nodiscard]] std::uint64_t rendered() const { return voice_.statistics().rendered_frames; }
+
+    /// What a straight fade over so many frames adds to the voice's own steps.
+    static float fadeStep(std::size_t frames) { return 1.0F / static_cast<float>(frames); }
+
+    HostedEffect effect{definition()};
+    float usualStep = 0.0F;
+    float last = 0.0F;
+};
+
+class StoppingFlagsTest : public StoppingTest, public ::testing::WithParamInterface<std::uint32_t> {};
+
+TEST_P(StoppingFlagsTest, TheRoutedChannelFallsSilentTheOthersGoOnAndTheVoicesClockStandsStill) {
+    effect.setFlags(GetParam());
+    voice_.slide();
+    (void)effect.process(frameOfAudio);
+    const std::uint64_t atRest = rendered();
+    for (int i = 0; i < 5; ++i) {
+        voice_.slide();
+        const Sound in = Sound::pattern(frameOfAudio, 2);
+        const Sound heard = effect.process(in, 2);
+        EXPECT_THAT(heard.channel(1), Each(0.0F));
+        EXPECT_EQ(heard.channel(0), in.channel(0));
+        voice_.generate();
+    }
+    EXPECT_EQ(rendered(), atRest);
+}
+
+TEST_P(StoppingFlagsTest, TheVoiceFadesWithin5MsAndIsRenderedNoFurther) {
+    SteppedVoice same(runtime_, model_);
+    (void)reference(same, 10);
+    const std::uint64_t before = rendered();
+    effect.setFlags(GetParam());
+    voice_.slide();
+    const std::vector<float> heard = effect.process(frameOfAudio).channel(1);
+    const std::vector<float> whole = reference(same, 1);
+    for (std::size_t i = 0; i < stopFrames; ++i) {
+        ASSERT_NEAR(heard[i], whole[i] * (1.0F - static_cast<float>(i + 1) / stopFrames), 1e-6F) << i;
+    }
+    EXPECT_THAT(std::span(heard).subspan(stopFrames), Each(0.0F));
+    EXPECT_EQ(rendered(), before + stopFrames);
+}
+
+TEST_P(StoppingFlagsTest, ABlockShorterThanTheFadeEndsInSilenceAllTheSame) {
+    effect.setFlags(GetParam());
+    const std::vector<float> heard = effect.process(32).channel(1);
+    EXPECT_LE(largestStep(heard, last), usualStep + loudest(heard) * 2.0F * fadeStep(32) + 1e-6F);
+    EXPECT_EQ(heard.back(), 0.0F);
+    EXPECT_THAT(effect.process(32).channel(1), Each(0.0F));
+}
+
+TEST_P(StoppingFlagsTest, AnEffectThatBeginsSilentNeverTouchesTheVoice) {
+    effect.reset();
+    effect.setFlags(GetParam());
+    const std::uint64_t before = rendered();
+    EXPECT_THAT(effect.process(frameOfAudio).channel(1), Each(0.0F));
+    EXPECT_EQ(rendered(), before);
+}
+
+TEST_P(StoppingFlagsTest, WhatGoesOnRisesFromSilence) {
+    effect.setFlags(GetParam());
+    voice_.slide();
+    (void)effect.process(frameOfAudio);
+    effect.setFlags(flagPlaying);
+    const std::vector<float> heard = play(voice_, effect, 4).channel(1);
+    EXPECT_LE(largestStep(heard), usualStep + fadeStep(frameOfAudio) * loudest(heard) + 1e-6F);
+    EXPECT_GT(loudest(heard), 1e-3F);
+}
+
+INSTANTIATE_TEST_SUITE_P(Flags, StoppingFlagsTest,
+                         ::testing::Values(flagPlaying | flagPaused, flagPlaying | flagMuted, 0U),
+                         [](const auto& flags) {
+                             switch (flags.param) {
+                                 case flagPlaying | flagPaused:
+                                     return "paused";
+                                 case flagPlaying | flagMuted:
+                                     return "muted";
+                                 default:
+                                     return "notPlaying";
+                             }
+                         });
+
+TEST_F(StoppingTest, ATouchWithoutNewsSinceThePauseEndsByTheVoicesOwnStaleRule) {
+    effect.setFlags(flagPlaying | flagPaused);
+    for (int i = 0; i < 50; ++i) {
+        (void)effect.process(frameOfAudio);
+    }
+    EXPECT_EQ(voice_.statistics().stale_stops, 0U);
+    effect.setFlags(flagPlaying);
+    for (int i = 0; i < 11; ++i) {
+        (void)effect.process(frameOfAudio);
+    }
+    EXPECT_EQ(voice_.statistics().stale_stops, 1U);
+    EXPECT_THAT(effect.process(frameOfAudio).channel(1), Each(0.0F));
+}
+
+TEST_F(StoppingTest, AGroupThatUnitySuspendedResumesFromSilence) {
+    for (int i = 0; i < 3; ++i) {
+        effect.suspend(30 * frameOfAudio + 17);
+        const std::uint64_t before = rendered();
+        const std::vector<float> heard = play(voice_, effect, 4).channel(1);
+        EXPECT_LE(largestStep(heard), usualStep + fadeStep(frameOfAudio) * loudest(heard) + 1e-6F);
+        EXPECT_GT(loudest(heard), 1e-3F);
+        EXPECT_EQ(rendered(), before + 4 * frameOfAudio);
+    }
+}
+
+TEST_F(StoppingTest, AHostWhoseTicksDoNotCountSamplesIsNotTakenForOneThatSuspends) {
+    SteppedVoice same(runtime_, model_);
+    (void)reference(same, 10);
+    effect.reset();
+    for (int i = 0; i < 10; ++i) {
+        effect.suspend(static_cast<std::size_t>(3 * i + 1));
+        voice_.slide();
+        const std::vector<float> heard = effect.process(frameOfAudio).channel(1);
+        voice_.generate();
+        ASSERT_EQ(heard, reference(same, 1)) << i;
+    }
+}
+
+TEST_F(StoppingTest, AfterAResetTheNextBlockIsAtFullStrengthAtOnce) {
+    SteppedVoice same(runtime_, model_);
+    (void)reference(same, 10);
+    effect.set("Strength", 0.5F);
+    effect.reset();
+    std::vector<float> expected = reference(same, 1);
+    for (float& sample : expected) {
+        sample *= 0.5F;
+    }
+    EXPECT_EQ(play(voice_, effect, 1).channel(1), expected);
+}
+
+TEST_F(StoppingTest, ToAnotherChannelTheVoiceFadesOutOfTheOneAndIntoTheOther) {
+    effect.set("Channel", 0.0F);
+    voice_.slide();
+    const Sound in = Sound::pattern(frameOfAudio, 2);
+    const Sound heard = effect.process(in, 2);
+    for (std::size_t i = 0; i < frameOfAudio; ++i) {
+        const std::size_t passing = i < stopFrames ? 0 : 1;
+        ASSERT_EQ(heard.samples[2 * i + passing], in.samples[2 * i + passing]) << i;
+    }
+    const std::vector<float> left = heard.channel(0);
+    const std::vector<float> right = heard.channel(1);
+    const float margin = usualStep + fadeStep(stopFrames) * loudest(right) + 1e-6F;
+    EXPECT_LE(largestStep(std::span(right).first(stopFrames), last), margin);
+    EXPECT_EQ(right[stopFrames - 1], 0.0F);
+    EXPECT_LE(largestStep(std::span(left).subspan(stopFrames)), usualStep + margin);
+    EXPECT_GT(loudest(std::span(left).subspan(stopFrames)), 1e-4F);
+}
+
+TEST_F(StoppingTest, OnAChannelThatTheOutputLostAndHasAgainTheVoiceRisesFromSilence) {
+    (void)effect.process(frameOfAudio, 1);
+    const std::vector<float> heard = play(voice_, effect, 2).channel(1);
+    EXPECT_LE(largestStep(heard), usualStep + fadeStep(frameOfAudio) * loudest(heard) + 1e-6F);
+    EXPECT_GT(loudest(heard), 1e-3F);
+}
+
+TEST_F(StoppingTest, FromOneVoiceToAnotherThereIsSilenceBetween) {
+    SteppedVoice other(runtime_, model_);
+    effect.set("Voice", other.place());
+    voice_.slide();
+    other.slide();
+    const std::uint64_t before = rendered();
+    const std::vector<float> heard = effect.process(frameOfAudio).channel(1);
+    EXPECT_EQ(heard[stopFrames - 1], 0.0F);
+    EXPECT_EQ(rendered(), before + stopFrames);
+    EXPECT_EQ(other.statistics().rendered_frames, frameOfAudio - stopFrames);
+}
+
+TEST_F(StoppingTest, AtNoStrengthTheVoicesClockGoesOn) {
+    effect.set("Strength", 0.0F);
+    (void)play(voice_, effect, 1);
+    const std::uint64_t before = rendered();
+    EXPECT_THAT(play(voice_, effect, 3).channel(1), Each(0.0F));
+    EXPECT_EQ(rendered(), before + 3 * frameOfAudio);
+}
+
+}  // namespace
+}  // namespace haptoflow::unity::testing
