@@ -39,7 +39,7 @@ async function sanitizers() {
   const env = {
     LSAN_OPTIONS: `suppressions=${inRepository('Tests', 'Native', 'lsan.supp')}:print_suppressions=0`,
     UBSAN_OPTIONS: 'print_stacktrace=1',
-    TSAN_OPTIONS: 'halt_on_error=1:second_deadlock_stack=1',
+    TSAN_OPTIONS: `suppressions=${inRepository('Tests', 'Native', 'tsan.supp')}:halt_on_error=1:second_deadlock_stack=1`,
   };
   for (const preset of new Set(sanitized.map((entry) => entry.preset))) {
     const targets = sanitized.filter((entry) => entry.preset === preset).map((entry) => `${entry.folder}_tests`);

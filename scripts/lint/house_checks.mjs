@@ -26,7 +26,7 @@ export function functionsWithoutThreadTag(header) {
   for (const declaration of header.matchAll(/^HAPTOFLOW_API\b[^;(]*?\b(haptoflow_\w+)\s*\(/gm)) {
     const before = header.slice(0, declaration.index).trimEnd();
     const comment = before.endsWith('*/') ? before.slice(before.lastIndexOf('/*')) : '';
-    if (!/\[\w+-thread\]/.test(comment)) untagged.push(declaration[1]);
+    if (!/\[(?:(?:any|loader|worker)-thread|publisher|audio-callback)\]/.test(comment)) untagged.push(declaration[1]);
   }
   return untagged;
 }

@@ -437,7 +437,8 @@ typedef struct haptoflow_voice_statistics {
     /* Samples that were not finite (and became 0), and samples bent by the limiter. */
     uint64_t non_finite_samples;
     uint64_t limited_samples;
-    /* Frames rendered; changes of the output's sample rate; calls refused because another thread was inside. */
+    /* Frames rendered; changes of the output's sample rate; calls refused because another thread was inside, and blocks
+     * refused because another mixer effect plays this voice. */
     uint64_t rendered_frames;
     uint64_t rate_changes;
     uint64_t refused_calls;

@@ -1,0 +1,78 @@
+// bench: measures callback, latencies, inference, memory and contact into out/bench.json (--quick, --only, --publish)
+import { spawn } from 'node:child_process';
+import { existsSync, mkdirSync, readFileSync, statSync, writeFileSync } from 'node:fs';
+import { parseArgs } from 'node:util';
+import { benchArguments, withMeasuredTables } from './bench/measured_tables.mjs';
+import { buildNative } from './lib/native_build.mjs';
+import { CommandError, runMain, runOrFail } from './lib/process.mjs';
+import { commandLinePath, inRepository } from './lib/repository.mjs';
+import { pythonOrFail, setUp } from './lib/setup.mjs';
+
+const report = inRepository('out', 'bench.json');
+const paperModel = inRepository('out', 'bench', 'paper-architecture.haptoflow');
+const documentPath = inRepository('Documentation~', 'benchmarks.md');
+
+const optionTable = {
+  quick: { type: 'boolean', default: false },
+  only: { type: 'string' },
+  events: { type: 'string' },
+  model: { type: 'string' },
+  'no-paper': { type: 'boolean', default: false },
+  publish: { type: 'boolean', default: false },
+};
+
+function optionsOf(words) {
+  try {
+    const { values } = parseArgs({ args: words, options: optionTable });
+    if (values.publish && (values.quick || values.only || values.events || values.model || values['no-paper'])) {
+      throw new CommandError('--publish goes with a whole run of the shipped model: no other option beside it', 2);
+    }
+    return values;
+  } catch (error) {
+    if (error instanceof CommandError) throw error;
+    throw new CommandError(error.message, 2);
+  }
+}
+
+/** Makes the model file of the paper's architecture where it is missing or older than what it is made from. */
+async function makePaperModel() {
+  const config = inRepository('Training', 'configs', 'evaluation', 'paper-codec-size.toml');
+  const program = inRepository('scripts', 'bench', 'paper_model.py');
+  const isNew = existsSync(paperModel) && [config, program].every((name) => statSync(name).mtimeMs <= statSync(paperModel).mtimeMs);
+  if (isNew) return;
+  await setUp(['python']);
+  console.log('bench: making the paper\'s architecture with random weights, once');
+  const env = { PYTHONPATH: inRepository('Training'), OPENBLAS_NUM_THREADS: '1', PYTHONDONTWRITEBYTECODE: '1' };
+  await runOrFail(pythonOrFail(), [program, config, paperModel], { env, quiet: true });
+}
+
+/** Runs the command line with its progress on this terminal; shows and returns its tables. */
+function measure(args) {
+  return new Promise((resolve, reject) => {
+    const child = spawn(commandLinePath(), args, { stdio: ['ignore', 'pipe', 'inherit'] });
+    const chunks = [];
+    child.stdout.on('data', (chunk) => chunks.push(chunk));
+    child.on('error', (error) => reject(new CommandError(`cannot start ${commandLinePath()}: ${error.message}`, 2)));
+    child.on('close', (code) => {
+      const tables = Buffer.concat(chunks).toString('utf8');
+      process.stdout.write(tables);
+      if (code === 0) resolve(tables);
+      else reject(new CommandError(`\`haptoflow bench\` ended with ${code ?? 'a signal'}`, code ?? 1));
+    });
+  });
+}
+
+await runMain('bench', async (words) => {
+  const options = optionsOf(words);
+  await setUp(['build']);
+  await buildNative({ targets: ['haptoflow_cli'] });
+  mkdirSync(inRepository('out', 'bench'), { recursive: true });
+  const comparesWithPaper = !options['no-paper'] && (options.only ?? 'inference').split(',').includes('inference');
+  if (comparesWithPaper) await makePaperModel();
+  const tables = await measure(benchArguments(options, report, comparesWithPaper ? paperModel : null));
+  console.log(`\nbench: ${report}`);
+  if (options.publish) {
+    writeFileSync(documentPath, withMeasuredTables(readFileSync(documentPath, 'utf8'), tables));
+    console.log(`bench: ${documentPath}`);
+  }
+});
