@@ -13,7 +13,7 @@ RoundResult InferenceRound::run(std::span<LiveVoice* const> voices, inference::S
         if (voice->planner.wake()) {
             wanting_.push_back(voice);
         } else {
-            result.awaitsOnset = result.awaitsOnset || voice->planner.awaitsOnset();
+            result.awaitsCallback = result.awaitsCallback || voice->planner.awaitsCallback();
         }
     }
     result.voices = wanting_.size();

@@ -15,8 +15,8 @@ struct RoundResult {
     std::size_t voices = 0;
     std::size_t segments = 0;
     bool failed = false;
-    /// A voice waits for the callback to play its onset.
-    bool awaitsOnset = false;
+    /// A voice waits for the callback.
+    bool awaitsCallback = false;
     double milliseconds = 0.0;
 };
 

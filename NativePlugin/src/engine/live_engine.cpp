@@ -15,8 +15,8 @@ namespace haptoflow::engine {
 namespace {
 
 constexpr double largestLeadMs = 50.0;
-constexpr double onsetLookMs = 2.0;
-constexpr int longestOnsetLooks = 50;
+constexpr double callbackLookMs = 2.0;
+constexpr int longestCallbackLooks = 50;
 
 const LiveEngineSettings& checked(const LiveEngineSettings& settings) {
     if (!(settings.updateRateHz >= 1.0 && settings.updateRateHz <= 10000.0)) {
@@ -149,7 +149,7 @@ void LiveEngine::work() noexcept {
             if (!stopping_.load(std::memory_order_acquire)) {
                 wakes_.fetch_add(1, std::memory_order_relaxed);
                 const RoundResult result = step();
-                onsetLooks_ = result.awaitsOnset ? onsetLooks_ + 1 : 0;
+                callbackLooks_ = result.awaitsCallback ? callbackLooks_ + 1 : 0;
             }
         }
     } catch (const std::exception&) {
@@ -159,9 +159,9 @@ void LiveEngine::work() noexcept {
 }
 
 bool LiveEngine::sleep() {
-    // The callback, which plays the onset, wakes nobody; a device that does not ask at all is not waited for.
-    if (onsetLooks_ > 0 && onsetLooks_ < longestOnsetLooks) {
-        (void)signal_.waitFor(onsetLookMs);
+    // The callback wakes nobody; a device that does not ask at all is not waited for.
+    if (callbackLooks_ > 0 && callbackLooks_ < longestCallbackLooks) {
+        (void)signal_.waitFor(callbackLookMs);
         return true;
     }
     if (tierToMeasure()) {

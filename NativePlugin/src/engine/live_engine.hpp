@@ -115,8 +115,8 @@ private:
     QualityControl quality_;
     EngineStatistics figures_;
 
-    // How often in a row the worker has looked whether an onset is played. Worker only.
-    int onsetLooks_ = 0;
+    // How often in a row the worker has looked whether the callback has moved on. Worker only.
+    int callbackLooks_ = 0;
     std::atomic<std::uint64_t> wakes_{0};
     std::atomic<bool> alive_{true};
     std::atomic<bool> stopping_{false};

@@ -37,21 +37,25 @@ bool SegmentPlanner::wake() noexcept {
     const bool isPlaying = playhead.running && playhead.onset == contact.onset;
     const bool isNewStream = playhead.stream != stream_;
     const std::int64_t head = playhead.timeline.head;
-    // A clock that stands still needs nothing, and a full queue belongs to a callback that does not take.
-    if (!isPlaying || (!isNewStream && head == lastHead_) || channels_.segments.room() < 2) {
+    const bool replaces = !isNewStream && head == lastHead_;
+    // A full queue belongs to a callback that does not take.
+    if (!isPlaying || (replaces && !mayReplace()) || channels_.segments.room() < 2) {
         return false;
     }
     restorePast();
     const std::int64_t lead = leadSamples(playhead.blockAdvance, contact.readingRate);
     const std::int64_t start = std::min(head + lead, std::max(mirror_.coveredUntil(), head));
-    if (!isNewStream && start < lastStart_ + settings_.shortestHopSamples) {
+    if (!isNewStream && !replaces && start < lastStart_ + settings_.shortestHopSamples) {
         return false;
     }
+    replacements_ = replaces ? replacements_ + 1 : 0;
     const std::uint64_t updates = contact.update - generatedUpdate_;
     if (updates > 1 && !isNewStream) {
         channels_.counters.skipped.fetch_add(updates - 1, std::memory_order_relaxed);
     }
-    hop_ = isNewStream ? 0 : head - lastHead_;
+    if (!replaces) {
+        hop_ = isNewStream ? 0 : head - lastHead_;
+    }
     generatedUpdate_ = contact.update;
     stream_ = playhead.stream;
     lastHead_ = head;
@@ -63,23 +67,36 @@ bool SegmentPlanner::wake() noexcept {
     return true;
 }
 
-bool SegmentPlanner::awaitsOnset() const noexcept {
+bool SegmentPlanner::mayReplace() const noexcept {
+    // Between two long blocks the clock stands, but hands do not: a newer contact then gets a segment for the same place,
+    // as often as hops would fit into the block. A clock that stands for good asks for nothing more.
+    const Playhead& playhead = channels_.playhead.current();
+    const double block = static_cast<double>(playhead.blockAdvance) / channels_.toWorker.current().readingRate;
+    return settings_.shortestHopSamples > 0 &&
+           replacements_ + 1 < static_cast<std::int64_t>(block) / settings_.shortestHopSamples;
+}
+
+bool SegmentPlanner::awaitsCallback() const noexcept {
     const WorkerMessage& contact = channels_.toWorker.current();
     const Playhead& playhead = channels_.playhead.current();
-    return contact.sliding && contact.update != generatedUpdate_ &&
-           !(playhead.running && playhead.onset == contact.onset);
+    const bool isPlaying = playhead.running && playhead.onset == contact.onset;
+    const bool standsStill = playhead.stream == stream_ && playhead.timeline.head == lastHead_;
+    return contact.sliding && contact.update != generatedUpdate_ && (!isPlaying || standsStill);
 }
 
 void SegmentPlanner::learn() noexcept {
     const Playhead& playhead = channels_.playhead.current();
     for (Sent& sent : sent_) {
-        if (!sent.observed && sent.segment.sequence <= playhead.takenSequence) {
-            sent.observed = true;
-            // Only the newest one's block is known; the others came with it or before.
-            if (sent.segment.sequence == playhead.takenSequence && sent.segment.stream == playhead.stream) {
-                const auto advanced = static_cast<double>(playhead.headAtTake - sent.plannedHead);
-                lead_.observe(static_cast<std::int64_t>(std::ceil(advanced / sent.readingRate)));
-            }
+        const std::uint64_t sequence = sent.segment.sequence;
+        if (sent.observed || sequence > playhead.takenSequence) {
+            continue;
+        }
+        sent.observed = true;
+        const bool isKnown = playhead.takenSequence - sequence < playhead.headAtTake.size();
+        if (isKnown && sent.segment.stream == playhead.stream) {
+            const std::int64_t headAtTake = playhead.headAtTake[sequence % playhead.headAtTake.size()];
+            const auto advanced = static_cast<double>(headAtTake - sent.plannedHead);
+            lead_.observe(static_cast<std::int64_t>(std::ceil(advanced / sent.readingRate)));
         }
     }
 }

@@ -31,8 +31,9 @@ public:
 
     /// Looks at the newest contact and playhead. True where a segment is wanted; `request` then says which.
     [[nodiscard]] bool wake() noexcept;
-    /// True while a contact slides whose onset the callback has not played yet: look again soon, nobody will call.
-    [[nodiscard]] bool awaitsOnset() const noexcept;
+    /// True while the newest contact slides and waits for the callback, to play its onset or to move on: look again
+    /// soon, nobody will call.
+    [[nodiscard]] bool awaitsCallback() const noexcept;
     /// Valid until `deliver` or the next `wake`.
     [[nodiscard]] const inference::SegmentRequest& request() const noexcept { return request_; }
     /// The segment that was asked for, on its way to the callback. True where the same contact needs another behind
@@ -46,6 +47,7 @@ public:
     void serveOutputRate() noexcept;
 
 private:
+    [[nodiscard]] bool mayReplace() const noexcept;
     void learn() noexcept;
     void restorePast() noexcept;
     void prepare(std::int64_t start) noexcept;
@@ -72,6 +74,8 @@ private:
     std::int64_t lastStart_ = 0;
     std::int64_t lastHead_ = 0;
     std::int64_t hop_ = 0;
+    // Segments after the first for one place of the head.
+    std::int64_t replacements_ = 0;
     std::int64_t plannedStart_ = 0;
 
     std::array<float, inference::segmentSamples> history_{};

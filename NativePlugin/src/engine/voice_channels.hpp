@@ -46,9 +46,10 @@ struct Playhead {
     std::uint32_t onset = 0;
     /// False while nothing is read: the clock stands still.
     bool running = false;
-    /// Sequence of the newest segment that the callback took or dropped, and the head when it did.
+    /// Sequence of the newest segment that the callback took or dropped, and for each of the last ones, at its sequence
+    /// modulo the number of them, the head when it did.
     std::uint64_t takenSequence = 0;
-    std::int64_t headAtTake = 0;
+    std::array<std::int64_t, SegmentQueue::capacity> headAtTake{};
     /// The most waveform samples that one block has consumed, at the present reading rate.
     std::int64_t blockAdvance = 0;
     TimelineView timeline;

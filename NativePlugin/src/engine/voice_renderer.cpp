@@ -148,7 +148,7 @@ void VoiceRenderer::takeSegments() noexcept {
             return;
         }
         takenSequence_ = segment->sequence;
-        headAtTake_ = voice_.timeline().head();
+        headAtTake_[takenSequence_ % headAtTake_.size()] = voice_.timeline().head();
         const bool isMine = sounding_ && segment->stream == stream_;
         const std::int64_t takeOver = isMine ? voice_.commit(segment->start, segment->samplesMps2) : -1;
         if (takeOver < 0) {

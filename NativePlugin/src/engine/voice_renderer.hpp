@@ -3,6 +3,7 @@
 #include "engine/voice.hpp"
 #include "engine/voice_channels.hpp"
 
+#include <array>
 #include <atomic>
 #include <cstdint>
 #include <span>
@@ -58,7 +59,7 @@ private:
     std::uint32_t silencedTouch_ = 0;
     std::uint64_t tapFramesLeft_ = 0;
     std::uint64_t takenSequence_ = 0;
-    std::int64_t headAtTake_ = 0;
+    std::array<std::int64_t, SegmentQueue::capacity> headAtTake_{};
     std::int64_t blockAdvance_ = 0;
     bool reportedRunning_ = false;
 };

@@ -378,6 +378,28 @@ TEST_F(LiveVoiceTest, ADeviceThatStopsAskingStopsInferenceToo) {
     EXPECT_LE(device.counters().inferences, inferences + 1);
 }
 
+TEST_F(LiveVoiceTest, BetweenTwoLongBlocksEveryNewStateGetsASegmentAndTheNewestIsTheOneHeard) {
+    // Pairs of blocks 43 ms apart, states every 14. The network answers with the speed that it was asked for.
+    FakeGenerator speed([](const inference::SegmentRequest& request, std::span<float> segment) {
+        std::ranges::fill(segment, 10.0F * request.motion[0]);
+    });
+    testing::DeviceSettings settings;
+    settings.burstBlocks = 2;
+    settings.blockFrames = 1024;
+    SimulatedDevice device(model_, speed, settings);
+    device.run(0.5, slide);
+    const std::uint64_t before = device.counters().inferences;
+    device.run(4.3, slide);
+    EXPECT_GE(device.counters().inferences - before, 290U) << "of 310 states";
+    EXPECT_EQ(device.counters().underruns, 0U);
+    for (const float mps : {0.11F, 0.12F, 0.2F}) {
+        device.publish(testing::sliding(mps));
+        device.run(0.004, [](double) { return std::nullopt; });
+    }
+    device.run(0.12, [](double) { return testing::sliding(0.2F); });
+    EXPECT_FLOAT_EQ(device.waveform.samples.back(), 2.0F);
+}
+
 TEST_F(LiveVoiceTest, ReadFourTimesFasterTheVoiceStillNeverRunsDry) {
     for (const double updateHz : {30.0, 72.0, 120.0}) {
         testing::DeviceSettings settings;

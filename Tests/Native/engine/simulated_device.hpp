@@ -79,7 +79,7 @@ public:
                 for (std::size_t block = 0; block < settings_.burstBlocks; ++block) {
                     renderBlock();
                 }
-                if (voice_.planner.awaitsOnset()) {
+                if (voice_.planner.awaitsCallback()) {
                     wakeWorker();
                 }
             }
