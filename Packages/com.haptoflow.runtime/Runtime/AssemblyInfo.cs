@@ -1,0 +1,6 @@
+using System.Runtime.CompilerServices;
+
+[assembly: InternalsVisibleTo("HaptoFlow.Editor")]
+[assembly: InternalsVisibleTo("HaptoFlow.Tests")]
+[assembly: InternalsVisibleTo("HaptoFlow.ShimTests")]
+[assembly: InternalsVisibleTo("HaptoFlow.MissingLibraryTests")]

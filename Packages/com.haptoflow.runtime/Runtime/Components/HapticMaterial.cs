@@ -1,0 +1,94 @@
+#nullable enable
+using System;
+using UnityEngine;
+
+namespace HaptoFlow
+{
+    /// <summary>What a surface is made of, by the names of a model's labels: a retrained model does not shuffle scenes.
+    /// </summary>
+    [Serializable]
+    public sealed class MaterialDescription
+    {
+        [SerializeField, Tooltip("A label of the model.")]
+        private string label = "wood";
+
+        [SerializeField, Tooltip("A second label to blend with; empty for none.")]
+        private string secondLabel = "";
+
+        [SerializeField, Range(0f, 1f), Tooltip("0: the first label alone. 1: the second alone.")]
+        private float blend;
+
+        [SerializeField, Min(0f), Tooltip("Of the spring model, in N/m. 0: what the model says of the label.")]
+        private float stiffnessNewtonsPerMetre;
+
+        [SerializeField, Range(0f, 1f), Tooltip("Gain of the output while this is touched.")]
+        private float strength = 1f;
+
+        /// <summary>A label of the model, by name.</summary>
+        public string Label
+        {
+            get => label;
+            set => Change(ref label, value);
+        }
+
+        /// <summary>Empty for none.</summary>
+        public string SecondLabel
+        {
+            get => secondLabel;
+            set => Change(ref secondLabel, value);
+        }
+
+        /// <summary>0: the first label alone. 1: the second alone.</summary>
+        public float Blend
+        {
+            get => blend;
+            set
+            {
+                blend = Mathf.Clamp01(value);
+                ++Version;
+            }
+        }
+
+        /// <summary>0: what the model says of the label.</summary>
+        public float StiffnessNewtonsPerMetre
+        {
+            get => stiffnessNewtonsPerMetre;
+            set
+            {
+                stiffnessNewtonsPerMetre = value;
+                ++Version;
+            }
+        }
+
+        /// <summary>0 to 1.</summary>
+        public float Strength
+        {
+            get => strength;
+            set => strength = Mathf.Clamp01(value);
+        }
+
+        /// <summary>One more at each change that matters to whoever looked the labels up.</summary>
+        internal int Version { get; private set; }
+
+        internal void Touch() => ++Version;
+
+        private void Change(ref string field, string value)
+        {
+            field = value ?? "";
+            ++Version;
+        }
+    }
+
+    /// <summary>A material that several surfaces share.</summary>
+    [CreateAssetMenu(menuName = "HaptoFlow/Haptic Material", fileName = "HapticMaterial", order = 1)]
+    public sealed class HapticMaterial : ScriptableObject
+    {
+        [SerializeField]
+        private MaterialDescription description = new MaterialDescription();
+
+        /// <summary>What the surfaces that share this are made of.</summary>
+        public MaterialDescription Description => description;
+
+        private void OnValidate() => description.Touch();
+    }
+}

@@ -1,0 +1,146 @@
+#nullable enable
+using System;
+using System.Threading.Tasks;
+using HaptoFlow.Model;
+using UnityEngine;
+
+namespace HaptoFlow
+{
+    /// <summary>The engine of the running application: loaded in the background when the first stylus wakes, closed
+    /// when
+    /// the application ends. Main thread, but for what says otherwise.</summary>
+    internal sealed class HapticSession
+    {
+        private static HapticSession? current;
+        private static int versions;
+
+        private readonly Task<Loaded> loading;
+        private bool reported;
+
+        private HapticSession(HaptoFlowSettings settings)
+        {
+            LabelsVersion = ++versions;
+            Settings = settings;
+            HapticModelAsset? model = settings.Model;
+            if (model == null)
+            {
+                loading = Task.FromException<Loaded>(new HaptoFlowException(HaptoFlowStatus.InvalidArgument,
+                    "no model is chosen: choose one in Project Settings > HaptoFlow, or set HaptoFlowSettings.Active"));
+                return;
+            }
+            byte[] file = model.File;
+            HapticEngineOptions options = OptionsOf(settings);
+            loading = Task.Run(() => Load(file, options));
+        }
+
+        /// <summary>The session; starts it where there is none.</summary>
+        public static HapticSession Current => current ??= new HapticSession(HaptoFlowSettings.Active);
+
+        /// <summary>Null where no stylus has woken yet.</summary>
+        public static HapticSession? Existing => current;
+
+        /// <summary>Of engines without worker, for whoever steps them: rendering and tests outside of real
+        /// time.</summary>
+        public static HapticEngineOptions? OptionsInstead { get; set; }
+
+        public HaptoFlowSettings Settings { get; }
+
+        /// <summary>Another number whenever the labels may be others.</summary>
+        public int LabelsVersion { get; private set; }
+
+        /// <summary>Null while loading, and where loading failed.</summary>
+        public HapticEngine? Engine { get; private set; }
+
+        /// <summary>Empty while loading, and where loading failed.</summary>
+        public ModelLabels Labels { get; private set; } = new ModelLabels(Array.Empty<ModelLabel>());
+
+        /// <summary>Why there are no haptics; null where nothing is wrong.</summary>
+        public string? Problem { get; private set; }
+
+        /// <summary>Takes over what was loaded meanwhile. Once a frame; no garbage when nothing happened.</summary>
+        public void Poll()
+        {
+            if (reported || !loading.IsCompleted)
+            {
+                return;
+            }
+            reported = true;
+            if (loading.Status == TaskStatus.RanToCompletion)
+            {
+                Engine = loading.Result.Engine;
+                Labels = loading.Result.Labels;
+                LabelsVersion = ++versions;
+                return;
+            }
+            Exception cause = loading.Exception!.GetBaseException();
+            Problem = cause.Message;
+            Debug.LogError($"HaptoFlow: the scene goes on without haptics: {cause.Message}");
+        }
+
+        /// <summary>Waits until loading has ended, well or not.</summary>
+        public void FinishLoading()
+        {
+            ((IAsyncResult)loading).AsyncWaitHandle.WaitOne();
+            Poll();
+        }
+
+        /// <summary>Closes the engine. The next stylus that asks starts anew.</summary>
+        public static void ShutDown()
+        {
+            HapticSession? ending = current;
+            current = null;
+            ending?.Close();
+        }
+
+        /// <summary>Waits for a loading that is under way: a process or an application domain must not end beneath
+        /// it.</summary>
+        private void Close()
+        {
+            ((IAsyncResult)loading).AsyncWaitHandle.WaitOne();
+            if (loading.Status == TaskStatus.RanToCompletion)
+            {
+                loading.Result.Engine.Dispose();
+            }
+            Engine = null;
+        }
+
+        private static HapticEngineOptions OptionsOf(HaptoFlowSettings settings)
+        {
+            HapticEngineOptions options = OptionsInstead ?? default;
+            options.Quality = settings.Quality;
+            options.BudgetShare = settings.BudgetShare;
+            options.UpdateRateHz = settings.UpdateRateHz;
+            options.FullScaleMps2 = settings.FullScaleMps2;
+            return options;
+        }
+
+        private static Loaded Load(byte[] file, HapticEngineOptions options)
+        {
+            using OnnxRuntime runtime = OnnxRuntime.Open();
+            using HapticModel model = HapticModel.Open(file);
+            var labels = new ModelLabels(ModelHeader.Read(file).Labels);
+            return new Loaded(new HapticEngine(runtime, model, options), labels);
+        }
+
+        [RuntimeInitializeOnLoadMethod(RuntimeInitializeLoadType.SubsystemRegistration)]
+        private static void Begin()
+        {
+            ShutDown();
+            Application.quitting -= ShutDown;
+            Application.quitting += ShutDown;
+        }
+
+        private sealed class Loaded
+        {
+            public Loaded(HapticEngine engine, ModelLabels labels)
+            {
+                Engine = engine;
+                Labels = labels;
+            }
+
+            public HapticEngine Engine { get; }
+
+            public ModelLabels Labels { get; }
+        }
+    }
+}

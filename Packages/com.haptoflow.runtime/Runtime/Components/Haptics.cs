@@ -1,0 +1,57 @@
+#nullable enable
+using System;
+using System.Collections.Generic;
+
+namespace HaptoFlow
+{
+    /// <summary>HaptoFlow as a whole, for programs. Main thread.</summary>
+    public static class Haptics
+    {
+        /// <summary>The model is loaded and touches can sound.</summary>
+        public static bool IsReady
+        {
+            get
+            {
+                HapticSession.Existing?.Poll();
+                return HapticSession.Existing?.Engine != null;
+            }
+        }
+
+        /// <summary>Why there are no haptics; null where nothing is wrong, or nothing was started yet.</summary>
+        public static string? Problem => HapticSession.Existing?.Problem;
+
+        /// <summary>Names of the loaded model's labels; empty before it is loaded.</summary>
+        public static IReadOnlyList<string> Labels => HapticSession.Existing?.Labels.All ?? Array.Empty<string>();
+
+        /// <summary>Loads the model now rather than when the first stylus wakes; the loading is done by another thread.
+        /// </summary>
+        public static void Prepare() => HapticSession.Current.Poll();
+
+        /// <summary>Closes the engine; it starts anew, with the settings as they are then, when a stylus next asks.
+        /// </summary>
+        public static void Restart() => HapticSession.ShutDown();
+
+        /// <summary>From the next segment on; also kept in the active settings.</summary>
+        public static void SetQuality(HapticQuality quality)
+        {
+            HaptoFlowSettings.Active.Quality = quality;
+            HapticSession.Existing?.Engine?.SetQuality(quality);
+        }
+
+        /// <summary>Silence at once, everywhere. Each stylus sounds again with its next touch-down.</summary>
+        public static void Panic() => HapticVoice.PanicAll();
+
+        /// <summary>False before the model is loaded.</summary>
+        public static bool TryGetStatistics(out EngineStatistics statistics)
+        {
+            statistics = default;
+            HapticEngine? engine = HapticSession.Existing?.Engine;
+            if (engine == null)
+            {
+                return false;
+            }
+            statistics = engine.Statistics();
+            return true;
+        }
+    }
+}

@@ -1,0 +1,107 @@
+#nullable enable
+using UnityEngine;
+
+namespace HaptoFlow
+{
+    /// <summary>What a project renders with. An asset named HaptoFlowSettings in a Resources folder is found by itself;
+    /// another can be set before the first stylus wakes.</summary>
+    [CreateAssetMenu(menuName = "HaptoFlow/Settings", fileName = ResourceName, order = 2)]
+    public sealed class HaptoFlowSettings : ScriptableObject
+    {
+        internal const string ResourceName = "HaptoFlowSettings";
+
+        [SerializeField, Tooltip("The .haptoflow model.")]
+        private HapticModelAsset? model;
+
+        [SerializeField, Tooltip("Auto measures this machine and takes the most accurate tier that fits the budget.")]
+        private HapticQuality quality = HapticQuality.Auto;
+
+        [SerializeField, Range(0.01f, 1f)]
+        [Tooltip("Auto: share of the time between two contact states that inference may take.")]
+        private float budgetShare = 0.25f;
+
+        [SerializeField, Range(1f, 1000f), Tooltip("Contact states a second, in Hz: the frame rate of the headset.")]
+        private float updateRateHz = 72f;
+
+        [SerializeField, Range(0f, 1f), Tooltip("Safety: no output sample is above this, whatever happens.")]
+        private float ceiling = 1f;
+
+        [SerializeField, Min(1f), Tooltip("Acceleration that is full scale in the output, in m/s^2.")]
+        private float fullScaleMps2 = 60f;
+
+        private static HaptoFlowSettings? active;
+
+        /// <summary>The model; null where none is chosen.</summary>
+        public HapticModelAsset? Model
+        {
+            get => model;
+            set => model = value;
+        }
+
+        /// <summary>Which tier generates.</summary>
+        public HapticQuality Quality
+        {
+            get => quality;
+            set => quality = value;
+        }
+
+        /// <summary>Above 0 to 1.</summary>
+        public float BudgetShare
+        {
+            get => budgetShare;
+            set => budgetShare = value;
+        }
+
+        /// <summary>Contact states a second: the frame rate of the headset. 1 to 10000.</summary>
+        public float UpdateRateHz
+        {
+            get => updateRateHz;
+            set => updateRateHz = value;
+        }
+
+        /// <summary>0 to 1.</summary>
+        public float Ceiling
+        {
+            get => ceiling;
+            set => ceiling = value;
+        }
+
+        /// <summary>Acceleration that is +-1 in the output, in m/s^2, above 0.</summary>
+        public float FullScaleMps2
+        {
+            get => fullScaleMps2;
+            set => fullScaleMps2 = value;
+        }
+
+        /// <summary>The project's settings; built-in ones where the project has none. What is set here counts for
+        /// engines that start afterwards (<see cref="Haptics.Restart"/>). Main thread.</summary>
+        public static HaptoFlowSettings Active
+        {
+            get
+            {
+                if (active == null)
+                {
+                    active = Resources.Load<HaptoFlowSettings>(ResourceName);
+                }
+                if (active == null)
+                {
+                    active = CreateInstance<HaptoFlowSettings>();
+                }
+                return active;
+            }
+            set => active = value;
+        }
+
+        [RuntimeInitializeOnLoadMethod(RuntimeInitializeLoadType.SubsystemRegistration)]
+        private static void Forget() => active = null;
+
+        // A settings asset among the player's preloaded assets takes effect by being there.
+        private void OnEnable()
+        {
+            if (active == null && model != null)
+            {
+                active = this;
+            }
+        }
+    }
+}

@@ -1,0 +1,71 @@
+#nullable enable
+using System;
+using System.Collections.Generic;
+using System.Linq;
+using HaptoFlow.Model;
+using UnityEngine;
+
+namespace HaptoFlow
+{
+    /// <summary>The labels of the model that is loaded: names to indices, and a warning, once each, for names that the
+    /// model does not have.</summary>
+    internal sealed class ModelLabels
+    {
+        private readonly LabelNames names;
+        private readonly double[] stiffness;
+        private readonly HashSet<string> warned = new HashSet<string>(StringComparer.OrdinalIgnoreCase);
+
+        public ModelLabels(IEnumerable<ModelLabel> labels)
+        {
+            ModelLabel[] all = labels.ToArray();
+            names = new LabelNames(all.Select(label => label.Name));
+            stiffness = all.Select(label => label.StiffnessNewtonsPerMetre).ToArray();
+        }
+
+        public IReadOnlyList<string> All => names.All;
+
+        /// <summary>The labels of a description with their weights; unknown ones are left out. The stiffness is the
+        /// weighted mean of the labels', 0 where none is known.</summary>
+        public LabelBlend Blend(
+            MaterialDescription material, HapticSurface surface, out double stiffnessNewtonsPerMetre)
+        {
+            LabelBlend blend = Named(material, surface);
+            stiffnessNewtonsPerMetre = 0.0;
+            for (int entry = 0; entry < blend.Count; ++entry)
+            {
+                stiffnessNewtonsPerMetre += blend.Weight(entry) * stiffness[blend.Label(entry)];
+            }
+            return blend;
+        }
+
+        private LabelBlend Named(MaterialDescription material, HapticSurface surface)
+        {
+            int second = 0;
+            bool knowsFirst = TryFind(material.Label, surface, out int first);
+            bool knowsSecond = material.SecondLabel.Length > 0 && TryFind(material.SecondLabel, surface, out second);
+            if (knowsFirst && knowsSecond)
+            {
+                return LabelBlend.Of(first, second, material.Blend);
+            }
+            return knowsFirst ? LabelBlend.Of(first) : knowsSecond ? LabelBlend.Of(second) : default;
+        }
+
+        private bool TryFind(string name, HapticSurface surface, out int index)
+        {
+            if (names.TryFind(name, out index))
+            {
+                return true;
+            }
+            if (All.Count > 0 && warned.Add(name))
+            {
+                IReadOnlyList<string> near = names.NearMatches(name);
+                string remedy = near.Count > 0
+                    ? "near matches: " + string.Join(", ", near)
+                    : "labels are: " + string.Join(", ", All);
+                Debug.LogWarning(
+                    $"HaptoFlow: the model has no label \"{name}\" (first met on {surface.name}); {remedy}.", surface);
+            }
+            return false;
+        }
+    }
+}

@@ -1,0 +1,123 @@
+#nullable enable
+using HaptoFlow.Contact;
+using UnityEngine;
+
+namespace HaptoFlow
+{
+    /// <summary>The voice of one stylus: opened where engine and output are there, moved where either changed, fed with
+    /// contact states. Main thread, no garbage while nothing changes.</summary>
+    internal sealed class StylusVoice
+    {
+        private readonly HapticStylus stylus;
+        private HapticVoice? voice;
+        private HapticEngine? engine;
+        private HapticEngine? refusedBy;
+        private HapticOutput? output;
+        private float publishedStrength;
+
+        public StylusVoice(HapticStylus stylus) => this.stylus = stylus;
+
+        // A restart closes the engine with its voices; the stylus notices in its next update.
+        private bool IsOpen => voice != null && ReferenceEquals(engine, HapticSession.Existing?.Engine);
+
+        public bool TryGetStatistics(out VoiceStatistics statistics)
+        {
+            statistics = IsOpen ? voice!.Statistics() : default;
+            return IsOpen;
+        }
+
+        public void Panic()
+        {
+            if (IsOpen)
+            {
+                voice!.Panic();
+            }
+        }
+
+        /// <summary>Tells the engine what the tip does; opens the voice first where it can.</summary>
+        /// <param name="surface">What is touched; null where nothing is.</param>
+        public void Publish(in ContactReading reading, HapticSurface? surface, HapticSession session)
+        {
+            if (!MakeReady(session))
+            {
+                return;
+            }
+            var state = new ContactState
+            {
+                TouchCounter = reading.TouchCounter,
+                FirstVelocityMps = (float)reading.FirstVelocityMps,
+                SecondVelocityMps = (float)reading.SecondVelocityMps,
+                ForceNewtons = (float)reading.ForceNewtons,
+                ApproachSpeedMps = (float)reading.ApproachSpeedMps,
+            };
+            if (surface is object)
+            {
+                state.Material = surface.BlendFor(session);
+                // A surface of which no label is known is left unfelt rather than felt as something else.
+                state.Touching = state.Material.Count > 0;
+                SetStrength(surface.Material.Strength * stylus.Strength * output!.Strength);
+            }
+            voice!.Publish(state);
+        }
+
+        public void Close()
+        {
+            if (voice == null)
+            {
+                return;
+            }
+            output!.Remove(voice);
+            voice.Dispose();
+            voice = null;
+            engine = null;
+            output = null;
+        }
+
+        private void SetStrength(float wanted)
+        {
+            if (!wanted.Equals(publishedStrength))
+            {
+                publishedStrength = wanted;
+                voice!.SetStrength(wanted);
+            }
+        }
+
+        private bool MakeReady(HapticSession session)
+        {
+            if (session.Engine == null)
+            {
+                Close();
+                return false;
+            }
+            HapticOutput? chosen = stylus.Output;
+            HapticOutput wanted = chosen != null && chosen.isActiveAndEnabled ? chosen : HapticOutput.ForStylus(stylus);
+            if (voice != null && ReferenceEquals(engine, session.Engine) && ReferenceEquals(output, wanted))
+            {
+                return true;
+            }
+            Close();
+            return !ReferenceEquals(refusedBy, session.Engine) && Open(session, wanted);
+        }
+
+        private bool Open(HapticSession session, HapticOutput wanted)
+        {
+            try
+            {
+                voice = session.Engine!.OpenVoice(wanted.SampleRateHz);
+            }
+            catch (HaptoFlowException refusal)
+            {
+                refusedBy = session.Engine;
+                Debug.LogError($"HaptoFlow: {stylus.name} gets no voice: {refusal.Message}", stylus);
+                return false;
+            }
+            voice.SetCeiling(session.Settings.Ceiling);
+            publishedStrength = stylus.Strength * wanted.Strength;
+            voice.SetStrength(publishedStrength);
+            engine = session.Engine;
+            output = wanted;
+            wanted.Add(voice);
+            return true;
+        }
+    }
+}

@@ -1,0 +1,157 @@
+#nullable enable
+using HaptoFlow.Contact;
+using HaptoFlow.Numerics;
+using UnityEngine;
+
+namespace HaptoFlow
+{
+    /// <summary>The surfaces around one tip, frame by frame: asks the physics engine, keeps what is near, and lets the
+    /// contact model decide. Main thread, no garbage after construction.</summary>
+    internal sealed class TipContacts
+    {
+        private const int MostColliders = 128;
+        private const int MostSurfaces = 32;
+
+        // Surfaces are followed before they are touched, so that a velocity relative to them is there at touch-down.
+        private const double FollowedWithinMetres = 0.05;
+
+        private readonly Collider[] colliders = new Collider[MostColliders];
+        private readonly NearbySurface[] near = new NearbySurface[MostSurfaces];
+        private Double3 previousTipMetres;
+        private bool hasPreviousTip;
+        private bool warnedOfCrowd;
+        private long update;
+
+        public TipContacts(ContactSettings settings, double tipRadiusMetres)
+        {
+            Tracker = new ContactTracker(settings, tipRadiusMetres);
+            for (int index = 0; index < near.Length; ++index)
+            {
+                near[index] = new NearbySurface();
+            }
+        }
+
+        public ContactTracker Tracker { get; }
+
+        /// <summary>What is touched after <see cref="Update"/>; null where nothing is.</summary>
+        public NearbySurface? Touched { get; private set; }
+
+        /// <param name="stepSeconds">Time of the last physics step, on the sample's clock.</param>
+        public ContactReading Update(
+            in TipSample sample, double stepSeconds, int layers, HapticSession session, Object context)
+        {
+            ++update;
+            if (Tracker.BeginFrame(sample))
+            {
+                Consider(stepSeconds, layers, session, context);
+                previousTipMetres = Tracker.TipMetres;
+                hasPreviousTip = true;
+            }
+            ContactReading reading = Tracker.EndFrame();
+            Touched = Find(reading.Surface);
+            LetGoOfDistant();
+            return reading;
+        }
+
+        public void Forget()
+        {
+            Tracker.Forget();
+            Touched = null;
+            hasPreviousTip = false;
+            foreach (NearbySurface surface in near)
+            {
+                surface.End();
+            }
+        }
+
+        private void Consider(double stepSeconds, int layers, HapticSession session, Object context)
+        {
+            float radius = (float)(Tracker.ReachMetres + FollowedWithinMetres);
+            int count = Physics.OverlapSphereNonAlloc(
+                Tracker.TipMetres.ToVector(), radius, colliders, layers, QueryTriggerInteraction.Ignore);
+            for (int index = 0; index < count; ++index)
+            {
+                if (SurfaceRegistry.TryFind(colliders[index], out HapticSurface surface))
+                {
+                    Consider(colliders[index], surface, stepSeconds, session, context);
+                }
+                colliders[index] = null!;
+            }
+        }
+
+        private void Consider(
+            Collider collider, HapticSurface surface, double stepSeconds, HapticSession session, Object context)
+        {
+            NearbySurface? place = PlaceFor(collider, surface);
+            if (place == null)
+            {
+                WarnOfCrowd(context);
+                return;
+            }
+            place.LastMet = update;
+            place.Tracked.StiffnessNewtonsPerMetre = surface.StiffnessFor(session);
+            RigidPose pose = ColliderProbe.PoseOf(collider);
+            place.Record(Tracker.NowSeconds, stepSeconds, pose);
+            var question = new ProbeQuestion(
+                Tracker.TipMetres, Tracker.ReachMetres, Tracker.PreviousLocalNormal(place.Tracked),
+                hasPreviousTip ? previousTipMetres : Tracker.TipMetres, Tracker.Settings.SwitchMarginMetres);
+            if (ColliderProbe.TryClosest(collider, pose, question, out SurfacePoint local))
+            {
+                Tracker.Consider(new ContactCandidate(place.Tracked, pose, local));
+            }
+        }
+
+        private NearbySurface? PlaceFor(Collider collider, HapticSurface surface)
+        {
+            NearbySurface? free = null;
+            foreach (NearbySurface each in near)
+            {
+                if (ReferenceEquals(each.Collider, collider) && ReferenceEquals(each.Surface, surface))
+                {
+                    return each;
+                }
+                free = each.Collider is null ? each : free;
+            }
+            free?.Begin(collider, surface);
+            return free;
+        }
+
+        private NearbySurface? Find(TrackedSurface? tracked)
+        {
+            if (tracked != null)
+            {
+                foreach (NearbySurface each in near)
+                {
+                    if (ReferenceEquals(each.Tracked, tracked))
+                    {
+                        return each;
+                    }
+                }
+            }
+            return null;
+        }
+
+        private void LetGoOfDistant()
+        {
+            foreach (NearbySurface each in near)
+            {
+                if (!(each.Collider is null) && each.LastMet != update)
+                {
+                    Tracker.Release(each.Tracked);
+                    each.End();
+                }
+            }
+        }
+
+        private void WarnOfCrowd(Object context)
+        {
+            if (!warnedOfCrowd)
+            {
+                warnedOfCrowd = true;
+                Debug.LogWarning($"HaptoFlow: more than {MostSurfaces} tagged colliders within " +
+                    $"{FollowedWithinMetres * 100.0:0} cm of a tip; some are not felt. " +
+                    "Narrow the stylus's layer mask.", context);
+            }
+        }
+    }
+}

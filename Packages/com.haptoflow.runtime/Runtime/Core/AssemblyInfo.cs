@@ -1,0 +1,8 @@
+using System.Runtime.CompilerServices;
+
+[assembly: InternalsVisibleTo("HaptoFlow")]
+[assembly: InternalsVisibleTo("HaptoFlow.Editor")]
+[assembly: InternalsVisibleTo("HaptoFlow.Tests")]
+[assembly: InternalsVisibleTo("HaptoFlow.RepositoryTests")]
+[assembly: InternalsVisibleTo("HaptoFlow.ShimTests")]
+[assembly: InternalsVisibleTo("HaptoFlow.MissingLibraryTests")]

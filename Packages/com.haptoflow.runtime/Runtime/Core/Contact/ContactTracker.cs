@@ -1,0 +1,271 @@
+#nullable enable
+using System;
+using HaptoFlow.Numerics;
+
+namespace HaptoFlow.Contact
+{
+    /// <summary>Follows one stylus tip and says, frame by frame, what it touches. One thread at a time; no garbage
+    /// after
+    /// construction.</summary>
+    /// <remarks>
+    /// <para>A frame is <see cref="BeginFrame"/>, one <see cref="Consider"/> for every surface near the tip, and
+    /// <see cref="EndFrame"/>. Whoever calls does the geometry; the tracker decides.</para>
+    /// <para>A touch begins where the tip sphere cuts into a surface and ends where a gap of the release distance has
+    /// opened; between surfaces the deepest contact wins, but the one already touched keeps the tip until another is
+    /// deeper by the switch margin.</para>
+    /// </remarks>
+    internal sealed class ContactTracker
+    {
+        // A pause must not let carried tangent axes turn further than a slow frame would.
+        private const double LongestFrameSeconds = 0.05;
+
+        private readonly RelativeVelocity relativeVelocity = new RelativeVelocity();
+        private readonly TipHistory history;
+
+        private double tipRadiusMetres;
+        private TipSample sample;
+        private double nowSeconds;
+        private double stepSeconds;
+        private bool started;
+        private Double3? tipMetres;
+        private double tipSeconds;
+
+        private TrackedSurface? touched;
+        private Double3? localNormal;
+        private uint touchCounter;
+        private double approachSpeedMps;
+
+        private ContactCandidate current;
+        private ContactCandidate deepest;
+        private bool hasCurrent;
+        private bool hasDeepest;
+        private ContactStatistics statistics;
+
+        /// <exception cref="ArgumentOutOfRangeException">A setting or the tip radius is out of range.</exception>
+        public ContactTracker(ContactSettings settings, double tipRadiusMetres)
+        {
+            settings.Check();
+            Settings = settings;
+            history = new TipHistory(settings.Velocity);
+            TipRadiusMetres = tipRadiusMetres;
+        }
+
+        public ContactSettings Settings { get; }
+
+        /// <summary>0 or more, in metres.</summary>
+        public double TipRadiusMetres
+        {
+            get => tipRadiusMetres;
+            set => tipRadiusMetres = value >= 0.0 && Vectors.IsUsable(value)
+                ? value
+                : throw new ArgumentOutOfRangeException(nameof(value), "contact: TipRadiusMetres must be 0 or more");
+        }
+
+        public ContactStatistics Statistics => statistics;
+
+        /// <summary>Centre of the tip in this frame, valid after <see cref="BeginFrame"/> returned true.</summary>
+        public Double3 TipMetres => tipMetres ?? Double3.Zero;
+
+        /// <summary>Surfaces farther from the tip's centre than this play no part.</summary>
+        public double ReachMetres => TipRadiusMetres + Settings.ReleaseDistanceMetres;
+
+        /// <summary>Time of this frame, on the samples' clock.</summary>
+        public double NowSeconds => nowSeconds;
+
+        /// <summary>What the last frame touched; null where it touched nothing.</summary>
+        public TrackedSurface? Touched => touched;
+
+        /// <summary>Moves the clock, the tip and its history on. False where there is no tip to speak of: then no
+        /// surface needs to be considered, and <see cref="EndFrame"/> says so.</summary>
+        /// <remarks>A sample with an unusable position keeps the last one for the lost time; time that stands still
+        /// updates the geometry only; time that goes backwards, a pause and a teleport drop the past, so that the
+        /// velocity is zero until the next frame.</remarks>
+        public bool BeginFrame(in TipSample tipSample)
+        {
+            sample = tipSample;
+            hasCurrent = false;
+            hasDeepest = false;
+            ++statistics.Samples;
+            bool timeUsable = Vectors.IsUsable(sample.TimeSeconds);
+            bool positionUsable = Vectors.IsUsable(sample.PositionMetres);
+            bool forceUsable = !sample.ForceNewtons.HasValue ||
+                (Vectors.IsFinite(sample.ForceNewtons.Value) && sample.ForceNewtons.Value >= 0.0);
+            if (!timeUsable || !positionUsable || !forceUsable)
+            {
+                ++statistics.SanitisedSamples;
+            }
+            double before = nowSeconds;
+            if (timeUsable)
+            {
+                nowSeconds = sample.TimeSeconds;
+            }
+            stepSeconds = started ? Vectors.Clamp(nowSeconds - before, 0.0, LongestFrameSeconds) : 0.0;
+            started = started || timeUsable;
+            if (positionUsable)
+            {
+                tipMetres = sample.PositionMetres;
+                tipSeconds = nowSeconds;
+            }
+            else if (tipMetres.HasValue &&
+                     (!timeUsable || Math.Abs(nowSeconds - tipSeconds) > Settings.LostSeconds))
+            {
+                tipMetres = null;
+                history.Clear();
+            }
+            if (!tipMetres.HasValue)
+            {
+                return false;
+            }
+            AddToHistory(tipMetres.Value);
+            return true;
+        }
+
+        /// <summary>Local normal of the previous frame's contact with a surface, null where there was none: what keeps
+        /// a
+        /// face while another is no nearer than a margin.</summary>
+        public Double3? PreviousLocalNormal(TrackedSurface surface) =>
+            ReferenceEquals(touched, surface) ? localNormal : null;
+
+        /// <summary>A surface near the tip. Order matters only between equal depths: the first wins.</summary>
+        public void Consider(in ContactCandidate candidate)
+        {
+            if (ReferenceEquals(candidate.Surface, touched))
+            {
+                current = candidate;
+                hasCurrent = true;
+            }
+            if (!hasDeepest || PenetrationOf(candidate) > PenetrationOf(deepest))
+            {
+                deepest = candidate;
+                hasDeepest = true;
+            }
+        }
+
+        /// <summary>What this frame touches.</summary>
+        public ContactReading EndFrame()
+        {
+            bool wasTouching = touched != null;
+            if (!tipMetres.HasValue || !ChooseContact(out ContactCandidate contact))
+            {
+                touched = null;
+                localNormal = null;
+                return Idle();
+            }
+            if (!ReferenceEquals(touched, contact.Surface))
+            {
+                ForgetContinuity();
+                contact.Surface.Frame.Reset();
+                touched = contact.Surface;
+            }
+            return Describe(contact, !wasTouching);
+        }
+
+        /// <summary>Ends the touch and forgets the tip: a stylus was switched off or carried elsewhere.</summary>
+        public void Forget()
+        {
+            touched = null;
+            localNormal = null;
+            tipMetres = null;
+            history.Clear();
+        }
+
+        /// <summary>A surface is gone: destroyed, switched off, or its place is used for another.</summary>
+        public void Release(TrackedSurface surface)
+        {
+            if (ReferenceEquals(touched, surface))
+            {
+                touched = null;
+                localNormal = null;
+            }
+        }
+
+        private void AddToHistory(Double3 tip)
+        {
+            TipStep step = history.Add(nowSeconds, tip);
+            statistics.Teleports += step == TipStep.Teleported ? 1UL : 0UL;
+            statistics.ClockRestarts += step == TipStep.ClockRestarted ? 1UL : 0UL;
+            if (step != TipStep.Continued)
+            {
+                ForgetContinuity();
+            }
+        }
+
+        private void ForgetContinuity()
+        {
+            localNormal = null;
+            touched?.Frame.Reset();
+        }
+
+        private double PenetrationOf(in ContactCandidate candidate) =>
+            TipRadiusMetres - candidate.Local.SignedDistanceMetres;
+
+        private bool ChooseContact(out ContactCandidate contact)
+        {
+            bool kept = hasCurrent && PenetrationOf(current) >= -Settings.ReleaseDistanceMetres;
+            contact = current;
+            if (!hasDeepest || PenetrationOf(deepest) <= 0.0)
+            {
+                return kept;
+            }
+            bool ahead = !kept || PenetrationOf(deepest) - PenetrationOf(current) > Settings.SwitchMarginMetres;
+            if (ahead)
+            {
+                contact = deepest;
+            }
+            return true;
+        }
+
+        private ContactReading Describe(in ContactCandidate contact, bool touchDown)
+        {
+            TrackedSurface surface = contact.Surface;
+            Double3 normal = Vectors.UnitOr(contact.Pose.DirectionToWorld(contact.Local.Normal), Double3.Up);
+            Double3 velocity = relativeVelocity.Of(history, surface.Track, contact.Local.PointMetres);
+            surface.Frame.Update(contact.Local.Normal, stepSeconds);
+            localNormal = contact.Local.Normal;
+            if (touchDown)
+            {
+                ++touchCounter;
+                ++statistics.TouchDowns;
+                approachSpeedMps = Math.Max(0.0, -Double3.Dot(velocity, normal));
+            }
+
+            ContactReading reading = Idle();
+            reading.Touching = true;
+            reading.Surface = surface;
+            reading.PointMetres = contact.Pose.PointToWorld(contact.Local.PointMetres);
+            reading.Normal = normal;
+            reading.PenetrationMetres = Math.Max(0.0, PenetrationOf(contact));
+            reading.FirstAxis = contact.Pose.DirectionToWorld(surface.Frame.First);
+            reading.SecondAxis = contact.Pose.DirectionToWorld(surface.Frame.Second);
+            reading.FirstVelocityMps = Double3.Dot(velocity, reading.FirstAxis);
+            reading.SecondVelocityMps = Double3.Dot(velocity, reading.SecondAxis);
+            reading.ApproachSpeedMps = approachSpeedMps;
+            reading.ForceNewtons = ForceOf(surface, reading.PenetrationMetres);
+            return reading;
+        }
+
+        private double ForceOf(TrackedSurface surface, double penetrationMetres)
+        {
+            double own = surface.StiffnessNewtonsPerMetre;
+            double stiffness = own > 0.0 && Vectors.IsUsable(own)
+                ? own
+                : Settings.DefaultStiffnessNewtonsPerMetre;
+            double? measured = sample.ForceNewtons;
+            double force = measured.HasValue && Vectors.IsFinite(measured.Value)
+                ? measured.Value
+                : stiffness * penetrationMetres;
+            return Vectors.Clamp(force, 0.0, Settings.MaximumForceNewtons);
+        }
+
+        private ContactReading Idle()
+        {
+            return new ContactReading
+            {
+                TimeSeconds = nowSeconds,
+                TouchCounter = touchCounter,
+                PointMetres = TipMetres,
+                Normal = Double3.Up,
+            };
+        }
+    }
+}

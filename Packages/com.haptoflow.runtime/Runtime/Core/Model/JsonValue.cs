@@ -1,0 +1,67 @@
+#nullable enable
+using System;
+using System.Collections.Generic;
+
+namespace HaptoFlow.Model
+{
+    /// <summary>A JSON value. Reading one as a kind that it is not throws <see cref="FormatException"/>, which names
+    /// the
+    /// value's path.</summary>
+    public sealed class JsonValue
+    {
+        private readonly object? content;
+
+        internal JsonValue(object? content, string path)
+        {
+            this.content = content;
+            Path = path;
+        }
+
+        /// <summary>Where it is, for example "labels[3].name"; "the document" for the whole.</summary>
+        public string Path { get; }
+
+        /// <summary>JSON null.</summary>
+        public bool IsNull => content == null;
+
+        /// <summary>Parses strict JSON, 32 levels deep at most, no key twice in an object.</summary>
+        /// <exception cref="FormatException">The text is not that; the message says where.</exception>
+        public static JsonValue Parse(string text) => new JsonParser(text).Document();
+
+        /// <summary>A string.</summary>
+        public string AsText() => content as string ?? throw Expected("a string");
+
+        /// <summary>A number.</summary>
+        public double AsNumber() => content is double number ? number : throw Expected("a number");
+
+        /// <summary>A whole number that fits 32 bits.</summary>
+        public int AsInteger()
+        {
+            double number = AsNumber();
+            bool whole = number == Math.Floor(number) && Math.Abs(number) <= int.MaxValue;
+            return whole ? (int)number : throw Expected("a whole number");
+        }
+
+        /// <summary>True or false.</summary>
+        public bool AsBoolean() => content is bool truth ? truth : throw Expected("true or false");
+
+        /// <summary>An array.</summary>
+        public IReadOnlyList<JsonValue> AsArray() => content as List<JsonValue> ?? throw Expected("an array");
+
+        /// <summary>An object.</summary>
+        public IReadOnlyDictionary<string, JsonValue> AsObject() =>
+            content as Dictionary<string, JsonValue> ?? throw Expected("an object");
+
+        /// <summary>A member of an object.</summary>
+        public JsonValue this[string key] => AsObject().TryGetValue(key, out JsonValue? value)
+            ? value
+            : throw new FormatException($"{Path} has no key \"{key}\"");
+
+        /// <summary>A member of an object; null where it is not there.</summary>
+        public JsonValue? Find(string key) => AsObject().TryGetValue(key, out JsonValue? value) ? value : null;
+
+        /// <summary>An element of an array.</summary>
+        public JsonValue this[int index] => AsArray()[index];
+
+        internal FormatException Expected(string expectation) => new FormatException($"{Path} is not {expectation}");
+    }
+}

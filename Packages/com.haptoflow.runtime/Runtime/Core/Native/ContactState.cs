@@ -1,0 +1,31 @@
+#nullable enable
+
+namespace HaptoFlow
+{
+    /// <summary>What a stylus tip does now: what the engine generates from.</summary>
+    public struct ContactState
+    {
+        /// <summary>The tip touches a surface.</summary>
+        public bool Touching;
+
+        /// <summary>One more at each touch-down: a touch that came and went since the last state is still
+        /// felt.</summary>
+        public uint TouchCounter;
+
+        /// <summary>What the surface is made of.</summary>
+        public LabelBlend Material;
+
+        /// <summary>Along the first of two axes fixed to the surface, relative to its own motion; limited to 20 m/s.
+        /// </summary>
+        public float FirstVelocityMps;
+
+        /// <summary>Along the second axis, limited to 20 m/s.</summary>
+        public float SecondVelocityMps;
+
+        /// <summary>Along the surface's normal, 0 to 1000 N.</summary>
+        public float ForceNewtons;
+
+        /// <summary>Into the surface, at touch-down, in m/s.</summary>
+        public float ApproachSpeedMps;
+    }
+}

@@ -1,0 +1,131 @@
+#nullable enable
+using System;
+using HaptoFlow.Native;
+
+namespace HaptoFlow
+{
+    /// <summary>Which tier generates.</summary>
+    public enum HapticQuality
+    {
+        /// <summary>Measures the model's tiers on this machine while nothing touches, takes the most accurate that fits
+        /// the budget, one less when the machine cannot keep up, and one more when it can again.</summary>
+        Auto = 0,
+
+        /// <summary>The tier of that name, or the nearest.</summary>
+        Draft = 1,
+
+        /// <summary>The tier of that name, or the nearest.</summary>
+        Standard = 2,
+
+        /// <summary>The tier of that name, or the nearest.</summary>
+        Fine = 3,
+    }
+
+    /// <summary>How an engine works. The defaults are the native library's.</summary>
+    public struct HapticEngineOptions
+    {
+        /// <summary>The tier of that name; where the model has none, the nearest that it has.</summary>
+        public HapticQuality Quality;
+
+        /// <summary>Contact states a second, 1 to 10000; 0 for 72.</summary>
+        public double UpdateRateHz;
+
+        /// <summary>Share of the time between two contact states that inference may take, above 0 to 1; 0 for 0.25.
+        /// </summary>
+        public double BudgetShare;
+
+        /// <summary>What acceleration is +-1 in the output, in m/s^2; 0 for 60.</summary>
+        public double FullScaleMps2;
+
+        /// <summary>Key of all noise.</summary>
+        public ulong Seed;
+
+        /// <summary>No thread of its own: the caller calls <see cref="HapticEngine.Step"/>. For rendering outside of
+        /// real time.</summary>
+        public bool WithoutWorker;
+
+        /// <summary>From a contact state to the first sample generated from it, above 0 to 50 ms; 0 for the shortest
+        /// that holds on this machine. Fixed, an engine without worker is deterministic.</summary>
+        public double FixedLeadMs;
+    }
+
+    /// <summary>All voices of one model, and the one thread that generates for them. The thread sleeps while nothing
+    /// slides. Methods may be called from any thread that is not an audio callback.</summary>
+    public sealed unsafe class HapticEngine : IDisposable
+    {
+        private readonly EngineHandle handle;
+
+        /// <summary>Loads all tiers of the model and starts the worker. Takes as long as ONNX Runtime needs to optimise
+        /// the graphs; runtime and model may be disposed afterwards.</summary>
+        /// <exception cref="HaptoFlowException">An option is out of range, or a graph is not usable.</exception>
+        public HapticEngine(OnnxRuntime runtime, HapticModel model, in HapticEngineOptions options)
+        {
+            var native = new EngineOptions
+            {
+                StructSize = (uint)sizeof(EngineOptions),
+                Quality = (int)options.Quality,
+                Runtime = runtime.Handle.Value,
+                Model = model.Handle.Value,
+                UpdateRateHz = options.UpdateRateHz,
+                BudgetShare = options.BudgetShare,
+                FullScaleMps2 = options.FullScaleMps2,
+                Seed = options.Seed,
+                WithoutWorker = options.WithoutWorker ? 1u : 0u,
+                FixedLeadMs = options.FixedLeadMs,
+            };
+            IntPtr opened;
+            NativeCall.Check(NativeMethods.EngineCreate(&native, &opened));
+            GC.KeepAlive(runtime);
+            GC.KeepAlive(model);
+            handle = new EngineHandle(opened);
+        }
+
+        /// <summary>From the next segment on.</summary>
+        public void SetQuality(HapticQuality quality)
+        {
+            NativeCall.Check(NativeMethods.EngineSetQuality(handle.Value, (int)quality));
+            GC.KeepAlive(this);
+        }
+
+        /// <summary>One round of inference for all voices that want one. Engines without worker only; any thread that
+        /// can wait for a network.</summary>
+        public void Step()
+        {
+            NativeCall.Check(NativeMethods.EngineStep(handle.Value));
+            GC.KeepAlive(this);
+        }
+
+        /// <summary>What the engine did so far.</summary>
+        public EngineStatistics Statistics()
+        {
+            var statistics = new EngineStatistics { StructSize = (uint)sizeof(EngineStatistics) };
+            NativeCall.Check(NativeMethods.EngineGetStatistics(handle.Value, &statistics));
+            GC.KeepAlive(this);
+            return statistics;
+        }
+
+        /// <param name="tier">Index into the model's tiers.</param>
+        public TierTimes Times(int tier)
+        {
+            var times = new TierTimes { StructSize = (uint)sizeof(TierTimes) };
+            NativeCall.Check(NativeMethods.EngineTierTimes(handle.Value, checked((uint)tier), &times));
+            GC.KeepAlive(this);
+            return times;
+        }
+
+        /// <summary>The signal of one stylus tip. Blocks for the present round of inference.</summary>
+        /// <param name="sampleRateHz">Of the output, 8000 to 192000. It may change later.</param>
+        /// <exception cref="HaptoFlowException">The rate is out of range, or 64 voices are open in this process.
+        /// </exception>
+        public HapticVoice OpenVoice(double sampleRateHz)
+        {
+            ulong voice;
+            NativeCall.Check(NativeMethods.VoiceCreate(handle.Value, sampleRateHz, &voice));
+            GC.KeepAlive(this);
+            return new HapticVoice(voice);
+        }
+
+        /// <summary>Ends the worker and closes the voices; those being rendered finish their block first.</summary>
+        public void Dispose() => handle.Dispose();
+    }
+}

@@ -1,0 +1,127 @@
+#nullable enable
+using System;
+using HaptoFlow.Native;
+
+namespace HaptoFlow
+{
+    /// <summary>One tier of a model, to generate segments outside of real time: for rendering, measuring, previews. Any
+    /// thread that can wait for a network.</summary>
+    public sealed unsafe class HapticGenerator : IDisposable
+    {
+        /// <summary>Samples of a segment and of the previous waveform, at 2000 a second.</summary>
+        public const int SegmentSamples = 200;
+
+        /// <summary>Numbers of a motion: vx and vy in m/s along the surface, force in N.</summary>
+        public const int MotionSize = 3;
+
+        private readonly GeneratorHandle handle;
+
+        /// <param name="tier">Name of a tier; null for the model's default.</param>
+        /// <exception cref="HaptoFlowException">There is no such tier, or a graph is not usable.</exception>
+        public HapticGenerator(OnnxRuntime runtime, HapticModel model, string? tier = null)
+        {
+            IntPtr opened;
+            fixed (byte* name = tier != null ? NativeCall.Utf8(tier) : null)
+            {
+                var options = new GeneratorOptions
+                {
+                    StructSize = (uint)sizeof(GeneratorOptions),
+                    Runtime = runtime.Handle.Value,
+                    Model = model.Handle.Value,
+                    Tier = (IntPtr)name,
+                };
+                NativeCall.Check(NativeMethods.GeneratorCreate(&options, &opened));
+            }
+            GC.KeepAlive(runtime);
+            GC.KeepAlive(model);
+            handle = new GeneratorHandle(opened);
+        }
+
+        /// <summary>From the next call on.</summary>
+        /// <param name="steps">1 to 16; 0 with <see cref="HapticSolver.OfTier"/>.</param>
+        public void SetSolver(HapticSolver solver, int steps)
+        {
+            NativeCall.Check(NativeMethods.GeneratorSetSolver(handle.Value, (int)solver, steps));
+            GC.KeepAlive(this);
+        }
+
+        /// <summary>Segments in m/s^2 for one request or several, one after the other.</summary>
+        /// <param name="embeddings">64 numbers each.</param>
+        /// <param name="motions">3 numbers each.</param>
+        /// <param name="previousMps2">200 samples each: what came before.</param>
+        /// <param name="noise">200 standard normal numbers each.</param>
+        /// <param name="segmentsMps2">200 samples each: the result.</param>
+        public void Generate(ReadOnlySpan<float> embeddings, ReadOnlySpan<float> motions,
+            ReadOnlySpan<float> previousMps2, ReadOnlySpan<float> noise, Span<float> segmentsMps2)
+        {
+            int count = CountOf(embeddings, motions);
+            RequireLength(previousMps2.Length, count * SegmentSamples, nameof(previousMps2));
+            RequireLength(noise.Length, count * SegmentSamples, nameof(noise));
+            RequireLength(segmentsMps2.Length, count * SegmentSamples, nameof(segmentsMps2));
+            fixed (float* embedding = embeddings, motion = motions, previous = previousMps2)
+            fixed (float* normal = noise, segment = segmentsMps2)
+            {
+                var batch = new Batch
+                {
+                    StructSize = (uint)sizeof(Batch),
+                    Count = (uint)count,
+                    Embeddings = embedding,
+                    Motions = motion,
+                    PreviousMps2 = previous,
+                    Noise = normal,
+                };
+                NativeCall.Check(NativeMethods.GeneratorGenerate(handle.Value, &batch, segment));
+            }
+            GC.KeepAlive(this);
+        }
+
+        /// <summary>The level that the model expects for each request: RMS in m/s^2.</summary>
+        public void Levels(ReadOnlySpan<float> embeddings, ReadOnlySpan<float> motions, Span<float> levelsMps2)
+        {
+            int count = CountOf(embeddings, motions);
+            RequireLength(levelsMps2.Length, count, nameof(levelsMps2));
+            fixed (float* embedding = embeddings, motion = motions, level = levelsMps2)
+            {
+                var batch = new Batch
+                {
+                    StructSize = (uint)sizeof(Batch),
+                    Count = (uint)count,
+                    Embeddings = embedding,
+                    Motions = motion,
+                };
+                NativeCall.Check(NativeMethods.GeneratorLevels(handle.Value, &batch, level));
+            }
+            GC.KeepAlive(this);
+        }
+
+        /// <summary>Standard normal numbers that depend on seed, voice and segment alone, the same on every platform.
+        /// </summary>
+        public static void FillNoise(ulong seed, int voice, ulong segment, Span<float> noise)
+        {
+            fixed (float* numbers = noise)
+            {
+                NativeCall.Check(
+                    NativeMethods.NoiseFill(seed, checked((uint)voice), segment, numbers, (ulong)noise.Length));
+            }
+        }
+
+        /// <summary>Calls that are under way finish.</summary>
+        public void Dispose() => handle.Dispose();
+
+        private static int CountOf(ReadOnlySpan<float> embeddings, ReadOnlySpan<float> motions)
+        {
+            int count = motions.Length / MotionSize;
+            RequireLength(motions.Length, Math.Max(1, count) * MotionSize, nameof(motions));
+            RequireLength(embeddings.Length, count * HapticModel.EmbeddingSize, nameof(embeddings));
+            return count;
+        }
+
+        private static void RequireLength(int actual, int expected, string name)
+        {
+            if (actual != expected)
+            {
+                throw new ArgumentException($"{name} has {actual} numbers; expected {expected}", name);
+            }
+        }
+    }
+}

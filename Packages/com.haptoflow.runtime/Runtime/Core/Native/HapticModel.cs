@@ -1,0 +1,226 @@
+#nullable enable
+using System;
+using System.Collections.Generic;
+using HaptoFlow.Native;
+
+namespace HaptoFlow
+{
+    /// <summary>Solver of the velocity field's ordinary differential equation.</summary>
+    public enum HapticSolver
+    {
+        /// <summary>The solver and the number of steps that the tier names as its own.</summary>
+        OfTier = 0,
+
+        /// <summary>One evaluation a step.</summary>
+        Euler = 1,
+
+        /// <summary>Two evaluations a step.</summary>
+        Midpoint = 2,
+
+        /// <summary>Two evaluations a step.</summary>
+        Heun = 3,
+    }
+
+    /// <summary>A label of a model.</summary>
+    public sealed class HapticLabel
+    {
+        internal HapticLabel(in LabelInfo info, int index)
+        {
+            Index = index;
+            Name = NativeCall.Text(info.Name);
+            Category = NativeCall.Text(info.Category);
+            StiffnessNewtonsPerMetre = info.StiffnessNewtonsPerMetre;
+            FrictionCoefficient = info.FrictionCoefficient;
+            WavelengthMetres = info.IsPeriodic != 0 ? info.WavelengthMetres : (double?)null;
+        }
+
+        /// <summary>Place among the model's labels.</summary>
+        public int Index { get; }
+
+        /// <summary>Lower case, unique in the model, for example "metal mesh".</summary>
+        public string Name { get; }
+
+        /// <summary>For example "wood" or "cloth".</summary>
+        public string Category { get; }
+
+        /// <summary>Default of the spring model.</summary>
+        public double StiffnessNewtonsPerMetre { get; }
+
+        /// <summary>Mean kinetic friction.</summary>
+        public double FrictionCoefficient { get; }
+
+        /// <summary>Of a woven or ruled surface; null for others.</summary>
+        public double? WavelengthMetres { get; }
+    }
+
+    /// <summary>A tier of a model: a network with a measured accuracy and a measured cost.</summary>
+    public sealed class HapticTier
+    {
+        internal HapticTier(in TierInfo info, int index)
+        {
+            Index = index;
+            Name = NativeCall.Text(info.Name);
+            Kind = NativeCall.Text(info.Kind);
+            AccuracyJson = NativeCall.Text(info.AccuracyJson);
+            CostJson = NativeCall.Text(info.CostJson);
+            Solver = (HapticSolver)info.Solver;
+            Steps = info.Steps;
+            IsDefault = info.IsDefault != 0;
+            ParameterCount = info.ParameterCount;
+        }
+
+        /// <summary>Place among the model's tiers.</summary>
+        public int Index { get; }
+
+        /// <summary>"draft", "standard" or "fine".</summary>
+        public string Name { get; }
+
+        /// <summary>"flow", "average-velocity" or "direct".</summary>
+        public string Kind { get; }
+
+        /// <summary>Measured figures as a JSON object; "{}" where nothing was measured.</summary>
+        public string AccuracyJson { get; }
+
+        /// <summary>Measured figures as a JSON object; "{}" where nothing was measured.</summary>
+        public string CostJson { get; }
+
+        /// <summary>The tier's own solver.</summary>
+        public HapticSolver Solver { get; }
+
+        /// <summary>1 to 16.</summary>
+        public int Steps { get; }
+
+        /// <summary>Used when nobody asks for another.</summary>
+        public bool IsDefault { get; }
+
+        /// <summary>Weights of the network.</summary>
+        public long ParameterCount { get; }
+    }
+
+    /// <summary>A model read and verified by the native library. Any thread; opening takes milliseconds for each
+    /// megabyte.</summary>
+    public sealed unsafe class HapticModel : IDisposable
+    {
+        /// <summary>Numbers of a material embedding.</summary>
+        public const int EmbeddingSize = 64;
+
+        private readonly HapticLabel[] labels;
+        private readonly HapticTier[] tiers;
+
+        private HapticModel(IntPtr opened)
+        {
+            Handle = new ModelHandle(opened);
+            labels = ReadLabels(opened);
+            tiers = ReadTiers(opened);
+        }
+
+        /// <summary>In the model's order, which is the order of label indices.</summary>
+        public IReadOnlyList<HapticLabel> Labels => labels;
+
+        /// <summary>The most accurate comes last.</summary>
+        public IReadOnlyList<HapticTier> Tiers => tiers;
+
+        internal ModelHandle Handle { get; }
+
+        /// <param name="file">The bytes of a whole .haptoflow file; not kept.</param>
+        /// <exception cref="HaptoFlowException">The library is not there, or the bytes are no usable model.</exception>
+        public static HapticModel Open(byte[] file)
+        {
+            try
+            {
+                fixed (byte* bytes = file)
+                {
+                    var options = new ModelOptions
+                    {
+                        StructSize = (uint)sizeof(ModelOptions),
+                        Bytes = (IntPtr)bytes,
+                        ByteCount = (ulong)file.LongLength,
+                    };
+                    return Open(&options);
+                }
+            }
+            catch (Exception error) when (NativeCall.IsMissing(error))
+            {
+                throw NativeCall.Missing(error);
+            }
+        }
+
+        /// <param name="path">Of a .haptoflow file.</param>
+        /// <exception cref="HaptoFlowException">The library is not there, or the file is no usable model.</exception>
+        public static HapticModel Open(string path)
+        {
+            try
+            {
+                fixed (byte* text = NativeCall.Utf8(path))
+                {
+                    var options = new ModelOptions { StructSize = (uint)sizeof(ModelOptions), Path = (IntPtr)text };
+                    return Open(&options);
+                }
+            }
+            catch (Exception error) when (NativeCall.IsMissing(error))
+            {
+                throw NativeCall.Missing(error);
+            }
+        }
+
+        /// <summary>The JSON header as the file has it.</summary>
+        public string HeaderJson()
+        {
+            IntPtr text;
+            NativeCall.Check(NativeMethods.ModelHeader(Handle.Value, &text));
+            string json = NativeCall.Text(text);
+            GC.KeepAlive(this);
+            return json;
+        }
+
+        /// <summary>The material embedding of a label, <see cref="EmbeddingSize"/> numbers.</summary>
+        public float[] Embedding(int label)
+        {
+            var embedding = new float[EmbeddingSize];
+            fixed (float* numbers = embedding)
+            {
+                NativeCall.Check(NativeMethods.ModelEmbedding(Handle.Value, checked((uint)label), numbers));
+            }
+            GC.KeepAlive(this);
+            return embedding;
+        }
+
+        /// <summary>Engines and generators made from the model stay usable.</summary>
+        public void Dispose() => Handle.Dispose();
+
+        private static HapticModel Open(ModelOptions* options)
+        {
+            IntPtr opened;
+            NativeCall.Check(NativeMethods.ModelOpen(options, &opened));
+            return new HapticModel(opened);
+        }
+
+        private static HapticLabel[] ReadLabels(IntPtr model)
+        {
+            uint count;
+            NativeCall.Check(NativeMethods.ModelLabelCount(model, &count));
+            var labels = new HapticLabel[count];
+            for (uint index = 0; index < count; ++index)
+            {
+                var info = new LabelInfo { StructSize = (uint)sizeof(LabelInfo) };
+                NativeCall.Check(NativeMethods.ModelLabel(model, index, &info));
+                labels[index] = new HapticLabel(info, (int)index);
+            }
+            return labels;
+        }
+
+        private static HapticTier[] ReadTiers(IntPtr model)
+        {
+            uint count;
+            NativeCall.Check(NativeMethods.ModelTierCount(model, &count));
+            var tiers = new HapticTier[count];
+            for (uint index = 0; index < count; ++index)
+            {
+                var info = new TierInfo { StructSize = (uint)sizeof(TierInfo) };
+                NativeCall.Check(NativeMethods.ModelTier(model, index, &info));
+                tiers[index] = new HapticTier(info, (int)index);
+            }
+            return tiers;
+        }
+    }
+}

@@ -1,0 +1,137 @@
+#nullable enable
+using System;
+using System.Threading;
+using HaptoFlow.Native;
+
+namespace HaptoFlow
+{
+    /// <summary>The signal of one stylus tip. After it is closed, rendering gives silence and every other call fails.
+    /// </summary>
+    public sealed unsafe class HapticVoice : IDisposable
+    {
+        /// <summary>As a channel: all of them.</summary>
+        public const int AllChannels = -1;
+
+        private long voice;
+
+        internal HapticVoice(ulong opened) => voice = unchecked((long)opened);
+
+        /// <summary>Closes a voice that was forgotten.</summary>
+        ~HapticVoice() => Close();
+
+        private ulong Id => unchecked((ulong)Interlocked.Read(ref voice));
+
+        /// <summary>What the tip does now: once a frame, also while nothing touches. Any thread but the audio
+        /// callback's; no garbage.</summary>
+        /// <returns>False where another thread publishes at this moment: the state is lost, the next one counts.
+        /// </returns>
+        /// <exception cref="HaptoFlowException">The voice is closed.</exception>
+        public bool Publish(in ContactState state)
+        {
+            var native = new NativeContactState
+            {
+                StructSize = (uint)sizeof(NativeContactState),
+                Touching = state.Touching ? 1u : 0u,
+                TouchCounter = state.TouchCounter,
+                LabelCount = (uint)state.Material.Count,
+                ForceNewtons = state.ForceNewtons,
+                ApproachSpeedMps = state.ApproachSpeedMps,
+            };
+            for (int index = 0; index < state.Material.Count; ++index)
+            {
+                native.Labels[index] = unchecked((uint)state.Material.Label(index));
+                native.Weights[index] = state.Material.Weight(index);
+            }
+            native.VelocityMps[0] = state.FirstVelocityMps;
+            native.VelocityMps[1] = state.SecondVelocityMps;
+            int status = NativeMethods.VoicePublish(Id, &native);
+            if (status == (int)HaptoFlowStatus.Busy)
+            {
+                return false;
+            }
+            NativeCall.Check(status);
+            return true;
+        }
+
+        /// <summary>Writes the voice into one channel of interleaved samples, or into all; other channels stay as they
+        /// are. Made for the audio callback: no garbage, no wait, no exception; microseconds.</summary>
+        /// <param name="interleaved">Samples of +-1, a whole number of frames.</param>
+        /// <param name="channelCount">1 to 64.</param>
+        /// <param name="channel">0 to channelCount - 1, or <see cref="AllChannels"/>.</param>
+        /// <returns>False where the voice was closed or busy, and wrote silence.</returns>
+        public bool Render(Span<float> interleaved, int channelCount, int channel, double sampleRateHz)
+        {
+            if (channelCount < 1 || interleaved.Length < channelCount)
+            {
+                return false;
+            }
+            fixed (float* samples = interleaved)
+            {
+                int status = NativeMethods.VoiceRender(
+                    Id, samples, (uint)(interleaved.Length / channelCount), (uint)channelCount, channel, sampleRateHz);
+                return status == (int)HaptoFlowStatus.Ok;
+            }
+        }
+
+        /// <summary>Gain of the output before the limiter, 0 to 1; glides within 10 ms.</summary>
+        public void SetStrength(float strength) => NativeCall.Check(NativeMethods.VoiceSetStrength(Id, strength));
+
+        /// <summary>Largest magnitude of the output, 0 to 1: whatever else happens, no sample is above it.</summary>
+        public void SetCeiling(float ceiling) => NativeCall.Check(NativeMethods.VoiceSetCeiling(Id, ceiling));
+
+        /// <summary>Muted, a voice falls silent within a block and 5 ms and costs no inference.</summary>
+        public void SetMuted(bool muted) => NativeCall.Check(NativeMethods.VoiceSetMuted(Id, muted ? 1u : 0u));
+
+        /// <summary>The same for an application that is suspended: independent of muting.</summary>
+        public void SetPaused(bool paused) => NativeCall.Check(NativeMethods.VoiceSetPaused(Id, paused ? 1u : 0u));
+
+        /// <summary>Silence at the end of the next block. Sounds again with the next touch-down.</summary>
+        public void Panic() => NativeCall.Check(NativeMethods.VoicePanic(Id));
+
+        /// <summary>Panic for every voice of the process. Does nothing where there is no native library.</summary>
+        public static void PanicAll()
+        {
+            try
+            {
+                NativeMethods.Panic();
+            }
+            catch (Exception error) when (NativeCall.IsMissing(error))
+            {
+                // Without the library nothing sounds.
+            }
+        }
+
+        /// <summary>What the voice did so far.</summary>
+        public VoiceStatistics Statistics()
+        {
+            var statistics = new VoiceStatistics { StructSize = (uint)sizeof(VoiceStatistics) };
+            NativeCall.Check(NativeMethods.VoiceGetStatistics(Id, &statistics));
+            return statistics;
+        }
+
+        /// <summary>The voice's place among the process's voices: what the parameter "Voice" of the mixer effect names.
+        /// </summary>
+        public int Place()
+        {
+            uint place;
+            NativeCall.Check(NativeMethods.VoicePlace(Id, &place));
+            return (int)place;
+        }
+
+        /// <summary>Blocks for the present round of inference, and for a block that is being rendered.</summary>
+        public void Dispose()
+        {
+            Close();
+            GC.SuppressFinalize(this);
+        }
+
+        private void Close()
+        {
+            ulong closing = unchecked((ulong)Interlocked.Exchange(ref voice, 0));
+            if (closing != 0)
+            {
+                NativeMethods.VoiceDestroy(&closing);
+            }
+        }
+    }
+}

@@ -1,0 +1,54 @@
+#nullable enable
+
+namespace HaptoFlow
+{
+    /// <summary>Why a call into the native library failed.</summary>
+    public enum HaptoFlowStatus
+    {
+        /// <summary>No failure.</summary>
+        Ok = 0,
+
+        /// <summary>A null pointer, a handle that is not open, an index or a number out of range, a name that is not
+        /// there.</summary>
+        InvalidArgument = 1,
+
+        /// <summary>Memory is used up.</summary>
+        OutOfMemory = 2,
+
+        /// <summary>A defect of the library.</summary>
+        InternalError = 3,
+
+        /// <summary>Another thread is publishing on, or rendering, this voice.</summary>
+        Busy = 4,
+
+        /// <summary>The model file cannot be opened or read.</summary>
+        ModelUnreadable = 10,
+
+        /// <summary>The bytes are not a .haptoflow file.</summary>
+        NotAModel = 11,
+
+        /// <summary>The model file ends too early: get it again.</summary>
+        ModelTruncated = 12,
+
+        /// <summary>The file's format is newer than this library: update HaptoFlow.</summary>
+        ModelTooNew = 13,
+
+        /// <summary>A length or count above the format's limits.</summary>
+        ModelOversized = 14,
+
+        /// <summary>A checksum does not match: the file was changed or broken on its way.</summary>
+        ModelDamaged = 15,
+
+        /// <summary>The file is intact and breaks a rule of its format, or one of its graphs does.</summary>
+        ModelInconsistent = 16,
+
+        /// <summary>No ONNX Runtime of version 1.16 or newer at the given place.</summary>
+        RuntimeUnavailable = 20,
+
+        /// <summary>A graph failed while running, or returned numbers that are not finite.</summary>
+        InferenceFailed = 21,
+
+        /// <summary>The native library audioplugin_haptoflow, or a function of it, is not there.</summary>
+        LibraryUnavailable = 100,
+    }
+}

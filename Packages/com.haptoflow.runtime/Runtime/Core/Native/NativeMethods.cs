@@ -1,0 +1,135 @@
+#nullable enable
+using System;
+using System.Runtime.InteropServices;
+
+namespace HaptoFlow.Native
+{
+    /// <summary>haptoflow.h, function by function; the header says which thread each may be called from, and what it
+    /// blocks on.</summary>
+    internal static unsafe class NativeMethods
+    {
+#if UNITY_IOS && !UNITY_EDITOR
+        private const string Library = "__Internal";
+        private const string OnnxRuntime = "__Internal";
+#else
+        private const string Library = "audioplugin_haptoflow";
+        private const string OnnxRuntime = "onnxruntime";
+#endif
+
+        /// <summary>Of ONNX Runtime: the pointer that the plugin gets everything else from.</summary>
+        [DllImport(OnnxRuntime, EntryPoint = "OrtGetApiBase")]
+        public static extern IntPtr OrtGetApiBase();
+
+        [DllImport(Library, EntryPoint = "haptoflow_version")]
+        public static extern IntPtr Version();
+
+        [DllImport(Library, EntryPoint = "haptoflow_status_name")]
+        public static extern IntPtr StatusName(int status);
+
+        [DllImport(Library, EntryPoint = "haptoflow_last_message")]
+        public static extern IntPtr LastMessage();
+
+        [DllImport(Library, EntryPoint = "haptoflow_runtime_open")]
+        public static extern int RuntimeOpen(RuntimeOptions* options, IntPtr* runtime);
+
+        [DllImport(Library, EntryPoint = "haptoflow_runtime_close")]
+        public static extern int RuntimeClose(IntPtr* runtime);
+
+        [DllImport(Library, EntryPoint = "haptoflow_model_open")]
+        public static extern int ModelOpen(ModelOptions* options, IntPtr* model);
+
+        [DllImport(Library, EntryPoint = "haptoflow_model_close")]
+        public static extern int ModelClose(IntPtr* model);
+
+        [DllImport(Library, EntryPoint = "haptoflow_model_header")]
+        public static extern int ModelHeader(IntPtr model, IntPtr* headerJson);
+
+        [DllImport(Library, EntryPoint = "haptoflow_model_label_count")]
+        public static extern int ModelLabelCount(IntPtr model, uint* count);
+
+        [DllImport(Library, EntryPoint = "haptoflow_model_label")]
+        public static extern int ModelLabel(IntPtr model, uint index, LabelInfo* info);
+
+        [DllImport(Library, EntryPoint = "haptoflow_model_embedding")]
+        public static extern int ModelEmbedding(IntPtr model, uint index, float* embedding);
+
+        [DllImport(Library, EntryPoint = "haptoflow_model_tier_count")]
+        public static extern int ModelTierCount(IntPtr model, uint* count);
+
+        [DllImport(Library, EntryPoint = "haptoflow_model_tier")]
+        public static extern int ModelTier(IntPtr model, uint index, TierInfo* info);
+
+        [DllImport(Library, EntryPoint = "haptoflow_generator_create")]
+        public static extern int GeneratorCreate(GeneratorOptions* options, IntPtr* generator);
+
+        [DllImport(Library, EntryPoint = "haptoflow_generator_close")]
+        public static extern int GeneratorClose(IntPtr* generator);
+
+        [DllImport(Library, EntryPoint = "haptoflow_generator_set_solver")]
+        public static extern int GeneratorSetSolver(IntPtr generator, int solver, int steps);
+
+        [DllImport(Library, EntryPoint = "haptoflow_generator_generate")]
+        public static extern int GeneratorGenerate(IntPtr generator, Batch* batch, float* segmentsMps2);
+
+        [DllImport(Library, EntryPoint = "haptoflow_generator_levels")]
+        public static extern int GeneratorLevels(IntPtr generator, Batch* batch, float* levelsMps2);
+
+        [DllImport(Library, EntryPoint = "haptoflow_engine_create")]
+        public static extern int EngineCreate(EngineOptions* options, IntPtr* engine);
+
+        [DllImport(Library, EntryPoint = "haptoflow_engine_close")]
+        public static extern int EngineClose(IntPtr* engine);
+
+        [DllImport(Library, EntryPoint = "haptoflow_engine_set_quality")]
+        public static extern int EngineSetQuality(IntPtr engine, int quality);
+
+        [DllImport(Library, EntryPoint = "haptoflow_engine_step")]
+        public static extern int EngineStep(IntPtr engine);
+
+        [DllImport(Library, EntryPoint = "haptoflow_engine_get_statistics")]
+        public static extern int EngineGetStatistics(IntPtr engine, EngineStatistics* statistics);
+
+        [DllImport(Library, EntryPoint = "haptoflow_engine_tier_times")]
+        public static extern int EngineTierTimes(IntPtr engine, uint index, TierTimes* times);
+
+        [DllImport(Library, EntryPoint = "haptoflow_voice_create")]
+        public static extern int VoiceCreate(IntPtr engine, double sampleRateHz, ulong* voice);
+
+        [DllImport(Library, EntryPoint = "haptoflow_voice_destroy")]
+        public static extern int VoiceDestroy(ulong* voice);
+
+        [DllImport(Library, EntryPoint = "haptoflow_voice_publish")]
+        public static extern int VoicePublish(ulong voice, NativeContactState* state);
+
+        [DllImport(Library, EntryPoint = "haptoflow_voice_render")]
+        public static extern int VoiceRender(
+            ulong voice, float* interleaved, uint frameCount, uint channelCount, int channel, double sampleRateHz);
+
+        [DllImport(Library, EntryPoint = "haptoflow_voice_set_strength")]
+        public static extern int VoiceSetStrength(ulong voice, float strength);
+
+        [DllImport(Library, EntryPoint = "haptoflow_voice_set_ceiling")]
+        public static extern int VoiceSetCeiling(ulong voice, float ceiling);
+
+        [DllImport(Library, EntryPoint = "haptoflow_voice_set_muted")]
+        public static extern int VoiceSetMuted(ulong voice, uint muted);
+
+        [DllImport(Library, EntryPoint = "haptoflow_voice_set_paused")]
+        public static extern int VoiceSetPaused(ulong voice, uint paused);
+
+        [DllImport(Library, EntryPoint = "haptoflow_voice_panic")]
+        public static extern int VoicePanic(ulong voice);
+
+        [DllImport(Library, EntryPoint = "haptoflow_panic")]
+        public static extern int Panic();
+
+        [DllImport(Library, EntryPoint = "haptoflow_voice_get_statistics")]
+        public static extern int VoiceGetStatistics(ulong voice, VoiceStatistics* statistics);
+
+        [DllImport(Library, EntryPoint = "haptoflow_voice_place")]
+        public static extern int VoicePlace(ulong voice, uint* place);
+
+        [DllImport(Library, EntryPoint = "haptoflow_noise_fill")]
+        public static extern int NoiseFill(ulong seed, uint voice, ulong segment, float* noise, ulong count);
+    }
+}

@@ -1,0 +1,107 @@
+#nullable enable
+using System;
+using System.Runtime.InteropServices;
+
+namespace HaptoFlow.Native
+{
+    // The layouts of haptoflow.h, field by field and blittable.
+
+    [StructLayout(LayoutKind.Sequential)]
+    internal struct RuntimeOptions
+    {
+        public uint StructSize;
+        public IntPtr OrtApiBase;
+        public IntPtr LibraryPath;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    internal struct ModelOptions
+    {
+        public uint StructSize;
+        public IntPtr Bytes;
+        public ulong ByteCount;
+        public IntPtr Path;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    internal struct LabelInfo
+    {
+        public uint StructSize;
+        public uint IsPeriodic;
+        public IntPtr Name;
+        public IntPtr Category;
+        public double StiffnessNewtonsPerMetre;
+        public double FrictionCoefficient;
+        public double WavelengthMetres;
+        public double SpeedLevelExponent;
+        public double ForceLevelExponent;
+        public double FrequencyExponent;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    internal struct TierInfo
+    {
+        public uint StructSize;
+        public int Steps;
+        public IntPtr Name;
+        public IntPtr Kind;
+        public IntPtr AccuracyJson;
+        public IntPtr CostJson;
+        public int Solver;
+        public uint IsDefault;
+        public long ParameterCount;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    internal struct GeneratorOptions
+    {
+        public uint StructSize;
+        public int Solver;
+        public IntPtr Runtime;
+        public IntPtr Model;
+        public IntPtr Tier;
+        public int Steps;
+        public uint MaximumBatch;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    internal unsafe struct Batch
+    {
+        public uint StructSize;
+        public uint Count;
+        public float* Embeddings;
+        public float* Motions;
+        public float* PreviousMps2;
+        public float* Noise;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    internal struct EngineOptions
+    {
+        public uint StructSize;
+        public int Quality;
+        public IntPtr Runtime;
+        public IntPtr Model;
+        public double UpdateRateHz;
+        public double BudgetShare;
+        public double FullScaleMps2;
+        public ulong Seed;
+        public uint BatchVoices;
+        public uint WithoutWorker;
+        public double FixedLeadMs;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    internal unsafe struct NativeContactState
+    {
+        public uint StructSize;
+        public uint Touching;
+        public uint TouchCounter;
+        public uint LabelCount;
+        public fixed uint Labels[LabelBlend.Maximum];
+        public fixed float Weights[LabelBlend.Maximum];
+        public fixed float VelocityMps[2];
+        public float ForceNewtons;
+        public float ApproachSpeedMps;
+    }
+}

@@ -1,0 +1,59 @@
+#nullable enable
+using System;
+using HaptoFlow.Native;
+
+namespace HaptoFlow
+{
+    /// <summary>ONNX Runtime, handed to the native library. One for the whole process is enough.</summary>
+    public sealed unsafe class OnnxRuntime : IDisposable
+    {
+        private OnnxRuntime(IntPtr opened) => Handle = new RuntimeHandle(opened);
+
+        internal RuntimeHandle Handle { get; }
+
+        /// <summary>The ONNX Runtime that this platform's package brings (onnxruntime). Any thread that can wait for
+        /// the
+        /// disk.</summary>
+        /// <exception cref="HaptoFlowException">A library is not there, or is older than version 1.16.</exception>
+        public static OnnxRuntime Open()
+        {
+            try
+            {
+                var options = new RuntimeOptions
+                {
+                    StructSize = (uint)sizeof(RuntimeOptions),
+                    OrtApiBase = NativeMethods.OrtGetApiBase(),
+                };
+                return Open(&options);
+            }
+            catch (Exception error) when (NativeCall.IsMissing(error))
+            {
+                throw NativeCall.Missing(error);
+            }
+        }
+
+        /// <summary>Version of the native library, for example "0.1.0". Any thread.</summary>
+        /// <exception cref="HaptoFlowException">The library is not there.</exception>
+        public static string LibraryVersion()
+        {
+            try
+            {
+                return NativeCall.Text(NativeMethods.Version());
+            }
+            catch (Exception error) when (NativeCall.IsMissing(error))
+            {
+                throw NativeCall.Missing(error);
+            }
+        }
+
+        /// <summary>Engines and generators made with it stay usable.</summary>
+        public void Dispose() => Handle.Dispose();
+
+        private static OnnxRuntime Open(RuntimeOptions* options)
+        {
+            IntPtr opened;
+            NativeCall.Check(NativeMethods.RuntimeOpen(options, &opened));
+            return new OnnxRuntime(opened);
+        }
+    }
+}

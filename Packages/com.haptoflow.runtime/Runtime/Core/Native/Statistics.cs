@@ -1,0 +1,126 @@
+#nullable enable
+using System.Runtime.InteropServices;
+
+namespace HaptoFlow
+{
+    /// <summary>What one voice did since it was opened. Counts unless the name says otherwise.</summary>
+    [StructLayout(LayoutKind.Sequential)]
+    public struct VoiceStatistics
+    {
+        internal uint StructSize;
+
+        /// <summary>Waveform samples by which a new segment leads what sounds; 2 samples are 1 ms.</summary>
+        public uint LeadSamples;
+
+        /// <summary>Contact states published.</summary>
+        public ulong Updates;
+
+        /// <summary>Segments generated.</summary>
+        public ulong Inferences;
+
+        /// <summary>Contact states for which nothing was generated.</summary>
+        public ulong Skipped;
+
+        /// <summary>Touches that began to sound.</summary>
+        public ulong Onsets;
+
+        /// <summary>Touches that were over within one block.</summary>
+        public ulong Taps;
+
+        /// <summary>Blocks that wanted samples which no segment covered.</summary>
+        public ulong Underruns;
+
+        /// <summary>Segments that came late.</summary>
+        public ulong Late;
+
+        /// <summary>Segments that came for nothing.</summary>
+        public ulong Dropped;
+
+        /// <summary>Runs of the network that failed.</summary>
+        public ulong Failures;
+
+        /// <summary>Fields of contact states that were not finite or out of range, and were made so.</summary>
+        public ulong Sanitised;
+
+        /// <summary>Touches silenced because no contact state came for 100 ms.</summary>
+        public ulong StaleStops;
+
+        /// <summary>Output samples that were not finite, and became 0.</summary>
+        public ulong NonFiniteSamples;
+
+        /// <summary>Output samples bent by the limiter.</summary>
+        public ulong LimitedSamples;
+
+        /// <summary>Output frames rendered.</summary>
+        public ulong RenderedFrames;
+
+        /// <summary>Changes of the output's sample rate.</summary>
+        public ulong RateChanges;
+
+        /// <summary>Calls refused because another thread was inside.</summary>
+        public ulong RefusedCalls;
+    }
+
+    /// <summary>What the engine did since it was made. Counts unless the name says otherwise.</summary>
+    [StructLayout(LayoutKind.Sequential)]
+    public struct EngineStatistics
+    {
+        internal uint StructSize;
+
+        /// <summary>Index of the tier that generates at present.</summary>
+        public uint Tier;
+
+        /// <summary>Voices open at present.</summary>
+        public uint Voices;
+
+        private uint isMeasuring;
+
+        /// <summary>Rounds of inference.</summary>
+        public ulong Rounds;
+
+        /// <summary>Segments generated in them.</summary>
+        public ulong Segments;
+
+        /// <summary>Rounds in which a graph failed.</summary>
+        public ulong FailedRounds;
+
+        /// <summary>How often the worker was woken, for whatever reason.</summary>
+        public ulong Wakes;
+
+        /// <summary>How often automatic quality went to a cheaper tier.</summary>
+        public ulong QualityStepsDown;
+
+        /// <summary>How often automatic quality went to a more accurate tier.</summary>
+        public ulong QualityStepsUp;
+
+        /// <summary>What a round may take, in ms.</summary>
+        public double BudgetMs;
+
+        /// <summary>What the last round took, all its voices together, in ms.</summary>
+        public double LastRoundMs;
+
+        /// <summary>Automatic quality still measures.</summary>
+        public bool IsMeasuring => isMeasuring != 0;
+    }
+
+    /// <summary>Measured times of one tier for one voice's segment on this machine.</summary>
+    [StructLayout(LayoutKind.Sequential)]
+    public struct TierTimes
+    {
+        internal uint StructSize;
+        private uint isCurrent;
+
+        /// <summary>Runs behind the figures; 0 where the tier was neither used nor measured. At most the last 128
+        /// count.</summary>
+        public ulong Runs;
+
+        /// <summary>Half of the runs took less.</summary>
+        public double MedianMs;
+
+        /// <summary>Of a hundred runs 99 took less.</summary>
+        public double Percentile99Ms;
+
+        /// <summary>The tier generates at present.</summary>
+        public bool IsCurrent => isCurrent != 0;
+    }
+}

@@ -1,0 +1,39 @@
+#nullable enable
+using System;
+using System.Diagnostics;
+
+namespace HaptoFlow
+{
+    /// <summary>What an output did lately: written by the audio thread, read by anyone.</summary>
+    internal sealed class OutputMeter
+    {
+        private const float FallPerBlock = 0.9f;
+
+        private volatile float peak;
+        private volatile float milliseconds;
+        private volatile float worstMilliseconds;
+        private long beganTicks;
+
+        /// <summary>Largest magnitude, falling back within some blocks.</summary>
+        public float Peak => peak;
+
+        /// <summary>Of the last block.</summary>
+        public float Milliseconds => milliseconds;
+
+        public float WorstMilliseconds => worstMilliseconds;
+
+        public void Begin() => beganTicks = Stopwatch.GetTimestamp();
+
+        public void End(ReadOnlySpan<float> samples, int channels, int channel)
+        {
+            milliseconds = (float)((Stopwatch.GetTimestamp() - beganTicks) * 1000.0 / Stopwatch.Frequency);
+            worstMilliseconds = Math.Max(worstMilliseconds, milliseconds);
+            float largest = 0f;
+            for (int index = Math.Max(0, channel); index < samples.Length; index += channel < 0 ? 1 : channels)
+            {
+                largest = Math.Max(largest, Math.Abs(samples[index]));
+            }
+            peak = Math.Max(largest, peak * FallPerBlock);
+        }
+    }
+}

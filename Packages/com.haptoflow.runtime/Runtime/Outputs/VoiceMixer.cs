@@ -1,0 +1,94 @@
+#nullable enable
+using System;
+using System.Threading;
+
+namespace HaptoFlow
+{
+    /// <summary>The voices that sound on one channel. Voices come and go on the main thread; the audio thread renders
+    /// what is there, without waiting and without garbage.</summary>
+    internal sealed class VoiceMixer
+    {
+        private HapticVoice[] voices = Array.Empty<HapticVoice>();
+        private float[] scratch = Array.Empty<float>();
+
+        /// <summary>Before the audio thread asks for longer blocks than ever. Main thread.</summary>
+        public void Prepare(int blockFrames)
+        {
+            if (Volatile.Read(ref scratch).Length < blockFrames)
+            {
+                Volatile.Write(ref scratch, new float[blockFrames]);
+            }
+        }
+
+        public void Add(HapticVoice voice)
+        {
+            HapticVoice[] before = voices;
+            var after = new HapticVoice[before.Length + 1];
+            before.CopyTo(after, 0);
+            after[before.Length] = voice;
+            Volatile.Write(ref voices, after);
+        }
+
+        public void Remove(HapticVoice voice) =>
+            Volatile.Write(ref voices, Array.FindAll(voices, each => !ReferenceEquals(each, voice)));
+
+        /// <summary>Does something with every voice that is still open. Main thread.</summary>
+        public void ForEach<T>(Action<HapticVoice, T> act, T argument)
+        {
+            foreach (HapticVoice voice in voices)
+            {
+                try
+                {
+                    act(voice, argument);
+                }
+                catch (HaptoFlowException closed) when (closed.Status == HaptoFlowStatus.InvalidArgument)
+                {
+                    // Its engine was restarted in this frame; the stylus takes the voice away in the next.
+                }
+            }
+        }
+
+        /// <summary>Overwrites the channel with the sum of the voices, held within +-1. Audio thread.</summary>
+        public void Render(Span<float> interleaved, int channels, int channel, int sampleRateHz)
+        {
+            HapticVoice[] sounding = Volatile.Read(ref voices);
+            if (sounding.Length == 0)
+            {
+                Silence(interleaved, channels, channel);
+                return;
+            }
+            sounding[0].Render(interleaved, channels, channel, sampleRateHz);
+            float[] room = Volatile.Read(ref scratch);
+            for (int index = 1; index < sounding.Length; ++index)
+            {
+                Span<float> samples = room.AsSpan(0, Math.Min(room.Length, interleaved.Length / channels));
+                sounding[index].Render(samples, 1, 0, sampleRateHz);
+                AddTo(interleaved, channels, channel, samples);
+            }
+        }
+
+        private static void Silence(Span<float> interleaved, int channels, int channel)
+        {
+            int first = Math.Max(0, channel);
+            int last = channel < 0 ? channels - 1 : channel;
+            for (int frame = 0; frame < interleaved.Length / channels; ++frame)
+            {
+                interleaved.Slice(frame * channels + first, last - first + 1).Clear();
+            }
+        }
+
+        private static void AddTo(Span<float> interleaved, int channels, int channel, ReadOnlySpan<float> samples)
+        {
+            int first = Math.Max(0, channel);
+            int last = channel < 0 ? channels - 1 : channel;
+            for (int frame = 0; frame < samples.Length; ++frame)
+            {
+                for (int place = first; place <= last; ++place)
+                {
+                    ref float sample = ref interleaved[frame * channels + place];
+                    sample = Math.Max(-1f, Math.Min(1f, sample + samples[frame]));
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,133 @@
+using System;
+using System.Collections.Generic;
+using System.Linq;
+using HaptoFlow.Contact;
+using HaptoFlow.Model;
+using HaptoFlow.Numerics;
+
+namespace HaptoFlow.RepositoryTests
+{
+    /// <summary>The native contact model's triangle mesh by its plainest road: every triangle is asked, side by
+    /// angle-weighted pseudonormals. In Unity the physics engine answers such questions; the golden file's mesh is here
+    /// so that everything after the question can be compared.</summary>
+    internal sealed class GoldenMesh
+    {
+        private const double SameSideCosine = 0.7071;
+        private const int Face = 6;
+
+        private readonly Double3[] vertices;
+        private readonly int[][] triangles;
+        private readonly Double3[][] sides;
+
+        public GoldenMesh(JsonValue raw)
+        {
+            vertices = raw["vertices"].AsArray()
+                .Select(row => new Double3(row[0].AsNumber(), row[1].AsNumber(), row[2].AsNumber())).ToArray();
+            triangles = raw["triangles"].AsArray()
+                .Select(row => row.AsArray().Select(corner => corner.AsInteger()).ToArray()).ToArray();
+            sides = new Double3[triangles.Length][];
+            FindSides();
+            double volume = triangles.Sum(corners => Double3.Dot(
+                vertices[corners[0]], Double3.Cross(vertices[corners[1]], vertices[corners[2]])));
+            if (volume < 0.0)
+            {
+                throw new NotSupportedException("the golden mesh is inside out");
+            }
+        }
+
+        public SurfacePoint? Closest(Double3 point, Double3? previous, ContactSettings settings)
+        {
+            Found found = Nearest(point, _ => true)!.Value;
+            if (found.Behind && previous.HasValue && Double3.Dot(found.Normal, previous.Value) < SameSideCosine)
+            {
+                Found? kept = Nearest(point, triangle => Double3.Dot(sides[triangle][Face], previous.Value) > SameSideCosine);
+                if (kept.HasValue && kept.Value.Behind && kept.Value.Distance <= found.Distance + settings.SwitchMarginMetres)
+                {
+                    found = kept.Value;
+                }
+            }
+            return new SurfacePoint(found.Point, found.Normal, found.Behind ? -found.Distance : found.Distance);
+        }
+
+        private Found? Nearest(Double3 point, Func<int, bool> wanted)
+        {
+            double best = double.PositiveInfinity;
+            Double3 nearest = Double3.Zero;
+            Double3 side = Double3.Up;
+            bool onFace = true;
+            for (int triangle = 0; triangle < triangles.Length; ++triangle)
+            {
+                if (!wanted(triangle))
+                {
+                    continue;
+                }
+                int[] corners = triangles[triangle];
+                (Double3 place, int feature) = TriangleGeometry.Closest(
+                    vertices[corners[0]], vertices[corners[1]], vertices[corners[2]], point);
+                double squared = Double3.Dot(point - place, point - place);
+                if (squared < best)
+                {
+                    best = squared;
+                    nearest = place;
+                    side = sides[triangle][feature];
+                    onFace = feature == Face;
+                }
+            }
+            return double.IsInfinity(best) ? (Found?)null : Describe(point, nearest, side, onFace);
+        }
+
+        private static Found Describe(Double3 point, Double3 nearest, Double3 side, bool onFace)
+        {
+            Double3 offset = point - nearest;
+            bool behind = Double3.Dot(offset, side) < 0.0;
+            Double3 normal = onFace || offset.Length < 1e-10 ? side : Vectors.UnitOr(behind ? -offset : offset, side);
+            return new Found { Point = nearest, Normal = normal, Distance = offset.Length, Behind = behind };
+        }
+
+        private void FindSides()
+        {
+            var edges = new Dictionary<(int, int), Double3>();
+            var cornerNormals = new Double3[vertices.Length];
+            for (int index = 0; index < triangles.Length; ++index)
+            {
+                Double3 normal = FaceNormal(triangles[index]);
+                for (int corner = 0; corner < 3; ++corner)
+                {
+                    (int here, int next, int before) = CornersFrom(index, corner);
+                    edges[Key(here, next)] = edges.GetValueOrDefault(Key(here, next)) + normal;
+                    Double3 leaving = Vectors.UnitOr(vertices[next] - vertices[here], normal);
+                    Double3 arriving = Vectors.UnitOr(vertices[before] - vertices[here], normal);
+                    cornerNormals[here] += normal * Math.Acos(Math.Clamp(Double3.Dot(leaving, arriving), -1.0, 1.0));
+                }
+            }
+            for (int index = 0; index < triangles.Length; ++index)
+            {
+                Double3 normal = FaceNormal(triangles[index]);
+                sides[index] = new Double3[7];
+                sides[index][Face] = normal;
+                for (int corner = 0; corner < 3; ++corner)
+                {
+                    (int here, int next, _) = CornersFrom(index, corner);
+                    sides[index][corner] = Vectors.UnitOr(cornerNormals[here], normal);
+                    sides[index][corner + 3] = Vectors.UnitOr(edges[Key(here, next)], normal);
+                }
+            }
+        }
+
+        private (int Here, int Next, int Before) CornersFrom(int triangle, int corner) =>
+            (triangles[triangle][corner], triangles[triangle][(corner + 1) % 3], triangles[triangle][(corner + 2) % 3]);
+
+        private Double3 FaceNormal(int[] corners) => Vectors.UnitOr(
+            Double3.Cross(vertices[corners[1]] - vertices[corners[0]], vertices[corners[2]] - vertices[corners[0]]), Double3.Up);
+
+        private static (int, int) Key(int from, int to) => (Math.Min(from, to), Math.Max(from, to));
+
+        private struct Found
+        {
+            public Double3 Point;
+            public Double3 Normal;
+            public double Distance;
+            public bool Behind;
+        }
+    }
+}

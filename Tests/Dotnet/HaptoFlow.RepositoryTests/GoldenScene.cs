@@ -1,0 +1,188 @@
+using System.Collections.Generic;
+using System.Linq;
+using HaptoFlow.Contact;
+using HaptoFlow.Model;
+using HaptoFlow.Numerics;
+
+namespace HaptoFlow.RepositoryTests
+{
+    /// <summary>One case of the golden file, played through the tracker frame by frame.</summary>
+    internal sealed class GoldenScene
+    {
+        private readonly JsonValue testCase;
+        private readonly List<GoldenSurface> surfaces = new List<GoldenSurface>();
+        private readonly ContactSettings settings;
+
+        public GoldenScene(JsonValue testCase)
+        {
+            this.testCase = testCase;
+            settings = SettingsOf(testCase["settings"]);
+            JsonValue scene = testCase["scene"];
+            Tracker = new ContactTracker(settings, scene["stylus"]["tip_radius"].AsNumber());
+            foreach (JsonValue surface in scene["surfaces"].AsArray())
+            {
+                surfaces.Add(new GoldenSurface(surface, testCase["label_stiffness"]));
+            }
+            foreach (JsonValue moving in testCase["surface_poses"].AsArray())
+            {
+                surfaces[moving["surface_index"].AsInteger()].Poses = moving["poses"];
+            }
+        }
+
+        public ContactTracker Tracker { get; }
+
+        public ContactReading Play(int frame)
+        {
+            JsonValue row = testCase["stroke"]["samples"][frame];
+            var position = new Double3(NumberOrNaN(row[1]), NumberOrNaN(row[2]), NumberOrNaN(row[3]));
+            double? force = row[4].IsNull ? (double?)null : row[4].AsNumber();
+            if (Tracker.BeginFrame(new TipSample(NumberOrNaN(row[0]), position, force)))
+            {
+                foreach (GoldenSurface surface in surfaces)
+                {
+                    surface.Offer(Tracker, frame);
+                }
+            }
+            return Tracker.EndFrame();
+        }
+
+        public double ValueOf(in ContactReading reading, string column)
+        {
+            TrackedSurface? touched = reading.Surface;
+            return column switch
+            {
+                "t" => reading.TimeSeconds,
+                "surface_index" => touched == null ? -1 : surfaces.FindIndex(surface => surface.Tracked == touched),
+                "touching" => reading.Touching ? 1.0 : 0.0,
+                "touch_counter" => reading.TouchCounter,
+                "px" => reading.PointMetres.X,
+                "py" => reading.PointMetres.Y,
+                "pz" => reading.PointMetres.Z,
+                "nx" => reading.Normal.X,
+                "ny" => reading.Normal.Y,
+                "nz" => reading.Normal.Z,
+                "penetration_m" => reading.PenetrationMetres,
+                "vx_mps" => reading.FirstVelocityMps,
+                "vy_mps" => reading.SecondVelocityMps,
+                "approach_mps" => reading.ApproachSpeedMps,
+                "force_n" => reading.ForceNewtons,
+                _ => throw new KeyNotFoundException($"the golden file has a column \"{column}\" that this test does not know"),
+            };
+        }
+
+        private static double NumberOrNaN(JsonValue value) => value.IsNull ? double.NaN : value.AsNumber();
+
+        private static ContactSettings SettingsOf(JsonValue json)
+        {
+            var settings = new ContactSettings
+            {
+                MaximumForceNewtons = json["maximum_force_newtons"].AsNumber(),
+                DefaultStiffnessNewtonsPerMetre = json["default_stiffness_newtons_per_metre"].AsNumber(),
+                ReleaseDistanceMetres = json["release_distance_metres"].AsNumber(),
+                SwitchMarginMetres = json["switch_margin_metres"].AsNumber(),
+                OpenMeshDepthMetres = json["open_mesh_depth_metres"].AsNumber(),
+                LostSeconds = json["lost_seconds"].AsNumber(),
+            };
+            settings.Velocity.WindowSeconds = json["velocity_window_seconds"].AsNumber();
+            settings.Velocity.HoldSeconds = json["velocity_hold_seconds"].AsNumber();
+            settings.Velocity.StopSeconds = json["velocity_stop_seconds"].AsNumber();
+            settings.Velocity.LongestGapSeconds = json["velocity_longest_gap_seconds"].AsNumber();
+            settings.Velocity.ShortestStepSeconds = json["velocity_shortest_step_seconds"].AsNumber();
+            settings.Velocity.SmallestMoveMetres = json["velocity_smallest_move_metres"].AsNumber();
+            settings.Velocity.FastestMps = json["velocity_fastest_mps"].AsNumber();
+            settings.Velocity.ShortestJumpSeconds = json["velocity_shortest_jump_seconds"].AsNumber();
+            return settings;
+        }
+    }
+
+    /// <summary>A surface of a golden scene: its shape, and where it is at each sample.</summary>
+    internal sealed class GoldenSurface
+    {
+        private readonly JsonValue shape;
+        private readonly RigidPose restingPose;
+        private readonly GoldenMesh? mesh;
+
+        public GoldenSurface(JsonValue surface, JsonValue labelStiffness)
+        {
+            shape = surface["shape"];
+            JsonValue? rotation = surface.Find("rotation");
+            restingPose = new RigidPose(
+                VectorOr(surface.Find("position"), Double3.Zero),
+                rotation == null ? Rotation.Identity : RotationOf(rotation, 0));
+            mesh = shape.Find("mesh") is { } raw ? new GoldenMesh(raw) : null;
+            Tracked = new TrackedSurface(VectorOr(surface.Find("grain"), Double3.Right), StiffnessOf(surface, labelStiffness));
+        }
+
+        public TrackedSurface Tracked { get; }
+
+        public JsonValue? Poses { private get; set; }
+
+        public void Offer(ContactTracker tracker, int frame)
+        {
+            RigidPose pose = Poses == null ? restingPose : new RigidPose(VectorAt(Poses[frame], 0), RotationOf(Poses[frame], 3));
+            Tracked.Track.Record(tracker.NowSeconds, pose);
+            Double3 tip = pose.PointToLocal(tracker.TipMetres);
+            SurfacePoint? local = Closest(tip, tracker.PreviousLocalNormal(Tracked), tracker.Settings);
+            if (local.HasValue && local.Value.SignedDistanceMetres <= tracker.ReachMetres)
+            {
+                tracker.Consider(new ContactCandidate(Tracked, pose, local.Value));
+            }
+        }
+
+        private SurfacePoint? Closest(Double3 tip, Double3? previous, ContactSettings settings)
+        {
+            if (shape.Find("box") is { } box)
+            {
+                return Shapes.OnBox(VectorAt(box["size"], 0), tip, previous, settings.SwitchMarginMetres);
+            }
+            if (shape.Find("sphere") is { } sphere)
+            {
+                return Shapes.OnSphere(sphere["radius"].AsNumber(), tip, previous);
+            }
+            if (shape.Find("capsule") is { } capsule)
+            {
+                return Shapes.OnCapsule(capsule["radius"].AsNumber(), capsule["height"].AsNumber(), tip, previous);
+            }
+            return mesh == null ? Shapes.OnPlane(tip) : mesh.Closest(tip, previous, settings);
+        }
+
+        private static double StiffnessOf(JsonValue surface, JsonValue labelStiffness)
+        {
+            if (surface.Find("stiffness") is { } own)
+            {
+                return own.AsNumber();
+            }
+            double weighted = 0.0;
+            double weights = 0.0;
+            foreach ((string label, double weight) in MaterialOf(surface["material"]))
+            {
+                if (labelStiffness.Find(label) is { } stiffness)
+                {
+                    weighted += weight * stiffness.AsNumber();
+                    weights += weight;
+                }
+            }
+            return weights > 0.0 ? weighted / weights : 0.0;
+        }
+
+        private static IEnumerable<(string, double)> MaterialOf(JsonValue material)
+        {
+            try
+            {
+                return new[] { (material.AsText(), 1.0) };
+            }
+            catch (System.FormatException)
+            {
+                return material.AsObject().Select(entry => (entry.Key, entry.Value.AsNumber()));
+            }
+        }
+
+        private static Double3 VectorOr(JsonValue? value, Double3 fallback) => value == null ? fallback : VectorAt(value, 0);
+
+        private static Double3 VectorAt(JsonValue row, int start) =>
+            new Double3(row[start].AsNumber(), row[start + 1].AsNumber(), row[start + 2].AsNumber());
+
+        private static Rotation RotationOf(JsonValue row, int start) => new Rotation(
+            row[start].AsNumber(), row[start + 1].AsNumber(), row[start + 2].AsNumber(), row[start + 3].AsNumber());
+    }
+}

@@ -1,0 +1,211 @@
+using System;
+using System.IO;
+using System.Linq;
+using System.Runtime.InteropServices;
+using HaptoFlow.Native;
+using HaptoFlow.Tests.Support;
+using NUnit.Framework;
+
+namespace HaptoFlow.RepositoryTests
+{
+    public sealed class NativeBindingTests
+    {
+        private OnnxRuntime runtime = null!;
+        private HapticModel model = null!;
+
+        [OneTimeSetUp]
+        public void Open()
+        {
+            runtime = OnnxRuntime.Open();
+            model = HapticModel.Open(RepositoryFiles.DefaultModel);
+        }
+
+        [OneTimeTearDown]
+        public void Close()
+        {
+            model.Dispose();
+            runtime.Dispose();
+        }
+
+        // What a C compiler for a 64-bit platform says of haptoflow.h.
+        [TestCase(typeof(RuntimeOptions), 24)]
+        [TestCase(typeof(ModelOptions), 32)]
+        [TestCase(typeof(LabelInfo), 72)]
+        [TestCase(typeof(TierInfo), 56)]
+        [TestCase(typeof(GeneratorOptions), 40)]
+        [TestCase(typeof(Batch), 40)]
+        [TestCase(typeof(EngineOptions), 72)]
+        [TestCase(typeof(NativeContactState), 64)]
+        [TestCase(typeof(VoiceStatistics), 136)]
+        [TestCase(typeof(EngineStatistics), 80)]
+        [TestCase(typeof(TierTimes), 32)]
+        public void EveryStructHasTheSizeThatItsCDeclarationHas(Type type, int expectedBytes) =>
+            Assert.That(Marshal.SizeOf(type), Is.EqualTo(expectedBytes));
+
+        [Test]
+        public void EveryFunctionOfTheHeaderIsDeclaredAndExported()
+        {
+            string header = File.ReadAllText(RepositoryFiles.In("NativePlugin", "include", "haptoflow", "haptoflow.h"));
+            string[] declared = System.Text.RegularExpressions.Regex.Matches(header, @"HAPTOFLOW_API [^;]*?\b(haptoflow_\w+)\(")
+                .Select(match => match.Groups[1].Value).OrderBy(name => name, StringComparer.Ordinal).ToArray();
+            string[] bound = typeof(NativeMethods).GetMethods()
+                .SelectMany(method => method.GetCustomAttributes(typeof(DllImportAttribute), false))
+                .Select(attribute => ((DllImportAttribute)attribute).EntryPoint!)
+                .Where(name => name.StartsWith("haptoflow_", StringComparison.Ordinal))
+                .OrderBy(name => name, StringComparer.Ordinal).ToArray();
+            Assert.That(bound, Is.EqualTo(declared));
+            Assert.That(declared.Length, Is.GreaterThan(30));
+        }
+
+        [Test]
+        public void AFailureBecomesAnExceptionWithTheLibrarysMessage()
+        {
+            var refusal = Assert.Throws<HaptoFlowException>(() => HapticModel.Open("no/such/file.haptoflow"));
+            Assert.That(refusal!.Status, Is.EqualTo(HaptoFlowStatus.ModelUnreadable));
+            Assert.That(refusal.Message, Does.Contain("no/such/file.haptoflow"));
+        }
+
+        [Test]
+        public void AClosedModelIsRefusedInsteadOfRead()
+        {
+            HapticModel closed = HapticModel.Open(RepositoryFiles.DefaultModel);
+            closed.Dispose();
+            closed.Dispose();
+            var refusal = Assert.Throws<HaptoFlowException>(() => closed.Embedding(0));
+            Assert.That(refusal!.Status, Is.EqualTo(HaptoFlowStatus.InvalidArgument));
+        }
+
+        [Test]
+        public void TheModelsHeaderLabelsAndEmbeddingsAreReadable()
+        {
+            Assert.That(OnnxRuntime.LibraryVersion(), Does.Match(@"^\d+\.\d+\.\d+$"));
+            Assert.That(model.HeaderJson(), Does.StartWith("{").And.EndsWith("}"));
+            Assert.That(model.Labels.Count, Is.GreaterThan(8));
+            Assert.That(model.Embedding(1), Has.Length.EqualTo(64));
+            Assert.That(model.Embedding(0), Is.Not.EqualTo(model.Embedding(1)));
+            Assert.That(model.Labels[0].StiffnessNewtonsPerMetre, Is.GreaterThan(0.0));
+        }
+
+        [Test]
+        public void AGeneratorMakesTheSameSegmentFromTheSameNoise()
+        {
+            using var generator = new HapticGenerator(runtime, model);
+            var first = new float[200];
+            var second = new float[200];
+            Generate(generator, first, 5);
+            Generate(generator, second, 5);
+            Assert.That(second, Is.EqualTo(first));
+            Assert.That(first.Max(sample => Math.Abs(sample)), Is.GreaterThan(0.01f));
+            Generate(generator, second, 6);
+            Assert.That(second, Is.Not.EqualTo(first));
+        }
+
+        [Test]
+        public void TheLevelIsTheModelsForTheMotion()
+        {
+            using var generator = new HapticGenerator(runtime, model);
+            var levels = new float[2];
+            float[] embeddings = model.Embedding(0).Concat(model.Embedding(0)).ToArray();
+            generator.Levels(embeddings, new[] { 0.01f, 0f, 0.2f, 0.05f, 0f, 0.5f }, levels);
+            Assert.That(levels[0], Is.GreaterThan(0f));
+            Assert.That(levels[1], Is.GreaterThan(levels[0]));
+        }
+
+        [Test]
+        public void AnUnknownTierIsRefusedByName()
+        {
+            var refusal = Assert.Throws<HaptoFlowException>(() => new HapticGenerator(runtime, model, "superb"));
+            Assert.That(refusal!.Message, Does.Contain("superb"));
+        }
+
+        [Test]
+        public void ASlidingTipSoundsAndALiftedOneFallsSilent()
+        {
+            using HapticEngine engine = EngineWithoutWorker();
+            using HapticVoice voice = engine.OpenVoice(48000.0);
+            float sliding = Peak(engine, voice, Sliding(1), 30);
+            float lifting = Peak(engine, voice, new ContactState { TouchCounter = 1 }, 2);
+            float lifted = Peak(engine, voice, new ContactState { TouchCounter = 1 }, 10);
+            Assert.That(sliding, Is.GreaterThan(0.002f));
+            Assert.That(lifting, Is.LessThanOrEqualTo(1.0f));
+            Assert.That(lifted, Is.Zero);
+            VoiceStatistics statistics = voice.Statistics();
+            Assert.That(statistics.Inferences, Is.GreaterThan(10UL));
+            Assert.That(statistics.Onsets, Is.EqualTo(1UL));
+            Assert.That(statistics.Updates, Is.EqualTo(42UL));
+            Assert.That(statistics.RenderedFrames, Is.EqualTo(42UL * 512UL));
+            Assert.That(engine.Statistics().Segments, Is.EqualTo(statistics.Inferences));
+            Assert.That(engine.Statistics().Voices, Is.EqualTo(1u));
+        }
+
+        [Test]
+        public void OnlyTheNamedChannelIsWritten()
+        {
+            using HapticEngine engine = EngineWithoutWorker();
+            using HapticVoice voice = engine.OpenVoice(48000.0);
+            Peak(engine, voice, Sliding(1), 10);
+            var stereo = Enumerable.Repeat(0.5f, 1024).ToArray();
+            Assert.That(voice.Render(stereo, 2, 1, 48000.0), Is.True);
+            Assert.That(stereo.Where((_, index) => index % 2 == 0), Is.All.EqualTo(0.5f));
+            Assert.That(stereo.Where((_, index) => index % 2 == 1), Has.Some.Not.EqualTo(0.5f));
+        }
+
+        [Test]
+        public void AClosedVoiceRendersSilenceAndRefusesStates()
+        {
+            using HapticEngine engine = EngineWithoutWorker();
+            HapticVoice voice = engine.OpenVoice(48000.0);
+            voice.Dispose();
+            var block = Enumerable.Repeat(0.5f, 64).ToArray();
+            Assert.That(voice.Render(block, 1, 0, 48000.0), Is.False);
+            Assert.That(block, Is.All.Zero);
+            Assert.Throws<HaptoFlowException>(() => voice.Publish(Sliding(1)));
+        }
+
+        [Test]
+        public void VoicesOutliveNothingOfADisposedEngine()
+        {
+            HapticEngine engine = EngineWithoutWorker();
+            HapticVoice voice = engine.OpenVoice(48000.0);
+            engine.Dispose();
+            var block = new float[64];
+            Assert.That(voice.Render(block, 1, 0, 48000.0), Is.False);
+            Assert.Throws<HaptoFlowException>(() => voice.Statistics());
+            voice.Dispose();
+        }
+
+        private static void Generate(HapticGenerator generator, float[] segment, ulong seed)
+        {
+            var noise = new float[200];
+            HapticGenerator.FillNoise(seed, 0, 0, noise);
+            var embedding = new float[64];
+            generator.Generate(embedding, new[] { 0.03f, 0.0f, 0.5f }, new float[200], noise, segment);
+        }
+
+        private HapticEngine EngineWithoutWorker() => new HapticEngine(runtime, model,
+            new HapticEngineOptions { Quality = HapticQuality.Draft, WithoutWorker = true, FixedLeadMs = 8.0, Seed = 1 });
+
+        private static ContactState Sliding(uint touch) => new ContactState
+        {
+            Touching = true,
+            TouchCounter = touch,
+            Material = LabelBlend.Of(1),
+            FirstVelocityMps = 0.05f,
+            ForceNewtons = 0.6f,
+        };
+
+        private static float Peak(HapticEngine engine, HapticVoice voice, in ContactState state, int blocks)
+        {
+            var block = new float[512];
+            float peak = 0f;
+            for (int count = 0; count < blocks; ++count)
+            {
+                Assert.That(voice.Publish(state), Is.True);
+                engine.Step();
+                Assert.That(voice.Render(block, 1, 0, 48000.0), Is.True);
+                peak = Math.Max(peak, block.Max(sample => Math.Abs(sample)));
+            }
+            return peak;
+        }
+    }
+}

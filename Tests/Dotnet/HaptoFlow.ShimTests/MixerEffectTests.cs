@@ -1,0 +1,45 @@
+using System.Linq;
+using HaptoFlow.Tests;
+using NUnit.Framework;
+using UnityEngine;
+using UnityEngine.Audio;
+using UnityShim;
+
+namespace HaptoFlow.ShimTests
+{
+    public sealed class MixerEffectTests : SceneTest
+    {
+        [Test]
+        public void TheEffectIsToldTheVoicesPlaceAndTheComponentLeavesTheRenderingToIt()
+        {
+            FinishLoading();
+            Board();
+            AudioTap tap = Output(out HapticOutput output);
+            var mixer = new AudioMixer();
+            mixer.Exposed["Pen"] = -1f;
+            output.Route = OutputRoute.MixerEffect;
+            output.SetMixer(mixer, "Pen");
+            HapticStylus other = StylusAlong(_ => new Vector3(0f, 1f, 0f));
+            HapticStylus stylus = StylusAlong(seconds => new Vector3(0.05f * (float)seconds, 0.001f, 0f));
+            World.Frames(30);
+            Assert.That(mixer.Exposed["Pen"], Is.EqualTo(1f), "the second voice's place");
+            Assert.That(tap.Peak(), Is.Zero);
+            Assert.That(stylus.TryGetStatistics(out VoiceStatistics statistics), Is.True);
+            Assert.That(statistics.RenderedFrames, Is.Zero);
+            Assert.That(other.TryGetStatistics(out _), Is.True);
+        }
+
+        [Test]
+        public void AMixerWithoutTheParameterIsNamed()
+        {
+            FinishLoading();
+            Output(out HapticOutput output);
+            output.Route = OutputRoute.MixerEffect;
+            output.SetMixer(new AudioMixer(), "Pen");
+            StylusAlong(_ => Vector3.up);
+            World.Frames(3);
+            int said = Log.Lines.Count(line => line.Type == LogType.Warning && line.Text.Contains("\"Pen\""));
+            Assert.That(said, Is.EqualTo(1));
+        }
+    }
+}

@@ -1,0 +1,101 @@
+using System.Linq;
+using HaptoFlow.Tests;
+using NUnit.Framework;
+using UnityEngine;
+using UnityShim;
+
+namespace HaptoFlow.ShimTests
+{
+    /// <summary>Play mode left and entered again with statics as they were (domain reload off), scenes
+    /// loaded.</summary>
+    public sealed class PlayModeTests : SceneTest
+    {
+        [Test]
+        public void EveryPlayModeStartsItsOwnEngineAndEndsIt()
+        {
+            for (int round = 0; round < 3; ++round)
+            {
+                FinishLoading();
+                HapticEngine engine = HapticSession.Current.Engine!;
+                HapticStylus stylus = Touch();
+                Assert.That(stylus.IsTouching, Is.True);
+                Assert.That(engine.Statistics().Voices, Is.EqualTo(1u));
+                World.ExitPlayMode();
+                Assert.That(HapticSession.Existing, Is.Null);
+                Assert.Throws<HaptoFlowException>(() => engine.Statistics());
+                World.EnterPlayMode();
+                HaptoFlowSettings settings = ScriptableObject.CreateInstance<HaptoFlowSettings>();
+                settings.Model = DefaultModel.Asset();
+                settings.Quality = HapticQuality.Draft;
+                HaptoFlowSettings.Active = settings;
+            }
+        }
+
+        [Test]
+        public void NothingOfTheLastPlayModeIsTouchedInTheNext()
+        {
+            HapticSurface board = Board();
+            World.Frames(2);
+            // A crash of the editor's play mode: objects are gone, nobody was told.
+            World.EnterPlayMode();
+            Assert.That(SurfaceRegistry.TryFind(board.GetComponent<Collider>(), out _), Is.False);
+        }
+
+        [Test]
+        public void ASceneLoadKeepsTheEngineAndFreesTheVoice()
+        {
+            FinishLoading();
+            Touch();
+            HapticEngine engine = HapticSession.Current.Engine!;
+            World.LoadEmptyScene();
+            Assert.That(HapticSession.Current.Engine, Is.SameAs(engine));
+            Assert.That(engine.Statistics().Voices, Is.Zero);
+            HapticStylus next = Touch();
+            Assert.That(next.IsTouching, Is.True);
+            Assert.That(engine.Statistics().Voices, Is.EqualTo(1u));
+        }
+
+        [Test]
+        public void SettingsInAResourcesFolderAreFound()
+        {
+            HaptoFlowSettings settings = ScriptableObject.CreateInstance<HaptoFlowSettings>();
+            settings.Ceiling = 0.125f;
+            World.ExitPlayMode();
+            World.EnterPlayMode();
+            World.AddResource("HaptoFlowSettings", settings);
+            Assert.That(HaptoFlowSettings.Active, Is.SameAs(settings));
+        }
+
+        [Test]
+        public void TheCeilingHoldsForEverySample()
+        {
+            HaptoFlowSettings.Active.Ceiling = 0.01f;
+            FinishLoading();
+            Board("sandpaper");
+            AudioTap tap = Output(out _);
+            StylusAlong(seconds => new Vector3(0.15f * (float)System.Math.Sin(6.0 * seconds), 0.0005f, 0f));
+            World.Frames(180);
+            Assert.That(tap.Peak(), Is.LessThanOrEqualTo(0.01f).And.GreaterThan(0.005f));
+        }
+
+        [Test]
+        public void SixtyFiveStylusesLeaveOneWithoutVoiceAndSayItOnce()
+        {
+            FinishLoading();
+            Board();
+            HapticStylus[] all = Enumerable.Range(0, 65).Select(_ => StylusAlong(_ => new Vector3(0f, 0.001f, 0f))).ToArray();
+            World.Frames(5);
+            Assert.That(all.Count(stylus => stylus.TryGetStatistics(out VoiceStatistics _)), Is.EqualTo(64));
+            int said = Log.Lines.Count(line => line.Type == LogType.Error && line.Text.Contains("gets no voice"));
+            Assert.That(said, Is.EqualTo(1));
+        }
+
+        private HapticStylus Touch()
+        {
+            Board();
+            HapticStylus stylus = StylusAlong(seconds => new Vector3(0.05f * (float)seconds, 0.001f, 0f));
+            World.Frames(10);
+            return stylus;
+        }
+    }
+}

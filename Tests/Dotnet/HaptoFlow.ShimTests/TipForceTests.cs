@@ -1,0 +1,55 @@
+using HaptoFlow.Tests;
+using NUnit.Framework;
+using UnityEngine;
+using UnityEngine.InputSystem;
+using UnityShim;
+
+namespace HaptoFlow.ShimTests
+{
+    /// <summary>Tip force of pens, through the packages that read them.</summary>
+    public sealed class TipForceTests : SceneTest
+    {
+        [Test]
+        public void AnInputActionsPressureBecomesAForce()
+        {
+            HapticStylus stylus = PressedStylus();
+            var source = stylus.gameObject.AddComponent<InputActionTipForce>();
+            source.enabled = false;
+            var action = new InputAction { Value = 0.25f };
+            source.Pressure = new InputActionProperty(action);
+            source.enabled = true;
+            source.NewtonsAtFullPressure = 2f;
+            stylus.Force = source;
+            World.Frames(2);
+            Assert.That(action.enabled, Is.True);
+            Assert.That(stylus.Contact.ForceNewtons, Is.EqualTo(0.5f).Within(1e-6f));
+            source.enabled = false;
+            Assert.That(action.enabled, Is.False);
+        }
+
+        [Test]
+        public void AMetaActionsPressureBecomesAForceAndAPenInTheAirLeavesItToTheSpring()
+        {
+            HapticStylus stylus = PressedStylus();
+            World.Frames(2);
+            float spring = stylus.Contact.ForceNewtons;
+            stylus.Force = stylus.gameObject.AddComponent<MetaActionTipForce>();
+            OVRPlugin.Tip = 0.4f;
+            World.Frames(1);
+            Assert.That(stylus.Contact.ForceNewtons, Is.EqualTo(0.4f).Within(1e-6f));
+            OVRPlugin.Tip = 0f;
+            World.Frames(1);
+            Assert.That(stylus.Contact.ForceNewtons, Is.EqualTo(spring).Within(1e-6f).And.GreaterThan(0f));
+            OVRPlugin.Tip = null;
+            World.Frames(1);
+            Assert.That(stylus.Contact.ForceNewtons, Is.EqualTo(spring).Within(1e-6f));
+        }
+
+        private HapticStylus PressedStylus()
+        {
+            HapticSurface board = Board();
+            board.Material.StiffnessNewtonsPerMetre = 700f;
+            return StylusAlong(_ => new Vector3(0f, 0.001f, 0f));
+        }
+    }
+}

@@ -1,0 +1,38 @@
+using System;
+using System.IO;
+using System.Runtime.CompilerServices;
+
+namespace HaptoFlow.Tests.Support
+{
+    /// <summary>Files of the repository that tests read.</summary>
+    internal static class RepositoryFiles
+    {
+        public static string Root { get; } = Path.GetFullPath(Path.Combine(Path.GetDirectoryName(ThisFile())!, "..", "..", ".."));
+
+        public static string DefaultModel => In("Packages", "com.haptoflow.runtime", "Runtime", "Models", "default.haptoflow");
+
+        /// <summary>The folder with the built native library: HAPTOFLOW_NATIVE_DIR, else build/native.</summary>
+        public static string NativeFolder =>
+            Environment.GetEnvironmentVariable("HAPTOFLOW_NATIVE_DIR") is { Length: > 0 } folder ? folder : In("build", "native");
+
+        public static string OnnxRuntime => OperatingSystem.IsWindows()
+            ? In("node_modules", "com.github.asus4.onnxruntime", "Plugins", "Windows", "x64", "onnxruntime.dll")
+            : OperatingSystem.IsMacOS()
+                ? In("node_modules", "com.github.asus4.onnxruntime", "Plugins", "macOS", "arm64", "libonnxruntime.dylib")
+                : In("node_modules", "com.github.asus4.onnxruntime", "Plugins", "Linux", "x64", "libonnxruntime.so");
+
+        /// <summary>Real strokes, which are no part of the repository; null where they are not there.</summary>
+        public static string? RealStrokes
+        {
+            get
+            {
+                string path = Path.Combine(Root, "..", "shared", "strokes", "vr-pen-on-surface", "strokes.csv");
+                return File.Exists(path) ? path : null;
+            }
+        }
+
+        public static string In(params string[] parts) => Path.Combine(Root, Path.Combine(parts));
+
+        private static string ThisFile([CallerFilePath] string path = "") => path;
+    }
+}

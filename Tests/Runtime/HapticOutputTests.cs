@@ -1,0 +1,306 @@
+#nullable enable
+using System;
+using System.Collections;
+using System.Text.RegularExpressions;
+using NUnit.Framework;
+using UnityEngine;
+using UnityEngine.TestTools;
+using Object = UnityEngine.Object;
+
+namespace HaptoFlow.Tests
+{
+    public sealed class HapticOutputTests : SceneTest
+    {
+        private const float Audible = 0.001f;
+
+        [UnityTest]
+        public IEnumerator SlidingSoundsRestingAndLiftingAreSilent()
+        {
+            FinishLoading();
+            Board();
+            AudioTap tap = Output(out _);
+            HapticStylus stylus = StylusAlong(seconds => seconds < 1.0
+                ? new Vector3(-0.1f + 0.1f * (float)seconds, 0.001f, 0f)
+                : new Vector3(0f, 0.1f, 0f));
+            var mover = stylus.GetComponent<PathMover>();
+            while (mover.Seconds < 0.9)
+            {
+                yield return null;
+            }
+            Assert.That(tap.Peak(), Is.GreaterThan(Audible));
+            while (mover.Seconds < 1.2)
+            {
+                yield return null;
+            }
+            tap.Restart();
+            while (mover.Seconds < 1.5)
+            {
+                yield return null;
+            }
+            Assert.That(tap.Blocks, Is.GreaterThan(5));
+            Assert.That(tap.Peak(), Is.Zero);
+            Assert.That(tap.BrokenSamples, Is.Zero);
+            Assert.That(stylus.TryGetStatistics(out VoiceStatistics statistics), Is.True);
+            Assert.That(statistics.Onsets, Is.EqualTo(1UL));
+            Assert.That(statistics.Inferences, Is.GreaterThan(10UL));
+            Assert.That(statistics.Sanitised, Is.Zero);
+        }
+
+        [UnityTest]
+        public IEnumerator WithoutTouchNothingIsInferred()
+        {
+            FinishLoading();
+            Board();
+            Output(out _);
+            HapticStylus stylus = StylusAlong(seconds => new Vector3(0.05f * (float)seconds, 0.05f, 0f));
+            for (int frame = 0; frame < 60; ++frame)
+            {
+                yield return null;
+            }
+            Assert.That(stylus.TryGetStatistics(out VoiceStatistics statistics), Is.True);
+            Assert.That(statistics.Updates, Is.GreaterThan(50UL));
+            Assert.That(statistics.Inferences, Is.Zero);
+            Assert.That(Haptics.TryGetStatistics(out EngineStatistics engine), Is.True);
+            Assert.That(engine.Segments, Is.Zero);
+        }
+
+        [UnityTest]
+        public IEnumerator MutedIsSilentAndCostsNoInference()
+        {
+            FinishLoading();
+            Board();
+            AudioTap tap = Output(out HapticOutput output);
+            HapticStylus stylus = Circling();
+            for (int frame = 0; frame < 45; ++frame)
+            {
+                yield return null;
+            }
+            Assert.That(tap.Peak(), Is.GreaterThan(Audible));
+            output.Muted = true;
+            for (int frame = 0; frame < 10; ++frame)
+            {
+                yield return null;
+            }
+            stylus.TryGetStatistics(out VoiceStatistics before);
+            tap.Restart();
+            for (int frame = 0; frame < 20; ++frame)
+            {
+                yield return null;
+            }
+            stylus.TryGetStatistics(out VoiceStatistics after);
+            Assert.That(tap.Blocks, Is.GreaterThan(0));
+            Assert.That(tap.Peak(), Is.Zero);
+            Assert.That(after.Inferences, Is.EqualTo(before.Inferences));
+            output.Muted = false;
+            for (int frame = 0; frame < 30; ++frame)
+            {
+                yield return null;
+            }
+            Assert.That(tap.Peak(), Is.GreaterThan(Audible));
+        }
+
+        [UnityTest]
+        public IEnumerator PanicSilencesUntilTheNextTouchDown()
+        {
+            FinishLoading();
+            Board();
+            AudioTap tap = Output(out _);
+            HapticStylus stylus = StylusAlong(seconds => new Vector3(
+                0.05f * (float)Math.Sin(3.0 * seconds), seconds > 1.0 && seconds < 1.2 ? 0.05f : 0.001f, 0f));
+            var mover = stylus.GetComponent<PathMover>();
+            while (mover.Seconds < 0.5)
+            {
+                yield return null;
+            }
+            Assert.That(tap.Peak(), Is.GreaterThan(Audible));
+            Haptics.Panic();
+            for (int frame = 0; frame < 3; ++frame)
+            {
+                yield return null;
+            }
+            tap.Restart();
+            while (mover.Seconds < 0.9)
+            {
+                yield return null;
+            }
+            Assert.That(tap.Peak(), Is.Zero);
+            while (mover.Seconds < 1.6)
+            {
+                yield return null;
+            }
+            Assert.That(tap.Peak(), Is.GreaterThan(Audible));
+        }
+
+        [UnityTest]
+        public IEnumerator APausedApplicationIsSilentAndComesBack()
+        {
+            FinishLoading();
+            Board();
+            AudioTap tap = Output(out HapticOutput output);
+            Circling();
+            yield return null;
+            for (int frame = 0; frame < 40; ++frame)
+            {
+                yield return null;
+            }
+            output.SendMessage("OnApplicationPause", true);
+            for (int frame = 0; frame < 5; ++frame)
+            {
+                yield return null;
+            }
+            tap.Restart();
+            for (int frame = 0; frame < 20; ++frame)
+            {
+                yield return null;
+            }
+            Assert.That(tap.Blocks, Is.GreaterThan(0));
+            Assert.That(tap.Peak(), Is.Zero);
+            output.SendMessage("OnApplicationPause", false);
+            for (int frame = 0; frame < 40; ++frame)
+            {
+                yield return null;
+            }
+            Assert.That(tap.Peak(), Is.GreaterThan(Audible));
+        }
+
+        [UnityTest]
+        public IEnumerator AChangedDevicePlaysOnAtItsOwnRate()
+        {
+            FinishLoading();
+            Board();
+            AudioTap tap = Output(out HapticOutput output);
+            HapticStylus stylus = Circling();
+            for (int frame = 0; frame < 40; ++frame)
+            {
+                yield return null;
+            }
+            AudioConfiguration configuration = AudioSettings.GetConfiguration();
+            configuration.sampleRate = 24000;
+            configuration.dspBufferSize = 1024;
+            Assert.That(AudioSettings.Reset(configuration), Is.True);
+            Assert.That(output.SampleRateHz, Is.EqualTo(24000));
+            for (int frame = 0; frame < 20; ++frame)
+            {
+                yield return null;
+            }
+            tap.Restart();
+            for (int frame = 0; frame < 30; ++frame)
+            {
+                yield return null;
+            }
+            Assert.That(tap.Blocks, Is.GreaterThan(0));
+            Assert.That(tap.Peak(), Is.GreaterThan(Audible));
+            Assert.That(tap.BrokenSamples, Is.Zero);
+            stylus.TryGetStatistics(out VoiceStatistics statistics);
+            Assert.That(statistics.RateChanges, Is.EqualTo(1UL));
+        }
+
+        [UnityTest]
+        public IEnumerator AnExclusiveChannelCarriesNothingElse()
+        {
+            FinishLoading();
+            Board();
+            GameObject listener = Make("Ears");
+            listener.AddComponent<AudioSource>();
+            listener.AddComponent<Noise>();
+            var output = listener.AddComponent<HapticOutput>();
+            output.Channel = 1;
+            output.Route = OutputRoute.ListenerChannel;
+            var tap = listener.AddComponent<AudioTap>();
+            HapticStylus stylus = StylusAlong(_ => new Vector3(0f, 0.05f, 0f));
+            stylus.Output = output;
+            for (int frame = 0; frame < 20; ++frame)
+            {
+                yield return null;
+            }
+            Assert.That(tap.Blocks, Is.GreaterThan(0));
+            Assert.That(tap.Peak(0), Is.EqualTo(0.25f).Within(1e-6f));
+            Assert.That(tap.Peak(1), Is.Zero);
+        }
+
+        [UnityTest]
+        public IEnumerator StrengthOfSurfaceStylusAndOutputMultiply()
+        {
+            FinishLoading();
+            HapticSurface board = Board();
+            AudioTap tap = Output(out HapticOutput output);
+            HapticStylus stylus = Circling();
+            for (int frame = 0; frame < 60; ++frame)
+            {
+                yield return null;
+            }
+            Assert.That(tap.Peak(), Is.GreaterThan(Audible));
+            board.Material.Strength = 0.5f;
+            stylus.Strength = 0f;
+            output.Strength = 0.5f;
+            for (int frame = 0; frame < 5; ++frame)
+            {
+                yield return null;
+            }
+            tap.Restart();
+            for (int frame = 0; frame < 30; ++frame)
+            {
+                yield return null;
+            }
+            Assert.That(tap.Blocks, Is.GreaterThan(0));
+            Assert.That(tap.Peak(), Is.LessThan(1e-6f));
+        }
+
+        [UnityTest]
+        public IEnumerator TwoStylusesShareOneOutput()
+        {
+            FinishLoading();
+            Board();
+            AudioTap tap = Output(out HapticOutput output);
+            HapticStylus first = Circling();
+            HapticStylus second = Circling();
+            for (int frame = 0; frame < 60; ++frame)
+            {
+                yield return null;
+            }
+            Assert.That(tap.Peak(), Is.GreaterThan(Audible));
+            Assert.That(tap.BrokenSamples, Is.Zero);
+            first.TryGetStatistics(out VoiceStatistics ofFirst);
+            second.TryGetStatistics(out VoiceStatistics ofSecond);
+            Assert.That(ofFirst.RenderedFrames, Is.GreaterThan(10000UL));
+            Assert.That(ofSecond.RenderedFrames, Is.EqualTo(ofFirst.RenderedFrames));
+            Assert.That(output.Level, Is.GreaterThan(0f));
+        }
+
+        [UnityTest]
+        public IEnumerator ASceneWithoutOutputGetsOneWithOneLogLine()
+        {
+            FinishLoading();
+            LogAssert.Expect(LogType.Log, new Regex("the scene has no Haptic Output"));
+            Board();
+            HapticStylus first = Circling();
+            HapticStylus second = Circling();
+            for (int frame = 0; frame < 60; ++frame)
+            {
+                yield return null;
+            }
+            Assert.That(first.TryGetStatistics(out VoiceStatistics statistics), Is.True);
+            Assert.That(statistics.RenderedFrames, Is.GreaterThan(0UL));
+            Assert.That(second.TryGetStatistics(out _), Is.True);
+            HapticOutput made = HapticOutput.ForStylus(first);
+            Assert.That(made.GetComponent<AudioSource>().isPlaying, Is.True);
+            Object.DestroyImmediate(made.gameObject);
+        }
+
+        /// <summary>Draws a circle of 5 cm on the board, 1 mm deep, at 0.2 m/s.</summary>
+        private HapticStylus Circling() => StylusAlong(seconds => new Vector3(
+            0.05f * (float)Math.Cos(4.0 * seconds), 0.001f, 0.05f * (float)Math.Sin(4.0 * seconds)));
+
+        /// <summary>What other sources would play, on every channel.</summary>
+        private sealed class Noise : MonoBehaviour
+        {
+            private void OnAudioFilterRead(float[] data, int channels)
+            {
+                for (int index = 0; index < data.Length; ++index)
+                {
+                    data[index] = 0.25f;
+                }
+            }
+        }
+    }
+}

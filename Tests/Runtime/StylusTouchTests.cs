@@ -1,0 +1,221 @@
+#nullable enable
+using System;
+using System.Collections;
+using NUnit.Framework;
+using UnityEngine;
+using UnityEngine.TestTools;
+
+namespace HaptoFlow.Tests
+{
+    public sealed class StylusTouchTests : SceneTest
+    {
+        // Below, the tip of 2 mm cuts 1 mm into the board.
+        private const float Pressed = 0.001f;
+        private const float Lifted = 0.05f;
+
+        [UnityTest]
+        public IEnumerator ATouchBeginsMovesAndEndsOnce()
+        {
+            HapticSurface board = Board();
+            HapticStylus stylus = StylusAlong(seconds =>
+                new Vector3(0.05f * (float)seconds, seconds > 0.2 && seconds < 0.6 ? Pressed : Lifted, 0f));
+            var log = new TouchLog(stylus);
+            var mover = stylus.GetComponent<PathMover>();
+            while (mover.Seconds < 0.5)
+            {
+                yield return null;
+            }
+            Assert.That(log.Began, Is.EqualTo(1));
+            Assert.That(log.Ended, Is.Zero);
+            Assert.That(stylus.IsTouching, Is.True);
+            Assert.That(log.Last.Surface, Is.SameAs(board));
+            while (mover.Seconds < 0.8)
+            {
+                yield return null;
+            }
+            Assert.That(log.Began, Is.EqualTo(1));
+            Assert.That(log.Moved, Is.GreaterThan(5));
+            Assert.That(log.Ended, Is.EqualTo(1));
+            Assert.That(stylus.IsTouching, Is.False);
+        }
+
+        [UnityTest]
+        public IEnumerator ForceIsStiffnessTimesPenetrationAndVelocityLiesAlongTheGrain()
+        {
+            HapticSurface board = Board();
+            board.Material.StiffnessNewtonsPerMetre = 400f;
+            HapticStylus stylus = StylusAlong(seconds => new Vector3(0.06f * (float)seconds, Pressed, -0.02f * (float)seconds));
+            for (int frame = 0; frame < 30; ++frame)
+            {
+                yield return null;
+            }
+            HapticContact contact = stylus.Contact;
+            Assert.That(contact.PenetrationMetres, Is.EqualTo(0.001f).Within(1e-6f));
+            Assert.That(contact.ForceNewtons, Is.EqualTo(0.4f).Within(1e-3f));
+            Assert.That(contact.FirstVelocityMps, Is.EqualTo(0.06f).Within(6e-4f));
+            Assert.That(contact.SecondVelocityMps, Is.EqualTo(0.02f).Within(6e-4f));
+            Assert.That(Vector3.Distance(contact.Normal, Vector3.up), Is.LessThan(1e-5f));
+            Assert.That(Vector3.Distance(contact.TangentialVelocity, new Vector3(0.06f, 0f, -0.02f)), Is.LessThan(1e-3f));
+        }
+
+        [UnityTest]
+        public IEnumerator StiffnessComesFromTheLabelWhereTheSurfaceSaysNothing()
+        {
+            FinishLoading();
+            HapticSurface board = Board("wood");
+            HapticStylus stylus = StylusAlong(_ => new Vector3(0f, Pressed, 0f));
+            yield return null;
+            yield return null;
+            double ofWood = StiffnessOf("wood");
+            Assert.That(stylus.Contact.ForceNewtons, Is.EqualTo(Math.Min(5.0, 0.001 * ofWood)).Within(1e-3));
+            board.Material.Label = "fur";
+            yield return null;
+            Assert.That(StiffnessOf("fur"), Is.Not.EqualTo(ofWood));
+            Assert.That(stylus.Contact.ForceNewtons, Is.EqualTo(Math.Min(5.0, 0.001 * StiffnessOf("fur"))).Within(1e-3));
+        }
+
+        [UnityTest]
+        public IEnumerator AMeasuredForceTakesThePlaceOfTheSpring()
+        {
+            Board();
+            HapticStylus stylus = StylusAlong(_ => new Vector3(0f, Pressed, 0f));
+            var source = stylus.gameObject.AddComponent<FixedForce>();
+            source.ForceNewtons = 1.25f;
+            stylus.Force = source;
+            yield return null;
+            yield return null;
+            Assert.That(stylus.Contact.ForceNewtons, Is.EqualTo(1.25f).Within(1e-6f));
+            source.HasNews = false;
+            yield return null;
+            Assert.That(stylus.Contact.ForceNewtons, Is.Not.EqualTo(1.25f));
+        }
+
+        [UnityTest]
+        public IEnumerator TheDeepestSurfaceWinsAndKeepsTheTipByAMargin()
+        {
+            HapticSurface low = Board("wood");
+            HapticSurface high = Board("fur");
+            high.transform.position = new Vector3(0f, 0.0003f, 0f);
+            HapticStylus stylus = StylusAlong(_ => new Vector3(0f, Pressed, 0f));
+            yield return null;
+            yield return null;
+            Assert.That(stylus.Contact.Surface, Is.SameAs(high));
+            low.transform.position = new Vector3(0f, 0.0006f, 0f);
+            yield return null;
+            Assert.That(stylus.Contact.Surface, Is.SameAs(high));
+            low.transform.position = new Vector3(0f, 0.0012f, 0f);
+            yield return null;
+            Assert.That(stylus.Contact.Surface, Is.SameAs(low));
+        }
+
+        [UnityTest]
+        public IEnumerator ATeleportIsNoStroke()
+        {
+            Board();
+            HapticStylus stylus = StylusAlong(seconds =>
+                new Vector3((seconds > 0.3 ? 0.15f : -0.15f) + 0.02f * (float)seconds, Pressed, 0f));
+            float fastest = 0f;
+            for (int frame = 0; frame < 60; ++frame)
+            {
+                yield return null;
+                fastest = Mathf.Max(fastest, Mathf.Abs(stylus.Contact.FirstVelocityMps));
+            }
+            Assert.That(fastest, Is.LessThan(0.05f));
+            Assert.That(stylus.ContactStatistics.Teleports, Is.EqualTo(1UL));
+        }
+
+        [UnityTest]
+        public IEnumerator ASurfaceSwitchedOffOrDestroyedUnderTheTipEndsTheTouch()
+        {
+            HapticSurface board = Board();
+            HapticStylus stylus = StylusAlong(_ => new Vector3(0f, Pressed, 0f));
+            var log = new TouchLog(stylus);
+            yield return null;
+            yield return null;
+            Assert.That(log.Began, Is.EqualTo(1));
+            board.enabled = false;
+            yield return null;
+            Assert.That(log.Ended, Is.EqualTo(1));
+            board.enabled = true;
+            yield return null;
+            Assert.That(log.Began, Is.EqualTo(2));
+            UnityEngine.Object.Destroy(board.gameObject);
+            yield return null;
+            yield return null;
+            Assert.That(log.Ended, Is.EqualTo(2));
+        }
+
+        [UnityTest]
+        public IEnumerator CollidersOfChildrenCountUnlessTheyBelongToAnotherSurface()
+        {
+            HapticSurface parent = Tagged<SphereCollider>("wood", sphere => sphere.center = new Vector3(0f, 5f, 0f));
+            GameObject child = Make("child");
+            child.transform.SetParent(parent.transform, false);
+            child.AddComponent<BoxCollider>().size = new Vector3(0.1f, 0.1f, 0.1f);
+            parent.Refresh();
+            HapticStylus stylus = StylusAlong(_ => new Vector3(0f, 0.051f, 0f));
+            yield return null;
+            yield return null;
+            Assert.That(stylus.Contact.Surface, Is.SameAs(parent));
+            var own = child.AddComponent<HapticSurface>();
+            parent.Refresh();
+            yield return null;
+            Assert.That(stylus.Contact.Surface, Is.SameAs(own));
+            Assert.That(parent.Colliders.Count, Is.EqualTo(1));
+        }
+
+        [UnityTest]
+        public IEnumerator LayersOutsideTheMaskAreNotFelt()
+        {
+            HapticSurface board = Board();
+            board.gameObject.layer = 8;
+            HapticStylus stylus = StylusAlong(_ => new Vector3(0f, Pressed, 0f));
+            stylus.Layers = ~(1 << 8);
+            yield return null;
+            yield return null;
+            Assert.That(stylus.IsTouching, Is.False);
+            stylus.Layers = 1 << 8;
+            yield return null;
+            Assert.That(stylus.IsTouching, Is.True);
+        }
+
+        [UnityTest]
+        public IEnumerator TwoStylusesTouchTwoThings()
+        {
+            HapticSurface board = Board("wood");
+            HapticSurface ball = Tagged<SphereCollider>("fur", sphere => sphere.radius = 0.05f);
+            ball.transform.position = new Vector3(1f, 0f, 0f);
+            HapticStylus first = StylusAlong(_ => new Vector3(0f, Pressed, 0f));
+            HapticStylus second = StylusAlong(_ => new Vector3(1f, 0.051f, 0f));
+            yield return null;
+            yield return null;
+            Assert.That(first.Contact.Surface, Is.SameAs(board));
+            Assert.That(second.Contact.Surface, Is.SameAs(ball));
+        }
+
+        private static double StiffnessOf(string label)
+        {
+            foreach (Model.ModelLabel each in HaptoFlowSettings.Active.Model!.Header.Labels)
+            {
+                if (each.Name == label)
+                {
+                    return each.StiffnessNewtonsPerMetre;
+                }
+            }
+            throw new ArgumentException(label);
+        }
+    }
+
+    internal sealed class FixedForce : TipForceSource
+    {
+        public float ForceNewtons { get; set; }
+
+        public bool HasNews { get; set; } = true;
+
+        public override bool TryRead(out float forceNewtons)
+        {
+            forceNewtons = ForceNewtons;
+            return HasNews;
+        }
+    }
+}

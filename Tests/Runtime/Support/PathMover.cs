@@ -1,0 +1,28 @@
+#nullable enable
+using System;
+using UnityEngine;
+
+namespace HaptoFlow.Tests
+{
+    /// <summary>Carries an object along a path from seconds since its first frame to a place.</summary>
+    internal sealed class PathMover : MonoBehaviour
+    {
+        private double beganSeconds = double.NaN;
+
+        public Func<double, Vector3>? Path { get; set; }
+
+        public double Seconds => double.IsNaN(beganSeconds) ? 0.0 : Time.unscaledTimeAsDouble - beganSeconds;
+
+        private void Update()
+        {
+            if (double.IsNaN(beganSeconds))
+            {
+                beganSeconds = Time.unscaledTimeAsDouble;
+            }
+            if (Path != null)
+            {
+                transform.position = Path(Seconds);
+            }
+        }
+    }
+}

@@ -1,0 +1,106 @@
+#nullable enable
+using System;
+using System.Collections.Generic;
+using NUnit.Framework;
+using UnityEngine;
+using Object = UnityEngine.Object;
+
+namespace HaptoFlow.Tests
+{
+    /// <summary>A scene with listener, tagged objects and styluses, gone after each test. Its engine has no worker: it
+    /// is stepped once a frame.</summary>
+    public abstract class SceneTest
+    {
+        private readonly List<Object> made = new List<Object>();
+
+        /// <summary>Turns the engine's crank; to be destroyed by tests whose engine has a worker.</summary>
+        internal EngineStepper Stepper { get; private set; } = null!;
+
+        [SetUp]
+        public void BeginScene()
+        {
+#if HAPTOFLOW_OUTSIDE_UNITY
+            UnityShim.World.EnterPlayMode();
+#endif
+            HapticSession.ShutDown();
+            HapticSession.OptionsInstead = new HapticEngineOptions { WithoutWorker = true, FixedLeadMs = 8.0, Seed = 3 };
+            var settings = ScriptableObject.CreateInstance<HaptoFlowSettings>();
+            settings.Model = DefaultModel.Asset();
+            settings.Quality = HapticQuality.Draft;
+            HaptoFlowSettings.Active = settings;
+            Make("Listener").AddComponent<AudioListener>();
+            Stepper = Make("Stepper").AddComponent<EngineStepper>();
+        }
+
+        [TearDown]
+        public void EndScene()
+        {
+            foreach (Object each in made)
+            {
+                Object.DestroyImmediate(each);
+            }
+            made.Clear();
+            HapticSession.ShutDown();
+            HapticSession.OptionsInstead = null;
+#if HAPTOFLOW_OUTSIDE_UNITY
+            UnityShim.World.ExitPlayMode();
+            Assert.That(UnityShim.AudioDevice.Failure, Is.Null, "the audio thread threw");
+            Assert.That(UnityShim.Log.Lines, Has.None.Matches<(LogType Type, string Text)>(
+                line => line.Type == LogType.Exception));
+#endif
+        }
+
+        internal GameObject Make(string name)
+        {
+            var gameObject = new GameObject(name);
+            made.Add(gameObject);
+            return gameObject;
+        }
+
+        /// <summary>A tagged object with a collider.</summary>
+        internal HapticSurface Tagged<TCollider>(string label, Action<TCollider>? shape = null)
+            where TCollider : Collider
+        {
+            GameObject owner = Make(label);
+            var collider = owner.AddComponent<TCollider>();
+            shape?.Invoke(collider);
+            var surface = owner.AddComponent<HapticSurface>();
+            surface.Material.Label = label;
+            return surface;
+        }
+
+        /// <summary>A board of 40 x 2 x 40 cm whose top is the plane y = 0.</summary>
+        internal HapticSurface Board(string label = "wood") => Tagged<BoxCollider>(label, box =>
+        {
+            box.size = new Vector3(0.4f, 0.02f, 0.4f);
+            box.center = new Vector3(0f, -0.01f, 0f);
+        });
+
+        /// <summary>A stylus with a tip of 2 mm that follows a path.</summary>
+        internal HapticStylus StylusAlong(Func<double, Vector3> path)
+        {
+            GameObject owner = Make("Stylus");
+            owner.transform.position = path(0.0);
+            owner.AddComponent<PathMover>().Path = path;
+            return owner.AddComponent<HapticStylus>();
+        }
+
+        /// <summary>An output on an object of its own, with a tap that hears it.</summary>
+        internal AudioTap Output(out HapticOutput output)
+        {
+            GameObject owner = Make("Output");
+            output = owner.AddComponent<HapticOutput>();
+            return owner.AddComponent<AudioTap>();
+        }
+
+        /// <summary>Outside Unity; inside, frames come as they come.</summary>
+        internal static void SetFrameRate(double hertz)
+        {
+#if HAPTOFLOW_OUTSIDE_UNITY
+            UnityShim.World.FrameRateHz = hertz;
+#endif
+        }
+
+        internal static void FinishLoading() => HapticSession.Current.FinishLoading();
+    }
+}

@@ -1,0 +1,53 @@
+using System;
+using UnityShim;
+
+namespace UnityEngine
+{
+    public class Application
+    {
+        public static bool isPlaying => World.IsPlaying;
+
+        public static event Action? quitting
+        {
+            add => World.Quitting += value;
+            remove => World.Quitting -= value;
+        }
+    }
+
+    public class Debug
+    {
+        public static void Log(object message) => UnityShim.Log.Write(LogType.Log, message);
+        public static void Log(object message, Object? context) => UnityShim.Log.Write(LogType.Log, message);
+        public static void LogWarning(object message) => UnityShim.Log.Write(LogType.Warning, message);
+        public static void LogWarning(object message, Object? context) => UnityShim.Log.Write(LogType.Warning, message);
+        public static void LogError(object message) => UnityShim.Log.Write(LogType.Error, message);
+        public static void LogError(object message, Object? context) => UnityShim.Log.Write(LogType.Error, message);
+        public static void LogException(Exception exception) => UnityShim.Log.Write(LogType.Exception, exception);
+        public static void LogException(Exception exception, Object? context) => UnityShim.Log.Write(LogType.Exception, exception);
+    }
+
+    public sealed class Resources
+    {
+        public static T Load<T>(string path)
+            where T : Object => World.Resource(path) is T asset ? asset : null!;
+    }
+}
+
+namespace Unity.Profiling
+{
+    public struct ProfilerMarker
+    {
+        public ProfilerMarker(string name)
+        {
+        }
+
+        public AutoScope Auto() => default;
+
+        public struct AutoScope : IDisposable
+        {
+            public void Dispose()
+            {
+            }
+        }
+    }
+}

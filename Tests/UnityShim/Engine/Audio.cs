@@ -1,0 +1,127 @@
+using System;
+using UnityShim;
+
+namespace UnityEngine
+{
+    public enum AudioSpeakerMode
+    {
+        Mono = 1,
+        Stereo = 2,
+        Quad = 3,
+        Surround = 4,
+        Mode5point1 = 5,
+        Mode7point1 = 6,
+        Prologic = 7,
+    }
+
+    public struct AudioConfiguration
+    {
+        public AudioSpeakerMode speakerMode;
+        public int dspBufferSize;
+        public int sampleRate;
+        public int numRealVoices;
+        public int numVirtualVoices;
+    }
+
+    public sealed class AudioSettings
+    {
+        public delegate void AudioConfigurationChangeHandler(bool deviceWasChanged);
+
+        public static event AudioConfigurationChangeHandler? OnAudioConfigurationChanged
+        {
+            add => AudioDevice.ConfigurationChanged += value;
+            remove => AudioDevice.ConfigurationChanged -= value;
+        }
+
+        public static int outputSampleRate
+        {
+            get
+            {
+                World.RequireMainThread();
+                return AudioDevice.Configuration.sampleRate;
+            }
+        }
+
+        public static void GetDSPBufferSize(out int bufferLength, out int numBuffers)
+        {
+            World.RequireMainThread();
+            bufferLength = AudioDevice.Configuration.dspBufferSize;
+            numBuffers = 4;
+        }
+
+        public static AudioConfiguration GetConfiguration()
+        {
+            World.RequireMainThread();
+            return AudioDevice.Configuration;
+        }
+
+        public static bool Reset(AudioConfiguration config)
+        {
+            World.RequireMainThread();
+            AudioDevice.Restart(config, false);
+            return true;
+        }
+    }
+
+    public class AudioBehaviour : Behaviour
+    {
+    }
+
+    public sealed class AudioListener : AudioBehaviour
+    {
+    }
+
+    public sealed class AudioSource : AudioBehaviour
+    {
+        internal bool Playing;
+
+        public float volume { get; set; } = 1f;
+        public float pitch { get; set; } = 1f;
+        public float spatialBlend { get; set; }
+        public int priority { get; set; } = 128;
+        public bool loop { get; set; }
+        public bool playOnAwake { get; set; } = true;
+        public bool bypassEffects { get; set; }
+        public bool bypassListenerEffects { get; set; }
+        public bool bypassReverbZones { get; set; }
+        public bool ignoreListenerPause { get; set; }
+        public bool ignoreListenerVolume { get; set; }
+        public float dopplerLevel { get; set; } = 1f;
+        public bool isPlaying => Playing && isActiveAndEnabled;
+
+        public void Play()
+        {
+            World.RequireMainThread();
+            Playing = true;
+        }
+
+        public void Stop()
+        {
+            World.RequireMainThread();
+            Playing = false;
+        }
+    }
+}
+
+namespace UnityEngine.Audio
+{
+    public class AudioMixer : Object
+    {
+        internal readonly System.Collections.Generic.Dictionary<string, float> Exposed =
+            new System.Collections.Generic.Dictionary<string, float>();
+
+        internal AudioMixer()
+        {
+        }
+
+        public bool SetFloat(string name, float value)
+        {
+            bool known = Exposed.ContainsKey(name);
+            if (known)
+            {
+                Exposed[name] = value;
+            }
+            return known;
+        }
+    }
+}

@@ -1,0 +1,53 @@
+using System;
+using UnityShim;
+
+namespace UnityEngine
+{
+    public class Object
+    {
+        private readonly int instance = World.NextInstance();
+        private string text = "";
+
+        internal bool IsDestroyed { get; private set; }
+
+        public string name
+        {
+            get => text;
+            set => text = value;
+        }
+
+        public HideFlags hideFlags { get; set; }
+
+        public int GetInstanceID() => instance;
+
+        public static implicit operator bool(Object? exists) => !IsNull(exists);
+        public static bool operator ==(Object? x, Object? y) => IsNull(x) ? IsNull(y) : ReferenceEquals(x, y);
+        public static bool operator !=(Object? x, Object? y) => !(x == y);
+
+        public override bool Equals(object? other) => other is Object that ? this == that : other == null && IsDestroyed;
+        public override int GetHashCode() => instance;
+        public override string ToString() => name + " (" + GetType().FullName + ")";
+
+        /// <summary>At the end of the frame.</summary>
+        public static void Destroy(Object obj) => World.DestroyLater(obj);
+
+        public static void DestroyImmediate(Object obj) => World.DestroyNow(obj);
+
+        public static void DontDestroyOnLoad(Object target) => World.KeepOverSceneLoads(target);
+
+        internal void MarkDestroyed() => IsDestroyed = true;
+
+        private static bool IsNull(Object? candidate) => candidate is null || candidate.IsDestroyed;
+    }
+
+    public class ScriptableObject : Object
+    {
+        public static T CreateInstance<T>()
+            where T : ScriptableObject
+        {
+            var instance = (T)Activator.CreateInstance(typeof(T))!;
+            Messages.Of(instance).Send(Message.OnEnable);
+            return instance;
+        }
+    }
+}

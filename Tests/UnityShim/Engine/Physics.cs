@@ -1,0 +1,144 @@
+using System;
+using UnityShim;
+
+namespace UnityEngine
+{
+    public class Rigidbody : Component
+    {
+        internal BodyState State = null!;
+
+        public bool isKinematic { get; set; }
+        public bool useGravity { get; set; }
+        public RigidbodyInterpolation interpolation { get; set; }
+
+        public Vector3 position
+        {
+            get => State.Position;
+            set => State.Place(value, State.Rotation);
+        }
+
+        public Quaternion rotation
+        {
+            get => State.Rotation;
+            set => State.Place(State.Position, value);
+        }
+
+        /// <summary>At the next physics step; what a moving platform is moved by.</summary>
+        public void MovePosition(Vector3 position) => State.MoveTo(position);
+
+        public void MoveRotation(Quaternion rot) => State.TurnTo(rot);
+    }
+
+    public class ArticulationBody : Behaviour
+    {
+    }
+
+    public class Collider : Component
+    {
+        internal Vector3 PhysicsPosition;
+        internal Quaternion PhysicsRotation = Quaternion.identity;
+
+        public bool enabled { get; set; } = true;
+        public bool isTrigger { get; set; }
+
+        public Rigidbody? attachedRigidbody => BodyState.Above(transform);
+        public ArticulationBody? attachedArticulationBody => null;
+
+        public Vector3 ClosestPoint(Vector3 position) => Physics.ClosestPoint(position, this, PhysicsPosition, PhysicsRotation);
+
+        public bool Raycast(Ray ray, out RaycastHit hitInfo, float maxDistance) =>
+            Geometry.Raycast(this, ray, maxDistance, out hitInfo);
+    }
+
+    public class BoxCollider : Collider
+    {
+        public Vector3 center { get; set; }
+        public Vector3 size { get; set; } = Vector3.one;
+    }
+
+    public class SphereCollider : Collider
+    {
+        public Vector3 center { get; set; }
+        public float radius { get; set; } = 0.5f;
+    }
+
+    public class CapsuleCollider : Collider
+    {
+        public Vector3 center { get; set; }
+        public float radius { get; set; } = 0.5f;
+        public float height { get; set; } = 2f;
+
+        /// <summary>0, 1, 2 for x, y, z.</summary>
+        public int direction { get; set; } = 1;
+    }
+
+    public class CharacterController : Collider
+    {
+        public Vector3 center { get; set; }
+        public float radius { get; set; } = 0.5f;
+        public float height { get; set; } = 2f;
+    }
+
+    public class MeshCollider : Collider
+    {
+        public Mesh? sharedMesh { get; set; }
+        public bool convex { get; set; }
+    }
+
+    public class TerrainCollider : Collider
+    {
+        public TerrainData? terrainData { get; set; }
+    }
+
+    public sealed class Mesh : Object
+    {
+        public Vector3[] vertices { get; set; } = Array.Empty<Vector3>();
+        public int[] triangles { get; set; } = Array.Empty<int>();
+    }
+
+    public sealed class TerrainData : Object
+    {
+        private float[,] heights = new float[33, 33];
+
+        public Vector3 size { get; set; } = new Vector3(1f, 1f, 1f);
+
+        public int heightmapResolution
+        {
+            get => heights.GetLength(0);
+            set => heights = new float[value, value];
+        }
+
+        public void SetHeights(int xBase, int yBase, float[,] heights)
+        {
+            for (int y = 0; y < heights.GetLength(0); ++y)
+            {
+                for (int x = 0; x < heights.GetLength(1); ++x)
+                {
+                    this.heights[yBase + y, xBase + x] = heights[y, x];
+                }
+            }
+        }
+
+        /// <summary>Row z, column x, as <see cref="SetHeights"/> takes them.</summary>
+        internal Vector3 VertexAt(int x, int z)
+        {
+            float last = heightmapResolution - 1;
+            return Vector3.Scale(size, new Vector3(x / last, heights[z, x], z / last));
+        }
+    }
+
+    public partial class Physics
+    {
+        public static void SyncTransforms() => PhysicsWorld.Sync();
+
+        public static int OverlapSphereNonAlloc(Vector3 position, float radius, Collider[] results, int layerMask,
+            QueryTriggerInteraction queryTriggerInteraction)
+        {
+            World.RequireMainThread();
+            return PhysicsWorld.Overlap(position, radius, results, layerMask, queryTriggerInteraction);
+        }
+
+        public static Vector3 ClosestPoint(Vector3 point, Collider collider, Vector3 position, Quaternion rotation) =>
+            Geometry.ClosestPoint(collider, point, position, rotation);
+    }
+}

@@ -1,0 +1,93 @@
+using System;
+
+namespace UnityEngine
+{
+    public struct Mathf
+    {
+        public const float PI = 3.14159274F;
+
+        public static float Clamp01(float value) => Clamp(value, 0f, 1f);
+        public static float Clamp(float value, float min, float max) => value < min ? min : value > max ? max : value;
+        public static float Max(float a, float b) => a > b ? a : b;
+        public static float Min(float a, float b) => a < b ? a : b;
+        public static float Abs(float f) => Math.Abs(f);
+        public static float Sqrt(float f) => (float)Math.Sqrt(f);
+    }
+
+    public struct LayerMask
+    {
+        private int mask;
+
+        public int value
+        {
+            get => mask;
+            set => mask = value;
+        }
+
+        public static implicit operator int(LayerMask mask) => mask.mask;
+        public static implicit operator LayerMask(int intVal) => new LayerMask { mask = intVal };
+    }
+
+    public struct Ray
+    {
+        public Ray(Vector3 origin, Vector3 direction)
+        {
+            this.origin = origin;
+            unit = direction.normalized;
+        }
+
+        private Vector3 unit;
+
+        public Vector3 origin { get; set; }
+
+        public Vector3 direction
+        {
+            get => unit;
+            set => unit = value.normalized;
+        }
+    }
+
+    public struct RaycastHit
+    {
+        public Vector3 point { get; set; }
+        public Vector3 normal { get; set; }
+        public float distance { get; set; }
+    }
+
+    public enum QueryTriggerInteraction
+    {
+        UseGlobal = 0,
+        Ignore = 1,
+        Collide = 2,
+    }
+
+    public enum RigidbodyInterpolation
+    {
+        None = 0,
+        Interpolate = 1,
+        Extrapolate = 2,
+    }
+
+    [Flags]
+    public enum HideFlags
+    {
+        None = 0,
+        HideInHierarchy = 1,
+        HideInInspector = 2,
+        DontSaveInEditor = 4,
+        NotEditable = 8,
+        DontSaveInBuild = 16,
+        DontUnloadUnusedAsset = 32,
+        DontSave = 52,
+        HideAndDontSave = 61,
+    }
+
+    public enum LogType
+    {
+        Error = 0,
+        Assert = 1,
+        Warning = 2,
+        Log = 3,
+        Exception = 4,
+    }
+}

@@ -1,0 +1,177 @@
+using System;
+using System.Threading;
+using UnityEngine;
+
+namespace UnityShim
+{
+    /// <summary>The audio output: a thread of its own that pulls blocks through the filters of playing sources and of
+    /// the listener, as much as the frames' time asks for. The main thread waits meanwhile, so tests repeat exactly.
+    /// </summary>
+    public static class AudioDevice
+    {
+        private const int RecordedSeconds = 60;
+        private static readonly SemaphoreSlim Wanted = new SemaphoreSlim(0);
+        private static readonly SemaphoreSlim Done = new SemaphoreSlim(0);
+        private static Thread? thread;
+        private static AudioConfiguration configuration;
+        private static double owedFrames;
+        private static float[] mix = Array.Empty<float>();
+        private static float[] source = Array.Empty<float>();
+        private static float[] recorded = Array.Empty<float>();
+
+        public static event AudioSettings.AudioConfigurationChangeHandler? ConfigurationChanged;
+
+        public static AudioConfiguration Configuration => configuration;
+
+        public static int Channels => configuration.speakerMode == AudioSpeakerMode.Mono ? 1
+            : configuration.speakerMode == AudioSpeakerMode.Quad ? 4 : 2;
+
+        /// <summary>Interleaved frames that went to the device since play mode began or <see cref="Forget"/>.</summary>
+        public static int RecordedFrames { get; private set; }
+
+        /// <summary>Garbage that the filters made on the audio thread.</summary>
+        public static long AllocatedBytes { get; private set; }
+
+        public static Exception? Failure { get; private set; }
+
+        public static float Sample(int frame, int channel) => recorded[frame * Channels + channel];
+
+        public static void Forget()
+        {
+            RecordedFrames = 0;
+            AllocatedBytes = 0;
+        }
+
+        /// <summary>What happens when headphones are plugged in: another rate, block or channel count.</summary>
+        public static void ChangeDevice(int sampleRateHz, int blockFrames, AudioSpeakerMode mode) => Restart(
+            new AudioConfiguration { sampleRate = sampleRateHz, dspBufferSize = blockFrames, speakerMode = mode }, true);
+
+        internal static void Reset()
+        {
+            configuration = new AudioConfiguration
+            {
+                sampleRate = 48000,
+                dspBufferSize = 512,
+                speakerMode = AudioSpeakerMode.Stereo,
+                numRealVoices = 32,
+                numVirtualVoices = 512,
+            };
+            Prepare();
+            Forget();
+            Failure = null;
+        }
+
+        internal static void Restart(AudioConfiguration changed, bool deviceWasChanged)
+        {
+            configuration = changed;
+            Prepare();
+            foreach (GameObject gameObject in World.AllObjects)
+            {
+                if (gameObject.TryGetComponent(out AudioSource playing))
+                {
+                    playing.Playing = false;
+                }
+            }
+            ConfigurationChanged?.Invoke(deviceWasChanged);
+        }
+
+        internal static void Advance(double seconds)
+        {
+            owedFrames += seconds * configuration.sampleRate;
+            while (owedFrames >= configuration.dspBufferSize)
+            {
+                owedFrames -= configuration.dspBufferSize;
+                RunBlock();
+            }
+        }
+
+        private static void Prepare()
+        {
+            owedFrames = 0.0;
+            mix = new float[configuration.dspBufferSize * Channels];
+            source = new float[configuration.dspBufferSize * Channels];
+            recorded = new float[RecordedSeconds * configuration.sampleRate * Channels];
+            RecordedFrames = 0;
+        }
+
+        private static void RunBlock()
+        {
+            if (thread == null)
+            {
+                thread = new Thread(Serve) { IsBackground = true, Name = "Audio" };
+                thread.Start();
+            }
+            Wanted.Release();
+            Done.Wait();
+            int room = recorded.Length / Channels - RecordedFrames;
+            int frames = Math.Min(room, configuration.dspBufferSize);
+            Array.Copy(mix, 0, recorded, RecordedFrames * Channels, frames * Channels);
+            RecordedFrames += frames;
+        }
+
+        private static void Serve()
+        {
+            while (true)
+            {
+                Wanted.Wait();
+                long before = GC.GetAllocatedBytesForCurrentThread();
+                try
+                {
+                    Render();
+                }
+                catch (Exception error)
+                {
+                    Failure = error;
+                }
+                AllocatedBytes += GC.GetAllocatedBytesForCurrentThread() - before;
+                Done.Release();
+            }
+        }
+
+        private static void Render()
+        {
+            Array.Clear(mix, 0, mix.Length);
+            GameObject? listener = null;
+            for (int index = 0; index < World.AllObjects.Count; ++index)
+            {
+                GameObject gameObject = World.AllObjects[index];
+                if (gameObject.TryGetComponent(out AudioSource playing) && playing.isPlaying)
+                {
+                    Array.Clear(source, 0, source.Length);
+                    RunFilters(gameObject, source);
+                    for (int sample = 0; sample < mix.Length; ++sample)
+                    {
+                        mix[sample] += playing.volume * source[sample];
+                    }
+                }
+                if (gameObject.TryGetComponent(out AudioListener ears) && ears.isActiveAndEnabled)
+                {
+                    listener = gameObject;
+                }
+            }
+            if (listener is not null)
+            {
+                RunFilters(listener, mix);
+            }
+            else
+            {
+                Array.Clear(mix, 0, mix.Length);
+            }
+        }
+
+        /// <summary>In the order of the components on the object.</summary>
+        private static void RunFilters(GameObject gameObject, float[] samples)
+        {
+            for (int component = 0; component < gameObject.Components.Count; ++component)
+            {
+                for (int index = 0; index < World.AllScripts.Count; ++index)
+                {
+                    if (ReferenceEquals(World.AllScripts[index].Script, gameObject.Components[component]))
+                    {
+                        World.AllScripts[index].AudioFilter?.Invoke(samples, Channels);
+                    }
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,53 @@
+namespace UnityShim
+{
+    /// <summary>Unity's clocks: frames, and fixed steps that follow them.</summary>
+    public static class Clock
+    {
+        public static double Seconds { get; private set; }
+        public static double UnscaledSeconds { get; private set; }
+        public static double DeltaSeconds { get; private set; }
+        public static double UnscaledDeltaSeconds { get; private set; }
+        public static double FixedSeconds { get; private set; }
+        /// <summary>The last fixed step on the clock that the time scale leaves alone.</summary>
+        public static double FixedUnscaledSeconds =>
+            Scale > 0.0 ? UnscaledSeconds - (Seconds - FixedSeconds) / Scale : UnscaledSeconds;
+
+        public static double FixedStepSeconds { get; set; } = 0.02;
+        public static double Scale { get; set; } = 1.0;
+        public static int Frames { get; private set; }
+        public static bool InFixedStep { get; internal set; }
+
+        internal static void Reset()
+        {
+            Seconds = 0.0;
+            UnscaledSeconds = 0.0;
+            FixedSeconds = 0.0;
+            DeltaSeconds = 0.0;
+            UnscaledDeltaSeconds = 0.0;
+            FixedStepSeconds = 0.02;
+            Scale = 1.0;
+            Frames = 0;
+            InFixedStep = false;
+        }
+
+        internal static void NextFrame(double seconds)
+        {
+            UnscaledDeltaSeconds = seconds;
+            DeltaSeconds = seconds * Scale;
+            UnscaledSeconds += seconds;
+            Seconds += DeltaSeconds;
+            ++Frames;
+        }
+
+        /// <summary>True as long as a fixed step is due before this frame.</summary>
+        internal static bool NextFixedStep()
+        {
+            bool due = FixedSeconds + FixedStepSeconds <= Seconds + 1e-9;
+            if (due)
+            {
+                FixedSeconds += FixedStepSeconds;
+            }
+            return due;
+        }
+    }
+}

@@ -1,0 +1,34 @@
+using System.Collections.Generic;
+using System.Linq;
+using System.Text.RegularExpressions;
+using NUnit.Framework;
+using UnityShim;
+
+namespace UnityEngine.TestTools
+{
+    /// <summary>What a test expects to be logged. As in Unity, an error that nobody expects fails the test.</summary>
+    public static class LogAssert
+    {
+        private static readonly List<(LogType Type, Regex Text)> Expected = new List<(LogType, Regex)>();
+
+        public static void Expect(LogType type, string message) => Expect(type, new Regex("^" + Regex.Escape(message) + "$"));
+
+        public static void Expect(LogType type, Regex message) => Expected.Add((type, message));
+
+        internal static void Begin() => Expected.Clear();
+
+        internal static void End()
+        {
+            var lines = Log.Lines.ToList();
+            foreach ((LogType type, Regex text) in Expected)
+            {
+                int index = lines.FindIndex(line => line.Type == type && text.IsMatch(line.Text));
+                Assert.That(index, Is.GreaterThanOrEqualTo(0), $"expected to be logged as {type}: {text}; logged was:\n" +
+                    string.Join("\n", Log.Lines.Select(line => line.Type + ": " + line.Text)));
+                lines.RemoveAt(index);
+            }
+            Assert.That(lines.Where(line => line.Type == LogType.Error || line.Type == LogType.Exception).Select(line => line.Text),
+                Is.Empty, "unexpected errors in the log");
+        }
+    }
+}

@@ -1,0 +1,86 @@
+using System;
+using System.Collections.Generic;
+using System.Reflection;
+using UnityEngine;
+using Object = UnityEngine.Object;
+
+namespace UnityShim
+{
+    public enum Message
+    {
+        Awake,
+        OnEnable,
+        Start,
+        FixedUpdate,
+        Update,
+        LateUpdate,
+        OnDisable,
+        OnDestroy,
+    }
+
+    /// <summary>The messages that one script answers, bound once, so that sending them makes no garbage.</summary>
+    internal sealed class Messages
+    {
+        private const BindingFlags Anything = BindingFlags.Instance | BindingFlags.Public | BindingFlags.NonPublic;
+        private static readonly int Count = Enum.GetValues(typeof(Message)).Length;
+
+        private readonly Action?[] handlers = new Action?[Count];
+        private readonly Object script;
+
+        private Messages(Object script)
+        {
+            this.script = script;
+            foreach (Message message in Enum.GetValues(typeof(Message)))
+            {
+                MethodInfo? method = Find(script.GetType(), message.ToString());
+                if (method != null && method.GetParameters().Length == 0)
+                {
+                    handlers[(int)message] = (Action)Delegate.CreateDelegate(typeof(Action), script, method);
+                }
+            }
+            MethodInfo? filter = Find(script.GetType(), "OnAudioFilterRead");
+            AudioFilter = filter == null
+                ? null
+                : (Action<float[], int>)Delegate.CreateDelegate(typeof(Action<float[], int>), script, filter);
+        }
+
+        public Action<float[], int>? AudioFilter { get; }
+
+        public static Messages Of(Object script) => new Messages(script);
+
+        /// <summary>An exception in a script is logged and the frame goes on, as in Unity.</summary>
+        public void Send(Message message)
+        {
+            try
+            {
+                handlers[(int)message]?.Invoke();
+            }
+            catch (Exception error)
+            {
+                Debug.LogException(error, script);
+            }
+        }
+
+        public static void SendByName(GameObject receiver, string name, object value)
+        {
+            foreach (Component component in new List<Component>(receiver.Components))
+            {
+                MethodInfo? method = component is MonoBehaviour ? Find(component.GetType(), name) : null;
+                method?.Invoke(component, method.GetParameters().Length == 0 ? null : new[] { value });
+            }
+        }
+
+        private static MethodInfo? Find(Type? type, string name)
+        {
+            for (; type != null && type != typeof(MonoBehaviour) && type != typeof(ScriptableObject); type = type.BaseType)
+            {
+                MethodInfo? method = type.GetMethod(name, Anything | BindingFlags.DeclaredOnly);
+                if (method != null)
+                {
+                    return method;
+                }
+            }
+            return null;
+        }
+    }
+}

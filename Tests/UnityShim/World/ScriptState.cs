@@ -1,0 +1,66 @@
+using System.Reflection;
+using UnityEngine;
+
+namespace UnityShim
+{
+    /// <summary>Where one script is in its life.</summary>
+    internal sealed class ScriptState
+    {
+        private readonly Messages messages;
+        private bool awake;
+        private bool on;
+        private bool begun;
+
+        public ScriptState(MonoBehaviour script)
+        {
+            Script = script;
+            messages = Messages.Of(script);
+            Order = script.GetType().GetCustomAttribute<DefaultExecutionOrder>()?.order ?? 0;
+        }
+
+        public MonoBehaviour Script { get; }
+
+        public int Order { get; }
+
+        public System.Action<float[], int>? AudioFilter => on ? messages.AudioFilter : null;
+
+        public void Refresh()
+        {
+            if (!awake && Script.gameObject.activeInHierarchy)
+            {
+                awake = true;
+                messages.Send(Message.Awake);
+            }
+            bool wanted = awake && Script.isActiveAndEnabled;
+            if (wanted != on)
+            {
+                on = wanted;
+                messages.Send(wanted ? Message.OnEnable : Message.OnDisable);
+            }
+        }
+
+        public void Send(Message message)
+        {
+            if (!on || (message == Message.Start && begun))
+            {
+                return;
+            }
+            begun = true;
+            messages.Send(message);
+        }
+
+        public void End()
+        {
+            if (on)
+            {
+                on = false;
+                messages.Send(Message.OnDisable);
+            }
+            if (awake)
+            {
+                awake = false;
+                messages.Send(Message.OnDestroy);
+            }
+        }
+    }
+}

@@ -1,0 +1,255 @@
+using System;
+using System.Collections.Generic;
+using System.Linq;
+using System.Reflection;
+using System.Threading;
+using UnityEngine;
+using Object = UnityEngine.Object;
+
+namespace UnityShim
+{
+    /// <summary>One Unity player: objects, frames, play mode. Tests turn its crank.</summary>
+    public static class World
+    {
+        private static readonly List<GameObject> Objects = new List<GameObject>();
+        private static readonly List<ScriptState> Scripts = new List<ScriptState>();
+        private static readonly List<Object> Condemned = new List<Object>();
+        private static readonly HashSet<Object> Kept = new HashSet<Object>();
+        private static readonly Dictionary<string, Object> ResourceAssets = new Dictionary<string, Object>();
+        private static int instances;
+        private static Thread? mainThread;
+
+        public static bool IsPlaying { get; private set; }
+
+        public static event Action? Quitting;
+
+        /// <summary>Frames a second of <see cref="Frame()"/>.</summary>
+        public static double FrameRateHz { get; set; } = 90.0;
+
+        /// <summary>Play mode with an empty scene: clocks at zero, the device at 48 kHz, load methods called. With
+        /// domain
+        /// reload off statics are left as they are, as they always are here: scripts must do their own
+        /// tidying.</summary>
+        public static void EnterPlayMode()
+        {
+            mainThread = Thread.CurrentThread;
+            Clock.Reset();
+            FrameRateHz = 90.0;
+            AudioDevice.Reset();
+            Log.Clear();
+            IsPlaying = true;
+            CallLoadMethods();
+        }
+
+        /// <summary>Quitting is announced, then every object goes.</summary>
+        public static void ExitPlayMode()
+        {
+            Quitting?.Invoke();
+            DestroyAll(true);
+            ResourceAssets.Clear();
+            IsPlaying = false;
+        }
+
+        /// <summary>Objects of the scene go, those kept stay.</summary>
+        public static void LoadEmptyScene() => DestroyAll(false);
+
+        public static void Frame() => Frame(1.0 / FrameRateHz);
+
+        public static void Frame(double seconds)
+        {
+            Clock.NextFrame(seconds);
+            Send(Message.Start);
+            while (Clock.NextFixedStep())
+            {
+                Clock.InFixedStep = true;
+                Send(Message.FixedUpdate);
+                PhysicsWorld.Step();
+                Clock.InFixedStep = false;
+            }
+            PhysicsWorld.ShowBodies();
+            Send(Message.Update);
+            Send(Message.LateUpdate);
+            DestroyCondemned();
+            AudioDevice.Advance(seconds);
+        }
+
+        public static void Frames(int count)
+        {
+            for (int index = 0; index < count; ++index)
+            {
+                Frame();
+            }
+        }
+
+        /// <summary>What Resources.Load finds.</summary>
+        public static void AddResource(string path, Object asset) => ResourceAssets[path] = asset;
+
+        internal static IReadOnlyList<GameObject> AllObjects => Objects;
+
+        internal static IReadOnlyList<ScriptState> AllScripts => Scripts;
+
+        internal static int NextInstance() => Interlocked.Increment(ref instances);
+
+        internal static Object? Resource(string path) => ResourceAssets.TryGetValue(path, out Object? asset) ? asset : null;
+
+        internal static void Add(GameObject gameObject) => Objects.Add(gameObject);
+
+        internal static void KeepOverSceneLoads(Object target) => Kept.Add(target);
+
+        /// <exception cref="InvalidOperationException">Unity allows this on its main thread only.</exception>
+        internal static void RequireMainThread()
+        {
+            if (mainThread != null && Thread.CurrentThread != mainThread)
+            {
+                throw new InvalidOperationException("can only be called from the main thread");
+            }
+        }
+
+        internal static Component AddComponent(GameObject owner, Type type)
+        {
+            RequireMainThread();
+            var component = (Component)Activator.CreateInstance(type)!;
+            component.Attach(owner);
+            owner.Components.Add(component);
+            PhysicsWorld.Added(component);
+            if (component is AudioSource source)
+            {
+                source.Playing = source.playOnAwake;
+            }
+            if (component is MonoBehaviour script)
+            {
+                var state = new ScriptState(script);
+                int place = Scripts.FindLastIndex(each => each.Order <= state.Order) + 1;
+                Scripts.Insert(place, state);
+                state.Refresh();
+            }
+            return component;
+        }
+
+        internal static void RefreshActivity(GameObject changed)
+        {
+            foreach (ScriptState state in Scripts.Where(state => IsBelow(state.Script.transform, changed.transform)).ToList())
+            {
+                state.Refresh();
+            }
+        }
+
+        internal static void DestroyLater(Object condemned)
+        {
+            if (condemned != null)
+            {
+                Condemned.Add(condemned);
+            }
+        }
+
+        internal static void DestroyNow(Object condemned)
+        {
+            RequireMainThread();
+            if (condemned == null)
+            {
+                return;
+            }
+            if (condemned is GameObject gameObject)
+            {
+                DestroyTree(gameObject);
+                return;
+            }
+            if (condemned is Component component)
+            {
+                EndScript(component);
+                component.gameObject.Components.Remove(component);
+                PhysicsWorld.Removed(component);
+            }
+            condemned.MarkDestroyed();
+        }
+
+        private static void DestroyTree(GameObject gameObject)
+        {
+            foreach (Transform child in gameObject.transform.Children.ToList())
+            {
+                DestroyTree(child.gameObject);
+            }
+            foreach (Component component in gameObject.Components.ToList())
+            {
+                EndScript(component);
+            }
+            foreach (Component component in gameObject.Components)
+            {
+                PhysicsWorld.Removed(component);
+                component.MarkDestroyed();
+            }
+            gameObject.transform.parent?.Children.Remove(gameObject.transform);
+            Objects.Remove(gameObject);
+            Kept.Remove(gameObject);
+            gameObject.MarkDestroyed();
+        }
+
+        private static void EndScript(Component component)
+        {
+            int index = Scripts.FindIndex(state => ReferenceEquals(state.Script, component));
+            if (index >= 0)
+            {
+                ScriptState state = Scripts[index];
+                state.End();
+                Scripts.Remove(state);
+            }
+        }
+
+        private static void DestroyAll(bool alsoKept)
+        {
+            foreach (GameObject gameObject in Objects.Where(each => each.transform.parent == null).ToList())
+            {
+                if (alsoKept || !Kept.Contains(gameObject))
+                {
+                    DestroyNow(gameObject);
+                }
+            }
+            Condemned.Clear();
+        }
+
+        private static void DestroyCondemned()
+        {
+            for (int index = 0; index < Condemned.Count; ++index)
+            {
+                DestroyNow(Condemned[index]);
+            }
+            Condemned.Clear();
+        }
+
+        private static void Send(Message message)
+        {
+            for (int index = 0; index < Scripts.Count; ++index)
+            {
+                Scripts[index].Send(message);
+            }
+        }
+
+        private static bool IsBelow(Transform candidate, Transform root)
+        {
+            for (Transform? place = candidate; place is not null; place = place.parent)
+            {
+                if (ReferenceEquals(place, root))
+                {
+                    return true;
+                }
+            }
+            return false;
+        }
+
+        private static void CallLoadMethods()
+        {
+            const BindingFlags anyStatic = BindingFlags.Static | BindingFlags.Public | BindingFlags.NonPublic;
+            var methods = AppDomain.CurrentDomain.GetAssemblies()
+                .Where(assembly => assembly.GetName().Name!.StartsWith("HaptoFlow", StringComparison.Ordinal))
+                .SelectMany(assembly => assembly.GetTypes())
+                .SelectMany(type => type.GetMethods(anyStatic))
+                .Select(method => (method, load: method.GetCustomAttribute<RuntimeInitializeOnLoadMethodAttribute>()))
+                .Where(entry => entry.load != null)
+                .OrderByDescending(entry => entry.load!.loadType);
+            foreach ((MethodInfo method, _) in methods)
+            {
+                method.Invoke(null, null);
+            }
+        }
+    }
+}
