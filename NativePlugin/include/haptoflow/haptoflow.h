@@ -476,7 +476,8 @@ HAPTOFLOW_API haptoflow_status haptoflow_voice_set_strength(haptoflow_voice voic
  * [publisher] */
 HAPTOFLOW_API haptoflow_status haptoflow_voice_set_ceiling(haptoflow_voice voice, float ceiling);
 
-/* Muted (1) a voice falls silent within a block and 5 ms and costs no inference. Errors: INVALID_ARGUMENT. [publisher] */
+/* Muted (1) a voice falls silent within a block and 5 ms and costs no inference. Errors: INVALID_ARGUMENT. [publisher]
+ */
 HAPTOFLOW_API haptoflow_status haptoflow_voice_set_muted(haptoflow_voice voice, uint32_t muted);
 
 /* The same for an application that is suspended: independent of muting. Errors: INVALID_ARGUMENT. [publisher] */

@@ -92,9 +92,9 @@ haptoflow_status haptoflow_engine_create(const haptoflow_engine_options* options
             tiers.push_back({tier.name, std::make_unique<inference::OnnxSegmentGenerator>(
                                             runtime, open->model, tier.name, inference::defaultSolver(tier), batch)});
         }
-        auto live = std::make_shared<engine::LiveEngine>(
-            std::shared_ptr<const model::ModelFile>(open, &open->model), std::move(tiers),
-            tierOfQuality(header, HAPTOFLOW_QUALITY_AUTO), settings);
+        auto live = std::make_shared<engine::LiveEngine>(std::shared_ptr<const model::ModelFile>(open, &open->model),
+                                                         std::move(tiers),
+                                                         tierOfQuality(header, HAPTOFLOW_QUALITY_AUTO), settings);
         *engine = engines().open(std::make_shared<OpenEngine>(std::move(live), settings.hasWorker));
     });
 }

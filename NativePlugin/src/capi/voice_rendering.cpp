@@ -21,8 +21,8 @@ void forEachFrame(const ChannelTarget& target, std::size_t firstFrame, std::size
 }  // namespace
 
 bool ChannelTarget::isValid() const noexcept {
-    const bool channelFits = channel == HAPTOFLOW_ALL_CHANNELS ||
-                             (channel >= 0 && static_cast<std::uint32_t>(channel) < channelCount);
+    const bool channelFits =
+        channel == HAPTOFLOW_ALL_CHANNELS || (channel >= 0 && static_cast<std::uint32_t>(channel) < channelCount);
     return (interleaved != nullptr || frameCount == 0) && channelCount >= 1 && channelCount <= maximumChannels &&
            channelFits;
 }
@@ -30,9 +30,8 @@ bool ChannelTarget::isValid() const noexcept {
 haptoflow_status renderInto(const VoiceTable::Use& use, const ChannelTarget& target, double sampleRateHz) noexcept {
     const bool isBusy = use && use->rendering.test_and_set(std::memory_order_acquire);
     if (!use || isBusy) {
-        forEachFrame(target, 0, target.frameCount, [](std::size_t, std::span<float> frame) {
-            std::ranges::fill(frame, 0.0F);
-        });
+        forEachFrame(target, 0, target.frameCount,
+                     [](std::size_t, std::span<float> frame) { std::ranges::fill(frame, 0.0F); });
         if (isBusy) {
             use->refusedCalls.fetch_add(1, std::memory_order_relaxed);
         }
@@ -41,9 +40,8 @@ haptoflow_status renderInto(const VoiceTable::Use& use, const ChannelTarget& tar
     for (std::size_t done = 0; done < target.frameCount; done += use->block.size()) {
         const auto block = std::span(use->block).first(std::min(use->block.size(), target.frameCount - done));
         use->voice->renderer.render(block, sampleRateHz);
-        forEachFrame(target, done, block.size(), [block](std::size_t index, std::span<float> frame) {
-            std::ranges::fill(frame, block[index]);
-        });
+        forEachFrame(target, done, block.size(),
+                     [block](std::size_t index, std::span<float> frame) { std::ranges::fill(frame, block[index]); });
     }
     use->rendering.clear(std::memory_order_release);
     return HAPTOFLOW_OK;

@@ -174,12 +174,11 @@ bool LiveEngine::sleep() {
 void LiveEngine::measureOnce(std::size_t tier) {
     const dsp::ScopedFlushDenormals flush;
     constexpr std::array<float, inference::segmentSamples> silence{};
-    inference::SegmentRequest request{
-        .embedding = {},
-        .motion = {static_cast<float>(model_->header().speedMps.maximum) * 0.5F, 0.0F,
-                   static_cast<float>(model_->header().forceNewtons.maximum) * 0.5F},
-        .previous = silence,
-        .noise = silence};
+    inference::SegmentRequest request{.embedding = {},
+                                      .motion = {static_cast<float>(model_->header().speedMps.maximum) * 0.5F, 0.0F,
+                                                 static_cast<float>(model_->header().forceNewtons.maximum) * 0.5F},
+                                      .previous = silence,
+                                      .noise = silence};
     std::ranges::copy(model_->embedding(0), request.embedding.begin());
     std::array<float, inference::segmentSamples> segment{};
     // A tier that cannot run is never chosen: it costs more than any budget.

@@ -70,12 +70,12 @@ OnsetLevels::OnsetLevels(const model::ModelFile& model, inference::SegmentGenera
         const double mps = speed_.value(static_cast<double>(speed) / static_cast<double>(speeds - 1));
         const double newtons = force_.value(static_cast<double>(force) / static_cast<double>(forces - 1));
         const double angle = 2.0 * std::numbers::pi * static_cast<double>(direction) / static_cast<double>(directions);
-        inference::SegmentRequest request{.embedding = {},
-                                          .motion = {static_cast<float>(mps * std::cos(angle)),
-                                                     static_cast<float>(mps * std::sin(angle)),
-                                                     static_cast<float>(newtons)},
-                                          .previous = silence,
-                                          .noise = silence};
+        inference::SegmentRequest request{
+            .embedding = {},
+            .motion = {static_cast<float>(mps * std::cos(angle)), static_cast<float>(mps * std::sin(angle)),
+                       static_cast<float>(newtons)},
+            .previous = silence,
+            .noise = silence};
         std::ranges::copy(row, request.embedding.begin());
         requests.push_back(request);
         if (requests.size() == batchSize) {

@@ -68,8 +68,8 @@ bool SegmentPlanner::wake() noexcept {
 }
 
 bool SegmentPlanner::mayReplace() const noexcept {
-    // Between two long blocks the clock stands, but hands do not: a newer contact then gets a segment for the same place,
-    // as often as hops would fit into the block. A clock that stands for good asks for nothing more.
+    // Between two long blocks the clock stands, but hands do not: a newer contact then gets a segment for the same
+    // place, as often as hops would fit into the block. A clock that stands for good asks for nothing more.
     const Playhead& playhead = channels_.playhead.current();
     const double block = static_cast<double>(playhead.blockAdvance) / channels_.toWorker.current().readingRate;
     return settings_.shortestHopSamples > 0 &&

@@ -25,7 +25,8 @@ public:
     virtual void tookOver(std::int64_t sample) noexcept = 0;
 };
 
-/// One stylus tip's signal: timeline, level, reading rate, output rate, gate, strength, limiter, ceiling, in this order.
+/// One stylus tip's signal: timeline, level, reading rate, output rate, gate, strength, limiter, ceiling, in this
+/// order.
 ///
 /// While the gate is closed nothing is read: the waveform clock stands still and `render` writes zeros.
 /// Everything here is bounded, allocates nothing (but for construction) and waits for nothing; one thread.

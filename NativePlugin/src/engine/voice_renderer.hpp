@@ -10,8 +10,8 @@
 
 namespace haptoflow::engine {
 
-/// The callback's end of a voice: takes the newest contact, commits segments, decides whether the voice sounds, renders.
-/// Wait-free: no allocation, no lock, no system call, nothing unbounded. One thread at a time.
+/// The callback's end of a voice: takes the newest contact, commits segments, decides whether the voice sounds,
+/// renders. Wait-free: no allocation, no lock, no system call, nothing unbounded. One thread at a time.
 class VoiceRenderer {
 public:
     /// A contact that nobody renewed for this long is stale: the stylus, or its application, is gone.

@@ -35,7 +35,8 @@ public:
     /// earlier touch still has samples there, a splice hands over.
     void open(std::span<const float, seedSamples> seedMps2) noexcept;
     /// `segment` (200, m/s^2) takes over at `start`. One that comes late loses what the head has passed; one that is
-    /// past altogether, or that would leave a hole or reach further than a view, changes nothing. Returns the sample at which it took over, or -1.
+    /// past altogether, or that would leave a hole or reach further than a view, changes nothing. Returns the sample at
+    /// which it took over, or -1.
     std::int64_t commit(std::int64_t start, std::span<const float, inference::segmentSamples> segment) noexcept;
     /// The 200 committed samples before `start`; zeros where none were committed. `start` within 200 of the head.
     void history(std::int64_t start, std::span<float, inference::segmentSamples> out) const noexcept;

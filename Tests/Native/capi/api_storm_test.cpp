@@ -116,8 +116,8 @@ private:
         constexpr std::array rates{48000.0, 48000.0, 48000.0, 44100.0, -1.0};
         std::vector<float> block(1 + next() % 600);
         const haptoflow_status status =
-            haptoflow_voice_render(handles_.voice(next()), block.data(), static_cast<std::uint32_t>(block.size()), 1,
-                                   0, rates[next() % rates.size()]);
+            haptoflow_voice_render(handles_.voice(next()), block.data(), static_cast<std::uint32_t>(block.size()), 1, 0,
+                                   rates[next() % rates.size()]);
         isSound_ = isSound_ && allFinite(block) && peak(block) <= 1.0F;
         return status;
     }
@@ -178,8 +178,8 @@ private:
     }
 
     void check(haptoflow_status status) {
-        isSound_ = isSound_ && (status == HAPTOFLOW_OK || status == HAPTOFLOW_INVALID_ARGUMENT ||
-                                status == HAPTOFLOW_BUSY);
+        isSound_ =
+            isSound_ && (status == HAPTOFLOW_OK || status == HAPTOFLOW_INVALID_ARGUMENT || status == HAPTOFLOW_BUSY);
     }
 
     SharedHandles& handles_;

@@ -77,15 +77,30 @@ std::vector<HardCase> hardCases() {
         {"LargestFloatInEveryField", everyField(std::numeric_limits<float>::max()), 72.0, true},
         {"DenormalsInEveryField", everyField(denormal)},
         {"NegativeForce", ruined([](State& state) { state.force_newtons = -3.0F; }), 72.0, true},
-        {"WeightsZero", [](uint32_t) { return blend({{0, 0.0F}, {1, 0.0F}}); }},
-        {"WeightsNegative", [](uint32_t) { return blend({{0, -1.0F}, {1, 0.5F}}); }, 72.0, true},
-        {"WeightsNotSummingToOne", [](uint32_t) { return blend({{0, 0.9F}, {1, 0.8F}, {2, 0.7F}}); }},
-        {"LabelsUnknown", [](uint32_t) { return blend({{4000000000U, 1.0F}, {77777, 1.0F}}); }},
+        {"WeightsZero",
+         [](uint32_t) {
+             return blend({{0, 0.0F}, {1, 0.0F}});
+         }},
+        {"WeightsNegative",
+         [](uint32_t) {
+             return blend({{0, -1.0F}, {1, 0.5F}});
+         },
+         72.0, true},
+        {"WeightsNotSummingToOne",
+         [](uint32_t) {
+             return blend({{0, 0.9F}, {1, 0.8F}, {2, 0.7F}});
+         }},
+        {"LabelsUnknown",
+         [](uint32_t) {
+             return blend({{4000000000U, 1.0F}, {77777, 1.0F}});
+         }},
         {"LabelCountAboveTheLimit", ruined([](State& state) { state.label_count = 4000000000U; }), 72.0, true},
         {"NoLabelAtAll", [](uint32_t) { return blend({}); }},
-        {"LabelSwitchedEveryUpdate", [](uint32_t update) { return blend({{update % 3, 1.0F}}); }},
-        {"DirectionReversedEveryUpdate",
-         [](uint32_t update) { return slidingState(update % 2 == 0 ? 0.3F : -0.3F); }},
+        {"LabelSwitchedEveryUpdate",
+         [](uint32_t update) {
+             return blend({{update % 3, 1.0F}});
+         }},
+        {"DirectionReversedEveryUpdate", [](uint32_t update) { return slidingState(update % 2 == 0 ? 0.3F : -0.3F); }},
         {"SpeedJumpsEveryUpdate", [](uint32_t update) { return slidingState(update % 2 == 0 ? 0.004F : 18.0F); }},
         {"ForceJumpsEveryUpdate", [](uint32_t update) { return slidingState(0.1F, update % 2 == 0 ? 0.01F : 900.0F); }},
         {"ContactToggledEveryUpdate",

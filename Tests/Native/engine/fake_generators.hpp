@@ -16,8 +16,7 @@ namespace haptoflow::engine::testing {
 class FakeGenerator final : public inference::SegmentGenerator {
 public:
     using Answer = std::function<void(const inference::SegmentRequest&, std::span<float>)>;
-    explicit FakeGenerator(Answer answer, float levelMps2 = 1.0F)
-        : answer_(std::move(answer)), levelMps2_(levelMps2) {}
+    explicit FakeGenerator(Answer answer, float levelMps2 = 1.0F) : answer_(std::move(answer)), levelMps2_(levelMps2) {}
 
     void generate(std::span<const inference::SegmentRequest> requests, std::span<float> segments) override {
         ++rounds;

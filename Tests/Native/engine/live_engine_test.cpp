@@ -45,8 +45,7 @@ protected:
         return condition();
     }
 
-    std::shared_ptr<const model::ModelFile> model_ =
-        std::make_shared<const model::ModelFile>(testing::smallModel());
+    std::shared_ptr<const model::ModelFile> model_ = std::make_shared<const model::ModelFile>(testing::smallModel());
 };
 
 TEST_F(LiveEngineTest, SteppedByHandItServesAllTouchingVoicesInOneBatchAndTheOthersNotAtAll) {

@@ -83,9 +83,8 @@ TEST_F(LiveVoiceTest, ATapThatOnlyTheTouchCounterTellsOfIsHeard) {
 
 TEST_F(LiveVoiceTest, NothingOfAnEarlierTouchSoundsAfterANewOne) {
     // Segments of the first touch are all ones, and one of them is still under way when the second begins.
-    FakeGenerator ones([](const inference::SegmentRequest&, std::span<float> segment) {
-        std::ranges::fill(segment, 1.0F);
-    });
+    FakeGenerator ones(
+        [](const inference::SegmentRequest&, std::span<float> segment) { std::ranges::fill(segment, 1.0F); });
     testing::DeviceSettings settings;
     settings.latencySeconds = [](double) { return 0.02; };
     SimulatedDevice device(model_, ones, settings);
@@ -161,7 +160,8 @@ TEST_F(LiveVoiceTest, PanicIsSilentAtTheEndOfTheNextBlockAndStaysSoUntilANewTouc
         const std::size_t begin = device.output.size();
         device.run(0.3, slide);
         EXPECT_LT(testing::peak(from(device, begin + block)), silence) << block;
-        EXPECT_LT(testing::largestStep(from(device, begin - 1)), ordinaryStep + 1.0F / 60.0F / static_cast<float>(block));
+        EXPECT_LT(testing::largestStep(from(device, begin - 1)),
+                  ordinaryStep + 1.0F / 60.0F / static_cast<float>(block));
         // Sliding that stops and resumes is the same touch.
         device.run(0.1, [](double) { return testing::sliding(0.0F); });
         device.run(0.1, slide);

@@ -1,8 +1,8 @@
 #include "engine/offline_renderer.hpp"
 
 #include "fake_generators.hpp"
-#include "test_model.hpp"
 #include "inference/inference_error.hpp"
+#include "test_model.hpp"
 
 #include <gtest/gtest.h>
 

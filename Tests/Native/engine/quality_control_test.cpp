@@ -1,5 +1,5 @@
-#include "engine/lead_estimator.hpp"
 #include "engine/quality_control.hpp"
+#include "engine/lead_estimator.hpp"
 
 #include <gtest/gtest.h>
 

@@ -29,12 +29,9 @@ protected:
         std::vector<inference::SegmentRequest> requests;
         std::vector<double> result;
         for (const auto& motion : motions) {
-            const RangedMotion ranged =
-                applyRangeLaw(model_.header(), material, {motion[0], motion[1]}, motion[2]);
-            requests.push_back({.embedding = material.embedding,
-                                .motion = ranged.motion,
-                                .previous = silence,
-                                .noise = silence});
+            const RangedMotion ranged = applyRangeLaw(model_.header(), material, {motion[0], motion[1]}, motion[2]);
+            requests.push_back(
+                {.embedding = material.embedding, .motion = ranged.motion, .previous = silence, .noise = silence});
             result.push_back(20.0 * std::log10(ranged.levelGain));
         }
         std::vector<float> found(requests.size());
@@ -69,9 +66,11 @@ protected:
     static constexpr double largestAllowedKink = 2.5;
 
     model::ModelFile model_ = model::ModelFile::read(HAPTOFLOW_TEST_DEFAULT_MODEL);
-    inference::OnnxSegmentGenerator generator_{inference::Runtime::open(HAPTOFLOW_TEST_ONNXRUNTIME), model_,
+    inference::OnnxSegmentGenerator generator_{inference::Runtime::open(HAPTOFLOW_TEST_ONNXRUNTIME),
+                                               model_,
                                                model_.header().tiers[model_.header().defaultTier].name,
-                                               {inference::SolverKind::euler, 1}, 256};
+                                               {inference::SolverKind::euler, 1},
+                                               256};
 };
 
 TEST_F(RangeSweepTest, FromStandstillToTwoMetresASecondTheLevelHasNeitherAStepNorAKink) {

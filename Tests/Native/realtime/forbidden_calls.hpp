@@ -4,8 +4,8 @@
 
 namespace haptoflow::realtime {
 
-/// How often the calling thread allocated, freed, locked, waited or woke while it was watched. The C library's functions
-/// are interposed by this program's own, which count and pass on.
+/// How often the calling thread allocated, freed, locked, waited or woke while it was watched. The C library's
+/// functions are interposed by this program's own, which count and pass on.
 class WatchedSection {
 public:
     WatchedSection() noexcept;
