@@ -20,9 +20,9 @@ struct OpenEngine {
 };
 
 OpenEngine openEngine(const Subjects& subjects) {
-    std::vector<engine::EngineTier> tiers;
+    engine::EngineTiers tiers;
     for (const model::Tier& tier : subjects.model->header().tiers) {
-        tiers.push_back({tier.name, subjects.generator(*subjects.model, tier, usualBatch)});
+        tiers.push_back(subjects.generator(*subjects.model, tier, usualBatch));
     }
     engine::LiveEngineSettings settings;
     settings.quality.fixedTier = subjects.model->header().defaultTier;

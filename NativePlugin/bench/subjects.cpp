@@ -35,8 +35,8 @@ std::unique_ptr<engine::LiveEngine> Subjects::engineWith(std::unique_ptr<inferen
     settings.updateRateHz = updateRateHz;
     settings.seed = seed;
     settings.hasWorker = hasWorker;
-    std::vector<engine::EngineTier> tiers;
-    tiers.push_back({standard().name, std::move(generator)});
+    engine::EngineTiers tiers;
+    tiers.push_back(std::move(generator));
     return std::make_unique<engine::LiveEngine>(model, std::move(tiers), 0, settings);
 }
 

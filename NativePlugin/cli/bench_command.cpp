@@ -5,25 +5,18 @@
 #include "exit_codes.hpp"
 #include "inference/onnx_runtime.hpp"
 #include "model_location.hpp"
+#include "progress_bar.hpp"
 
 #include <nlohmann/json.hpp>
 
-#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
 #include <memory>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <system_error>
 #include <vector>
-
-#if defined(_WIN32)
-#include <io.h>
-#else
-#include <unistd.h>
-#endif
 
 namespace haptoflow::cli {
 namespace {
@@ -38,30 +31,6 @@ struct BenchCommandOptions {
     bool json = false;
     bool quiet = false;
 };
-
-bool standardErrorIsTerminal() {
-#if defined(_WIN32)
-    return _isatty(_fileno(stderr)) != 0;
-#else
-    return isatty(STDERR_FILENO) != 0;
-#endif
-}
-
-bench::BenchProgress progressBar(bool quiet) {
-    if (quiet || !standardErrorIsTerminal()) {
-        return [](double, std::string_view) {};
-    }
-    return [](double share, std::string_view what) {
-        constexpr int width = 40;
-        const int filled = static_cast<int>(share * width);
-        const bool isDone = share >= 1.0;
-        std::fprintf(stderr, "\rbench [%s%s] %3d %% %-12s%s",
-                     std::string(static_cast<std::size_t>(filled), '#').c_str(),
-                     std::string(static_cast<std::size_t>(width - filled), ' ').c_str(),
-                     static_cast<int>(share * 100.0), std::string(what).c_str(), isDone ? "\n" : "");
-        std::fflush(stderr);
-    };
-}
 
 /// Before minutes of measuring, not after: the file must be one that can be written. Leaves things as they were.
 void requireWritable(const std::filesystem::path& path) {
@@ -93,7 +62,7 @@ nlohmann::ordered_json measure(const BenchCommandOptions& options) {
     wanted.only = options.only;
     wanted.version = HAPTOFLOW_VERSION;
     try {
-        return bench::runBench(wanted, progressBar(options.quiet));
+        return bench::runBench(wanted, progressBar("bench", options.quiet));
     } catch (const model::ModelError& error) {
         throw InputError(error.what());
     } catch (const inference::RuntimeUnavailable& error) {

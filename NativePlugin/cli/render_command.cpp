@@ -5,6 +5,7 @@
 #include "inference/onnx_segment_generator.hpp"
 #include "model/model_file.hpp"
 #include "model_location.hpp"
+#include "progress_bar.hpp"
 #include "render_report.hpp"
 #include "scene_file.hpp"
 #include "stroke_file.hpp"
@@ -12,19 +13,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <filesystem>
 #include <map>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
-
-#if defined(_WIN32)
-#include <io.h>
-#else
-#include <unistd.h>
-#endif
 
 namespace haptoflow::cli {
 namespace {
@@ -149,33 +143,6 @@ std::vector<engine::ContactState> followStroke(const contact::Scene& scene, cons
     return states;
 }
 
-bool standardErrorIsTerminal() {
-#if defined(_WIN32)
-    return _isatty(_fileno(stderr)) != 0;
-#else
-    return isatty(STDERR_FILENO) != 0;
-#endif
-}
-
-engine::RenderProgress progressBar(bool quiet) {
-    if (quiet || !standardErrorIsTerminal()) {
-        return {};
-    }
-    return [last = -1](double share) mutable {
-        constexpr int width = 40;
-        const int percent = static_cast<int>(share * 100.0);
-        if (percent == last) {
-            return;
-        }
-        last = percent;
-        const int filled = percent * width / 100;
-        std::fprintf(stderr, "\rrender [%s%s] %3d %%%s", std::string(static_cast<std::size_t>(filled), '#').c_str(),
-                     std::string(static_cast<std::size_t>(width - filled), ' ').c_str(), percent,
-                     percent == 100 ? "\n" : "");
-        std::fflush(stderr);
-    };
-}
-
 std::vector<std::string> labelsIn(const contact::Scene& scene) {
     std::vector<std::string> labels;
     for (const contact::Surface& surface : scene.surfaces) {
@@ -223,7 +190,8 @@ void runRender(const RenderOptions& options) {
     const std::vector<engine::ContactState> states = followStroke(scene, stroke, model, options);
     inference::OnnxSegmentGenerator generator(openRuntime(), model, tier.name, solver, 1);
     const engine::OfflineRender render =
-        engine::renderOffline(model, generator, states, options.engine, progressBar(options.quiet));
+        engine::renderOffline(model, generator, states, options.engine,
+                              [bar = progressBar("render", options.quiet)](double share) { bar(share, {}); });
     writeOutputs(options, render,
                  {.model = modelPath.filename().string(),
                   .labels = labelsIn(scene),

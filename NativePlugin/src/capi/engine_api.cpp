@@ -87,10 +87,10 @@ haptoflow_status haptoflow_engine_create(const haptoflow_engine_options* options
             throw std::invalid_argument("options: batch_voices is " + std::to_string(batch) + "; expected 1 to 64");
         }
         const auto settings = engineSettings(given, header);
-        std::vector<engine::EngineTier> tiers;
+        engine::EngineTiers tiers;
         for (const model::Tier& tier : header.tiers) {
-            tiers.push_back({tier.name, std::make_unique<inference::OnnxSegmentGenerator>(
-                                            runtime, open->model, tier.name, inference::defaultSolver(tier), batch)});
+            tiers.push_back(std::make_unique<inference::OnnxSegmentGenerator>(runtime, open->model, tier.name,
+                                                                              inference::defaultSolver(tier), batch));
         }
         auto live = std::make_shared<engine::LiveEngine>(std::shared_ptr<const model::ModelFile>(open, &open->model),
                                                          std::move(tiers),

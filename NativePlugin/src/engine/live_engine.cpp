@@ -33,7 +33,7 @@ const LiveEngineSettings& checked(const LiveEngineSettings& settings) {
 }
 
 std::shared_ptr<const model::ModelFile> checked(std::shared_ptr<const model::ModelFile> model,
-                                                const std::vector<EngineTier>& tiers) {
+                                                const EngineTiers& tiers) {
     if (model == nullptr || tiers.empty()) {
         throw std::invalid_argument("an engine needs a model and at least one tier");
     }
@@ -42,12 +42,12 @@ std::shared_ptr<const model::ModelFile> checked(std::shared_ptr<const model::Mod
 
 }  // namespace
 
-LiveEngine::LiveEngine(std::shared_ptr<const model::ModelFile> model, std::vector<EngineTier> tiers,
-                       std::size_t startTier, const LiveEngineSettings& settings)
+LiveEngine::LiveEngine(std::shared_ptr<const model::ModelFile> model, EngineTiers tiers, std::size_t startTier,
+                       const LiveEngineSettings& settings)
     : model_(checked(std::move(model), tiers)),
       tiers_(std::move(tiers)),
       settings_(checked(settings)),
-      levels_(std::make_unique<OnsetLevels>(*model_, *tiers_.front().generator)),
+      levels_(std::make_unique<OnsetLevels>(*model_, *tiers_.front())),
       quality_(tiers_.size(), settings.quality, startTier) {
     if (settings_.hasWorker) {
         worker_ = std::thread([this] { work(); });
@@ -115,7 +115,7 @@ RoundResult LiveEngine::step() {
     for (const auto& voice : voices_) {
         roundVoices_.push_back(voice.get());
     }
-    const RoundResult result = round_.run(roundVoices_, *tiers_[tier].generator);
+    const RoundResult result = round_.run(roundVoices_, *tiers_[tier]);
     const std::lock_guard figuresLock(figuresMutex_);
     if (result.voices > 0) {
         ++figures_.rounds;
@@ -185,7 +185,7 @@ void LiveEngine::measureOnce(std::size_t tier) {
     double milliseconds = 1e9;
     const auto began = std::chrono::steady_clock::now();
     try {
-        tiers_[tier].generator->generate(std::span(&request, 1), segment);
+        tiers_[tier]->generate(std::span(&request, 1), segment);
         const std::chrono::duration<double, std::milli> spent = std::chrono::steady_clock::now() - began;
         milliseconds = spent.count();
     } catch (const inference::InferenceError&) {

@@ -14,7 +14,6 @@
 #include <memory>
 #include <mutex>
 #include <optional>
-#include <string>
 #include <thread>
 #include <vector>
 
@@ -33,11 +32,8 @@ struct LiveEngineSettings {
     bool hasWorker = true;
 };
 
-/// A tier ready to run.
-struct EngineTier {
-    std::string name;
-    std::unique_ptr<inference::SegmentGenerator> generator;
-};
+/// The model's tiers, ready to run, in its own order.
+using EngineTiers = std::vector<std::unique_ptr<inference::SegmentGenerator>>;
 
 struct TierTimes {
     std::size_t runs = 0;
@@ -67,7 +63,7 @@ class LiveEngine {
 public:
     /// `tiers` in the model's order, cheapest first; at least one. Runs the level graph of the first for OnsetLevels.
     /// Throws std::invalid_argument for settings out of range, inference::InferenceError, std::system_error.
-    LiveEngine(std::shared_ptr<const model::ModelFile> model, std::vector<EngineTier> tiers, std::size_t startTier,
+    LiveEngine(std::shared_ptr<const model::ModelFile> model, EngineTiers tiers, std::size_t startTier,
                const LiveEngineSettings& settings);
     LiveEngine(const LiveEngine&) = delete;
     LiveEngine& operator=(const LiveEngine&) = delete;
@@ -99,7 +95,7 @@ private:
     [[nodiscard]] std::optional<std::size_t> tierToMeasure() const;
 
     std::shared_ptr<const model::ModelFile> model_;
-    std::vector<EngineTier> tiers_;
+    EngineTiers tiers_;
     LiveEngineSettings settings_;
     std::unique_ptr<OnsetLevels> levels_;
 

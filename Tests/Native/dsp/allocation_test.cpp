@@ -1,9 +1,5 @@
-// Replaces this program's operator new, so that a test can tell whether an audio-thread call allocates.
 #include <gtest/gtest.h>
 
-#include <atomic>
-#include <cstdlib>
-#include <new>
 #include <vector>
 
 #include "dsp/denormals.hpp"
@@ -13,40 +9,8 @@
 #include "dsp/rate_warp.hpp"
 #include "dsp/splice.hpp"
 #include "dsp/waveform_resampler.hpp"
+#include "support/counting_new.hpp"
 #include "test_signals.hpp"
-
-namespace {
-
-std::atomic<std::size_t> allocationCount{0};
-
-void* countedAllocation(std::size_t size) {
-    ++allocationCount;
-    if (void* memory = std::malloc(size == 0 ? 1 : size)) {
-        return memory;
-    }
-    throw std::bad_alloc();
-}
-
-}  // namespace
-
-void* operator new(std::size_t size) {
-    return countedAllocation(size);
-}
-void* operator new[](std::size_t size) {
-    return countedAllocation(size);
-}
-void operator delete(void* memory) noexcept {
-    std::free(memory);
-}
-void operator delete[](void* memory) noexcept {
-    std::free(memory);
-}
-void operator delete(void* memory, std::size_t) noexcept {
-    std::free(memory);
-}
-void operator delete[](void* memory, std::size_t) noexcept {
-    std::free(memory);
-}
 
 namespace haptoflow::dsp {
 namespace {
@@ -72,7 +36,7 @@ TEST(AllocationTest, AWholeCallbacksWorthOfCallsAllocatesNothing) {
     SoftLimiter limiter;
     Splice splice;
 
-    const std::size_t before = allocationCount;
+    const std::size_t before = haptoflow::testing::allocationCount();
     for (int block = 0; block < 10; ++block) {
         const ScopedFlushDenormals flush;
         warp.setTargetRatio(block % 2 == 0 ? 3.0 : 1.0);
@@ -90,10 +54,10 @@ TEST(AllocationTest, AWholeCallbacksWorthOfCallsAllocatesNothing) {
         resampler.reset();
         warp.reset();
     }
-    EXPECT_EQ(allocationCount, before);
+    EXPECT_EQ(haptoflow::testing::allocationCount(), before);
 
     const std::vector<float> proof(10);
-    EXPECT_GT(allocationCount, before) << "the counter does not count";
+    EXPECT_GT(haptoflow::testing::allocationCount(), before) << "the counter does not count";
 }
 
 }  // namespace

@@ -27,9 +27,9 @@ protected:
     }
 
     [[nodiscard]] std::unique_ptr<LiveEngine> engine(const LiveEngineSettings& settings, int tiers = 1) const {
-        std::vector<EngineTier> ready;
+        EngineTiers ready;
         for (int tier = 0; tier < tiers; ++tier) {
-            ready.push_back({std::to_string(tier), std::make_unique<FakeGenerator>(testing::continueTone)});
+            ready.push_back(std::make_unique<FakeGenerator>(testing::continueTone));
         }
         return std::make_unique<LiveEngine>(model_, std::move(ready), 0, settings);
     }
@@ -51,8 +51,8 @@ protected:
 TEST_F(LiveEngineTest, SteppedByHandItServesAllTouchingVoicesInOneBatchAndTheOthersNotAtAll) {
     auto generator = std::make_unique<FakeGenerator>(testing::continueTone);
     FakeGenerator& seen = *generator;
-    std::vector<EngineTier> tiers;
-    tiers.push_back({"only", std::move(generator)});
+    EngineTiers tiers;
+    tiers.push_back(std::move(generator));
     LiveEngine engine(model_, std::move(tiers), 0, settings(false));
     std::vector<std::shared_ptr<LiveVoice>> voices;
     for (int i = 0; i < 5; ++i) {

@@ -1,5 +1,7 @@
 #include "engine/voice.hpp"
 
+#include "simulated_device.hpp"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -27,14 +29,6 @@ std::vector<float> renderSamples(Voice& voice, std::size_t count) {
     std::vector<float> samples(count);
     voice.render(samples);
     return samples;
-}
-
-float largestStep(const std::vector<float>& samples) {
-    float step = 0.0F;
-    for (std::size_t i = 1; i < samples.size(); ++i) {
-        step = std::max(step, std::abs(samples[i] - samples[i - 1]));
-    }
-    return step;
 }
 
 TEST(VoiceTest, UntouchedItWritesZerosAndItsClockStandsStill) {
@@ -76,12 +70,12 @@ TEST(VoiceTest, ReleasedItIsSilentWithinFiveMillisecondsWithoutAClick) {
     Voice voice(rateHz, 60.0F);
     voice.onset(toneSeed(), 6.0F);
     std::vector<float> heard = renderSamples(voice, 2000);
-    const float ordinaryStep = largestStep(heard);
+    const float ordinaryStep = testing::largestStep(heard);
     voice.release();
     const std::vector<float> ending = renderSamples(voice, 480);
     heard.insert(heard.end(), ending.begin(), ending.end());
     EXPECT_TRUE(std::all_of(ending.begin() + 240, ending.end(), [](float sample) { return sample == 0.0F; }));
-    EXPECT_LE(largestStep(heard), 1.5F * ordinaryStep);
+    EXPECT_LE(testing::largestStep(heard), 1.5F * ordinaryStep);
     EXPECT_TRUE(voice.isSilent());
 }
 
@@ -89,7 +83,7 @@ TEST(VoiceTest, ATouchWhileTheLastOneStillFadesStartsWithoutAStep) {
     Voice voice(rateHz, 60.0F);
     voice.onset(toneSeed(), 6.0F);
     std::vector<float> heard = renderSamples(voice, 1777);
-    const float ordinaryStep = largestStep(heard);
+    const float ordinaryStep = testing::largestStep(heard);
     for (int touch = 0; touch < 6; ++touch) {
         voice.release();
         const std::vector<float> fading = renderSamples(voice, 101);
@@ -99,7 +93,7 @@ TEST(VoiceTest, ATouchWhileTheLastOneStillFadesStartsWithoutAStep) {
         heard.insert(heard.end(), sounding.begin(), sounding.end());
     }
     // A seam inside the waveform is a 4-sample splice at 2 kHz: steeper than the tone, far from a step.
-    EXPECT_LE(largestStep(heard), 6.0F * ordinaryStep);
+    EXPECT_LE(testing::largestStep(heard), 6.0F * ordinaryStep);
 }
 
 TEST(VoiceTest, TheOutputDoesNotDependOnTheBlockLength) {
