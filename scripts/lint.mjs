@@ -16,7 +16,7 @@ await runMain('lint', async (words) => {
     throw new CommandError(error.message, 2);
   }
   await setUp(['build', 'test', 'lint']);
-  await buildNative({ tests: true, targets: ['help'] });
+  await buildNative({ preset: 'lint', tests: true, targets: ['help'] });
 
   const files = await repositoryFiles();
   const tidied = all ? files : await changedFiles(files);

@@ -50,21 +50,27 @@ function(haptoflow_add_library name)
   target_link_libraries(${name} PUBLIC ${arg_DEPENDS} PRIVATE haptoflow_options ${arg_PRIVATE_DEPENDS})
 endfunction()
 
-# haptoflow_add_test(NAME SOURCES ... DEPENDS ...): one GoogleTest program, every test of it known to ctest.
+# haptoflow_add_test(NAME [CLI] SOURCES ... DEPENDS ...): one GoogleTest program, every test of it known to ctest. CLI:
+# it starts the command line, whose path HAPTOFLOW_TEST_CLI tells it.
 function(haptoflow_add_test name)
-  cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "SOURCES;DEPENDS")
+  cmake_parse_arguments(PARSE_ARGV 1 arg "CLI" "" "SOURCES;DEPENDS")
   add_executable(${name} ${arg_SOURCES})
   target_link_libraries(${name} PRIVATE ${arg_DEPENDS} haptoflow_options GTest::gmock GTest::gtest GTest::gtest_main)
   target_compile_definitions(
     ${name}
     PRIVATE HAPTOFLOW_TEST_GOLDEN_DIR="${PROJECT_SOURCE_DIR}/Tests/Golden"
             HAPTOFLOW_TEST_DEFAULT_MODEL="${PROJECT_SOURCE_DIR}/Packages/com.haptoflow.runtime/Runtime/Models/default.haptoflow"
-            HAPTOFLOW_TEST_ONNXRUNTIME="${HAPTOFLOW_ONNXRUNTIME_DIR}/Plugins/Linux/x64/libonnxruntime.so"
-            HAPTOFLOW_TEST_CLI="$<TARGET_FILE:haptoflow_cli>")
-  add_dependencies(${name} haptoflow_cli)
-  if(HAPTOFLOW_SANITIZERS)
-    # Half of a sanitizer build is reading GoogleTest. The release build does without, so that clang-tidy, which reads
-    # its commands, meets no other compiler's precompiled header.
+            HAPTOFLOW_TEST_ONNXRUNTIME="${HAPTOFLOW_ONNXRUNTIME_DIR}/Plugins/Linux/x64/libonnxruntime.so")
+  if(arg_CLI)
+    target_compile_definitions(${name} PRIVATE HAPTOFLOW_TEST_CLI="$<TARGET_FILE:haptoflow_cli>")
+    add_dependencies(${name} haptoflow_cli)
+  endif()
+  if(CMAKE_CXX_COMPILER_ID MATCHES "GNU|Clang")
+    # The libraries under test are optimised as shipped; the tests' own code is read once and run once.
+    target_compile_options(${name} PRIVATE $<$<CONFIG:Release>:-O1>)
+  endif()
+  if(HAPTOFLOW_PRECOMPILED_HEADERS)
+    # Half of compiling a test is reading GoogleTest.
     target_precompile_headers(${name} PRIVATE "$<$<COMPILE_LANGUAGE:CXX>:<gmock/gmock.h$<ANGLE-R>>"
                                               "$<$<COMPILE_LANGUAGE:CXX>:<gtest/gtest.h$<ANGLE-R>>")
   endif()

@@ -1,6 +1,6 @@
 import assert from 'node:assert/strict';
 import test from 'node:test';
-import { closingLine, countsOfJunit, countsOfTap, judged } from '../../scripts/lib/test_counts.mjs';
+import { closingLine, countsOfJunit, countsOfTap, countsOfTrx, judged } from '../../scripts/lib/test_counts.mjs';
 
 test('ctest\'s JUnit file is read, disabled tests counted as skipped', () => {
   const xml = '<?xml version="1.0"?>\n<testsuite name="Linux"\n\ttests="9"\n\tfailures="2"\n\tdisabled="1"\n\tskipped="1"\n\thostname="">';
@@ -15,6 +15,16 @@ test('pytest\'s JUnit file is read, errors counted as failed', () => {
 test('node\'s TAP is read, cancelled tests counted as failed', () => {
   const tap = '# tests 5\n# pass 2\n# fail 1\n# cancelled 1\n# skipped 1\n# todo 0\n';
   assert.deepEqual(countsOfTap(tap), { passed: 2, failed: 2, skipped: 1 });
+});
+
+test('a TRX file of dotnet test is read, what neither passed nor was left out counted as failed', () => {
+  const trx = '<ResultSummary outcome="Failed">\n<Counters total="9" executed="8" passed="5" failed="1" error="1" timeout="1" aborted="0" ' +
+    'inconclusive="0" notExecuted="1" passedButRunAborted="0" /></ResultSummary>';
+  assert.deepEqual(countsOfTrx(trx), { passed: 5, failed: 3, skipped: 1 });
+});
+
+test('a TRX file without counters has no tests', () => {
+  assert.deepEqual(countsOfTrx('<TestRun></TestRun>'), { passed: 0, failed: 0, skipped: 0 });
 });
 
 test('a runner that ran nothing has failed, even with exit code 0', () => {

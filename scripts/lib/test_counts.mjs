@@ -17,6 +17,14 @@ export function countsOfTap(output) {
   return { passed: line('pass'), failed: line('fail') + line('cancelled'), skipped: line('skipped') + line('todo') };
 }
 
+/** Of a TRX file of `dotnet test`. Ignored and inconclusive tests count as skipped, everything else that did not pass as failed. */
+export function countsOfTrx(xml) {
+  const tag = xml.match(/<Counters\s[^>]*>/)?.[0] ?? '';
+  const passed = attribute(tag, 'passed');
+  const skipped = attribute(tag, 'notExecuted') + attribute(tag, 'inconclusive');
+  return { passed, failed: attribute(tag, 'total') - passed - skipped, skipped };
+}
+
 export const addCounts = (a, b) => ({ passed: a.passed + b.passed, failed: a.failed + b.failed, skipped: a.skipped + b.skipped });
 
 export const noCounts = { passed: 0, failed: 0, skipped: 0 };

@@ -1,10 +1,11 @@
 import { existsSync, mkdirSync, readdirSync, readFileSync, rmSync } from 'node:fs';
 import os from 'node:os';
+import path from 'node:path';
 import { buildNative, presetFolder } from './native_build.mjs';
-import { run } from './process.mjs';
+import { CommandError, run, succeeds } from './process.mjs';
 import { inRepository } from './repository.mjs';
 import { pythonOrFail } from './setup.mjs';
-import { addCounts, countsOfJunit, countsOfTap, judged, noCounts } from './test_counts.mjs';
+import { addCounts, countsOfJunit, countsOfTap, countsOfTrx, judged, noCounts } from './test_counts.mjs';
 
 const results = (name) => inRepository('out', 'test', name);
 
@@ -61,6 +62,33 @@ async function training() {
   return judgeJunit('training.xml', pythonOrFail(), args, env);
 }
 
+/**
+ * The package's C# against the shim, all of it as players run it, and what must not allocate as the editor runs it too.
+ */
+const managed = [
+  { configuration: 'Release', target: 'HaptoFlow.slnx' },
+  { configuration: 'Debug', target: 'HaptoFlow.ShimTests', tests: 'FullyQualifiedName~Garbage' },
+];
+
+async function dotnet() {
+  if (!succeeds('dotnet', ['--version'])) {
+    throw new CommandError('the C# tests want the .NET SDK 10 on PATH (`dotnet --version`)', 2);
+  }
+  await buildNative({ targets: ['audioplugin_haptoflow'] });
+  let counts = noCounts;
+  for (const { configuration, target, tests } of managed) {
+    const folder = results(`dotnet-${configuration.toLowerCase()}`);
+    rmSync(folder, { recursive: true, force: true });
+    const args = ['test', inRepository('Tests', 'Dotnet', target), '-m:1', '-c', configuration, '--nologo', '--logger', 'trx'];
+    args.push('--results-directory', folder, ...(tests ? ['--filter', tests] : []));
+    const { exitCode } = await run('dotnet', args, { env: { DOTNET_CLI_TELEMETRY_OPTOUT: '1', DOTNET_NOLOGO: '1' } });
+    const files = existsSync(folder) ? readdirSync(folder).filter((name) => name.endsWith('.trx')) : [];
+    const sum = files.map((name) => countsOfTrx(readFileSync(path.join(folder, name), 'utf8'))).reduce(addCounts, noCounts);
+    counts = addCounts(counts, judged(sum, exitCode));
+  }
+  return counts;
+}
+
 async function packageTests() {
   const folder = inRepository('Tests', 'Package');
   const files = readdirSync(folder).filter((name) => name.endsWith('.test.mjs')).map((name) => inRepository('Tests', 'Package', name));
@@ -79,5 +107,6 @@ export const runners = {
   native: { purposes: ['build', 'test'], execute: native },
   sanitizers: { purposes: ['build', 'test'], execute: sanitizers },
   training: { purposes: ['python'], execute: training },
+  dotnet: { purposes: ['build'], execute: dotnet },
   package: { purposes: [], execute: packageTests },
 };

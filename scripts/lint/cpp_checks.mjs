@@ -16,9 +16,9 @@ export async function checkFormat(files) {
   return { checked: sources.length, complaints: exitCode !== 0 && complaints.length === 0 ? lines(output) : complaints };
 }
 
-/** clang-tidy finds nothing in the files that the release build compiles. */
+/** clang-tidy finds nothing in the files that a build compiles. */
 export async function checkTidy(files) {
-  const folder = presetFolder('release');
+  const folder = presetFolder('lint');
   const commands = JSON.parse(readFileSync(inRepository(folder, 'compile_commands.json'), 'utf8'));
   const compiled = new Set(commands.map(({ file }) => path.relative(repositoryRoot, file)));
   const queue = endingIn(files, '.cpp').filter((name) => compiled.has(name));
