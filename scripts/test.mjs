@@ -1,4 +1,4 @@
-// test: runs every test and sums them into out/test/summary.json (--only native|sanitizers|training|dotnet|package)
+// test: runs every test and sums them into out/test/summary.json (--only native|sanitizers|platforms|training|dotnet|package)
 import { mkdirSync, writeFileSync } from 'node:fs';
 import { parseArgs } from 'node:util';
 import { CommandError, runMain } from './lib/process.mjs';

@@ -1,7 +1,9 @@
 #include "bench/process_usage.hpp"
 
 #if defined(_WIN32)
+#ifndef NOMINMAX
 #define NOMINMAX
+#endif
 #include <windows.h>
 
 #include <psapi.h>

@@ -8,8 +8,12 @@ set(CMAKE_POSITION_INDEPENDENT_CODE ON)
 set(CMAKE_CXX_VISIBILITY_PRESET hidden)
 set(CMAKE_VISIBILITY_INLINES_HIDDEN ON)
 
-find_package(glm REQUIRED)
-find_package(nlohmann_json REQUIRED)
+if(CMAKE_CROSSCOMPILING AND NOT CMAKE_HOST_WIN32)
+  include(HaptoFlowCrossLibraries)
+else()
+  find_package(glm REQUIRED)
+  find_package(nlohmann_json REQUIRED)
+endif()
 find_package(Threads REQUIRED)
 
 add_library(haptoflow_options INTERFACE)
@@ -23,6 +27,7 @@ endif()
 if(HAPTOFLOW_SANITIZERS)
   add_compile_options(-fsanitize=${HAPTOFLOW_SANITIZERS} -fno-omit-frame-pointer -fno-sanitize-recover=all)
   add_link_options(-fsanitize=${HAPTOFLOW_SANITIZERS})
+  set(haptoflow_sanitizer_flags "-fsanitize=${HAPTOFLOW_SANITIZERS}")
   if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
     # Instrumented code of the standard library's own headers (std::regex) trips this warning of GCC 12 wrongly; the
     # release build keeps it.
@@ -42,6 +47,20 @@ endif()
 add_library(haptoflow_onnxruntime_headers INTERFACE)
 target_include_directories(haptoflow_onnxruntime_headers SYSTEM INTERFACE "${haptoflow_onnxruntime_headers}")
 
+if(CMAKE_SYSTEM_NAME STREQUAL "Windows")
+  set(haptoflow_onnxruntime_library "${HAPTOFLOW_ONNXRUNTIME_DIR}/Plugins/Windows/x64/onnxruntime.dll")
+elseif(APPLE)
+  set(haptoflow_onnxruntime_library "${HAPTOFLOW_ONNXRUNTIME_DIR}/Plugins/macOS/arm64/libonnxruntime.dylib")
+elseif(CMAKE_SYSTEM_PROCESSOR STREQUAL "aarch64")
+  # The package has none for Linux arm64; onnxruntime-node has one.
+  set(haptoflow_onnxruntime_library
+      "${PROJECT_SOURCE_DIR}/Tests/Platforms/node_modules/onnxruntime-node/bin/napi-v6/linux/arm64/libonnxruntime.so.1")
+else()
+  set(haptoflow_onnxruntime_library "${HAPTOFLOW_ONNXRUNTIME_DIR}/Plugins/Linux/x64/libonnxruntime.so")
+endif()
+set(HAPTOFLOW_ONNXRUNTIME_LIBRARY "${haptoflow_onnxruntime_library}" CACHE FILEPATH
+    "ONNX Runtime for the tests, which open it as a program does")
+
 # haptoflow_add_library(NAME SOURCES ... [DEPENDS ...]): one static library per folder of NativePlugin/src.
 function(haptoflow_add_library name)
   cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "SOURCES;DEPENDS;PRIVATE_DEPENDS")
@@ -60,7 +79,7 @@ function(haptoflow_add_test name)
     ${name}
     PRIVATE HAPTOFLOW_TEST_GOLDEN_DIR="${PROJECT_SOURCE_DIR}/Tests/Golden"
             HAPTOFLOW_TEST_DEFAULT_MODEL="${PROJECT_SOURCE_DIR}/Packages/com.haptoflow.runtime/Runtime/Models/default.haptoflow"
-            HAPTOFLOW_TEST_ONNXRUNTIME="${HAPTOFLOW_ONNXRUNTIME_DIR}/Plugins/Linux/x64/libonnxruntime.so")
+            HAPTOFLOW_TEST_ONNXRUNTIME="${HAPTOFLOW_ONNXRUNTIME_LIBRARY}")
   if(arg_CLI)
     target_compile_definitions(${name} PRIVATE HAPTOFLOW_TEST_CLI="$<TARGET_FILE:haptoflow_cli>")
     add_dependencies(${name} haptoflow_cli)

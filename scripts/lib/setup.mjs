@@ -6,7 +6,7 @@ import { inRepository } from './repository.mjs';
 
 /**
  * Brings what a command needs and is not there, and says so: system packages (Debian), then npm packages.
- * @param {("build"|"test"|"python"|"lint")[]} purposes
+ * @param {("build"|"test"|"platforms"|"python"|"lint")[]} purposes
  * @throws CommandError with exit code 2 and one command to type where this process may not install.
  */
 export async function setUp(purposes) {

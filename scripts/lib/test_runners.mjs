@@ -2,6 +2,7 @@ import { existsSync, mkdirSync, readdirSync, readFileSync, rmSync } from 'node:f
 import os from 'node:os';
 import path from 'node:path';
 import { buildNative, presetFolder } from './native_build.mjs';
+import { runPlatformTests } from './platform_tests.mjs';
 import { CommandError, run, succeeds } from './process.mjs';
 import { inRepository } from './repository.mjs';
 import { pythonOrFail } from './setup.mjs';
@@ -107,6 +108,7 @@ export const runners = {
   native: { purposes: ['build', 'test'], execute: native },
   sanitizers: { purposes: ['build', 'test'], execute: sanitizers },
   training: { purposes: ['python'], execute: training },
+  platforms: { purposes: ['build', 'test', 'platforms'], execute: () => runPlatformTests(judgeJunit, results) },
   dotnet: { purposes: ['build'], execute: dotnet },
   package: { purposes: [], execute: packageTests },
 };

@@ -362,9 +362,9 @@ typedef struct haptoflow_engine_statistics {
 HAPTOFLOW_API haptoflow_status haptoflow_engine_create(const haptoflow_engine_options* options,
                                                        haptoflow_engine** engine);
 
-/* Ends the worker, destroys the engine's voices and sets *engine to null; a null handle is fine. Voices that are being
- * rendered finish their block first. Errors: INVALID_ARGUMENT.
- * [loader-thread] Blocks for the present round of inference and the present blocks. */
+/* Ends the worker, destroys the engine's voices as haptoflow_voice_destroy does and sets *engine to null; a null handle
+ * is fine. Errors: INVALID_ARGUMENT.
+ * [loader-thread] Blocks for the present round of inference, the present blocks and, while voices sound, their fade. */
 HAPTOFLOW_API haptoflow_status haptoflow_engine_close(haptoflow_engine** engine);
 
 /* From the next segment on. Errors: INVALID_ARGUMENT. [publisher] */
@@ -450,8 +450,9 @@ typedef struct haptoflow_voice_statistics {
 HAPTOFLOW_API haptoflow_status haptoflow_voice_create(haptoflow_engine* engine, double sample_rate_hz,
                                                       haptoflow_voice* voice);
 
-/* Destroys *voice and sets it to 0; 0 is fine. Errors: INVALID_ARGUMENT.
- * [loader-thread] Blocks for the present round of inference, and for calls on this voice that are under way. */
+/* Fades the voice, destroys it and sets *voice to 0; 0 is fine. Errors: INVALID_ARGUMENT.
+ * [loader-thread] Blocks for the present round of inference, for calls on this voice that are under way, and while the
+ * voice sounds for the block that fades it, at most 48 ms. */
 HAPTOFLOW_API haptoflow_status haptoflow_voice_destroy(haptoflow_voice* voice);
 
 /* What the tip does now: once a frame, also while nothing touches. A touch sounds with the next block; a touch without

@@ -27,7 +27,8 @@ bool ChannelTarget::isValid() const noexcept {
            channelFits;
 }
 
-haptoflow_status renderInto(const VoiceTable::Use& use, const ChannelTarget& target, double sampleRateHz) noexcept {
+haptoflow_status renderInto(const VoiceTable::Use& use, const ChannelTarget& target,
+                            double sampleRateHz) noexcept HAPTOFLOW_NONBLOCKING {
     const bool isBusy = use && use->rendering.test_and_set(std::memory_order_acquire);
     if (!use || isBusy) {
         forEachFrame(target, 0, target.frameCount,

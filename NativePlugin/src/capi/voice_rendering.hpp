@@ -20,9 +20,19 @@ struct ChannelTarget {
     [[nodiscard]] bool isValid() const noexcept;
 };
 
+// RealtimeSanitizer holds a function with this attribute, and whatever it calls, to what an audio callback may do.
+#if defined(__has_cpp_attribute)
+#if __has_cpp_attribute(clang::nonblocking)
+#define HAPTOFLOW_NONBLOCKING [[clang::nonblocking]]
+#endif
+#endif
+#ifndef HAPTOFLOW_NONBLOCKING
+#define HAPTOFLOW_NONBLOCKING
+#endif
+
 /// Renders the voice into a valid target; zeros where there is none, or where another thread renders it. Wait-free:
 /// made for the audio callback.
 [[nodiscard]] haptoflow_status renderInto(const VoiceTable::Use& use, const ChannelTarget& target,
-                                          double sampleRateHz) noexcept;
+                                          double sampleRateHz) noexcept HAPTOFLOW_NONBLOCKING;
 
 }  // namespace haptoflow::capi

@@ -1,9 +1,10 @@
 #include "capi/voice_table.hpp"
 
-#include <chrono>
+#include <algorithm>
 #include <stdexcept>
 #include <thread>
 #include <utility>
+#include <vector>
 
 namespace haptoflow::capi {
 namespace {
@@ -38,22 +39,38 @@ haptoflow_voice VoiceTable::open(std::unique_ptr<OpenVoice> voice) {
 bool VoiceTable::close(haptoflow_voice handle) {
     const std::lock_guard lock(mutex_);
     const std::size_t index = handle & placeBits;
-    return index < capacity && closeLocked(places_[index], handle);
+    if (handle == 0 || index >= capacity || places_[index].handle.load() != handle) {
+        return false;
+    }
+    Place* place = &places_[index];
+    fadeOut({&place, 1});
+    remove(*place);
+    return true;
 }
 
 void VoiceTable::closeAll(const engine::LiveEngine& engine) {
     const std::lock_guard lock(mutex_);
+    std::vector<Place*> closing;
     for (Place& place : places_) {
         if (place.voice != nullptr && place.voice->engine.get() == &engine) {
-            closeLocked(place, place.handle.load());
+            closing.push_back(&place);
         }
+    }
+    fadeOut(closing);
+    std::ranges::for_each(closing, [](Place* place) { remove(*place); });
+}
+
+void VoiceTable::fadeOut(std::span<Place* const> places) {
+    const auto channels = [](const Place* place) -> engine::VoiceChannels& { return place->voice->voice->channels; };
+    std::ranges::for_each(places, [&](Place* place) { channels(place).controls.muted.store(true); });
+    const auto deadline = std::chrono::steady_clock::now() + fadeLimit;
+    const auto isAudible = [&](const Place* place) { return channels(place).audible.load(std::memory_order_acquire); };
+    while (std::ranges::any_of(places, isAudible) && std::chrono::steady_clock::now() < deadline) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
     }
 }
 
-bool VoiceTable::closeLocked(Place& place, haptoflow_voice handle) {
-    if (handle == 0 || place.handle.load() != handle) {
-        return false;
-    }
+void VoiceTable::remove(Place& place) {
     // From here on nobody new gets in; those inside are waited for. Sequentially consistent, like the entry below: of
     // "handle gone" and "user there" each side sees the other's.
     place.handle.store(0);
@@ -62,7 +79,6 @@ bool VoiceTable::closeLocked(Place& place, haptoflow_voice handle) {
     }
     place.voice->engine->removeVoice(*place.voice->voice);
     place.voice.reset();
-    return true;
 }
 
 VoiceTable::Use VoiceTable::use(haptoflow_voice handle) noexcept {

@@ -5,9 +5,11 @@
 
 #include <array>
 #include <atomic>
+#include <chrono>
 #include <cstdint>
 #include <memory>
 #include <mutex>
+#include <span>
 #include <utility>
 
 namespace haptoflow::capi {
@@ -28,6 +30,8 @@ struct OpenVoice {
 class VoiceTable {
 public:
     static constexpr std::size_t capacity = HAPTOFLOW_MAXIMUM_VOICES;
+    /// The longest usual block, 1024 frames at 24 kHz, and 5 ms.
+    static constexpr std::chrono::milliseconds fadeLimit{48};
 
     /// A user's hold on a voice; null where the handle is not open. Wait-free.
     class Use {
@@ -56,9 +60,10 @@ public:
 
     /// Throws std::invalid_argument when every place is taken.
     [[nodiscard]] haptoflow_voice open(std::unique_ptr<OpenVoice> voice);
-    /// Waits until nobody uses the voice any more. False where the handle is not open.
+    /// Waits until the voice has faded and nobody uses it any more; for the fade at most `fadeLimit`, as nobody may be
+    /// rendering. False where the handle is not open.
     bool close(haptoflow_voice handle);
-    /// Closes all voices of that engine.
+    /// Closes all voices of that engine, in one fade.
     void closeAll(const engine::LiveEngine& engine);
 
     [[nodiscard]] Use use(haptoflow_voice handle) noexcept;
@@ -76,7 +81,8 @@ private:
         std::uint64_t generation = 0;
     };
 
-    bool closeLocked(Place& place, haptoflow_voice handle);
+    static void fadeOut(std::span<Place* const> places);
+    static void remove(Place& place);
 
     std::mutex mutex_;
     std::array<Place, capacity> places_;

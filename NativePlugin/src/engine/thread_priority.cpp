@@ -1,7 +1,9 @@
 #include "engine/thread_priority.hpp"
 
 #if defined(_WIN32)
+#ifndef NOMINMAX
 #define NOMINMAX
+#endif
 #include <windows.h>
 #elif defined(__APPLE__)
 #include <pthread.h>

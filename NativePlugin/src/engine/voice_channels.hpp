@@ -102,6 +102,9 @@ struct VoiceChannels {
     VoiceControls controls;
     VoiceCounters counters;
 
+    /// Whether the newest block ended with anything but silence. Set by the callback.
+    std::atomic<bool> audible{false};
+
     /// The callback asks for an output stage of this rate; 0 when it has what it needs.
     std::atomic<double> wantedRateHz{0.0};
     /// Made by the worker, taken by the callback; and the one it replaced, for the worker to delete.

@@ -46,6 +46,7 @@ void VoiceRenderer::render(std::span<float> out, double rateHz) noexcept {
     }
     contactAgeFrames_ += out.size();
     count(channels_.counters.renderedFrames, out.size());
+    channels_.audible.store(!voice_.isSilent(), std::memory_order_release);
     report(headBefore, uncoveredBefore, sounded);
 }
 

@@ -3,6 +3,7 @@
 #include <array>
 #include <chrono>
 #include <cstring>
+#include <functional>
 #include <set>
 #include <thread>
 
@@ -109,6 +110,48 @@ TEST(EngineApiTest, ClosingTheEngineSilencesAndDestroysItsVoices) {
     std::array<float, 64> samples{};
     EXPECT_EQ(haptoflow_voice_render(open.voice, samples.data(), 64, 1, 0, 48000.0), HAPTOFLOW_INVALID_ARGUMENT);
     EXPECT_EQ(samples, (std::array<float, 64>{}));
+}
+
+/// What a device hears of a voice that somebody takes away while it sounds: blocks until the voice is gone.
+std::vector<float> heardUntilGone(OpenEngine& open, const std::function<void()>& takeAway) {
+    const haptoflow_voice voice = open.voice;
+    std::vector<float> heard = open.update(slidingState(), 2048);
+    std::thread taker(takeAway);
+    for (haptoflow_status status = HAPTOFLOW_OK; status == HAPTOFLOW_OK;) {
+        std::array<float, 256> block{};
+        status = haptoflow_voice_render(voice, block.data(), 256, 1, 0, 48000.0);
+        heard.insert(heard.end(), block.begin(), block.end());
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    taker.join();
+    return heard;
+}
+
+float largestStep(const std::vector<float>& samples) {
+    float largest = 0.0F;
+    for (std::size_t i = 1; i < samples.size(); ++i) {
+        largest = std::max(largest, std::abs(samples[i] - samples[i - 1]));
+    }
+    return largest;
+}
+
+TEST(EngineApiTest, AVoiceDestroyedWhileItSoundsEndsWithoutAStep) {
+    OpenEngine open(tinyModelPath);
+    const float usual = largestStep(open.update(slidingState(), 2048));
+    ASSERT_GT(usual, 0.0F);
+    const auto heard =
+        heardUntilGone(open, [&] { EXPECT_EQ(haptoflow_voice_destroy(&open.voice), HAPTOFLOW_OK) << message(); });
+    EXPECT_EQ(heard.back(), 0.0F);
+    EXPECT_LE(largestStep(heard), 1.5F * usual);
+}
+
+TEST(EngineApiTest, AnEngineClosedWhileItsVoiceSoundsEndsItWithoutAStep) {
+    OpenEngine open(tinyModelPath);
+    const float usual = largestStep(open.update(slidingState(), 2048));
+    const auto heard =
+        heardUntilGone(open, [&] { EXPECT_EQ(haptoflow_engine_close(&open.engine), HAPTOFLOW_OK) << message(); });
+    EXPECT_EQ(heard.back(), 0.0F);
+    EXPECT_LE(largestStep(heard), 1.5F * usual);
 }
 
 TEST(EngineApiTest, SixtyFourVoicesFitEachInItsOwnPlaceAndTheNextIsRefused) {

@@ -1,11 +1,10 @@
 #include "c11_user.h"
 #include "open_handles.hpp"
+#include "support/dynamic_library.hpp"
 
 #include <nlohmann/json.hpp>
 
 #include <onnxruntime_c_api.h>
-
-#include <dlfcn.h>
 
 #include <algorithm>
 #include <array>
@@ -200,9 +199,9 @@ TEST_F(GeneratorApiTest, RefusesABatchAboveTheLimit) {
 }
 
 TEST(RuntimeApiTest, TakesTheApiBaseOfALibraryThatTheCallerLoaded) {
-    void* library = dlopen(HAPTOFLOW_TEST_ONNXRUNTIME, RTLD_NOW | RTLD_NODELETE);
-    ASSERT_NE(library, nullptr);
-    const auto getApiBase = reinterpret_cast<const OrtApiBase* (*)()>(dlsym(library, "OrtGetApiBase"));
+    // ONNX Runtime's threads outlive what they served: it stays loaded.
+    static const haptoflow::testing::DynamicLibrary library(HAPTOFLOW_TEST_ONNXRUNTIME);
+    const auto getApiBase = library.function<const OrtApiBase* (*)()>("OrtGetApiBase");
     const haptoflow_runtime_options options{sizeof(options), getApiBase(), nullptr};
     haptoflow_runtime* runtime = nullptr;
     EXPECT_EQ(haptoflow_runtime_open(&options, &runtime), HAPTOFLOW_OK) << message();

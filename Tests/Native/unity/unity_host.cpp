@@ -1,6 +1,5 @@
 #include "unity_host.hpp"
 
-#include <dlfcn.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -39,19 +38,8 @@ void Sound::append(const Sound& more) {
     samples.insert(samples.end(), more.samples.begin(), more.samples.end());
 }
 
-UnityHost::UnityHost() {
-    library_ = {dlopen(libraryPath, RTLD_NOW | RTLD_LOCAL), [](void* library) {
-                    if (library != nullptr) {
-                        dlclose(library);
-                    }
-                }};
-    if (library_ == nullptr) {
-        throw std::runtime_error(std::string("cannot load ") + libraryPath);
-    }
-    const auto entry = reinterpret_cast<GetDefinitions>(dlsym(library_.get(), "UnityGetAudioEffectDefinitions"));
-    if (entry == nullptr) {
-        throw std::runtime_error("no UnityGetAudioEffectDefinitions");
-    }
+UnityHost::UnityHost() : library_(std::make_shared<haptoflow::testing::DynamicLibrary>(libraryPath)) {
+    const auto entry = library_->function<GetDefinitions>("UnityGetAudioEffectDefinitions");
     AudioEffectDefinition** found = nullptr;
     const int count = entry(&found);
     definitions_ = {found, static_cast<std::size_t>(count)};

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "support/dynamic_library.hpp"
 #include "unity/audio_effect_sdk.hpp"
 
 #include <cstdint>
@@ -38,7 +39,7 @@ public:
     [[nodiscard]] const AudioEffectDefinition& effect(const std::string& name) const;
 
 private:
-    std::shared_ptr<void> library_;
+    std::shared_ptr<const haptoflow::testing::DynamicLibrary> library_;
     std::span<AudioEffectDefinition*> definitions_;
 };
 

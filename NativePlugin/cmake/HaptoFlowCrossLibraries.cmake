@@ -1,0 +1,30 @@
+# Cross builds take the header-only libraries from the build machine. Its include folder itself must stay out of sight
+# (it holds the build machine's C library), so that each library is linked into a folder of its own.
+
+set(haptoflow_borrowed_headers "${CMAKE_BINARY_DIR}/borrowed-headers")
+
+# haptoflow_borrow_headers(TARGET FOLDER PROBE): an imported target for one header-only library.
+function(haptoflow_borrow_headers target folder probe)
+  find_path(HAPTOFLOW_${folder}_INCLUDE_DIR "${folder}/${probe}" NO_CMAKE_FIND_ROOT_PATH REQUIRED
+            DOC "Where the build machine has ${folder}/${probe}")
+  file(MAKE_DIRECTORY "${haptoflow_borrowed_headers}")
+  file(CREATE_LINK "${HAPTOFLOW_${folder}_INCLUDE_DIR}/${folder}" "${haptoflow_borrowed_headers}/${folder}" SYMBOLIC)
+  if(target AND NOT TARGET ${target})
+    add_library(${target} INTERFACE IMPORTED GLOBAL)
+    target_include_directories(${target} SYSTEM INTERFACE "${haptoflow_borrowed_headers}")
+  endif()
+endfunction()
+
+haptoflow_borrow_headers(glm::glm glm glm.hpp)
+haptoflow_borrow_headers(nlohmann_json::nlohmann_json nlohmann json.hpp)
+
+# GoogleTest is compiled with the tests, from the sources that its package installs beside the binaries.
+function(haptoflow_add_googletest)
+  set(HAPTOFLOW_GOOGLETEST_SOURCES "/usr/src/googletest" CACHE PATH "GoogleTest's sources, for cross builds")
+  if(NOT EXISTS "${HAPTOFLOW_GOOGLETEST_SOURCES}/CMakeLists.txt")
+    message(FATAL_ERROR "No GoogleTest sources in ${HAPTOFLOW_GOOGLETEST_SOURCES}: install the package googletest, or "
+                        "set HAPTOFLOW_GOOGLETEST_SOURCES")
+  endif()
+  set(INSTALL_GTEST OFF)
+  add_subdirectory("${HAPTOFLOW_GOOGLETEST_SOURCES}" "${CMAKE_BINARY_DIR}/googletest" EXCLUDE_FROM_ALL)
+endfunction()

@@ -1,0 +1,53 @@
+import { existsSync } from 'node:fs';
+import path from 'node:path';
+import { buildNative, presetFolder } from './native_build.mjs';
+import { runOrFail } from './process.mjs';
+import { inRepository } from './repository.mjs';
+import { addCounts, noCounts } from './test_counts.mjs';
+
+/** Programs of Tests/Native that meet the library as shipped: through its C interface, and as Unity's mixer meets it. */
+const programs = ['capi', 'unity'];
+
+/** Long ones that gain nothing from another machine's instructions; ONNX Runtime takes 50 times as long under qemu. */
+const tooLong = {
+  'windows-x64': 'Label/*:ApiStorm*:*Shipped*',
+  'linux-arm64': 'Label/*:ApiStorm*:OnModel/*:OpenModel*:*Shipped*:*LivePace*:*Measured*',
+};
+
+/** What stands between this machine and each platform's programs. */
+const emulators = {
+  'windows-x64': {
+    command: 'wine',
+    args: [],
+    env: { WINEDEBUG: '-all', WINEPREFIX: inRepository('build', 'wine'), WINEPATH: inRepository('build', 'windows-x64') },
+    suffix: '.exe',
+  },
+  'linux-arm64': { command: 'qemu-aarch64', args: ['-L', '/usr/aarch64-linux-gnu'], env: {}, suffix: '' },
+};
+
+/** The Unity package of ONNX Runtime has no Linux arm64; a package of its own does, 214 MB, wanted by nothing else. */
+async function bringArmRuntime() {
+  if (existsSync(inRepository('Tests', 'Platforms', 'node_modules', 'onnxruntime-node'))) return;
+  console.log('setup: npm ci in Tests/Platforms (ONNX Runtime for Linux arm64)');
+  await runOrFail('npm', ['ci', '--prefix', inRepository('Tests', 'Platforms')], { quiet: true });
+}
+
+/**
+ * Builds the plugin for every platform that this one can build for, and runs its tests under emulation.
+ * @param {(file: string, command: string, args: string[], env: object) => Promise<object>} judgeJunit runs and counts
+ */
+export async function runPlatformTests(judgeJunit, results) {
+  await bringArmRuntime();
+  let counts = noCounts;
+  for (const [preset, { command, args, env, suffix }] of Object.entries(emulators)) {
+    await buildNative({ preset, tests: true, targets: programs.map((name) => `${name}_tests`) });
+    for (const name of programs) {
+      const program = inRepository(presetFolder(preset), 'Tests', 'Native', name, `${name}_tests${suffix}`);
+      const file = `${preset}-${name}.xml`;
+      const gtest = [`--gtest_filter=-${tooLong[preset]}`, '--gtest_brief=1', `--gtest_output=xml:${path.relative(inRepository(), results(file))}`];
+      console.log(`test: ${name} on ${preset}`);
+      counts = addCounts(counts, await judgeJunit(file, command, [...args, program, ...gtest], env));
+    }
+  }
+  return counts;
+}
