@@ -7,6 +7,7 @@ import pytest
 import torch
 from training_fixtures import make_store
 
+from haptoflow_training.errors import InputError
 from haptoflow_training.training.batches import SegmentBatches
 from haptoflow_training.training.config import BatchConfig
 
@@ -51,6 +52,19 @@ def test_the_condition_is_the_mean_motion_of_the_leading_samples() -> None:
         np.testing.assert_allclose(
             batch.motion[row].numpy(), store.motion[start : start + 40].mean(axis=0), rtol=1e-3
         )
+
+
+def test_emphasised_labels_are_drawn_that_many_times_as_often() -> None:
+    store = make_store()
+    config = BatchConfig(emphasised_labels=(store.labels[1],), emphasis=4.0)
+    drawn = SegmentBatches(store, "train", config, 8).draw(3000).label
+    counts = torch.bincount(drawn, minlength=len(store.labels)).float()
+    assert (counts[1] / counts[0]).item() == pytest.approx(4.0, rel=0.2)
+
+
+def test_an_emphasised_label_without_recordings_is_named() -> None:
+    with pytest.raises(InputError, match="emphasised_labels.*'velvet'"):
+        SegmentBatches(make_store(), "train", BatchConfig(emphasised_labels=("velvet",)), 8)
 
 
 def test_silence_and_label_switches_appear_as_often_as_asked() -> None:

@@ -11,6 +11,7 @@ import torch
 from numpy.typing import NDArray
 from torch import Tensor
 
+from haptoflow_training.errors import InputError
 from haptoflow_training.training.config import BatchConfig
 
 SEGMENT_SAMPLES = 200
@@ -73,7 +74,7 @@ class SegmentBatch:
 
 
 class SegmentBatches:
-    """Draws batches: label uniform, protocol by share, recording uniform, position uniform.
+    """Draws batches: label uniform but for the emphasised, protocol by share, recording uniform, position uniform.
 
     Only windows that lie wholly inside recordings of `split` are drawn, so nothing leaks between splits.
     """
@@ -98,9 +99,19 @@ class SegmentBatches:
             for label in range(len(store.labels))
         ]
         self._present = np.array([label for label, groups in enumerate(self._groups) if any(map(len, groups))])
+        self._shares = self._label_shares()
+
+    def _label_shares(self) -> NDArray[np.float64]:
+        emphasised = self._config.emphasised_labels
+        for name in emphasised:
+            if name not in self._store.labels:
+                raise InputError(f"batch.emphasised_labels: no recording is of '{name}'")
+        names = [self._store.labels[label] for label in self._present]
+        weights = np.array([self._config.emphasis if name in emphasised else 1.0 for name in names])
+        return weights / weights.sum()
 
     def _draw_recordings(self, count: int) -> NDArray[np.int64]:
-        labels = self._generator.choice(self._present, size=count)
+        labels = self._generator.choice(self._present, size=count, p=self._shares)
         from_machine = self._generator.random(count) < self._config.machine_share
         position = self._generator.random(count)
         chosen = np.empty(count, dtype=np.int64)

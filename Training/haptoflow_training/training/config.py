@@ -82,7 +82,8 @@ class BatchConfig:
     touch-down. machine_share: share of pairs from machine recordings where both
     protocols exist. switch_probability: previous waveform taken from another recording, as at a label switch.
     chain_hops: how many hops a chain of the self-forcing phase runs on its own output. chain_silence_probability:
-    chains that begin in silence.
+    chains that begin in silence. emphasised_labels: drawn `emphasis` times as often as each other label; a label whose
+    waveform has a pitch has more to learn than one of noise.
     """
 
     hop_samples: tuple[int, int] = (16, 66)
@@ -91,6 +92,8 @@ class BatchConfig:
     machine_share: float = 0.35
     chain_hops: tuple[int, int] = (1, 8)
     chain_silence_probability: float = 0.3
+    emphasised_labels: tuple[str, ...] = ()
+    emphasis: float = 1.0
     held_out_speed_mps: tuple[float, ...] = ()
     held_out_force_newtons: tuple[float, ...] = ()
 
@@ -253,6 +256,7 @@ def _check(config: TrainingConfig, path: Path) -> None:
             "batch.chain_hops",
             "two numbers, 1 <= min <= max <= 50",
         ),
+        (config.batch.emphasis > 0.0, "batch.emphasis", "above 0"),
         (config.model.width >= 8, "model.width", "at least 8"),
         (
             config.model.architecture in ("unet", *ARCHITECTURES),
