@@ -1,0 +1,18 @@
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+
+namespace haptoflow::unity::testing {
+namespace {
+
+void allocatesLikeNoCallbackMay() noexcept [[clang::nonblocking]] {
+    void* volatile memory = std::malloc(16);
+    std::free(memory);
+}
+
+TEST(RealtimeSanitizerDeathTest, AFunctionOfTheCallbackThatAllocatesEndsTheProgram) {
+    EXPECT_DEATH(allocatesLikeNoCallbackMay(), "malloc");
+}
+
+}  // namespace
+}  // namespace haptoflow::unity::testing
