@@ -26,7 +26,7 @@ namespace UnityEngine
         public static void LogException(Exception exception, Object? context) => UnityShim.Log.Write(LogType.Exception, exception);
     }
 
-    public sealed class Resources
+    public sealed partial class Resources
     {
         public static T Load<T>(string path)
             where T : Object => World.Resource(path) is T asset ? asset : null!;

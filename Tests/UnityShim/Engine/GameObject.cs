@@ -4,7 +4,7 @@ using UnityShim;
 
 namespace UnityEngine
 {
-    public sealed class GameObject : Object
+    public sealed partial class GameObject : Object
     {
         internal readonly List<Component> Components = new List<Component>();
         private bool active = true;
@@ -95,6 +95,8 @@ namespace UnityEngine
     {
         private GameObject owner = null!;
 
+        internal override Object Named => owner;
+
         public GameObject gameObject => owner;
         public Transform transform => owner.transform;
 
@@ -106,14 +108,7 @@ namespace UnityEngine
 
         public void SendMessage(string methodName, object value) => Messages.SendByName(owner, methodName, value);
 
-        internal void Attach(GameObject gameObject)
-        {
-            owner = gameObject;
-            if (this is not Transform)
-            {
-                name = gameObject.name;
-            }
-        }
+        internal void Attach(GameObject gameObject) => owner = gameObject;
     }
 
     public class Behaviour : Component

@@ -8,12 +8,15 @@ namespace UnityEngine
         private readonly int instance = World.NextInstance();
         private string text = "";
 
+        /// <summary>Whose name it is: components have none of their own.</summary>
+        internal virtual Object Named => this;
+
         internal bool IsDestroyed { get; private set; }
 
         public string name
         {
-            get => text;
-            set => text = value;
+            get => Named.text;
+            set => Named.text = value;
         }
 
         public HideFlags hideFlags { get; set; }
@@ -32,6 +35,11 @@ namespace UnityEngine
         public static void Destroy(Object obj) => World.DestroyLater(obj);
 
         public static void DestroyImmediate(Object obj) => World.DestroyNow(obj);
+
+        public static void DestroyImmediate(Object obj, bool allowDestroyingAssets) => World.DestroyNow(obj);
+
+        public static T[] FindObjectsByType<T>(FindObjectsInactive findObjectsInactive, FindObjectsSortMode sortMode)
+            where T : Object => World.Find<T>(findObjectsInactive == FindObjectsInactive.Include);
 
         public static void DontDestroyOnLoad(Object target) => World.KeepOverSceneLoads(target);
 

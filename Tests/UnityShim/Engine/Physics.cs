@@ -33,6 +33,18 @@ namespace UnityEngine
     {
     }
 
+#if UNITY_6000_0_OR_NEWER
+    public class PhysicsMaterial : Object
+    {
+        public PhysicsMaterial(string name) => this.name = name;
+    }
+#else
+    public class PhysicMaterial : Object
+    {
+        public PhysicMaterial(string name) => this.name = name;
+    }
+#endif
+
     public class Collider : Component
     {
         internal Vector3 PhysicsPosition;
@@ -40,6 +52,11 @@ namespace UnityEngine
 
         public bool enabled { get; set; } = true;
         public bool isTrigger { get; set; }
+#if UNITY_6000_0_OR_NEWER
+        public PhysicsMaterial? sharedMaterial { get; set; }
+#else
+        public PhysicMaterial? sharedMaterial { get; set; }
+#endif
 
         public Rigidbody? attachedRigidbody => BodyState.Above(transform);
         public ArticulationBody? attachedArticulationBody => null;

@@ -82,6 +82,18 @@ namespace UnityEngine
         HideAndDontSave = 61,
     }
 
+    public enum FindObjectsInactive
+    {
+        Exclude = 0,
+        Include = 1,
+    }
+
+    public enum FindObjectsSortMode
+    {
+        None = 0,
+        InstanceID = 1,
+    }
+
     public enum LogType
     {
         Error = 0,

@@ -50,6 +50,12 @@ namespace UnityEngine
             UnityShim.World.RefreshActivity(gameObject);
         }
 
+        public int childCount => Children.Count;
+
+        public Transform GetChild(int index) => Children[index];
+
+        public Transform? Find(string n) => Children.Find(child => child.name == n);
+
         public void SetPositionAndRotation(Vector3 position, Quaternion rotation)
         {
             this.position = position;

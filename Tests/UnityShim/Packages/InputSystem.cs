@@ -1,6 +1,6 @@
 namespace UnityEngine.InputSystem
 {
-    public sealed class InputAction
+    public sealed partial class InputAction
     {
         internal float Value;
 
@@ -11,7 +11,7 @@ namespace UnityEngine.InputSystem
         public void Disable() => enabled = false;
 
         public TValue ReadValue<TValue>()
-            where TValue : struct => enabled && Value is TValue value ? value : default;
+            where TValue : struct => enabled && (ReadBinding() ?? Value) is TValue value ? value : default;
     }
 
     public class InputActionReference : ScriptableObject

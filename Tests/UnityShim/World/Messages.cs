@@ -70,6 +70,15 @@ namespace UnityShim
             }
         }
 
+        /// <summary>What the editor calls after it wrote into an object.</summary>
+        public static void Validate(Object script)
+        {
+            if (script is MonoBehaviour || script is ScriptableObject)
+            {
+                Find(script.GetType(), "OnValidate")?.Invoke(script, null);
+            }
+        }
+
         private static MethodInfo? Find(Type? type, string name)
         {
             for (; type != null && type != typeof(MonoBehaviour) && type != typeof(ScriptableObject); type = type.BaseType)

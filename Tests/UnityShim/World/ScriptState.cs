@@ -26,6 +26,10 @@ namespace UnityShim
 
         public void Refresh()
         {
+            if (!World.IsPlaying)
+            {
+                return;
+            }
             if (!awake && Script.gameObject.activeInHierarchy)
             {
                 awake = true;

@@ -39,6 +39,16 @@ namespace UnityShim
             Log.Clear();
             IsPlaying = true;
             CallLoadMethods();
+            WakeScripts();
+        }
+
+        /// <summary>An editor with an empty scene: scripts are silent until play mode.</summary>
+        public static void BeginEditing()
+        {
+            mainThread = Thread.CurrentThread;
+            DestroyAll(true);
+            Log.Clear();
+            IsPlaying = false;
         }
 
         /// <summary>Quitting is announced, then every object goes.</summary>
@@ -125,6 +135,12 @@ namespace UnityShim
             }
             return component;
         }
+
+        internal static T[] Find<T>(bool alsoInactive)
+            where T : Object => Objects
+            .Where(each => alsoInactive || each.activeInHierarchy)
+            .SelectMany(each => each.Components.OfType<T>())
+            .ToArray();
 
         internal static void RefreshActivity(GameObject changed)
         {
@@ -234,6 +250,14 @@ namespace UnityShim
                 }
             }
             return false;
+        }
+
+        private static void WakeScripts()
+        {
+            foreach (ScriptState state in Scripts.ToList())
+            {
+                state.Refresh();
+            }
         }
 
         private static void CallLoadMethods()

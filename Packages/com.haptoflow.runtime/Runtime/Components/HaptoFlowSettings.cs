@@ -1,10 +1,12 @@
 #nullable enable
+using System;
 using UnityEngine;
 
 namespace HaptoFlow
 {
-    /// <summary>What a project renders with. An asset named HaptoFlowSettings in a Resources folder is found by itself;
-    /// another can be set before the first stylus wakes.</summary>
+    /// <summary>What a project renders with. The asset that Project Settings > HaptoFlow makes, and one named
+    /// HaptoFlowSettings in a Resources folder, are found by themselves; another can be set before the first stylus
+    /// wakes.</summary>
     [CreateAssetMenu(menuName = "HaptoFlow/Settings", fileName = ResourceName, order = 2)]
     public sealed class HaptoFlowSettings : ScriptableObject
     {
@@ -30,6 +32,9 @@ namespace HaptoFlow
         private float fullScaleMps2 = 60f;
 
         private static HaptoFlowSettings? active;
+
+        // Preloaded assets wake before load methods run or after them: no load method forgets this one.
+        private static HaptoFlowSettings? preloaded;
 
         /// <summary>The model; null where none is chosen.</summary>
         public HapticModelAsset? Model
@@ -81,6 +86,14 @@ namespace HaptoFlow
             {
                 if (active == null)
                 {
+                    active = OfProject?.Invoke();
+                }
+                if (active == null)
+                {
+                    active = preloaded;
+                }
+                if (active == null)
+                {
                     active = Resources.Load<HaptoFlowSettings>(ResourceName);
                 }
                 if (active == null)
@@ -92,15 +105,20 @@ namespace HaptoFlow
             set => active = value;
         }
 
+        /// <summary>Finds the project's settings in the editor, where preloaded assets are not loaded; null in
+        /// players.</summary>
+        internal static Func<HaptoFlowSettings?>? OfProject { get; set; }
+
+        /// <summary>Nothing is active until somebody asks again.</summary>
         [RuntimeInitializeOnLoadMethod(RuntimeInitializeLoadType.SubsystemRegistration)]
-        private static void Forget() => active = null;
+        internal static void Forget() => active = null;
 
         // A settings asset among the player's preloaded assets takes effect by being there.
         private void OnEnable()
         {
-            if (active == null && model != null)
+            if (preloaded == null && model != null)
             {
-                active = this;
+                preloaded = this;
             }
         }
     }

@@ -2,6 +2,7 @@ using System.Runtime.CompilerServices;
 
 [assembly: InternalsVisibleTo("HaptoFlow")]
 [assembly: InternalsVisibleTo("HaptoFlow.Editor")]
+[assembly: InternalsVisibleTo("HaptoFlow.EditorTests")]
 [assembly: InternalsVisibleTo("HaptoFlow.Tests")]
 [assembly: InternalsVisibleTo("HaptoFlow.RepositoryTests")]
 [assembly: InternalsVisibleTo("HaptoFlow.ShimTests")]

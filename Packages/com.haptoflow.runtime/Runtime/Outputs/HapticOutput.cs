@@ -142,6 +142,9 @@ namespace HaptoFlow
 
         internal void Remove(HapticVoice voice) => mixer.Remove(voice);
 
+        /// <summary>Does something with every voice that sounds here. Main thread.</summary>
+        internal void ForEachVoice<T>(Action<HapticVoice, T> act, T argument) => mixer.ForEach(act, argument);
+
         private void NameVoice(HapticVoice voice)
         {
             bool named = audioMixer != null && audioMixer.SetFloat(voiceParameter, voice.Place());

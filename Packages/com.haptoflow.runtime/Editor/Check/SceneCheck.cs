@@ -1,0 +1,23 @@
+#nullable enable
+using System.Collections.Generic;
+using System.Linq;
+
+namespace HaptoFlow.Editor
+{
+    /// <summary>Looks a scene and its project over. Changes nothing by itself.</summary>
+    internal static class SceneCheck
+    {
+        /// <summary>The worst first.</summary>
+        public static IReadOnlyList<Finding> Run()
+        {
+            var scene = new SceneContents();
+            return SettingsRules.Check()
+                .Concat(StylusRules.Check(scene))
+                .Concat(SurfaceRules.Check(scene))
+                .Concat(ColliderRules.Check(scene))
+                .Concat(OutputRules.Check(scene))
+                .OrderByDescending(finding => finding.Severity)
+                .ToArray();
+        }
+    }
+}

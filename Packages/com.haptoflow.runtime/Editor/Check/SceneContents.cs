@@ -1,0 +1,43 @@
+#nullable enable
+using System;
+using System.Collections.Generic;
+using System.Linq;
+using UnityEngine;
+using Object = UnityEngine.Object;
+
+namespace HaptoFlow.Editor
+{
+    /// <summary>What of the open scenes matters to haptics; inactive objects do not.</summary>
+    internal sealed class SceneContents
+    {
+        public SceneContents()
+        {
+            Styluses = All<HapticStylus>();
+            Surfaces = All<HapticSurface>();
+            Outputs = All<HapticOutput>();
+            Colliders = SceneColliders.InScenes().Where(IsInReach).ToArray();
+        }
+
+        public IReadOnlyList<HapticStylus> Styluses { get; }
+
+        public IReadOnlyList<HapticSurface> Surfaces { get; }
+
+        public IReadOnlyList<HapticOutput> Outputs { get; }
+
+        /// <summary>Those that can be felt, on layers that a stylus looks at; on all layers where there is no stylus.
+        /// </summary>
+        public IReadOnlyList<Collider> Colliders { get; }
+
+        private bool IsInReach(Collider collider)
+        {
+            int layer = 1 << collider.gameObject.layer;
+            return Styluses.Count == 0 || Styluses.Any(stylus => (stylus.Layers.value & layer) != 0);
+        }
+
+        private static IReadOnlyList<T> All<T>()
+            where T : Behaviour => Object.FindObjectsByType<T>(FindObjectsInactive.Exclude, FindObjectsSortMode.None)
+            .Where(each => each.enabled)
+            .OrderBy(each => each.name, StringComparer.Ordinal)
+            .ToArray();
+    }
+}

@@ -1,0 +1,58 @@
+#nullable enable
+using System;
+using System.Runtime.CompilerServices;
+using HaptoFlow.Model;
+
+namespace HaptoFlow.Editor
+{
+    /// <summary>Looks a .haptoflow file over without the native library: the header and the checksum of every part.
+    /// </summary>
+    internal static class ModelCheck
+    {
+        private static readonly ConditionalWeakTable<byte[], string> Known = new ConditionalWeakTable<byte[], string>();
+
+        /// <summary>What is wrong and what to do; null for a sound file. Each file is looked over once.</summary>
+        public static string? ProblemOf(byte[] file)
+        {
+            string problem = Known.GetValue(file, each => Find(each) ?? "");
+            return problem.Length > 0 ? problem : null;
+        }
+
+        private static string? Find(byte[] file)
+        {
+            try
+            {
+                ModelHeader.Read(file);
+                return ProblemOfParts(file, JsonValue.Parse(ModelFile.HeaderText(file))["blobs"]);
+            }
+            catch (HaptoFlowException refusal)
+            {
+                return refusal.Message;
+            }
+            catch (FormatException error)
+            {
+                return "the JSON header: " + error.Message;
+            }
+        }
+
+        private static string? ProblemOfParts(byte[] file, JsonValue parts)
+        {
+            foreach (JsonValue part in parts.AsArray())
+            {
+                double offset = part["offset"].AsNumber();
+                double length = part["bytes"].AsNumber();
+                string name = part["name"].AsText();
+                if (!(offset >= 0.0 && length >= 0.0 && offset + length <= file.Length))
+                {
+                    return $"the part \"{name}\" lies outside the file: get it again";
+                }
+                uint checksum = Crc32.Of(file.AsSpan((int)offset, (int)length));
+                if (!checksum.Equals((uint)part["crc32"].AsNumber()))
+                {
+                    return $"the part \"{name}\" does not match its checksum: get the file again";
+                }
+            }
+            return null;
+        }
+    }
+}

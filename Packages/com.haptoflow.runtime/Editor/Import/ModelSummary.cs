@@ -1,0 +1,99 @@
+#nullable enable
+using System;
+using System.Collections.Generic;
+using System.Globalization;
+using System.Linq;
+using HaptoFlow.Model;
+
+namespace HaptoFlow.Editor
+{
+    /// <summary>A name and what it is.</summary>
+    internal readonly struct SummaryRow
+    {
+        public SummaryRow(string name, string value)
+        {
+            Name = name;
+            Value = value;
+        }
+
+        public string Name { get; }
+
+        public string Value { get; }
+    }
+
+    /// <summary>What the Inspector says of a model: where it comes from, its tiers with accuracy and time, its labels.
+    /// </summary>
+    internal sealed class ModelSummary
+    {
+        private ModelSummary(string problem) => Problem = problem;
+
+        /// <exception cref="FormatException">A measured figure is not a number.</exception>
+        private ModelSummary(HapticModelAsset asset)
+        {
+            ModelHeader header = asset.Header;
+            Title = header.Name;
+            Description = header.Description;
+            Origin = OriginOf(header, asset.File.Length).Where(row => row.Value.Length > 0).ToArray();
+            Tiers = header.Tiers.Select(tier => new TierSummary(tier, tier == header.DefaultTier)).ToArray();
+            Labels = header.Labels.Select(LabelRow).ToArray();
+        }
+
+        /// <summary>What is wrong with the file; null where nothing is. Then everything else is empty.</summary>
+        public string? Problem { get; }
+
+        public string Title { get; } = "";
+
+        public string Description { get; } = "";
+
+        public IReadOnlyList<SummaryRow> Origin { get; } = new SummaryRow[0];
+
+        /// <summary>The most accurate comes last.</summary>
+        public IReadOnlyList<TierSummary> Tiers { get; } = new TierSummary[0];
+
+        public IReadOnlyList<SummaryRow> Labels { get; } = new SummaryRow[0];
+
+        public static ModelSummary Of(HapticModelAsset asset)
+        {
+            string? problem = ModelCheck.ProblemOf(asset.File);
+            if (problem != null)
+            {
+                return new ModelSummary(problem);
+            }
+            try
+            {
+                return new ModelSummary(asset);
+            }
+            catch (FormatException error)
+            {
+                return new ModelSummary("the JSON header: " + error.Message);
+            }
+        }
+
+        private static IEnumerable<SummaryRow> OriginOf(ModelHeader header, int bytes)
+        {
+            yield return new SummaryRow("Provenance", header.Provenance.Statement);
+            yield return new SummaryRow("Recordings", header.Provenance.Recordings);
+            yield return new SummaryRow("Licence", header.Provenance.Licence);
+            yield return new SummaryRow("Created", header.Provenance.Created);
+            yield return new SummaryRow("Training code", header.Provenance.Commit);
+            yield return new SummaryRow("Trained speeds", Interval(header.SpeedMps, "m/s"));
+            yield return new SummaryRow("Trained forces", Interval(header.ForceNewtons, "N"));
+            yield return new SummaryRow("Size", Text("{0:0.0} MB", bytes / 1e6));
+        }
+
+        private static SummaryRow LabelRow(ModelLabel label)
+        {
+            string wave = label.WavelengthMetres.HasValue
+                ? Text(", period {0:0.##} mm", 1000.0 * label.WavelengthMetres.Value)
+                : "";
+            return new SummaryRow(label.Name, Text("{0}, {1:0} N/m, friction {2:0.00}{3}",
+                label.Category, label.StiffnessNewtonsPerMetre, label.FrictionCoefficient, wave));
+        }
+
+        private static string Interval(TrainedInterval interval, string unit) =>
+            Text("{0:0.##} to {1:0.##} {2}", interval.Minimum, interval.Maximum, unit);
+
+        private static string Text(string format, params object[] values) =>
+            string.Format(CultureInfo.InvariantCulture, format, values);
+    }
+}

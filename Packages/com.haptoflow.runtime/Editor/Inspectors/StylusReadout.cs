@@ -1,0 +1,43 @@
+#nullable enable
+namespace HaptoFlow.Editor
+{
+    /// <summary>What a stylus touches, and how its voice does.</summary>
+    internal sealed class StylusReadout : Readout<HapticStylus>
+    {
+        private const double SamplesPerMillisecond = 2.0;
+
+        protected override void Read(HapticStylus stylus)
+        {
+            if (Haptics.Problem != null)
+            {
+                Add("Problem", Haptics.Problem);
+            }
+            if (stylus.IsTouching)
+            {
+                HapticContact contact = stylus.Contact;
+                Add("Touches", "{0} ({1})", contact.Surface.name, contact.Surface.Material.Label);
+                Add("Force", "{0:0.00} N", contact.ForceNewtons);
+                Add("Speed", "{0:0} mm/s", 1000.0 * contact.TangentialVelocity.magnitude);
+                Add("Penetration", "{0:0.0} mm", 1000.0 * contact.PenetrationMetres);
+            }
+            else
+            {
+                Add("Touches", "nothing");
+            }
+            if (!stylus.TryGetStatistics(out VoiceStatistics voice))
+            {
+                Add("Voice", "none yet");
+                return;
+            }
+            Add("Segments", "{0}, {1} late", voice.Inferences, voice.Late);
+            Add("Underruns", "{0}", voice.Underruns);
+            Add("Lead", "{0:0.0} ms", voice.LeadSamples / SamplesPerMillisecond);
+            ulong repaired = voice.Sanitised + voice.NonFiniteSamples + voice.Failures;
+            if (repaired > 0)
+            {
+                Add("Put right", "{0} inputs, {1} samples, {2} failed runs",
+                    voice.Sanitised, voice.NonFiniteSamples, voice.Failures);
+            }
+        }
+    }
+}

@@ -1,0 +1,50 @@
+#nullable enable
+using UnityEditor;
+using UnityEngine;
+
+namespace HaptoFlow.Editor
+{
+    /// <summary>A field that keeps a label by its name and lets one of the model's be chosen.</summary>
+    internal static class LabelField
+    {
+        private const string SeveralValues = "\u2014";
+        private static readonly GUIContent Button = new GUIContent();
+
+        public static void Draw(Rect position, SerializedProperty property, GUIContent title, bool canBeEmpty)
+        {
+            using var scope = new EditorGUI.PropertyScope(position, title, property);
+            Rect field = EditorGUI.PrefixLabel(position, scope.content);
+            LabelCatalog catalog = LabelCatalog.Current;
+            bool several = property.hasMultipleDifferentValues;
+            string present = several ? "" : property.stringValue;
+            Button.text = several ? SeveralValues : catalog.TextOf(present);
+            Button.tooltip = catalog.IsUnknown(present)
+                ? "The model has no such label: open the list for near matches."
+                : scope.content.tooltip;
+            if (EditorGUI.DropdownButton(field, Button, FocusType.Keyboard))
+            {
+                Open(field, property, catalog, present, canBeEmpty);
+            }
+        }
+
+        private static void Open(
+            Rect field, SerializedProperty property, LabelCatalog catalog, string present, bool canBeEmpty)
+        {
+            // The list is answered later, when the Inspector's own serialized object may be gone.
+            Object[] targets = property.serializedObject.targetObjects;
+            string path = property.propertyPath;
+            new LabelDropdown(LabelOptions.For(catalog, present, canBeEmpty), name => Write(targets, path, name))
+                .Show(field);
+        }
+
+        private static void Write(Object[] targets, string path, string name)
+        {
+            if (System.Array.TrueForAll(targets, target => target != null))
+            {
+                using var serialized = new SerializedObject(targets);
+                serialized.FindProperty(path).stringValue = name;
+                serialized.ApplyModifiedProperties();
+            }
+        }
+    }
+}

@@ -1,0 +1,72 @@
+#nullable enable
+using UnityEditor;
+using UnityEngine;
+
+namespace HaptoFlow.Editor
+{
+    /// <summary>Draws a <see cref="MaterialDescription"/>, wherever a component has one: labels from a searchable list,
+    /// units and what the model says.</summary>
+    [CustomPropertyDrawer(typeof(MaterialDescription))]
+    internal sealed class MaterialDescriptionDrawer : PropertyDrawer
+    {
+        private const int FieldRows = 5;
+        private const float RemarkWidth = 110f;
+
+        private static readonly GUIContent Label = new GUIContent("Label",
+            "What it is made of: a label of the model, kept by its name.");
+        private static readonly GUIContent SecondLabel = new GUIContent("Second Label",
+            "A label to blend with; none for the first alone.");
+        private static readonly GUIContent Blend = new GUIContent("Blend",
+            "0: the first label alone. 1: the second alone.");
+        private static readonly GUIContent Stiffness = new GUIContent("Stiffness (N/m)",
+            "Of the spring model: force a metre of penetration. 0: what the model says of the label.");
+        private static readonly GUIContent Strength = new GUIContent("Strength",
+            "Gain of the output while this is touched, 0 to 1.");
+
+        private static float RowHeight =>
+            EditorGUIUtility.singleLineHeight + EditorGUIUtility.standardVerticalSpacing;
+
+        public override float GetPropertyHeight(SerializedProperty property, GUIContent label) =>
+            RowHeight * (FieldRows + (label.text.Length > 0 ? 1 : 0)) - EditorGUIUtility.standardVerticalSpacing;
+
+        public override void OnGUI(Rect position, SerializedProperty property, GUIContent label)
+        {
+            var row = new Rect(position.x, position.y, position.width, EditorGUIUtility.singleLineHeight);
+            if (label.text.Length > 0)
+            {
+                EditorGUI.LabelField(row, label.text, EditorStyles.boldLabel);
+                row.y += RowHeight;
+            }
+            SerializedProperty first = property.FindPropertyRelative("label");
+            SerializedProperty second = property.FindPropertyRelative("secondLabel");
+            LabelField.Draw(row, first, Label, false);
+            row.y += RowHeight;
+            LabelField.Draw(row, second, SecondLabel, true);
+            row.y += RowHeight;
+            bool blends = second.hasMultipleDifferentValues || second.stringValue.Length > 0;
+            using (new EditorGUI.DisabledScope(!blends))
+            {
+                EditorGUI.PropertyField(row, property.FindPropertyRelative("blend"), Blend);
+            }
+            row.y += RowHeight;
+            DrawStiffness(row, property.FindPropertyRelative("stiffnessNewtonsPerMetre"), first);
+            row.y += RowHeight;
+            EditorGUI.PropertyField(row, property.FindPropertyRelative("strength"), Strength);
+        }
+
+        private static void DrawStiffness(Rect row, SerializedProperty stiffness, SerializedProperty label)
+        {
+            bool ofModel = !stiffness.hasMultipleDifferentValues && stiffness.floatValue.Equals(0f) &&
+                !label.hasMultipleDifferentValues;
+            string remark = ofModel ? LabelCatalog.Current.StiffnessRemark(label.stringValue) : "";
+            Rect field = row;
+            if (remark.Length > 0)
+            {
+                field.width -= RemarkWidth;
+                var place = new Rect(field.xMax + 4f, row.y, RemarkWidth - 4f, row.height);
+                EditorGUI.LabelField(place, remark, EditorStyles.miniLabel);
+            }
+            EditorGUI.PropertyField(field, stiffness, Stiffness);
+        }
+    }
+}

@@ -1,0 +1,85 @@
+#nullable enable
+using System;
+using System.Threading;
+
+namespace HaptoFlow.Preview
+{
+    /// <summary>Mean power spectral density of a sound while its tip touches, after Welch (1967): Hann windows of
+    /// 171 ms, each half over the last.</summary>
+    internal sealed class Spectrum
+    {
+        public const double LowestHz = 20.0;
+        public const double HighestHz = 1000.0;
+
+        private const int WindowSamples = 8192;
+
+        private readonly double[] densities;
+
+        private Spectrum(double[] densities, double hertzPerBin)
+        {
+            this.densities = densities;
+            HertzPerBin = hertzPerBin;
+        }
+
+        public double HertzPerBin { get; }
+
+        /// <summary>From 0 Hz up to past <see cref="HighestHz"/>.</summary>
+        public int Bins => densities.Length;
+
+        /// <exception cref="OperationCanceledException">The token was cancelled.</exception>
+        public static Spectrum Of(PreviewSound sound, CancellationToken token)
+        {
+            var density = new PowerDensity(WindowSamples, PreviewSound.RateHz);
+            var sum = new double[(int)(HighestHz / density.HertzPerBin) + 2];
+            var first = new double[sum.Length];
+            var second = new double[sum.Length];
+            int windows = 0;
+            for (int begin = 0; begin < sound.Samples.Length; begin += WindowSamples)
+            {
+                token.ThrowIfCancellationRequested();
+                density.Of(sound.Samples, begin, begin + WindowSamples / 2, first, second);
+                windows += AddIfTouched(sound, begin, first, sum);
+                windows += AddIfTouched(sound, begin + WindowSamples / 2, second, sum);
+            }
+            for (int bin = 0; bin < sum.Length; ++bin)
+            {
+                sum[bin] /= Math.Max(1, windows);
+            }
+            return new Spectrum(sum, density.HertzPerBin);
+        }
+
+        /// <summary>dB re 1 (m/s^2)^2/Hz, between the bins on a straight line; minus infinity for silence.</summary>
+        public double Decibels(double hertz)
+        {
+            double place = Math.Max(0.0, Math.Min(Bins - 1.0, hertz / HertzPerBin));
+            int bin = Math.Min(Bins - 2, (int)place);
+            return Levels.Decibels(densities[bin] + (place - bin) * (densities[bin + 1] - densities[bin]));
+        }
+
+        /// <summary>The highest within a band, both ends included.</summary>
+        public double DecibelsBetween(double fromHertz, double toHertz)
+        {
+            double highest = Math.Max(Decibels(fromHertz), Decibels(toHertz));
+            int last = Math.Min(Bins - 1, (int)Math.Floor(toHertz / HertzPerBin));
+            for (int bin = (int)Math.Ceiling(fromHertz / HertzPerBin); bin <= last; ++bin)
+            {
+                highest = Math.Max(highest, Levels.Decibels(densities[bin]));
+            }
+            return highest;
+        }
+
+        private static int AddIfTouched(PreviewSound sound, int begin, double[] densities, double[] sum)
+        {
+            double middle = (begin + WindowSamples / 2) / (double)PreviewSound.RateHz;
+            if (middle >= sound.DurationSeconds || !sound.Stroke.At(middle).Touching)
+            {
+                return 0;
+            }
+            for (int bin = 0; bin < sum.Length; ++bin)
+            {
+                sum[bin] += densities[bin];
+            }
+            return 1;
+        }
+    }
+}

@@ -1,0 +1,61 @@
+#nullable enable
+using System;
+using System.Collections.Generic;
+
+namespace HaptoFlow.Preview
+{
+    /// <summary>Speed and force of a stroke over time; both fall to zero in the air.</summary>
+    internal static class MotionChart
+    {
+        /// <param name="frame">The plot itself; the speed's scale is left of it, the force's right, time below.</param>
+        public static void Draw(PixelCanvas canvas, Palette palette, Box frame, Stroke stroke)
+        {
+            double fastest = Scale.RoundUp(stroke.FastestMps);
+            double strongest = Scale.RoundUp(stroke.StrongestNewtons);
+            var plot = new Plot(canvas, palette, frame, (0.0, stroke.DurationSeconds), (0.0, 1.08));
+            IReadOnlyList<double> seconds = Scale.Ticks(0.0, stroke.DurationSeconds, 5);
+            plot.Columns(seconds);
+            plot.ColumnTexts(seconds, value => Scale.Text(value, 2), "s");
+            foreach (double share in new[] { 0.0, 0.5, 1.0 })
+            {
+                double y = plot.Y(share);
+                canvas.HorizontalHair(frame.Left, frame.Right, Math.Min(y, frame.Bottom - 1.0), palette.Grid);
+                plot.RowText(Scale.Text(share * fastest, 4), y, frame.Left - 6.0, TextAlign.Right, palette.Speed);
+                plot.RowText(Scale.Text(share * strongest, 4), y, frame.Right + 6.0, TextAlign.Left, palette.Force);
+            }
+            List<(double X, double Y)> force = Curve(plot, stroke, state => state.ForceNewtons / strongest);
+            Shade(canvas, plot.Frame, force, palette.Force.WithOpacity(0.22));
+            canvas.Polyline(force, 3.0, palette.Force);
+            canvas.Polyline(Curve(plot, stroke, state => state.SpeedMps / fastest), 1.6, palette.Speed);
+        }
+
+        /// <summary>From a curve down to the frame's bottom.</summary>
+        private static void Shade(
+            PixelCanvas canvas, Box frame, IReadOnlyList<(double X, double Y)> curve, Colour colour)
+        {
+            double pixel = 1.0 / canvas.Scale;
+            int next = 1;
+            for (double x = frame.Left; x < curve[curve.Count - 1].X; x += pixel)
+            {
+                while (next < curve.Count - 1 && curve[next].X < x)
+                {
+                    ++next;
+                }
+                (double fromX, double fromY) = curve[next - 1];
+                (double toX, double toY) = curve[next];
+                double y = fromY + (toY - fromY) * Math.Max(0.0, Math.Min(1.0, (x - fromX) / (toX - fromX)));
+                canvas.Fill(new Box(x, y, pixel, frame.Bottom - y), colour);
+            }
+        }
+
+        private static List<(double X, double Y)> Curve(Plot plot, Stroke stroke, Func<StrokeState, double> share)
+        {
+            var points = new List<(double X, double Y)>();
+            foreach (StrokeState state in stroke.States)
+            {
+                points.Add((plot.X(state.TimeSeconds), plot.Y(state.Touching ? share(state) : 0.0)));
+            }
+            return points;
+        }
+    }
+}

@@ -1,0 +1,91 @@
+#nullable enable
+using System;
+using System.Collections.Generic;
+
+namespace HaptoFlow.Preview
+{
+    /// <summary>A chart's frame: from values to points, with grid and scales around it.</summary>
+    internal sealed class Plot
+    {
+        /// <summary>Of scales, in points.</summary>
+        public const double ScaleSize = 10.0;
+
+        private const double LeastGap = 5.0;
+
+        private readonly PixelCanvas canvas;
+        private readonly Palette palette;
+        private readonly (double Low, double High) horizontal;
+        private readonly (double Low, double High) vertical;
+
+        public Plot(PixelCanvas canvas, Palette palette, Box frame, (double Low, double High) horizontal,
+            (double Low, double High) vertical)
+        {
+            this.canvas = canvas;
+            this.palette = palette;
+            this.horizontal = horizontal;
+            this.vertical = vertical;
+            Frame = frame.Snapped(canvas.Scale);
+            canvas.Fill(Frame, palette.Plot);
+        }
+
+        public Box Frame { get; }
+
+        public double X(double value) =>
+            Frame.Left + Frame.Width * (value - horizontal.Low) / (horizontal.High - horizontal.Low);
+
+        /// <summary>Held within the frame.</summary>
+        public double Y(double value)
+        {
+            double share = (value - vertical.Low) / (vertical.High - vertical.Low);
+            return Frame.Bottom - Frame.Height * Math.Max(0.0, Math.Min(1.0, share));
+        }
+
+        /// <summary>Lines across, and numbers left of them.</summary>
+        public void Rows(IEnumerable<double> values, Func<double, string> text)
+        {
+            foreach (double value in values)
+            {
+                double y = Y(value);
+                canvas.HorizontalHair(Frame.Left, Frame.Right, Math.Min(y, Frame.Bottom - 1.0), palette.Grid);
+                RowText(text(value), y, Frame.Left - 6.0, TextAlign.Right, palette.Soft);
+            }
+        }
+
+        /// <summary>A number beside the frame, kept within its height.</summary>
+        public void RowText(string text, double y, double x, TextAlign align, Colour colour)
+        {
+            double held = Math.Max(Frame.Top + 4.0, Math.Min(Frame.Bottom - 4.0, y));
+            canvas.Text(text, x, held, ScaleSize, colour, align);
+        }
+
+        /// <summary>Lines down.</summary>
+        public void Columns(IEnumerable<double> values)
+        {
+            foreach (double value in values)
+            {
+                canvas.VerticalHair(
+                    Math.Min(X(value), Frame.Right - 1.0), Frame.Top, Frame.Bottom, palette.Grid);
+            }
+        }
+
+        /// <summary>Numbers below the frame; the unit goes with the last. Where two would meet, the last one stays.
+        /// </summary>
+        public void ColumnTexts(IReadOnlyList<double> values, Func<double, string> text, string unit)
+        {
+            double end = Frame.Right;
+            for (int index = values.Count - 1; index >= 0; --index)
+            {
+                string number = text(values[index]);
+                string label = index == values.Count - 1 ? number + " " + unit : number;
+                double width = StrokeFont.Width(label, ScaleSize);
+                double wanted = X(values[index]) - 0.5 * StrokeFont.Width(number, ScaleSize);
+                double left = Math.Max(Frame.Left, Math.Min(Frame.Right - width, wanted));
+                if (left + width <= end)
+                {
+                    canvas.Text(label, left, Frame.Bottom + 10.0, ScaleSize, palette.Soft);
+                    end = left - LeastGap;
+                }
+            }
+        }
+    }
+}

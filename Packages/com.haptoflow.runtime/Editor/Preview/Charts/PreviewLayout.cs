@@ -1,0 +1,61 @@
+#nullable enable
+using System;
+
+namespace HaptoFlow.Preview
+{
+    /// <summary>Where everything is in the window, in points: controls and stroke on the left, what it sounds like on
+    /// the right.</summary>
+    internal sealed class PreviewLayout
+    {
+        /// <summary>Below this nothing is legible.</summary>
+        public const double LeastWidth = 1080.0;
+
+        /// <summary>Below this nothing is legible.</summary>
+        public const double LeastHeight = 760.0;
+
+        private const double Margin = 8.0;
+        private const double LeftWidth = 312.0;
+        private const double StrokeHeight = 340.0;
+
+        public PreviewLayout(double width, double height)
+        {
+            var whole = new Box(0.0, 0.0, Math.Max(LeastWidth, width), Math.Max(LeastHeight, height));
+            Width = whole.Width;
+            Height = whole.Height;
+            Box inside = whole.Inside(Margin);
+            Box left = inside.Columns(0.0, LeftWidth);
+            Controls = left.Rows(0.0, left.Height - StrokeHeight - Margin);
+            StrokePanel = left.Rows(left.Height - StrokeHeight, StrokeHeight);
+            Charts = inside.Columns(LeftWidth + Margin, inside.Width - LeftWidth - Margin);
+        }
+
+        /// <summary>Of the whole, which is larger than a window that is too small.</summary>
+        public double Width { get; }
+
+        /// <summary>Of the whole, which is larger than a window that is too small.</summary>
+        public double Height { get; }
+
+        public Box Controls { get; }
+
+        /// <summary>The picture of the patch and of the stroke's motion.</summary>
+        public Box StrokePanel { get; }
+
+        /// <summary>The picture of what is heard.</summary>
+        public Box Charts { get; }
+
+        /// <summary>The patch within the picture of the stroke.</summary>
+        public static Box Patch(Box strokePanel)
+        {
+            double width = strokePanel.Width - 24.0;
+            double height = width * Stroke.PatchHeightMetres / Stroke.PatchWidthMetres;
+            return new Box(strokePanel.Left + 12.0, strokePanel.Top + 32.0, width, height);
+        }
+
+        /// <summary>Speed and force within the picture of the stroke.</summary>
+        public static Box Motion(Box strokePanel)
+        {
+            double top = Patch(strokePanel).Bottom + 30.0;
+            return new Box(strokePanel.Left + 42.0, top, strokePanel.Width - 84.0, strokePanel.Bottom - 22.0 - top);
+        }
+    }
+}

@@ -1,0 +1,113 @@
+#nullable enable
+using System;
+using System.Collections.Generic;
+using System.Linq;
+
+namespace HaptoFlow.Preview
+{
+    /// <summary>What accuracy costs in time: each tier's milliseconds on this machine beside its accuracy.</summary>
+    internal static class QualityTable
+    {
+        private const double RowHeight = 24.0;
+        private const double TextSize = 12.0;
+        private const string Unknown = "\u2013";
+
+        /// <param name="chosen">The tier that renders.</param>
+        public static void Draw(
+            PixelCanvas canvas, Palette palette, Box box, IReadOnlyList<QualityRow> rows, string chosen)
+        {
+            double[] columns = Columns(box);
+            Headings(canvas, palette, box, columns);
+            double slowest = rows.Select(row => row.Timing?.MedianMs ?? 0.0).DefaultIfEmpty().Max();
+            for (int index = 0; index < rows.Count; ++index)
+            {
+                Box row = box.Rows(30.0 + index * RowHeight, RowHeight);
+                if (rows[index].Name == chosen)
+                {
+                    canvas.FillRound(row.Inside(-6.0, 1.0, -6.0, 1.0), palette.First.WithOpacity(0.16), 4.0);
+                }
+                Row(canvas, palette, row, columns, rows[index], slowest);
+            }
+            Remarks(canvas, palette, box.Rows(38.0 + rows.Count * RowHeight, 60.0), rows);
+        }
+
+        /// <summary>Left edges of: name, bar, milliseconds (right edge), and right edges of level, fit and distance.
+        /// </summary>
+        private static double[] Columns(Box box)
+        {
+            double accuracy = box.Right - 164.0;
+            return new[] { box.Left, box.Left + 68.0, accuracy - 22.0, accuracy + 44.0, accuracy + 94.0, box.Right };
+        }
+
+        private static void Headings(PixelCanvas canvas, Palette palette, Box box, double[] columns)
+        {
+            void Heading(string text, double x, TextAlign align, double y) =>
+                canvas.Text(text, x, box.Top + y, Plot.ScaleSize, palette.Soft, align);
+
+            Heading("quality", columns[0], TextAlign.Left, 18.0);
+            Heading("ms a segment", columns[1], TextAlign.Left, 6.0);
+            Heading("median", columns[1], TextAlign.Left, 18.0);
+            Heading("90 %", columns[2], TextAlign.Right, 18.0);
+            Heading("level", columns[3], TextAlign.Right, 6.0);
+            Heading("error dB", columns[3], TextAlign.Right, 18.0);
+            Heading("spectral", columns[4], TextAlign.Right, 6.0);
+            Heading("fit", columns[4], TextAlign.Right, 18.0);
+            Heading("spectral", columns[5], TextAlign.Right, 6.0);
+            Heading("distance dB", columns[5], TextAlign.Right, 18.0);
+            canvas.HorizontalHair(box.Left, box.Right, box.Top + 27.0, palette.Grid);
+        }
+
+        private static void Row(
+            PixelCanvas canvas, Palette palette, Box row, double[] columns, QualityRow figures, double slowest)
+        {
+            void Cell(string text, double x, TextAlign align, Colour colour) =>
+                canvas.Text(text, x, row.MiddleY, TextSize, colour, align);
+
+            Cell(figures.Name, columns[0], TextAlign.Left, palette.Ink);
+            if (figures.Timing is { } timing)
+            {
+                double room = columns[2] - columns[1] - 84.0;
+                double length = Math.Max(2.0, room * timing.MedianMs / slowest);
+                var bar = new Box(columns[1], row.MiddleY - 4.0, length, 8.0);
+                canvas.FillRound(bar, palette.Speed, 2.0);
+                Cell(Milliseconds(timing.MedianMs), bar.Right + 7.0, TextAlign.Left, palette.Ink);
+                Cell(Milliseconds(timing.Percentile90Ms), columns[2], TextAlign.Right, palette.Soft);
+            }
+            else
+            {
+                Cell("not measured yet", columns[1], TextAlign.Left, palette.Soft);
+            }
+            if (!figures.HasAccuracy)
+            {
+                Cell("not in the model", columns[5], TextAlign.Right, palette.Soft);
+                return;
+            }
+            Cell(Figure(figures.LevelErrorDecibels, 2, true), columns[3], TextAlign.Right, palette.Ink);
+            Cell(Figure(figures.GoodnessOfFit, 3, false), columns[4], TextAlign.Right, palette.Ink);
+            Cell(Figure(figures.SpectralDistanceDecibels, 1, false), columns[5], TextAlign.Right, palette.Ink);
+        }
+
+        private static void Remarks(PixelCanvas canvas, Palette palette, Box box, IReadOnlyList<QualityRow> rows)
+        {
+            int count = rows.Select(row => row.Timing?.Count ?? 0).DefaultIfEmpty().Max();
+            string times = count > 0 ? $"Time: this machine, one thread, {count} segments of 100 ms each."
+                : "Time: measured on this machine when the first stroke is rendered.";
+            string[] lines =
+            {
+                times,
+                "Accuracy: from the model's header.",
+                "Level error: generated over recorded RMS, best at 0. Spectral fit: best at 1.",
+                "Spectral distance over 20 to 1000 Hz: best at 0.",
+            };
+            for (int line = 0; line < lines.Length; ++line)
+            {
+                canvas.Text(lines[line], box.Left, box.Top + 7.0 + 15.0 * line, Plot.ScaleSize, palette.Soft);
+            }
+        }
+
+        private static string Milliseconds(double value) => Scale.Fixed(value, value < 10.0 ? 2 : 1);
+
+        private static string Figure(double? value, int digits, bool signed) =>
+            value is { } figure ? Scale.Fixed(figure, digits, signed) : Unknown;
+    }
+}

@@ -1,0 +1,56 @@
+#nullable enable
+using System;
+using System.Collections.Generic;
+using System.Globalization;
+
+namespace HaptoFlow.Preview
+{
+    /// <summary>Numbers along an axis.</summary>
+    internal static class Scale
+    {
+        /// <summary>Multiples of 1, 2 or 5 times a power of ten, both ends included.</summary>
+        public static IReadOnlyList<double> Ticks(double low, double high, int most)
+        {
+            double step = Step(high - low, most);
+            var ticks = new List<double>();
+            for (double tick = Math.Ceiling(low / step - 1e-9) * step; tick <= high + 1e-9 * step; tick += step)
+            {
+                ticks.Add(Math.Abs(tick) < 1e-9 * step ? 0.0 : tick);
+            }
+            return ticks;
+        }
+
+        /// <summary>The next 1, 2 or 5 times a power of ten that is not below.</summary>
+        public static double RoundUp(double value)
+        {
+            if (!(value > 0.0))
+            {
+                return 1.0;
+            }
+            double power = Math.Pow(10.0, Math.Floor(Math.Log10(value)));
+            double share = value / power;
+            return power * (share <= 1.0 + 1e-9 ? 1.0 : share <= 2.0 + 1e-9 ? 2.0 : share <= 5.0 + 1e-9 ? 5.0 : 10.0);
+        }
+
+        /// <summary>For people, the same in every country: at most so many digits after the point, and a real minus.
+        /// </summary>
+        public static string Text(double value, int digits, bool signed = false)
+        {
+            string zeros = digits > 0 ? "0." + new string('#', digits) : "0";
+            return Minus(value, zeros, signed);
+        }
+
+        /// <summary>The same with all digits after the point.</summary>
+        public static string Fixed(double value, int digits, bool signed = false) =>
+            Minus(value, digits > 0 ? "0." + new string('0', digits) : "0", signed);
+
+        private static double Step(double span, int most) => RoundUp(span / Math.Max(1, most));
+
+        private static string Minus(double value, string format, bool signed)
+        {
+            string size = Math.Abs(value).ToString(format, CultureInfo.InvariantCulture);
+            bool zero = size.Trim('0', '.').Length == 0;
+            return (value < 0.0 && !zero ? "\u2212" : signed && !zero ? "+" : "") + size;
+        }
+    }
+}

@@ -1,0 +1,65 @@
+#nullable enable
+using System;
+using System.Diagnostics;
+using System.Linq;
+using System.Threading;
+
+namespace HaptoFlow.Preview
+{
+    /// <summary>What one segment of a tier takes on this machine.</summary>
+    internal sealed class TierTiming
+    {
+        private const int WarmUps = 8;
+        private const int Runs = 64;
+
+        private TierTiming(double[] sortedMs)
+        {
+            Count = sortedMs.Length;
+            MedianMs = Percentile(sortedMs, 0.5);
+            Percentile90Ms = Percentile(sortedMs, 0.9);
+        }
+
+        /// <summary>Measurements behind the figures.</summary>
+        public int Count { get; }
+
+        public double MedianMs { get; }
+
+        /// <summary>Of ten segments nine took less, or as much.</summary>
+        public double Percentile90Ms { get; }
+
+        /// <summary>Segments one after the other on the calling thread, after a few that are not counted: caches are
+        /// full, as in the benchmarks' column "hot". Takes up to a second.</summary>
+        /// <exception cref="OperationCanceledException">The token was cancelled.</exception>
+        public static TierTiming Measure(HapticGenerator generator, float[] embedding, CancellationToken token)
+        {
+            var motion = new[] { 0.1f, 0.0f, 1.0f };
+            var previous = new float[HapticGenerator.SegmentSamples];
+            var noise = new float[HapticGenerator.SegmentSamples];
+            var segment = new float[HapticGenerator.SegmentSamples];
+            var milliseconds = new double[Runs];
+            var clock = new Stopwatch();
+            for (int run = -WarmUps; run < Runs; ++run)
+            {
+                token.ThrowIfCancellationRequested();
+                HapticGenerator.FillNoise(1, 0, (ulong)(run + WarmUps), noise);
+                clock.Restart();
+                generator.Generate(embedding, motion, previous, noise, segment);
+                clock.Stop();
+                segment.CopyTo(previous, 0);
+                if (run >= 0)
+                {
+                    milliseconds[run] = clock.Elapsed.TotalMilliseconds;
+                }
+            }
+            return Of(milliseconds);
+        }
+
+        /// <param name="milliseconds">At least one measurement.</param>
+        internal static TierTiming Of(double[] milliseconds) =>
+            new TierTiming(milliseconds.OrderBy(value => value).ToArray());
+
+        /// <summary>By nearest rank.</summary>
+        private static double Percentile(double[] sorted, double share) =>
+            sorted[Math.Max(0, (int)Math.Ceiling(share * sorted.Length) - 1)];
+    }
+}

@@ -1,0 +1,69 @@
+#nullable enable
+
+namespace HaptoFlow.Preview
+{
+    /// <summary>Where the tip is on the patch at one moment and how it moves. Metres from the patch's lower left
+    /// corner, x to the right along the first axis of the surface, y upwards along the second.</summary>
+    internal readonly struct StrokeState
+    {
+        public StrokeState(double timeSeconds, in PathPoint point, uint touchCounter, bool continues)
+        {
+            TimeSeconds = timeSeconds;
+            XMetres = point.XMetres;
+            YMetres = point.YMetres;
+            VelocityXMps = point.VelocityXMps;
+            VelocityYMps = point.VelocityYMps;
+            ForceNewtons = point.ForceNewtons;
+            Touching = point.Touching;
+            TouchCounter = touchCounter;
+            Continues = continues;
+        }
+
+        /// <summary>Since the stroke began.</summary>
+        public double TimeSeconds { get; }
+
+        public double XMetres { get; }
+
+        public double YMetres { get; }
+
+        public double VelocityXMps { get; }
+
+        public double VelocityYMps { get; }
+
+        public double ForceNewtons { get; }
+
+        public bool Touching { get; }
+
+        /// <summary>One more at each touch-down.</summary>
+        public uint TouchCounter { get; }
+
+        /// <summary>A line leads here from the state before: the same touch, and no step over the patch's edge.
+        /// </summary>
+        public bool Continues { get; }
+
+        public double SpeedMps => System.Math.Sqrt(VelocityXMps * VelocityXMps + VelocityYMps * VelocityYMps);
+
+        /// <summary>What a stylus would publish on such a surface.</summary>
+        public ContactState ContactOn(LabelBlend material) => new ContactState
+        {
+            Touching = Touching,
+            TouchCounter = TouchCounter,
+            Material = material,
+            FirstVelocityMps = Touching ? (float)VelocityXMps : 0f,
+            SecondVelocityMps = Touching ? (float)VelocityYMps : 0f,
+            ForceNewtons = Touching ? (float)ForceNewtons : 0f,
+            ApproachSpeedMps = (float)Stroke.LandingSpeedMps,
+        };
+    }
+
+    /// <summary>A point of a path before it is laid onto the patch. Units as in <see cref="StrokeState"/>.</summary>
+    internal struct PathPoint
+    {
+        public double XMetres;
+        public double YMetres;
+        public double VelocityXMps;
+        public double VelocityYMps;
+        public double ForceNewtons;
+        public bool Touching;
+    }
+}

@@ -1,0 +1,49 @@
+#nullable enable
+using System.Collections.Generic;
+
+namespace HaptoFlow.Preview
+{
+    /// <summary>What a preview shall show. Immutable by custom.</summary>
+    internal sealed class PreviewRequest
+    {
+        public PreviewRequest(byte[] modelFile, Stroke stroke, IReadOnlyList<LabelMix> materials)
+        {
+            ModelFile = modelFile;
+            Stroke = stroke;
+            Materials = materials;
+        }
+
+        /// <summary>Bytes of a whole .haptoflow file; another array is another model.</summary>
+        public byte[] ModelFile { get; }
+
+        /// <summary>Another object is another stroke.</summary>
+        public Stroke Stroke { get; }
+
+        /// <summary>One, or two to compare.</summary>
+        public IReadOnlyList<LabelMix> Materials { get; }
+
+        /// <summary>Which of them is heard.</summary>
+        public int Active { get; set; }
+
+        /// <summary>Name of a tier of the model: "draft", "standard" or "fine".</summary>
+        public string Tier { get; set; } = "standard";
+
+        /// <summary>Key of all noise.</summary>
+        public ulong Seed { get; set; } = 1;
+
+        /// <summary>A control is held down: be quick, other noise will do.</summary>
+        public bool IsSketch { get; set; }
+
+        /// <summary>Milliseconds are measured where this number was not seen before; 0 for never.</summary>
+        public int Measurement { get; set; }
+
+        public Palette Palette { get; set; } = Palette.Dark;
+
+        public Box StrokePanel { get; set; }
+
+        public Box Charts { get; set; }
+
+        /// <summary>Pixels of a point.</summary>
+        public double PixelsPerPoint { get; set; } = 1.0;
+    }
+}

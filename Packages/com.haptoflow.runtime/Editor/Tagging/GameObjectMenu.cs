@@ -1,0 +1,70 @@
+#nullable enable
+using System.Collections.Generic;
+using System.Linq;
+using UnityEditor;
+using UnityEngine;
+
+namespace HaptoFlow.Editor
+{
+    /// <summary>GameObject > HaptoFlow.</summary>
+    internal static class GameObjectMenu
+    {
+        private const string Tag = "GameObject/HaptoFlow/Tag Selected by Name or Physics Material";
+        private const string Stylus = "GameObject/HaptoFlow/Haptic Stylus";
+        private const int Place = 11;
+
+        [MenuItem(Tag, true, Place)]
+        internal static bool CanTag() => SelectedInScene().Length > 0;
+
+        [MenuItem(Tag, false, Place)]
+        internal static void TagSelected(MenuCommand command)
+        {
+            // The Hierarchy's context menu calls once for each selected object.
+            if (command.context == null || command.context == Selection.activeObject)
+            {
+                TagSelected(SelectedInScene(), new LabelMatcher(LabelCatalog.Current.Names));
+            }
+        }
+
+        internal static void TagSelected(IReadOnlyCollection<GameObject> selected, LabelMatcher matcher)
+        {
+            TagPlan plan = TagPlan.For(SceneColliders.Below(selected), selected, matcher);
+            Tagging.Apply(plan.Proposals, "Tag by Name or Physics Material");
+            Debug.Log(Report(plan));
+        }
+
+        /// <summary>Tip and component, ready to be put on a controller.</summary>
+        [MenuItem(Stylus, false, Place - 1)]
+        internal static void CreateStylus(MenuCommand command)
+        {
+            var owner = new GameObject("Haptic Stylus");
+            var tip = new GameObject("Tip");
+            tip.transform.SetParent(owner.transform, false);
+            owner.AddComponent<HapticStylus>().Tip = tip.transform;
+            GameObjectUtility.SetParentAndAlign(owner, command.context as GameObject);
+            Undo.RegisterCreatedObjectUndo(owner, "Create Haptic Stylus");
+            Selection.activeObject = owner;
+        }
+
+        /// <summary>Prefabs that are selected as assets are opened to be changed.</summary>
+        private static GameObject[] SelectedInScene() =>
+            Selection.gameObjects.Where(each => !EditorUtility.IsPersistent(each)).ToArray();
+
+        private static string Report(TagPlan plan)
+        {
+            if (plan.Proposals.Count == 0 && plan.Unmatched.Count == 0)
+            {
+                return "HaptoFlow: the selection has no untagged collider that can be felt.";
+            }
+            string tagged = plan.Proposals.Count == 0
+                ? "tagged nothing"
+                : "tagged " + string.Join(", ", plan.Proposals.Select(
+                    each => $"{each.Owner.name} as {each.Label} ({each.Reason})"));
+            string left = plan.Unmatched.Count == 0
+                ? ""
+                : "; left untagged, since neither name nor physics material suggests a label of the model: " +
+                    string.Join(", ", plan.Unmatched.Select(each => each.name));
+            return $"HaptoFlow: {tagged}{left}.";
+        }
+    }
+}

@@ -1,0 +1,92 @@
+#nullable enable
+using System.Collections.Generic;
+using System.Linq;
+using UnityEngine;
+
+namespace HaptoFlow.Editor
+{
+    /// <summary>An object that could be tagged, with the label that its name or physics material suggests.</summary>
+    internal readonly struct TagProposal
+    {
+        public TagProposal(GameObject owner, string label, string reason)
+        {
+            Owner = owner;
+            Label = label;
+            Reason = reason;
+        }
+
+        public GameObject Owner { get; }
+
+        public string Label { get; }
+
+        /// <summary>What suggested it.</summary>
+        public string Reason { get; }
+    }
+
+    /// <summary>Which objects would be tagged as what. Nothing is changed by making one.</summary>
+    internal sealed class TagPlan
+    {
+        private readonly List<TagProposal> proposals = new List<TagProposal>();
+        private readonly List<GameObject> unmatched = new List<GameObject>();
+        private readonly HashSet<GameObject> decided = new HashSet<GameObject>();
+        private readonly LabelMatcher matcher;
+
+        private TagPlan(LabelMatcher matcher) => this.matcher = matcher;
+
+        public IReadOnlyList<TagProposal> Proposals => proposals;
+
+        /// <summary>Objects with untagged colliders for which nothing suggests a label.</summary>
+        public IReadOnlyList<GameObject> Unmatched => unmatched;
+
+        /// <summary>For every untagged collider: its physics material, then its object's name, then the names of the
+        /// objects above it up to its root.</summary>
+        /// <param name="roots">Names above these do not count.</param>
+        public static TagPlan For(
+            IEnumerable<Collider> colliders, IReadOnlyCollection<GameObject> roots, LabelMatcher matcher)
+        {
+            var plan = new TagPlan(matcher);
+            foreach (Collider collider in colliders.Where(each => SceneColliders.SurfaceOf(each) == null))
+            {
+                plan.Decide(collider, roots);
+            }
+            return plan;
+        }
+
+        private void Decide(Collider collider, IReadOnlyCollection<GameObject> roots)
+        {
+            GameObject owner = collider.gameObject;
+            Object? physics = collider.sharedMaterial;
+            string? label = physics != null ? matcher.Propose(physics!.name) : null;
+            if (label != null)
+            {
+                Add(owner, label, $"physics material {physics!.name}");
+                return;
+            }
+            for (Transform? place = owner.transform; place != null; place = place.parent)
+            {
+                label = matcher.Propose(place.name);
+                if (label != null)
+                {
+                    Add(place.gameObject, label, "name");
+                    return;
+                }
+                if (roots.Contains(place.gameObject))
+                {
+                    break;
+                }
+            }
+            if (decided.Add(owner))
+            {
+                unmatched.Add(owner);
+            }
+        }
+
+        private void Add(GameObject owner, string label, string reason)
+        {
+            if (decided.Add(owner))
+            {
+                proposals.Add(new TagProposal(owner, label, reason));
+            }
+        }
+    }
+}

@@ -1,0 +1,163 @@
+#nullable enable
+using System;
+using System.Collections.Generic;
+using System.Linq;
+using HaptoFlow.Preview;
+using UnityEditor;
+using UnityEngine;
+
+namespace HaptoFlow.Editor
+{
+    /// <summary>The window's controls for material and stroke. Main thread, within OnGUI.</summary>
+    internal sealed class PreviewControls
+    {
+        private const float LabelWidth = 96f;
+
+        private static readonly string[] StrokeNames =
+        {
+            "Slide", "Back and Forth", "Spiral", "Accelerating", "Pressing", "Taps", "Drawn",
+        };
+
+        private static readonly GUIContent Model =
+            new GUIContent("Model", "The .haptoflow model to preview; none for the project's.");
+        private static readonly GUIContent First = new GUIContent("Material A", "A label of the model.");
+        private static readonly GUIContent Second =
+            new GUIContent("Material B", "A label of the model to compare with.");
+        private static readonly GUIContent Blend = new GUIContent("Blend with", "A second label in the material.");
+        private static readonly GUIContent Share =
+            new GUIContent("Share", "0: the first label alone. 1: the second label alone.");
+        private static readonly GUIContent Compare =
+            new GUIContent("Compare", "Shows a second material beside the first, on the same scales.");
+        private static readonly GUIContent StrokeChoice =
+            new GUIContent("Stroke", "How the tip moves. Drawing on the patch makes another one.");
+        private static readonly GUIContent Speed =
+            new GUIContent("Speed [m/s]", "Along the surface. Left and right arrow keys change it.");
+        private static readonly GUIContent Force = new GUIContent("Force [N]",
+            "Into the surface. Up and down arrow keys change it. For a pen, the force of half its pressure.");
+        private static readonly GUIContent Direction = new GUIContent("Direction [\u00b0]",
+            "0: along the surface's first axis, to the right. 90: along the second, upwards.");
+        private static readonly GUIContent Contact =
+            new GUIContent("Contact [s]", "From the first touch-down to the last lift-off.");
+        private static readonly GUIContent Quality =
+            new GUIContent("Quality", "The tier that renders. What each costs stands in the table.");
+        private static readonly GUIContent Seed =
+            new GUIContent("Seed", "The same seed makes the same noise every time.");
+
+        private readonly TexturePreviewState state;
+
+        // As laid out: what changes in the midst of an event must not bring controls that nobody laid out.
+        private readonly bool[] blends = new bool[2];
+        private bool compares;
+
+        public PreviewControls(TexturePreviewState state) => this.state = state;
+
+        public void Draw(PreviewModel model)
+        {
+            if (Event.current.type == EventType.Layout)
+            {
+                compares = state.Compares;
+                blends[0] = state.First.SecondLabel.Length > 0;
+                blends[1] = state.Second.SecondLabel.Length > 0;
+            }
+            float before = EditorGUIUtility.labelWidth;
+            EditorGUIUtility.labelWidth = LabelWidth;
+            var chosen = (HapticModelAsset?)EditorGUILayout.ObjectField(
+                Model, state.Model, typeof(HapticModelAsset), false);
+            if (chosen != state.Model)
+            {
+                state.Change("Model", changed => changed.Model = chosen);
+            }
+            DrawMaterial(First, state.First, model, 0);
+            DrawToggle(Compare, state.Compares, (changed, value) => changed.Compares = value);
+            if (compares)
+            {
+                DrawMaterial(Second, state.Second, model, 1);
+            }
+            EditorGUILayout.Space(4f);
+            DrawStroke();
+            EditorGUILayout.Space(4f);
+            DrawQuality(model);
+            EditorGUIUtility.labelWidth = before;
+        }
+
+        private void DrawMaterial(GUIContent title, MaterialChoice material, PreviewModel model, int index)
+        {
+            DrawLabel(title, material.LabelOr(model.Labels, index), model.Labels, false,
+                name => state.Change("Label", _ => material.Label = name));
+            DrawLabel(Blend, material.SecondLabel, model.Labels, true,
+                name => state.Change("Blend", _ => material.SecondLabel = name));
+            if (blends[index])
+            {
+                DrawSlider(Share, material.Share, 0f, 1f, (_, value) => material.Share = value);
+            }
+        }
+
+        private void DrawStroke()
+        {
+            int preset = EditorGUILayout.Popup(StrokeChoice, (int)state.Preset, StrokeNames);
+            if (preset != (int)state.Preset)
+            {
+                state.Change("Stroke", changed => changed.Preset = (StrokePreset)preset);
+            }
+            DrawSlider(Speed, state.SpeedMps, TexturePreviewState.SlowestMps, TexturePreviewState.FastestMps,
+                (changed, value) => changed.SpeedMps = value);
+            DrawSlider(Force, state.ForceNewtons, TexturePreviewState.WeakestNewtons,
+                TexturePreviewState.StrongestNewtons, (changed, value) => changed.ForceNewtons = value);
+            DrawSlider(Direction, state.DirectionDegrees, 0f, 360f,
+                (changed, value) => changed.DirectionDegrees = value);
+            DrawSlider(Contact, state.ContactSeconds, 0.2f, TexturePreviewState.LongestSeconds,
+                (changed, value) => changed.ContactSeconds = value);
+        }
+
+        private void DrawQuality(PreviewModel model)
+        {
+            string[] tiers = model.Tiers.ToArray();
+            int present = Array.IndexOf(tiers, state.Tier.Length > 0 ? state.Tier : model.DefaultTier);
+            int tier = EditorGUILayout.Popup(Quality, present, tiers);
+            if (tier != present)
+            {
+                state.Change("Quality", changed => changed.Tier = tiers[tier]);
+            }
+            int seed = EditorGUILayout.IntField(Seed, state.Seed);
+            if (seed != state.Seed)
+            {
+                state.Change("Seed", changed => changed.Seed = seed);
+            }
+        }
+
+        private void DrawSlider(GUIContent title, float value, float lowest, float highest,
+            Action<TexturePreviewState, float> change)
+        {
+            float entered = EditorGUILayout.Slider(title, value, lowest, highest);
+            if (!entered.Equals(value))
+            {
+                state.Change(title.text.Split(' ')[0], changed => change(changed, entered));
+            }
+        }
+
+        private void DrawToggle(GUIContent title, bool value, Action<TexturePreviewState, bool> change)
+        {
+            bool entered = EditorGUILayout.Toggle(title, value);
+            if (entered != value)
+            {
+                state.Change(title.text, changed => change(changed, entered));
+            }
+        }
+
+        private static void DrawLabel(
+            GUIContent title, string present, IReadOnlyList<string> labels, bool canBeEmpty, Action<string> choose)
+        {
+            Rect field = EditorGUI.PrefixLabel(EditorGUILayout.GetControlRect(), title);
+            var shown = new GUIContent(present.Length > 0 ? present : "none", title.tooltip);
+            if (EditorGUI.DropdownButton(field, shown, FocusType.Keyboard))
+            {
+                IEnumerable<LabelOption> none = canBeEmpty
+                    ? new[] { new LabelOption("none", "") }
+                    : Array.Empty<LabelOption>();
+                IEnumerable<LabelOption> all = labels.OrderBy(name => name, StringComparer.OrdinalIgnoreCase)
+                    .Select(name => new LabelOption(name, name));
+                new LabelDropdown(none.Concat(all).ToArray(), choose).Show(field);
+            }
+        }
+    }
+}

@@ -1,0 +1,103 @@
+#nullable enable
+using System;
+using System.Collections.Generic;
+using HaptoFlow.Preview;
+using UnityEditor;
+using UnityEngine;
+
+namespace HaptoFlow.Editor
+{
+    /// <summary>Everything that can be set in the Texture Preview window, undoable.</summary>
+    internal sealed class TexturePreviewState : ScriptableObject
+    {
+        public const float SlowestMps = 0.002f;
+        public const float FastestMps = 2f;
+        public const float WeakestNewtons = 0.05f;
+        public const float StrongestNewtons = 5f;
+        public const float LongestSeconds = 8f;
+
+        /// <summary>Null for the project's.</summary>
+        [field: SerializeField]
+        public HapticModelAsset? Model { get; set; }
+
+        [field: SerializeField]
+        public MaterialChoice First { get; private set; } = new MaterialChoice();
+
+        [field: SerializeField]
+        public MaterialChoice Second { get; private set; } = new MaterialChoice();
+
+        /// <summary>The second material is shown beside the first.</summary>
+        [field: SerializeField]
+        public bool Compares { get; set; } = true;
+
+        /// <summary>Which material is heard and exported: 0 or 1.</summary>
+        [field: SerializeField]
+        public int Active { get; set; }
+
+        [field: SerializeField]
+        public StrokePreset Preset { get; set; } = StrokePreset.BackAndForth;
+
+        [field: SerializeField]
+        public float SpeedMps { get; set; } = 0.12f;
+
+        [field: SerializeField]
+        public float ForceNewtons { get; set; } = 1.5f;
+
+        [field: SerializeField]
+        public float DirectionDegrees { get; set; } = 30f;
+
+        [field: SerializeField]
+        public float ContactSeconds { get; set; } = 2.5f;
+
+        /// <summary>Not to be changed: set another array.</summary>
+        [field: SerializeField]
+        public DrawnPoint[] Drawn { get; set; } = Array.Empty<DrawnPoint>();
+
+        /// <summary>Empty for the model's default.</summary>
+        [field: SerializeField]
+        public string Tier { get; set; } = "";
+
+        /// <summary>Key of all noise.</summary>
+        [field: SerializeField]
+        public int Seed { get; set; } = 1;
+
+        /// <summary>Raised until the louder of the two fills the speakers' range.</summary>
+        [field: SerializeField]
+        public bool Raises { get; set; } = true;
+
+        [field: SerializeField]
+        public bool Loops { get; set; }
+
+        /// <summary>Another number whenever something may be different.</summary>
+        public int Version { get; private set; }
+
+        /// <summary>How many materials are shown.</summary>
+        public int MaterialCount => Compares ? 2 : 1;
+
+        /// <summary>The active one among those that are shown.</summary>
+        public int Heard => Compares ? Active : 0;
+
+        public StrokeSettings Settings =>
+            new StrokeSettings(SpeedMps, ForceNewtons, DirectionDegrees, ContactSeconds);
+
+        public MaterialChoice Material(int index) => index == 0 ? First : Second;
+
+        public IReadOnlyList<LabelMix> Mixes(IReadOnlyList<string> labels)
+        {
+            LabelMix first = First.Mix(labels, 0);
+            return Compares ? new[] { first, Second.Mix(labels, 1) } : new[] { first };
+        }
+
+        /// <summary>Makes a change that can be undone.</summary>
+        /// <param name="what">Of the undo's name, for example "Speed".</param>
+        public void Change(string what, Action<TexturePreviewState> change)
+        {
+            Undo.RecordObject(this, "Texture Preview " + what);
+            change(this);
+            ++Version;
+        }
+
+        /// <summary>Something was undone or done again.</summary>
+        public void Forget() => ++Version;
+    }
+}

@@ -1,0 +1,229 @@
+#nullable enable
+using System;
+using HaptoFlow.Preview;
+using UnityEditor;
+using UnityEngine;
+
+namespace HaptoFlow.Editor
+{
+    /// <summary>Window > HaptoFlow > Texture Preview: every texture heard and seen without a headset. Everything slow
+    /// happens in the background; the main thread takes over what was finished.</summary>
+    internal sealed class TexturePreviewWindow : EditorWindow
+    {
+        private const float Width = 1200f;
+        private const float Height = 800f;
+
+        // What may be seen of the window where it is docked into less; the rest is scrolled to.
+        private const float LeastWidth = 480f;
+        private const float LeastHeight = 320f;
+
+        [SerializeField]
+        private TexturePreviewState? state;
+
+        private readonly PreviewTexture strokePicture = new PreviewTexture();
+        private readonly PreviewTexture chartsPicture = new PreviewTexture();
+        private PreviewControls? controls;
+        private PreviewPlayer? player;
+        private PatchInput? patch;
+        private float pixelsPerPoint = 1f;
+        private Vector2 scroll;
+
+        /// <summary>For whoever drives the window.</summary>
+        internal TexturePreviewState State => state!;
+
+        /// <summary>Null while the window is closed.</summary>
+        internal PreviewSession? Session { get; private set; }
+
+        /// <summary>Null while the window is closed.</summary>
+        internal PreviewPlayer? Player => player;
+
+        /// <summary>Of strokes that are drawn.</summary>
+        internal Func<double> ClockSeconds { get; set; } = () => EditorApplication.timeSinceStartup;
+
+        [MenuItem("Window/HaptoFlow/Texture Preview", false, 2100)]
+        internal static void Open()
+        {
+            bool isNew = !HasOpenInstances<TexturePreviewWindow>();
+            var window = GetWindow<TexturePreviewWindow>();
+            if (isNew)
+            {
+                Rect place = window.position;
+                window.position = new Rect(place.x, place.y, Width, Height);
+            }
+        }
+
+        private void OnEnable()
+        {
+            titleContent = new GUIContent("Texture Preview");
+            minSize = new Vector2(LeastWidth, LeastHeight);
+            if (state == null)
+            {
+                state = CreateInstance<TexturePreviewState>();
+                state.hideFlags = HideFlags.HideAndDontSave;
+            }
+            Session = new PreviewSession(state);
+            controls = new PreviewControls(state);
+            player = new PreviewPlayer(state, Session);
+            patch = new PatchInput(state);
+            patch.Ended += player.PlayWhenReady;
+            Undo.undoRedoPerformed += OnUndo;
+            EditorApplication.update += Step;
+            AssemblyReloadEvents.beforeAssemblyReload += Release;
+        }
+
+        private void OnDisable()
+        {
+            Undo.undoRedoPerformed -= OnUndo;
+            EditorApplication.update -= Step;
+            AssemblyReloadEvents.beforeAssemblyReload -= Release;
+            Release();
+        }
+
+        private void OnDestroy()
+        {
+            if (state != null)
+            {
+                DestroyImmediate(state);
+            }
+        }
+
+        private void OnGUI()
+        {
+            if (Session == null)
+            {
+                return;
+            }
+            pixelsPerPoint = EditorGUIUtility.pixelsPerPoint;
+            if (PreviewKeys.Handle(Event.current, State, player!.Toggle, ExportLater))
+            {
+                // What a key changes may need controls that were not laid out.
+                Repaint();
+                return;
+            }
+            PreviewLayout layout = View().Layout;
+            var all = new Rect(0f, 0f, (float)layout.Width, (float)layout.Height);
+            using var view = new GUI.ScrollViewScope(new Rect(0f, 0f, position.width, position.height), scroll, all);
+            scroll = view.scrollPosition;
+            using (new GUILayout.AreaScope(layout.Controls.ToRect()))
+            {
+                controls!.Draw(Session.Model);
+                player.DrawButtons(ExportLater);
+            }
+            DrawStroke(layout.StrokePanel);
+            DrawCharts(layout.Charts);
+        }
+
+        /// <summary>Once an editor update: asks for what is set, takes over what is finished.</summary>
+        internal void Step()
+        {
+            if (Session == null)
+            {
+                return;
+            }
+            Session.Refresh(ModelInUse(), View(), GUIUtility.hotControl != 0);
+            if (Session.Poll())
+            {
+                TakeOver();
+            }
+            if (player!.Step())
+            {
+                Repaint();
+            }
+        }
+
+        /// <summary>Waits until what is set is shown.</summary>
+        internal void Finish()
+        {
+            Session!.Refresh(ModelInUse(), View(), false);
+            Session.Finish();
+            TakeOver();
+            player!.Step();
+        }
+
+        /// <summary>Writes what is heard to a file.</summary>
+        /// <returns>What went wrong; null where nothing did.</returns>
+        internal string? ExportTo(string path)
+        {
+            Finish();
+            return Session!.Problem ?? WaveExport.Write(path, player!.Heard!.Sound);
+        }
+
+        // A dialog in the midst of drawing would upset what is being drawn.
+        private void ExportLater() => EditorApplication.delayCall += Export;
+
+        private void Export()
+        {
+            if (Session == null)
+            {
+                return;
+            }
+            Finish();
+            if (player!.Heard == null)
+            {
+                return;
+            }
+            string name = WaveExport.FileName(player.Heard.Sound.Material, State.Settings);
+            string path = EditorUtility.SaveFilePanel("Export WAV", "", name, "wav");
+            if (path.Length > 0)
+            {
+                ShowNotification(new GUIContent(ExportTo(path) ?? "Exported"));
+            }
+        }
+
+        private PreviewView View() =>
+            new PreviewView(position.width, position.height, pixelsPerPoint, EditorGUIUtility.isProSkin);
+
+        private HapticModelAsset? ModelInUse() => State.Model != null ? State.Model : LabelCatalog.ModelInUse();
+
+        private void OnUndo()
+        {
+            State.Forget();
+            Repaint();
+        }
+
+        private void TakeOver()
+        {
+            if (Session!.Shown != null)
+            {
+                strokePicture.Show(Session.Shown.StrokePanel);
+                chartsPicture.Show(Session.Shown.Charts);
+            }
+            Repaint();
+        }
+
+        private void DrawStroke(Box panel)
+        {
+            strokePicture.Draw(panel.ToRect());
+            Box place = PreviewLayout.Patch(panel);
+            patch!.Handle(Event.current, place.ToRect(), ClockSeconds());
+            if (player!.PlayedSeconds is { } seconds)
+            {
+                Playhead.DrawTip(place, Session!.Stroke.At(seconds), View().Palette, State.Heard);
+            }
+        }
+
+        private void DrawCharts(Box panel)
+        {
+            chartsPicture.Draw(panel.ToRect());
+            if (Session!.Problem is { } problem)
+            {
+                Box help = panel.Inside(16.0).Rows(0.0, 56.0);
+                EditorGUI.HelpBox(help.ToRect(), problem, MessageType.Error);
+            }
+            if (player!.PlayedSeconds is { } seconds && Session.Shown is { } shown)
+            {
+                Playhead.DrawLines(panel, shown.Sounds, seconds, View().Palette);
+            }
+        }
+
+        /// <summary>Lets go of everything that Unity or the native library would keep.</summary>
+        private void Release()
+        {
+            player?.Stop();
+            Session?.Dispose();
+            Session = null;
+            strokePicture.Release();
+            chartsPicture.Release();
+        }
+    }
+}

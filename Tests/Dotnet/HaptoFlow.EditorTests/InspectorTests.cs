@@ -1,0 +1,203 @@
+using System.Collections.Generic;
+using System.Linq;
+using HaptoFlow.Editor;
+using NUnit.Framework;
+using UnityEditor;
+using UnityEditor.IMGUI.Controls;
+using UnityEngine;
+using UnityEngine.TestTools;
+using UnityShim;
+
+namespace HaptoFlow.EditorTests
+{
+    /// <summary>What the Inspectors show, and what the user's hand does in them.</summary>
+    public sealed class InspectorTests : EditorTest
+    {
+        [Test]
+        public void AModelFileShowsItsLabelsTiersProvenanceAndLicence()
+        {
+            _ = Model();
+            IReadOnlyList<Drawn> drawn = Draw(AssetImporter.GetAtPath(ProjectSettingsAsset.DefaultModelPath)!);
+            string[] labels = Model().Header.Labels.Select(label => label.Name).ToArray();
+            Assert.That(labels, Has.Length.EqualTo(20).And.SubsetOf(drawn.Select(item => item.Label)));
+            Assert.That(drawn.Count(item => item.Label == "Accuracy"), Is.EqualTo(3));
+            Assert.That(drawn.Count(item => item.Label == "Time"), Is.EqualTo(3));
+            Assert.That(Value(drawn, "Licence"), Is.EqualTo("MIT"));
+            Assert.That(drawn.Select(item => item.Kind), Has.None.EqualTo(DrawnKind.Button), "nothing to apply");
+        }
+
+        [Test]
+        public void ADamagedFileShowsItsErrorAndNothingElse()
+        {
+            LogAssert.ignoreFailingMessages = true;
+            string path = Import("cut.haptoflow", ModelBytes.Truncated(Model().File, 70000));
+            IReadOnlyList<Drawn> drawn = Draw(AssetImporter.GetAtPath(path)!);
+            Assert.That(drawn, Has.Count.EqualTo(1));
+            Assert.That(drawn[0].Kind, Is.EqualTo(DrawnKind.Help));
+            Assert.That(drawn[0].Label, Does.Contain("has 70000: get it again"));
+        }
+
+        [Test]
+        public void AModelAssetWithoutFileShowsTheSame() =>
+            Assert.That(Value(Draw(HapticModelAsset.Create(Model().File)), "Licence"), Is.EqualTo("MIT"));
+
+        [Test]
+        public void ALabelIsChosenFromTheList()
+        {
+            HapticSurface surface = Tagged("Table", "wood");
+            Undo.IncrementCurrentGroup();
+            Pick(surface, "wood", "glass");
+            Assert.That(surface.Material.Label, Is.EqualTo("glass"));
+            Undo.PerformUndo();
+            Assert.That(surface.Material.Label, Is.EqualTo("wood"));
+        }
+
+        [Test]
+        public void AnUnknownLabelStaysVisibleUntilAnotherIsChosen()
+        {
+            HapticSurface surface = Tagged("Table", "plywod");
+            Drawn shown = Draw(surface).Single(item => item.Label == "plywod (not in model)");
+            Assert.That(shown.Tooltip, Does.Contain("near matches"));
+            Assert.That(surface.Material.Label, Is.EqualTo("plywod"), "drawing changes nothing");
+            Pick(surface, "plywod (not in model)", "plywod (not in model)");
+            Assert.That(surface.Material.Label, Is.EqualTo("plywod"));
+            Pick(surface, "plywod (not in model)", "plywood (near \"plywod\")");
+            Assert.That(surface.Material.Label, Is.EqualTo("plywood"));
+        }
+
+        [Test]
+        public void SeveralSurfacesTakeOneLabelAndOneUndoGivesEachItsOwn()
+        {
+            HapticSurface table = Tagged("Table", "wood");
+            HapticSurface door = Tagged("Door", "metal");
+            EditorScreen.Press("\u2014");
+            Draw(table, door);
+            Undo.IncrementCurrentGroup();
+            AdvancedDropdown.Shown!.Pick("stone");
+            Assert.That(new[] { table, door }.Select(each => each.Material.Label), Is.All.EqualTo("stone"));
+            Undo.PerformUndo();
+            Assert.That(table.Material.Label, Is.EqualTo("wood"));
+            Assert.That(door.Material.Label, Is.EqualTo("metal"));
+        }
+
+        [Test]
+        public void SeveralSurfacesShareWhatIsEntered()
+        {
+            HapticSurface table = Tagged("Table", "wood");
+            HapticSurface door = Tagged("Door", "metal");
+            door.Material.Strength = 0.25f;
+            Assert.That(Value(Draw(table, door), "Strength"), Is.EqualTo("—"));
+            EditorScreen.Enter("Strength", 0.5f);
+            Draw(table, door);
+            Assert.That(table.Material.Strength, Is.EqualTo(0.5f));
+            Assert.That(door.Material.Strength, Is.EqualTo(0.5f));
+            Assert.That(door.Material.Label, Is.EqualTo("metal"), "what was not entered stays");
+        }
+
+        [Test]
+        public void BlendCountsOnlyWhereThereIsASecondLabel()
+        {
+            HapticSurface surface = Tagged("Table", "wood");
+            Assert.That(Draw(surface).Single(item => item.Label == "Blend").Enabled, Is.False);
+            surface.Material.SecondLabel = "glass";
+            Assert.That(Draw(surface).Single(item => item.Label == "Blend").Enabled, Is.True);
+        }
+
+        [Test]
+        public void StiffnessZeroSaysWhatTheModelTakes()
+        {
+            HapticSurface surface = Tagged("Table", "wood");
+            Assert.That(Draw(surface).Select(item => item.Label), Has.Member("0: the model's 1200"));
+            surface.Material.StiffnessNewtonsPerMetre = 500f;
+            Assert.That(Draw(surface).Select(item => item.Label), Has.None.EqualTo("0: the model's 1200"));
+        }
+
+        [Test]
+        public void ASharedMaterialIsEditedInItsPlace()
+        {
+            HapticSurface surface = Tagged("Table", "wood");
+            HapticMaterial shared = ScriptableObject.CreateInstance<HapticMaterial>();
+            surface.SharedMaterial = shared;
+            EditorScreen.Enter("Strength", 0.25f);
+            Assert.That(Draw(surface).Select(item => item.Label), Has.Some.Contains("every surface that shares"));
+            Assert.That(shared.Description.Strength, Is.EqualTo(0.25f));
+            EditorScreen.Enter("Strength", 0.75f);
+            Draw(shared);
+            Assert.That(shared.Description.Strength, Is.EqualTo(0.75f));
+        }
+
+        [Test]
+        public void AMaterialThatIsSharedFromNowOnIsDrawnWithTheNextEvent()
+        {
+            HapticSurface surface = Tagged("Table", "wood");
+            HapticMaterial shared = ScriptableObject.CreateInstance<HapticMaterial>();
+            EditorScreen.Enter("Shared Material", shared);
+            int before = Draw(surface).Count;
+            Assert.That(surface.SharedMaterial, Is.EqualTo(shared));
+            Assert.That(Draw(surface), Has.Count.GreaterThan(before));
+        }
+
+        [Test]
+        public void ASurfaceSaysHowManyCollidersCanBeFeltAndHow()
+        {
+            HapticSurface surface = Tagged("Table", "wood");
+            Assert.That(Draw(surface).Last().Label, Is.EqualTo("One collider can be felt."));
+            Make("Vase", surface.gameObject).AddComponent<MeshCollider>();
+            Assert.That(Draw(surface).Last().Label, Does.StartWith("2 colliders can be felt.").And.Contain("20 mm"));
+            surface.IncludeChildren = false;
+            surface.GetComponent<BoxCollider>().isTrigger = true;
+            Assert.That(Draw(surface).Last().Label, Does.StartWith("No collider here can be felt"));
+        }
+
+        [Test]
+        public void EveryFieldOfAStylusSaysWhatItIs()
+        {
+            Drawn[] fields = Draw(Stylus()).Where(item => item.Kind == DrawnKind.Field).ToArray();
+            Assert.That(fields.Select(item => item.Label), Is.EqualTo(new[]
+            {
+                "Tip", "Tip Radius (m)", "Layers", "Update", "Tip Force", "Output", "Strength",
+            }));
+            Assert.That(fields.Select(item => item.Tooltip), Has.None.Empty);
+        }
+
+        [Test]
+        public void AnOutputShowsWhatItsRouteNeeds()
+        {
+            HapticOutput output = Output();
+            Assert.That(Fields(output), Is.EqualTo(new[] { "Route", "Channel", "Strength", "Muted" }));
+            EditorScreen.Enter("Route", OutputRoute.MixerEffect);
+            Draw(output);
+            Assert.That(output.Route, Is.EqualTo(OutputRoute.MixerEffect));
+            Assert.That(Fields(output),
+                Is.EqualTo(new[] { "Route", "Audio Mixer", "Voice Parameter", "Strength", "Muted" }));
+        }
+
+        [TestCase(true)]
+        [TestCase(false)]
+        public void NothingDependsOnTheSkin(bool dark)
+        {
+            EditorSession.DarkSkin = dark;
+            Assert.That(Fields(Output()), Has.Length.EqualTo(4));
+            Assert.That(Draw(Tagged("Table", "wood")), Is.Not.Empty);
+        }
+
+        internal static IReadOnlyList<Drawn> Draw(params Object[] targets)
+        {
+            UnityEditor.Editor editor = UnityEditor.Editor.CreateEditor(targets);
+            return EditorScreen.Draw(editor.OnInspectorGUI);
+        }
+
+        private static string[] Fields(Object target) =>
+            Draw(target).Where(item => item.Kind == DrawnKind.Field).Select(item => item.Label).ToArray();
+
+        private static string Value(IEnumerable<Drawn> drawn, string label) =>
+            drawn.Single(item => item.Label == label).Value;
+
+        private static void Pick(HapticSurface surface, string shown, string chosen)
+        {
+            EditorScreen.Press(shown);
+            Draw(surface);
+            AdvancedDropdown.Shown!.Pick(chosen);
+        }
+    }
+}

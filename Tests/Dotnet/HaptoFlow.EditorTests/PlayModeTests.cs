@@ -1,0 +1,230 @@
+using System.Collections.Generic;
+using System.Linq;
+using HaptoFlow.Editor;
+using NUnit.Framework;
+using UnityEditor;
+using UnityEngine;
+using UnityShim;
+
+namespace HaptoFlow.EditorTests
+{
+    /// <summary>Play mode entered and left from an editor, with domain reload off, and scripts reloaded.</summary>
+    public sealed class PlayModeTests : EditorTest
+    {
+        [SetUp]
+        public void StepTheEngine() =>
+            HapticSession.OptionsInstead =
+                new HapticEngineOptions { WithoutWorker = true, FixedLeadMs = 8.0, Seed = 3 };
+
+        [TearDown]
+        public void ForgetOptions() => HapticSession.OptionsInstead = null;
+
+        [Test]
+        public void PlayModeTakesTheProjectsSettings()
+        {
+            HaptoFlowSettings settings = Settings();
+            for (int round = 0; round < 2; ++round)
+            {
+                EditorSession.Play();
+                Assert.That(HaptoFlowSettings.Active, Is.SameAs(settings));
+                HaptoFlowSettings.Active = ScriptableObject.CreateInstance<HaptoFlowSettings>();
+                EditorSession.Stop();
+                Assert.That(HaptoFlowSettings.Active, Is.SameAs(settings), "what a script set was for that play");
+            }
+        }
+
+        [Test]
+        public void AStylusOfTheSceneWakesWithTheProjectsSettings()
+        {
+            HaptoFlowSettings settings = Settings();
+            settings.Quality = HapticQuality.Draft;
+            Stylus();
+            EditorSession.Play();
+            Assert.That(HapticSession.Current.Settings, Is.SameAs(settings));
+        }
+
+        [Test]
+        public void WithoutSettingsThePackagesModelPlaysAndOneLineSaysSo()
+        {
+            Stylus();
+            EditorSession.Play();
+            Assert.That(HaptoFlowSettings.Active.Model, Is.SameAs(Model()));
+            World.Frames(3);
+            Assert.That(LogLines("built-in"), Has.Length.EqualTo(1));
+            Assert.That(AssetDatabase.FindAssets("t:HaptoFlowSettings"), Is.Empty, "nothing is made behind one's back");
+        }
+
+        [Test]
+        public void InEditModeNoScriptWakesAndNoEngineStarts()
+        {
+            Settings();
+            Stylus();
+            Tagged("Table", "wood");
+            Assert.That(HapticSession.Existing, Is.Null);
+        }
+
+        [TestCase("reload")]
+        [TestCase("quit")]
+        [TestCase("stop")]
+        public void TheEngineEndsBeforeWhatHoldsItGoes(string end)
+        {
+            HapticEngine engine = PlayWithEngine();
+            switch (end)
+            {
+                case "reload":
+                    EditorSession.ReloadScripts();
+                    break;
+                case "quit":
+                    EditorSession.Quit();
+                    break;
+                default:
+                    EditorSession.Stop();
+                    break;
+            }
+            Assert.That(HapticSession.Existing, Is.Null);
+            Assert.Throws<HaptoFlowException>(() => engine.Statistics());
+        }
+
+        [Test]
+        public void ScriptsReloadedTwiceSubscribeOnce()
+        {
+            EditorSession.ReloadScripts();
+            EditorSession.ReloadScripts();
+            PlayWithEngine();
+            EditorSession.Stop();
+            Assert.That(UnityShim.Log.Lines.Where(line => line.Type == LogType.Exception), Is.Empty);
+        }
+
+        [Test]
+        public void AStylusShowsWhatItTouches()
+        {
+            HapticStylus stylus = PlayTouching(out _);
+            Drawn[] drawn = InspectorTests.Draw(stylus).ToArray();
+            Assert.That(Value(drawn, "Touches"), Is.EqualTo("Table (wood)"));
+            Assert.That(Value(drawn, "Force"), Does.EndWith(" N"));
+            Assert.That(Value(drawn, "Penetration"), Is.EqualTo("1.0 mm"));
+            Assert.That(Value(drawn, "Underruns"), Is.EqualTo("0"));
+            stylus.transform.position = new Vector3(0f, 1f, 0f);
+            World.Frames(3);
+            Assert.That(Value(InspectorTests.Draw(stylus), "Touches"), Is.EqualTo("nothing"));
+        }
+
+        [Test]
+        public void AnOutputShowsLevelUnderrunsAndMilliseconds()
+        {
+            PlayTouching(out HapticOutput output);
+            Assert.That(output.Level, Is.GreaterThan(0f));
+            Drawn[] drawn = InspectorTests.Draw(output).ToArray();
+            Drawn bar = drawn.Single(item => item.Kind == DrawnKind.Bar);
+            Assert.That(bar.Label, Does.StartWith("level -").And.EndsWith("dB of full scale"));
+            Assert.That(Value(drawn, "Voices"), Is.EqualTo("1"));
+            Assert.That(Value(drawn, "Underruns"), Does.Match("^[0-9]+$"));
+            Assert.That(Value(drawn, "Rendering a block"), Does.Contain("ms, at worst"));
+            Assert.That(Value(drawn, "Device"), Is.EqualTo("48000 Hz"));
+            Assert.That(Value(drawn, "Quality"), Is.EqualTo("draft"));
+            Assert.That(drawn.Single(item => item.Label == "Route").Enabled, Is.False);
+        }
+
+        [Test]
+        public void PanicInTheInspectorIsSilenceAtOnce()
+        {
+            PlayTouching(out HapticOutput output);
+            EditorScreen.Press("Panic");
+            InspectorTests.Draw(output);
+            World.Frames(20);
+            Assert.That(output.Level, Is.LessThan(0.01f));
+        }
+
+        [Test]
+        public void MutedInTheInspectorReachesTheVoices()
+        {
+            HapticStylus stylus = PlayTouching(out HapticOutput output);
+            EditorScreen.Enter("Muted", true);
+            InspectorTests.Draw(output);
+            World.Frames(20);
+            Assert.That(stylus.IsTouching, Is.True);
+            Assert.That(output.Level, Is.LessThan(0.01f));
+        }
+
+        [Test]
+        public void ALabelThatIsChosenWhilePlayingIsFelt()
+        {
+            HapticStylus stylus = PlayTouching(out _);
+            HapticSurface surface = stylus.Contact.Surface;
+            LabelBlend before = surface.BlendFor(HapticSession.Current);
+            EditorScreen.Press("wood");
+            InspectorTests.Draw(surface);
+            UnityEditor.IMGUI.Controls.AdvancedDropdown.Shown!.Pick("sandpaper");
+            Assert.That(surface.BlendFor(HapticSession.Current).Label(0), Is.Not.EqualTo(before.Label(0)));
+            World.Frames(2);
+            Assert.That(stylus.IsTouching, Is.True);
+        }
+
+        [Test]
+        public void ATouchIsDrawnInTheScene()
+        {
+            HapticStylus stylus = PlayTouching(out _);
+            Gizmos.Lines.Clear();
+            Handles.Labels.Clear();
+            StylusGizmos.Draw(stylus, GizmoType.Selected);
+            Vector3 point = stylus.Contact.Point;
+            Assert.That(Gizmos.Lines.Count(line => line.From == point && line.To == point + 0.02f * Vector3.up),
+                Is.EqualTo(1), "the normal");
+            Assert.That(Handles.Labels.Single(), Does.StartWith("wood: ").And.EndWith("1.0 mm deep"));
+            Gizmos.Lines.Clear();
+            Handles.Labels.Clear();
+            StylusGizmos.Draw(stylus, GizmoType.NonSelected);
+            Assert.That(Gizmos.Lines, Is.Not.Empty);
+            Assert.That(Handles.Labels, Is.Empty);
+            EditorSession.Stop();
+        }
+
+        [Test]
+        public void AStylusThatTouchesNothingShowsItsTipAlone()
+        {
+            HapticStylus stylus = Stylus();
+            Gizmos.Lines.Clear();
+            StylusGizmos.Draw(stylus, GizmoType.Selected);
+            Assert.That(Gizmos.Lines, Is.Empty);
+        }
+
+        private HapticEngine PlayWithEngine()
+        {
+            Settings().Quality = HapticQuality.Draft;
+            Stylus();
+            EditorSession.Play();
+            HapticSession.Current.FinishLoading();
+            return HapticSession.Current.Engine!;
+        }
+
+        /// <summary>A tip that slides, a millimetre deep, over a wooden table.</summary>
+        private HapticStylus PlayTouching(out HapticOutput output)
+        {
+            Settings().Quality = HapticQuality.Draft;
+            HapticSurface table = Tagged("Table", "wood");
+            var box = table.GetComponent<BoxCollider>();
+            box.size = new Vector3(1f, 0.1f, 1f);
+            box.center = new Vector3(0f, -0.05f, 0f);
+            Make("Listener").AddComponent<AudioListener>();
+            output = Output();
+            HapticStylus stylus = Stylus();
+            stylus.transform.position = new Vector3(-0.2f, 0.001f, 0f);
+            EditorSession.Play();
+            HapticSession.Current.FinishLoading();
+            for (int frame = 0; frame < 45; ++frame)
+            {
+                stylus.transform.position += new Vector3(0.15f / 90f, 0f, 0f);
+                World.Frame();
+                HapticSession.Current.Engine!.Step();
+            }
+            Assert.That(stylus.IsTouching, Is.True);
+            return stylus;
+        }
+
+        private static string Value(IEnumerable<Drawn> drawn, string label) =>
+            drawn.First(item => item.Label == label).Value;
+
+        private static string[] LogLines(string part) =>
+            UnityShim.Log.Lines.Select(line => line.Text).Where(text => text.Contains(part)).ToArray();
+    }
+}

@@ -1,0 +1,159 @@
+using System;
+using System.Linq;
+using System.Numerics;
+using System.Threading;
+using HaptoFlow.Preview;
+using NUnit.Framework;
+
+namespace HaptoFlow.PreviewTests
+{
+    public sealed class AnalysisTests
+    {
+        private static PreviewSound Sound(Func<double, double> mps2, double contactSeconds = 2.0)
+        {
+            Stroke stroke = PresetStrokes.Make(StrokePreset.Slide, new StrokeSettings(0.1, 1.0, 0.0, contactSeconds));
+            var samples = new float[(int)(stroke.DurationSeconds * PreviewSound.RateHz)];
+            for (int index = 0; index < samples.Length; ++index)
+            {
+                samples[index] = (float)(mps2(index / (double)PreviewSound.RateHz) / PreviewSound.FullScaleMps2);
+            }
+            return new PreviewSound(new LabelMix("made"), stroke, samples);
+        }
+
+        private static Func<double, double> Sine(double amplitude, double hertz) =>
+            seconds => amplitude * Math.Sin(2.0 * Math.PI * hertz * seconds);
+
+        [Test]
+        public void TheTransformIsTheSumOfItsDefinition()
+        {
+            var random = new Random(1);
+            double[] real = Enumerable.Range(0, 64).Select(_ => random.NextDouble() - 0.5).ToArray();
+            double[] imaginary = Enumerable.Range(0, 64).Select(_ => random.NextDouble() - 0.5).ToArray();
+            Complex[] expected = Enumerable.Range(0, 64).Select(bin => Enumerable.Range(0, 64)
+                .Select(index => new Complex(real[index], imaginary[index]) *
+                    Complex.FromPolarCoordinates(1.0, -2.0 * Math.PI * bin * index / 64.0))
+                .Aggregate(Complex.Zero, (sum, each) => sum + each)).ToArray();
+            new Fourier(64).Transform(real, imaginary);
+            Assert.That(real, Is.EqualTo(expected.Select(each => each.Real)).Within(1e-12));
+            Assert.That(imaginary, Is.EqualTo(expected.Select(each => each.Imaginary)).Within(1e-12));
+        }
+
+        [TestCase(0)]
+        [TestCase(1)]
+        [TestCase(48)]
+        public void OnlyPowersOfTwoAreTransformed(int length) =>
+            Assert.That(() => new Fourier(length), Throws.ArgumentException);
+
+        [Test]
+        public void TwoWindowsAtOnceAreTheTwoWindowsOneByOne()
+        {
+            var random = new Random(2);
+            float[] samples = Enumerable.Range(0, 3000).Select(_ => (float)(random.NextDouble() - 0.5)).ToArray();
+            var density = new PowerDensity(1024, 48000.0);
+            var first = new double[100];
+            var second = new double[100];
+            var alone = new double[100];
+            var none = new double[100];
+            density.Of(samples, 100, 1700, first, second);
+            density.Of(samples, 100, 5000, alone, none);
+            Assert.That(first, Is.EqualTo(alone).Within(1e-9));
+            Assert.That(none, Is.All.EqualTo(0.0).Within(1e-12), "beyond the end there is silence");
+            density.Of(samples, 1700, 1700, alone, none);
+            Assert.That(second, Is.EqualTo(alone).Within(1e-9));
+        }
+
+        [Test]
+        public void TheDensityOfASineSumsUpToItsPowerAndPeaksAtItsFrequency()
+        {
+            Spectrum spectrum = Spectrum.Of(Sound(Sine(4.0, 250.0)), CancellationToken.None);
+            double power = Enumerable.Range(0, spectrum.Bins)
+                .Sum(bin => Math.Pow(10.0, spectrum.Decibels(bin * spectrum.HertzPerBin) / 10.0));
+            power *= spectrum.HertzPerBin;
+            Assert.That(power, Is.EqualTo(8.0).Within(0.02));
+            double peak = Enumerable.Range(20, 981).MaxBy(hertz => spectrum.Decibels(hertz));
+            Assert.That(peak, Is.EqualTo(250.0).Within(spectrum.HertzPerBin));
+        }
+
+        [Test]
+        public void TheSpectrumCountsTheTouchNotTheAirAroundIt()
+        {
+            Func<double, double> sine = Sine(4.0, 250.0);
+            double Level(double contactSeconds) => Spectrum.Of(
+                Sound(time => time < 0.1 || time > 0.1 + contactSeconds ? 0.0 : sine(time), contactSeconds),
+                CancellationToken.None).Decibels(250.0);
+
+            Assert.That(Level(0.8), Is.EqualTo(Level(4.0)).Within(0.8));
+        }
+
+        [Test]
+        public void WhiteNoiseIsFlatAtItsDensity()
+        {
+            var random = new Random(3);
+            PreviewSound noise = Sound(_ => Math.Sqrt(12.0) * (random.NextDouble() - 0.5), 8.0);
+            Spectrum spectrum = Spectrum.Of(noise, CancellationToken.None);
+            double mean = Enumerable.Range(50, 900).Average(hertz => Math.Pow(10.0, spectrum.Decibels(hertz) / 10.0));
+            Assert.That(10.0 * Math.Log10(mean), Is.EqualTo(10.0 * Math.Log10(1.0 / 24000.0)).Within(0.5));
+        }
+
+        [Test]
+        public void ABandHoldsItsHighestBinHoweverNarrow()
+        {
+            Spectrum spectrum = Spectrum.Of(Sound(Sine(1.0, 300.0)), CancellationToken.None);
+            double highest = SpectrumChart.Highest(spectrum);
+            Assert.That(spectrum.DecibelsBetween(200.0, 400.0), Is.EqualTo(highest));
+            Assert.That(spectrum.DecibelsBetween(100.0, 100.1), Is.LessThan(highest - 40.0));
+        }
+
+        [Test]
+        public void TheSpectrogramShowsEachToneInItsTime()
+        {
+            PreviewSound sound = Sound(seconds => Sine(1.0, seconds < 1.0 ? 100.0 : 700.0)(seconds));
+            Spectrogram spectrogram = Spectrogram.Of(sound, CancellationToken.None);
+            double Loudest(double seconds)
+            {
+                var column = (int)(seconds / sound.DurationSeconds * spectrogram.Columns);
+                return Enumerable.Range(0, spectrogram.Rows).MaxBy(row => spectrogram.Decibels(column, row)) *
+                    spectrogram.HertzPerRow;
+            }
+
+            Assert.That(Loudest(0.5), Is.EqualTo(100.0).Within(spectrogram.HertzPerRow));
+            Assert.That(Loudest(1.5), Is.EqualTo(700.0).Within(spectrogram.HertzPerRow));
+            Assert.That(spectrogram.Columns, Is.EqualTo(230).Within(2), "one every 10 ms");
+        }
+
+        [Test]
+        public void SilenceHasNoLevelAndAPictureAllTheSame()
+        {
+            PreviewSound silence = Sound(_ => 0.0);
+            Spectrum spectrum = Spectrum.Of(silence, CancellationToken.None);
+            Assert.That(spectrum.Decibels(100.0), Is.EqualTo(double.NegativeInfinity));
+            Assert.That(Levels.Top(double.NegativeInfinity), Is.Zero);
+            Assert.That((silence.RmsMps2, silence.PeakMps2), Is.EqualTo((0.0, 0.0)));
+        }
+
+        [Test]
+        public void RmsIsThatOfTheTouch()
+        {
+            Func<double, double> sine = Sine(3.0, 200.0);
+            PreviewSound sound = Sound(time => time < 0.1 || time > 2.1 ? 0.0 : sine(time));
+            Assert.That(sound.RmsMps2, Is.EqualTo(3.0 / Math.Sqrt(2.0)).Within(0.02));
+            Assert.That(sound.PeakMps2, Is.EqualTo(3.0).Within(0.001));
+        }
+
+        [Test]
+        public void ACancelledAnalysisStops()
+        {
+            using var cancelled = new CancellationTokenSource();
+            cancelled.Cancel();
+            Assert.That(() => AnalysedSound.Of(Sound(_ => 0.0), cancelled.Token),
+                Throws.InstanceOf<OperationCanceledException>());
+        }
+
+        [TestCase(0.0, 10.0)]
+        [TestCase(-3.0, 0.0)]
+        [TestCase(-2.9, 10.0)]
+        [TestCase(-41.0, -30.0)]
+        public void TheTopOfAPictureIsTheNextTenAtLeastThreeAbove(double highest, double expected) =>
+            Assert.That(Levels.Top(highest), Is.EqualTo(expected));
+    }
+}

@@ -1,0 +1,34 @@
+using System.Collections.Generic;
+using System.Text.RegularExpressions;
+using HaptoFlow.Model;
+using HaptoFlow.Preview;
+
+namespace HaptoFlow.PreviewTests
+{
+    /// <summary>A header whose tiers were measured, and times of a machine that does not exist.</summary>
+    internal static class MeasuredModel
+    {
+        /// <summary>What a tier's accuracy is in a header.</summary>
+        public static readonly Regex Figures = new Regex("\"accuracy\":\\s*\\{[^}]*\\}");
+
+        private static readonly string[] Accuracies =
+        {
+            "{\"level_error_db\": -0.42, \"gfc_recording\": 0.962, \"lsd_db\": 3.18}",
+            "{\"level_error_db\": 0.11, \"gfc_recording\": 0.981, \"lsd_db\": 2.27}",
+            "{\"level_error_db\": 0.05, \"gfc_recording\": 0.987, \"lsd_db\": 1.94}",
+        };
+
+        public static ModelHeader Header() => ModelFiles.HeaderWith(json =>
+        {
+            int tier = 0;
+            return Figures.Replace(json, _ => "\"accuracy\": " + Accuracies[tier++]);
+        });
+
+        public static Dictionary<string, TierTiming> Timings() => new Dictionary<string, TierTiming>
+        {
+            ["draft"] = TierTiming.Of(new[] { 0.21, 0.22, 0.29 }),
+            ["standard"] = TierTiming.Of(new[] { 0.45, 0.47, 0.58 }),
+            ["fine"] = TierTiming.Of(new[] { 0.85, 0.87, 1.12 }),
+        };
+    }
+}

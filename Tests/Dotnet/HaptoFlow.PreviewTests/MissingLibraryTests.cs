@@ -1,0 +1,43 @@
+using System;
+using System.Collections;
+using System.Reflection;
+using System.Runtime.Loader;
+using System.Threading;
+using HaptoFlow.Preview;
+using NUnit.Framework;
+
+namespace HaptoFlow.PreviewTests
+{
+    /// <summary>A second copy of the assemblies, for which nobody leads to the native libraries.</summary>
+    public sealed class MissingLibraryTests
+    {
+        private const BindingFlags Any = BindingFlags.Instance | BindingFlags.Public | BindingFlags.NonPublic;
+
+        [Test]
+        public void WithoutTheNativeLibraryThereIsAMessageAndTheTableOfTheHeader()
+        {
+            var context = new AssemblyLoadContext("without native libraries", true);
+            context.LoadFromAssemblyPath(typeof(HapticModel).Assembly.Location);
+            Assembly copy = context.LoadFromAssemblyPath(typeof(PreviewWorker).Assembly.Location);
+            Type Twin(Type type) => copy.GetType(type.FullName!, true)!;
+
+            object settings = Activator.CreateInstance(Twin(typeof(StrokeSettings)), 0.1, 1.0, 0.0, 0.3)!;
+            object stroke = Twin(typeof(PresetStrokes)).GetMethod("Make")!.Invoke(null, new[] { 0, settings })!;
+            Array materials = Array.CreateInstance(Twin(typeof(LabelMix)), 1);
+            materials.SetValue(Activator.CreateInstance(Twin(typeof(LabelMix)), "wood", "", 0f), 0);
+            object request = Activator.CreateInstance(
+                Twin(typeof(PreviewRequest)), ModelFiles.Default, stroke, materials)!;
+            object panel = Activator.CreateInstance(Twin(typeof(Box)), 0.0, 0.0, 600.0, 400.0)!;
+            Twin(typeof(PreviewRequest)).GetProperty("StrokePanel", Any)!.SetValue(request, panel);
+            Twin(typeof(PreviewRequest)).GetProperty("Charts", Any)!.SetValue(request, panel);
+            object worker = Activator.CreateInstance(Twin(typeof(PreviewWorker)))!;
+            object result = Twin(typeof(PreviewWorker)).GetMethod("Do")!
+                .Invoke(worker, new[] { request, CancellationToken.None })!;
+
+            var problem = (string?)Twin(typeof(PreviewResult)).GetProperty("Problem")!.GetValue(result);
+            Assert.That(problem, Does.Contain("native library").And.Contain("install the packages"));
+            object rows = Twin(typeof(PreviewResult)).GetProperty("Qualities")!.GetValue(result)!;
+            Assert.That((ICollection)rows, Has.Count.EqualTo(3));
+        }
+    }
+}

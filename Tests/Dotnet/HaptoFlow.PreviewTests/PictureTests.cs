@@ -1,0 +1,180 @@
+using System;
+using System.Collections.Generic;
+using System.Linq;
+using System.Threading;
+using HaptoFlow.Preview;
+using HaptoFlow.Tests.Support;
+using NUnit.Framework;
+
+namespace HaptoFlow.PreviewTests
+{
+    /// <summary>Draws what the window shows, from the default model, into out/test/preview: to be looked at. What can
+    /// be told without looking is asserted.</summary>
+    public sealed class PictureTests
+    {
+        private static readonly StrokeSettings Usual = new StrokeSettings(0.12, 1.5, 30.0, 2.0);
+
+        private readonly Dictionary<string, IReadOnlyList<AnalysedSound>> rendered =
+            new Dictionary<string, IReadOnlyList<AnalysedSound>>();
+        private PreviewWorker worker = null!;
+
+        [OneTimeSetUp]
+        public void Open() => worker = new PreviewWorker();
+
+        [OneTimeTearDown]
+        public void Close() => worker.Dispose();
+
+        private IReadOnlyList<AnalysedSound> Sounds(StrokePreset preset, params LabelMix[] materials)
+        {
+            string key = preset + string.Join(",", materials.Select(material => material.Title));
+            if (!rendered.TryGetValue(key, out IReadOnlyList<AnalysedSound>? sounds))
+            {
+                var request = new PreviewRequest(ModelFiles.Default, PresetStrokes.Make(preset, Usual), materials)
+                {
+                    IsSketch = true,
+                    Tier = "draft",
+                    StrokePanel = new Box(0.0, 0.0, 100.0, 200.0),
+                    Charts = new Box(0.0, 0.0, 600.0, 400.0),
+                };
+                PreviewResult result = worker.Do(request, CancellationToken.None);
+                Assert.That(result.Problem, Is.Null);
+                rendered[key] = sounds = result.Sounds;
+            }
+            return sounds;
+        }
+
+        private static PixelCanvas Charts(Palette palette, Box box, double scale, IReadOnlyList<AnalysedSound> sounds)
+        {
+            var canvas = new PixelCanvas(box.Width, box.Height, scale);
+            using var texts = new TextWatch(canvas);
+            IReadOnlyList<QualityRow> rows = QualityRow.Of(MeasuredModel.Header(), MeasuredModel.Timings());
+            SoundPanel.Draw(canvas, palette, sounds, 0, rows, "standard");
+            return canvas;
+        }
+
+        private static void Save(string name, PixelCanvas canvas) =>
+            Png.Write(RepositoryFiles.In("out", "test", "preview", name + ".png"), canvas);
+
+        private static int Count(PixelCanvas canvas, Box box, Predicate<Colour> wanted)
+        {
+            int count = 0;
+            for (var y = (int)(box.Top * canvas.Scale); y < (int)(box.Bottom * canvas.Scale); ++y)
+            {
+                for (var x = (int)(box.Left * canvas.Scale); x < (int)(box.Right * canvas.Scale); ++x)
+                {
+                    count += wanted(canvas[x, y]) ? 1 : 0;
+                }
+            }
+            return count;
+        }
+
+        [Test]
+        public void TwoMaterialsStandSideBySideInTheirColours([Values] bool dark)
+        {
+            Palette palette = dark ? Palette.Dark : Palette.Light;
+            PixelCanvas canvas = Charts(palette, new PreviewLayout(1200.0, 800.0).Charts, 1.0, Sounds(
+                StrokePreset.BackAndForth, new LabelMix("corduroy"), new LabelMix("wood", "sandpaper", 0.3f)));
+            Save(dark ? "charts-two-dark" : "charts-two-light", canvas);
+            Box first = SoundPanel.Waveform(canvas.Whole, 0, 2);
+            Box second = SoundPanel.Waveform(canvas.Whole, 1, 2);
+            Assert.That(Count(canvas, first, colour => colour.Equals(palette.First)), Is.GreaterThan(1000));
+            Assert.That(Count(canvas, second, colour => colour.Equals(palette.Second)), Is.GreaterThan(1000));
+            Assert.That(Count(canvas, first, colour => colour.Equals(palette.Second)), Is.Zero);
+            Assert.That(Count(canvas, second, colour => colour.Equals(palette.First)), Is.Zero);
+        }
+
+        [Test]
+        public void OneMaterialFillsTheWidth([Values(1.0, 1.5, 2.0)] double scale)
+        {
+            PixelCanvas canvas = Charts(Palette.Dark, new PreviewLayout(1200.0, 800.0).Charts, scale,
+                Sounds(StrokePreset.Accelerating, new LabelMix("metal mesh")));
+            Save($"charts-one-{100 * scale:0}", canvas);
+            Assert.That(SoundPanel.Waveform(canvas.Whole, 0, 1).Width, Is.GreaterThan(700.0));
+        }
+
+        [Test]
+        public void TheSmallestWindowIsStillLegible([Values] bool dark) => Save(
+            dark ? "charts-smallest-dark" : "charts-smallest-light", Charts(dark ? Palette.Dark : Palette.Light,
+                new PreviewLayout(0.0, 0.0).Charts, 1.0, Sounds(StrokePreset.Taps,
+                    new LabelMix("metal mesh", "cardboard", 0.25f), new LabelMix("sandpaper", "metal mesh", 0.5f))));
+
+        [Test]
+        public void NothingRenderedYetIsFramesAndWords()
+        {
+            var canvas = new PixelCanvas(700.0, 500.0);
+            using var texts = new TextWatch(canvas);
+            SoundPanel.Draw(canvas, Palette.Dark, Array.Empty<AnalysedSound>(), 0, Array.Empty<QualityRow>(), "");
+            Save("charts-nothing", canvas);
+            Assert.That(texts.All, Does.Contain("Spectrum"));
+        }
+
+        [Test]
+        public void LouderIsBrighterInTheSpectrogram()
+        {
+            IReadOnlyList<AnalysedSound> sounds = Sounds(
+                StrokePreset.BackAndForth, new LabelMix("corduroy"), new LabelMix("wood", "sandpaper", 0.3f));
+            PixelCanvas canvas = Charts(Palette.Dark, new PreviewLayout(1200.0, 800.0).Charts, 1.0, sounds);
+            Box box = SoundPanel.SpectrogramBox(canvas.Whole, 0, 2).Inside(2.0);
+            Box air = box.Columns(0.0, 8.0);
+            Box touch = box.Columns(0.1 * box.Width, 0.8 * box.Width);
+            Assert.That(Count(canvas, air, colour => colour.Red > 60), Is.Zero, "before the touch it is dark");
+            Assert.That(Count(canvas, touch, colour => colour.Red > 60), Is.GreaterThan(2000));
+        }
+
+        [Test]
+        public void EveryStrokeIsDrawnWithItsSpeedAndForce(
+            [Values(0, 1, 2, 3, 4, 5)] int preset, [Values] bool dark)
+        {
+            Palette palette = dark ? Palette.Dark : Palette.Light;
+            var canvas = new PixelCanvas(312.0, 340.0);
+            using (new TextWatch(canvas))
+            {
+                StrokePanel.Draw(canvas, palette, PresetStrokes.Make((StrokePreset)preset, Usual));
+            }
+            Save($"stroke-{((StrokePreset)preset).ToString().ToLowerInvariant()}-{(dark ? "dark" : "light")}", canvas);
+            Box motion = PreviewLayout.Motion(canvas.Whole);
+            Assert.That(Count(canvas, motion, colour => colour.Equals(palette.Speed)), Is.GreaterThan(60));
+            Assert.That(Count(canvas, motion, colour => colour.Equals(palette.Force)), Is.GreaterThan(60));
+            Box patch = PreviewLayout.Patch(canvas.Whole).Inside(0.0, 0.0, 0.0, 30.0);
+            Assert.That(Count(canvas, patch, colour => colour.Equals(palette.Ink)), Is.GreaterThan(100));
+        }
+
+        [Test]
+        public void APatchWithoutAStrokeAsksForOne()
+        {
+            var canvas = new PixelCanvas(312.0, 340.0);
+            using var texts = new TextWatch(canvas);
+            StrokePanel.Draw(canvas, Palette.Light, DrawnStroke.Of(Array.Empty<DrawnPoint>()));
+            Save("stroke-empty", canvas);
+            Assert.That(texts.All, Does.Contain("Draw a stroke"));
+        }
+
+        [Test]
+        public void APlaceOnThePatchAndItsPointInThePictureAreEachOther()
+        {
+            Box patch = PreviewLayout.Patch(new Box(0.0, 0.0, 312.0, 340.0));
+            Assert.That(patch.Width / patch.Height, Is.EqualTo(1.5).Within(1e-9), "metres are as long up as across");
+            (double x, double y) = PatchPicture.ToPoints(patch, 0.03, 0.07);
+            (double xMetres, double yMetres) = PatchPicture.ToMetres(patch, x, y);
+            Assert.That((xMetres, yMetres), Is.EqualTo((0.03, 0.07)).Within(1e-12));
+            Assert.That(PatchPicture.ToMetres(patch, patch.Left, patch.Bottom), Is.EqualTo((0.0, 0.0)));
+        }
+
+        [TestCase(1080.0, 760.0)]
+        [TestCase(1200.0, 800.0)]
+        [TestCase(2500.0, 1400.0)]
+        public void NothingOfTheWindowLiesUponAnother(double width, double height)
+        {
+            var layout = new PreviewLayout(width, height);
+            Box[] boxes = { layout.Controls, layout.StrokePanel, layout.Charts };
+            Box window = new Box(0.0, 0.0, width, height);
+            for (int index = 0; index < boxes.Length; ++index)
+            {
+                Assert.That(window.Contains(boxes[index].Left, boxes[index].Top), Is.True);
+                Assert.That(window.Contains(boxes[index].Right, boxes[index].Bottom), Is.True);
+                Assert.That(boxes.Take(index).Any(other => TextWatch.Meet(other, boxes[index])), Is.False);
+            }
+            Assert.That(layout.Controls.Height, Is.GreaterThanOrEqualTo(390.0), "the controls need that");
+        }
+    }
+}

@@ -1,0 +1,210 @@
+using System.Globalization;
+using HaptoFlow.Editor;
+using HaptoFlow.Preview;
+
+namespace HaptoFlow.PreviewTests
+{
+    /// <summary>The Texture Preview window as the dark skin shows it, for the documentation: the charts are the
+    /// window's own, its controls, which Unity draws, are drawn after their looks.</summary>
+    internal sealed class WindowPicture
+    {
+        private const double Tab = 22.0;
+        private const double Row = 20.0;
+        private const double TextSize = 12.0;
+
+        private static readonly Palette Palette = Palette.Dark;
+        private static readonly Colour Field = Colour.Of(0x2a2a2a);
+        private static readonly Colour Button = Colour.Of(0x585858);
+        private static readonly Colour Pressed = Colour.Of(0x46607c);
+        private static readonly Colour Label = Colour.Of(0xd2d2d2);
+        private static readonly Colour Groove = Colour.Of(0x5e5e5e);
+        private static readonly Colour Thumb = Colour.Of(0xa0a0a0);
+
+        private readonly PixelCanvas canvas;
+        private readonly Box controls;
+        private double y;
+
+        private WindowPicture(PixelCanvas canvas, Box controls)
+        {
+            this.canvas = canvas;
+            this.controls = controls;
+        }
+
+        /// <param name="settings">What the stroke of the result was made from.</param>
+        /// <param name="playedSeconds">Where the playhead is.</param>
+        public static PixelCanvas Draw(PreviewResult result, PreviewLayout layout, StrokeSettings settings,
+            string preset, double playedSeconds)
+        {
+            double width = layout.Charts.Right + layout.Controls.Left;
+            double height = layout.Charts.Bottom + layout.Controls.Top;
+            var canvas = new PixelCanvas(width, height + Tab, result.Request.PixelsPerPoint);
+            canvas.Fill(canvas.Whole, Palette.Window);
+            canvas.Fill(new Box(0.0, 0.0, width, Tab), Colour.Of(0x282828));
+            canvas.FillRound(new Box(4.0, 2.0, 128.0, Tab), Palette.Window, 3.0);
+            canvas.Text("Texture Preview", 68.0, 12.0, TextSize, Label, TextAlign.Centre);
+            canvas.Paste(result.StrokePanel, layout.StrokePanel.Left, layout.StrokePanel.Top + Tab);
+            canvas.Paste(result.Charts, layout.Charts.Left, layout.Charts.Top + Tab);
+            var picture = new WindowPicture(
+                canvas, new Box(layout.Controls.Left, layout.Controls.Top + Tab, layout.Controls.Width, 0.0));
+            picture.Controls(result, settings, preset);
+            picture.Playhead(result, layout, playedSeconds);
+            return canvas;
+        }
+
+        private void Controls(PreviewResult result, StrokeSettings settings, string preset)
+        {
+            LabelMix first = result.Request.Materials[0];
+            LabelMix second = result.Request.Materials[1];
+            Choice("Model", "None (Haptic Model Asset)");
+            Choice("Material A", first.First);
+            Choice("Blend with", "none");
+            Tick(Begin("Compare"), true);
+            Choice("Material B", second.First);
+            Choice("Blend with", second.Second);
+            Slider("Share", second.Share, Number(second.Share));
+            y += 6.0;
+            Choice("Stroke", preset);
+            Slider("Speed [m/s]", settings.SpeedMps / TexturePreviewState.FastestMps, Number(settings.SpeedMps));
+            Slider("Force [N]", settings.ForceNewtons / TexturePreviewState.StrongestNewtons,
+                Number(settings.ForceNewtons));
+            Slider("Direction [\u00b0]", settings.DirectionDegrees / 360.0, Number(settings.DirectionDegrees));
+            Slider("Contact [s]", settings.ContactSeconds / TexturePreviewState.LongestSeconds,
+                Number(settings.ContactSeconds));
+            y += 6.0;
+            Choice("Quality", result.Request.Tier);
+            Box seed = Begin("Seed");
+            canvas.FillRound(seed, Field, 3.0);
+            canvas.Text(Number(result.Request.Seed), seed.Left + 6.0, seed.MiddleY, TextSize, Label);
+            y += 6.0;
+            Buttons();
+            Switches(result);
+            Help();
+        }
+
+        private void Buttons()
+        {
+            string[] names = { "Stop", "A", "B", "Export WAV\u2026", "Measure" };
+            double[] widths = { 56.0, 31.0, 31.0, 104.0, 82.0 };
+            double x = controls.Left;
+            for (int index = 0; index < names.Length; ++index)
+            {
+                var box = new Box(x, controls.Top + y, widths[index], 22.0);
+                canvas.FillRound(box, index == 1 ? Pressed : Button, 3.0);
+                canvas.Text(names[index], x + 0.5 * widths[index], controls.Top + y + 11.0, TextSize, Label,
+                    TextAlign.Centre);
+                x += widths[index] + 2.0;
+            }
+            y += 24.0;
+        }
+
+        private void Switches(PreviewResult result)
+        {
+            double peak = 0.0;
+            foreach (AnalysedSound sound in result.Sounds)
+            {
+                peak = System.Math.Max(peak, sound.Sound.Peak);
+            }
+            Box row = new Box(controls.Left, controls.Top + y, controls.Width, Row - 2.0);
+            Tick(row, false);
+            canvas.Text("Loop", row.Left + 20.0, row.MiddleY, TextSize, Label);
+            Tick(row.Columns(66.0, 18.0), true);
+            canvas.Text("Louder", row.Left + 86.0, row.MiddleY, TextSize, Label);
+            double gain = 20.0 * System.Math.Log10(PreviewPlayer.RaisedPeak / peak);
+            canvas.Text(Scale.Text(gain, 0, true) + " dB", row.Left + 140.0, row.MiddleY, Plot.ScaleSize, Label);
+            y += Row;
+        }
+
+        /// <summary>The keys, wrapped between words.</summary>
+        private void Help()
+        {
+            string line = "";
+            foreach (string word in PreviewKeys.Help.Split(' '))
+            {
+                string longer = line.Length > 0 ? line + " " + word : word;
+                if (StrokeFont.Width(longer, Plot.ScaleSize) > controls.Width - 4.0)
+                {
+                    HelpLine(line);
+                    longer = word;
+                }
+                line = longer;
+            }
+            HelpLine(line);
+        }
+
+        private void HelpLine(string line)
+        {
+            canvas.Text(line, controls.Left + 2.0, controls.Top + y + 6.0, Plot.ScaleSize, Palette.Soft);
+            y += 13.0;
+        }
+
+        private void Tick(Box row, bool on)
+        {
+            var box = new Box(row.Left + 1.0, row.MiddleY - 7.0, 14.0, 14.0);
+            canvas.FillRound(box, Field, 2.0);
+            if (on)
+            {
+                canvas.Polyline(new[]
+                {
+                    (box.Left + 3.0, box.MiddleY), (box.Left + 6.0, box.Bottom - 3.5), (box.Right - 3.0, box.Top + 3.5),
+                }, 1.8, Label);
+            }
+        }
+
+        private void Choice(string label, string value)
+        {
+            Box field = Begin(label);
+            canvas.FillRound(field, Button, 3.0);
+            canvas.Text(value, field.Left + 7.0, field.MiddleY, TextSize, Label);
+            canvas.Polyline(new[]
+            {
+                (field.Right - 16.0, field.MiddleY - 2.0), (field.Right - 12.0, field.MiddleY + 2.0),
+                (field.Right - 8.0, field.MiddleY - 2.0),
+            }, 1.5, Label);
+        }
+
+        private void Slider(string label, double share, string value)
+        {
+            Box field = Begin(label);
+            double length = field.Width - 60.0;
+            canvas.FillRound(new Box(field.Left, field.MiddleY - 1.0, length, 2.0), Groove, 1.0);
+            canvas.Disc(field.Left + 5.0 + share * (length - 10.0), field.MiddleY, 5.0, Thumb);
+            var number = new Box(field.Right - 54.0, field.Top, 54.0, field.Height);
+            canvas.FillRound(number, Field, 3.0);
+            canvas.Text(value, number.Left + 6.0, number.MiddleY, TextSize, Label);
+        }
+
+        private Box Begin(string label)
+        {
+            canvas.Text(label, controls.Left + 2.0, controls.Top + y + 9.0, TextSize, Label);
+            var field = new Box(controls.Left + 100.0, controls.Top + y, controls.Width - 100.0, Row - 2.0);
+            y += Row;
+            return field;
+        }
+
+        private void Playhead(PreviewResult result, PreviewLayout layout, double seconds)
+        {
+            int count = result.Sounds.Count;
+            Box charts = result.Charts.Whole;
+            double share = seconds / result.Sounds[0].Sound.DurationSeconds;
+            for (int index = 0; index < count; ++index)
+            {
+                foreach (Box plot in new[]
+                         {
+                             SoundPanel.Waveform(charts, index, count), SoundPanel.SpectrogramBox(charts, index, count),
+                         })
+                {
+                    double x = layout.Charts.Left + plot.Left + share * plot.Width;
+                    double top = layout.Charts.Top + Tab + plot.Top;
+                    canvas.VerticalHair(x, top, top + plot.Height, Palette.Ink);
+                }
+            }
+            StrokeState state = result.Request.Stroke.At(seconds);
+            Box patch = PreviewLayout.Patch(result.StrokePanel.Whole);
+            (double tipX, double tipY) = PatchPicture.ToPoints(patch, state.XMetres, state.YMetres);
+            var tip = new Box(layout.StrokePanel.Left + tipX - 4.0, layout.StrokePanel.Top + Tab + tipY - 4.0, 8.0, 8.0);
+            canvas.Fill(tip, Palette.First);
+        }
+
+        private static string Number(double value) => value.ToString("0.###", CultureInfo.InvariantCulture);
+    }
+}

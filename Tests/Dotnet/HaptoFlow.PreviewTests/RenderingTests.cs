@@ -1,0 +1,171 @@
+using System;
+using System.Linq;
+using System.Threading;
+using HaptoFlow.Model;
+using HaptoFlow.Preview;
+using NUnit.Framework;
+
+namespace HaptoFlow.PreviewTests
+{
+    /// <summary>The real native library, ONNX Runtime and default model.</summary>
+    public sealed class RenderingTests
+    {
+        private static readonly Stroke Slide =
+            PresetStrokes.Make(StrokePreset.Slide, new StrokeSettings(0.12, 1.0, 0.0, 0.6));
+
+        private PreviewWorker worker = null!;
+
+        [SetUp]
+        public void Begin() => worker = new PreviewWorker();
+
+        [TearDown]
+        public void End() => worker.Dispose();
+
+        private static PreviewRequest Request(params LabelMix[] materials) =>
+            new PreviewRequest(ModelFiles.Default, Slide, materials)
+            {
+                Tier = "draft",
+                StrokePanel = new Box(0.0, 0.0, 312.0, 340.0),
+                Charts = new Box(0.0, 0.0, 600.0, 500.0),
+            };
+
+        private PreviewResult Do(PreviewRequest request) => worker.Do(request, CancellationToken.None);
+
+        private float[] Samples(PreviewRequest request) => Do(request).Sounds[0].Sound.Samples;
+
+        [Test]
+        public void AStrokeSoundsWhileItTouchesAndIsSilentBeforeAndAfter()
+        {
+            PreviewSound sound = Do(Request(new LabelMix("sandpaper"))).Sounds[0].Sound;
+            Assert.That(sound.Samples.Length, Is.EqualTo((int)Math.Round(48000.0 * Slide.DurationSeconds)));
+            Assert.That(sound.Samples, Is.All.InRange(-1f, 1f));
+            Assert.That(sound.Samples.Take(4700), Is.All.Zero, "0.1 s in the air");
+            Assert.That(sound.Samples.Skip((int)(48000 * 0.74)), Is.All.Zero,
+                "5 ms of fade, and the filters, are over");
+            int touching = sound.Samples.Skip(5000).Take(28000).Count(sample => sample != 0f);
+            Assert.That(touching, Is.GreaterThan(27000));
+        }
+
+        [Test]
+        public void TheLevelIsAboutWhatTheModelExpectsForTheMotion()
+        {
+            double heard = Do(Request(new LabelMix("sandpaper"))).Sounds[0].Sound.RmsMps2;
+            using OnnxRuntime runtime = OnnxRuntime.Open();
+            using HapticModel model = HapticModel.Open(ModelFiles.Default);
+            using var generator = new HapticGenerator(runtime, model, "draft");
+            int label = model.Labels.Single(each => each.Name == "sandpaper").Index;
+            var level = new float[1];
+            generator.Levels(model.Embedding(label), new[] { 0.12f, 0f, 1f }, level);
+            Assert.That(20.0 * Math.Log10(heard / level[0]), Is.EqualTo(0.0).Within(2.5));
+        }
+
+        [Test]
+        public void TheSameSeedMakesTheSameSamplesAndAnotherSeedOthers()
+        {
+            float[] first = Samples(Request(new LabelMix("cotton")));
+            using var other = new PreviewWorker();
+            float[] again = other.Do(Request(new LabelMix("cotton")), CancellationToken.None).Sounds[0].Sound.Samples;
+            Assert.That(again, Is.EqualTo(first));
+            PreviewRequest reseeded = Request(new LabelMix("cotton"));
+            reseeded.Seed = 2;
+            Assert.That(Samples(reseeded), Is.Not.EqualTo(first));
+        }
+
+        [Test]
+        public void TheSameMaterialTwiceSoundsTheSameAndTwoMaterialsDoNot()
+        {
+            PreviewResult same = Do(Request(new LabelMix("wood"), new LabelMix("wood")));
+            Assert.That(same.Sounds[1].Sound.Samples, Is.EqualTo(same.Sounds[0].Sound.Samples));
+            PreviewResult blended = Do(Request(new LabelMix("wood"), new LabelMix("wood", "sandpaper", 0.5f)));
+            Assert.That(blended.Sounds[0].Sound.Samples, Is.EqualTo(same.Sounds[0].Sound.Samples));
+            Assert.That(blended.Sounds[1].Sound.RmsMps2, Is.GreaterThan(1.2 * blended.Sounds[0].Sound.RmsMps2));
+        }
+
+        [Test]
+        public void WhatIsShownAlreadyIsNotRenderedAgain()
+        {
+            AnalysedSound first = Do(Request(new LabelMix("wood"))).Sounds[0];
+            int made = worker.EnginesMade;
+            PreviewRequest lighter = Request(new LabelMix("wood"));
+            lighter.Palette = Palette.Light;
+            lighter.Charts = new Box(0.0, 0.0, 700.0, 520.0);
+            Assert.That(Do(lighter).Sounds[0], Is.SameAs(first));
+            Assert.That(worker.EnginesMade, Is.EqualTo(made));
+        }
+
+        [Test]
+        public void SketchesShareAnEngineAndTheRealThingGetsAFreshOne()
+        {
+            PreviewRequest sketch = Request(new LabelMix("wood"));
+            sketch.IsSketch = true;
+            Do(sketch);
+            PreviewRequest next = Request(new LabelMix("rubber"));
+            next.IsSketch = true;
+            Do(next);
+            Assert.That(worker.EnginesMade, Is.EqualTo(1));
+            float[] real = Samples(Request(new LabelMix("rubber")));
+            Assert.That(worker.EnginesMade, Is.EqualTo(2));
+            using var other = new PreviewWorker();
+            Assert.That(other.Do(Request(new LabelMix("rubber")), CancellationToken.None).Sounds[0].Sound.Samples,
+                Is.EqualTo(real));
+        }
+
+        [Test]
+        public void MillisecondsAreMeasuredOnceForEachTierOfTheModel()
+        {
+            PreviewRequest request = Request(new LabelMix("wood"));
+            Assert.That(Do(request).Qualities.Select(row => row.Timing), Is.All.Null);
+            request.Measurement = 1;
+            QualityRow[] rows = Do(request).Qualities.ToArray();
+            Assert.That(rows.Select(row => row.Name), Is.EqualTo(new[] { "draft", "standard", "fine" }));
+            foreach (QualityRow row in rows)
+            {
+                Assert.That(row.Timing!.MedianMs, Is.GreaterThan(0.0));
+                Assert.That(row.Timing.Percentile90Ms, Is.GreaterThanOrEqualTo(row.Timing.MedianMs));
+                Assert.That(row.Timing.Count, Is.EqualTo(64));
+            }
+            Assert.That(Do(request).Qualities[0].Timing, Is.SameAs(rows[0].Timing));
+            request.Measurement = 2;
+            Assert.That(Do(request).Qualities[0].Timing, Is.Not.SameAs(rows[0].Timing));
+        }
+
+        [Test]
+        public void ADamagedModelIsAProblemWithAMessageAndEmptyCharts()
+        {
+            PreviewResult result = Do(new PreviewRequest(ModelFiles.Damaged(), Slide, new[] { new LabelMix("wood") })
+            {
+                StrokePanel = new Box(0.0, 0.0, 312.0, 340.0),
+                Charts = new Box(0.0, 0.0, 600.0, 500.0),
+            });
+            Assert.That(result.Problem, Does.Contain("checksum"));
+            Assert.That(result.Sounds, Is.Empty);
+            Assert.That(result.Qualities, Is.Empty);
+            Assert.That(result.Charts.PixelWidth, Is.EqualTo(600));
+        }
+
+        [Test]
+        public void AnUnknownLabelIsAProblemThatNamesTheLabelsThereAre()
+        {
+            PreviewResult result = Do(Request(new LabelMix("granite")));
+            Assert.That(result.Problem, Does.Contain("\"granite\"").And.Contain("wood, plywood"));
+            Assert.That(result.Qualities, Has.Count.EqualTo(3), "the header can be read all the same");
+        }
+
+        [Test]
+        public void AnUnknownTierIsAProblem()
+        {
+            PreviewRequest request = Request(new LabelMix("wood"));
+            request.Tier = "superb";
+            Assert.That(Do(request).Problem, Does.Contain("superb"));
+        }
+
+        [Test]
+        public void ACancelledRequestStops()
+        {
+            using var cancelled = new CancellationTokenSource();
+            cancelled.Cancel();
+            Assert.That(() => worker.Do(Request(new LabelMix("wood")), cancelled.Token),
+                Throws.InstanceOf<OperationCanceledException>());
+        }
+    }
+}

@@ -1,0 +1,157 @@
+using System;
+using System.Linq;
+using HaptoFlow.Preview;
+using NUnit.Framework;
+
+namespace HaptoFlow.PreviewTests
+{
+    internal sealed class StrokeTests
+    {
+        private static readonly StrokePreset[] Presets =
+            Enum.GetValues<StrokePreset>().Where(preset => preset != StrokePreset.Drawn).ToArray();
+
+        private static readonly StrokeSettings Usual = new StrokeSettings(0.1, 1.0, 30.0, 2.0);
+
+        private static StrokeState[] Touched(Stroke stroke) => stroke.States.Where(state => state.Touching).ToArray();
+
+        [Test]
+        public void EveryPresetBeginsAndEndsInTheAirAndStaysOnThePatch(
+            [ValueSource(nameof(Presets))] StrokePreset preset, [Values(0.005, 0.1, 2.0)] double speedMps,
+            [Values(0.0, 45.0, 90.0, 200.0)] double degrees)
+        {
+            Stroke stroke = PresetStrokes.Make(preset, new StrokeSettings(speedMps, 2.0, degrees, 1.5));
+            Assert.That(stroke.States[0].Touching, Is.False);
+            Assert.That(stroke.States[^1].Touching, Is.False);
+            Assert.That(Touched(stroke), Is.Not.Empty);
+            foreach (StrokeState state in Touched(stroke))
+            {
+                Assert.That(state.XMetres, Is.InRange(0.0, Stroke.PatchWidthMetres));
+                Assert.That(state.YMetres, Is.InRange(0.0, Stroke.PatchHeightMetres));
+                Assert.That(state.ForceNewtons, Is.InRange(0.0, 2.0 + 1e-9));
+                Assert.That(state.SpeedMps, Is.LessThanOrEqualTo(speedMps * (1.0 + 1e-9)));
+            }
+        }
+
+        [Test]
+        public void TheVelocityOfEveryPresetIsHowItsPlaceChanges(
+            [ValueSource(nameof(Presets))] StrokePreset preset, [Values(0.0, 130.0)] double degrees)
+        {
+            Stroke stroke = PresetStrokes.Make(preset, new StrokeSettings(0.05, 1.0, degrees, 2.0));
+            int compared = 0;
+            for (int index = 1; index < stroke.States.Count - 1; ++index)
+            {
+                StrokeState before = stroke.States[index - 1];
+                StrokeState now = stroke.States[index];
+                StrokeState after = stroke.States[index + 1];
+                // The time stands still in the air, and steps over the edge are no motion.
+                if (!before.Touching || !now.Continues || !after.Continues)
+                {
+                    continue;
+                }
+                double seconds = after.TimeSeconds - before.TimeSeconds;
+                Assert.That(now.VelocityXMps, Is.EqualTo((after.XMetres - before.XMetres) / seconds).Within(1e-3));
+                Assert.That(now.VelocityYMps, Is.EqualTo((after.YMetres - before.YMetres) / seconds).Within(1e-3));
+                ++compared;
+            }
+            Assert.That(compared, Is.GreaterThan(20));
+        }
+
+        [TestCase(StrokePreset.Slide)]
+        [TestCase(StrokePreset.Spiral)]
+        [TestCase(StrokePreset.Pressing)]
+        public void StrokesOfOneSpeedHaveThatSpeedAllTheTime(StrokePreset preset)
+        {
+            Stroke stroke = PresetStrokes.Make(preset, Usual);
+            Assert.That(Touched(stroke).Select(state => state.SpeedMps), Is.All.EqualTo(0.1).Within(1e-9));
+        }
+
+        [Test]
+        public void ASlideGoesInItsDirectionAndComesInAgainAtTheOtherSide()
+        {
+            StrokeState[] states = Touched(PresetStrokes.Make(StrokePreset.Slide, Usual));
+            Assert.That(states.Select(state => Math.Atan2(state.VelocityYMps, state.VelocityXMps)),
+                Is.All.EqualTo(Math.PI / 6.0).Within(1e-9));
+            int steps = states.Skip(1).Count(state => !state.Continues);
+            Assert.That(steps, Is.GreaterThan(0), "200 mm do not fit on the patch");
+            Assert.That(states.Select(state => state.TouchCounter), Is.All.EqualTo(1u), "and it is still one touch");
+        }
+
+        [Test]
+        public void BackAndForthTurnsAtLeastFourTimesHoweverSlow([Values(0.005, 0.1, 2.0)] double speedMps)
+        {
+            StrokeState[] states = Touched(
+                PresetStrokes.Make(StrokePreset.BackAndForth, new StrokeSettings(speedMps, 1.0, 0.0, 2.0)));
+            int turns = Enumerable.Range(1, states.Length - 1)
+                .Count(index => Math.Sign(states[index].VelocityXMps) != Math.Sign(states[index - 1].VelocityXMps));
+            Assert.That(turns, Is.GreaterThanOrEqualTo(4));
+            Assert.That(states.Max(state => state.SpeedMps), Is.EqualTo(speedMps).Within(0.05 * speedMps));
+        }
+
+        [Test]
+        public void ASpiralLooksInEveryDirectionAndGrows()
+        {
+            StrokeState[] states = Touched(
+                PresetStrokes.Make(StrokePreset.Spiral, new StrokeSettings(0.3, 1.0, 0.0, 2.0)));
+            int quarters = states
+                .Select(state => (state.VelocityXMps > 0.0, state.VelocityYMps > 0.0)).Distinct().Count();
+            Assert.That(quarters, Is.EqualTo(4));
+            double[] radii = states.Select(state => Math.Sqrt(
+                Math.Pow(state.XMetres - 0.06, 2.0) + Math.Pow(state.YMetres - 0.04, 2.0))).ToArray();
+            Assert.That(radii, Is.Ordered.Ascending);
+            Assert.That(radii[^1], Is.EqualTo(0.032).Within(0.002));
+        }
+
+        [Test]
+        public void AnAcceleratingStrokeGoesFromRestToTheSpeedInAStraightLineOfTime()
+        {
+            StrokeState[] states = Touched(PresetStrokes.Make(StrokePreset.Accelerating, Usual));
+            Assert.That(states[0].SpeedMps, Is.LessThan(0.002));
+            Assert.That(states[states.Length / 2].SpeedMps, Is.EqualTo(0.05).Within(0.001));
+            Assert.That(states[^1].SpeedMps, Is.EqualTo(0.1).Within(0.002));
+        }
+
+        [Test]
+        public void APressingStrokeGoesFromNoForceToTheForce()
+        {
+            StrokeState[] states = Touched(PresetStrokes.Make(StrokePreset.Pressing, Usual));
+            Assert.That(states[0].ForceNewtons, Is.LessThan(0.02));
+            Assert.That(states[states.Length / 2].ForceNewtons, Is.EqualTo(0.5).Within(0.01));
+            Assert.That(states.Max(state => state.ForceNewtons), Is.GreaterThan(0.97));
+        }
+
+        [Test]
+        public void TapsAreTouchesOfTheirOwn()
+        {
+            Stroke stroke = PresetStrokes.Make(StrokePreset.Taps, Usual);
+            uint touches = stroke.States[^1].TouchCounter;
+            Assert.That(touches, Is.EqualTo(7u), "one every 320 ms for 2 s");
+            for (uint touch = 1; touch <= touches; ++touch)
+            {
+                int states = Touched(stroke).Count(state => state.TouchCounter == touch);
+                Assert.That(states, Is.InRange(5, 7), "80 ms at 72 Hz");
+            }
+        }
+
+        [Test]
+        public void AStrokeThatIsDrawnCannotBeMadeFromSettings() => Assert.That(
+            () => PresetStrokes.Make(StrokePreset.Drawn, Usual), Throws.ArgumentException);
+
+        [Test]
+        public void WhatIsPublishedInTheAirHasNeitherSpeedNorForce()
+        {
+            ContactState air = PresetStrokes.Make(StrokePreset.Slide, Usual).States[0].ContactOn(LabelBlend.Of(3));
+            Assert.That(air.Touching, Is.False);
+            Assert.That((air.FirstVelocityMps, air.SecondVelocityMps, air.ForceNewtons), Is.EqualTo((0f, 0f, 0f)));
+        }
+
+        [Test]
+        public void TheStateAtATimeIsTheLastThatWasPublished()
+        {
+            Stroke stroke = PresetStrokes.Make(StrokePreset.Slide, Usual);
+            Assert.That(stroke.At(-1.0).TimeSeconds, Is.Zero);
+            Assert.That(stroke.At(10.5 / 72.0).TimeSeconds, Is.EqualTo(10.0 / 72.0));
+            Assert.That(stroke.At(11.0 / 72.0).TimeSeconds, Is.EqualTo(11.0 / 72.0));
+            Assert.That(stroke.At(99.0).TimeSeconds, Is.EqualTo(stroke.States[^1].TimeSeconds));
+        }
+    }
+}

@@ -1,0 +1,173 @@
+using System;
+using System.Collections.Generic;
+using System.Linq;
+using HaptoFlow.Editor;
+using HaptoFlow.Preview;
+using NUnit.Framework;
+using UnityEditor;
+using UnityEngine;
+using UnityShim;
+
+namespace HaptoFlow.PreviewTests
+{
+    /// <summary>What only the shim can show: what is drawn and entered, and what is left behind.</summary>
+    public sealed class WindowScreenTests : PreviewWindowTest
+    {
+        private IReadOnlyList<Drawn> Screen() => WindowHost.Draw(Window);
+
+        private void Enter(string label, object value)
+        {
+            EditorScreen.Enter(label, value);
+            Screen();
+        }
+
+        [SetUp]
+        public void Forget()
+        {
+            Event.current = new Event { type = EventType.Repaint };
+            EditorSession.DarkSkin = true;
+            WindowHost.PixelsPerPoint = 1f;
+        }
+
+        [Test]
+        public void EveryControlChangesWhatItSaysAndCanBeUndone()
+        {
+            State.Compares = true;
+            var cases = new (string Label, object Value, Func<object> Kept)[]
+            {
+                ("Stroke", (int)StrokePreset.Taps, () => (int)State.Preset),
+                ("Speed [m/s]", 0.5f, () => State.SpeedMps),
+                ("Force [N]", 2.5f, () => State.ForceNewtons),
+                ("Direction [\u00b0]", 90f, () => State.DirectionDegrees),
+                ("Contact [s]", 0.5f, () => State.ContactSeconds),
+                ("Compare", false, () => State.Compares),
+                ("Seed", 7, () => State.Seed),
+                ("Loop", true, () => State.Loops),
+                ("Louder", false, () => State.Raises),
+            };
+            Window.Finish();
+            foreach ((string label, object value, Func<object> kept) in cases)
+            {
+                object before = kept();
+                Undo.IncrementCurrentGroup();
+                Enter(label, value);
+                Assert.That(kept(), Is.EqualTo(value), label);
+                Undo.PerformUndo();
+                Assert.That(kept(), Is.EqualTo(before), label);
+            }
+        }
+
+        [Test]
+        public void TheSecondMaterialAndTheShareAppearWithTheNextLayout()
+        {
+            Enter("Compare", true);
+            Assert.That(Screen().Select(item => item.Label), Does.Contain("Material B").And.Not.Contain("Share"));
+            State.First.SecondLabel = "cork";
+            Assert.That(Screen().Count(item => item.Label == "Share"), Is.EqualTo(1));
+            Enter("Compare", false);
+            Assert.That(Screen().Select(item => item.Label), Does.Not.Contain("Material B"));
+        }
+
+        [Test]
+        public void QualitiesAreThoseOfTheModel()
+        {
+            Window.Finish();
+            Enter("Quality", 2);
+            Assert.That(State.Tier, Is.EqualTo("fine"));
+            Assert.That(Screen().Single(item => item.Label == "Quality").Value, Is.EqualTo("fine"));
+        }
+
+        [Test]
+        public void TheButtonsForAAndBRestWhereThereIsNoB()
+        {
+            Window.Finish();
+            Assert.That(Screen().Single(item => item.Label == "B").Enabled, Is.False);
+            State.Compares = true;
+            Assert.That(Screen().Single(item => item.Label == "B").Enabled, Is.True);
+        }
+
+        [Test]
+        public void AProblemIsAHelpBoxInTheWindow()
+        {
+            State.First.Label = "granite";
+            Window.Finish();
+            Drawn help = Screen().Single(item => item.Kind == DrawnKind.Help);
+            Assert.That(help.Label, Does.Contain("granite"));
+            Assert.That(help.Value, Is.EqualTo("Error"));
+        }
+
+        [Test]
+        public void TheSkinOfTheEditorIsThatOfThePictures()
+        {
+            Window.Finish();
+            Colour Corner() => Window.Session!.Shown!.Charts[30, 12];
+            Assert.That(Corner(), Is.EqualTo(Palette.Dark.Card));
+            EditorSession.DarkSkin = false;
+            Window.Finish();
+            Assert.That(Corner(), Is.EqualTo(Palette.Light.Card));
+        }
+
+        [Test]
+        public void PicturesAreAsDenseAsTheScreen()
+        {
+            WindowHost.PixelsPerPoint = 2f;
+            Screen();
+            Window.Finish();
+            var layout = new PreviewLayout(Window.position.width, Window.position.height);
+            Assert.That(Window.Session!.Shown!.Charts.PixelWidth, Is.EqualTo(2.0 * layout.Charts.Width));
+        }
+
+        [Test]
+        public void KeysBelongToTheTextThatIsBeingEdited()
+        {
+            EditorGUIUtility.editingTextField = true;
+            Assert.That(Key(KeyCode.Space), Is.False);
+            Assert.That(Key(KeyCode.RightArrow), Is.False);
+            Assert.That(State.SpeedMps, Is.EqualTo(0.12f));
+        }
+
+        [Test]
+        public void NothingIsLeftBehindByAClosedWindow()
+        {
+            int before = MediaCount.Alive;
+            Window.Finish();
+            Key(KeyCode.Space);
+            Window.Step();
+            Assert.That(MediaCount.Alive, Is.EqualTo(before + 3), "two pictures and a clip");
+            Close();
+            Assert.That(MediaCount.Alive, Is.EqualTo(before));
+            Assert.That(ClipPreview.Playing, Is.Null);
+            WindowHost.Update();
+        }
+
+        [Test]
+        public void AReloadOfTheScriptsClosesTheEngineAndTheWindowGoesOn()
+        {
+            int before = MediaCount.Alive;
+            Window.Finish();
+            float[] wood = Samples;
+            PreviewSession old = Window.Session!;
+            State.Change("Seed", state => state.Seed = 5);
+            Window.Step();
+            Assert.That(old.IsBusy, Is.True, "reloaded while it renders");
+            WindowHost.Reload(Window);
+            Assert.That(old.IsBusy, Is.False);
+            Assert.That(Window.Session, Is.Not.SameAs(old));
+            Assert.That(MediaCount.Alive, Is.EqualTo(before));
+            Assert.That(State.Seed, Is.EqualTo(5), "what was set stays set");
+            WindowHost.Update();
+            Window.Finish();
+            Assert.That(Samples, Is.Not.EqualTo(wood));
+        }
+
+        [Test]
+        public void PicturesOfAnotherSizeTakeThePlaceOfTheOldOnes()
+        {
+            Window.Finish();
+            int pictures = MediaCount.Alive;
+            Window.position = new Rect(0f, 0f, 1500f, 900f);
+            Window.Finish();
+            Assert.That(MediaCount.Alive, Is.EqualTo(pictures));
+        }
+    }
+}

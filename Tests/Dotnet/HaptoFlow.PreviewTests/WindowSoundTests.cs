@@ -1,0 +1,149 @@
+using System;
+using System.IO;
+using System.Linq;
+using HaptoFlow.Preview;
+using NUnit.Framework;
+using UnityEngine;
+using UnityShim;
+
+namespace HaptoFlow.PreviewTests
+{
+    /// <summary>What only the shim can show: what sounds, and what is saved where.</summary>
+    public sealed class WindowSoundTests : PreviewWindowTest
+    {
+        private void Press(string caption)
+        {
+            EditorScreen.Press(caption);
+            WindowHost.Draw(Window);
+        }
+
+        [SetUp]
+        public void Forget() => WindowHost.AnswerToSave = null;
+
+        [Test]
+        public void PlayPlaysWhatIsHeardRaisedForTheSpeakersAndStopStops()
+        {
+            Window.Finish();
+            Press("Play");
+            Window.Step();
+            AudioClip clip = ClipPreview.Playing!;
+            var played = new float[clip.samples];
+            clip.GetData(played, 0);
+            Assert.That((clip.frequency, clip.channels), Is.EqualTo((48000, 1)));
+            Assert.That(played.Max(sample => Math.Abs(sample)), Is.EqualTo(0.9f).Within(1e-4f));
+            float gain = Window.Player!.Gain;
+            Assert.That(played, Is.EqualTo(Samples.Select(sample => gain * sample)).Within(1e-6f));
+            Press("Stop");
+            Assert.That(ClipPreview.Playing, Is.Null);
+            Assert.That(Window.Player.PlayedSeconds, Is.Null);
+        }
+
+        [Test]
+        public void WithoutLouderTheSpeakersGetWhatIsExported()
+        {
+            State.Raises = false;
+            Window.Finish();
+            Key(KeyCode.Space);
+            Window.Step();
+            var played = new float[ClipPreview.Playing!.samples];
+            ClipPreview.Playing.GetData(played, 0);
+            Assert.That(played, Is.EqualTo(Samples));
+        }
+
+        [Test]
+        public void BothMaterialsAreRaisedByAsMuch()
+        {
+            State.Compares = true;
+            Window.Finish();
+            float gain = Window.Player!.Gain;
+            State.Change("Material", state => state.Active = 1);
+            Window.Finish();
+            Assert.That(Window.Player.Gain, Is.EqualTo(gain));
+            float loudest = Window.Session!.Shown!.Sounds.Max(sound => sound.Sound.Peak);
+            Assert.That(gain * loudest, Is.EqualTo(0.9f).Within(1e-4f));
+        }
+
+        [Test]
+        public void SwitchingWhileItPlaysGoesOnAtTheSamePlace()
+        {
+            State.Compares = true;
+            Window.Finish();
+            Key(KeyCode.Space);
+            Window.Step();
+            AudioClip first = ClipPreview.Playing!;
+            ClipPreview.Advance(9600);
+            Press("B");
+            Window.Finish();
+            Assert.That(ClipPreview.Playing, Is.Not.Null.And.Not.SameAs(first));
+            Assert.That(ClipPreview.Position, Is.EqualTo(9600));
+            Assert.That(Window.Player!.PlayedSeconds, Is.EqualTo(0.2).Within(1e-9));
+        }
+
+        [Test]
+        public void AtTheEndItStopsAndALoopBeginsAgain()
+        {
+            Window.Finish();
+            Key(KeyCode.Space);
+            Window.Step();
+            ClipPreview.Advance(10 * 48000);
+            Window.Step();
+            Assert.That(Window.Player!.IsPlaying, Is.False);
+            State.Loops = true;
+            Key(KeyCode.Space);
+            Window.Step();
+            ClipPreview.Advance(10 * 48000);
+            Window.Step();
+            Assert.That(Window.Player.IsPlaying, Is.True);
+        }
+
+        [Test]
+        public void ADrawnStrokeIsPlayedWhenItIsRendered()
+        {
+            double clock = 0.0;
+            Window.ClockSeconds = () => clock += 0.02;
+            Box patch = PreviewLayout.Patch(
+                new PreviewLayout(Window.position.width, Window.position.height).StrokePanel);
+            void Pointer(EventType type, double share) => Window.SendEvent(new Event
+            {
+                type = type,
+                mousePosition = new Vector2((float)(patch.Left + share * patch.Width), (float)patch.MiddleY),
+            });
+
+            Pointer(EventType.MouseDown, 0.2);
+            foreach (int step in Enumerable.Range(1, 10))
+            {
+                Pointer(EventType.MouseDrag, 0.2 + 0.03 * step);
+            }
+            Pointer(EventType.MouseUp, 0.5);
+            Window.Finish();
+            Assert.That(Window.Player!.IsPlaying, Is.True);
+        }
+
+        [Test]
+        public void ExportAsksWhereWithANameThatTellsWhat()
+        {
+            string proposed = "";
+            string path = TemporaryFile();
+            WindowHost.AnswerToSave = name =>
+            {
+                proposed = name;
+                return path;
+            };
+            Assert.That(Key(KeyCode.E, EventModifiers.Control), Is.True);
+            Assert.That(proposed, Is.Empty, "no dialog while the window is being drawn");
+            WindowHost.Update();
+            Assert.That(proposed, Is.EqualTo("wood 0.12 mps 1.5 N.wav"));
+            Assert.That(new WaveReader(File.ReadAllBytes(path)).Samples(), Is.EqualTo(Samples));
+            Assert.That(WindowHost.Notification, Is.EqualTo("Exported"));
+        }
+
+        [Test]
+        public void AnExportThatIsCancelledWritesNothing()
+        {
+            string[] before = Directory.GetFiles(".", "*", SearchOption.AllDirectories);
+            Press("Export WAV\u2026");
+            WindowHost.Update();
+            Assert.That(Directory.GetFiles(".", "*", SearchOption.AllDirectories), Is.EqualTo(before));
+        }
+    }
+}

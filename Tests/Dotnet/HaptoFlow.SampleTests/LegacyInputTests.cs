@@ -1,0 +1,26 @@
+extern alias Legacy;
+
+using NUnit.Framework;
+using UnityEngine;
+using UnityShim;
+using LegacyScene = Legacy::HaptoFlow.Samples.StylusTracing.TracingScene;
+
+namespace HaptoFlow.SampleTests
+{
+    /// <summary>The samples in a project with the old Input Manager.</summary>
+    public sealed class LegacyInputTests : SampleTest
+    {
+        [Test]
+        public void TheOldInputManagersMouseMovesThePen()
+        {
+            FinishLoading();
+            Camera camera = CameraOf(new SceneFile(SampleFile("StylusTracing", "StylusTracing.unity")));
+            var scene = Wake<LegacyScene>(bootstrap => bootstrap.View = camera);
+            PointAt(camera, new Vector3(0.34f, 0.012f, -0.12f));
+            SimulatedInput.MouseButton = true;
+            PlayFor(0.4);
+            Assert.That(scene.Pen.Stylus.IsTouching, Is.True);
+            Assert.That(scene.Pen.Stylus.Contact.Surface.Material.Label, Is.EqualTo("jute"));
+        }
+    }
+}

@@ -1,0 +1,65 @@
+using System;
+using HaptoFlow.Tests;
+using HaptoFlow.Tests.Support;
+using NUnit.Framework;
+using UnityEngine;
+using UnityShim;
+
+namespace HaptoFlow.SampleTests
+{
+    /// <summary>A sample's scene: its camera where the scene file has it, its bootstrap, a simulated hand.</summary>
+    public abstract class SampleTest : SceneTest
+    {
+        protected const float Audible = 0.001f;
+
+        [SetUp]
+        public void LetGoOfEverything() => SimulatedInput.Reset();
+
+        internal static string SampleFile(string sample, string name) => RepositoryFiles.In("Samples~", sample, name);
+
+        /// <summary>The scene's camera.</summary>
+        internal Camera CameraOf(SceneFile scene)
+        {
+            GameObject owner = Make("Main Camera");
+            owner.transform.SetPositionAndRotation(scene.CameraPosition, scene.CameraRotation);
+            var camera = owner.AddComponent<Camera>();
+            camera.fieldOfView = scene.FieldOfView;
+            return camera;
+        }
+
+        /// <summary>A bootstrap that wakes after it was told what the scene file tells it.</summary>
+        internal TBootstrap Wake<TBootstrap>(Action<TBootstrap> tell)
+            where TBootstrap : MonoBehaviour
+        {
+            GameObject owner = Make("Bootstrap");
+            owner.SetActive(false);
+            var bootstrap = owner.AddComponent<TBootstrap>();
+            tell(bootstrap);
+            owner.SetActive(true);
+            return bootstrap;
+        }
+
+        /// <summary>The mouse over a place of the scene.</summary>
+        internal static void PointAt(Camera camera, Vector3 place) =>
+            SimulatedInput.MousePosition = camera.WorldToScreenPoint(place);
+
+        internal static void PlayFor(double seconds) => World.Frames((int)Math.Ceiling(seconds * World.FrameRateHz));
+
+        /// <summary>Largest magnitude that reached the audio device since <see cref="AudioDevice.Forget"/>.</summary>
+        internal static float Loudest()
+        {
+            float loudest = 0f;
+            for (int frame = 0; frame < AudioDevice.RecordedFrames; ++frame)
+            {
+                loudest = Math.Max(loudest, Math.Abs(AudioDevice.Sample(frame, 0)));
+            }
+            return loudest;
+        }
+
+        internal static ulong InferencesOf(HapticStylus stylus)
+        {
+            Assert.That(stylus.TryGetStatistics(out VoiceStatistics statistics), Is.True, "the stylus has no voice");
+            return statistics.Inferences;
+        }
+    }
+}

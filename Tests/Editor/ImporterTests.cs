@@ -1,0 +1,83 @@
+#nullable enable
+using System;
+using System.Linq;
+using NUnit.Framework;
+using UnityEditor;
+using UnityEditor.AssetImporters;
+using UnityEngine.TestTools;
+
+namespace HaptoFlow.EditorTests
+{
+    public sealed class ImporterTests : EditorTest
+    {
+        [Test]
+        public void TheDefaultModelIsImportedWithItsLabelsAndTiers()
+        {
+            HapticModelAsset model = Model();
+            Assert.That(model.Header.Labels, Has.Count.EqualTo(20));
+            Assert.That(model.Header.Labels.Select(label => label.Name), Has.Member("wood"));
+            Assert.That(model.Header.Tiers.Select(tier => tier.Name),
+                Is.EqualTo(new[] { "draft", "standard", "fine" }));
+        }
+
+        [Test]
+        public void ASoundFileIsImportedWithoutARemark()
+        {
+            string path = Import("sound.haptoflow", Model().File);
+            byte[] kept = AssetDatabase.LoadAssetAtPath<HapticModelAsset>(path).File;
+            Assert.That(kept.AsSpan().SequenceEqual(Model().File), Is.True);
+            Assert.That(ImportErrors(path), Is.Empty);
+        }
+
+        [TestCase("truncated", "get it again")]
+        [TestCase("header", "checksum at byte 24")]
+        [TestCase("part", "does not match its checksum")]
+        [TestCase("empty", "its first part alone takes 32")]
+        [TestCase("text", "not a .haptoflow file")]
+        public void ADamagedFileBecomesAnAssetWhoseImportSaysWhatIsWrong(string damage, string message)
+        {
+            LogAssert.ignoreFailingMessages = true;
+            string path = Import(damage + ".haptoflow", Damaged(Model().File, damage));
+            Assert.That(AssetDatabase.LoadAssetAtPath<HapticModelAsset>(path), Is.Not.Null);
+            Assert.That(ImportErrors(path), Has.Length.EqualTo(1));
+            Assert.That(ImportErrors(path)[0], Does.Contain(path).And.Contain(message));
+        }
+
+        [Test]
+        public void AFileThatIsReplacedByASoundOneIsSoundAgain()
+        {
+            LogAssert.ignoreFailingMessages = true;
+            byte[] sound = Model().File;
+            Import("model.haptoflow", Damaged(sound, "truncated"));
+            string path = Import("model.haptoflow", sound);
+            Assert.That(AssetDatabase.LoadAssetAtPath<HapticModelAsset>(path).Header.Labels, Has.Count.EqualTo(20));
+            Assert.That(ImportErrors(path), Is.Empty);
+        }
+
+        private static byte[] Damaged(byte[] file, string damage)
+        {
+            switch (damage)
+            {
+                case "truncated":
+                    return ModelBytes.Truncated(file, file.Length - 1000);
+                case "header":
+                    return ModelBytes.Flipped(file, 100);
+                case "part":
+                    return ModelBytes.Flipped(file, file.Length - 100);
+                case "empty":
+                    return Array.Empty<byte>();
+                default:
+                    return System.Text.Encoding.ASCII.GetBytes("this is no model, but a text of more than 32 bytes");
+            }
+        }
+
+        private static string[] ImportErrors(string path)
+        {
+            ImportLog? log = AssetImporter.GetImportLog(path);
+            return log == null
+                ? Array.Empty<string>()
+                : log.logEntries.Where(entry => (entry.flags & ImportLogFlags.Error) != 0)
+                    .Select(entry => entry.message).ToArray();
+        }
+    }
+}

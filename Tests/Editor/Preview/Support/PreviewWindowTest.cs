@@ -1,0 +1,93 @@
+#nullable enable
+using System.Collections.Generic;
+using System.IO;
+using HaptoFlow.Editor;
+using HaptoFlow.Preview;
+using NUnit.Framework;
+using UnityEditor;
+using UnityEngine;
+
+namespace HaptoFlow.PreviewTests
+{
+    /// <summary>An open Texture Preview window with a short stroke in the cheapest quality, closed after each test.
+    /// </summary>
+    public abstract class PreviewWindowTest
+    {
+        private readonly List<Object> made = new List<Object>();
+
+        internal TexturePreviewWindow Window { get; private set; } = null!;
+
+        internal TexturePreviewState State => Window.State;
+
+        /// <summary>The samples of the material that is heard.</summary>
+        internal float[] Samples => Window.Player!.Heard!.Sound.Samples;
+
+        [SetUp]
+        public void OpenWindow()
+        {
+#if HAPTOFLOW_OUTSIDE_UNITY
+            UnityShim.EditorSession.Begin(Tests.Support.RepositoryFiles.In("Packages", "com.haptoflow.runtime"));
+            GUIUtility.hotControl = 0;
+            EditorGUIUtility.editingTextField = false;
+#endif
+            ProjectSettingsAsset.Forget();
+            TexturePreviewWindow.Open();
+            Window = EditorWindow.GetWindow<TexturePreviewWindow>();
+            State.Preset = StrokePreset.Slide;
+            State.ContactSeconds = 0.3f;
+            State.Tier = "draft";
+            State.Compares = false;
+            State.First.Label = "wood";
+            State.Second.Label = "sandpaper";
+            Undo.IncrementCurrentGroup();
+        }
+
+        [TearDown]
+        public void CloseWindow()
+        {
+            if (Window != null)
+            {
+                Close();
+            }
+            foreach (Object each in made)
+            {
+                Object.DestroyImmediate(each);
+            }
+            made.Clear();
+            ProjectSettingsAsset.Forget();
+#if HAPTOFLOW_OUTSIDE_UNITY
+            UnityShim.EditorSession.End();
+#endif
+        }
+
+        internal void Close()
+        {
+#if HAPTOFLOW_OUTSIDE_UNITY
+            UnityShim.WindowHost.Close(Window);
+#else
+            Window.Close();
+#endif
+        }
+
+        /// <summary>A model of these bytes, gone after the test.</summary>
+        internal HapticModelAsset Model(byte[] file)
+        {
+            HapticModelAsset asset = HapticModelAsset.Create(file);
+            asset.name = "made";
+            made.Add(asset);
+            return asset;
+        }
+
+        internal static byte[] DefaultFile() => ProjectSettingsAsset.DefaultModel()!.File;
+
+        internal bool Key(KeyCode key, EventModifiers modifiers = EventModifiers.None) =>
+            Window.SendEvent(new Event { type = EventType.KeyDown, keyCode = key, modifiers = modifiers });
+
+        /// <summary>A file that does not exist yet, in the project's folder for temporary things.</summary>
+        internal static string TemporaryFile()
+        {
+            Directory.CreateDirectory("Temp");
+            return Path.Combine("Temp", Path.GetRandomFileName() + ".wav");
+        }
+    }
+}

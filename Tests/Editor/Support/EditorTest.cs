@@ -1,0 +1,116 @@
+#nullable enable
+using System;
+using System.Collections.Generic;
+using System.IO;
+using HaptoFlow.Editor;
+using NUnit.Framework;
+using UnityEditor;
+using UnityEngine;
+using Object = UnityEngine.Object;
+#if !HAPTOFLOW_OUTSIDE_UNITY
+using UnityEditor.SceneManagement;
+#endif
+
+namespace HaptoFlow.EditorTests
+{
+    /// <summary>An empty scene and a folder for assets, both gone after each test; the project's preloaded assets are
+    /// as they were.</summary>
+    public abstract class EditorTest
+    {
+        internal const string Folder = "Assets/HaptoFlowEditorTests";
+
+        private readonly List<Object> made = new List<Object>();
+        private Object[] preloaded = Array.Empty<Object>();
+
+        [SetUp]
+        public void BeginEditing()
+        {
+#if HAPTOFLOW_OUTSIDE_UNITY
+            UnityShim.EditorSession.Begin(Tests.Support.RepositoryFiles.In("Packages", "com.haptoflow.runtime"));
+#else
+            EditorSceneManager.NewScene(NewSceneSetup.EmptyScene, NewSceneMode.Single);
+#endif
+            preloaded = PlayerSettings.GetPreloadedAssets();
+            AssetDatabase.CreateFolder("Assets", "HaptoFlowEditorTests");
+            ProjectSettingsAsset.Forget();
+        }
+
+        [TearDown]
+        public void EndEditing()
+        {
+            foreach (Object each in made)
+            {
+                if (each != null)
+                {
+                    Object.DestroyImmediate(each);
+                }
+            }
+            made.Clear();
+            AssetDatabase.DeleteAsset(Folder);
+            PlayerSettings.SetPreloadedAssets(preloaded);
+            ProjectSettingsAsset.Forget();
+#if HAPTOFLOW_OUTSIDE_UNITY
+            UnityShim.EditorSession.End();
+#endif
+        }
+
+        internal static HapticModelAsset Model() => ProjectSettingsAsset.DefaultModel()!;
+
+        /// <summary>Settings as a project has them: an asset, preloaded, with the package's model.</summary>
+        internal static HaptoFlowSettings Settings()
+        {
+            var settings = ScriptableObject.CreateInstance<HaptoFlowSettings>();
+            settings.Model = Model();
+            AssetDatabase.CreateAsset(settings, Folder + "/Settings.asset");
+            ProjectSettingsAsset.Preload(settings);
+            return settings;
+        }
+
+        /// <summary>Puts a file into the project and imports it.</summary>
+        internal static string Import(string name, byte[] file)
+        {
+            string path = Folder + "/" + name;
+            File.WriteAllBytes(path, file);
+            AssetDatabase.ImportAsset(path);
+            return path;
+        }
+
+        internal GameObject Make(string name, GameObject? parent = null)
+        {
+            var gameObject = new GameObject(name);
+            made.Add(gameObject);
+            if (parent != null)
+            {
+                gameObject.transform.SetParent(parent.transform, false);
+            }
+            return gameObject;
+        }
+
+        /// <summary>An object with a box to touch.</summary>
+        internal GameObject Box(string name, GameObject? parent = null)
+        {
+            GameObject gameObject = Make(name, parent);
+            gameObject.AddComponent<BoxCollider>();
+            return gameObject;
+        }
+
+        internal HapticSurface Tagged(string name, string label)
+        {
+            var surface = Box(name).AddComponent<HapticSurface>();
+            surface.Material.Label = label;
+            return surface;
+        }
+
+        /// <summary>A stylus as the menu makes it.</summary>
+        internal HapticStylus Stylus()
+        {
+            GameObject owner = Make("Stylus");
+            GameObject tip = Make("Tip", owner);
+            var stylus = owner.AddComponent<HapticStylus>();
+            stylus.Tip = tip.transform;
+            return stylus;
+        }
+
+        internal HapticOutput Output() => Make("Output").AddComponent<HapticOutput>();
+    }
+}

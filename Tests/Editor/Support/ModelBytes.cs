@@ -1,0 +1,58 @@
+#nullable enable
+using System;
+using System.Buffers.Binary;
+using System.Text;
+using System.Text.RegularExpressions;
+using HaptoFlow.Model;
+
+namespace HaptoFlow.EditorTests
+{
+    /// <summary>Copies of a model file with something changed.</summary>
+    internal static class ModelBytes
+    {
+        private const int HeaderStart = 32;
+
+        public static byte[] Truncated(byte[] file, int length) => file.AsSpan(0, length).ToArray();
+
+        /// <summary>One bit is another.</summary>
+        public static byte[] Flipped(byte[] file, int position)
+        {
+            byte[] copy = (byte[])file.Clone();
+            copy[position] ^= 1;
+            return copy;
+        }
+
+        /// <summary>Where the parts begin.</summary>
+        public static int PartsStart(byte[] file) => HeaderStart + HeaderLength(file);
+
+        /// <summary>Other measured figures, the same for all tiers, under a checksum that fits.</summary>
+        public static byte[] WithFigures(byte[] file, string accuracyJson, string costJson)
+        {
+            string header = Encoding.UTF8.GetString(file, HeaderStart, HeaderLength(file));
+            // The header keeps its length: what nobody reads here makes room.
+            string changed = Regex.Replace(header, "\"commit\":\\s*\"[^\"]*\"", "\"commit\":\"\"");
+            changed = Regex.Replace(changed, "\"configuration\":\\s*\\{.*?\\},\\s*\"created\"",
+                "\"configuration\":{},\"created\"", RegexOptions.Singleline);
+            changed = Regex.Replace(changed, "\"accuracy\":\\s*\\{[^}]*\\}", "\"accuracy\":" + accuracyJson);
+            changed = Regex.Replace(changed, "\"cost\":\\s*\\{[^}]*\\}", "\"cost\":" + costJson).TrimEnd(' ');
+            return WithHeader(file, changed);
+        }
+
+        private static byte[] WithHeader(byte[] file, string header)
+        {
+            int length = HeaderLength(file);
+            byte[] text = Encoding.UTF8.GetBytes(header.PadRight(length));
+            if (text.Length != length)
+            {
+                throw new InvalidOperationException($"the header has {length} bytes and would have {text.Length}");
+            }
+            byte[] copy = (byte[])file.Clone();
+            text.CopyTo(copy, HeaderStart);
+            BinaryPrimitives.WriteUInt32LittleEndian(copy.AsSpan(24), Crc32.Of(text));
+            BinaryPrimitives.WriteUInt32LittleEndian(copy.AsSpan(28), Crc32.Of(copy.AsSpan(0, 28)));
+            return copy;
+        }
+
+        private static int HeaderLength(byte[] file) => BinaryPrimitives.ReadInt32LittleEndian(file.AsSpan(12));
+    }
+}

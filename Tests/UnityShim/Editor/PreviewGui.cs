@@ -1,0 +1,117 @@
+using System;
+using UnityEngine;
+using UnityShim;
+using Object = UnityEngine.Object;
+
+namespace UnityEngine
+{
+    public enum ScaleMode
+    {
+        StretchToFill = 0,
+        ScaleAndCrop = 1,
+        ScaleToFit = 2,
+    }
+
+    public partial class GUI
+    {
+        public static void DrawTexture(Rect position, Texture image, ScaleMode scaleMode) =>
+            EditorScreen.Add(DrawnKind.Box, image.name);
+
+        public partial class ScrollViewScope : Scope
+        {
+            public ScrollViewScope(Rect position, Vector2 scrollPosition, Rect viewRect)
+            {
+                this.scrollPosition = scrollPosition;
+                EditorScreen.Open("scroll view");
+            }
+
+            public Vector2 scrollPosition { get; private set; }
+
+            protected override void CloseScope() => EditorScreen.Close("scroll view");
+        }
+    }
+
+    public partial class GUILayout
+    {
+        public static bool Toggle(bool value, GUIContent content, params GUILayoutOption[] options) =>
+            EditorScreen.Field(content, value);
+
+        /// <summary>Tests press its buttons by their captions.</summary>
+        public static int Toolbar(int selected, GUIContent[] contents, params GUILayoutOption[] options)
+        {
+            int chosen = selected;
+            for (int index = 0; index < contents.Length; ++index)
+            {
+                chosen = EditorScreen.Button(contents[index]) ? index : chosen;
+            }
+            return chosen;
+        }
+
+        public partial class AreaScope : GUI.Scope
+        {
+            public AreaScope(Rect screenRect) => EditorScreen.Open("area");
+
+            protected override void CloseScope() => EditorScreen.Close("area");
+        }
+    }
+
+    public partial class GUIUtility
+    {
+        public static int hotControl { get; set; }
+
+        public static int keyboardControl { get; set; }
+
+        public static int GetControlID(int hint, FocusType focusType, Rect rect) => hint | 1;
+    }
+}
+
+namespace UnityEditor
+{
+    public sealed partial class EditorGUI
+    {
+        public static bool actionKey => Event.current.control;
+    }
+
+    public sealed partial class EditorGUILayout
+    {
+        public static float Slider(GUIContent label, float value, float leftValue, float rightValue,
+            params GUILayoutOption[] options) => Mathf.Clamp(EditorScreen.Field(label, value), leftValue, rightValue);
+
+        public static int Popup(
+            GUIContent label, int selectedIndex, string[] displayedOptions, params GUILayoutOption[] options) =>
+            EditorScreen.Field(label, selectedIndex,
+                selectedIndex >= 0 && selectedIndex < displayedOptions.Length ? displayedOptions[selectedIndex] : "");
+
+        public static int IntField(GUIContent label, int value, params GUILayoutOption[] options) =>
+            EditorScreen.Field(label, value);
+    }
+
+    public sealed partial class EditorGUIUtility
+    {
+        public static float pixelsPerPoint => WindowHost.PixelsPerPoint;
+
+        public static bool editingTextField { get; set; }
+    }
+
+    public partial class EditorUtility
+    {
+        public static string SaveFilePanel(string title, string directory, string defaultName, string extension) =>
+            WindowHost.AnswerToSave?.Invoke(defaultName + "." + extension) ?? "";
+    }
+
+    public partial class EditorWindow
+    {
+        public static bool HasOpenInstances<T>()
+            where T : EditorWindow => Open.Exists(window => window is T);
+
+        public void ShowNotification(GUIContent notification) => WindowHost.Notification = notification.text;
+
+        /// <summary>One pass of drawing with this event.</summary>
+        public bool SendEvent(Event e)
+        {
+            Event.current = e;
+            WindowHost.Draw(this);
+            return e.type == EventType.Used;
+        }
+    }
+}

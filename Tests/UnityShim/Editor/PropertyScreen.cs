@@ -1,0 +1,67 @@
+using System;
+using System.Collections.Generic;
+using System.Linq;
+using System.Reflection;
+using UnityEditor;
+using UnityEngine;
+
+namespace UnityShim
+{
+    /// <summary>Draws a serialized property: by the drawer that is registered for its type, or as a plain field.
+    /// </summary>
+    internal static class PropertyScreen
+    {
+        private static readonly Lazy<Dictionary<Type, Type>> Drawers = new Lazy<Dictionary<Type, Type>>(FindDrawers);
+
+        public static void Show(Rect position, SerializedProperty property, GUIContent label)
+        {
+            PropertyDrawer? drawer = DrawerOf(property);
+            if (drawer != null)
+            {
+                drawer.OnGUI(position, property, label);
+                return;
+            }
+            if (property.propertyType == SerializedPropertyType.Generic)
+            {
+                throw new NotSupportedException($"the shim draws no fields of {property.propertyPath}");
+            }
+            Enter(property, label, property.Boxed);
+        }
+
+        public static float HeightOf(SerializedProperty property, GUIContent label) =>
+            DrawerOf(property)?.GetPropertyHeight(property, label) ?? EditorGUIUtility.singleLineHeight;
+
+        /// <summary>Shows a value, "—" where the targets have several, and writes what was entered.</summary>
+        public static T Enter<T>(SerializedProperty property, GUIContent label, T value)
+        {
+            var shown = new GUIContent(label.text, label.tooltip.Length > 0 ? label.tooltip : property.tooltip);
+            T entered = EditorScreen.Field(shown, value, property.hasMultipleDifferentValues ? "—" : null);
+            if (!Equals(entered, value))
+            {
+                property.Boxed = entered;
+            }
+            return entered;
+        }
+
+        private static PropertyDrawer? DrawerOf(SerializedProperty property)
+        {
+            if (!Drawers.Value.TryGetValue(property.FieldType, out Type drawer))
+            {
+                return null;
+            }
+            return (PropertyDrawer)Activator.CreateInstance(drawer, true);
+        }
+
+        private static Dictionary<Type, Type> FindDrawers() => EditorTypes.All
+            .SelectMany(type => type.GetCustomAttributes<CustomPropertyDrawer>().Select(found => (type, found)))
+            .ToDictionary(entry => entry.found.DrawnType, entry => entry.type);
+    }
+
+    /// <summary>Types of the code under test.</summary>
+    internal static class EditorTypes
+    {
+        public static IEnumerable<Type> All => AppDomain.CurrentDomain.GetAssemblies()
+            .Where(assembly => assembly.GetName().Name!.StartsWith("HaptoFlow", StringComparison.Ordinal))
+            .SelectMany(assembly => assembly.GetTypes());
+    }
+}

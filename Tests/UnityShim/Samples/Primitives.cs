@@ -1,0 +1,63 @@
+namespace UnityEngine
+{
+    public enum PrimitiveType
+    {
+        Sphere = 0,
+        Capsule = 1,
+        Cylinder = 2,
+        Cube = 3,
+        Plane = 4,
+        Quad = 5,
+    }
+
+    public partial class Renderer : Component
+    {
+        public Material material { get; set; } = new Material();
+        public Material sharedMaterial => material;
+        public bool enabled { get; set; } = true;
+    }
+
+    public partial class MeshRenderer : Renderer
+    {
+    }
+
+    public sealed partial class MeshFilter : Component
+    {
+    }
+
+    public partial class Material : Object
+    {
+        internal Material()
+        {
+        }
+
+        public Color color { get; set; } = Color.white;
+    }
+
+    public sealed partial class GameObject
+    {
+        /// <summary>With the colliders that Unity gives them: those of one unit.</summary>
+        public static GameObject CreatePrimitive(PrimitiveType type)
+        {
+            var made = new GameObject(type.ToString());
+            made.AddComponent<MeshFilter>();
+            made.AddComponent<MeshRenderer>();
+            switch (type)
+            {
+                case PrimitiveType.Sphere:
+                    made.AddComponent<SphereCollider>();
+                    break;
+                case PrimitiveType.Capsule:
+                case PrimitiveType.Cylinder:
+                    made.AddComponent<CapsuleCollider>();
+                    break;
+                case PrimitiveType.Cube:
+                    made.AddComponent<BoxCollider>();
+                    break;
+                default:
+                    throw new System.NotSupportedException("the shim makes no mesh colliders for planes and quads");
+            }
+            return made;
+        }
+    }
+}

@@ -1,0 +1,61 @@
+using UnityShim;
+
+namespace UnityEngine
+{
+    public partial class Physics
+    {
+        // Unity's own is 32 layers without layer 2.
+        private const int LayersByDefault = ~(1 << 2);
+        private const float HitMetres = 1e-5f;
+        private const int MostSteps = 512;
+        private static readonly Collider[] Found = new Collider[1024];
+
+        public static bool Raycast(Ray ray, out RaycastHit hitInfo, float maxDistance)
+        {
+            World.RequireMainThread();
+            hitInfo = default;
+            bool hasHit = false;
+            int count = PhysicsWorld.Overlap(
+                ray.origin, maxDistance, Found, LayersByDefault, QueryTriggerInteraction.Collide);
+            for (int index = 0; index < count; ++index)
+            {
+                Collider collider = Found[index];
+                bool isConvex = !(collider is TerrainCollider) && !(collider is MeshCollider { convex: false });
+                bool hits = isConvex
+                    ? Meets(collider, ray, maxDistance, out RaycastHit hit)
+                    : collider.Raycast(ray, out hit, maxDistance);
+                if (hits && (!hasHit || hit.distance < hitInfo.distance))
+                {
+                    hasHit = true;
+                    hitInfo = hit;
+                }
+            }
+            return hasHit;
+        }
+
+        /// <summary>Goes along the ray as far as is free each time. As in Unity, a ray from inside meets nothing.
+        /// </summary>
+        private static bool Meets(Collider collider, Ray ray, float maxDistance, out RaycastHit hit)
+        {
+            hit = default;
+            float distance = 0f;
+            Vector3 outward = Vector3.zero;
+            for (int step = 0; step < MostSteps && distance <= maxDistance; ++step)
+            {
+                Vector3 place = ray.origin + distance * ray.direction;
+                Vector3 nearest = collider.ClosestPoint(place);
+                float free = Vector3.Distance(place, nearest);
+                if (free < HitMetres)
+                {
+                    hit.point = nearest;
+                    hit.normal = outward;
+                    hit.distance = distance;
+                    return outward != Vector3.zero;
+                }
+                outward = (place - nearest).normalized;
+                distance += free;
+            }
+            return false;
+        }
+    }
+}
