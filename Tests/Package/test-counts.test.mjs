@@ -23,6 +23,11 @@ test('a TRX file of dotnet test is read, what neither passed nor was left out co
   assert.deepEqual(countsOfTrx(trx), { passed: 5, failed: 3, skipped: 1 });
 });
 
+test('an explicit test of NUnit, executed by name only, counts as skipped', () => {
+  const trx = '<Counters total="240" executed="239" passed="239" failed="0" error="0" inconclusive="0" notExecuted="0" />';
+  assert.deepEqual(countsOfTrx(trx), { passed: 239, failed: 0, skipped: 1 });
+});
+
 test('a TRX file without counters has no tests', () => {
   assert.deepEqual(countsOfTrx('<TestRun></TestRun>'), { passed: 0, failed: 0, skipped: 0 });
 });

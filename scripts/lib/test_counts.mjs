@@ -17,12 +17,15 @@ export function countsOfTap(output) {
   return { passed: line('pass'), failed: line('fail') + line('cancelled'), skipped: line('skipped') + line('todo') };
 }
 
-/** Of a TRX file of `dotnet test`. Ignored and inconclusive tests count as skipped, everything else that did not pass as failed. */
+/**
+ * Of a TRX file of `dotnet test`. Ignored, explicit and inconclusive tests count as skipped, everything else that did not
+ * pass as failed. NUnit leaves its skipped tests out of `notExecuted`: they are those that were not executed.
+ */
 export function countsOfTrx(xml) {
   const tag = xml.match(/<Counters\s[^>]*>/)?.[0] ?? '';
-  const passed = attribute(tag, 'passed');
-  const skipped = attribute(tag, 'notExecuted') + attribute(tag, 'inconclusive');
-  return { passed, failed: attribute(tag, 'total') - passed - skipped, skipped };
+  const [total, executed, passed] = ['total', 'executed', 'passed'].map((name) => attribute(tag, name));
+  const inconclusive = attribute(tag, 'inconclusive');
+  return { passed, failed: executed - passed - inconclusive, skipped: total - executed + inconclusive };
 }
 
 export const addCounts = (a, b) => ({ passed: a.passed + b.passed, failed: a.failed + b.failed, skipped: a.skipped + b.skipped });

@@ -1,0 +1,76 @@
+#nullable enable
+#if HAPTOFLOW_INPUT_SYSTEM && ENABLE_INPUT_SYSTEM
+using System;
+using UnityEngine;
+using UnityEngine.InputSystem;
+using UnityEngine.InputSystem.XR;
+
+namespace HaptoFlow.Samples.StylusTracing
+{
+    /// <summary>A headset's tracking space. Once the head is tracked, it is placed so that the eyes are where the scene
+    /// has its camera; without a headset the camera stays.</summary>
+    public sealed class XrRig : MonoBehaviour
+    {
+        private InputAction isTracked = null!;
+        private InputAction position = null!;
+        private InputAction rotation = null!;
+        private Camera view = null!;
+        private bool placed;
+
+        /// <summary>The space with a pen in each hand.</summary>
+        public static XrRig Create(Camera view)
+        {
+            var rig = new GameObject("XR Rig").AddComponent<XrRig>();
+            rig.view = view;
+            rig.isTracked = Enabled("<XRHMD>/isTracked");
+            rig.position = Enabled("<XRHMD>/centerEyePosition");
+            rig.rotation = Enabled("<XRHMD>/centerEyeRotation");
+            XrPen.Create(rig.transform, "RightHand");
+            XrPen.Create(rig.transform, "LeftHand");
+            return rig;
+        }
+
+        private static InputAction Enabled(string binding)
+        {
+            var action = new InputAction(binding: binding);
+            action.Enable();
+            return action;
+        }
+
+        private void Update()
+        {
+            if (placed || isTracked.ReadValue<float>() < 0.5f)
+            {
+                return;
+            }
+            placed = true;
+            PlaceEyesAtCamera();
+            view.transform.SetParent(transform, false);
+            var driver = view.gameObject.AddComponent<TrackedPoseDriver>();
+            driver.positionInput = new InputActionProperty(position);
+            driver.rotationInput = new InputActionProperty(rotation);
+        }
+
+        private void OnDestroy()
+        {
+            isTracked.Dispose();
+            position.Dispose();
+            rotation.Dispose();
+        }
+
+        private void PlaceEyesAtCamera()
+        {
+            float wanted = YawDegrees(view.transform.rotation);
+            float actual = YawDegrees(rotation.ReadValue<Quaternion>());
+            transform.rotation = Quaternion.AngleAxis(wanted - actual, Vector3.up);
+            transform.position = view.transform.position - transform.rotation * position.ReadValue<Vector3>();
+        }
+
+        private static float YawDegrees(Quaternion turned)
+        {
+            Vector3 forward = turned * Vector3.forward;
+            return (float)(Math.Atan2(forward.x, forward.z) * 180.0 / Math.PI);
+        }
+    }
+}
+#endif

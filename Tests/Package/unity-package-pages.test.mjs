@@ -1,0 +1,87 @@
+// Pages name what exists: messages, menus, components, members, markers, commands.
+import assert from 'node:assert/strict';
+import { readFileSync, readdirSync } from 'node:fs';
+import path from 'node:path';
+import test from 'node:test';
+import { inRepository } from '../../scripts/lib/repository.mjs';
+import { repositoryFiles } from '../../scripts/lint/files.mjs';
+
+const read = (...parts) => readFileSync(inRepository(...parts), 'utf8');
+const pageNames = readdirSync(inRepository('Documentation~')).filter((name) => name.endsWith('.md'));
+const pages = pageNames.map((name) => ({ name, text: read('Documentation~', name) }));
+const ofUnity = ['installation', 'first-scene', 'mx-ink-quest3', 'actuator-wiring', 'authoring', 'api-tour', 'performance', 'troubleshooting'];
+const unityPages = [...pages, ...['StylusTracing', 'TextureGallery'].map((sample) => ({ name: sample, text: read('Samples~', sample, 'README.md') }))]
+  .filter(({ name }) => ofUnity.includes(path.basename(name, '.md')) || !name.endsWith('.md'));
+const files = await repositoryFiles();
+const sources = files
+  .filter((name) => name.startsWith('Packages/com.haptoflow.runtime/') && name.endsWith('.cs'))
+  .map((name) => ({ name, text: read(name) }));
+const runtime = sources.filter(({ name }) => name.includes('/Runtime/'));
+
+/** What C# source logs or says for people: string literals that begin with "HaptoFlow", joined over +, holes as null. */
+function messagesOf(text) {
+  const joined = text.replace(/"\s*\+\s*\$?"/g, '');
+  return [...joined.matchAll(/\$?"(HaptoFlow(?::|'s)(?:[^"\\]|\\.)*)"/g)].map(([, literal]) => literal.replaceAll('\\"', '"').split(/\{[^}]*\}/));
+}
+
+test('there is a page for each part that the package promises', () => {
+  for (const name of ofUnity) assert.ok(pageNames.includes(`${name}.md`), name);
+});
+
+test('troubleshooting has every message that the runtime says', () => {
+  const page = read('Documentation~', 'troubleshooting.md');
+  const messages = runtime.flatMap(({ name, text }) => messagesOf(text).map((pieces) => ({ name, pieces })));
+  assert.ok(messages.length >= 8, `${messages.length} messages found in the sources`);
+  for (const { name, pieces } of messages) {
+    const longest = pieces.reduce((best, piece) => (piece.length > best.length ? piece : best)).replace(/ \($/, '').trim();
+    assert.ok(page.includes(longest), `${path.basename(name)}: "${longest}"`);
+  }
+});
+
+test('every menu that a page names is a menu of the package', () => {
+  const menus = sources.flatMap(({ text }) => [...text.matchAll(/"((?:Window|GameObject)\/HaptoFlow\/[^"]+)"/g)].map(([, menu]) => menu.replace(/ _?[%#&].*$/, '')));
+  const assets = sources.flatMap(({ text }) => [...text.matchAll(/menuName = "([^"]+)"/g)].map(([, menu]) => `Assets/Create/${menu}`));
+  const known = [...menus, ...assets];
+  for (const { name, text } of unityPages) {
+    const words = text.replace(/\s+/g, ' ');
+    for (const [, named] of words.matchAll(/((?:Window|GameObject|Assets > Create) > HaptoFlow > [^*.,|)]+?)(?=\*\*|[.,|)]| makes| proposes)/g)) {
+      assert.ok(known.includes(named.trim().replaceAll(' > ', '/')), `${name}: ${named}`);
+    }
+  }
+});
+
+test('every component that a page adds is in the component menu', () => {
+  const menus = sources.flatMap(({ text }) => [...text.matchAll(/AddComponentMenu\("HaptoFlow\/([^"]+)"\)/g)].map(([, menu]) => menu));
+  assert.ok(menus.length >= 5);
+  for (const { name, text } of unityPages) {
+    for (const [, named] of text.replace(/\s+/g, ' ').matchAll(/\*\*(?:Add Component > )?HaptoFlow > ([^*]+)\*\*/g)) assert.ok(menus.includes(named), `${name}: ${named}`);
+  }
+});
+
+test('every type and member of HaptoFlow that a page names exists and is public', () => {
+  const all = runtime.map(({ text }) => text).join('\n');
+  const sampleNames = files.filter((name) => name.startsWith('Samples~/') && name.endsWith('.cs')).map((name) => path.basename(name, '.cs'));
+  const types = new Set([...all.matchAll(/public (?:(?:sealed|abstract|static|readonly|unsafe) )*(?:class|struct|enum|delegate \w+) (\w+)/g)].map(([, type]) => type));
+  const isKnown = (type) => types.has(type) || sampleNames.includes(type);
+  for (const { name, text } of unityPages) {
+    const code = [...text.matchAll(/`([^`\n]+)`/g), ...text.matchAll(/```csharp\n([\s\S]*?)```/g)].map(([, words]) => words).join('\n');
+    for (const [, type, member] of code.matchAll(/\b(Haptics|Haptic[A-Z]\w*|HaptoFlow[A-Z]\w*|(?:Voice|Engine)Statistics|(?:Pressure|InputAction|MetaAction)TipForce|TipForceSource|OutputRoute|ContactState)(?:\.(\w+))?/g)) {
+      if (['HaptoFlowChannel', 'HaptoFlowStrength', 'HaptoFlowVoice'].includes(type)) continue;
+      assert.ok(isKnown(type), `${name}: ${type}`);
+      if (member !== undefined && !['cs', 'asset'].includes(member)) assert.match(all, new RegExp(`(public|protected)[^;={(]*\\b${member}\\b|^ +${member}( = \\d+)?,$`, 'm'), `${name}: ${type}.${member}`);
+    }
+  }
+});
+
+test('the profiler\'s markers are those of the performance page', () => {
+  const markers = [...read('Packages', 'com.haptoflow.runtime', 'Runtime', 'Components', 'Markers.cs').matchAll(/ProfilerMarker\("([^"]+)"\)/g)].map(([, marker]) => marker);
+  const named = [...read('Documentation~', 'performance.md').matchAll(/^\| (?:main|audio) \|.*\| `(HaptoFlow\.\w+)` \|$/gm)].map(([, marker]) => marker);
+  assert.deepEqual(named.sort(), markers.sort());
+});
+
+test('every npm script that a page names exists', () => {
+  const { scripts } = JSON.parse(read('package.json'));
+  for (const { name, text } of [...pages, ...unityPages]) {
+    for (const [, script] of text.matchAll(/(?:npm run|\.\/run) ([a-z][a-z:]*)/g)) assert.ok(scripts[script], `${name}: npm run ${script}`);
+  }
+});

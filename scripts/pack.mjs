@@ -1,0 +1,69 @@
+// pack: makes the Unity package's tarball, out/com.haptoflow.runtime-VERSION.tgz (--no-build, --help)
+import { mkdirSync } from 'node:fs';
+import path from 'node:path';
+import { parseArgs } from 'node:util';
+import { repositoryFiles } from './lint/files.mjs';
+import { CommandError, runMain } from './lib/process.mjs';
+import { inRepository } from './lib/repository.mjs';
+import { setUp } from './lib/setup.mjs';
+import { checkPackage } from './pack/check_package.mjs';
+import { buildNatives, findNatives, platforms } from './pack/natives.mjs';
+import { PackageFiles } from './pack/package_files.mjs';
+import { stagePackage } from './pack/stage.mjs';
+import { makeTarball } from './pack/tarball.mjs';
+
+const help = `usage: npm run pack -- [--no-build] [--help]
+
+Builds the native library for this machine, and for every other preset that is configured, puts the package together in
+out/package, checks it as Unity would read it, and makes out/com.haptoflow.runtime-VERSION.tgz.
+In Unity: Window > Package Manager > + > Install package from tarball.
+
+  --no-build   take the libraries as they lie in build/ (HAPTOFLOW_NATIVE_DIR stands for build/native)
+  --help       this text
+
+What goes in: Packages/com.haptoflow.runtime with the model, Samples~, Documentation~, Tests/Runtime, Tests/Editor, and a
+native library for each platform that has one:
+
+${platforms.map(({ name, presets, needs }) => `  ${name.padEnd(15)} cmake --preset ${presets[0].padEnd(14)} needs ${needs}`).join('\n')}
+
+A library that was built on another machine goes to the same place below build/. Platforms without a library are named at
+the end; there, scenes go on without haptics.`;
+
+function optionsOf(words) {
+  try {
+    return parseArgs({ args: words, options: { 'no-build': { type: 'boolean', default: false }, help: { type: 'boolean', default: false } } }).values;
+  } catch (error) {
+    throw new CommandError(`${error.message}\n\n${help}`, 2);
+  }
+}
+
+const mebibytes = (bytes) => `${(bytes / 2 ** 20).toFixed(1)} MiB`;
+
+await runMain('pack', async (words) => {
+  const options = optionsOf(words);
+  if (options.help) {
+    console.log(help);
+    return 0;
+  }
+  if (!options['no-build']) {
+    await setUp(['build']);
+    await buildNatives();
+  }
+  const { found, absent } = findNatives();
+  const folder = inRepository('out', 'package');
+  stagePackage(folder, await repositoryFiles(), found);
+  const files = PackageFiles.inFolder(folder);
+  const complaints = checkPackage(files);
+  if (complaints.length > 0) {
+    throw new CommandError(`${complaints.join('\n')}\n${complaints.length} things that Unity would refuse, leave out or lose; no tarball was made`);
+  }
+  console.log(`pack: ${files.names.length} files, checked`);
+
+  mkdirSync(inRepository('out'), { recursive: true });
+  const tarball = await makeTarball(folder, inRepository('out'));
+  for (const { platform, file } of found) console.log(`pack: with ${platform.name} (${path.relative(inRepository(), file)})`);
+  for (const { platform, why } of absent) console.log(`pack: without ${platform.name}: ${why}`);
+  console.log(`pack: ${tarball.file} (${mebibytes(tarball.bytes)}, ${mebibytes(tarball.unpackedBytes)} unpacked)`);
+  if (found.length === 0) console.log('pack: no native library at all: scenes will run without haptics');
+  return 0;
+});

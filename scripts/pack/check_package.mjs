@@ -1,0 +1,38 @@
+import { checkAssemblyNames, checkNamespaces, checkPlatforms, checkReferences, checkScriptsBelong } from './rules/assemblies.mjs';
+import { checkAnchors, checkAssetGuids, checkSceneScripts } from './rules/assets.mjs';
+import { checkLinks } from './rules/links.mjs';
+import { checkManifest } from './rules/manifest.mjs';
+import { checkGuids, checkImporters, checkMetasAreThere, checkMetasAreWanted } from './rules/metas.mjs';
+import { checkModelImporter, checkModelReferences } from './rules/models.mjs';
+import { checkCase, checkPathLengths } from './rules/names.mjs';
+import { checkPlugins } from './rules/plugins.mjs';
+
+/** What a package must keep to, each rule by its name. */
+export const rules = {
+  manifest: checkManifest,
+  'path lengths': checkPathLengths,
+  'upper and lower case': checkCase,
+  'a .meta for everything': checkMetasAreThere,
+  'no .meta for nothing': checkMetasAreWanted,
+  GUIDs: checkGuids,
+  importers: checkImporters,
+  'assembly names': checkAssemblyNames,
+  'assembly references': checkReferences,
+  'scripts in assemblies': checkScriptsBelong,
+  namespaces: checkNamespaces,
+  'assembly platforms': checkPlatforms,
+  'GUIDs in assets': checkAssetGuids,
+  'anchors in assets': checkAnchors,
+  'scripts of scenes': checkSceneScripts,
+  'importer of models': checkModelImporter,
+  'models of scenes': checkModelReferences,
+  'links of pages': checkLinks,
+  'native libraries': checkPlugins,
+};
+
+/**
+ * Looks a package over for what Unity would refuse, leave out or lose.
+ * @param {import('./package_files.mjs').PackageFiles} files
+ * @returns {string[]} one line for each complaint: the file, what is wrong, what was expected; empty for a good package
+ */
+export const checkPackage = (files) => Object.values(rules).flatMap((rule) => rule(files));

@@ -1,0 +1,46 @@
+import { inRepository } from '../lib/repository.mjs';
+
+/** Name of the package, as in its manifest. */
+export const packageName = 'com.haptoflow.runtime';
+
+/** Where the manifest of the package in git lies. */
+export const manifestPath = inRepository('Packages', packageName, 'package.json');
+
+/** Folders of the repository and where in the package their files go. */
+export const parts = [
+  { from: `Packages/${packageName}`, to: '' },
+  { from: 'Samples~', to: 'Samples~' },
+  { from: 'Documentation~', to: 'Documentation~' },
+  { from: 'Tests/Runtime', to: 'Tests/Runtime' },
+  { from: 'Tests/Editor', to: 'Tests/Editor' },
+];
+
+/** GUIDs of folders that exist in the package only, so that git has no .meta of theirs. */
+export const folderGuids = {
+  Tests: 'b5f0a2d1c6e84f6f9a3d0c7e51482b96',
+  'Tests/Runtime': '3c9d71e85ab24f0ebd6a8f274c10e5d3',
+  'Tests/Editor': '91e64b07d2fa4c58a0b3f7c9268d154e',
+};
+
+/** The .meta of a folder. */
+export const folderMeta = (guid) => `fileFormatVersion: 2
+guid: ${guid}
+folderAsset: yes
+DefaultImporter:
+  externalObjects: {}
+  userData: 
+  assetBundleName: 
+  assetBundleVariant: 
+`;
+
+/**
+ * Where a file of the repository goes in the package; null for a file that stays behind.
+ * @param {string} name relative to the repository, with slashes
+ */
+export function placeInPackage(name) {
+  const part = parts.find(({ from }) => name.startsWith(`${from}/`));
+  if (!part) return null;
+  const place = [part.to, name.slice(part.from.length + 1)].filter((piece) => piece !== '').join('/');
+  const isHidden = place.split('/').some((piece) => piece.startsWith('.'));
+  return isHidden ? null : place;
+}

@@ -1,0 +1,58 @@
+import { readFileSync, readdirSync } from 'node:fs';
+import path from 'node:path';
+
+/**
+ * A package as Unity would read it: every file by its name in the package, slashes between folders.
+ * Folders that end in "~" and names that begin with a dot are there, and Unity imports none of them.
+ */
+export class PackageFiles {
+  /** @param {Map<string, Buffer | string>} contents */
+  constructor(contents) {
+    this.contents = contents;
+    this.names = [...contents.keys()].sort();
+    this.folders = [...new Set(this.names.flatMap(parentsOf))].sort();
+  }
+
+  /** The files below a folder on disk. */
+  static inFolder(folder) {
+    const contents = new Map();
+    const add = (place) => {
+      for (const entry of readdirSync(path.join(folder, place), { withFileTypes: true })) {
+        const name = place === '' ? entry.name : `${place}/${entry.name}`;
+        if (entry.isDirectory()) add(name);
+        else contents.set(name, readFileSync(path.join(folder, name)));
+      }
+    };
+    add('');
+    return new PackageFiles(contents);
+  }
+
+  has(name) {
+    return this.contents.has(name);
+  }
+
+  bytes(name) {
+    return Buffer.from(this.contents.get(name));
+  }
+
+  text(name) {
+    return this.bytes(name).toString('utf8');
+  }
+
+  /** Names with one of the endings. */
+  endingIn(...endings) {
+    return this.names.filter((name) => endings.some((ending) => name.endsWith(ending)));
+  }
+}
+
+/** "a/b/c" -> ["a", "a/b"]. */
+export function parentsOf(name) {
+  const pieces = name.split('/').slice(0, -1);
+  return pieces.map((_, index) => pieces.slice(0, index + 1).join('/'));
+}
+
+/** Unity imports it: no part of the name ends in "~" or begins with a dot. */
+export const isImported = (name) => name.split('/').every((piece) => !piece.endsWith('~') && !piece.startsWith('.'));
+
+/** The sample a file belongs to, for example "Samples~/StylusTracing"; null outside of samples. */
+export const sampleOf = (name) => name.match(/^Samples~\/[^/]+(?=\/)/)?.[0] ?? null;

@@ -1,0 +1,127 @@
+import { linesNaming, playerLines } from '../csharp.mjs';
+import { isImported, sampleOf } from '../package_files.mjs';
+import { guidsByName } from './metas.mjs';
+
+const testConstraint = 'UNITY_INCLUDE_TESTS';
+const testAssemblies = ['UnityEngine.TestRunner', 'UnityEditor.TestRunner'];
+
+/** Assemblies of packages that a project may lack, and the package whose version define must stand beside them. */
+const optionalAssemblies = { 'Unity.InputSystem': 'com.unity.inputsystem', 'Oculus.VR': 'com.meta.xr.sdk.core' };
+
+/** The assembly definitions of a package: {file, folder, definition}; those that are no JSON are left to the rules. */
+export function assembliesOf(files) {
+  return files.endingIn('.asmdef').flatMap((file) => {
+    try {
+      return [{ file, folder: file.includes('/') ? file.slice(0, file.lastIndexOf('/')) : '', definition: JSON.parse(files.text(file)) }];
+    } catch {
+      return [];
+    }
+  });
+}
+
+const isEditorOnly = ({ definition }) => JSON.stringify(definition.includePlatforms ?? []) === '["Editor"]';
+const isTest = ({ definition }) => (definition.defineConstraints ?? []).includes(testConstraint);
+
+/** Every assembly definition parses, and has a name of its own. */
+export function checkAssemblyNames(files) {
+  const complaints = [];
+  const owners = new Map();
+  for (const file of files.endingIn('.asmdef')) {
+    let name;
+    try {
+      ({ name } = JSON.parse(files.text(file)));
+    } catch (error) {
+      complaints.push(`${file}: ${error.message}`);
+      continue;
+    }
+    if (typeof name !== 'string' || name === '') complaints.push(`${file}: has no "name"`);
+    else if (owners.has(name)) complaints.push(`${file}: the assembly "${name}" is that of ${owners.get(name)}`);
+    else owners.set(name, file);
+  }
+  return complaints;
+}
+
+/** References lead to assemblies of the package, of its dependencies, or of optional packages behind a version define. */
+export function checkReferences(files) {
+  const assemblies = assembliesOf(files);
+  const byName = new Map(assemblies.map((assembly) => [assembly.definition.name, assembly]));
+  const byGuid = new Map([...guidsByName(files)].map(([name, guid]) => [guid, assemblies.find(({ file }) => file === name)]));
+  const dependencies = Object.keys(readDependencies(files));
+  return assemblies.flatMap((assembly) =>
+    (assembly.definition.references ?? []).flatMap((reference) => {
+      const wanted = reference.startsWith('GUID:') ? byGuid.get(reference.slice('GUID:'.length)) : byName.get(reference);
+      const why = wanted ? whyNotTo(assembly, wanted) : whyNotOutside(assembly, reference, dependencies);
+      return why ? [`${assembly.file}: reference "${reference}": ${why}`] : [];
+    }),
+  );
+}
+
+function readDependencies(files) {
+  try {
+    return JSON.parse(files.text('package.json')).dependencies ?? {};
+  } catch {
+    return {};
+  }
+}
+
+function whyNotTo(assembly, wanted) {
+  if (isEditorOnly(wanted) && !isEditorOnly(assembly)) return 'an assembly for players cannot use one for the editor';
+  const sample = sampleOf(wanted.file);
+  return sample !== null && sample !== sampleOf(assembly.file) ? `is in ${sample}, which a project may not have imported` : null;
+}
+
+function whyNotOutside({ definition }, reference, dependencies) {
+  if (testAssemblies.includes(reference)) {
+    return (definition.defineConstraints ?? []).includes(testConstraint) ? null : `expected "${testConstraint}" among "defineConstraints"`;
+  }
+  if (dependencies.includes(reference)) return null;
+  const needed = optionalAssemblies[reference];
+  if (needed === undefined) return 'no assembly of this name or GUID in the package or its dependencies';
+  const isGuarded = (definition.versionDefines ?? []).some(({ name }) => name === needed);
+  return isGuarded ? null : `expected a version define of ${needed}, which a project may lack`;
+}
+
+/** The assembly that compiles a source: the one in the nearest folder above it. */
+function ownerOf(name, assemblies) {
+  const above = assemblies.filter(({ folder }) => folder === '' || name.startsWith(`${folder}/`));
+  return above.sort((a, b) => b.folder.length - a.folder.length)[0] ?? null;
+}
+
+/** Every script belongs to an assembly: Unity compiles those of packages that do not into none. */
+export function checkScriptsBelong(files) {
+  const assemblies = assembliesOf(files);
+  return files
+    .endingIn('.cs')
+    .filter((name) => (isImported(name) || sampleOf(name) !== null) && ownerOf(name, assemblies) === null)
+    .map((name) => `${name}: no assembly definition in its folder or above`);
+}
+
+/** Players get no editor code, and assemblies without engine references no engine. */
+export function checkNamespaces(files) {
+  const assemblies = assembliesOf(files);
+  const complaints = [];
+  for (const name of files.endingIn('.cs')) {
+    const owner = ownerOf(name, assemblies);
+    if (owner === null || isEditorOnly(owner)) continue;
+    const lines = playerLines(files.text(name));
+    const where = ({ number, text }) => `${name}:${number}: ${text.trim()}`;
+    for (const line of linesNaming(lines, 'UnityEditor')) {
+      complaints.push(`${where(line)}: ${owner.definition.name} is for players; expected #if UNITY_EDITOR around it`);
+    }
+    if (!owner.definition.noEngineReferences) continue;
+    for (const line of linesNaming(lines, 'UnityEngine')) complaints.push(`${where(line)}: ${owner.definition.name} has no engine references`);
+  }
+  return complaints;
+}
+
+/** What lies in folders named Editor and Tests is for the editor, and for projects that run tests. */
+export function checkPlatforms(files) {
+  return assembliesOf(files).flatMap((assembly) => {
+    const complaints = [];
+    const { file } = assembly;
+    if (file.startsWith('Editor/') && !isEditorOnly(assembly)) complaints.push(`${file}: expected "includePlatforms": ["Editor"]`);
+    if (file.startsWith('Tests/') && !isTest(assembly)) complaints.push(`${file}: expected "${testConstraint}" among "defineConstraints"`);
+    if (file.startsWith('Tests/Editor/') && !isEditorOnly(assembly)) complaints.push(`${file}: expected "includePlatforms": ["Editor"]`);
+    return complaints;
+  });
+}

@@ -1,0 +1,60 @@
+import { sampleOf } from '../package_files.mjs';
+import { guidsByName } from './metas.mjs';
+
+/** Unity's own: its default resources, its built-in extra resources, and those of its editor. */
+const builtIn = new Set(['0000000000000000e000000000000000', '0000000000000000f000000000000000', '0000000000000000d000000000000000']);
+const noGuid = '0'.repeat(32);
+
+const yamlEndings = ['.unity', '.prefab', '.mixer', '.asset', '.mat', '.controller', '.playable', '.preset'];
+
+const references = (text) => [...text.matchAll(/\{fileID: (-?\d+)(?:, guid: ([0-9a-f]{32}), type: \d)?\}/g)].map(([, id, guid]) => ({ id, guid }));
+const lineOf = (text, index) => text.slice(0, index).split('\n').length;
+
+/** GUIDs in scenes, prefabs, mixers and other assets lead to files of the package, or to Unity's own. */
+export function checkAssetGuids(files) {
+  const owners = new Map([...guidsByName(files)].map(([name, guid]) => [guid, name]));
+  const complaints = [];
+  for (const name of [...files.endingIn(...yamlEndings), ...files.endingIn('.meta')]) {
+    const text = files.text(name);
+    for (const found of text.matchAll(/\{fileID: -?\d+, guid: ([0-9a-f]{32})/g)) {
+      const guid = found[1];
+      if (builtIn.has(guid) || guid === noGuid) continue;
+      const where = `${name}:${lineOf(text, found.index)}: GUID ${guid}`;
+      const owner = owners.get(guid);
+      if (owner === undefined) complaints.push(`${where}: no file of the package has it`);
+      else if (sampleOf(owner) !== null && sampleOf(owner) !== sampleOf(name)) complaints.push(`${where}: is ${owner}, which a project may not have imported`);
+    }
+  }
+  return complaints;
+}
+
+/** Within a YAML asset, a fileID without GUID is the anchor of one of its own objects, and no two anchors are the same. */
+export function checkAnchors(files) {
+  const complaints = [];
+  for (const name of files.endingIn(...yamlEndings)) {
+    const text = files.text(name);
+    const anchors = [...text.matchAll(/^--- !u!\d+ &(-?\d+)/gm)].map(([, anchor]) => anchor);
+    const twice = anchors.filter((anchor, index) => anchors.indexOf(anchor) !== index);
+    complaints.push(...twice.map((anchor) => `${name}: two objects have the anchor &${anchor}`));
+    const known = new Set(anchors);
+    const missing = references(text).filter(({ id, guid }) => guid === undefined && id !== '0' && !known.has(id));
+    complaints.push(...missing.map(({ id }) => `${name}: no object has the anchor &${id}`));
+  }
+  return complaints;
+}
+
+/** A script that a scene names is a file whose class bears the file's name; Unity finds it by that. */
+export function checkSceneScripts(files) {
+  const owners = new Map([...guidsByName(files)].map(([name, guid]) => [guid, name]));
+  const complaints = [];
+  for (const name of files.endingIn(...yamlEndings)) {
+    for (const [, guid] of files.text(name).matchAll(/m_Script: \{fileID: 11500000, guid: ([0-9a-f]{32}), type: 3\}/g)) {
+      const script = owners.get(guid);
+      if (script === undefined) continue;
+      const wanted = script.split('/').at(-1).replace(/\.cs$/, '');
+      const isThere = script.endsWith('.cs') && new RegExp(`\\bclass ${wanted}\\b`).test(files.text(script));
+      if (!isThere) complaints.push(`${name}: names the script ${script}; expected a class ${wanted} in it`);
+    }
+  }
+  return complaints;
+}

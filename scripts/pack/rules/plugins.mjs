@@ -1,0 +1,47 @@
+import { kindOfLibrary, platforms, pluginsFolder } from '../natives.mjs';
+
+/** What the .meta of each platform's library must say, so that Unity loads it there and nowhere else. */
+const settings = {
+  'Linux x86-64': { player: 'Linux64', editor: 'Linux' },
+  'Windows x86-64': { player: 'Win64', editor: 'Windows' },
+  macOS: { player: 'OSXUniversal', editor: 'OSX', cpu: 'AnyCPU' },
+  'Android arm64': { player: 'Android', cpu: 'ARM64' },
+};
+
+/** [platform, enabled, settings text] of the .meta's platformData, in the form of Unity 2022.3. */
+export function platformData(meta) {
+  const pattern = /^ {2}- first:\n {6}([^\n]*?)\n {4}second:\n {6}enabled: ([01])\n {6}settings:([\s\S]*?)(?=^ {2}- first:|^ {2}\w)/gm;
+  return [...meta.matchAll(pattern)].map(([, first, enabled, text]) => ({ name: first.split(': ').at(-1).trim(), isEnabled: enabled === '1', text }));
+}
+
+/** Native libraries are of the kind that their folder says, enabled there, loaded at start, and nowhere else enabled. */
+export function checkPlugins(files) {
+  const complaints = [];
+  for (const name of files.endingIn('.so', '.dll', '.dylib')) {
+    const platform = platforms.find(({ place }) => `${pluginsFolder}/${place}` === name);
+    if (!platform) {
+      complaints.push(`${name}: expected one of ${platforms.map(({ place }) => place).join(', ')} below ${pluginsFolder}`);
+      continue;
+    }
+    const kind = kindOfLibrary(files.bytes(name));
+    if (kind !== platform.kind) complaints.push(`${name}: is ${kind ?? 'no library'}; expected ${platform.kind}`);
+    if (files.has(`${name}.meta`)) complaints.push(...checkPluginMeta(`${name}.meta`, files.text(`${name}.meta`), settings[platform.name]));
+  }
+  return complaints;
+}
+
+function checkPluginMeta(name, meta, wanted) {
+  const complaints = [];
+  const enabled = platformData(meta).filter(({ isEnabled }) => isEnabled);
+  const expected = [...(wanted.editor ? ['Editor'] : []), wanted.player].sort();
+  const actual = enabled.map(({ name: platform }) => platform).sort();
+  if (JSON.stringify(actual) !== JSON.stringify(expected)) {
+    complaints.push(`${name}: enabled for ${actual.join(', ') || 'nothing'}; expected ${expected.join(', ')}`);
+  }
+  const editor = enabled.find((entry) => entry.name === 'Editor');
+  if (editor && wanted.editor && !editor.text.includes(`OS: ${wanted.editor}\n`)) complaints.push(`${name}: expected the editor of OS ${wanted.editor}`);
+  const player = enabled.find((entry) => entry.name === wanted.player);
+  if (player && wanted.cpu && !player.text.includes(`CPU: ${wanted.cpu}\n`)) complaints.push(`${name}: expected CPU ${wanted.cpu}`);
+  if (!/^ {2}isPreloaded: 1$/m.test(meta)) complaints.push(`${name}: expected isPreloaded: 1; Unity lists audio effects of libraries loaded at start`);
+  return complaints;
+}

@@ -1,0 +1,44 @@
+import { copyFileSync, existsSync, mkdirSync, readdirSync, rmSync, writeFileSync } from 'node:fs';
+import path from 'node:path';
+import { inRepository } from '../lib/repository.mjs';
+import { folderGuids, folderMeta, placeInPackage } from './layout.mjs';
+import { pluginsFolder } from './natives.mjs';
+
+/**
+ * Puts the package together in a folder, which is emptied first.
+ * @param {string} folder of the package's root @param {string[]} files of the repository, relative to its root
+ * @param {{platform: object, file: string}[]} natives built libraries
+ */
+export function stagePackage(folder, files, natives) {
+  rmSync(folder, { recursive: true, force: true });
+  mkdirSync(folder, { recursive: true });
+  for (const name of files) {
+    const place = placeInPackage(name);
+    if (place !== null) copyTo(inRepository(name), path.join(folder, place));
+  }
+  for (const { platform, file } of natives) copyTo(file, path.join(folder, pluginsFolder, platform.place));
+  dropMetasOfAbsent(path.join(folder, pluginsFolder));
+  for (const [place, guid] of Object.entries(folderGuids)) {
+    if (existsSync(path.join(folder, place))) writeFileSync(path.join(folder, `${place}.meta`), folderMeta(guid));
+  }
+}
+
+function copyTo(from, to) {
+  mkdirSync(path.dirname(to), { recursive: true });
+  copyFileSync(from, to);
+}
+
+/** Git has the .meta of every platform's library; those of libraries that were not built stay behind, folders as well. */
+function dropMetasOfAbsent(folder) {
+  if (!existsSync(folder)) return;
+  for (const entry of readdirSync(folder, { withFileTypes: true })) {
+    if (entry.isDirectory()) dropMetasOfAbsent(path.join(folder, entry.name));
+  }
+  for (const name of readdirSync(folder)) {
+    if (name.endsWith('.meta') && !existsSync(path.join(folder, name.slice(0, -'.meta'.length)))) rmSync(path.join(folder, name));
+  }
+  if (readdirSync(folder).length === 0) {
+    rmSync(folder, { recursive: true });
+    rmSync(`${folder}.meta`, { force: true });
+  }
+}
