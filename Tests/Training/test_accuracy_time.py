@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from haptoflow_training.evaluation import accuracy
-from haptoflow_training.evaluation.accuracy_time import table
+from haptoflow_training.evaluation.accuracy_time import merged, table
 from haptoflow_training.evaluation.accuracy_time_report import draw_chart, draw_spectra, write_document
 from haptoflow_training.evaluation.reference_rows import REFERENCE_ROWS, reference_waves
 from haptoflow_training.evaluation.reference_set import Condition, ReferencePair, conditions
@@ -78,8 +78,19 @@ def test_the_table_keeps_the_plan_s_order_and_leaves_out_what_was_not_measured(
     write_document(result, tmp_path / "document.md", images, True, True)
     text = (tmp_path / "document.md").read_text(encoding="utf-8")
     assert "| **standard** |" in text and "| size |" in text and "time only" in text
-    assert "images/accuracy-time.png" in text and "missing" not in text.split("## What the figures mean")[0]
+    assert "images/accuracy-time.png" in text and "| missing" not in text
+    assert result["not_measured"] == ["missing"] and "Not measured yet, so not judged: missing." in text
     assert all((images / name).stat().st_size > 5000 for name in ("accuracy-time.png", "label-spectra.png"))
+
+
+def test_rows_measured_later_join_the_table_in_the_plan_s_order() -> None:
+    plan = [PlannedRow("a", "f", model="m"), PlannedRow("b", "f", model="m"), PlannedRow("c", "f", model="m")]
+    old = {"machine": "then", "rows": [{"name": "b", "lsd_db": 1.0}, {"name": "c", "lsd_db": 2.0}]}
+    new = {"machine": "now", "rows": [{"name": "b", "lsd_db": 3.0}]}
+    assert merged(old, new, plan) == {
+        "machine": "now", "not_measured": ["a"],
+        "rows": [{"name": "b", "lsd_db": 3.0}, {"name": "c", "lsd_db": 2.0}],
+    }  # fmt: skip
 
 
 def test_conditions_hold_a_speed_and_a_force_that_training_leaves_out_and_judge_fundamentals_only_in_the_band() -> None:

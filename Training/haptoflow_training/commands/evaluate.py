@@ -13,7 +13,7 @@ from tqdm import tqdm
 
 from haptoflow_training.errors import InputError
 from haptoflow_training.evaluation import accuracy
-from haptoflow_training.evaluation.accuracy_time import table
+from haptoflow_training.evaluation.accuracy_time import merged, table
 from haptoflow_training.evaluation.accuracy_time_report import draw_chart, draw_spectra, write_document
 from haptoflow_training.evaluation.engine_library import EngineGenerator, EngineLibrary, default_engine
 from haptoflow_training.evaluation.reference_set import ReferencePair, conditions, reference_set
@@ -150,7 +150,7 @@ def _write(
     out = options.out / "accuracy-time.json"
     options.out.mkdir(parents=True, exist_ok=True)
     if options.rows and out.exists():
-        result = _merged(json.loads(out.read_text(encoding="utf-8")), result, [row.name for row in plan])
+        result = merged(json.loads(out.read_text(encoding="utf-8")), result, plan)
     write_json(out, result)
     _annotate(place, plan, result)
     images = options.document.parent / "images"
@@ -177,8 +177,3 @@ def _annotate(place: Workplace, plan: list[PlannedRow], result: dict[str, Any]) 
         parity = place.root / "Tests" / "Golden" / "model" / "default.parity.json"
         annotate_model(place.root / file, result["machine"], rows, parity)
 
-
-def _merged(old: dict[str, Any], new: dict[str, Any], order: list[str]) -> dict[str, Any]:
-    """Rows measured now replace their old ones; the others stay as they are, with the times of their own run."""
-    rows = {row["name"]: row for row in [*old["rows"], *new["rows"]]}
-    return {**new, "rows": [rows[name] for name in order if name in rows]}

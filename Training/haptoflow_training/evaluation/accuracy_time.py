@@ -47,11 +47,24 @@ def table(
     paced: dict[str, Milliseconds],
 ) -> dict[str, Any]:
     """measured: for each row's name one result per seed (row_runner.measure_row). Rows that were not measured are
-    left out."""
+    left out and named in `not_measured`."""
     rows = [
         _row(row, measured[row.name], hot.get(row.name), paced.get(row.name)) for row in plan if row.name in measured
     ]
-    return {"machine": machine_words(), "date": datetime.date.today().isoformat(), "rows": rows}
+    today = datetime.date.today().isoformat()
+    return {"machine": machine_words(), "date": today, "not_measured": _absent(plan, rows), "rows": rows}
+
+
+def merged(old: dict[str, Any], new: dict[str, Any], plan: Sequence[PlannedRow]) -> dict[str, Any]:
+    """Rows measured now replace their old ones; the others stay as they are, with the times of their own run."""
+    by_name = {row["name"]: row for row in [*old["rows"], *new["rows"]]}
+    rows = [by_name[row.name] for row in plan if row.name in by_name]
+    return {**new, "not_measured": _absent(plan, rows), "rows": rows}
+
+
+def _absent(plan: Sequence[PlannedRow], rows: list[dict[str, Any]]) -> list[str]:
+    present = {row["name"] for row in rows}
+    return [row.name for row in plan if row.name not in present]
 
 
 def _row(
