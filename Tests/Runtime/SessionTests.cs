@@ -1,4 +1,5 @@
 #nullable enable
+using System;
 using System.Collections;
 using System.Text.RegularExpressions;
 using NUnit.Framework;
@@ -34,6 +35,7 @@ namespace HaptoFlow.Tests
         public IEnumerator AnUnknownLabelIsWarnedOfOnceWithNearMatchesAndIsNotFelt()
         {
             FinishLoading();
+            using var warnings = new WarningCount();
             LogAssert.Expect(LogType.Warning, new Regex("no label \"woodd\".*near matches: wood"));
             Board("woodd");
             AudioTap tap = Output(out _);
@@ -44,7 +46,7 @@ namespace HaptoFlow.Tests
             }
             Assert.That(stylus.IsTouching, Is.True);
             Assert.That(tap.Peak(), Is.Zero);
-            Assert.That(CountWarnings(), Is.EqualTo(1));
+            Assert.That(warnings.Value, Is.EqualTo(1));
         }
 
         [UnityTest]
@@ -135,18 +137,17 @@ namespace HaptoFlow.Tests
             Assert.That(log.Began, Is.EqualTo(2));
         }
 
-#if HAPTOFLOW_OUTSIDE_UNITY
-        private static int CountWarnings()
+        /// <summary>Counts what is logged as a warning while it lives.</summary>
+        private sealed class WarningCount : IDisposable
         {
-            int count = 0;
-            foreach ((LogType type, string _) in UnityShim.Log.Lines)
-            {
-                count += type == LogType.Warning ? 1 : 0;
-            }
-            return count;
+            public WarningCount() => Application.logMessageReceived += Receive;
+
+            public int Value { get; private set; }
+
+            public void Dispose() => Application.logMessageReceived -= Receive;
+
+            private void Receive(string condition, string stackTrace, LogType type) =>
+                Value += type == LogType.Warning ? 1 : 0;
         }
-#else
-        private static int CountWarnings() => 1;
-#endif
     }
 }

@@ -12,6 +12,14 @@ namespace UnityEngine
             add => World.Quitting += value;
             remove => World.Quitting -= value;
         }
+
+        public delegate void LogCallback(string condition, string stackTrace, LogType type);
+
+        public static event LogCallback? logMessageReceived
+        {
+            add => UnityShim.Log.Received += value;
+            remove => UnityShim.Log.Received -= value;
+        }
     }
 
     public class Debug

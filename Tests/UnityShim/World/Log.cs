@@ -8,6 +8,9 @@ namespace UnityShim
     {
         private static readonly List<(LogType Type, string Text)> Written = new List<(LogType, string)>();
 
+        /// <summary>Unity tells of the main thread's messages only; here of everybody's.</summary>
+        internal static event Application.LogCallback? Received;
+
         public static IReadOnlyList<(LogType Type, string Text)> Lines => Written;
 
         public static void Clear()
@@ -24,6 +27,7 @@ namespace UnityShim
             {
                 Written.Add((type, message.ToString() ?? ""));
             }
+            Received?.Invoke(message.ToString() ?? "", "", type);
         }
     }
 }
