@@ -1,6 +1,7 @@
 using System;
 using System.IO;
 using System.Linq;
+using System.Reflection;
 using System.Runtime.InteropServices;
 using HaptoFlow.Native;
 using HaptoFlow.Tests.Support;
@@ -41,6 +42,17 @@ namespace HaptoFlow.RepositoryTests
         [TestCase(typeof(TierTimes), 32)]
         public void EveryStructHasTheSizeThatItsCDeclarationHas(Type type, int expectedBytes) =>
             Assert.That(Marshal.SizeOf(type), Is.EqualTo(expectedBytes));
+
+        [Test]
+        public void WhatCrossesTheBorderIsKeptFromTheLinker()
+        {
+            const BindingFlags anyField = BindingFlags.Instance | BindingFlags.Public | BindingFlags.NonPublic;
+            Type[] crossing = typeof(NativeMethods).Assembly.GetTypes()
+                .Where(type => type == typeof(NativeMethods) || type.GetField("StructSize", anyField) != null)
+                .ToArray();
+            Assert.That(crossing, Has.Length.GreaterThan(11));
+            Assert.That(crossing, Has.All.Matches<Type>(type => type.IsDefined(typeof(PreserveAttribute), false)));
+        }
 
         [Test]
         public void EveryFunctionOfTheHeaderIsDeclaredAndExported()

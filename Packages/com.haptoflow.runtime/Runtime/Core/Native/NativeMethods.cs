@@ -6,6 +6,7 @@ namespace HaptoFlow.Native
 {
     /// <summary>haptoflow.h, function by function; the header says which thread each may be called from, and what it
     /// blocks on.</summary>
+    [Preserve]
     internal static unsafe class NativeMethods
     {
 #if UNITY_IOS && !UNITY_EDITOR

@@ -6,7 +6,7 @@ namespace HaptoFlow.Native
 {
     // The layouts of haptoflow.h, field by field and blittable.
 
-    [StructLayout(LayoutKind.Sequential)]
+    [Preserve, StructLayout(LayoutKind.Sequential)]
     internal struct RuntimeOptions
     {
         public uint StructSize;
@@ -14,7 +14,7 @@ namespace HaptoFlow.Native
         public IntPtr LibraryPath;
     }
 
-    [StructLayout(LayoutKind.Sequential)]
+    [Preserve, StructLayout(LayoutKind.Sequential)]
     internal struct ModelOptions
     {
         public uint StructSize;
@@ -23,7 +23,7 @@ namespace HaptoFlow.Native
         public IntPtr Path;
     }
 
-    [StructLayout(LayoutKind.Sequential)]
+    [Preserve, StructLayout(LayoutKind.Sequential)]
     internal struct LabelInfo
     {
         public uint StructSize;
@@ -38,7 +38,7 @@ namespace HaptoFlow.Native
         public double FrequencyExponent;
     }
 
-    [StructLayout(LayoutKind.Sequential)]
+    [Preserve, StructLayout(LayoutKind.Sequential)]
     internal struct TierInfo
     {
         public uint StructSize;
@@ -52,7 +52,7 @@ namespace HaptoFlow.Native
         public long ParameterCount;
     }
 
-    [StructLayout(LayoutKind.Sequential)]
+    [Preserve, StructLayout(LayoutKind.Sequential)]
     internal struct GeneratorOptions
     {
         public uint StructSize;
@@ -64,7 +64,7 @@ namespace HaptoFlow.Native
         public uint MaximumBatch;
     }
 
-    [StructLayout(LayoutKind.Sequential)]
+    [Preserve, StructLayout(LayoutKind.Sequential)]
     internal unsafe struct Batch
     {
         public uint StructSize;
@@ -75,7 +75,7 @@ namespace HaptoFlow.Native
         public float* Noise;
     }
 
-    [StructLayout(LayoutKind.Sequential)]
+    [Preserve, StructLayout(LayoutKind.Sequential)]
     internal struct EngineOptions
     {
         public uint StructSize;
@@ -91,7 +91,7 @@ namespace HaptoFlow.Native
         public double FixedLeadMs;
     }
 
-    [StructLayout(LayoutKind.Sequential)]
+    [Preserve, StructLayout(LayoutKind.Sequential)]
     internal unsafe struct NativeContactState
     {
         public uint StructSize;

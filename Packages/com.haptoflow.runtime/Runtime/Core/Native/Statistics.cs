@@ -1,10 +1,11 @@
 #nullable enable
 using System.Runtime.InteropServices;
+using HaptoFlow.Native;
 
 namespace HaptoFlow
 {
     /// <summary>What one voice did since it was opened. Counts unless the name says otherwise.</summary>
-    [StructLayout(LayoutKind.Sequential)]
+    [Preserve, StructLayout(LayoutKind.Sequential)]
     public struct VoiceStatistics
     {
         internal uint StructSize;
@@ -62,7 +63,7 @@ namespace HaptoFlow
     }
 
     /// <summary>What the engine did since it was made. Counts unless the name says otherwise.</summary>
-    [StructLayout(LayoutKind.Sequential)]
+    [Preserve, StructLayout(LayoutKind.Sequential)]
     public struct EngineStatistics
     {
         internal uint StructSize;
@@ -104,7 +105,7 @@ namespace HaptoFlow
     }
 
     /// <summary>Measured times of one tier for one voice's segment on this machine.</summary>
-    [StructLayout(LayoutKind.Sequential)]
+    [Preserve, StructLayout(LayoutKind.Sequential)]
     public struct TierTimes
     {
         internal uint StructSize;
