@@ -1,10 +1,10 @@
 // test:soak: the long forms of the live engine's proofs: ten minutes on each label, a million watched callbacks
-import { mkdirSync, readFileSync, rmSync, existsSync } from 'node:fs';
-import { buildNative } from './lib/native_build.mjs';
-import { run, runMain } from './lib/process.mjs';
+import { judgeJunit, results } from './lib/judge_junit.mjs';
+import { buildNative, presetFolder } from './lib/native_build.mjs';
+import { runMain } from './lib/process.mjs';
 import { inRepository } from './lib/repository.mjs';
 import { setUp } from './lib/setup.mjs';
-import { addCounts, closingLine, countsOfJunit, judged, noCounts } from './lib/test_counts.mjs';
+import { addCounts, closingLine, noCounts } from './lib/test_counts.mjs';
 
 const proofs = [
   { program: 'realtime', filter: '*', env: { HAPTOFLOW_TEST_CALLBACKS: '1000000' }, about: 'a million callbacks, watched' },
@@ -15,16 +15,13 @@ const proofs = [
 await runMain('test:soak', async () => {
   await setUp(['build', 'test']);
   await buildNative({ tests: true });
-  mkdirSync(inRepository('out', 'test'), { recursive: true });
   let counts = noCounts;
   for (const [index, { program, filter, env, about }] of proofs.entries()) {
     console.log(`test:soak: ${about}`);
-    const file = inRepository('out', 'test', `soak-${index}.xml`);
-    rmSync(file, { force: true });
-    const executable = inRepository('build', 'native', 'Tests', 'Native', program, `${program}_tests`);
-    const { exitCode } = await run(executable, [`--gtest_filter=${filter}`, `--gtest_output=xml:${file}`], { env });
-    const found = existsSync(file) ? countsOfJunit(readFileSync(file, 'utf8').replace(/<testsuites[^>]*>/, '')) : noCounts;
-    counts = addCounts(counts, judged(found, exitCode));
+    const file = `soak-${index}.xml`;
+    const executable = inRepository(presetFolder('release'), 'Tests', 'Native', program, `${program}_tests`);
+    const args = [`--gtest_filter=${filter}`, `--gtest_output=xml:${results(file)}`];
+    counts = addCounts(counts, await judgeJunit(file, executable, args, env));
   }
   console.log(`\n${closingLine(counts)}`);
   return counts.failed > 0 ? 1 : 0;

@@ -1,7 +1,8 @@
 import { existsSync } from 'node:fs';
 import path from 'node:path';
+import { judgeJunit, results } from './judge_junit.mjs';
 import { buildNative, presetFolder } from './native_build.mjs';
-import { runOrFail } from './process.mjs';
+import { runNpmOrFail } from './process.mjs';
 import { inRepository } from './repository.mjs';
 import { addCounts, noCounts } from './test_counts.mjs';
 
@@ -19,7 +20,7 @@ const emulators = {
   'windows-x64': {
     command: 'wine',
     args: [],
-    env: { WINEDEBUG: '-all', WINEPREFIX: inRepository('build', 'wine'), WINEPATH: inRepository('build', 'windows-x64') },
+    env: { WINEDEBUG: '-all', WINEPREFIX: inRepository('build', 'wine'), WINEPATH: inRepository(presetFolder('windows-x64')) },
     suffix: '.exe',
   },
   'linux-arm64': { command: 'qemu-aarch64', args: ['-L', '/usr/aarch64-linux-gnu'], env: {}, suffix: '' },
@@ -29,14 +30,11 @@ const emulators = {
 async function bringArmRuntime() {
   if (existsSync(inRepository('Tests', 'Platforms', 'node_modules', 'onnxruntime-node'))) return;
   console.log('setup: npm ci in Tests/Platforms (ONNX Runtime for Linux arm64)');
-  await runOrFail('npm', ['ci', '--prefix', inRepository('Tests', 'Platforms')], { quiet: true });
+  await runNpmOrFail(['ci', '--prefix', inRepository('Tests', 'Platforms')]);
 }
 
-/**
- * Builds the plugin for every platform that this one can build for, and runs its tests under emulation.
- * @param {(file: string, command: string, args: string[], env: object) => Promise<object>} judgeJunit runs and counts
- */
-export async function runPlatformTests(judgeJunit, results) {
+/** Builds the plugin for every platform that this one can build for, and runs its tests under emulation. */
+export async function platformTests() {
   await bringArmRuntime();
   let counts = noCounts;
   for (const [preset, { command, args, env, suffix }] of Object.entries(emulators)) {

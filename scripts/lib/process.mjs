@@ -47,6 +47,15 @@ export async function runOrFail(command, args, options = {}) {
   return output;
 }
 
+/** Runs npm: the one that runs this script, where one does, else the one on PATH. Its output is collected. */
+export async function runNpmOrFail(words) {
+  const underNpm = process.env.npm_execpath;
+  const [command, args] = underNpm ? [process.execPath, [underNpm, ...words]] : ['npm', words];
+  const { exitCode, output } = await run(command, args, { quiet: true, shell: !underNpm && process.platform === 'win32' });
+  if (exitCode !== 0) throw new CommandError(`${output.trimEnd()}\n\`npm ${words[0]}\` ended with ${exitCode}`);
+  return output;
+}
+
 /** True when `command args` starts and ends with 0. */
 export function succeeds(command, args) {
   const result = spawnSync(command, args, { stdio: 'ignore' });

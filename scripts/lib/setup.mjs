@@ -1,7 +1,7 @@
 import { spawnSync } from 'node:child_process';
 import { existsSync, readFileSync } from 'node:fs';
 import { missingFromLock, missingPackages, selectPackages } from './packages.mjs';
-import { CommandError, run, runOrFail, succeeds } from './process.mjs';
+import { CommandError, runNpmOrFail, runOrFail, succeeds } from './process.mjs';
 import { inRepository } from './repository.mjs';
 
 /**
@@ -65,11 +65,7 @@ async function installNodePackages() {
   });
   if (missing.length === 0) return;
   console.log(`setup: npm ci (${missing.join(', ')})`);
-  const underNpm = process.env.npm_execpath;
-  const { exitCode, output } = underNpm
-    ? await run(process.execPath, [underNpm, 'ci'], { quiet: true })
-    : await run('npm', ['ci'], { quiet: true, shell: process.platform === 'win32' });
-  if (exitCode !== 0) throw new CommandError(`${output.trimEnd()}\n\`npm ci\` ended with ${exitCode}`);
+  await runNpmOrFail(['ci']);
 }
 
 const pythonModules = 'import numpy, scipy, torch, onnx, pytest';

@@ -1,14 +1,13 @@
-import { existsSync, mkdirSync, readdirSync, readFileSync, rmSync } from 'node:fs';
+import { existsSync, readdirSync, readFileSync, rmSync } from 'node:fs';
 import os from 'node:os';
 import path from 'node:path';
+import { judgeJunit, results } from './judge_junit.mjs';
 import { buildNative, presetFolder } from './native_build.mjs';
-import { runPlatformTests } from './platform_tests.mjs';
+import { platformTests } from './platform_tests.mjs';
 import { CommandError, run, succeeds } from './process.mjs';
 import { inRepository } from './repository.mjs';
 import { pythonOrFail } from './setup.mjs';
-import { addCounts, countsOfJunit, countsOfTap, countsOfTrx, judged, noCounts } from './test_counts.mjs';
-
-const results = (name) => inRepository('out', 'test', name);
+import { addCounts, countsOfTap, countsOfTrx, judged, noCounts } from './test_counts.mjs';
 
 /**
  * What runs under which sanitizers: folders of Tests/Native, and of their tests those that the sanitizers are for
@@ -27,15 +26,6 @@ const sanitized = [
 
 /** Debian's older releases have no Clang 22: what it watches, RealTimeTest watches in another way everywhere. */
 const canBuild = ({ preset }) => preset !== 'rtsan' || succeeds('clang++-22', ['--version']);
-
-/** Runs a command that writes a JUnit file and judges what it wrote; a stale file cannot stand in for a new one. */
-async function judgeJunit(file, command, args, env) {
-  mkdirSync(results('.'), { recursive: true });
-  rmSync(results(file), { force: true });
-  const { exitCode } = await run(command, args, { env });
-  const counts = existsSync(results(file)) ? countsOfJunit(readFileSync(results(file), 'utf8')) : noCounts;
-  return judged(counts, exitCode);
-}
 
 async function native() {
   await buildNative({ tests: true });
@@ -115,7 +105,7 @@ export const runners = {
   native: { purposes: ['build', 'test'], execute: native },
   sanitizers: { purposes: ['build', 'test'], execute: sanitizers },
   training: { purposes: ['python'], execute: training },
-  platforms: { purposes: ['build', 'test', 'platforms'], execute: () => runPlatformTests(judgeJunit, results) },
+  platforms: { purposes: ['build', 'test', 'platforms'], execute: platformTests },
   dotnet: { purposes: ['build'], execute: dotnet },
   package: { purposes: [], execute: packageTests },
 };

@@ -1,6 +1,6 @@
 import { gunzipSync } from 'node:zlib';
 import path from 'node:path';
-import { CommandError, run } from '../lib/process.mjs';
+import { runNpmOrFail } from '../lib/process.mjs';
 
 /**
  * Makes the tarball of a staged package with npm, whose layout Unity's package manager reads.
@@ -9,11 +9,7 @@ import { CommandError, run } from '../lib/process.mjs';
  */
 export async function makeTarball(folder, destination) {
   const words = ['pack', folder, '--pack-destination', destination, '--json', '--ignore-scripts', '--loglevel=error'];
-  const underNpm = process.env.npm_execpath;
-  const { exitCode, output } = underNpm
-    ? await run(process.execPath, [underNpm, ...words], { quiet: true })
-    : await run('npm', words, { quiet: true, shell: process.platform === 'win32' });
-  if (exitCode !== 0) throw new CommandError(`${output.trimEnd()}\n\`npm pack\` ended with ${exitCode}`);
+  const output = await runNpmOrFail(words);
   const [{ filename, size, unpackedSize }] = JSON.parse(output.slice(output.indexOf('[')));
   return { file: path.join(destination, filename), bytes: size, unpackedBytes: unpackedSize };
 }

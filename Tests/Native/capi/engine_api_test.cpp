@@ -40,7 +40,7 @@ TEST(EngineApiTest, WithoutWorkerTheSameCallsGiveTheSameSamplesAndAnotherSeedOth
 TEST(EngineApiTest, TheVoiceWritesItsChannelAndLeavesTheOthersAlone) {
     OpenEngine open(tinyModelPath);
     open.publish(slidingState());
-    std::vector<float> interleaved(4 * 256, 9.0F);
+    std::vector<float> interleaved(std::size_t{4} * 256, 9.0F);
     ASSERT_EQ(haptoflow_voice_render(open.voice, interleaved.data(), 256, 4, 2, 48000.0), HAPTOFLOW_OK);
     float loudest = 0.0F;
     for (std::size_t i = 0; i < interleaved.size(); ++i) {
@@ -127,14 +127,6 @@ std::vector<float> heardUntilGone(OpenEngine& open, const std::function<void()>&
     return heard;
 }
 
-float largestStep(const std::vector<float>& samples) {
-    float largest = 0.0F;
-    for (std::size_t i = 1; i < samples.size(); ++i) {
-        largest = std::max(largest, std::abs(samples[i] - samples[i - 1]));
-    }
-    return largest;
-}
-
 TEST(EngineApiTest, AVoiceDestroyedWhileItSoundsEndsWithoutAStep) {
     OpenEngine open(tinyModelPath);
     const float usual = largestStep(open.update(slidingState(), 2048));
@@ -184,7 +176,7 @@ TEST(EngineApiTest, DescriptorsOfOlderAndNewerCallersBothWork) {
     EXPECT_EQ(haptoflow_voice_publish(open.voice, &older), HAPTOFLOW_INVALID_ARGUMENT);
     struct Newer {
         haptoflow_contact_state known;
-        double unknown[8];
+        std::array<double, 8> unknown;
     } newer{slidingState(), {}};
     newer.known.struct_size = sizeof(newer);
     EXPECT_EQ(haptoflow_voice_publish(open.voice, &newer.known), HAPTOFLOW_OK) << message();

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "open_handles.hpp"
+#include "support/wave_measures.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -94,13 +95,8 @@ public:
     haptoflow_voice voice = 0;
 };
 
-inline float peak(const std::vector<float>& samples) {
-    float largest = 0.0F;
-    for (const float sample : samples) {
-        largest = std::max(largest, std::abs(sample));
-    }
-    return largest;
-}
+using haptoflow::testing::largestStep;
+using haptoflow::testing::peak;
 
 inline bool allFinite(const std::vector<float>& samples) {
     return std::all_of(samples.begin(), samples.end(), [](float sample) { return std::isfinite(sample); });

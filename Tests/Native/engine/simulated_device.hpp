@@ -2,6 +2,7 @@
 
 #include "engine/live_voice.hpp"
 #include "fake_generators.hpp"
+#include "support/wave_measures.hpp"
 
 #include <array>
 #include <atomic>
@@ -183,20 +184,7 @@ inline ContactState lifted(std::uint32_t touchCounter = 1) {
     return state;
 }
 
-inline float peak(std::span<const float> samples) {
-    float largest = 0.0F;
-    for (const float sample : samples) {
-        largest = std::max(largest, std::abs(sample));
-    }
-    return largest;
-}
-
-inline float largestStep(std::span<const float> samples) {
-    float step = 0.0F;
-    for (std::size_t i = 1; i < samples.size(); ++i) {
-        step = std::max(step, std::abs(samples[i] - samples[i - 1]));
-    }
-    return step;
-}
+using haptoflow::testing::largestStep;
+using haptoflow::testing::peak;
 
 }  // namespace haptoflow::engine::testing

@@ -85,7 +85,7 @@ TEST_F(AudioThreadTest, ParametersMayBeSetAndResetFromAnotherThreadMeanwhile) {
         voice_.slide();
         second.slide();
         const Sound heard = effect.process(128);
-        loudestHeard = std::max(loudestHeard, loudest(heard.samples));
+        loudestHeard = std::max(loudestHeard, peak(heard.samples));
         isBounded = isBounded && isWithinFullScale(heard);
         if (i % 4 == 0) {
             voice_.generate();

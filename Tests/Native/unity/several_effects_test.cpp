@@ -64,7 +64,7 @@ TEST_F(SeveralEffectsTest, TheSecondTakesOverAtOnceWhereTheFirstIsReleasedPaused
             (void)play(voice_, *first, 1, reason.channelsAfter);
         }
         const std::vector<float> heard = play(voice_, second, 2).channel(0);
-        EXPECT_GT(loudest(heard), 1e-3F) << reason.name;
+        EXPECT_GT(peak(heard), 1e-3F) << reason.name;
         EXPECT_LT(std::abs(heard.front()), 1e-3F) << "it has to rise from silence: " << reason.name;
         // For the next reason.
         second.set("Voice", 41.0F);
@@ -79,7 +79,7 @@ TEST_F(SeveralEffectsTest, TheSecondTakesOver100MsAfterTheFirstWasLastCalled) {
     (void)play(voice_, first, 3);
     // The first of these blocks only shows the second effect where the first one stands.
     EXPECT_THAT(play(voice_, second, 10).channel(0), Each(0.0F));
-    EXPECT_GT(loudest(play(voice_, second, 3).channel(0)), 1e-3F);
+    EXPECT_GT(peak(play(voice_, second, 3).channel(0)), 1e-3F);
     EXPECT_THAT(play(voice_, first, 1).channel(0), Each(0.0F)) << "the voice is the second's now";
 }
 
@@ -88,7 +88,7 @@ TEST_F(SeveralEffectsTest, AVoiceThatClosesLeavesSilenceAndTheNextAtItsPlaceIsHe
     std::optional<SteppedVoice> second(std::in_place, runtime_, model_);
     const float place = second->place();
     effect.set("Voice", place);
-    EXPECT_GT(loudest(play(*second, effect, 3).samples), 1e-3F);
+    EXPECT_GT(peak(play(*second, effect, 3).samples), 1e-3F);
     second.reset();
     EXPECT_THAT(effect.process(frameOfAudio).samples, Each(0.0F));
     second.emplace(runtime_, model_);

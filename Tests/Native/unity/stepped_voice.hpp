@@ -2,6 +2,7 @@
 
 #include "capi/open_handles.hpp"
 #include "haptoflow/haptoflow.h"
+#include "support/wave_measures.hpp"
 #include "unity_host.hpp"
 
 #include <gtest/gtest.h>
@@ -10,6 +11,9 @@
 #include <cstdint>
 
 namespace haptoflow::unity::testing {
+
+using haptoflow::testing::largestStepFrom;
+using haptoflow::testing::peak;
 
 /// What a display frame is in these tests: 10 ms at 48 kHz.
 inline constexpr std::size_t frameOfAudio = 480;
@@ -104,22 +108,6 @@ protected:
             voice.generate();
         }
         return heard.samples;
-    }
-
-    static float loudest(std::span<const float> samples) {
-        float found = 0.0F;
-        for (const float sample : samples) {
-            found = std::max(found, std::abs(sample));
-        }
-        return found;
-    }
-    static float largestStep(std::span<const float> samples, float before = 0.0F) {
-        float found = 0.0F;
-        for (const float sample : samples) {
-            found = std::max(found, std::abs(sample - before));
-            before = sample;
-        }
-        return found;
     }
 
     UnityHost host_;

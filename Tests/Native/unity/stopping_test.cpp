@@ -17,7 +17,7 @@ protected:
     StoppingTest() {
         effect.set("Channel", 1.0F);
         const std::vector<float> heard = play(voice_, effect, 10).channel(1);
-        usualStep = largestStep(heard);
+        usualStep = largestStepFrom(0.0F, heard);
         last = heard.back();
         EXPECT_GT(usualStep, 1e-4F);
     }
@@ -68,7 +68,7 @@ TEST_P(StoppingFlagsTest, TheVoiceFadesWithin5MsAndIsRenderedNoFurther) {
 TEST_P(StoppingFlagsTest, ABlockShorterThanTheFadeEndsInSilenceAllTheSame) {
     effect.setFlags(GetParam());
     const std::vector<float> heard = effect.process(32).channel(1);
-    EXPECT_LE(largestStep(heard, last), usualStep + loudest(heard) * 2.0F * fadeStep(32) + 1e-6F);
+    EXPECT_LE(largestStepFrom(last, heard), usualStep + peak(heard) * 2.0F * fadeStep(32) + 1e-6F);
     EXPECT_EQ(heard.back(), 0.0F);
     EXPECT_THAT(effect.process(32).channel(1), Each(0.0F));
 }
@@ -87,8 +87,8 @@ TEST_P(StoppingFlagsTest, WhatGoesOnRisesFromSilence) {
     (void)effect.process(frameOfAudio);
     effect.setFlags(flagPlaying);
     const std::vector<float> heard = play(voice_, effect, 4).channel(1);
-    EXPECT_LE(largestStep(heard), usualStep + fadeStep(frameOfAudio) * loudest(heard) + 1e-6F);
-    EXPECT_GT(loudest(heard), 1e-3F);
+    EXPECT_LE(largestStepFrom(0.0F, heard), usualStep + fadeStep(frameOfAudio) * peak(heard) + 1e-6F);
+    EXPECT_GT(peak(heard), 1e-3F);
 }
 
 INSTANTIATE_TEST_SUITE_P(Flags, StoppingFlagsTest,
@@ -123,8 +123,8 @@ TEST_F(StoppingTest, AGroupThatUnitySuspendedResumesFromSilence) {
         effect.suspend(30 * frameOfAudio + 17);
         const std::uint64_t before = rendered();
         const std::vector<float> heard = play(voice_, effect, 4).channel(1);
-        EXPECT_LE(largestStep(heard), usualStep + fadeStep(frameOfAudio) * loudest(heard) + 1e-6F);
-        EXPECT_GT(loudest(heard), 1e-3F);
+        EXPECT_LE(largestStepFrom(0.0F, heard), usualStep + fadeStep(frameOfAudio) * peak(heard) + 1e-6F);
+        EXPECT_GT(peak(heard), 1e-3F);
         EXPECT_EQ(rendered(), before + 4 * frameOfAudio);
     }
 }
@@ -133,8 +133,8 @@ TEST_F(StoppingTest, AHostWhoseTicksDoNotCountSamplesIsNotTakenForOneThatSuspend
     SteppedVoice same(runtime_, model_);
     (void)reference(same, 10);
     effect.reset();
-    for (int i = 0; i < 10; ++i) {
-        effect.suspend(static_cast<std::size_t>(3 * i + 1));
+    for (std::size_t i = 0; i < 10; ++i) {
+        effect.suspend(3 * i + 1);
         voice_.slide();
         const std::vector<float> heard = effect.process(frameOfAudio).channel(1);
         voice_.generate();
@@ -165,18 +165,18 @@ TEST_F(StoppingTest, ToAnotherChannelTheVoiceFadesOutOfTheOneAndIntoTheOther) {
     }
     const std::vector<float> left = heard.channel(0);
     const std::vector<float> right = heard.channel(1);
-    const float margin = usualStep + fadeStep(stopFrames) * loudest(right) + 1e-6F;
-    EXPECT_LE(largestStep(std::span(right).first(stopFrames), last), margin);
+    const float margin = usualStep + fadeStep(stopFrames) * peak(right) + 1e-6F;
+    EXPECT_LE(largestStepFrom(last, std::span(right).first(stopFrames)), margin);
     EXPECT_EQ(right[stopFrames - 1], 0.0F);
-    EXPECT_LE(largestStep(std::span(left).subspan(stopFrames)), usualStep + margin);
-    EXPECT_GT(loudest(std::span(left).subspan(stopFrames)), 1e-4F);
+    EXPECT_LE(largestStepFrom(0.0F, std::span(left).subspan(stopFrames)), usualStep + margin);
+    EXPECT_GT(peak(std::span(left).subspan(stopFrames)), 1e-4F);
 }
 
 TEST_F(StoppingTest, OnAChannelThatTheOutputLostAndHasAgainTheVoiceRisesFromSilence) {
     (void)effect.process(frameOfAudio, 1);
     const std::vector<float> heard = play(voice_, effect, 2).channel(1);
-    EXPECT_LE(largestStep(heard), usualStep + fadeStep(frameOfAudio) * loudest(heard) + 1e-6F);
-    EXPECT_GT(loudest(heard), 1e-3F);
+    EXPECT_LE(largestStepFrom(0.0F, heard), usualStep + fadeStep(frameOfAudio) * peak(heard) + 1e-6F);
+    EXPECT_GT(peak(heard), 1e-3F);
 }
 
 TEST_F(StoppingTest, FromOneVoiceToAnotherThereIsSilenceBetween) {

@@ -6,7 +6,7 @@ namespace HaptoFlow.Native
 {
     /// <summary>A handle of the library, closed once, also when its owner is forgotten or the application domain
     /// unloads.</summary>
-    internal abstract class NativeHandle : SafeHandle
+    internal abstract unsafe class NativeHandle : SafeHandle
     {
         protected NativeHandle(IntPtr opened)
             : base(IntPtr.Zero, true) => SetHandle(opened);
@@ -15,6 +15,15 @@ namespace HaptoFlow.Native
 
         /// <summary>For one call; zero once closed, which the library refuses with a message.</summary>
         public IntPtr Value => IsClosed ? IntPtr.Zero : handle;
+
+        /// <summary>The library's function that closes a handle of this kind; its status.</summary>
+        protected abstract int Close(IntPtr* closing);
+
+        protected override bool ReleaseHandle()
+        {
+            IntPtr closing = handle;
+            return Close(&closing) == (int)HaptoFlowStatus.Ok;
+        }
     }
 
     internal sealed unsafe class RuntimeHandle : NativeHandle
@@ -24,11 +33,7 @@ namespace HaptoFlow.Native
         {
         }
 
-        protected override bool ReleaseHandle()
-        {
-            IntPtr closing = handle;
-            return NativeMethods.RuntimeClose(&closing) == (int)HaptoFlowStatus.Ok;
-        }
+        protected override int Close(IntPtr* closing) => NativeMethods.RuntimeClose(closing);
     }
 
     internal sealed unsafe class ModelHandle : NativeHandle
@@ -38,11 +43,7 @@ namespace HaptoFlow.Native
         {
         }
 
-        protected override bool ReleaseHandle()
-        {
-            IntPtr closing = handle;
-            return NativeMethods.ModelClose(&closing) == (int)HaptoFlowStatus.Ok;
-        }
+        protected override int Close(IntPtr* closing) => NativeMethods.ModelClose(closing);
     }
 
     internal sealed unsafe class GeneratorHandle : NativeHandle
@@ -52,11 +53,7 @@ namespace HaptoFlow.Native
         {
         }
 
-        protected override bool ReleaseHandle()
-        {
-            IntPtr closing = handle;
-            return NativeMethods.GeneratorClose(&closing) == (int)HaptoFlowStatus.Ok;
-        }
+        protected override int Close(IntPtr* closing) => NativeMethods.GeneratorClose(closing);
     }
 
     internal sealed unsafe class EngineHandle : NativeHandle
@@ -66,10 +63,6 @@ namespace HaptoFlow.Native
         {
         }
 
-        protected override bool ReleaseHandle()
-        {
-            IntPtr closing = handle;
-            return NativeMethods.EngineClose(&closing) == (int)HaptoFlowStatus.Ok;
-        }
+        protected override int Close(IntPtr* closing) => NativeMethods.EngineClose(closing);
     }
 }

@@ -1,0 +1,16 @@
+import { existsSync, mkdirSync, readFileSync, rmSync } from 'node:fs';
+import { run } from './process.mjs';
+import { inRepository } from './repository.mjs';
+import { countsOfJunit, judged, noCounts } from './test_counts.mjs';
+
+/** Where a test run's result of that name lies. */
+export const results = (name) => inRepository('out', 'test', name);
+
+/** Runs a command that writes a JUnit file and judges what it wrote; a stale file cannot stand in for a new one. */
+export async function judgeJunit(file, command, args, env) {
+  mkdirSync(results('.'), { recursive: true });
+  rmSync(results(file), { force: true });
+  const { exitCode } = await run(command, args, { env });
+  const counts = existsSync(results(file)) ? countsOfJunit(readFileSync(results(file), 'utf8')) : noCounts;
+  return judged(counts, exitCode);
+}
