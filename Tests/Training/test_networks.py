@@ -29,7 +29,7 @@ def _trained_like(field: VelocityField) -> VelocityField:
     """Layers that start at zero get weights, so that every input can reach the output."""
     torch.manual_seed(1)
     for module in field.modules():
-        if isinstance(module, torch.nn.Conv2d):
+        if isinstance(module, torch.nn.Conv2d | torch.nn.ConvTranspose2d):
             torch.nn.init.normal_(module.weight, std=0.1)
     return field.eval()
 

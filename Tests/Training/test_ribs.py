@@ -13,11 +13,12 @@ from test_trainer import ALONE, _config
 from training_fixtures import make_store
 
 from haptoflow_training.models.label_embedding import LabelEmbedding, rib_frequencies_hz
-from haptoflow_training.models.rib_comb import RibComb
+from haptoflow_training.models.rib_comb import GAINS, HARMONICS, PARTIALS, RibComb
 from haptoflow_training.models.velocity_field import VelocityField
 from haptoflow_training.recordings.synthetic.carriers import FASTEST_MMPS, guided_ride
 from haptoflow_training.recordings.synthetic.contact import SIMULATION_RATE_HZ
 from haptoflow_training.training.config import ModelConfig, RecipeConfig
+from haptoflow_training.training.energy_distance import energy_distance_loss
 from haptoflow_training.training.trainer import Trainer, load_trained
 
 EMBEDDING = LabelEmbedding(64, [((0.4, 0.0),), ((0.8, 0.0), (0.0, 0.8)), ()])
@@ -43,30 +44,60 @@ def test_ribs_sound_at_speed_across_them_over_their_wavelength() -> None:
     torch.testing.assert_close(rib_frequencies_hz(mesh, motion), torch.tensor([expected]))
 
 
+def _comb(
+    noise: torch.Tensor, past: torch.Tensor, label: int, speed_mps: float, gains: torch.Tensor | None = None
+) -> torch.Tensor:
+    """[B, 5, 200]: past carried on by both families of ribs, fresh by both, lines."""
+    count = noise.shape[0]
+    motion = torch.tensor([[speed_mps, 0.0, 1.0]] * count)
+    embedding = EMBEDDING(torch.tensor([label] * count))
+    return RibComb()(noise, torch.flip(past, [2]), embedding, motion, torch.zeros(1, GAINS) if gains is None else gains)
+
+
 @pytest.mark.parametrize("speed_mps", [0.1, 0.237, 0.9])
 def test_the_comb_carries_a_tone_and_its_overtone_on_with_their_phases(speed_mps: float) -> None:
     fundamental = 400.0 * speed_mps
     tones = [f for f in (fundamental, 2.0 * fundamental) if f < 960.0]
-    motion = torch.tensor([[speed_mps, 0.0, 1.0]])
-    combed, _ = RibComb()(torch.randn(1, 1, 200), _wave(tones, -200, 0), EMBEDDING(torch.tensor([0])), motion)
+    combed = _comb(torch.randn(1, 1, 200), _wave(tones, -200, 0), 0, speed_mps)
     truth = _wave(tones, 0, 200)[0, 0]
     error = (combed[0, 0] - truth).square().mean().sqrt() / truth.square().mean().sqrt()
     assert error.item() < 0.25, "a ramp of 100 ms tells harmonics 20 Hz apart from their neighbours"
     assert combed[0, 1].abs().max().item() == 0.0, "a second family of ribs that is not there"
 
 
-def test_lines_are_the_comb_s_harmonics_one_by_one_and_the_noise_s_own_share() -> None:
+def _only(kind: int, partial: int) -> torch.Tensor:
+    gains = torch.zeros(1, 3, PARTIALS)
+    gains[0, kind, partial] = 1.0
+    return gains.reshape(1, GAINS)
+
+
+def test_lines_are_past_fresh_and_noise_partial_by_partial_by_their_gains() -> None:
     fundamental = 200.0
-    motion = torch.tensor([[0.5, 0.0, 1.0]])
-    noise = _wave([fundamental], 0, 200)
+    noise = 0.3 * _wave([fundamental], 0, 200)
     past = _wave([fundamental, 2.0 * fundamental], -200, 0)
-    channels, lines = RibComb()(noise, past, EMBEDDING(torch.tensor([0])), motion)
-    carried, fresh, own = lines.reshape(3, 2, 8, 200)
-    torch.testing.assert_close(carried.sum(dim=1), channels[0, 0:2])
-    torch.testing.assert_close(fresh.sum(dim=1), channels[0, 2:4])
-    torch.testing.assert_close(own[0, 0], noise[0, 0], rtol=0.0, atol=1e-3)
-    assert own[0, 1:].abs().max().item() < 1e-3, "the noise has nothing at the overtones"
-    assert own[1].abs().max().item() == 0.0, "a second family of ribs that is not there"
+    expected = {
+        (0, 0): _wave([fundamental], 0, 200),
+        (0, 1): _wave([2.0 * fundamental], 0, 200),
+        (1, 0): noise / 0.3,
+        (2, 0): noise,
+        (2, 1): torch.zeros(1, 1, 200),
+    }
+    for (kind, partial), line in expected.items():
+        made = _comb(noise, past, 0, 0.5, _only(kind, partial))[:, 4:]
+        torch.testing.assert_close(made, line, rtol=0.0, atol=3e-2, msg=f"gain {kind} of partial {partial}")
+    every = _comb(noise, past, 0, 0.5, torch.tensor([[1.0] * PARTIALS + [0.0] * 2 * PARTIALS]))
+    torch.testing.assert_close(every[:, 4], every[:, 0])
+
+
+def test_the_comb_s_waves_are_cosines_and_sines_of_every_harmonic_counted_from_the_seam() -> None:
+    motion = torch.tensor([[0.11, 0.0, 1.0]])
+    waves, audible = RibComb().waves(EMBEDDING(torch.tensor([0])), motion)
+    time = (torch.arange(200) + 0.5) / 2000.0
+    for order in (1, 2, 7, 12):
+        angle = 2.0 * math.pi * 44.0 * order * time
+        torch.testing.assert_close(waves[0, :, order - 1], angle.cos(), rtol=0.0, atol=1e-4)
+        torch.testing.assert_close(waves[0, :, PARTIALS + order - 1], angle.sin(), rtol=0.0, atol=1e-4)
+    assert audible.reshape(2, 2, HARMONICS).sum(dim=2).tolist() == [[12.0, 0.0], [12.0, 0.0]]
 
 
 def test_a_network_taught_nothing_adds_no_lines_and_one_with_unit_gains_carries_the_past_on() -> None:
@@ -78,34 +109,67 @@ def test_a_network_taught_nothing_adds_no_lines_and_one_with_unit_gains_carries_
     assert field(*arguments).abs().max().item() == 0.0
     assert field.line_gains is not None
     with torch.no_grad():
-        field.line_gains.bias[:16] = 1.0
+        field.line_gains.bias[:PARTIALS] = 1.0
     torch.testing.assert_close(field(*arguments), _wave([200.0], 0, 200), rtol=0.0, atol=0.05)
 
 
 def test_a_line_that_has_grown_beyond_all_power_there_is_is_carried_on_no_larger_than_that() -> None:
-    motion = torch.tensor([[0.5, 0.0, 1.0]])
-    past = 5.0 * _wave([200.0], -200, 0)
-    _, lines = RibComb()(torch.zeros(1, 1, 200), past, EMBEDDING(torch.tensor([0])), motion)
-    assert lines[0, 0].abs().max().item() == pytest.approx(1.5, abs=0.02)
+    lines = _comb(torch.zeros(1, 1, 200), 5.0 * _wave([200.0], -200, 0), 0, 0.5, _only(0, 0))[:, 4]
+    assert lines.abs().max().item() == pytest.approx(1.5, abs=0.02)
 
 
-def test_fresh_harmonics_have_unit_size_and_a_phase_of_the_noise() -> None:
-    motion = torch.tensor([[0.5, 0.0, 1.0]] * 2)
-    combed, _ = RibComb()(torch.randn(2, 1, 200), torch.zeros(2, 1, 200), EMBEDDING(torch.tensor([0, 0])), motion)
-    harmonics = 4
+def test_fresh_partials_have_unit_size_and_a_phase_of_the_noise() -> None:
+    combed = _comb(torch.randn(2, 1, 200), torch.zeros(2, 1, 200), 0, 0.5)
+    below_960_hz = 4
     power = combed[:, 2].square().mean(dim=1)
-    torch.testing.assert_close(power, torch.full((2,), harmonics / 2.0), rtol=0.15, atol=0.0)
+    torch.testing.assert_close(power, torch.full((2,), below_960_hz / 2.0), rtol=0.15, atol=0.0)
     assert (combed[0, 2] - combed[1, 2]).abs().max().item() > 0.5
     assert combed[:, 0].abs().max().item() == 0.0, "silence before leaves nothing to carry on"
 
 
 @pytest.mark.parametrize(
-    ("label", "speed_mps"), [(2, 0.5), (0, 0.0), (0, 0.03), (0, 20.0)], ids=["no ribs", "rest", "crawling", "too fast"]
+    ("label", "speed_mps"), [(2, 0.5), (0, 0.0), (0, 0.02), (0, 20.0)], ids=["no ribs", "rest", "crawling", "too fast"]
 )
 def test_where_no_rib_can_sound_the_comb_is_silent_and_finite(label: int, speed_mps: float) -> None:
-    motion = torch.tensor([[speed_mps, 0.0, 1.0]])
-    combed, _ = RibComb()(torch.randn(1, 1, 200), torch.randn(1, 1, 200), EMBEDDING(torch.tensor([label])), motion)
+    combed = _comb(torch.randn(1, 1, 200), torch.randn(1, 1, 200), label, speed_mps, torch.ones(1, GAINS))
     assert combed.abs().max().item() == 0.0
+
+
+def _seen_from_its_past(shift_of_past: float, shift_of_segment: float) -> torch.Tensor:
+    comb = RibComb()
+    waves, audible = comb.waves(EMBEDDING(torch.tensor([0])), torch.tensor([[0.5, 0.0, 1.0]]))
+    time = torch.arange(-199, 201) / 2000.0
+    past, segment = (
+        torch.cos(2.0 * math.pi * 200.0 * time + shift).reshape(1, 1, -1) for shift in (shift_of_past, shift_of_segment)
+    )
+    return comb.coherence(waves * audible, segment[:, :, 200:], torch.flip(past[:, :, :200], [2]))[0, :, 0]
+
+
+def test_a_line_that_holds_its_phase_is_seen_in_phase_whatever_the_phase_is_and_one_that_turned_is_not() -> None:
+    for phase in (0.0, 1.0, 4.0):
+        torch.testing.assert_close(_seen_from_its_past(phase, phase), torch.tensor([1.0, 0.0]), rtol=0.0, atol=0.02)
+        turned = _seen_from_its_past(phase, phase + 0.5 * math.pi)
+        torch.testing.assert_close(turned.abs(), torch.tensor([0.0, 1.0]), rtol=0.0, atol=0.02)
+
+
+def test_the_energy_distance_prefers_draws_that_hold_the_recording_s_phase_over_draws_that_do_not() -> None:
+    torch.manual_seed(1)
+    past, recorded = (0.1 * torch.randn(2, 64, 200)).unbind()
+    holds = torch.zeros(64, 2, PARTIALS)
+    holds[:, 0, 0] = 1.0
+    angle = 2.0 * math.pi * torch.rand(2, 64)
+    turned = torch.zeros(2, 64, 2, PARTIALS)
+    turned[:, :, 0, 0], turned[:, :, 1, 0] = angle.cos(), angle.sin()
+    draws = (0.1 * torch.randn(64, 200), 0.1 * torch.randn(64, 200))
+
+    def loss(first: torch.Tensor, second: torch.Tensor, *, own_past: bool) -> float:
+        lines = (holds, first, second)
+        return energy_distance_loss(
+            recorded, past, draws, past, torch.ones(64), own_past=own_past, lines=lines
+        ).item()
+
+    for own_past in (False, True):
+        assert loss(turned[0], turned[1], own_past=own_past) > loss(holds, holds, own_past=own_past) + 0.5
 
 
 def test_training_leaves_wave_vectors_as_they_are_and_a_saved_run_has_them(tmp_path: Path) -> None:

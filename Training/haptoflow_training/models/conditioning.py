@@ -12,7 +12,6 @@ import torch
 from torch import Tensor, nn
 
 EMBEDDING_SIZE = 64
-CONDITION_SIZE = 3 * EMBEDDING_SIZE
 
 REFERENCE_SPEED_MPS = 0.06
 REST_SPEED_MPS = 0.0005
@@ -27,7 +26,7 @@ SMOOTH_LOG_SPEED_HARMONICS = (0.5, 1.0)
 
 def log_speed(motion: Tensor) -> Tensor:
     """log((speed + 0.5 mm/s) / 60 mm/s) of motion [B, 3] (vx, vy in m/s, force in N); [B, 1]."""
-    speed_mps = motion[:, 0:2].square().sum(dim=1, keepdim=True).add(1e-12).sqrt()
+    speed_mps = motion[:, 0:2].norm(dim=1, keepdim=True)
     return ((speed_mps + REST_SPEED_MPS) / REFERENCE_SPEED_MPS).log()
 
 
@@ -39,16 +38,24 @@ def log_force(motion: Tensor) -> Tensor:
 class MotionFeatures(nn.Module):
     """Physical motion [B, 3] to well-scaled features; normalisation lives here, inside the exported graph."""
 
+    harmonics: Tensor
+    phases: Tensor
+
     def __init__(self, log_speed_harmonics: tuple[float, ...] = FINE_LOG_SPEED_HARMONICS) -> None:
         super().__init__()
         self.size = 2 + 4 + 2 * len(log_speed_harmonics) + 2
-        self._harmonics = log_speed_harmonics
+        # Sine and cosine of each harmonic, a cosine being a sine that is a quarter turn ahead.
+        harmonics = torch.tensor(log_speed_harmonics).repeat_interleave(2).unsqueeze(0)
+        self.register_buffer("harmonics", harmonics, persistent=False)
+        phases = torch.tensor([0.0, math.pi / 2.0] * len(log_speed_harmonics)).unsqueeze(0)
+        self.register_buffer("phases", phases, persistent=False)
 
     def forward(self, motion: Tensor) -> Tensor:
-        speed_mps = motion[:, 0:2].square().sum(dim=1, keepdim=True).add(1e-12).sqrt()
+        velocity = motion[:, 0:2]
+        speed_mps = velocity.norm(dim=1, keepdim=True)
         speed = log_speed(motion)
         force = log_force(motion)
-        direction = motion[:, 0:2] / (speed_mps + 0.002)
+        direction = velocity / (speed_mps + 0.002)
         # Twice the angle: most surfaces feel the same forwards and backwards along their grain.
         axial = torch.cat(
             [
@@ -57,12 +64,8 @@ class MotionFeatures(nn.Module):
             ],
             dim=1,
         )
-        waves = [
-            function(harmonic * speed) for harmonic in self._harmonics for function in (torch.sin, torch.cos)
-        ]
-        return torch.cat(
-            [speed * 0.5, force * 0.5, direction, axial, *waves, speed_mps, motion[:, 2:3] * 0.2], dim=1
-        )
+        waves = torch.sin(speed * self.harmonics + self.phases)
+        return torch.cat([speed * 0.5, force * 0.5, direction, axial, waves, speed_mps, motion[:, 2:3] * 0.2], dim=1)
 
 
 class MotionEncoder(nn.Module):

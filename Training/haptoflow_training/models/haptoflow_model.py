@@ -35,8 +35,7 @@ class HaptoFlowModel(nn.Module):
 
     def one_step(self, noise: Tensor, previous: Tensor, embedding: Tensor, motion: Tensor) -> Tensor:
         """The segment [B, 1, 200] that a network taught to be whole in one step makes; all in unit scale."""
-        start = torch.zeros(1, 1).expand(noise.shape[0], 1)
-        return self.band_limit(previous, noise + self.field(noise, start, previous, embedding, motion))
+        return self.band_limit(previous, noise + self.field(noise, torch.zeros(1, 1), previous, embedding, motion))
 
     def log_level(self, label: Tensor, motion: Tensor) -> Tensor:
         """[B, 1]: natural logarithm of the RMS in m/s^2 expected for label [B] and motion [B, 3]."""

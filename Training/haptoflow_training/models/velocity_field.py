@@ -2,8 +2,8 @@
 
 HaptoFlow (paper, section 3.1): U-Net of two levels; the previous waveform is encoded and concatenated at each
 down-sampling stage; material, motion and time modulate every level. The form is our own, shaped for ONNX Runtime
-on one CPU core: patches of 8 samples are the channels, convolutions are two-dimensional with height 1, one linear
-layer makes the FiLM parameters of all blocks.
+on one CPU core: a convolution reads patches of 8 samples, convolutions are two-dimensional with height 1, one linear
+layer makes the FiLM parameters of all blocks, and nodes are few.
 """
 
 from __future__ import annotations
@@ -11,15 +11,15 @@ from __future__ import annotations
 import torch
 from torch import Tensor, nn
 
-from haptoflow_training.models.conditioning import CONDITION_SIZE, MotionEncoder, TimeEncoder
-from haptoflow_training.models.rib_comb import COMB_CHANNELS, LINES, RibComb
+from haptoflow_training.models.conditioning import EMBEDDING_SIZE, MotionEncoder, TimeEncoder
+from haptoflow_training.models.rib_comb import COMB_CHANNELS, GAINS, RibComb
+
+_CONDITION_SIZE = 96
 
 
-class RmsNorm(nn.Module):
-    """Divides by the root mean square over channels; [B, C, 1, P]. Two nodes fewer than a group norm."""
-
-    def forward(self, features: Tensor) -> Tensor:
-        return features * torch.rsqrt(features.square().mean(dim=1, keepdim=True) + 1e-5)
+def _unit_length(features: Tensor) -> Tensor:
+    """Channels [B, C, 1, P] divided by their length: a root mean square norm whose factor is left to what follows."""
+    return features / (features.norm(dim=1, keepdim=True) + 1e-3)
 
 
 def _convolution(inputs: int, outputs: int, width: int, stride: int = 1) -> nn.Conv2d:
@@ -49,14 +49,13 @@ class FilmBlock(nn.Module):
     def __init__(self, inputs: int, outputs: int, positions: int) -> None:
         super().__init__()
         self.channels = inputs
-        self.norm = RmsNorm()
         self.first = _convolution(inputs, outputs, 3)
         self.second = _convolution(outputs, outputs, 3)
         self.shortcut = _convolution(inputs, outputs, 1) if inputs != outputs else nn.Identity()
         self.mixer = PositionMixer(outputs, positions)
 
     def forward(self, features: Tensor, scale: Tensor, shift: Tensor) -> Tensor:
-        modulated = nn.functional.silu(self.norm(features) * (1.0 + scale) + shift)
+        modulated = nn.functional.silu(_unit_length(features) * scale + shift)
         change = self.second(nn.functional.silu(self.first(modulated)))
         return self.mixer(self.shortcut(features) + change)
 
@@ -65,11 +64,13 @@ class VelocityField(nn.Module):
     """u(x_t, t | previous, embedding, motion) in unit scale.
 
     noisy and previous: [B, C, N] with C channels of the representation (1 for raw samples) and N its positions
-    (200); time: [B, 1]; embedding: [B, 64]; motion: [B, 3]. Returns [B, C, N]. N must divide by `patch`.
+    (200); time: [B, 1], or [1, 1] for all; embedding: [B, 64]; motion: [B, 3]. Returns [B, C, N]. N must divide by `patch`.
     Without `hears_previous`, the previous waveform has no effect. With `average`, the field is the average velocity
     over [t, t + interval] (MeanFlow) and takes interval [B, 1]. With `ribs` (raw samples only), it hears what the ribs
     of a ruled surface would do next.
     """
+
+    film_factors: Tensor
 
     def __init__(
         self,
@@ -90,18 +91,16 @@ class VelocityField(nn.Module):
         self.channels, self.positions, self.patch = channels, positions, patch
         self.patches = positions // patch
         coarse = (self.patches + 1) // 2
-        patch_size = channels * patch
 
         self.time = TimeEncoder()
         self.interval = TimeEncoder() if average else None
         self.motion = MotionEncoder()
         self.comb = RibComb(positions) if ribs else None
-        self.line_gains = nn.Linear(CONDITION_SIZE, LINES) if ribs else None
-        if self.line_gains is not None:
-            nn.init.zeros_(self.line_gains.weight)
-            nn.init.zeros_(self.line_gains.bias)
-        self.enter = _convolution(patch_size + (COMB_CHANNELS * patch if ribs else 0), width, 1)
-        self.previous_fine = _convolution(patch_size, previous_width, 3)
+        heard = channels + (COMB_CHANNELS if ribs else 0)
+        self.enter = nn.Conv2d(heard, width, (1, patch), stride=(1, patch))
+        self.previous_fine = nn.Conv2d(
+            channels, previous_width, (1, 3 * patch), stride=(1, patch), padding=(0, patch)
+        )
         self.previous_coarse = _convolution(previous_width, previous_width, 3, stride=2)
 
         self.fine_down = FilmBlock(width + previous_width, width, self.patches)
@@ -111,23 +110,26 @@ class VelocityField(nn.Module):
             2 * width, width, (1, 3), stride=(1, 2), padding=(0, 1), output_padding=(0, 1 - self.patches % 2)
         )
         self.fine_up = FilmBlock(2 * width, width, self.patches)
-        self.leave = _convolution(width, patch_size, 1)
+        self.leave = nn.ConvTranspose2d(width, channels, (1, patch), stride=(1, patch))
         nn.init.zeros_(self.leave.weight)
         nn.init.zeros_(self.leave.bias)
 
         blocks = (self.fine_down, self.coarse, self.fine_up)
         self._film_sizes = [size for block in blocks for size in (block.channels, block.channels)]
-        self.film = nn.Sequential(
-            nn.Linear(CONDITION_SIZE, CONDITION_SIZE), nn.SiLU(), nn.Linear(CONDITION_SIZE, sum(self._film_sizes))
-        )
-
-    def _to_patches(self, wave: Tensor, channels: int) -> Tensor:
-        patches = wave.reshape(-1, channels, self.patches, self.patch)
-        return patches.permute(0, 1, 3, 2).reshape(-1, channels * self.patch, 1, self.patches)
-
-    def _from_patches(self, patches: Tensor) -> Tensor:
-        wave = patches.reshape(-1, self.channels, self.patch, self.patches)
-        return wave.permute(0, 1, 3, 2).reshape(-1, self.channels, self.positions)
+        # What is told of the surface and of the flow's moment meet in a sum, so that the moment's share of a graph
+        # of one step is a constant.
+        self.told = nn.Linear(2 * EMBEDDING_SIZE, _CONDITION_SIZE)
+        self.moment = nn.Linear(EMBEDDING_SIZE, _CONDITION_SIZE, bias=False)
+        self.film = nn.Linear(_CONDITION_SIZE, sum(self._film_sizes))
+        factors = [part for block in blocks for part in (block.channels**0.5, 1.0)]
+        repeats = torch.tensor(self._film_sizes)
+        self.register_buffer("film_factors", torch.tensor(factors).repeat_interleave(repeats), persistent=False)
+        with torch.no_grad():
+            self.film.bias += torch.tensor([1.0, 0.0] * len(blocks)).repeat_interleave(repeats)
+        self.line_gains = nn.Linear(_CONDITION_SIZE, GAINS) if ribs else None
+        if self.line_gains is not None:
+            nn.init.zeros_(self.line_gains.weight)
+            nn.init.zeros_(self.line_gains.bias)
 
     def forward(
         self,
@@ -141,26 +143,28 @@ class VelocityField(nn.Module):
         moment = self.time(time)
         if self.interval is not None and interval is not None:
             moment = moment + self.interval(interval)
-        condition = torch.cat([embedding, self.motion(motion), moment], dim=1)
-        film = self.film(condition).unsqueeze(-1).unsqueeze(-1).split(self._film_sizes, dim=1)
+        told = torch.cat([embedding, self.motion(motion)], dim=1)
+        condition = nn.functional.silu(self.told(told) + self.moment(moment))
+        film = self.film(condition) * self.film_factors
+        film_parts = film.reshape(-1, sum(self._film_sizes), 1, 1).split(self._film_sizes, dim=1)
 
         if not self.hears_previous:
             previous = torch.zeros_like(previous)
         # Mirrored, so that the newest sample of the past lies beside the first sample of the new segment.
-        past = self.previous_fine(self._to_patches(torch.flip(previous, dims=[2]), self.channels))
+        mirrored = torch.flip(previous, dims=[2])
+        past = self.previous_fine(mirrored.unsqueeze(2))
         past_coarse = self.previous_coarse(nn.functional.silu(past))
 
-        patches = self._to_patches(noisy, self.channels)
-        lines: Tensor | None = None
+        heard, lines = noisy, None
         if self.comb is not None and self.line_gains is not None:
-            combed, harmonics = self.comb(noisy, previous, embedding, motion)
-            patches = torch.cat([patches, self._to_patches(combed, COMB_CHANNELS)], dim=1)
-            lines = self.line_gains(condition).unsqueeze(1) @ harmonics
-        entered = self.enter(patches)
-        fine = self.fine_down(torch.cat([entered, past], dim=1), film[0], film[1])
-        coarse = self.coarse(torch.cat([self.down(fine), past_coarse], dim=1), film[2], film[3])
-        merged = self.fine_up(torch.cat([self.up(coarse), fine], dim=1), film[4], film[5])
-        made = self._from_patches(self.leave(merged))
+            combed = self.comb(noisy, mirrored, embedding, motion, self.line_gains(condition))
+            channels, lines = combed.split([COMB_CHANNELS, 1], dim=1)
+            heard = torch.cat([noisy, channels], dim=1)
+        entered = self.enter(heard.unsqueeze(2))
+        fine = self.fine_down(torch.cat([entered, past], dim=1), film_parts[0], film_parts[1])
+        coarse = self.coarse(torch.cat([self.down(fine), past_coarse], dim=1), film_parts[2], film_parts[3])
+        merged = self.fine_up(torch.cat([self.up(coarse), fine], dim=1), film_parts[4], film_parts[5])
+        made = self.leave(merged).reshape(-1, self.channels, self.positions)
         return made if lines is None else made + lines
 
 

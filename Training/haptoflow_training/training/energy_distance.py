@@ -10,7 +10,9 @@ the seam counts too, and the samples themselves near the seam.
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from functools import lru_cache
+from typing import TypeVar
 
 import torch
 from torch import Tensor
@@ -21,6 +23,9 @@ WINDOW_SAMPLES = (16, 32, 64, 128, 200, 400)
 _SHORT_PAST_SAMPLES = 64
 _SEAM_SAMPLES = 64
 _POWER_FLOOR = 1e-5
+_LINE_WEIGHT = 2.0
+
+T = TypeVar("T", Tensor, list[Tensor])
 
 
 @lru_cache(maxsize=None)
@@ -58,6 +63,18 @@ def sample_distance(first: Tensor, second: Tensor) -> Tensor:
     return near + 0.5 * (difference.mean(dim=1) + 1e-8).sqrt()
 
 
+def line_distance(first: Tensor, second: Tensor) -> Tensor:
+    """[B]: RMS of the wave that the partials of first and second [B, 2, P] differ by."""
+    return (0.5 * (first - second).square().sum(dim=(1, 2)) + 1e-8).sqrt()
+
+
+def energy_score(recorded: T, drawn: tuple[T, T], distance: Callable[[T, T], Tensor]) -> Tensor:
+    """[B]: the distance of two draws from the recorded, less half of that from each other."""
+    first, second = drawn
+    attraction = 0.5 * (distance(recorded, first) + distance(recorded, second))
+    return attraction - 0.5 * distance(first, second)
+
+
 def _spectra(past: Tensor, segment: Tensor) -> list[Tensor]:
     whole = torch.cat([past, segment], dim=1)
     near = whole[:, past.shape[1] - _SHORT_PAST_SAMPLES :]
@@ -72,17 +89,20 @@ def energy_distance_loss(
     weight: Tensor,
     *,
     own_past: bool,
+    lines: tuple[Tensor, Tensor, Tensor] | None = None,
 ) -> Tensor:
     """The loss of a batch; waves [B, 200] in unit scale, weight [B].
 
     recorded_past came before `recorded`; `past` came before both draws, and with own_past is another wave, made by the
     network: then the samples of recording and draw have no reason to agree, and only their spectra are compared.
+    lines: of a ruled surface, the partials [B, 2, P] of the recorded segment and of both draws, each seen from its own
+    past: a line a hundredth of the band wide hardly shows in short spectra, and holds or loses its phase here.
     """
     truth = _spectra(recorded_past, recorded)
-    first, second = (_spectra(past, segment) for segment in drawn)
-    attraction = 0.5 * (spectral_distance(truth, first) + spectral_distance(truth, second))
-    loss = attraction - 0.5 * spectral_distance(first, second)
+    spectra = (_spectra(past, drawn[0]), _spectra(past, drawn[1]))
+    loss = energy_score(truth, spectra, spectral_distance)
     if not own_past:
-        near = 0.5 * (sample_distance(recorded, drawn[0]) + sample_distance(recorded, drawn[1]))
-        loss = loss + near - 0.5 * sample_distance(drawn[0], drawn[1])
+        loss = loss + energy_score(recorded, drawn, sample_distance)
+    if lines is not None:
+        loss = loss + _LINE_WEIGHT * energy_score(lines[0], lines[1:], line_distance)
     return (weight * loss).sum() / weight.sum()

@@ -10,6 +10,7 @@ from torch import Tensor, nn
 from haptoflow_training.models.haptoflow_model import HaptoFlowModel
 from haptoflow_training.models.level_model import level_loss
 from haptoflow_training.models.unit_scale import scaled_previous
+from haptoflow_training.models.velocity_field import VelocityField
 from haptoflow_training.training.batches import Chain, SegmentBatch
 from haptoflow_training.training.config import SolverConfig
 from haptoflow_training.training.energy_distance import energy_distance_loss
@@ -106,7 +107,28 @@ class Losses(nn.Module):
             previous.squeeze(1),
             power.rsqrt(),
             own_past=own_past,
+            lines=self._lines(batch, embedding, (recorded_previous, segment), previous, (first, second)),
         )
+
+    def _lines(
+        self,
+        batch: SegmentBatch,
+        embedding: Tensor,
+        recorded: tuple[Tensor, Tensor],
+        past: Tensor,
+        drawn: tuple[Tensor, Tensor],
+    ) -> tuple[Tensor, Tensor, Tensor] | None:
+        """The partials of recording (past and segment) and draws, each seen from its past; None without ribs."""
+        comb = self.model.field.comb if isinstance(self.model.field, VelocityField) else None
+        if comb is None:
+            return None
+        waves, audible = comb.waves(embedding, batch.motion)
+        heard = waves * audible
+
+        def seen(before: Tensor, segment: Tensor) -> Tensor:
+            return comb.coherence(heard, segment.reshape(-1, 1, comb.samples), torch.flip(before, dims=[2]))
+
+        return seen(*recorded), seen(past, drawn[0]), seen(past, drawn[1])
 
     @torch.no_grad()
     def live_through(
