@@ -13,7 +13,6 @@
 namespace haptoflow::bench {
 namespace {
 
-constexpr double microseconds = 1e6;
 // The first blocks wait for their first segments and touch every page once.
 constexpr std::size_t warmUpBlocks = 64;
 

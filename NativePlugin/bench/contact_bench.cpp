@@ -13,10 +13,9 @@
 namespace haptoflow::bench {
 namespace {
 
-constexpr double microseconds = 1e6;
 constexpr double spacingMetres = 0.05;
 constexpr double topMetres = 0.02;
-constexpr std::size_t blocksOfEach = 20;
+constexpr std::size_t turnsOfEach = 20;
 
 contact::Shape shapeOf(std::size_t index) {
     switch (index % 3) {
@@ -106,14 +105,14 @@ nlohmann::ordered_json measureContact(std::uint64_t seed, const BenchPlan& plan,
     std::deque<Stroller> strollers;
     std::vector<std::size_t> order;
     for (const std::size_t surfaces : plan.surfaces) {
-        order.insert(order.end(), blocksOfEach, strollers.size());
+        order.insert(order.end(), turnsOfEach, strollers.size());
         strollers.emplace_back(surfaces, seed);
     }
     std::mt19937_64 random(seed);
     std::ranges::shuffle(order, random);
     std::size_t done = 0;
     for (const std::size_t index : order) {
-        strollers[index].stroll((plan.contactUpdates() + blocksOfEach - 1) / blocksOfEach);
+        strollers[index].stroll((plan.contactUpdates() + turnsOfEach - 1) / turnsOfEach);
         advance(static_cast<double>(++done) / static_cast<double>(order.size()));
     }
     nlohmann::ordered_json rows = nlohmann::ordered_json::array();

@@ -15,6 +15,10 @@ struct Distribution {
     double worst = 0.0;
 };
 
+/// What `toJson` multiplies seconds by.
+inline constexpr double milliseconds = 1e3;
+inline constexpr double microseconds = 1e6;
+
 /// By nearest rank: p50 and p99 are values that were measured, and below 100 values p99 is the worst.
 /// Throws std::invalid_argument for no value.
 [[nodiscard]] Distribution distributionOf(std::vector<double> values);

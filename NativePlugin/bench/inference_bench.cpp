@@ -12,7 +12,6 @@
 namespace haptoflow::bench {
 namespace {
 
-constexpr double milliseconds = 1000.0;
 constexpr std::size_t blocksOfEach = 8;
 constexpr std::size_t warmUpRuns = 3;
 constexpr std::size_t requestCount = 64;

@@ -15,7 +15,6 @@ namespace {
 constexpr std::size_t eventsPerRound = 25;
 // A machine that is busy elsewhere loses events; after so many rounds more than needed it has lost too many.
 constexpr std::size_t spareRounds = 3;
-constexpr double milliseconds = 1000.0;
 
 struct DeviceRun {
     DeviceShape shape;

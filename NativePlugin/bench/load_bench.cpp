@@ -11,8 +11,6 @@
 namespace haptoflow::bench {
 namespace {
 
-constexpr double milliseconds = 1000.0;
-
 /// What a host has open while it plays. Making a generator runs its graphs once, so their memory is in it.
 struct OpenEngine {
     std::unique_ptr<engine::LiveEngine> engine;

@@ -10,15 +10,14 @@
 namespace haptoflow::contact {
 namespace {
 
+using testing::infinity;
 using testing::isSane;
+using testing::nan;
 using testing::play;
 using testing::sampledPath;
 using testing::sceneOf;
 using testing::speedOf;
 using testing::surfaceOf;
-
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 std::vector<TipSample> strokeOnTable(double seconds = 0.3) {
     return sampledPath(seconds, 90.0, [](double time) { return glm::dvec3(0.2 * time, 0.0, 0.0); });

@@ -10,15 +10,14 @@
 namespace haptoflow::contact {
 namespace {
 
+using testing::infinity;
 using testing::isSane;
+using testing::nan;
 using testing::play;
 using testing::sampledPath;
 using testing::sceneOf;
 using testing::speedOf;
 using testing::surfaceOf;
-
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 class RandomVectors {
 public:

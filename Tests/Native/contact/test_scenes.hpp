@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdint>
 #include <glm/geometric.hpp>
+#include <limits>
 #include <memory>
 #include <numbers>
 #include <optional>
@@ -13,6 +14,9 @@
 #include <vector>
 
 namespace haptoflow::contact::testing {
+
+inline constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+inline constexpr double infinity = std::numeric_limits<double>::infinity();
 
 inline Surface surfaceOf(Shape shape, Pose pose = {}) {
     Surface surface;

@@ -13,11 +13,11 @@ namespace {
 using testing::Uniform;
 using testing::whiteNoise;
 
-constexpr double everyRate[] = {8000.0,  11025.0, 16000.0,  22050.0, 24000.0,  44100.0,
-                                48000.0, 96000.0, 192000.0, 44101.0, 47999.97, 12345.678};
+constexpr double everyOutputRate[] = {8000.0,  11025.0, 16000.0,  22050.0, 24000.0,  44100.0,
+                                      48000.0, 96000.0, 192000.0, 44101.0, 47999.97, 12345.678};
 
 TEST(ResamplerPhaseTest, AnyPartitionIntoBlocksGivesTheSameBitsAndConsumesWhatInputNeededSaid) {
-    for (const double rate : everyRate) {
+    for (const double rate : everyOutputRate) {
         const std::vector<float> input = whiteNoise(600, 1.0, 21);
         WaveformResampler whole(rate);
         std::vector<float> expected(static_cast<std::size_t>(rate / 4.0));
@@ -43,7 +43,7 @@ TEST(ResamplerPhaseTest, AnyPartitionIntoBlocksGivesTheSameBitsAndConsumesWhatIn
 }
 
 TEST(ResamplerPhaseTest, OneInputSampleIsConsumedExactlyWhenTheReadPositionReachesIt) {
-    for (const double rate : everyRate) {
+    for (const double rate : everyOutputRate) {
         WaveformResampler resampler(rate);
         std::size_t consumed = 0;
         float sample = 0.0F;

@@ -33,9 +33,9 @@ void continueTone(const inference::SegmentRequest& request, std::span<float> seg
     }
 }
 
-std::vector<ContactState> slide(double seconds, double rateHz = 72.0) {
+std::vector<ContactState> slide(double seconds, double updatesHz = 72.0) {
     std::vector<ContactState> states;
-    for (double t = 0.0; t < seconds; t += 1.0 / rateHz) {
+    for (double t = 0.0; t < seconds; t += 1.0 / updatesHz) {
         ContactState state;
         state.timeSeconds = t;
         state.touching = true;

@@ -13,7 +13,7 @@
 namespace haptoflow::engine {
 namespace {
 
-constexpr double rateHz = 48000.0;
+constexpr double playedRateHz = 48000.0;
 
 /// 120 Hz of RMS 1, the seed's own phase zero at its middle, where it starts to sound.
 std::array<float, 400> toneSeed() {
@@ -32,7 +32,7 @@ std::vector<float> renderSamples(Voice& voice, std::size_t count) {
 }
 
 TEST(VoiceTest, UntouchedItWritesZerosAndItsClockStandsStill) {
-    Voice voice(rateHz, 60.0F);
+    Voice voice(playedRateHz, 60.0F);
     const std::int64_t head = voice.timeline().head();
     const std::vector<float> heard = renderSamples(voice, 4800);
     EXPECT_TRUE(std::ranges::all_of(heard, [](float sample) { return sample == 0.0F; }));
@@ -41,7 +41,7 @@ TEST(VoiceTest, UntouchedItWritesZerosAndItsClockStandsStill) {
 }
 
 TEST(VoiceTest, AtTouchDownTheSeedSoundsAtOnceAndInStep) {
-    Voice voice(rateHz, 60.0F);
+    Voice voice(playedRateHz, 60.0F);
     voice.onset(toneSeed(), 6.0F);
     const std::vector<float> heard = renderSamples(voice, 1440);
     // Beyond the 2 ms ramp the output is the seed, late by less than a millisecond.
@@ -50,7 +50,7 @@ TEST(VoiceTest, AtTouchDownTheSeedSoundsAtOnceAndInStep) {
     for (std::size_t delay = 0; delay < 240; ++delay) {
         double product = 0.0;
         for (std::size_t i = 300; i < 1200; ++i) {
-            const double t = (static_cast<double>(i) - static_cast<double>(delay)) / rateHz;
+            const double t = (static_cast<double>(i) - static_cast<double>(delay)) / playedRateHz;
             product += static_cast<double>(heard[i]) * std::sin(2.0 * std::numbers::pi * 120.0 * t);
         }
         if (product > best) {
@@ -67,7 +67,7 @@ TEST(VoiceTest, AtTouchDownTheSeedSoundsAtOnceAndInStep) {
 }
 
 TEST(VoiceTest, ReleasedItIsSilentWithinFiveMillisecondsWithoutAClick) {
-    Voice voice(rateHz, 60.0F);
+    Voice voice(playedRateHz, 60.0F);
     voice.onset(toneSeed(), 6.0F);
     std::vector<float> heard = renderSamples(voice, 2000);
     const float ordinaryStep = testing::largestStep(heard);
@@ -80,7 +80,7 @@ TEST(VoiceTest, ReleasedItIsSilentWithinFiveMillisecondsWithoutAClick) {
 }
 
 TEST(VoiceTest, ATouchWhileTheLastOneStillFadesStartsWithoutAStep) {
-    Voice voice(rateHz, 60.0F);
+    Voice voice(playedRateHz, 60.0F);
     voice.onset(toneSeed(), 6.0F);
     std::vector<float> heard = renderSamples(voice, 1777);
     const float ordinaryStep = testing::largestStep(heard);
@@ -97,8 +97,8 @@ TEST(VoiceTest, ATouchWhileTheLastOneStillFadesStartsWithoutAStep) {
 }
 
 TEST(VoiceTest, TheOutputDoesNotDependOnTheBlockLength) {
-    Voice whole(rateHz, 60.0F);
-    Voice pieces(rateHz, 60.0F);
+    Voice whole(playedRateHz, 60.0F);
+    Voice pieces(playedRateHz, 60.0F);
     whole.onset(toneSeed(), 3.0F);
     pieces.onset(toneSeed(), 3.0F);
     const std::vector<float> expected = renderSamples(whole, 4096);
@@ -112,7 +112,7 @@ TEST(VoiceTest, TheOutputDoesNotDependOnTheBlockLength) {
 }
 
 TEST(VoiceTest, AnEmptySeedAndANonFiniteLevelStartFromSilence) {
-    Voice voice(rateHz, 60.0F);
+    Voice voice(playedRateHz, 60.0F);
     voice.onset({}, 5.0F);
     const std::vector<float> fromEmpty = renderSamples(voice, 960);
     EXPECT_TRUE(std::ranges::all_of(fromEmpty, [](float sample) { return sample == 0.0F; }));
@@ -123,7 +123,7 @@ TEST(VoiceTest, AnEmptySeedAndANonFiniteLevelStartFromSilence) {
 }
 
 TEST(VoiceTest, ReadFasterTheToneRisesByThatFactor) {
-    Voice voice(rateHz, 60.0F);
+    Voice voice(playedRateHz, 60.0F);
     voice.setRangeLaw(1.0, 2.0);
     voice.onset(toneSeed(), 6.0F);
     voice.setRangeLaw(1.0, 2.0);

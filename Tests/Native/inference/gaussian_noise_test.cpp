@@ -59,8 +59,8 @@ TEST(PhiloxTest, GivesThePublishedWords) {
 }
 
 TEST(GaussianNoiseTest, AgreesWithPythonForEveryGoldenKey) {
-    const nlohmann::json golden = testing::readGolden("model/noise.expected.json");
-    for (const auto& row : testing::goldenRows(golden, "noise")) {
+    const nlohmann::json golden = haptoflow::testing::readGolden("model/noise.expected.json");
+    for (const auto& row : haptoflow::testing::goldenRows(golden, "noise")) {
         const auto expected = row.at("values").get<std::vector<float>>();
         ASSERT_FALSE(expected.empty());
         const NoiseKey key{row.at("seed").get<std::uint64_t>(), row.at("voice").get<std::uint32_t>(),
