@@ -15,7 +15,7 @@ from training_fixtures import make_store
 from haptoflow_training.errors import InputError
 from haptoflow_training.export.trained_tier import TrainedTier, load_tiers
 from haptoflow_training.training.batches import SegmentBatches
-from haptoflow_training.training.config import BatchConfig, RecipeConfig, SolverConfig
+from haptoflow_training.training.config import BatchConfig, ModelConfig, RecipeConfig, SolverConfig
 from haptoflow_training.training.energy_distance import WINDOW_SAMPLES, energy_distance_loss, magnitudes
 from haptoflow_training.training.losses import Losses
 from haptoflow_training.training.mean_flow import mean_flow_loss
@@ -183,6 +183,55 @@ def test_a_base_and_the_wish_to_share_it_go_together(shares_base: bool, tmp_path
     config = dataclasses.replace(_config(), recipe=RecipeConfig(shares_base=shares_base))
     with pytest.raises(InputError, match="go together"):
         Trainer(config, make_store(), tmp_path, ALONE, None if shares_base else tmp_path / "base")
+
+
+def test_a_further_tier_s_base_may_have_a_network_of_another_shape(tmp_path: Path) -> None:
+    store = make_store()
+    wide = dataclasses.replace(_config(steps=5), model=ModelConfig(width=24, previous_width=8))
+    Trainer(wide, store, tmp_path / "base", ALONE).run()
+    config = dataclasses.replace(_config(), tier="draft", recipe=RecipeConfig(shares_base=True))
+    trainer = Trainer(config, store, tmp_path / "draft", ALONE, tmp_path / "base")
+    assert torch.equal(trainer.model.embedding.weight, load_trained(tmp_path / "base")[2].embedding.weight)
+
+
+def test_a_further_round_begins_with_the_averaged_weights_of_the_run_it_goes_on_from(tmp_path: Path) -> None:
+    store = make_store()
+    Trainer(_config(steps=5), store, tmp_path / "first", ALONE).run()
+    begun = Trainer(_config(steps=5), store, tmp_path / "second", ALONE, start=tmp_path / "first")
+    first = load_trained(tmp_path / "first")[2].state_dict()
+    for weights in (begun.model.state_dict(), begun.averaged_model.state_dict()):
+        assert all(torch.equal(value, first[name]) for name, value in weights.items())
+
+
+def test_a_layer_that_grew_keeps_the_outputs_it_had_and_begins_the_others_as_built(tmp_path: Path) -> None:
+    store = make_store()
+    Trainer(_config(steps=5), store, tmp_path / "first", ALONE).run()
+    content = torch.load(tmp_path / "first" / "checkpoint.pt")
+    weights = content["average"]["module"]
+    kept = weights["field.film.bias"][:10].clone()
+    weights["field.film.bias"], weights["field.film.weight"] = kept, weights["field.film.weight"][:10]
+    torch.save(content, tmp_path / "first" / "checkpoint.pt")
+    torch.manual_seed(1)
+    built = build_model(_config(), [()] * 2).state_dict()["field.film.bias"]
+    begun = Trainer(_config(), store, tmp_path / "second", ALONE, start=tmp_path / "first").model.state_dict()
+    assert torch.equal(begun["field.film.bias"][:10], kept)
+    assert torch.equal(begun["field.film.bias"][10:], built[10:])
+
+
+def test_a_further_round_refuses_a_run_of_another_shape_by_the_layer_s_name_and_one_of_other_labels(
+    tmp_path: Path,
+) -> None:
+    store = make_store()
+    Trainer(_config(steps=5), store, tmp_path / "first", ALONE).run()
+    wide = dataclasses.replace(_config(), model=ModelConfig(width=24, previous_width=8))
+    with pytest.raises(InputError, match=r"--from .*'field\..*does not fit"):
+        Trainer(wide, store, tmp_path / "second", ALONE, start=tmp_path / "first")
+    content = torch.load(tmp_path / "first" / "checkpoint.pt")
+    torch.save({**content, "labels": ["tone", "hiss"]}, tmp_path / "first" / "checkpoint.pt")
+    with pytest.raises(InputError, match="--from .*hiss"):
+        Trainer(_config(), store, tmp_path / "second", ALONE, start=tmp_path / "first")
+    with pytest.raises(InputError, match="train first"):
+        Trainer(_config(), store, tmp_path / "second", ALONE, start=tmp_path / "nowhere")
 
 
 def test_pairs_of_held_out_bands_are_not_drawn() -> None:

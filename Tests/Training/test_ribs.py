@@ -66,7 +66,7 @@ def test_the_comb_carries_a_tone_and_its_overtone_on_with_their_phases(speed_mps
 
 
 def _only(kind: int, partial: int) -> torch.Tensor:
-    gains = torch.zeros(1, 3, PARTIALS)
+    gains = torch.zeros(1, 4, PARTIALS)
     gains[0, kind, partial] = 1.0
     return gains.reshape(1, GAINS)
 
@@ -85,7 +85,7 @@ def test_lines_are_past_fresh_and_noise_partial_by_partial_by_their_gains() -> N
     for (kind, partial), line in expected.items():
         made = _comb(noise, past, 0, 0.5, _only(kind, partial))[:, 4:]
         torch.testing.assert_close(made, line, rtol=0.0, atol=3e-2, msg=f"gain {kind} of partial {partial}")
-    every = _comb(noise, past, 0, 0.5, torch.tensor([[1.0] * PARTIALS + [0.0] * 2 * PARTIALS]))
+    every = _comb(noise, past, 0, 0.5, torch.tensor([[1.0] * PARTIALS + [0.0] * 3 * PARTIALS]))
     torch.testing.assert_close(every[:, 4], every[:, 0])
 
 
@@ -116,6 +116,12 @@ def test_a_network_taught_nothing_adds_no_lines_and_one_with_unit_gains_carries_
 def test_a_line_that_has_grown_beyond_all_power_there_is_is_carried_on_no_larger_than_that() -> None:
     lines = _comb(torch.zeros(1, 1, 200), 5.0 * _wave([200.0], -200, 0), 0, 0.5, _only(0, 0))[:, 4]
     assert lines.abs().max().item() == pytest.approx(1.5, abs=0.02)
+
+
+@pytest.mark.parametrize("size", [0.05, 1.0, 3.0])
+def test_a_held_line_goes_on_in_phase_at_its_own_amplitude_however_loud_the_past_was(size: float) -> None:
+    lines = _comb(torch.zeros(1, 1, 200), size * _wave([200.0], -200, 0), 0, 0.5, 0.4 * _only(3, 0))[:, 4]
+    torch.testing.assert_close(lines, 0.4 * _wave([200.0], 0, 200)[:, 0], rtol=0.0, atol=0.02)
 
 
 def test_fresh_partials_have_unit_size_and_a_phase_of_the_noise() -> None:

@@ -51,6 +51,10 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser], su
     parser.add_argument(
         "--base", type=Path, metavar="FOLDER", help="finished run whose embedding and level a further tier keeps"
     )
+    parser.add_argument(
+        "--from", type=Path, dest="start", metavar="FOLDER",
+        help="finished run of the same labels and [model] to begin from, for a further round or recordings of your own",
+    )  # fmt: skip
     parser.add_argument("--export", type=Path, metavar="FILE", help="write the .haptoflow model file here at the end")
     parser.add_argument("--parity", type=Path, metavar="FILE", help="write golden vectors of the exported model here")
     parser.add_argument("--workers", type=int, default=2, help="processes that prepare recordings (default: 2)")
@@ -78,7 +82,9 @@ def run(options: argparse.Namespace) -> int:
             open_source(config.data, store_folder, options.workers)
         processes.wait()
         source = open_source(config.data, store_folder, options.workers)
-        trainer = Trainer(config, source.store, options.out, processes, options.base, source.wave_vectors)
+        trainer = Trainer(
+            config, source.store, options.out, processes, options.base, source.wave_vectors, options.start
+        )
         try:
             trainer.run()
         except TrainingStopped as stop:

@@ -18,8 +18,8 @@ SAMPLE_RATE_HZ = 2000.0
 HARMONICS = 12
 PARTIALS = WAVE_VECTORS * HARMONICS
 COMB_CHANNELS = 2 * WAVE_VECTORS
-# Of each partial: carried on, fresh, and as it stands in the noise.
-GAINS = 3 * PARTIALS
+# Of each partial: carried on, fresh, as it stands in the noise, and carried on at an amplitude of its own.
+GAINS = 4 * PARTIALS
 # In unit scale a line of all the power there is has an amplitude of 1.4: one that has grown beyond is not carried on as
 # it is, so that a line whose gain is a little above 1 in the loop cannot run away.
 _LARGEST_AMPLITUDE = 1.5
@@ -99,7 +99,8 @@ class RibComb(nn.Module):
 
         Channels: for each wave vector the past carried on, then noise of unit partials with a phase of its own, which
         is what a touch-down from silence starts from. Lines: the sum of all partials, carried on (no larger than all
-        the power there is), fresh, and as they stand in the noise, by gains [B, 72] in that order.
+        the power there is), fresh, as they stand in the noise, and of unit size with the phase of the past, by gains
+        [B, 96] in that order. The last holds a line's level in the loop, where the first alone would let it fade.
         """
         waves, audible = self.waves(embedding, motion)
         heard = torch.cat([self.carried(waves, mirrored), self.amplitudes(waves, noisy)], dim=1) * audible
@@ -107,8 +108,8 @@ class RibComb(nn.Module):
         carried, own = pairs.split(1, dim=1)
         carried_size, own_size = (pairs.norm(dim=2, keepdim=True) + _SMALL).split(1, dim=1)
         fresh = own / own_size
-        kept, drawn, left = gains.reshape(-1, 3, 1, PARTIALS).split(1, dim=1)
+        kept, drawn, left, held = gains.reshape(-1, 4, 1, PARTIALS).split(1, dim=1)
         bounded = kept * torch.clamp(_LARGEST_AMPLITUDE / carried_size, max=1.0)
-        lines = carried * bounded + fresh * drawn + own * left
+        lines = carried * (bounded + held / carried_size) + fresh * drawn + own * left
         rows = torch.cat([carried, carried, fresh, fresh, lines], dim=1) * self.families
         return rows.reshape(-1, COMB_CHANNELS + 1, 2 * PARTIALS) @ waves.transpose(1, 2)

@@ -14,6 +14,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from types import FrameType
+from typing import Any
 
 import torch
 from torch import Tensor, nn
@@ -129,8 +130,10 @@ class Trainer:
         processes: Processes,
         base: Path | None = None,
         wave_vectors: WaveVectors | None = None,
+        start: Path | None = None,
     ) -> None:
         self._config, self._store, self._folder, self._processes = config, store, folder, processes
+        self._start = start
         optimiser = config.optimiser
         self._phases = _phases(config)
         torch.set_num_threads(config.threads)
@@ -143,6 +146,8 @@ class Trainer:
             )
         if base is not None:
             adopt_base(self.model, base, list(store.labels))
+        if start is not None:
+            adopt_start(self.model, start, list(store.labels))
         self._losses = Losses(self.model, config.solver, train_level=not config.recipe.shares_base)
         self._pairs: ReflowPairs | None = None
         self._average = MovingAverage(self.model, optimiser.average_decay)
@@ -337,6 +342,7 @@ class Trainer:
                 "configuration": self._config.to_dict(),
                 "seed": self._config.seed,
                 "commit": source_commit(Path(__file__).parent),
+                "from": "/".join(self._start.parts[-2:]) if self._start else None,
                 "labels": list(self._store.labels),
                 "steps": self._step,
                 "processes": self._processes.count,
@@ -355,22 +361,43 @@ def _save_atomically(content: dict[str, object], path: Path) -> None:
 
 def adopt_base(model: HaptoFlowModel, folder: Path, labels: list[str]) -> None:
     """Give `model` the embedding and level of the finished run in `folder`, and hold them still."""
-    _, base_labels, base = load_trained(folder)
-    if base_labels != labels:
-        raise InputError(f"--base {folder}: trained on labels {base_labels}, this run has {labels}")
-    model.embedding.load_state_dict(base.embedding.state_dict())
-    model.level.load_state_dict(base.level.state_dict())
-    for parameter in (*model.embedding.parameters(), *model.level.parameters()):
-        parameter.requires_grad_(False)
+    content = _checkpoint(folder)
+    if content["labels"] != labels:
+        raise InputError(f"--base {folder}: trained on labels {content['labels']}, this run has {labels}")
+    weights = content["average"]["module"]
+    for name, part in (("embedding", model.embedding), ("level", model.level)):
+        # The base's own network, if it has one, is of no concern here.
+        prefix = f"{name}."
+        part.load_state_dict({key[len(prefix) :]: value for key, value in weights.items() if key.startswith(prefix)})
+        part.requires_grad_(False)
+
+
+def adopt_start(model: HaptoFlowModel, folder: Path, labels: list[str]) -> None:
+    """Begin with the averaged weights of the run in `folder`, of the same labels. A layer that has more outputs than it
+    had there keeps those it had; InputError names a layer that has another shape."""
+    content = _checkpoint(folder)
+    if content["labels"] != labels:
+        raise InputError(f"--from {folder}: trained on labels {content['labels']}, this run has {labels}")
+    own = model.state_dict()
+    for name, weights in content["average"]["module"].items():
+        if name not in own or weights.shape[1:] != own[name].shape[1:] or weights.shape[:1] > own[name].shape[:1]:
+            raise InputError(f"--from {folder}: its '{name}' does not fit; begin from a run of the same [model]")
+        own[name][: len(weights)] = weights
+    model.load_state_dict(own)
+
+
+def _checkpoint(folder: Path) -> dict[str, Any]:
+    path = folder / "checkpoint.pt"
+    if not path.exists():
+        raise InputError(f"{path} does not exist: train first (`haptoflow-training train --out {folder}`)")
+    content: dict[str, Any] = torch.load(path, map_location="cpu")
+    return content
 
 
 def load_trained(folder: Path) -> tuple[TrainingConfig, list[str], HaptoFlowModel]:
     """Rebuild the averaged model of a finished run from the configuration saved with it."""
-    path = folder / "checkpoint.pt"
-    if not path.exists():
-        raise InputError(f"{path} does not exist: train first (`haptoflow-training train --out {folder}`)")
-    content = torch.load(path, map_location="cpu")
-    config = config_from_dict(content["config"], path)
+    content = _checkpoint(folder)
+    config = config_from_dict(content["config"], folder / "checkpoint.pt")
     model = build_model(config, [()] * len(content["labels"]))
     model.load_state_dict(content["average"]["module"])
     return config, content["labels"], model.eval().requires_grad_(False)
