@@ -14,7 +14,7 @@ from training_fixtures import make_store
 
 from haptoflow_training.errors import InputError
 from haptoflow_training.export.trained_tier import TrainedTier, load_tiers
-from haptoflow_training.training.batches import SegmentBatches
+from haptoflow_training.training.batches import SegmentBatch, SegmentBatches
 from haptoflow_training.training.config import BatchConfig, ModelConfig, RecipeConfig, SolverConfig
 from haptoflow_training.training.energy_distance import WINDOW_SAMPLES, energy_distance_loss, magnitudes
 from haptoflow_training.training.losses import Losses
@@ -232,6 +232,23 @@ def test_a_further_round_refuses_a_run_of_another_shape_by_the_layer_s_name_and_
         Trainer(_config(), store, tmp_path / "second", ALONE, start=tmp_path / "first")
     with pytest.raises(InputError, match="train first"):
         Trainer(_config(), store, tmp_path / "second", ALONE, start=tmp_path / "nowhere")
+
+
+@pytest.mark.parametrize(("energy_steps", "chains"), [(4, 3), (0, 6)])
+def test_self_forcing_leaves_one_step_networks_every_second_recorded_past_and_flows_none(
+    energy_steps: int, chains: int, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    drawn: list[int] = []
+    draw_chains = SegmentBatches.draw_chains
+
+    def counted(batches: SegmentBatches, count: int) -> SegmentBatch:
+        drawn.append(count)
+        return draw_chains(batches, count)
+
+    monkeypatch.setattr(SegmentBatches, "draw_chains", counted)
+    recipe = RecipeConfig(energy_steps=energy_steps, energy_batch_size=8, self_forcing_steps=6)
+    Trainer(dataclasses.replace(_config(steps=2), recipe=recipe), make_store(), tmp_path, ALONE).run()
+    assert drawn == [8] * chains
 
 
 def test_pairs_of_held_out_bands_are_not_drawn() -> None:

@@ -73,7 +73,8 @@ def build_model(config: TrainingConfig, wave_vectors: WaveVectors) -> HaptoFlowM
 
 @dataclass(frozen=True)
 class _Phase:
-    """steps of one objective. own_previous: on chains of the network's own output (self-forcing)."""
+    """steps of one objective. own_previous_every: every so many steps on chains of the network's own output
+    (self-forcing); 0 for never."""
 
     name: str
     objective: Objective
@@ -81,7 +82,7 @@ class _Phase:
     steps: int
     learning_rate: float
     batch_size: int
-    own_previous: bool = False
+    own_previous_every: int = 0
 
     @property
     def end(self) -> int:
@@ -98,19 +99,21 @@ def _phases(config: TrainingConfig) -> tuple[_Phase, ...]:
     level_steps, polish_steps = (0, 0) if recipe.shares_base else (optimiser.level_steps, optimiser.level_polish_steps)
     batch, energy_batch = optimiser.batch_size, recipe.energy_batch_size
     forced_batch = energy_batch if last == "energy" else batch
-    planned: list[tuple[str, Objective, int, float, int, bool]] = [
-        ("level", "level", level_steps, optimiser.learning_rate, 8 * batch, False),
-        ("field", flow, optimiser.steps, optimiser.learning_rate, batch, False),
-        ("reflow", "reflow", recipe.reflow_steps, recipe.reflow_learning_rate, batch, False),
-        ("energy", "energy", recipe.energy_steps, recipe.energy_learning_rate, energy_batch, False),
-        ("self-forcing", last, recipe.self_forcing_steps, recipe.self_forcing_learning_rate, forced_batch, True),
-        ("polish", "level", polish_steps, optimiser.learning_rate, 8 * batch, False),
+    # What a recorded past has to be followed by is forgotten when all pasts are the network's own.
+    forced_every = 2 if last == "energy" else 1
+    planned: list[tuple[str, Objective, int, float, int, int]] = [
+        ("level", "level", level_steps, optimiser.learning_rate, 8 * batch, 0),
+        ("field", flow, optimiser.steps, optimiser.learning_rate, batch, 0),
+        ("reflow", "reflow", recipe.reflow_steps, recipe.reflow_learning_rate, batch, 0),
+        ("energy", "energy", recipe.energy_steps, recipe.energy_learning_rate, energy_batch, 0),
+        ("self-forcing", last, recipe.self_forcing_steps, recipe.self_forcing_learning_rate, forced_batch, forced_every),
+        ("polish", "level", polish_steps, optimiser.learning_rate, 8 * batch, 0),
     ]
     phases: list[_Phase] = []
-    for name, objective, steps, learning_rate, batch_size, own_previous in planned:
+    for name, objective, steps, learning_rate, batch_size, own_previous_every in planned:
         if steps:
             first = phases[-1].end if phases else 0
-            phases.append(_Phase(name, objective, first, steps, learning_rate, batch_size, own_previous))
+            phases.append(_Phase(name, objective, first, steps, learning_rate, batch_size, own_previous_every))
     return tuple(phases)
 
 
@@ -251,7 +254,8 @@ class Trainer:
         for group in self._optimiser.param_groups:
             group["lr"] = self._learning_rate(phase)
         size = max(1, phase.batch_size // self._processes.count)
-        batch = self._batches.draw_chains(size) if phase.own_previous else self._batches.draw(size)
+        forced = phase.own_previous_every and self._step % phase.own_previous_every == 0
+        batch = self._batches.draw_chains(size) if forced else self._batches.draw(size)
         pairs = self._pairs.draw(size, self._noise) if self._pairs and phase.objective == "reflow" else None
         level, field = losses(batch, phase.objective, self._noise, pairs)
         total = level + field
