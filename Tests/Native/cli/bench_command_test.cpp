@@ -1,3 +1,5 @@
+#include "command_line.hpp"
+
 #include "bench/distribution.hpp"
 #include "bench/latency_bench.hpp"
 #include "bench/watched_generators.hpp"
@@ -7,7 +9,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -29,35 +30,11 @@ using ::testing::HasSubstr;
 using ::testing::Not;
 using Json = nlohmann::json;
 
-const std::string tinyModel = HAPTOFLOW_TEST_GOLDEN_DIR "/model/tiny.haptoflow";
+using testing::Finished;
+using testing::tinyModel;
 
-struct Finished {
-    int exitCode = -1;
-    std::string output;
-    std::string errors;
-};
-
-/// Runs `haptoflow bench` with these arguments and with the repository's ONNX Runtime.
-Finished runBench(const std::string& arguments) {
-    const auto errors = std::filesystem::temp_directory_path() /
-                        ("bench_" + std::string(::testing::UnitTest::GetInstance()->current_test_info()->name()));
-    const std::string command = "HAPTOFLOW_ONNXRUNTIME='" HAPTOFLOW_TEST_ONNXRUNTIME "' '" HAPTOFLOW_TEST_CLI
-                                "' bench " +
-                                arguments + " 2>'" + errors.string() + "'";
-    FILE* pipe = popen(command.c_str(), "r");
-    if (pipe == nullptr) {
-        throw std::runtime_error("the program cannot be started: " HAPTOFLOW_TEST_CLI);
-    }
-    Finished run;
-    std::array<char, 4096> part{};
-    while (const std::size_t count = std::fread(part.data(), 1, part.size(), pipe)) {
-        run.output.append(part.data(), count);
-    }
-    run.exitCode = WEXITSTATUS(pclose(pipe));
-    std::ifstream stream(errors);
-    run.errors.assign(std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>());
-    std::filesystem::remove(errors);
-    return run;
+Finished runBench(const std::string& words) {
+    return testing::runHaptoFlow("bench " + words);
 }
 
 /// The report of a run with next to no events; the tiny model stands in for the paper's architecture too. Each test

@@ -1,9 +1,9 @@
+#include "command_line.hpp"
+
 #include <nlohmann/json.hpp>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-
-#include <sys/wait.h>
 
 #include <cstdio>
 #include <filesystem>
@@ -18,26 +18,13 @@ namespace {
 
 using ::testing::HasSubstr;
 
-const std::string tinyModel = HAPTOFLOW_TEST_GOLDEN_DIR "/model/tiny.haptoflow";
+using testing::Finished;
+using testing::tinyModel;
 
-struct Finished {
-    int exitCode = -1;
-    std::string output;
-};
-
-/// Runs `haptoflow inspect` with these arguments; the output is standard output and standard error together.
-Finished inspect(const std::string& arguments) {
-    const std::string command = "'" HAPTOFLOW_TEST_CLI "' inspect " + arguments + " 2>&1";
-    FILE* pipe = popen(command.c_str(), "r");
-    if (pipe == nullptr) {
-        throw std::runtime_error("the program cannot be started: " HAPTOFLOW_TEST_CLI);
-    }
-    Finished run;
-    char part[4096];
-    while (const std::size_t count = std::fread(part, 1, sizeof(part), pipe)) {
-        run.output.append(part, count);
-    }
-    run.exitCode = WEXITSTATUS(pclose(pipe));
+/// What `haptoflow inspect` answers; what it complains of is part of the output.
+Finished inspect(const std::string& words) {
+    Finished run = testing::runHaptoFlow("inspect " + words);
+    run.output += run.errors;
     return run;
 }
 
