@@ -7,6 +7,7 @@
 #include <complex>
 #include <cstdlib>
 #include <numbers>
+#include <string>
 
 namespace haptoflow::capi::testing {
 namespace {
@@ -101,8 +102,12 @@ TEST_P(ClosedLoopTest, AtConstantInputLevelAndSpectrumStayWhereTheyWere) {
     const auto part = static_cast<std::ptrdiff_t>(2000.0 * std::min(60.0, seconds / 3.0));
     const std::vector<float> first(waveform.begin() + 2000, waveform.begin() + 2000 + part);
     const std::vector<float> last(waveform.end() - part, waveform.end());
-    EXPECT_LT(std::abs(levelDecibels(last) - levelDecibels(first)), 1.0);
-    EXPECT_GE(goodnessOfFit(meanSpectrum(first), meanSpectrum(last)), 0.98);
+    const double levelChange = levelDecibels(last) - levelDecibels(first);
+    const double fit = goodnessOfFit(meanSpectrum(first), meanSpectrum(last));
+    RecordProperty("level_change_db", std::to_string(levelChange));
+    RecordProperty("spectrum_gfc", std::to_string(fit));
+    EXPECT_LT(std::abs(levelChange), 1.0);
+    EXPECT_GE(fit, 0.98);
 }
 
 INSTANTIATE_TEST_SUITE_P(Label, ClosedLoopTest, ::testing::Range(0U, 20U));
