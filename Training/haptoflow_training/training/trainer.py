@@ -365,10 +365,7 @@ def _save_atomically(content: dict[str, object], path: Path) -> None:
 
 def adopt_base(model: HaptoFlowModel, folder: Path, labels: list[str]) -> None:
     """Give `model` the embedding and level of the finished run in `folder`, and hold them still."""
-    content = _checkpoint(folder)
-    if content["labels"] != labels:
-        raise InputError(f"--base {folder}: trained on labels {content['labels']}, this run has {labels}")
-    weights = content["average"]["module"]
+    weights = _averaged_weights(folder, labels, "--base")
     for name, part in (("embedding", model.embedding), ("level", model.level)):
         # The base's own network, if it has one, is of no concern here.
         prefix = f"{name}."
@@ -379,15 +376,20 @@ def adopt_base(model: HaptoFlowModel, folder: Path, labels: list[str]) -> None:
 def adopt_start(model: HaptoFlowModel, folder: Path, labels: list[str]) -> None:
     """Begin with the averaged weights of the run in `folder`, of the same labels. A layer that has more outputs than it
     had there keeps those it had; InputError names a layer that has another shape."""
-    content = _checkpoint(folder)
-    if content["labels"] != labels:
-        raise InputError(f"--from {folder}: trained on labels {content['labels']}, this run has {labels}")
     own = model.state_dict()
-    for name, weights in content["average"]["module"].items():
+    for name, weights in _averaged_weights(folder, labels, "--from").items():
         if name not in own or weights.shape[1:] != own[name].shape[1:] or weights.shape[:1] > own[name].shape[:1]:
             raise InputError(f"--from {folder}: its '{name}' does not fit; begin from a run of the same [model]")
         own[name][: len(weights)] = weights
     model.load_state_dict(own)
+
+
+def _averaged_weights(folder: Path, labels: list[str], option: str) -> dict[str, Tensor]:
+    content = _checkpoint(folder)
+    if content["labels"] != labels:
+        raise InputError(f"{option} {folder}: trained on labels {content['labels']}, this run has {labels}")
+    weights: dict[str, Tensor] = content["average"]["module"]
+    return weights
 
 
 def _checkpoint(folder: Path) -> dict[str, Any]:
