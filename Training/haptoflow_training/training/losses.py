@@ -123,10 +123,9 @@ class Losses(nn.Module):
         if comb is None:
             return None
         waves, audible = comb.waves(embedding, batch.motion)
-        heard = waves * audible
 
         def seen(before: Tensor, segment: Tensor) -> Tensor:
-            return comb.coherence(heard, segment.reshape(-1, 1, comb.samples), torch.flip(before, dims=[2]))
+            return comb.coherence(waves, audible, torch.flip(before, dims=[2]), segment.reshape(-1, 1, comb.samples))
 
         return seen(*recorded), seen(past, drawn[0]), seen(past, drawn[1])
 
