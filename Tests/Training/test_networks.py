@@ -127,6 +127,17 @@ def test_the_band_limit_keeps_what_recordings_have_and_takes_the_noise_above_it(
     assert -8.0 < gain_db[100].item() < -3.0, "1 kHz: what the step down to 2 kHz leaves of it"
 
 
+def test_the_band_limit_is_the_convolution_of_past_segment_and_mirrored_segment_with_its_taps() -> None:
+    band_limit = BandLimit()
+    with torch.no_grad():
+        band_limit.weight.copy_(torch.randn(1, 1, 129))
+    past, segment = torch.randn(2, 3, 1, 200).unbind()
+    whole = torch.cat([past[:, :, -64:], segment, torch.flip(segment[:, :, -64:], [2])], dim=2)
+    torch.testing.assert_close(
+        band_limit(past, segment), torch.nn.functional.conv1d(whole, band_limit.weight), rtol=1e-4, atol=1e-4
+    )
+
+
 def test_the_band_limit_hears_the_past_so_that_a_tone_crosses_the_seam_whole() -> None:
     tone = torch.sin(0.3 * torch.arange(400.0)).reshape(1, 1, 400)
     limited = BandLimit()(tone[:, :, :200], tone[:, :, 200:])

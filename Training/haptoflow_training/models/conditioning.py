@@ -24,48 +24,63 @@ FINE_LOG_SPEED_HARMONICS = (0.5, 1.0, 2.0, 4.0, 8.0)
 SMOOTH_LOG_SPEED_HARMONICS = (0.5, 1.0)
 
 
-def log_speed(motion: Tensor) -> Tensor:
-    """log((speed + 0.5 mm/s) / 60 mm/s) of motion [B, 3] (vx, vy in m/s, force in N); [B, 1]."""
-    speed_mps = motion[:, 0:2].norm(dim=1, keepdim=True)
-    return ((speed_mps + REST_SPEED_MPS) / REFERENCE_SPEED_MPS).log()
+def speed_and_force(motion: Tensor) -> Tensor:
+    """Speed in m/s and force in N, [B, 2], of motion [B, 3] (vx, vy in m/s, force in N)."""
+    return torch.cat([motion[:, 0:2].norm(p=2, dim=1, keepdim=True), motion[:, 2:3]], dim=1)
 
 
-def log_force(motion: Tensor) -> Tensor:
-    """log(force + 0.02 N) of motion [B, 3]; [B, 1]. Negative forces count as zero."""
-    return (motion[:, 2:3].clamp(min=0.0) + REST_FORCE_NEWTONS).log()
+class LogSpeedAndForce(nn.Module):
+    """log((speed + 0.5 mm/s) / 60 mm/s) and log(force + 0.02 N), [B, 2], of speed and force [B, 2].
+
+    Negative forces count as zero.
+    """
+
+    rest: Tensor
+    unit: Tensor
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.register_buffer("rest", torch.tensor([[REST_SPEED_MPS, REST_FORCE_NEWTONS]]), persistent=False)
+        self.register_buffer("unit", torch.tensor([[REFERENCE_SPEED_MPS, 1.0]]), persistent=False)
+
+    def forward(self, speed_force: Tensor) -> Tensor:
+        return ((speed_force.clamp(min=0.0) + self.rest) / self.unit).log()
 
 
 class MotionFeatures(nn.Module):
-    """Physical motion [B, 3] to well-scaled features; normalisation lives here, inside the exported graph."""
+    """Physical motion [B, 3] to well-scaled features; normalisation lives here, inside the exported graph.
+
+    Matrices stand where slices and sums of single values would be easier to read: every node of a graph costs time.
+    """
 
     harmonics: Tensor
     phases: Tensor
+    sums: Tensor
+    differences: Tensor
+    scale: Tensor
 
     def __init__(self, log_speed_harmonics: tuple[float, ...] = FINE_LOG_SPEED_HARMONICS) -> None:
         super().__init__()
         self.size = 2 + 4 + 2 * len(log_speed_harmonics) + 2
-        # Sine and cosine of each harmonic, a cosine being a sine that is a quarter turn ahead.
-        harmonics = torch.tensor(log_speed_harmonics).repeat_interleave(2).unsqueeze(0)
-        self.register_buffer("harmonics", harmonics, persistent=False)
+        self.logarithms = LogSpeedAndForce()
+        # Sine and cosine of each harmonic of log speed, a cosine being a sine that is a quarter turn ahead.
+        harmonics = torch.tensor(log_speed_harmonics).repeat_interleave(2)
+        self.register_buffer("harmonics", torch.stack([harmonics, 0.0 * harmonics]), persistent=False)
         phases = torch.tensor([0.0, math.pi / 2.0] * len(log_speed_harmonics)).unsqueeze(0)
         self.register_buffer("phases", phases, persistent=False)
+        # Twice an angle's cosine and sine: x^2 - y^2 = (x + y) (x - y), and 2 x y.
+        self.register_buffer("sums", torch.tensor([[1.0, 2.0], [1.0, 0.0]]), persistent=False)
+        self.register_buffer("differences", torch.tensor([[1.0, 0.0], [-1.0, 1.0]]), persistent=False)
+        self.register_buffer("scale", torch.tensor([[1.0, 0.2]]), persistent=False)
 
     def forward(self, motion: Tensor) -> Tensor:
-        velocity = motion[:, 0:2]
-        speed_mps = velocity.norm(dim=1, keepdim=True)
-        speed = log_speed(motion)
-        force = log_force(motion)
-        direction = velocity / (speed_mps + 0.002)
-        # Twice the angle: most surfaces feel the same forwards and backwards along their grain.
-        axial = torch.cat(
-            [
-                direction[:, 0:1].square() - direction[:, 1:2].square(),
-                2.0 * direction[:, 0:1] * direction[:, 1:2],
-            ],
-            dim=1,
-        )
-        waves = torch.sin(speed * self.harmonics + self.phases)
-        return torch.cat([speed * 0.5, force * 0.5, direction, axial, waves, speed_mps, motion[:, 2:3] * 0.2], dim=1)
+        speed_force = speed_and_force(motion)
+        logarithms = self.logarithms(speed_force)
+        direction = motion[:, 0:2] / (speed_force[:, 0:1] + 0.002)
+        # Most surfaces feel the same forwards and backwards along their grain.
+        axial = (direction @ self.sums) * (direction @ self.differences)
+        waves = torch.sin(logarithms @ self.harmonics + self.phases)
+        return torch.cat([logarithms * 0.5, direction, axial, waves, speed_force * self.scale], dim=1)
 
 
 class MotionEncoder(nn.Module):

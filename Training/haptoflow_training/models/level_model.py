@@ -13,8 +13,7 @@ from haptoflow_training.models.conditioning import (
     EMBEDDING_SIZE,
     SMOOTH_LOG_SPEED_HARMONICS,
     MotionFeatures,
-    log_force,
-    log_speed,
+    speed_and_force,
 )
 
 _CORRECTION_LIMIT = 0.9
@@ -49,8 +48,7 @@ class LevelModel(nn.Module):
         correction = self.correction(torch.cat([embedding, self.features(motion)], dim=1))
         return (
             law[:, 0:1]
-            + law[:, 1:2] * log_speed(motion)
-            + law[:, 2:3] * log_force(motion)
+            + (law[:, 1:3] * self.features.logarithms(speed_and_force(motion))).sum(dim=1, keepdim=True)
             + _CORRECTION_LIMIT * torch.tanh(correction)
         )
 

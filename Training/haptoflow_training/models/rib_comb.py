@@ -104,7 +104,7 @@ class RibComb(nn.Module):
         What is comparable between two segments that follow different pasts. Zero where the past has no such partial.
         """
         past, own = self.amplitudes(waves, audible, mirrored, segment).unbind(dim=1)
-        past_cosine, past_sine = (past / (past.norm(dim=2, keepdim=True) + _SMALL)).unbind(dim=2)
+        past_cosine, past_sine = (past / (past.norm(p=2, dim=2, keepdim=True) + _SMALL)).unbind(dim=2)
         cosine, sine = own.unbind(dim=2)
         in_phase = cosine * past_cosine + sine * past_sine
         return torch.stack([in_phase, cosine * past_sine - sine * past_cosine], dim=1)
@@ -120,7 +120,7 @@ class RibComb(nn.Module):
         waves, audible = self.waves(embedding, motion)
         pairs = self.amplitudes(waves, audible, mirrored, noisy)
         carried, own = pairs.split(1, dim=1)
-        carried_size, own_size = (pairs.norm(dim=3, keepdim=True) + _SMALL).split(1, dim=1)
+        carried_size, own_size = (pairs.norm(p=2, dim=3, keepdim=True) + _SMALL).split(1, dim=1)
         fresh = own / own_size
         kept, drawn, left, held = gains.reshape(-1, 4, PARTIALS, 1).split(1, dim=1)
         bounded = kept * torch.clamp(_LARGEST_AMPLITUDE / carried_size, max=1.0)

@@ -19,7 +19,7 @@ _CONDITION_SIZE = 96
 
 def _unit_length(features: Tensor) -> Tensor:
     """Channels [B, C, 1, P] divided by their length: a root mean square norm whose factor is left to what follows."""
-    return features / (features.norm(dim=1, keepdim=True) + 1e-3)
+    return features / (features.norm(p=2, dim=1, keepdim=True) + 1e-3)
 
 
 def _convolution(inputs: int, outputs: int, width: int, stride: int = 1) -> nn.Conv2d:
@@ -71,6 +71,7 @@ class VelocityField(nn.Module):
     """
 
     film_factors: Tensor
+    newest_first: Tensor
 
     def __init__(
         self,
@@ -91,6 +92,9 @@ class VelocityField(nn.Module):
         self.channels, self.positions, self.patch = channels, positions, patch
         self.patches = positions // patch
         coarse = (self.patches + 1) // 2
+
+        newest_first = torch.arange(positions - 1, -1, -1)
+        self.register_buffer("newest_first", newest_first, persistent=False)
 
         self.time = TimeEncoder()
         self.interval = TimeEncoder() if average else None
@@ -145,13 +149,15 @@ class VelocityField(nn.Module):
             moment = moment + self.interval(interval)
         told = torch.cat([embedding, self.motion(motion)], dim=1)
         condition = nn.functional.silu(self.told(told) + self.moment(moment))
-        film = self.film(condition) * self.film_factors
+        # On the weights, which a graph has as constants, and not on what they make.
+        factors = self.film_factors
+        film = nn.functional.linear(condition, self.film.weight * factors.unsqueeze(1), self.film.bias * factors)
         film_parts = film.reshape(-1, sum(self._film_sizes), 1, 1).split(self._film_sizes, dim=1)
 
         if not self.hears_previous:
             previous = torch.zeros_like(previous)
         # Mirrored, so that the newest sample of the past lies beside the first sample of the new segment.
-        mirrored = torch.flip(previous, dims=[2])
+        mirrored = previous[:, :, self.newest_first]
         past = self.previous_fine(mirrored.unsqueeze(2))
         past_coarse = self.previous_coarse(nn.functional.silu(past))
 
