@@ -16,7 +16,8 @@ from haptoflow_training.errors import InputError
 from haptoflow_training.export.trained_tier import TrainedTier, load_tiers
 from haptoflow_training.training.batches import SegmentBatch, SegmentBatches
 from haptoflow_training.training.config import BatchConfig, ModelConfig, RecipeConfig, SolverConfig
-from haptoflow_training.training.energy_distance import WINDOW_SAMPLES, energy_distance_loss, magnitudes
+from haptoflow_training.models.rib_comb import PARTIALS
+from haptoflow_training.training.energy_distance import WINDOW_SAMPLES, energy_distance_loss, magnitudes, spectra
 from haptoflow_training.training.losses import Losses
 from haptoflow_training.training.mean_flow import mean_flow_loss
 from haptoflow_training.training.reflow import ReflowPairs, reflow_loss
@@ -27,10 +28,20 @@ def _noise(count: int, samples: int, seed: int) -> torch.Tensor:
     return torch.randn(count, samples, generator=torch.Generator().manual_seed(seed))
 
 
+def _loss(recorded: torch.Tensor, past: torch.Tensor, drawn: tuple[torch.Tensor, torch.Tensor], *, own: bool) -> float:
+    heard = [spectra(past, segment) for segment in (recorded, *drawn)]
+    nothing = torch.zeros(len(past), 2, PARTIALS)
+    return energy_distance_loss(
+        heard[0],
+        (heard[1], heard[2]),
+        torch.ones(len(past)),
+        waves=None if own else (recorded, *drawn),
+        lines=(nothing, nothing, nothing),
+    ).item()
+
+
 def _energy(draw: Callable[[int], torch.Tensor]) -> float:
-    recorded, past = _noise(256, 200, 1), _noise(256, 200, 2)
-    loss = energy_distance_loss(recorded, past, (draw(3), draw(4)), past, torch.ones(256), own_past=False)
-    return loss.item()
+    return _loss(_noise(256, 200, 1), _noise(256, 200, 2), (draw(3), draw(4)), own=False)
 
 
 @pytest.mark.parametrize("window", WINDOW_SAMPLES)
@@ -53,9 +64,8 @@ def test_the_energy_distance_prefers_a_tone_that_goes_on_to_one_that_starts_anew
     tone = math.sqrt(2.0) * torch.sin(2.0 * math.pi * 0.07 * time + phase)
     past, going_on = tone[:, :200], tone[:, 200:]
     anew = going_on.roll(7, dims=0)
-    weight = torch.ones(64)
     losses = [
-        energy_distance_loss(going_on, past, (made, made), past, weight, own_past=own).item()
+        _loss(going_on, past, (made, made), own=own)
         for own in (False, True)
         for made in (going_on, anew)
     ]

@@ -18,7 +18,7 @@ from haptoflow_training.models.velocity_field import VelocityField
 from haptoflow_training.recordings.synthetic.carriers import FASTEST_MMPS, guided_ride
 from haptoflow_training.recordings.synthetic.contact import SIMULATION_RATE_HZ
 from haptoflow_training.training.config import ModelConfig, RecipeConfig
-from haptoflow_training.training.energy_distance import energy_distance_loss
+from haptoflow_training.training.energy_distance import energy_distance_loss, spectra
 from haptoflow_training.training.trainer import Trainer, load_trained
 
 EMBEDDING = LabelEmbedding(64, [((0.4, 0.0),), ((0.8, 0.0), (0.0, 0.8)), ()])
@@ -168,11 +168,12 @@ def test_the_energy_distance_prefers_draws_that_hold_the_recording_s_phase_over_
     turned[:, :, 0, 0], turned[:, :, 1, 0] = angle.cos(), angle.sin()
     draws = (0.1 * torch.randn(64, 200), 0.1 * torch.randn(64, 200))
 
+    heard = [spectra(past, wave) for wave in (recorded, *draws)]
+
     def loss(first: torch.Tensor, second: torch.Tensor, *, own_past: bool) -> float:
+        waves = None if own_past else (recorded, *draws)
         lines = (holds, first, second)
-        return energy_distance_loss(
-            recorded, past, draws, past, torch.ones(64), own_past=own_past, lines=lines
-        ).item()
+        return energy_distance_loss(heard[0], (heard[1], heard[2]), torch.ones(64), waves=waves, lines=lines).item()
 
     for own_past in (False, True):
         assert loss(turned[0], turned[1], own_past=own_past) > loss(holds, holds, own_past=own_past) + 0.5

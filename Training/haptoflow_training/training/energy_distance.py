@@ -75,34 +75,31 @@ def energy_score(recorded: T, drawn: tuple[T, T], distance: Callable[[T, T], Ten
     return attraction - 0.5 * distance(first, second)
 
 
-def _spectra(past: Tensor, segment: Tensor) -> list[Tensor]:
+def spectra(past: Tensor, segment: Tensor) -> list[Tensor]:
+    """Magnitudes of past and segment [B, 200] by window (WINDOW_SAMPLES), [B, frames, bins] each; the shorter ones from
+    the past's last samples on."""
     whole = torch.cat([past, segment], dim=1)
     near = whole[:, past.shape[1] - _SHORT_PAST_SAMPLES :]
     return [magnitudes(near if window <= near.shape[1] else whole, window) for window in WINDOW_SAMPLES]
 
 
 def energy_distance_loss(
-    recorded: Tensor,
-    recorded_past: Tensor,
-    drawn: tuple[Tensor, Tensor],
-    past: Tensor,
+    recorded: list[Tensor],
+    drawn: tuple[list[Tensor], list[Tensor]],
     weight: Tensor,
     *,
-    own_past: bool,
-    lines: tuple[Tensor, Tensor, Tensor] | None = None,
+    waves: tuple[Tensor, ...] | None,
+    lines: tuple[Tensor, ...],
 ) -> Tensor:
-    """The loss of a batch; waves [B, 200] in unit scale, weight [B].
+    """The loss of a batch from the spectra of the recording and of two draws, each with its past; weight [B].
 
-    recorded_past came before `recorded`; `past` came before both draws, and with own_past is another wave, made by the
-    network: then the samples of recording and draw have no reason to agree, and only their spectra are compared.
-    lines: of a ruled surface, the partials [B, 2, P] of the recorded segment and of both draws, each seen from its own
-    past: a line a hundredth of the band wide hardly shows in short spectra, and holds or loses its phase here.
+    waves: recorded segment and draws [B, 200], where all follow the same past; None where the draws follow a past of
+    the network's own, since then the samples have no reason to agree and only spectra are compared.
+    lines: the partials [B, 2, P] of a ruled surface, zero for another, of recorded segment and draws, each seen from its
+    own past: a line a hundredth of the band wide hardly shows in short spectra, and holds or loses its phase here.
     """
-    truth = _spectra(recorded_past, recorded)
-    spectra = (_spectra(past, drawn[0]), _spectra(past, drawn[1]))
-    loss = energy_score(truth, spectra, spectral_distance)
-    if not own_past:
-        loss = loss + energy_score(recorded, drawn, sample_distance)
-    if lines is not None:
-        loss = loss + _LINE_WEIGHT * energy_score(lines[0], lines[1:], line_distance)
+    loss = energy_score(recorded, drawn, spectral_distance)
+    if waves is not None:
+        loss = loss + energy_score(waves[0], (waves[1], waves[2]), sample_distance)
+    loss = loss + _LINE_WEIGHT * energy_score(lines[0], (lines[1], lines[2]), line_distance)
     return (weight * loss).sum() / weight.sum()

@@ -8,31 +8,45 @@ import torch
 from torch import Tensor, nn
 
 from haptoflow_training.models.haptoflow_model import HaptoFlowModel
+from haptoflow_training.models.label_embedding import rib_frequencies_hz
 from haptoflow_training.models.level_model import level_loss
+from haptoflow_training.models.rib_comb import PARTIALS
 from haptoflow_training.models.unit_scale import scaled_previous
 from haptoflow_training.models.velocity_field import VelocityField
 from haptoflow_training.training.batches import Chain, SegmentBatch
 from haptoflow_training.training.config import SolverConfig
-from haptoflow_training.training.energy_distance import energy_distance_loss
+from haptoflow_training.training.energy_distance import energy_distance_loss, spectra
 from haptoflow_training.training.flow_matching import flow_matching_loss, solve
 from haptoflow_training.training.mean_flow import AverageField, mean_flow_loss
 from haptoflow_training.training.reflow import ReflowPairs, reflow_loss
+from haptoflow_training.training.spectral_balance import SpectralBalance, spectral_features
 
 # `own`: what a baseline is trained for in its own paper.
 Objective = Literal["level", "flow", "average-velocity", "reflow", "energy", "own"]
+
+_BALANCE_WEIGHT = 2.0
 
 
 class Losses(nn.Module):
     """Level and field loss in one forward pass, so that several processes synchronise all gradients at once.
 
-    train_level False keeps the level as it is: a tier that shares another run's.
+    train_level False keeps the level as it is: a tier that shares another run's. balance: what the network has made of
+    every label so far; without it, the energy objective is the energy distance alone, as for validation.
     """
 
-    def __init__(self, model: HaptoFlowModel, solver: SolverConfig, *, train_level: bool = True) -> None:
+    def __init__(
+        self,
+        model: HaptoFlowModel,
+        solver: SolverConfig,
+        *,
+        train_level: bool = True,
+        balance: SpectralBalance | None = None,
+    ) -> None:
         super().__init__()
         self.model = model
         self._solver = solver
         self._train_level = train_level
+        self._balance = balance
 
     def forward(
         self,
@@ -99,35 +113,55 @@ class Losses(nn.Module):
         if objective == "average-velocity":
             return mean_flow_loss(bound, segment, generator, 1.0 / power)
         noises = [torch.randn(segment.shape, generator=generator) for _ in range(2)]
-        first, second = (model.one_step(noise, previous, embedding, batch.motion).squeeze(1) for noise in noises)
-        return energy_distance_loss(
-            segment.squeeze(1),
-            recorded_previous.squeeze(1),
-            (first, second),
-            previous.squeeze(1),
-            power.rsqrt(),
-            own_past=own_past,
-            lines=self._lines(batch, embedding, (recorded_previous, segment), previous, (first, second)),
-        )
+        first, second = (model.one_step(noise, previous, embedding, batch.motion) for noise in noises)
+        return self._one_step_loss(batch, embedding, (recorded_previous, segment), previous, (first, second))
 
-    def _lines(
+    def _one_step_loss(
         self,
         batch: SegmentBatch,
         embedding: Tensor,
         recorded: tuple[Tensor, Tensor],
         past: Tensor,
         drawn: tuple[Tensor, Tensor],
-    ) -> tuple[Tensor, Tensor, Tensor] | None:
-        """The partials of recording (past and segment) and draws, each seen from its past; None without ribs."""
+    ) -> Tensor:
+        """Of a recording (past and segment) and two draws that follow `past`, [B, 1, 200] each, in unit scale."""
+        weight = recorded[1].square().mean(dim=(1, 2)).clamp(min=1.0).rsqrt()
+        pasts, segments = (recorded[0], past, past), (recorded[1], *drawn)
+        heard = [spectra(*(wave.squeeze(1) for wave in pair)) for pair in zip(pasts, segments, strict=True)]
+        partials, audible = self._partials(batch, embedding, pasts, segments)
+        loss = energy_distance_loss(
+            heard[0],
+            (heard[1], heard[2]),
+            weight,
+            waves=None if batch.chain is not None else tuple(wave.squeeze(1) for wave in segments),
+            lines=tuple(partials),
+        )
+        if self._balance is None:
+            return loss
+        ribs_hz = rib_frequencies_hz(embedding.detach(), batch.motion)
+        features = [
+            spectral_features(spectrum, ribs_hz, partial, audible)
+            for spectrum, partial in zip(heard, partials, strict=True)
+        ]
+        speed_mps = batch.motion[:, 0:2].norm(dim=1)
+        balance = self._balance.loss(batch.label, speed_mps, features[0], (features[1], features[2]), weight)
+        return loss + _BALANCE_WEIGHT * balance
+
+    def _partials(
+        self, batch: SegmentBatch, embedding: Tensor, pasts: tuple[Tensor, ...], segments: tuple[Tensor, ...]
+    ) -> tuple[list[Tensor], Tensor]:
+        """The partials [B, 2, P] of each segment, seen from its past, and which of them can sound, [B, P]: none for a
+        network without ribs."""
         comb = self.model.field.comb if isinstance(self.model.field, VelocityField) else None
         if comb is None:
-            return None
+            nothing = torch.zeros(len(batch.label), 2, PARTIALS)
+            return [nothing] * len(segments), nothing[:, 0]
         waves, audible = comb.waves(embedding, batch.motion)
-
-        def seen(before: Tensor, segment: Tensor) -> Tensor:
-            return comb.coherence(waves, audible, torch.flip(before, dims=[2]), segment.reshape(-1, 1, comb.samples))
-
-        return seen(*recorded), seen(past, drawn[0]), seen(past, drawn[1])
+        partials = [
+            comb.coherence(waves, audible, torch.flip(past, dims=[2]), segment.reshape(-1, 1, comb.samples))
+            for past, segment in zip(pasts, segments, strict=True)
+        ]
+        return partials, audible.reshape(-1, PARTIALS)
 
     @torch.no_grad()
     def live_through(

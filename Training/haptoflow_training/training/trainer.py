@@ -34,6 +34,7 @@ from haptoflow_training.training.moving_average import MovingAverage
 from haptoflow_training.training.processes import Processes
 from haptoflow_training.training.reflow import ReflowPairs, join_pairs
 from haptoflow_training.training.run_log import MetricsLog, plot_metrics, source_commit, write_json
+from haptoflow_training.training.spectral_balance import SpectralBalance
 
 _COLUMNS = ("step", "phase", "field_loss", "level_loss", "validation_field_loss", "validation_level_loss", "seconds")
 _LOG_EVERY = 100
@@ -151,7 +152,10 @@ class Trainer:
             adopt_base(self.model, base, list(store.labels))
         if start is not None:
             adopt_start(self.model, start, list(store.labels))
-        self._losses = Losses(self.model, config.solver, train_level=not config.recipe.shares_base)
+        self._balance = SpectralBalance(len(store.labels))
+        self._losses = Losses(
+            self.model, config.solver, train_level=not config.recipe.shares_base, balance=self._balance
+        )
         self._pairs: ReflowPairs | None = None
         self._average = MovingAverage(self.model, optimiser.average_decay)
         self._optimiser = torch.optim.AdamW(
@@ -303,8 +307,12 @@ class Trainer:
         bar.set_postfix(phase=phase.name, field=f"{field.item():.4f}", level=f"{level.item():.3f}")
 
     def _save(self) -> None:
-        # Every process has its own generators; weights are the same everywhere.
-        own = {"noise": self._noise.get_state(), "batches": self._batches.state()}
+        # Every process has its own generators, and has heard its own batches; weights are the same everywhere.
+        own = {
+            "noise": self._noise.get_state(),
+            "batches": self._batches.state(),
+            "balance": self._balance.state(),
+        }
         path = self._folder / f"generators-{self._processes.rank}.pt"
         _save_atomically({"step": self._step, **own}, path)
         if self._processes.is_first:
@@ -336,6 +344,7 @@ class Trainer:
         self._step, self._seconds = content["step"], content["seconds"]
         self._noise.set_state(own["noise"])
         self._batches.restore(own["batches"])
+        self._balance.restore(own["balance"])
 
     def _write_summary(self) -> None:
         field_phases = [phase for phase in self._phases if phase.objective != "level"]

@@ -1,0 +1,112 @@
+"""Mean spectra by label and speed: what the loss sees, and where it leads."""
+
+from __future__ import annotations
+
+import math
+
+import pytest
+import torch
+
+from haptoflow_training.models.rib_comb import PARTIALS
+from haptoflow_training.training.energy_distance import spectra
+from haptoflow_training.training.spectral_balance import SpectralBalance, SpectralFeatures, spectral_features
+
+ROWS = 32
+_BANDS = slice(101 + PARTIALS, None)
+
+
+def _features(wave: torch.Tensor, ribs_hz: tuple[float, float] = (0.0, 0.0)) -> SpectralFeatures:
+    """Of waves [B, 400]."""
+    nothing = torch.zeros(len(wave), 2, PARTIALS)
+    ribs = torch.tensor([ribs_hz] * len(wave))
+    return spectral_features(spectra(wave[:, :200], wave[:, 200:]), ribs, nothing, nothing[:, 0])
+
+
+def _noise(generator: torch.Generator, shape: torch.Tensor) -> torch.Tensor:
+    """Rows of noise, [B, 400], of the magnitudes [B, 201]."""
+    return torch.fft.irfft(torch.fft.rfft(torch.randn(len(shape), 400, generator=generator)) * shape, 400)
+
+
+def _heard(balance: SpectralBalance, label: torch.Tensor, speed_mps: float, recorded: torch.Tensor, *drawn: torch.Tensor,
+           ribs_hz: tuple[float, float] = (0.0, 0.0)) -> torch.Tensor:  # fmt: skip
+    first, second = (_features(wave, ribs_hz) for wave in drawn)
+    speeds = torch.full(label.shape, speed_mps)
+    return balance.loss(label, speeds, _features(recorded, ribs_hz), (first, second), torch.ones(len(label)))
+
+
+def test_a_network_with_a_gain_for_each_label_and_frequency_learns_the_recordings_mean_spectra() -> None:
+    generator = torch.Generator().manual_seed(1)
+    balance = SpectralBalance(2)
+    frequency = torch.arange(201) / 200.0
+    truth = torch.stack([1.0 + (-(((frequency - 0.3) / 0.05) ** 2)).exp(), 1.5 - frequency])
+    gains = torch.zeros(2, 201, requires_grad=True)
+    optimiser = torch.optim.Adam([gains], lr=0.02)
+    label = torch.arange(ROWS) % 2
+    for step in range(400):
+        optimiser.param_groups[0]["lr"] = 0.02 if step < 250 else 0.004
+        drawn = [_noise(generator, gains.exp()[label]) for _ in range(2)]
+        optimiser.zero_grad()
+        _heard(balance, label, 0.2, _noise(generator, truth[label]), *drawn).backward()
+        optimiser.step()
+    error_db = 20.0 / math.log(10.0) * (gains.detach() - truth.log())
+    smooth = torch.nn.functional.avg_pool1d(error_db.unsqueeze(1), 9, stride=1)[:, 0, 4:-4]
+    assert smooth.abs().mean().item() < 0.4
+    assert smooth.abs().max().item() < 1.5
+
+
+def test_what_is_stated_is_half_the_squared_error_of_the_averages_and_its_slope_is_the_batch_s_share() -> None:
+    balance, generator = SpectralBalance(1), torch.Generator().manual_seed(2)
+    label, flat = torch.zeros(ROWS, dtype=torch.long), torch.ones(ROWS, 201)
+    gain = torch.tensor(1.25, requires_grad=True)
+    loss = torch.zeros(())
+    for _ in range(20):
+        waves = [_noise(generator, flat) for _ in range(3)]
+        loss = _heard(balance, label, 0.2, waves[0], gain * waves[1], gain * waves[2])
+    # No line and no ribs: of three kinds of features there is one.
+    assert loss.item() == pytest.approx(0.5 * math.log(1.25) ** 2, rel=0.15)
+    (slope,) = torch.autograd.grad(loss, gain)
+    assert slope.item() == pytest.approx(math.log(1.25) / 1.25, rel=0.1)
+
+
+def test_labels_and_speeds_are_averaged_apart_and_one_that_was_hardly_heard_says_nothing() -> None:
+    balance, generator = SpectralBalance(2), torch.Generator().manual_seed(3)
+    label, flat = torch.zeros(ROWS, dtype=torch.long), torch.ones(ROWS, 201)
+
+    def loss(label: torch.Tensor, speed_mps: float, gain: float) -> float:
+        rows = flat[: len(label)]
+        waves = [_noise(generator, rows) for _ in range(3)]
+        return _heard(balance, label, speed_mps, waves[0], gain * waves[1], gain * waves[2]).item()
+
+    for _ in range(10):
+        assert loss(label, 0.05, 2.0) > 0.15
+        assert loss(label, 0.2, 1.0) < 0.02
+        assert loss(label + 1, 0.05, 1.0) < 0.02
+    assert loss(label[:4], 0.9, 2.0) == 0.0
+
+
+def test_noise_between_the_lines_of_a_ruled_surface_is_heard_apart_from_the_lines() -> None:
+    generator = torch.Generator().manual_seed(4)
+    time = torch.arange(400) / 2000.0
+    lines = sum(torch.sin(2.0 * math.pi * 100.0 * order * time) for order in range(1, 9)).expand(64, 400)
+    noise = 0.05 * torch.randn(64, 400, generator=generator)
+
+    def between(wave: torch.Tensor) -> torch.Tensor:
+        features = _features(wave, (100.0, 0.0))
+        assert features.counted[:, _BANDS].min() == 1.0
+        return features.values[:, _BANDS].mean(dim=0)
+
+    ratio = between(lines + 2.0 * noise) / between(lines + noise)
+    assert ratio.min().item() > 1.6
+    louder = between(2.0 * lines + noise) / between(lines + noise)
+    assert louder.max().item() < 1.3
+    assert _features(noise, (30.0, 0.0)).counted[:, _BANDS].max() == 0.0, "lines too close for the window"
+
+
+def test_a_balance_that_is_restored_goes_on_where_the_other_stood() -> None:
+    label, flat = torch.zeros(ROWS, dtype=torch.long), torch.ones(ROWS, 201)
+    balances = SpectralBalance(1), SpectralBalance(1)
+    waves = [_noise(torch.Generator().manual_seed(seed), flat) for seed in range(3)]
+    _heard(balances[0], label, 0.2, *waves)
+    balances[1].restore({name: sums.clone() for name, sums in balances[0].state().items()})
+    losses = [_heard(balance, label, 0.2, *waves).item() for balance in balances]
+    assert losses[0] == losses[1] != 0.0
