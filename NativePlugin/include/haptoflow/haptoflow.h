@@ -442,6 +442,8 @@ typedef struct haptoflow_voice_statistics {
     uint64_t rendered_frames;
     uint64_t rate_changes;
     uint64_t refused_calls;
+    /* Milliseconds that this voice's inferences took in all; voices that share a run share its time. */
+    double inference_ms;
 } haptoflow_voice_statistics;
 
 /* sample_rate_hz is the output's, 8000 to 192000; 0 for 48000. It may change later: see haptoflow_voice_render.

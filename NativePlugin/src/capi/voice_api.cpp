@@ -65,6 +65,12 @@ haptoflow_status haptoflow_voice_create(haptoflow_engine* engine, double sample_
             open->engine->removeVoice(live);
             throw;
         }
+        // Closed meanwhile by another thread, which may have looked for its voices before this one was there.
+        if (open->engine->isStopping()) {
+            (void)voices().close(*voice);
+            *voice = 0;
+            throw std::invalid_argument("the engine is being closed");
+        }
     });
 }
 
@@ -156,6 +162,7 @@ haptoflow_status haptoflow_voice_get_statistics(haptoflow_voice voice, haptoflow
         content.rendered_frames = counters.renderedFrames;
         content.rate_changes = counters.rateChanges;
         content.refused_calls = use->refusedCalls;
+        content.inference_ms = static_cast<double>(counters.inferenceNanoseconds) * 1e-6;
         writeDescriptor(statistics, content, "statistics");
     });
 }

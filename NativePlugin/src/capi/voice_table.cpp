@@ -12,12 +12,19 @@ namespace {
 constexpr haptoflow_voice placeBits = 0xFF;
 constexpr int generationShift = 8;
 
+// Made before anything runs, so that the first to ask may be an audio thread, and never destroyed, so that it may be
+// the last too.
+union Lasting {
+    constexpr Lasting() : table() {}
+    constexpr ~Lasting() {}
+    VoiceTable table;
+};
+constinit Lasting lasting;
+
 }  // namespace
 
-VoiceTable& voices() {
-    // Never destroyed: an audio thread may still ask when static objects go.
-    static auto& table = *new VoiceTable;
-    return table;
+VoiceTable& voices() noexcept {
+    return lasting.table;
 }
 
 haptoflow_voice VoiceTable::open(std::unique_ptr<OpenVoice> voice) {
@@ -62,7 +69,7 @@ void VoiceTable::closeAll(const engine::LiveEngine& engine) {
 
 void VoiceTable::fadeOut(std::span<Place* const> places) {
     const auto channels = [](const Place* place) -> engine::VoiceChannels& { return place->voice->voice->channels; };
-    std::ranges::for_each(places, [&](Place* place) { channels(place).controls.muted.store(true); });
+    std::ranges::for_each(places, [&](Place* place) { channels(place).controls.closing.store(true); });
     const auto deadline = std::chrono::steady_clock::now() + fadeLimit;
     const auto isAudible = [&](const Place* place) { return channels(place).audible.load(std::memory_order_acquire); };
     while (std::ranges::any_of(places, isAudible) && std::chrono::steady_clock::now() < deadline) {

@@ -88,6 +88,6 @@ private:
     std::array<Place, capacity> places_;
 };
 
-[[nodiscard]] VoiceTable& voices();
+[[nodiscard]] VoiceTable& voices() noexcept;
 
 }  // namespace haptoflow::capi

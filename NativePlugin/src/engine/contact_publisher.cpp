@@ -38,10 +38,12 @@ ContactAction ContactPublisher::publish(ContactState state) noexcept {
     audio.seedMps2 = seedMps2_;
     channels_.toAudio.post();
 
+    slides_ += follower_.sliding() ? 1 : 0;
     WorkerMessage& worker = channels_.toWorker.draft();
     worker.onset = onsets_;
     worker.sliding = follower_.sliding();
     worker.update = updates_;
+    worker.slides = slides_;
     worker.embedding = material.embedding;
     worker.motion = ranged.motion;
     worker.readingRate = ranged.readingRate;

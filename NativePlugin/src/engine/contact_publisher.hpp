@@ -29,6 +29,7 @@ private:
     ContactFollower follower_;
     std::uint32_t onsets_ = 0;
     std::uint64_t updates_ = 0;
+    std::uint64_t slides_ = 0;
     std::array<float, WaveformTimeline::seedSamples> seedMps2_{};
 };
 

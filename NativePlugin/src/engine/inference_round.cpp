@@ -1,9 +1,28 @@
 #include "engine/inference_round.hpp"
 
 #include <chrono>
+#include <cstdint>
 #include <exception>
+#include <optional>
 
 namespace haptoflow::engine {
+namespace {
+
+/// What the run took; nothing where it failed.
+std::optional<std::uint64_t> nanosecondsOf(inference::SegmentGenerator& generator,
+                                           std::span<const inference::SegmentRequest> requests,
+                                           std::span<float> segments) {
+    const auto began = std::chrono::steady_clock::now();
+    try {
+        generator.generate(requests, segments);
+    } catch (const std::exception&) {
+        return std::nullopt;
+    }
+    const auto spent = std::chrono::steady_clock::now() - began;
+    return static_cast<std::uint64_t>(std::chrono::duration_cast<std::chrono::nanoseconds>(spent).count());
+}
+
+}  // namespace
 
 RoundResult InferenceRound::run(std::span<LiveVoice* const> voices, inference::SegmentGenerator& generator) {
     wanting_.clear();
@@ -13,12 +32,12 @@ RoundResult InferenceRound::run(std::span<LiveVoice* const> voices, inference::S
         if (voice->planner.wake()) {
             wanting_.push_back(voice);
         } else {
-            result.awaitsCallback = result.awaitsCallback || voice->planner.awaitsCallback();
+            result.looksAgain = voice->planner.looksAgain() || result.looksAgain;
         }
     }
     result.voices = wanting_.size();
     const auto began = std::chrono::steady_clock::now();
-    while (!wanting_.empty() && !result.failed) {
+    while (!wanting_.empty()) {
         generate(generator, result);
     }
     const std::chrono::duration<double, std::milli> spent = std::chrono::steady_clock::now() - began;
@@ -32,20 +51,24 @@ void InferenceRound::generate(inference::SegmentGenerator& generator, RoundResul
         requests_.push_back(voice->planner.request());
     }
     segments_.resize(requests_.size() * inference::segmentSamples);
-    try {
-        generator.generate(requests_, segments_);
-    } catch (const std::exception&) {
-        // Nothing goes out; the running segments go on to their ends and fade there.
-        for (LiveVoice* voice : wanting_) {
-            voice->planner.fail();
-        }
-        result.failed = true;
-        return;
-    }
+    const std::optional<std::uint64_t> together = nanosecondsOf(generator, requests_, segments_);
     std::size_t kept = 0;
     for (std::size_t i = 0; i < wanting_.size(); ++i) {
-        const std::span<const float, inference::segmentSamples> segment(
-            segments_.data() + i * inference::segmentSamples, inference::segmentSamples);
+        const std::span<float, inference::segmentSamples> segment(segments_.data() + i * inference::segmentSamples,
+                                                                  inference::segmentSamples);
+        std::optional<std::uint64_t> spent = together;
+        if (spent) {
+            *spent /= wanting_.size();
+        } else if (wanting_.size() > 1) {
+            spent = nanosecondsOf(generator, std::span(requests_).subspan(i, 1), segment);
+        }
+        if (!spent) {
+            // Nothing goes out; the running segment goes on to its end and fades there.
+            wanting_[i]->planner.fail();
+            result.failed = true;
+            continue;
+        }
+        wanting_[i]->channels.counters.inferenceNanoseconds.fetch_add(*spent, std::memory_order_relaxed);
         ++result.segments;
         if (wanting_[i]->planner.deliver(segment)) {
             wanting_[kept] = wanting_[i];

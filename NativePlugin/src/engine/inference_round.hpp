@@ -14,9 +14,10 @@ struct RoundResult {
     /// Voices that wanted a segment; 0 where nothing was run.
     std::size_t voices = 0;
     std::size_t segments = 0;
+    /// At least one voice's run failed.
     bool failed = false;
-    /// A voice waits for the callback.
-    bool awaitsCallback = false;
+    /// A voice waits for the callback: look again soon.
+    bool looksAgain = false;
     double milliseconds = 0.0;
 };
 
@@ -24,7 +25,8 @@ struct RoundResult {
 /// behind it. Worker thread; keeps its buffers from round to round.
 class InferenceRound {
 public:
-    /// A graph that fails leaves its voices without a new segment, counted in each.
+    /// Where a batch fails, each of its voices is run alone: what the graph cannot do for one leaves that one without a
+    /// new segment, counted, and not the others.
     RoundResult run(std::span<LiveVoice* const> voices, inference::SegmentGenerator& generator);
 
 private:

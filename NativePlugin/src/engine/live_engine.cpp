@@ -16,7 +16,6 @@ namespace {
 
 constexpr double largestLeadMs = 50.0;
 constexpr double callbackLookMs = 2.0;
-constexpr int longestCallbackLooks = 50;
 
 const LiveEngineSettings& checked(const LiveEngineSettings& settings) {
     if (!(settings.updateRateHz >= 1.0 && settings.updateRateHz <= 10000.0)) {
@@ -149,7 +148,7 @@ void LiveEngine::work() noexcept {
             if (!stopping_.load(std::memory_order_acquire)) {
                 wakes_.fetch_add(1, std::memory_order_relaxed);
                 const RoundResult result = step();
-                callbackLooks_ = result.awaitsCallback ? callbackLooks_ + 1 : 0;
+                looksAgain_ = result.looksAgain;
             }
         }
     } catch (const std::exception&) {
@@ -159,8 +158,8 @@ void LiveEngine::work() noexcept {
 }
 
 bool LiveEngine::sleep() {
-    // The callback wakes nobody; a device that does not ask at all is not waited for.
-    if (callbackLooks_ > 0 && callbackLooks_ < longestCallbackLooks) {
+    // The callback wakes nobody.
+    if (looksAgain_) {
         (void)signal_.waitFor(callbackLookMs);
         return true;
     }

@@ -83,6 +83,9 @@ public:
     /// One round by hand, for an engine without worker. Not while the worker runs.
     RoundResult step();
 
+    /// True from the first `stop` on.
+    [[nodiscard]] bool isStopping() const noexcept { return stopping_.load(std::memory_order_acquire); }
+
     void setQuality(const QualitySettings& quality);
     [[nodiscard]] EngineStatistics statistics() const;
     [[nodiscard]] const model::ModelFile& model() const noexcept { return *model_; }
@@ -111,8 +114,8 @@ private:
     QualityControl quality_;
     EngineStatistics figures_;
 
-    // How often in a row the worker has looked whether the callback has moved on. Worker only.
-    int callbackLooks_ = 0;
+    // Worker only.
+    bool looksAgain_ = false;
     std::atomic<std::uint64_t> wakes_{0};
     std::atomic<bool> alive_{true};
     std::atomic<bool> stopping_{false};

@@ -49,17 +49,18 @@ void QualityControl::measured(std::size_t tier, double milliseconds) noexcept {
     }
     times_[tier].add(milliseconds);
     if (isAutomatic() && !tierToMeasure()) {
-        chooseFirst();
+        tier_ = fittingTier();
     }
 }
 
-void QualityControl::chooseFirst() noexcept {
-    tier_ = 0;
+std::size_t QualityControl::fittingTier() const noexcept {
+    std::size_t fitting = 0;
     for (std::size_t tier = 0; tier < times_.size(); ++tier) {
-        if (times_[tier].percentile(0.99) <= settings_.budgetMs) {
-            tier_ = tier;
+        if (times_[tier].percentile(0.99) * static_cast<double>(voices_) <= settings_.budgetMs) {
+            fitting = tier;
         }
     }
+    return fitting;
 }
 
 void QualityControl::ran(double milliseconds, std::size_t voices) noexcept {
@@ -69,6 +70,17 @@ void QualityControl::ran(double milliseconds, std::size_t voices) noexcept {
     times_[tier_].add(milliseconds / static_cast<double>(voices));
     if (!isAutomatic()) {
         return;
+    }
+    if (voices > voices_) {
+        // Rather before the overruns than after them.
+        voices_ = voices;
+        const std::size_t before = tier_;
+        while (!tierToMeasure() && tier_ > fittingTier()) {
+            stepDown();
+        }
+        if (tier_ != before) {
+            return;
+        }
     }
     if (++roundsInWindow_ > overrunWindowRounds) {
         roundsInWindow_ = 1;
@@ -107,6 +119,7 @@ void QualityControl::considerStepUp(std::size_t voices) noexcept {
         roundsSinceOverrun_ = 0;
         overruns_ = 0;
         roundsInWindow_ = 0;
+        voices_ = voices;
     }
 }
 
@@ -118,7 +131,7 @@ void QualityControl::setSettings(const QualitySettings& settings) noexcept {
     }
     settings_.fixedTier.reset();
     if (!tierToMeasure()) {
-        chooseFirst();
+        tier_ = fittingTier();
     }
 }
 

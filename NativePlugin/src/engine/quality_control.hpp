@@ -32,8 +32,9 @@ struct QualitySettings {
 };
 
 /// Decides which tier of the model generates the next segments. Tiers are numbered from the cheapest to the most
-/// accurate. Automatic: after measuring, the most accurate whose 99th percentile fits the budget; one down when rounds
-/// overrun, one up again only after a long time without, and with room to spare. Any thread, one at a time.
+/// accurate. Automatic: after measuring, the most accurate whose 99th percentile, times as many voices as touch, fits
+/// the budget; one down when rounds overrun, one up again only after a long time without, and with room to spare. Any
+/// thread, one at a time.
 class QualityControl {
 public:
     /// How often each tier is run before automatic quality decides.
@@ -64,7 +65,7 @@ private:
     static constexpr std::uint64_t longestPatienceRounds = 5760;
     static constexpr double roomToStepUp = 0.7;
 
-    void chooseFirst() noexcept;
+    [[nodiscard]] std::size_t fittingTier() const noexcept;
     void stepDown() noexcept;
     void considerStepUp(std::size_t voices) noexcept;
 
@@ -77,6 +78,8 @@ private:
     std::uint64_t patienceRounds_ = firstPatienceRounds;
     std::uint64_t stepsDown_ = 0;
     std::uint64_t stepsUp_ = 0;
+    // The most that have touched at once since a tier was chosen.
+    std::size_t voices_ = 1;
 };
 
 }  // namespace haptoflow::engine

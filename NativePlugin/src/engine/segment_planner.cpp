@@ -13,6 +13,8 @@ namespace {
 
 // What has to be covered beyond the next update, so that one that comes late finds the voice still sounding.
 constexpr double reserveSamples = 40.0;
+// A tenth of a second at the pace of looking: a device that has stopped is not waited for.
+constexpr int mostLooks = 50;
 constexpr auto segmentLength = static_cast<std::int64_t>(inference::segmentSamples);
 
 std::int64_t scaled(std::int64_t samples, double readingRate) noexcept {
@@ -31,7 +33,11 @@ bool SegmentPlanner::wake() noexcept {
     }
     const WorkerMessage& contact = channels_.toWorker.current();
     const Playhead& playhead = channels_.playhead.current();
-    if (contact.update == generatedUpdate_ || !contact.sliding) {
+    if (!contact.sliding) {
+        skipUntil(contact.slides);
+        return false;
+    }
+    if (contact.update == generatedUpdate_) {
         return false;
     }
     const bool isPlaying = playhead.running && playhead.onset == contact.onset;
@@ -49,10 +55,9 @@ bool SegmentPlanner::wake() noexcept {
         return false;
     }
     replacements_ = replaces ? replacements_ + 1 : 0;
-    const std::uint64_t updates = contact.update - generatedUpdate_;
-    if (updates > 1 && !isNewStream) {
-        channels_.counters.skipped.fetch_add(updates - 1, std::memory_order_relaxed);
-    }
+    skipUntil(contact.slides - 1);
+    settledSlides_ = contact.slides;
+    looks_ = 0;
     if (!replaces) {
         hop_ = isNewStream ? 0 : head - lastHead_;
     }
@@ -67,13 +72,26 @@ bool SegmentPlanner::wake() noexcept {
     return true;
 }
 
+void SegmentPlanner::skipUntil(std::uint64_t slides) noexcept {
+    if (slides > settledSlides_) {
+        channels_.counters.skipped.fetch_add(slides - settledSlides_, std::memory_order_relaxed);
+        settledSlides_ = slides;
+    }
+}
+
 bool SegmentPlanner::mayReplace() const noexcept {
     // Between two long blocks the clock stands, but hands do not: a newer contact then gets a segment for the same
     // place, as often as hops would fit into the block. A clock that stands for good asks for nothing more.
     const Playhead& playhead = channels_.playhead.current();
-    const double block = static_cast<double>(playhead.blockAdvance) / channels_.toWorker.current().readingRate;
-    return settings_.shortestHopSamples > 0 &&
-           replacements_ + 1 < static_cast<std::int64_t>(block) / settings_.shortestHopSamples;
+    return settings_.shortestHopSamples > 0 && replacements_ + 1 < playhead.blockAdvance / settings_.shortestHopSamples;
+}
+
+bool SegmentPlanner::looksAgain() noexcept {
+    if (!awaitsCallback() || looks_ >= mostLooks) {
+        return false;
+    }
+    ++looks_;
+    return true;
 }
 
 bool SegmentPlanner::awaitsCallback() const noexcept {
@@ -113,8 +131,7 @@ void SegmentPlanner::restorePast() noexcept {
 }
 
 std::int64_t SegmentPlanner::leadSamples(std::int64_t blockAdvance, double readingRate) const noexcept {
-    const auto block = static_cast<std::int64_t>(std::ceil(static_cast<double>(blockAdvance) / readingRate));
-    return scaled(settings_.fixedLeadSamples.value_or(lead_.samples(block)), readingRate);
+    return scaled(settings_.fixedLeadSamples.value_or(lead_.samples(blockAdvance)), readingRate);
 }
 
 void SegmentPlanner::prepare(std::int64_t start) noexcept {

@@ -32,8 +32,8 @@ public:
     /// Looks at the newest contact and playhead. True where a segment is wanted; `request` then says which.
     [[nodiscard]] bool wake() noexcept;
     /// True while the newest contact slides and waits for the callback, to play its onset or to move on: look again
-    /// soon, nobody will call.
-    [[nodiscard]] bool awaitsCallback() const noexcept;
+    /// soon, nobody will call. Not for ever: each true is one look, and a generated segment begins the count anew.
+    [[nodiscard]] bool looksAgain() noexcept;
     /// Valid until `deliver` or the next `wake`.
     [[nodiscard]] const inference::SegmentRequest& request() const noexcept { return request_; }
     /// The segment that was asked for, on its way to the callback. True where the same contact needs another behind
@@ -48,6 +48,8 @@ public:
 
 private:
     [[nodiscard]] bool mayReplace() const noexcept;
+    [[nodiscard]] bool awaitsCallback() const noexcept;
+    void skipUntil(std::uint64_t slides) noexcept;
     void learn() noexcept;
     void restorePast() noexcept;
     void prepare(std::int64_t start) noexcept;
@@ -70,6 +72,9 @@ private:
     std::uint64_t segments_ = 0;
 
     std::uint64_t generatedUpdate_ = 0;
+    // Sliding states that were generated for or counted as skipped.
+    std::uint64_t settledSlides_ = 0;
+    int looks_ = 0;
     std::uint64_t stream_ = 0;
     std::int64_t lastStart_ = 0;
     std::int64_t lastHead_ = 0;

@@ -32,6 +32,8 @@ struct WorkerMessage {
     bool sliding = false;
     /// One more at each publishing: a state is generated for once.
     std::uint64_t update = 0;
+    /// How many of the states so far slid, this one included.
+    std::uint64_t slides = 0;
     std::array<float, inference::embeddingSize> embedding{};
     /// vx, vy in m/s and force in N, inside the trained range.
     std::array<float, 3> motion{};
@@ -50,7 +52,7 @@ struct Playhead {
     /// modulo the number of them, the head when it did.
     std::uint64_t takenSequence = 0;
     std::array<std::int64_t, SegmentQueue::capacity> headAtTake{};
-    /// The most waveform samples that one block has consumed, at the present reading rate.
+    /// The most waveform samples that one of the last blocks consumes at a reading rate of 1.
     std::int64_t blockAdvance = 0;
     TimelineView timeline;
 };
@@ -62,6 +64,8 @@ struct VoiceControls {
     std::atomic<float> ceiling{1.0F};
     std::atomic<bool> muted{false};
     std::atomic<bool> paused{false};
+    /// Fades the voice for good, whatever its user wants of it.
+    std::atomic<bool> closing{false};
     /// One more at each panic.
     std::atomic<std::uint32_t> panics{0};
 };
@@ -73,7 +77,9 @@ struct VoiceCounters {
     std::atomic<std::uint64_t> taps{0};
     /// Segments generated.
     std::atomic<std::uint64_t> inferences{0};
-    /// Updates for which nothing was generated: no sliding, no playback, or a newer update came first.
+    /// What they took; voices that share a run share its time.
+    std::atomic<std::uint64_t> inferenceNanoseconds{0};
+    /// Touching updates for which nothing was generated: no sliding, no playback, or a newer update came first.
     std::atomic<std::uint64_t> skipped{0};
     /// Runs that failed; the running segment went on.
     std::atomic<std::uint64_t> failures{0};

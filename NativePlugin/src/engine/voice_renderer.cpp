@@ -34,11 +34,12 @@ void VoiceRenderer::render(std::span<float> out, double rateHz) noexcept {
     if (!rateFits && voice_.isSilent()) {
         changeRate(rateHz);
     }
-    const std::int64_t headBefore = voice_.timeline().head();
+    noteBlock(out.size());
     takeSegments();
     const std::uint64_t uncoveredBefore = voice_.timeline().uncoveredSamples();
     const bool sounded = sounding_;
-    const std::size_t fresh = framesUntilStale(out.size());
+    // A panic ends with the block, however early in it the contact goes stale.
+    const std::size_t fresh = panicking_ ? out.size() : framesUntilStale(out.size());
     sound(out.first(fresh));
     if (fresh < out.size()) {
         goStale();
@@ -47,7 +48,18 @@ void VoiceRenderer::render(std::span<float> out, double rateHz) noexcept {
     contactAgeFrames_ += out.size();
     count(channels_.counters.renderedFrames, out.size());
     channels_.audible.store(!voice_.isSilent(), std::memory_order_release);
-    report(headBefore, uncoveredBefore, sounded);
+    report(uncoveredBefore, sounded);
+}
+
+void VoiceRenderer::noteBlock(std::size_t frames) noexcept {
+    // Devices may take turns between lengths; one that has gone over to shorter blocks is believed after a while.
+    constexpr int remembered = 64;
+    if (++blocksNoted_ >= remembered) {
+        blocksNoted_ = 0;
+        longestBlock_ = {0, longestBlock_[0]};
+    }
+    const double samples = static_cast<double>(frames) * inference::waveformRateHz / voice_.outputRateHz();
+    longestBlock_[0] = std::max(longestBlock_[0], static_cast<std::int64_t>(std::ceil(samples)));
 }
 
 void VoiceRenderer::readContact() noexcept {
@@ -93,7 +105,8 @@ void VoiceRenderer::decide(bool rateFits) noexcept {
     const bool silenced = hasSilencedTouch_ && contact.touch == silencedTouch_;
     const bool allowed = hasContact_ && !stale_ && !silenced && workerAlive_.load(std::memory_order_acquire) &&
                          !controls.muted.load(std::memory_order_relaxed) &&
-                         !controls.paused.load(std::memory_order_relaxed);
+                         !controls.paused.load(std::memory_order_relaxed) &&
+                         !controls.closing.load(std::memory_order_relaxed);
     const bool isNew = contact.onset != playedOnset_;
     if (!allowed || !rateFits) {
         if (sounding_) {
@@ -135,7 +148,6 @@ void VoiceRenderer::begin() noexcept {
     playedOnset_ = contact.onset;
     tapFramesLeft_ = 0;
     sounding_ = true;
-    blockAdvance_ = 0;
     voice_.setRangeLaw(contact.levelGain, contact.readingRate);
     voice_.onset(contact.seedMps2, 1.0F);
     count(channels_.counters.onsets);
@@ -162,8 +174,10 @@ void VoiceRenderer::takeSegments() noexcept {
 }
 
 void VoiceRenderer::changeRate(double rateHz) noexcept {
-    // One to delete at a time: until the worker has fetched it, the voice stays as it is.
+    // One to delete at a time: until the worker has fetched it, the voice stays as it is. What is wanted gets it
+    // called.
     if (channels_.usedOutput.load(std::memory_order_acquire) != nullptr) {
+        channels_.wantedRateHz.store(rateHz, std::memory_order_release);
         return;
     }
     std::unique_ptr<OutputStage> fresh(channels_.freshOutput.exchange(nullptr, std::memory_order_acq_rel));
@@ -202,7 +216,7 @@ void VoiceRenderer::sound(std::span<float> out) noexcept {
     voice_.render(out);
 }
 
-void VoiceRenderer::report(std::int64_t headBefore, std::uint64_t uncoveredBefore, bool sounded) noexcept {
+void VoiceRenderer::report(std::uint64_t uncoveredBefore, bool sounded) noexcept {
     VoiceCounters& counters = channels_.counters;
     const WaveformTimeline& timeline = voice_.timeline();
     if (sounded && timeline.uncoveredSamples() > uncoveredBefore) {
@@ -212,7 +226,6 @@ void VoiceRenderer::report(std::int64_t headBefore, std::uint64_t uncoveredBefor
     counters.limitedSamples.store(voice_.limiter().limitedCount(), std::memory_order_relaxed);
 
     const bool running = sounding_;
-    blockAdvance_ = std::max(blockAdvance_, timeline.head() - headBefore);
     if (!running && !reportedRunning_) {
         return;
     }
@@ -223,7 +236,7 @@ void VoiceRenderer::report(std::int64_t headBefore, std::uint64_t uncoveredBefor
     playhead.running = running;
     playhead.takenSequence = takenSequence_;
     playhead.headAtTake = headAtTake_;
-    playhead.blockAdvance = blockAdvance_;
+    playhead.blockAdvance = std::max(longestBlock_[0], longestBlock_[1]);
     timeline.view(playhead.timeline);
     channels_.playhead.post();
 }

@@ -41,7 +41,8 @@ private:
     void takeSegments() noexcept;
     void changeRate(double rateHz) noexcept;
     void sound(std::span<float> out) noexcept;
-    void report(std::int64_t headBefore, std::uint64_t uncoveredBefore, bool sounded) noexcept;
+    void noteBlock(std::size_t frames) noexcept;
+    void report(std::uint64_t uncoveredBefore, bool sounded) noexcept;
 
     VoiceChannels& channels_;
     const std::atomic<bool>& workerAlive_;
@@ -60,7 +61,9 @@ private:
     std::uint64_t tapFramesLeft_ = 0;
     std::uint64_t takenSequence_ = 0;
     std::array<std::int64_t, SegmentQueue::capacity> headAtTake_{};
-    std::int64_t blockAdvance_ = 0;
+    // Of the blocks noted last and of those before them, in waveform samples at a reading rate of 1.
+    std::array<std::int64_t, 2> longestBlock_{};
+    int blocksNoted_ = 0;
     bool reportedRunning_ = false;
 };
 

@@ -79,6 +79,31 @@ bool WakeSignal::waitFor(double milliseconds) noexcept {
 
 #else
 
+namespace {
+
+// A wall clock that is set back would make 2 ms an hour; not every C library can wait by another.
+#if defined(__GLIBC__)
+constexpr clockid_t waitClock = CLOCK_MONOTONIC;
+
+int waitUntil(sem_t& semaphore, const timespec& until) noexcept {
+    return sem_clockwait(&semaphore, waitClock, &until);
+}
+#elif defined(__ANDROID_API__) && __ANDROID_API__ >= 28
+constexpr clockid_t waitClock = CLOCK_MONOTONIC;
+
+int waitUntil(sem_t& semaphore, const timespec& until) noexcept {
+    return sem_timedwait_monotonic_np(&semaphore, &until);
+}
+#else
+constexpr clockid_t waitClock = CLOCK_REALTIME;
+
+int waitUntil(sem_t& semaphore, const timespec& until) noexcept {
+    return sem_timedwait(&semaphore, &until);
+}
+#endif
+
+}  // namespace
+
 struct WakeSignal::Semaphore {
     sem_t handle{};
 };
@@ -106,14 +131,14 @@ void WakeSignal::wait() noexcept {
 
 bool WakeSignal::waitFor(double milliseconds) noexcept {
     timespec until{};
-    clock_gettime(CLOCK_REALTIME, &until);
+    clock_gettime(waitClock, &until);
     constexpr long second = 1'000'000'000L;
     const auto nanoseconds = static_cast<long long>(milliseconds * 1e6) + until.tv_nsec;
     until.tv_sec += static_cast<time_t>(nanoseconds / second);
     until.tv_nsec = static_cast<long>(nanoseconds % second);
-    int result = sem_timedwait(&semaphore_->handle, &until);
+    int result = waitUntil(semaphore_->handle, until);
     while (result != 0 && errno == EINTR) {
-        result = sem_timedwait(&semaphore_->handle, &until);
+        result = waitUntil(semaphore_->handle, until);
     }
     if (result != 0) {
         return false;

@@ -37,7 +37,7 @@ namespace HaptoFlow.RepositoryTests
         [TestCase(typeof(Batch), 40)]
         [TestCase(typeof(EngineOptions), 72)]
         [TestCase(typeof(NativeContactState), 64)]
-        [TestCase(typeof(VoiceStatistics), 136)]
+        [TestCase(typeof(VoiceStatistics), 144)]
         [TestCase(typeof(EngineStatistics), 80)]
         [TestCase(typeof(TierTimes), 32)]
         public void EveryStructHasTheSizeThatItsCDeclarationHas(Type type, int expectedBytes) =>

@@ -9,6 +9,7 @@
 
 #include <atomic>
 #include <chrono>
+#include <stdexcept>
 #include <thread>
 #include <vector>
 
@@ -181,6 +182,73 @@ TEST_F(LiveEngineTest, AutomaticQualityMeasuresEveryTierWhileNothingTouchesAndTh
         EXPECT_EQ(tier.runs, QualityControl::measuringRuns);
         EXPECT_GT(tier.percentile99Ms, 0.0);
     }
+}
+
+TEST_F(LiveEngineTest, TwoChangesOfTheOutputRateAtRestAreBothServedBeforeTheNextTouch) {
+    const auto engine = this->engine(settings(true));
+    const auto voice = engine->addVoice(48000.0);
+    std::vector<float> block(256);
+    for (const double rateHz : {44100.0, 24000.0, 48000.0}) {
+        const std::uint64_t changes = voice->channels.counters.rateChanges;
+        for (int update = 0; update < 5000 && voice->channels.counters.rateChanges == changes; ++update) {
+            engine->publish(*voice, testing::lifted(0));
+            voice->renderer.render(block, rateHz);
+            std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        }
+        EXPECT_EQ(voice->channels.counters.rateChanges, changes + 1) << rateHz;
+    }
+    engine->publish(*voice, testing::sliding());
+    voice->renderer.render(block, 48000.0);
+    EXPECT_GT(testing::peak(block), 0.0F) << "the seed in the very next block";
+}
+
+TEST_F(LiveEngineTest, AVoiceWhoseDeviceHasStoppedDoesNotKeepTheWorkerFromLookingAfterTheOthers) {
+    const auto engine = this->engine(settings(true));
+    const auto unheard = engine->addVoice(48000.0);
+    const auto heard = engine->addVoice(48000.0);
+    std::vector<float> block(256);
+    for (int update = 0; update < 200; ++update) {
+        engine->publish(*unheard, testing::sliding());
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    ASSERT_EQ(unheard->channels.counters.inferences, 0U);
+    // The worker sees the contact before the callback does: only a second look can find that its onset is playing.
+    engine->publish(*heard, testing::sliding());
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    EXPECT_TRUE(renderUntil(*heard, [&] { return heard->channels.counters.inferences > 0; }));
+}
+
+TEST_F(LiveEngineTest, OneVoiceThatTheNetworkFailsForDoesNotSilenceTheOthers) {
+    auto generator =
+        std::make_unique<FakeGenerator>([](const inference::SegmentRequest& request, std::span<float> out) {
+            if (request.motion[2] > 1.5F) {
+                throw std::runtime_error("refused by the test");
+            }
+            testing::continueTone(request, out);
+        });
+    EngineTiers tiers;
+    tiers.push_back(std::move(generator));
+    LiveEngine engine(model_, std::move(tiers), 0, settings(false));
+    const std::array voices{engine.addVoice(48000.0), engine.addVoice(48000.0), engine.addVoice(48000.0)};
+    std::vector<float> block(256);
+    // As long as the seeds last: without a segment behind it, the second voice ends there.
+    for (int update = 0; update < 4; ++update) {
+        for (std::size_t i = 0; i < voices.size(); ++i) {
+            engine.publish(*voices[i], testing::sliding(0.1F, i == 1 ? 2.0F : 1.0F));
+            for (int blocks = 0; blocks < 3; ++blocks) {
+                voices[i]->renderer.render(block, 48000.0);
+            }
+        }
+        EXPECT_TRUE(engine.step().failed);
+    }
+    for (const std::size_t i : {0U, 2U}) {
+        EXPECT_EQ(voices[i]->channels.counters.inferences, 4U);
+        EXPECT_EQ(voices[i]->channels.counters.failures, 0U);
+        EXPECT_GT(voices[i]->channels.counters.inferenceNanoseconds, 0U);
+    }
+    EXPECT_EQ(voices[1]->channels.counters.inferences, 0U);
+    EXPECT_EQ(voices[1]->channels.counters.failures, 4U);
+    EXPECT_EQ(voices[1]->channels.counters.inferenceNanoseconds, 0U);
 }
 
 TEST_F(LiveEngineTest, SettingsOutOfRangeAreRefused) {

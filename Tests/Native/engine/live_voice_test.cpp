@@ -368,6 +368,61 @@ TEST_F(LiveVoiceTest, UpdatesFasterThanHopsAreSkippedAndTheNewestWins) {
     EXPECT_EQ(device.counters().underruns, 0U);
 }
 
+TEST_F(LiveVoiceTest, EveryTouchingStateIsEitherGeneratedForOrCountedAsSkipped) {
+    SimulatedDevice device(model_, tone_);
+    std::uint64_t touching = 0;
+    const auto touch = [&](double seconds, std::uint32_t number) {
+        device.run(seconds, [&touching, number](double) {
+            ++touching;
+            ContactState state = testing::sliding();
+            state.touchCounter = number;
+            return state;
+        });
+    };
+    const auto lift = [&](std::uint32_t number) {
+        device.run(0.1, [number](double) { return testing::lifted(number); });
+    };
+    touch(0.3, 1);
+    device.controls().muted = true;
+    touch(0.3, 1);
+    device.controls().muted = false;
+    touch(0.3, 1);
+    lift(1);
+    touch(0.3, 2);
+    lift(2);
+    // One state may have two segments, one behind the other; none may have neither.
+    EXPECT_GE(device.counters().skipped + device.counters().inferences, touching);
+    EXPECT_GE(device.counters().skipped, 20U) << "published while muted";
+    EXPECT_LE(device.counters().skipped, 30U);
+}
+
+TEST_F(LiveVoiceTest, AfterLongBlocksALeadOfShortOnesIsShortAgainInTheSameTouch) {
+    testing::DeviceSettings settings;
+    settings.blockFrames = 2048;
+    SimulatedDevice device(model_, tone_, settings);
+    device.run(4.0, slide);
+    EXPECT_GT(device.counters().leadSamples, 80U);
+    device.setBlock(128);
+    device.run(4.0, slide);
+    EXPECT_LT(device.counters().leadSamples, 20U);
+}
+
+TEST_F(LiveVoiceTest, APanicEndsWithItsBlockEvenWhereTheContactGoesStaleAtItsSecondFrame) {
+    SimulatedDevice device(model_, tone_);
+    device.run(0.5, slide);
+    const float ordinaryStep = testing::largestStep(device.output);
+    // A state is fresh for 4,800 frames.
+    device.publish(testing::sliding());
+    std::vector<float> rest(4799);
+    device.voice().renderer.render(rest, 48000.0);
+    device.controls().panics.fetch_add(1);
+    std::vector<float> block(256);
+    device.voice().renderer.render(block, 48000.0);
+    EXPECT_EQ(block.back(), 0.0F);
+    EXPECT_LE(testing::largestStep(block), 3.0F * ordinaryStep);
+    EXPECT_LE(std::abs(block.front() - rest.back()), 3.0F * ordinaryStep);
+}
+
 TEST_F(LiveVoiceTest, ADeviceThatStopsAskingStopsInferenceToo) {
     SimulatedDevice device(model_, tone_);
     device.run(0.3, slide);

@@ -107,6 +107,17 @@ TEST(QualityControlTest, ItDoesNotStepUpToWhatWouldNotFitForSoManyVoices) {
     EXPECT_EQ(control.tier(), 2U);
 }
 
+TEST(QualityControlTest, MoreVoicesThanTheTierFitsForStepItDownBeforeAnythingOverruns) {
+    QualityControl control = measuredControl(0.2, 0.5, 1.5);
+    ASSERT_EQ(control.tier(), 2U);
+    control.ran(1.5, 1);
+    EXPECT_EQ(control.tier(), 2U);
+    control.ran(2.5, 3);
+    EXPECT_EQ(control.tier(), 1U) << "three of 1.5 ms are more than 3 ms";
+    control.ran(2.5, 12);
+    EXPECT_EQ(control.tier(), 0U) << "twelve of 0.5 ms";
+}
+
 TEST(QualityControlTest, AFixedTierStaysWhateverItCosts) {
     QualityControl control(3, {.fixedTier = 2, .budgetMs = budgetMs}, 0);
     EXPECT_EQ(control.tierToMeasure(), std::nullopt);

@@ -76,6 +76,20 @@ TEST(RealTimeTest, TheWatchesSeeWhatTheyAreMeantToSee) {
     EXPECT_EQ(lastTrappedSystemCall(), SYS_getppid);
 }
 
+TEST(RealTimeTest, TheFirstCallIntoTheLibraryMayComeFromTheAudioThread) {
+    // Each test is a process of its own: a mixer group with the effect may play before any voice was ever made.
+    std::array<float, 64> block{};
+    block.fill(1.0F);
+    const std::uint64_t before = forbiddenCalls();
+    {
+        const WatchedSection watched;
+        (void)haptoflow_voice_render(257, block.data(), 64, 1, 0, 48000.0);
+        (void)haptoflow_panic();
+    }
+    EXPECT_EQ(forbiddenCalls(), before) << "last: " << lastForbiddenCall();
+    EXPECT_EQ(block, (std::array<float, 64>{})) << "a voice that is not open writes zeros";
+}
+
 TEST(RealTimeTest, InNoCallbackUnderLoadIsThereAnAllocationALockOrASystemCall) {
     OpenEngine open(capi::testing::defaultModelPath, true);
     const std::uint64_t callbacks = callbackCount();

@@ -60,6 +60,9 @@ namespace HaptoFlow
 
         /// <summary>Calls refused because another thread was inside.</summary>
         public ulong RefusedCalls;
+
+        /// <summary>Milliseconds that this voice's inferences took in all; voices that share a run share its time.</summary>
+        public double InferenceMilliseconds;
     }
 
     /// <summary>What the engine did since it was made. Counts unless the name says otherwise.</summary>
