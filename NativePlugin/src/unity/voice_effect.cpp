@@ -16,7 +16,7 @@ void silence(const capi::ChannelTarget& target, double sampleRateHz) noexcept {
 
 }  // namespace
 
-void VoiceEffect::process(const AudioBlock& block, const BlockContext& context) noexcept {
+void VoiceEffect::process(const AudioBlock& block, const BlockContext& context) noexcept HAPTOFLOW_NONBLOCKING {
     passThrough(block);
     const Route wanted = parameters_.route();
     const float strength = parameters_.strength();

@@ -35,7 +35,7 @@ public:
     void reset() noexcept { startAnew_.store(true, std::memory_order_relaxed); }
 
     /// Audio thread: no allocation, no lock, no system call, nothing unbounded.
-    void process(const AudioBlock& block, const BlockContext& context) noexcept;
+    void process(const AudioBlock& block, const BlockContext& context) noexcept HAPTOFLOW_NONBLOCKING;
 
 private:
     [[nodiscard]] bool missedBlocks(std::uint64_t tick, std::uint32_t frames) noexcept;

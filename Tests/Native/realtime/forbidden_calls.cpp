@@ -94,6 +94,11 @@ int posix_memalign(void** memory, std::size_t alignment, std::size_t size) {
     return *memory == nullptr ? ENOMEM : 0;
 }
 
+void* memalign(std::size_t alignment, std::size_t size) {
+    note("memalign");
+    return __libc_memalign(alignment, size);
+}
+
 int pthread_mutex_lock(pthread_mutex_t* mutex) noexcept {
     note("pthread_mutex_lock");
     static const auto original = next<int (*)(pthread_mutex_t*)>("pthread_mutex_lock");
@@ -110,6 +115,30 @@ int pthread_rwlock_rdlock(pthread_rwlock_t* lock) noexcept {
     note("pthread_rwlock_rdlock");
     static const auto original = next<int (*)(pthread_rwlock_t*)>("pthread_rwlock_rdlock");
     return original(lock);
+}
+
+int pthread_rwlock_wrlock(pthread_rwlock_t* lock) noexcept {
+    note("pthread_rwlock_wrlock");
+    static const auto original = next<int (*)(pthread_rwlock_t*)>("pthread_rwlock_wrlock");
+    return original(lock);
+}
+
+int pthread_once(pthread_once_t* control, void (*routine)()) {
+    note("pthread_once");
+    static const auto original = next<int (*)(pthread_once_t*, void (*)())>("pthread_once");
+    return original(control, routine);
+}
+
+int pthread_cond_wait(pthread_cond_t* condition, pthread_mutex_t* mutex) {
+    note("pthread_cond_wait");
+    static const auto original = next<int (*)(pthread_cond_t*, pthread_mutex_t*)>("pthread_cond_wait");
+    return original(condition, mutex);
+}
+
+int pthread_cond_broadcast(pthread_cond_t* condition) noexcept {
+    note("pthread_cond_broadcast");
+    static const auto original = next<int (*)(pthread_cond_t*)>("pthread_cond_broadcast");
+    return original(condition);
 }
 
 int pthread_cond_signal(pthread_cond_t* condition) noexcept {

@@ -3,6 +3,7 @@
 #include "capi/open_engine.hpp"
 #include "realtime/forbidden_calls.hpp"
 #include "realtime/system_call_trap.hpp"
+#include "unity/unity_host.hpp"
 
 #include <gtest/gtest.h>
 
@@ -13,6 +14,7 @@
 #include <atomic>
 #include <cstdlib>
 #include <mutex>
+#include <span>
 #include <thread>
 
 namespace haptoflow::realtime {
@@ -76,6 +78,18 @@ TEST(RealTimeTest, TheWatchesSeeWhatTheyAreMeantToSee) {
     EXPECT_EQ(lastTrappedSystemCall(), SYS_getppid);
 }
 
+TEST(RealTimeTest, TheWatchesSeeInsideTheLibraryToo) {
+    const OpenEngine open(capi::testing::tinyModelPath);
+    haptoflow_engine_statistics statistics{};
+    statistics.struct_size = sizeof(statistics);
+    const std::uint64_t before = forbiddenCalls();
+    {
+        const WatchedSection watched;
+        EXPECT_EQ(haptoflow_engine_get_statistics(open.engine, &statistics), HAPTOFLOW_OK);
+    }
+    EXPECT_GT(forbiddenCalls(), before) << "it takes a lock, as its documentation says";
+}
+
 TEST(RealTimeTest, TheFirstCallIntoTheLibraryMayComeFromTheAudioThread) {
     // Each test is a process of its own: a mixer group with the effect may play before any voice was ever made.
     std::array<float, 64> block{};
@@ -90,35 +104,28 @@ TEST(RealTimeTest, TheFirstCallIntoTheLibraryMayComeFromTheAudioThread) {
     EXPECT_EQ(block, (std::array<float, 64>{})) << "a voice that is not open writes zeros";
 }
 
-TEST(RealTimeTest, InNoCallbackUnderLoadIsThereAnAllocationALockOrASystemCall) {
-    OpenEngine open(capi::testing::defaultModelPath, true);
+/// Calls `callback(frames, rateHz)` as a device does, while a hand does its worst, and asserts that nothing of what it
+/// does is forbidden.
+template <typename Callback>
+void watchUnderLoad(const OpenEngine& open, const Callback& callback) {
     const std::uint64_t callbacks = callbackCount();
     Pace pace;
     std::atomic<bool> hasFilter{false};
-    std::atomic<bool> isFinite{true};
-    std::atomic<float> loudest{0.0F};
     const std::uint64_t forbiddenBefore = forbiddenCalls();
     const std::uint64_t trappedBefore = trappedSystemCalls();
 
     std::thread audio([&] {
-        constexpr std::array rates{48000.0, 48000.0, 24000.0};
+        constexpr std::array rates{48000U, 48000U, 24000U};
         constexpr std::array<std::uint32_t, 4> blocks{64, 128, 31, 96};
-        std::array<float, 256> block{};
         // The first touch of the allocator may set up this thread's own arena.
         std::free(std::malloc(16));
         hasFilter = trapSystemCalls();
-        for (std::uint64_t callback = 0; callback < callbacks; ++callback) {
+        for (std::uint64_t i = 0; i < callbacks; ++i) {
             const WatchedSection watched;
-            while (callback >= pace.allowedCallbacks) {
+            while (i >= pace.allowedCallbacks) {
                 __builtin_ia32_pause();
             }
-            const std::uint32_t frames = blocks[callback % blocks.size()];
-            (void)haptoflow_voice_render(open.voice, block.data(), frames, 1, 0,
-                                         rates[callback / 4'000 % rates.size()]);
-            for (std::uint32_t i = 0; i < frames; ++i) {
-                isFinite = isFinite && std::isfinite(block[i]);
-                loudest = std::max(loudest.load(), std::abs(block[i]));
-            }
+            callback(blocks[i % blocks.size()], rates[i / 4'000 % rates.size()]);
         }
         pace.done = true;
         leaveThread();
@@ -129,13 +136,67 @@ TEST(RealTimeTest, InNoCallbackUnderLoadIsThereAnAllocationALockOrASystemCall) {
     ASSERT_TRUE(hasFilter);
     EXPECT_EQ(forbiddenCalls(), forbiddenBefore) << "last: " << lastForbiddenCall();
     EXPECT_EQ(trappedSystemCalls(), trappedBefore) << "last: " << lastTrappedSystemCall();
-    EXPECT_TRUE(isFinite);
     // That there was something to watch.
     const haptoflow_voice_statistics statistics = open.statistics();
-    EXPECT_GT(loudest, 0.001F);
     EXPECT_GT(statistics.inferences, 10U);
     EXPECT_GT(statistics.onsets, 3U);
     EXPECT_GT(statistics.rate_changes, 0U);
+}
+
+/// What was heard, for the audio thread to note.
+struct Heard {
+    std::atomic<bool> isFinite{true};
+    std::atomic<float> loudest{0.0F};
+
+    void note(std::span<const float> block) noexcept {
+        for (const float sample : block) {
+            isFinite = isFinite && std::isfinite(sample);
+            loudest = std::max(loudest.load(), std::abs(sample));
+        }
+    }
+};
+
+TEST(RealTimeTest, InNoCallbackUnderLoadIsThereAnAllocationALockOrASystemCall) {
+    const OpenEngine open(capi::testing::defaultModelPath, true);
+    Heard heard;
+    std::array<float, 128> block{};
+    watchUnderLoad(open, [&](std::uint32_t frames, std::uint32_t rateHz) {
+        (void)haptoflow_voice_render(open.voice, block.data(), frames, 1, 0, rateHz);
+        heard.note(std::span(block).first(frames));
+    });
+    EXPECT_TRUE(heard.isFinite);
+    EXPECT_GT(heard.loudest, 0.001F);
+}
+
+TEST(RealTimeTest, InNoCallbackOfTheMixerEffectUnderLoadIsThereAnAllocationALockOrASystemCall) {
+    const OpenEngine open(capi::testing::defaultModelPath, true);
+    const unity::testing::UnityHost host;
+    unity::testing::HostedEffect effect(host.effect("HaptoFlow Voice"));
+    std::uint32_t place = 0;
+    ASSERT_EQ(haptoflow_voice_place(open.voice, &place), HAPTOFLOW_OK);
+    effect.set("Voice", static_cast<float>(place));
+    effect.set("Channel", 1.0F);
+    const unity::AudioEffectDefinition& definition = effect.definition();
+    const int strength = effect.indexOf("Strength");
+    Heard heard;
+    std::array<float, 256> silence{};
+    std::array<float, 256> block{};
+    std::uint64_t calls = 0;
+    watchUnderLoad(open, [&](std::uint32_t frames, std::uint32_t rateHz) {
+        unity::AudioEffectState& state = effect.state();
+        state.sampleRateHz = rateHz;
+        state.flags = ++calls % 900 < 30 ? unity::flagPlaying | unity::flagPaused : unity::flagPlaying;
+        if (calls % 50 == 0) {
+            (void)definition.setParameter(&state, strength, calls % 100 == 0 ? 1.0F : 0.5F);
+        }
+        (void)definition.process(&state, silence.data(), block.data(), frames, 2, 2);
+        state.previousTick = state.currentTick;
+        // Now and then the group was suspended.
+        state.currentTick += calls % 1'700 == 0 ? 4 * frames : frames;
+        heard.note(std::span(block).first(std::size_t{2} * frames));
+    });
+    EXPECT_TRUE(heard.isFinite);
+    EXPECT_GT(heard.loudest, 0.001F);
 }
 
 }  // namespace
