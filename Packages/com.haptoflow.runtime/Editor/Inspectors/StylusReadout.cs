@@ -30,6 +30,10 @@ namespace HaptoFlow.Editor
                 return;
             }
             Add("Segments", "{0}, {1} late", voice.Inferences, voice.Late);
+            if (voice.Inferences > 0)
+            {
+                Add("Inference", "{0:0.00} ms a segment", voice.InferenceMilliseconds / voice.Inferences);
+            }
             Add("Underruns", "{0}", voice.Underruns);
             Add("Lead", "{0:0.0} ms", voice.LeadSamples / SamplesPerMillisecond);
             ulong repaired = voice.Sanitised + voice.NonFiniteSamples + voice.Failures;
