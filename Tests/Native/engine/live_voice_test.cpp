@@ -82,20 +82,26 @@ TEST_F(LiveVoiceTest, ATapThatOnlyTheTouchCounterTellsOfIsHeard) {
 }
 
 TEST_F(LiveVoiceTest, NothingOfAnEarlierTouchSoundsAfterANewOne) {
-    // Segments of the first touch are all ones, and one of them is still under way when the second begins.
-    FakeGenerator ones(
-        [](const inference::SegmentRequest&, std::span<float> segment) { std::ranges::fill(segment, 1.0F); });
+    // Segments of the first touch are all threes, which no seed has, and one is still under way when the second begins.
+    FakeGenerator threes(
+        [](const inference::SegmentRequest&, std::span<float> segment) { std::ranges::fill(segment, 3.0F); });
     testing::DeviceSettings settings;
     settings.latencySeconds = [](double) { return 0.02; };
-    SimulatedDevice device(model_, ones, settings);
+    SimulatedDevice device(model_, threes, settings);
     device.run(0.301, slide);
+    EXPECT_GT(std::ranges::count(device.waveform.samples, 3.0F), 100);
     device.publish(testing::lifted(1));
     device.run(0.008, [](double) { return testing::lifted(1); });
     ContactState second = testing::sliding();
     second.touchCounter = 2;
     const std::uint64_t droppedBefore = device.counters().dropped;
+    device.publish(second);
+    const std::size_t begin = device.waveform.samples.size();
     device.run(0.015, [&second](double) { return second; });
     EXPECT_GE(device.counters().dropped, droppedBefore + 1) << "the segment of the first touch";
+    const auto heard = std::span<const float>(device.waveform.samples).subspan(begin);
+    EXPECT_GT(heard.size(), 10U);
+    EXPECT_EQ(std::ranges::count(heard, 3.0F), 0) << "the seed, and nothing else";
 }
 
 TEST_F(LiveVoiceTest, AfterLiftOffThereIsSilenceWithinOneBlockAndFiveMilliseconds) {
