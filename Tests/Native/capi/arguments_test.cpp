@@ -1,7 +1,12 @@
-#include "open_handles.hpp"
+#include "open_engine.hpp"
+#include "public_header.hpp"
 
 #include <array>
+#include <functional>
+#include <map>
+#include <string>
 #include <thread>
+#include <vector>
 
 namespace haptoflow::capi::testing {
 namespace {
@@ -57,46 +62,149 @@ TEST(LibraryApiTest, NoiseIsThatOfItsKey) {
     EXPECT_EQ(haptoflow_noise_fill(1, 2, 3, noise.data(), UINT64_MAX), HAPTOFLOW_INVALID_ARGUMENT);
 }
 
+/// Calls of a function, each with one pointer null and everything else as it should be.
+struct NullCalls {
+    std::string function;
+    std::vector<std::function<haptoflow_status()>> calls;
+};
+
 TEST(ArgumentTest, NullPointersAreRefusedByEveryFunction) {
-    EXPECT_EQ(haptoflow_runtime_open(nullptr, nullptr), HAPTOFLOW_INVALID_ARGUMENT);
-    EXPECT_EQ(haptoflow_runtime_close(nullptr), HAPTOFLOW_INVALID_ARGUMENT);
-    EXPECT_EQ(haptoflow_model_open(nullptr, nullptr), HAPTOFLOW_INVALID_ARGUMENT);
-    EXPECT_EQ(haptoflow_model_close(nullptr), HAPTOFLOW_INVALID_ARGUMENT);
-    EXPECT_EQ(haptoflow_model_header(nullptr, nullptr), HAPTOFLOW_INVALID_ARGUMENT);
-    EXPECT_EQ(haptoflow_model_label_count(nullptr, nullptr), HAPTOFLOW_INVALID_ARGUMENT);
-    EXPECT_EQ(haptoflow_model_label(nullptr, 0, nullptr), HAPTOFLOW_INVALID_ARGUMENT);
-    EXPECT_EQ(haptoflow_model_embedding(nullptr, 0, nullptr), HAPTOFLOW_INVALID_ARGUMENT);
-    EXPECT_EQ(haptoflow_model_tier_count(nullptr, nullptr), HAPTOFLOW_INVALID_ARGUMENT);
-    EXPECT_EQ(haptoflow_model_tier(nullptr, 0, nullptr), HAPTOFLOW_INVALID_ARGUMENT);
-    EXPECT_EQ(haptoflow_generator_create(nullptr, nullptr), HAPTOFLOW_INVALID_ARGUMENT);
-    EXPECT_EQ(haptoflow_generator_close(nullptr), HAPTOFLOW_INVALID_ARGUMENT);
-    EXPECT_EQ(haptoflow_generator_set_solver(nullptr, HAPTOFLOW_SOLVER_EULER, 1), HAPTOFLOW_INVALID_ARGUMENT);
-    EXPECT_EQ(haptoflow_generator_generate(nullptr, nullptr, nullptr), HAPTOFLOW_INVALID_ARGUMENT);
-    EXPECT_EQ(haptoflow_generator_levels(nullptr, nullptr, nullptr), HAPTOFLOW_INVALID_ARGUMENT);
-    EXPECT_EQ(haptoflow_noise_fill(0, 0, 0, nullptr, 0), HAPTOFLOW_INVALID_ARGUMENT);
+    OpenEngine open(tinyModelPath);
+    const haptoflow_runtime_options runtimeOptions{sizeof(runtimeOptions), nullptr, HAPTOFLOW_TEST_ONNXRUNTIME};
+    const haptoflow_model_options modelOptions{sizeof(modelOptions), nullptr, 0, tinyModelPath.c_str()};
+    haptoflow_generator_options generatorOptions{};
+    generatorOptions.struct_size = sizeof(generatorOptions);
+    generatorOptions.runtime = open.runtime;
+    generatorOptions.model = open.model;
+    haptoflow_engine_options engineOptions{};
+    engineOptions.struct_size = sizeof(engineOptions);
+    engineOptions.runtime = open.runtime;
+    engineOptions.model = open.model;
+
+    haptoflow_generator* generator = nullptr;
+    ASSERT_EQ(haptoflow_generator_create(&generatorOptions, &generator), HAPTOFLOW_OK) << message();
+    const std::vector<float> embedding(HAPTOFLOW_EMBEDDING_SIZE);
+    const std::vector<float> motion(HAPTOFLOW_MOTION_SIZE);
+    const std::vector<float> waveform(HAPTOFLOW_SEGMENT_SAMPLES);
+    const haptoflow_batch batch{sizeof(batch), 1, embedding.data(), motion.data(), waveform.data(), waveform.data()};
+    std::vector<float> numbers(HAPTOFLOW_SEGMENT_SAMPLES);
+
+    haptoflow_runtime* noRuntime = nullptr;
+    haptoflow_model* noModel = nullptr;
+    haptoflow_generator* noGenerator = nullptr;
+    haptoflow_engine* noEngine = nullptr;
+    haptoflow_voice noVoice = 0;
+    uint32_t count = 0;
+    const char* text = nullptr;
+    haptoflow_label_info label{};
+    label.struct_size = sizeof(label);
+    haptoflow_tier_info tier{};
+    tier.struct_size = sizeof(tier);
+    haptoflow_tier_times times{};
+    times.struct_size = sizeof(times);
+    haptoflow_engine_statistics statistics{};
+    statistics.struct_size = sizeof(statistics);
+
+    const std::vector<NullCalls> table{
+        {"haptoflow_runtime_open",
+         {[&] { return haptoflow_runtime_open(nullptr, &noRuntime); },
+          [&] { return haptoflow_runtime_open(&runtimeOptions, nullptr); }}},
+        {"haptoflow_runtime_close", {[&] { return haptoflow_runtime_close(nullptr); }}},
+        {"haptoflow_model_open",
+         {[&] { return haptoflow_model_open(nullptr, &noModel); },
+          [&] { return haptoflow_model_open(&modelOptions, nullptr); }}},
+        {"haptoflow_model_close", {[&] { return haptoflow_model_close(nullptr); }}},
+        {"haptoflow_model_header",
+         {[&] { return haptoflow_model_header(nullptr, &text); },
+          [&] { return haptoflow_model_header(open.model, nullptr); }}},
+        {"haptoflow_model_label_count",
+         {[&] { return haptoflow_model_label_count(nullptr, &count); },
+          [&] { return haptoflow_model_label_count(open.model, nullptr); }}},
+        {"haptoflow_model_label",
+         {[&] { return haptoflow_model_label(nullptr, 0, &label); },
+          [&] { return haptoflow_model_label(open.model, 0, nullptr); }}},
+        {"haptoflow_model_embedding",
+         {[&] { return haptoflow_model_embedding(nullptr, 0, numbers.data()); },
+          [&] { return haptoflow_model_embedding(open.model, 0, nullptr); }}},
+        {"haptoflow_model_tier_count",
+         {[&] { return haptoflow_model_tier_count(nullptr, &count); },
+          [&] { return haptoflow_model_tier_count(open.model, nullptr); }}},
+        {"haptoflow_model_tier",
+         {[&] { return haptoflow_model_tier(nullptr, 0, &tier); },
+          [&] { return haptoflow_model_tier(open.model, 0, nullptr); }}},
+        {"haptoflow_generator_create",
+         {[&] { return haptoflow_generator_create(nullptr, &noGenerator); },
+          [&] { return haptoflow_generator_create(&generatorOptions, nullptr); }}},
+        {"haptoflow_generator_close", {[&] { return haptoflow_generator_close(nullptr); }}},
+        {"haptoflow_generator_set_solver",
+         {[&] { return haptoflow_generator_set_solver(nullptr, HAPTOFLOW_SOLVER_EULER, 1); }}},
+        {"haptoflow_generator_generate",
+         {[&] { return haptoflow_generator_generate(nullptr, &batch, numbers.data()); },
+          [&] { return haptoflow_generator_generate(generator, nullptr, numbers.data()); },
+          [&] { return haptoflow_generator_generate(generator, &batch, nullptr); }}},
+        {"haptoflow_generator_levels",
+         {[&] { return haptoflow_generator_levels(nullptr, &batch, numbers.data()); },
+          [&] { return haptoflow_generator_levels(generator, nullptr, numbers.data()); },
+          [&] { return haptoflow_generator_levels(generator, &batch, nullptr); }}},
+        {"haptoflow_engine_create",
+         {[&] { return haptoflow_engine_create(nullptr, &noEngine); },
+          [&] { return haptoflow_engine_create(&engineOptions, nullptr); }}},
+        {"haptoflow_engine_close", {[&] { return haptoflow_engine_close(nullptr); }}},
+        {"haptoflow_engine_set_quality",
+         {[&] { return haptoflow_engine_set_quality(nullptr, HAPTOFLOW_QUALITY_DRAFT); }}},
+        {"haptoflow_engine_step", {[&] { return haptoflow_engine_step(nullptr); }}},
+        {"haptoflow_engine_get_statistics",
+         {[&] { return haptoflow_engine_get_statistics(nullptr, &statistics); },
+          [&] { return haptoflow_engine_get_statistics(open.engine, nullptr); }}},
+        {"haptoflow_engine_tier_times",
+         {[&] { return haptoflow_engine_tier_times(nullptr, 0, &times); },
+          [&] { return haptoflow_engine_tier_times(open.engine, 0, nullptr); }}},
+        {"haptoflow_voice_create",
+         {[&] { return haptoflow_voice_create(nullptr, 48000.0, &noVoice); },
+          [&] { return haptoflow_voice_create(open.engine, 48000.0, nullptr); }}},
+        {"haptoflow_voice_destroy", {[&] { return haptoflow_voice_destroy(nullptr); }}},
+        {"haptoflow_voice_publish", {[&] { return haptoflow_voice_publish(open.voice, nullptr); }}},
+        {"haptoflow_voice_render", {[&] { return haptoflow_voice_render(open.voice, nullptr, 8, 1, 0, 48000.0); }}},
+        {"haptoflow_voice_get_statistics", {[&] { return haptoflow_voice_get_statistics(open.voice, nullptr); }}},
+        {"haptoflow_voice_place", {[&] { return haptoflow_voice_place(open.voice, nullptr); }}},
+        {"haptoflow_noise_fill", {[&] { return haptoflow_noise_fill(0, 0, 0, nullptr, 1); }}},
+    };
+    std::map<std::string, std::size_t> called;
+    for (const auto& [function, calls] : table) {
+        called[function] = calls.size();
+        for (std::size_t i = 0; i < calls.size(); ++i) {
+            EXPECT_EQ(calls[i](), HAPTOFLOW_INVALID_ARGUMENT) << function << ", call " << i;
+        }
+    }
+    std::map<std::string, std::size_t> declared;
+    for (const DeclaredFunction& function : declaredFunctions()) {
+        if (function.pointers > 0) {
+            declared[function.name] = function.pointers;
+        }
+    }
+    EXPECT_EQ(called, declared) << "each pointer of each function of the header has a call in the table";
+    EXPECT_EQ(noRuntime, nullptr);
+    EXPECT_EQ(noModel, nullptr);
+    EXPECT_EQ(noGenerator, nullptr);
+    EXPECT_EQ(noEngine, nullptr);
+    EXPECT_EQ(noVoice, 0U);
+    EXPECT_EQ(haptoflow_generator_close(&generator), HAPTOFLOW_OK);
 }
 
 TEST(ArgumentTest, ClosingANullHandleIsFine) {
     haptoflow_runtime* runtime = nullptr;
     haptoflow_model* model = nullptr;
     haptoflow_generator* generator = nullptr;
+    haptoflow_engine* engine = nullptr;
+    haptoflow_voice voice = 0;
     EXPECT_EQ(haptoflow_runtime_close(&runtime), HAPTOFLOW_OK);
     EXPECT_EQ(haptoflow_model_close(&model), HAPTOFLOW_OK);
     EXPECT_EQ(haptoflow_generator_close(&generator), HAPTOFLOW_OK);
+    EXPECT_EQ(haptoflow_engine_close(&engine), HAPTOFLOW_OK);
+    EXPECT_EQ(haptoflow_voice_destroy(&voice), HAPTOFLOW_OK);
 }
 
 class HandleTest : public WithTinyModel {};
-
-TEST_F(HandleTest, NullOutputsAreRefusedWithAnOpenModel) {
-    EXPECT_EQ(haptoflow_model_header(model_, nullptr), HAPTOFLOW_INVALID_ARGUMENT);
-    EXPECT_EQ(haptoflow_model_label_count(model_, nullptr), HAPTOFLOW_INVALID_ARGUMENT);
-    EXPECT_EQ(haptoflow_model_label(model_, 0, nullptr), HAPTOFLOW_INVALID_ARGUMENT);
-    EXPECT_EQ(haptoflow_model_embedding(model_, 0, nullptr), HAPTOFLOW_INVALID_ARGUMENT);
-    EXPECT_EQ(haptoflow_model_tier_count(model_, nullptr), HAPTOFLOW_INVALID_ARGUMENT);
-    EXPECT_EQ(haptoflow_model_tier(model_, 0, nullptr), HAPTOFLOW_INVALID_ARGUMENT);
-    const auto options = generatorOptions();
-    EXPECT_EQ(haptoflow_generator_create(&options, nullptr), HAPTOFLOW_INVALID_ARGUMENT);
-}
 
 TEST_F(HandleTest, InventedHandlesAreRecognisedAndNotFollowed) {
     for (const std::uintptr_t number : {std::uintptr_t{1}, std::uintptr_t{0xDEADBEEF}, ~std::uintptr_t{0}}) {
