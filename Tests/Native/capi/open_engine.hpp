@@ -96,6 +96,7 @@ public:
 };
 
 using haptoflow::testing::largestStep;
+using haptoflow::testing::largestStepFrom;
 using haptoflow::testing::peak;
 
 inline bool allFinite(const std::vector<float>& samples) {
