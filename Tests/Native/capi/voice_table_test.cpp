@@ -1,0 +1,158 @@
+// Who is inside a voice when somebody else comes: held there by a sink, which the C interface has no place for. So the
+// table and the rendering behind it are met themselves.
+#include "capi/voice_table.hpp"
+#include "capi/voice_rendering.hpp"
+#include "engine/fake_generators.hpp"
+#include "engine/simulated_device.hpp"
+#include "engine/test_model.hpp"
+#include "support/wave_measures.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <chrono>
+#include <functional>
+#include <latch>
+#include <memory>
+#include <thread>
+#include <vector>
+
+namespace haptoflow::capi::testing {
+namespace {
+
+using haptoflow::testing::peak;
+using ::testing::Each;
+
+constexpr std::uint32_t frames = 256;
+
+/// Holds the first who plays samples until it is told to let go.
+class HoldingSink final : public engine::WaveformSink {
+public:
+    void played(std::int64_t /*start*/, std::span<const float> /*samplesMps2*/) noexcept override {
+        if (!hasHeld_.exchange(true)) {
+            entered_.count_down();
+            leave_.wait();
+        }
+    }
+    void tookOver(std::int64_t /*sample*/) noexcept override {}
+
+    void waitUntilHeld() { entered_.wait(); }
+    void letGo() { leave_.count_down(); }
+
+private:
+    std::atomic<bool> hasHeld_{false};
+    std::latch entered_{1};
+    std::latch leave_{1};
+};
+
+class VoiceTableTest : public ::testing::Test {
+protected:
+    VoiceTableTest() {
+        engine::EngineTiers tiers;
+        tiers.push_back(std::make_unique<engine::testing::FakeGenerator>(engine::testing::continueTone));
+        engine::LiveEngineSettings settings;
+        settings.quality.fixedTier = 0;
+        settings.hasWorker = false;
+        engine_ = std::make_shared<engine::LiveEngine>(
+            std::make_shared<const model::ModelFile>(engine::testing::smallModel()), std::move(tiers), 0, settings);
+        auto opened = std::make_unique<OpenVoice>();
+        opened->engine = engine_;
+        opened->voice = engine_->addVoice(48000.0);
+        opened->voice->renderer.setSink(&sink_);
+        engine_->publish(*opened->voice, engine::testing::sliding());
+        live_ = opened->voice;
+        handle_ = table_.open(std::move(opened));
+    }
+
+    /// A block in the second of two channels, out of a buffer that holds nines.
+    haptoflow_status render(std::vector<float>& interleaved) {
+        interleaved.assign(std::size_t{frames} * 2, 9.0F);
+        return renderInto(table_.use(handle_), {interleaved.data(), frames, 2, 1}, 48000.0);
+    }
+
+    static std::vector<float> channel(const std::vector<float>& interleaved, std::size_t index) {
+        std::vector<float> samples;
+        for (std::size_t i = index; i < interleaved.size(); i += 2) {
+            samples.push_back(interleaved[i]);
+        }
+        return samples;
+    }
+
+    /// Another thread renders and is held inside; meanwhile a third one closes.
+    void closeDuringARender(const std::function<void()>& close) {
+        haptoflow_status status = HAPTOFLOW_INTERNAL_ERROR;
+        std::atomic<bool> hasRendered{false};
+        std::atomic<bool> hasClosed{false};
+        bool closedAfterTheRender = false;
+        std::vector<float> heard(frames);
+        std::thread renderer([&] {
+            const VoiceTable::Use use = table_.use(handle_);
+            status = renderInto(use, {heard.data(), frames, 1, 0}, 48000.0);
+            hasRendered = true;
+        });
+        sink_.waitUntilHeld();
+        std::thread closer([&] {
+            close();
+            closedAfterTheRender = hasRendered;
+            hasClosed = true;
+        });
+        // Once the handle is gone, only the render is left to wait for.
+        while (table_.use(handle_)) {
+            std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        }
+        std::vector<float> refused;
+        EXPECT_EQ(render(refused), HAPTOFLOW_INVALID_ARGUMENT) << "nobody new gets in";
+        EXPECT_THAT(channel(refused, 1), Each(0.0F));
+        std::this_thread::sleep_for(std::chrono::milliseconds(20));
+        EXPECT_FALSE(hasClosed);
+        EXPECT_FALSE(live_.expired());
+        sink_.letGo();
+        renderer.join();
+        closer.join();
+        EXPECT_EQ(status, HAPTOFLOW_OK);
+        EXPECT_GT(peak(heard), 0.001F) << "the block under way is whole";
+        EXPECT_TRUE(closedAfterTheRender);
+        EXPECT_TRUE(live_.expired());
+        EXPECT_EQ(engine_->statistics().voices, 0U);
+    }
+
+    HoldingSink sink_;
+    VoiceTable table_;
+    std::shared_ptr<engine::LiveEngine> engine_;
+    std::weak_ptr<engine::LiveVoice> live_;
+    haptoflow_voice handle_ = 0;
+};
+
+TEST_F(VoiceTableTest, OfTwoThreadsRenderingOneVoiceTheSecondIsBusyWritesSilenceAndIsCounted) {
+    std::vector<float> first;
+    haptoflow_status firstStatus = HAPTOFLOW_INTERNAL_ERROR;
+    std::thread other([&] { firstStatus = render(first); });
+    sink_.waitUntilHeld();
+    std::vector<float> second;
+    EXPECT_EQ(render(second), HAPTOFLOW_BUSY);
+    EXPECT_THAT(channel(second, 1), Each(0.0F));
+    EXPECT_THAT(channel(second, 0), Each(9.0F)) << "another channel is not the voice's";
+    EXPECT_EQ(table_.use(handle_)->refusedCalls, 1U);
+    sink_.letGo();
+    other.join();
+    EXPECT_EQ(firstStatus, HAPTOFLOW_OK);
+    EXPECT_GT(peak(channel(first, 1)), 0.001F);
+    EXPECT_EQ(table_.use(handle_)->voice->channels.counters.renderedFrames, frames);
+
+    EXPECT_EQ(render(second), HAPTOFLOW_OK) << "the voice is free again";
+    EXPECT_GT(peak(channel(second, 1)), 0.001F);
+    EXPECT_EQ(table_.use(handle_)->refusedCalls, 1U);
+    EXPECT_TRUE(table_.close(handle_));
+}
+
+TEST_F(VoiceTableTest, ClosingAVoiceWaitsForTheRenderUnderWay) {
+    closeDuringARender([this] { EXPECT_TRUE(table_.close(handle_)); });
+}
+
+TEST_F(VoiceTableTest, ClosingAllVoicesOfAnEngineWaitsForTheRenderUnderWay) {
+    closeDuringARender([this] { table_.closeAll(*engine_); });
+}
+
+}  // namespace
+}  // namespace haptoflow::capi::testing
