@@ -10,6 +10,7 @@ const proofs = [
   { program: 'realtime', filter: '*', env: { HAPTOFLOW_TEST_CALLBACKS: '1000000' }, about: 'a million callbacks, watched' },
   { program: 'capi', filter: '*ClosedLoopTest*', env: { HAPTOFLOW_TEST_LOOP_SECONDS: '600' }, about: 'ten minutes on each label' },
   { program: 'capi', filter: '*ApiStormTest*', env: { HAPTOFLOW_TEST_STORM_CALLS: '100000' }, about: '100,000 random calls a thread' },
+  { program: 'engine', filter: 'LongRunTest*', env: { HAPTOFLOW_TEST_SOUNDING_SECONDS: '21600' }, about: 'a day of waveform' },
 ];
 
 await runMain('test:soak', async () => {

@@ -4,9 +4,11 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <iterator>
 #include <numbers>
 #include <random>
+#include <utility>
 
 namespace haptoflow::contact {
 namespace {
@@ -96,6 +98,35 @@ TEST(HardMotionTest, AnyMixOfTimeStepsReadsNoMoreThanTheStrokesSpeed) {
     EXPECT_TRUE(moved);
     EXPECT_EQ(tracker.statistics().teleports, 0U);
     EXPECT_EQ(tracker.statistics().touchDowns, 1U);
+}
+
+TEST(HardMotionTest, AStrokeADayLaterReadsTheSame) {
+    constexpr double daySeconds = 86'400.0;
+    const Surface surface = plate();
+    // At 64 Hz every time of a day is a double's own, so that nothing but the tracker could lose a bit; at 72 Hz the
+    // sample's time itself is rounded, to 2^-36 s.
+    for (const auto& [rate, toleranceMps] : {std::pair(64.0, 0.0), {72.0, 1e-9}, {90.0, 1e-9}}) {
+        ContactTracker now(sceneOf({surface}, 0.004));
+        ContactTracker later(sceneOf({surface}, 0.004));
+        const auto samples = sampledPath(2.0, rate, [&](double time) {
+            const double depth = time < 0.1 ? 0.05 : 0.0;
+            return onPlate(surface.pose, 0.2 * std::sin(3.0 * time), 0.1 * time) +
+                   surface.pose.directionToWorld({0.0, depth, 0.0});
+        });
+        for (TipSample sample : samples) {
+            const ContactReading wanted = now.update(sample);
+            sample.timeSeconds += daySeconds;
+            const ContactReading reading = later.update(sample);
+            ASSERT_EQ(reading.touching, wanted.touching);
+            ASSERT_EQ(reading.touchCounter, wanted.touchCounter);
+            ASSERT_EQ(reading.forceNewtons, wanted.forceNewtons);
+            ASSERT_NEAR(reading.tangentialVelocityMps.x, wanted.tangentialVelocityMps.x, toleranceMps) << rate << " Hz";
+            ASSERT_NEAR(reading.tangentialVelocityMps.y, wanted.tangentialVelocityMps.y, toleranceMps) << rate << " Hz";
+            ASSERT_NEAR(reading.approachSpeedMps, wanted.approachSpeedMps, 10.0 * toleranceMps) << rate << " Hz";
+        }
+        EXPECT_EQ(later.statistics().touchDowns, 1U);
+        EXPECT_EQ(later.statistics().teleports, 0U);
+    }
 }
 
 TEST(HardMotionTest, ASurfaceThatSlidesAndSpinsWithTheTipReadsZero) {

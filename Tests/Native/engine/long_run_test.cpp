@@ -1,0 +1,115 @@
+// What a day leaves of the precision of time. The simulated device runs in steps of powers of two, so that its own sums
+// are exact however long it runs.
+#include "engine/offline_renderer.hpp"
+
+#include "fake_generators.hpp"
+#include "simulated_device.hpp"
+#include "test_model.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <cstdlib>
+#include <vector>
+
+namespace haptoflow::engine {
+namespace {
+
+using testing::FakeGenerator;
+using testing::SimulatedDevice;
+
+constexpr double daySeconds = 86'400.0;
+
+/// HAPTOFLOW_TEST_SOUNDING_SECONDS: how long a voice that is read four times faster sounds before it is compared; the
+/// soak asks for a quarter of a day.
+double soundingSeconds() {
+    const char* asked = std::getenv("HAPTOFLOW_TEST_SOUNDING_SECONDS");
+    return asked != nullptr ? std::strtod(asked, nullptr) : 60.0;
+}
+
+class LongRunTest : public ::testing::Test {
+protected:
+    static testing::DeviceSettings settings() {
+        testing::DeviceSettings settings;
+        settings.rateHz = 8192.0;
+        settings.blockFrames = 64;
+        settings.updateHz = 64.0;
+        settings.latencySeconds = [](double) { return 1.0 / 512.0; };
+        settings.fixedLeadSamples = 60;
+        return settings;
+    }
+
+    /// What is heard of two seconds of sliding and half a second after lift-off.
+    static std::vector<float> touch(SimulatedDevice& device, std::uint32_t counter) {
+        device.output.clear();
+        device.run(2.0, [counter](double) {
+            ContactState state = testing::sliding();
+            state.touchCounter = counter;
+            return state;
+        });
+        device.run(0.5, [counter](double) { return testing::lifted(counter); });
+        return device.output;
+    }
+
+    /// What a new voice plays.
+    std::vector<float> ofANewVoice() {
+        SimulatedDevice fresh(model_, tone_, settings());
+        std::vector<float> heard = touch(fresh, 1);
+        EXPECT_GT(testing::peak(heard), 0.5F / 60.0F);
+        return heard;
+    }
+
+    model::ModelFile model_ = testing::smallModel();
+    FakeGenerator tone_{testing::continueTone};
+};
+
+TEST_F(LongRunTest, AVoiceWhoseClockStandsADayOnSoundsAsANewOneDoesToTheLastBit) {
+    SimulatedDevice device(model_, tone_, settings());
+    // Nothing but reading advances the clock of a voice: a day of it is put there, and an odd number of samples, so
+    // that the ring stands elsewhere.
+    auto& timeline = const_cast<WaveformTimeline&>(device.voice().renderer.voice().timeline());
+    constexpr std::int64_t day = 86'400LL * 2000 + 333;
+    TimelineView view;
+    timeline.view(view);
+    view.head += day;
+    view.coveredUntil += day;
+    timeline.restore(view);
+    EXPECT_EQ(touch(device, 1), ofANewVoice());
+    EXPECT_GT(timeline.head(), day + 4000);
+    EXPECT_EQ(device.counters().underruns, 0U);
+}
+
+TEST_F(LongRunTest, AVoiceThatSoundedForLongSoundsAsANewOneDoesToTheLastBit) {
+    SimulatedDevice device(model_, tone_, settings());
+    const auto seconds = static_cast<int>(soundingSeconds());
+    for (int second = 0; second < seconds; ++second) {
+        device.run(1.0, [](double) { return testing::sliding(19.0F); });
+        device.output.clear();
+        device.waveform.samples.clear();
+        device.waveform.seams.clear();
+    }
+    // Four times 2,000 a second, but for the beginning.
+    EXPECT_GT(device.voice().renderer.voice().timeline().head(), 7900LL * seconds);
+    device.run(1.0, [](double) { return testing::lifted(1); });
+    EXPECT_EQ(touch(device, 2), ofANewVoice());
+    EXPECT_EQ(device.counters().underruns, 0U);
+}
+
+TEST_F(LongRunTest, AStrokeRenderedOfflineADayLaterSoundsTheSameToTheLastBit) {
+    const auto renderFrom = [this](double startSeconds) {
+        std::vector<ContactState> states;
+        for (int update = 0; update < 144; ++update) {
+            ContactState state = testing::sliding(0.1F + 0.001F * static_cast<float>(update));
+            state.timeSeconds = startSeconds + update / 72.0;
+            states.push_back(state);
+        }
+        FakeGenerator noise(testing::whiteNoise);
+        return renderOffline(model_, noise, states, {}).samples;
+    };
+    const std::vector<float> now = renderFrom(0.0);
+    EXPECT_GT(testing::peak(now), 0.5F / 60.0F);
+    EXPECT_EQ(renderFrom(daySeconds), now);
+}
+
+}  // namespace
+}  // namespace haptoflow::engine
