@@ -1,5 +1,6 @@
 import { existsSync } from 'node:fs';
 import path from 'node:path';
+import { judgeExportsOfDll } from './exported_names.mjs';
 import { judgeJunit, results } from './judge_junit.mjs';
 import { buildNative, presetFolder } from './native_build.mjs';
 import { runNpmOrFail } from './process.mjs';
@@ -45,6 +46,11 @@ export async function platformTests() {
       const gtest = [`--gtest_filter=-${tooLong[preset]}`, '--gtest_brief=1', `--gtest_output=xml:${path.relative(inRepository(), results(file))}`];
       console.log(`test: ${name} on ${preset}`);
       counts = addCounts(counts, await judgeJunit(file, command, [...args, program, ...gtest], env));
+    }
+    // Of an ELF capi itself reads the exports.
+    if (preset === 'windows-x64') {
+      console.log(`test: exports on ${preset}`);
+      counts = addCounts(counts, await judgeExportsOfDll(inRepository(presetFolder(preset), 'audioplugin_haptoflow.dll')));
     }
   }
   return counts;
