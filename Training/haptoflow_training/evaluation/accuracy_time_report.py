@@ -156,10 +156,6 @@ def draw_chart(table: dict[str, Any], path: Path) -> None:
                 row["ms_per_segment"]["p50"], value, s=150 if ours else 45, zorder=3,
                 marker="*" if ours else "o", color=_COLOURS.get(row["family"], _OTHER_COLOUR),
             )  # fmt: skip
-            axis.annotate(
-                row["name"], (row["ms_per_segment"]["p50"], value), xytext=(6, 4), textcoords="offset points",
-                fontsize=9 if ours else 7.5, fontweight="bold" if ours else "normal",
-            )  # fmt: skip
         axis.set_xscale("log")
         axis.set_yscale("log")
         # Room for the names, and for the eye to see ratios where few rows were measured.
@@ -173,8 +169,17 @@ def draw_chart(table: dict[str, Any], path: Path) -> None:
         axis.set_xlabel("milliseconds per segment, one thread (log)")
         axis.set_title(title + " (log; lower is better)")
         axis.grid(alpha=0.25, which="both")
+        for row in (entry for entry in rows if entry[key] is None):
+            axis.axvline(row["ms_per_segment"]["p50"], color="#8a8a8a", linestyle=":")
+            axis.annotate(
+                f"{row['name']} (time alone)", (row["ms_per_segment"]["p50"], 0.97), xytext=(-4, 0), rotation=90,
+                xycoords=("data", "axes fraction"), textcoords="offset points", ha="right", va="top", fontsize=7.5,
+            )  # fmt: skip
     axes[0].axhspan(0.0, JUST_NOTICEABLE_DB, color="#d8ecd8", zorder=0)
-    axes[0].text(0.02, 0.03, f"below {JUST_NOTICEABLE_DB} dB nobody feels it", transform=axes[0].transAxes, fontsize=9)
+    axes[0].text(
+        0.98, JUST_NOTICEABLE_DB / 1.08, f"below {JUST_NOTICEABLE_DB} dB nobody feels it", va="top", ha="right",
+        transform=axes[0].get_yaxis_transform(), fontsize=9,
+    )  # fmt: skip
     if ceiling is not None:
         axes[1].axhline(ceiling["lsd_db"], color="#8a8a8a", linestyle="--")
         axes[1].annotate(
@@ -182,8 +187,37 @@ def draw_chart(table: dict[str, Any], path: Path) -> None:
             ha="right", va="bottom", fontsize=9, color="#5a5a5a",
         )  # fmt: skip
     figure.tight_layout()
+    figure.canvas.draw()
+    for axis, key in zip(axes, ("level_error_db", "lsd_db"), strict=True):
+        _write_names(axis, [(row, max(abs(row[key]), 0.02)) for row in rows if row[key] is not None])
     figure.savefig(path, dpi=110)
     pyplot.close(figure)
+
+
+def _write_names(axis: Any, points: list[tuple[dict[str, Any], float]]) -> None:
+    """Each row's name at that corner of its point where it covers no other name and no point; ours first."""
+    from matplotlib.transforms import Bbox
+
+    places = [axis.transData.transform((row["ms_per_segment"]["p50"], value)) for row, value in points]
+    taken = [Bbox.from_extents(x - 5.0, y - 5.0, x + 5.0, y + 5.0) for x, y in places]
+    beside = [(8, 3, "left"), (8, -10, "left"), (-8, 3, "right"), (-8, -10, "right")]
+    corners = [*beside, (0, 9, "center"), (0, -17, "center")]
+    for row, value in sorted(points, key=lambda point: point[0]["family"] != _OURS):
+        ours = row["family"] == _OURS
+        written = axis.annotate(
+            row["name"], (row["ms_per_segment"]["p50"], value), textcoords="offset points", xytext=(0, 0),
+            fontsize=9 if ours else 7.5, fontweight="bold" if ours else "normal",
+        )  # fmt: skip
+        tried = []
+        for right, up, alignment in corners:
+            written.set_position((right, up))
+            written.set_horizontalalignment(alignment)
+            box = written.get_window_extent()
+            tried.append((sum(box.overlaps(other) for other in taken), (right, up, alignment), box))
+        _, (right, up, alignment), box = min(tried, key=lambda entry: entry[0])
+        written.set_position((right, up))
+        written.set_horizontalalignment(alignment)
+        taken.append(box)
 
 
 def draw_spectra(pairs: Sequence[ReferencePair], waves: Sequence[NDArray[np.float32]], path: Path) -> None:

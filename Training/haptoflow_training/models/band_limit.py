@@ -42,7 +42,8 @@ class BandLimit(nn.Module):
         # that is made, [175, 25], one beyond the last tap where none does.
         self.samples, self.made = samples, samples // _WINDOWS
         self.sides = -(-_REACH // self.made)
-        self.register_buffer("mirrored", torch.arange(samples - 1, samples - 1 - self.sides * self.made, -1), persistent=False)
+        mirrored = torch.arange(samples - 1, samples - 1 - self.sides * self.made, -1)
+        self.register_buffer("mirrored", mirrored, persistent=False)
         neighbours = torch.arange(-self.sides, self.sides + 1)
         window = torch.arange(_WINDOWS, 2 * _WINDOWS)
         self.register_buffer("read", window.unsqueeze(1) + neighbours, persistent=False)
