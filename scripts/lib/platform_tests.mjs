@@ -7,13 +7,13 @@ import { runNpmOrFail } from './process.mjs';
 import { inRepository } from './repository.mjs';
 import { addCounts, noCounts } from './test_counts.mjs';
 
-/** Programs of Tests/Native that meet the library as shipped: through its C interface, and as Unity's mixer meets it. */
-const programs = ['capi', 'unity'];
+/** Programs of Tests/Native: arithmetic and threads as this platform does them, then the library as shipped, through its C interface and as Unity's mixer meets it. */
+const programs = ['model', 'dsp', 'contact', 'engine', 'capi', 'unity'];
 
 /** Long ones that gain nothing from another machine's instructions; ONNX Runtime takes 50 times as long under qemu. */
 const tooLong = {
   'windows-x64': 'Label/*:ApiStorm*:*Shipped*',
-  'linux-arm64': 'Label/*:ApiStorm*:OnModel/*:OpenModel*:*Shipped*:*LivePace*:*Measured*',
+  'linux-arm64': 'Label/*:ApiStorm*:OnModel/*:OpenModel*:*Shipped*:*LivePace*:*Measured*:MutationTest.Changed*:*TenMinutes*',
 };
 
 /** What stands between this machine and each platform's programs. */

@@ -12,14 +12,16 @@ namespace {
 constexpr haptoflow_voice placeBits = 0xFF;
 constexpr int generationShift = 8;
 
-// Made before anything runs, so that the first to ask may be an audio thread, and never destroyed, so that it may be
-// the last too.
+// Made when the library is loaded, so that the first to ask may be an audio thread, and never destroyed, so that it may
+// be the last too.
 union Lasting {
-    constexpr Lasting() : table() {}
-    constexpr ~Lasting() {}
+    Lasting() : table() {}
+    Lasting(const Lasting&) = delete;
+    Lasting& operator=(const Lasting&) = delete;
+    ~Lasting() {}
     VoiceTable table;
 };
-constinit Lasting lasting;
+Lasting lasting;
 
 }  // namespace
 

@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <stdexcept>
@@ -150,7 +151,13 @@ TEST_F(LiveEngineTest, ManyVoicesPublishersAndCallbacksAtOnceLeaveEveryWaveWhole
             (void)engine->statistics();
         }
     });
-    std::this_thread::sleep_for(std::chrono::milliseconds(1200));
+    const auto hasLived = [](const std::shared_ptr<LiveVoice>& voice) {
+        return voice->channels.counters.inferences > 20 && voice->channels.counters.onsets > 3;
+    };
+    // A second, and on a slow machine as long as it takes.
+    for (int tenth = 0; tenth < 300 && (tenth < 12 || !std::ranges::all_of(voices, hasLived)); ++tenth) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    }
     done = true;
     for (std::thread& thread : threads) {
         thread.join();

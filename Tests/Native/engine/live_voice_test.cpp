@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <numbers>
 #include <random>
 #include <vector>
 
@@ -212,7 +213,7 @@ TEST_F(LiveVoiceTest, TheSplicesOfASteadySlideLeaveNoTraceInTheWave) {
     SimulatedDevice device(model_, tone_);
     device.run(2.0, slide);
     const auto& wave = device.waveform.samples;
-    const double factor = 2.0 * std::cos(2.0 * M_PI * testing::toneHz / 2000.0);
+    const double factor = 2.0 * std::cos(2.0 * std::numbers::pi * testing::toneHz / 2000.0);
     ASSERT_GT(wave.size(), 3500U);
     for (std::size_t i = 300; i < wave.size(); ++i) {
         ASSERT_NEAR(wave[i], factor * wave[i - 1] - wave[i - 2], 2e-3) << "sample " << i;

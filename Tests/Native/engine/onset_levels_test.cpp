@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 #include <random>
 
 namespace haptoflow::engine {
@@ -57,7 +58,7 @@ TEST_F(OnsetLevelsTest, EverywhereInTheRangeTheTableIsWithinHalfADecibelOfTheGra
     std::uniform_real_distribution<double> share(0.0, 1.0);
     for (int trial = 0; trial < 2000; ++trial) {
         const double speed = 0.01 * std::pow(40.0, share(random));
-        const double angle = 2.0 * M_PI * share(random);
+        const double angle = 2.0 * std::numbers::pi * share(random);
         const double newtons = 0.1 * std::pow(40.0, share(random));
         const double vx = speed * std::cos(angle);
         const double vy = speed * std::sin(angle);
