@@ -16,7 +16,6 @@ ContactAction ContactPublisher::publish(ContactState state) noexcept {
     VoiceCounters& counters = channels_.counters;
     counters.sanitised.fetch_add(sanitise(state), std::memory_order_relaxed);
     counters.updates.fetch_add(1, std::memory_order_relaxed);
-    ++updates_;
 
     const ContactAction action = follower_.update(state);
     const Material material = resolveMaterial(model_, state.material);
@@ -42,7 +41,6 @@ ContactAction ContactPublisher::publish(ContactState state) noexcept {
     WorkerMessage& worker = channels_.toWorker.draft();
     worker.onset = onsets_;
     worker.sliding = follower_.sliding();
-    worker.update = updates_;
     worker.slides = slides_;
     worker.embedding = material.embedding;
     worker.motion = ranged.motion;

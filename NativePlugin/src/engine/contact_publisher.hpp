@@ -28,7 +28,6 @@ private:
     VoiceChannels& channels_;
     ContactFollower follower_;
     std::uint32_t onsets_ = 0;
-    std::uint64_t updates_ = 0;
     std::uint64_t slides_ = 0;
     std::array<float, WaveformTimeline::seedSamples> seedMps2_{};
 };

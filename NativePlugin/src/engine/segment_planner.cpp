@@ -37,7 +37,7 @@ bool SegmentPlanner::wake() noexcept {
         skipUntil(contact.slides);
         return false;
     }
-    if (contact.update == generatedUpdate_) {
+    if (contact.slides == settledSlides_) {
         return false;
     }
     const bool isPlaying = playhead.running && playhead.onset == contact.onset;
@@ -61,7 +61,6 @@ bool SegmentPlanner::wake() noexcept {
     if (!replaces) {
         hop_ = isNewStream ? 0 : head - lastHead_;
     }
-    generatedUpdate_ = contact.update;
     stream_ = playhead.stream;
     lastHead_ = head;
     lastStart_ = start;
@@ -99,7 +98,7 @@ bool SegmentPlanner::awaitsCallback() const noexcept {
     const Playhead& playhead = channels_.playhead.current();
     const bool isPlaying = playhead.running && playhead.onset == contact.onset;
     const bool standsStill = playhead.stream == stream_ && playhead.timeline.head == lastHead_;
-    return contact.sliding && contact.update != generatedUpdate_ && (!isPlaying || standsStill);
+    return contact.sliding && contact.slides != settledSlides_ && (!isPlaying || standsStill);
 }
 
 void SegmentPlanner::learn() noexcept {

@@ -71,7 +71,6 @@ private:
     std::uint64_t sequence_ = 0;
     std::uint64_t segments_ = 0;
 
-    std::uint64_t generatedUpdate_ = 0;
     // Sliding states that were generated for or counted as skipped.
     std::uint64_t settledSlides_ = 0;
     int looks_ = 0;

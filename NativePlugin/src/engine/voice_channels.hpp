@@ -30,9 +30,7 @@ struct AudioMessage {
 struct WorkerMessage {
     std::uint32_t onset = 0;
     bool sliding = false;
-    /// One more at each publishing: a state is generated for once.
-    std::uint64_t update = 0;
-    /// How many of the states so far slid, this one included.
+    /// How many of the states so far slid, this one included: a sliding state is generated for once.
     std::uint64_t slides = 0;
     std::array<float, inference::embeddingSize> embedding{};
     /// vx, vy in m/s and force in N, inside the trained range.

@@ -191,10 +191,13 @@ private:
         return kept(status, voice, handles_.voices);
     }
 
-    haptoflow_status destroyVoice() {
-        haptoflow_voice voice = handles_.voices.any(next());
-        return haptoflow_voice_destroy(oneIn(16) ? nullptr : &voice);
+    template <typename Handle>
+    haptoflow_status closed(SharedHandles<Handle>& pool, haptoflow_status (*close)(Handle*)) {
+        Handle handle = pool.any(next());
+        return close(oneIn(16) ? nullptr : &handle);
     }
+
+    haptoflow_status destroyVoice() { return closed(handles_.voices, haptoflow_voice_destroy); }
 
     haptoflow_status createEngine() {
         haptoflow_engine_options options{};
@@ -209,10 +212,7 @@ private:
         return kept(status, engine, handles_.engines);
     }
 
-    haptoflow_status closeEngine() {
-        haptoflow_engine* engine = handles_.engines.any(next());
-        return haptoflow_engine_close(oneIn(16) ? nullptr : &engine);
-    }
+    haptoflow_status closeEngine() { return closed(handles_.engines, haptoflow_engine_close); }
 
     /// The whole file, a part of it, or with a byte changed.
     haptoflow_status openModel() {
@@ -233,10 +233,7 @@ private:
         return isRefusal ? HAPTOFLOW_OK : kept(status, model, handles_.models);
     }
 
-    haptoflow_status closeModel() {
-        haptoflow_model* model = handles_.models.any(next());
-        return haptoflow_model_close(oneIn(16) ? nullptr : &model);
-    }
+    haptoflow_status closeModel() { return closed(handles_.models, haptoflow_model_close); }
 
     haptoflow_status openRuntime() {
         const bool isThere = !oneIn(4);
@@ -249,10 +246,7 @@ private:
                                                                    : kept(status, runtime, handles_.runtimes);
     }
 
-    haptoflow_status closeRuntime() {
-        haptoflow_runtime* runtime = handles_.runtimes.any(next());
-        return haptoflow_runtime_close(oneIn(16) ? nullptr : &runtime);
-    }
+    haptoflow_status closeRuntime() { return closed(handles_.runtimes, haptoflow_runtime_close); }
 
     haptoflow_status createGenerator() {
         constexpr std::array<const char*, 4> tiers{"draft", "standard", nullptr, "no such tier"};
@@ -269,10 +263,7 @@ private:
         return kept(status, generator, handles_.generators);
     }
 
-    haptoflow_status closeGenerator() {
-        haptoflow_generator* generator = handles_.generators.any(next());
-        return haptoflow_generator_close(oneIn(16) ? nullptr : &generator);
-    }
+    haptoflow_status closeGenerator() { return closed(handles_.generators, haptoflow_generator_close); }
 
     haptoflow_status useGenerator() {
         haptoflow_generator* generator = handles_.generators.any(next());

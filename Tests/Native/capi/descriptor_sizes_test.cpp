@@ -94,6 +94,18 @@ protected:
                 [content](uint32_t size) { return Memory(content, size); },
                 [call](Memory& memory) { return call(memory.as<Descriptor>()); }};
     }
+    /// Opens, expects a handle where the status says that there is one, and closes it again.
+    template <typename Options, typename Handle>
+    static std::function<haptoflow_status(const Options*)> opening(haptoflow_status (*open)(const Options*, Handle**),
+                                                                   haptoflow_status (*close)(Handle**)) {
+        return [open, close](const Options* options) {
+            Handle* handle = nullptr;
+            const haptoflow_status status = open(options, &handle);
+            EXPECT_EQ(handle != nullptr, status == HAPTOFLOW_OK);
+            EXPECT_EQ(close(&handle), HAPTOFLOW_OK);
+            return status;
+        };
+    }
     template <typename Descriptor>
     static Output output(const char* name, const std::function<haptoflow_status(Descriptor*)>& call) {
         return {name, sizeof(Descriptor), [call](Memory& memory) { return call(memory.as<Descriptor>()); }};
@@ -103,33 +115,13 @@ protected:
         return {
             input<haptoflow_runtime_options>(
                 "haptoflow_runtime_options", "haptoflow_runtime_open", sizeof(haptoflow_runtime_options),
-                {0, nullptr, HAPTOFLOW_TEST_ONNXRUNTIME},
-                [](const haptoflow_runtime_options* options) {
-                    haptoflow_runtime* runtime = nullptr;
-                    const haptoflow_status status = haptoflow_runtime_open(options, &runtime);
-                    EXPECT_EQ(runtime != nullptr, status == HAPTOFLOW_OK);
-                    EXPECT_EQ(haptoflow_runtime_close(&runtime), HAPTOFLOW_OK);
-                    return status;
-                }),
+                {0, nullptr, HAPTOFLOW_TEST_ONNXRUNTIME}, opening(haptoflow_runtime_open, haptoflow_runtime_close)),
             input<haptoflow_model_options>("haptoflow_model_options", "haptoflow_model_open",
                                            sizeof(haptoflow_model_options), {0, nullptr, 0, tinyModelPath.c_str()},
-                                           [](const haptoflow_model_options* options) {
-                                               haptoflow_model* model = nullptr;
-                                               const haptoflow_status status = haptoflow_model_open(options, &model);
-                                               EXPECT_EQ(model != nullptr, status == HAPTOFLOW_OK);
-                                               EXPECT_EQ(haptoflow_model_close(&model), HAPTOFLOW_OK);
-                                               return status;
-                                           }),
+                                           opening(haptoflow_model_open, haptoflow_model_close)),
             input<haptoflow_generator_options>("haptoflow_generator_options", "haptoflow_generator_create",
                                                offsetof(haptoflow_generator_options, steps), generatorOptions_,
-                                               [](const haptoflow_generator_options* options) {
-                                                   haptoflow_generator* generator = nullptr;
-                                                   const haptoflow_status status =
-                                                       haptoflow_generator_create(options, &generator);
-                                                   EXPECT_EQ(generator != nullptr, status == HAPTOFLOW_OK);
-                                                   EXPECT_EQ(haptoflow_generator_close(&generator), HAPTOFLOW_OK);
-                                                   return status;
-                                               }),
+                                               opening(haptoflow_generator_create, haptoflow_generator_close)),
             input<haptoflow_batch>("haptoflow_batch", "haptoflow_generator_generate", sizeof(haptoflow_batch), batch_,
                                    [this](const haptoflow_batch* batch) {
                                        return haptoflow_generator_generate(generator_, batch, segment_.data());
@@ -141,14 +133,7 @@ protected:
                                    }),
             input<haptoflow_engine_options>("haptoflow_engine_options", "haptoflow_engine_create",
                                             offsetof(haptoflow_engine_options, update_rate_hz), engineOptions_,
-                                            [](const haptoflow_engine_options* options) {
-                                                haptoflow_engine* engine = nullptr;
-                                                const haptoflow_status status =
-                                                    haptoflow_engine_create(options, &engine);
-                                                EXPECT_EQ(engine != nullptr, status == HAPTOFLOW_OK);
-                                                EXPECT_EQ(haptoflow_engine_close(&engine), HAPTOFLOW_OK);
-                                                return status;
-                                            }),
+                                            opening(haptoflow_engine_create, haptoflow_engine_close)),
             input<haptoflow_contact_state>(
                 "haptoflow_contact_state", "haptoflow_voice_publish",
                 offsetof(haptoflow_contact_state, approach_speed_mps), slidingState(),
