@@ -27,11 +27,12 @@ def _noise(generator: torch.Generator, shape: torch.Tensor) -> torch.Tensor:
     return torch.fft.irfft(torch.fft.rfft(torch.randn(len(shape), 400, generator=generator)) * shape, 400)
 
 
-def _heard(balance: SpectralBalance, label: torch.Tensor, speed_mps: float, recorded: torch.Tensor, *drawn: torch.Tensor,
-           ribs_hz: tuple[float, float] = (0.0, 0.0)) -> torch.Tensor:  # fmt: skip
-    first, second = (_features(wave, ribs_hz) for wave in drawn)
+def _heard(
+    balance: SpectralBalance, label: torch.Tensor, speed_mps: float, recorded: torch.Tensor, *drawn: torch.Tensor
+) -> torch.Tensor:
+    first, second = (_features(wave) for wave in drawn)
     speeds = torch.full(label.shape, speed_mps)
-    return balance.loss(label, speeds, _features(recorded, ribs_hz), (first, second), torch.ones(len(label)))
+    return balance.loss(label, speeds, _features(recorded), (first, second), torch.ones(len(label)))
 
 
 def test_a_network_with_a_gain_for_each_label_and_frequency_learns_the_recordings_mean_spectra() -> None:

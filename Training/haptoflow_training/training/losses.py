@@ -84,7 +84,6 @@ class Losses(nn.Module):
         log_level = model.log_level(batch.label, batch.motion).detach()
         segment = model.representation.encode(self._steady_segment(batch, embedding))
         recorded_previous = scaled_previous(batch.previous, log_level)
-        own_past = batch.chain is not None
         previous = recorded_previous
         if batch.chain is not None:
             own_previous = self.live_through(batch.chain, batch.label, objective, generator)
@@ -114,7 +113,8 @@ class Losses(nn.Module):
             return mean_flow_loss(bound, segment, generator, 1.0 / power)
         noises = [torch.randn(segment.shape, generator=generator) for _ in range(2)]
         first, second = (model.one_step(noise, previous, embedding, batch.motion) for noise in noises)
-        return self._one_step_loss(batch, embedding, (recorded_previous, segment), previous, (first, second))
+        recorded = (recorded_previous, segment)
+        return self._one_step_loss(batch, embedding, recorded, previous, (first, second), power.rsqrt())
 
     def _one_step_loss(
         self,
@@ -123,9 +123,10 @@ class Losses(nn.Module):
         recorded: tuple[Tensor, Tensor],
         past: Tensor,
         drawn: tuple[Tensor, Tensor],
+        weight: Tensor,
     ) -> Tensor:
-        """Of a recording (past and segment) and two draws that follow `past`, [B, 1, 200] each, in unit scale."""
-        weight = recorded[1].square().mean(dim=(1, 2)).clamp(min=1.0).rsqrt()
+        """Of a recording (past and segment) and two draws that follow `past`, [B, 1, 200] each, in unit scale; weight
+        [B]."""
         pasts, segments = (recorded[0], past, past), (recorded[1], *drawn)
         heard = [spectra(*(wave.squeeze(1) for wave in pair)) for pair in zip(pasts, segments, strict=True)]
         partials, audible = self._partials(batch, embedding, pasts, segments)
