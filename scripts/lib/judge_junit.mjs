@@ -6,11 +6,14 @@ import { countsOfJunit, judged, noCounts } from './test_counts.mjs';
 /** Where a test run's result of that name lies. */
 export const results = (name) => inRepository('out', 'test', name);
 
-/** Runs a command that writes a JUnit file and judges what it wrote; a stale file cannot stand in for a new one. */
-export async function judgeJunit(file, command, args, env) {
+/**
+ * Runs a command that writes a JUnit file and judges what it wrote; a stale file cannot stand in for a new one.
+ * @param {{env?: Record<string, string>, limitSeconds?: number}} options as of `run`
+ */
+export async function judgeJunit(file, command, args, options = {}) {
   mkdirSync(results('.'), { recursive: true });
   rmSync(results(file), { force: true });
-  const { exitCode } = await run(command, args, { env });
+  const { exitCode } = await run(command, args, options);
   const counts = existsSync(results(file)) ? countsOfJunit(readFileSync(results(file), 'utf8')) : noCounts;
   return judged(counts, exitCode);
 }

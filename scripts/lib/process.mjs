@@ -13,7 +13,8 @@ export class CommandError extends Error {
 /**
  * Runs a child to its end with this process's output and no input.
  * @param {string} command @param {string[]} args
- * @param {{env?: Record<string, string>, quiet?: boolean, shell?: boolean}} options quiet: collect output instead of showing it
+ * @param {{env?: Record<string, string>, quiet?: boolean, shell?: boolean, limitSeconds?: number}} options
+ *   quiet: collect output instead of showing it; limitSeconds: a child that takes longer is killed and has failed
  * @returns {Promise<{exitCode: number, output: string}>} output is empty unless quiet
  */
 export function run(command, args, options = {}) {
@@ -23,7 +24,10 @@ export function run(command, args, options = {}) {
       env: { ...process.env, ...options.env },
       stdio: ['ignore', options.quiet ? 'pipe' : 'inherit', options.quiet ? 'pipe' : 'inherit'],
       shell: options.shell ?? false,
+      timeout: options.limitSeconds === undefined ? undefined : 1000 * options.limitSeconds,
+      killSignal: 'SIGKILL',
     });
+    const begin = performance.now();
     const chunks = [];
     child.stdout?.on('data', (chunk) => chunks.push(chunk));
     child.stderr?.on('data', (chunk) => chunks.push(chunk));
@@ -31,8 +35,11 @@ export function run(command, args, options = {}) {
       reject(new CommandError(`cannot start \`${command}\`: ${error.code === 'ENOENT' ? 'it is not installed' : error.message}`, 2)),
     );
     child.on('close', (code, signal) => {
+      const overdue = signal === 'SIGKILL' && performance.now() - begin >= 1000 * (options.limitSeconds ?? Infinity);
+      const ending = overdue ? `ended after ${options.limitSeconds} s: it hangs, or the machine is very slow` : `ended by ${signal}`;
+      if (signal && !options.quiet) console.error(`${command}: ${ending}`);
       const output = Buffer.concat(chunks).toString('utf8');
-      resolve({ exitCode: code ?? 1, output: signal ? `${output}\nended by ${signal}` : output });
+      resolve({ exitCode: code ?? 1, output: signal ? `${output}\n${ending}` : output });
     });
   });
 }

@@ -51,8 +51,8 @@ async function sanitizers() {
   for (const { preset, folder, tests = '.', except = '^$' } of possible) {
     const file = `${preset}-${folder}.xml`;
     const args = ['--test-dir', inRepository(presetFolder(preset), 'Tests', 'Native', folder), '-R', tests, '-E', except];
-    args.push('-j', String(os.cpus().length), '--output-on-failure', '--progress', '--output-junit', results(file));
-    counts = addCounts(counts, await judgeJunit(file, 'ctest', args, env));
+    args.push('-j', String(os.cpus().length), '--timeout', '300', '--output-on-failure', '--progress', '--output-junit', results(file));
+    counts = addCounts(counts, await judgeJunit(file, 'ctest', args, { env }));
   }
   return counts;
 }
@@ -60,7 +60,7 @@ async function sanitizers() {
 async function training() {
   const args = ['-m', 'pytest', inRepository('Tests', 'Training'), '-q', '--junitxml', results('training.xml')];
   const env = { OPENBLAS_NUM_THREADS: '1', PYTHONPATH: inRepository('Training'), PYTHONDONTWRITEBYTECODE: '1' };
-  return judgeJunit('training.xml', pythonOrFail(), args, env);
+  return judgeJunit('training.xml', pythonOrFail(), args, { env, limitSeconds: 1800 });
 }
 
 /**
@@ -81,6 +81,7 @@ async function dotnet() {
     const folder = results(`dotnet-${configuration.toLowerCase()}`);
     rmSync(folder, { recursive: true, force: true });
     const args = ['test', inRepository('Tests', 'Dotnet', target), '-m:1', '-c', configuration, '--nologo', '--logger', 'trx'];
+    args.push('--blame-hang-timeout', '10m', '--blame-hang-dump-type', 'none');
     args.push('--results-directory', folder, ...(tests ? ['--filter', tests] : []));
     const { exitCode } = await run('dotnet', args, { env: { DOTNET_CLI_TELEMETRY_OPTOUT: '1', DOTNET_NOLOGO: '1' } });
     const files = existsSync(folder) ? readdirSync(folder).filter((name) => name.endsWith('.trx')) : [];

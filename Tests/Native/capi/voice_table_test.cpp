@@ -13,7 +13,7 @@
 #include <atomic>
 #include <chrono>
 #include <functional>
-#include <latch>
+#include <future>
 #include <memory>
 #include <thread>
 #include <vector>
@@ -31,19 +31,20 @@ class HoldingSink final : public engine::WaveformSink {
 public:
     void played(std::int64_t /*start*/, std::span<const float> /*samplesMps2*/) noexcept override {
         if (!hasHeld_.exchange(true)) {
-            entered_.count_down();
-            leave_.wait();
+            entered_.set_value();
+            leave_.get_future().wait();
         }
     }
     void tookOver(std::int64_t /*sample*/) noexcept override {}
 
-    void waitUntilHeld() { entered_.wait(); }
-    void letGo() { leave_.count_down(); }
+    void waitUntilHeld() { entered_.get_future().wait(); }
+    void letGo() { leave_.set_value(); }
 
 private:
     std::atomic<bool> hasHeld_{false};
-    std::latch entered_{1};
-    std::latch leave_{1};
+    // Not latches: on Windows libstdc++ 12 now and then forgets to wake who waits at one.
+    std::promise<void> entered_;
+    std::promise<void> leave_;
 };
 
 class VoiceTableTest : public ::testing::Test {
