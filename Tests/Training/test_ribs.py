@@ -202,3 +202,22 @@ def test_a_guided_stroke_holds_its_velocity_for_most_tenths_of_a_second_and_chan
     assert np.hypot(*ride.path.velocity_mmps.T).max() <= FASTEST_MMPS + 1.0
     assert np.hypot(*ride.path.velocity_mmps[[0, -1]].T).max() < 1.0
     assert ride.force_newtons.min() > 0.0
+
+
+def test_a_quarter_of_a_guided_stroke_is_so_steady_that_fast_ribs_keep_their_phase_and_half_of_that_is_along_a_scan() -> None:
+    """0.6 mm ribs at up to 1.5 m/s: how far the position is, in the middle of a tenth, from a straight line's."""
+    step = int(SIMULATION_RATE_HZ) // 10
+    bends, turns = [], []
+    for seed in range(6):
+        ride = guided_ride(
+            np.random.default_rng(seed), duration_seconds=8.0, median_speed_mmps=400.0, median_force_newtons=1.0
+        )
+        position = ride.path.position_mm[10 * step : 70 * step]
+        tenths = position[: len(position) // step * step].reshape(-1, step, 2)
+        bend = 0.5 * (tenths[:, step // 2 - 1] + tenths[:, step // 2] - tenths[:, 0] - tenths[:, -1])
+        bends.append(2.0 * math.pi * np.abs(bend[:, 0]) / 0.6)
+        eighths = np.arctan2(*(tenths[:, -1] - tenths[:, 0]).T) / (0.25 * math.pi)
+        turns.append(np.abs(eighths - np.round(eighths)) * 45.0)
+    steady, turned_degrees = np.concatenate(bends) < 0.05, np.concatenate(turns)
+    assert np.mean(steady) > 0.25
+    assert np.mean(turned_degrees[steady] < 5.0) > 0.4

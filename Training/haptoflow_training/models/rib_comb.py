@@ -89,7 +89,8 @@ class RibComb(nn.Module):
         audible = told_apart.to(motion.dtype).reshape(-1, 1, PARTIALS, 1)
         sines = torch.sin(frequency.reshape(-1, PARTIALS, 1) * self.turn + self.phase)
         places, within = sines.split([4 * self.samples // _STRIDE, 2 * _STRIDE], dim=2)
-        waves = places.reshape(-1, PARTIALS, 2 * self.samples // _STRIDE, 2) @ within.reshape(-1, PARTIALS, 2, _STRIDE)
+        places = places.reshape(-1, PARTIALS, 2 * self.samples // _STRIDE, 2)
+        waves = _thin_product(places, within.reshape(-1, PARTIALS, 2, _STRIDE))
         return waves.reshape(-1, 2 * PARTIALS, self.samples), audible
 
     def amplitudes(self, waves: Tensor, audible: Tensor, mirrored: Tensor, segment: Tensor) -> Tensor:
@@ -127,3 +128,10 @@ class RibComb(nn.Module):
         lines = carried * (bounded + held / carried_size) + fresh * drawn + own * left
         rows = torch.cat([carried, carried, fresh, fresh, lines], dim=1) * self.families
         return rows.reshape(-1, COMB_CHANNELS + 1, 2 * PARTIALS) @ waves
+
+
+def _thin_product(left: Tensor, right: Tensor) -> Tensor:
+    """[B, P, K, 2] times [B, P, 2, M]. ONNX Runtime is quickest with matrices; PyTorch takes such small ones one by one."""
+    if torch.onnx.is_in_onnx_export():
+        return left @ right
+    return left[..., 0:1] * right[..., 0:1, :] + left[..., 1:2] * right[..., 1:2, :]

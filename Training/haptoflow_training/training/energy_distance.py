@@ -42,7 +42,9 @@ def _basis(window: int) -> Tensor:
 def magnitudes(wave: Tensor, window: int) -> Tensor:
     """[B, N] to [B, frames, window / 2 + 1] magnitudes; hop max(4, window / 4)."""
     frames = wave.unfold(1, window, max(4, window // 4))
-    real, imaginary = (frames @ _basis(window)).chunk(2, dim=2)
+    # One product of matrices: of a stack, PyTorch would make one for every row of the batch.
+    rows = frames.reshape(-1, window) @ _basis(window)
+    real, imaginary = rows.reshape(*frames.shape[:2], -1).chunk(2, dim=2)
     return (real.square() + imaginary.square() + 1e-8).sqrt()
 
 
