@@ -10,12 +10,9 @@ import { addCounts, noCounts } from './test_counts.mjs';
 /** Programs of Tests/Native: arithmetic and threads as this platform does them, then the library as shipped, through its C interface and as Unity's mixer meets it. */
 const programs = ['model', 'dsp', 'contact', 'engine', 'capi', 'unity'];
 
-/**
- * Long ones that gain nothing from another machine's instructions; ONNX Runtime takes 50 times as long under qemu. Under wine ten threads that sleep a millisecond at
- * a time leave the worker too little: ManyVoices asks for 20 segments a voice and got 13 in 30 s (Documentation~/platforms.md).
- */
+/** Long ones that gain nothing from another machine's instructions; ONNX Runtime takes 50 times as long under qemu. */
 const tooLong = {
-  'windows-x64': 'Label/*:ApiStorm*:*Shipped*:LiveEngineTest.ManyVoices*',
+  'windows-x64': 'Label/*:ApiStorm*:*Shipped*',
   'linux-arm64': 'Label/*:ApiStorm*:OnModel/*:OpenModel*:*Shipped*:*LivePace*:*Measured*:MutationTest.Changed*:*TenMinutes*',
 };
 

@@ -84,7 +84,7 @@ void VoiceTable::remove(Place& place) {
     // "handle gone" and "user there" each side sees the other's.
     place.handle.store(0);
     while (place.users.load() != 0) {
-        std::this_thread::sleep_for(std::chrono::microseconds(100));
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
     }
     place.voice->engine->removeVoice(*place.voice->voice);
     place.voice.reset();

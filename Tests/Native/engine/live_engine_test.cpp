@@ -127,7 +127,8 @@ TEST_F(LiveEngineTest, ManyVoicesPublishersAndCallbacksAtOnceLeaveEveryWaveWhole
             while (!done) {
                 voice.renderer.render(block, 48000.0);
                 peaks[i] = std::max(peaks[i].load(), testing::peak(block));
-                std::this_thread::sleep_for(std::chrono::microseconds(900));
+                // Less than a millisecond is none at all where MinGW's threads sleep: two thousand seconds a second.
+                std::this_thread::sleep_for(std::chrono::milliseconds(1));
             }
         });
         threads.emplace_back([&, i] {
