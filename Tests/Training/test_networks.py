@@ -11,7 +11,7 @@ from haptoflow_training.models.band_limit import BandLimit
 from haptoflow_training.models.conditioning import EMBEDDING_SIZE, MotionFeatures
 from haptoflow_training.models.unit_scale import unit_scale
 from haptoflow_training.models.level_model import LevelModel, level_loss
-from haptoflow_training.models.velocity_field import VelocityField, parameter_count
+from haptoflow_training.models.velocity_field import FilmBlock, VelocityField, parameter_count
 
 
 def _inputs(batch: int, channels: int = 1, positions: int = 200) -> dict[str, torch.Tensor]:
@@ -43,8 +43,9 @@ def test_the_field_returns_the_shape_of_its_noisy_input(channels: int, positions
     assert field(**inputs).shape == inputs["noisy"].shape
 
 
-def test_every_input_reaches_the_velocity_field_s_output() -> None:
-    field = _trained_like(VelocityField(width=32))
+@pytest.mark.parametrize("levels", [1, 2])
+def test_every_input_reaches_the_velocity_field_s_output(levels: int) -> None:
+    field = _trained_like(VelocityField(width=32, levels=levels))
     inputs = _inputs(2)
     before = field(**inputs)
     for name in inputs:
@@ -52,8 +53,9 @@ def test_every_input_reaches_the_velocity_field_s_output() -> None:
         assert not torch.allclose(field(**changed), before, atol=1e-5), name
 
 
-def test_the_last_sample_of_the_past_reaches_the_whole_segment() -> None:
-    field = _trained_like(VelocityField(width=32))
+@pytest.mark.parametrize("levels", [1, 2])
+def test_the_last_sample_of_the_past_reaches_the_whole_segment(levels: int) -> None:
+    field = _trained_like(VelocityField(width=32, levels=levels))
     inputs = _inputs(1)
     moved = inputs["previous"].clone()
     moved[0, 0, -1] += 5.0
@@ -71,6 +73,18 @@ def test_rows_of_a_batch_do_not_touch_each_other() -> None:
 def test_positions_that_do_not_divide_into_patches_are_refused() -> None:
     with pytest.raises(ValueError, match="200 positions .* 7"):
         VelocityField(patch=7)
+
+
+def test_one_level_is_a_third_of_the_blocks() -> None:
+    blocks = [
+        sum(isinstance(module, FilmBlock) for module in VelocityField(width=32, levels=levels).modules()) for levels in (1, 2)
+    ]
+    assert blocks == [1, 3]
+
+
+def test_another_number_of_levels_is_refused() -> None:
+    with pytest.raises(ValueError, match="levels: 1 or 2, not 3"):
+        VelocityField(levels=3)
 
 
 def test_the_default_field_has_about_half_a_million_parameters() -> None:

@@ -74,9 +74,11 @@ class MotionFeatures(nn.Module):
         self.register_buffer("scale", torch.tensor([[1.0, 0.2]]), persistent=False)
 
     def forward(self, motion: Tensor) -> Tensor:
-        speed_force = speed_and_force(motion)
+        velocity = motion[:, 0:2]
+        speed = velocity.norm(p=2, dim=1, keepdim=True)
+        speed_force = torch.cat([speed, motion[:, 2:3]], dim=1)
         logarithms = self.logarithms(speed_force)
-        direction = motion[:, 0:2] / (speed_force[:, 0:1] + 0.002)
+        direction = velocity / (speed + 0.002)
         # Most surfaces feel the same forwards and backwards along their grain.
         axial = (direction @ self.sums) * (direction @ self.differences)
         waves = torch.sin(logarithms @ self.harmonics + self.phases)

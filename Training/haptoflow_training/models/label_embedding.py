@@ -40,7 +40,7 @@ class LabelEmbedding(nn.Module):
 
 
 def rib_frequencies_hz(embedding: Tensor, motion: Tensor) -> Tensor:
-    """[B, 2]: |k . v| of both wave vectors for embedding [B, 64] and motion [B, 3] (m/s)."""
+    """[B, 2, 1]: |k . v| of both wave vectors for embedding [B, 64] and motion [B, 3] (m/s)."""
     vectors = embedding[:, -WAVE_NUMBERS:].reshape(-1, WAVE_VECTORS, 2)
     velocity_mmps = 1000.0 * motion[:, 0:2].unsqueeze(2)
-    return (vectors @ velocity_mmps).squeeze(2).abs()
+    return (vectors @ velocity_mmps).abs()

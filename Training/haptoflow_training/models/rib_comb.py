@@ -27,7 +27,7 @@ _LARGEST_AMPLITUDE = 1.5
 _LOWEST_FUNDAMENTAL_HZ, _HIGHEST_HZ = 9.0, 960.0
 _SMALL = 1e-5
 # How many samples follow a place whose sine is computed.
-_STRIDE = 10
+_STRIDE = 20
 
 
 class RibComb(nn.Module):
@@ -49,7 +49,7 @@ class RibComb(nn.Module):
         if samples % _STRIDE != 0:
             raise ValueError(f"{samples} samples do not divide into strides of {_STRIDE}")
         self.samples = samples
-        # Sines of sums from products of sines: 20 places and 10 samples after each stand for all 200. In each partial's
+        # Sines of sums from products of sines: 10 places and 20 samples after each stand for all 200. In each partial's
         # row stand (cos, -sin) of the places for its cosine, (sin, cos) for its sine, then cos and sin of the samples,
         # counted from half a sample before the segment: as far as the past's last sample is from there. All are sines:
         # a cosine is one that is a quarter turn ahead.
@@ -83,7 +83,7 @@ class RibComb(nn.Module):
     def waves(self, embedding: Tensor, motion: Tensor) -> tuple[Tensor, Tensor]:
         """Cosine and sine of each partial at one motion, [B, 48, N]; and [B, 1, 24, 1], 1 where a partial can sound
         and be told apart, else 0. embedding [B, 64], motion [B, 3]; no gradient: wave vectors are not learnt."""
-        fundamental = rib_frequencies_hz(embedding.detach(), motion).unsqueeze(2)
+        fundamental = rib_frequencies_hz(embedding.detach(), motion)
         frequency = fundamental * self.order
         told_apart = (fundamental > _LOWEST_FUNDAMENTAL_HZ) & (frequency < _HIGHEST_HZ)
         audible = told_apart.to(motion.dtype).reshape(-1, 1, PARTIALS, 1)

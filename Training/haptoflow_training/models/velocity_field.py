@@ -67,7 +67,8 @@ class VelocityField(nn.Module):
     (200); time: [B, 1], or [1, 1] for all; embedding: [B, 64]; motion: [B, 3]. Returns [B, C, N]. N must divide by `patch`.
     Without `hears_previous`, the previous waveform has no effect. With `average`, the field is the average velocity
     over [t, t + interval] (MeanFlow) and takes interval [B, 1]. With `ribs` (raw samples only), it hears what the ribs
-    of a ruled surface would do next.
+    of a ruled surface would do next. levels: 2 for a U-net, whose second level has half the positions; 1 for its first
+    block alone, at less than half the time.
     """
 
     film_factors: Tensor
@@ -84,9 +85,13 @@ class VelocityField(nn.Module):
         average: bool = False,
         hears_previous: bool = True,
         ribs: bool = False,
+        levels: int = 2,
     ) -> None:
         super().__init__()
         self.hears_previous = hears_previous
+        if levels not in (1, 2):
+            raise ValueError(f"levels: 1 or 2, not {levels}")
+        self.levels = levels
         if positions % patch != 0:
             raise ValueError(f"{positions} positions do not divide into patches of {patch}")
         self.channels, self.positions, self.patch = channels, positions, patch
@@ -105,20 +110,21 @@ class VelocityField(nn.Module):
         self.previous_fine = nn.Conv2d(
             channels, previous_width, (1, 3 * patch), stride=(1, patch), padding=(0, patch)
         )
-        self.previous_coarse = _convolution(previous_width, previous_width, 3, stride=2)
-
         self.fine_down = FilmBlock(width + previous_width, width, self.patches)
-        self.down = _convolution(width, 2 * width, 3, stride=2)
-        self.coarse = FilmBlock(2 * width + previous_width, 2 * width, coarse)
-        self.up = nn.ConvTranspose2d(
-            2 * width, width, (1, 3), stride=(1, 2), padding=(0, 1), output_padding=(0, 1 - self.patches % 2)
-        )
-        self.fine_up = FilmBlock(2 * width, width, self.patches)
+        blocks = [self.fine_down]
+        if levels == 2:
+            self.previous_coarse = _convolution(previous_width, previous_width, 3, stride=2)
+            self.down = _convolution(width, 2 * width, 3, stride=2)
+            self.coarse = FilmBlock(2 * width + previous_width, 2 * width, coarse)
+            self.up = nn.ConvTranspose2d(
+                2 * width, width, (1, 3), stride=(1, 2), padding=(0, 1), output_padding=(0, 1 - self.patches % 2)
+            )
+            self.fine_up = FilmBlock(2 * width, width, self.patches)
+            blocks += [self.coarse, self.fine_up]
         self.leave = nn.ConvTranspose2d(width, channels, (1, patch), stride=(1, patch))
         nn.init.zeros_(self.leave.weight)
         nn.init.zeros_(self.leave.bias)
 
-        blocks = (self.fine_down, self.coarse, self.fine_up)
         self._film_sizes = [size for block in blocks for size in (block.channels, block.channels)]
         # What is told of the surface and of the flow's moment meet in a sum, so that the moment's share of a graph
         # of one step is a constant.
@@ -148,7 +154,7 @@ class VelocityField(nn.Module):
         if self.interval is not None and interval is not None:
             moment = moment + self.interval(interval)
         told = torch.cat([embedding, self.motion(motion)], dim=1)
-        condition = nn.functional.silu(self.told(told) + self.moment(moment))
+        condition = nn.functional.silu(self._condition(told, moment))
         # On the weights, which a graph has as constants, and not on what they make.
         factors = self.film_factors
         film = nn.functional.linear(condition, self.film.weight * factors.unsqueeze(1), self.film.bias * factors)
@@ -159,7 +165,6 @@ class VelocityField(nn.Module):
         # Mirrored, so that the newest sample of the past lies beside the first sample of the new segment.
         mirrored = previous[:, :, self.newest_first]
         past = self.previous_fine(mirrored.unsqueeze(2))
-        past_coarse = self.previous_coarse(nn.functional.silu(past))
 
         heard, lines = noisy, None
         if self.comb is not None and self.line_gains is not None:
@@ -168,10 +173,26 @@ class VelocityField(nn.Module):
             heard = torch.cat([noisy, channels], dim=1)
         entered = self.enter(heard.unsqueeze(2))
         fine = self.fine_down(torch.cat([entered, past], dim=1), film_parts[0], film_parts[1])
-        coarse = self.coarse(torch.cat([self.down(fine), past_coarse], dim=1), film_parts[2], film_parts[3])
-        merged = self.fine_up(torch.cat([self.up(coarse), fine], dim=1), film_parts[4], film_parts[5])
-        made = self.leave(merged).reshape(-1, self.channels, self.positions)
+        if self.levels == 2:
+            past_coarse = self.previous_coarse(nn.functional.silu(past))
+            coarse = self.coarse(torch.cat([self.down(fine), past_coarse], dim=1), film_parts[2], film_parts[3])
+            fine = self.fine_up(torch.cat([self.up(coarse), fine], dim=1), film_parts[4], film_parts[5])
+        made = self._leave(fine)
         return made if lines is None else made + lines
+
+    def _condition(self, told: Tensor, moment: Tensor) -> Tensor:
+        """A moment that is the same for all counts as a constant of the layer: a node less."""
+        if moment.shape[0] > 1:
+            return self.told(told) + self.moment(moment)
+        return nn.functional.linear(told, self.told.weight, self.told.bias + self.moment(moment).squeeze(0))
+
+    def _leave(self, features: Tensor) -> Tensor:
+        """What `leave` does, [B, C, N]: patches side by side are one layer for each place in a patch, and then a
+        transposition, at half the time of ONNX Runtime's transposed convolution."""
+        width, channels, patch = len(self.leave.weight), self.channels, self.patch
+        weight = self.leave.weight.reshape(width, channels * patch).t().reshape(channels * patch, width, 1, 1)
+        samples = nn.functional.conv2d(features, weight, self.leave.bias.repeat_interleave(patch))
+        return samples.reshape(-1, channels, patch, self.patches).transpose(2, 3).reshape(-1, channels, self.positions)
 
 
 def parameter_count(module: nn.Module) -> int:

@@ -39,7 +39,7 @@ class DataConfig:
 
 @dataclass(frozen=True)
 class ModelConfig:
-    """What is trained. architecture: `unet` (the velocity field, `width` to `patch`) or one of the baselines.
+    """What is trained. architecture: `unet` (the velocity field, `width` to `levels`) or one of the baselines.
 
     ribs: the field hears what the ribs of ruled surfaces would do next (raw samples only).
     `representation` is handed to `build_representation`. hears_previous: false leaves the previous waveform out; level:
@@ -53,6 +53,7 @@ class ModelConfig:
     width: int = 64
     previous_width: int = 32
     patch: int = 8
+    levels: int = 2
     representation: dict[str, Any] = field(default_factory=lambda: {"kind": "raw"})
 
 

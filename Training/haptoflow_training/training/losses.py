@@ -139,7 +139,7 @@ class Losses(nn.Module):
         )
         if self._balance is None:
             return loss
-        ribs_hz = rib_frequencies_hz(embedding.detach(), batch.motion)
+        ribs_hz = rib_frequencies_hz(embedding.detach(), batch.motion).squeeze(2)
         features = [
             spectral_features(spectrum, ribs_hz, partial, audible)
             for spectrum, partial in zip(heard, partials, strict=True)

@@ -65,6 +65,7 @@ def build_model(config: TrainingConfig, wave_vectors: WaveVectors) -> HaptoFlowM
             average=config.recipe.objective == "average-velocity",
             hears_previous=shape.hears_previous,
             ribs=shape.ribs,
+            levels=shape.levels,
         )
     else:
         field = build_baseline(shape.architecture)
