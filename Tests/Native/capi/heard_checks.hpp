@@ -1,0 +1,71 @@
+#pragma once
+
+#include "open_engine.hpp"
+
+#include <cmath>
+#include <cstdint>
+#include <numbers>
+#include <span>
+#include <vector>
+
+namespace haptoflow::capi::testing {
+
+/// -60 dB.
+constexpr float silence = 0.001F;
+
+/// What the limiter was given: its knee is at 0.7, and above it nears 1 as a hyperbola does.
+inline std::vector<float> unlimited(const std::vector<float>& heard) {
+    constexpr float knee = 0.7F;
+    constexpr float headroom = 1.0F - knee;
+    std::vector<float> given = heard;
+    for (float& sample : given) {
+        const float magnitude = std::abs(sample);
+        if (magnitude > knee) {
+            sample = std::copysign(knee - headroom + headroom * headroom / (1.0F - magnitude), sample);
+        }
+    }
+    return given;
+}
+
+/// The steepest that a wave of magnitude 1 can be at 48 kHz. Segments, their splices and seeds are joined before the
+/// resampler, whose stopband begins at 1,100 Hz: no sum of such tones is steeper than one of them (Bernstein). Only the
+/// gate comes after it, and opens within 2 ms on a raised cosine.
+constexpr auto steepest = static_cast<float>(std::numbers::pi * (2.0 * 1100.0 / 48000.0 + 0.5 / (0.002 * 48000.0)));
+
+/// Nothing heard from the beginning on has a step that resampler and gate cannot make.
+inline void expectNoStep(const std::vector<float>& heard) {
+    const std::vector<float> wave = unlimited(heard);
+    EXPECT_LE(largestStepFrom(0.0F, wave), steepest * peak(wave));
+}
+
+/// Lifts off, and appends what is heard to the end: under -60 dB after a block and 5 ms, and then nothing at all.
+inline void expectSilenceAfterLiftOff(OpenEngine& open, uint32_t touchCounter, std::vector<float>& heard) {
+    const std::vector<float> fade = open.update(liftedState(touchCounter), 256 + 240);
+    const std::vector<float> end = open.render(4800);
+    EXPECT_LT(peak(std::span(fade).subspan(256)), silence) << "contact has ended";
+    EXPECT_EQ(peak(end), 0.0F) << "contact has ended";
+    heard.insert(heard.end(), fade.begin(), fade.end());
+    heard.insert(heard.end(), end.begin(), end.end());
+}
+
+/// A part of what is heard: finite, inside +-1.
+inline void appendChecked(std::vector<float>& heard, const std::vector<float>& part, uint32_t update) {
+    EXPECT_TRUE(allFinite(part)) << "update " << update;
+    EXPECT_LE(peak(part), 1.0F) << "update " << update;
+    heard.insert(heard.end(), part.begin(), part.end());
+}
+
+/// A model and a quality that hard cases are played on.
+struct Subject {
+    const char* name;
+    const std::string* modelPath;
+    haptoflow_quality quality;
+};
+
+inline const auto subjects =
+    ::testing::Values(Subject{"ShippedDraft", &defaultModelPath, HAPTOFLOW_QUALITY_DRAFT},
+                      Subject{"ShippedStandard", &defaultModelPath, HAPTOFLOW_QUALITY_STANDARD},
+                      Subject{"ShippedFine", &defaultModelPath, HAPTOFLOW_QUALITY_FINE},
+                      Subject{"Untrained", &tinyModelPath, HAPTOFLOW_QUALITY_DRAFT});
+
+}  // namespace haptoflow::capi::testing
