@@ -147,6 +147,33 @@ TEST_F(VoiceTableTest, OfTwoThreadsRenderingOneVoiceTheSecondIsBusyWritesSilence
     EXPECT_TRUE(table_.close(handle_));
 }
 
+TEST_F(VoiceTableTest, OfTwoThreadsThatRenderOneVoiceAtTheirOwnPaceEachBlockIsRenderedOnceOrRefused) {
+    sink_.letGo();
+    std::atomic<std::uint64_t> rendered{0};
+    std::atomic<std::uint64_t> refused{0};
+    const auto renderMany = [&] {
+        std::vector<float> block;
+        for (int i = 0; i < 500; ++i) {
+            const haptoflow_status status = render(block);
+            EXPECT_THAT(channel(block, 0), Each(9.0F));
+            if (status == HAPTOFLOW_OK) {
+                ++rendered;
+            } else {
+                EXPECT_EQ(status, HAPTOFLOW_BUSY);
+                ++refused;
+            }
+        }
+    };
+    std::thread other(renderMany);
+    renderMany();
+    other.join();
+    EXPECT_EQ(rendered + refused, 1000U);
+    EXPECT_GE(rendered, 500U) << "one of two is always let in";
+    EXPECT_EQ(table_.use(handle_)->refusedCalls, refused);
+    EXPECT_EQ(table_.use(handle_)->voice->channels.counters.renderedFrames, rendered * frames);
+    EXPECT_TRUE(table_.close(handle_));
+}
+
 TEST_F(VoiceTableTest, ClosingAVoiceWaitsForTheRenderUnderWay) {
     closeDuringARender([this] { EXPECT_TRUE(table_.close(handle_)); });
 }

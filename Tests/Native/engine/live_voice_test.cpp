@@ -306,6 +306,45 @@ TEST_F(LiveVoiceTest, AnotherOutputRateCostsAFadeAndNothingElse) {
     EXPECT_NEAR(crossings / seconds, 2.0 * testing::toneHz, 10.0) << "the tone keeps its pitch";
 }
 
+struct Device {
+    double rateHz;
+    std::size_t blockFrames;
+};
+
+class DeviceChangeTest : public LiveVoiceTest, public ::testing::WithParamInterface<Device> {};
+
+TEST_P(DeviceChangeTest, AtAnyMomentOfATouchItCostsAFadeAndNothingElse) {
+    const auto touchOfATenth = [](double time) {
+        return std::optional(time >= 0.05 && time < 0.15 ? testing::sliding() : testing::lifted(time < 0.05 ? 0 : 1));
+    };
+    const double slowestHz = std::min(rateHz, GetParam().rateHz);
+    // As steep as the resampler's stopband and the gate's cosine allow.
+    const double steepest = std::numbers::pi * (2.0 * 1100.0 + 0.5 / 0.002) / slowestHz;
+    // Every block from before the touch-down until after the lift-off, and moments within them.
+    for (double change = 0.045; change < 0.18; change += 0.0021) {
+        SimulatedDevice device(model_, tone_);
+        device.run(change, touchOfATenth);
+        device.setRate(GetParam().rateHz);
+        device.setBlock(GetParam().blockFrames);
+        device.run(0.4 - change, touchOfATenth);
+        ASSERT_TRUE(std::ranges::all_of(device.output, [](float sample) { return std::isfinite(sample); })) << change;
+        EXPECT_EQ(device.counters().onsets, 1U) << change;
+        EXPECT_GT(testing::peak(device.output), 0.5F / 60.0F) << change;
+        EXPECT_LE(haptoflow::testing::largestStepFrom(0.0F, device.output), steepest * testing::peak(device.output))
+            << change;
+        EXPECT_EQ(testing::peak(from(device, device.output.size() - static_cast<std::size_t>(0.1 * slowestHz))), 0.0F)
+            << change;
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(To, DeviceChangeTest,
+                         ::testing::Values(Device{44100.0, 256}, Device{24000.0, 128}, Device{96000.0, 480},
+                                           Device{48000.0, 1024}, Device{16000.0, 333}),
+                         [](const auto& device) {
+                             return std::to_string(static_cast<int>(device.param.rateHz)) + "HzBlocksOf" +
+                                    std::to_string(device.param.blockFrames);
+                         });
+
 TEST_F(LiveVoiceTest, ARateThatNoOutputRunsAtIsSilentAndHarmless) {
     SimulatedDevice device(model_, tone_);
     device.run(0.3, slide);

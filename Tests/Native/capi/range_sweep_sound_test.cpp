@@ -1,0 +1,85 @@
+// A hand that speeds up, or presses harder, slowly and far beyond what was recorded, all the way to the sound: what
+// RangeSweepTest shows of the level model and the law, each tier of the shipped model has to follow.
+#include "heard_checks.hpp"
+
+#include <cmath>
+#include <functional>
+#include <string>
+#include <tuple>
+
+namespace haptoflow::capi::testing {
+namespace {
+
+constexpr double sweepOutputHz = 8000.0;
+constexpr double sweepUpdateHz = 72.0;
+constexpr double sweepSeconds = 24.0;
+constexpr double windowSeconds = 0.5;
+
+/// Level in decibels of each window of a sweep whose states are told by how much of it is over, 0 to 1.
+std::vector<double> sweptLevels(haptoflow_quality quality, uint32_t label,
+                                const std::function<haptoflow_contact_state(float)>& state) {
+    OpenEngine open(defaultModelPath, false, quality, 1, sweepOutputHz);
+    std::vector<float> heard;
+    const auto updates = static_cast<uint32_t>(sweepSeconds * sweepUpdateHz);
+    for (uint32_t update = 0; update < updates; ++update) {
+        haptoflow_contact_state told = state(static_cast<float>(update) / static_cast<float>(updates));
+        told.labels[0] = label;
+        open.publish(told);
+        const auto part = open.render(static_cast<uint32_t>(sweepOutputHz / sweepUpdateHz), sweepOutputHz);
+        EXPECT_EQ(haptoflow_engine_step(open.engine), HAPTOFLOW_OK) << message();
+        appendChecked(heard, part, update);
+    }
+    std::vector<double> levels;
+    const auto window = static_cast<std::size_t>(windowSeconds * sweepOutputHz);
+    for (std::size_t begin = 0; begin + window <= heard.size(); begin += window) {
+        double squares = 0.0;
+        for (const float sample : std::span(heard).subspan(begin, window)) {
+            squares += static_cast<double>(sample) * static_cast<double>(sample);
+        }
+        levels.push_back(10.0 * std::log10(squares / static_cast<double>(window) + 1e-12));
+    }
+    return levels;
+}
+
+double largestJump(const std::vector<double>& levels, std::size_t first) {
+    double largest = 0.0;
+    for (std::size_t i = first + 1; i < levels.size(); ++i) {
+        largest = std::max(largest, std::abs(levels[i] - levels[i - 1]));
+    }
+    return largest;
+}
+
+class RangeSweepSoundTest : public ::testing::TestWithParam<std::tuple<haptoflow_quality, uint32_t>> {
+protected:
+    // Half a second of a texture is told within about a decibel.
+    static constexpr double largestAllowedJumpDecibels = 2.5;
+};
+
+TEST_P(RangeSweepSoundTest, FromStandstillToTwoMetresASecondTheSoundGrowsWithoutAStep) {
+    const auto& [quality, label] = GetParam();
+    const std::vector<double> levels =
+        sweptLevels(quality, label, [](float done) { return slidingState(2.0F * done, 1.0F); });
+    // From 0.25 m/s on half a second changes the speed by a sixth at most.
+    EXPECT_LT(largestJump(levels, 6), largestAllowedJumpDecibels);
+    EXPECT_GT(levels.back(), levels[1] + 6.0);
+}
+
+TEST_P(RangeSweepSoundTest, FromNoForceToTenNewtonsTheSoundGrowsWithoutAStep) {
+    const auto& [quality, label] = GetParam();
+    const std::vector<double> levels =
+        sweptLevels(quality, label, [](float done) { return slidingState(0.12F, 10.0F * done); });
+    EXPECT_LT(largestJump(levels, 2), largestAllowedJumpDecibels);
+    EXPECT_GT(levels.back(), levels[1]);
+}
+
+INSTANTIATE_TEST_SUITE_P(OnModel, RangeSweepSoundTest,
+                         ::testing::Combine(::testing::Values(HAPTOFLOW_QUALITY_DRAFT, HAPTOFLOW_QUALITY_STANDARD,
+                                                              HAPTOFLOW_QUALITY_FINE),
+                                            ::testing::Values(0U, 7U, 13U)),
+                         [](const auto& parameters) {
+                             return "ShippedQuality" + std::to_string(std::get<0>(parameters.param)) + "Label" +
+                                    std::to_string(std::get<1>(parameters.param));
+                         });
+
+}  // namespace
+}  // namespace haptoflow::capi::testing
