@@ -52,6 +52,16 @@ def test_a_run_leaves_its_configuration_seed_commit_metrics_and_plot(tmp_path: P
     assert (tmp_path / "metrics.png").stat().st_size > 1000
 
 
+def test_a_finished_run_that_is_asked_again_keeps_what_it_said_of_itself(tmp_path: Path) -> None:
+    store = make_store()
+    Trainer(_config(), store, tmp_path, ALONE).run()
+    said = (tmp_path / "run.json").read_text(encoding="utf-8")
+    # The commit of the day on which it is asked again is not the one that trained.
+    (tmp_path / "run.json").write_text(said.replace('"commit": "', '"commit": "older '), encoding="utf-8")
+    Trainer(_config(), store, tmp_path, ALONE).run()
+    assert "older " in json.loads((tmp_path / "run.json").read_text(encoding="utf-8"))["commit"]
+
+
 def test_a_stopped_run_goes_on_to_the_weights_of_one_that_was_never_stopped(tmp_path: Path) -> None:
     store = make_store()
     Trainer(_config(), store, tmp_path / "whole", ALONE).run()

@@ -6,7 +6,7 @@ export const packagesByPurpose = {
   test: ['libgtest-dev', 'libgmock-dev', 'libsoxr-dev', 'libkissfft-dev'],
   python: [
     'python3', 'python3-torch', 'python3-onnx', 'python3-numpy', 'python3-scipy', 'python3-pandas', 'python3-matplotlib',
-    'python3-tqdm', 'python3-pytest', 'python3-openpyxl', 'libopenblas0-pthread',
+    'python3-tqdm', 'python3-pytest', 'python3-pytest-xdist', 'python3-openpyxl', 'libopenblas0-pthread',
   ],
   platforms: [
     'g++-mingw-w64-x86-64-posix', 'wine', 'wine64', 'g++-aarch64-linux-gnu', 'qemu-user', 'googletest',

@@ -68,7 +68,7 @@ async function installNodePackages() {
   await runNpmOrFail(['ci']);
 }
 
-const pythonModules = 'import numpy, scipy, torch, onnx, pytest';
+const pythonModules = 'import numpy, scipy, torch, onnx, pytest, xdist';
 
 /**
  * The interpreter for training and its tests: HAPTOFLOW_PYTHON, else the system's own, else the one on PATH.

@@ -58,7 +58,7 @@ async function sanitizers() {
 }
 
 async function training() {
-  const args = ['-m', 'pytest', inRepository('Tests', 'Training'), '-q', '--junitxml', results('training.xml')];
+  const args = ['-m', 'pytest', inRepository('Tests', 'Training'), '-q', '-n', String(os.cpus().length), '--junitxml', results('training.xml')];
   const env = { OPENBLAS_NUM_THREADS: '1', PYTHONPATH: inRepository('Training'), PYTHONDONTWRITEBYTECODE: '1' };
   return judgeJunit('training.xml', pythonOrFail(), args, { env, limitSeconds: 1800 });
 }

@@ -51,8 +51,9 @@ double largestJump(const std::vector<double>& levels, std::size_t first) {
 
 class RangeSweepSoundTest : public ::testing::TestWithParam<std::tuple<haptoflow_quality, uint32_t>> {
 protected:
-    // Half a second of a texture is told within about a decibel.
-    static constexpr double largestAllowedJumpDecibels = 2.5;
+    // Half a second of noise scatters by a decibel about its level; the seam of two laws that did not meet would be
+    // more.
+    static constexpr double largestAllowedJumpDecibels = 3.0;
 };
 
 TEST_P(RangeSweepSoundTest, FromStandstillToTwoMetresASecondTheSoundGrowsWithoutAStep) {
@@ -68,7 +69,8 @@ TEST_P(RangeSweepSoundTest, FromNoForceToTenNewtonsTheSoundGrowsWithoutAStep) {
     const auto& [quality, label] = GetParam();
     const std::vector<double> levels =
         sweptLevels(quality, label, [](float done) { return slidingState(0.12F, 10.0F * done); });
-    EXPECT_LT(largestJump(levels, 2), largestAllowedJumpDecibels);
+    // From 1.2 N on half a second changes the force by a sixth at most.
+    EXPECT_LT(largestJump(levels, 6), largestAllowedJumpDecibels);
     EXPECT_GT(levels.back(), levels[1]);
 }
 

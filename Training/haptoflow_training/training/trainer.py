@@ -184,10 +184,13 @@ class Trainer:
         return self._phases[-1].end
 
     def run(self) -> None:
-        """Train to the end, or until SIGINT or SIGTERM: then write a checkpoint and raise TrainingStopped."""
+        """Train to the end, or until SIGINT or SIGTERM: then write a checkpoint and raise TrainingStopped. A finished run
+        stays as it is: its summary tells the commit that trained it."""
         self._folder.mkdir(parents=True, exist_ok=True)
         if self.checkpoint_path.exists():
             self._load()
+            if self._step == self._total and (self._folder / "run.json").exists():
+                return
         log = MetricsLog(self._folder / "metrics.csv", _COLUMNS, self._step) if self._processes.is_first else None
         previous_handlers = {
             number: signal.signal(number, self._ask_to_stop) for number in (signal.SIGINT, signal.SIGTERM)
