@@ -22,7 +22,7 @@ await runMain('test:soak', async () => {
     const file = `soak-${index}.xml`;
     const executable = inRepository(presetFolder('release'), 'Tests', 'Native', program, `${program}_tests`);
     const args = [`--gtest_filter=${filter}`, `--gtest_output=xml:${results(file)}`];
-    counts = addCounts(counts, await judgeJunit(file, executable, args, env));
+    counts = addCounts(counts, await judgeJunit(file, executable, args, { env }));
   }
   console.log(`\n${closingLine(counts)}`);
   return counts.failed > 0 ? 1 : 0;

@@ -13,3 +13,7 @@ test('a program that ends within its limit is judged by itself', async () => {
   const { exitCode, output } = await run(process.execPath, ['-e', 'console.log("whole")'], { quiet: true, limitSeconds: 30 });
   assert.deepEqual({ exitCode, output }, { exitCode: 0, output: 'whole\n' });
 });
+
+test('an option that nothing knows is refused, so that a variable for the child cannot be lost among them', () => {
+  assert.throws(() => run(process.execPath, ['--version'], { quiet: true, HAPTOFLOW_TEST_CALLBACKS: '1' }), /unknown options HAPTOFLOW_TEST_CALLBACKS/);
+});

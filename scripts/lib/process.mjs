@@ -18,6 +18,8 @@ export class CommandError extends Error {
  * @returns {Promise<{exitCode: number, output: string}>} output is empty unless quiet
  */
 export function run(command, args, options = {}) {
+  const unknown = Object.keys(options).filter((name) => !['env', 'quiet', 'shell', 'limitSeconds'].includes(name));
+  if (unknown.length > 0) throw new TypeError(`run: unknown options ${unknown.join(', ')}`);
   return new Promise((resolve, reject) => {
     const child = spawn(command, args, {
       cwd: repositoryRoot,
