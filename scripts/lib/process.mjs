@@ -21,6 +21,8 @@ export function run(command, args, options = {}) {
   const unknown = Object.keys(options).filter((name) => !['env', 'quiet', 'shell', 'limitSeconds'].includes(name));
   if (unknown.length > 0) throw new TypeError(`run: unknown options ${unknown.join(', ')}`);
   return new Promise((resolve, reject) => {
+    // Before the child, whose limit begins with it.
+    const begin = performance.now();
     const child = spawn(command, args, {
       cwd: repositoryRoot,
       env: { ...process.env, ...options.env },
@@ -29,7 +31,6 @@ export function run(command, args, options = {}) {
       timeout: options.limitSeconds === undefined ? undefined : 1000 * options.limitSeconds,
       killSignal: 'SIGKILL',
     });
-    const begin = performance.now();
     const chunks = [];
     child.stdout?.on('data', (chunk) => chunks.push(chunk));
     child.stderr?.on('data', (chunk) => chunks.push(chunk));
@@ -37,7 +38,7 @@ export function run(command, args, options = {}) {
       reject(new CommandError(`cannot start \`${command}\`: ${error.code === 'ENOENT' ? 'it is not installed' : error.message}`, 2)),
     );
     child.on('close', (code, signal) => {
-      const overdue = signal === 'SIGKILL' && performance.now() - begin >= 1000 * (options.limitSeconds ?? Infinity);
+      const overdue = signal === 'SIGKILL' && performance.now() - begin > 990 * (options.limitSeconds ?? Infinity);
       const ending = overdue ? `ended after ${options.limitSeconds} s: it hangs, or the machine is very slow` : `ended by ${signal}`;
       if (signal && !options.quiet) console.error(`${command}: ${ending}`);
       const output = Buffer.concat(chunks).toString('utf8');
