@@ -21,7 +21,7 @@ export function run(command, args, options = {}) {
   const unknown = Object.keys(options).filter((name) => !['env', 'quiet', 'shell', 'limitSeconds'].includes(name));
   if (unknown.length > 0) throw new TypeError(`run: unknown options ${unknown.join(', ')}`);
   return new Promise((resolve, reject) => {
-    // Before the child, whose limit begins with it.
+    // Before the child, whose limit begins with it; and a timer may be a millisecond early.
     const begin = performance.now();
     const child = spawn(command, args, {
       cwd: repositoryRoot,
