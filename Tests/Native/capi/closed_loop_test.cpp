@@ -12,6 +12,8 @@
 namespace haptoflow::capi::testing {
 namespace {
 
+using haptoflow::testing::levelDecibels;
+
 constexpr double outputHz = 8000.0;
 constexpr std::size_t decimation = 4;
 constexpr std::size_t frameSamples = 400;
@@ -56,14 +58,6 @@ double goodnessOfFit(const std::vector<double>& first, const std::vector<double>
         secondSquares += second[bin] * second[bin];
     }
     return product / std::sqrt(firstSquares * secondSquares);
-}
-
-double levelDecibels(const std::vector<float>& waveform) {
-    double squares = 0.0;
-    for (const float sample : waveform) {
-        squares += static_cast<double>(sample) * static_cast<double>(sample);
-    }
-    return 10.0 * std::log10(squares / static_cast<double>(waveform.size()));
 }
 
 class ClosedLoopTest : public ::testing::TestWithParam<uint32_t> {};

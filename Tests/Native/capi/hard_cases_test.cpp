@@ -150,9 +150,7 @@ std::vector<HardCase> hardCases() {
     return cases;
 }
 
-using Parameters = std::tuple<Subject, HardCase>;
-
-class HardCaseTest : public ::testing::TestWithParam<Parameters> {
+class HardCaseTest : public ::testing::TestWithParam<std::tuple<Subject, HardCase>> {
 protected:
     /// What is heard of so many updates of the case; of each it is checked that it is finite and bounded.
     static std::vector<float> play(OpenEngine& open, const HardCase& hardCase, uint32_t updates) {
@@ -200,10 +198,7 @@ TEST_P(HardCaseTest, TheOutputIsFiniteBoundedAndEndsWithTheContact) {
 }
 
 INSTANTIATE_TEST_SUITE_P(OnModel, HardCaseTest, ::testing::Combine(subjects, ::testing::ValuesIn(hardCases())),
-                         [](const auto& parameters) {
-                             return std::string(std::get<0>(parameters.param).name) +
-                                    std::get<1>(parameters.param).name;
-                         });
+                         subjectAndCaseName);
 
 }  // namespace
 }  // namespace haptoflow::capi::testing

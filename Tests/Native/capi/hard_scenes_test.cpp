@@ -197,10 +197,7 @@ TEST_P(HardSceneTest, TheOutputIsFiniteBoundedAndEndsWithTheContact) {
 }
 
 INSTANTIATE_TEST_SUITE_P(OnModel, HardSceneTest, ::testing::Combine(subjects, ::testing::ValuesIn(hardScenes())),
-                         [](const auto& parameters) {
-                             return std::string(std::get<0>(parameters.param).name) +
-                                    std::get<1>(parameters.param).name;
-                         });
+                         subjectAndCaseName);
 
 }  // namespace
 }  // namespace haptoflow::capi::testing

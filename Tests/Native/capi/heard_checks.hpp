@@ -4,8 +4,9 @@
 
 #include <cmath>
 #include <cstdint>
-#include <numbers>
 #include <span>
+#include <string>
+#include <tuple>
 #include <vector>
 
 namespace haptoflow::capi::testing {
@@ -27,15 +28,10 @@ inline std::vector<float> unlimited(const std::vector<float>& heard) {
     return given;
 }
 
-/// The steepest that a wave of magnitude 1 can be at 48 kHz. Segments, their splices and seeds are joined before the
-/// resampler, whose stopband begins at 1,100 Hz: no sum of such tones is steeper than one of them (Bernstein). Only the
-/// gate comes after it, and opens within 2 ms on a raised cosine.
-constexpr auto steepest = static_cast<float>(std::numbers::pi * (2.0 * 1100.0 / 48000.0 + 0.5 / (0.002 * 48000.0)));
-
 /// Nothing heard from the beginning on has a step that resampler and gate cannot make.
 inline void expectNoStep(const std::vector<float>& heard) {
     const std::vector<float> wave = unlimited(heard);
-    EXPECT_LE(largestStepFrom(0.0F, wave), steepest * peak(wave));
+    EXPECT_LE(largestStepFrom(0.0F, wave), haptoflow::testing::steepestStep(48000.0) * peak(wave));
 }
 
 /// Lifts off, and appends what is heard to the end: under -60 dB after a block and 5 ms, and then nothing at all.
@@ -67,5 +63,10 @@ inline const auto subjects =
                       Subject{"ShippedStandard", &defaultModelPath, HAPTOFLOW_QUALITY_STANDARD},
                       Subject{"ShippedFine", &defaultModelPath, HAPTOFLOW_QUALITY_FINE},
                       Subject{"Untrained", &tinyModelPath, HAPTOFLOW_QUALITY_DRAFT});
+
+/// Of a subject and a case that has a name.
+inline const auto subjectAndCaseName = [](const auto& parameters) {
+    return std::string(std::get<0>(parameters.param).name) + std::get<1>(parameters.param).name;
+};
 
 }  // namespace haptoflow::capi::testing

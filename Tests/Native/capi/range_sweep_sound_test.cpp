@@ -32,11 +32,7 @@ std::vector<double> sweptLevels(haptoflow_quality quality, uint32_t label,
     std::vector<double> levels;
     const auto window = static_cast<std::size_t>(windowSeconds * sweepOutputHz);
     for (std::size_t begin = 0; begin + window <= heard.size(); begin += window) {
-        double squares = 0.0;
-        for (const float sample : std::span(heard).subspan(begin, window)) {
-            squares += static_cast<double>(sample) * static_cast<double>(sample);
-        }
-        levels.push_back(10.0 * std::log10(squares / static_cast<double>(window) + 1e-12));
+        levels.push_back(haptoflow::testing::levelDecibels(std::span(heard).subspan(begin, window)));
     }
     return levels;
 }

@@ -318,8 +318,7 @@ TEST_P(DeviceChangeTest, AtAnyMomentOfATouchItCostsAFadeAndNothingElse) {
         return std::optional(time >= 0.05 && time < 0.15 ? testing::sliding() : testing::lifted(time < 0.05 ? 0 : 1));
     };
     const double slowestHz = std::min(rateHz, GetParam().rateHz);
-    // As steep as the resampler's stopband and the gate's cosine allow.
-    const double steepest = std::numbers::pi * (2.0 * 1100.0 + 0.5 / 0.002) / slowestHz;
+    const double steepest = haptoflow::testing::steepestStep(slowestHz);
     // Every block from before the touch-down until after the lift-off, and moments within them.
     for (double change = 0.045; change < 0.18; change += 0.0021) {
         SimulatedDevice device(model_, tone_);
