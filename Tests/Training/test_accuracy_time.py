@@ -38,10 +38,10 @@ def _figures(pairs: list[ReferencePair], name: str) -> dict[str, object]:
     nothing = [np.zeros(0, dtype=np.float32)] * len(pairs)
     starts = [np.arange(0, len(wave), 28) for wave in waves]
     rows = accuracy.measure(pairs, accuracy.GeneratedSet(waves, nothing, starts))
-    discrimination = accuracy.label_discrimination(accuracy.make_yardstick(pairs), waves)
+    discrimination = accuracy.label_discrimination(accuracy.make_yardstick(pairs).classifier, pairs, waves)
     return {
         "summary": accuracy.summary(rows), "discrimination": discrimination, "parameters": 0, "bytes": 0,
-        "drift_db_per_min": None,
+        "drift_db_per_min": None, "seed": 1, "conditions": rows,
     }  # fmt: skip
 
 
@@ -68,7 +68,7 @@ def test_the_table_keeps_the_plan_s_order_and_leaves_out_what_was_not_measured(
     times = {"standard": Milliseconds(0.2, 0.3), "size": Milliseconds(20.0, 30.0)}
     result = table(plan, measured, times, times)
     assert [row["name"] for row in result["rows"]] == ["standard", "size", "independent-draw"]
-    assert result["rows"][0]["seeds"] == 2 and len(result["rows"][0]["lsd_db_seeds"]) == 2
+    assert [row["seeds"] for row in result["rows"]] == [2, 1, 1] and "by_seed" not in result["rows"][2]
     assert result["rows"][2]["ms_per_segment"] is None
 
     images = tmp_path / "images"
@@ -81,6 +81,36 @@ def test_the_table_keeps_the_plan_s_order_and_leaves_out_what_was_not_measured(
     assert "images/accuracy-time.png" in text and "| missing" not in text
     assert result["not_measured"] == ["missing"] and "Not measured yet, so not judged: missing." in text
     assert all((images / name).stat().st_size > 5000 for name in ("accuracy-time.png", "label-spectra.png"))
+
+
+def test_seeds_are_compared_on_the_recordings_that_all_of_them_were_measured_on() -> None:
+    # GFC 0.9 everywhere but at the one speed that the second seed was not measured at.
+    def condition(label: str, speed: float, gfc: float) -> dict[str, object]:
+        figures = dict.fromkeys(("level_error_db", "gfc_segment", "rmse", "lsd_db", "continuity"), 0.5)
+        motion = {"label": label, "kind": "constant", "speed_mps": speed, "force_newtons": 1.0}
+        return {**motion, **figures, "gfc_recording": gfc, "band_errors_db": [0.0]}
+
+    def result(seed: int, conditions: list[dict[str, object]]) -> dict[str, object]:
+        common = {"discrimination": None, "parameters": 5, "bytes": 20, "drift_db_per_min": None}
+        return {"seed": seed, "summary": accuracy.summary(conditions), "conditions": conditions, **common}
+
+    whole = [condition(label, speed, 0.5 if speed == 1.0 else 0.9) for label in "ab" for speed in (0.1, 1.0)]
+    part = [condition(label, 0.1, 0.8) for label in "ab"]
+    plan = [PlannedRow("standard", "HaptoFlow", model="m", seeds=(1, 4))]
+    row = table(plan, {"standard": [result(1, whole), result(4, part)]}, {}, {})["rows"][0]
+    assert row["recordings"] == 4 and row["gfc_recording"] == pytest.approx(0.7)
+    assert row["by_seed"]["seeds"] == [1, 4] and row["by_seed"]["recordings"] == 2
+    assert row["by_seed"]["gfc_recording"] == pytest.approx([0.9, 0.8])
+
+
+def test_every_fourth_recording_is_a_quarter_of_each_label_and_over_labels_every_condition_alike() -> None:
+    chosen = conditions(load_materials())
+    nothing = np.zeros(0, dtype=np.float32)
+    picked = accuracy.every_fourth([ReferencePair(entry, nothing, nothing, nothing) for entry in chosen])
+    labels = [pair.condition.label for pair in picked]
+    assert len(picked) == len(chosen) // 4 and {labels.count(label) for label in labels} == {2}
+    speeds = [pair.condition.speed_mps for pair in picked]
+    assert {speeds.count(entry.speed_mps) for entry in chosen} == {len(picked) // 8}
 
 
 def test_rows_measured_later_join_the_table_in_the_plan_s_order() -> None:

@@ -8,8 +8,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-import numpy as np
-
+from haptoflow_training.evaluation.accuracy import summary
 from haptoflow_training.evaluation.row_plan import PlannedRow
 from haptoflow_training.evaluation.timing import Milliseconds
 
@@ -27,6 +26,7 @@ _FIGURES = (
     "harmonic_share",
     "continuity",
 )
+_SEED_FIGURES = ("level_error_db", "level_error_p90_db", "gfc_recording", "lsd_db")
 
 
 def machine_words() -> str:
@@ -70,7 +70,8 @@ def _absent(plan: Sequence[PlannedRow], rows: list[dict[str, Any]]) -> list[str]
 def _row(
     row: PlannedRow, results: list[dict[str, Any]], hot: Milliseconds | None, paced: Milliseconds | None
 ) -> dict[str, Any]:
-    summaries = [result["summary"] for result in results]
+    first = results[0]
+    figures = first["summary"]
     entry: dict[str, Any] = {
         "name": row.name,
         "family": row.family,
@@ -83,21 +84,33 @@ def _row(
         "ms_paced": None if paced is None else {"p50": round(paced.p50, 4), "p99": round(paced.p99, 4)},
     }
     for key in _FIGURES:
-        entry[key] = _mean([summary.get(key) for summary in summaries])
-        interval = [summary.get(f"{key}_interval") for summary in summaries]
-        if interval[0] is not None:
-            entry[f"{key}_interval"] = [round(float(value), 4) for value in np.mean(interval, axis=0)]
-        if len(summaries) > 1 and summaries[0].get(key) is not None:
-            entry[f"{key}_seeds"] = [round(float(summary[key]), 4) for summary in summaries]
-    entry["drift_db_per_min"] = _mean([result["drift_db_per_min"] for result in results])
-    entry["label_discrimination"] = _mean([result["discrimination"] for result in results])
+        entry[key] = _rounded(figures.get(key))
+        if (interval := figures.get(f"{key}_interval")) is not None:
+            entry[f"{key}_interval"] = [round(float(value), 4) for value in interval]
+    entry["drift_db_per_min"] = _rounded(first["drift_db_per_min"])
+    entry["label_discrimination"] = _rounded(first["discrimination"])
     for key in ("fast", "kink_db", "drift_seconds"):
-        if key in results[0]:
-            entry[key] = results[0][key]
+        if key in first:
+            entry[key] = first[key]
+    entry["recordings"] = len(first.get("conditions", ()))
     entry["seeds"] = len(results)
+    if len(results) > 1:
+        entry["by_seed"] = _by_seed(results)
     return entry
 
 
-def _mean(values: list[float | None]) -> float | None:
-    present = [value for value in values if value is not None]
-    return round(float(np.mean(present)), 4) if present else None
+def _by_seed(results: list[dict[str, Any]]) -> dict[str, Any]:
+    """Figures of each seed on the recordings that all of them were measured on."""
+    keyed = [{_identity(condition): condition for condition in result["conditions"]} for result in results]
+    shared = [key for key in keyed[0] if all(key in other for other in keyed)]
+    summaries = [summary([conditions[key] for key in shared]) for conditions in keyed]
+    by_figure = {key: [_rounded(entry[key]) for entry in summaries] for key in _SEED_FIGURES}
+    return {"seeds": [result["seed"] for result in results], "recordings": len(shared), **by_figure}
+
+
+def _identity(condition: dict[str, Any]) -> tuple[Any, ...]:
+    return tuple(condition[key] for key in ("label", "kind", "speed_mps", "force_newtons"))
+
+
+def _rounded(value: float | None) -> float | None:
+    return None if value is None else round(float(value), 4)

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from haptoflow_training.evaluation.goals import judge
 from haptoflow_training.evaluation.metrics import power_spectrum
 from haptoflow_training.evaluation.reference_set import ReferencePair
 
@@ -62,6 +63,8 @@ def write_document(table: dict[str, Any], out: Path, images: Path, picture: bool
             "`npm run evaluate` measures them and adds them here.",
             "",
         ]
+    lines += _goal_table(table)
+    lines += _seed_table(table["rows"])
     lines += _fast_table(table["rows"])
     if spectra:
         lines += ["## Spectra by label", "", f"![Mean spectra of every label]({images.name}/label-spectra.png)", ""]
@@ -82,8 +85,8 @@ def _level_cell(row: dict[str, Any]) -> str:
 def _main_table(rows: Sequence[dict[str, Any]]) -> list[str]:
     lines = [
         "| row | evaluations | ms hot | ms live (p99) | level dB (p90, worst) | GFC (worst label) | LSD dB | bands dB "
-        "| f0 % | harmonics | seams | drift dB/min | segment GFC | RMSE | named right | parameters | seeds |",
-        "|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|",
+        "| f0 % | harmonics | seams | drift dB/min | segment GFC | RMSE | named right | parameters |",
+        "|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|",
     ]
     for row in rows:
         hot, live = row["ms_per_segment"], row["ms_paced"]
@@ -93,7 +96,7 @@ def _main_table(rows: Sequence[dict[str, Any]]) -> list[str]:
             "" if hot is None else _cell(hot["p50"], 3),
             "" if live is None else f"{_cell(live['p50'], 3)} ({_cell(live['p99'], 3)})",
             _level_cell(row),
-            "" if row["gfc_recording"] is None else f"{row['gfc_recording']:.3f} ({row['gfc_label_worst']:.3f})",
+            "" if row["gfc_recording"] is None else f"{row['gfc_recording']:.4f} ({row['gfc_label_worst']:.3f})",
             _cell(row["lsd_db"], 2),
             _cell(row["band_error_db"], 2),
             _cell(row["f0_error_percent"], 2),
@@ -104,10 +107,47 @@ def _main_table(rows: Sequence[dict[str, Any]]) -> list[str]:
             _cell(row["rmse"], 2),
             _cell(row["label_discrimination"], 2),
             f"{row['parameters']:,}" if row["parameters"] else "",
-            str(row["seeds"]),
         ]
         lines.append("| " + " | ".join(cells) + " |")
     return [*lines, ""]
+
+
+def _goal_table(table: dict[str, Any]) -> list[str]:
+    goals = judge(table)
+    if not goals:
+        return []
+    verdicts = {True: "yes", False: "**no**", None: "not judged"}
+    lines = ["## What the default tier was meant to reach", "", "| figure | goal | measured | holds |", "|---|---|---|---|"]
+    lines += [f"| {goal.what} | {goal.wanted} | {goal.measured} | {verdicts[goal.holds]} |" for goal in goals]
+    return [*lines, ""]
+
+
+def _seed_table(rows: Sequence[dict[str, Any]]) -> list[str]:
+    repeated = [row for row in rows if "by_seed" in row]
+    if not repeated:
+        return []
+    count = repeated[0]["by_seed"]["recordings"]
+    lines = [
+        "## How much is chance",
+        "",
+        f"Rows whose training was repeated with other seeds, each measured on the same {count} recordings (of every label "
+        "another quarter of its conditions), so that the first seed's figures are others than above.",
+        "",
+        "| row | seeds | level dB | level p90 dB | GFC | LSD dB |",
+        "|---|---|---|---|---|---|",
+    ]
+    for row in repeated:
+        seeds = row["by_seed"]
+        cells = [
+            _values(seeds["level_error_db"], 2, True), _values(seeds["level_error_p90_db"], 1),
+            _values(seeds["gfc_recording"], 3), _values(seeds["lsd_db"], 2),
+        ]  # fmt: skip
+        lines.append(f"| {row['name']} | {', '.join(map(str, seeds['seeds']))} | " + " | ".join(cells) + " |")
+    return [*lines, ""]
+
+
+def _values(values: Sequence[float | None], digits: int, signed: bool = False) -> str:
+    return ", ".join(_cell(value, digits, signed) for value in values)
 
 
 def _fast_table(rows: Sequence[dict[str, Any]]) -> list[str]:

@@ -14,7 +14,8 @@ from haptoflow_training.evaluation.reference_rows import REFERENCE_ROWS
 @dataclass(frozen=True)
 class PlannedRow:
     """model: a .haptoflow file from the repository's root, or the name of a training in the plan's own folder (its
-    TOML file without the ending); empty for a reference row. quick: measured by --quick too. extended: the long
+    TOML file without the ending); empty for a reference row. seeds: of the training; those after the first are measured
+    on every fourth recording, to tell how much of a row is chance. quick: measured by --quick too. extended: the long
     measurements too (ten minutes of drift, speeds by update rates, level across speed). time_only: random weights of a
     true size, no accuracy is measured."""
 

@@ -116,7 +116,8 @@ def _made_from(place: Workplace, yardstick: Yardstick, row: PlannedRow, seed: in
     model = place.model_file(row, seed)
     # Of what computes alone: the header carries figures that this evaluation writes.
     crc = 0 if row.is_reference else zlib.crc32(b"".join(read_model_file(model).graphs.values()))
-    return {"graphs_crc32": f"{crc:08x}", "recordings_crc32": f"{yardstick.checksum:08x}", "extended": row.extended}
+    made_from = {"graphs_crc32": f"{crc:08x}", "recordings_crc32": f"{yardstick.checksum:08x}"}
+    return {**made_from, "extended": row.extended, "reduced": seed != row.seeds[0]}
 
 
 def _reference_figures(yardstick: Yardstick, row: PlannedRow) -> dict[str, Any]:
@@ -127,7 +128,7 @@ def _reference_figures(yardstick: Yardstick, row: PlannedRow) -> dict[str, Any]:
     rows = accuracy.measure(pairs, accuracy.GeneratedSet(waves, nothing, starts))
     return {
         "summary": accuracy.summary(rows),
-        "discrimination": accuracy.label_discrimination(yardstick, waves),
+        "discrimination": accuracy.label_discrimination(yardstick.classifier, pairs, waves),
         "conditions": rows,
         "parameters": 0,
         "bytes": 0,
@@ -138,7 +139,9 @@ def _reference_figures(yardstick: Yardstick, row: PlannedRow) -> dict[str, Any]:
 def _engine_figures(
     place: Workplace, engine: EngineLibrary, yardstick: Yardstick, row: PlannedRow, seed: int
 ) -> dict[str, Any]:
-    model, pairs = place.model_file(row, seed), yardstick.pairs
+    model = place.model_file(row, seed)
+    reduced = seed != row.seeds[0]
+    pairs = accuracy.every_fourth(yardstick.pairs) if reduced else yardstick.pairs
     extended = row.extended and not place.quick
     drift_seconds = _LONG_DRIFT_SECONDS if extended else _SHORT_DRIFT_SECONDS
     hops = accuracy.hops_of(pairs, UPDATE_RATE_HZ) + int(drift_seconds * UPDATE_RATE_HZ)
@@ -148,13 +151,13 @@ def _engine_figures(
                 generator, generator.embeddings, pairs, update_rate_hz=UPDATE_RATE_HZ, seed=_SEED, advance=bar.update
             )
             drift = accuracy.drift_db_per_minute(
-                generator, generator.embeddings, seconds=drift_seconds, update_rate_hz=UPDATE_RATE_HZ, seed=_SEED,
+                generator, generator.embeddings[::4] if reduced else generator.embeddings, seconds=drift_seconds, update_rate_hz=UPDATE_RATE_HZ, seed=_SEED,
                 advance=bar.update,
             )  # fmt: skip
         rows = accuracy.measure(pairs, made)
         result: dict[str, Any] = {
             "summary": accuracy.summary(rows),
-            "discrimination": accuracy.label_discrimination(yardstick, made.closed),
+            "discrimination": accuracy.label_discrimination(yardstick.classifier, pairs, made.closed),
             "conditions": rows,
             **_sizes(generator, row),
             "drift_db_per_min": drift[0],
