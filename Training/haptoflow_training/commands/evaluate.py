@@ -18,7 +18,7 @@ from haptoflow_training.evaluation.accuracy_time_report import draw_chart, draw_
 from haptoflow_training.evaluation.engine_library import EngineGenerator, EngineLibrary, default_engine
 from haptoflow_training.evaluation.reference_set import ReferencePair, conditions, reference_set
 from haptoflow_training.evaluation.row_plan import PlannedRow, load_plan
-from haptoflow_training.evaluation.row_runner import UPDATE_RATE_HZ, Workplace, measure_row, train_model
+from haptoflow_training.evaluation.row_runner import UPDATE_RATE_HZ, Workplace, measure_row, train_models
 from haptoflow_training.evaluation.timing import Milliseconds, TimedSource, time_sources
 from haptoflow_training.export.annotation import annotate_model
 from haptoflow_training.export.model_file import read_model_file
@@ -39,7 +39,7 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser], su
         ),
         epilog=(
             "examples:\n"
-            "  haptoflow-training evaluate --quick        what is there, no training, about a quarter of an hour\n"
+            "  haptoflow-training evaluate --quick        what is there, on a quarter of the recordings\n"
             "  haptoflow-training evaluate --rows plain-euler-1 standard\n"
         ),
         formatter_class=argparse.RawDescriptionHelpFormatter,
@@ -54,6 +54,7 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser], su
     )
     parser.add_argument("--out", type=Path, default=_ROOT / "Training" / "results", help="for accuracy-time.json")
     parser.add_argument("--document", type=Path, default=_ROOT / "Documentation~" / "accuracy-and-time.md")
+    parser.add_argument("--lanes", type=int, default=os.cpu_count() or 1, help="trainings at a time (default: cores)")
     parser.add_argument("--workers", type=int, default=os.cpu_count() or 1, help="recording processes (default: cores)")
     parser.set_defaults(run=run)
 
@@ -69,10 +70,7 @@ def run(options: argparse.Namespace) -> int:
     place = Workplace(_ROOT, options.plan, options.work, options.store, options.quick)
     engine = default_engine(_ROOT)
     if not (options.quick or options.no_train):
-        for row in chosen:
-            for seed in row.seeds:
-                if not row.is_reference:
-                    train_model(place, row, seed)
+        train_models(place, chosen, options.lanes)
     present = [row for row in chosen if row.is_reference or _is_there(place.model_file(row, row.seeds[0]), row.tier)]
     for row in (entry for entry in chosen if entry not in present):
         missing = f"{row.model} has no tier '{row.tier}'" if row.tier else f"{row.model} is not trained yet"

@@ -4,10 +4,6 @@ from __future__ import annotations
 
 import argparse
 import os
-import signal
-import subprocess
-import sys
-import time
 from pathlib import Path
 
 from tqdm import tqdm
@@ -16,6 +12,7 @@ from haptoflow_training.commands.export import announce
 from haptoflow_training.errors import InputError
 from haptoflow_training.export.exporter import export_run
 from haptoflow_training.training.config import load_config
+from haptoflow_training.training.job_lanes import Job, run_jobs
 from haptoflow_training.training.recordings_source import open_source
 from haptoflow_training.training.run_log import last_step, write_json
 from haptoflow_training.training.trainer import planned_steps
@@ -83,38 +80,17 @@ def run(options: argparse.Namespace) -> int:
 
 def _train_all(files: list[Path], out: Path, lanes: int, more: list[str]) -> None:
     """Train each file in a process of its own, `lanes` at a time; InputError names the log of one that failed."""
-    # Without a handler, a terminated parent would leave its trainings running.
-    signal.signal(signal.SIGTERM, lambda number, frame: sys.exit(128 + number))
-    waiting = list(files)
-    running: dict[Path, subprocess.Popen[bytes]] = {}
     total = sum(sum(planned_steps(load_config(path))) for path in files)
     with tqdm(total=total, unit="step", desc=", ".join(path.stem for path in files)) as bar:
-        try:
-            while waiting or running:
-                while waiting and len(running) < lanes:
-                    path = waiting.pop(0)
-                    running[path] = _start(path, out, more)
-                time.sleep(1.0)
-                bar.n = sum(last_step(out / path.stem / "metrics.csv") for path in files)
-                bar.refresh()
-                for path, process in list(running.items()):
-                    if process.poll() is None:
-                        continue
-                    del running[path]
-                    if process.returncode != 0 or not (out / path.stem / "run.json").exists():
-                        raise InputError(f"{path}: training stopped; {out / path.stem / 'train.log'} says why")
-        finally:
-            for process in running.values():
-                process.terminate()
-            for process in running.values():
-                process.wait()
+
+        def watch(finished: int) -> None:
+            bar.n = sum(last_step(out / path.stem / "metrics.csv") for path in files)
+            bar.refresh()
+
+        run_jobs([_job(path, out, more) for path in files], lanes, watch)
 
 
-def _start(path: Path, out: Path, more: list[str]) -> subprocess.Popen[bytes]:
+def _job(path: Path, out: Path, more: list[str]) -> Job:
     folder = out / path.stem
-    folder.mkdir(parents=True, exist_ok=True)
-    command = [sys.executable, "-m", "haptoflow_training", "train", "--config", str(path), "--out", str(folder)]
-    command += ["--store", str(out / "store"), *more]
-    environment = {**os.environ, "OPENBLAS_NUM_THREADS": "1"}
-    with (folder / "train.log").open("ab") as log:
-        return subprocess.Popen(command, stdout=log, stderr=subprocess.STDOUT, env=environment)
+    words = ["train", "--config", str(path), "--out", str(folder), "--store", str(out / "store"), *more]
+    return Job(str(path), words, folder / "train.log", folder / "run.json")

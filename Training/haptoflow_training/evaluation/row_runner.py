@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
+import dataclasses
 import json
-import os
-import subprocess
-import sys
 import zlib
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -14,7 +13,6 @@ from typing import Any
 import numpy as np
 from tqdm import tqdm
 
-from haptoflow_training.errors import InputError
 from haptoflow_training.evaluation import accuracy
 from haptoflow_training.evaluation.accuracy import Yardstick
 from haptoflow_training.evaluation.closed_loop import hop_positions, run_closed_loop
@@ -25,6 +23,7 @@ from haptoflow_training.evaluation.reference_set import ReferencePair
 from haptoflow_training.evaluation.row_plan import PlannedRow
 from haptoflow_training.export.model_file import read_model_file
 from haptoflow_training.training.config import load_config
+from haptoflow_training.training.job_lanes import Job, run_jobs
 from haptoflow_training.training.run_log import write_json
 
 UPDATE_RATE_HZ = 72.0
@@ -38,8 +37,8 @@ _SWEEP_SECONDS = 4.0
 
 @dataclass(frozen=True)
 class Workplace:
-    """root: the repository. work: where trainings, models and rows are kept (not committed). quick: leave out the long
-    measurements, and keep the results apart from the whole ones."""
+    """root: the repository. work: where trainings, models and rows are kept (not committed). quick: every fourth
+    recording and no long measurements, and results apart from the whole ones."""
 
     root: Path
     plan: Path
@@ -52,41 +51,68 @@ class Workplace:
             return self.root / row.model
         return self.work / "models" / f"{row.model}-{seed}.haptoflow"
 
+    def config_file(self, model: str) -> Path:
+        return self.plan.parent / f"{model}.toml"
+
+    def run_folder(self, model: str, seed: int) -> Path:
+        return self.work / "runs" / f"{model}-{seed}"
+
     def row_file(self, row: PlannedRow, seed: int) -> Path:
         return self.work / ("rows-quick" if self.quick else "rows") / f"{row.name}-{seed}.json"
 
 
-def train_model(place: Workplace, row: PlannedRow, seed: int) -> None:
-    """Train what the row needs, where it is not there yet: goes on after an interruption."""
-    out = place.model_file(row, seed)
-    if out.exists():
-        return
-    config = place.plan.parent / f"{row.model}.toml"
-    folder = place.work / "runs" / f"{row.model}-{seed}"
-    folder.mkdir(parents=True, exist_ok=True)
-    command = [sys.executable, "-m", "haptoflow_training", "train", "--config", str(config), "--seed", str(seed)]
-    command += ["--out", str(folder), "--store", str(place.store), "--export", str(out)]
-    _train_codec(place, config)
-    _run(command, place.root)
-    if not out.exists():
-        raise InputError(f"{config}: training did not finish; run `npm run evaluate` again to go on")
+def train_models(place: Workplace, rows: Sequence[PlannedRow], lanes: int) -> None:
+    """Train what the rows need and is not there yet, `lanes` models at a time; goes on after an interruption.
+
+    InputError names the log of a training that failed, as one does whose folder belongs to another configuration.
+    """
+    wanted = {place.model_file(row, seed): (row.model, seed) for row in rows if not row.is_reference for seed in row.seeds}
+    jobs = [
+        _training(place, model, seed, out)
+        for out, (model, seed) in wanted.items()
+        if not (out.exists() and _is_as_configured(place, model, seed))
+    ]
+    codecs = {job.product: job for model, _ in wanted.values() for job in _codec_training(place, model)}
+    with tqdm(total=len(jobs) + len(codecs), desc="trainings", unit="model") as bar:
+
+        def watch(finished: int) -> None:
+            bar.n = finished
+            bar.refresh()
+
+        run_jobs(list(codecs.values()), lanes, watch)
+        run_jobs(jobs, lanes, lambda finished: watch(len(codecs) + finished))
 
 
-def _train_codec(place: Workplace, config: Path) -> None:
-    """The small codec that the configuration's latents come from, where it is not trained yet."""
-    representation = load_config(config).model.representation
-    if representation["kind"] != "small-codec" or (place.root / representation["checkpoint"]).exists():
-        return
-    folder = (place.root / representation["checkpoint"]).parent
+def _is_as_configured(place: Workplace, model: str, seed: int) -> bool:
+    """Whether a model that is there was trained as its configuration says today; True where nothing tells."""
+    summary = place.run_folder(model, seed) / "run.json"
+    if model.endswith(".haptoflow") or not summary.exists():
+        return True
+    trained: dict[str, Any] = json.loads(summary.read_text(encoding="utf-8"))["configuration"]
+    today = dataclasses.replace(load_config(place.config_file(model)), seed=seed).to_dict()
+    return trained == json.loads(json.dumps(today))
+
+
+def _training(place: Workplace, model: str, seed: int, out: Path) -> Job:
+    folder = place.run_folder(model, seed)
+    words = ["train", "--config", str(place.config_file(model)), "--seed", str(seed)]
+    words += ["--out", str(folder), "--store", str(place.store), "--export", str(out)]
+    return Job(f"{model}, seed {seed}", words, folder / "train.log", out)
+
+
+def _codec_training(place: Workplace, model: str) -> list[Job]:
+    """Of the small codec that the model's latents come from, where it is not trained yet."""
+    if model.endswith(".haptoflow"):
+        return []
+    representation = load_config(place.config_file(model)).model.representation
+    if representation["kind"] != "small-codec":
+        return []
+    checkpoint = place.root / representation["checkpoint"]
+    if checkpoint.exists():
+        return []
     codec = place.root / "Training" / "configs" / "codec-small.toml"
-    command = [sys.executable, "-m", "haptoflow_training", "train-codec", "--config", str(codec)]
-    _run([*command, "--store", str(place.store), "--out", str(folder)], place.root)
-
-
-def _run(command: list[str], folder: Path) -> None:
-    environment = {**os.environ, "OPENBLAS_NUM_THREADS": "1"}
-    if subprocess.run(command, env=environment, cwd=folder, check=False).returncode != 0:
-        raise InputError(f"`{' '.join(command[3:7])}` did not finish; run `npm run evaluate` again to go on")
+    words = ["train-codec", "--config", str(codec), "--store", str(place.store), "--out", str(checkpoint.parent)]
+    return [Job("the small codec", words, checkpoint.parent / "train.log", checkpoint)]
 
 
 def measure_row(
@@ -100,7 +126,7 @@ def measure_row(
         if stored.get("made_from") == made_from:
             return stored
     if row.is_reference:
-        figures = _reference_figures(yardstick, row)
+        figures = _reference_figures(place, yardstick, row, seed)
     elif row.time_only:
         with EngineGenerator(engine, place.model_file(row, seed), row.tier or None, row.solver, row.steps) as generator:
             figures = {"summary": {}, "discrimination": None, "drift_db_per_min": None, **_sizes(generator, row)}
@@ -117,11 +143,19 @@ def _made_from(place: Workplace, yardstick: Yardstick, row: PlannedRow, seed: in
     # Of what computes alone: the header carries figures that this evaluation writes.
     crc = 0 if row.is_reference else zlib.crc32(b"".join(read_model_file(model).graphs.values()))
     made_from = {"graphs_crc32": f"{crc:08x}", "recordings_crc32": f"{yardstick.checksum:08x}"}
-    return {**made_from, "extended": row.extended, "reduced": seed != row.seeds[0]}
+    return {**made_from, "extended": row.extended, "reduced": _is_reduced(place, row, seed)}
 
 
-def _reference_figures(yardstick: Yardstick, row: PlannedRow) -> dict[str, Any]:
-    pairs = yardstick.pairs
+def _is_reduced(place: Workplace, row: PlannedRow, seed: int) -> bool:
+    return place.quick or seed != row.seeds[0]
+
+
+def _pairs(place: Workplace, yardstick: Yardstick, row: PlannedRow, seed: int) -> list[ReferencePair]:
+    return accuracy.every_fourth(yardstick.pairs) if _is_reduced(place, row, seed) else yardstick.pairs
+
+
+def _reference_figures(place: Workplace, yardstick: Yardstick, row: PlannedRow, seed: int) -> dict[str, Any]:
+    pairs = _pairs(place, yardstick, row, seed)
     waves = reference_waves(row.name, pairs, _SEED)
     nothing = [np.zeros(0, dtype=np.float32)] * len(pairs)
     starts = [hop_positions(len(wave), UPDATE_RATE_HZ) for wave in waves]
@@ -140,8 +174,7 @@ def _engine_figures(
     place: Workplace, engine: EngineLibrary, yardstick: Yardstick, row: PlannedRow, seed: int
 ) -> dict[str, Any]:
     model = place.model_file(row, seed)
-    reduced = seed != row.seeds[0]
-    pairs = accuracy.every_fourth(yardstick.pairs) if reduced else yardstick.pairs
+    pairs = _pairs(place, yardstick, row, seed)
     extended = row.extended and not place.quick
     drift_seconds = _LONG_DRIFT_SECONDS if extended else _SHORT_DRIFT_SECONDS
     hops = accuracy.hops_of(pairs, UPDATE_RATE_HZ) + int(drift_seconds * UPDATE_RATE_HZ)
@@ -150,8 +183,9 @@ def _engine_figures(
             made = accuracy.generate_set(
                 generator, generator.embeddings, pairs, update_rate_hz=UPDATE_RATE_HZ, seed=_SEED, advance=bar.update
             )
+            embeddings = generator.embeddings[::4] if _is_reduced(place, row, seed) else generator.embeddings
             drift = accuracy.drift_db_per_minute(
-                generator, generator.embeddings[::4] if reduced else generator.embeddings, seconds=drift_seconds, update_rate_hz=UPDATE_RATE_HZ, seed=_SEED,
+                generator, embeddings, seconds=drift_seconds, update_rate_hz=UPDATE_RATE_HZ, seed=_SEED,
                 advance=bar.update,
             )  # fmt: skip
         rows = accuracy.measure(pairs, made)

@@ -169,6 +169,7 @@ class Trainer:
         self._step = 0
         self._seconds = 0.0
         self._stop = False
+        self._commit = ""
 
     @property
     def averaged_model(self) -> HaptoFlowModel:
@@ -191,6 +192,8 @@ class Trainer:
             self._load()
             if self._step == self._total and (self._folder / "run.json").exists():
                 return
+        # Of the code that trains, which is that of now, whatever the tree holds when the run ends.
+        self._commit = source_commit(Path(__file__).parent)
         log = MetricsLog(self._folder / "metrics.csv", _COLUMNS, self._step) if self._processes.is_first else None
         previous_handlers = {
             number: signal.signal(number, self._ask_to_stop) for number in (signal.SIGINT, signal.SIGTERM)
@@ -358,7 +361,7 @@ class Trainer:
             {
                 "configuration": self._config.to_dict(),
                 "seed": self._config.seed,
-                "commit": source_commit(Path(__file__).parent),
+                "commit": self._commit,
                 "from": "/".join(self._start.parts[-2:]) if self._start else None,
                 "labels": list(self._store.labels),
                 "steps": self._step,

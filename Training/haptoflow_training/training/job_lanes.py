@@ -1,0 +1,68 @@
+"""Several trainings at a time, each a process of its own with a log of its own."""
+
+from __future__ import annotations
+
+import os
+import signal
+import subprocess
+import sys
+import time
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from haptoflow_training.errors import InputError
+
+_POLL_SECONDS = 0.2
+
+
+@dataclass(frozen=True)
+class Job:
+    """words: arguments of the haptoflow_training command, or a whole command where `program` names another. log: what
+    it prints is added here. product: a file that is there when the job is done."""
+
+    name: str
+    words: Sequence[str]
+    log: Path
+    product: Path
+    program: Sequence[str] = (sys.executable, "-m", "haptoflow_training")
+
+
+def run_jobs(jobs: Sequence[Job], lanes: int, watch: Callable[[int], None] = lambda finished: None) -> None:
+    """Run jobs in their order, `lanes` at a time; `watch` hears every moment how many are finished.
+
+    InputError names job and log when one fails or leaves no product; then, and when this process is asked to stop, the
+    others are asked to stop too, and waited for: what resumes is whole.
+    """
+    waiting = list(jobs)
+    finished = 0
+    running: dict[Job, subprocess.Popen[bytes]] = {}
+    # Without a handler, a terminated parent would leave its trainings running.
+    before = signal.signal(signal.SIGTERM, lambda number, frame: sys.exit(128 + number))
+    try:
+        while waiting or running:
+            while waiting and len(running) < lanes:
+                job = waiting.pop(0)
+                running[job] = _start(job)
+            time.sleep(_POLL_SECONDS)
+            for job, process in list(running.items()):
+                if process.poll() is None:
+                    continue
+                del running[job]
+                if process.returncode != 0 or not job.product.exists():
+                    raise InputError(f"{job.name}: training stopped; {job.log} says why; run the command again to go on")
+                finished += 1
+            watch(finished)
+    finally:
+        for process in running.values():
+            process.terminate()
+        for process in running.values():
+            process.wait()
+        signal.signal(signal.SIGTERM, before)
+
+
+def _start(job: Job) -> subprocess.Popen[bytes]:
+    job.log.parent.mkdir(parents=True, exist_ok=True)
+    environment: Mapping[str, str] = {**os.environ, "OPENBLAS_NUM_THREADS": "1"}
+    with job.log.open("ab") as log:
+        return subprocess.Popen([*job.program, *job.words], stdout=log, stderr=subprocess.STDOUT, env=environment)
