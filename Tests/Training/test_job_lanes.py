@@ -30,7 +30,7 @@ time.sleep(seconds)
 
 
 def _careful(folder: Path, name: str, seconds: float) -> Job:
-    words = (_CAREFUL, str(folder), name, str(seconds))
+    words = [_CAREFUL, str(folder), name, str(seconds)]
     return Job(name, words, folder / f"{name}.log", folder / name, _PYTHON)
 
 

@@ -16,7 +16,7 @@ from haptoflow_training.errors import InputError
 _POLL_SECONDS = 0.2
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Job:
     """words: arguments of the haptoflow_training command, or a whole command where `program` names another. log: what
     it prints is added here. product: a file that is there when the job is done."""
