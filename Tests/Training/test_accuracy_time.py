@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from haptoflow_training.evaluation import accuracy
-from haptoflow_training.evaluation.accuracy_time import merged, table
+from haptoflow_training.evaluation.accuracy_time import merged, table, with_earlier_times
 from haptoflow_training.evaluation.accuracy_time_report import draw_chart, draw_spectra, write_document
 from haptoflow_training.evaluation.reference_rows import REFERENCE_ROWS, reference_waves
 from haptoflow_training.evaluation.reference_set import Condition, ReferencePair, conditions
@@ -121,6 +121,17 @@ def test_rows_measured_later_join_the_table_in_the_plan_s_order() -> None:
         "machine": "now", "not_measured": ["a"],
         "rows": [{"name": "b", "lsd_db": 3.0}, {"name": "c", "lsd_db": 2.0}],
     }  # fmt: skip
+
+
+def test_a_row_whose_model_is_not_there_any_more_keeps_the_times_of_its_own_run_and_says_of_which_day() -> None:
+    times = {"ms_per_segment": {"p50": 1.0}, "ms_paced": {"p50": 2.0}, "timed_on": "then"}
+    nothing = dict.fromkeys(times)
+    old = {"rows": [{"name": "a", "lsd_db": 1.0, **times}, {"name": "b", "lsd_db": 2.0, **times}]}
+    timed_now = {"name": "b", **times, "timed_on": "now"}
+    new = {"rows": [{"name": "a", "lsd_db": 3.0, **nothing}, timed_now, {"name": "never", **nothing}]}
+    assert with_earlier_times(new, old)["rows"] == [
+        {"name": "a", "lsd_db": 3.0, **times}, timed_now, {"name": "never", **nothing},
+    ]  # fmt: skip
 
 
 def test_conditions_hold_a_speed_and_a_force_that_training_leaves_out_and_judge_fundamentals_only_in_the_band() -> None:

@@ -91,7 +91,7 @@ def test_without_the_default_tier_nothing_is_judged() -> None:
 
 def test_the_document_says_which_goals_are_missed(tmp_path: Path) -> None:
     keys = ("gfc_segment", "rmse", "level_error_worst_db", "band_error_db", "continuity", "label_discrimination")
-    more = {**dict.fromkeys(keys, 1.0), "evaluations": 1, "ms_paced": None, "parameters": 1, "recordings": 4, "seeds": 1}
+    more = {**dict.fromkeys(keys, 1.0), "evaluations": 1, "ms_paced": None, "timed_on": "today", "parameters": 1, "recordings": 4, "seeds": 1}
     rows = [{**row, **more} for row in _table(gfc_recording=0.9895, kink_db={"median": 0.1, "worst": 0.2})["rows"]]
     for row in rows:
         row.pop("fast", None)

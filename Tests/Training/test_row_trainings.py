@@ -8,9 +8,10 @@ from pathlib import Path
 
 import pytest
 
-from haptoflow_training.evaluation import row_runner
+from haptoflow_training.evaluation import row_training
 from haptoflow_training.evaluation.row_plan import PlannedRow
-from haptoflow_training.evaluation.row_runner import Workplace, train_models
+from haptoflow_training.evaluation.row_training import train_models
+from haptoflow_training.evaluation.workplace import Workplace
 from haptoflow_training.training.config import load_config
 from haptoflow_training.training.job_lanes import Job
 
@@ -25,14 +26,14 @@ def started(monkeypatch: pytest.MonkeyPatch) -> list[Job]:
     def remember(given: Sequence[Job], lanes: int, watch: object) -> None:
         jobs.extend(given)
 
-    monkeypatch.setattr(row_runner, "run_jobs", remember)
+    monkeypatch.setattr(row_training, "run_jobs", remember)
     return jobs
 
 
 @pytest.fixture
 def place(tmp_path: Path) -> Workplace:
     (tmp_path / "small.toml").write_text('name = "small"\n[data]\nsource = "synthetic"\n', encoding="utf-8")
-    return Workplace(tmp_path, tmp_path / "rows.toml", tmp_path / "work", tmp_path / "store")
+    return Workplace(tmp_path, tmp_path / "rows.toml", tmp_path / "work", tmp_path / "store", tmp_path / "results")
 
 
 def _leave_as_trained(place: Workplace, seed: int = 1) -> Path:
@@ -47,8 +48,8 @@ def _leave_as_trained(place: Workplace, seed: int = 1) -> Path:
 
 
 def test_rows_of_the_same_model_share_one_training_for_each_seed(place: Workplace, started: list[Job]) -> None:
-    other = PlannedRow("other", "family", model="small", solver="euler", steps=8, seeds=(1, 2))
-    train_models(place, [_ROW, other, PlannedRow("silence", "reference")], 2)
+    other = PlannedRow("other", "family", model="small", solver="euler", steps=8)
+    train_models(place, [(_ROW, 1), (other, 1), (other, 2), (PlannedRow("silence", "reference"), 1)], 2)
     assert [job.name for job in started] == ["small, seed 1", "small, seed 2"]
     assert started[1].product == place.model_file(_ROW, 2) and "--seed 2" in " ".join(started[1].words)
 
@@ -58,14 +59,14 @@ def test_a_model_trained_as_its_configuration_says_today_is_taken_as_it_is(
 ) -> None:
     _leave_as_trained(place, seed=1)
     _leave_as_trained(place, seed=3)
-    train_models(place, [PlannedRow("row", "family", model="small", seeds=(1, 3))], 1)
+    train_models(place, [(_ROW, 1), (_ROW, 3)], 1)
     assert started == []
 
 
 def test_a_model_whose_configuration_has_changed_since_is_trained_again(place: Workplace, started: list[Job]) -> None:
     summary = _leave_as_trained(place)
     summary.write_text(summary.read_text(encoding="utf-8").replace('"batch_size": ', '"batch_size": 1'), encoding="utf-8")
-    train_models(place, [_ROW], 1)
+    train_models(place, [(_ROW, 1)], 1)
     assert [job.name for job in started] == ["small, seed 1"]
 
 
@@ -74,5 +75,5 @@ def test_a_row_in_a_codec_s_latents_brings_the_codec_s_training_once(place: Work
     for name in ("one", "two"):
         text = f'name = "{name}"\n[data]\nsource = "synthetic"\n{latent}'
         (place.root / f"{name}.toml").write_text(text, encoding="utf-8")
-    train_models(place, [PlannedRow(name, "family", model=name) for name in ("one", "two")], 1)
+    train_models(place, [(PlannedRow(name, "family", model=name), 1) for name in ("one", "two")], 1)
     assert [job.name for job in started] == ["the small codec", "one, seed 1", "two, seed 1"]

@@ -13,13 +13,17 @@ from tqdm import tqdm
 
 from haptoflow_training.errors import InputError
 from haptoflow_training.evaluation import accuracy
-from haptoflow_training.evaluation.accuracy_time import merged, table
+from haptoflow_training.evaluation.accuracy import Yardstick
+from haptoflow_training.evaluation.accuracy_time import merged, table, with_earlier_times
 from haptoflow_training.evaluation.accuracy_time_report import draw_chart, draw_spectra, write_document
 from haptoflow_training.evaluation.engine_library import EngineGenerator, EngineLibrary, default_engine
 from haptoflow_training.evaluation.reference_set import ReferencePair, conditions, reference_set
 from haptoflow_training.evaluation.row_plan import PlannedRow, load_plan
-from haptoflow_training.evaluation.row_runner import UPDATE_RATE_HZ, Workplace, measure_row, train_models
+from haptoflow_training.evaluation.row_runner import UPDATE_RATE_HZ, made_from, measure_row
+from haptoflow_training.evaluation.row_store import stored_row
+from haptoflow_training.evaluation.row_training import train_models
 from haptoflow_training.evaluation.timing import Milliseconds, TimedSource, time_sources
+from haptoflow_training.evaluation.workplace import Workplace
 from haptoflow_training.export.annotation import annotate_model
 from haptoflow_training.export.model_file import read_model_file
 from haptoflow_training.recordings.synthetic import load_materials
@@ -35,7 +39,8 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser], su
         description=(
             "Measures every row of the plan on recordings that nobody trained on: accuracy in open and closed loop, "
             "milliseconds per segment through the engine. Trains the models that rows need (about ten minutes of one "
-            "core each), keeps what is measured, and goes on where it was stopped."
+            "core each), keeps what is measured beside the results, and goes on where it was stopped. A row whose figures "
+            "are kept is measured again only when its configuration or its model has changed."
         ),
         epilog=(
             "examples:\n"
@@ -48,11 +53,11 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser], su
     parser.add_argument("--rows", nargs="+", metavar="NAME", help="only these rows (default: all)")
     parser.add_argument("--quick", action="store_true", help="only rows marked quick; nothing is trained or published")
     parser.add_argument("--no-train", action="store_true", help="leave out rows whose models are not trained yet")
-    parser.add_argument("--work", type=Path, default=_ROOT / "out" / "evaluate", help="trainings and measured rows")
+    parser.add_argument("--work", type=Path, default=_ROOT / "out" / "evaluate", help="trainings and models")
     parser.add_argument(
         "--store", type=Path, default=_ROOT / "out" / "train" / "default" / "store", help="prepared recordings"
     )
-    parser.add_argument("--out", type=Path, default=_ROOT / "Training" / "results", help="for accuracy-time.json")
+    parser.add_argument("--out", type=Path, default=_ROOT / "Training" / "results", help="for accuracy-time.json and the measured rows")
     parser.add_argument("--document", type=Path, default=_ROOT / "Documentation~" / "accuracy-and-time.md")
     parser.add_argument("--lanes", type=int, default=os.cpu_count() or 1, help="trainings at a time (default: cores)")
     parser.add_argument("--workers", type=int, default=os.cpu_count() or 1, help="recording processes (default: cores)")
@@ -67,26 +72,36 @@ def run(options: argparse.Namespace) -> int:
         raise InputError(f"{options.plan}: no row {', '.join(sorted(unknown))}")
     if options.quick:
         chosen = [row for row in chosen if row.quick]
-    place = Workplace(_ROOT, options.plan, options.work, options.store, options.quick)
+    place = Workplace(_ROOT, options.plan, options.work, options.store, options.out, options.quick)
     engine = default_engine(_ROOT)
-    if not (options.quick or options.no_train):
-        train_models(place, chosen, options.lanes)
-    present = [row for row in chosen if row.is_reference or _is_there(place.model_file(row, row.seeds[0]), row.tier)]
-    for row in (entry for entry in chosen if entry not in present):
-        missing = f"{row.model} has no tier '{row.tier}'" if row.tier else f"{row.model} is not trained yet"
-        print(f"evaluate: {row.name} is left out: {missing}", file=sys.stderr)
-
     yardstick = accuracy.make_yardstick(_pairs(options))
+    if not (options.quick or options.no_train):
+        wanted = [(row, seed) for row in chosen for seed in row.seeds]
+        train_models(place, [entry for entry in wanted if not _is_stored(place, yardstick, *entry)], options.lanes)
     measured: dict[str, list[dict[str, Any]]] = {}
-    for row in tqdm(present, desc="rows", unit="row"):
-        seeds = [seed for seed in row.seeds if row.is_reference or place.model_file(row, seed).exists()]
-        measured[row.name] = [measure_row(place, engine, yardstick, row, seed) for seed in seeds]
-    hot, paced = _time_rows(place, engine, [row for row in present if not row.is_reference], options.quick)
+    for row in tqdm(chosen, desc="rows", unit="row"):
+        seeds = [seed for seed in row.seeds if _can_be_measured(place, yardstick, row, seed)]
+        if row.seeds[0] in seeds:
+            measured[row.name] = [measure_row(place, engine, yardstick, row, seed) for seed in seeds]
+        else:
+            missing = f"{row.model} has no tier '{row.tier}'" if row.tier else f"{row.model} is not trained yet"
+            tqdm.write(f"evaluate: {row.name} is left out: {missing}", file=sys.stderr)
+    timed = [row for row in chosen if not row.is_reference and _is_there(place.model_file(row, row.seeds[0]), row.tier)]
+    hot, paced = _time_rows(place, engine, timed, options.quick)
     result = table(plan, measured, hot, paced)
     _print(result)
     if not options.quick:
         _write(options, place, engine, yardstick.pairs, plan, result)
     return 0
+
+
+def _is_stored(place: Workplace, yardstick: Yardstick, row: PlannedRow, seed: int) -> bool:
+    return stored_row(place, row, seed, made_from(place, yardstick, row, seed)) is not None
+
+
+def _can_be_measured(place: Workplace, yardstick: Yardstick, row: PlannedRow, seed: int) -> bool:
+    is_there = row.is_reference or _is_there(place.model_file(row, seed), row.tier)
+    return is_there or _is_stored(place, yardstick, row, seed)
 
 
 def _is_there(model: Path, tier: str) -> bool:
@@ -147,8 +162,11 @@ def _write(
 ) -> None:
     out = options.out / "accuracy-time.json"
     options.out.mkdir(parents=True, exist_ok=True)
-    if options.rows and out.exists():
-        result = merged(json.loads(out.read_text(encoding="utf-8")), result, plan)
+    if out.exists():
+        old = json.loads(out.read_text(encoding="utf-8"))
+        result = with_earlier_times(result, old)
+        if options.rows:
+            result = merged(old, result, plan)
     write_json(out, result)
     _annotate(place, plan, result)
     images = options.document.parent / "images"

@@ -188,9 +188,8 @@ def summary(rows: Sequence[dict[str, Any]], seed: int = 0) -> dict[str, Any]:
     result: dict[str, Any] = {}
     for key in ("level_error_db", "gfc_recording", "gfc_segment", "rmse", "lsd_db", "continuity"):
         _add(result, key, rows, seed)
-    errors = np.abs([row["level_error_db"] for row in rows])
-    result["level_error_p90_db"] = float(np.quantile(errors, 0.9))
-    result["level_error_worst_db"] = float(errors.max())
+    result["level_error_p90_db"] = level_error_p90_db(rows)
+    result["level_error_worst_db"] = float(np.max(np.abs([row["level_error_db"] for row in rows])))
     result["band_error_db"] = float(np.median(np.abs([row["band_errors_db"] for row in rows])))
     by_label: dict[str, list[float]] = {}
     for row in rows:
@@ -202,15 +201,30 @@ def summary(rows: Sequence[dict[str, Any]], seed: int = 0) -> dict[str, Any]:
     return result
 
 
-def _add(result: dict[str, Any], key: str, rows: Sequence[dict[str, Any]], seed: int) -> None:
+def level_error_p90_db(rows: Sequence[dict[str, Any]]) -> float:
+    """What the size of the level error of nine in ten recordings stays below."""
+    return float(np.quantile(np.abs([row["level_error_db"] for row in rows]), 0.9))
+
+
+def over_labels(rows: Sequence[dict[str, Any]], key: str) -> float | None:
+    """Median over labels of each label's mean; None where no row has the figure."""
+    grouped = _by_label(rows, key)
+    return float(np.median([np.mean(values) for values in grouped.values()])) if grouped else None
+
+
+def _by_label(rows: Sequence[dict[str, Any]], key: str) -> dict[str, list[float]]:
     grouped: dict[str, list[float]] = {}
     for row in rows:
         if row[key] is not None:
             grouped.setdefault(row["label"], []).append(row[key])
+    return grouped
+
+
+def _add(result: dict[str, Any], key: str, rows: Sequence[dict[str, Any]], seed: int) -> None:
+    grouped = _by_label(rows, key)
+    result[key] = over_labels(rows, key)
     if not grouped:
-        result[key] = None
         return
-    result[key] = float(np.median([np.mean(values) for values in grouped.values()]))
     generator = np.random.default_rng(seed)
     draws = [
         np.median([np.mean(generator.choice(values, size=len(values))) for values in grouped.values()])

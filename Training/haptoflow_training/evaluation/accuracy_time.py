@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-from haptoflow_training.evaluation.accuracy import summary
+from haptoflow_training.evaluation.accuracy import level_error_p90_db, over_labels
 from haptoflow_training.evaluation.row_plan import PlannedRow
 from haptoflow_training.evaluation.timing import Milliseconds
 
@@ -26,7 +26,7 @@ _FIGURES = (
     "harmonic_share",
     "continuity",
 )
-_SEED_FIGURES = ("level_error_db", "level_error_p90_db", "gfc_recording", "lsd_db")
+_SEED_FIGURES = ("level_error_db", "gfc_recording", "lsd_db")
 
 
 def machine_words() -> str:
@@ -62,6 +62,18 @@ def merged(old: dict[str, Any], new: dict[str, Any], plan: Sequence[PlannedRow])
     return {**new, "not_measured": _absent(plan, rows), "rows": rows}
 
 
+def with_earlier_times(new: dict[str, Any], old: dict[str, Any]) -> dict[str, Any]:
+    """Rows that were not timed now, since their models are not there, keep the times of an earlier run."""
+    earlier = {row["name"]: row for row in old["rows"]}
+    rows = []
+    for row in new["rows"]:
+        before = earlier.get(row["name"], {})
+        if row["ms_per_segment"] is None and before.get("ms_per_segment") is not None:
+            row = {**row, **{key: before.get(key) for key in ("ms_per_segment", "ms_paced", "timed_on")}}
+        rows.append(row)
+    return {**new, "rows": rows}
+
+
 def _absent(plan: Sequence[PlannedRow], rows: list[dict[str, Any]]) -> list[str]:
     present = {row["name"] for row in rows}
     return [row.name for row in plan if row.name not in present]
@@ -82,6 +94,7 @@ def _row(
         "bytes": results[0]["bytes"],
         "ms_per_segment": None if hot is None else {"p50": round(hot.p50, 4), "p99": round(hot.p99, 4)},
         "ms_paced": None if paced is None else {"p50": round(paced.p50, 4), "p99": round(paced.p99, 4)},
+        "timed_on": None if hot is None else datetime.date.today().isoformat(),
     }
     for key in _FIGURES:
         entry[key] = _rounded(figures.get(key))
@@ -103,9 +116,13 @@ def _by_seed(results: list[dict[str, Any]]) -> dict[str, Any]:
     """Figures of each seed on the recordings that all of them were measured on."""
     keyed = [{_identity(condition): condition for condition in result["conditions"]} for result in results]
     shared = [key for key in keyed[0] if all(key in other for other in keyed)]
-    summaries = [summary([conditions[key] for key in shared]) for conditions in keyed]
-    by_figure = {key: [_rounded(entry[key]) for entry in summaries] for key in _SEED_FIGURES}
-    return {"seeds": [result["seed"] for result in results], "recordings": len(shared), **by_figure}
+    common = [[conditions[key] for key in shared] for conditions in keyed]
+    return {
+        "seeds": [result["seed"] for result in results],
+        "recordings": len(shared),
+        "level_error_p90_db": [_rounded(level_error_p90_db(conditions)) for conditions in common],
+        **{key: [_rounded(over_labels(conditions, key)) for conditions in common] for key in _SEED_FIGURES},
+    }
 
 
 def _identity(condition: dict[str, Any]) -> tuple[Any, ...]:

@@ -16,7 +16,9 @@ from haptoflow_training.evaluation.reference_set import ReferencePair
 # Amplitude just-noticeable difference of vibration under a fingertip, 2.2 to 2.5 dB (facts of the field).
 JUST_NOTICEABLE_DB = 2.2
 _OURS = "HaptoFlow"
-_COLOURS = {"HaptoFlow": "#d1495b", "plain flow matching": "#5b7db1", "reference": "#8a8a8a"}
+_COLOURS = {
+    "HaptoFlow": "#d1495b", "ablations": "#dd9aa4", "plain flow matching": "#5b7db1", "reference": "#8a8a8a",
+}  # fmt: skip
 _OTHER_COLOUR = "#3c7a57"
 
 _DEFINITIONS = """\
@@ -63,6 +65,9 @@ def write_document(table: dict[str, Any], out: Path, images: Path, picture: bool
             "`npm run evaluate` measures them and adds them here.",
             "",
         ]
+    if elsewhere := [row for row in table["rows"] if row["ms_per_segment"] and row["timed_on"] != table["date"]]:
+        named = ", ".join(f"{row['name']} ({row['timed_on']})" for row in elsewhere)
+        lines += [f"Timed in earlier runs, so not quite comparable: {named}.", ""]
     lines += _goal_table(table)
     lines += _seed_table(table["rows"])
     lines += _fast_table(table["rows"])

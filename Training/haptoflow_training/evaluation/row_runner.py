@@ -2,12 +2,7 @@
 
 from __future__ import annotations
 
-import dataclasses
-import json
 import zlib
-from collections.abc import Sequence
-from dataclasses import dataclass
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -21,10 +16,9 @@ from haptoflow_training.evaluation.metrics import kink_db, rms
 from haptoflow_training.evaluation.reference_rows import reference_waves
 from haptoflow_training.evaluation.reference_set import ReferencePair
 from haptoflow_training.evaluation.row_plan import PlannedRow
+from haptoflow_training.evaluation.row_store import read_row, stored_row, write_row
+from haptoflow_training.evaluation.workplace import Workplace
 from haptoflow_training.export.model_file import read_model_file
-from haptoflow_training.training.config import load_config
-from haptoflow_training.training.job_lanes import Job, run_jobs
-from haptoflow_training.training.run_log import write_json
 
 UPDATE_RATE_HZ = 72.0
 UPDATE_RATES_HZ = (30.0, 72.0, 120.0)
@@ -35,96 +29,13 @@ _SWEEP_SPEEDS = 25
 _SWEEP_SECONDS = 4.0
 
 
-@dataclass(frozen=True)
-class Workplace:
-    """root: the repository. work: where trainings, models and rows are kept (not committed). quick: every fourth
-    recording and no long measurements, and results apart from the whole ones."""
-
-    root: Path
-    plan: Path
-    work: Path
-    store: Path
-    quick: bool = False
-
-    def model_file(self, row: PlannedRow, seed: int) -> Path:
-        if row.model.endswith(".haptoflow"):
-            return self.root / row.model
-        return self.work / "models" / f"{row.model}-{seed}.haptoflow"
-
-    def config_file(self, model: str) -> Path:
-        return self.plan.parent / f"{model}.toml"
-
-    def run_folder(self, model: str, seed: int) -> Path:
-        return self.work / "runs" / f"{model}-{seed}"
-
-    def row_file(self, row: PlannedRow, seed: int) -> Path:
-        return self.work / ("rows-quick" if self.quick else "rows") / f"{row.name}-{seed}.json"
-
-
-def train_models(place: Workplace, rows: Sequence[PlannedRow], lanes: int) -> None:
-    """Train what the rows need and is not there yet, `lanes` models at a time; goes on after an interruption.
-
-    InputError names the log of a training that failed, as one does whose folder belongs to another configuration.
-    """
-    wanted = {place.model_file(row, seed): (row.model, seed) for row in rows if not row.is_reference for seed in row.seeds}
-    jobs = [
-        _training(place, model, seed, out)
-        for out, (model, seed) in wanted.items()
-        if not (out.exists() and _is_as_configured(place, model, seed))
-    ]
-    codecs = {job.product: job for model, _ in wanted.values() for job in _codec_training(place, model)}
-    with tqdm(total=len(jobs) + len(codecs), desc="trainings", unit="model") as bar:
-
-        def watch(finished: int) -> None:
-            bar.n = finished
-            bar.refresh()
-
-        run_jobs(list(codecs.values()), lanes, watch)
-        run_jobs(jobs, lanes, lambda finished: watch(len(codecs) + finished))
-
-
-def _is_as_configured(place: Workplace, model: str, seed: int) -> bool:
-    """Whether a model that is there was trained as its configuration says today; True where nothing tells."""
-    summary = place.run_folder(model, seed) / "run.json"
-    if model.endswith(".haptoflow") or not summary.exists():
-        return True
-    trained: dict[str, Any] = json.loads(summary.read_text(encoding="utf-8"))["configuration"]
-    today = dataclasses.replace(load_config(place.config_file(model)), seed=seed).to_dict()
-    return trained == json.loads(json.dumps(today))
-
-
-def _training(place: Workplace, model: str, seed: int, out: Path) -> Job:
-    folder = place.run_folder(model, seed)
-    words = ["train", "--config", str(place.config_file(model)), "--seed", str(seed)]
-    words += ["--out", str(folder), "--store", str(place.store), "--export", str(out)]
-    return Job(f"{model}, seed {seed}", words, folder / "train.log", out)
-
-
-def _codec_training(place: Workplace, model: str) -> list[Job]:
-    """Of the small codec that the model's latents come from, where it is not trained yet."""
-    if model.endswith(".haptoflow"):
-        return []
-    representation = load_config(place.config_file(model)).model.representation
-    if representation["kind"] != "small-codec":
-        return []
-    checkpoint = place.root / representation["checkpoint"]
-    if checkpoint.exists():
-        return []
-    codec = place.root / "Training" / "configs" / "codec-small.toml"
-    words = ["train-codec", "--config", str(codec), "--store", str(place.store), "--out", str(checkpoint.parent)]
-    return [Job("the small codec", words, checkpoint.parent / "train.log", checkpoint)]
-
-
 def measure_row(
     place: Workplace, engine: EngineLibrary, yardstick: Yardstick, row: PlannedRow, seed: int
 ) -> dict[str, Any]:
     """Figures of one row and seed, from its file where it was measured before on the same model and recordings."""
-    path = place.row_file(row, seed)
-    made_from = _made_from(place, yardstick, row, seed)
-    if path.exists():
-        stored: dict[str, Any] = json.loads(path.read_text(encoding="utf-8"))
-        if stored.get("made_from") == made_from:
-            return stored
+    origin = made_from(place, yardstick, row, seed)
+    if stored := stored_row(place, row, seed, origin):
+        return stored
     if row.is_reference:
         figures = _reference_figures(place, yardstick, row, seed)
     elif row.time_only:
@@ -132,18 +43,29 @@ def measure_row(
             figures = {"summary": {}, "discrimination": None, "drift_db_per_min": None, **_sizes(generator, row)}
     else:
         figures = _engine_figures(place, engine, yardstick, row, seed)
-    result = {"made_from": made_from, "name": row.name, "seed": seed, **figures}
-    path.parent.mkdir(parents=True, exist_ok=True)
-    write_json(path, result)
-    return result
+    write_row(place.row_file(row, seed), {"made_from": origin, "name": row.name, "seed": seed, **figures})
+    return read_row(place.row_file(row, seed))
 
 
-def _made_from(place: Workplace, yardstick: Yardstick, row: PlannedRow, seed: int) -> dict[str, Any]:
+def made_from(place: Workplace, yardstick: Yardstick, row: PlannedRow, seed: int) -> dict[str, Any]:
+    """What a row's figures depend on; graphs_crc32 is None where its model is not there to look at."""
+    return {
+        "configuration_crc32": place.configuration_crc32(row, seed),
+        "graphs_crc32": _graphs_crc32(place, row, seed),
+        "recordings_crc32": f"{yardstick.checksum:08x}",
+        "extended": row.extended,
+        "reduced": _is_reduced(place, row, seed),
+    }
+
+
+def _graphs_crc32(place: Workplace, row: PlannedRow, seed: int) -> str | None:
+    if row.is_reference:
+        return ""
     model = place.model_file(row, seed)
+    if not model.exists():
+        return None
     # Of what computes alone: the header carries figures that this evaluation writes.
-    crc = 0 if row.is_reference else zlib.crc32(b"".join(read_model_file(model).graphs.values()))
-    made_from = {"graphs_crc32": f"{crc:08x}", "recordings_crc32": f"{yardstick.checksum:08x}"}
-    return {**made_from, "extended": row.extended, "reduced": _is_reduced(place, row, seed)}
+    return f"{zlib.crc32(b''.join(read_model_file(model).graphs.values())):08x}"
 
 
 def _is_reduced(place: Workplace, row: PlannedRow, seed: int) -> bool:

@@ -1,0 +1,55 @@
+"""Where the evaluation finds configurations and keeps models, trainings and figures."""
+
+from __future__ import annotations
+
+import dataclasses
+import json
+import zlib
+from dataclasses import dataclass
+from pathlib import Path
+
+from haptoflow_training.evaluation.row_plan import PlannedRow
+from haptoflow_training.training.config import load_config
+
+
+@dataclass(frozen=True)
+class Workplace:
+    """root: the repository. work: where trainings and models are kept (not committed). results: where measured rows are.
+    quick: every fourth recording and no long measurements, and results apart from the whole ones."""
+
+    root: Path
+    plan: Path
+    work: Path
+    store: Path
+    results: Path
+    quick: bool = False
+
+    def model_file(self, row: PlannedRow, seed: int) -> Path:
+        """The row's model: of the repository, or as its training exports it."""
+        if is_of_repository(row):
+            return self.root / row.model
+        return self.work / "models" / f"{row.model}-{seed}.haptoflow"
+
+    def config_file(self, model: str) -> Path:
+        """The configuration that a trained model is made from."""
+        return self.plan.parent / f"{model}.toml"
+
+    def run_folder(self, model: str, seed: int) -> Path:
+        """Checkpoints, metrics and log of a training."""
+        return self.work / "runs" / f"{model}-{seed}"
+
+    def row_file(self, row: PlannedRow, seed: int) -> Path:
+        """Figures of a row and seed."""
+        return (self.work / "rows-quick" if self.quick else self.results / "rows") / f"{row.name}-{seed}.json"
+
+    def configuration_crc32(self, row: PlannedRow, seed: int) -> str:
+        """Of how a row's model is trained; empty where nothing is trained for it."""
+        if row.is_reference or is_of_repository(row):
+            return ""
+        config = dataclasses.replace(load_config(self.config_file(row.model)), seed=seed)
+        return f"{zlib.crc32(json.dumps(config.to_dict(), sort_keys=True).encode()):08x}"
+
+
+def is_of_repository(row: PlannedRow) -> bool:
+    """Whether the row's model is a file of the repository, and not one that the evaluation trains."""
+    return row.model.endswith(".haptoflow")
