@@ -25,7 +25,7 @@ def _pair(label: str, index: int, seed: int) -> ReferencePair:
         for _ in range(2)
     ]
     motion = np.tile(np.array([0.2, 0.0, 1.0], dtype=np.float32), (40000, 1))
-    return ReferencePair(Condition(label, index, "constant", 0.2, 1.0, 0.0, 0.0, seed), *waves, motion)
+    return ReferencePair(Condition(label, index, "constant", 0.2, 1.0, 0.0, 0.0, 0.0, seed), *waves, motion)
 
 
 @pytest.fixture(scope="module")

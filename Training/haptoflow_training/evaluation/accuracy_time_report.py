@@ -28,7 +28,9 @@ Everything is measured on recordings that nobody trained on, through the C++ eng
 network's previous waveform is its own output, from silence on. The recordings are synthetic (`recorder-report.md`).
 Conditions: every label at 0.03, 0.08, 0.15, 0.275, 0.5, 1.0 and 1.5 m/s, 0.5 to 2.5 N, three directions, 24 seconds
 each, and a free hand stroke. 0.25-0.3 m/s and 1.2-1.5 N are left out of training, as is the direction of 225
-degrees. Where nothing else is said, a figure is the median over labels of each label's mean; the intervals in the JSON
+degrees. Ruled surfaces are crossed in a straight line, all others on an arc of 30 degrees: straight lines of many metres
+would meet the recorder's periodic surface in the same few thousand waves, lines in the spectrum that both recordings of
+a pair would share and no real surface has. Where nothing else is said, a figure is the median over labels of each label's mean; the intervals in the JSON
 are 95 % bootstrap intervals over recordings.
 
 | figure | definition |

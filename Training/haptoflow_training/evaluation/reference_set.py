@@ -36,14 +36,19 @@ _DIRECTIONS_DEGREES = (0.0, 225.0, 110.0)
 # At 8 s, two recordings of the same condition agree to a GFC of 0.988 only: too low a ceiling.
 _SECONDS = 24.0
 _TRIM_SECONDS = 0.3
+# The recorder's surfaces are periodic tiles. A line that is straight for metres meets the same few thousand waves again
+# and again: both recordings of a pair would have the same lines, every few hertz, that no real surface has. A slow turn
+# spreads them. Ruled surfaces are crossed straight, since there the direction is the pitch.
+_TURN_DEGREES = 30.0
 _HAND_SEED = 4003
 _SEED = 9000
 
 
 @dataclass(frozen=True)
 class Condition:
-    """kind: `constant` or `varying`. expected_fundamental_hz: 0 where the label is not periodic or its fundamental
-    lies outside 20-800 Hz."""
+    """kind: `constant` or `varying`. turn_degrees: how far the direction turns over the recording, half before and half
+    after direction_degrees. expected_fundamental_hz: 0 where the label is not periodic or its fundamental lies outside
+    20-800 Hz."""
 
     label: str
     label_index: int
@@ -51,6 +56,7 @@ class Condition:
     speed_mps: float
     force_newtons: float
     direction_degrees: float
+    turn_degrees: float
     expected_fundamental_hz: float
     seed: int
 
@@ -72,20 +78,20 @@ def conditions(materials: tuple[Material, ...], strokes_per_label: int = 1) -> l
         for number, speed in enumerate(CONSTANT_SPEEDS_MPS):
             force = _FORCES_NEWTONS[(index + number) % len(_FORCES_NEWTONS)]
             direction = _DIRECTIONS_DEGREES[number % len(_DIRECTIONS_DEGREES)]
-            fundamental = 0.0
+            fundamental, turn = 0.0, _TURN_DEGREES
             if ruling := material.dominant_ruling:
                 # Across the ribs, where a fundamental can be told at all.
-                direction = ruling.direction_degrees
+                direction, turn = ruling.direction_degrees, 0.0
                 fundamental = 1000.0 * speed / ruling.wavelength_mm
             in_band = 20.0 < fundamental < 800.0
             chosen.append(
                 Condition(
-                    material.label, index, "constant", speed, force, direction,
+                    material.label, index, "constant", speed, force, direction, turn,
                     fundamental if in_band else 0.0, _SEED + number,
                 )
             )  # fmt: skip
         for stroke in range(strokes_per_label):
-            chosen.append(Condition(material.label, index, "varying", 0.0, 0.0, 0.0, 0.0, stroke))
+            chosen.append(Condition(material.label, index, "varying", 0.0, 0.0, 0.0, 0.0, 0.0, stroke))
     return chosen
 
 
@@ -112,8 +118,9 @@ def _record_pair(task: tuple[Material, Condition, int]) -> tuple[_Floats, _Float
         lead = round(_TRIM_SECONDS * 2000)
         recorded, motion = recorded[lead : lead + len(independent)], motion[lead : lead + len(independent)]
         return recorded, independent[: len(recorded)], motion
-    angle = np.radians(condition.direction_degrees)
-    velocity = (condition.speed_mps * float(np.cos(angle)), condition.speed_mps * float(np.sin(angle)))
+    half = 0.5 * condition.turn_degrees
+    angle = np.radians(condition.direction_degrees + np.linspace(-half, half, round(1000.0 * _SECONDS)))
+    velocity = (condition.speed_mps * np.cos(angle), condition.speed_mps * np.sin(angle))
     pair = [
         _prepared(
             record_condition(
@@ -128,7 +135,10 @@ def _record_pair(task: tuple[Material, Condition, int]) -> tuple[_Floats, _Float
     ]
     length = min(len(pair[0][0]), len(pair[1][0]))
     # The motion is known exactly here; the sensors' own noise on it is not what is asked about.
-    motion = np.tile(np.array([*velocity, condition.force_newtons], dtype=np.float32), (length, 1))
+    heading = np.radians(condition.direction_degrees + np.linspace(-half, half, length))
+    force = np.full(length, condition.force_newtons)
+    velocity = (condition.speed_mps * np.cos(heading), condition.speed_mps * np.sin(heading))
+    motion = np.stack([*velocity, force], axis=1).astype(np.float32)
     return pair[0][0][:length], pair[1][0][:length], motion
 
 
