@@ -16,9 +16,9 @@ from haptoflow_training.evaluation.reference_set import ReferencePair
 # Amplitude just-noticeable difference of vibration under a fingertip, 2.2 to 2.5 dB (facts of the field).
 JUST_NOTICEABLE_DB = 2.2
 _OURS = "HaptoFlow"
-_COLOURS = {
-    "HaptoFlow": "#d1495b", "ablations": "#dd9aa4", "plain flow matching": "#5b7db1", "reference": "#8a8a8a",
-}  # fmt: skip
+_COLOURS = {"HaptoFlow": "#d1495b", "plain flow matching": "#5b7db1", "reference": "#8a8a8a"}
+# What a part of the network is worth is for the table; the chart is for the choice.
+_NOT_DRAWN = "ablations"
 _OTHER_COLOUR = "#3c7a57"
 
 _DEFINITIONS = """\
@@ -189,7 +189,8 @@ def draw_chart(table: dict[str, Any], path: Path) -> None:
     from matplotlib import pyplot
     from matplotlib.ticker import LogLocator, NullFormatter, StrMethodFormatter
 
-    rows = [row for row in table["rows"] if row["ms_per_segment"] is not None]
+    timed = [row for row in table["rows"] if row["ms_per_segment"] is not None]
+    rows = [row for row in timed if row["family"] != _NOT_DRAWN]
     ceiling = next((row for row in table["rows"] if row["name"] == "independent-draw"), None)
     figure, axes = pyplot.subplots(1, 2, figsize=(12.0, 5.2))
     for axis, key, title in (
@@ -202,6 +203,12 @@ def draw_chart(table: dict[str, Any], path: Path) -> None:
             axis.scatter(
                 row["ms_per_segment"]["p50"], value, s=150 if ours else 45, zorder=3,
                 marker="*" if ours else "o", color=_COLOURS.get(row["family"], _OTHER_COLOUR),
+            )  # fmt: skip
+        for series in _series(rows):
+            drawn = [row for row in series if row[key] is not None]
+            axis.plot(
+                [row["ms_per_segment"]["p50"] for row in drawn], [max(abs(row[key]), 0.02) for row in drawn],
+                color=_COLOURS.get(series[0]["family"], _OTHER_COLOUR), linewidth=1.0, alpha=0.6, zorder=2,
             )  # fmt: skip
         axis.set_xscale("log")
         axis.set_yscale("log")
@@ -241,6 +248,28 @@ def draw_chart(table: dict[str, Any], path: Path) -> None:
     pyplot.close(figure)
 
 
+def _series(rows: Sequence[dict[str, Any]]) -> list[list[dict[str, Any]]]:
+    """Rows of one network and solver at rising numbers of steps: what is drawn as a line."""
+    grouped: dict[str, list[dict[str, Any]]] = {}
+    for row in rows:
+        grouped.setdefault(_stem(row["name"]), []).append(row)
+    return [sorted(group, key=lambda row: row["steps"]) for group in grouped.values() if len(group) > 1]
+
+
+def _stem(name: str) -> str:
+    stem, _, number = name.rpartition("-")
+    return stem if number.isdigit() else name
+
+
+def chart_names(rows: Sequence[dict[str, Any]]) -> dict[str, str]:
+    """Whole names; along a line, the number of steps alone but at its end."""
+    names = {row["name"]: row["name"] for row in rows}
+    for series in _series(rows):
+        for row in series[:-1]:
+            names[row["name"]] = str(row["steps"])
+    return names
+
+
 def _write_names(axis: Any, points: list[tuple[dict[str, Any], float]]) -> None:
     """Each row's name at that corner of its point where it covers no other name and no point; ours first."""
     from matplotlib.transforms import Bbox
@@ -249,10 +278,11 @@ def _write_names(axis: Any, points: list[tuple[dict[str, Any], float]]) -> None:
     taken = [Bbox.from_extents(x - 5.0, y - 5.0, x + 5.0, y + 5.0) for x, y in places]
     beside = [(8, 3, "left"), (8, -10, "left"), (-8, 3, "right"), (-8, -10, "right")]
     corners = [*beside, (0, 9, "center"), (0, -17, "center")]
+    names = chart_names([row for row, _ in points])
     for row, value in sorted(points, key=lambda point: point[0]["family"] != _OURS):
         ours = row["family"] == _OURS
         written = axis.annotate(
-            row["name"], (row["ms_per_segment"]["p50"], value), textcoords="offset points", xytext=(0, 0),
+            names[row["name"]], (row["ms_per_segment"]["p50"], value), textcoords="offset points", xytext=(0, 0),
             fontsize=9 if ours else 7.5, fontweight="bold" if ours else "normal",
         )  # fmt: skip
         tried = []
