@@ -6,14 +6,18 @@ import argparse
 import os
 from pathlib import Path
 
+import torch
 from tqdm import tqdm
 
 from haptoflow_training.commands.export import announce
 from haptoflow_training.errors import InputError
+from haptoflow_training.evaluation import level_calibration
+from haptoflow_training.evaluation.level_calibration import TierSource, level_offsets_db
 from haptoflow_training.export.exporter import export_run
+from haptoflow_training.export.trained_tier import load_tiers
 from haptoflow_training.training.config import load_config
 from haptoflow_training.training.job_lanes import Job, run_jobs
-from haptoflow_training.training.recordings_source import open_source
+from haptoflow_training.training.recordings_source import Source, open_source
 from haptoflow_training.training.run_log import last_step, write_json
 from haptoflow_training.training.trainer import planned_steps
 
@@ -26,7 +30,8 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser], su
         help=summary,
         description=(
             "Trains what the tiers share (embedding, level model), then the tiers, --lanes of them at a time, each on "
-            "one core, and writes one model file. Run it again to go on after an interruption."
+            "one core, takes back what the default tier makes too loud or too quiet of each label, and writes one model "
+            "file. Run it again to go on after an interruption."
         ),
         epilog=(
             "example:\n"
@@ -64,6 +69,7 @@ def run(options: argparse.Namespace) -> int:
         return 0
     folders = [options.out / path.stem for path in tier_files]
     default = options.out / "standard" if options.out / "standard" in folders else folders[0]
+    offsets = _level_offsets(default, source)
     checksum = export_run(
         default,
         source.store,
@@ -72,10 +78,22 @@ def run(options: argparse.Namespace) -> int:
         options.export,
         options.parity,
         [folder for folder in folders if folder != default],
+        offsets,
     )
-    write_json(options.out / "export.json", {"file": options.export.name, "crc32": f"{checksum:08x}"})
+    described = {"file": options.export.name, "crc32": f"{checksum:08x}"}
+    by_label = {info.name: round(offset, 3) for info, offset in zip(source.labels, offsets, strict=True)}
+    write_json(options.out / "export.json", {**described, "level_offsets_db": by_label})
     announce(options.export, checksum)
     return 0
+
+
+def _level_offsets(default: Path, source: Source) -> list[float]:
+    """What the default tier gives too much of each label, in dB, for the export to take back from all tiers."""
+    torch.set_num_threads(os.cpu_count() or 1)
+    tier = load_tiers([default])[0]
+    with tqdm(total=level_calibration.hops(source.store), unit="hop", desc="levels") as bar:
+        made = TierSource(tier)
+        return level_offsets_db(made, made.embeddings, source.store, bar.update)
 
 
 def _train_all(files: list[Path], out: Path, lanes: int, more: list[str]) -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import math
 import tempfile
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -10,6 +11,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+import torch
 
 from haptoflow_training.errors import InputError
 from haptoflow_training.export.exponents import fit_exponents
@@ -20,6 +22,7 @@ from haptoflow_training.export.parity import write_parity
 from haptoflow_training.export.seed_bank import SEED_SAMPLES, build_seed_bank
 from haptoflow_training.export.trained_tier import TrainedTier, load_tiers
 from haptoflow_training.models.conditioning import EMBEDDING_SIZE
+from haptoflow_training.models.level_model import LevelModel, shift_level
 from haptoflow_training.models.representation import CodecRepresentation
 from haptoflow_training.models.velocity_field import parameter_count
 from haptoflow_training.training.batches import SEGMENT_SAMPLES, SegmentBatches, Store
@@ -139,6 +142,13 @@ def _graphs(tier: TrainedTier) -> dict[str, bytes]:
     return graphs
 
 
+def _take_back(tier: TrainedTier, offsets_db: Sequence[float]) -> None:
+    if not isinstance(tier.model.level, LevelModel):
+        raise InputError(f"tier {tier.name}: its level is constant, so there is no label's level to shift")
+    shift = torch.tensor(offsets_db) * (-math.log(10.0) / 20.0)
+    shift_level(tier.model.level, tier.model.embedding.weight, shift)
+
+
 def export_run(
     folder: Path,
     store: Store,
@@ -147,13 +157,18 @@ def export_run(
     out: Path,
     parity: Path | None = None,
     further_tiers: Sequence[Path] = (),
+    level_offsets_db: Sequence[float] | None = None,
 ) -> int:
     """Write the finished run in `folder` to `out`, and golden vectors to `parity`; returns the file's CRC-32.
 
     Golden vectors are of the raw tiers: a latent one starts from noise that only the engine extends. further_tiers:
-    folders of runs trained with `--base folder`, each one more tier of the same file.
+    folders of runs trained with `--base folder`, each one more tier of the same file. level_offsets_db: what the level
+    gives too much of each label (evaluation/level_calibration.py), to be taken back.
     """
     tiers = load_tiers([folder, *further_tiers])
+    if level_offsets_db is not None:
+        for tier in tiers:
+            _take_back(tier, level_offsets_db)
     default = next(tier for tier in tiers if tier.folder == folder)
     config, model = default.config, default.model
     if [info.name for info in infos] != default.labels:
@@ -162,6 +177,8 @@ def export_run(
     run_file = folder / "run.json"
     measurements = json.loads(run_file.read_text(encoding="utf-8")) if run_file.exists() else {}
     measurements.pop("configuration", None)
+    if level_offsets_db is not None:
+        measurements["level_offsets_db"] = [round(offset, 3) for offset in level_offsets_db]
     header = _header(config, tiers, store, infos, provenance, bank.entries, measurements)
     graphs = {name: graph for tier in tiers for name, graph in _graphs(tier).items()}
     file = ModelFile(

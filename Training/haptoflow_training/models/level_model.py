@@ -53,6 +53,17 @@ class LevelModel(nn.Module):
         )
 
 
+@torch.no_grad()
+def shift_level(level: LevelModel, embedding: Tensor, shift: Tensor) -> None:
+    """Add shift [L] to the log level of each row of embedding [L, 64], the same at every motion.
+
+    By the smallest change of the power law's factor: still linear in the embedding, so that blends are shifted between.
+    """
+    # In double precision: of labels that resemble each other, small differences carry the whole shift.
+    solution = torch.linalg.lstsq(embedding.double(), shift.double().unsqueeze(1), driver="gelsd").solution
+    level.power_law.weight[0] += solution.squeeze(1).float()
+
+
 class ConstantLevel(nn.Module):
     """One level for every label and motion: what is left when nobody models the level (an ablation)."""
 

@@ -1,0 +1,75 @@
+"""The level that a network makes in closed loop is measured and taken back, label by label."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+import torch
+from numpy.typing import NDArray
+from test_export import INFOS, PROVENANCE
+from test_trainer import ALONE, _config
+from training_fixtures import make_store
+
+from haptoflow_training.evaluation.level_calibration import TierSource, hops, level_offsets_db
+from haptoflow_training.export.exporter import export_run
+from haptoflow_training.export.model_file import read_model_file
+from haptoflow_training.export.trained_tier import load_tiers
+from haptoflow_training.models.level_model import LevelModel, shift_level
+from haptoflow_training.training.trainer import Trainer
+
+_Floats = NDArray[np.float32]
+
+
+class _KnownSource:
+    """Noise at the store's own law of level, louder by `gain_db` of each label; the embedding's first value names it."""
+
+    def __init__(self, gain_db: tuple[float, float]) -> None:
+        self._gain = 10.0 ** (np.array(gain_db) / 20.0)
+
+    def generate(self, embeddings: _Floats, motions: _Floats, previous_mps2: _Floats, noise: _Floats) -> _Floats:
+        del previous_mps2
+        speed, force = np.hypot(motions[:, 0], motions[:, 1]), motions[:, 2]
+        label = embeddings[:, 0].astype(int)
+        level = np.where(label == 0, 2.0 * speed * force**0.3, 5.0 * np.sqrt(speed)) * self._gain[label]
+        return (noise * level[:, None]).astype(np.float32)
+
+
+def test_what_is_too_loud_or_too_quiet_of_a_label_is_measured_in_closed_loop() -> None:
+    store = make_store(seconds=10.0, recordings_per_split=6)
+    embeddings = np.zeros((2, 64), dtype=np.float32)
+    embeddings[1, 0] = 1.0
+    counted = []
+    found = level_offsets_db(_KnownSource((2.0, -1.0)), embeddings, store, counted.append)
+    assert found == pytest.approx([2.0, -1.0], abs=0.3)
+    assert sum(counted) == hops(store)
+
+
+def test_a_shift_of_the_level_is_the_label_s_own_and_the_same_at_every_motion() -> None:
+    torch.manual_seed(2)
+    level, embedding = LevelModel(), torch.randn(20, 64)
+    shift = torch.linspace(-0.3, 0.5, 20)
+    motions = torch.tensor([[0.05, 0.0, 1.0], [0.9, 0.4, 0.2], [0.0, 0.0, 0.0]])
+    before = torch.stack([level(embedding, motion.expand(20, 3)).squeeze(1) for motion in motions])
+    shift_level(level, embedding, shift)
+    after = torch.stack([level(embedding, motion.expand(20, 3)).squeeze(1) for motion in motions])
+    assert torch.allclose(after - before, shift.expand(3, 20), atol=1e-4)
+
+
+def test_a_level_shifted_in_the_file_scales_the_closed_loop_by_just_that(tmp_path: Path) -> None:
+    store = make_store(seconds=6.0, recordings_per_split=4)
+    Trainer(_config(), store, tmp_path / "run", ALONE).run()
+    export_run(tmp_path / "run", store, INFOS, PROVENANCE, tmp_path / "plain.haptoflow")
+    export_run(tmp_path / "run", store, INFOS, PROVENANCE, tmp_path / "level.haptoflow", level_offsets_db=[1.5, -0.5])
+    files = [read_model_file(tmp_path / f"{name}.haptoflow") for name in ("plain", "level")]
+    assert files[1].header["measurements"]["level_offsets_db"] == [1.5, -0.5]
+    assert files[0].graphs["standard.field"] == files[1].graphs["standard.field"]
+    assert files[0].graphs["level"] != files[1].graphs["level"]
+
+    tier = load_tiers([tmp_path / "run"])[0]
+    source = TierSource(tier)
+    before = level_offsets_db(source, source.embeddings, store)
+    shift_level(tier.model.level, tier.model.embedding.weight, torch.tensor([-1.5, 0.5]) * (np.log(10.0) / 20.0))
+    after = level_offsets_db(source, source.embeddings, store)
+    assert np.subtract(after, before) == pytest.approx([-1.5, 0.5], abs=0.05)
