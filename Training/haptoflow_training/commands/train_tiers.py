@@ -89,7 +89,7 @@ def run(options: argparse.Namespace) -> int:
 
 def _level_offsets(default: Path, source: Source) -> list[float]:
     """What the default tier gives too much of each label, in dB, for the export to take back from all tiers."""
-    torch.set_num_threads(os.cpu_count() or 1)
+    torch.set_num_threads(1)
     tier = load_tiers([default])[0]
     with tqdm(total=level_calibration.hops(source.store), unit="hop", desc="levels") as bar:
         made = TierSource(tier)
