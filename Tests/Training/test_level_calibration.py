@@ -46,6 +46,11 @@ def test_what_is_too_loud_or_too_quiet_of_a_label_is_measured_in_closed_loop() -
     assert sum(counted) == hops(store)
 
 
+def test_a_recording_of_less_than_a_window_says_nothing_and_breaks_nothing() -> None:
+    store = make_store(seconds=0.09, recordings_per_split=1)
+    assert level_offsets_db(_KnownSource((2.0, -1.0)), np.zeros((2, 64), dtype=np.float32), store) == [0.0, 0.0]
+
+
 def test_a_shift_of_the_level_is_the_label_s_own_and_the_same_at_every_motion() -> None:
     torch.manual_seed(2)
     level, embedding = LevelModel(), torch.randn(20, 64)

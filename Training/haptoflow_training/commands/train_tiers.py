@@ -15,6 +15,7 @@ from haptoflow_training.evaluation import level_calibration
 from haptoflow_training.evaluation.level_calibration import TierSource, level_offsets_db
 from haptoflow_training.export.exporter import export_run
 from haptoflow_training.export.trained_tier import load_tiers
+from haptoflow_training.models.level_model import LevelModel
 from haptoflow_training.training.config import load_config
 from haptoflow_training.training.job_lanes import Job, run_jobs
 from haptoflow_training.training.recordings_source import Source, open_source
@@ -81,16 +82,19 @@ def run(options: argparse.Namespace) -> int:
         offsets,
     )
     described = {"file": options.export.name, "crc32": f"{checksum:08x}"}
-    by_label = {info.name: round(offset, 3) for info, offset in zip(source.labels, offsets, strict=True)}
+    by_label = {info.name: round(offset, 3) for info, offset in zip(source.labels, offsets or [], strict=False)}
     write_json(options.out / "export.json", {**described, "level_offsets_db": by_label})
     announce(options.export, checksum)
     return 0
 
 
-def _level_offsets(default: Path, source: Source) -> list[float]:
-    """What the default tier gives too much of each label, in dB, for the export to take back from all tiers."""
+def _level_offsets(default: Path, source: Source) -> list[float] | None:
+    """What the default tier gives too much of each label, in dB, for the export to take back from all tiers; None where
+    the level is one for all labels."""
     torch.set_num_threads(1)
     tier = load_tiers([default])[0]
+    if not isinstance(tier.model.level, LevelModel):
+        return None
     with tqdm(total=level_calibration.hops(source.store), unit="hop", desc="levels") as bar:
         made = TierSource(tier)
         return level_offsets_db(made, made.embeddings, source.store, bar.update)

@@ -61,7 +61,7 @@ def level_offsets_db(
             into.append(np.square(windows, dtype=np.float64).mean(axis=1)[_SETTLING_WINDOWS:])
         speed = np.hypot(motion[:, 0], motion[:, 1])[: count * _WINDOW_SAMPLES].reshape(count, _WINDOW_SAMPLES)
         speeds.append(speed.mean(axis=1)[_SETTLING_WINDOWS:])
-        owners.append(np.full(count - _SETTLING_WINDOWS, recording.label_index))
+        owners.append(np.full(len(speeds[-1]), recording.label_index))
     powers = np.stack([np.concatenate(made), np.concatenate(heard)], axis=1)
     classes = np.digitize(np.concatenate(speeds), _SPEED_BORDERS_MPS)
     owner = np.concatenate(owners)
