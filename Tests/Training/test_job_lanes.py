@@ -31,7 +31,7 @@ time.sleep(seconds)
 
 def _careful(folder: Path, name: str, seconds: float) -> Job:
     words = [_CAREFUL, str(folder), name, str(seconds)]
-    return Job(name, words, folder / f"{name}.log", folder / name, _PYTHON)
+    return Job(name, words, folder / f"{name}.log", folder / name, program=_PYTHON)
 
 
 def test_no_more_jobs_run_at_a_time_than_there_are_lanes_and_progress_counts_them_all(tmp_path: Path) -> None:
@@ -51,7 +51,7 @@ def test_no_more_jobs_run_at_a_time_than_there_are_lanes_and_progress_counts_the
 @pytest.mark.parametrize("program", ["raise SystemExit(3)", "print('ended well, made nothing')"])
 def test_a_failing_job_is_named_with_its_log_and_the_others_are_asked_to_stop(tmp_path: Path, program: str) -> None:
     waits = f"import pathlib, time\nwhile not pathlib.Path({str(tmp_path / 'long.began')!r}).exists(): time.sleep(0.05)\n"
-    failing = Job("failing", (waits + program,), tmp_path / "logs" / "failing.log", tmp_path / "never", _PYTHON)
+    failing = Job("failing", (waits + program,), tmp_path / "logs" / "failing.log", tmp_path / "never", program=_PYTHON)
     with pytest.raises(InputError, match=r"failing: .*failing\.log says why"):
         run_jobs([_careful(tmp_path, "long", 60.0), failing], 2)
     assert (tmp_path / "long.stopped").exists()
@@ -62,7 +62,7 @@ def test_a_parent_that_is_terminated_takes_its_jobs_along(tmp_path: Path) -> Non
         "import sys\nfrom pathlib import Path\nfrom haptoflow_training.training.job_lanes import Job, run_jobs\n"
         f"folder = Path({str(tmp_path)!r})\n"
         f"words = ({_CAREFUL!r}, str(folder), 'job', '60')\n"
-        "run_jobs([Job('job', words, folder / 'log', folder / 'job', (sys.executable, '-c'))], 1)\n"
+        "run_jobs([Job('job', words, folder / 'log', folder / 'job', program=(sys.executable, '-c'))], 1)\n"
     )
     training = Path(__file__).resolve().parents[2] / "Training"
     process = subprocess.Popen([*_PYTHON, parent], env={**os.environ, "PYTHONPATH": str(training)})

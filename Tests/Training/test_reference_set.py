@@ -50,5 +50,3 @@ def test_across_ribs_a_stroke_is_straight_since_its_direction_is_its_pitch() -> 
     ruled = {material.label for material in load_materials() if material.rulings}
     constant = [entry for entry in chosen if entry.kind == "constant"]
     assert all((entry.turn_degrees == 0.0) == (entry.label in ruled) for entry in constant)
-
-

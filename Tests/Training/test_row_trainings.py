@@ -77,3 +77,5 @@ def test_a_row_in_a_codec_s_latents_brings_the_codec_s_training_once(place: Work
         (place.root / f"{name}.toml").write_text(text, encoding="utf-8")
     train_models(place, [(PlannedRow(name, "family", model=name), 1) for name in ("one", "two")], 1)
     assert [job.name for job in started] == ["the small codec", "one, seed 1", "two, seed 1"]
+    # The checkpoint's path is relative to the repository, wherever the evaluation is started from.
+    assert {job.folder for job in started} == {place.root}

@@ -57,7 +57,9 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser], su
     parser.add_argument(
         "--store", type=Path, default=_ROOT / "out" / "train" / "default" / "store", help="prepared recordings"
     )
-    parser.add_argument("--out", type=Path, default=_ROOT / "Training" / "results", help="for accuracy-time.json and the measured rows")
+    parser.add_argument(
+        "--out", type=Path, default=_ROOT / "Training" / "results", help="for accuracy-time.json and the measured rows"
+    )
     parser.add_argument("--document", type=Path, default=_ROOT / "Documentation~" / "accuracy-and-time.md")
     parser.add_argument("--lanes", type=int, default=os.cpu_count() or 1, help="trainings at a time (default: cores)")
     parser.add_argument("--workers", type=int, default=os.cpu_count() or 1, help="recording processes (default: cores)")

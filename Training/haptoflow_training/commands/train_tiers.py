@@ -11,8 +11,7 @@ from tqdm import tqdm
 
 from haptoflow_training.commands.export import announce
 from haptoflow_training.errors import InputError
-from haptoflow_training.evaluation import level_calibration
-from haptoflow_training.evaluation.level_calibration import TierSource, level_offsets_db
+from haptoflow_training.evaluation.level_calibration import TierSource, hops, level_offsets_db
 from haptoflow_training.export.exporter import export_run
 from haptoflow_training.export.trained_tier import load_tiers
 from haptoflow_training.models.level_model import LevelModel
@@ -95,7 +94,7 @@ def _level_offsets(default: Path, source: Source) -> list[float] | None:
     tier = load_tiers([default])[0]
     if not isinstance(tier.model.level, LevelModel):
         return None
-    with tqdm(total=level_calibration.hops(source.store), unit="hop", desc="levels") as bar:
+    with tqdm(total=hops(source.store), unit="hop", desc="levels") as bar:
         made = TierSource(tier)
         return level_offsets_db(made, made.embeddings, source.store, bar.update)
 

@@ -191,10 +191,7 @@ def summary(rows: Sequence[dict[str, Any]], seed: int = 0) -> dict[str, Any]:
     result["level_error_p90_db"] = level_error_p90_db(rows)
     result["level_error_worst_db"] = float(np.max(np.abs([row["level_error_db"] for row in rows])))
     result["band_error_db"] = float(np.median(np.abs([row["band_errors_db"] for row in rows])))
-    by_label: dict[str, list[float]] = {}
-    for row in rows:
-        by_label.setdefault(row["label"], []).append(row["gfc_recording"])
-    result["gfc_label_worst"] = min(float(np.mean(values)) for values in by_label.values())
+    result["gfc_label_worst"] = min(float(np.mean(values)) for values in _by_label(rows, "gfc_recording").values())
     periodic = [row for row in rows if "f0_error_percent" in row]
     result["f0_error_percent"] = float(np.median([row["f0_error_percent"] for row in periodic])) if periodic else None
     result["harmonic_share"] = float(np.median([row["harmonic_share"] for row in periodic])) if periodic else None
@@ -208,7 +205,10 @@ def level_error_p90_db(rows: Sequence[dict[str, Any]]) -> float:
 
 def over_labels(rows: Sequence[dict[str, Any]], key: str) -> float | None:
     """Median over labels of each label's mean; None where no row has the figure."""
-    grouped = _by_label(rows, key)
+    return _median_of_means(_by_label(rows, key))
+
+
+def _median_of_means(grouped: dict[str, list[float]]) -> float | None:
     return float(np.median([np.mean(values) for values in grouped.values()])) if grouped else None
 
 
@@ -222,7 +222,7 @@ def _by_label(rows: Sequence[dict[str, Any]], key: str) -> dict[str, list[float]
 
 def _add(result: dict[str, Any], key: str, rows: Sequence[dict[str, Any]], seed: int) -> None:
     grouped = _by_label(rows, key)
-    result[key] = over_labels(rows, key)
+    result[key] = _median_of_means(grouped)
     if not grouped:
         return
     generator = np.random.default_rng(seed)

@@ -100,6 +100,13 @@ def _prepared(recording: Any) -> tuple[_Floats, _Floats]:
     return prepared.waveform_mps2, prepared.motion
 
 
+def _velocity_mps(condition: Condition, count: int) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """(vx, vy) of a constant condition at `count` moments, evenly spaced over the recording."""
+    half = 0.5 * condition.turn_degrees
+    heading = np.radians(condition.direction_degrees + np.linspace(-half, half, count))
+    return condition.speed_mps * np.cos(heading), condition.speed_mps * np.sin(heading)
+
+
 def _record_pair(task: tuple[Material, Condition, int]) -> tuple[_Floats, _Floats, _Floats]:
     material, condition, strokes = task
     if condition.kind == "varying":
@@ -118,9 +125,7 @@ def _record_pair(task: tuple[Material, Condition, int]) -> tuple[_Floats, _Float
         lead = round(_TRIM_SECONDS * 2000)
         recorded, motion = recorded[lead : lead + len(independent)], motion[lead : lead + len(independent)]
         return recorded, independent[: len(recorded)], motion
-    half = 0.5 * condition.turn_degrees
-    angle = np.radians(condition.direction_degrees + np.linspace(-half, half, round(1000.0 * _SECONDS)))
-    velocity = (condition.speed_mps * np.cos(angle), condition.speed_mps * np.sin(angle))
+    velocity = _velocity_mps(condition, round(1000.0 * _SECONDS))
     pair = [
         _prepared(
             record_condition(
@@ -135,10 +140,8 @@ def _record_pair(task: tuple[Material, Condition, int]) -> tuple[_Floats, _Float
     ]
     length = min(len(pair[0][0]), len(pair[1][0]))
     # The motion is known exactly here; the sensors' own noise on it is not what is asked about.
-    heading = np.radians(condition.direction_degrees + np.linspace(-half, half, length))
     force = np.full(length, condition.force_newtons)
-    velocity = (condition.speed_mps * np.cos(heading), condition.speed_mps * np.sin(heading))
-    motion = np.stack([*velocity, force], axis=1).astype(np.float32)
+    motion = np.stack([*_velocity_mps(condition, length), force], axis=1).astype(np.float32)
     return pair[0][0][:length], pair[1][0][:length], motion
 
 

@@ -11,6 +11,7 @@ from typing import Any
 
 from haptoflow_training.evaluation.row_plan import PlannedRow
 from haptoflow_training.evaluation.workplace import Workplace
+from haptoflow_training.training.run_log import write_text
 
 _IDENTITY = ("label", "kind", "speed_mps", "force_newtons")
 _FIGURES = ("level_error_db", "gfc_recording", "lsd_db", "f0_error_percent", "harmonic_share")
@@ -25,9 +26,7 @@ def write_row(path: Path, result: dict[str, Any]) -> None:
     text = json.dumps({**head, "columns": columns, "conditions": []}, indent=2, ensure_ascii=False)
     lines = ",\n".join(f"    {json.dumps(line, ensure_ascii=False)}" for line in recordings)
     path.parent.mkdir(parents=True, exist_ok=True)
-    temporary = path.with_suffix(".part")
-    temporary.write_text(text.replace('"conditions": []', f'"conditions": [\n{lines}\n  ]') + "\n", encoding="utf-8")
-    temporary.replace(path)
+    write_text(path, text.replace('"conditions": []', f'"conditions": [\n{lines}\n  ]') + "\n")
 
 
 def read_row(path: Path) -> dict[str, Any]:

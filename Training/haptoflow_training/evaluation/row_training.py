@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import dataclasses
 import json
 from collections.abc import Sequence
 from pathlib import Path
@@ -45,15 +44,14 @@ def _is_as_configured(place: Workplace, model: str, seed: int) -> bool:
     if not summary.exists():
         return True
     trained: dict[str, Any] = json.loads(summary.read_text(encoding="utf-8"))["configuration"]
-    today = dataclasses.replace(load_config(place.config_file(model)), seed=seed).to_dict()
-    return trained == json.loads(json.dumps(today))
+    return trained == place.configuration(model, seed)
 
 
 def _training(place: Workplace, model: str, seed: int, out: Path) -> Job:
     folder = place.run_folder(model, seed)
     words = ["train", "--config", str(place.config_file(model)), "--seed", str(seed)]
     words += ["--out", str(folder), "--store", str(place.store), "--export", str(out)]
-    return Job(f"{model}, seed {seed}", words, folder / "train.log", out)
+    return Job(f"{model}, seed {seed}", words, folder / "train.log", out, place.root)
 
 
 def _codec_training(place: Workplace, model: str) -> list[Job]:
@@ -66,4 +64,4 @@ def _codec_training(place: Workplace, model: str) -> list[Job]:
         return []
     codec = place.root / "Training" / "configs" / "codec-small.toml"
     words = ["train-codec", "--config", str(codec), "--store", str(place.store), "--out", str(checkpoint.parent)]
-    return [Job("the small codec", words, checkpoint.parent / "train.log", checkpoint)]
+    return [Job("the small codec", words, checkpoint.parent / "train.log", checkpoint, place.root)]

@@ -7,6 +7,7 @@ import json
 import zlib
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 from haptoflow_training.evaluation.row_plan import PlannedRow
 from haptoflow_training.training.config import load_config
@@ -34,6 +35,12 @@ class Workplace:
         """The configuration that a trained model is made from."""
         return self.plan.parent / f"{model}.toml"
 
+    def configuration(self, model: str, seed: int) -> dict[str, Any]:
+        """How a model and seed are trained today, as JSON would give it back."""
+        config = dataclasses.replace(load_config(self.config_file(model)), seed=seed)
+        described: dict[str, Any] = json.loads(json.dumps(config.to_dict()))
+        return described
+
     def run_folder(self, model: str, seed: int) -> Path:
         """Checkpoints, metrics and log of a training."""
         return self.work / "runs" / f"{model}-{seed}"
@@ -46,8 +53,7 @@ class Workplace:
         """Of how a row's model is trained; empty where nothing is trained for it."""
         if row.is_reference or is_of_repository(row):
             return ""
-        config = dataclasses.replace(load_config(self.config_file(row.model)), seed=seed)
-        return f"{zlib.crc32(json.dumps(config.to_dict(), sort_keys=True).encode()):08x}"
+        return f"{zlib.crc32(json.dumps(self.configuration(row.model, seed), sort_keys=True).encode()):08x}"
 
 
 def is_of_repository(row: PlannedRow) -> bool:

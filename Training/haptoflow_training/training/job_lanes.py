@@ -19,12 +19,14 @@ _POLL_SECONDS = 0.2
 @dataclass(frozen=True, eq=False)
 class Job:
     """words: arguments of the haptoflow_training command, or a whole command where `program` names another. log: what
-    it prints is added here. product: a file that is there when the job is done."""
+    it prints is added here. product: a file that is there when the job is done. folder: where it runs and relative paths
+    of its configuration begin; this process's own where None."""
 
     name: str
     words: Sequence[str]
     log: Path
     product: Path
+    folder: Path | None = None
     program: Sequence[str] = (sys.executable, "-m", "haptoflow_training")
 
 
@@ -65,4 +67,6 @@ def _start(job: Job) -> subprocess.Popen[bytes]:
     job.log.parent.mkdir(parents=True, exist_ok=True)
     environment: Mapping[str, str] = {**os.environ, "OPENBLAS_NUM_THREADS": "1"}
     with job.log.open("ab") as log:
-        return subprocess.Popen([*job.program, *job.words], stdout=log, stderr=subprocess.STDOUT, env=environment)
+        return subprocess.Popen(
+            [*job.program, *job.words], stdout=log, stderr=subprocess.STDOUT, env=environment, cwd=job.folder
+        )

@@ -12,9 +12,14 @@ from typing import Any
 
 
 def write_json(path: Path, content: Mapping[str, Any]) -> None:
+    """Write indented, as `write_text`."""
+    write_text(path, json.dumps(content, indent=2, ensure_ascii=False) + "\n")
+
+
+def write_text(path: Path, text: str) -> None:
     """Write atomically: a run that is stopped in the middle leaves the old file whole."""
     temporary = path.with_suffix(path.suffix + ".part")
-    temporary.write_text(json.dumps(content, indent=2, ensure_ascii=False) + "\n", encoding="utf-8")
+    temporary.write_text(text, encoding="utf-8")
     os.replace(temporary, path)
 
 

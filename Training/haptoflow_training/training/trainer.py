@@ -169,7 +169,6 @@ class Trainer:
         self._step = 0
         self._seconds = 0.0
         self._stop = False
-        self._commit = ""
 
     @property
     def averaged_model(self) -> HaptoFlowModel:
@@ -193,7 +192,7 @@ class Trainer:
             if self._step == self._total and (self._folder / "run.json").exists():
                 return
         # Of the code that trains, which is that of now, whatever the tree holds when the run ends.
-        self._commit = source_commit(Path(__file__).parent)
+        commit = source_commit(Path(__file__).parent)
         log = MetricsLog(self._folder / "metrics.csv", _COLUMNS, self._step) if self._processes.is_first else None
         previous_handlers = {
             number: signal.signal(number, self._ask_to_stop) for number in (signal.SIGINT, signal.SIGTERM)
@@ -204,7 +203,7 @@ class Trainer:
             for number, handler in previous_handlers.items():
                 signal.signal(number, handler)
         if log is not None:
-            self._write_summary()
+            self._write_summary(commit)
             plot_metrics(log, self._folder / "metrics.png")
 
     def _ask_to_stop(self, number: int, frame: FrameType | None) -> None:
@@ -353,7 +352,7 @@ class Trainer:
         self._batches.restore(own["batches"])
         self._balance.restore(own["balance"])
 
-    def _write_summary(self) -> None:
+    def _write_summary(self, commit: str) -> None:
         field_phases = [phase for phase in self._phases if phase.objective != "level"]
         level, field = self.validate(field_phases[-1] if field_phases else None)
         write_json(
@@ -361,7 +360,7 @@ class Trainer:
             {
                 "configuration": self._config.to_dict(),
                 "seed": self._config.seed,
-                "commit": self._commit,
+                "commit": commit,
                 "from": "/".join(self._start.parts[-2:]) if self._start else None,
                 "labels": list(self._store.labels),
                 "steps": self._step,
