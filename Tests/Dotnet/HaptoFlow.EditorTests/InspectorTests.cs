@@ -164,7 +164,7 @@ namespace HaptoFlow.EditorTests
         public void AnOutputShowsWhatItsRouteNeeds()
         {
             HapticOutput output = Output();
-            Assert.That(Fields(output), Is.EqualTo(new[] { "Route", "Channel", "Strength", "Muted" }));
+            Assert.That(Fields(output), Is.EqualTo(new[] { "Route", "Channel", "Obey Listener", "Strength", "Muted" }));
             EditorScreen.Enter("Route", OutputRoute.MixerEffect);
             Draw(output);
             Assert.That(output.Route, Is.EqualTo(OutputRoute.MixerEffect));
@@ -177,7 +177,7 @@ namespace HaptoFlow.EditorTests
         public void NothingDependsOnTheSkin(bool dark)
         {
             EditorSession.DarkSkin = dark;
-            Assert.That(Fields(Output()), Has.Length.EqualTo(4));
+            Assert.That(Fields(Output()), Has.Length.EqualTo(5));
             Assert.That(Draw(Tagged("Table", "wood")), Is.Not.Empty);
         }
 

@@ -42,6 +42,7 @@ namespace HaptoFlow
 
         private TipContacts? contacts;
         private StylusVoice? voice;
+        private bool following;
         private bool touching;
         private HapticContact contact;
 
@@ -142,11 +143,13 @@ namespace HaptoFlow
             contacts ??= new TipContacts(new ContactSettings(), tipRadiusMetres);
             contacts.Tracker.TipRadiusMetres = tipRadiusMetres;
             voice ??= new StylusVoice(this);
+            following = true;
             HapticSession.Current.Poll();
         }
 
         private void OnDisable()
         {
+            following = false;
             ForgetMotion();
             voice?.Close();
         }
@@ -181,6 +184,11 @@ namespace HaptoFlow
                 reading = contacts!.Update(SampleAt(nowSeconds), stepSeconds, layers, session, this);
             }
             TellOf(reading);
+            // A handler may have switched the stylus off: then nobody would close a voice that opened now.
+            if (!following)
+            {
+                return;
+            }
             using (Markers.Publish.Auto())
             {
                 voice!.Publish(reading, contacts.Touched?.Surface, session);

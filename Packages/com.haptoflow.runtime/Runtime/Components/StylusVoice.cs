@@ -55,7 +55,7 @@ namespace HaptoFlow
                 state.Material = surface.BlendFor(session);
                 // A surface of which no label is known is left unfelt rather than felt as something else.
                 state.Touching = state.Material.Count > 0;
-                SetStrength(surface.Material.Strength * stylus.Strength * output!.Strength);
+                SetStrength(surface.SharedDescription.Strength * stylus.Strength * output!.Strength);
             }
             voice!.Publish(state);
         }
