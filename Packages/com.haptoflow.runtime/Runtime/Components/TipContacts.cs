@@ -66,6 +66,7 @@ namespace HaptoFlow
 
         private void Consider(double stepSeconds, int layers, HapticSession session, Object context)
         {
+            using FrontFacesOnly fronts = FrontFacesOnly.Begin();
             float radius = (float)(Tracker.ReachMetres + FollowedWithinMetres);
             int count = Physics.OverlapSphereNonAlloc(
                 Tracker.TipMetres.ToVector(), radius, colliders, layers, QueryTriggerInteraction.Ignore);
