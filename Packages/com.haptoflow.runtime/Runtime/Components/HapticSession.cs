@@ -109,7 +109,9 @@ namespace HaptoFlow
             HapticEngineOptions options = OptionsInstead ?? default;
             options.Quality = settings.Quality;
             options.BudgetShare = settings.BudgetShare;
-            options.UpdateRateHz = settings.UpdateRateHz;
+            options.UpdateRateHz = settings.FollowDisplay && DisplayRate.TryGet(out double displayHz)
+                ? displayHz
+                : settings.UpdateRateHz;
             options.FullScaleMps2 = settings.FullScaleMps2;
             return options;
         }
