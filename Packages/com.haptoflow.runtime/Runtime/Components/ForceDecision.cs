@@ -63,19 +63,18 @@ namespace HaptoFlow
         }
 
         /// <summary>One and the same until something changes.</summary>
-        internal ForceTouch Touch()
+        internal ForceTouch Touch() => touch ??= NewTouch();
+
+        /// <summary>One more that decides by the same thresholds.</summary>
+        internal ForceTouch NewTouch()
         {
-            if (touch == null)
+            float press = Mathf.Max(LeastNewtons, pressNewtons);
+            return new ForceTouch(new ForceTouchSettings
             {
-                float press = Mathf.Max(LeastNewtons, pressNewtons);
-                touch = new ForceTouch(new ForceTouchSettings
-                {
-                    PressNewtons = press,
-                    ReleaseNewtons = Mathf.Clamp(releaseNewtons, 0f, MostOfPress * press),
-                    NearMetres = Mathf.Clamp(nearMetres, LeastMetres, MostMetres),
-                });
-            }
-            return touch;
+                PressNewtons = press,
+                ReleaseNewtons = Mathf.Clamp(releaseNewtons, 0f, MostOfPress * press),
+                NearMetres = Mathf.Clamp(nearMetres, LeastMetres, MostMetres),
+            });
         }
 
         /// <summary>The Inspector wrote into the fields.</summary>

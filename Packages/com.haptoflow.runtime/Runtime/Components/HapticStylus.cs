@@ -166,6 +166,9 @@ namespace HaptoFlow
             EndTouch();
         }
 
+        /// <summary>Centre of the tip, in world space.</summary>
+        internal Vector3 TipPosition => tip != null ? tip.position : transform.position;
+
         private void OnEnable()
         {
             contacts ??= new TipContacts(new ContactSettings(), tipRadiusMetres);
@@ -230,9 +233,8 @@ namespace HaptoFlow
 
         private TipSample SampleAt(double nowSeconds)
         {
-            Transform place = tip != null ? tip : transform;
             double? measured = TryReadForce(out float newtons) ? newtons : (double?)null;
-            return new TipSample(nowSeconds, place.position.ToDouble(), measured);
+            return new TipSample(nowSeconds, TipPosition.ToDouble(), measured);
         }
 
         private bool TryReadForce(out float newtons)
