@@ -166,8 +166,14 @@ namespace HaptoFlow.Tests
             restored.SaveName = name;
             yield return null;
             AssertOnDesk(next.transform);
+            Assert.That(restored.IsAligned, Is.True);
             restored.Undo();
             Assert.That(next.transform.position.magnitude, Is.LessThan(1e-6f));
+            Assert.That(restored.IsAligned, Is.False);
+            HapticSurface third = Board();
+            third.gameObject.AddComponent<HapticAlignment>().SaveName = name;
+            yield return null;
+            Assert.That(third.transform.position.magnitude, Is.LessThan(1e-6f), "what was undone is not kept");
         }
 
         [UnityTest]

@@ -40,6 +40,7 @@ namespace HaptoFlow
         private readonly TouchedPoint rest = new TouchedPoint();
         private ForceTouch? force;
         private RigidPose? poseBefore;
+        private bool wasAligned;
 
         /// <summary>Something of what this component shows changed. Main thread.</summary>
         public event Action<HapticAlignment>? Changed;
@@ -71,6 +72,10 @@ namespace HaptoFlow
 
         /// <summary>Points are being taken.</summary>
         public bool IsTaking { get; private set; }
+
+        /// <summary>The object is where three touches put it, in this session or in the one that kept its pose.
+        /// </summary>
+        public bool IsAligned { get; private set; }
 
         /// <summary>0 to 3.</summary>
         public int PointsTaken => touched.Count;
@@ -134,7 +139,8 @@ namespace HaptoFlow
             {
                 MoveTo(poseBefore.Value);
                 poseBefore = null;
-                Save();
+                IsAligned = wasAligned;
+                KeepOrForget();
                 Tell("The object is back where it was.");
             }
         }
@@ -169,6 +175,8 @@ namespace HaptoFlow
             {
                 poseBefore = LocalPose();
                 MoveTo(saved);
+                IsAligned = true;
+                Tell("The object is where it was aligned last.");
             }
         }
 
@@ -210,9 +218,11 @@ namespace HaptoFlow
             IsTaking = false;
             ErrorMetres = (float)fit.LargestErrorMetres;
             poseBefore = LocalPose();
+            wasAligned = IsAligned;
+            IsAligned = true;
             transform.SetPositionAndRotation(fit.Pose.PositionMetres.ToVector(), ToQuaternion(fit.Pose.Rotation));
             ForgetMotion();
-            Save();
+            KeepOrForget();
             Tell(FormattableString.Invariant($"Aligned; {1000f * ErrorMetres:0.0} mm are left at the worst mark."));
         }
 
@@ -247,9 +257,14 @@ namespace HaptoFlow
             }
         }
 
-        private void Save()
+        /// <summary>An object that nobody aligned is where its author put it, in the next session too.</summary>
+        private void KeepOrForget()
         {
-            if (saveName.Length > 0)
+            if (!IsAligned)
+            {
+                ForgetSaved();
+            }
+            else if (saveName.Length > 0)
             {
                 new AlignmentFile(saveName).Write(LocalPose(), this);
             }
