@@ -8,7 +8,9 @@
  *   that fails, unless its comment says otherwise.
  * - Every descriptor begins with struct_size, which the caller sets to sizeof the struct it was compiled with. A
  *   shorter struct (an older caller) leaves the later fields at their defaults, zero; fields that this library does not
- *   know (a newer caller) are ignored. Structs filled by the library are filled up to the caller's struct_size.
+ *   know (a newer caller) are ignored. A struct that the library fills is filled up to the smaller of the caller's and
+ *   the library's size, and its struct_size then says how many bytes that is: fields behind it were not filled. Set
+ *   struct_size anew before each call.
  * - Handles are opaque and never used twice: a call with a handle that was closed, or with anything else that is not an
  *   open handle of that kind, returns HAPTOFLOW_INVALID_ARGUMENT. An open handle keeps alive what it was made from.
  * - Text is UTF-8 and ends with a zero byte. Text that the library returns belongs to the library.
@@ -104,6 +106,31 @@ HAPTOFLOW_API const char* haptoflow_version(void);
  * the process. Never fails.
  * [any-thread] Never blocks. */
 HAPTOFLOW_API const char* haptoflow_status_name(haptoflow_status status);
+
+/* Why a voice is silent. Where several reasons hold, the one that lasts longest. */
+typedef int32_t haptoflow_silence;
+enum {
+    /* It sounds. */
+    HAPTOFLOW_SILENCE_NONE = 0,
+    /* Nothing touches, or the tip does not slide. */
+    HAPTOFLOW_SILENCE_REST = 1,
+    /* No contact state was published for 100 ms. */
+    HAPTOFLOW_SILENCE_STALE = 2,
+    HAPTOFLOW_SILENCE_MUTED = 3,
+    HAPTOFLOW_SILENCE_PAUSED = 4,
+    /* A panic silenced this touch; the next one sounds. */
+    HAPTOFLOW_SILENCE_PANIC = 5,
+    /* The device changed to a sample rate that the worker is still preparing for, or to one outside 8 to 192 kHz. */
+    HAPTOFLOW_SILENCE_RATE = 6,
+    HAPTOFLOW_SILENCE_CLOSING = 7,
+    /* The thread that generates has ended: haptoflow_engine_last_failure says why. */
+    HAPTOFLOW_SILENCE_WORKER_DEAD = 8
+};
+
+/* A reason's name, for example "HAPTOFLOW_SILENCE_STALE"; "HAPTOFLOW_UNKNOWN_SILENCE" for a number that is none. Lives
+ * as long as the process. Never fails.
+ * [any-thread] Never blocks. */
+HAPTOFLOW_API const char* haptoflow_silence_name(haptoflow_silence silence);
 
 /* What was wrong in the last call on this thread that failed; "" before the first. Stays valid until the next call on
  * this thread that fails, and at most as long as the thread. Never fails.
@@ -311,7 +338,7 @@ typedef struct haptoflow_engine_options {
     double update_rate_hz;
     /* Share of the time between two contact states that inference may take, above 0 to 1; 0 for 0.25. */
     double budget_share;
-    /* What acceleration is +-1 in the output, above 0; 0 for 60. A soft knee begins at 0.7 of it. */
+    /* What acceleration is +-1 in the output, 0.001 to 1000000; 0 for 60. A soft knee begins at 0.7 of it. */
     double full_scale_mps2;
     /* Key of all noise. */
     uint64_t seed;
@@ -354,6 +381,10 @@ typedef struct haptoflow_engine_statistics {
     /* What a round may take, and what the last one took, all its voices together. */
     double budget_ms;
     double last_round_ms;
+    /* 0 once the worker has ended, also for an engine that is being closed; 1 otherwise and without worker. */
+    uint32_t worker_is_alive;
+    /* 1 where the system did not let the worker run at a raised priority; 0 otherwise. */
+    uint32_t priority_was_refused;
 } haptoflow_engine_statistics;
 
 /* Loads all tiers of the model and starts the worker. Close it with haptoflow_engine_close.
@@ -367,20 +398,30 @@ HAPTOFLOW_API haptoflow_status haptoflow_engine_create(const haptoflow_engine_op
  * [loader-thread] Blocks for the present round of inference, the present blocks and, while voices sound, their fade. */
 HAPTOFLOW_API haptoflow_status haptoflow_engine_close(haptoflow_engine** engine);
 
-/* From the next segment on. Errors: INVALID_ARGUMENT. [publisher] */
+/* From the next segment on. Errors: INVALID_ARGUMENT.
+ * [any-thread] Blocks for as long as another thread opens or closes a handle, never for inference. */
 HAPTOFLOW_API haptoflow_status haptoflow_engine_set_quality(haptoflow_engine* engine, haptoflow_quality quality);
 
 /* One round of inference for all voices that want one. Engines without worker only. Errors: INVALID_ARGUMENT.
  * [worker-thread] */
 HAPTOFLOW_API haptoflow_status haptoflow_engine_step(haptoflow_engine* engine);
 
-/* Errors: INVALID_ARGUMENT. [publisher] */
+/* Errors: INVALID_ARGUMENT.
+ * [any-thread] Blocks for as long as another thread opens or closes a handle, never for inference. */
 HAPTOFLOW_API haptoflow_status haptoflow_engine_get_statistics(const haptoflow_engine* engine,
                                                                haptoflow_engine_statistics* statistics);
 
-/* Figures of the tier at index, in the model's order. Errors: INVALID_ARGUMENT. [publisher] */
+/* Figures of the tier at index, in the model's order. Errors: INVALID_ARGUMENT.
+ * [any-thread] Blocks for as long as another thread opens or closes a handle, never for inference. */
 HAPTOFLOW_API haptoflow_status haptoflow_engine_tier_times(const haptoflow_engine* engine, uint32_t index,
                                                            haptoflow_tier_times* times);
+
+/* Writes the text of the newest failure, of a round of inference or of the worker itself, into text: at most capacity
+ * bytes, the zero byte at the end included; "" before the first failure. *length becomes the whole text's length without
+ * that byte; null is fine. text may be null where capacity is 0. Errors: INVALID_ARGUMENT, OUT_OF_MEMORY.
+ * [any-thread] Blocks for as long as another thread opens or closes a handle, or the worker notes a failure. */
+HAPTOFLOW_API haptoflow_status haptoflow_engine_last_failure(const haptoflow_engine* engine, char* text,
+                                                             uint64_t capacity, uint64_t* length);
 
 /* -------------------------------------------------------------------------------------------------------- voices */
 
@@ -421,7 +462,7 @@ typedef struct haptoflow_voice_statistics {
     uint64_t updates;
     uint64_t inferences;
     uint64_t skipped;
-    /* Touches that began to sound, and those of them that were over within one block. */
+    /* Touches that began to sound, resumptions not counted, and those of them that were over within one block. */
     uint64_t onsets;
     uint64_t taps;
     /* Blocks that wanted samples which no segment covered; segments that came late; that came for nothing. */
@@ -444,17 +485,27 @@ typedef struct haptoflow_voice_statistics {
     uint64_t refused_calls;
     /* Milliseconds that this voice's inferences took in all; voices that share a run share its time. */
     double inference_ms;
+    /* How often a touch sounded again after a silence within it: a pause, a mute, a rate change, missing states. */
+    uint64_t resumptions;
+    /* Blocks asked for at a sample rate outside 8 to 192 kHz: all of them are silent. */
+    uint64_t unsupported_rate_blocks;
+    /* The sample rate of the newest block; 0 before the first. */
+    double device_rate_hz;
+    /* Why the newest block is silent; HAPTOFLOW_SILENCE_NONE where it sounds. */
+    haptoflow_silence silence;
+    /* 0 while the newest block's rate is outside 8 to 192 kHz, 1 otherwise. */
+    uint32_t is_rate_supported;
 } haptoflow_voice_statistics;
 
 /* sample_rate_hz is the output's, 8000 to 192000; 0 for 48000. It may change later: see haptoflow_voice_render.
  * Errors: INVALID_ARGUMENT (also when there are too many voices), OUT_OF_MEMORY.
- * [loader-thread] Blocks for the present round of inference. */
+ * [loader-thread] Blocks while another voice is opened or destroyed, never for inference. */
 HAPTOFLOW_API haptoflow_status haptoflow_voice_create(haptoflow_engine* engine, double sample_rate_hz,
                                                       haptoflow_voice* voice);
 
 /* Fades the voice, destroys it and sets *voice to 0; 0 is fine. Errors: INVALID_ARGUMENT.
- * [loader-thread] Blocks for the present round of inference, for calls on this voice that are under way, and while the
- * voice sounds for the block that fades it, at most 48 ms. */
+ * [loader-thread] Blocks for calls on this voice that are under way and, while the voice sounds, for the block that
+ * fades it, at most 48 ms; never for inference. */
 HAPTOFLOW_API haptoflow_status haptoflow_voice_destroy(haptoflow_voice* voice);
 
 /* What the tip does now: once a frame, also while nothing touches. A touch sounds with the next block; a touch without
@@ -466,17 +517,19 @@ HAPTOFLOW_API haptoflow_status haptoflow_voice_publish(haptoflow_voice voice, co
 /* Writes frame_count frames of the voice into one channel of interleaved samples, or into all with
  * HAPTOFLOW_ALL_CHANNELS; other channels stay as they are. Samples are +-1. channel_count is 1 to 64.
  * Where sample_rate_hz is not what it was, the voice fades within 5 ms, is silent until the worker has prepared for the
- * new rate, and goes on. A voice that is not open, or busy, writes zeros.
+ * new rate, and a touch that still goes on sounds again, as its newest state asks. At a rate outside 8 to 192 kHz it stays
+ * silent, and the voice's statistics say so. A voice that is not open, or busy, writes zeros.
  * Errors: INVALID_ARGUMENT, BUSY; the message is not set by this function.
  * [audio-callback] */
 HAPTOFLOW_API haptoflow_status haptoflow_voice_render(haptoflow_voice voice, float* interleaved, uint32_t frame_count,
                                                       uint32_t channel_count, int32_t channel, double sample_rate_hz);
 
-/* Gain of the output before the limiter, 0 to 1; glides within 10 ms. Errors: INVALID_ARGUMENT. [publisher] */
+/* Gain of the output before the limiter, 0 to 1; glides within 10 ms while the voice sounds. Set while it is silent, it
+ * holds from the first sample of the next touch. Errors: INVALID_ARGUMENT. [publisher] */
 HAPTOFLOW_API haptoflow_status haptoflow_voice_set_strength(haptoflow_voice voice, float strength);
 
-/* Largest magnitude of the output, 0 to 1: whatever else happens, no sample is above it. Errors: INVALID_ARGUMENT.
- * [publisher] */
+/* Largest magnitude of the output, 0 to 1: whatever else happens, no sample is above it. The limiter's curve bends from
+ * 0.7 of the ceiling on and approaches it without a corner. Errors: INVALID_ARGUMENT. [publisher] */
 HAPTOFLOW_API haptoflow_status haptoflow_voice_set_ceiling(haptoflow_voice voice, float ceiling);
 
 /* Muted (1) a voice falls silent within a block and 5 ms and costs no inference. Errors: INVALID_ARGUMENT. [publisher]
@@ -486,8 +539,9 @@ HAPTOFLOW_API haptoflow_status haptoflow_voice_set_muted(haptoflow_voice voice, 
 /* The same for an application that is suspended: independent of muting. Errors: INVALID_ARGUMENT. [publisher] */
 HAPTOFLOW_API haptoflow_status haptoflow_voice_set_paused(haptoflow_voice voice, uint32_t paused);
 
-/* Silence at the end of the next block, whatever its length. The voice sounds again with the next touch-down, that is,
- * with another touch_counter. Errors: INVALID_ARGUMENT. [publisher] */
+/* Silence at the end of the next block, whatever its length, for the touch that was published last. The next touch-down
+ * sounds again: another touch_counter, or touching after a state that did not touch, published after this call.
+ * Errors: INVALID_ARGUMENT. [publisher] */
 HAPTOFLOW_API haptoflow_status haptoflow_voice_panic(haptoflow_voice voice);
 
 /* Panic for every voice of the process. Never fails. [publisher] */

@@ -148,6 +148,8 @@ haptoflow_status haptoflow_engine_get_statistics(const haptoflow_engine* engine,
         content.quality_steps_up = found.stepsUp;
         content.budget_ms = found.budgetMs;
         content.last_round_ms = found.lastRoundMs;
+        content.worker_is_alive = found.workerAlive ? 1 : 0;
+        content.priority_was_refused = found.priorityRefused ? 1 : 0;
         writeDescriptor(statistics, content, "statistics");
     });
 }
@@ -156,15 +158,31 @@ haptoflow_status haptoflow_engine_tier_times(const haptoflow_engine* engine, uin
                                              haptoflow_tier_times* times) {
     return guarded([&] {
         const auto open = engines().get(engine);
-        const engine::EngineStatistics found = open->engine->statistics();
-        if (index >= found.tiers.size()) {
-            throw std::invalid_argument("tier " + std::to_string(index) + " of " + std::to_string(found.tiers.size()));
+        const engine::LiveEngine& live = *open->engine;
+        if (index >= live.tierCount()) {
+            throw std::invalid_argument("tier " + std::to_string(index) + " of " + std::to_string(live.tierCount()));
         }
+        const engine::TierTimes found = live.tierTimes(index);
         haptoflow_tier_times content{};
-        content.is_current = found.tier == index ? 1 : 0;
-        content.runs = found.tiers[index].runs;
-        content.median_ms = found.tiers[index].medianMs;
-        content.percentile_99_ms = found.tiers[index].percentile99Ms;
+        content.is_current = live.statistics().tier == index ? 1 : 0;
+        content.runs = found.runs;
+        content.median_ms = found.medianMs;
+        content.percentile_99_ms = found.percentile99Ms;
         writeDescriptor(times, content, "times");
+    });
+}
+
+haptoflow_status haptoflow_engine_last_failure(const haptoflow_engine* engine, char* text, uint64_t capacity,
+                                               uint64_t* length) {
+    return guarded([&] {
+        const std::string failure = engines().get(engine)->engine->lastFailure();
+        if (capacity > 0) {
+            const std::size_t kept = std::min<std::size_t>(failure.size(), capacity - 1);
+            std::copy_n(failure.begin(), kept, require(text, "text"));
+            text[kept] = '\0';
+        }
+        if (length != nullptr) {
+            *length = failure.size();
+        }
     });
 }

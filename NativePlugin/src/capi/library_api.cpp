@@ -45,6 +45,31 @@ const char* haptoflow_status_name(haptoflow_status status) {
     }
 }
 
+const char* haptoflow_silence_name(haptoflow_silence silence) {
+    switch (silence) {
+        case HAPTOFLOW_SILENCE_NONE:
+            return "HAPTOFLOW_SILENCE_NONE";
+        case HAPTOFLOW_SILENCE_REST:
+            return "HAPTOFLOW_SILENCE_REST";
+        case HAPTOFLOW_SILENCE_STALE:
+            return "HAPTOFLOW_SILENCE_STALE";
+        case HAPTOFLOW_SILENCE_MUTED:
+            return "HAPTOFLOW_SILENCE_MUTED";
+        case HAPTOFLOW_SILENCE_PAUSED:
+            return "HAPTOFLOW_SILENCE_PAUSED";
+        case HAPTOFLOW_SILENCE_PANIC:
+            return "HAPTOFLOW_SILENCE_PANIC";
+        case HAPTOFLOW_SILENCE_RATE:
+            return "HAPTOFLOW_SILENCE_RATE";
+        case HAPTOFLOW_SILENCE_CLOSING:
+            return "HAPTOFLOW_SILENCE_CLOSING";
+        case HAPTOFLOW_SILENCE_WORKER_DEAD:
+            return "HAPTOFLOW_SILENCE_WORKER_DEAD";
+        default:
+            return "HAPTOFLOW_UNKNOWN_SILENCE";
+    }
+}
+
 const char* haptoflow_last_message(void) {
     return lastMessage();
 }

@@ -93,6 +93,13 @@ void WaveformResampler::reset() noexcept {
     fraction_ = period_ - step_;  // the first output falls on the first input sample
 }
 
+void WaveformResampler::prime(std::span<const float> past) noexcept {
+    reset();
+    for (const float sample : past.last(std::min(past.size(), kernelLength))) {
+        push(sample);
+    }
+}
+
 void WaveformResampler::push(float sample) noexcept {
     history_[writeIndex_] = sample;
     history_[writeIndex_ + kernelLength] = sample;
