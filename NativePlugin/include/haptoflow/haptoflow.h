@@ -418,7 +418,7 @@ HAPTOFLOW_API haptoflow_status haptoflow_engine_tier_times(const haptoflow_engin
 
 /* Writes the text of the newest failure, of a round of inference or of the worker itself, into text: at most capacity
  * bytes, the zero byte at the end included; "" before the first failure. *length becomes the whole text's length without
- * that byte; null is fine. text may be null where capacity is 0. Errors: INVALID_ARGUMENT, OUT_OF_MEMORY.
+ * that byte. text may be null where capacity is 0. Errors: INVALID_ARGUMENT, OUT_OF_MEMORY.
  * [any-thread] Blocks for as long as another thread opens or closes a handle, or the worker notes a failure. */
 HAPTOFLOW_API haptoflow_status haptoflow_engine_last_failure(const haptoflow_engine* engine, char* text,
                                                              uint64_t capacity, uint64_t* length);

@@ -175,14 +175,13 @@ haptoflow_status haptoflow_engine_tier_times(const haptoflow_engine* engine, uin
 haptoflow_status haptoflow_engine_last_failure(const haptoflow_engine* engine, char* text, uint64_t capacity,
                                                uint64_t* length) {
     return guarded([&] {
+        (void)require(length, "length");
         const std::string failure = engines().get(engine)->engine->lastFailure();
         if (capacity > 0) {
             const std::size_t kept = std::min<std::size_t>(failure.size(), capacity - 1);
             std::copy_n(failure.begin(), kept, require(text, "text"));
             text[kept] = '\0';
         }
-        if (length != nullptr) {
-            *length = failure.size();
-        }
+        *length = failure.size();
     });
 }

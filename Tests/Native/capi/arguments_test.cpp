@@ -101,6 +101,8 @@ TEST(ArgumentTest, NullPointersAreRefusedByEveryFunction) {
     haptoflow_tier_info tier{};
     tier.struct_size = sizeof(tier);
     haptoflow_tier_times times{};
+    std::array<char, 8> failure{};
+    uint64_t length = 0;
     times.struct_size = sizeof(times);
     haptoflow_engine_statistics statistics{};
     statistics.struct_size = sizeof(statistics);
@@ -156,6 +158,10 @@ TEST(ArgumentTest, NullPointersAreRefusedByEveryFunction) {
         {"haptoflow_engine_get_statistics",
          {[&] { return haptoflow_engine_get_statistics(nullptr, &statistics); },
           [&] { return haptoflow_engine_get_statistics(open.engine, nullptr); }}},
+        {"haptoflow_engine_last_failure",
+         {[&] { return haptoflow_engine_last_failure(nullptr, failure.data(), failure.size(), &length); },
+          [&] { return haptoflow_engine_last_failure(open.engine, nullptr, failure.size(), &length); },
+          [&] { return haptoflow_engine_last_failure(open.engine, failure.data(), failure.size(), nullptr); }}},
         {"haptoflow_engine_tier_times",
          {[&] { return haptoflow_engine_tier_times(nullptr, 0, &times); },
           [&] { return haptoflow_engine_tier_times(open.engine, 0, nullptr); }}},
