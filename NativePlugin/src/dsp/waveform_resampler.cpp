@@ -95,9 +95,10 @@ void WaveformResampler::reset() noexcept {
 
 void WaveformResampler::prime(std::span<const float> past) noexcept {
     reset();
-    for (const float sample : past.last(std::min(past.size(), kernelLength))) {
-        push(sample);
-    }
+    const std::span<const float> kept = past.last(std::min(past.size(), kernelLength));
+    const auto missing = static_cast<std::ptrdiff_t>(kernelLength - kept.size());
+    std::ranges::copy(kept, history_.begin() + missing);
+    std::ranges::copy(kept, history_.begin() + missing + static_cast<std::ptrdiff_t>(kernelLength));
 }
 
 void WaveformResampler::push(float sample) noexcept {

@@ -16,17 +16,12 @@ std::unique_ptr<OutputStage> Voice::exchangeOutput(std::unique_ptr<OutputStage> 
     return output;
 }
 
-void Voice::onset(std::span<const float> seed, float levelMps2) noexcept {
-    std::array<float, WaveformTimeline::seedSamples> levelled{};
-    const float level = std::isfinite(levelMps2) ? levelMps2 : 0.0F;
-    for (std::size_t i = 0; i < std::min(seed.size(), levelled.size()); ++i) {
-        levelled[i] = seed[i] * level;
-    }
+void Voice::onset(std::span<const float, WaveformTimeline::seedSamples> seedMps2) noexcept {
     const bool fromSilence = isSilent();
     if (fromSilence) {
         timeline_.clear();
     }
-    timeline_.open(levelled);
+    timeline_.open(seedMps2);
     if (fromSilence) {
         prime();
     }

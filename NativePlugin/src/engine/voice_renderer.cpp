@@ -165,7 +165,7 @@ void VoiceRenderer::begin() noexcept {
         count(channels_.counters.taps);
     }
     voice_.setRangeLaw(contact.levelGain, contact.readingRate);
-    voice_.onset(contact.seedMps2, 1.0F);
+    voice_.onset(contact.seedMps2);
 }
 
 void VoiceRenderer::takeSegments() noexcept {
