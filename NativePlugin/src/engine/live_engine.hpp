@@ -32,7 +32,7 @@ struct LiveEngineSettings {
     bool hasWorker = true;
 };
 
-/// The model's tiers, ready to run, in its own order.
+/// The model's tiers, ready to run, in its own order; null where one was not loaded.
 using EngineTiers = std::vector<std::unique_ptr<inference::SegmentGenerator>>;
 
 struct TierTimes {
@@ -61,10 +61,12 @@ struct EngineStatistics {
 /// All voices of one model, and the one thread that generates for them. The thread sleeps while nothing is published.
 class LiveEngine {
 public:
-    /// `tiers` in the model's order, cheapest first; at least one. Runs the level graph of the first for OnsetLevels.
-    /// Throws std::invalid_argument for settings out of range, inference::InferenceError, std::system_error.
+    /// `tiers` in the model's order, cheapest first; at least one. Those that `settings` want must be loaded: all for
+    /// automatic quality, else the one. Runs the level graph of the first loaded for OnsetLevels. Throws
+    /// std::invalid_argument for settings out of range or a tier that is not loaded, inference::InferenceError,
+    /// inference::LoadCancelled, std::system_error.
     LiveEngine(std::shared_ptr<const model::ModelFile> model, EngineTiers tiers, std::size_t startTier,
-               const LiveEngineSettings& settings);
+               const LiveEngineSettings& settings, const inference::LoadLimits& limits = {});
     LiveEngine(const LiveEngine&) = delete;
     LiveEngine& operator=(const LiveEngine&) = delete;
     /// Ends the worker after its present round. Voices fall silent within a block and 5 ms.
@@ -86,7 +88,11 @@ public:
     /// True from the first `stop` on.
     [[nodiscard]] bool isStopping() const noexcept { return stopping_.load(std::memory_order_acquire); }
 
+    /// Throws std::invalid_argument for a tier that the model does not have or that is not loaded.
     void setQuality(const QualitySettings& quality);
+    /// Puts a tier into its place in the model's order, for a later setQuality; one that is there already stays.
+    void addTier(std::size_t tier, std::unique_ptr<inference::SegmentGenerator> generator);
+    [[nodiscard]] bool hasTier(std::size_t tier) const;
     [[nodiscard]] EngineStatistics statistics() const;
     [[nodiscard]] const model::ModelFile& model() const noexcept { return *model_; }
 
@@ -96,8 +102,10 @@ private:
     [[nodiscard]] bool sleep();
     void measureOnce(std::size_t tier);
     [[nodiscard]] std::optional<std::size_t> tierToMeasure() const;
+    [[nodiscard]] bool isLoaded(const QualitySettings& quality) const;
 
     std::shared_ptr<const model::ModelFile> model_;
+    // Places are filled under figuresMutex_, before quality_ names them; what was filled stays.
     EngineTiers tiers_;
     LiveEngineSettings settings_;
     std::unique_ptr<OnsetLevels> levels_;
