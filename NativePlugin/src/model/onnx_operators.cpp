@@ -56,6 +56,10 @@ bool isAllowedOperator(std::string_view name) noexcept {
     return std::ranges::binary_search(allowedOperators, name);
 }
 
+std::size_t allowedOperatorCount() noexcept {
+    return allowedOperators.size();
+}
+
 bool isShapeOperand(std::string_view name, std::size_t input) noexcept {
     if (name == "ConstantOfShape") {
         return input == 0;
