@@ -52,6 +52,8 @@ void OnnxGraph::probe(std::span<const std::byte> graph, Optimisation optimisatio
     const OrtApi& api = runtime_->api();
     const std::size_t memoryBytes = memoryOfAnyGraph + memoryOfRequest * maximumBatch_ + copiesOfWeights * graph.size();
     binding_.reset();
+    // Before the next one takes as much memory.
+    session_.reset();
     session_ = createSession(*runtime_, graph, optimisation, memoryBytes, limits);
     present_ = matchSignature(*runtime_, *session_, signature_, name_);
     binding_ = createBinding(*runtime_, *session_);
