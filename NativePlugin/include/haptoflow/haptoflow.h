@@ -52,6 +52,12 @@
 extern "C" {
 #endif
 
+/* The version of this header, that of package.json. haptoflow_version() is the loaded library's. */
+#define HAPTOFLOW_VERSION_MAJOR 0
+#define HAPTOFLOW_VERSION_MINOR 1
+#define HAPTOFLOW_VERSION_PATCH 0
+#define HAPTOFLOW_VERSION_TEXT "0.1.0"
+
 /* Samples of a segment and of the previous waveform; numbers of a material embedding and of a motion. */
 #define HAPTOFLOW_SEGMENT_SAMPLES 200
 #define HAPTOFLOW_EMBEDDING_SIZE 64
@@ -84,7 +90,11 @@ enum {
     /* No ONNX Runtime of version 1.16 or newer at the given place. */
     HAPTOFLOW_RUNTIME_UNAVAILABLE = 20,
     /* A graph failed while running, or returned numbers that are not finite. */
-    HAPTOFLOW_INFERENCE_FAILED = 21
+    HAPTOFLOW_INFERENCE_FAILED = 21,
+    /* A load ended because its haptoflow_cancellation was cancelled. */
+    HAPTOFLOW_CANCELLED = 22,
+    /* A probe run of a tier took longer than probe_limit_ms; the message names the tier. */
+    HAPTOFLOW_TIER_TOO_SLOW = 23
 };
 
 typedef int32_t haptoflow_solver;
@@ -141,13 +151,26 @@ HAPTOFLOW_API const char* haptoflow_last_message(void);
 
 typedef struct haptoflow_runtime haptoflow_runtime;
 
-/* Exactly one of the two pointers must be set. */
+/* How grave a message is: ONNX Runtime's own numbers. */
+enum { HAPTOFLOW_LOG_WARNING = 2, HAPTOFLOW_LOG_ERROR = 3, HAPTOFLOW_LOG_FATAL = 4 };
+
+/* Gets a warning or an error. message is valid during the call only. Called from threads that load and from workers,
+ * several at the same time, never from an audio callback. Must not call this library. */
+typedef void (*haptoflow_log_callback)(void* context, int32_t severity, const char* message);
+
+/* Exactly one of ort_api_base and library_path must be set. */
 typedef struct haptoflow_runtime_options {
     uint32_t struct_size;
     /* What OrtGetApiBase() of a loaded ONNX Runtime returned (const OrtApiBase*). That library must stay loaded. */
     const void* ort_api_base;
     /* Or the file of an ONNX Runtime library, which then stays loaded until the process ends. */
     const char* library_path;
+    /* Gets what ONNX Runtime has to say of the graphs that this runtime loads and runs; null for its usual place, the
+     * standard error stream. Never called again once haptoflow_runtime_close has returned. ONNX Runtime 1.16 has one
+     * log for the process, that of whoever used it first. */
+    haptoflow_log_callback log;
+    /* Handed to log. */
+    void* log_context;
 } haptoflow_runtime_options;
 
 /* Makes ONNX Runtime available; one for the whole process is enough. Close it with haptoflow_runtime_close.
@@ -156,10 +179,30 @@ typedef struct haptoflow_runtime_options {
 HAPTOFLOW_API haptoflow_status haptoflow_runtime_open(const haptoflow_runtime_options* options,
                                                       haptoflow_runtime** runtime);
 
-/* Closes *runtime and sets it to null; a null handle is fine. Generators made with it stay usable.
+/* Closes *runtime and sets it to null; a null handle is fine. Generators and engines made with it stay usable; what ONNX
+ * Runtime says of them from now on is heard by nobody where there was a log.
  * Errors: INVALID_ARGUMENT.
- * [loader-thread] Blocks while ONNX Runtime lets go of its memory. */
+ * [loader-thread] Blocks while ONNX Runtime lets go of its memory and while a call of the log is under way. */
 HAPTOFLOW_API haptoflow_status haptoflow_runtime_close(haptoflow_runtime** runtime);
+
+/* ------------------------------------------------------------------------------------------------- cancellations */
+
+/* Ends loads that are under way: those whose options name it. One may serve any number of loads, also later ones. */
+typedef struct haptoflow_cancellation haptoflow_cancellation;
+
+/* Close it with haptoflow_cancellation_close. Errors: INVALID_ARGUMENT, OUT_OF_MEMORY.
+ * [any-thread] Blocks for as long as another thread opens or closes a handle. */
+HAPTOFLOW_API haptoflow_status haptoflow_cancellation_create(haptoflow_cancellation** cancellation);
+
+/* Loads with this cancellation end with HAPTOFLOW_CANCELLED, those under way at their next operator, graph or part of a
+ * table; for good. ONNX Runtime before 1.22 finishes the graph that it is loading. Errors: INVALID_ARGUMENT.
+ * [any-thread] Blocks for as long as another thread opens or closes a handle. */
+HAPTOFLOW_API haptoflow_status haptoflow_cancellation_cancel(haptoflow_cancellation* cancellation);
+
+/* Closes *cancellation and sets it to null; a null handle is fine. Loads that are under way go on.
+ * Errors: INVALID_ARGUMENT.
+ * [any-thread] Blocks for as long as another thread opens or closes a handle. */
+HAPTOFLOW_API haptoflow_status haptoflow_cancellation_close(haptoflow_cancellation** cancellation);
 
 /* ------------------------------------------------------------------------------------------------------- models */
 
@@ -266,6 +309,11 @@ typedef struct haptoflow_generator_options {
     int32_t steps;
     /* Requests that one run of a graph takes, up to HAPTOFLOW_MAXIMUM_BATCH; 0 for 8. Longer batches go in parts. */
     uint32_t maximum_batch;
+    /* Ends the creation early; null for none. */
+    const haptoflow_cancellation* cancellation;
+    /* What a probe run of each graph may take for each 8 requests of maximum_batch, above 0 to 3600000 ms; 0 for
+     * 10000 ms. A single operator is always finished. */
+    double probe_limit_ms;
 } haptoflow_generator_options;
 
 /* `count` requests, each array holding them one after the other. The arrays are read during the call only. */
@@ -282,8 +330,9 @@ typedef struct haptoflow_batch {
     const float* noise;
 } haptoflow_batch;
 
-/* Loads the tier's graphs into ONNX Runtime, checks and runs them once. Close it with haptoflow_generator_close.
- * Errors: INVALID_ARGUMENT, MODEL_INCONSISTENT where a graph is not what the format says, OUT_OF_MEMORY.
+/* Loads the tier's graphs into ONNX Runtime, checks and runs them. Close it with haptoflow_generator_close.
+ * Errors: INVALID_ARGUMENT, MODEL_INCONSISTENT where a graph is not what the format says, TIER_TOO_SLOW, CANCELLED,
+ * OUT_OF_MEMORY.
  * [loader-thread] Blocks while ONNX Runtime optimises the graphs. */
 HAPTOFLOW_API haptoflow_status haptoflow_generator_create(const haptoflow_generator_options* options,
                                                           haptoflow_generator** generator);
@@ -330,7 +379,8 @@ enum {
 
 typedef struct haptoflow_engine_options {
     uint32_t struct_size;
-    /* The tier of that name; where the model has none, the nearest that it has. */
+    /* The tier of that name; where the model has none, the nearest that it has. That tier alone is loaded; all of the
+     * model's for HAPTOFLOW_QUALITY_AUTO. */
     haptoflow_quality quality;
     const haptoflow_runtime* runtime;
     const haptoflow_model* model;
@@ -349,6 +399,11 @@ typedef struct haptoflow_engine_options {
     /* From a contact state to the first sample generated from it, above 0 to 50 ms; 0 for the shortest that the engine
      * finds to hold on this machine. Fixed, an engine without worker is deterministic. */
     double fixed_lead_ms;
+    /* Ends the creation early; null for none. Read by haptoflow_engine_create only. */
+    const haptoflow_cancellation* cancellation;
+    /* What a probe run of each graph may take for each 8 voices of batch_voices, above 0 to 3600000 ms; 0 for 10000 ms.
+     * A single operator is always finished. */
+    double probe_limit_ms;
 } haptoflow_engine_options;
 
 /* Times of the tier at an index of the model (haptoflow_model_tier), for one voice's segment on this machine. */
@@ -356,7 +411,8 @@ typedef struct haptoflow_tier_times {
     uint32_t struct_size;
     /* 1 for the tier that generates at present, 0 otherwise. */
     uint32_t is_current;
-    /* Runs behind the figures; 0 where the tier was neither used nor measured. At most the last 128 count. */
+    /* Runs behind the figures; 0 where the tier was not loaded, or neither used nor measured. At most the last 128
+     * count. */
     uint64_t runs;
     double median_ms;
     double percentile_99_ms;
@@ -387,9 +443,9 @@ typedef struct haptoflow_engine_statistics {
     uint32_t priority_was_refused;
 } haptoflow_engine_statistics;
 
-/* Loads all tiers of the model and starts the worker. Close it with haptoflow_engine_close.
- * Errors: INVALID_ARGUMENT, MODEL_INCONSISTENT, INFERENCE_FAILED, OUT_OF_MEMORY.
- * [loader-thread] Blocks while ONNX Runtime optimises the graphs. */
+/* Loads the tiers that the quality asks for and starts the worker. Close it with haptoflow_engine_close.
+ * Errors: INVALID_ARGUMENT, MODEL_INCONSISTENT, INFERENCE_FAILED, TIER_TOO_SLOW, CANCELLED, OUT_OF_MEMORY.
+ * [loader-thread] Blocks while ONNX Runtime optimises the graphs, and for the levels of all labels. */
 HAPTOFLOW_API haptoflow_status haptoflow_engine_create(const haptoflow_engine_options* options,
                                                        haptoflow_engine** engine);
 
@@ -398,8 +454,11 @@ HAPTOFLOW_API haptoflow_status haptoflow_engine_create(const haptoflow_engine_op
  * [loader-thread] Blocks for the present round of inference, the present blocks and, while voices sound, their fade. */
 HAPTOFLOW_API haptoflow_status haptoflow_engine_close(haptoflow_engine** engine);
 
-/* From the next segment on. Errors: INVALID_ARGUMENT.
- * [any-thread] Blocks for as long as another thread opens or closes a handle, never for inference. */
+/* From the next segment on. Tiers that this quality asks for and that are not loaded yet are loaded first, by the calling
+ * thread, while the engine goes on with its present one; they stay loaded. Where that fails, the quality stays as it
+ * was. Errors: INVALID_ARGUMENT, MODEL_INCONSISTENT, TIER_TOO_SLOW, OUT_OF_MEMORY.
+ * [loader-thread] Blocks while ONNX Runtime optimises the graphs of such a tier; takes microseconds where all are
+ * loaded. */
 HAPTOFLOW_API haptoflow_status haptoflow_engine_set_quality(haptoflow_engine* engine, haptoflow_quality quality);
 
 /* One round of inference for all voices that want one. Engines without worker only. Errors: INVALID_ARGUMENT.

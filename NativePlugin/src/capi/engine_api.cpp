@@ -55,6 +55,11 @@ engine::QualitySettings qualitySettings(const model::ModelHeader& header, haptof
     return settings;
 }
 
+/// Whether an engine of this quality has the tier loaded.
+bool isWanted(const engine::QualitySettings& quality, std::size_t tier) {
+    return !quality.fixedTier || *quality.fixedTier == tier;
+}
+
 engine::LiveEngineSettings engineSettings(const haptoflow_engine_options& given, const model::ModelHeader& header) {
     const double budgetShare = orDefault(given.budget_share, usualBudgetShare);
     if (!(budgetShare > 0.0 && budgetShare <= 1.0)) {
@@ -87,15 +92,19 @@ haptoflow_status haptoflow_engine_create(const haptoflow_engine_options* options
             throw std::invalid_argument("options: batch_voices is " + std::to_string(batch) + "; expected 1 to 64");
         }
         const auto settings = engineSettings(given, header);
-        engine::EngineTiers tiers;
-        for (const model::Tier& tier : header.tiers) {
-            tiers.push_back(std::make_unique<inference::OnnxSegmentGenerator>(runtime, open->model, tier.name,
-                                                                              inference::defaultSolver(tier), batch));
+        const inference::LoadLimits limits = loadLimits(given.cancellation, given.probe_limit_ms);
+        TierLoader loader{runtime, open, batch};
+        engine::EngineTiers tiers(header.tiers.size());
+        for (std::size_t tier = 0; tier < tiers.size(); ++tier) {
+            if (isWanted(settings.quality, tier)) {
+                tiers[tier] = loader.load(tier, limits);
+            }
         }
-        auto live = std::make_shared<engine::LiveEngine>(std::shared_ptr<const model::ModelFile>(open, &open->model),
-                                                         std::move(tiers),
-                                                         tierOfQuality(header, HAPTOFLOW_QUALITY_AUTO), settings);
-        *engine = engines().open(std::make_shared<OpenEngine>(std::move(live), settings.hasWorker));
+        auto live = std::make_shared<engine::LiveEngine>(
+            std::shared_ptr<const model::ModelFile>(open, &open->model), std::move(tiers),
+            tierOfQuality(header, HAPTOFLOW_QUALITY_AUTO), settings, limits);
+        *engine = engines().open(
+            std::make_shared<OpenEngine>(std::move(live), settings.hasWorker, std::move(loader), limits.probeLimitMs));
     });
 }
 
@@ -116,7 +125,15 @@ haptoflow_status haptoflow_engine_set_quality(haptoflow_engine* engine, haptoflo
     return guarded([&] {
         const auto open = engines().get(engine);
         engine::LiveEngine& live = *open->engine;
-        live.setQuality(qualitySettings(live.model().header(), quality, live.statistics().budgetMs));
+        const model::ModelHeader& header = live.model().header();
+        const auto settings = qualitySettings(header, quality, live.statistics().budgetMs);
+        const std::lock_guard lock(open->loading);
+        for (std::size_t tier = 0; tier < header.tiers.size(); ++tier) {
+            if (isWanted(settings, tier) && !live.hasTier(tier)) {
+                live.addTier(tier, open->loader.load(tier, {.probeLimitMs = open->probeLimitMs}));
+            }
+        }
+        live.setQuality(settings);
     });
 }
 

@@ -2,12 +2,16 @@
 #include "inference/gaussian_noise.hpp"
 
 #include <span>
+#include <string_view>
 
 using namespace haptoflow;
 using namespace haptoflow::capi;
 
+static_assert(std::string_view(HAPTOFLOW_VERSION_TEXT) == HAPTOFLOW_VERSION,
+              "the version macros of haptoflow.h differ from package.json");
+
 const char* haptoflow_version(void) {
-    return HAPTOFLOW_VERSION;
+    return HAPTOFLOW_VERSION_TEXT;
 }
 
 const char* haptoflow_status_name(haptoflow_status status) {
@@ -40,6 +44,10 @@ const char* haptoflow_status_name(haptoflow_status status) {
             return "HAPTOFLOW_RUNTIME_UNAVAILABLE";
         case HAPTOFLOW_INFERENCE_FAILED:
             return "HAPTOFLOW_INFERENCE_FAILED";
+        case HAPTOFLOW_CANCELLED:
+            return "HAPTOFLOW_CANCELLED";
+        case HAPTOFLOW_TIER_TOO_SLOW:
+            return "HAPTOFLOW_TIER_TOO_SLOW";
         default:
             return "HAPTOFLOW_UNKNOWN_STATUS";
     }

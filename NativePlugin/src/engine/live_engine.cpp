@@ -47,15 +47,26 @@ std::shared_ptr<const model::ModelFile> checked(std::shared_ptr<const model::Mod
     return model;
 }
 
+inference::SegmentGenerator& firstLoaded(const EngineTiers& tiers) {
+    const auto found = std::ranges::find_if(tiers, [](const auto& tier) { return tier != nullptr; });
+    if (found == tiers.end()) {
+        throw std::invalid_argument("an engine needs at least one tier that is loaded");
+    }
+    return **found;
+}
+
 }  // namespace
 
 LiveEngine::LiveEngine(std::shared_ptr<const model::ModelFile> model, EngineTiers tiers, std::size_t startTier,
-                       const LiveEngineSettings& settings)
+                       const LiveEngineSettings& settings, const inference::LoadLimits& limits)
     : model_(checked(std::move(model), tiers)),
       tiers_(std::move(tiers)),
       settings_(checked(settings)),
-      levels_(std::make_unique<OnsetLevels>(*model_, *tiers_.front())),
+      levels_(std::make_unique<OnsetLevels>(*model_, firstLoaded(tiers_), limits)),
       quality_(tiers_.size(), settings.quality, startTier) {
+    if (!isLoaded(settings_.quality)) {
+        throw std::invalid_argument("quality: a tier that is not loaded");
+    }
     showQuality();
     if (settings_.hasWorker) {
         worker_ = std::thread([this] { work(); });
@@ -224,10 +235,32 @@ void LiveEngine::setQuality(const QualitySettings& quality) {
     }
     {
         const std::lock_guard lock(qualityMutex_);
+        if (!isLoaded(quality)) {
+            throw std::invalid_argument("quality: a tier that is not loaded");
+        }
         wantedQuality_.draft() = quality;
         wantedQuality_.post();
     }
     signal_.post();
+}
+
+bool LiveEngine::isLoaded(const QualitySettings& quality) const {
+    if (quality.fixedTier) {
+        return *quality.fixedTier < tiers_.size() && tiers_[*quality.fixedTier] != nullptr;
+    }
+    return std::ranges::all_of(tiers_, [](const auto& tier) { return tier != nullptr; });
+}
+
+void LiveEngine::addTier(std::size_t tier, std::unique_ptr<inference::SegmentGenerator> generator) {
+    const std::lock_guard lock(qualityMutex_);
+    if (tiers_.at(tier) == nullptr) {
+        tiers_[tier] = std::move(generator);
+    }
+}
+
+bool LiveEngine::hasTier(std::size_t tier) const {
+    const std::lock_guard lock(qualityMutex_);
+    return tiers_.at(tier) != nullptr;
 }
 
 EngineStatistics LiveEngine::statistics() const noexcept {

@@ -34,7 +34,7 @@ struct LiveEngineSettings {
     bool hasWorker = true;
 };
 
-/// The model's tiers, ready to run, in its own order.
+/// The model's tiers, ready to run, in its own order; null where one was not loaded.
 using EngineTiers = std::vector<std::unique_ptr<inference::SegmentGenerator>>;
 
 struct TierTimes {
@@ -66,10 +66,12 @@ struct EngineStatistics {
 /// The worker holds no lock while the network runs: adding, removing and reading never wait for inference.
 class LiveEngine {
 public:
-    /// `tiers` in the model's order, cheapest first; at least one. Runs the level graph of the first for OnsetLevels.
-    /// Throws std::invalid_argument for settings out of range, inference::InferenceError, std::system_error.
+    /// `tiers` in the model's order, cheapest first; at least one. Those that `settings` want must be loaded: all for
+    /// automatic quality, else the one. Runs the level graph of the first loaded for OnsetLevels. Throws
+    /// std::invalid_argument for settings out of range or a tier that is not loaded, inference::InferenceError,
+    /// inference::LoadCancelled, std::system_error.
     LiveEngine(std::shared_ptr<const model::ModelFile> model, EngineTiers tiers, std::size_t startTier,
-               const LiveEngineSettings& settings);
+               const LiveEngineSettings& settings, const inference::LoadLimits& limits = {});
     LiveEngine(const LiveEngine&) = delete;
     LiveEngine& operator=(const LiveEngine&) = delete;
     /// Ends the worker after its present round. Voices fall silent within a block and 5 ms.
@@ -92,8 +94,12 @@ public:
     /// True from the first `stop` on.
     [[nodiscard]] bool isStopping() const noexcept { return stopping_.load(std::memory_order_acquire); }
 
-    /// From the next round on. Throws std::invalid_argument for a tier that the engine lacks.
+    /// From the next round on. Throws std::invalid_argument for a tier that the model does not have or that is not
+    /// loaded.
     void setQuality(const QualitySettings& quality);
+    /// Puts a tier into its place in the model's order, for a later setQuality; one that is there already stays.
+    void addTier(std::size_t tier, std::unique_ptr<inference::SegmentGenerator> generator);
+    [[nodiscard]] bool hasTier(std::size_t tier) const;
     /// Any thread; waits for nobody and allocates nothing.
     [[nodiscard]] EngineStatistics statistics() const noexcept;
     [[nodiscard]] std::size_t tierCount() const noexcept { return tiers_.size(); }
@@ -127,8 +133,10 @@ private:
     void gatherVoices();
     void showQuality() noexcept;
     void noteFailure(const char* text) noexcept;
+    [[nodiscard]] bool isLoaded(const QualitySettings& quality) const;
 
     std::shared_ptr<const model::ModelFile> model_;
+    // Places are filled under qualityMutex_, before the worker is told of them; what was filled stays.
     EngineTiers tiers_;
     LiveEngineSettings settings_;
     std::unique_ptr<OnsetLevels> levels_;
@@ -139,7 +147,7 @@ private:
     std::atomic<std::uint32_t> voicesMade_{0};
 
     // Several threads may ask; the worker takes the newest without waiting.
-    std::mutex qualityMutex_;
+    mutable std::mutex qualityMutex_;
     Mailbox<QualitySettings> wantedQuality_;
 
     mutable std::mutex failureMutex_;

@@ -113,9 +113,10 @@ protected:
 
     std::vector<Input> inputs() {
         return {
-            input<haptoflow_runtime_options>(
-                "haptoflow_runtime_options", "haptoflow_runtime_open", sizeof(haptoflow_runtime_options),
-                {0, nullptr, HAPTOFLOW_TEST_ONNXRUNTIME}, opening(haptoflow_runtime_open, haptoflow_runtime_close)),
+            input<haptoflow_runtime_options>("haptoflow_runtime_options", "haptoflow_runtime_open",
+                                             offsetof(haptoflow_runtime_options, log),
+                                             {0, nullptr, HAPTOFLOW_TEST_ONNXRUNTIME, nullptr, nullptr},
+                                             opening(haptoflow_runtime_open, haptoflow_runtime_close)),
             input<haptoflow_model_options>("haptoflow_model_options", "haptoflow_model_open",
                                            sizeof(haptoflow_model_options), {0, nullptr, 0, tinyModelPath.c_str()},
                                            opening(haptoflow_model_open, haptoflow_model_close)),
