@@ -1,13 +1,12 @@
 import { readFileSync } from 'node:fs';
 import os from 'node:os';
 import { bandLane, quantityLane, spectrogramLane, timeAxis, waveformLane } from './charts.mjs';
+import { fullScaleMps2 } from './full_scale.mjs';
 import { colourOfLabel, escapeMarkup, slug } from './labels.mjs';
 import { drawScene } from './scene_drawing.mjs';
 import { colourOf, spectrogram, spectrogramPng } from './spectrogram.mjs';
 import { commonGain, writePcm16Wav } from './wav.mjs';
 
-/** What +-1 means in the rendered files. */
-export const fullScaleMps2 = 60;
 const topHz = 1000;
 const dynamicRangeDb = 60;
 

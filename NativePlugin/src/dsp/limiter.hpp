@@ -11,10 +11,13 @@ namespace haptoflow::dsp {
 class SoftLimiter {
 public:
     static constexpr float knee = 0.7F;
+    /// People's strokes over all labels of the shipped model leave less than one sample in a thousand above the knee
+    /// (Training/results/default/full-scale.json). The header, C#, Python and JavaScript say the same; a test compares.
+    static constexpr float defaultFullScaleMps2 = 200.0F;
 
     /// `fullScaleMps2` is the acceleration that would be 1 without a knee. Throws std::invalid_argument unless it is
     /// finite and above 0.
-    explicit SoftLimiter(float fullScaleMps2 = 60.0F);
+    explicit SoftLimiter(float fullScaleMps2 = defaultFullScaleMps2);
 
     /// The limited value of one sample; 0 for NaN and infinities, uncounted.
     [[nodiscard]] float limit(float mps2) const noexcept;
