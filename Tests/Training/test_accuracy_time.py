@@ -9,7 +9,8 @@ import pytest
 
 from haptoflow_training.evaluation import accuracy
 from haptoflow_training.evaluation.accuracy_time import merged, table, with_earlier_times
-from haptoflow_training.evaluation.accuracy_time_report import chart_names, draw_chart, draw_spectra, write_document
+from haptoflow_training.evaluation.accuracy_time_chart import draw_chart
+from haptoflow_training.evaluation.accuracy_time_report import draw_spectra, write_document
 from haptoflow_training.evaluation.reference_rows import REFERENCE_ROWS, reference_waves
 from haptoflow_training.evaluation.reference_set import Condition, ReferencePair, conditions
 from haptoflow_training.evaluation.row_plan import PlannedRow
@@ -143,12 +144,3 @@ def test_conditions_hold_a_speed_and_a_force_that_training_leaves_out_and_judge_
     assert {entry.label for entry in chosen if entry.expected_fundamental_hz} == {
         material.label for material in load_materials() if material.rulings
     }
-
-
-def test_along_a_line_of_the_chart_only_its_end_is_named_and_the_other_points_say_their_steps() -> None:
-    steps = {"plain-euler-1": 1, "plain-euler-4": 4, "plain-euler-16": 16, "reflow-1": 1, "standard": 1}
-    named = chart_names([{"name": name, "steps": count} for name, count in steps.items()])
-    assert named == {
-        "plain-euler-1": "1", "plain-euler-4": "4", "plain-euler-16": "plain-euler-16", "reflow-1": "reflow-1",
-        "standard": "standard",
-    }  # fmt: skip

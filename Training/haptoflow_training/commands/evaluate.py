@@ -15,7 +15,8 @@ from haptoflow_training.errors import InputError
 from haptoflow_training.evaluation import accuracy
 from haptoflow_training.evaluation.accuracy import Yardstick
 from haptoflow_training.evaluation.accuracy_time import merged, table, with_earlier_times
-from haptoflow_training.evaluation.accuracy_time_report import draw_chart, draw_spectra, write_document
+from haptoflow_training.evaluation.accuracy_time_chart import draw_chart
+from haptoflow_training.evaluation.accuracy_time_report import draw_spectra, write_document
 from haptoflow_training.evaluation.engine_library import EngineGenerator, EngineLibrary, default_engine
 from haptoflow_training.evaluation.reference_set import ReferencePair, conditions, reference_set
 from haptoflow_training.evaluation.row_plan import PlannedRow, load_plan

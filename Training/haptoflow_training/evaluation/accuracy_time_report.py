@@ -13,13 +13,7 @@ from haptoflow_training.evaluation.goals import judge
 from haptoflow_training.evaluation.metrics import power_spectrum
 from haptoflow_training.evaluation.reference_set import ReferencePair
 
-# Amplitude just-noticeable difference of vibration under a fingertip, 2.2 to 2.5 dB (facts of the field).
-JUST_NOTICEABLE_DB = 2.2
 _OURS = "HaptoFlow"
-_COLOURS = {"HaptoFlow": "#d1495b", "plain flow matching": "#5b7db1", "reference": "#8a8a8a"}
-# What a part of the network is worth is for the table; the chart is for the choice.
-_NOT_DRAWN = "ablations"
-_OTHER_COLOUR = "#3c7a57"
 
 _DEFINITIONS = """\
 ## What the figures mean
@@ -179,122 +173,6 @@ def _fast_table(rows: Sequence[dict[str, Any]]) -> list[str]:
             "",
         ]
     return lines
-
-
-def draw_chart(table: dict[str, Any], path: Path) -> None:
-    """Level error (left) and spectral distance (right) over milliseconds; the threshold and the ceiling drawn in."""
-    import matplotlib
-
-    matplotlib.use("Agg")
-    from matplotlib import pyplot
-    from matplotlib.ticker import LogLocator, NullFormatter, StrMethodFormatter
-
-    timed = [row for row in table["rows"] if row["ms_per_segment"] is not None]
-    rows = [row for row in timed if row["family"] != _NOT_DRAWN]
-    ceiling = next((row for row in table["rows"] if row["name"] == "independent-draw"), None)
-    figure, axes = pyplot.subplots(1, 2, figsize=(12.0, 5.2))
-    for axis, key, title in (
-        (axes[0], "level_error_db", "Level error, dB"),
-        (axes[1], "lsd_db", "Log-spectral distance, dB"),
-    ):
-        for row in (entry for entry in rows if entry[key] is not None):
-            ours = row["family"] == _OURS
-            value = max(abs(row[key]), 0.02)
-            axis.scatter(
-                row["ms_per_segment"]["p50"], value, s=150 if ours else 45, zorder=3,
-                marker="*" if ours else "o", color=_COLOURS.get(row["family"], _OTHER_COLOUR),
-            )  # fmt: skip
-        for series in _series(rows):
-            drawn = [row for row in series if row[key] is not None]
-            axis.plot(
-                [row["ms_per_segment"]["p50"] for row in drawn], [max(abs(row[key]), 0.02) for row in drawn],
-                color=_COLOURS.get(series[0]["family"], _OTHER_COLOUR), linewidth=1.0, alpha=0.6, zorder=2,
-            )  # fmt: skip
-        axis.set_xscale("log")
-        axis.set_yscale("log")
-        # Room for the names, and for the eye to see ratios where few rows were measured.
-        slowest = max(row["ms_per_segment"]["p50"] for row in rows)
-        fastest = min(row["ms_per_segment"]["p50"] for row in rows)
-        axis.set_xlim(fastest / 2.0, slowest * 3.0)
-        for ticks in (axis.xaxis, axis.yaxis):
-            ticks.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
-            ticks.set_major_formatter(StrMethodFormatter("{x:g}"))
-            ticks.set_minor_formatter(NullFormatter())
-        axis.set_xlabel("milliseconds per segment, one thread (log)")
-        axis.set_title(title + " (log; lower is better)")
-        axis.grid(alpha=0.25, which="both")
-        for row in (entry for entry in rows if entry[key] is None):
-            axis.axvline(row["ms_per_segment"]["p50"], color="#8a8a8a", linestyle=":")
-            axis.annotate(
-                f"{row['name']} (time alone)", (row["ms_per_segment"]["p50"], 0.97), xytext=(-4, 0), rotation=90,
-                xycoords=("data", "axes fraction"), textcoords="offset points", ha="right", va="top", fontsize=7.5,
-            )  # fmt: skip
-    axes[0].axhspan(0.0, JUST_NOTICEABLE_DB, color="#d8ecd8", zorder=0)
-    axes[0].text(
-        0.98, JUST_NOTICEABLE_DB / 1.08, f"below {JUST_NOTICEABLE_DB} dB nobody feels it", va="top", ha="right",
-        transform=axes[0].get_yaxis_transform(), fontsize=9,
-    )  # fmt: skip
-    if ceiling is not None:
-        axes[1].axhline(ceiling["lsd_db"], color="#8a8a8a", linestyle="--")
-        axes[1].annotate(
-            "noise ceiling: another recording", (0.98, ceiling["lsd_db"]), xycoords=("axes fraction", "data"),
-            ha="right", va="bottom", fontsize=9, color="#5a5a5a",
-        )  # fmt: skip
-    figure.tight_layout()
-    figure.canvas.draw()
-    for axis, key in zip(axes, ("level_error_db", "lsd_db"), strict=True):
-        _write_names(axis, [(row, max(abs(row[key]), 0.02)) for row in rows if row[key] is not None])
-    figure.savefig(path, dpi=110)
-    pyplot.close(figure)
-
-
-def _series(rows: Sequence[dict[str, Any]]) -> list[list[dict[str, Any]]]:
-    """Rows of one network and solver at rising numbers of steps: what is drawn as a line."""
-    grouped: dict[str, list[dict[str, Any]]] = {}
-    for row in rows:
-        grouped.setdefault(_stem(row["name"]), []).append(row)
-    return [sorted(group, key=lambda row: row["steps"]) for group in grouped.values() if len(group) > 1]
-
-
-def _stem(name: str) -> str:
-    stem, _, number = name.rpartition("-")
-    return stem if number.isdigit() else name
-
-
-def chart_names(rows: Sequence[dict[str, Any]]) -> dict[str, str]:
-    """Whole names; along a line, the number of steps alone but at its end."""
-    names = {row["name"]: row["name"] for row in rows}
-    for series in _series(rows):
-        for row in series[:-1]:
-            names[row["name"]] = str(row["steps"])
-    return names
-
-
-def _write_names(axis: Any, points: list[tuple[dict[str, Any], float]]) -> None:
-    """Each row's name at that corner of its point where it covers no other name and no point; ours first."""
-    from matplotlib.transforms import Bbox
-
-    places = [axis.transData.transform((row["ms_per_segment"]["p50"], value)) for row, value in points]
-    taken = [Bbox.from_extents(x - 5.0, y - 5.0, x + 5.0, y + 5.0) for x, y in places]
-    beside = [(8, 3, "left"), (8, -10, "left"), (-8, 3, "right"), (-8, -10, "right")]
-    corners = [*beside, (0, 9, "center"), (0, -17, "center")]
-    names = chart_names([row for row, _ in points])
-    for row, value in sorted(points, key=lambda point: point[0]["family"] != _OURS):
-        ours = row["family"] == _OURS
-        written = axis.annotate(
-            names[row["name"]], (row["ms_per_segment"]["p50"], value), textcoords="offset points", xytext=(0, 0),
-            fontsize=9 if ours else 7.5, fontweight="bold" if ours else "normal",
-        )  # fmt: skip
-        tried = []
-        for right, up, alignment in corners:
-            written.set_position((right, up))
-            written.set_horizontalalignment(alignment)
-            box = written.get_window_extent()
-            tried.append((sum(box.overlaps(other) for other in taken), (right, up, alignment), box))
-        _, (right, up, alignment), box = min(tried, key=lambda entry: entry[0])
-        written.set_position((right, up))
-        written.set_horizontalalignment(alignment)
-        taken.append(box)
 
 
 def draw_spectra(pairs: Sequence[ReferencePair], waves: Sequence[NDArray[np.float32]], path: Path) -> None:
