@@ -67,7 +67,7 @@ def test_the_table_keeps_the_plan_s_order_and_leaves_out_what_was_not_measured(
     timed = {"summary": {}, "discrimination": None, "parameters": 5, "bytes": 20, "drift_db_per_min": None}
     measured = {"independent-draw": [figures], "standard": [figures, figures], "size": [timed]}
     times = {"standard": Milliseconds(0.2, 0.3), "size": Milliseconds(20.0, 30.0)}
-    result = table(plan, measured, times, times)
+    result = {"model_sha256": "0" * 64, **table(plan, measured, times, times)}
     assert [row["name"] for row in result["rows"]] == ["standard", "size", "independent-draw"]
     assert [row["seeds"] for row in result["rows"]] == [2, 1, 1] and "by_seed" not in result["rows"][2]
     assert result["rows"][2]["ms_per_segment"] is None
@@ -75,7 +75,7 @@ def test_the_table_keeps_the_plan_s_order_and_leaves_out_what_was_not_measured(
     images = tmp_path / "images"
     images.mkdir()
     draw_chart(result, images / "accuracy-time.png")
-    draw_spectra(pairs, [pair.independent for pair in pairs], images / "label-spectra.png")
+    draw_spectra(pairs, [pair.independent for pair in pairs], images / "label-spectra.png", "0" * 64)
     write_document(result, tmp_path / "document.md", images, True, True)
     text = (tmp_path / "document.md").read_text(encoding="utf-8")
     assert "| **standard** |" in text and "| size |" in text and "time only" in text

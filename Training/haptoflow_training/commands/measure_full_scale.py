@@ -12,11 +12,12 @@ from haptoflow_training.evaluation.engine_render import FULL_SCALE_MPS2
 from haptoflow_training.evaluation.full_scale import (
     ALLOWED_SHARE,
     FORCES_NEWTONS,
+    full_scale_table,
     measure_levels,
     model_labels,
-    sha256_of,
     summarise,
 )
+from haptoflow_training.evaluation.model_stamp import model_line, sha256_of, with_measured_words
 from haptoflow_training.strokes.recorded_strokes import read_recorded_strokes
 
 
@@ -31,7 +32,8 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser], su
         ),
         epilog="example:\n  haptoflow-training measure-full-scale --engine build/native/haptoflow \\\n"
         "    --model Packages/com.haptoflow.runtime/Runtime/Models/default.haptoflow \\\n"
-        "    --strokes ../shared/strokes/vr-pen-on-surface/strokes.csv --out Training/results/default/full-scale.json",
+        "    --strokes ../shared/strokes/vr-pen-on-surface/strokes.csv --out Training/results/default/full-scale.json \\\n"
+        "    --page Documentation~/actuator-wiring.md",
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
     parser.add_argument("--engine", type=Path, required=True, help="the built command line, build/native/haptoflow")
@@ -46,6 +48,7 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser], su
     )  # fmt: skip
     parser.add_argument("--workers", type=int, default=2, help="renders at a time (default: 2)")
     parser.add_argument("--out", type=Path, required=True, help="the report, JSON")
+    parser.add_argument("--page", type=Path, help="a page whose measured table is replaced")
     parser.set_defaults(run=run)
 
 
@@ -59,6 +62,10 @@ def run(options: argparse.Namespace) -> int:
     report = {"model_sha256": sha256_of(options.model), **summarise(levels, sorted(set(options.full_scales)))}
     options.out.parent.mkdir(parents=True, exist_ok=True)
     options.out.write_text(json.dumps(report, indent=1) + "\n", encoding="utf-8")
+    if options.page is not None:
+        words = f"{model_line(report['model_sha256'])}\n\n{full_scale_table(report)}"
+        page = options.page.read_text(encoding="utf-8")
+        options.page.write_text(with_measured_words(page, words), encoding="utf-8")
     print(
         f"{options.out}: {report['smallest_full_scale_mps2']:.0f} m/s^2 over all labels, "
         f"{report['smallest_full_scale_of_loudest_label_mps2']:.0f} m/s^2 for the loudest alone"

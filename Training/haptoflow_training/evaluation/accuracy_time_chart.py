@@ -7,6 +7,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from haptoflow_training.evaluation.model_stamp import picture_metadata
+
 _OURS = "HaptoFlow"
 # What a part of the network is worth is for the table; the chart is for the choice.
 _NOT_DRAWN = ("ablations", "reference")
@@ -98,7 +100,7 @@ def draw_chart(table: dict[str, Any], path: Path) -> None:
     handles = _legend_handles({row["family"] for row in table["rows"]})
     figure.legend(handles=handles, loc="lower center", ncols=3, frameon=False, fontsize=10)
     figure.tight_layout(rect=(0.0, 0.11, 1.0, 1.0))
-    figure.savefig(path, dpi=110)
+    figure.savefig(path, dpi=110, metadata=picture_metadata(table["model_sha256"]))
     pyplot.close(figure)
 
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import hashlib
 import json
 import math
 import subprocess
@@ -143,6 +142,15 @@ def summarise(levels: Sequence[StrokeLevel], full_scales_mps2: Sequence[float]) 
     }
 
 
+def full_scale_table(report: Mapping[str, Any]) -> str:
+    """Of a report, for a page: the share of samples in the knee at each full scale."""
+    lines = ["| full scale, m/s^2 | samples in the knee, all labels | of the loudest label |", "|---|---|---|"]
+    for entry in report["full_scales"]:
+        label, share = max(entry["share_in_knee_by_label"].items(), key=lambda item: item[1])
+        lines.append(f"| {entry['full_scale_mps2']:.0f} | {entry['share_in_knee']:.3%} | {share:.2%} ({label}) |")
+    return "\n".join(lines)
+
+
 def _distinct(levels: Sequence[StrokeLevel], field: str) -> list[Any]:
     return list(dict.fromkeys(getattr(level, field) for level in levels))
 
@@ -168,8 +176,3 @@ def _level_figures(levels: Sequence[StrokeLevel]) -> dict[str, float]:
         "p99_9_mps2": p999,
         "peak_mps2": float(everything.max()),
     }
-
-
-def sha256_of(path: Path) -> str:
-    """Of a file's bytes, in hexadecimal."""
-    return hashlib.sha256(path.read_bytes()).hexdigest()
