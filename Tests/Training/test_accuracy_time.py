@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import json
+import zlib
 from pathlib import Path
 
 import numpy as np
@@ -11,11 +13,15 @@ from haptoflow_training.evaluation import accuracy
 from haptoflow_training.evaluation.accuracy_time import merged, table, with_earlier_times
 from haptoflow_training.evaluation.accuracy_time_chart import draw_chart
 from haptoflow_training.evaluation.accuracy_time_report import draw_spectra, write_document
+from haptoflow_training.evaluation.model_stamp import SHIPPED_MODEL
 from haptoflow_training.evaluation.reference_rows import REFERENCE_ROWS, reference_waves
 from haptoflow_training.evaluation.reference_set import Condition, ReferencePair, conditions
 from haptoflow_training.evaluation.row_plan import PlannedRow
 from haptoflow_training.evaluation.timing import Milliseconds
+from haptoflow_training.export.model_file import read_model_file
 from haptoflow_training.recordings.synthetic import load_materials
+
+ROOT = Path(__file__).parents[2]
 
 
 def _pair(label: str, index: int, seed: int) -> ReferencePair:
@@ -144,3 +150,10 @@ def test_conditions_hold_a_speed_and_a_force_that_training_leaves_out_and_judge_
     assert {entry.label for entry in chosen if entry.expected_fundamental_hz} == {
         material.label for material in load_materials() if material.rulings
     }
+
+
+@pytest.mark.parametrize("tier", ["draft", "standard", "fine"])
+def test_the_kept_row_of_each_shipped_tier_was_measured_with_the_graphs_that_are_shipped(tier: str) -> None:
+    graphs = read_model_file(ROOT / SHIPPED_MODEL).graphs
+    row = json.loads((ROOT / "Training" / "results" / "rows" / f"{tier}-1.json").read_text(encoding="utf-8"))
+    assert row["made_from"]["graphs_crc32"] == f"{zlib.crc32(b''.join(graphs.values())):08x}"
