@@ -62,6 +62,9 @@ extern "C" {
 #define HAPTOFLOW_SEGMENT_SAMPLES 200
 #define HAPTOFLOW_EMBEDDING_SIZE 64
 #define HAPTOFLOW_MOTION_SIZE 3
+
+/* The acceleration in m/s^2 that is +-1 in the output unless options say otherwise. */
+#define HAPTOFLOW_DEFAULT_FULL_SCALE_MPS2 200.0
 #define HAPTOFLOW_MAXIMUM_BATCH 256
 
 typedef int32_t haptoflow_status;
@@ -388,7 +391,8 @@ typedef struct haptoflow_engine_options {
     double update_rate_hz;
     /* Share of the time between two contact states that inference may take, above 0 to 1; 0 for 0.25. */
     double budget_share;
-    /* What acceleration is +-1 in the output, 0.001 to 1000000; 0 for 60. A soft knee begins at 0.7 of it. */
+    /* What acceleration is +-1 in the output, 0.001 to 1000000; 0 for HAPTOFLOW_DEFAULT_FULL_SCALE_MPS2. A soft knee
+     * begins at 0.7 of it. */
     double full_scale_mps2;
     /* Key of all noise. */
     uint64_t seed;

@@ -1,5 +1,6 @@
 #include "capi/handles.hpp"
 #include "capi/voice_table.hpp"
+#include "dsp/limiter.hpp"
 #include "inference/tier_graphs.hpp"
 
 #include <algorithm>
@@ -17,7 +18,8 @@ namespace {
 constexpr uint32_t usualBatchVoices = 8;
 constexpr double usualUpdateRateHz = 72.0;
 constexpr double usualBudgetShare = 0.25;
-constexpr double usualFullScaleMps2 = 60.0;
+constexpr double usualFullScaleMps2 = HAPTOFLOW_DEFAULT_FULL_SCALE_MPS2;
+static_assert(usualFullScaleMps2 == dsp::SoftLimiter::defaultFullScaleMps2);
 
 // The first version could not do without these; everything behind has a default.
 constexpr std::size_t mandatoryOptions = offsetof(haptoflow_engine_options, update_rate_hz);

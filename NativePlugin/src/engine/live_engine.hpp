@@ -1,5 +1,6 @@
 #pragma once
 
+#include "dsp/limiter.hpp"
 #include "engine/inference_round.hpp"
 #include "engine/live_voice.hpp"
 #include "engine/mailbox.hpp"
@@ -25,7 +26,7 @@ struct LiveEngineSettings {
     QualitySettings quality{};
     /// Contact states a second, by which the budget and the pace of measuring go.
     double updateRateHz = 72.0;
-    float fullScaleMps2 = 60.0F;
+    float fullScaleMps2 = dsp::SoftLimiter::defaultFullScaleMps2;
     /// Key of all noise.
     std::uint64_t seed = 1;
     /// Empty for a lead that each voice learns; otherwise 0 to 50 ms.
