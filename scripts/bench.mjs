@@ -2,8 +2,9 @@
 import { spawn } from 'node:child_process';
 import { existsSync, mkdirSync, readFileSync, statSync, writeFileSync } from 'node:fs';
 import { parseArgs } from 'node:util';
-import { benchArguments, withMeasuredTables } from './bench/measured_tables.mjs';
+import { benchArguments, withMeasuredTables, withModelSha256 } from './bench/measured_tables.mjs';
 import { buildNative } from './lib/native_build.mjs';
+import { sha256Of, shippedModel } from './lib/model_stamp.mjs';
 import { CommandError, runMain, runOrFail } from './lib/process.mjs';
 import { commandLinePath, inRepository } from './lib/repository.mjs';
 import { pythonOrFail, setUp } from './lib/setup.mjs';
@@ -70,9 +71,12 @@ await runMain('bench', async (words) => {
   const comparesWithPaper = !options['no-paper'] && (options.only ?? 'inference').split(',').includes('inference');
   if (comparesWithPaper) await makePaperModel();
   const tables = await measure(benchArguments(options, report, comparesWithPaper ? paperModel : null));
+  const modelSha256 = sha256Of(options.model ?? shippedModel);
+  const measured = withModelSha256(JSON.parse(readFileSync(report, 'utf8')), modelSha256);
+  writeFileSync(report, `${JSON.stringify(measured, null, 2)}\n`);
   console.log(`\nbench: ${report}`);
   if (options.publish) {
-    writeFileSync(documentPath, withMeasuredTables(readFileSync(documentPath, 'utf8'), tables));
+    writeFileSync(documentPath, withMeasuredTables(readFileSync(documentPath, 'utf8'), tables, modelSha256));
     console.log(`bench: ${documentPath}`);
   }
 });

@@ -1,9 +1,14 @@
-// test:soak: the long forms of the live engine's proofs: ten minutes on each label, a million watched callbacks
+// test:soak: the long forms of the live engine's proofs: ten minutes on each label, a million watched callbacks (--publish)
+import { readFileSync, writeFileSync } from 'node:fs';
+import os from 'node:os';
 import { judgeJunit, results } from './lib/judge_junit.mjs';
+import { withMeasuredPart } from './lib/measured_part.mjs';
+import { sha256Of, shippedModel } from './lib/model_stamp.mjs';
 import { buildNative, presetFolder } from './lib/native_build.mjs';
-import { runMain } from './lib/process.mjs';
+import { CommandError, runMain } from './lib/process.mjs';
 import { inRepository } from './lib/repository.mjs';
 import { setUp } from './lib/setup.mjs';
+import { soakTable } from './lib/soak_table.mjs';
 import { addCounts, closingLine, noCounts } from './lib/test_counts.mjs';
 
 const proofs = [
@@ -13,17 +18,32 @@ const proofs = [
   { program: 'engine', filter: 'LongRunTest*', env: { HAPTOFLOW_TEST_SOUNDING_SECONDS: '21600' }, about: 'a day of waveform' },
 ];
 
-await runMain('test:soak', async () => {
+const page = inRepository('Documentation~', 'stability.md');
+const resultOf = (index) => `soak-${index}.xml`;
+
+/** The figures of this run into the stability page, with the model that they belong to. */
+function publish() {
+  const ran = proofs.map(({ about }, index) => ({ about, xml: readFileSync(results(resultOf(index)), 'utf8') }));
+  const machine = `${os.cpus()[0]?.model.trim() ?? 'unknown processor'}, ${os.cpus().length} cores, ${os.type()}`;
+  const table = soakTable(ran, { date: new Date().toISOString().slice(0, 10), machine, modelSha256: sha256Of(shippedModel) });
+  writeFileSync(page, withMeasuredPart(readFileSync(page, 'utf8'), 'npm run test:soak -- --publish', table));
+  console.log(`test:soak: ${page}`);
+}
+
+await runMain('test:soak', async (words) => {
+  const unknown = words.find((word) => word !== '--publish');
+  if (unknown !== undefined) throw new CommandError(`unknown option '${unknown}'; --publish writes the figures into the stability page`, 2);
   await setUp(['build', 'test']);
   await buildNative({ tests: true });
   let counts = noCounts;
   for (const [index, { program, filter, env, about }] of proofs.entries()) {
     console.log(`test:soak: ${about}`);
-    const file = `soak-${index}.xml`;
+    const file = resultOf(index);
     const executable = inRepository(presetFolder('release'), 'Tests', 'Native', program, `${program}_tests`);
     const args = [`--gtest_filter=${filter}`, `--gtest_output=xml:${results(file)}`];
     counts = addCounts(counts, await judgeJunit(file, executable, args, { env }));
   }
   console.log(`\n${closingLine(counts)}`);
+  if (words.includes('--publish') && counts.failed === 0) publish();
   return counts.failed > 0 ? 1 : 0;
 });

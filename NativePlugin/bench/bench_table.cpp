@@ -77,6 +77,23 @@ void printCallback(std::ostream& stream, const Json& rows) {
     printTable(stream, "callback, 256 frames at 48 kHz, us", table);
 }
 
+void printEvents(std::ostream& stream, const Json& rows) {
+    std::vector<Row> table{{"voices, block", "kind", "events", "p50", "p99", "worst", "x ordinary"}};
+    for (const Json& entry : rows) {
+        const std::string device = figure(entry["voices"]) + ", " + figure(entry["block_frames"]) + " at " +
+                                   figure(entry["sample_rate_hz"].get<double>() / 1000.0) + " kHz";
+        for (const auto& [kind, distribution] : entry.items()) {
+            if (distribution.is_object()) {
+                Row row{device, kind, figure(distribution["count"])};
+                appendRanks(row, distribution);
+                row.push_back(figure(distribution.value("ratio", Json())));
+                table.push_back(row);
+            }
+        }
+    }
+    printTable(stream, "callback, the block in which something happens, us", table);
+}
+
 std::string deviceOf(const Json& entry) {
     const std::string frames = figure(entry["block_frames"]);
     return entry["burst_blocks"] == 1 ? frames : figure(entry["burst_blocks"]) + " x " + frames;
@@ -195,6 +212,7 @@ void printTables(std::ostream& stream, const Json& report) {
         }
     };
     print("callback_us", [&](const Json& section) { printCallback(stream, section); });
+    print("callback_events_us", [&](const Json& section) { printEvents(stream, section); });
     print("onset_ms", [&](const Json& section) { printLatency(stream, "onset, ms", section); });
     print("contact_to_sound_ms", [&](const Json& section) { printLatency(stream, "contact to sound, ms", section); });
     print("stop_ms", [&](const Json& section) { printLatency(stream, "stop, ms", section); });

@@ -13,9 +13,6 @@
 namespace haptoflow::bench {
 namespace {
 
-// The first blocks wait for their first segments and touch every page once.
-constexpr std::size_t warmUpBlocks = 64;
-
 using Voices = std::vector<std::shared_ptr<engine::LiveVoice>>;
 
 /// Voices of one engine that slide, and as many that nobody touches, rendered and timed apart.
@@ -41,7 +38,7 @@ public:
 
     void step() { engine_->step(); }
 
-    /// One block of each kind of voice, whichever comes first; notes both times after the warm-up.
+    /// One block of each kind of voice, in random order; notes both times, the very first ones' too.
     void render(std::span<float> block) {
         std::array<double, 2> seconds{};
         const std::size_t first = order_() % 2;
@@ -53,10 +50,8 @@ public:
             });
         }
         ++blocks_;
-        if (blocks_ > warmUpBlocks) {
-            slidingSeconds_.push_back(seconds[0]);
-            silentSeconds_.push_back(seconds[1]);
-        }
+        slidingSeconds_.push_back(seconds[0]);
+        silentSeconds_.push_back(seconds[1]);
     }
 
     [[nodiscard]] nlohmann::ordered_json figures() const {
@@ -85,7 +80,7 @@ public:
         return figures;
     }
 
-    /// Any thread: blocks rendered so far, those of the warm-up included.
+    /// Any thread: blocks rendered so far.
     [[nodiscard]] std::size_t blocks() const noexcept { return blocks_; }
     void reserve(std::size_t blocks) {
         slidingSeconds_.reserve(blocks);
@@ -108,7 +103,7 @@ nlohmann::ordered_json measureHot(const Subjects& subjects, std::size_t voices, 
     choirs.reserve(blocks);
     std::vector<float> block(usualBlockFrames);
     double nextUpdate = 0.0;
-    for (std::size_t index = 0; index < blocks + warmUpBlocks; ++index) {
+    for (std::size_t index = 0; index < blocks; ++index) {
         const double now = static_cast<double>(index) * DeviceShape{}.blockSeconds();
         if (now >= nextUpdate) {
             nextUpdate += 1.0 / updateRateHz;
@@ -122,7 +117,7 @@ nlohmann::ordered_json measureHot(const Subjects& subjects, std::size_t voices, 
 
 nlohmann::ordered_json measurePaced(const Subjects& subjects, std::size_t voices, double seconds) {
     const DeviceShape shape;
-    const auto wanted = warmUpBlocks + static_cast<std::size_t>(std::ceil(seconds / shape.blockSeconds()));
+    const auto wanted = static_cast<std::size_t>(std::ceil(seconds / shape.blockSeconds()));
     // A machine that is busy elsewhere needs longer for as many blocks.
     const double longestSeconds = 1.0 + 5.0 * static_cast<double>(wanted) * shape.blockSeconds();
     TwoChoirs choirs(subjects, voices, true);

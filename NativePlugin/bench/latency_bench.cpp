@@ -3,7 +3,6 @@
 #include "bench/distribution.hpp"
 #include "bench/real_time_device.hpp"
 #include "bench/watched_generators.hpp"
-#include "dsp/rate_warp.hpp"
 #include "dsp/waveform_resampler.hpp"
 
 #include <algorithm>
@@ -149,8 +148,7 @@ nlohmann::ordered_json sectionOf(const std::vector<nlohmann::ordered_json>& rows
 double filterDelaySeconds() {
     const dsp::WaveformResampler resampler(outputRateHz);
     constexpr double lowFrequencyHz = 50.0;
-    return dsp::RateWarp::latencyOutputSamples / inference::waveformRateHz +
-           resampler.groupDelaySeconds(lowFrequencyHz);
+    return resampler.groupDelaySeconds(lowFrequencyHz);
 }
 
 nlohmann::ordered_json stepRow(const DeviceRun& run, double filterSeconds) {

@@ -2,25 +2,33 @@ import assert from 'node:assert/strict';
 import { spawnSync } from 'node:child_process';
 import { readFileSync } from 'node:fs';
 import test from 'node:test';
-import { benchArguments, withMeasuredTables } from '../../scripts/bench/measured_tables.mjs';
+import { benchArguments, withMeasuredTables, withModelSha256 } from '../../scripts/bench/measured_tables.mjs';
+import { modelOfPage } from '../../scripts/lib/model_stamp.mjs';
 import { inRepository } from '../../scripts/lib/repository.mjs';
 
 const page = readFileSync(inRepository('Documentation~', 'benchmarks.md'), 'utf8');
 const bench = (...words) => spawnSync(process.execPath, [inRepository('scripts', 'bench.mjs'), ...words], { encoding: 'utf8' });
 
 test('published tables replace what stood between the page\'s markers and nothing else', () => {
-  const once = withMeasuredTables(page, '\nfirst table\n');
-  const twice = withMeasuredTables(once, '\nsecond table\n');
+  const once = withMeasuredTables(page, '\nfirst table\n', 'a'.repeat(64));
+  const twice = withMeasuredTables(once, '\nsecond table\n', 'b'.repeat(64));
   assert.match(once, /```\nfirst table\n```/);
   assert.match(twice, /```\nsecond table\n```/);
   assert.doesNotMatch(twice, /first table/);
-  assert.equal(withMeasuredTables(twice, 'first table'), once);
+  assert.equal(withMeasuredTables(twice, 'first table', 'a'.repeat(64)), once);
   const outside = (text) => [text.split('<!-- measured: begin')[0], text.split('<!-- measured: end')[1]];
   assert.deepEqual(outside(twice), outside(page));
 });
 
+test('the page and the report name the model that was measured', () => {
+  const sha256 = 'c'.repeat(64);
+  assert.equal(modelOfPage(withMeasuredTables(page, 'table', sha256)), sha256);
+  const report = { model: { name: 'default', crc32: '12' }, onset_ms: { p50: 1 } };
+  assert.deepEqual(withModelSha256(report, sha256), { model: { name: 'default', crc32: '12', sha256 }, onset_ms: { p50: 1 } });
+});
+
 test('a page that lost its markers is refused', () => {
-  assert.throws(() => withMeasuredTables('# Benchmarks\n', 'table'), /measured: begin/);
+  assert.throws(() => withMeasuredTables('# Benchmarks\n', 'table', 'a'.repeat(64)), /measured: begin/);
 });
 
 test('the page explains every key that bench.json promises', () => {

@@ -4,8 +4,8 @@ import { bandLane, labelStretches, niceCeiling, waveformLane } from '../../scrip
 import { parseCsv } from '../../scripts/demo/csv.mjs';
 import { readContacts } from '../../scripts/demo/stroke_path.mjs';
 
-test('axes end at 1, 2 or 5 times a power of ten', () => {
-  assert.deepEqual([0, 0.03, 1, 1.2, 4.9, 5.1, 99].map(niceCeiling).map((value) => Number(value.toPrecision(6))), [1, 0.03, 1, 1.5, 5, 6, 100]);
+test('axes end at a round number times a power of ten', () => {
+  assert.deepEqual([0, 0.03, 1, 1.2, 4.9, 5.1, 99].map(niceCeiling).map((value) => Number(value.toPrecision(6))), [1, 0.03, 1, 1.2, 5, 6, 100]);
 });
 
 test('stretches of one label are joined and end where the next begins', () => {
@@ -22,8 +22,8 @@ test('a band escapes its label', () => {
   assert.ok(!bandLane([{ timeSeconds: 0, label: '<i>' }], 1).includes('<i>'));
 });
 
-test('the waveform axis is in m/s^2 and covers the peak', () => {
-  const lane = waveformLane(Float32Array.from([0, 0.5, -0.25, 0]), 60, 'w');
+test('the waveform axis is in m/s^2 and ends where it is told to', () => {
+  const lane = waveformLane(Float32Array.from([0, 0.5, -0.25, 0]), 60, 30, 'w');
   assert.ok(lane.includes('+30') && lane.includes('−30'));
 });
 

@@ -3,12 +3,12 @@ import assert from 'node:assert/strict';
 import { existsSync, readFileSync } from 'node:fs';
 import path from 'node:path';
 import test from 'node:test';
+import { fullScaleMps2 } from '../../scripts/demo/full_scale.mjs';
 import { tracedLabels } from '../../scripts/demo/renders.mjs';
 import { readFloatWav } from '../../scripts/demo/wav.mjs';
 import { inRepository } from '../../scripts/lib/repository.mjs';
 
 const folder = inRepository('out', 'demo');
-const fullScaleMps2 = 60;
 const report = JSON.parse(readFileSync(path.join(folder, 'report.json'), 'utf8'));
 const waveOf = (render) => readFloatWav(readFileSync(path.join(folder, render.wav)), render.wav);
 

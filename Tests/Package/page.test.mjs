@@ -1,5 +1,6 @@
 import assert from 'node:assert/strict';
 import test from 'node:test';
+import { fullScaleMps2 } from '../../scripts/demo/full_scale.mjs';
 import { demoPage } from '../../scripts/demo/page.mjs';
 import { assembleReport } from '../../scripts/demo/report.mjs';
 import { readContacts } from '../../scripts/demo/stroke_path.mjs';
@@ -12,7 +13,7 @@ function renderOf(name, amplitude, model = 'default.haptoflow') {
   const contactCsv = 't,surface,touching,vx_mps,vy_mps,force_n\n0,,0,0,0,0\n0.5,ball,1,0.3,0.4,1\n1,ball,1,0.3,0.4,1\n';
   const samples = Float32Array.from({ length: rateHz }, (_, index) => amplitude * Math.sin((2 * Math.PI * 100 * index) / rateHz));
   const report = {
-    model, labels: ['wood'], wav: 'x.wav', seconds: 1, rms_mps2: (60 * amplitude) / Math.SQRT2, peak: amplitude, segments: 36,
+    model, labels: ['wood'], wav: 'x.wav', seconds: 1, rms_mps2: (fullScaleMps2 * amplitude) / Math.SQRT2, peak: amplitude, segments: 36,
     inference_ms: { p50: 0.41, p99: 0.73 }, nonfinite: 0, underruns: 0,
   };
   return { name, scene, samples, rateHz, report, contacts: readContacts(contactCsv, 't,x,y,z\n0,0,0.2,0\n1,0,0.1,0\n', scene) };
@@ -36,7 +37,7 @@ test('the page states the gain, the model, its origin and the measured figures',
   const page = pageOf([renderOf('crossing', 0.2), renderOf('wood', 0.02)]);
   assert.ok(page.includes('+13.0 dB'));
   assert.ok(page.includes('default.haptoflow') && page.includes('trained on synthetic recordings'));
-  for (const figure of ['8.49', '12.0', '0.41', '0.73']) assert.ok(page.includes(`>${figure}<`), figure);
+  for (const figure of [(fullScaleMps2 * 0.2 / Math.SQRT2).toFixed(2), (fullScaleMps2 * 0.2).toFixed(1), '0.41', '0.73']) assert.ok(page.includes(`>${figure}<`), figure);
 });
 
 test('the page asks nothing of the network and has no hole in it', () => {
@@ -53,4 +54,30 @@ test('names with markup in them are shown, not obeyed', () => {
 test('silent renders still make a page', () => {
   const page = pageOf([renderOf('crossing', 0), renderOf('wood', 0)]);
   assert.ok(!/NaN|Infinity/.test(page.replace(/data:[^"]*/g, '')));
+});
+
+test('each player is one stop of the keyboard: a button, and nothing else that takes the focus', () => {
+  const page = pageOf([renderOf('crossing', 0.2), renderOf('wood', 0.02), renderOf('glass', 0.01)]);
+  const articles = [...page.matchAll(/<article[\s\S]*?<\/article>/g)].map(([article]) => article);
+  assert.equal(articles.length, 3);
+  for (const article of articles) {
+    assert.deepEqual([...article.matchAll(/<(button|a|input|select|textarea|iframe)\b|\b(tabindex|controls|contenteditable)\b/g)].map(([found]) => found), ['<button']);
+  }
+});
+
+test('all waveforms have one scale, which the page states, and a weaker render is drawn lower', () => {
+  const page = pageOf([renderOf('crossing', 0.19), renderOf('wood', 0.019)]);
+  assert.ok(page.includes('<strong>±40 m/s²</strong>'));
+  const lanes = [...page.matchAll(/<div class="lane waveform">[\s\S]*?<\/svg>/g)].map(([lane]) => lane);
+  assert.equal(lanes.length, 2);
+  const [loud, quiet] = lanes.map((lane) => {
+    assert.ok(lane.includes('>+40<') && lane.includes('>−40<'));
+    const heights = [...lane.match(/points="([^"]+)"/)[1].matchAll(/,([\d.]+)/g)].map(([, y]) => Number(y));
+    return Math.max(...heights) - Math.min(...heights);
+  });
+  assert.ok(Math.abs(loud / quiet - 10) < 0.1, `${loud} and ${quiet}`);
+});
+
+test('each label says its level in figures beside its name', () => {
+  assert.match(pageOf([renderOf('crossing', 0.2), renderOf('wood', 0.02)]), /<span>wood <em>2\.8 m\/s² RMS<\/em><\/span>/);
 });

@@ -19,7 +19,7 @@ const crossing = JSON.parse(readFileSync(inRepository('Samples~', 'HeadlessScene
 
 test('names and labels with markup in them are shown, not obeyed', () => {
   const surface = { ...still, name: '<script>"&', shape: { sphere: { radius: 0.1 } }, material: '<b>' };
-  const drawing = drawScene({ surfaces: [surface] }, path);
+  const drawing = drawScene({ surfaces: [surface] }, path).join('\n');
   assert.ok(!drawing.includes('<script>') && !drawing.includes('<b>'));
   assert.ok(drawing.includes('&lt;script&gt;&quot;&amp;'));
 });
@@ -55,7 +55,7 @@ test('a shape that the drawing does not know is named in the error', () => {
 });
 
 test('the crossing scene is drawn twice, with every label, the start and a moving object', () => {
-  const drawing = drawScene(crossing, path);
+  const drawing = drawScene(crossing, path).join('\n');
   assert.equal(drawing.match(/<svg /g).length, 2);
   for (const label of ['plywood', 'wood', 'stone', 'metal mesh', 'sandpaper', 'corduroy', 'brick + concrete']) {
     assert.ok(drawing.includes(label), label);

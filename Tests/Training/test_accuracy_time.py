@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import json
+import zlib
 from pathlib import Path
 
 import numpy as np
@@ -9,12 +11,17 @@ import pytest
 
 from haptoflow_training.evaluation import accuracy
 from haptoflow_training.evaluation.accuracy_time import merged, table, with_earlier_times
-from haptoflow_training.evaluation.accuracy_time_report import chart_names, draw_chart, draw_spectra, write_document
+from haptoflow_training.evaluation.accuracy_time_chart import draw_chart
+from haptoflow_training.evaluation.accuracy_time_report import draw_spectra, write_document
+from haptoflow_training.evaluation.model_stamp import SHIPPED_MODEL
 from haptoflow_training.evaluation.reference_rows import REFERENCE_ROWS, reference_waves
 from haptoflow_training.evaluation.reference_set import Condition, ReferencePair, conditions
 from haptoflow_training.evaluation.row_plan import PlannedRow
 from haptoflow_training.evaluation.timing import Milliseconds
+from haptoflow_training.export.model_file import read_model_file
 from haptoflow_training.recordings.synthetic import load_materials
+
+ROOT = Path(__file__).parents[2]
 
 
 def _pair(label: str, index: int, seed: int) -> ReferencePair:
@@ -66,7 +73,7 @@ def test_the_table_keeps_the_plan_s_order_and_leaves_out_what_was_not_measured(
     timed = {"summary": {}, "discrimination": None, "parameters": 5, "bytes": 20, "drift_db_per_min": None}
     measured = {"independent-draw": [figures], "standard": [figures, figures], "size": [timed]}
     times = {"standard": Milliseconds(0.2, 0.3), "size": Milliseconds(20.0, 30.0)}
-    result = table(plan, measured, times, times)
+    result = {"model_sha256": "0" * 64, **table(plan, measured, times, times)}
     assert [row["name"] for row in result["rows"]] == ["standard", "size", "independent-draw"]
     assert [row["seeds"] for row in result["rows"]] == [2, 1, 1] and "by_seed" not in result["rows"][2]
     assert result["rows"][2]["ms_per_segment"] is None
@@ -74,7 +81,7 @@ def test_the_table_keeps_the_plan_s_order_and_leaves_out_what_was_not_measured(
     images = tmp_path / "images"
     images.mkdir()
     draw_chart(result, images / "accuracy-time.png")
-    draw_spectra(pairs, [pair.independent for pair in pairs], images / "label-spectra.png")
+    draw_spectra(pairs, [pair.independent for pair in pairs], images / "label-spectra.png", "0" * 64)
     write_document(result, tmp_path / "document.md", images, True, True)
     text = (tmp_path / "document.md").read_text(encoding="utf-8")
     assert "| **standard** |" in text and "| size |" in text and "time only" in text
@@ -145,10 +152,8 @@ def test_conditions_hold_a_speed_and_a_force_that_training_leaves_out_and_judge_
     }
 
 
-def test_along_a_line_of_the_chart_only_its_end_is_named_and_the_other_points_say_their_steps() -> None:
-    steps = {"plain-euler-1": 1, "plain-euler-4": 4, "plain-euler-16": 16, "reflow-1": 1, "standard": 1}
-    named = chart_names([{"name": name, "steps": count} for name, count in steps.items()])
-    assert named == {
-        "plain-euler-1": "1", "plain-euler-4": "4", "plain-euler-16": "plain-euler-16", "reflow-1": "reflow-1",
-        "standard": "standard",
-    }  # fmt: skip
+@pytest.mark.parametrize("tier", ["draft", "standard", "fine"])
+def test_the_kept_row_of_each_shipped_tier_was_measured_with_the_graphs_that_are_shipped(tier: str) -> None:
+    graphs = read_model_file(ROOT / SHIPPED_MODEL).graphs
+    row = json.loads((ROOT / "Training" / "results" / "rows" / f"{tier}-1.json").read_text(encoding="utf-8"))
+    assert row["made_from"]["graphs_crc32"] == f"{zlib.crc32(b''.join(graphs.values())):08x}"

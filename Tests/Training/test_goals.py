@@ -96,7 +96,7 @@ def test_the_document_says_which_goals_are_missed(tmp_path: Path) -> None:
     for row in rows:
         row.pop("fast", None)
     document = tmp_path / "document.md"
-    write_document({"date": "today", "machine": "m", "not_measured": [], "rows": rows}, document, tmp_path, False, False)
+    write_document({"model_sha256": "0" * 64, "date": "today", "machine": "m", "not_measured": [], "rows": rows}, document, tmp_path, False, False)
     text = document.read_text(encoding="utf-8")
     assert "| GFC by recording | at least 0.99 | 0.9895 | **no** |" in text
     assert "| size of the level error, dB | at most 0.5 | 0.3 | yes |" in text

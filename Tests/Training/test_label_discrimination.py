@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import os
 from pathlib import Path
 
@@ -87,7 +88,8 @@ def test_the_report_counts_names_levels_and_order(tmp_path: Path) -> None:
     assert report.level_order_spearman == pytest.approx(1.0)
     assert report.level_error_median_db == pytest.approx(1.0, abs=0.01)
     assert report.confusion().tolist() == [[1, 0, 0], [1, 0, 0], [0, 0, 2]]
-    write_report(report, tmp_path)
+    write_report(report, tmp_path, "0" * 64)
+    assert json.loads((tmp_path / "label-discrimination.json").read_text(encoding="utf-8"))["model_sha256"] == "0" * 64
     assert (tmp_path / "label-discrimination.png").stat().st_size > 5000
     assert "| b | 1 | 0 | 1 | a |" in (tmp_path / "label-discrimination.md").read_text(encoding="utf-8")
 

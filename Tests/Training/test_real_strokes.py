@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-import csv
 import json
 import os
 import subprocess
-from collections import defaultdict
 from pathlib import Path
 
 import numpy as np
@@ -14,6 +12,7 @@ import pytest
 from numpy.typing import NDArray
 
 from haptoflow_training.evaluation.engine_render import read_wav
+from haptoflow_training.strokes.recorded_strokes import onto_table, read_recorded_strokes
 
 ROOT = Path(__file__).parents[2]
 STROKES = ROOT.parent / "shared" / "strokes" / "vr-pen-on-surface" / "strokes.csv"
@@ -27,25 +26,7 @@ MATERIALS = ("wood", "metal mesh", "rubber", "sandpaper", "corduroy", "glass")
 def _read_strokes() -> dict[str, NDArray[np.float64]]:
     if not STROKES.is_file():
         pytest.skip(f"the recorded strokes are not beside this checkout ({STROKES.relative_to(ROOT.parent)})")
-    rows: dict[str, list[list[float]]] = defaultdict(list)
-    with STROKES.open(newline="", encoding="utf-8") as file:
-        for row in csv.DictReader(file):
-            rows[row["stroke_id"]].append([float(row[key]) for key in ("t_s", "x_m", "y_m", "z_m")])
-    return {name: np.array(values) for name, values in rows.items()}
-
-
-def _onto_table(stroke: NDArray[np.float64]) -> NDArray[np.float64]:
-    """t, x, y, z in the scene's frame: the plane fitted to the lower half of the points is y = 0, y up."""
-    points = stroke[:, 1:4]
-    plane = points
-    for _ in range(5):
-        design = np.c_[plane[:, :2], np.ones(len(plane))]
-        coefficients, *_ = np.linalg.lstsq(design, plane[:, 2], rcond=None)
-        height = points[:, 2] - np.c_[points[:, :2], np.ones(len(points))] @ coefficients
-        plane = points[height <= np.quantile(height, 0.6)]
-    centre = np.median(points[:, :2], axis=0)
-    # The pen's ball rests on the table; the tip sphere of the scene does so 1 mm above it, pressed in by 1 mm.
-    return np.c_[stroke[:, 0] - stroke[0, 0], points[:, 0] - centre[0], height, points[:, 1] - centre[1]]
+    return read_recorded_strokes(STROKES)
 
 
 def _scene(path: Path) -> None:
@@ -84,7 +65,7 @@ def renders(tmp_path_factory: pytest.TempPathFactory) -> dict[str, tuple[dict[st
     results = {}
     for number, (name, stroke) in enumerate(strokes.items()):
         path, wav, report = (folder / f"{number}{ending}" for ending in (".csv", ".wav", ".json"))
-        np.savetxt(path, _onto_table(stroke), fmt="%.7f", delimiter=",", header="t,x,y,z", comments="")
+        np.savetxt(path, onto_table(stroke), fmt="%.7f", delimiter=",", header="t,x,y,z", comments="")
         subprocess.run(
             [str(ENGINE), "render", str(scene), "--stroke", str(path), "-o", str(wav), "--report", str(report),
              "--rate", "48000", "--seed", "3", "--quiet"],

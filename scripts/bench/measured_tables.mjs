@@ -1,14 +1,13 @@
-import { CommandError } from '../lib/process.mjs';
+import { withMeasuredPart } from '../lib/measured_part.mjs';
+import { modelLine } from '../lib/model_stamp.mjs';
 
-const begin = '<!-- measured: begin (npm run bench -- --publish) -->';
-const end = '<!-- measured: end -->';
-
-/** `document` with the text between its two markers replaced by the tables, as they were printed. */
-export function withMeasuredTables(document, tables) {
-  const [from, to] = [document.indexOf(begin), document.indexOf(end)];
-  if (from < 0 || to < from) throw new CommandError(`the document has no "${begin}" before a "${end}"`);
-  return `${document.slice(0, from + begin.length)}\n\n\`\`\`\n${tables.trim()}\n\`\`\`\n\n${document.slice(to)}`;
+/** `document` with the text between its two markers replaced by the model's SHA-256 and the tables, as they were printed. */
+export function withMeasuredTables(document, tables, modelSha256) {
+  return withMeasuredPart(document, 'npm run bench -- --publish', `${modelLine(modelSha256)}\n\n\`\`\`\n${tables.trim()}\n\`\`\``);
 }
+
+/** The report with the SHA-256 of the model that was measured beside what it says of the model. */
+export const withModelSha256 = (report, sha256) => ({ ...report, model: { ...report.model, sha256 } });
 
 /**
  * Words of the command line for one run.

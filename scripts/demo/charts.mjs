@@ -3,11 +3,11 @@ import { colourOfLabel, escapeMarkup } from './labels.mjs';
 const pictureWidth = 1000;
 const pictureHeight = 100;
 
-/** The smallest of 1, 1.5, 2, 3, 4, 5, 6, 8 times a power of ten that is not below `value`; 1 for zero. */
+/** The smallest of 1, 1.2, 1.5, 2, 3, 4, 5, 6, 8 times a power of ten that is not below `value`; 1 for zero. */
 export function niceCeiling(value) {
   if (!(value > 0)) return 1;
   const power = 10 ** Math.floor(Math.log10(value));
-  return [1, 1.5, 2, 3, 4, 5, 6, 8, 10].map((factor) => factor * power).find((candidate) => candidate >= value * (1 - 1e-9));
+  return [1, 1.2, 1.5, 2, 3, 4, 5, 6, 8, 10].map((factor) => factor * power).find((candidate) => candidate >= value * (1 - 1e-9));
 }
 
 const shown = (value) => Number(value.toPrecision(3)).toString();
@@ -23,9 +23,9 @@ const svg = (label, content) =>
 
 /**
  * The waveform as the band between the lowest and highest sample of each column.
- * @param {Float32Array} samples +-1 @param {number} fullScaleMps2 what 1 means
+ * @param {Float32Array} samples +-1 @param {number} fullScaleMps2 what 1 means @param {number} top of the axis in m/s^2
  */
-export function waveformLane(samples, fullScaleMps2, label) {
+export function waveformLane(samples, fullScaleMps2, top, label) {
   const columns = Math.min(pictureWidth, samples.length);
   const extremes = Array.from({ length: columns }, (_, column) => {
     let [lowest, highest] = [Infinity, -Infinity];
@@ -36,7 +36,6 @@ export function waveformLane(samples, fullScaleMps2, label) {
     }
     return [lowest * fullScaleMps2, highest * fullScaleMps2];
   });
-  const top = niceCeiling(Math.max(...extremes.map(([lowest, highest]) => Math.max(-lowest, highest))));
   const y = (value) => (pictureHeight * (0.5 - (0.5 * value) / top)).toFixed(2);
   const upper = extremes.map(([, highest], column) => `${column},${y(highest)}`);
   const lower = extremes.map(([lowest], column) => `${column},${y(lowest)}`).reverse();
@@ -77,7 +76,7 @@ export function labelStretches(readings) {
 export function bandLane(readings, seconds, text) {
   const bands = labelStretches(readings).map(({ label, begin, end }) => {
     const place = `left:${((100 * begin) / seconds).toFixed(2)}%;width:${((100 * (end - begin)) / seconds).toFixed(2)}%`;
-    return `<span style="${place};background:${text ? 'var(--soft)' : colourOfLabel(label)}" title="${escapeMarkup(text ?? label)}, ${begin.toFixed(2)} to ${end.toFixed(2)} s">${escapeMarkup(text ?? label)}</span>`;
+    return `<span style="${place};background:${text ? 'var(--soft)' : colourOfLabel(label)}" title="${escapeMarkup(text ?? label)}, ${begin.toFixed(2)} to ${end.toFixed(2)} s"><b>${escapeMarkup(text ?? label)}</b></span>`;
   });
   return lane('touches', [], bands.join(''), 'bands');
 }

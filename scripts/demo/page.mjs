@@ -1,13 +1,12 @@
 import { readFileSync } from 'node:fs';
 import os from 'node:os';
-import { bandLane, quantityLane, spectrogramLane, timeAxis, waveformLane } from './charts.mjs';
+import { bandLane, niceCeiling, quantityLane, spectrogramLane, timeAxis, waveformLane } from './charts.mjs';
+import { fullScaleMps2 } from './full_scale.mjs';
 import { colourOfLabel, escapeMarkup, slug } from './labels.mjs';
 import { drawScene } from './scene_drawing.mjs';
 import { colourOf, spectrogram, spectrogramPng } from './spectrogram.mjs';
 import { commonGain, writePcm16Wav } from './wav.mjs';
 
-/** What +-1 means in the rendered files. */
-export const fullScaleMps2 = 60;
 const topHz = 1000;
 const dynamicRangeDb = 60;
 
@@ -24,13 +23,18 @@ export function demoPage(report, renders) {
   const loudest = Math.max(...pictures.map(({ amplitudes }) => amplitudes.reduce((a, b) => Math.max(a, b), 0)));
   const topDb = loudest > 0 ? 5 * Math.ceil((20 * Math.log10(loudest * fullScaleMps2)) / 5) : 0;
   const range = { bottomDb: topDb - dynamicRangeDb, topDb };
-  const figures = renders.map((render, index) => figureOf(render, pictures[index], range, gain, index === 0));
+  // One scale for all: what is drawn lower is weaker.
+  const topMps2 = niceCeiling(fullScaleMps2 * Math.max(...renders.map(({ samples }) => peakOf(samples))));
+  const figures = renders.map((render, index) => figureOf(render, pictures[index], { ...range, topMps2, gain }, index === 0));
+  const [fromAbove, fromFront] = drawScene(renders[0].scene, renders[0].contacts);
   const [crossing, ...traced] = figures;
   const content = {
     style: asset('./page.css'),
     script: asset('./player.js'),
     model: escapeMarkup(report.model),
-    scene: drawScene(renders[0].scene, renders[0].contacts),
+    fromAbove,
+    fromFront,
+    scale: `±${topMps2} m/s²`,
     surfaces: String(renders[0].scene.surfaces.length),
     crossing,
     traced: traced.join('\n'),
@@ -44,6 +48,8 @@ export function demoPage(report, renders) {
   };
   return asset('./page.html').replace(/\{\{(\w+)\}\}/g, (_, key) => content[key]);
 }
+
+const peakOf = (samples) => samples.reduce((peak, sample) => Math.max(peak, Math.abs(sample)), 0);
 
 const secondsOf = ({ samples, rateHz }) => samples.length / rateHz;
 
@@ -61,20 +67,23 @@ function contactLanes(render, touchText) {
   ].join('\n');
 }
 
-function figureOf(render, picture, { bottomDb, topDb }, gain, withContact) {
-  const { name, samples, rateHz } = render;
+function figureOf(render, picture, { bottomDb, topDb, topMps2, gain }, isCrossing) {
+  const { name, samples, rateHz, report } = render;
   const seconds = secondsOf(render);
   const inMps2 = { ...picture, amplitudes: picture.amplitudes.map((amplitude) => amplitude * fullScaleMps2) };
   const lanes = [
-    waveformLane(samples, fullScaleMps2, `Waveform of ${name}`),
+    waveformLane(samples, fullScaleMps2, topMps2, `Waveform of ${name}`),
     spectrogramLane(spectrogramPng(inMps2, bottomDb, topDb), topHz, `Spectrogram of ${name}, 0 to ${topHz} Hz`),
-    withContact ? contactLanes(render) : timeAxis(seconds),
+    isCrossing ? contactLanes(render) : timeAxis(seconds),
   ];
   const audio = `data:audio/wav;base64,${writePcm16Wav(samples, rateHz, gain).toString('base64')}`;
-  const mark = withContact ? '' : `<h3><i style="background:${colourOfLabel(name)}"></i>${escapeMarkup(name)}</h3>`;
-  return `<article class="render" id="${slug(name)}">${mark}
+  const title = isCrossing
+    ? '<span>The whole stroke</span>'
+    : `<i style="background:${colourOfLabel(name)}"></i><span>${escapeMarkup(name)} <em>${report.rms_mps2.toFixed(1)} m/s² RMS</em></span>`;
+  return `<article class="render" id="${slug(name)}"><h3><button type="button" data-name="${escapeMarkup(name)}"></button>${title}
+<output>${seconds.toFixed(1)} s</output></h3>
 <div class="lanes" data-seconds="${seconds}">${lanes.join('\n')}<div class="playhead" aria-hidden="true"></div></div>
-<audio controls preload="metadata" aria-label="Play ${escapeMarkup(name)}" src="${audio}"></audio></article>`;
+<audio preload="metadata" src="${audio}"></audio></article>`;
 }
 
 function table({ renders }) {

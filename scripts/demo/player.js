@@ -1,9 +1,10 @@
-// Moves the playhead, the tip and the moving objects with the sound; a click on a picture seeks.
+// One button for each player: it plays and pauses, arrow keys seek. The playhead, the tip and the moving objects follow.
 (() => {
   const trackRateHz = 30;
-  const views = document.querySelector('.views');
-  const tips = [...views.querySelectorAll('.tip')].map((tip) => ({ tip, places: JSON.parse(tip.dataset.track) }));
-  const movers = [...views.querySelectorAll('.mover')].map((mover) => ({ mover, places: JSON.parse(mover.dataset.track) }));
+  const seekSeconds = 0.5;
+  const stage = document.querySelector('.stage');
+  const tips = [...stage.querySelectorAll('.tip')].map((tip) => ({ tip, places: JSON.parse(tip.dataset.track) }));
+  const movers = [...stage.querySelectorAll('.mover')].map((mover) => ({ mover, places: JSON.parse(mover.dataset.track) }));
   const crossing = document.querySelector('article.render');
 
   const placeAt = (places, seconds) => {
@@ -23,31 +24,47 @@
   };
 
   for (const article of document.querySelectorAll('article.render')) {
-    const audio = article.querySelector('audio');
-    const lanes = article.querySelector('.lanes');
-    const playhead = article.querySelector('.playhead');
-    const picture = article.querySelector('.picture');
+    const [audio, button, clock, lanes, playhead, picture] = ['audio', 'button', 'output', '.lanes', '.playhead', '.picture']
+      .map((selector) => article.querySelector(selector));
     const seconds = Number(lanes.dataset.seconds);
 
     const show = () => {
       playhead.style.left = `${picture.offsetLeft + (picture.offsetWidth * audio.currentTime) / seconds}px`;
+      clock.textContent = `${audio.currentTime.toFixed(1)} / ${seconds.toFixed(1)} s`;
       if (article === crossing) moveScene(audio.currentTime);
       if (!audio.paused) requestAnimationFrame(show);
     };
     const reveal = () => {
       article.classList.add('playing');
-      if (article === crossing) views.classList.add('playing');
+      if (article === crossing) stage.classList.add('playing');
       show();
     };
+    const label = () => {
+      button.setAttribute('aria-label', `${audio.paused ? 'Play' : 'Pause'} ${button.dataset.name}; arrow keys seek`);
+      button.classList.toggle('pause', !audio.paused);
+    };
+    const seek = (to) => {
+      audio.currentTime = Math.min(Math.max(to, 0), seconds);
+    };
+
+    label();
+    for (const event of ['play', 'pause', 'ended']) audio.addEventListener(event, label);
     audio.addEventListener('play', () => {
       for (const other of document.querySelectorAll('audio')) if (other !== audio) other.pause();
       reveal();
     });
     audio.addEventListener('seeked', reveal);
+    button.addEventListener('click', () => (audio.paused ? audio.play() : audio.pause()));
+    button.addEventListener('keydown', (event) => {
+      const places = { ArrowLeft: audio.currentTime - seekSeconds, ArrowRight: audio.currentTime + seekSeconds, Home: 0, End: seconds };
+      if (!(event.key in places)) return;
+      event.preventDefault();
+      seek(places[event.key]);
+    });
     lanes.addEventListener('click', (event) => {
       const box = picture.getBoundingClientRect();
       const share = (event.clientX - box.left) / box.width;
-      if (share >= 0 && share <= 1) audio.currentTime = share * seconds;
+      if (share >= 0 && share <= 1) seek(share * seconds);
     });
   }
 })();

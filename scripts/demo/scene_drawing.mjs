@@ -15,9 +15,9 @@ const views = [
  * The scene and the stroke as two SVG pictures.
  * @param {object} scene parsed SCENE.json
  * @param {{timeSeconds: number, position: number[], touching: boolean}[]} path the stroke with what it touched
- * @returns {string} markup; the elements of class "tip" and "mover" carry data-track, 30 places a second, for the player
+ * @returns {string[]} markup, from above and from the front; the elements of class "tip" and "mover" carry data-track, 30 places a second, for the player
  */
-export const drawScene = (scene, path) => views.map((view) => drawView(view, scene, path)).join('\n');
+export const drawScene = (scene, path) => views.map((view) => drawView(view, scene, path));
 
 function drawView(view, scene, path) {
   const project = (position) => [position[view.right], position[view.up]];

@@ -35,7 +35,8 @@ from scipy.spatial.transform import Rotation
 ROOT = Path(__file__).resolve().parents[2]
 SAMPLES = ROOT / "Samples~"
 MODEL = ROOT / "Packages/com.haptoflow.runtime/Runtime/Models/default.haptoflow"
-FULL_SCALE_MPS2 = 60.0
+# Far above every texture: nothing that is drawn was bent by the limiter.
+FULL_SCALE_MPS2 = 1000.0
 TOP_HZ = 1000.0
 COLOURS = {
     "wood": "#b9793f", "stone": "#7d8590", "corduroy": "#8f5fa8", "metal mesh": "#5b7fb5",
@@ -62,7 +63,7 @@ def run(engine: Path, *words: object) -> str:
 
 def render(engine: Path, scene: Path, stroke: Path, folder: Path) -> Render:
     wav = folder / "felt.wav"
-    run(engine, "render", scene, "--stroke", stroke, "-o", wav, "--quiet")
+    run(engine, "render", scene, "--stroke", stroke, "-o", wav, "--full-scale", FULL_SCALE_MPS2, "--quiet")
     with warnings.catch_warnings():
         # The file says with what it was rendered in a chunk that SciPy does not read.
         warnings.simplefilter("ignore", wavfile.WavFileWarning)

@@ -8,7 +8,9 @@
  *   that fails, unless its comment says otherwise.
  * - Every descriptor begins with struct_size, which the caller sets to sizeof the struct it was compiled with. A
  *   shorter struct (an older caller) leaves the later fields at their defaults, zero; fields that this library does not
- *   know (a newer caller) are ignored. Structs filled by the library are filled up to the caller's struct_size.
+ *   know (a newer caller) are ignored. A struct that the library fills is filled up to the smaller of the caller's and
+ *   the library's size, and its struct_size then says how many bytes that is: fields behind it were not filled. Set
+ *   struct_size anew before each call.
  * - Handles are opaque and never used twice: a call with a handle that was closed, or with anything else that is not an
  *   open handle of that kind, returns HAPTOFLOW_INVALID_ARGUMENT. An open handle keeps alive what it was made from.
  * - Text is UTF-8 and ends with a zero byte. Text that the library returns belongs to the library.
@@ -50,10 +52,19 @@
 extern "C" {
 #endif
 
+/* The version of this header, that of package.json. haptoflow_version() is the loaded library's. */
+#define HAPTOFLOW_VERSION_MAJOR 0
+#define HAPTOFLOW_VERSION_MINOR 1
+#define HAPTOFLOW_VERSION_PATCH 0
+#define HAPTOFLOW_VERSION_TEXT "0.1.0"
+
 /* Samples of a segment and of the previous waveform; numbers of a material embedding and of a motion. */
 #define HAPTOFLOW_SEGMENT_SAMPLES 200
 #define HAPTOFLOW_EMBEDDING_SIZE 64
 #define HAPTOFLOW_MOTION_SIZE 3
+
+/* The acceleration in m/s^2 that is +-1 in the output unless options say otherwise. */
+#define HAPTOFLOW_DEFAULT_FULL_SCALE_MPS2 200.0
 #define HAPTOFLOW_MAXIMUM_BATCH 256
 
 typedef int32_t haptoflow_status;
@@ -82,7 +93,11 @@ enum {
     /* No ONNX Runtime of version 1.16 or newer at the given place. */
     HAPTOFLOW_RUNTIME_UNAVAILABLE = 20,
     /* A graph failed while running, or returned numbers that are not finite. */
-    HAPTOFLOW_INFERENCE_FAILED = 21
+    HAPTOFLOW_INFERENCE_FAILED = 21,
+    /* A load ended because its haptoflow_cancellation was cancelled. */
+    HAPTOFLOW_CANCELLED = 22,
+    /* A probe run of a tier took longer than probe_limit_ms; the message names the tier. */
+    HAPTOFLOW_TIER_TOO_SLOW = 23
 };
 
 typedef int32_t haptoflow_solver;
@@ -105,6 +120,31 @@ HAPTOFLOW_API const char* haptoflow_version(void);
  * [any-thread] Never blocks. */
 HAPTOFLOW_API const char* haptoflow_status_name(haptoflow_status status);
 
+/* Why a voice is silent. Where several reasons hold, the one that lasts longest. */
+typedef int32_t haptoflow_silence;
+enum {
+    /* It sounds. */
+    HAPTOFLOW_SILENCE_NONE = 0,
+    /* Nothing touches, or the tip does not slide. */
+    HAPTOFLOW_SILENCE_REST = 1,
+    /* No contact state was published for 100 ms. */
+    HAPTOFLOW_SILENCE_STALE = 2,
+    HAPTOFLOW_SILENCE_MUTED = 3,
+    HAPTOFLOW_SILENCE_PAUSED = 4,
+    /* A panic silenced this touch; the next one sounds. */
+    HAPTOFLOW_SILENCE_PANIC = 5,
+    /* The device changed to a sample rate that the worker is still preparing for, or to one outside 8 to 192 kHz. */
+    HAPTOFLOW_SILENCE_RATE = 6,
+    HAPTOFLOW_SILENCE_CLOSING = 7,
+    /* The thread that generates has ended: haptoflow_engine_last_failure says why. */
+    HAPTOFLOW_SILENCE_WORKER_DEAD = 8
+};
+
+/* A reason's name, for example "HAPTOFLOW_SILENCE_STALE"; "HAPTOFLOW_UNKNOWN_SILENCE" for a number that is none. Lives
+ * as long as the process. Never fails.
+ * [any-thread] Never blocks. */
+HAPTOFLOW_API const char* haptoflow_silence_name(haptoflow_silence silence);
+
 /* What was wrong in the last call on this thread that failed; "" before the first. Stays valid until the next call on
  * this thread that fails, and at most as long as the thread. Never fails.
  * [any-thread] Never blocks. */
@@ -114,13 +154,26 @@ HAPTOFLOW_API const char* haptoflow_last_message(void);
 
 typedef struct haptoflow_runtime haptoflow_runtime;
 
-/* Exactly one of the two pointers must be set. */
+/* How grave a message is: ONNX Runtime's own numbers. */
+enum { HAPTOFLOW_LOG_WARNING = 2, HAPTOFLOW_LOG_ERROR = 3, HAPTOFLOW_LOG_FATAL = 4 };
+
+/* Gets a warning or an error. message is valid during the call only. Called from threads that load and from workers,
+ * several at the same time, never from an audio callback. Must not call this library. */
+typedef void (*haptoflow_log_callback)(void* context, int32_t severity, const char* message);
+
+/* Exactly one of ort_api_base and library_path must be set. */
 typedef struct haptoflow_runtime_options {
     uint32_t struct_size;
     /* What OrtGetApiBase() of a loaded ONNX Runtime returned (const OrtApiBase*). That library must stay loaded. */
     const void* ort_api_base;
     /* Or the file of an ONNX Runtime library, which then stays loaded until the process ends. */
     const char* library_path;
+    /* Gets what ONNX Runtime has to say of the graphs that this runtime loads and runs; null for its usual place, the
+     * standard error stream. Never called again once haptoflow_runtime_close has returned. ONNX Runtime 1.16 has one
+     * log for the process, that of whoever used it first. */
+    haptoflow_log_callback log;
+    /* Handed to log. */
+    void* log_context;
 } haptoflow_runtime_options;
 
 /* Makes ONNX Runtime available; one for the whole process is enough. Close it with haptoflow_runtime_close.
@@ -129,10 +182,30 @@ typedef struct haptoflow_runtime_options {
 HAPTOFLOW_API haptoflow_status haptoflow_runtime_open(const haptoflow_runtime_options* options,
                                                       haptoflow_runtime** runtime);
 
-/* Closes *runtime and sets it to null; a null handle is fine. Generators made with it stay usable.
+/* Closes *runtime and sets it to null; a null handle is fine. Generators and engines made with it stay usable; what ONNX
+ * Runtime says of them from now on is heard by nobody where there was a log.
  * Errors: INVALID_ARGUMENT.
- * [loader-thread] Blocks while ONNX Runtime lets go of its memory. */
+ * [loader-thread] Blocks while ONNX Runtime lets go of its memory and while a call of the log is under way. */
 HAPTOFLOW_API haptoflow_status haptoflow_runtime_close(haptoflow_runtime** runtime);
+
+/* ------------------------------------------------------------------------------------------------- cancellations */
+
+/* Ends loads that are under way: those whose options name it. One may serve any number of loads, also later ones. */
+typedef struct haptoflow_cancellation haptoflow_cancellation;
+
+/* Close it with haptoflow_cancellation_close. Errors: INVALID_ARGUMENT, OUT_OF_MEMORY.
+ * [any-thread] Blocks for as long as another thread opens or closes a handle. */
+HAPTOFLOW_API haptoflow_status haptoflow_cancellation_create(haptoflow_cancellation** cancellation);
+
+/* Loads with this cancellation end with HAPTOFLOW_CANCELLED, those under way at their next operator, graph or part of a
+ * table; for good. ONNX Runtime before 1.22 finishes the graph that it is loading. Errors: INVALID_ARGUMENT.
+ * [any-thread] Blocks for as long as another thread opens or closes a handle. */
+HAPTOFLOW_API haptoflow_status haptoflow_cancellation_cancel(haptoflow_cancellation* cancellation);
+
+/* Closes *cancellation and sets it to null; a null handle is fine. Loads that are under way go on.
+ * Errors: INVALID_ARGUMENT.
+ * [any-thread] Blocks for as long as another thread opens or closes a handle. */
+HAPTOFLOW_API haptoflow_status haptoflow_cancellation_close(haptoflow_cancellation** cancellation);
 
 /* ------------------------------------------------------------------------------------------------------- models */
 
@@ -239,6 +312,11 @@ typedef struct haptoflow_generator_options {
     int32_t steps;
     /* Requests that one run of a graph takes, up to HAPTOFLOW_MAXIMUM_BATCH; 0 for 8. Longer batches go in parts. */
     uint32_t maximum_batch;
+    /* Ends the creation early; null for none. */
+    const haptoflow_cancellation* cancellation;
+    /* What a probe run of each graph may take for each 8 requests of maximum_batch, above 0 to 3600000 ms; 0 for
+     * 10000 ms. A single operator is always finished. */
+    double probe_limit_ms;
 } haptoflow_generator_options;
 
 /* `count` requests, each array holding them one after the other. The arrays are read during the call only. */
@@ -255,8 +333,9 @@ typedef struct haptoflow_batch {
     const float* noise;
 } haptoflow_batch;
 
-/* Loads the tier's graphs into ONNX Runtime, checks and runs them once. Close it with haptoflow_generator_close.
- * Errors: INVALID_ARGUMENT, MODEL_INCONSISTENT where a graph is not what the format says, OUT_OF_MEMORY.
+/* Loads the tier's graphs into ONNX Runtime, checks and runs them. Close it with haptoflow_generator_close.
+ * Errors: INVALID_ARGUMENT, MODEL_INCONSISTENT where a graph is not what the format says, TIER_TOO_SLOW, CANCELLED,
+ * OUT_OF_MEMORY.
  * [loader-thread] Blocks while ONNX Runtime optimises the graphs. */
 HAPTOFLOW_API haptoflow_status haptoflow_generator_create(const haptoflow_generator_options* options,
                                                           haptoflow_generator** generator);
@@ -303,7 +382,8 @@ enum {
 
 typedef struct haptoflow_engine_options {
     uint32_t struct_size;
-    /* The tier of that name; where the model has none, the nearest that it has. */
+    /* The tier of that name; where the model has none, the nearest that it has. That tier alone is loaded; all of the
+     * model's for HAPTOFLOW_QUALITY_AUTO. */
     haptoflow_quality quality;
     const haptoflow_runtime* runtime;
     const haptoflow_model* model;
@@ -311,7 +391,8 @@ typedef struct haptoflow_engine_options {
     double update_rate_hz;
     /* Share of the time between two contact states that inference may take, above 0 to 1; 0 for 0.25. */
     double budget_share;
-    /* What acceleration is +-1 in the output, above 0; 0 for 60. A soft knee begins at 0.7 of it. */
+    /* What acceleration is +-1 in the output, 0.001 to 1000000; 0 for HAPTOFLOW_DEFAULT_FULL_SCALE_MPS2. A soft knee
+     * begins at 0.7 of it. */
     double full_scale_mps2;
     /* Key of all noise. */
     uint64_t seed;
@@ -322,6 +403,11 @@ typedef struct haptoflow_engine_options {
     /* From a contact state to the first sample generated from it, above 0 to 50 ms; 0 for the shortest that the engine
      * finds to hold on this machine. Fixed, an engine without worker is deterministic. */
     double fixed_lead_ms;
+    /* Ends the creation early; null for none. Read by haptoflow_engine_create only. */
+    const haptoflow_cancellation* cancellation;
+    /* What a probe run of each graph may take for each 8 voices of batch_voices, above 0 to 3600000 ms; 0 for 10000 ms.
+     * A single operator is always finished. */
+    double probe_limit_ms;
 } haptoflow_engine_options;
 
 /* Times of the tier at an index of the model (haptoflow_model_tier), for one voice's segment on this machine. */
@@ -329,7 +415,8 @@ typedef struct haptoflow_tier_times {
     uint32_t struct_size;
     /* 1 for the tier that generates at present, 0 otherwise. */
     uint32_t is_current;
-    /* Runs behind the figures; 0 where the tier was neither used nor measured. At most the last 128 count. */
+    /* Runs behind the figures; 0 where the tier was not loaded, or neither used nor measured. At most the last 128
+     * count. */
     uint64_t runs;
     double median_ms;
     double percentile_99_ms;
@@ -354,11 +441,15 @@ typedef struct haptoflow_engine_statistics {
     /* What a round may take, and what the last one took, all its voices together. */
     double budget_ms;
     double last_round_ms;
+    /* 0 once the worker has ended, also for an engine that is being closed; 1 otherwise and without worker. */
+    uint32_t worker_is_alive;
+    /* 1 where the system did not let the worker run at a raised priority; 0 otherwise. */
+    uint32_t priority_was_refused;
 } haptoflow_engine_statistics;
 
-/* Loads all tiers of the model and starts the worker. Close it with haptoflow_engine_close.
- * Errors: INVALID_ARGUMENT, MODEL_INCONSISTENT, INFERENCE_FAILED, OUT_OF_MEMORY.
- * [loader-thread] Blocks while ONNX Runtime optimises the graphs. */
+/* Loads the tiers that the quality asks for and starts the worker. Close it with haptoflow_engine_close.
+ * Errors: INVALID_ARGUMENT, MODEL_INCONSISTENT, INFERENCE_FAILED, TIER_TOO_SLOW, CANCELLED, OUT_OF_MEMORY.
+ * [loader-thread] Blocks while ONNX Runtime optimises the graphs, and for the levels of all labels. */
 HAPTOFLOW_API haptoflow_status haptoflow_engine_create(const haptoflow_engine_options* options,
                                                        haptoflow_engine** engine);
 
@@ -367,20 +458,33 @@ HAPTOFLOW_API haptoflow_status haptoflow_engine_create(const haptoflow_engine_op
  * [loader-thread] Blocks for the present round of inference, the present blocks and, while voices sound, their fade. */
 HAPTOFLOW_API haptoflow_status haptoflow_engine_close(haptoflow_engine** engine);
 
-/* From the next segment on. Errors: INVALID_ARGUMENT. [publisher] */
+/* From the next segment on. Tiers that this quality asks for and that are not loaded yet are loaded first, by the calling
+ * thread, while the engine goes on with its present one; they stay loaded. Where that fails, the quality stays as it
+ * was. Errors: INVALID_ARGUMENT, MODEL_INCONSISTENT, TIER_TOO_SLOW, OUT_OF_MEMORY.
+ * [loader-thread] Blocks while ONNX Runtime optimises the graphs of such a tier; takes microseconds where all are
+ * loaded. */
 HAPTOFLOW_API haptoflow_status haptoflow_engine_set_quality(haptoflow_engine* engine, haptoflow_quality quality);
 
 /* One round of inference for all voices that want one. Engines without worker only. Errors: INVALID_ARGUMENT.
  * [worker-thread] */
 HAPTOFLOW_API haptoflow_status haptoflow_engine_step(haptoflow_engine* engine);
 
-/* Errors: INVALID_ARGUMENT. [publisher] */
+/* Errors: INVALID_ARGUMENT.
+ * [any-thread] Blocks for as long as another thread opens or closes a handle, never for inference. */
 HAPTOFLOW_API haptoflow_status haptoflow_engine_get_statistics(const haptoflow_engine* engine,
                                                                haptoflow_engine_statistics* statistics);
 
-/* Figures of the tier at index, in the model's order. Errors: INVALID_ARGUMENT. [publisher] */
+/* Figures of the tier at index, in the model's order. Errors: INVALID_ARGUMENT.
+ * [any-thread] Blocks for as long as another thread opens or closes a handle, never for inference. */
 HAPTOFLOW_API haptoflow_status haptoflow_engine_tier_times(const haptoflow_engine* engine, uint32_t index,
                                                            haptoflow_tier_times* times);
+
+/* Writes the text of the newest failure, of a round of inference or of the worker itself, into text: at most capacity
+ * bytes, the zero byte at the end included; "" before the first failure. *length becomes the whole text's length without
+ * that byte. text may be null where capacity is 0. Errors: INVALID_ARGUMENT, OUT_OF_MEMORY.
+ * [any-thread] Blocks for as long as another thread opens or closes a handle, or the worker notes a failure. */
+HAPTOFLOW_API haptoflow_status haptoflow_engine_last_failure(const haptoflow_engine* engine, char* text,
+                                                             uint64_t capacity, uint64_t* length);
 
 /* -------------------------------------------------------------------------------------------------------- voices */
 
@@ -421,7 +525,7 @@ typedef struct haptoflow_voice_statistics {
     uint64_t updates;
     uint64_t inferences;
     uint64_t skipped;
-    /* Touches that began to sound, and those of them that were over within one block. */
+    /* Touches that began to sound, resumptions not counted, and those of them that were over within one block. */
     uint64_t onsets;
     uint64_t taps;
     /* Blocks that wanted samples which no segment covered; segments that came late; that came for nothing. */
@@ -444,17 +548,27 @@ typedef struct haptoflow_voice_statistics {
     uint64_t refused_calls;
     /* Milliseconds that this voice's inferences took in all; voices that share a run share its time. */
     double inference_ms;
+    /* How often a touch sounded again after a silence within it: a pause, a mute, a rate change, missing states. */
+    uint64_t resumptions;
+    /* Blocks asked for at a sample rate outside 8 to 192 kHz: all of them are silent. */
+    uint64_t unsupported_rate_blocks;
+    /* The sample rate of the newest block; 0 before the first. */
+    double device_rate_hz;
+    /* Why the newest block is silent; HAPTOFLOW_SILENCE_NONE where it sounds. */
+    haptoflow_silence silence;
+    /* 0 while the newest block's rate is outside 8 to 192 kHz, 1 otherwise. */
+    uint32_t is_rate_supported;
 } haptoflow_voice_statistics;
 
 /* sample_rate_hz is the output's, 8000 to 192000; 0 for 48000. It may change later: see haptoflow_voice_render.
  * Errors: INVALID_ARGUMENT (also when there are too many voices), OUT_OF_MEMORY.
- * [loader-thread] Blocks for the present round of inference. */
+ * [loader-thread] Blocks while another voice is opened or destroyed, never for inference. */
 HAPTOFLOW_API haptoflow_status haptoflow_voice_create(haptoflow_engine* engine, double sample_rate_hz,
                                                       haptoflow_voice* voice);
 
 /* Fades the voice, destroys it and sets *voice to 0; 0 is fine. Errors: INVALID_ARGUMENT.
- * [loader-thread] Blocks for the present round of inference, for calls on this voice that are under way, and while the
- * voice sounds for the block that fades it, at most 48 ms. */
+ * [loader-thread] Blocks for calls on this voice that are under way and, while the voice sounds, for the block that
+ * fades it, at most 48 ms; never for inference. */
 HAPTOFLOW_API haptoflow_status haptoflow_voice_destroy(haptoflow_voice* voice);
 
 /* What the tip does now: once a frame, also while nothing touches. A touch sounds with the next block; a touch without
@@ -466,17 +580,19 @@ HAPTOFLOW_API haptoflow_status haptoflow_voice_publish(haptoflow_voice voice, co
 /* Writes frame_count frames of the voice into one channel of interleaved samples, or into all with
  * HAPTOFLOW_ALL_CHANNELS; other channels stay as they are. Samples are +-1. channel_count is 1 to 64.
  * Where sample_rate_hz is not what it was, the voice fades within 5 ms, is silent until the worker has prepared for the
- * new rate, and goes on. A voice that is not open, or busy, writes zeros.
+ * new rate, and a touch that still goes on sounds again, as its newest state asks. At a rate outside 8 to 192 kHz it stays
+ * silent, and the voice's statistics say so. A voice that is not open, or busy, writes zeros.
  * Errors: INVALID_ARGUMENT, BUSY; the message is not set by this function.
  * [audio-callback] */
 HAPTOFLOW_API haptoflow_status haptoflow_voice_render(haptoflow_voice voice, float* interleaved, uint32_t frame_count,
                                                       uint32_t channel_count, int32_t channel, double sample_rate_hz);
 
-/* Gain of the output before the limiter, 0 to 1; glides within 10 ms. Errors: INVALID_ARGUMENT. [publisher] */
+/* Gain of the output before the limiter, 0 to 1; glides within 10 ms while the voice sounds. Set while it is silent, it
+ * holds from the first sample of the next touch. Errors: INVALID_ARGUMENT. [publisher] */
 HAPTOFLOW_API haptoflow_status haptoflow_voice_set_strength(haptoflow_voice voice, float strength);
 
-/* Largest magnitude of the output, 0 to 1: whatever else happens, no sample is above it. Errors: INVALID_ARGUMENT.
- * [publisher] */
+/* Largest magnitude of the output, 0 to 1: whatever else happens, no sample is above it. The limiter's curve bends from
+ * 0.7 of the ceiling on and approaches it without a corner. Errors: INVALID_ARGUMENT. [publisher] */
 HAPTOFLOW_API haptoflow_status haptoflow_voice_set_ceiling(haptoflow_voice voice, float ceiling);
 
 /* Muted (1) a voice falls silent within a block and 5 ms and costs no inference. Errors: INVALID_ARGUMENT. [publisher]
@@ -486,8 +602,9 @@ HAPTOFLOW_API haptoflow_status haptoflow_voice_set_muted(haptoflow_voice voice, 
 /* The same for an application that is suspended: independent of muting. Errors: INVALID_ARGUMENT. [publisher] */
 HAPTOFLOW_API haptoflow_status haptoflow_voice_set_paused(haptoflow_voice voice, uint32_t paused);
 
-/* Silence at the end of the next block, whatever its length. The voice sounds again with the next touch-down, that is,
- * with another touch_counter. Errors: INVALID_ARGUMENT. [publisher] */
+/* Silence at the end of the next block, whatever its length, for the touch that was published last. The next touch-down
+ * sounds again: another touch_counter, or touching after a state that did not touch, published after this call.
+ * Errors: INVALID_ARGUMENT. [publisher] */
 HAPTOFLOW_API haptoflow_status haptoflow_voice_panic(haptoflow_voice voice);
 
 /* Panic for every voice of the process. Never fails. [publisher] */

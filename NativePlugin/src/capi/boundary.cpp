@@ -50,6 +50,10 @@ haptoflow_status reportCurrentException() noexcept {
         return report(HAPTOFLOW_RUNTIME_UNAVAILABLE, error.what());
     } catch (const inference::InferenceError& error) {
         return report(HAPTOFLOW_INFERENCE_FAILED, error.what());
+    } catch (const inference::LoadCancelled& error) {
+        return report(HAPTOFLOW_CANCELLED, error.what());
+    } catch (const inference::TierTooSlow& error) {
+        return report(HAPTOFLOW_TIER_TOO_SLOW, error.what());
     } catch (const std::invalid_argument& error) {
         return report(HAPTOFLOW_INVALID_ARGUMENT, error.what());
     } catch (const std::bad_alloc&) {

@@ -57,13 +57,15 @@ template <typename Descriptor>
     return copy;
 }
 
-/// Fills a caller's descriptor of any version as far as it reaches; struct_size stays. Throws std::invalid_argument.
+/// Fills a caller's descriptor of any version as far as it reaches and sets its struct_size to the bytes filled. Throws
+/// std::invalid_argument.
 template <typename Descriptor>
 void writeDescriptor(Descriptor* target, Descriptor content, const char* name) {
     const std::size_t size = require(target, name)->struct_size;
     checkStructSize(size, sizeof(content.struct_size), name);
-    content.struct_size = target->struct_size;
-    std::memcpy(target, &content, std::min(size, sizeof(Descriptor)));
+    const std::size_t filled = std::min(size, sizeof(Descriptor));
+    content.struct_size = static_cast<decltype(content.struct_size)>(filled);
+    std::memcpy(target, &content, filled);
 }
 
 }  // namespace haptoflow::capi

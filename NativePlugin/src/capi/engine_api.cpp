@@ -1,5 +1,6 @@
 #include "capi/handles.hpp"
 #include "capi/voice_table.hpp"
+#include "dsp/limiter.hpp"
 #include "inference/tier_graphs.hpp"
 
 #include <algorithm>
@@ -17,7 +18,8 @@ namespace {
 constexpr uint32_t usualBatchVoices = 8;
 constexpr double usualUpdateRateHz = 72.0;
 constexpr double usualBudgetShare = 0.25;
-constexpr double usualFullScaleMps2 = 60.0;
+constexpr double usualFullScaleMps2 = HAPTOFLOW_DEFAULT_FULL_SCALE_MPS2;
+static_assert(usualFullScaleMps2 == dsp::SoftLimiter::defaultFullScaleMps2);
 
 // The first version could not do without these; everything behind has a default.
 constexpr std::size_t mandatoryOptions = offsetof(haptoflow_engine_options, update_rate_hz);
@@ -55,6 +57,11 @@ engine::QualitySettings qualitySettings(const model::ModelHeader& header, haptof
     return settings;
 }
 
+/// Whether an engine of this quality has the tier loaded.
+bool isWanted(const engine::QualitySettings& quality, std::size_t tier) {
+    return !quality.fixedTier || *quality.fixedTier == tier;
+}
+
 engine::LiveEngineSettings engineSettings(const haptoflow_engine_options& given, const model::ModelHeader& header) {
     const double budgetShare = orDefault(given.budget_share, usualBudgetShare);
     if (!(budgetShare > 0.0 && budgetShare <= 1.0)) {
@@ -87,15 +94,19 @@ haptoflow_status haptoflow_engine_create(const haptoflow_engine_options* options
             throw std::invalid_argument("options: batch_voices is " + std::to_string(batch) + "; expected 1 to 64");
         }
         const auto settings = engineSettings(given, header);
-        engine::EngineTiers tiers;
-        for (const model::Tier& tier : header.tiers) {
-            tiers.push_back(std::make_unique<inference::OnnxSegmentGenerator>(runtime, open->model, tier.name,
-                                                                              inference::defaultSolver(tier), batch));
+        const inference::LoadLimits limits = loadLimits(given.cancellation, given.probe_limit_ms);
+        TierLoader loader{runtime, open, batch};
+        engine::EngineTiers tiers(header.tiers.size());
+        for (std::size_t tier = 0; tier < tiers.size(); ++tier) {
+            if (isWanted(settings.quality, tier)) {
+                tiers[tier] = loader.load(tier, limits);
+            }
         }
-        auto live = std::make_shared<engine::LiveEngine>(std::shared_ptr<const model::ModelFile>(open, &open->model),
-                                                         std::move(tiers),
-                                                         tierOfQuality(header, HAPTOFLOW_QUALITY_AUTO), settings);
-        *engine = engines().open(std::make_shared<OpenEngine>(std::move(live), settings.hasWorker));
+        auto live = std::make_shared<engine::LiveEngine>(
+            std::shared_ptr<const model::ModelFile>(open, &open->model), std::move(tiers),
+            tierOfQuality(header, HAPTOFLOW_QUALITY_AUTO), settings, limits);
+        *engine = engines().open(
+            std::make_shared<OpenEngine>(std::move(live), settings.hasWorker, std::move(loader), limits.probeLimitMs));
     });
 }
 
@@ -116,7 +127,15 @@ haptoflow_status haptoflow_engine_set_quality(haptoflow_engine* engine, haptoflo
     return guarded([&] {
         const auto open = engines().get(engine);
         engine::LiveEngine& live = *open->engine;
-        live.setQuality(qualitySettings(live.model().header(), quality, live.statistics().budgetMs));
+        const model::ModelHeader& header = live.model().header();
+        const auto settings = qualitySettings(header, quality, live.statistics().budgetMs);
+        const std::lock_guard lock(open->loading);
+        for (std::size_t tier = 0; tier < header.tiers.size(); ++tier) {
+            if (isWanted(settings, tier) && !live.hasTier(tier)) {
+                live.addTier(tier, open->loader.load(tier, {.probeLimitMs = open->probeLimitMs}));
+            }
+        }
+        live.setQuality(settings);
     });
 }
 
@@ -148,6 +167,8 @@ haptoflow_status haptoflow_engine_get_statistics(const haptoflow_engine* engine,
         content.quality_steps_up = found.stepsUp;
         content.budget_ms = found.budgetMs;
         content.last_round_ms = found.lastRoundMs;
+        content.worker_is_alive = found.workerAlive ? 1 : 0;
+        content.priority_was_refused = found.priorityRefused ? 1 : 0;
         writeDescriptor(statistics, content, "statistics");
     });
 }
@@ -156,15 +177,30 @@ haptoflow_status haptoflow_engine_tier_times(const haptoflow_engine* engine, uin
                                              haptoflow_tier_times* times) {
     return guarded([&] {
         const auto open = engines().get(engine);
-        const engine::EngineStatistics found = open->engine->statistics();
-        if (index >= found.tiers.size()) {
-            throw std::invalid_argument("tier " + std::to_string(index) + " of " + std::to_string(found.tiers.size()));
+        const engine::LiveEngine& live = *open->engine;
+        if (index >= live.tierCount()) {
+            throw std::invalid_argument("tier " + std::to_string(index) + " of " + std::to_string(live.tierCount()));
         }
+        const engine::TierTimes found = live.tierTimes(index);
         haptoflow_tier_times content{};
-        content.is_current = found.tier == index ? 1 : 0;
-        content.runs = found.tiers[index].runs;
-        content.median_ms = found.tiers[index].medianMs;
-        content.percentile_99_ms = found.tiers[index].percentile99Ms;
+        content.is_current = live.statistics().tier == index ? 1 : 0;
+        content.runs = found.runs;
+        content.median_ms = found.medianMs;
+        content.percentile_99_ms = found.percentile99Ms;
         writeDescriptor(times, content, "times");
+    });
+}
+
+haptoflow_status haptoflow_engine_last_failure(const haptoflow_engine* engine, char* text, uint64_t capacity,
+                                               uint64_t* length) {
+    return guarded([&] {
+        (void)require(length, "length");
+        const std::string failure = engines().get(engine)->engine->lastFailure();
+        if (capacity > 0) {
+            const std::size_t kept = std::min<std::size_t>(failure.size(), capacity - 1);
+            std::copy_n(failure.begin(), kept, require(text, "text"));
+            text[kept] = '\0';
+        }
+        *length = failure.size();
     });
 }

@@ -98,10 +98,11 @@ haptoflow_status haptoflow_generator_create(const haptoflow_generator_options* o
         const model::Tier& tier = chosenTier(open->model, given.tier);
         const auto tierSolver = inference::defaultSolver(tier);
         const uint32_t batch = given.maximum_batch != 0 ? given.maximum_batch : usualBatch;
-        *generator = generators().open(std::shared_ptr<OpenGenerator>(new OpenGenerator{
-            {},
-            tierSolver,
-            {runtime, open->model, tier.name, solverSettings(given.solver, given.steps, tierSolver), batch}}));
+        *generator = generators().open(std::shared_ptr<OpenGenerator>(
+            new OpenGenerator{{},
+                              tierSolver,
+                              {runtime, open->model, tier.name, solverSettings(given.solver, given.steps, tierSolver),
+                               batch, loadLimits(given.cancellation, given.probe_limit_ms)}}));
     });
 }
 

@@ -1,9 +1,18 @@
 #include "capi/handles.hpp"
 
+#include "inference/tier_graphs.hpp"
+
+#include <stdexcept>
+
 namespace haptoflow::capi {
 
 RuntimeTable& runtimes() {
     static auto& table = *new RuntimeTable("runtime");
+    return table;
+}
+
+CancellationTable& cancellations() {
+    static auto& table = *new CancellationTable("cancellation");
     return table;
 }
 
@@ -20,6 +29,28 @@ GeneratorTable& generators() {
 EngineTable& engines() {
     static auto& table = *new EngineTable("engine");
     return table;
+}
+
+inference::LoadLimits loadLimits(const haptoflow_cancellation* cancellation, double probeLimitMs) {
+    inference::LoadLimits limits;
+    if (probeLimitMs != 0.0) {
+        if (!(probeLimitMs > 0.0 && probeLimitMs <= inference::largestProbeLimitMs)) {
+            throw std::invalid_argument("options: probe_limit_ms is " + std::to_string(probeLimitMs) +
+                                        "; expected above 0 to 3600000, or 0 for 10000");
+        }
+        limits.probeLimitMs = probeLimitMs;
+    }
+    if (cancellation != nullptr) {
+        limits.cancellation = cancellations().get(cancellation);
+    }
+    return limits;
+}
+
+std::unique_ptr<inference::SegmentGenerator> TierLoader::load(std::size_t tier,
+                                                              const inference::LoadLimits& limits) const {
+    const model::Tier& wanted = model->model.header().tiers.at(tier);
+    return std::make_unique<inference::OnnxSegmentGenerator>(runtime, model->model, wanted.name,
+                                                             inference::defaultSolver(wanted), batch, limits);
 }
 
 }  // namespace haptoflow::capi

@@ -4,9 +4,11 @@
 #include "capi/handle_table.hpp"
 #include "engine/live_engine.hpp"
 #include "haptoflow/haptoflow.h"
+#include "inference/load_limits.hpp"
 #include "inference/onnx_segment_generator.hpp"
 #include "model/model_file.hpp"
 
+#include <cstddef>
 #include <memory>
 #include <mutex>
 #include <string>
@@ -28,25 +30,47 @@ struct OpenGenerator {
     inference::OnnxSegmentGenerator generator;
 };
 
+/// Loads the tiers of one engine, when it is made or when a later quality asks for them.
+struct TierLoader {
+    std::shared_ptr<const inference::Runtime> runtime;
+    std::shared_ptr<const OpenModel> model;
+    std::size_t batch;
+
+    /// Throws what OnnxSegmentGenerator's constructor throws.
+    [[nodiscard]] std::unique_ptr<inference::SegmentGenerator> load(std::size_t tier,
+                                                                    const inference::LoadLimits& limits) const;
+};
+
 struct OpenEngine {
-    OpenEngine(std::shared_ptr<engine::LiveEngine> live, bool worker) : engine(std::move(live)), hasWorker(worker) {}
+    OpenEngine(std::shared_ptr<engine::LiveEngine> live, bool worker, TierLoader tierLoader, double limitMs)
+        : engine(std::move(live)), hasWorker(worker), loader(std::move(tierLoader)), probeLimitMs(limitMs) {}
 
     std::shared_ptr<engine::LiveEngine> engine;
     bool hasWorker;
     /// Steps by hand queue up.
     std::mutex stepping;
+    /// So do changes of quality, which may load.
+    std::mutex loading;
+    const TierLoader loader;
+    const double probeLimitMs;
 };
 
 using RuntimeTable = HandleTable<haptoflow_runtime, const inference::Runtime>;
+using CancellationTable = HandleTable<haptoflow_cancellation, inference::Cancellation>;
 using ModelTable = HandleTable<haptoflow_model, const OpenModel>;
 using GeneratorTable = HandleTable<haptoflow_generator, OpenGenerator>;
 using EngineTable = HandleTable<haptoflow_engine, OpenEngine>;
 
 // The tables are never destroyed: ONNX Runtime may be gone by the time that static objects are.
 [[nodiscard]] RuntimeTable& runtimes();
+[[nodiscard]] CancellationTable& cancellations();
 [[nodiscard]] ModelTable& models();
 [[nodiscard]] GeneratorTable& generators();
 [[nodiscard]] EngineTable& engines();
+
+/// The limits of a load as options give them: a null cancellation is none, a limit of 0 is the usual one. Throws
+/// std::invalid_argument.
+[[nodiscard]] inference::LoadLimits loadLimits(const haptoflow_cancellation* cancellation, double probeLimitMs);
 
 /// Closes *handle and makes it null; a null handle is fine, a null pointer to one is not.
 template <typename Table, typename Handle>

@@ -2,12 +2,16 @@
 #include "inference/gaussian_noise.hpp"
 
 #include <span>
+#include <string_view>
 
 using namespace haptoflow;
 using namespace haptoflow::capi;
 
+static_assert(std::string_view(HAPTOFLOW_VERSION_TEXT) == HAPTOFLOW_VERSION,
+              "the version macros of haptoflow.h differ from package.json");
+
 const char* haptoflow_version(void) {
-    return HAPTOFLOW_VERSION;
+    return HAPTOFLOW_VERSION_TEXT;
 }
 
 const char* haptoflow_status_name(haptoflow_status status) {
@@ -40,8 +44,37 @@ const char* haptoflow_status_name(haptoflow_status status) {
             return "HAPTOFLOW_RUNTIME_UNAVAILABLE";
         case HAPTOFLOW_INFERENCE_FAILED:
             return "HAPTOFLOW_INFERENCE_FAILED";
+        case HAPTOFLOW_CANCELLED:
+            return "HAPTOFLOW_CANCELLED";
+        case HAPTOFLOW_TIER_TOO_SLOW:
+            return "HAPTOFLOW_TIER_TOO_SLOW";
         default:
             return "HAPTOFLOW_UNKNOWN_STATUS";
+    }
+}
+
+const char* haptoflow_silence_name(haptoflow_silence silence) {
+    switch (silence) {
+        case HAPTOFLOW_SILENCE_NONE:
+            return "HAPTOFLOW_SILENCE_NONE";
+        case HAPTOFLOW_SILENCE_REST:
+            return "HAPTOFLOW_SILENCE_REST";
+        case HAPTOFLOW_SILENCE_STALE:
+            return "HAPTOFLOW_SILENCE_STALE";
+        case HAPTOFLOW_SILENCE_MUTED:
+            return "HAPTOFLOW_SILENCE_MUTED";
+        case HAPTOFLOW_SILENCE_PAUSED:
+            return "HAPTOFLOW_SILENCE_PAUSED";
+        case HAPTOFLOW_SILENCE_PANIC:
+            return "HAPTOFLOW_SILENCE_PANIC";
+        case HAPTOFLOW_SILENCE_RATE:
+            return "HAPTOFLOW_SILENCE_RATE";
+        case HAPTOFLOW_SILENCE_CLOSING:
+            return "HAPTOFLOW_SILENCE_CLOSING";
+        case HAPTOFLOW_SILENCE_WORKER_DEAD:
+            return "HAPTOFLOW_SILENCE_WORKER_DEAD";
+        default:
+            return "HAPTOFLOW_UNKNOWN_SILENCE";
     }
 }
 

@@ -128,13 +128,13 @@ haptoflow_status haptoflow_voice_set_paused(haptoflow_voice voice, uint32_t paus
 }
 
 haptoflow_status haptoflow_voice_panic(haptoflow_voice voice) {
-    return guarded([&] { requireVoice(voice)->voice->channels.controls.panics.fetch_add(1); });
+    return guarded([&] { requireVoice(voice)->voice->channels.panic(); });
 }
 
 haptoflow_status haptoflow_panic() {
     for (std::size_t place = 0; place < VoiceTable::capacity; ++place) {
         if (const VoiceTable::Use use = voices().useAt(place)) {
-            use->voice->channels.controls.panics.fetch_add(1);
+            use->voice->channels.panic();
         }
     }
     return HAPTOFLOW_OK;
@@ -163,6 +163,12 @@ haptoflow_status haptoflow_voice_get_statistics(haptoflow_voice voice, haptoflow
         content.rate_changes = counters.rateChanges;
         content.refused_calls = use->refusedCalls;
         content.inference_ms = static_cast<double>(counters.inferenceNanoseconds) * 1e-6;
+        const engine::VoiceChannels& channels = use->voice->channels;
+        content.resumptions = counters.resumptions;
+        content.unsupported_rate_blocks = counters.unsupportedRateBlocks;
+        content.device_rate_hz = channels.deviceRateHz;
+        content.silence = static_cast<haptoflow_silence>(channels.silence.load());
+        content.is_rate_supported = channels.isRateSupported ? 1 : 0;
         writeDescriptor(statistics, content, "statistics");
     });
 }

@@ -31,6 +31,8 @@ public:
 private:
     [[nodiscard]] std::uint64_t fullyOpen() const noexcept { return openSamples_ * closeSamples_; }
 
+    // Made at construction, so that the audio thread never computes it.
+    std::span<const float> curve_;
     std::uint64_t openSamples_;
     std::uint64_t closeSamples_;
     // Integer, in 1 / (open * close samples): both ramps land exactly, in any mix of turns.

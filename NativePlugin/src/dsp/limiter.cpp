@@ -8,23 +8,34 @@
 namespace haptoflow::dsp {
 namespace {
 
-constexpr float largestBelowOne = 0x1.fffffep-1F;
-
-// With u = (x - k) / (1 - k) the curve is k + (1 - k) u / (1 + u): slope 1 at the knee, asymptote 1. This form of it
-// survives x = infinity; the clamp catches the last bit's rounding at either end.
-float bend(float aboveKnee) noexcept {
-    constexpr float headroom = 1.0F - SoftLimiter::knee;
-    const float distance = headroom * headroom / (headroom + (aboveKnee - SoftLimiter::knee));
-    return std::clamp(1.0F - distance, SoftLimiter::knee, largestBelowOne);
+/// The largest float below a ceiling of 0 to 1; 0 for a ceiling of 0.
+float largestBelow(float ceiling) noexcept {
+    return std::nextafter(ceiling, 0.0F);
 }
 
 }  // namespace
 
-SoftLimiter::SoftLimiter(float fullScaleMps2) : fullScaleMps2_(fullScaleMps2) {
+SoftLimiter::SoftLimiter(float fullScaleMps2) : fullScaleMps2_(fullScaleMps2), largestOutput_(largestBelow(1.0F)) {
     if (!(std::isfinite(fullScaleMps2) && fullScaleMps2 > 0.0F)) {
         throw std::invalid_argument("full_scale_mps2 is " + std::to_string(fullScaleMps2) +
                                     "; expected a finite number above 0");
     }
+}
+
+void SoftLimiter::setCeiling(float ceiling) noexcept {
+    if (std::isfinite(ceiling)) {
+        ceiling_ = std::clamp(ceiling, 0.0F, 1.0F);
+        kneeStart_ = knee * ceiling_;
+        largestOutput_ = largestBelow(ceiling_);
+    }
+}
+
+// With knee k, ceiling c and u = (x - k) / (c - k) the curve is k + (c - k) u / (1 + u): slope 1 at the knee, asymptote
+// c. This form of it survives x = infinity; the clamp catches the last bit's rounding at either end.
+float SoftLimiter::bend(float aboveKnee) const noexcept {
+    const float headroom = ceiling_ - kneeStart_;
+    const float distance = headroom * headroom / (headroom + (aboveKnee - kneeStart_));
+    return std::clamp(ceiling_ - distance, std::min(kneeStart_, largestOutput_), largestOutput_);
 }
 
 float SoftLimiter::limit(float mps2) const noexcept {
@@ -33,7 +44,7 @@ float SoftLimiter::limit(float mps2) const noexcept {
     }
     const float scaled = mps2 / fullScaleMps2_;
     const float magnitude = std::abs(scaled);
-    return magnitude <= knee ? scaled : std::copysign(bend(magnitude), scaled);
+    return magnitude <= kneeStart_ ? scaled : std::copysign(bend(magnitude), scaled);
 }
 
 void SoftLimiter::process(std::span<float> samples) noexcept {
@@ -42,7 +53,7 @@ void SoftLimiter::process(std::span<float> samples) noexcept {
             ++nonFiniteCount_;
         }
         sample = limit(sample);
-        if (std::abs(sample) > knee) {
+        if (std::abs(sample) > kneeStart_) {
             ++limitedCount_;
         }
     }

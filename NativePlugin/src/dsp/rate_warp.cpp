@@ -9,7 +9,7 @@ namespace haptoflow::dsp {
 namespace {
 
 constexpr std::size_t pointsPerSample = 256;  // linear interpolation errs by (0.8 pi / 256)^2 / 8, -98 dB
-constexpr auto halfLength = static_cast<double>(RateWarp::latencyOutputSamples);
+constexpr auto halfLength = static_cast<double>(RateWarp::halfKernelSamples);
 constexpr double attenuationDecibels = 65.0;
 constexpr double closedCutoff = 0.8;  // of half the rate
 constexpr double closedFromRatio = 1.2;
@@ -28,7 +28,7 @@ double smoothStep(double x) noexcept {
 
 RateWarp::RateWarp() {
     // Two rows past the end: interpolation at the rim reads one beyond.
-    kernel_.resize(latencyOutputSamples * pointsPerSample + 2);
+    kernel_.resize(halfKernelSamples * pointsPerSample + 2);
     const double beta = kaiserBeta(attenuationDecibels);
     for (std::size_t i = 0; i < kernel_.size(); ++i) {
         const double u = static_cast<double>(i) / static_cast<double>(pointsPerSample);
@@ -46,11 +46,11 @@ void RateWarp::setTargetRatio(double ratio) noexcept {
 }
 
 bool RateWarp::isTransparent() const noexcept {
-    return state_.ratio == 1.0 && state_.target == 1.0 && state_.fraction == 0.0;
+    return state_.isDirect() && state_.target == 1.0;
 }
 
 double RateWarp::latencyInputSamples() const noexcept {
-    return halfLength * state_.ratio;
+    return state_.reach();
 }
 
 std::size_t RateWarp::inputNeeded(std::size_t outputCount) const noexcept {
@@ -81,11 +81,22 @@ double RateWarp::readPosition() const noexcept {
 void RateWarp::reset() noexcept {
     history_.fill(0.0F);
     state_ = State{};
-    state_.whole = -static_cast<std::int64_t>(latencyOutputSamples);
+}
+
+void RateWarp::prime(std::span<const float> past) noexcept {
+    reset();
+    const std::span<const float> kept = past.last(std::min(past.size(), historyLength));
+    std::ranges::copy(kept, history_.begin());
+    state_.consumed = kept.size();
+    state_.whole = static_cast<std::int64_t>(kept.size());
+}
+
+double RateWarp::State::reach() const noexcept {
+    return isDirect() ? 0.0 : halfLength * ratio;
 }
 
 std::uint64_t RateWarp::State::consumedAfterNext() const noexcept {
-    const auto lastNeeded = whole + static_cast<std::int64_t>(std::floor(fraction + halfLength * ratio));
+    const auto lastNeeded = whole + static_cast<std::int64_t>(std::floor(fraction + reach()));
     return std::max(consumed, static_cast<std::uint64_t>(std::max<std::int64_t>(lastNeeded + 1, 0)));
 }
 
@@ -113,12 +124,12 @@ float RateWarp::sampleAt(std::int64_t index) const noexcept {
 }
 
 float RateWarp::interpolate() const noexcept {
-    if (state_.ratio == 1.0 && state_.fraction == 0.0) {
+    if (state_.isDirect()) {
         return sampleAt(state_.whole);
     }
     const double scale = 1.0 / state_.ratio;
     const double closedShare = smoothStep((state_.ratio - 1.0) / (closedFromRatio - 1.0));
-    const double reach = halfLength * state_.ratio;
+    const double reach = state_.reach();
     const auto first = static_cast<std::int64_t>(std::ceil(state_.fraction - reach));
     const auto last = static_cast<std::int64_t>(std::floor(state_.fraction + reach));
     double sum = 0.0;

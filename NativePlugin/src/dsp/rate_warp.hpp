@@ -13,8 +13,9 @@ namespace haptoflow::dsp {
 ///
 /// With output frequencies g = r f: from r = 1.2 on, gain within 0.1 dB to g = 600 Hz, -6 dB at 800 Hz, aliases below
 /// -60 dB. For r in (1, 1.2) the edge slides down from the full band, and aliases stay above 800 Hz.
-/// At r = 1 the output is the input `latencyOutputSamples` later, bit for bit; that delay is the same at every r
-/// (reading ahead grows with r), so that nothing jumps in crossing over.
+/// At r = 1 the path is direct: the output is the input, bit for bit, without delay. When r leaves 1 the warp consumes
+/// 10 r input samples ahead, which its kernel needs, and when r returns it consumes nothing until the read position has
+/// caught up. The read position itself never jumps, so neither change-over clicks.
 /// r follows its target with a 10 ms time constant; on its way back to 1 it dwells just above until the read position
 /// meets an input sample, at most 100 output samples.
 /// Audio thread: `process` allocates nothing, waits for nothing, and does not depend on how it is cut into blocks as
@@ -22,8 +23,10 @@ namespace haptoflow::dsp {
 class RateWarp {
 public:
     static constexpr double maximumRatio = 4.0;
-    /// 5 ms at 2 kHz.
-    static constexpr std::size_t latencyOutputSamples = 10;
+    /// Half the kernel's length, in output samples: 5 ms at 2 kHz, and the delay while r is above 1.
+    static constexpr std::size_t halfKernelSamples = 10;
+    /// The longest past that `prime` takes.
+    static constexpr std::size_t historyLength = 128;
 
     /// Allocates: not on the audio thread.
     RateWarp();
@@ -34,9 +37,9 @@ public:
     [[nodiscard]] double ratio() const noexcept { return state_.ratio; }
     /// True while the output is a plain delay of the input.
     [[nodiscard]] bool isTransparent() const noexcept;
-    /// By how many input samples the last one consumed is ahead of the read position: 10 r, in waveform time.
+    /// By how many input samples the kernel reads ahead of the read position: 0 while direct, else 10 r.
     [[nodiscard]] double latencyInputSamples() const noexcept;
-    /// How many input samples the next `process` of `outputCount` samples will consume. Bounded by 4 a sample plus 30.
+    /// How many input samples the next `process` of `outputCount` samples will consume. Bounded by 4 a sample plus 41.
     [[nodiscard]] std::size_t inputNeeded(std::size_t outputCount) const noexcept;
     /// `input` holds exactly inputNeeded(output.size()) samples; missing ones count as 0, surplus ones are ignored.
     void process(std::span<const float> input, std::span<float> output) noexcept;
@@ -48,6 +51,8 @@ public:
     [[nodiscard]] double readPosition() const noexcept;
     /// Forgets the past; r and its target become 1.
     void reset() noexcept;
+    /// Starts anew as if `past` (at most `historyLength` samples, oldest first) had just been played at r = 1.
+    void prime(std::span<const float> past) noexcept;
 
 private:
     // What moves, apart from the samples: `inputNeeded` runs a copy of it ahead.
@@ -58,6 +63,8 @@ private:
         std::int64_t whole = 0;
         std::uint64_t consumed = 0;
 
+        [[nodiscard]] bool isDirect() const noexcept { return ratio == 1.0 && fraction == 0.0; }
+        [[nodiscard]] double reach() const noexcept;
         [[nodiscard]] std::uint64_t consumedAfterNext() const noexcept;
         void advance() noexcept;
     };
@@ -69,10 +76,8 @@ private:
     [[nodiscard]] float sampleAt(std::int64_t index) const noexcept;
     [[nodiscard]] float interpolate() const noexcept;
 
-    static constexpr std::size_t historyLength = 128;
-
     State state_;
-    std::vector<KernelPoint> kernel_;  // one side, over 0..latencyOutputSamples output samples
+    std::vector<KernelPoint> kernel_;  // one side, over 0..halfKernelSamples output samples
     std::array<float, historyLength> history_{};
 };
 

@@ -93,6 +93,14 @@ void WaveformResampler::reset() noexcept {
     fraction_ = period_ - step_;  // the first output falls on the first input sample
 }
 
+void WaveformResampler::prime(std::span<const float> past) noexcept {
+    reset();
+    const std::span<const float> kept = past.last(std::min(past.size(), kernelLength));
+    const auto missing = static_cast<std::ptrdiff_t>(kernelLength - kept.size());
+    std::ranges::copy(kept, history_.begin() + missing);
+    std::ranges::copy(kept, history_.begin() + missing + static_cast<std::ptrdiff_t>(kernelLength));
+}
+
 void WaveformResampler::push(float sample) noexcept {
     history_[writeIndex_] = sample;
     history_[writeIndex_ + kernelLength] = sample;

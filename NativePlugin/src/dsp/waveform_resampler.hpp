@@ -33,6 +33,9 @@ public:
     void process(std::span<const float> input, std::span<float> output) noexcept;
     /// Forgets the past: the next output rises from silence.
     void reset() noexcept;
+    /// Starts anew as if `past` (its newest 56 samples count, oldest first) had just been consumed: the next output
+    /// goes on from it. Costs one copy, however far the output rate is from the input's.
+    void prime(std::span<const float> past) noexcept;
 
 private:
     void push(float sample) noexcept;

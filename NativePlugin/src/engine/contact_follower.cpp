@@ -6,10 +6,11 @@ namespace haptoflow::engine {
 
 ContactAction ContactFollower::update(const ContactState& state) noexcept {
     const float speed = std::hypot(state.velocityMps[0], state.velocityMps[1]);
-    // Touches before the first state were somebody else's.
-    const bool newTouch = begun_ && state.touchCounter != touchCounter_;
-    begun_ = true;
+    // A voice begins at touch 0: a counter beyond it in its very first state tells of a tap before that state.
+    const bool newTouch = state.touchCounter != touchCounter_;
+    touches_ += newTouch || (state.touching && !touching_) ? 1 : 0;
     touchCounter_ = state.touchCounter;
+    touching_ = state.touching;
     const bool wasSliding = sliding_;
     const float threshold = wasSliding && !newTouch ? slideEndMps : slideStartMps;
     sliding_ = state.touching && speed >= threshold;

@@ -29,10 +29,13 @@ public:
 
     [[nodiscard]] ContactAction update(const ContactState& state) noexcept;
     [[nodiscard]] bool sliding() const noexcept { return sliding_; }
+    /// Touch-downs so far, however the caller numbers its touches.
+    [[nodiscard]] std::uint64_t touches() const noexcept { return touches_; }
 
 private:
     std::uint32_t touchCounter_ = 0;
-    bool begun_ = false;
+    std::uint64_t touches_ = 0;
+    bool touching_ = false;
     bool sliding_ = false;
 };
 

@@ -20,17 +20,19 @@ ContactAction ContactPublisher::publish(ContactState state) noexcept {
     const ContactAction action = follower_.update(state);
     const Material material = resolveMaterial(model_, state.material);
     const RangedMotion ranged = applyRangeLaw(model_.header(), material, state.velocityMps, state.forceNewtons);
-    if (action == ContactAction::onset || action == ContactAction::tap) {
-        ++onsets_;
+    onsets_ += action == ContactAction::onset || action == ContactAction::tap ? 1 : 0;
+    // With every state that slides, not only at touch-down: the callback may have to resume with any of them.
+    if (follower_.sliding() || action == ContactAction::tap) {
         retrieve(state, material.dominantLabel, ranged.motion);
     }
     if (action == ContactAction::rest && state.touching) {
         counters.skipped.fetch_add(1, std::memory_order_relaxed);
     }
 
+    channels_.publishedTouch.store(follower_.touches(), std::memory_order_release);
     AudioMessage& audio = channels_.toAudio.draft();
     audio.onset = onsets_;
-    audio.touch = state.touchCounter;
+    audio.touch = follower_.touches();
     audio.sliding = follower_.sliding();
     audio.levelGain = static_cast<float>(ranged.levelGain);
     audio.readingRate = ranged.readingRate;

@@ -8,14 +8,15 @@
 namespace haptoflow::engine {
 namespace {
 
-/// What the run took; nothing where it failed.
+/// What the run took; nothing where it failed, and then `failure` says why.
 std::optional<std::uint64_t> nanosecondsOf(inference::SegmentGenerator& generator,
                                            std::span<const inference::SegmentRequest> requests,
-                                           std::span<float> segments) {
+                                           std::span<float> segments, std::string& failure) {
     const auto began = std::chrono::steady_clock::now();
     try {
         generator.generate(requests, segments);
-    } catch (const std::exception&) {
+    } catch (const std::exception& error) {
+        failure = error.what();
         return std::nullopt;
     }
     const auto spent = std::chrono::steady_clock::now() - began;
@@ -51,7 +52,7 @@ void InferenceRound::generate(inference::SegmentGenerator& generator, RoundResul
         requests_.push_back(voice->planner.request());
     }
     segments_.resize(requests_.size() * inference::segmentSamples);
-    const std::optional<std::uint64_t> together = nanosecondsOf(generator, requests_, segments_);
+    const std::optional<std::uint64_t> together = nanosecondsOf(generator, requests_, segments_, result.failure);
     std::size_t kept = 0;
     for (std::size_t i = 0; i < wanting_.size(); ++i) {
         const std::span<float, inference::segmentSamples> segment(segments_.data() + i * inference::segmentSamples,
@@ -60,7 +61,7 @@ void InferenceRound::generate(inference::SegmentGenerator& generator, RoundResul
         if (spent) {
             *spent /= wanting_.size();
         } else if (wanting_.size() > 1) {
-            spent = nanosecondsOf(generator, std::span(requests_).subspan(i, 1), segment);
+            spent = nanosecondsOf(generator, std::span(requests_).subspan(i, 1), segment, result.failure);
         }
         if (!spent) {
             // Nothing goes out; the running segment goes on to its end and fades there.

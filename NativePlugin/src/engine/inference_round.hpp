@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <span>
+#include <string>
 #include <vector>
 
 namespace haptoflow::engine {
@@ -14,8 +15,9 @@ struct RoundResult {
     /// Voices that wanted a segment; 0 where nothing was run.
     std::size_t voices = 0;
     std::size_t segments = 0;
-    /// At least one voice's run failed.
+    /// At least one voice's run failed; the newest failure's text.
     bool failed = false;
+    std::string failure;
     /// A voice waits for the callback: look again soon.
     bool looksAgain = false;
     double milliseconds = 0.0;

@@ -9,6 +9,7 @@
 #include <chrono>
 #include <cmath>
 #include <exception>
+#include <iterator>
 #include <stdexcept>
 
 namespace haptoflow::engine {
@@ -16,6 +17,9 @@ namespace {
 
 constexpr double largestLeadMs = 50.0;
 constexpr double callbackLookMs = 2.0;
+// Beyond these a float no longer tells neighbouring samples apart.
+constexpr float smallestFullScaleMps2 = 1e-3F;
+constexpr float largestFullScaleMps2 = 1e6F;
 
 const LiveEngineSettings& checked(const LiveEngineSettings& settings) {
     if (!(settings.updateRateHz >= 1.0 && settings.updateRateHz <= 10000.0)) {
@@ -28,6 +32,10 @@ const LiveEngineSettings& checked(const LiveEngineSettings& settings) {
     if (!(settings.quality.budgetMs > 0.0)) {
         throw std::invalid_argument("the budget for inference must be above 0 ms");
     }
+    if (!(settings.fullScaleMps2 >= smallestFullScaleMps2 && settings.fullScaleMps2 <= largestFullScaleMps2)) {
+        throw std::invalid_argument("full_scale_mps2 is " + std::to_string(settings.fullScaleMps2) +
+                                    "; expected 0.001 to 1000000 m/s^2");
+    }
     return settings;
 }
 
@@ -39,15 +47,27 @@ std::shared_ptr<const model::ModelFile> checked(std::shared_ptr<const model::Mod
     return model;
 }
 
+inference::SegmentGenerator& firstLoaded(const EngineTiers& tiers) {
+    const auto found = std::ranges::find_if(tiers, [](const auto& tier) { return tier != nullptr; });
+    if (found == tiers.end()) {
+        throw std::invalid_argument("an engine needs at least one tier that is loaded");
+    }
+    return **found;
+}
+
 }  // namespace
 
 LiveEngine::LiveEngine(std::shared_ptr<const model::ModelFile> model, EngineTiers tiers, std::size_t startTier,
-                       const LiveEngineSettings& settings)
+                       const LiveEngineSettings& settings, const inference::LoadLimits& limits)
     : model_(checked(std::move(model), tiers)),
       tiers_(std::move(tiers)),
       settings_(checked(settings)),
-      levels_(std::make_unique<OnsetLevels>(*model_, *tiers_.front())),
+      levels_(std::make_unique<OnsetLevels>(*model_, firstLoaded(tiers_), limits)),
       quality_(tiers_.size(), settings.quality, startTier) {
+    if (!isLoaded(settings_.quality)) {
+        throw std::invalid_argument("quality: a tier that is not loaded");
+    }
+    showQuality();
     if (settings_.hasWorker) {
         worker_ = std::thread([this] { work(); });
     }
@@ -67,10 +87,9 @@ void LiveEngine::stop() noexcept {
 }
 
 std::shared_ptr<LiveVoice> LiveEngine::addVoice(double outputRateHz) {
-    const std::lock_guard lock(voicesMutex_);
     LiveVoiceSettings settings;
     settings.planner.seed = settings_.seed;
-    settings.planner.voice = voicesMade_;
+    settings.planner.voice = voicesMade_.fetch_add(1);
     if (settings_.fixedLeadMs) {
         settings.planner.fixedLeadSamples =
             static_cast<std::int64_t>(std::ceil(*settings_.fixedLeadMs * inference::waveformRateHz / 1000.0));
@@ -78,10 +97,8 @@ std::shared_ptr<LiveVoice> LiveEngine::addVoice(double outputRateHz) {
     settings.outputRateHz = outputRateHz;
     settings.fullScaleMps2 = settings_.fullScaleMps2;
     auto voice = std::make_shared<LiveVoice>(*model_, *levels_, alive_, settings);
+    const std::lock_guard lock(voicesMutex_);
     voices_.push_back(voice);
-    roundVoices_.reserve(voices_.size());
-    ++voicesMade_;
-    const std::lock_guard figuresLock(figuresMutex_);
     figures_.voices = voices_.size();
     return voice;
 }
@@ -89,8 +106,16 @@ std::shared_ptr<LiveVoice> LiveEngine::addVoice(double outputRateHz) {
 void LiveEngine::removeVoice(const LiveVoice& voice) noexcept {
     const std::lock_guard lock(voicesMutex_);
     std::erase_if(voices_, [&voice](const auto& each) { return each.get() == &voice; });
-    const std::lock_guard figuresLock(figuresMutex_);
     figures_.voices = voices_.size();
+}
+
+void LiveEngine::gatherVoices() {
+    {
+        const std::lock_guard lock(voicesMutex_);
+        roundOwners_.assign(voices_.begin(), voices_.end());
+    }
+    roundVoices_.clear();
+    std::ranges::transform(roundOwners_, std::back_inserter(roundVoices_), [](const auto& each) { return each.get(); });
 }
 
 ContactAction LiveEngine::publish(LiveVoice& voice, const ContactState& state) noexcept {
@@ -103,56 +128,66 @@ ContactAction LiveEngine::publish(LiveVoice& voice, const ContactState& state) n
 }
 
 RoundResult LiveEngine::step() {
-    const std::lock_guard lock(voicesMutex_);
     const dsp::ScopedFlushDenormals flush;
-    std::size_t tier = 0;
-    {
-        const std::lock_guard figuresLock(figuresMutex_);
-        tier = quality_.tier();
+    if (wantedQuality_.fetch()) {
+        quality_.setSettings(wantedQuality_.current());
     }
-    roundVoices_.clear();
-    for (const auto& voice : voices_) {
-        roundVoices_.push_back(voice.get());
-    }
-    const RoundResult result = round_.run(roundVoices_, *tiers_[tier]);
-    const std::lock_guard figuresLock(figuresMutex_);
+    const std::size_t tier = quality_.tier();
+    gatherVoices();
+    RoundResult result = round_.run(roundVoices_, *tiers_[tier]);
+    roundOwners_.clear();
     if (result.voices > 0) {
         ++figures_.rounds;
         figures_.segments += result.segments;
         figures_.lastRoundMs = result.milliseconds;
         if (result.failed) {
             ++figures_.failedRounds;
-        } else if (tier == quality_.tier()) {
+            noteFailure(result.failure.c_str());
+        } else {
             quality_.ran(result.milliseconds, result.voices);
         }
     }
+    showQuality();
     return result;
 }
 
-std::optional<std::size_t> LiveEngine::tierToMeasure() const {
-    const std::lock_guard lock(figuresMutex_);
-    return quality_.tierToMeasure();
+void LiveEngine::showQuality() noexcept {
+    figures_.tier = quality_.tier();
+    figures_.measuring = quality_.tierToMeasure().has_value();
+    figures_.stepsDown = quality_.stepsDown();
+    figures_.stepsUp = quality_.stepsUp();
+    figures_.budgetMs = quality_.budgetMs();
+}
+
+void LiveEngine::noteFailure(const char* text) noexcept {
+    try {
+        const std::lock_guard lock(failureMutex_);
+        lastFailure_ = text;
+    } catch (const std::exception&) {
+        // Without memory for the text the counters still tell of the failure.
+    }
 }
 
 void LiveEngine::work() noexcept {
     nameThisThread("haptoflow");
-    (void)raiseThisThreadsPriority();
+    figures_.priorityRefused = !raiseThisThreadsPriority();
     try {
         while (!stopping_.load(std::memory_order_acquire)) {
             if (!sleep()) {
-                if (const auto tier = tierToMeasure()) {
+                if (const auto tier = quality_.tierToMeasure()) {
                     measureOnce(*tier);
                     continue;
                 }
             }
             if (!stopping_.load(std::memory_order_acquire)) {
-                wakes_.fetch_add(1, std::memory_order_relaxed);
+                ++figures_.wakes;
                 const RoundResult result = step();
                 looksAgain_ = result.looksAgain;
             }
         }
-    } catch (const std::exception&) {
+    } catch (const std::exception& error) {
         // Out of memory, or a lock that the system refuses: the voices see that nobody generates any more.
+        noteFailure(error.what());
     }
     alive_.store(false, std::memory_order_release);
 }
@@ -163,7 +198,7 @@ bool LiveEngine::sleep() {
         (void)signal_.waitFor(callbackLookMs);
         return true;
     }
-    if (tierToMeasure()) {
+    if (quality_.tierToMeasure()) {
         return signal_.waitFor(1000.0 / settings_.updateRateHz);
     }
     signal_.wait();
@@ -187,10 +222,11 @@ void LiveEngine::measureOnce(std::size_t tier) {
         tiers_[tier]->generate(std::span(&request, 1), segment);
         const std::chrono::duration<double, std::milli> spent = std::chrono::steady_clock::now() - began;
         milliseconds = spent.count();
-    } catch (const inference::InferenceError&) {
+    } catch (const inference::InferenceError& error) {
+        noteFailure(error.what());
     }
-    const std::lock_guard lock(figuresMutex_);
     quality_.measured(tier, milliseconds);
+    showQuality();
 }
 
 void LiveEngine::setQuality(const QualitySettings& quality) {
@@ -198,26 +234,62 @@ void LiveEngine::setQuality(const QualitySettings& quality) {
         throw std::invalid_argument("quality: a tier that the model has, and a budget above 0 ms");
     }
     {
-        const std::lock_guard lock(figuresMutex_);
-        quality_.setSettings(quality);
+        const std::lock_guard lock(qualityMutex_);
+        if (!isLoaded(quality)) {
+            throw std::invalid_argument("quality: a tier that is not loaded");
+        }
+        wantedQuality_.draft() = quality;
+        wantedQuality_.post();
     }
     signal_.post();
 }
 
-EngineStatistics LiveEngine::statistics() const {
-    const std::lock_guard lock(figuresMutex_);
-    EngineStatistics statistics = figures_;
-    statistics.wakes = wakes_.load(std::memory_order_relaxed);
-    statistics.tier = quality_.tier();
-    statistics.measuring = quality_.tierToMeasure().has_value();
-    statistics.stepsDown = quality_.stepsDown();
-    statistics.stepsUp = quality_.stepsUp();
-    statistics.budgetMs = quality_.budgetMs();
-    for (std::size_t tier = 0; tier < tiers_.size(); ++tier) {
-        const RunTimes& times = quality_.times(tier);
-        statistics.tiers.push_back({times.count(), times.percentile(0.5), times.percentile(0.99)});
+bool LiveEngine::isLoaded(const QualitySettings& quality) const {
+    if (quality.fixedTier) {
+        return *quality.fixedTier < tiers_.size() && tiers_[*quality.fixedTier] != nullptr;
     }
-    return statistics;
+    return std::ranges::all_of(tiers_, [](const auto& tier) { return tier != nullptr; });
+}
+
+void LiveEngine::addTier(std::size_t tier, std::unique_ptr<inference::SegmentGenerator> generator) {
+    const std::lock_guard lock(qualityMutex_);
+    if (tiers_.at(tier) == nullptr) {
+        tiers_[tier] = std::move(generator);
+    }
+}
+
+bool LiveEngine::hasTier(std::size_t tier) const {
+    const std::lock_guard lock(qualityMutex_);
+    return tiers_.at(tier) != nullptr;
+}
+
+EngineStatistics LiveEngine::statistics() const noexcept {
+    return {.rounds = figures_.rounds,
+            .segments = figures_.segments,
+            .failedRounds = figures_.failedRounds,
+            .wakes = figures_.wakes,
+            .voices = figures_.voices,
+            .tier = figures_.tier,
+            .measuring = figures_.measuring,
+            .stepsDown = figures_.stepsDown,
+            .stepsUp = figures_.stepsUp,
+            .budgetMs = figures_.budgetMs,
+            .lastRoundMs = figures_.lastRoundMs,
+            .workerAlive = alive_,
+            .priorityRefused = figures_.priorityRefused};
+}
+
+TierTimes LiveEngine::tierTimes(std::size_t tier) const noexcept {
+    if (tier >= tiers_.size()) {
+        return {};
+    }
+    const RunTimes& times = quality_.times(tier);
+    return {.runs = times.count(), .medianMs = times.percentile(0.5), .percentile99Ms = times.percentile(0.99)};
+}
+
+std::string LiveEngine::lastFailure() const {
+    const std::lock_guard lock(failureMutex_);
+    return lastFailure_;
 }
 
 }  // namespace haptoflow::engine

@@ -1,7 +1,9 @@
 #pragma once
 
+#include "dsp/limiter.hpp"
 #include "engine/inference_round.hpp"
 #include "engine/live_voice.hpp"
+#include "engine/mailbox.hpp"
 #include "engine/onset_levels.hpp"
 #include "engine/quality_control.hpp"
 #include "engine/wake_signal.hpp"
@@ -14,6 +16,7 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <string>
 #include <thread>
 #include <vector>
 
@@ -23,7 +26,7 @@ struct LiveEngineSettings {
     QualitySettings quality{};
     /// Contact states a second, by which the budget and the pace of measuring go.
     double updateRateHz = 72.0;
-    float fullScaleMps2 = 60.0F;
+    float fullScaleMps2 = dsp::SoftLimiter::defaultFullScaleMps2;
     /// Key of all noise.
     std::uint64_t seed = 1;
     /// Empty for a lead that each voice learns; otherwise 0 to 50 ms.
@@ -32,7 +35,7 @@ struct LiveEngineSettings {
     bool hasWorker = true;
 };
 
-/// The model's tiers, ready to run, in its own order.
+/// The model's tiers, ready to run, in its own order; null where one was not loaded.
 using EngineTiers = std::vector<std::unique_ptr<inference::SegmentGenerator>>;
 
 struct TierTimes {
@@ -55,16 +58,21 @@ struct EngineStatistics {
     std::uint64_t stepsUp = 0;
     double budgetMs = 0.0;
     double lastRoundMs = 0.0;
-    std::vector<TierTimes> tiers;
+    bool workerAlive = true;
+    /// The system did not let the worker run at a raised priority.
+    bool priorityRefused = false;
 };
 
 /// All voices of one model, and the one thread that generates for them. The thread sleeps while nothing is published.
+/// The worker holds no lock while the network runs: adding, removing and reading never wait for inference.
 class LiveEngine {
 public:
-    /// `tiers` in the model's order, cheapest first; at least one. Runs the level graph of the first for OnsetLevels.
-    /// Throws std::invalid_argument for settings out of range, inference::InferenceError, std::system_error.
+    /// `tiers` in the model's order, cheapest first; at least one. Those that `settings` want must be loaded: all for
+    /// automatic quality, else the one. Runs the level graph of the first loaded for OnsetLevels. Throws
+    /// std::invalid_argument for settings out of range or a tier that is not loaded, inference::InferenceError,
+    /// inference::LoadCancelled, std::system_error.
     LiveEngine(std::shared_ptr<const model::ModelFile> model, EngineTiers tiers, std::size_t startTier,
-               const LiveEngineSettings& settings);
+               const LiveEngineSettings& settings, const inference::LoadLimits& limits = {});
     LiveEngine(const LiveEngine&) = delete;
     LiveEngine& operator=(const LiveEngine&) = delete;
     /// Ends the worker after its present round. Voices fall silent within a block and 5 ms.
@@ -73,8 +81,9 @@ public:
     /// Ends the worker for good; may be called twice.
     void stop() noexcept;
 
-    /// Waits for the present round. The voice must go before the engine.
+    /// Takes part from the next round on. The voice must go before the engine.
     [[nodiscard]] std::shared_ptr<LiveVoice> addVoice(double outputRateHz);
+    /// Takes part in no round after the present one, which keeps the voice alive until it ends.
     void removeVoice(const LiveVoice& voice) noexcept;
 
     /// Publishes on one of this engine's voices and wakes the worker where it has something to do. Wait-free.
@@ -86,37 +95,73 @@ public:
     /// True from the first `stop` on.
     [[nodiscard]] bool isStopping() const noexcept { return stopping_.load(std::memory_order_acquire); }
 
+    /// From the next round on. Throws std::invalid_argument for a tier that the model does not have or that is not
+    /// loaded.
     void setQuality(const QualitySettings& quality);
-    [[nodiscard]] EngineStatistics statistics() const;
+    /// Puts a tier into its place in the model's order, for a later setQuality; one that is there already stays.
+    void addTier(std::size_t tier, std::unique_ptr<inference::SegmentGenerator> generator);
+    [[nodiscard]] bool hasTier(std::size_t tier) const;
+    /// Any thread; waits for nobody and allocates nothing.
+    [[nodiscard]] EngineStatistics statistics() const noexcept;
+    [[nodiscard]] std::size_t tierCount() const noexcept { return tiers_.size(); }
+    /// Any thread; waits for nobody and allocates nothing.
+    [[nodiscard]] TierTimes tierTimes(std::size_t tier) const noexcept;
+    /// The newest failure of a round or of the worker; empty before the first. Any thread.
+    [[nodiscard]] std::string lastFailure() const;
     [[nodiscard]] const model::ModelFile& model() const noexcept { return *model_; }
 
 private:
+    /// What the worker shows of its quality control.
+    struct Figures {
+        std::atomic<std::uint64_t> rounds{0};
+        std::atomic<std::uint64_t> segments{0};
+        std::atomic<std::uint64_t> failedRounds{0};
+        std::atomic<std::uint64_t> wakes{0};
+        std::atomic<std::size_t> voices{0};
+        std::atomic<std::size_t> tier{0};
+        std::atomic<bool> measuring{false};
+        std::atomic<std::uint64_t> stepsDown{0};
+        std::atomic<std::uint64_t> stepsUp{0};
+        std::atomic<double> budgetMs{0.0};
+        std::atomic<double> lastRoundMs{0.0};
+        std::atomic<bool> priorityRefused{false};
+    };
+
     void work() noexcept;
     /// False where time for a measuring run has come.
     [[nodiscard]] bool sleep();
     void measureOnce(std::size_t tier);
-    [[nodiscard]] std::optional<std::size_t> tierToMeasure() const;
+    void gatherVoices();
+    void showQuality() noexcept;
+    void noteFailure(const char* text) noexcept;
+    [[nodiscard]] bool isLoaded(const QualitySettings& quality) const;
 
     std::shared_ptr<const model::ModelFile> model_;
+    // Places are filled under qualityMutex_, before the worker is told of them; what was filled stays.
     EngineTiers tiers_;
     LiveEngineSettings settings_;
     std::unique_ptr<OnsetLevels> levels_;
 
-    // Held during a round: whoever adds or removes a voice waits for it.
+    // Held to change or copy the list, never during a round.
     std::mutex voicesMutex_;
     std::vector<std::shared_ptr<LiveVoice>> voices_;
+    std::atomic<std::uint32_t> voicesMade_{0};
+
+    // Several threads may ask; the worker takes the newest without waiting.
+    mutable std::mutex qualityMutex_;
+    Mailbox<QualitySettings> wantedQuality_;
+
+    mutable std::mutex failureMutex_;
+    std::string lastFailure_;
+    Figures figures_;
+
+    // Whoever steps only: the worker, or the caller of `step`.
+    std::vector<std::shared_ptr<LiveVoice>> roundOwners_;
     std::vector<LiveVoice*> roundVoices_;
     InferenceRound round_;
-    std::uint32_t voicesMade_ = 0;
-
-    // Never held during a round: whoever looks at the figures waits for nobody.
-    mutable std::mutex figuresMutex_;
     QualityControl quality_;
-    EngineStatistics figures_;
-
-    // Worker only.
     bool looksAgain_ = false;
-    std::atomic<std::uint64_t> wakes_{0};
+
     std::atomic<bool> alive_{true};
     std::atomic<bool> stopping_{false};
     WakeSignal signal_;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "dsp/limiter.hpp"
 #include "engine/contact_publisher.hpp"
 #include "engine/segment_planner.hpp"
 #include "engine/voice_channels.hpp"
@@ -10,7 +11,7 @@ namespace haptoflow::engine {
 struct LiveVoiceSettings {
     PlannerSettings planner{};
     double outputRateHz = 48000.0;
-    float fullScaleMps2 = 60.0F;
+    float fullScaleMps2 = dsp::SoftLimiter::defaultFullScaleMps2;
 };
 
 /// One stylus tip's voice: three ends for three threads, and what they share. What `model` and `levels` and

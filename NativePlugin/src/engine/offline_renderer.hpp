@@ -1,5 +1,6 @@
 #pragma once
 
+#include "dsp/limiter.hpp"
 #include "engine/contact_state.hpp"
 #include "engine/seam_statistics.hpp"
 #include "inference/segment_generator.hpp"
@@ -19,7 +20,7 @@ struct OfflineSettings {
     double leadMs = 8.0;
     /// Key of all noise: same model, states and seed give the same samples.
     std::uint64_t seed = 1;
-    float fullScaleMps2 = 60.0F;
+    float fullScaleMps2 = dsp::SoftLimiter::defaultFullScaleMps2;
     /// Rendered after the last state, for what still has to fade.
     double tailSeconds = 0.1;
 };

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <unordered_map>
 
 namespace haptoflow::engine {
 namespace {
@@ -42,49 +43,51 @@ double OnsetLevels::Axis::place(double value, std::size_t points) const noexcept
     return share * static_cast<double>(points - 1);
 }
 
-OnsetLevels::OnsetLevels(const model::ModelFile& model, inference::SegmentGenerator& generator) {
+OnsetLevels::OnsetLevels(const model::ModelFile& model, inference::SegmentGenerator& generator,
+                         const inference::LoadLimits& limits) {
     const model::ModelHeader& header = model.header();
     speed_ = {std::max(slowestMps, header.speedMps.minimum), std::max(2.0 * slowestMps, header.speedMps.maximum)};
     force_ = {std::max(weakestNewtons, header.forceNewtons.minimum),
               std::max(2.0 * weakestNewtons, header.forceNewtons.maximum)};
-    labels_ = header.labels.size();
-    logLevels_.resize(labels_ * pointsOfLabel);
+
+    std::vector<std::size_t> labelOfTable;
+    std::unordered_map<std::size_t, std::size_t> tableOfRow;
+    for (std::size_t label = 0; label < header.labels.size(); ++label) {
+        const auto [known, isNew] = tableOfRow.emplace(header.labels[label].embeddingRow, labelOfTable.size());
+        if (isNew) {
+            labelOfTable.push_back(label);
+        }
+        tables_.push_back(known->second * pointsOfLabel);
+    }
+    logLevels_.resize(labelOfTable.size() * pointsOfLabel);
 
     std::vector<inference::SegmentRequest> requests;
     std::vector<float> levels(batchSize);
-    std::size_t done = 0;
-    const auto flush = [&] {
+    for (std::size_t first = 0; first < logLevels_.size(); first += batchSize) {
+        limits.check();
+        requests.clear();
+        for (std::size_t point = first; point < std::min(first + batchSize, logLevels_.size()); ++point) {
+            inference::SegmentRequest request{
+                .embedding = {}, .motion = motionOf(point % pointsOfLabel), .previous = silence, .noise = silence};
+            std::ranges::copy(model.embedding(labelOfTable[point / pointsOfLabel]), request.embedding.begin());
+            requests.push_back(request);
+        }
         const auto answers = std::span(levels).first(requests.size());
         generator.levels(requests, answers);
-        for (const float level : answers) {
-            logLevels_[done] = std::log(std::max(level, quietestMps2));
-            ++done;
-        }
-        requests.clear();
-    };
-    for (std::size_t point = 0; point < logLevels_.size(); ++point) {
-        const auto row = model.embedding(point / pointsOfLabel);
-        const std::size_t force = point % forces;
-        const std::size_t direction = point / forces % directions;
-        const std::size_t speed = point / (forces * directions) % speeds;
-        const double mps = speed_.value(static_cast<double>(speed) / static_cast<double>(speeds - 1));
-        const double newtons = force_.value(static_cast<double>(force) / static_cast<double>(forces - 1));
-        const double angle = 2.0 * std::numbers::pi * static_cast<double>(direction) / static_cast<double>(directions);
-        inference::SegmentRequest request{
-            .embedding = {},
-            .motion = {static_cast<float>(mps * std::cos(angle)), static_cast<float>(mps * std::sin(angle)),
-                       static_cast<float>(newtons)},
-            .previous = silence,
-            .noise = silence};
-        std::ranges::copy(row, request.embedding.begin());
-        requests.push_back(request);
-        if (requests.size() == batchSize) {
-            flush();
-        }
+        std::ranges::transform(answers, logLevels_.begin() + static_cast<std::ptrdiff_t>(first),
+                               [](float level) { return std::log(std::max(level, quietestMps2)); });
     }
-    if (!requests.empty()) {
-        flush();
-    }
+}
+
+std::array<float, 3> OnsetLevels::motionOf(std::size_t point) const noexcept {
+    const std::size_t force = point % forces;
+    const std::size_t direction = point / forces % directions;
+    const std::size_t speed = point / (forces * directions);
+    const double mps = speed_.value(static_cast<double>(speed) / static_cast<double>(speeds - 1));
+    const double newtons = force_.value(static_cast<double>(force) / static_cast<double>(forces - 1));
+    const double angle = 2.0 * std::numbers::pi * static_cast<double>(direction) / static_cast<double>(directions);
+    return {static_cast<float>(mps * std::cos(angle)), static_cast<float>(mps * std::sin(angle)),
+            static_cast<float>(newtons)};
 }
 
 double OnsetLevels::logLevel(std::size_t label, const std::array<float, 3>& motion) const noexcept {
@@ -94,7 +97,7 @@ double OnsetLevels::logLevel(std::size_t label, const std::array<float, 3>& moti
     const Between direction = betweenAround(around, directions);
     const Between force = between(force_.place(motion[2], forces), forces);
     const auto at = [&](std::size_t s, std::size_t d, std::size_t f) {
-        return static_cast<double>(logLevels_[((label * speeds + s) * directions + d) * forces + f]);
+        return static_cast<double>(logLevels_[tables_[label] + (s * directions + d) * forces + f]);
     };
     const auto overForce = [&](std::size_t s, std::size_t d) {
         return std::lerp(at(s, d, force.lower), at(s, d, force.upper), force.share);
@@ -106,14 +109,14 @@ double OnsetLevels::logLevel(std::size_t label, const std::array<float, 3>& moti
 }
 
 float OnsetLevels::at(const MaterialBlend& blend, const std::array<float, 3>& motion) const noexcept {
-    if (labels_ == 0) {
+    if (tables_.empty()) {
         return 0.0F;
     }
     double total = 0.0;
     double sum = 0.0;
     for (std::size_t i = 0; i < std::min(blend.count, MaterialBlend::capacity); ++i) {
         const LabelWeight entry = blend.entries[i];
-        if (entry.label < labels_ && entry.weight > 0.0F) {
+        if (entry.label < tables_.size() && entry.weight > 0.0F) {
             total += entry.weight;
             sum += entry.weight * logLevel(entry.label, motion);
         }

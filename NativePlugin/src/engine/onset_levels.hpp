@@ -1,6 +1,7 @@
 #pragma once
 
 #include "engine/contact_state.hpp"
+#include "inference/load_limits.hpp"
 #include "inference/segment_generator.hpp"
 #include "model/model_file.hpp"
 
@@ -14,8 +15,10 @@ namespace haptoflow::engine {
 /// seed without running a graph. Immutable after construction: any thread.
 class OnsetLevels {
 public:
-    /// Asks the generator's level graph some hundred times a label. Throws inference::InferenceError.
-    OnsetLevels(const model::ModelFile& model, inference::SegmentGenerator& generator);
+    /// Asks the generator's level graph 640 times for each material embedding that a label names; labels that name the
+    /// same one share its table. Throws inference::InferenceError, inference::LoadCancelled.
+    OnsetLevels(const model::ModelFile& model, inference::SegmentGenerator& generator,
+                const inference::LoadLimits& limits = {});
 
     /// RMS in m/s^2 at `motion` (vx, vy in m/s, force in N, inside the trained range): interpolated in the logarithms
     /// of speed and force, linearly in direction; labels of a blend by the weighted mean of their logarithms. Labels
@@ -36,11 +39,13 @@ private:
         [[nodiscard]] double place(double value, std::size_t points) const noexcept;
     };
 
+    [[nodiscard]] std::array<float, 3> motionOf(std::size_t point) const noexcept;
     [[nodiscard]] double logLevel(std::size_t label, const std::array<float, 3>& motion) const noexcept;
 
     Axis speed_;
     Axis force_;
-    std::size_t labels_ = 0;
+    /// Of each label, where its levels begin.
+    std::vector<std::size_t> tables_;
     std::vector<float> logLevels_;
 };
 

@@ -7,16 +7,19 @@
 namespace haptoflow::engine {
 
 void RunTimes::add(double milliseconds) noexcept {
-    milliseconds_[count_ % window] = static_cast<float>(milliseconds);
-    ++count_;
+    const std::size_t before = count_.load(std::memory_order_relaxed);
+    milliseconds_[before % window].store(static_cast<float>(milliseconds), std::memory_order_relaxed);
+    count_.store(before + 1, std::memory_order_release);
 }
 
 double RunTimes::percentile(double share) const noexcept {
-    const std::size_t known = std::min(count_, window);
+    const std::size_t known = std::min(count(), window);
     if (known == 0) {
         return 0.0;
     }
-    std::array<float, window> sorted = milliseconds_;
+    std::array<float, window> sorted{};
+    std::ranges::transform(milliseconds_, sorted.begin(),
+                           [](const std::atomic<float>& each) { return each.load(std::memory_order_relaxed); });
     const auto rank = static_cast<std::size_t>(
         std::clamp(std::ceil(share * static_cast<double>(known)) - 1.0, 0.0, static_cast<double>(known - 1)));
     const auto place = sorted.begin() + static_cast<std::ptrdiff_t>(rank);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -8,20 +9,20 @@
 
 namespace haptoflow::engine {
 
-/// Milliseconds that a tier takes for one voice's segment, over the last runs.
+/// Milliseconds that a tier takes for one voice's segment, over the last runs. One thread adds; any thread reads
+/// without waiting and without allocating, and sorts on its own stack.
 class RunTimes {
 public:
     static constexpr std::size_t window = 128;
 
     void add(double milliseconds) noexcept;
-    [[nodiscard]] std::size_t count() const noexcept { return count_; }
+    [[nodiscard]] std::size_t count() const noexcept { return count_.load(std::memory_order_acquire); }
     /// 0 before the first. `share` in [0, 1]: 0.5 for the median, 0.99 for the 99th percentile.
     [[nodiscard]] double percentile(double share) const noexcept;
-    void clear() noexcept { count_ = 0; }
 
 private:
-    std::array<float, window> milliseconds_{};
-    std::size_t count_ = 0;
+    std::array<std::atomic<float>, window> milliseconds_{};
+    std::atomic<std::size_t> count_{0};
 };
 
 struct QualitySettings {
@@ -33,8 +34,8 @@ struct QualitySettings {
 
 /// Decides which tier of the model generates the next segments. Tiers are numbered from the cheapest to the most
 /// accurate. Automatic: after measuring, the most accurate whose 99th percentile, times as many voices as touch, fits
-/// the budget; one down when rounds overrun, one up again only after a long time without, and with room to spare. Any
-/// thread, one at a time.
+/// the budget; one down when rounds overrun, one up again only after a long time without, and with room to spare. One
+/// thread at a time, but for the times, which any thread may read.
 class QualityControl {
 public:
     /// How often each tier is run before automatic quality decides.

@@ -4,12 +4,6 @@
 #include <cmath>
 
 namespace haptoflow::engine {
-namespace {
-
-// As long as the resampler's kernel: older samples cannot be heard any more.
-constexpr std::size_t primedSamples = 64;
-
-}  // namespace
 
 Voice::Voice(double outputRateHz, float fullScaleMps2)
     : output_(std::make_unique<OutputStage>(outputRateHz)),
@@ -22,47 +16,38 @@ std::unique_ptr<OutputStage> Voice::exchangeOutput(std::unique_ptr<OutputStage> 
     return output;
 }
 
-void Voice::onset(std::span<const float> seed, float levelMps2) noexcept {
-    std::array<float, WaveformTimeline::seedSamples> levelled{};
-    const float level = std::isfinite(levelMps2) ? levelMps2 : 0.0F;
-    for (std::size_t i = 0; i < std::min(seed.size(), levelled.size()); ++i) {
-        levelled[i] = seed[i] * level;
-    }
+void Voice::onset(std::span<const float, WaveformTimeline::seedSamples> seedMps2) noexcept {
     const bool fromSilence = isSilent();
     if (fromSilence) {
         timeline_.clear();
     }
-    timeline_.open(levelled);
+    timeline_.open(seedMps2);
     if (fromSilence) {
         prime();
     }
     output_->gate.open();
 }
 
-void Voice::resume() noexcept {
+void Voice::setStrength(float strength) noexcept {
     if (isSilent()) {
-        prime();
+        output_->strength.reset(strength);
+    } else {
+        output_->strength.setTarget(strength);
     }
-    output_->gate.open();
 }
 
 void Voice::prime() noexcept {
-    warp_.reset();
-    output_->resampler.reset();
     level_.reset(level_.target());
-    timeline_.history(timeline_.head(), past_);
-    pastLeft_ = primedSamples;
-    // What the filters delay is read ahead now, so that the seed's first sample is the next one to sound.
-    const std::size_t ahead = dsp::RateWarp::latencyOutputSamples + output_->resampler.latencyInputSamples();
-    auto left = static_cast<std::size_t>(static_cast<double>(primedSamples + ahead) * output_->rateHz /
-                                         inference::waveformRateHz);
-    std::array<float, blockSamples> unheard{};
-    while (left > 0) {
-        const std::size_t count = std::min(left, unheard.size());
-        produce(std::span(unheard).first(count));
-        left -= count;
-    }
-    pastLeft_ = 0;
+    std::array<float, inference::segmentSamples> waveform{};
+    timeline_.history(timeline_.head(), waveform);
+    level_.process(waveform);
+    // What the resampler delays is read ahead now, so that the seed's first sample is the next one to sound.
+    const std::size_t ahead = output_->resampler.latencyInputSamples();
+    std::ranges::copy(std::span(waveform).subspan(ahead), waveform.begin());
+    readWaveform(std::span(waveform).last(ahead));
+
+    warp_.prime(std::span(waveform).last(dsp::RateWarp::historyLength));
+    output_->resampler.prime(waveform);
     // Only now: read faster, the filters would swallow most of a seed before it is heard.
     warp_.setTargetRatio(readingRate_);
 }
@@ -86,20 +71,16 @@ void Voice::setRangeLaw(double levelGain, double readingRate) noexcept {
 }
 
 void Voice::readWaveform(std::span<float> out) noexcept {
-    const std::size_t unplayed = std::min(pastLeft_, out.size());
-    std::copy_n(past_.end() - static_cast<std::ptrdiff_t>(pastLeft_), unplayed, out.begin());
-    pastLeft_ -= unplayed;
-    const std::span<float> fresh = out.subspan(unplayed);
     const std::int64_t start = timeline_.head();
-    timeline_.read(fresh);
-    if (sink_ != nullptr && !fresh.empty()) {
-        sink_->played(start, fresh);
+    timeline_.read(out);
+    if (sink_ != nullptr && !out.empty()) {
+        sink_->played(start, out);
     }
     level_.process(out);
 }
 
 void Voice::produce(std::span<float> out) noexcept {
-    // At the lowest output rate a block needs 17 samples at 2 kHz, and the warp at most 4 for each plus 30.
+    // At the lowest output rate a block needs 17 samples at 2 kHz, and the warp at most 4 for each plus 41.
     std::array<float, 32> steady{};
     std::array<float, 160> waveform{};
     const std::size_t steadyCount = std::min(output_->resampler.inputNeeded(out.size()), steady.size());
@@ -123,9 +104,6 @@ void Voice::render(std::span<float> out) noexcept {
         output_->gate.process(block);
         output_->strength.process(block);
         limiter_.process(block);
-        for (float& sample : block) {
-            sample = std::clamp(sample, -ceiling_, ceiling_);
-        }
     }
 }
 

@@ -25,8 +25,7 @@ public:
     virtual void tookOver(std::int64_t sample) noexcept = 0;
 };
 
-/// One stylus tip's signal: timeline, level, reading rate, output rate, gate, strength, limiter, ceiling, in this
-/// order.
+/// One stylus tip's signal: timeline, level, reading rate, output rate, gate, strength, limiter, in this order.
 ///
 /// While the gate is closed nothing is read: the waveform clock stands still and `render` writes zeros.
 /// Everything here is bounded, allocates nothing (but for construction) and waits for nothing; one thread.
@@ -35,25 +34,23 @@ public:
     /// Throws std::invalid_argument for a rate outside 8-192 kHz or a full scale that is not above 0.
     Voice(double outputRateHz, float fullScaleMps2);
 
-    /// Touch-down, or sliding resumed: `seed` (400 samples of RMS 1) sounds at `levelMps2` with the next sample.
-    /// An empty seed starts from silence.
-    void onset(std::span<const float> seed, float levelMps2) noexcept;
+    /// Touch-down, or sliding resumed: the second half of the seed sounds with the next sample, the first half is its past.
+    void onset(std::span<const float, WaveformTimeline::seedSamples> seedMps2) noexcept;
     /// See WaveformTimeline::commit.
     std::int64_t commit(std::int64_t start, std::span<const float, inference::segmentSamples> segment) noexcept;
     /// Lift-off: silence within 5 ms, whatever else happens.
     void release() noexcept { output_->gate.close(); }
-    /// Goes on where a release has stopped, as if nothing had been between. Does nothing before the first onset.
-    void resume() noexcept;
     /// Silent at the end of the block that `out` is, whatever its length: a straight line down to zero over it, and
     /// what was committed is dropped.
     void renderStop(std::span<float> out) noexcept;
     /// What the range law asks for; both glide.
     void setRangeLaw(double levelGain, double readingRate) noexcept;
 
-    /// Gain of the output before the limiter, 0 to 1; glides.
-    void setStrength(float strength) noexcept { output_->strength.setTarget(strength); }
-    /// Largest magnitude of the output, 0 to 1, at once.
-    void setCeiling(float ceiling) noexcept { ceiling_ = ceiling; }
+    /// Gain of the output before the limiter, 0 to 1; glides while the voice sounds. Set while it is silent, it holds
+    /// from the first sample that sounds.
+    void setStrength(float strength) noexcept;
+    /// Largest magnitude of the output, 0 to 1, at once: where the limiter's curve ends.
+    void setCeiling(float ceiling) noexcept { limiter_.setCeiling(ceiling); }
 
     /// Writes the next samples, +-1.
     void render(std::span<float> out) noexcept;
@@ -82,12 +79,8 @@ private:
     dsp::LevelSmoother level_;
     dsp::RateWarp warp_;
     dsp::SoftLimiter limiter_;
-    float ceiling_ = 1.0F;
     double readingRate_ = 1.0;
     WaveformSink* sink_ = nullptr;
-    // The unplayed past that fills the filters before a touch sounds, newest last, and how much of it is left.
-    std::array<float, inference::segmentSamples> past_{};
-    std::size_t pastLeft_ = 0;
 };
 
 }  // namespace haptoflow::engine

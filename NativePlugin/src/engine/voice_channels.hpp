@@ -3,6 +3,7 @@
 #include "engine/mailbox.hpp"
 #include "engine/output_stage.hpp"
 #include "engine/segment_queue.hpp"
+#include "engine/silence.hpp"
 #include "engine/waveform_timeline.hpp"
 #include "inference/segment_generator.hpp"
 
@@ -17,12 +18,13 @@ namespace haptoflow::engine {
 struct AudioMessage {
     /// One more at each onset: touch-down, or sliding resumed.
     std::uint32_t onset = 0;
-    /// ContactState::touchCounter: a panic silences a touch, however often sliding resumes in it.
-    std::uint32_t touch = 0;
+    /// ContactFollower::touches: a panic silences a touch, however often sliding resumes in it.
+    std::uint64_t touch = 0;
     bool sliding = false;
     float levelGain = 1.0F;
     double readingRate = 1.0;
-    /// The current onset's seed in m/s^2, repeated in every message: an onset survives being overwritten.
+    /// The seed in m/s^2 for the newest state that slid, in every message: an onset survives being overwritten, and
+    /// what resumes within a touch begins with the sound of the state that it resumes with.
     std::array<float, WaveformTimeline::seedSamples> seedMps2{};
 };
 
@@ -64,14 +66,18 @@ struct VoiceControls {
     std::atomic<bool> paused{false};
     /// Fades the voice for good, whatever its user wants of it.
     std::atomic<bool> closing{false};
-    /// One more at each panic.
+    /// One more at each panic. Set by VoiceChannels::panic.
     std::atomic<std::uint32_t> panics{0};
+    /// The newest touch at the newest panic: it and all before it stay silent.
+    std::atomic<std::uint64_t> silencedTouch{0};
 };
 
 /// What a voice has done; every counter only grows. Any thread reads.
 struct VoiceCounters {
     std::atomic<std::uint64_t> updates{0};
     std::atomic<std::uint64_t> onsets{0};
+    /// How often a touch sounded again after a silence within it: pause, mute, a rate change, missing states.
+    std::atomic<std::uint64_t> resumptions{0};
     std::atomic<std::uint64_t> taps{0};
     /// Segments generated.
     std::atomic<std::uint64_t> inferences{0};
@@ -93,6 +99,8 @@ struct VoiceCounters {
     std::atomic<std::uint64_t> limitedSamples{0};
     std::atomic<std::uint64_t> renderedFrames{0};
     std::atomic<std::uint64_t> rateChanges{0};
+    /// Blocks that a device asked for at a rate outside 8-192 kHz.
+    std::atomic<std::uint64_t> unsupportedRateBlocks{0};
     /// Waveform samples by which a new segment leads the read head.
     std::atomic<std::uint32_t> leadSamples{0};
 };
@@ -108,6 +116,15 @@ struct VoiceChannels {
 
     /// Whether the newest block ended with anything but silence. Set by the callback.
     std::atomic<bool> audible{false};
+    /// Why the newest block is silent, and the device's rate at it. Set by the callback.
+    std::atomic<Silence> silence{Silence::rest};
+    std::atomic<double> deviceRateHz{0.0};
+    std::atomic<bool> isRateSupported{true};
+
+    /// The newest touch that the publisher has seen. Set by the publisher before it posts the message.
+    std::atomic<std::uint64_t> publishedTouch{0};
+    /// Silences what has been published so far, and nothing that is published later. Any thread but the callback's.
+    void panic() noexcept;
 
     /// The callback asks for an output stage of this rate; 0 when it has what it needs.
     std::atomic<double> wantedRateHz{0.0};
@@ -123,5 +140,13 @@ struct VoiceChannels {
         delete usedOutput.load();
     }
 };
+
+inline void VoiceChannels::panic() noexcept {
+    const std::uint64_t touch = publishedTouch.load(std::memory_order_acquire);
+    std::uint64_t silenced = controls.silencedTouch.load(std::memory_order_relaxed);
+    while (silenced < touch && !controls.silencedTouch.compare_exchange_weak(silenced, touch)) {
+    }
+    controls.panics.fetch_add(1, std::memory_order_release);
+}
 
 }  // namespace haptoflow::engine

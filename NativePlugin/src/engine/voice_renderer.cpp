@@ -24,35 +24,35 @@ VoiceRenderer::VoiceRenderer(VoiceChannels& channels, const std::atomic<bool>& w
 
 void VoiceRenderer::render(std::span<float> out, double rateHz) noexcept {
     const dsp::ScopedFlushDenormals flush;
-    const VoiceControls& controls = channels_.controls;
-    voice_.setStrength(unitRange(controls.strength.load(std::memory_order_relaxed)));
-    voice_.setCeiling(unitRange(controls.ceiling.load(std::memory_order_relaxed)));
-
+    // The contact first: gains that were set before it was published are then seen with it.
     readContact();
-    const bool rateFits = rateHz == voice_.outputRateHz();
-    decide(rateFits);
-    if (!rateFits && voice_.isSilent()) {
-        changeRate(rateHz);
-    }
+    readControls();
+    readPanic();
+    noteRate(rateHz);
     noteBlock(out.size());
-    takeSegments();
+
     const std::uint64_t uncoveredBefore = voice_.timeline().uncoveredSamples();
-    const bool sounded = sounding_;
-    // A panic ends with the block, however early in it the contact goes stale.
-    const std::size_t fresh = panicking_ ? out.size() : framesUntilStale(out.size());
-    sound(out.first(fresh));
-    if (fresh < out.size()) {
-        goStale();
-        sound(out.subspan(fresh));
+    bool sounded = isSounding();
+    if (stopsWithBlock_ && !out.empty()) {
+        takeSegments();
+        voice_.renderStop(out);
+        stopsWithBlock_ = false;
+        fallSilent(Silence::panic);
+    } else if (!stopsWithBlock_) {
+        decide(rateHz);
+        sounded = isSounding();
+        takeSegments();
+        soundUntilStale(out);
     }
     contactAgeFrames_ += out.size();
     count(channels_.counters.renderedFrames, out.size());
     channels_.audible.store(!voice_.isSilent(), std::memory_order_release);
+    channels_.silence.store(silence_, std::memory_order_relaxed);
     report(uncoveredBefore, sounded);
 }
 
 void VoiceRenderer::noteBlock(std::size_t frames) noexcept {
-    // Devices may take turns between lengths; one that has gone over to shorter blocks is believed after a while.
+    // Devices may alternate between block lengths, so a shorter one counts only after many blocks.
     constexpr int remembered = 64;
     if (++blocksNoted_ >= remembered) {
         blocksNoted_ = 0;
@@ -66,91 +66,106 @@ void VoiceRenderer::readContact() noexcept {
     if (channels_.toAudio.fetch()) {
         hasContact_ = true;
         contactAgeFrames_ = 0;
-        stale_ = false;
         const AudioMessage& contact = channels_.toAudio.current();
         voice_.setRangeLaw(contact.levelGain, contact.readingRate);
-    } else if (framesUntilStale(1) == 0) {
-        goStale();
     }
-    const std::uint32_t panics = channels_.controls.panics.load(std::memory_order_relaxed);
-    if (panics != seenPanics_) {
-        seenPanics_ = panics;
-        panicking_ = true;
-        hasSilencedTouch_ = true;
-        silencedTouch_ = channels_.toAudio.current().touch;
+}
+
+void VoiceRenderer::readControls() noexcept {
+    const VoiceControls& controls = channels_.controls;
+    voice_.setStrength(unitRange(controls.strength.load(std::memory_order_relaxed)));
+    voice_.setCeiling(unitRange(controls.ceiling.load(std::memory_order_relaxed)));
+}
+
+void VoiceRenderer::readPanic() noexcept {
+    const std::uint32_t panics = channels_.controls.panics.load(std::memory_order_acquire);
+    if (panics == seenPanics_) {
+        return;
+    }
+    seenPanics_ = panics;
+    silencedTouch_ = channels_.controls.silencedTouch.load(std::memory_order_relaxed);
+    // Where nothing sounds there is nothing to stop, and a touch that began after the panic may sound at once.
+    stopsWithBlock_ = stopsWithBlock_ || !voice_.isSilent();
+}
+
+void VoiceRenderer::noteRate(double rateHz) noexcept {
+    const bool isSupported = OutputStage::supports(rateHz);
+    channels_.deviceRateHz.store(rateHz, std::memory_order_relaxed);
+    channels_.isRateSupported.store(isSupported, std::memory_order_relaxed);
+    if (!isSupported) {
+        count(channels_.counters.unsupportedRateBlocks);
+        channels_.wantedRateHz.store(0.0, std::memory_order_release);
     }
 }
 
 std::size_t VoiceRenderer::framesUntilStale(std::size_t frames) const noexcept {
-    if (stale_ || !hasContact_) {
+    if (!hasContact_) {
         return frames;
     }
     const auto limit = static_cast<std::uint64_t>(staleSeconds * voice_.outputRateHz());
     return static_cast<std::size_t>(std::min<std::uint64_t>(frames, limit - std::min(limit, contactAgeFrames_)));
 }
 
-void VoiceRenderer::goStale() noexcept {
-    stale_ = true;
-    if (sounding_) {
-        sounding_ = false;
-        tapFramesLeft_ = 0;
-        voice_.release();
-        count(channels_.counters.staleStops);
-    }
-}
-
-void VoiceRenderer::decide(bool rateFits) noexcept {
+SoundConditions VoiceRenderer::conditions(double rateHz) const noexcept {
     const AudioMessage& contact = channels_.toAudio.current();
     const VoiceControls& controls = channels_.controls;
-    const bool silenced = hasSilencedTouch_ && contact.touch == silencedTouch_;
-    const bool allowed = hasContact_ && !stale_ && !silenced && workerAlive_.load(std::memory_order_acquire) &&
-                         !controls.muted.load(std::memory_order_relaxed) &&
-                         !controls.paused.load(std::memory_order_relaxed) &&
-                         !controls.closing.load(std::memory_order_relaxed);
-    const bool isNew = contact.onset != playedOnset_;
-    if (!allowed || !rateFits) {
-        if (sounding_) {
-            interruptedByRate_ = !rateFits;
-            sounding_ = false;
-            tapFramesLeft_ = 0;
-            voice_.release();
+    return {.isTouched = contact.sliding || contact.onset != playedOnset_ || tapFramesLeft_ > 0,
+            .isStale = framesUntilStale(1) == 0,
+            .isMuted = controls.muted.load(std::memory_order_relaxed),
+            .isPaused = controls.paused.load(std::memory_order_relaxed),
+            .isPanicked = contact.touch <= silencedTouch_,
+            .isRateServed = rateHz == voice_.outputRateHz(),
+            .isClosing = controls.closing.load(std::memory_order_relaxed),
+            .isWorkerAlive = workerAlive_.load(std::memory_order_acquire)};
+}
+
+void VoiceRenderer::decide(double rateHz) noexcept {
+    Silence wanted = silenceFor(conditions(rateHz));
+    if (wanted == Silence::rate) {
+        fallSilent(wanted);
+        if (!voice_.isSilent() || !OutputStage::supports(rateHz)) {
+            return;
         }
-        interruptedByRate_ = interruptedByRate_ && allowed;
-        // A touch that came and went unheard is over.
-        if (!allowed && !contact.sliding) {
-            playedOnset_ = contact.onset;
+        requestOutput(rateHz);
+        wanted = silenceFor(conditions(rateHz));
+    }
+    const AudioMessage& contact = channels_.toAudio.current();
+    if (wanted == Silence::none) {
+        if (!isSounding() || contact.onset != playedOnset_) {
+            begin();
         }
         return;
     }
-    if (isNew) {
-        begin();
-        if (!contact.sliding) {
-            tapFramesLeft_ = static_cast<std::uint64_t>(tapSeconds * voice_.outputRateHz());
-            count(channels_.counters.taps);
-        }
-    } else if (contact.sliding && !sounding_) {
-        if (interruptedByRate_) {
-            sounding_ = true;
-            voice_.resume();
-        } else {
-            begin();
-        }
-    } else if (!contact.sliding && sounding_ && tapFramesLeft_ == 0) {
-        sounding_ = false;
-        voice_.release();
+    fallSilent(wanted);
+    // A touch that came and went while the voice had to be silent is over; one that waits for a rate is not.
+    if (wanted != Silence::rate && !contact.sliding) {
+        playedOnset_ = contact.onset;
     }
-    interruptedByRate_ = false;
+}
+
+void VoiceRenderer::fallSilent(Silence reason) noexcept {
+    if (isSounding()) {
+        tapFramesLeft_ = 0;
+        voice_.release();
+        if (reason == Silence::stale) {
+            count(channels_.counters.staleStops);
+        }
+    }
+    silence_ = reason;
 }
 
 void VoiceRenderer::begin() noexcept {
     const AudioMessage& contact = channels_.toAudio.current();
+    count(contact.onset != playedOnset_ ? channels_.counters.onsets : channels_.counters.resumptions);
     ++stream_;
     playedOnset_ = contact.onset;
-    tapFramesLeft_ = 0;
-    sounding_ = true;
+    silence_ = Silence::none;
+    tapFramesLeft_ = contact.sliding ? 0 : static_cast<std::uint64_t>(tapSeconds * voice_.outputRateHz());
+    if (!contact.sliding) {
+        count(channels_.counters.taps);
+    }
     voice_.setRangeLaw(contact.levelGain, contact.readingRate);
-    voice_.onset(contact.seedMps2, 1.0F);
-    count(channels_.counters.onsets);
+    voice_.onset(contact.seedMps2);
 }
 
 void VoiceRenderer::takeSegments() noexcept {
@@ -162,7 +177,7 @@ void VoiceRenderer::takeSegments() noexcept {
         }
         takenSequence_ = segment->sequence;
         headAtTake_[takenSequence_ % headAtTake_.size()] = voice_.timeline().head();
-        const bool isMine = sounding_ && segment->stream == stream_;
+        const bool isMine = isSounding() && segment->stream == stream_;
         const std::int64_t takeOver = isMine ? voice_.commit(segment->start, segment->samplesMps2) : -1;
         if (takeOver < 0) {
             count(channels_.counters.dropped);
@@ -173,9 +188,9 @@ void VoiceRenderer::takeSegments() noexcept {
     }
 }
 
-void VoiceRenderer::changeRate(double rateHz) noexcept {
-    // One to delete at a time: until the worker has fetched it, the voice stays as it is. What is wanted gets it
-    // called.
+void VoiceRenderer::requestOutput(double rateHz) noexcept {
+    // The worker deletes one used stage at a time; until it has fetched that one, the voice keeps its present stage.
+    // Asking for a rate also gets the worker woken.
     if (channels_.usedOutput.load(std::memory_order_acquire) != nullptr) {
         channels_.wantedRateHz.store(rateHz, std::memory_order_release);
         return;
@@ -191,26 +206,28 @@ void VoiceRenderer::changeRate(double rateHz) noexcept {
     channels_.usedOutput.store(used.release(), std::memory_order_release);
     if (fits) {
         count(channels_.counters.rateChanges);
-        decide(true);
+    }
+}
+
+void VoiceRenderer::soundUntilStale(std::span<float> out) noexcept {
+    const std::size_t fresh = framesUntilStale(out.size());
+    sound(out.first(fresh));
+    if (fresh < out.size()) {
+        if (isSounding()) {
+            fallSilent(Silence::stale);
+        }
+        sound(out.subspan(fresh));
     }
 }
 
 void VoiceRenderer::sound(std::span<float> out) noexcept {
-    if (panicking_) {
-        panicking_ = false;
-        sounding_ = false;
-        tapFramesLeft_ = 0;
-        voice_.renderStop(out);
-        return;
-    }
     if (tapFramesLeft_ > 0) {
         const std::size_t before = std::min<std::size_t>(out.size(), tapFramesLeft_);
         voice_.render(out.first(before));
         out = out.subspan(before);
         tapFramesLeft_ -= before;
         if (tapFramesLeft_ == 0 && !channels_.toAudio.current().sliding) {
-            sounding_ = false;
-            voice_.release();
+            fallSilent(Silence::rest);
         }
     }
     voice_.render(out);
@@ -225,7 +242,7 @@ void VoiceRenderer::report(std::uint64_t uncoveredBefore, bool sounded) noexcept
     counters.nonFiniteSamples.store(voice_.limiter().nonFiniteCount(), std::memory_order_relaxed);
     counters.limitedSamples.store(voice_.limiter().limitedCount(), std::memory_order_relaxed);
 
-    const bool running = sounding_;
+    const bool running = isSounding();
     if (!running && !reportedRunning_) {
         return;
     }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "engine/silence.hpp"
 #include "engine/voice.hpp"
 #include "engine/voice_channels.hpp"
 
@@ -12,6 +13,9 @@ namespace haptoflow::engine {
 
 /// The callback's end of a voice: takes the newest contact, commits segments, decides whether the voice sounds,
 /// renders. Wait-free: no allocation, no lock, no system call, nothing unbounded. One thread at a time.
+///
+/// Its state is `silence_`: none while the voice sounds, else the reason why it does not. A block begins with one
+/// decision between the two; within a block only a contact that goes stale and a tap that ends change it.
 class VoiceRenderer {
 public:
     /// A contact that nobody renewed for this long is stale: the stylus, or its application, is gone.
@@ -25,7 +29,8 @@ public:
                   float fullScaleMps2);
 
     /// Writes the next samples, +-1. At a rate that it has no output stage for, it fades and stays silent until the
-    /// worker has made one, then goes on where it stopped.
+    /// worker has made one; a touch that still goes on then resumes. At a rate outside 8-192 kHz no stage can be made:
+    /// it stays silent and counts the block.
     void render(std::span<float> out, double rateHz) noexcept;
 
     [[nodiscard]] const Voice& voice() const noexcept { return voice_; }
@@ -33,32 +38,41 @@ public:
     void setSink(WaveformSink* sink) noexcept { voice_.setSink(sink); }
 
 private:
+    [[nodiscard]] bool isSounding() const noexcept { return silence_ == Silence::none; }
     void readContact() noexcept;
+    void readControls() noexcept;
+    void readPanic() noexcept;
+    void noteRate(double rateHz) noexcept;
     [[nodiscard]] std::size_t framesUntilStale(std::size_t frames) const noexcept;
-    void goStale() noexcept;
-    void decide(bool rateFits) noexcept;
+    [[nodiscard]] SoundConditions conditions(double rateHz) const noexcept;
+    void decide(double rateHz) noexcept;
     void begin() noexcept;
+    void fallSilent(Silence reason) noexcept;
     void takeSegments() noexcept;
-    void changeRate(double rateHz) noexcept;
+    void requestOutput(double rateHz) noexcept;
     void sound(std::span<float> out) noexcept;
+    void soundUntilStale(std::span<float> out) noexcept;
     void noteBlock(std::size_t frames) noexcept;
     void report(std::uint64_t uncoveredBefore, bool sounded) noexcept;
 
     VoiceChannels& channels_;
     const std::atomic<bool>& workerAlive_;
     Voice voice_;
-    bool hasContact_ = false;
-    std::uint64_t contactAgeFrames_ = 0;
-    bool stale_ = false;
-    bool sounding_ = false;
-    bool interruptedByRate_ = false;
+
+    Silence silence_ = Silence::rest;
+    // Generations of playback: one more at each touch and each resumption, so that older segments are dropped.
     std::uint64_t stream_ = 0;
     std::uint32_t playedOnset_ = 0;
-    std::uint32_t seenPanics_ = 0;
-    bool panicking_ = false;
-    bool hasSilencedTouch_ = false;
-    std::uint32_t silencedTouch_ = 0;
     std::uint64_t tapFramesLeft_ = 0;
+
+    bool hasContact_ = false;
+    std::uint64_t contactAgeFrames_ = 0;
+
+    std::uint32_t seenPanics_ = 0;
+    std::uint64_t silencedTouch_ = 0;
+    // A panic was noticed, and the block that has to end in silence is still to be written.
+    bool stopsWithBlock_ = false;
+
     std::uint64_t takenSequence_ = 0;
     std::array<std::int64_t, SegmentQueue::capacity> headAtTake_{};
     // Of the blocks noted last and of those before them, in waveform samples at a reading rate of 1.

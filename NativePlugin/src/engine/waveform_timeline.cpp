@@ -16,9 +16,21 @@ void WaveformTimeline::open(std::span<const float, seedSamples> seedMps2) noexce
     overwrite(head_, seedMps2.last<inference::segmentSamples>());
     // Behind the head the past is the seed's, though something else may have sounded there: it is what the first
     // generated segment has to go on from.
-    for (std::int64_t i = 0; i < segmentLength; ++i) {
-        at(head_ - segmentLength + i) = seedMps2[static_cast<std::size_t>(i)];
-    }
+    copyIn(head_ - segmentLength, seedMps2.first<inference::segmentSamples>());
+}
+
+void WaveformTimeline::copyIn(std::int64_t start, std::span<const float> samples) noexcept {
+    const std::size_t begin = indexOf(start);
+    const std::size_t untilEnd = std::min(samples.size(), ring_.size() - begin);
+    std::ranges::copy(samples.first(untilEnd), ring_.begin() + static_cast<std::ptrdiff_t>(begin));
+    std::ranges::copy(samples.subspan(untilEnd), ring_.begin());
+}
+
+void WaveformTimeline::copyOut(std::int64_t start, std::span<float> out) const noexcept {
+    const std::size_t begin = indexOf(start);
+    const std::size_t untilEnd = std::min(out.size(), ring_.size() - begin);
+    std::copy_n(ring_.begin() + static_cast<std::ptrdiff_t>(begin), untilEnd, out.begin());
+    std::copy_n(ring_.begin(), out.size() - untilEnd, out.begin() + static_cast<std::ptrdiff_t>(untilEnd));
 }
 
 std::int64_t WaveformTimeline::commit(std::int64_t start,
@@ -37,24 +49,24 @@ std::int64_t WaveformTimeline::commit(std::int64_t start,
 void WaveformTimeline::overwrite(std::int64_t start, std::span<const float> samples) noexcept {
     std::array<float, dsp::Splice::correlationSamples> continuation{};
     const std::int64_t running = std::clamp<std::int64_t>(coveredUntil_ - start, 0, dsp::Splice::correlationSamples);
-    for (std::int64_t i = 0; i < running; ++i) {
-        continuation[static_cast<std::size_t>(i)] = at(start + i);
-    }
+    const std::span<float> known = std::span(continuation).first(static_cast<std::size_t>(running));
+    copyOut(start, known);
+    copyIn(start, samples);
     dsp::Splice splice;
-    splice.begin(std::span(continuation).first(static_cast<std::size_t>(running)), samples, dsp::Splice::maximumLength);
-    for (std::size_t i = 0; i < samples.size(); ++i) {
-        const float old = i < continuation.size() ? continuation[i] : 0.0F;
-        at(start + static_cast<std::int64_t>(i)) = splice.next(old, samples[i]);
+    splice.begin(known, samples, dsp::Splice::maximumLength);
+    for (std::size_t i = 0; splice.active(); ++i) {
+        at(start + static_cast<std::int64_t>(i)) = splice.next(continuation[i], samples[i]);
     }
     coveredUntil_ = start + static_cast<std::int64_t>(samples.size());
 }
 
 void WaveformTimeline::history(std::int64_t start, std::span<float, inference::segmentSamples> out) const noexcept {
-    for (std::int64_t i = 0; i < segmentLength; ++i) {
-        const std::int64_t sample = start - segmentLength + i;
-        const bool known = sample >= head_ - segmentLength && sample >= 0 && sample < coveredUntil_;
-        out[static_cast<std::size_t>(i)] = known ? at(sample) : 0.0F;
-    }
+    const std::int64_t begin = start - segmentLength;
+    const std::int64_t firstKnown = std::clamp<std::int64_t>(std::max<std::int64_t>(head_ - segmentLength, 0), begin, start);
+    const std::int64_t endKnown = std::clamp(coveredUntil_, firstKnown, start);
+    std::ranges::fill(out, 0.0F);
+    copyOut(firstKnown, std::span<float>(out).subspan(static_cast<std::size_t>(firstKnown - begin),
+                                                      static_cast<std::size_t>(endKnown - firstKnown)));
 }
 
 void WaveformTimeline::read(std::span<float> out) noexcept {
@@ -82,24 +94,18 @@ void WaveformTimeline::view(TimelineView& out) const noexcept {
     out.head = head_;
     out.coveredUntil = std::clamp(coveredUntil_, head_, head_ + aheadLimit);
     const std::int64_t begin = head_ - pastLimit;
-    for (std::int64_t sample = begin; sample < out.coveredUntil; ++sample) {
-        out.samplesMps2[static_cast<std::size_t>(sample - begin)] = at(sample);
-    }
+    copyOut(begin, std::span(out.samplesMps2).first(static_cast<std::size_t>(out.coveredUntil - begin)));
 }
 
 void WaveformTimeline::restore(const TimelineView& from) noexcept {
     head_ = from.head;
     coveredUntil_ = from.coveredUntil;
     const std::int64_t begin = head_ - pastLimit;
-    for (std::int64_t sample = begin; sample < coveredUntil_; ++sample) {
-        at(sample) = from.samplesMps2[static_cast<std::size_t>(sample - begin)];
-    }
+    copyIn(begin, std::span(from.samplesMps2).first(static_cast<std::size_t>(coveredUntil_ - begin)));
 }
 
 void WaveformTimeline::clear() noexcept {
-    for (std::int64_t i = 0; i < capacity; ++i) {
-        ring_[static_cast<std::size_t>(i)] = 0.0F;
-    }
+    ring_.fill(0.0F);
     coveredUntil_ = head_;
     endGain_ = 1.0F;
 }

@@ -60,10 +60,14 @@ public:
 private:
     static constexpr std::int64_t capacity = 1024;
 
-    [[nodiscard]] float& at(std::int64_t sample) noexcept { return ring_[static_cast<std::size_t>(sample % capacity)]; }
-    [[nodiscard]] float at(std::int64_t sample) const noexcept {
-        return ring_[static_cast<std::size_t>(sample % capacity)];
+    // Samples are never negative, and the capacity is a power of two.
+    [[nodiscard]] static std::size_t indexOf(std::int64_t sample) noexcept {
+        return static_cast<std::size_t>(sample) % static_cast<std::size_t>(capacity);
     }
+    [[nodiscard]] float& at(std::int64_t sample) noexcept { return ring_[indexOf(sample)]; }
+    [[nodiscard]] float at(std::int64_t sample) const noexcept { return ring_[indexOf(sample)]; }
+    void copyIn(std::int64_t start, std::span<const float> samples) noexcept;
+    void copyOut(std::int64_t start, std::span<float> out) const noexcept;
     void overwrite(std::int64_t start, std::span<const float> samples) noexcept;
 
     std::array<float, capacity> ring_{};

@@ -16,4 +16,16 @@ public:
     using std::runtime_error::runtime_error;
 };
 
+/// A load ended because its Cancellation came.
+class LoadCancelled : public std::runtime_error {
+public:
+    using std::runtime_error::runtime_error;
+};
+
+/// A probe run of a tier's graph took longer than its limit. The message names tier and graph.
+class TierTooSlow : public std::runtime_error {
+public:
+    using std::runtime_error::runtime_error;
+};
+
 }  // namespace haptoflow::inference

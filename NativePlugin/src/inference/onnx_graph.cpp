@@ -1,50 +1,29 @@
 #include "inference/onnx_graph.hpp"
 
 #include "inference/inference_error.hpp"
+#include "inference/time_limit.hpp"
 #include "model/model_error.hpp"
+#include "model/onnx_check.hpp"
 
 #include <onnxruntime_c_api.h>
 
+#include <cmath>
 #include <stdexcept>
+#include <string>
 #include <utility>
 
 namespace haptoflow::inference {
 namespace {
 
-OrtHandle<OrtSession> createSession(const Runtime& runtime, std::span<const std::byte> graph) {
-    const OrtApi& api = runtime.api();
-    OrtSessionOptions* created = nullptr;
-    runtime.check(api.CreateSessionOptions(&created), "session options");
-    const OrtHandle<OrtSessionOptions> options(created, api.ReleaseSessionOptions);
-    // A voice's update is far shorter than waking a second thread, and a spinning pool would burn a core.
-    runtime.check(api.SetIntraOpNumThreads(created, 1), "session options");
-    runtime.check(api.SetInterOpNumThreads(created, 1), "session options");
-    runtime.check(api.AddSessionConfigEntry(created, "session.intra_op.allow_spinning", "0"), "session options");
-    runtime.check(api.AddSessionConfigEntry(created, "session.inter_op.allow_spinning", "0"), "session options");
-    runtime.check(api.SetSessionGraphOptimizationLevel(created, ORT_ENABLE_ALL), "session options");
-
-    OrtSession* session = nullptr;
-    runtime.check(api.CreateSessionFromArray(&runtime.environment(), graph.data(), graph.size(), created, &session),
-                  "loading the graph");
-    return {session, api.ReleaseSession};
-}
-
-OrtHandle<OrtMemoryInfo> createMemoryInfo(const Runtime& runtime) {
-    OrtMemoryInfo* memory = nullptr;
-    runtime.check(runtime.api().CreateCpuMemoryInfo(OrtArenaAllocator, OrtMemTypeDefault, &memory), "memory info");
-    return {memory, runtime.api().ReleaseMemoryInfo};
-}
-
-OrtHandle<OrtIoBinding> createBinding(const Runtime& runtime, OrtSession& session) {
-    OrtIoBinding* binding = nullptr;
-    runtime.check(runtime.api().CreateIoBinding(&session, &binding), "binding");
-    return {binding, runtime.api().ReleaseIoBinding};
-}
+constexpr std::size_t memoryOfAnyGraph = std::size_t{64} << 20U;
+constexpr std::size_t memoryOfRequest = std::size_t{4} << 20U;
+// Weights as they lie in the file, in memory, and packed for the processor.
+constexpr std::size_t copiesOfWeights = 4;
 
 }  // namespace
 
 OnnxGraph::OnnxGraph(std::shared_ptr<const Runtime> runtime, std::span<const std::byte> graph, std::string name,
-                     GraphSignature signature, std::size_t maximumBatch)
+                     GraphSignature signature, std::size_t maximumBatch, const LoadLimits& limits)
     : runtime_(std::move(runtime)),
       name_(std::move(name)),
       signature_(std::move(signature)),
@@ -52,20 +31,62 @@ OnnxGraph::OnnxGraph(std::shared_ptr<const Runtime> runtime, std::span<const std
       memory_(nullptr, nullptr),
       session_(nullptr, nullptr),
       binding_(nullptr, nullptr) {
+    limits.check();
+    model::checkOnnxModel(graph, name_);
     try {
         memory_ = createMemoryInfo(*runtime_);
-        session_ = createSession(*runtime_, graph);
-        present_ = matchSignature(*runtime_, *session_, signature_, name_);
-        binding_ = createBinding(*runtime_, *session_);
         for (const TensorSignature& tensor : signature_.inputs) {
             inputs_.emplace_back(tensor.size() * maximumBatch_);
         }
         output_.resize(signature_.output.size() * maximumBatch_);
-        setBatch(1);
-        execute();
+        // As it stands first: a run can be limited and ended, the folding of constants while loading cannot.
+        probe(graph, Optimisation::none, maximumBatch_, limits);
+        probe(graph, Optimisation::all, 1, limits);
     } catch (const InferenceError& error) {
         throw model::ModelError(model::ModelStatus::inconsistent, name_ + ": " + error.what());
     }
+}
+
+void OnnxGraph::probe(std::span<const std::byte> graph, Optimisation optimisation, std::size_t batch,
+                      const LoadLimits& limits) {
+    const OrtApi& api = runtime_->api();
+    const std::size_t memoryBytes = memoryOfAnyGraph + memoryOfRequest * maximumBatch_ + copiesOfWeights * graph.size();
+    binding_.reset();
+    // Before the next one takes as much memory.
+    session_.reset();
+    session_ = createSession(*runtime_, graph, optimisation, memoryBytes, limits);
+    present_ = matchSignature(*runtime_, *session_, signature_, name_);
+    binding_ = createBinding(*runtime_, *session_);
+    batch_ = 0;
+    setBatch(batch);
+
+    OrtRunOptions* created = nullptr;
+    runtime_->check(api.CreateRunOptions(&created), "run options");
+    const OrtHandle<OrtRunOptions> options(created, api.ReleaseRunOptions);
+    const auto terminate = [&] {
+        if (OrtStatus* status = api.RunOptionsSetTerminate(options.get())) {
+            api.ReleaseStatus(status);
+        }
+    };
+    const double limitMs = limits.probeLimitMs * static_cast<double>((batch + probeBatch - 1) / probeBatch);
+    const CancellationAction cancelled(limits.cancellation.get(), terminate);
+    const TimeLimit limit(limitMs, terminate);
+    const auto explain = [&] {
+        limits.check();
+        if (limit.hasPassed()) {
+            throw TierTooSlow(name_ + ": a run of " + std::to_string(batch) + " took longer than " +
+                              std::to_string(static_cast<std::int64_t>(std::ceil(limitMs))) +
+                              " ms; choose a smaller tier or model, or a higher probe_limit_ms");
+        }
+    };
+    try {
+        execute(options.get(), "a run of " + std::to_string(batch) + " with at most " +
+                                   std::to_string(memoryBytes >> 20U) + " MiB failed");
+    } catch (const InferenceError&) {
+        explain();
+        throw;
+    }
+    explain();
 }
 
 void OnnxGraph::bind(const TensorSignature& tensor, std::size_t batch, std::vector<float>& buffer, bool isInput) {
@@ -114,12 +135,12 @@ std::span<const float> OnnxGraph::output() const noexcept {
 }
 
 void OnnxGraph::run() {
-    execute();
+    execute(nullptr, name_);
     ++runs_;
 }
 
-void OnnxGraph::execute() {
-    runtime_->check(runtime_->api().RunWithBinding(session_.get(), nullptr, binding_.get()), name_);
+void OnnxGraph::execute(const OrtRunOptions* options, const std::string& what) {
+    runtime_->check(runtime_->api().RunWithBinding(session_.get(), options, binding_.get()), what);
 }
 
 }  // namespace haptoflow::inference

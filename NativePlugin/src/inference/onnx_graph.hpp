@@ -1,6 +1,8 @@
 #pragma once
 
+#include "inference/load_limits.hpp"
 #include "inference/onnx_runtime.hpp"
+#include "inference/onnx_session.hpp"
 #include "inference/onnx_signature.hpp"
 
 #include <cstddef>
@@ -11,24 +13,20 @@
 #include <string_view>
 #include <vector>
 
-struct OrtIoBinding;
-struct OrtMemoryInfo;
-struct OrtSession;
+struct OrtRunOptions;
 struct OrtValue;
 
 namespace haptoflow::inference {
-
-template <typename Type>
-using OrtHandle = std::unique_ptr<Type, void (*)(Type*)>;
 
 /// An ONNX graph with one output, ready to run on one thread. Its inputs and its output are buffers that stay where
 /// they are: fill the inputs, run, read the output. One user at a time; `run` allocates inside ONNX Runtime.
 class OnnxGraph {
 public:
-    /// Loads the graph, compares it with `signature` and runs it once. Throws model::ModelError (inconsistent) that
-    /// begins with `name` where the graph is not what the format says.
+    /// Reads the graph's operators before ONNX Runtime does, loads it, compares it with `signature` and runs it with
+    /// maximumBatch requests and with one. Throws model::ModelError (inconsistent) that begins with `name` where the
+    /// graph is not what the format says, TierTooSlow, LoadCancelled.
     OnnxGraph(std::shared_ptr<const Runtime> runtime, std::span<const std::byte> graph, std::string name,
-              GraphSignature signature, std::size_t maximumBatch);
+              GraphSignature signature, std::size_t maximumBatch, const LoadLimits& limits);
 
     /// Rebinds the buffers where `batch` (1 to maximumBatch) differs from the last one.
     void setBatch(std::size_t batch);
@@ -49,7 +47,10 @@ public:
 
 private:
     void bind(const TensorSignature& tensor, std::size_t batch, std::vector<float>& buffer, bool isInput);
-    void execute();
+    /// Loads the graph with the given optimisation and runs it once with so many requests, within the limits.
+    void probe(std::span<const std::byte> graph, Optimisation optimisation, std::size_t batch,
+               const LoadLimits& limits);
+    void execute(const OrtRunOptions* options, const std::string& what);
 
     std::shared_ptr<const Runtime> runtime_;
     std::string name_;

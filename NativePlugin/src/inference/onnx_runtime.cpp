@@ -5,36 +5,91 @@
 
 #include <onnxruntime_c_api.h>
 
+#include <algorithm>
+#include <charconv>
+#include <mutex>
+#include <utility>
+#include <vector>
+
 namespace haptoflow::inference {
 namespace {
 
-// Everything used here exists since 1.16; asking for that version lets older libraries load, too.
-constexpr std::uint32_t apiVersion = 16;
+// What cannot be done without exists since 1.16; asking for that version lets older libraries load, too.
+constexpr std::uint32_t oldestApi = 16;
+// Since 1.22 a load can be cancelled.
+constexpr std::uint32_t newestApi = 22;
 
 using GetApiBase = const OrtApiBase*(ORT_API_CALL*)();
 
+/// The function table that a version such as "1.29.0" is known to have. A library that is asked for a newer one than it
+/// has complains on the standard error stream.
+std::uint32_t apiOfVersion(const std::string& version) {
+    std::uint32_t minor = 0;
+    if (version.starts_with("1.")) {
+        (void)std::from_chars(version.data() + 2, version.data() + version.size(), minor);
+    }
+    return std::clamp(minor, oldestApi, newestApi);
+}
+
+/// The sinks of libraries older than 1.17, whose sessions cannot have a log of their own.
+class SharedLog {
+public:
+    static SharedLog& instance() {
+        // Never destroyed: the library may write while the process ends.
+        static auto* log = new SharedLog;
+        return *log;
+    }
+    void add(const std::shared_ptr<LogSink>& sink) {
+        const std::lock_guard lock(mutex_);
+        std::erase_if(sinks_, [](const auto& each) { return each.expired(); });
+        sinks_.push_back(sink);
+    }
+    static void ORT_API_CALL write(void* /*context*/, OrtLoggingLevel severity, const char* category,
+                                   const char* /*log*/, const char* /*location*/, const char* message) {
+        std::vector<std::weak_ptr<LogSink>> sinks;
+        {
+            const std::lock_guard lock(instance().mutex_);
+            sinks = instance().sinks_;
+        }
+        for (const auto& each : sinks) {
+            if (const auto sink = each.lock()) {
+                sink->write(static_cast<LogSeverity>(severity), category, message);
+            }
+        }
+    }
+
+private:
+    std::mutex mutex_;
+    std::vector<std::weak_ptr<LogSink>> sinks_;
+};
+
 }  // namespace
 
-std::shared_ptr<const Runtime> Runtime::fromApiBase(const OrtApiBase* base) {
-    return std::shared_ptr<const Runtime>(new Runtime(base));
+std::shared_ptr<const Runtime> Runtime::fromApiBase(const OrtApiBase* base, std::shared_ptr<LogSink> log) {
+    return std::shared_ptr<const Runtime>(new Runtime(base, std::move(log)));
 }
 
-std::shared_ptr<const Runtime> Runtime::open(const std::filesystem::path& library) {
+std::shared_ptr<const Runtime> Runtime::open(const std::filesystem::path& library, std::shared_ptr<LogSink> log) {
     const auto getApiBase = reinterpret_cast<GetApiBase>(loadSymbol(library, "OrtGetApiBase"));
-    return fromApiBase(getApiBase());
+    return fromApiBase(getApiBase(), std::move(log));
 }
 
-Runtime::Runtime(const OrtApiBase* base) {
+Runtime::Runtime(const OrtApiBase* base, std::shared_ptr<LogSink> log) : log_(std::move(log)) {
     if (base == nullptr || base->GetApi == nullptr || base->GetVersionString == nullptr) {
         throw RuntimeUnavailable("ONNX Runtime's OrtGetApiBase returned nothing");
     }
     version_ = base->GetVersionString();
-    api_ = base->GetApi(apiVersion);
+    apiVersion_ = apiOfVersion(version_);
+    api_ = base->GetApi(apiVersion_);
+    if (api_ == nullptr && apiVersion_ > oldestApi) {
+        apiVersion_ = oldestApi;
+        api_ = base->GetApi(apiVersion_);
+    }
     if (api_ == nullptr) {
         throw RuntimeUnavailable("ONNX Runtime " + version_ + " is too old: 1.16 or newer is needed");
     }
     try {
-        check(api_->CreateEnv(ORT_LOGGING_LEVEL_ERROR, "haptoflow", &environment_), "creating the environment");
+        check(createEnvironment(), "creating the environment");
         check(api_->DisableTelemetryEvents(environment_), "switching telemetry off");
     } catch (const InferenceError& error) {
         if (environment_ != nullptr) {
@@ -42,6 +97,16 @@ Runtime::Runtime(const OrtApiBase* base) {
         }
         throw RuntimeUnavailable("ONNX Runtime " + version_ + ": " + error.what());
     }
+}
+
+OrtStatus* Runtime::createEnvironment() {
+    // From 1.17 on each session writes into the log of its own runtime, whoever made the environment.
+    if (log_ == nullptr || apiVersion_ >= 17) {
+        return api_->CreateEnv(ORT_LOGGING_LEVEL_ERROR, "haptoflow", &environment_);
+    }
+    SharedLog::instance().add(log_);
+    return api_->CreateEnvWithCustomLogger(SharedLog::write, nullptr, ORT_LOGGING_LEVEL_WARNING, "haptoflow",
+                                           &environment_);
 }
 
 Runtime::~Runtime() {

@@ -65,22 +65,25 @@ void inBatches(std::size_t total, std::size_t maximum, Action action) {
     }
 }
 
+static_assert(levelBatch >= largestBatch);
+
 }  // namespace
 
 OnnxSegmentGenerator::OnnxSegmentGenerator(std::shared_ptr<const Runtime> runtime, const model::ModelFile& model,
-                                           std::string_view tier, SolverSettings solver, std::size_t maximumBatch)
+                                           std::string_view tier, SolverSettings solver, std::size_t maximumBatch,
+                                           const LoadLimits& limits)
     : kind_(requireTier(model, tier).kind),
       maximumBatch_(requireBatch(maximumBatch)),
       pointSize_(pointSize(requireTier(model, tier))),
-      level_(loadLevel(runtime, model, requireTier(model, tier), maximumBatch)),
-      field_(runtime, model, requireTier(model, tier), maximumBatch),
-      levelsMps2_(maximumBatch),
+      level_(loadLevel(runtime, model, requireTier(model, tier), levelBatch, limits)),
+      field_(runtime, model, requireTier(model, tier), maximumBatch, limits),
+      levelsMps2_(levelBatch),
       previous_(maximumBatch * segmentSamples),
       points_(maximumBatch * pointSize_),
       result_(maximumBatch * pointSize_) {
     const model::Tier& found = requireTier(model, tier);
     if (found.representation == model::TierRepresentation::latent) {
-        decoder_.emplace(loadDecoder(std::move(runtime), model, found, maximumBatch));
+        decoder_.emplace(loadDecoder(std::move(runtime), model, found, maximumBatch, limits));
     }
     setSolver(solver);
 }
@@ -99,7 +102,7 @@ void OnnxSegmentGenerator::generate(std::span<const SegmentRequest> requests, st
 
 void OnnxSegmentGenerator::levels(std::span<const SegmentRequest> requests, std::span<float> levelsMps2) {
     requireSize(levelsMps2.size(), requests.size(), "levels need room");
-    inBatches(requests.size(), maximumBatch_, [&](std::size_t first, std::size_t count) {
+    inBatches(requests.size(), levelBatch, [&](std::size_t first, std::size_t count) {
         runLevel(requests.subspan(first, count));
         std::copy_n(levelsMps2_.begin(), count, levelsMps2.subspan(first).begin());
     });

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "inference/inference_error.hpp"
+#include "inference/load_limits.hpp"
 #include "inference/onnx_runtime.hpp"
 #include "inference/onnx_velocity_field.hpp"
 #include "inference/segment_generator.hpp"
@@ -18,6 +19,8 @@
 namespace haptoflow::inference {
 
 inline constexpr std::size_t largestBatch = 256;
+/// Levels that one run of the level graph gives, whatever the batch of the segments: tables ask for thousands.
+inline constexpr std::size_t levelBatch = 256;
 
 /// How often each graph has run; what proves that nothing is computed that nobody asked for.
 struct RunCounts {
@@ -31,11 +34,11 @@ struct RunCounts {
 /// every evaluation of the field is one Run for all of them. Worker thread; one user at a time; allocates.
 class OnnxSegmentGenerator final : public SegmentGenerator {
 public:
-    /// Loads, checks and once runs the tier's graphs; the model may go afterwards. Throws std::invalid_argument for a
-    /// tier that the model does not have, settings out of range or a batch outside 1 to largestBatch, and
-    /// model::ModelError (inconsistent) where a graph is not what the format says.
+    /// Loads, checks and runs the tier's graphs; the model may go afterwards. Throws std::invalid_argument for a tier
+    /// that the model does not have, settings out of range or a batch outside 1 to largestBatch, model::ModelError
+    /// (inconsistent) where a graph is not what the format says, TierTooSlow, LoadCancelled.
     OnnxSegmentGenerator(std::shared_ptr<const Runtime> runtime, const model::ModelFile& model, std::string_view tier,
-                         SolverSettings solver, std::size_t maximumBatch);
+                         SolverSettings solver, std::size_t maximumBatch, const LoadLimits& limits = {});
 
     /// Takes effect with the next batch. Kind `average-velocity` is always stepped by Euler, kind `direct` is evaluated
     /// once whatever the settings say. Throws std::invalid_argument for settings out of range.

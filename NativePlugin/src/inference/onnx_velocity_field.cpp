@@ -7,11 +7,11 @@
 namespace haptoflow::inference {
 
 OnnxVelocityField::OnnxVelocityField(std::shared_ptr<const Runtime> runtime, const model::ModelFile& model,
-                                     const model::Tier& tier, std::size_t maximumBatch)
-    : field_(loadField(runtime, model, tier, maximumBatch)),
+                                     const model::Tier& tier, std::size_t maximumBatch, const LoadLimits& limits)
+    : field_(loadField(runtime, model, tier, maximumBatch, limits)),
       takesInterval_(tier.kind == model::TierKind::averageVelocity) {
     if (tier.representation == model::TierRepresentation::latent && field_.reads(field_input::previous)) {
-        encoder_.emplace(loadEncoder(runtime, model, tier, maximumBatch));
+        encoder_.emplace(loadEncoder(runtime, model, tier, maximumBatch, limits));
     }
 }
 

@@ -15,9 +15,9 @@ namespace haptoflow::inference {
 /// of kind `direct`, `evaluate` returns the point that the graph maps to instead of a velocity.
 class OnnxVelocityField final : public VelocityField {
 public:
-    /// Throws model::ModelError where a graph is not what the format says.
+    /// Throws what OnnxGraph's constructor throws.
     OnnxVelocityField(std::shared_ptr<const Runtime> runtime, const model::ModelFile& model, const model::Tier& tier,
-                      std::size_t maximumBatch);
+                      std::size_t maximumBatch, const LoadLimits& limits);
 
     void setBatch(std::size_t batch);
     /// The conditions of the batch, to be filled before `evaluate`: batch * 64, batch * 3.

@@ -16,9 +16,9 @@ const std::vector<std::int64_t>& pointShape(const model::Tier& tier) {
 }
 
 OnnxGraph load(std::shared_ptr<const Runtime> runtime, const model::ModelFile& model, const model::Tier& tier,
-               const std::string& blob, GraphSignature signature, std::size_t maximumBatch) {
-    return {std::move(runtime), model.blob(blob), "tier \"" + tier.name + "\", graph \"" + blob + '"',
-            std::move(signature), maximumBatch};
+               const std::string& blob, GraphSignature signature, std::size_t maximumBatch, const LoadLimits& limits) {
+    return {std::move(runtime),   model.blob(blob), "tier \"" + tier.name + "\", graph \"" + blob + '"',
+            std::move(signature), maximumBatch,     limits};
 }
 
 }  // namespace
@@ -28,7 +28,7 @@ std::size_t pointSize(const model::Tier& tier) {
 }
 
 OnnxGraph loadField(std::shared_ptr<const Runtime> runtime, const model::ModelFile& model, const model::Tier& tier,
-                    std::size_t maximumBatch) {
+                    std::size_t maximumBatch, const LoadLimits& limits) {
     const bool direct = tier.kind == model::TierKind::direct;
     GraphSignature signature{
         {{"noisy", pointShape(tier)}, {"time", {1}}, {"previous", pointShape(tier)}, embedding, motion},
@@ -36,24 +36,25 @@ OnnxGraph loadField(std::shared_ptr<const Runtime> runtime, const model::ModelFi
     if (tier.kind == model::TierKind::averageVelocity) {
         signature.inputs.push_back({"interval", {1}});
     }
-    return load(std::move(runtime), model, tier, tier.field, std::move(signature), maximumBatch);
+    return load(std::move(runtime), model, tier, tier.field, std::move(signature), maximumBatch, limits);
 }
 
 OnnxGraph loadLevel(std::shared_ptr<const Runtime> runtime, const model::ModelFile& model, const model::Tier& tier,
-                    std::size_t maximumBatch) {
-    return load(std::move(runtime), model, tier, tier.level, {{embedding, motion}, {"log_level", {1}}}, maximumBatch);
+                    std::size_t maximumBatch, const LoadLimits& limits) {
+    return load(std::move(runtime), model, tier, tier.level, {{embedding, motion}, {"log_level", {1}}}, maximumBatch,
+                limits);
 }
 
 OnnxGraph loadEncoder(std::shared_ptr<const Runtime> runtime, const model::ModelFile& model, const model::Tier& tier,
-                      std::size_t maximumBatch) {
+                      std::size_t maximumBatch, const LoadLimits& limits) {
     return load(std::move(runtime), model, tier, tier.encoder,
-                {{{"waveform", waveformShape}}, {"latent", pointShape(tier)}}, maximumBatch);
+                {{{"waveform", waveformShape}}, {"latent", pointShape(tier)}}, maximumBatch, limits);
 }
 
 OnnxGraph loadDecoder(std::shared_ptr<const Runtime> runtime, const model::ModelFile& model, const model::Tier& tier,
-                      std::size_t maximumBatch) {
+                      std::size_t maximumBatch, const LoadLimits& limits) {
     return load(std::move(runtime), model, tier, tier.decoder,
-                {{{"latent", pointShape(tier)}}, {"waveform", waveformShape}}, maximumBatch);
+                {{{"latent", pointShape(tier)}}, {"waveform", waveformShape}}, maximumBatch, limits);
 }
 
 SolverSettings defaultSolver(const model::Tier& tier) noexcept {

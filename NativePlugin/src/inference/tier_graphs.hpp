@@ -26,16 +26,17 @@ inline constexpr std::size_t motion = 1;
 /// Numbers in one point of the tier's field: 200, or those of one latent.
 [[nodiscard]] std::size_t pointSize(const model::Tier& tier);
 
-/// The graphs of one tier, loaded and checked against the format. Each throws model::ModelError (inconsistent).
+/// The graphs of one tier, loaded and checked against the format. Each throws what OnnxGraph's
+/// constructor throws.
 [[nodiscard]] OnnxGraph loadField(std::shared_ptr<const Runtime> runtime, const model::ModelFile& model,
-                                  const model::Tier& tier, std::size_t maximumBatch);
+                                  const model::Tier& tier, std::size_t maximumBatch, const LoadLimits& limits);
 [[nodiscard]] OnnxGraph loadLevel(std::shared_ptr<const Runtime> runtime, const model::ModelFile& model,
-                                  const model::Tier& tier, std::size_t maximumBatch);
+                                  const model::Tier& tier, std::size_t maximumBatch, const LoadLimits& limits);
 /// Latent tiers only.
 [[nodiscard]] OnnxGraph loadEncoder(std::shared_ptr<const Runtime> runtime, const model::ModelFile& model,
-                                    const model::Tier& tier, std::size_t maximumBatch);
+                                    const model::Tier& tier, std::size_t maximumBatch, const LoadLimits& limits);
 [[nodiscard]] OnnxGraph loadDecoder(std::shared_ptr<const Runtime> runtime, const model::ModelFile& model,
-                                    const model::Tier& tier, std::size_t maximumBatch);
+                                    const model::Tier& tier, std::size_t maximumBatch, const LoadLimits& limits);
 
 /// The solver that the tier names as its own.
 [[nodiscard]] SolverSettings defaultSolver(const model::Tier& tier) noexcept;

@@ -49,7 +49,11 @@ void VoiceEffect::process(const AudioBlock& block, const BlockContext& context) 
         return;
     }
     if (gain_.target() != strength) {
-        gain_.head(strength, framesIn(glideSeconds, context.sampleRateHz));
+        if (voiceSounds()) {
+            gain_.head(strength, framesIn(glideSeconds, context.sampleRateHz));
+        } else {
+            gain_.jump(strength);
+        }
     }
     play(rest, context.sampleRateHz);
 }
@@ -61,6 +65,11 @@ bool VoiceEffect::missedBlocks(std::uint64_t tick, std::uint32_t frames) noexcep
     ticksFollow_ = follows;
     nextTick_ = tick + frames;
     return hasGap;
+}
+
+bool VoiceEffect::voiceSounds() const noexcept {
+    const capi::VoiceTable::Use voice = capi::voices().useAt(route_.place);
+    return voice && voice->voice->channels.audible.load(std::memory_order_acquire);
 }
 
 capi::ChannelTarget VoiceEffect::target(const AudioBlock& block, std::uint32_t first,

@@ -26,7 +26,7 @@ class VoiceEffect {
 public:
     /// Silence, from wherever the voice is.
     static constexpr double stopSeconds = 0.005;
-    /// To another strength, and back from silence.
+    /// To another strength while the voice sounds, and back from silence.
     static constexpr double glideSeconds = 0.01;
 
     [[nodiscard]] VoiceParameters& parameters() noexcept { return parameters_; }
@@ -39,6 +39,8 @@ public:
 
 private:
     [[nodiscard]] bool missedBlocks(std::uint64_t tick, std::uint32_t frames) noexcept;
+    /// Whether its newest block ended in sound: a gain that glides must not start one from the gain before a silence.
+    [[nodiscard]] bool voiceSounds() const noexcept;
     [[nodiscard]] capi::ChannelTarget target(const AudioBlock& block, std::uint32_t first,
                                              std::uint32_t count) const noexcept;
     void play(const capi::ChannelTarget& target, double sampleRateHz) noexcept;

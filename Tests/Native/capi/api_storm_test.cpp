@@ -57,6 +57,7 @@ struct StormHandles {
     SharedHandles<haptoflow_runtime*> runtimes;
     SharedHandles<haptoflow_model*> models;
     SharedHandles<haptoflow_generator*> generators;
+    SharedHandles<haptoflow_cancellation*> cancellations;
     SharedHandles<haptoflow_engine*> engines;
     SharedHandles<haptoflow_voice> voices;
 };
@@ -82,7 +83,7 @@ private:
     };
 
     haptoflow_status once() {
-        static constexpr std::array<Kind, 15> kinds{{{460, &Storm::render},
+        static constexpr std::array<Kind, 16> kinds{{{450, &Storm::render},
                                                      {340, &Storm::publish},
                                                      {30, &Storm::createVoice},
                                                      {15, &Storm::destroyVoice},
@@ -96,7 +97,8 @@ private:
                                                      {2, &Storm::closeGenerator},
                                                      {17, &Storm::useGenerator},
                                                      {20, &Storm::askModel},
-                                                     {85, &Storm::command}}};
+                                                     {85, &Storm::command},
+                                                     {10, &Storm::cancel}}};
         std::uint32_t choice = next() % 1000;
         for (const Kind& kind : kinds) {
             if (choice < kind.share) {
@@ -207,9 +209,25 @@ private:
         options.model = handles_.models.any(next());
         options.without_worker = oneIn(3) ? 1 : 0;
         options.update_rate_hz = oneIn(8) ? rateHz() : 0.0;
+        options.cancellation = oneIn(3) ? handles_.cancellations.any(next()) : nullptr;
         haptoflow_engine* engine = nullptr;
         const haptoflow_status status = haptoflow_engine_create(&options, oneIn(16) ? nullptr : &engine);
         return kept(status, engine, handles_.engines);
+    }
+
+    /// Makes one, cancels or closes one.
+    haptoflow_status cancel() {
+        haptoflow_cancellation* cancellation = nullptr;
+        switch (next() % 4) {
+            case 0:
+                return haptoflow_cancellation_cancel(handles_.cancellations.any(next()));
+            case 1:
+                return closed(handles_.cancellations, haptoflow_cancellation_close);
+            default: {
+                const haptoflow_status status = haptoflow_cancellation_create(oneIn(16) ? nullptr : &cancellation);
+                return kept(status, cancellation, handles_.cancellations);
+            }
+        }
     }
 
     haptoflow_status closeEngine() { return closed(handles_.engines, haptoflow_engine_close); }
@@ -258,6 +276,7 @@ private:
         options.model = handles_.models.any(next());
         options.tier = tiers[next() % tiers.size()];
         options.maximum_batch = oneIn(8) ? next() : next() % 4;
+        options.cancellation = oneIn(3) ? handles_.cancellations.any(next()) : nullptr;
         haptoflow_generator* generator = nullptr;
         const haptoflow_status status = haptoflow_generator_create(&options, oneIn(16) ? nullptr : &generator);
         return kept(status, generator, handles_.generators);
@@ -375,8 +394,8 @@ private:
     }
 
     void check(haptoflow_status status) {
-        isSound_ =
-            isSound_ && (status == HAPTOFLOW_OK || status == HAPTOFLOW_INVALID_ARGUMENT || status == HAPTOFLOW_BUSY);
+        isSound_ = isSound_ && (status == HAPTOFLOW_OK || status == HAPTOFLOW_INVALID_ARGUMENT ||
+                                status == HAPTOFLOW_BUSY || status == HAPTOFLOW_CANCELLED);
     }
 
     StormHandles& handles_;
@@ -420,6 +439,9 @@ protected:
         }
         for (haptoflow_generator* generator : handles.generators.all()) {
             (void)haptoflow_generator_close(&generator);
+        }
+        for (haptoflow_cancellation* cancellation : handles.cancellations.all()) {
+            (void)haptoflow_cancellation_close(&cancellation);
         }
         for (haptoflow_model* model : handles.models.all()) {
             (void)haptoflow_model_close(&model);

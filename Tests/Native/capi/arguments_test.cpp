@@ -24,7 +24,9 @@ TEST(LibraryApiTest, NamesEveryStatusAndOnlyThose) {
     EXPECT_STREQ(haptoflow_status_name(HAPTOFLOW_OK), "HAPTOFLOW_OK");
     EXPECT_STREQ(haptoflow_status_name(HAPTOFLOW_MODEL_TOO_NEW), "HAPTOFLOW_MODEL_TOO_NEW");
     EXPECT_STREQ(haptoflow_status_name(HAPTOFLOW_INFERENCE_FAILED), "HAPTOFLOW_INFERENCE_FAILED");
-    for (const haptoflow_status status : {-1, 5, 9, 17, 22, INT32_MAX, INT32_MIN}) {
+    EXPECT_STREQ(haptoflow_status_name(HAPTOFLOW_CANCELLED), "HAPTOFLOW_CANCELLED");
+    EXPECT_STREQ(haptoflow_status_name(HAPTOFLOW_TIER_TOO_SLOW), "HAPTOFLOW_TIER_TOO_SLOW");
+    for (const haptoflow_status status : {-1, 5, 9, 17, 24, INT32_MAX, INT32_MIN}) {
         EXPECT_STREQ(haptoflow_status_name(status), "HAPTOFLOW_UNKNOWN_STATUS");
     }
 }
@@ -70,7 +72,8 @@ struct NullCalls {
 
 TEST(ArgumentTest, NullPointersAreRefusedByEveryFunction) {
     OpenEngine open(tinyModelPath);
-    const haptoflow_runtime_options runtimeOptions{sizeof(runtimeOptions), nullptr, HAPTOFLOW_TEST_ONNXRUNTIME};
+    const haptoflow_runtime_options runtimeOptions{sizeof(runtimeOptions), nullptr, HAPTOFLOW_TEST_ONNXRUNTIME, nullptr,
+                                                   nullptr};
     const haptoflow_model_options modelOptions{sizeof(modelOptions), nullptr, 0, tinyModelPath.c_str()};
     haptoflow_generator_options generatorOptions{};
     generatorOptions.struct_size = sizeof(generatorOptions);
@@ -101,6 +104,8 @@ TEST(ArgumentTest, NullPointersAreRefusedByEveryFunction) {
     haptoflow_tier_info tier{};
     tier.struct_size = sizeof(tier);
     haptoflow_tier_times times{};
+    std::array<char, 8> failure{};
+    uint64_t length = 0;
     times.struct_size = sizeof(times);
     haptoflow_engine_statistics statistics{};
     statistics.struct_size = sizeof(statistics);
@@ -110,6 +115,9 @@ TEST(ArgumentTest, NullPointersAreRefusedByEveryFunction) {
          {[&] { return haptoflow_runtime_open(nullptr, &noRuntime); },
           [&] { return haptoflow_runtime_open(&runtimeOptions, nullptr); }}},
         {"haptoflow_runtime_close", {[&] { return haptoflow_runtime_close(nullptr); }}},
+        {"haptoflow_cancellation_create", {[&] { return haptoflow_cancellation_create(nullptr); }}},
+        {"haptoflow_cancellation_cancel", {[&] { return haptoflow_cancellation_cancel(nullptr); }}},
+        {"haptoflow_cancellation_close", {[&] { return haptoflow_cancellation_close(nullptr); }}},
         {"haptoflow_model_open",
          {[&] { return haptoflow_model_open(nullptr, &noModel); },
           [&] { return haptoflow_model_open(&modelOptions, nullptr); }}},
@@ -156,6 +164,10 @@ TEST(ArgumentTest, NullPointersAreRefusedByEveryFunction) {
         {"haptoflow_engine_get_statistics",
          {[&] { return haptoflow_engine_get_statistics(nullptr, &statistics); },
           [&] { return haptoflow_engine_get_statistics(open.engine, nullptr); }}},
+        {"haptoflow_engine_last_failure",
+         {[&] { return haptoflow_engine_last_failure(nullptr, failure.data(), failure.size(), &length); },
+          [&] { return haptoflow_engine_last_failure(open.engine, nullptr, failure.size(), &length); },
+          [&] { return haptoflow_engine_last_failure(open.engine, failure.data(), failure.size(), nullptr); }}},
         {"haptoflow_engine_tier_times",
          {[&] { return haptoflow_engine_tier_times(nullptr, 0, &times); },
           [&] { return haptoflow_engine_tier_times(open.engine, 0, nullptr); }}},
@@ -196,7 +208,9 @@ TEST(ArgumentTest, ClosingANullHandleIsFine) {
     haptoflow_model* model = nullptr;
     haptoflow_generator* generator = nullptr;
     haptoflow_engine* engine = nullptr;
+    haptoflow_cancellation* cancellation = nullptr;
     haptoflow_voice voice = 0;
+    EXPECT_EQ(haptoflow_cancellation_close(&cancellation), HAPTOFLOW_OK);
     EXPECT_EQ(haptoflow_runtime_close(&runtime), HAPTOFLOW_OK);
     EXPECT_EQ(haptoflow_model_close(&model), HAPTOFLOW_OK);
     EXPECT_EQ(haptoflow_generator_close(&generator), HAPTOFLOW_OK);
@@ -248,9 +262,9 @@ TEST_F(HandleTest, AStructSizeThatWasNeverSetIsRefused) {
 TEST_F(HandleTest, ARuntimeWantsExactlyOneSource) {
     haptoflow_runtime* runtime = nullptr;
     const int notAnApi = 0;
-    const haptoflow_runtime_options neither{sizeof(neither), nullptr, nullptr};
+    const haptoflow_runtime_options neither{sizeof(neither), nullptr, nullptr, nullptr, nullptr};
     EXPECT_EQ(haptoflow_runtime_open(&neither, &runtime), HAPTOFLOW_INVALID_ARGUMENT);
-    const haptoflow_runtime_options both{sizeof(both), &notAnApi, HAPTOFLOW_TEST_ONNXRUNTIME};
+    const haptoflow_runtime_options both{sizeof(both), &notAnApi, HAPTOFLOW_TEST_ONNXRUNTIME, nullptr, nullptr};
     EXPECT_EQ(haptoflow_runtime_open(&both, &runtime), HAPTOFLOW_INVALID_ARGUMENT);
     EXPECT_EQ(runtime, nullptr);
 }

@@ -218,11 +218,17 @@ TEST(EngineApiTest, OptionsOutOfRangeAreRefusedByName) {
     EXPECT_THAT(refusal([](auto& o) { o.budget_share = 1.5; }), ::testing::HasSubstr("budget_share"));
     EXPECT_THAT(refusal([](auto& o) { o.batch_voices = 65; }), ::testing::HasSubstr("batch_voices"));
     EXPECT_THAT(refusal([](auto& o) { o.fixed_lead_ms = 51.0; }), ::testing::HasSubstr("lead"));
+    for (const double fullScaleMps2 : {-60.0, 1e-9, 1e12, std::nan(""), HUGE_VAL}) {
+        EXPECT_THAT(refusal([=](auto& o) { o.full_scale_mps2 = fullScaleMps2; }), ::testing::HasSubstr("full_scale_mps2"));
+    }
     EXPECT_THAT(refusal([](auto& o) { o.model = nullptr; }), ::testing::HasSubstr("model"));
     EXPECT_EQ(haptoflow_voice_set_strength(open.voice, 1.5F), HAPTOFLOW_INVALID_ARGUMENT);
     EXPECT_EQ(haptoflow_voice_set_ceiling(open.voice, std::nanf("")), HAPTOFLOW_INVALID_ARGUMENT);
     haptoflow_voice voice = 0;
-    EXPECT_EQ(haptoflow_voice_create(open.engine, 4000.0, &voice), HAPTOFLOW_INVALID_ARGUMENT);
+    for (const double rateHz : {4000.0, 192001.0, -48000.0, std::nan(""), HUGE_VAL}) {
+        EXPECT_EQ(haptoflow_voice_create(open.engine, rateHz, &voice), HAPTOFLOW_INVALID_ARGUMENT) << rateHz;
+        EXPECT_THAT(message(), ::testing::HasSubstr("8000")) << "the message names what is possible";
+    }
 }
 
 TEST(EngineApiTest, AnEngineWithAWorkerIsNotSteppedByHand) {
@@ -237,10 +243,10 @@ TEST(EngineApiTest, QualityNamesATierWhichIsReadableWithItsMeasuredTime) {
     ASSERT_EQ(haptoflow_model_tier_count(open.model, &tiers), HAPTOFLOW_OK);
     EXPECT_EQ(open.engineStatistics().tier, tiers - 1);
     ASSERT_EQ(haptoflow_engine_set_quality(open.engine, HAPTOFLOW_QUALITY_DRAFT), HAPTOFLOW_OK);
-    EXPECT_EQ(open.engineStatistics().tier, 0U);
     for (int update = 0; update < 5; ++update) {
         (void)open.update(slidingState());
     }
+    EXPECT_EQ(open.engineStatistics().tier, 0U);
     haptoflow_tier_times times{};
     times.struct_size = sizeof(times);
     ASSERT_EQ(haptoflow_engine_tier_times(open.engine, 0, &times), HAPTOFLOW_OK);

@@ -202,14 +202,14 @@ TEST(RuntimeApiTest, TakesTheApiBaseOfALibraryThatTheCallerLoaded) {
     // Never closed: what ONNX Runtime keeps until the end has to be known as its own by then.
     static const auto& library = *new haptoflow::testing::DynamicLibrary(HAPTOFLOW_TEST_ONNXRUNTIME);
     const auto getApiBase = library.function<const OrtApiBase* (*)()>("OrtGetApiBase");
-    const haptoflow_runtime_options options{sizeof(options), getApiBase(), nullptr};
+    const haptoflow_runtime_options options{sizeof(options), getApiBase(), nullptr, nullptr, nullptr};
     haptoflow_runtime* runtime = nullptr;
     EXPECT_EQ(haptoflow_runtime_open(&options, &runtime), HAPTOFLOW_OK) << message();
     EXPECT_EQ(haptoflow_runtime_close(&runtime), HAPTOFLOW_OK);
 }
 
 TEST(RuntimeApiTest, NamesTheLibraryThatIsNotThere) {
-    const haptoflow_runtime_options options{sizeof(options), nullptr, "/nowhere/libonnxruntime.so"};
+    const haptoflow_runtime_options options{sizeof(options), nullptr, "/nowhere/libonnxruntime.so", nullptr, nullptr};
     haptoflow_runtime* runtime = nullptr;
     EXPECT_EQ(haptoflow_runtime_open(&options, &runtime), HAPTOFLOW_RUNTIME_UNAVAILABLE);
     EXPECT_THAT(message(), ::testing::StartsWith("/nowhere/libonnxruntime.so"));

@@ -30,6 +30,9 @@ protected:
         expected.struct_size = sizeof(expected);
         expected.updates = updatesInTwoSeconds;
         expected.rendered_frames = updatesInTwoSeconds * framesOfAnUpdate;
+        expected.device_rate_hz = 48000.0;
+        expected.is_rate_supported = 1;
+        expected.silence = HAPTOFLOW_SILENCE_REST;
         EXPECT_EQ(std::bit_cast<VoiceFigures>(open_.statistics()), std::bit_cast<VoiceFigures>(expected));
     }
 
@@ -45,6 +48,7 @@ protected:
         EXPECT_EQ(found.quality_steps_down, 0U);
         EXPECT_EQ(found.quality_steps_up, 0U);
         EXPECT_EQ(found.last_round_ms, 0.0);
+        EXPECT_EQ(found.worker_is_alive, 1U);
         EXPECT_NEAR(found.budget_ms, 250.0 / 72.0, 1e-9);
         uint32_t tiers = 0;
         ASSERT_EQ(haptoflow_model_tier_count(open_.model, &tiers), HAPTOFLOW_OK);

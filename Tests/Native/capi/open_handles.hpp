@@ -26,7 +26,7 @@ inline std::vector<char> tinyModelBytes() {
 }
 
 inline haptoflow_runtime* openRuntime() {
-    const haptoflow_runtime_options options{sizeof(options), nullptr, HAPTOFLOW_TEST_ONNXRUNTIME};
+    const haptoflow_runtime_options options{sizeof(options), nullptr, HAPTOFLOW_TEST_ONNXRUNTIME, nullptr, nullptr};
     haptoflow_runtime* runtime = nullptr;
     EXPECT_EQ(haptoflow_runtime_open(&options, &runtime), HAPTOFLOW_OK) << message();
     return runtime;

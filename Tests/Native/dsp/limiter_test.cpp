@@ -42,6 +42,42 @@ TEST(LimiterTest, AboveTheKneeItNeverFallsAndNeverReachesOne) {
     EXPECT_LT(SoftLimiter(1e-30F).limit(1e30F), 1.0F) << "the quotient overflows to infinity";
 }
 
+TEST(LimiterTest, UnderACeilingTheKneeEndsAtTheCeilingInsteadOfMeetingAHardClip) {
+    for (const float ceiling : {1e-6F, 0.03F, 0.25F, 0.5F, 0.9F, 1.0F}) {
+        SoftLimiter limiter(1.0F);
+        limiter.setCeiling(ceiling);
+        EXPECT_EQ(limiter.limit(0.5F * ceiling), 0.5F * ceiling) << "linear below 0.7 of the ceiling";
+        float previous = limiter.limit(0.6F * ceiling);
+        double previousSlope = 1.0;
+        for (float input = 0.6F * ceiling; input < 20.0F * ceiling; input += 0.01F * ceiling) {
+            const float output = limiter.limit(input + 0.01F * ceiling);
+            const double slope = (static_cast<double>(output) - previous) / (0.01 * ceiling);
+            ASSERT_LT(output, ceiling) << input;
+            ASSERT_GT(output, previous) << "a hard clip would be flat at " << input << " under " << ceiling;
+            ASSERT_NEAR(slope, previousSlope, 0.08) << "a corner at " << input << " under " << ceiling;
+            previous = output;
+            previousSlope = slope;
+        }
+        EXPECT_LT(limiter.limit(infinity / 2.0F), ceiling);
+        EXPECT_LT(limiter.limit(std::numeric_limits<float>::max()), ceiling);
+    }
+}
+
+TEST(LimiterTest, ACeilingOfZeroIsSilenceAndOneOutsideZeroToOneIsClamped) {
+    SoftLimiter limiter(1.0F);
+    limiter.setCeiling(0.0F);
+    EXPECT_EQ(limiter.limit(0.0F), 0.0F);
+    EXPECT_EQ(limiter.limit(5.0F), 0.0F);
+    EXPECT_EQ(limiter.limit(-1e30F), 0.0F);
+    limiter.setCeiling(7.0F);
+    EXPECT_LT(limiter.limit(1e30F), 1.0F);
+    EXPECT_EQ(limiter.limit(0.6F), 0.6F);
+    limiter.setCeiling(notANumber);
+    EXPECT_EQ(limiter.limit(0.6F), 0.6F);
+    limiter.setCeiling(-2.0F);
+    EXPECT_EQ(limiter.limit(0.6F), 0.0F);
+}
+
 TEST(LimiterTest, ItKeepsTellingLoudFromLouderFarAboveTheKnee) {
     const SoftLimiter limiter(60.0F);
     for (float input = 40.0F; input < 6000.0F; input *= 1.05F) {

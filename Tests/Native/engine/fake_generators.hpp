@@ -3,6 +3,7 @@
 #include "inference/segment_generator.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <functional>
@@ -34,6 +35,27 @@ public:
 private:
     Answer answer_;
     float levelMps2_;
+};
+
+/// A tone whose amplitude, and whose level at touch-down, is 10 m/s^2 for each m/s and N: what sounds tells the motion
+/// that it was made for.
+class MotionGenerator final : public inference::SegmentGenerator {
+public:
+    [[nodiscard]] static float levelMps2(const std::array<float, 3>& motion) {
+        return 10.0F * std::hypot(motion[0], motion[1]) * motion[2];
+    }
+    void generate(std::span<const inference::SegmentRequest> requests, std::span<float> segments) override {
+        for (std::size_t i = 0; i < requests.size(); ++i) {
+            for (std::size_t sample = 0; sample < inference::segmentSamples; ++sample) {
+                const double phase = 2.0 * std::numbers::pi * 100.0 * static_cast<double>(sample) / 2000.0;
+                segments[i * inference::segmentSamples + sample] =
+                    std::numbers::sqrt2_v<float> * levelMps2(requests[i].motion) * static_cast<float>(std::sin(phase));
+            }
+        }
+    }
+    void levels(std::span<const inference::SegmentRequest> requests, std::span<float> levels) override {
+        std::ranges::transform(requests, levels.begin(), [](const auto& each) { return levelMps2(each.motion); });
+    }
 };
 
 inline constexpr double toneHz = 100.0;

@@ -3,6 +3,7 @@
 
 #include "fake_generators.hpp"
 #include "simulated_device.hpp"
+#include "inference/inference_error.hpp"
 #include "test_model.hpp"
 
 #include <gtest/gtest.h>
@@ -10,6 +11,7 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <cmath>
 #include <stdexcept>
 #include <thread>
 #include <vector>
@@ -186,7 +188,8 @@ TEST_F(LiveEngineTest, AutomaticQualityMeasuresEveryTierWhileNothingTouchesAndTh
     const EngineStatistics statistics = engine->statistics();
     EXPECT_FALSE(statistics.measuring);
     EXPECT_EQ(statistics.tier, 2U);
-    for (const TierTimes& tier : statistics.tiers) {
+    for (std::size_t index = 0; index < engine->tierCount(); ++index) {
+        const TierTimes tier = engine->tierTimes(index);
         EXPECT_EQ(tier.runs, QualityControl::measuringRuns);
         EXPECT_GT(tier.percentile99Ms, 0.0);
     }
@@ -259,6 +262,85 @@ TEST_F(LiveEngineTest, OneVoiceThatTheNetworkFailsForDoesNotSilenceTheOthers) {
     EXPECT_EQ(voices[1]->channels.counters.inferenceNanoseconds, 0U);
 }
 
+/// Generates only when it is let, and says when it has begun.
+class HeldGenerator final : public inference::SegmentGenerator {
+public:
+    void generate(std::span<const inference::SegmentRequest> requests, std::span<float> segments) override {
+        isInside = true;
+        while (isHeld) {
+            std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        }
+        std::ranges::fill(segments.first(requests.size() * inference::segmentSamples), 0.5F);
+    }
+    void levels(std::span<const inference::SegmentRequest> requests, std::span<float> levelsMps2) override {
+        std::fill_n(levelsMps2.begin(), requests.size(), 1.0F);
+    }
+
+    std::atomic<bool> isHeld{true};
+    std::atomic<bool> isInside{false};
+};
+
+TEST_F(LiveEngineTest, WhileTheNetworkRunsVoicesComeGoAndAreReadAndQualityChangesWithoutWaitingForIt) {
+    auto generator = std::make_unique<HeldGenerator>();
+    HeldGenerator& held = *generator;
+    EngineTiers tiers;
+    tiers.push_back(std::move(generator));
+    LiveEngine engine(model_, std::move(tiers), 0, settings(true));
+    auto voice = engine.addVoice(48000.0);
+    ASSERT_TRUE(renderUntil(*voice, [&] {
+        engine.publish(*voice, testing::sliding());
+        return held.isInside.load();
+    }));
+    std::atomic<bool> isDone{false};
+    std::thread user([&] {
+        const auto another = engine.addVoice(44100.0);
+        (void)engine.statistics();
+        (void)engine.tierTimes(0);
+        (void)engine.lastFailure();
+        engine.setQuality({.fixedTier = 0, .budgetMs = 5.0});
+        engine.publish(*another, testing::sliding());
+        engine.removeVoice(*another);
+        // The voice that the round in progress generates for, down to its memory.
+        engine.removeVoice(*voice);
+        voice.reset();
+        isDone = true;
+    });
+    for (int i = 0; i < 10000 && !isDone; ++i) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    EXPECT_TRUE(isDone) << "somebody waited for the network";
+    held.isHeld = false;
+    user.join();
+    EXPECT_EQ(engine.statistics().voices, 0U);
+}
+
+TEST_F(LiveEngineTest, TheNewestFailureOfARoundIsKeptInWords) {
+    auto generator = std::make_unique<FakeGenerator>([](const inference::SegmentRequest& request, std::span<float>) {
+        throw inference::InferenceError("no segment for " + std::to_string(request.motion[2]) + " N");
+    });
+    EngineTiers tiers;
+    tiers.push_back(std::move(generator));
+    LiveEngine engine(model_, std::move(tiers), 0, settings(false));
+    const auto voice = engine.addVoice(48000.0);
+    EXPECT_EQ(engine.lastFailure(), "");
+    std::vector<float> block(256);
+    for (const float newtons : {1.0F, 3.0F}) {
+        engine.publish(*voice, testing::sliding(0.1F, newtons));
+        voice->renderer.render(block, 48000.0);
+        engine.step();
+        EXPECT_EQ(engine.lastFailure(), "no segment for " + std::to_string(newtons) + " N");
+        voice->renderer.render(block, 48000.0);
+    }
+    EXPECT_EQ(engine.statistics().failedRounds, 2U);
+}
+
+TEST_F(LiveEngineTest, StatisticsSayWhetherTheWorkerLives) {
+    const auto engine = this->engine(settings(true));
+    EXPECT_TRUE(engine->statistics().workerAlive);
+    engine->stop();
+    EXPECT_FALSE(engine->statistics().workerAlive);
+}
+
 TEST_F(LiveEngineTest, SettingsOutOfRangeAreRefused) {
     LiveEngineSettings bad = settings(false);
     bad.updateRateHz = 0.0;
@@ -269,6 +351,11 @@ TEST_F(LiveEngineTest, SettingsOutOfRangeAreRefused) {
     bad = settings(false);
     bad.quality.budgetMs = 0.0;
     EXPECT_THROW((void)engine(bad), std::invalid_argument);
+    for (const float fullScaleMps2 : {0.0F, -60.0F, 1e-4F, 2e6F, std::nanf(""), INFINITY}) {
+        bad = settings(false);
+        bad.fullScaleMps2 = fullScaleMps2;
+        EXPECT_THROW((void)engine(bad), std::invalid_argument) << fullScaleMps2;
+    }
     EXPECT_THROW(LiveEngine(model_, {}, 0, settings(false)), std::invalid_argument);
     EXPECT_THROW((void)engine(settings(false))->addVoice(4000.0), std::invalid_argument);
 }

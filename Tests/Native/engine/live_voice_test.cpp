@@ -163,7 +163,7 @@ TEST_F(LiveVoiceTest, PanicIsSilentAtTheEndOfTheNextBlockAndStaysSoUntilANewTouc
         SimulatedDevice device(model_, tone_, settings);
         device.run(0.4, slide);
         const float ordinaryStep = testing::largestStep(device.output);
-        device.controls().panics.fetch_add(1);
+        device.voice().channels.panic();
         const std::size_t begin = device.output.size();
         device.run(0.3, slide);
         EXPECT_LT(testing::peak(from(device, begin + block)), silence) << block;
@@ -380,7 +380,8 @@ TEST_F(LiveVoiceTest, StrengthGlidesAndTheCeilingHoldsWhateverTheNetworkReturns)
     SimulatedDevice device(model_, loud);
     device.controls().ceiling = 0.25F;
     device.run(0.5, slide);
-    EXPECT_EQ(testing::peak(device.output), 0.25F);
+    EXPECT_LT(testing::peak(device.output), 0.25F);
+    EXPECT_GT(testing::peak(device.output), 0.249F);
     device.controls().strength = 0.0F;
     device.run(0.1, slide);
     EXPECT_EQ(testing::peak(from(device, device.output.size() - 2400)), 0.0F);
@@ -460,7 +461,7 @@ TEST_F(LiveVoiceTest, APanicEndsWithItsBlockEvenWhereTheContactGoesStaleAtItsSec
     device.publish(testing::sliding());
     std::vector<float> rest(4799);
     device.voice().renderer.render(rest, 48000.0);
-    device.controls().panics.fetch_add(1);
+    device.voice().channels.panic();
     std::vector<float> block(256);
     device.voice().renderer.render(block, 48000.0);
     EXPECT_EQ(block.back(), 0.0F);

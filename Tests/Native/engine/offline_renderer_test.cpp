@@ -82,6 +82,7 @@ TEST(OfflineRendererTest, WithoutTouchNothingIsGeneratedAndNothingSounds) {
     std::vector<ContactState> states = slide(1.0);
     for (ContactState& state : states) {
         state.touching = false;
+        state.touchCounter = 0;
     }
     const OfflineRender render = renderOffline(model, generator, states, {});
     EXPECT_EQ(generator.generated, 0);
@@ -130,7 +131,7 @@ TEST(OfflineRendererTest, UpdatesThatStopForATenthOfASecondSilenceTheVoiceAndSli
     for (std::size_t i = quietFrom; i < quietTo; ++i) {
         ASSERT_EQ(render.samples[i], 0.0F) << "sample " << i;
     }
-    EXPECT_EQ(render.onsets, 2U);
+    EXPECT_EQ(render.onsets, 1U) << "the same touch";
     EXPECT_NE(render.samples[quietTo + 480], 0.0F);
 }
 

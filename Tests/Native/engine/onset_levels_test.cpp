@@ -5,8 +5,12 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <functional>
+#include <memory>
 #include <numbers>
 #include <random>
+#include <string>
+#include <vector>
 
 namespace haptoflow::engine {
 namespace {
@@ -22,13 +26,49 @@ class PowerLaw final : public inference::SegmentGenerator {
 public:
     void generate(std::span<const inference::SegmentRequest>, std::span<float>) override {}
     void levels(std::span<const inference::SegmentRequest> requests, std::span<float> levelsMps2) override {
+        ++calls;
+        asked += requests.size();
+        if (whenAsked) {
+            whenAsked();
+        }
         for (std::size_t i = 0; i < requests.size(); ++i) {
             const auto& motion = requests[i].motion;
             levelsMps2[i] = static_cast<float>(
                 level(motion[0], motion[1], motion[2], static_cast<double>(std::abs(requests[i].embedding[3]))));
         }
     }
+
+    std::size_t calls = 0;
+    std::size_t asked = 0;
+    std::function<void()> whenAsked;
 };
+
+/// The small model with so many labels, each with one of so many material embeddings.
+model::ModelFile modelWithLabels(std::size_t labels, std::size_t embeddings) {
+    model::testing::ModelBuilder builder;
+    const nlohmann::json first = builder.header["labels"][0];
+    for (std::size_t label = 2; label < labels; ++label) {
+        nlohmann::json next = first;
+        next["name"] = "label " + std::to_string(label);
+        next["embedding_row"] = label % embeddings;
+        builder.header["labels"].push_back(next);
+    }
+    std::vector<float> rows(embeddings * model::embeddingSize);
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        rows[i] = 0.001F * static_cast<float>(i / model::embeddingSize);
+    }
+    builder.blobs[0].shape = {static_cast<std::int64_t>(embeddings), model::embeddingSize};
+    builder.blobs[0].bytes = model::testing::bytesOf(rows);
+    return model::ModelFile::parse(builder.build());
+}
+
+/// How often the level graph is asked for a model's levels.
+std::size_t levelsAskedFor(std::size_t labels, std::size_t embeddings) {
+    PowerLaw graph;
+    const OnsetLevels levels(modelWithLabels(labels, embeddings), graph);
+    EXPECT_LE(graph.calls, graph.asked / 256 + 1) << "all but the last call are full batches";
+    return graph.asked;
+}
 
 double decibels(double ratio) {
     return std::abs(20.0 * std::log10(ratio));
@@ -88,6 +128,42 @@ TEST_F(OnsetLevelsTest, UnknownLabelsAreLeftOutAndABlendOfNoneIsTheFirst) {
     EXPECT_EQ(levels_.at(MaterialBlend{}, motion), first);
     EXPECT_EQ(levels_.at(blendOf({{.label = 900, .weight = 1.0F}, {.label = 0, .weight = 0.1F}}), motion), first);
     EXPECT_EQ(levels_.at(blendOf({{.label = 1, .weight = 0.0F}}), motion), first);
+}
+
+TEST(OnsetLevelsCostTest, TheGraphIsAsked640TimesForEachEmbeddingHoweverManyThereAre) {
+    EXPECT_EQ(levelsAskedFor(2, 2), 2U * 640U);
+    EXPECT_EQ(levelsAskedFor(64, 64), 64U * 640U);
+    EXPECT_EQ(levelsAskedFor(4096, 4096), 4096U * 640U);
+}
+
+TEST(OnsetLevelsCostTest, LabelsOfTheSameEmbeddingCostNothingMore) {
+    EXPECT_EQ(levelsAskedFor(4096, 16), 16U * 640U);
+}
+
+TEST(OnsetLevelsCostTest, LabelsOfTheSameEmbeddingHaveTheSameLevelAndOthersTheirOwn) {
+    PowerLaw graph;
+    const model::ModelFile model = modelWithLabels(40, 8);
+    const OnsetLevels levels(model, graph);
+    const std::array<float, 3> motion{0.1F, 0.0F, 1.0F};
+    for (std::uint32_t label = 2; label < 40; ++label) {
+        const float found = levels.at(blendOf({{.label = label, .weight = 1.0F}}), motion);
+        const double truth = level(0.1, 0.0, 1.0, static_cast<double>(model.embedding(label)[3]));
+        EXPECT_LT(decibels(static_cast<double>(found) / truth), 0.01) << label;
+        EXPECT_EQ(found, levels.at(blendOf({{.label = label % 8, .weight = 1.0F}}), motion)) << label;
+    }
+}
+
+TEST(OnsetLevelsCostTest, ACancellationEndsItWithinOneBatch) {
+    PowerLaw graph;
+    const auto cancellation = std::make_shared<inference::Cancellation>();
+    graph.whenAsked = [&] {
+        if (graph.calls == 3) {
+            cancellation->cancel();
+        }
+    };
+    const model::ModelFile model = modelWithLabels(4096, 4096);
+    EXPECT_THROW(OnsetLevels(model, graph, {.cancellation = cancellation}), inference::LoadCancelled);
+    EXPECT_EQ(graph.calls, 3U);
 }
 
 }  // namespace

@@ -39,7 +39,7 @@ struct DeviceSettings {
     /// From the worker's look at the contact to its segment being there, as a function of the time of looking.
     std::function<double(double)> latencySeconds = [](double) { return 0.002; };
     float fullScaleMps2 = 60.0F;
-    std::optional<std::int64_t> fixedLeadSamples;
+    std::optional<std::int64_t> fixedLeadSamples = std::nullopt;
 };
 
 /// Main thread, worker and audio device of one voice on one simulated clock: contact states at their rate, blocks at

@@ -84,7 +84,7 @@ TEST(GraphCheckTest, RefusesALevelGraphThatIsAField) {
 }
 
 TEST(GraphCheckTest, RefusesBytesThatAreNotAGraph) {
-    expectRefused("not_onnx", "level", "loading the graph");
+    expectRefused("not_onnx", "level", "is not an ONNX model");
 }
 
 class NotFiniteTest : public ::testing::Test {

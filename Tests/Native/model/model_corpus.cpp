@@ -1,11 +1,11 @@
-#include "model_builder.hpp"
+#include "onnx_writer.hpp"
 
 #include <filesystem>
 #include <fstream>
 #include <iostream>
 #include <stdexcept>
 
-// Writes the files that the fuzzer starts from into the folder named on the command line.
+// Writes the files that the fuzzers start from into the folder named on the command line.
 
 namespace {
 
@@ -49,5 +49,9 @@ int main(int argc, char** argv) {
     write(folder / "plain", ModelBuilder().build());
     write(folder / "latent", latentModel().build());
     write(folder / "average_velocity", averageVelocityModel().build());
+    // For onnx_fuzzer.
+    std::filesystem::create_directories(folder / "graphs");
+    write(folder / "graphs" / "plain", levelGraph().apply("Identity", {"weighted"}, {"log_level"}).model().written());
+    write(folder / "graphs" / "loop", loopingLevel());
     return 0;
 }

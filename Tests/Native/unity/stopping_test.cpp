@@ -65,6 +65,21 @@ TEST_P(StoppingFlagsTest, TheVoiceFadesWithin5MsAndIsRenderedNoFurther) {
     EXPECT_EQ(rendered(), before + stopFrames);
 }
 
+TEST_F(StoppingTest, AStrengthSetWhileTheVoiceIsSilentHoldsFromTheFirstSampleOfTheNextTouch) {
+    voice_.lift();
+    (void)effect.process(frameOfAudio);
+    effect.set("Strength", 0.0F);
+    voice_.slide();
+    EXPECT_THAT(effect.process(frameOfAudio).channel(1), Each(0.0F));
+    voice_.lift();
+    (void)effect.process(frameOfAudio);
+    // And up again: the touch begins at full strength instead of rising to it.
+    effect.set("Strength", 1.0F);
+    voice_.slide();
+    const std::vector<float> heard = effect.process(frameOfAudio).channel(1);
+    EXPECT_GT(peak(std::span(heard).first(120)), 0.5F * peak(heard));
+}
+
 TEST_P(StoppingFlagsTest, ABlockShorterThanTheFadeEndsInSilenceAllTheSame) {
     effect.setFlags(GetParam());
     const std::vector<float> heard = effect.process(32).channel(1);

@@ -14,7 +14,10 @@ from haptoflow_training.evaluation.label_discrimination import (
     train_classifier,
     write_report,
 )
+from haptoflow_training.evaluation.model_stamp import SHIPPED_MODEL, sha256_of
 from haptoflow_training.recordings.synthetic import load_materials
+
+_ROOT = Path(__file__).resolve().parents[3]
 
 
 def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser], summary: str) -> None:
@@ -32,7 +35,7 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser], su
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
     parser.add_argument("--engine", type=Path, required=True, help="the built command line, build/native/haptoflow")
-    parser.add_argument("--model", type=Path, help="model file (default: the one shipped)")
+    parser.add_argument("--model", type=Path, default=_ROOT / SHIPPED_MODEL, help="default: the one shipped")
     parser.add_argument("--recordings-per-label", type=int, default=16, help="of the classifier (default: 16)")
     parser.add_argument("--strokes-per-label", type=int, default=4, help="rendered and named (default: 4)")
     parser.add_argument("--seed", type=int, default=1001, help="of all recordings; the training used others")
@@ -57,7 +60,7 @@ def run(options: argparse.Namespace) -> int:
             advance=bar.update,
         )
     bar.close()
-    write_report(report, options.out)
+    write_report(report, options.out, sha256_of(options.model))
     print(
         f"named right: {report.render_accuracy:.1%} of {len(report.outcomes)} renders, "
         f"{report.recording_accuracy:.1%} of the recordings of the same strokes; "

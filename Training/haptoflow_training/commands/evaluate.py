@@ -15,15 +15,17 @@ from haptoflow_training.errors import InputError
 from haptoflow_training.evaluation import accuracy
 from haptoflow_training.evaluation.accuracy import Yardstick
 from haptoflow_training.evaluation.accuracy_time import merged, table, with_earlier_times
-from haptoflow_training.evaluation.accuracy_time_report import draw_chart, draw_spectra, write_document
+from haptoflow_training.evaluation.accuracy_time_chart import draw_chart
+from haptoflow_training.evaluation.accuracy_time_report import draw_spectra, write_document
 from haptoflow_training.evaluation.engine_library import EngineGenerator, EngineLibrary, default_engine
+from haptoflow_training.evaluation.model_stamp import SHIPPED_MODEL, sha256_of
 from haptoflow_training.evaluation.reference_set import ReferencePair, conditions, reference_set
 from haptoflow_training.evaluation.row_plan import PlannedRow, load_plan
 from haptoflow_training.evaluation.row_runner import UPDATE_RATE_HZ, made_from, measure_row
 from haptoflow_training.evaluation.row_store import stored_row
 from haptoflow_training.evaluation.row_training import train_models
 from haptoflow_training.evaluation.timing import Milliseconds, TimedSource, time_sources
-from haptoflow_training.evaluation.workplace import Workplace
+from haptoflow_training.evaluation.workplace import Workplace, is_of_repository
 from haptoflow_training.export.annotation import annotate_model
 from haptoflow_training.export.model_file import read_model_file
 from haptoflow_training.recordings.synthetic import load_materials
@@ -169,8 +171,10 @@ def _write(
         result = with_earlier_times(result, old)
         if options.rows:
             result = merged(old, result, plan)
-    write_json(out, result)
+    # The file's own tiers are annotated first: that changes its bytes, and the figures are to name what is shipped.
     _annotate(place, plan, result)
+    result = {**result, "model_sha256": _model_sha256(options, place, result)}
+    write_json(out, result)
     images = options.document.parent / "images"
     images.mkdir(exist_ok=True)
     draw_chart(result, images / "accuracy-time.png")
@@ -181,9 +185,17 @@ def _write(
             made = accuracy.generate_set(
                 generator, generator.embeddings, pairs, update_rate_hz=UPDATE_RATE_HZ, seed=31, open_loop=False
             )
-        draw_spectra(pairs, made.closed, images / "label-spectra.png")
+        draw_spectra(pairs, made.closed, images / "label-spectra.png", sha256_of(model))
     write_document(result, options.document, images, True, standard is not None)
     print(f"evaluate: {out} and {options.document}")
+
+
+def _model_sha256(options: argparse.Namespace, place: Workplace, result: dict[str, Any]) -> str:
+    """Of the repository's model. Where only rows of other models were measured, the figures of its own stay those of
+    the file that they were measured with."""
+    if options.rows and not any(is_of_repository(row) and row.name in options.rows for row in load_plan(options.plan)):
+        return str(result.get("model_sha256", ""))
+    return sha256_of(place.root / SHIPPED_MODEL)
 
 
 def _annotate(place: Workplace, plan: list[PlannedRow], result: dict[str, Any]) -> None:

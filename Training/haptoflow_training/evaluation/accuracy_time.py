@@ -59,7 +59,8 @@ def merged(old: dict[str, Any], new: dict[str, Any], plan: Sequence[PlannedRow])
     """Rows measured now replace their old ones; the others stay as they are, with the times of their own run."""
     by_name = {row["name"]: row for row in [*old["rows"], *new["rows"]]}
     rows = [by_name[row.name] for row in plan if row.name in by_name]
-    return {**new, "not_measured": _absent(plan, rows), "rows": rows}
+    kept = {"model_sha256": old["model_sha256"]} if "model_sha256" in old else {}
+    return {**new, **kept, "not_measured": _absent(plan, rows), "rows": rows}
 
 
 def with_earlier_times(new: dict[str, Any], old: dict[str, Any]) -> dict[str, Any]:

@@ -16,7 +16,8 @@ from scipy.signal import resample_poly
 
 from haptoflow_training.errors import InputError
 
-FULL_SCALE_MPS2 = 60.0
+# The command line's default, as in the C header.
+FULL_SCALE_MPS2 = 200.0
 _RENDER_RATE_HZ = 8000
 _STROKE_STEP = 16
 
@@ -29,7 +30,7 @@ class EngineRender:
     report: dict[str, Any]
 
 
-def write_scene(path: Path, label: str, update_rate_hz: float) -> None:
+def write_scene(path: Path, label: str, update_rate_hz: float, tip_radius_metres: float = 0.001) -> None:
     """A plane of the label, its grain along the first axis of motion."""
     scene = {
         "surfaces": [
@@ -41,7 +42,7 @@ def write_scene(path: Path, label: str, update_rate_hz: float) -> None:
                 "material": label,
             }
         ],
-        "stylus": {"tip_radius": 0.001},
+        "stylus": {"tip_radius": tip_radius_metres},
         "update_rate": update_rate_hz,
     }
     path.write_text(json.dumps(scene), encoding="utf-8")
@@ -63,7 +64,7 @@ def write_stroke(path: Path, motion: NDArray[np.floating]) -> None:
 
 
 def read_wav(path: Path) -> NDArray[np.float32]:
-    """Samples of a file that the engine wrote, +-1 = 60 m/s^2."""
+    """Samples of a file that the engine wrote, +-1 = FULL_SCALE_MPS2."""
     with warnings.catch_warnings():
         # The writer's padding chunk is legal; SciPy warns of every chunk it does not know.
         warnings.simplefilter("ignore", wavfile.WavFileWarning)

@@ -15,6 +15,7 @@ from scipy.stats import spearmanr
 
 from haptoflow_training.evaluation.engine_render import render_motion
 from haptoflow_training.evaluation.label_classifier import LabelClassifier, WindowFeatures, concatenate, window_features
+from haptoflow_training.evaluation.model_stamp import model_line, picture_metadata
 from haptoflow_training.preprocessing.pipeline import PreparedRecording, preprocess_recording
 from haptoflow_training.preprocessing.settings import PreprocessingSettings
 from haptoflow_training.recordings.synthetic import Material, hand_conditions, record_hand_condition
@@ -158,10 +159,11 @@ def discriminate(
     return DiscriminationReport([material.label for material in materials], outcomes)
 
 
-def write_report(report: DiscriminationReport, out: Path) -> None:
-    """label-discrimination.json, .md and .png in `out`."""
+def write_report(report: DiscriminationReport, out: Path, model_sha256: str) -> None:
+    """label-discrimination.json, .md and .png in `out`, each with the model that was heard."""
     out.mkdir(parents=True, exist_ok=True)
     figures = {
+        "model_sha256": model_sha256,
         "render_accuracy": report.render_accuracy,
         "recording_accuracy": report.recording_accuracy,
         "level_order_spearman": report.level_order_spearman,
@@ -172,6 +174,8 @@ def write_report(report: DiscriminationReport, out: Path) -> None:
     (out / "label-discrimination.json").write_text(json.dumps(figures, indent=1) + "\n", encoding="utf-8")
     lines = [
         "# Which label is it?",
+        "",
+        model_line(model_sha256),
         "",
         f"Engine renders named right: {report.render_accuracy:.1%}; recordings of the same strokes: "
         f"{report.recording_accuracy:.1%}. Level order of the labels: Spearman {report.level_order_spearman:.3f}. "
@@ -190,10 +194,10 @@ def write_report(report: DiscriminationReport, out: Path) -> None:
             f"{np.median([o.level_error_db for o in own]):+.2f} |"
         )
     (out / "label-discrimination.md").write_text("\n".join(lines) + "\n", encoding="utf-8")
-    _draw_confusion(report, out / "label-discrimination.png")
+    _draw_confusion(report, out / "label-discrimination.png", model_sha256)
 
 
-def _draw_confusion(report: DiscriminationReport, path: Path) -> None:
+def _draw_confusion(report: DiscriminationReport, path: Path, model_sha256: str) -> None:
     import matplotlib
 
     matplotlib.use("Agg")
@@ -209,5 +213,5 @@ def _draw_confusion(report: DiscriminationReport, path: Path) -> None:
     axis.set_ylabel("rendered by the engine")
     figure.colorbar(image, label="share of strokes")
     figure.tight_layout()
-    figure.savefig(path, dpi=100)
+    figure.savefig(path, dpi=100, metadata=picture_metadata(model_sha256))
     pyplot.close(figure)

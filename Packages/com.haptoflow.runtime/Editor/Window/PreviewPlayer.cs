@@ -24,7 +24,8 @@ namespace HaptoFlow.Editor
             new GUIContent("A", "Hear material A. Key A."), new GUIContent("B", "Hear material B. Key B."),
         };
         private static readonly GUIContent ExportButton =
-            new GUIContent("Export WAV\u2026", "48 kHz, 32-bit float; +-1 is 60 m/s^2. Ctrl or Cmd + E.");
+            new GUIContent("Export WAV\u2026",
+                $"48 kHz, 32-bit float; +-1 is {PreviewSound.FullScaleMps2:0} m/s^2. Ctrl or Cmd + E.");
         private static readonly GUIContent Measure =
             new GUIContent("Measure", "Measures the milliseconds of the table again, on this machine.");
 

@@ -18,8 +18,8 @@ namespace HaptoFlow.Editor
             return string.Concat(name.Select(letter => Path.GetInvalidFileNameChars().Contains(letter) ? '-' : letter));
         }
 
-        /// <summary>48 kHz, 32-bit float, one channel, +-1 is 60 m/s^2: as rendered, without the speakers' gain.
-        /// </summary>
+        /// <summary>48 kHz, 32-bit float, one channel, +-1 is <see cref="PreviewSound.FullScaleMps2"/>: as rendered,
+        /// without the speakers' gain.</summary>
         /// <returns>What went wrong; null where nothing did.</returns>
         public static string? Write(string path, PreviewSound sound)
         {

@@ -33,7 +33,7 @@ namespace HaptoFlow
         private float ceiling = 1f;
 
         [SerializeField, Min(1f), Tooltip("Acceleration that is full scale in the output, in m/s^2.")]
-        private float fullScaleMps2 = 60f;
+        private float fullScaleMps2 = (float)HapticEngineOptions.DefaultFullScaleMps2;
 
         private static HaptoFlowSettings? active;
 

@@ -10,7 +10,7 @@ namespace HaptoFlow.Preview
         public const int RateHz = 48000;
 
         /// <summary>The acceleration that is +-1, in m/s^2.</summary>
-        public const float FullScaleMps2 = 60f;
+        public const float FullScaleMps2 = (float)HapticEngineOptions.DefaultFullScaleMps2;
 
         /// <param name="samples">+-1.</param>
         public PreviewSound(LabelMix material, Stroke stroke, float[] samples)

@@ -24,6 +24,10 @@ namespace HaptoFlow
     /// <summary>How an engine works. The defaults are the native library's.</summary>
     public struct HapticEngineOptions
     {
+        /// <summary>So much that people's strokes over the shipped model's labels stay below the limiter's knee (0.7),
+        /// but for less than one sample in a thousand.</summary>
+        public const double DefaultFullScaleMps2 = 200.0;
+
         /// <summary>The tier of that name; where the model has none, the nearest that it has.</summary>
         public HapticQuality Quality;
 
@@ -34,7 +38,8 @@ namespace HaptoFlow
         /// </summary>
         public double BudgetShare;
 
-        /// <summary>What acceleration is +-1 in the output, in m/s^2; 0 for 60.</summary>
+        /// <summary>What acceleration is +-1 in the output, in m/s^2; 0 for <see cref="DefaultFullScaleMps2"/>.
+        /// </summary>
         public double FullScaleMps2;
 
         /// <summary>Key of all noise.</summary>

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <condition_variable>
+#include <functional>
+#include <mutex>
+#include <thread>
+
+namespace haptoflow::inference {
+
+/// Runs an action on a thread of its own if it still lives after a time. For loading only: it starts a thread.
+class TimeLimit {
+public:
+    /// The action must neither block nor throw. Throws std::system_error.
+    TimeLimit(double milliseconds, std::function<void()> action);
+    TimeLimit(const TimeLimit&) = delete;
+    TimeLimit& operator=(const TimeLimit&) = delete;
+    /// Waits for the action where it is running; afterwards it never runs.
+    ~TimeLimit();
+
+    [[nodiscard]] bool hasPassed() const;
+
+private:
+    mutable std::mutex mutex_;
+    std::condition_variable changed_;
+    bool isOver_ = false;
+    bool hasPassed_ = false;
+    std::thread watcher_;
+};
+
+}  // namespace haptoflow::inference

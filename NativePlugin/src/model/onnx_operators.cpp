@@ -1,0 +1,119 @@
+#include "model/onnx_operators.hpp"
+
+#include <algorithm>
+#include <array>
+
+namespace haptoflow::model {
+namespace {
+
+constexpr auto allowedOperators = std::to_array<std::string_view>({
+    // Arithmetic, number by number.
+    "Abs",
+    "Add",
+    "Ceil",
+    "Clip",
+    "Div",
+    "Floor",
+    "Max",
+    "Mean",
+    "Min",
+    "Mul",
+    "Neg",
+    "Pow",
+    "Reciprocal",
+    "Round",
+    "Sign",
+    "Sqrt",
+    "Sub",
+    "Sum",
+    // Functions, number by number.
+    "Atan",
+    "Cos",
+    "Elu",
+    "Erf",
+    "Exp",
+    "HardSigmoid",
+    "HardSwish",
+    "LeakyRelu",
+    "Log",
+    "PRelu",
+    "Relu",
+    "Selu",
+    "Sigmoid",
+    "Sin",
+    "Softplus",
+    "Softsign",
+    "Tanh",
+    // Comparisons and choices.
+    "And",
+    "Equal",
+    "Greater",
+    "GreaterOrEqual",
+    "Less",
+    "LessOrEqual",
+    "Not",
+    "Or",
+    "Where",
+    // Layers.
+    "AveragePool",
+    "BatchNormalization",
+    "Conv",
+    "ConvTranspose",
+    "GRU",
+    "Gemm",
+    "GlobalAveragePool",
+    "InstanceNormalization",
+    "LSTM",
+    "LogSoftmax",
+    "MatMul",
+    "MaxPool",
+    "Softmax",
+    // Sums and extremes.
+    "ReduceL1",
+    "ReduceL2",
+    "ReduceMax",
+    "ReduceMean",
+    "ReduceMin",
+    "ReduceSum",
+    "ReduceSumSquare",
+    // Order, shape and type.
+    "Cast",
+    "Concat",
+    "Constant",
+    "ConstantOfShape",
+    "Expand",
+    "Flatten",
+    "Gather",
+    "GatherElements",
+    "Identity",
+    "Pad",
+    "Reshape",
+    "Shape",
+    "Slice",
+    "Split",
+    "Squeeze",
+    "Transpose",
+    "Unsqueeze",
+});
+
+}  // namespace
+
+bool isAllowedOperator(std::string_view name) noexcept {
+    return std::ranges::find(allowedOperators, name) != allowedOperators.end();
+}
+
+std::size_t allowedOperatorCount() noexcept {
+    return allowedOperators.size();
+}
+
+bool isShapeOperand(std::string_view name, std::size_t input) noexcept {
+    if (name == "ConstantOfShape") {
+        return input == 0;
+    }
+    if (name == "Expand" || name == "Pad" || name == "Reshape") {
+        return input == 1;
+    }
+    return name == "Slice" && input >= 1;
+}
+
+}  // namespace haptoflow::model

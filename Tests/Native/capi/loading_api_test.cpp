@@ -1,0 +1,306 @@
+// Loading through the C interface: one tier or all, within limits, ended early, with a log.
+#include "open_engine.hpp"
+
+#include "inference/rebuilt_model.hpp"
+
+#include <chrono>
+#include <map>
+#include <mutex>
+#include <string>
+#include <thread>
+#include <vector>
+
+namespace haptoflow::capi::testing {
+namespace {
+
+using model::testing::Bytes;
+using Graphs = std::map<std::string, Bytes>;
+
+constexpr uint32_t draftTier = 0;
+constexpr uint32_t standardTier = 1;
+constexpr uint32_t fineTier = 2;
+
+class LoadingApiTest : public ::testing::Test {
+protected:
+    void TearDown() override {
+        for (haptoflow_engine* engine : engines_) {
+            EXPECT_EQ(haptoflow_engine_close(&engine), HAPTOFLOW_OK);
+        }
+        EXPECT_EQ(haptoflow_cancellation_close(&cancellation_), HAPTOFLOW_OK);
+        EXPECT_EQ(haptoflow_model_close(&model_), HAPTOFLOW_OK);
+        EXPECT_EQ(haptoflow_runtime_close(&runtime_), HAPTOFLOW_OK);
+    }
+
+    /// The tiny model with other graphs.
+    void openModel(const Graphs& graphs) {
+        EXPECT_EQ(haptoflow_model_close(&model_), HAPTOFLOW_OK);
+        const Bytes bytes = inference::testing::withGraphs(model::ModelFile::read(tinyModelPath), graphs);
+        const haptoflow_model_options options{sizeof(options), bytes.data(), bytes.size(), nullptr};
+        ASSERT_EQ(haptoflow_model_open(&options, &model_), HAPTOFLOW_OK) << message();
+    }
+    [[nodiscard]] haptoflow_engine_options engineOptions(haptoflow_quality quality) const {
+        haptoflow_engine_options options{};
+        options.struct_size = sizeof(options);
+        options.quality = quality;
+        options.runtime = runtime_;
+        options.model = model_;
+        options.without_worker = 1;
+        options.fixed_lead_ms = 8.0;
+        return options;
+    }
+    haptoflow_engine* open(const haptoflow_engine_options& options) {
+        haptoflow_engine* engine = nullptr;
+        EXPECT_EQ(haptoflow_engine_create(&options, &engine), HAPTOFLOW_OK) << message();
+        engines_.push_back(engine);
+        return engine;
+    }
+    static void expectRefused(const haptoflow_engine_options& options, haptoflow_status status,
+                              const std::string& part) {
+        haptoflow_engine* engine = nullptr;
+        EXPECT_EQ(haptoflow_engine_create(&options, &engine), status);
+        EXPECT_EQ(engine, nullptr);
+        EXPECT_THAT(message(), ::testing::HasSubstr(part));
+    }
+    static uint32_t tierOf(const haptoflow_engine* engine) {
+        haptoflow_engine_statistics statistics{};
+        statistics.struct_size = sizeof(statistics);
+        EXPECT_EQ(haptoflow_engine_get_statistics(engine, &statistics), HAPTOFLOW_OK);
+        return statistics.tier;
+    }
+    static uint64_t runsOf(const haptoflow_engine* engine, uint32_t tier) {
+        haptoflow_tier_times times{};
+        times.struct_size = sizeof(times);
+        EXPECT_EQ(haptoflow_engine_tier_times(engine, tier, &times), HAPTOFLOW_OK);
+        return times.runs;
+    }
+    /// One touch, one segment.
+    static void slide(haptoflow_engine* engine, haptoflow_voice voice, uint32_t touch) {
+        haptoflow_contact_state state = slidingState();
+        state.touch_counter = touch;
+        std::vector<float> block(667);
+        EXPECT_EQ(haptoflow_voice_publish(voice, &state), HAPTOFLOW_OK);
+        EXPECT_EQ(haptoflow_voice_render(voice, block.data(), 667, 1, 0, 48000.0), HAPTOFLOW_OK);
+        EXPECT_EQ(haptoflow_engine_step(engine), HAPTOFLOW_OK);
+    }
+
+    haptoflow_runtime* runtime_ = openRuntime();
+    haptoflow_model* model_ = openTinyModel();
+    haptoflow_cancellation* cancellation_ = nullptr;
+    std::vector<haptoflow_engine*> engines_;
+};
+
+TEST_F(LoadingApiTest, AnEngineOfOneQualityLoadsThatTierAlone) {
+    openModel({{"flow_field", model::testing::loopingLevel()}});
+    EXPECT_EQ(tierOf(open(engineOptions(HAPTOFLOW_QUALITY_DRAFT))), draftTier);
+    for (const haptoflow_quality quality :
+         {HAPTOFLOW_QUALITY_AUTO, HAPTOFLOW_QUALITY_STANDARD, HAPTOFLOW_QUALITY_FINE}) {
+        const char* tier = quality == HAPTOFLOW_QUALITY_FINE ? "fine" : "standard";
+        expectRefused(engineOptions(quality), HAPTOFLOW_MODEL_INCONSISTENT,
+                      std::string("tier \"") + tier + "\", graph \"flow_field\": uses the operator \"Loop\"");
+    }
+}
+
+TEST_F(LoadingApiTest, AnotherQualityIsLoadedWhenItIsAskedForAndKeepsTheModelsIndex) {
+    haptoflow_engine* engine = open(engineOptions(HAPTOFLOW_QUALITY_DRAFT));
+    haptoflow_voice voice = 0;
+    ASSERT_EQ(haptoflow_voice_create(engine, 48000.0, &voice), HAPTOFLOW_OK);
+    slide(engine, voice, 1);
+    ASSERT_EQ(haptoflow_engine_set_quality(engine, HAPTOFLOW_QUALITY_FINE), HAPTOFLOW_OK) << message();
+    EXPECT_EQ(tierOf(engine), fineTier);
+    slide(engine, voice, 1);
+    slide(engine, voice, 1);
+    EXPECT_EQ(runsOf(engine, draftTier), 1U);
+    EXPECT_EQ(runsOf(engine, standardTier), 0U);
+    EXPECT_EQ(runsOf(engine, fineTier), 2U);
+    ASSERT_EQ(haptoflow_engine_set_quality(engine, HAPTOFLOW_QUALITY_DRAFT), HAPTOFLOW_OK) << message();
+    slide(engine, voice, 1);
+    EXPECT_EQ(runsOf(engine, draftTier), 2U);
+}
+
+TEST_F(LoadingApiTest, AQualityThatCannotBeLoadedLeavesThePresentOneInPlace) {
+    openModel({{"flow_field", model::testing::loopingLevel()}});
+    haptoflow_engine* engine = open(engineOptions(HAPTOFLOW_QUALITY_DRAFT));
+    haptoflow_voice voice = 0;
+    ASSERT_EQ(haptoflow_voice_create(engine, 48000.0, &voice), HAPTOFLOW_OK);
+    EXPECT_EQ(haptoflow_engine_set_quality(engine, HAPTOFLOW_QUALITY_STANDARD), HAPTOFLOW_MODEL_INCONSISTENT);
+    EXPECT_THAT(message(), ::testing::HasSubstr("tier \"standard\""));
+    EXPECT_EQ(haptoflow_engine_set_quality(engine, HAPTOFLOW_QUALITY_AUTO), HAPTOFLOW_MODEL_INCONSISTENT);
+    slide(engine, voice, 1);
+    EXPECT_EQ(tierOf(engine), draftTier);
+    EXPECT_EQ(runsOf(engine, draftTier), 1U);
+}
+
+TEST_F(LoadingApiTest, AutomaticQualityAfterOneTierMeasuresThemAll) {
+    haptoflow_engine_options options = engineOptions(HAPTOFLOW_QUALITY_DRAFT);
+    options.without_worker = 0;
+    options.update_rate_hz = 10000.0;
+    haptoflow_engine* engine = open(options);
+    ASSERT_EQ(haptoflow_engine_set_quality(engine, HAPTOFLOW_QUALITY_AUTO), HAPTOFLOW_OK) << message();
+    uint32_t count = 0;
+    ASSERT_EQ(haptoflow_model_tier_count(model_, &count), HAPTOFLOW_OK);
+    for (uint32_t tier = 0; tier < count; ++tier) {
+        for (int wait = 0; wait < 10'000 && runsOf(engine, tier) == 0; ++wait) {
+            std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        }
+        EXPECT_GT(runsOf(engine, tier), 0U) << tier;
+    }
+}
+
+TEST_F(LoadingApiTest, QualitiesAskedForByTwoThreadsWhileTheWorkerGeneratesAreLoadedOnce) {
+    haptoflow_engine_options options = engineOptions(HAPTOFLOW_QUALITY_DRAFT);
+    options.without_worker = 0;
+    haptoflow_engine* engine = open(options);
+    haptoflow_voice voice = 0;
+    ASSERT_EQ(haptoflow_voice_create(engine, 48000.0, &voice), HAPTOFLOW_OK);
+    std::vector<std::thread> askers;
+    for (const haptoflow_quality quality : {HAPTOFLOW_QUALITY_STANDARD, HAPTOFLOW_QUALITY_FINE}) {
+        askers.emplace_back([engine, quality] {
+            for (int ask = 0; ask < 20; ++ask) {
+                EXPECT_EQ(haptoflow_engine_set_quality(engine, quality), HAPTOFLOW_OK) << message();
+            }
+        });
+    }
+    std::vector<float> block(256);
+    for (int update = 0; update < 200; ++update) {
+        const haptoflow_contact_state state = slidingState();
+        EXPECT_EQ(haptoflow_voice_publish(voice, &state), HAPTOFLOW_OK);
+        EXPECT_EQ(haptoflow_voice_render(voice, block.data(), 256, 1, 0, 48000.0), HAPTOFLOW_OK);
+        EXPECT_TRUE(allFinite(block));
+    }
+    for (std::thread& asker : askers) {
+        asker.join();
+    }
+    EXPECT_NE(tierOf(engine), draftTier);
+}
+
+TEST_F(LoadingApiTest, AModelWithALoopIsRefusedAtOnceByGeneratorAndEngine) {
+    openModel({{"level", model::testing::loopingLevel()}});
+    expectRefused(engineOptions(HAPTOFLOW_QUALITY_DRAFT), HAPTOFLOW_MODEL_INCONSISTENT,
+                  "tier \"draft\", graph \"level\": uses the operator \"Loop\"");
+    haptoflow_generator_options options{};
+    options.struct_size = sizeof(options);
+    options.runtime = runtime_;
+    options.model = model_;
+    haptoflow_generator* generator = nullptr;
+    EXPECT_EQ(haptoflow_generator_create(&options, &generator), HAPTOFLOW_MODEL_INCONSISTENT);
+    EXPECT_THAT(message(), ::testing::HasSubstr("\"Loop\""));
+}
+
+TEST_F(LoadingApiTest, ATierThatIsTooSlowIsNamedByGeneratorAndEngine) {
+    openModel({{"level", model::testing::slowLevel()}});
+    haptoflow_engine_options options = engineOptions(HAPTOFLOW_QUALITY_FINE);
+    options.probe_limit_ms = 2.0;
+    expectRefused(options, HAPTOFLOW_TIER_TOO_SLOW, "tier \"fine\", graph \"level\"");
+    haptoflow_generator_options generatorOptions{};
+    generatorOptions.struct_size = sizeof(generatorOptions);
+    generatorOptions.runtime = runtime_;
+    generatorOptions.model = model_;
+    generatorOptions.tier = "draft";
+    generatorOptions.probe_limit_ms = 2.0;
+    haptoflow_generator* generator = nullptr;
+    EXPECT_EQ(haptoflow_generator_create(&generatorOptions, &generator), HAPTOFLOW_TIER_TOO_SLOW);
+    EXPECT_EQ(generator, nullptr);
+    EXPECT_THAT(message(), ::testing::HasSubstr("tier \"draft\", graph \"level\": a run of 256 took longer than"));
+}
+
+TEST_F(LoadingApiTest, AProbeLimitOutOfRangeIsRefused) {
+    for (const double limit : {-1.0, 3600000.5, std::nan(""), HUGE_VAL, -HUGE_VAL}) {
+        haptoflow_engine_options options = engineOptions(HAPTOFLOW_QUALITY_DRAFT);
+        options.probe_limit_ms = limit;
+        expectRefused(options, HAPTOFLOW_INVALID_ARGUMENT, "probe_limit_ms is");
+    }
+}
+
+TEST_F(LoadingApiTest, ALoadThatIsUnderWayEndsWhenItIsCancelled) {
+    openModel({{"level", model::testing::slowLevel()}});
+    ASSERT_EQ(haptoflow_cancellation_create(&cancellation_), HAPTOFLOW_OK);
+    haptoflow_engine_options options = engineOptions(HAPTOFLOW_QUALITY_AUTO);
+    options.cancellation = cancellation_;
+    options.probe_limit_ms = 3600000.0;
+    std::thread canceller([this] {
+        std::this_thread::sleep_for(std::chrono::milliseconds(50));
+        EXPECT_EQ(haptoflow_cancellation_cancel(cancellation_), HAPTOFLOW_OK);
+    });
+    expectRefused(options, HAPTOFLOW_CANCELLED, "the load was cancelled");
+    canceller.join();
+}
+
+TEST_F(LoadingApiTest, ACancellationCountsForLaterLoadsToo) {
+    ASSERT_EQ(haptoflow_cancellation_create(&cancellation_), HAPTOFLOW_OK);
+    haptoflow_engine_options options = engineOptions(HAPTOFLOW_QUALITY_DRAFT);
+    options.cancellation = cancellation_;
+    haptoflow_engine* engine = open(options);
+    ASSERT_EQ(haptoflow_cancellation_cancel(cancellation_), HAPTOFLOW_OK);
+    expectRefused(options, HAPTOFLOW_CANCELLED, "cancelled");
+    haptoflow_generator_options generatorOptions{};
+    generatorOptions.struct_size = sizeof(generatorOptions);
+    generatorOptions.runtime = runtime_;
+    generatorOptions.model = model_;
+    generatorOptions.cancellation = cancellation_;
+    haptoflow_generator* generator = nullptr;
+    EXPECT_EQ(haptoflow_generator_create(&generatorOptions, &generator), HAPTOFLOW_CANCELLED);
+    EXPECT_EQ(haptoflow_engine_set_quality(engine, HAPTOFLOW_QUALITY_STANDARD), HAPTOFLOW_OK)
+        << "the cancellation was of the creation: " << message();
+    EXPECT_EQ(haptoflow_cancellation_cancel(cancellation_), HAPTOFLOW_OK);
+}
+
+TEST_F(LoadingApiTest, AClosedCancellationIsRefused) {
+    ASSERT_EQ(haptoflow_cancellation_create(&cancellation_), HAPTOFLOW_OK);
+    haptoflow_cancellation* const closed = cancellation_;
+    ASSERT_EQ(haptoflow_cancellation_close(&cancellation_), HAPTOFLOW_OK);
+    EXPECT_EQ(cancellation_, nullptr);
+    EXPECT_EQ(haptoflow_cancellation_cancel(closed), HAPTOFLOW_INVALID_ARGUMENT);
+    haptoflow_engine_options options = engineOptions(HAPTOFLOW_QUALITY_DRAFT);
+    options.cancellation = closed;
+    expectRefused(options, HAPTOFLOW_INVALID_ARGUMENT, "cancellation");
+}
+
+struct LogLines {
+    static void write(void* context, int32_t severity, const char* text) {
+        auto& lines = *static_cast<LogLines*>(context);
+        const std::lock_guard lock(lines.mutex);
+        lines.severities.push_back(severity);
+        lines.texts.emplace_back(text);
+    }
+    std::mutex mutex;
+    std::vector<int32_t> severities;
+    std::vector<std::string> texts;
+};
+
+TEST_F(LoadingApiTest, WhatOnnxRuntimeSaysReachesTheLogUntilTheRuntimeIsClosed) {
+    model::testing::OnnxWriter failing = model::testing::levelGraph();
+    failing.constant(model::testing::integerTensor("size", {60'000, 60'000}))
+        .apply("ConstantOfShape", {"size"}, {"zeros"})
+        .apply("ReduceSum", {"zeros"}, {"nothing"}, {model::testing::integerAttribute("keepdims", 0)})
+        .apply("Add", {"weighted", "nothing"}, {"log_level"});
+    LogLines lines;
+    haptoflow_runtime* logged = nullptr;
+    const haptoflow_runtime_options runtimeOptions{sizeof(runtimeOptions), nullptr, HAPTOFLOW_TEST_ONNXRUNTIME,
+                                                   LogLines::write, &lines};
+    ASSERT_EQ(haptoflow_runtime_open(&runtimeOptions, &logged), HAPTOFLOW_OK) << message();
+    haptoflow_engine_options options = engineOptions(HAPTOFLOW_QUALITY_DRAFT);
+    options.runtime = logged;
+    haptoflow_engine* engine = open(options);
+
+    openModel({{"level", failing.model().written()}});
+    options.model = model_;
+    expectRefused(options, HAPTOFLOW_MODEL_INCONSISTENT, "tier \"draft\", graph \"level\"");
+    EXPECT_THAT(lines.texts, ::testing::Contains(::testing::HasSubstr("ConstantOfShape")));
+    EXPECT_THAT(lines.severities, ::testing::Each(::testing::AllOf(::testing::Ge(HAPTOFLOW_LOG_WARNING),
+                                                                   ::testing::Le(HAPTOFLOW_LOG_FATAL))));
+    ASSERT_EQ(haptoflow_runtime_close(&logged), HAPTOFLOW_OK);
+    const std::size_t before = lines.texts.size();
+    EXPECT_EQ(haptoflow_engine_set_quality(engine, HAPTOFLOW_QUALITY_FINE), HAPTOFLOW_OK) << message();
+    EXPECT_EQ(lines.texts.size(), before);
+}
+
+TEST(VersionMacrosTest, TheHeaderNamesTheVersionOfPackageJson) {
+    EXPECT_STREQ(HAPTOFLOW_VERSION_TEXT, HAPTOFLOW_TEST_VERSION);
+    EXPECT_STREQ(haptoflow_version(), HAPTOFLOW_VERSION_TEXT);
+    EXPECT_EQ(std::to_string(HAPTOFLOW_VERSION_MAJOR) + '.' + std::to_string(HAPTOFLOW_VERSION_MINOR) + '.' +
+                  std::to_string(HAPTOFLOW_VERSION_PATCH),
+              HAPTOFLOW_TEST_VERSION);
+}
+
+}  // namespace
+}  // namespace haptoflow::capi::testing

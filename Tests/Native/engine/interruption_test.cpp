@@ -1,0 +1,192 @@
+#include "simulated_device.hpp"
+#include "test_model.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace haptoflow::engine {
+namespace {
+
+using testing::DeviceSettings;
+using testing::FakeGenerator;
+using testing::MotionGenerator;
+using testing::SimulatedDevice;
+
+/// A touch that goes on while something keeps it silent: what keeps it so, and what ends that.
+struct Interruption {
+    std::string name;
+    std::function<void(SimulatedDevice&)> begin;
+    std::function<void(SimulatedDevice&)> end;
+    /// Whether states are published meanwhile.
+    bool isPublished = true;
+};
+
+std::ostream& operator<<(std::ostream& stream, const Interruption& interruption) {
+    return stream << interruption.name;
+}
+
+const std::vector<Interruption>& interruptions() {
+    static const std::vector<Interruption> all{
+        {"MissingStates", [](SimulatedDevice&) {}, [](SimulatedDevice&) {}, false},
+        {"Pause", [](SimulatedDevice& device) { device.controls().paused = true; },
+         [](SimulatedDevice& device) { device.controls().paused = false; }},
+        {"Mute", [](SimulatedDevice& device) { device.controls().muted = true; },
+         [](SimulatedDevice& device) { device.controls().muted = false; }},
+        {"AnotherRate", [](SimulatedDevice& device) { device.setRate(1.0e6); },
+         [](SimulatedDevice& device) { device.setRate(44100.0); }},
+        {"RestingTip", [](SimulatedDevice&) {}, [](SimulatedDevice&) {}, false},
+    };
+    return all;
+}
+
+/// The state before and after: a change of level alone, and one of label and pose with it.
+struct Motion {
+    std::string name;
+    ContactState before;
+    ContactState after;
+};
+
+ContactState moving(float speedMps, float forceNewtons, std::uint32_t label = 0) {
+    ContactState state = testing::sliding(speedMps, forceNewtons);
+    state.material.entries[0].label = label;
+    return state;
+}
+
+const std::vector<Motion>& motions() {
+    static const std::vector<Motion> all{
+        {"FromFastAndHardToSlowAndLight", moving(0.35F, 3.0F), moving(0.03F, 0.3F)},
+        {"FromSlowAndLightToFastAndHard", moving(0.03F, 0.3F), moving(0.35F, 3.0F)},
+        {"ToAnotherLabelWithAJumpOfPose", moving(0.35F, 3.0F, 0), moving(-0.05F, 0.4F, 1)},
+        {"FromBeyondTheRangeToInsideIt", moving(15.0F, 8.0F), moving(0.05F, 0.5F)},
+    };
+    return all;
+}
+
+class InterruptionTest : public ::testing::TestWithParam<std::tuple<Interruption, Motion>> {
+protected:
+    [[nodiscard]] const Interruption& interruption() const { return std::get<0>(GetParam()); }
+    [[nodiscard]] const Motion& motion() const { return std::get<1>(GetParam()); }
+
+    /// Slides, is interrupted for 150 ms in which the motion changes, and goes on. Returns where it goes on.
+    std::size_t interrupt(SimulatedDevice& device) const {
+        device.run(0.4, [this](double) { return motion().before; });
+        interruption().begin(device);
+        device.run(0.15, [this](double) -> std::optional<ContactState> {
+            if (interruption().name == "RestingTip") {
+                ContactState resting = motion().before;
+                resting.velocityMps = {};
+                return resting;
+            }
+            return interruption().isPublished ? std::optional(motion().after) : std::nullopt;
+        });
+        const std::size_t end = device.output.size();
+        EXPECT_LT(testing::peak(std::span<const float>(device.output).subspan(end - 1000)), 1e-9F)
+            << "the interruption is a silence";
+        interruption().end(device);
+        return end;
+    }
+
+    model::ModelFile model_ = testing::smallModel();
+    MotionGenerator generator_;
+};
+
+std::span<const float> firstSound(std::span<const float> output, std::size_t frames) {
+    const auto first = std::ranges::find_if(output, [](float sample) { return sample != 0.0F; });
+    const auto begin = static_cast<std::size_t>(first - output.begin());
+    return output.subspan(begin, std::min(frames, output.size() - begin));
+}
+
+TEST_P(InterruptionTest, WhatResumesSoundsAtTheLevelOfTheStateThatItResumesWith) {
+    // The level of the first 30 ms is the seed's; later it is the network's.
+    SimulatedDevice device(model_, generator_);
+    const std::size_t end = interrupt(device);
+    // Read four times faster, a segment does not last until a contact is stale: that much of a hitch may run dry.
+    const std::uint64_t underrunsBefore = device.counters().underruns;
+    device.run(0.4, [this](double) { return motion().after; });
+    const auto resumed = std::span<const float>(device.output).subspan(end);
+    const double first = haptoflow::testing::levelDecibels(firstSound(resumed, 1400));
+    const double later = haptoflow::testing::levelDecibels(resumed.last(9600));
+    EXPECT_NEAR(first, later, 2.5);
+    EXPECT_EQ(device.counters().underruns, underrunsBefore);
+}
+
+TEST_P(InterruptionTest, AGainSetInTheSilenceHoldsFromTheFirstSampleOn) {
+    SimulatedDevice device(model_, generator_);
+    const std::size_t end = interrupt(device);
+    device.controls().strength = 0.0F;
+    device.run(0.2, [this](double) { return motion().after; });
+    EXPECT_EQ(testing::peak(std::span<const float>(device.output).subspan(end)), 0.0F);
+}
+
+TEST_P(InterruptionTest, ACeilingSetInTheSilenceHoldsFromTheFirstSampleOn) {
+    SimulatedDevice device(model_, generator_, {.fullScaleMps2 = 0.01F});
+    const std::size_t end = interrupt(device);
+    device.controls().ceiling = 0.1F;
+    device.run(0.2, [this](double) { return motion().after; });
+    const float loudest = testing::peak(std::span<const float>(device.output).subspan(end));
+    EXPECT_LT(loudest, 0.1F);
+    EXPECT_GT(loudest, 0.05F);
+}
+
+TEST_P(InterruptionTest, APanicInTheSilenceKeepsTheTouchSilentAndTheNextOneSounds) {
+    SimulatedDevice device(model_, generator_);
+    const std::size_t end = interrupt(device);
+    device.voice().channels.panic();
+    device.run(0.2, [this](double) { return motion().after; });
+    EXPECT_EQ(testing::peak(std::span<const float>(device.output).subspan(end)), 0.0F);
+    ContactState next = motion().after;
+    next.touchCounter = 2;
+    const std::size_t again = device.output.size();
+    device.run(0.2, [&next](double) { return next; });
+    EXPECT_GT(testing::peak(std::span<const float>(device.output).subspan(again)), 1e-4F);
+}
+
+TEST_P(InterruptionTest, ResumingIsCountedApartFromTouches) {
+    SimulatedDevice device(model_, generator_);
+    (void)interrupt(device);
+    device.run(0.2, [this](double) { return motion().after; });
+    // A tip that rests ends a slide, and the next one is an onset of its own.
+    const bool isRest = interruption().name == "RestingTip";
+    EXPECT_EQ(device.counters().onsets, isRest ? 2U : 1U);
+    EXPECT_EQ(device.counters().resumptions, isRest ? 0U : 1U);
+}
+
+INSTANTIATE_TEST_SUITE_P(Of, InterruptionTest,
+                         ::testing::Combine(::testing::ValuesIn(interruptions()), ::testing::ValuesIn(motions())),
+                         [](const auto& test) {
+                             return std::get<0>(test.param).name + std::get<1>(test.param).name;
+                         });
+
+TEST(StrengthTest, SetToZeroBeforeTheVeryFirstTouchNothingSounds) {
+    const model::ModelFile model = testing::smallModel();
+    MotionGenerator generator;
+    SimulatedDevice device(model, generator);
+    device.renderBlock();
+    device.controls().strength = 0.0F;
+    device.publish(moving(0.3F, 2.0F));
+    device.run(0.1, [](double) { return moving(0.3F, 2.0F); });
+    EXPECT_EQ(testing::peak(device.output), 0.0F);
+}
+
+TEST(StrengthTest, WhileTheVoiceSoundsItGlidesWithoutAClick) {
+    const model::ModelFile model = testing::smallModel();
+    FakeGenerator tone(testing::continueTone);
+    SimulatedDevice device(model, tone);
+    device.run(0.4, [](double) { return moving(0.3F, 2.0F); });
+    const float ordinaryStep = testing::largestStep(device.output);
+    const std::size_t begin = device.output.size();
+    device.controls().strength = 0.0F;
+    // The glide, and in the same block another label and a jump of pose.
+    device.run(0.1, [](double) { return moving(-0.1F, 0.5F, 1); });
+    const auto gliding = std::span<const float>(device.output).subspan(begin - 1);
+    EXPECT_LE(testing::largestStep(gliding), 1.3F * ordinaryStep);
+    EXPECT_EQ(testing::peak(gliding.subspan(481)), 0.0F) << "10 ms";
+}
+
+}  // namespace
+}  // namespace haptoflow::engine

@@ -1,0 +1,181 @@
+#include "engine/silence.hpp"
+
+#include "simulated_device.hpp"
+#include "test_model.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <vector>
+
+namespace haptoflow::engine {
+namespace {
+
+using testing::FakeGenerator;
+using testing::SimulatedDevice;
+
+class SilenceTest : public ::testing::Test {
+protected:
+    model::ModelFile model_ = testing::smallModel();
+    FakeGenerator tone_{testing::continueTone};
+
+    static std::optional<ContactState> slide(double) { return testing::sliding(); }
+    static Silence reason(SimulatedDevice& device) { return device.voice().channels.silence.load(); }
+};
+
+TEST_F(SilenceTest, EveryReasonIsTheOneThatShowsAndSoundHasNone) {
+    SimulatedDevice device(model_, tone_);
+    EXPECT_EQ(reason(device), Silence::rest) << "before the first block";
+    device.run(0.2, slide);
+    EXPECT_EQ(reason(device), Silence::none);
+    device.run(0.2, [](double) { return testing::sliding(0.0F); });
+    EXPECT_EQ(reason(device), Silence::rest);
+    device.run(0.2, slide);
+    device.run(0.2, [](double) { return std::nullopt; });
+    EXPECT_EQ(reason(device), Silence::stale);
+    device.run(0.2, slide);
+    device.controls().muted = true;
+    device.run(0.05, slide);
+    EXPECT_EQ(reason(device), Silence::muted);
+    device.controls().muted = false;
+    device.controls().paused = true;
+    device.run(0.05, slide);
+    EXPECT_EQ(reason(device), Silence::paused);
+    device.controls().paused = false;
+    device.setRate(1.0e6);
+    device.run(0.05, slide);
+    EXPECT_EQ(reason(device), Silence::rate);
+    device.setRate(48000.0);
+    device.voice().channels.panic();
+    device.run(0.05, slide);
+    EXPECT_EQ(reason(device), Silence::panic);
+    device.workerAlive = false;
+    device.run(0.05, slide);
+    EXPECT_EQ(reason(device), Silence::workerDead);
+    device.controls().closing = true;
+    device.run(0.05, slide);
+    EXPECT_EQ(reason(device), Silence::closing);
+}
+
+TEST_F(SilenceTest, OfSeveralReasonsTheOneThatLastsLongestShowsAndEachGivesWayToTheNext) {
+    SimulatedDevice device(model_, tone_);
+    device.run(0.2, slide);
+    device.voice().channels.panic();
+    device.controls().closing = true;
+    device.workerAlive = false;
+    device.controls().paused = true;
+    device.controls().muted = true;
+    device.setRate(1.0e6);
+    const auto next = [&](const std::function<void()>& remove) {
+        device.run(0.05, slide);
+        const Silence shown = reason(device);
+        remove();
+        return shown;
+    };
+    EXPECT_EQ(next([&] { device.controls().closing = false; }), Silence::closing);
+    EXPECT_EQ(next([&] { device.workerAlive = true; }), Silence::workerDead);
+    EXPECT_EQ(next([&] { device.controls().paused = false; }), Silence::paused);
+    EXPECT_EQ(next([&] { device.controls().muted = false; }), Silence::muted);
+    EXPECT_EQ(next([&] { device.setRate(48000.0); }), Silence::rate);
+    EXPECT_EQ(next([] {}), Silence::panic);
+}
+
+TEST_F(SilenceTest, AnyMixtureOfControlsIsFiniteBoundedAndSilentUnlessNoReasonHolds) {
+    SimulatedDevice device(model_, tone_);
+    device.run(0.2, slide);
+    std::uint32_t number = 1;
+    for (unsigned mixture = 0; mixture < 64; ++mixture) {
+        device.controls().muted = (mixture & 1U) != 0;
+        device.controls().paused = (mixture & 2U) != 0;
+        device.workerAlive = (mixture & 4U) == 0;
+        device.setRate((mixture & 8U) != 0 ? 96000.0 : 48000.0);
+        if ((mixture & 16U) != 0) {
+            device.voice().channels.panic();
+        }
+        // In the same block: another touch on another label, with a jump of pose.
+        number += (mixture & 32U) != 0 ? 1 : 0;
+        ContactState state = testing::sliding((mixture & 32U) != 0 ? -19.0F : 0.1F, 2.0F);
+        state.touchCounter = number;
+        state.material.entries[0].label = mixture % 2;
+        device.publish(state);
+        device.run(0.06, [&state](double) { return state; });
+        const auto last = std::span<const float>(device.output).last(480);
+        EXPECT_LE(testing::peak(last), 1.0F) << mixture;
+        EXPECT_EQ(reason(device) == Silence::none, testing::peak(last) > 0.0F) << mixture;
+    }
+}
+
+TEST_F(SilenceTest, ARateThatNoOutputRunsAtIsCountedNamedAndAsksTheWorkerForNothing) {
+    for (const double impossible : {0.0, 1.0, -5.0, 7999.0, 192001.0, 1e9, std::numeric_limits<double>::quiet_NaN(),
+                                    std::numeric_limits<double>::infinity()}) {
+        SimulatedDevice device(model_, tone_);
+        device.run(0.2, slide);
+        std::vector<float> block(512, 1.0F);
+        for (int i = 0; i < 3; ++i) {
+            device.voice().renderer.render(block, impossible);
+        }
+        EXPECT_EQ(testing::peak(block), 0.0F) << impossible;
+        EXPECT_EQ(device.counters().unsupportedRateBlocks, 3U) << impossible;
+        EXPECT_EQ(reason(device), Silence::rate) << impossible;
+        EXPECT_FALSE(device.voice().channels.isRateSupported) << impossible;
+        EXPECT_EQ(device.voice().channels.wantedRateHz.load(), 0.0) << "nothing wakes the worker";
+        device.run(0.1, slide);
+        EXPECT_EQ(reason(device), Silence::none) << "back at a rate that it runs at";
+        EXPECT_TRUE(device.voice().channels.isRateSupported);
+    }
+}
+
+TEST_F(SilenceTest, AVoiceIsNotMadeForARateThatNoOutputRunsAt) {
+    FakeGenerator tone(testing::continueTone);
+    for (const double impossible : {0.0, 7999.0, 192001.0, std::numeric_limits<double>::quiet_NaN()}) {
+        EXPECT_THROW(SimulatedDevice(model_, tone, {.rateHz = impossible}), std::invalid_argument) << impossible;
+    }
+}
+
+TEST_F(SilenceTest, AnOnsetReadsNoMoreOfTheWaveformThanItsBlockAndTheResamplersDelay) {
+    // What an onset costs: the filters' histories are filled directly, not by rendering what nobody hears.
+    for (const double rateHz : {8000.0, 48000.0, 192000.0}) {
+        SimulatedDevice device(model_, tone_, {.rateHz = rateHz, .blockFrames = 64});
+        device.publish(testing::sliding());
+        device.renderBlock();
+        EXPECT_LE(static_cast<double>(device.waveform.samples.size()), 2.0 + std::ceil(64.0 * 2000.0 / rateHz))
+            << rateHz;
+    }
+}
+
+TEST_F(SilenceTest, ATapInAVoicesFirstPublishedStateIsFelt) {
+    SimulatedDevice device(model_, tone_);
+    ContactState afterwards = testing::sliding();
+    afterwards.touching = false;
+    afterwards.touchCounter = 1;
+    device.publish(afterwards);
+    device.renderBlock();
+    EXPECT_GT(testing::peak(device.output), 0.2F / 60.0F);
+    EXPECT_EQ(device.counters().taps, 1U);
+}
+
+TEST_F(SilenceTest, AFirstStateThatOnlyTellsOfEarlierTouchesIsSilent) {
+    SimulatedDevice device(model_, tone_);
+    device.publish(testing::lifted(9));
+    device.renderBlock();
+    EXPECT_EQ(testing::peak(device.output), 0.0F);
+    EXPECT_EQ(device.counters().taps, 0U);
+}
+
+TEST_F(SilenceTest, CrossingTheEdgeOfTheRangeBackAndForthNeverClicks) {
+    // The model's range ends at 0.4 m/s; beyond it the waveform is read faster, inside it the path is direct.
+    SimulatedDevice device(model_, tone_);
+    device.run(0.3, slide);
+    const std::size_t begin = device.output.size();
+    device.run(3.0, [](double now) { return testing::sliding(std::fmod(now, 0.1) < 0.05 ? 0.39F : 0.6F); });
+    const auto crossing = std::span<const float>(device.output).subspan(begin);
+    // The tone of 100 Hz is read at most 1.5 times faster and grows by the law of level; a click is steeper by far.
+    const double steepest = 2.0 * std::numbers::pi * 1.5 * testing::toneHz / 48000.0 * testing::peak(crossing);
+    EXPECT_LE(testing::largestStep(crossing), 1.6 * steepest);
+    EXPECT_EQ(device.counters().underruns, 0U);
+}
+
+}  // namespace
+}  // namespace haptoflow::engine

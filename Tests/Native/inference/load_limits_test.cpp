@@ -1,0 +1,276 @@
+#include "inference/load_limits.hpp"
+#include "inference/cancellation.hpp"
+#include "inference/onnx_segment_generator.hpp"
+#include "inference/time_limit.hpp"
+#include "rebuilt_model.hpp"
+#include "tiny_model.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <onnxruntime_c_api.h>
+
+#include <atomic>
+#include <chrono>
+#include <thread>
+
+// Loading a tier within limits of operators, time and memory, and ending it early.
+
+namespace haptoflow::inference::testing {
+namespace {
+
+using model::testing::Bytes;
+using model::testing::floatTensor;
+using model::testing::integerAttribute;
+using model::testing::integerTensor;
+using model::testing::levelGraph;
+
+model::ModelFile tinyWithLevel(const Bytes& level) {
+    return model::ModelFile::parse(withGraphs(tinyModel(), {{"level", level}}));
+}
+
+OnnxSegmentGenerator loadDraft(const model::ModelFile& model, const LoadLimits& limits = {},
+                               const std::shared_ptr<const Runtime>& runtime = testRuntime()) {
+    return {runtime, model, "draft", {SolverKind::euler, 1}, 8, limits};
+}
+
+template <typename Error>
+std::string failureOf(const model::ModelFile& model, const LoadLimits& limits = {}) {
+    try {
+        (void)loadDraft(model, limits);
+    } catch (const Error& error) {
+        return error.what();
+    }
+    ADD_FAILURE() << "the tier was loaded";
+    return {};
+}
+
+TEST(LoadLimitsTest, AGraphWithALoopIsRefusedInsteadOfRun) {
+    EXPECT_THAT(failureOf<model::ModelError>(tinyWithLevel(model::testing::loopingLevel())),
+                ::testing::StartsWith("tier \"draft\", graph \"level\": uses the operator \"Loop\""));
+}
+
+TEST(LoadLimitsTest, ATierWhoseProbeRunTakesTooLongIsRefusedByName) {
+    const LoadLimits limits{.probeLimitMs = 20.0};
+    EXPECT_THAT(failureOf<TierTooSlow>(tinyWithLevel(model::testing::slowLevel()), limits),
+                ::testing::StartsWith("tier \"draft\", graph \"level\": a run of 256 took longer than 640 ms"));
+}
+
+/// A few bytes that ask for 14 GB.
+Bytes inflatedLevel() {
+    return levelGraph()
+        .constant(integerTensor("size", {60'000, 60'000}))
+        .apply("ConstantOfShape", {"size"}, {"zeros"})
+        .apply("ReduceSum", {"zeros"}, {"nothing"}, {integerAttribute("keepdims", 0)})
+        .apply("Add", {"weighted", "nothing"}, {"log_level"})
+        .model()
+        .written();
+}
+
+TEST(LoadLimitsTest, AConstantThatAsksForMoreMemoryThanATierMayHaveIsRefused) {
+    const Bytes graph = inflatedLevel();
+    EXPECT_THAT(failureOf<model::ModelError>(tinyWithLevel(graph)),
+                ::testing::StartsWith("tier \"draft\", graph \"level\": a run of 256 with at most 1088 MiB failed"));
+}
+
+TEST(LoadLimitsTest, ATensorThatDoublesAndDoublesIsRefused) {
+    auto writer = levelGraph();
+    std::string last = "weighted";
+    for (int step = 0; step < 34; ++step) {
+        const std::string next = "doubled " + std::to_string(step);
+        writer.apply("Concat", {last, last}, {next}, {integerAttribute("axis", 1)});
+        last = next;
+    }
+    const auto axes = model::testing::WireWriter().text(1, "axes").number(8, 1).number(20, 7);
+    const Bytes graph = writer.apply("ReduceMean", {last}, {"log_level"}, {axes}).model().written();
+    EXPECT_THAT(failureOf<model::ModelError>(tinyWithLevel(graph)), ::testing::HasSubstr("MiB failed"));
+}
+
+TEST(LoadLimitsTest, AGraphThatOnlyTakesOneRequestIsRefusedBeforeAnybodyAsksForTwo) {
+    // Through a fraction, so that nothing but a run finds out.
+    const Bytes graph = levelGraph()
+                            .constant(floatTensor("shape", {2}, {1.0F, 1.0F}))
+                            .apply("Floor", {"shape"}, {"floor"})
+                            .apply("Cast", {"floor"}, {"size"}, {integerAttribute("to", 7)})
+                            .apply("Reshape", {"weighted", "size"}, {"log_level"})
+                            .model()
+                            .written();
+    EXPECT_THAT(failureOf<model::ModelError>(tinyWithLevel(graph)), ::testing::HasSubstr("a run of 256"));
+}
+
+TEST(LoadLimitsTest, ACancelledLoadLoadsNothing) {
+    const auto cancellation = std::make_shared<Cancellation>();
+    cancellation->cancel();
+    EXPECT_EQ(failureOf<LoadCancelled>(tinyModel(), {.cancellation = cancellation}), "the load was cancelled");
+}
+
+TEST(LoadLimitsTest, ALoadThatWouldTakeHalfAMinuteEndsWhenItIsCancelled) {
+    const model::ModelFile slow = tinyWithLevel(model::testing::slowLevel());
+    const auto cancellation = std::make_shared<Cancellation>();
+    std::thread canceller([&] {
+        std::this_thread::sleep_for(std::chrono::milliseconds(50));
+        cancellation->cancel();
+    });
+    EXPECT_EQ(failureOf<LoadCancelled>(slow, {.cancellation = cancellation, .probeLimitMs = largestProbeLimitMs}),
+              "the load was cancelled");
+    canceller.join();
+}
+
+TEST(LoadLimitsTest, ACancellationWhoseLoadIsDoneChangesNothing) {
+    const auto cancellation = std::make_shared<Cancellation>();
+    OnnxSegmentGenerator generator = loadDraft(tinyModel(), {.cancellation = cancellation});
+    cancellation->cancel();
+    std::vector<float> segments(3 * segmentSamples);
+    EXPECT_NO_THROW(generator.generate(goldenBatch().requests(), segments));
+}
+
+TEST(LoadLimitsTest, TwoLoadsAtOnceEachHaveTheirOwnLimits) {
+    const model::ModelFile slow = tinyWithLevel(model::testing::slowLevel());
+    std::thread other([&] {
+        for (int load = 0; load < 5; ++load) {
+            EXPECT_NO_THROW((void)loadDraft(tinyModel()));
+        }
+    });
+    EXPECT_THAT(failureOf<TierTooSlow>(slow, {.probeLimitMs = 2.0}), ::testing::HasSubstr("took longer than 64 ms"));
+    other.join();
+}
+
+TEST(LoadLimitsTest, LevelsAreTabulatedInRunsOf256WhateverTheBatchOfSegments) {
+    OnnxSegmentGenerator generator = loadDraft(tinyModel());
+    const std::vector<SegmentRequest> requests(640, goldenBatch().requests().front());
+    std::vector<float> levels(requests.size());
+    generator.levels(requests, levels);
+    EXPECT_EQ(generator.runCounts().level, 3U);
+    EXPECT_THAT(levels, ::testing::Each(levels.front()));
+}
+
+TEST(CancellationTest, AnActionRunsOnceWhenTheCancellationComes) {
+    Cancellation cancellation;
+    int runs = 0;
+    const CancellationAction action(&cancellation, [&] { ++runs; });
+    EXPECT_EQ(runs, 0);
+    cancellation.cancel();
+    cancellation.cancel();
+    EXPECT_EQ(runs, 1);
+}
+
+TEST(CancellationTest, AnActionThatComesLateRunsAtOnceAndOneThatIsGoneNever) {
+    Cancellation cancellation;
+    int gone = 0;
+    {
+        const CancellationAction action(&cancellation, [&] { ++gone; });
+    }
+    cancellation.cancel();
+    EXPECT_EQ(gone, 0);
+    int late = 0;
+    const CancellationAction action(&cancellation, [&] { ++late; });
+    EXPECT_EQ(late, 1);
+    const CancellationAction none(nullptr, [&] { ++late; });
+    EXPECT_EQ(late, 1);
+}
+
+TEST(TimeLimitTest, ItsActionRunsOnceTheTimeHasPassedAndNotBefore) {
+    std::atomic<int> runs{0};
+    {
+        const TimeLimit limit(largestProbeLimitMs, [&] { ++runs; });
+        EXPECT_FALSE(limit.hasPassed());
+    }
+    EXPECT_EQ(runs, 0);
+    const TimeLimit limit(0.001, [&] { ++runs; });
+    while (!limit.hasPassed()) {
+        std::this_thread::yield();
+    }
+    EXPECT_LE(runs, 1);
+}
+
+/// The test's ONNX Runtime as if it were version 1.16: nothing newer can be asked for.
+class OldRuntime {
+public:
+    static std::shared_ptr<const Runtime> open(const std::shared_ptr<LogSink>& log = nullptr) {
+        const auto newest = testRuntime();
+        real() = newest->api();
+        real().CreateEnvWithCustomLogger = createEnvironment;
+        // What came after 1.16 is not there.
+        real().SetUserLoggingFunction = nullptr;
+        real().SessionOptionsSetLoadCancellationFlag = nullptr;
+        static const OrtApiBase base{
+            [](std::uint32_t version) noexcept -> const OrtApi* { return version <= 16 ? &real() : nullptr; },
+            []() noexcept -> const char* { return "1.16.3"; }};
+        return Runtime::fromApiBase(&base, log);
+    }
+    static OrtLoggingFunction& logger() {
+        static OrtLoggingFunction function = nullptr;
+        return function;
+    }
+
+private:
+    static OrtApi& real() {
+        static OrtApi api{};
+        return api;
+    }
+    static OrtStatus* ORT_API_CALL createEnvironment(OrtLoggingFunction function, void* context, OrtLoggingLevel level,
+                                                     const char* name, OrtEnv** environment) noexcept {
+        logger() = function;
+        return testRuntime()->api().CreateEnvWithCustomLogger(function, context, level, name, environment);
+    }
+};
+
+TEST(OldRuntimeTest, WithoutWhatCameLaterATierLoadsAndAnswersTheSame) {
+    const auto answer = [](OnnxSegmentGenerator generator) {
+        std::vector<float> segments(3 * segmentSamples);
+        generator.generate(goldenBatch().requests(), segments);
+        return segments;
+    };
+    EXPECT_EQ(OldRuntime::open()->apiVersion(), 16U);
+    EXPECT_EQ(testRuntime()->apiVersion(), 22U);
+    EXPECT_EQ(answer(loadDraft(tinyModel(), {}, OldRuntime::open())), answer(loadDraft(tinyModel())));
+}
+
+TEST(OldRuntimeTest, ALoadIsCancelledBetweenItsGraphs) {
+    const auto cancellation = std::make_shared<Cancellation>();
+    cancellation->cancel();
+    EXPECT_THROW((void)loadDraft(tinyModel(), {.cancellation = cancellation}, OldRuntime::open()), LoadCancelled);
+}
+
+struct Heard {
+    static void callback(void* context, int severity, const char* message) {
+        static_cast<Heard*>(context)->severities.push_back(severity);
+        static_cast<Heard*>(context)->messages.emplace_back(message);
+    }
+    std::vector<int> severities;
+    std::vector<std::string> messages;
+};
+
+TEST(OldRuntimeTest, ItsOneLogForTheProcessReachesTheCallback) {
+    Heard heard;
+    const auto log = std::make_shared<LogSink>(Heard::callback, &heard);
+    const auto runtime = OldRuntime::open(log);
+    ASSERT_NE(OldRuntime::logger(), nullptr);
+    OldRuntime::logger()(nullptr, ORT_LOGGING_LEVEL_ERROR, "onnxruntime", "haptoflow", "here", "made by the test");
+    OldRuntime::logger()(nullptr, ORT_LOGGING_LEVEL_INFO, "onnxruntime", "haptoflow", "here", "chatter");
+    EXPECT_THAT(heard.messages, ::testing::ElementsAre("onnxruntime: made by the test"));
+    EXPECT_THAT(heard.severities, ::testing::ElementsAre(3));
+    log->close();
+    OldRuntime::logger()(nullptr, ORT_LOGGING_LEVEL_ERROR, "onnxruntime", "haptoflow", "here", "too late");
+    EXPECT_EQ(heard.messages.size(), 1U);
+}
+
+TEST(LogTest, WhatOnnxRuntimeSaysOfAFailingGraphReachesTheCallbackOfItsRuntimeAlone) {
+    Heard heard;
+    Heard others;
+    const auto log = std::make_shared<LogSink>(Heard::callback, &heard);
+    const auto runtime = Runtime::open(HAPTOFLOW_TEST_ONNXRUNTIME, log);
+    const auto other = Runtime::open(HAPTOFLOW_TEST_ONNXRUNTIME, std::make_shared<LogSink>(Heard::callback, &others));
+    const model::ModelFile failing = tinyWithLevel(inflatedLevel());
+    EXPECT_THROW((void)loadDraft(failing, {}, runtime), model::ModelError);
+    EXPECT_THAT(heard.messages, ::testing::Contains(::testing::HasSubstr("ConstantOfShape")));
+    EXPECT_THAT(heard.severities, ::testing::Each(::testing::Ge(2)));
+    EXPECT_THAT(others.messages, ::testing::IsEmpty());
+    log->close();
+    const std::size_t before = heard.messages.size();
+    EXPECT_THROW((void)loadDraft(failing, {}, runtime), model::ModelError);
+    EXPECT_EQ(heard.messages.size(), before);
+}
+
+}  // namespace
+}  // namespace haptoflow::inference::testing

@@ -1,0 +1,28 @@
+#pragma once
+
+#include "../model/onnx_writer.hpp"
+#include "model/model_file.hpp"
+
+#include <map>
+#include <string>
+
+namespace haptoflow::inference::testing {
+
+/// The bytes of a model file whose named graphs are others; everything else stays.
+inline model::testing::Bytes withGraphs(const model::ModelFile& model,
+                                        const std::map<std::string, model::testing::Bytes>& graphs) {
+    model::testing::ModelBuilder builder;
+    builder.header = nlohmann::json::parse(model.headerText());
+    builder.blobs.clear();
+    for (const model::Blob& blob : model.header().blobs) {
+        const auto other = graphs.find(blob.name);
+        const auto bytes = model.blob(blob.name);
+        builder.blobs.push_back(
+            {blob.name, blob.type == model::BlobType::onnx ? "onnx" : "float32", blob.shape,
+             other != graphs.end() ? other->second : model::testing::Bytes(bytes.begin(), bytes.end())});
+    }
+    builder.header.erase("blobs");
+    return builder.build();
+}
+
+}  // namespace haptoflow::inference::testing

@@ -1,0 +1,47 @@
+import assert from 'node:assert/strict';
+import { readFileSync } from 'node:fs';
+import test from 'node:test';
+import { fullScaleMps2 } from '../../scripts/demo/full_scale.mjs';
+import { inRepository } from '../../scripts/lib/repository.mjs';
+
+const read = (...parts) => readFileSync(inRepository(...parts), 'utf8');
+const runtime = ['Packages', 'com.haptoflow.runtime', 'Runtime'];
+const measured = JSON.parse(read('Training', 'results', 'default', 'full-scale.json'));
+
+/** The number that the one line of this form in a file gives. */
+function numberIn(parts, pattern) {
+  const found = [...read(...parts).matchAll(new RegExp(pattern, 'g'))];
+  assert.equal(found.length, 1, `${parts.join('/')}: expected one line of the form ${pattern}`);
+  return Number(found[0][1]);
+}
+
+test('every language has the same default full scale as the C header', () => {
+  const header = numberIn(['NativePlugin', 'include', 'haptoflow', 'haptoflow.h'], '#define HAPTOFLOW_DEFAULT_FULL_SCALE_MPS2 ([\\d.]+)');
+  const homes = {
+    'C++': numberIn(['NativePlugin', 'src', 'dsp', 'limiter.hpp'], 'defaultFullScaleMps2 = ([\\d.]+)F;'),
+    'C#': numberIn([...runtime, 'Core', 'Native', 'HapticEngine.cs'], 'DefaultFullScaleMps2 = ([\\d.]+);'),
+    Python: numberIn(['Training', 'haptoflow_training', 'evaluation', 'engine_render.py'], '\\nFULL_SCALE_MPS2 = ([\\d.]+)'),
+    JavaScript: fullScaleMps2,
+  };
+  for (const [language, value] of Object.entries(homes)) assert.equal(value, header, language);
+});
+
+test('the pages that name the default full scale name this one', () => {
+  const sentences = {
+    'getting-started.md': /±1 is (\d+) m\/s²/,
+    'actuator-wiring.md': /\*\*Full Scale\*\* \(Project Settings > HaptoFlow, (\d+) m\/s\^2\)/,
+    'not-proven.md': /\+-1 = (\d+) m\/s\^2/,
+  };
+  for (const [page, sentence] of Object.entries(sentences)) {
+    assert.equal(Number(read('Documentation~', page).match(sentence)?.[1]), fullScaleMps2, page);
+  }
+});
+
+test("people's strokes were measured with the default full scale, and on every label they leave fewer samples in the knee than allowed", () => {
+  const now = measured.full_scales.find((entry) => entry.full_scale_mps2 === fullScaleMps2);
+  assert.ok(now, `Training/results/default/full-scale.json does not report ${fullScaleMps2} m/s^2: run haptoflow-training measure-full-scale`);
+  const shares = Object.entries(now.share_in_knee_by_label);
+  assert.ok(shares.length > 0);
+  for (const [label, share] of shares) assert.ok(share < measured.allowed_share, `${label}: ${share}`);
+  assert.equal(measured.smallest_full_scale_of_loudest_label_mps2 <= fullScaleMps2, true);
+});

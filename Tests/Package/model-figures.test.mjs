@@ -1,0 +1,73 @@
+// Published figures and pictures belong to the shipped model. What fails here is measured or drawn anew, not edited.
+import assert from 'node:assert/strict';
+import { readFileSync, readdirSync } from 'node:fs';
+import path from 'node:path';
+import test from 'node:test';
+import { PNG } from 'pngjs';
+import { modelLine, modelOfPage, modelOfPicture, sha256Of, shippedModel, stampedPicture } from '../../scripts/lib/model_stamp.mjs';
+import { inRepository } from '../../scripts/lib/repository.mjs';
+
+const shipped = sha256Of(shippedModel);
+const sha = (digit) => digit.repeat(64);
+
+/** Pages with measured figures, and the command that measures them. */
+const pages = {
+  'Documentation~/accuracy-and-time.md': 'npm run evaluate',
+  'Documentation~/actuator-wiring.md': 'haptoflow-training measure-full-scale --page',
+  'Documentation~/benchmarks.md': 'npm run bench -- --publish',
+  'Documentation~/stability.md': 'npm run test:soak -- --publish',
+  'Training/results/default/README.md': 'npm run evaluate, haptoflow-training discriminate, and the words by hand',
+};
+
+const results = {
+  'Training/results/accuracy-time.json': 'npm run evaluate',
+  'Training/results/default/full-scale.json': 'haptoflow-training measure-full-scale',
+  'Training/results/default/label-discrimination.json': 'haptoflow-training discriminate',
+};
+
+/** Pictures that show no model: the recorder's own. */
+const withoutModel = ['recorder-spectra.png'];
+const pictures = ['Documentation~/images', 'Samples~/StylusTracing', 'Samples~/TextureGallery', 'Training/results/default']
+  .flatMap((folder) => readdirSync(inRepository(...folder.split('/'))).map((name) => `${folder}/${name}`))
+  .filter((file) => file.endsWith('.png') && !withoutModel.includes(path.basename(file)));
+
+for (const [page, command] of Object.entries(pages)) {
+  test(`the figures of ${page} were measured with the shipped model`, () => {
+    assert.equal(modelOfPage(readFileSync(inRepository(page), 'utf8')), shipped, `measure again: ${command}`);
+  });
+}
+
+for (const [file, command] of Object.entries(results)) {
+  test(`${file} was measured with the shipped model`, () => {
+    assert.equal(JSON.parse(readFileSync(inRepository(file), 'utf8')).model_sha256, shipped, `measure again: ${command}`);
+  });
+}
+
+for (const file of pictures) {
+  test(`${file} was drawn with the shipped model`, () => {
+    assert.equal(modelOfPicture(readFileSync(inRepository(file))), shipped, 'draw it again: Documentation~/benchmarks.md says how');
+  });
+}
+
+test('pictures of the pages and the samples are looked at', () => {
+  for (const name of ['demo.png', 'texture-preview.png', 'accuracy-time.png', 'label-spectra.png', 'StylusTracing.png', 'TextureGallery.png']) {
+    assert.ok(pictures.some((file) => file.endsWith(`/${name}`)), name);
+  }
+});
+
+test('a stamped picture shows the same and names its model, the newest stamp alone', () => {
+  const drawn = new PNG({ width: 3, height: 2 });
+  drawn.data.set(Array.from({ length: 24 }, (_, index) => 10 * index));
+  const plain = PNG.sync.write(drawn);
+  assert.equal(modelOfPicture(plain), null);
+  const twice = stampedPicture(stampedPicture(plain, sha('a')), sha('b'));
+  assert.equal(modelOfPicture(twice), sha('b'));
+  assert.equal(twice.length, stampedPicture(plain, sha('b')).length);
+  assert.deepEqual(PNG.sync.read(twice, { checkCRC: true }).data, PNG.sync.read(plain).data);
+});
+
+test('a page names the model that its line says, none without a line, and never two', () => {
+  assert.equal(modelOfPage(`# Page\n\n${modelLine(sha('c'))}\n`), sha('c'));
+  assert.equal(modelOfPage('Model: some other\n'), null);
+  assert.throws(() => modelOfPage(`${modelLine(sha('c'))}\n\n${modelLine(sha('d'))}\n`), RangeError);
+});

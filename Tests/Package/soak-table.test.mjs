@@ -1,0 +1,43 @@
+import assert from 'node:assert/strict';
+import { spawnSync } from 'node:child_process';
+import { readFileSync } from 'node:fs';
+import test from 'node:test';
+import { withMeasuredPart } from '../../scripts/lib/measured_part.mjs';
+import { modelOfPage } from '../../scripts/lib/model_stamp.mjs';
+import { inRepository } from '../../scripts/lib/repository.mjs';
+import { soakTable } from '../../scripts/lib/soak_table.mjs';
+
+const modelSha256 = 'e'.repeat(64);
+const run = { date: '2026-11-22', machine: 'a machine', modelSha256 };
+const command = 'npm run test:soak -- --publish';
+const loop = (change, fit) => `<testcase name="Stays/0"><properties><property name="level_change_db" value="${change}"/>
+<property name="spectrum_gfc" value="${fit}"/></properties></testcase>`;
+const suites = (tests, failures, cases = '') => `<testsuites tests="${tests}" failures="${failures}" time="12.6" name="AllTests">
+<testsuite name="S" tests="${tests}" failures="${failures}" disabled="0" skipped="0" errors="0">${cases}</testsuite></testsuites>`;
+
+test('the soak\'s table has the worst and the median of the labels, and the size of a change, not its sign', () => {
+  const xml = suites(3, 0, loop(-0.31, 0.9991) + loop(0.1, 0.9999) + loop(0.02, 0.9995));
+  const table = soakTable([{ about: 'ten minutes on each label', xml }], run);
+  assert.match(table, /ten minutes on each label \| 3 of 3 \| 13 \|/);
+  assert.match(table, /on 3 labels: level changed by at most 0\.31 dB \(median 0\.10\), .* at least 0\.9991 \(median 0\.9995\)/);
+  assert.equal(modelOfPage(table), modelSha256);
+});
+
+test('a proof that tells no figures has its counts alone', () => {
+  assert.match(soakTable([{ about: 'random calls', xml: suites(4, 1) }], run), /\| random calls \| 3 of 4 \| 13 \|  \|$/);
+});
+
+test('the stability page has the place that the soak publishes to, and nothing else of it changes', () => {
+  const page = readFileSync(inRepository('Documentation~', 'stability.md'), 'utf8');
+  const published = withMeasuredPart(page, command, soakTable([{ about: 'a day', xml: suites(1, 0) }], run));
+  assert.equal(modelOfPage(published), modelSha256);
+  assert.equal(published.split('<!-- measured: begin')[0], page.split('<!-- measured: begin')[0]);
+  assert.equal(published.split('<!-- measured: end')[1], page.split('<!-- measured: end')[1]);
+});
+
+test('a misspelt option of the soak ends with 2 before anything is built', () => {
+  const { status, stdout, stderr } = spawnSync(process.execPath, [inRepository('scripts', 'test-soak.mjs'), '--pubish'], { encoding: 'utf8' });
+  assert.equal(status, 2);
+  assert.match(stderr, /--pubish/);
+  assert.equal(stdout, '');
+});

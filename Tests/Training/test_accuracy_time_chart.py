@@ -1,0 +1,113 @@
+"""The picture of accuracy over time: linear decibels, bars, a legend, and few names."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import matplotlib
+import numpy as np
+import pytest
+
+from haptoflow_training.evaluation.accuracy_time_chart import PANELS, chart_lines, chart_points, draw_chart, draw_panel
+
+matplotlib.use("Agg")
+from matplotlib import pyplot
+
+ROOT = Path(__file__).parents[2]
+SHIPPED = json.loads((ROOT / "Training" / "results" / "accuracy-time.json").read_text(encoding="utf-8"))
+
+
+def _row(name: str, family: str, milliseconds: float | None, level: float | None = None, **more: Any) -> dict[str, Any]:
+    lsd = None if level is None else 1.0 + abs(level)
+    interval = {} if level is None else {"level_error_db_interval": [level - 0.3, level + 0.1]}
+    times = None if milliseconds is None else {"p50": milliseconds}
+    return {
+        "name": name, "family": family, "ms_per_segment": times, "level_error_db": level, "lsd_db": lsd, **interval, **more,
+    }  # fmt: skip
+
+
+ROWS = [
+    _row("standard", "HaptoFlow", 0.2, 0.1),
+    _row("plain-euler-1", "plain flow matching", 0.2, -8.0),
+    _row("plain-euler-4", "plain flow matching", 0.6, -3.0),
+    _row("transformer", "baselines", 0.5, -39.0),
+    _row("paper-codec-size", "baselines", 12.0),
+    _row("one-step-deaf", "ablations", 0.3, -1.0),
+    _row("independent-draw", "reference", None, 0.0),
+]
+
+
+@pytest.fixture
+def axes() -> Iterator[Any]:
+    figure, axes = pyplot.subplots()
+    yield axes
+    pyplot.close(figure)
+
+
+@pytest.mark.parametrize("panel", PANELS, ids=lambda panel: panel.key)
+def test_decibels_are_drawn_on_a_linear_axis(axes: Any, panel: Any) -> None:
+    draw_panel(axes, panel, ROWS)
+    assert axes.get_yscale() == "linear" and axes.get_ylim() == panel.limits
+
+
+def test_ablations_and_references_are_left_to_the_table() -> None:
+    assert {point.row for point in chart_points(ROWS, "level_error_db")} == {
+        "standard", "plain-euler-1", "plain-euler-4", "transformer",
+    }  # fmt: skip
+
+
+def test_each_point_inside_the_scale_has_a_bar_from_end_to_end_of_its_interval(axes: Any) -> None:
+    draw_panel(axes, PANELS[0], ROWS)
+    bars = [segment for collection in axes.collections for segment in collection.get_segments()]
+    found = sorted((round(float(bar[0][1]), 6), round(float(bar[1][1]), 6)) for bar in bars)
+    assert found == [(-8.3, -7.9), (-3.3, -2.9), (-0.2, 0.2)]
+
+
+def test_what_is_beyond_the_scale_stands_at_its_edge_with_its_value_in_words(axes: Any) -> None:
+    draw_panel(axes, PANELS[0], ROWS)
+    texts = {text.get_text(): text for text in axes.texts}
+    assert texts["Transformer: -39 dB"].xy == (0.5, -10.0)
+    assert not any("Transformer" in text and "39" not in text for text in texts)
+
+
+def test_only_the_points_that_carry_the_message_are_named(axes: Any) -> None:
+    draw_panel(axes, PANELS[1], ROWS)
+    assert {text.get_text() for text in axes.texts} == {
+        "standard", "1 Euler step", "Transformer: 40 dB", "the paper's sizes: 12 ms (time only)",
+        "another recording of the same material",
+    }  # fmt: skip
+
+
+def test_the_steps_of_one_network_are_joined_from_fast_to_slow() -> None:
+    lines = chart_lines(chart_points(ROWS, "lsd_db"))
+    assert [[point.row for point in line] for line in lines] == [["plain-euler-1", "plain-euler-4"]]
+
+
+def test_the_legend_explains_every_colour_and_the_bars(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    kept: list[Any] = []
+    monkeypatch.setattr(pyplot, "close", kept.append)
+    draw_chart(SHIPPED, tmp_path / "chart.png")
+    legend = kept[0].legends[0]
+    colours = {handle.get_color() for handle in legend.get_lines()}
+    drawn = {line.get_color() for axis in kept[0].axes for line in axis.lines if line.get_marker() in ("o", "*")}
+    words = " ".join(text.get_text() for text in legend.get_texts())
+    assert drawn and drawn <= colours
+    assert "95 % interval over recordings" in words and "beyond the scale" in words
+
+
+@pytest.mark.parametrize("panel", PANELS, ids=lambda panel: panel.key)
+def test_no_name_of_the_shipped_picture_covers_another_one(axes: Any, panel: Any) -> None:
+    axes.figure.set_size_inches(6.0, 5.3)
+    draw_panel(axes, panel, SHIPPED["rows"])
+    axes.figure.canvas.draw()
+    boxes = [text.get_window_extent() for text in axes.texts]
+    covered = [
+        (first.get_text(), second.get_text())
+        for index, first in enumerate(axes.texts) for other, second in enumerate(axes.texts)
+        if index < other and boxes[index].overlaps(boxes[other])
+    ]  # fmt: skip
+    assert len(boxes) > 5 and np.all([box.width > 0 for box in boxes])
+    assert covered == []

@@ -1,0 +1,69 @@
+"""Whatever the training exports, the reader of model files takes: opset 16, no other domain, operators of the list."""
+
+from __future__ import annotations
+
+import dataclasses
+import re
+from pathlib import Path
+
+import onnx
+import pytest
+import torch
+
+from haptoflow_training.export.onnx_graphs import export_level_model, export_network
+from haptoflow_training.models.baselines import ARCHITECTURES
+from haptoflow_training.models.codec.small_codec import SmallCodec, SmallCodecShape
+from haptoflow_training.models.representation import CodecRepresentation, build_representation
+from haptoflow_training.training.config import TrainingConfig, load_config
+from haptoflow_training.training.trainer import build_model
+
+ROOT = Path(__file__).parents[2]
+CONFIGS = ROOT / "Training" / "configs"
+NO_RIBS: list[list[tuple[float, float]]] = [[], []]
+
+
+def _allowed_operators() -> set[str]:
+    text = (ROOT / "Documentation~" / "model-format.md").read_text(encoding="utf-8")
+    block = re.search(r"### Operators\n+```\n(.*?)```", text, re.DOTALL)
+    assert block is not None
+    return set(block[1].split())
+
+
+def _check(graph: bytes) -> None:
+    model = onnx.load_from_string(graph)
+    assert [(entry.domain, entry.version) for entry in model.opset_import] == [("", 16)]
+    assert not model.functions
+    used = {node.op_type for node in model.graph.node}
+    assert used
+    assert used <= _allowed_operators()
+
+
+@pytest.mark.parametrize("kind", ["flow", "average-velocity", "direct"])
+def test_every_kind_of_tier_of_the_shipped_sizes_uses_operators_of_the_list(kind: str) -> None:
+    for size in ("draft", "standard", "fine"):
+        model = build_model(load_config(CONFIGS / "default" / f"{size}.toml"), NO_RIBS)
+        _check(export_network(model, kind))
+    _check(export_level_model(model.level))
+
+
+@pytest.mark.parametrize("architecture", ARCHITECTURES)
+def test_every_rival_uses_operators_of_the_list(architecture: str) -> None:
+    base = load_config(CONFIGS / "evaluation" / "plain.toml")
+    config: TrainingConfig = dataclasses.replace(base, model=dataclasses.replace(base.model, architecture=architecture))
+    _check(export_network(build_model(config, NO_RIBS), "direct"))
+
+
+def test_every_codec_uses_operators_of_the_list(tmp_path: Path) -> None:
+    codec = SmallCodec(SmallCodecShape(latent_channels=12, width=8))
+    codec.normaliser.fit(codec.encoder(torch.randn(64, 1, 200)).detach())
+    codec.save(tmp_path / "small.pt")
+    for settings in (
+        {"kind": "small-codec", "checkpoint": str(tmp_path / "small.pt")},
+        {"kind": "encodec", "random_weights": True},
+    ):
+        representation = build_representation(settings)
+        assert isinstance(representation, CodecRepresentation)
+        representation.export_encoder(tmp_path / "encoder.onnx")
+        representation.export_decoder(tmp_path / "decoder.onnx")
+        for name in ("encoder.onnx", "decoder.onnx"):
+            _check((tmp_path / name).read_bytes())

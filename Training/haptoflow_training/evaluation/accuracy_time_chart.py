@@ -1,0 +1,226 @@
+"""The picture of accuracy over time: what each tier and its rivals cost, and how far off they are."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from haptoflow_training.evaluation.model_stamp import picture_metadata
+
+_OURS = "HaptoFlow"
+# What a part of the network is worth is for the table; the chart is for the choice.
+_NOT_DRAWN = ("ablations", "reference")
+_LEGEND = {
+    "HaptoFlow": ("HaptoFlow: draft, standard, fine", "#d1495b"),
+    "plain flow matching": ("plain flow matching, 1 to 16 steps", "#4a73b5"),
+    "other recipes": ("other few-step recipes: MeanFlow, reflow", "#8a5fb0"),
+    "baselines": ("other architectures", "#2f7d57"),
+}
+# The points that carry the message, in words; all others are told apart in the table.
+_NAMED = {
+    "draft": "draft",
+    "standard": "standard",
+    "fine": "fine",
+    "plain-euler-1": "1 Euler step",
+    "plain-euler-16": "16 Euler steps",
+    "spsi": "SPSI",
+    "transformer": "Transformer",
+    "dstn": "DSTN",
+}
+
+
+@dataclass(frozen=True)
+class Panel:
+    """A figure of the table over time. limits: dB, linear. name_lift: where our names stand, points above ours."""
+
+    key: str
+    title: str
+    limits: tuple[float, float]
+    name_lift: float
+
+
+@dataclass(frozen=True)
+class ChartPoint:
+    """value and the ends of its 95 % interval in dB; name is empty where the table tells it."""
+
+    row: str
+    family: str
+    milliseconds: float
+    value: float
+    low: float
+    high: float
+    name: str
+
+
+PANELS = (
+    Panel("level_error_db", "Level error, dB (0 is right, below is too quiet)", (-10.0, 2.0), 15.0),
+    Panel("lsd_db", "Log-spectral distance, dB (lower is better)", (0.0, 16.0), -14.0),
+)
+
+
+def chart_points(rows: Sequence[dict[str, Any]], key: str) -> list[ChartPoint]:
+    """Every row that is drawn and was both timed and measured."""
+    return [
+        ChartPoint(
+            row["name"],
+            row["family"],
+            row["ms_per_segment"]["p50"],
+            row[key],
+            *row.get(f"{key}_interval", (row[key], row[key])),
+            _NAMED.get(row["name"], ""),
+        )
+        for row in rows
+        if row["family"] not in _NOT_DRAWN and row["ms_per_segment"] is not None and row[key] is not None
+    ]
+
+
+def chart_lines(points: Sequence[ChartPoint]) -> list[list[ChartPoint]]:
+    """One network and solver at rising numbers of steps: what is joined by a line."""
+    grouped: dict[str, list[ChartPoint]] = {}
+    for point in points:
+        stem, _, steps = point.row.rpartition("-")
+        if steps.isdigit():
+            grouped.setdefault(stem, []).append(point)
+    return [sorted(group, key=lambda point: point.milliseconds) for group in grouped.values() if len(group) > 1]
+
+
+def draw_chart(table: dict[str, Any], path: Path) -> None:
+    """One panel for the level, one for the spectrum, over milliseconds; what lies beyond a panel stands at its edge with
+    its value."""
+    import matplotlib
+
+    matplotlib.use("Agg")
+    from matplotlib import pyplot
+
+    figure, axes = pyplot.subplots(1, 2, figsize=(12.0, 6.0))
+    for axis, panel in zip(axes, PANELS, strict=True):
+        draw_panel(axis, panel, table["rows"])
+    handles = _legend_handles({row["family"] for row in table["rows"]})
+    figure.legend(handles=handles, loc="lower center", ncols=3, frameon=False, fontsize=10)
+    figure.tight_layout(rect=(0.0, 0.11, 1.0, 1.0))
+    figure.savefig(path, dpi=110, metadata=picture_metadata(table["model_sha256"]))
+    pyplot.close(figure)
+
+
+def draw_panel(axis: Any, panel: Panel, rows: Sequence[dict[str, Any]]) -> None:
+    """One figure of the rows over their milliseconds on matplotlib axes."""
+    points = chart_points(rows, panel.key)
+    axis.set_ylim(*panel.limits)
+    axis.set_xscale("log")
+    _set_times(axis, [row["ms_per_segment"]["p50"] for row in rows if _is_timed(row)])
+    axis.set_title(panel.title, fontsize=12)
+    axis.set_ylabel("dB")
+    axis.grid(alpha=0.25)
+    _draw_another_recording(axis, panel, rows)
+    for line in chart_lines(points):
+        axis.plot(
+            [point.milliseconds for point in line], [point.value for point in line],
+            color=_colour(line[0].family), linewidth=1.2, alpha=0.55, zorder=2,
+        )  # fmt: skip
+    for point in points:
+        if panel.limits[0] <= point.value <= panel.limits[1]:
+            _draw_point(axis, panel, point)
+    beyond = [point for point in points if not panel.limits[0] <= point.value <= panel.limits[1]]
+    for rank, point in enumerate(sorted(beyond, key=lambda entry: entry.milliseconds)):
+        _draw_beyond(axis, panel, point, rank)
+    for row in rows:
+        if _is_timed(row) and row[panel.key] is None:
+            _draw_time_alone(axis, row)
+
+
+def _is_timed(row: dict[str, Any]) -> bool:
+    return row["ms_per_segment"] is not None and row["family"] not in _NOT_DRAWN
+
+
+def _colour(family: str) -> str:
+    return _LEGEND[family][1]
+
+
+def _set_times(axis: Any, milliseconds: Sequence[float]) -> None:
+    from matplotlib.ticker import LogLocator, NullFormatter, StrMethodFormatter
+
+    # Room for the names.
+    axis.set_xlim(min(milliseconds) / 1.7, max(milliseconds) * 1.8)
+    axis.xaxis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
+    axis.xaxis.set_major_formatter(StrMethodFormatter("{x:g}"))
+    axis.xaxis.set_minor_formatter(NullFormatter())
+    axis.set_xlabel("milliseconds for a segment of 100 ms, one thread")
+
+
+def _draw_another_recording(axis: Any, panel: Panel, rows: Sequence[dict[str, Any]]) -> None:
+    another = next((row for row in rows if row["name"] == "independent-draw"), None)
+    if another is None:
+        return
+    axis.axhline(another[panel.key], color="#7a7a7a", linestyle="--", linewidth=1.0, zorder=1)
+    axis.annotate(
+        "another recording of the same material", (0.88, another[panel.key]), xycoords=("axes fraction", "data"),
+        xytext=(0, 3), textcoords="offset points", ha="right", va="bottom", fontsize=9, color="#5a5a5a",
+    )  # fmt: skip
+
+
+def _draw_point(axis: Any, panel: Panel, point: ChartPoint) -> None:
+    ours = point.family == _OURS
+    axis.plot(
+        point.milliseconds, point.value, marker="*" if ours else "o", markersize=14 if ours else 6,
+        linestyle="none", color=_colour(point.family), zorder=4 if ours else 3,
+    )  # fmt: skip
+    axis.errorbar(
+        point.milliseconds, point.value,
+        yerr=[[max(0.0, point.value - point.low)], [max(0.0, point.high - point.value)]],
+        fmt="none", ecolor="#333333", elinewidth=1.2, capsize=3.0, zorder=5,
+    )  # fmt: skip
+    if point.name:
+        axis.annotate(
+            point.name, (point.milliseconds, point.value), xytext=_name_offset(panel, point),
+            textcoords="offset points", fontsize=10, fontweight="bold" if ours else "normal",
+            ha=_NAME_SIDES.get(point.row, "left"), va="center", color=_colour(point.family), zorder=5,
+        )  # fmt: skip
+
+
+# Ours lie close together at the good end: their names fan out, above the points or below.
+_NAME_SIDES = {"draft": "right", "standard": "center"}
+_NAME_ASIDE = {"draft": 4.0, "standard": 0.0, "fine": -2.0}
+
+
+def _name_offset(panel: Panel, point: ChartPoint) -> tuple[float, float]:
+    return (_NAME_ASIDE.get(point.row, 8.0), panel.name_lift if point.family == _OURS else 7.0)
+
+
+def _draw_beyond(axis: Any, panel: Panel, point: ChartPoint, rank: int) -> None:
+    below = point.value < panel.limits[0]
+    edge = panel.limits[0] if below else panel.limits[1]
+    lift = (10 + 15 * rank) * (1 if below else -1)
+    axis.plot(
+        point.milliseconds, edge, marker="v" if below else "^", markersize=8, color=_colour(point.family),
+        clip_on=False, zorder=5,
+    )  # fmt: skip
+    axis.annotate(
+        f"{point.name or point.row}: {point.value:.0f} dB", (point.milliseconds, edge), xytext=(8, lift),
+        textcoords="offset points", va="center", fontsize=9, color=_colour(point.family),
+    )  # fmt: skip
+
+
+def _draw_time_alone(axis: Any, row: dict[str, Any]) -> None:
+    milliseconds = row["ms_per_segment"]["p50"]
+    axis.axvline(milliseconds, color="#555555", linestyle=":", linewidth=1.4)
+    axis.annotate(
+        f"the paper's sizes: {milliseconds:.0f} ms (time only)", (milliseconds, 0.5), xytext=(-5, 0), rotation=90,
+        xycoords=("data", "axes fraction"), textcoords="offset points", ha="right", va="center", fontsize=9,
+    )  # fmt: skip
+
+
+def _legend_handles(families: set[str]) -> list[Any]:
+    from matplotlib.lines import Line2D
+
+    handles = [
+        Line2D([], [], color=colour, marker="*" if family == _OURS else "o", markersize=13 if family == _OURS else 7,
+               linestyle="-" if family == "plain flow matching" else "none", label=words)
+        for family, (words, colour) in _LEGEND.items()
+        if family in families
+    ]  # fmt: skip
+    bar = Line2D([], [], color="#333333", marker="|", markersize=12, markeredgewidth=1.4, linestyle="none",
+                 label="bar: 95 % interval over recordings")  # fmt: skip
+    edge = Line2D([], [], color="#333333", marker="v", markersize=7, linestyle="none", label="beyond the scale")
+    return [*handles, bar, edge]

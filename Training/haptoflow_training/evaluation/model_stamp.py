@@ -1,0 +1,36 @@
+"""Which model a published figure was measured with: its SHA-256, in pages, results and pictures."""
+
+from __future__ import annotations
+
+import hashlib
+import re
+from pathlib import Path
+
+from haptoflow_training.errors import InputError
+
+SHIPPED_MODEL = Path("Packages") / "com.haptoflow.runtime" / "Runtime" / "Models" / "default.haptoflow"
+# The key of a PNG file's text; JavaScript and C# write the same.
+_PICTURE_KEY = "Model-SHA-256"
+
+
+def sha256_of(path: Path) -> str:
+    """Of a file's bytes, in hexadecimal."""
+    return hashlib.sha256(path.read_bytes()).hexdigest()
+
+
+def model_line(sha256: str) -> str:
+    """The line of a page with figures."""
+    return f"Model: SHA-256 `{sha256}`."
+
+
+def picture_metadata(sha256: str) -> dict[str, str]:
+    """For matplotlib's savefig to PNG."""
+    return {_PICTURE_KEY: sha256}
+
+
+def with_measured_words(page: str, words: str) -> str:
+    """The page with `words` between its markers; InputError where it has none."""
+    found = re.search(r"(<!-- measured: begin [^>]*-->\n).*?(<!-- measured: end -->)", page, re.DOTALL)
+    if found is None:
+        raise InputError("the page has no `<!-- measured: begin (command) -->` before a `<!-- measured: end -->`")
+    return f"{page[: found.end(1)]}\n{words.strip()}\n\n{page[found.start(2) :]}"

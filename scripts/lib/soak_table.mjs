@@ -1,0 +1,33 @@
+import { modelLine } from './model_stamp.mjs';
+import { countsOfJunit } from './test_counts.mjs';
+
+const property = (xml, name) => [...xml.matchAll(new RegExp(`\\bname="${name}" value="(-?[\\d.]+)"`, 'g'))].map(([, value]) => Number(value));
+
+function median(values) {
+  const ordered = [...values].sort((a, b) => a - b);
+  const middle = ordered.length >> 1;
+  return ordered.length % 2 === 1 ? ordered[middle] : (ordered[middle - 1] + ordered[middle]) / 2;
+}
+
+/** What a proof's result file tells beside its counts; empty where it tells nothing. */
+function found(xml) {
+  const changes = property(xml, 'level_change_db').map(Math.abs);
+  if (changes.length === 0) return '';
+  const fits = property(xml, 'spectrum_gfc');
+  return `; last minute against first on ${changes.length} labels: level changed by at most ${Math.max(...changes).toFixed(2)} dB (median ` +
+    `${median(changes).toFixed(2)}), goodness of fit of the spectra at least ${Math.min(...fits).toFixed(4)} (median ${median(fits).toFixed(4)})`;
+}
+
+/**
+ * The soak's measured part of the stability page.
+ * @param {{about: string, xml: string}[]} proofs each with the JUnit file that Google Test wrote
+ * @param {{date: string, machine: string, modelSha256: string}} run
+ */
+export function soakTable(proofs, { date, machine, modelSha256 }) {
+  const rows = proofs.map(({ about, xml }) => {
+    const { passed, failed } = countsOfJunit(xml);
+    const seconds = Number(xml.match(/<testsuites[^>]*\btime="([\d.]+)"/)?.[1] ?? NaN);
+    return `| ${about} | ${passed} of ${passed + failed} | ${seconds.toFixed(0)} | ${found(xml).replace(/^; /, '')} |`;
+  });
+  return [modelLine(modelSha256), '', `Run on ${date}: ${machine}.`, '', '| proof | tests passed | seconds | found |', '|---|---|---|---|', ...rows].join('\n');
+}
