@@ -26,9 +26,10 @@ namespace HaptoFlow.Editor
             }
             if (!stylus.TryGetStatistics(out VoiceStatistics voice))
             {
-                Add("Voice", "none yet");
+                Add("Voice", SilenceWords.OfMissingVoice(stylus));
                 return;
             }
+            Add("Silence", SilenceWords.Of(voice));
             Add("Segments", "{0}, {1} late", voice.Inferences, voice.Late);
             if (voice.Inferences > 0)
             {

@@ -54,7 +54,7 @@ namespace HaptoFlow.Editor
             if (settings.ApplyModifiedProperties() && Application.isPlaying)
             {
                 // Quality counts from the next segment on, the rest when an engine starts anew.
-                HapticSession.Existing?.Engine?.SetQuality(HaptoFlowSettings.Active.Quality);
+                HapticSession.Existing?.SetQuality(HaptoFlowSettings.Active.Quality);
             }
         }
     }

@@ -15,6 +15,9 @@ namespace HaptoFlow
         // Switched off by its author: found by a search that makes garbage, and kept until it is gone.
         private static HapticOutput? dormant;
 
+        /// <summary>A stylus that asked got none, since the author's are switched off.</summary>
+        public static bool AreSwitchedOff => Authors.Count == 0 && dormant != null;
+
         /// <summary>Null for silence.</summary>
         /// <param name="asker">Named in the message about an output that had to be made.</param>
         public static HapticOutput? For(HapticStylus asker)
