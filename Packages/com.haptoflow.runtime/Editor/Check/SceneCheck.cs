@@ -17,6 +17,7 @@ namespace HaptoFlow.Editor
                 .Concat(ColliderRules.Check(scene))
                 .Concat(OutputRules.Check(scene))
                 .Concat(SilentOutputRules.Check(scene))
+                .Concat(RealObjectRules.Check(scene))
                 .OrderByDescending(finding => finding.Severity)
                 .ToArray();
         }
