@@ -43,6 +43,9 @@ namespace UnityEngine
 
     public interface ISubsystemDescriptor
     {
+        string id { get; }
+
+        ISubsystem Create();
     }
 
     public class IntegratedSubsystem : ISubsystem
@@ -63,6 +66,9 @@ namespace UnityEngine
 
     public abstract class IntegratedSubsystemDescriptor : ISubsystemDescriptor
     {
+        public string id => "";
+
+        ISubsystem ISubsystemDescriptor.Create() => new IntegratedSubsystem();
     }
 
     public class IntegratedSubsystemDescriptor<TSubsystem> : IntegratedSubsystemDescriptor

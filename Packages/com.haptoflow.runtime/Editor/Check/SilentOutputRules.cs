@@ -18,16 +18,16 @@ namespace HaptoFlow.Editor
                 {
                     yield return new Finding(MessageType.Error,
                         $"{output.name} overwrites a channel of the listener and names none: channel -1 would " +
-                        "overwrite all game audio, so nothing is felt. Choose the channel that the actuator hangs on, " +
-                        "from 0.", new[] { output });
+                        "overwrite all game audio, so nothing is felt. Choose the channel that the actuator hangs " +
+                        "on, from 0.", new[] { output });
                 }
             }
             IReadOnlyList<HapticOutput> off = SwitchedOff();
             if (scene.Styluses.Count > 0 && scene.Outputs.Count == 0 && off.Count > 0)
             {
                 yield return new Finding(MessageType.Warning,
-                    $"The scene's Haptic Output {off[0].name} is switched off: styluses without an output of their own " +
-                    "are silent.", off.ToArray<Object>());
+                    $"The scene's Haptic Output {off[0].name} is switched off: styluses without an output of their " +
+                    "own are silent.", off.ToArray<Object>());
             }
             foreach (HapticStylus stylus in scene.Styluses)
             {

@@ -11,16 +11,17 @@ namespace HaptoFlow.Editor
     internal sealed class HapticOutputEditor : UnityEditor.Editor
     {
         private static readonly GUIContent Route = new GUIContent("Route",
-            "Audio Source: plays beside other sounds. Listener Channel: overwrites one channel, nothing else is heard " +
-            "there. Mixer Effect: the native library plays inside an Audio Mixer. Chosen before the first frame.");
+            "Audio Source: plays beside other sounds. Listener Channel: overwrites one channel, nothing else is " +
+            "heard there. Mixer Effect: the native library plays inside an Audio Mixer. Chosen before the first " +
+            "frame.");
         private static readonly GUIContent Channel = new GUIContent("Channel",
             "Of the audio device, from 0; -1 for all. A channel that the device does not have is silent. Listener " +
             "Channel needs one from 0.");
         private static readonly GUIContent Strength = new GUIContent("Strength", "Gain, 0 to 1.");
         private static readonly GUIContent Muted = new GUIContent("Muted", "Silent, and costs no inference.");
         private static readonly GUIContent Obey = new GUIContent("Obey Listener",
-            "AudioListener.pause and AudioListener.volume reach the haptics too. Off, a game that turns its sound down " +
-            "keeps what the hand feels.");
+            "AudioListener.pause and AudioListener.volume reach the haptics too. Off, a game that turns its sound " +
+            "down keeps what the hand feels.");
         private static readonly GUIContent Mixer = new GUIContent("Audio Mixer",
             "The mixer that holds the effect HaptoFlow Voice.");
         private static readonly GUIContent Parameter = new GUIContent("Voice Parameter",
@@ -69,8 +70,8 @@ namespace HaptoFlow.Editor
             }
             if (lacksChannel && !several)
             {
-                EditorGUILayout.HelpBox("Choose a channel from 0: with -1 all game audio would be overwritten, so this " +
-                    "output stays silent.", MessageType.Error);
+                EditorGUILayout.HelpBox("Choose a channel from 0: with -1 all game audio would be overwritten, so " +
+                    "this output stays silent.", MessageType.Error);
             }
             EditorGUILayout.PropertyField(strength, Strength);
             EditorGUILayout.PropertyField(muted, Muted);

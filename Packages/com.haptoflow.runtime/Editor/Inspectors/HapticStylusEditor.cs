@@ -30,8 +30,8 @@ namespace HaptoFlow.Editor
             ("forceDecision.releaseNewtons", new GUIContent("Release Force (N)",
                 "A touch ends at this force: below the press force by more than the sensor's noise.")),
             ("forceDecision.nearMetres", new GUIContent("Near (m)",
-                "How far from a surface, on either side, the pressing tip may be: more than tracking and alignment are " +
-                "off.")),
+                "How far from a surface, on either side, the pressing tip may be: more than tracking and alignment " +
+                "are off.")),
             ("output", new GUIContent("Output",
                 "Where the wave goes; empty for the scene's output, or one that is made.")),
             ("strength", new GUIContent("Strength", "Gain, 0 to 1, on top of the surface's and the output's.")),

@@ -43,8 +43,8 @@ namespace HaptoFlow
             }
             catch (Exception error) when (error is IOException || error is UnauthorizedAccessException)
             {
-                Debug.LogWarning($"HaptoFlow: {path}: {error.Message}; the alignment holds until the application ends, " +
-                    "make the folder writable to keep it.", context);
+                Debug.LogWarning($"HaptoFlow: {path}: {error.Message}; the alignment holds until the application " +
+                    "ends, make the folder writable to keep it.", context);
             }
         }
 

@@ -31,8 +31,8 @@ namespace HaptoFlow
         [SerializeField, Min(LeastNewtons), Tooltip("A touch begins at this force, in newtons.")]
         private float pressNewtons = (float)ForceTouchSettings.DefaultPressNewtons;
 
-        [SerializeField, Min(0f), Tooltip("A touch ends at this force, in newtons: below the press force by more than " +
-            "the sensor's noise.")]
+        [SerializeField, Min(0f), Tooltip("A touch ends at this force, in newtons: below the press force by more " +
+            "than the sensor's noise.")]
         private float releaseNewtons = (float)ForceTouchSettings.DefaultReleaseNewtons;
 
         [SerializeField, Range(LeastMetres, MostMetres), Tooltip("How far from a tagged surface, on either side, the " +

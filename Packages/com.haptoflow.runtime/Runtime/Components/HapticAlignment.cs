@@ -11,8 +11,8 @@ namespace HaptoFlow
     /// <summary>Puts this object onto a real one: the pen touches three marked points of the real object, and this one
     /// moves there.</summary>
     /// <remarks>A pen that measures its tip force takes each point by resting on it; for others,
-    /// <see cref="TakePoint"/> is called where the tip is. The pose is kept under <see cref="SaveName"/> and relative to
-    /// the parent: it holds as long as the tracking space stays where it was.</remarks>
+    /// <see cref="TakePoint"/> is called where the tip is. The pose is kept under <see cref="SaveName"/> and relative
+    /// to the parent: it holds as long as the tracking space stays where it was.</remarks>
     [AddComponentMenu("HaptoFlow/Haptic Alignment")]
     [DefaultExecutionOrder(1100)]
     [DisallowMultipleComponent]
@@ -23,8 +23,8 @@ namespace HaptoFlow
         [SerializeField, Tooltip("The pen that touches the real object.")]
         private HapticStylus? stylus;
 
-        [SerializeField, Tooltip("Three points of this object that can be found on the real one, in local space and in " +
-            "the order in which they are touched. Different distances between them tell a wrong order.")]
+        [SerializeField, Tooltip("Three points of this object that can be found on the real one, in local space and " +
+            "in the order in which they are touched. Different distances between them tell a wrong order.")]
         private Vector3[] marks =
         {
             new Vector3(-0.1f, 0f, -0.075f), new Vector3(0.1f, 0f, -0.075f), new Vector3(-0.1f, 0f, 0.075f),

@@ -39,8 +39,8 @@ namespace HaptoFlow
             HapticSession.Existing?.SetQuality(quality);
         }
 
-        /// <summary>Text of the engine's newest failed round of inference, or of its worker's end; empty where there was
-        /// none. Makes garbage where there is one.</summary>
+        /// <summary>Text of the engine's newest failed round of inference, or of its worker's end; empty where there
+        /// was none. Makes garbage where there is one.</summary>
         public static string LastFailure => HapticSession.Existing?.Engine?.LastFailure() ?? "";
 
         /// <summary>Silence at once, everywhere. Each stylus sounds again with its next touch-down.</summary>

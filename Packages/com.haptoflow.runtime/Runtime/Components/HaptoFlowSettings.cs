@@ -62,7 +62,8 @@ namespace HaptoFlow
         }
 
         /// <summary>An engine that starts takes the refresh rate of the running headset, else of the screen, as its
-        /// update rate. A display that changes its rate later is followed after <see cref="Haptics.Restart"/>.</summary>
+        /// update rate. A display that changes its rate later is followed after
+        /// <see cref="Haptics.Restart"/>.</summary>
         public bool FollowDisplay
         {
             get => followDisplay;

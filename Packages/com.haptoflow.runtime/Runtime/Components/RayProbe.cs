@@ -13,8 +13,8 @@ namespace HaptoFlow
     /// next,
     /// better direction. Directions to start with: the last contact's normal, the way the tip came, and six axes. A
     /// short ray goes first, so that a thin wall opposite is not taken for the surface.</para>
-    /// <para>No ray is cast for a tip that the collider's bounds keep out of reach. A tip that was touching, or that came
-    /// through the surface since the last frame, may be beyond flat bounds and is still asked for.</para>
+    /// <para>No ray is cast for a tip that the collider's bounds keep out of reach. A tip that was touching, or that
+    /// came through the surface since the last frame, may be beyond flat bounds and is still asked for.</para>
     /// <para>Limits: a tip deeper than <see cref="DeepestMetres"/> behind a face counts as outside; in a corner the
     /// face
     /// that was touched first stays; an object without rigid body that a script moves is hit where it was at the last
@@ -68,7 +68,9 @@ namespace HaptoFlow
 
         private static bool IsOutOfBounds(Collider collider, Double3 tip, in ProbeQuestion question, double movedMetres)
         {
-            double behind = question.PreviousLocalNormal.HasValue ? DeepestMetres : Math.Min(movedMetres, DeepestMetres);
+            double behind = question.PreviousLocalNormal.HasValue
+                ? DeepestMetres
+                : Math.Min(movedMetres, DeepestMetres);
             double margin = question.ReachMetres + behind + BoundsSlackMetres;
             return collider.bounds.SqrDistance(tip.ToVector()) > margin * margin;
         }

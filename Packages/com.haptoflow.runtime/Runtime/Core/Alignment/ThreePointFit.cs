@@ -33,8 +33,8 @@ namespace HaptoFlow.Alignment
 
     /// <summary>The rigid pose that takes three points of an object to the three places where they were touched, with
     /// the least squared error. Any thread; pure.</summary>
-    /// <remarks>Three points lie in a plane on both sides, so the best rotation takes plane to plane, and what is left is
-    /// an angle within it. The points are numbered, which tells the plane's upper side from its lower.</remarks>
+    /// <remarks>Three points lie in a plane on both sides, so the best rotation takes plane to plane, and what is left
+    /// is an angle within it. The points are numbered, which tells the plane's upper side from its lower.</remarks>
     internal static class ThreePointFit
     {
         /// <summary>Sides shorter than this turn millimetres of touching error into a visible tilt.</summary>
@@ -151,8 +151,8 @@ namespace HaptoFlow.Alignment
             }
             if (shortest < ShortestSideMetres)
             {
-                return $"two {which} points are only {Millimetres(shortest)} apart, {Millimetres(ShortestSideMetres)} " +
-                    $"are needed. {remedy}";
+                return $"two {which} points are only {Millimetres(shortest)} apart, " +
+                    $"{Millimetres(ShortestSideMetres)} are needed. {remedy}";
             }
             double height = Double3.Cross(points[1] - points[0], points[2] - points[0]).Length / longest;
             return height < SmallestHeightMetres

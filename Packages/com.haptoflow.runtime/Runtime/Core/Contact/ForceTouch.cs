@@ -64,8 +64,8 @@ namespace HaptoFlow.Contact
     }
 
     /// <summary>Decides by the measured tip force whether a pen touches: a real object under a virtual one is met some
-    /// millimetres away from where tracking has it, but the force is there exactly while the pen rests on it. One thread
-    /// at a time; no garbage after construction.</summary>
+    /// millimetres away from where tracking has it, but the force is there exactly while the pen rests on it. One
+    /// thread at a time; no garbage after construction.</summary>
     internal sealed class ForceTouch
     {
         private double measuredSeconds;

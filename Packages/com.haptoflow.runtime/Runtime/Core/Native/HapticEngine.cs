@@ -68,8 +68,8 @@ namespace HaptoFlow
     {
         private readonly EngineHandle handle;
 
-        /// <summary>Loads the tiers that the quality asks for, all of them for automatic quality, and starts the worker.
-        /// Takes as long as ONNX Runtime needs to optimise
+        /// <summary>Loads the tiers that the quality asks for, all of them for automatic quality, and starts the
+        /// worker. Takes as long as ONNX Runtime needs to optimise
         /// the graphs; runtime and model may be disposed afterwards.</summary>
         /// <exception cref="HaptoFlowException">An option is out of range, a graph is not usable or too slow, or the
         /// creation was cancelled.</exception>
@@ -123,8 +123,8 @@ namespace HaptoFlow
             return statistics;
         }
 
-        /// <summary>Text of the newest failure, of a round of inference or of the worker itself; empty before the first.
-        /// Makes garbage.</summary>
+        /// <summary>Text of the newest failure, of a round of inference or of the worker itself; empty before the
+        /// first. Makes garbage.</summary>
         public string LastFailure()
         {
             ulong length;

@@ -73,7 +73,8 @@ namespace HaptoFlow
             }
         }
 
-        /// <summary>Gain of the output before the limiter, 0 to 1; glides within 10 ms while the voice sounds.</summary>
+        /// <summary>Gain of the output before the limiter, 0 to 1; glides within 10 ms while the voice
+        /// sounds.</summary>
         public void SetStrength(float strength) => NativeCall.Check(NativeMethods.VoiceSetStrength(Id, strength));
 
         /// <summary>Largest magnitude of the output, 0 to 1: whatever else happens, no sample is above it.</summary>

@@ -61,7 +61,8 @@ namespace HaptoFlow
         /// <summary>Calls refused because another thread was inside.</summary>
         public ulong RefusedCalls;
 
-        /// <summary>Milliseconds that this voice's inferences took in all; voices that share a run share its time.</summary>
+        /// <summary>Milliseconds that this voice's inferences took in all; voices that share a run share its
+        /// time.</summary>
         public double InferenceMilliseconds;
 
         /// <summary>How often a touch sounded again after a silence within it: a pause, a mute, a change of rate,
@@ -127,7 +128,8 @@ namespace HaptoFlow
         /// <summary>False once the thread that generates has ended. True for an engine without one.</summary>
         public bool WorkerIsAlive => workerIsAlive != 0;
 
-        /// <summary>The system did not let the worker run at a raised priority: segments come late more often.</summary>
+        /// <summary>The system did not let the worker run at a raised priority: segments come late more
+        /// often.</summary>
         public bool PriorityWasRefused => priorityWasRefused != 0;
 
         /// <summary>Automatic quality still measures.</summary>

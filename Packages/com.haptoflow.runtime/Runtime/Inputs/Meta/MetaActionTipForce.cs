@@ -66,8 +66,8 @@ namespace HaptoFlow
             {
                 hasWarned = true;
                 Debug.LogWarning($"HaptoFlow: {name} reads no tip force: Meta's SDK has no float action \"{action}\" " +
-                    "that is bound to a connected pen (Project Settings > Meta XR > Input Actions). It is asked again " +
-                    "when the session or the controllers change.", this);
+                    "that is bound to a connected pen (Project Settings > Meta XR > Input Actions). It is asked " +
+                    "again when the session or the controllers change.", this);
             }
         }
     }
