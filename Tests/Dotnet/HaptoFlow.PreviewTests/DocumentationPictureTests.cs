@@ -28,7 +28,7 @@ namespace HaptoFlow.PreviewTests
             PreviewResult result = worker.Do(request, CancellationToken.None);
             Assert.That(result.Problem, Is.Null);
             string path = RepositoryFiles.In("Documentation~", "images", "texture-preview.png");
-            Png.Write(path, WindowPicture.Draw(result, layout, settings, "Spiral", 1.3));
+            Png.Write(path, WindowPicture.Draw(result, layout, settings, "Spiral", 1.3), request.ModelFile);
             Assert.That(new FileInfo(path).Length, Is.GreaterThan(50_000));
         }
     }

@@ -87,8 +87,8 @@ def chart_lines(points: Sequence[ChartPoint]) -> list[list[ChartPoint]]:
 
 
 def draw_chart(table: dict[str, Any], path: Path) -> None:
-    """One panel for the level, one for the spectrum, over milliseconds; what lies beyond a panel stands at its edge with
-    its value."""
+    """One panel for the level, one for the spectrum, over milliseconds. What lies beyond a panel stands at its edge
+    with its value."""
     import matplotlib
 
     matplotlib.use("Agg")

@@ -42,6 +42,8 @@ namespace HaptoFlow.PreviewTests
             canvas.Fill(new Box(0.0, 0.0, width, Tab), Colour.Of(0x282828));
             canvas.FillRound(new Box(4.0, 2.0, 128.0, Tab), Palette.Window, 3.0);
             canvas.Text("Texture Preview", 68.0, 12.0, TextSize, Label, TextAlign.Centre);
+            canvas.Text("Drawn by a test with the window's own code: not a screenshot of Unity", width - 12.0, 12.0,
+                TextSize, Label, TextAlign.Right);
             canvas.Paste(result.StrokePanel, layout.StrokePanel.Left, layout.StrokePanel.Top + Tab);
             canvas.Paste(result.Charts, layout.Charts.Left, layout.Charts.Top + Tab);
             var picture = new WindowPicture(
