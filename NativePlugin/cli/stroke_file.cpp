@@ -1,16 +1,15 @@
 #include "stroke_file.hpp"
 
+#include "decimal_number.hpp"
 #include "exit_codes.hpp"
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <fstream>
 #include <glm/common.hpp>
 #include <iterator>
 #include <optional>
-#include <system_error>
 
 namespace haptoflow::cli {
 namespace {
@@ -128,17 +127,11 @@ private:
     }
 
     double number(const std::vector<std::string_view>& cells, std::size_t column) const {
-        double value = 0.0;
-        const std::string_view cell = cells[column];
-        const char* end = cell.data() + cell.size();
-        // from_chars knows no plus sign; one sign is enough.
-        const bool plus = cell.starts_with('+') && !cell.starts_with("+-");
-        const char* begin = plus ? cell.data() + 1 : cell.data();
-        const auto [stop, error] = std::from_chars(begin, end, value);
-        if (error != std::errc() || stop != end || !(std::abs(value) <= largestValue)) {
+        const std::optional<double> value = decimalNumber(cells[column]);
+        if (!value || !(std::abs(*value) <= largestValue)) {
             fail(column, "expected a number within +-1e9 with a decimal point");
         }
-        return value;
+        return *value;
     }
 
     contact::TipSample readSample() const {
