@@ -2,13 +2,12 @@
 
 #include "decimal_number.hpp"
 #include "exit_codes.hpp"
+#include "input_file.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <fstream>
 #include <glm/common.hpp>
-#include <iterator>
 #include <optional>
 
 namespace haptoflow::cli {
@@ -179,12 +178,7 @@ Stroke parseStroke(std::string_view text, const std::string& fileName) {
 }
 
 Stroke readStrokeFile(const std::string& path) {
-    std::ifstream file(path, std::ios::binary);
-    if (!file) {
-        throw InputError(path + ": cannot be opened; expected a stroke file (CSV)");
-    }
-    const std::string text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-    return parseStroke(text, path);
+    return parseStroke(readInputFile(path, "a stroke file (CSV)"), path);
 }
 
 contact::TipSample sampleStroke(const Stroke& stroke, double timeSeconds) {
