@@ -26,4 +26,4 @@ await runMain('test:soak', async () => {
   }
   console.log(`\n${closingLine(counts)}`);
   return counts.failed > 0 ? 1 : 0;
-});
+}, { takesWords: false });
