@@ -100,7 +100,7 @@ void addBenchCommand(CLI::App& app, CommandOutcome& outcome) {
         ->add_option("--events", options->events,
                      "Events behind each latency; all other counts follow (default: 120, quick 24). Below 100 the p99 "
                      "is the worst")
-        ->check(wholeBetween(1, 10000, ""));
+        ->transform(wholeBetween(1, 10000, ""));
     command->add_flag("--json", options->json, "Print the report as JSON in place of tables");
     command->add_option("-o,--output", options->outputPath, "Write the report as JSON too")->type_name("BENCH.json");
     command->add_flag("--quiet", options->quiet, "No progress bar");

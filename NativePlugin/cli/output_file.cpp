@@ -63,7 +63,11 @@ bool isSameFile(const fs::path& one, const fs::path& other) {
     if (fs::equivalent(one, other, ignored)) {
         return true;
     }
-    return fs::weakly_canonical(followLinks(one), ignored) == fs::weakly_canonical(followLinks(other), ignored);
+    const auto whole = [](const fs::path& path) {
+        std::error_code unused;
+        return fs::weakly_canonical(fs::absolute(followLinks(path), unused), unused);
+    };
+    return whole(one) == whole(other);
 }
 
 }  // namespace

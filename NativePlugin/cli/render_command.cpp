@@ -322,12 +322,12 @@ void addRenderCommand(CLI::App& app, CommandOutcome& outcome) {
     command->add_option("--quality", options->quality, "A tier of the model: draft, standard or fine");
     command->add_option("--solver", options->solver, "ODE solver in place of the tier's own; not for kind `direct`")
         ->check(CLI::IsMember({"euler", "midpoint", "heun"}));
-    command->add_option("--steps", options->steps, "Steps of that solver")->check(wholeBetween(1, 16, ""));
+    command->add_option("--steps", options->steps, "Steps of that solver")->transform(wholeBetween(1, 16, ""));
     command->add_option("--seed", options->engine.seed, "Key of the noise: the same gives the same bytes")
-        ->check(wholeBetween(0, std::numeric_limits<std::uint64_t>::max(), ""))
+        ->transform(wholeBetween(0, std::numeric_limits<std::uint64_t>::max(), ""))
         ->capture_default_str();
     command->add_option("--rate", options->engine.outputRateHz, "Output rate in Hz")
-        ->check(wholeBetween(8000, 192000, "Hz"))
+        ->transform(wholeBetween(8000, 192000, "Hz"))
         ->capture_default_str();
     command->add_option("--lead-ms", options->engine.leadMs, "From a contact state to the first sample made from it")
         ->check(decimalBetween(0.0, 50.0, "ms"))

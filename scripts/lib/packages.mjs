@@ -25,6 +25,7 @@ export const packagesByPurpose = {
 export const packageOfProgram = {
   cmake: 'cmake',
   ctest: 'cmake',
+  ninja: 'ninja-build',
   nm: 'binutils',
   curl: 'curl',
   git: 'git',

@@ -143,7 +143,7 @@ TEST_F(RenderCommandTest, AFolderInPlaceOfAFileIsABadInput) {
 
 TEST_F(RenderCommandTest, NumbersThatAreNoneOrOutOfRangeAreUsage) {
     for (const char* option : {"--rate", "--full-scale", "--lead-ms"}) {
-        for (const char* value : {"nan", "-nan", "NaN", "inf", "-1", "1e400", "0x10000", "12,5", "''", "wood"}) {
+        for (const char* value : {"nan", "-nan", "NaN", "inf", "-1", "1e400", "0x10000", "12,5", "wood"}) {
             expectUsage(std::string("-o felt.wav ") + option + "=" + value, std::string(option) + ": expected a");
         }
     }
@@ -155,7 +155,7 @@ TEST_F(RenderCommandTest, NumbersThatAreNoneOrOutOfRangeAreUsage) {
 }
 
 TEST_F(RenderCommandTest, ASeedIsTakenAsItIsOrRefused) {
-    for (const char* seed : {"-1", "18446744073709551616", "99999999999999999999999", "1e3", "0x10", "1.5", "''", "+1"}) {
+    for (const char* seed : {"-1", "18446744073709551616", "99999999999999999999999", "1e3", "0x10", "1.5", "+1"}) {
         expectUsage(std::string("-o felt.wav --seed=") + seed, "--seed: expected a whole number from 0 to");
     }
     ASSERT_EQ(render("-o largest.wav --seed 18446744073709551615").exitCode, 0);
