@@ -153,7 +153,7 @@ TEST_F(ContactProgramTest, WithAModelOfTheUsersOwnItsLabelsGiveTheStiffness) {
     EXPECT_EQ(run(words + " --model " HAPTOFLOW_TEST_GOLDEN_DIR "/model/tiny.haptoflow"), exitBadInput);
     write("scene.json", R"({"surfaces": [{"name": "table", "shape": {"plane": {}}, "material": "ruled"}]})");
     EXPECT_EQ(run(words + " --model " HAPTOFLOW_TEST_GOLDEN_DIR "/model/tiny.haptoflow"), exitDone) << read("err.txt");
-    EXPECT_THAT(linesOf(read("out.txt"))[1], HasSubstr(",0.0005,0,0,0,0.3"));
+    EXPECT_THAT(linesOf(read("out.txt")).at(1), HasSubstr(",0.0005,0,0,0,0.3"));
 }
 
 TEST_F(ContactProgramTest, AnOutputThatIsAnInputIsRefusedAndALinkIsFollowed) {
