@@ -8,6 +8,7 @@ namespace HaptoFlow
     [AddComponentMenu("HaptoFlow/Mouse Pen")]
     [RequireComponent(typeof(HapticStylus))]
     [DisallowMultipleComponent]
+    [HelpURL(HelpPages.Components + "mouse-pen")]
     public sealed class MousePen : MonoBehaviour
     {
         // A hand's, not a mouse button's.

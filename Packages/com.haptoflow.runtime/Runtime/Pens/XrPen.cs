@@ -22,6 +22,7 @@ namespace HaptoFlow
     /// nothing is tracked. Needs the Input System, as OpenXR itself.</summary>
     [AddComponentMenu("HaptoFlow/XR Pen")]
     [DisallowMultipleComponent]
+    [HelpURL(HelpPages.Components + "xr-pen")]
     public sealed class XrPen : PressureTipForce
     {
         [SerializeField, Tooltip("Which hand holds it.")]
