@@ -7,7 +7,6 @@ namespace HaptoFlow.Editor
     /// <summary>GameObject > HaptoFlow: what a first scene needs, each one step of undo.</summary>
     internal static class CreateMenu
     {
-        private const string Menu = "GameObject/HaptoFlow/";
         private const int Place = 10;
 
         // Where Unity puts the camera of a new scene: too far from a cube of 30 cm.
@@ -16,7 +15,7 @@ namespace HaptoFlow.Editor
         private static readonly Vector3 PlateSize = new Vector3(0.3f, 0.02f, 0.3f);
 
         /// <summary>A plate to touch, a pen under the mouse, an output: ready to play.</summary>
-        [MenuItem(Menu + "First Scene", false, Place - 3)]
+        [MenuItem("GameObject/HaptoFlow/First Scene", false, Place - 3)]
         internal static void CreateFirstScene(MenuCommand command)
         {
             Undo.IncrementCurrentGroup();
@@ -32,23 +31,23 @@ namespace HaptoFlow.Editor
         }
 
         /// <summary>A cube of one metre made of wood.</summary>
-        [MenuItem(Menu + "Tagged Cube", false, Place - 2)]
+        [MenuItem("GameObject/HaptoFlow/Tagged Cube", false, Place - 2)]
         internal static void CreateTaggedCube(MenuCommand command) => Add(TaggedCube("Tagged Cube"), command);
 
         /// <summary>A stylus under the mouse or a graphics pen.</summary>
-        [MenuItem(Menu + "Mouse Pen", false, Place - 1)]
+        [MenuItem("GameObject/HaptoFlow/Mouse Pen", false, Place - 1)]
         internal static void CreateMousePen(MenuCommand command) => Add(MousePen.Create(null).gameObject, command);
 
         /// <summary>A stylus on MX Ink or a controller in the right hand.</summary>
-        [MenuItem(Menu + "XR Pen (Right Hand)", false, Place - 1)]
+        [MenuItem("GameObject/HaptoFlow/XR Pen (Right Hand)", false, Place - 1)]
         internal static void CreateRightPen(MenuCommand command) => CreateXrPen(command, PenHand.Right);
 
         /// <summary>A stylus on MX Ink or a controller in the left hand.</summary>
-        [MenuItem(Menu + "XR Pen (Left Hand)", false, Place - 1)]
+        [MenuItem("GameObject/HaptoFlow/XR Pen (Left Hand)", false, Place - 1)]
         internal static void CreateLeftPen(MenuCommand command) => CreateXrPen(command, PenHand.Left);
 
         /// <summary>Tip and component, ready to be put on whatever is tracked.</summary>
-        [MenuItem(Menu + "Haptic Stylus", false, Place)]
+        [MenuItem("GameObject/HaptoFlow/Haptic Stylus", false, Place)]
         internal static void CreateStylus(MenuCommand command)
         {
             var owner = new GameObject("Haptic Stylus");
@@ -59,7 +58,7 @@ namespace HaptoFlow.Editor
         }
 
         /// <summary>Where the wave goes; on every channel until one is chosen.</summary>
-        [MenuItem(Menu + "Haptic Output", false, Place)]
+        [MenuItem("GameObject/HaptoFlow/Haptic Output", false, Place)]
         internal static void CreateOutput(MenuCommand command)
         {
             var owner = new GameObject("Haptic Output");
