@@ -3,6 +3,7 @@ using HaptoFlow.Editor;
 using NUnit.Framework;
 using UnityEditor;
 using UnityEngine;
+using UnityEngine.Rendering;
 using UnityShim;
 
 namespace HaptoFlow.EditorTests
@@ -82,6 +83,25 @@ namespace HaptoFlow.EditorTests
             Assert.That(stylus.Contact.Surface.Material.Label, Is.EqualTo("wood"));
             SimulatedInput.Reset();
             EditorSession.Stop();
+        }
+
+        [Test]
+        public void ATaggedCubeHasThePipelinesMaterialAndOneThatTheUserChoosesStaysInPlayMode()
+        {
+            var pipeline = ScriptableObject.CreateInstance<SimulatedPipeline>();
+            pipeline.Material = new Material(SimulatedPipeline.ShaderNamed("Lit"));
+            GraphicsSettings.defaultRenderPipeline = pipeline;
+            CreateMenu.CreateTaggedCube(new MenuCommand(null));
+            var renderer = All<HapticSurface>().Single().GetComponent<MeshRenderer>();
+            Assert.That(renderer.sharedMaterial, Is.SameAs(pipeline.Material));
+            var chosen = new Material(SimulatedPipeline.ShaderNamed("Chosen"));
+            renderer.sharedMaterial = chosen;
+            BuildHost.ProcessScene(null);
+            EditorSession.Play();
+            World.Frames(2);
+            Assert.That(renderer.sharedMaterial, Is.SameAs(chosen));
+            EditorSession.Stop();
+            GraphicsSettings.defaultRenderPipeline = null;
         }
 
         [Test]

@@ -80,7 +80,12 @@ namespace HaptoFlow.Editor
         {
             GameObject cube = GameObject.CreatePrimitive(PrimitiveType.Cube);
             cube.name = name;
-            cube.AddComponent<PipelineMaterial>().Colour = new Color(0.73f, 0.47f, 0.25f);
+            // The scene keeps a reference to it, so that players have it, too; the user may put another in its place.
+            Material? ofPipeline = PipelineMaterial.OfPipeline();
+            if (ofPipeline != null)
+            {
+                cube.GetComponent<MeshRenderer>().sharedMaterial = ofPipeline;
+            }
             cube.AddComponent<HapticSurface>();
             return cube;
         }

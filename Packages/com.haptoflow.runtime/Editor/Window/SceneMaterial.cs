@@ -102,6 +102,7 @@ namespace HaptoFlow.Editor
             serialized.ApplyModifiedProperties();
         }
 
-        private static string Names(IEnumerable<Object> objects) => string.Join(", ", objects.Select(each => each.name));
+        private static string Names(IEnumerable<Object> objects) =>
+            string.Join(", ", objects.Select(each => each.name));
     }
 }

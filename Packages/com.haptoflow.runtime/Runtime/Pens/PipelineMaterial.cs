@@ -44,7 +44,8 @@ namespace HaptoFlow
             set => material = value;
         }
 
-        /// <summary>Gives a renderer a copy of the pipeline's material in a colour. Main thread, in play mode.</summary>
+        /// <summary>Gives a renderer a copy of the pipeline's material in a colour. Main thread, in play mode.
+        /// </summary>
         public static void Paint(Renderer target, Color colour)
         {
             Apply(target, ofScene != null ? ofScene : OfPipeline(), colour);
