@@ -62,12 +62,12 @@ await runMain('pack', async (words) => {
   console.log(`pack: ${files.names.length} files, checked`);
 
   mkdirSync(inRepository('out'), { recursive: true });
+  const runtime = await packDependency(inRepository('out'));
+  console.log(`pack: ${runtime.file} (${mebibytes(runtime.bytes)}${runtime.isNew ? '' : ', made before'}): install it first`);
   const tarball = await makeTarball(folder, inRepository('out'));
   for (const { platform, file } of found) console.log(`pack: with ${platform.name} (${path.relative(inRepository(), file)})`);
   for (const { platform, why } of absent) console.log(`pack: without ${platform.name}: ${why}`);
   console.log(`pack: ${tarball.file} (${mebibytes(tarball.bytes)}, ${mebibytes(tarball.unpackedBytes)} unpacked)`);
-  const runtime = await packDependency(inRepository('out'));
-  console.log(`pack: ${runtime.file} (${mebibytes(runtime.bytes)}${runtime.isNew ? '' : ', made before'}): install it first`);
   if (found.length === 0) console.log('pack: no native library at all: scenes will run without haptics');
   return 0;
 });
