@@ -4,7 +4,7 @@ import { chmodSync, existsSync, mkdirSync, mkdtempSync, readFileSync, rmSync, wr
 import os from 'node:os';
 import path from 'node:path';
 import test from 'node:test';
-import { androidCommands, androidTools, buildAndroid, presetVariables } from '../../scripts/build/android_build.mjs';
+import { androidCommands, androidTools, buildAndroid, presetVariables, rebuildAndroid } from '../../scripts/build/android_build.mjs';
 import { findCmake, findJsonHeader, findNdk } from '../../scripts/build/android_tools.mjs';
 
 async function inFolder(act) {
@@ -165,6 +165,16 @@ test('the command line has the preset\'s settings, the toolchain and Ninja, and 
   assert.deepEqual(build.slice(0, 5), ['some-cmake', '--build', 'out folder', '--target', 'audioplugin_haptoflow']);
   assert.equal(presetVariables('android-arm64').ANDROID_PLATFORM, 'android-29');
 });
+
+test('pack brings the library up to date with the tools of the build, without their being named again', { skip: process.platform === 'win32' }, () =>
+  inFolder(async (folder) => {
+    const cmake = path.join(folder, 'its cmake');
+    write(cmake, `#!/bin/sh\necho "$@" > '${folder}/log'\n: > '${folder}/libaudioplugin_haptoflow.so'\n`);
+    chmodSync(cmake, 0o755);
+    write(path.join(folder, 'CMakeCache.txt'), `CMAKE_COMMAND:INTERNAL=${cmake}\n`);
+    assert.equal(await rebuildAndroid(folder), path.join(folder, 'libaudioplugin_haptoflow.so'));
+    assert.match(readFileSync(path.join(folder, 'log'), 'utf8'), /^--build .* --target audioplugin_haptoflow/);
+  }));
 
 test('a folder that was configured with another NDK is configured anew; a build without library is an error', { skip: process.platform === 'win32' }, () =>
   inFolder(async (folder) => {

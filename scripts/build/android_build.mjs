@@ -64,12 +64,27 @@ export function androidCommands({ ndk, cmake, ninja, json }, folder) {
   };
 }
 
+/**
+ * Brings a library that was built before up to date with the tools that its folder was configured with: whoever named an
+ * NDK for the build need not name it again for `pack`. @returns {Promise<string>} its path
+ */
+export async function rebuildAndroid(folder = inRepository(presetFolder(androidPreset))) {
+  const cmake = cachedVariable(readFileSync(path.join(folder, 'CMakeCache.txt'), 'utf8'), 'CMAKE_COMMAND');
+  const [command, ...args] = androidCommands({ ndk: '', cmake, ninja: '', json: '' }, folder).build;
+  await runOrFail(command, args, { quiet: !process.stdout.isTTY });
+  return builtLibrary(folder);
+}
+
 /** Builds Android's library. @returns {Promise<string>} its path */
 export async function buildAndroid(tools = androidTools(), folder = inRepository(presetFolder(androidPreset))) {
   console.log(`build: with the NDK ${tools.ndk}`);
   forgetOtherToolchain(folder, path.join(tools.ndk, 'build', 'cmake', 'android.toolchain.cmake'));
   const { configure, build } = androidCommands(tools, folder);
   for (const [command, ...args] of [configure, build]) await runOrFail(command, args, { quiet: !process.stdout.isTTY });
+  return builtLibrary(folder);
+}
+
+function builtLibrary(folder) {
   const library = path.join(folder, `lib${androidTarget}.so`);
   if (!existsSync(library)) throw new CommandError(`${library}: the build ended well, but made no library`);
   return library;

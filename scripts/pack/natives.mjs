@@ -1,6 +1,6 @@
 import { closeSync, existsSync, openSync, readSync } from 'node:fs';
 import path from 'node:path';
-import { androidPreset, buildAndroid } from '../build/android_build.mjs';
+import { androidPreset, rebuildAndroid } from '../build/android_build.mjs';
 import { buildNative, presetFolder } from '../lib/native_build.mjs';
 import { inRepository } from '../lib/repository.mjs';
 
@@ -53,7 +53,7 @@ export async function buildNatives() {
   const own = process.platform === 'darwin' ? 'macos' : 'release';
   const configured = platforms.flatMap(({ presets }) => presets).filter((preset) => existsSync(inRepository(presetFolder(preset), 'build.ninja')));
   for (const preset of new Set([own, ...configured])) {
-    if (preset === androidPreset) await buildAndroid();
+    if (preset === androidPreset) await rebuildAndroid();
     else await buildNative({ preset, targets: ['audioplugin_haptoflow'] });
   }
 }
