@@ -1,4 +1,4 @@
-// pack: makes the Unity package's tarball, out/com.haptoflow.runtime-VERSION.tgz (--no-build, --help)
+// pack: makes the Unity package's tarball and ONNX Runtime's beside it, in out/ (--no-build, --help)
 import { mkdirSync } from 'node:fs';
 import path from 'node:path';
 import { parseArgs } from 'node:util';
@@ -7,6 +7,7 @@ import { CommandError, runMain } from './lib/process.mjs';
 import { inRepository } from './lib/repository.mjs';
 import { setUp } from './lib/setup.mjs';
 import { checkPackage } from './pack/check_package.mjs';
+import { packDependency } from './pack/dependency.mjs';
 import { buildNatives, findNatives, platforms } from './pack/natives.mjs';
 import { PackageFiles } from './pack/package_files.mjs';
 import { stagePackage } from './pack/stage.mjs';
@@ -16,7 +17,8 @@ const help = `usage: npm run pack -- [--no-build] [--require NAMES] [--help]
 
 Builds the native library for this machine, and for every other preset that is configured, puts the package together in
 out/package, checks it as Unity would read it, and makes out/com.haptoflow.runtime-VERSION.tgz.
-In Unity: Window > Package Manager > + > Install package from tarball.
+Beside it goes the tarball of com.github.asus4.onnxruntime (ONNX Runtime for Unity), which the package needs.
+In Unity: Window > Package Manager > + > Install package from tarball, that one first.
 
   --no-build   take the libraries as they lie in build/ (HAPTOFLOW_NATIVE_DIR stands for build/native)
   --require    names of platforms whose library must go in, for example linux-x64,windows-x64,android-arm64: without one of
@@ -78,6 +80,8 @@ await runMain('pack', async (words) => {
   console.log(`pack: ${files.names.length} files, checked`);
 
   mkdirSync(inRepository('out'), { recursive: true });
+  const runtime = await packDependency(inRepository('out'));
+  console.log(`pack: ${runtime.file} (${mebibytes(runtime.bytes)}${runtime.isNew ? '' : ', made before'}): install it first`);
   const tarball = await makeTarball(folder, inRepository('out'));
   for (const { platform, file } of found) console.log(`pack: with ${platform.name} (${path.relative(inRepository(), file)})`);
   for (const { platform, why } of absent) console.log(`pack: without ${platform.name}: ${why}`);

@@ -1,5 +1,6 @@
 import { closeSync, existsSync, openSync, readSync } from 'node:fs';
 import path from 'node:path';
+import { androidPreset, rebuildAndroid } from '../build/android_build.mjs';
 import { buildNative, presetFolder } from '../lib/native_build.mjs';
 import { inRepository } from '../lib/repository.mjs';
 
@@ -51,7 +52,10 @@ function beginningOf(file) {
 export async function buildNatives() {
   const own = process.platform === 'darwin' ? 'macos' : 'release';
   const configured = platforms.flatMap(({ presets }) => presets).filter((preset) => existsSync(inRepository(presetFolder(preset), 'build.ninja')));
-  for (const preset of new Set([own, ...configured])) await buildNative({ preset, targets: ['audioplugin_haptoflow'] });
+  for (const preset of new Set([own, ...configured])) {
+    if (preset === androidPreset) await rebuildAndroid();
+    else await buildNative({ preset, targets: ['audioplugin_haptoflow'] });
+  }
 }
 
 /** Folders that may hold a platform's library; HAPTOFLOW_NATIVE_DIR stands for that of the preset "release". */

@@ -4,12 +4,11 @@ using UnityEngine;
 using UnityEngine.InputSystem;
 #endif
 
-namespace HaptoFlow.Samples.StylusTracing
+namespace HaptoFlow
 {
-    /// <summary>Where the mouse or a graphics pen is, from whichever input the project uses.</summary>
-    public static class PenInput
+    /// <summary>Where the mouse or a graphics pen is, from whichever input the project uses. Main thread.</summary>
+    internal static class PenInput
     {
-        /// <summary>Main thread.</summary>
         /// <param name="pixels">From the lower left corner of the game view.</param>
         /// <param name="pressure">0 in the air, up to 1.</param>
         /// <returns>False where there is neither mouse nor pen.</returns>
