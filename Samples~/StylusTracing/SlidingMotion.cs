@@ -12,7 +12,7 @@ namespace HaptoFlow.Samples.StylusTracing
         private Vector3 centre;
         private double beganSeconds;
 
-        /// <summary>How far it goes from its centre, in metres along the world's axes.</summary>
+        /// <summary>How far it goes from its centre, in metres along its parent's axes.</summary>
         public Vector3 Reach { get; set; } = new Vector3(0.04f, 0f, 0f);
 
         /// <summary>Seconds for a whole swing.</summary>
@@ -24,14 +24,16 @@ namespace HaptoFlow.Samples.StylusTracing
             body.isKinematic = true;
             // Drawn at every frame where it is then: what is felt moves as what is seen.
             body.interpolation = RigidbodyInterpolation.Interpolate;
-            centre = transform.position;
+            centre = transform.localPosition;
             beganSeconds = Time.fixedTimeAsDouble;
         }
 
         private void FixedUpdate()
         {
             double swings = (Time.fixedTimeAsDouble - beganSeconds) / PeriodSeconds;
-            body.MovePosition(centre + (float)Math.Sin(2.0 * Math.PI * swings) * Reach);
+            Vector3 place = centre + (float)Math.Sin(2.0 * Math.PI * swings) * Reach;
+            Transform? parent = transform.parent;
+            body.MovePosition(parent != null ? parent.TransformPoint(place) : place);
         }
     }
 }

@@ -16,6 +16,10 @@ namespace HaptoFlow.Samples.StylusTracing
         [SerializeField]
         private Camera? view;
 
+        /// <summary>Where the table was put onto a real one is kept under this name; empty to keep nothing. To be set
+        /// before the component wakes.</summary>
+        public string SaveName { get; set; } = "StylusTracing";
+
         /// <summary>Counts where the project's settings name no model. To be set before the component wakes.</summary>
         public HapticModelAsset? Model
         {
@@ -40,22 +44,25 @@ namespace HaptoFlow.Samples.StylusTracing
             {
                 settings.Model = model;
             }
+            var exhibits = new GameObject("Exhibits");
             foreach (Exhibit exhibit in Exhibits.All)
             {
-                Show(exhibit);
+                Show(exhibit, exhibits.transform);
             }
             Pen = MousePen.Create(view!);
             Quaternion facing = view!.transform.rotation;
             StatusBoard.Create(Pen.Stylus, Hint, new Vector3(0f, 0.16f, 0.3f), facing);
 #if HAPTOFLOW_INPUT_SYSTEM && ENABLE_INPUT_SYSTEM
             XrRig.Create(view!);
+            AlignmentStep.Create(exhibits, SaveName, facing);
 #endif
         }
 
-        private static void Show(in Exhibit exhibit)
+        private static void Show(in Exhibit exhibit, Transform parent)
         {
             GameObject made = Build.Solid(exhibit.Name, exhibit.Shape, exhibit.Position, exhibit.Size, exhibit.Colour);
             made.transform.rotation = exhibit.Rotation;
+            made.transform.SetParent(parent, true);
             HapticSurface surface = Build.Tag(made, exhibit.Label);
             // A capsule's length is its own y axis.
             surface.Grain = exhibit.Shape == PrimitiveType.Capsule ? Vector3.up : Vector3.right;

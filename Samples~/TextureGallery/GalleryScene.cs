@@ -77,7 +77,7 @@ namespace HaptoFlow.Samples.TextureGallery
         {
             if (contact.Surface != Board)
             {
-                Board.Material.Label = contact.Surface.Material.Label;
+                Board.Material.Label = contact.Surface.SharedDescription.Label;
                 Board.GetComponent<MeshRenderer>().material.color =
                     contact.Surface.GetComponent<MeshRenderer>().material.color;
             }

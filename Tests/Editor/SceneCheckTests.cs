@@ -93,6 +93,7 @@ namespace HaptoFlow.EditorTests
         public void AnOutputForAListenerThatIsNotThereIsAnError()
         {
             ScenesOutput.Route = OutputRoute.ListenerChannel;
+            ScenesOutput.Channel = 1;
             Assert.That(Only("is not on an Audio Listener's object").Severity, Is.EqualTo(MessageType.Error));
             ScenesOutput.gameObject.AddComponent<AudioListener>();
             Assert.That(Texts(), Is.Empty);

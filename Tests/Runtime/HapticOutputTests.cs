@@ -282,7 +282,7 @@ namespace HaptoFlow.Tests
             Assert.That(first.TryGetStatistics(out VoiceStatistics statistics), Is.True);
             Assert.That(statistics.RenderedFrames, Is.GreaterThan(0UL));
             Assert.That(second.TryGetStatistics(out _), Is.True);
-            HapticOutput made = HapticOutput.ForStylus(first);
+            HapticOutput made = SceneOutputs.For(first)!;
             Assert.That(made.GetComponent<AudioSource>().isPlaying, Is.True);
             Object.DestroyImmediate(made.gameObject);
         }

@@ -152,13 +152,11 @@ namespace HaptoFlow.Tests
             GameObject child = Make("child");
             child.transform.SetParent(parent.transform, false);
             child.AddComponent<BoxCollider>().size = new Vector3(0.1f, 0.1f, 0.1f);
-            parent.Refresh();
             HapticStylus stylus = StylusAlong(_ => new Vector3(0f, 0.051f, 0f));
             yield return null;
             yield return null;
             Assert.That(stylus.Contact.Surface, Is.SameAs(parent));
             var own = child.AddComponent<HapticSurface>();
-            parent.Refresh();
             yield return null;
             Assert.That(stylus.Contact.Surface, Is.SameAs(own));
             Assert.That(parent.Colliders.Count, Is.EqualTo(1));

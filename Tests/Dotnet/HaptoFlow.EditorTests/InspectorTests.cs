@@ -178,7 +178,8 @@ namespace HaptoFlow.EditorTests
             Drawn[] fields = Draw(Stylus()).Where(item => item.Kind == DrawnKind.Field).ToArray();
             Assert.That(fields.Select(item => item.Label), Is.EqualTo(new[]
             {
-                "Tip", "Tip Radius (m)", "Layers", "Update", "Tip Force", "Output", "Strength",
+                "Tip", "Tip Radius (m)", "Layers", "Update", "Tip Force", "Touch By", "Output", "Strength",
+                "Touch Began", "Touch Moved", "Surface Changed", "Touch Ended",
             }));
             Assert.That(fields.Select(item => item.Tooltip), Has.None.Empty);
         }
@@ -187,7 +188,7 @@ namespace HaptoFlow.EditorTests
         public void AnOutputShowsWhatItsRouteNeeds()
         {
             HapticOutput output = Output();
-            Assert.That(Fields(output), Is.EqualTo(new[] { "Route", "Channel", "Strength", "Muted" }));
+            Assert.That(Fields(output), Is.EqualTo(new[] { "Route", "Channel", "Obey Listener", "Strength", "Muted" }));
             EditorScreen.Enter("Route", OutputRoute.MixerEffect);
             Draw(output);
             Assert.That(output.Route, Is.EqualTo(OutputRoute.MixerEffect));
@@ -200,7 +201,7 @@ namespace HaptoFlow.EditorTests
         public void NothingDependsOnTheSkin(bool dark)
         {
             EditorSession.DarkSkin = dark;
-            Assert.That(Fields(Output()), Has.Length.EqualTo(4));
+            Assert.That(Fields(Output()), Has.Length.EqualTo(5));
             Assert.That(Draw(Tagged("Table", "wood")), Is.Not.Empty);
         }
 

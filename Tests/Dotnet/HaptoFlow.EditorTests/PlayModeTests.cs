@@ -104,6 +104,7 @@ namespace HaptoFlow.EditorTests
             Assert.That(Value(drawn, "Force"), Does.EndWith(" N"));
             Assert.That(Value(drawn, "Penetration"), Is.EqualTo("1.0 mm"));
             Assert.That(Value(drawn, "Underruns"), Is.EqualTo("0"));
+            Assert.That(Value(drawn, "Silence"), Is.EqualTo("it sounds").Or.StartsWith("rest"));
             stylus.transform.position = new Vector3(0f, 1f, 0f);
             World.Frames(3);
             Assert.That(Value(InspectorTests.Draw(stylus), "Touches"), Is.EqualTo("nothing"));

@@ -56,15 +56,44 @@ namespace HaptoFlow.ShimTests
                 new Vector3(0.02f * (float)Math.Sin(seconds), 0f, 0f));
         });
 
+        [Test]
+        public void APenWhoseForceDecidesMakesNoGarbage() => Check(Circle(0.006f), () => Board(), stylus =>
+        {
+            stylus.Force = stylus.gameObject.AddComponent<SteadyForce>();
+            stylus.TouchBy = TouchDecision.MeasuredForce;
+        });
+
+        [Test]
+        public void TheInspectorsEventsMakeNoGarbage() => Check(
+            seconds => new Vector3(0.05f * (float)seconds, 0.001f + 0.01f * (float)Math.Sin(40.0 * seconds), 0f),
+            () => Board(),
+            stylus =>
+            {
+                int told = 0;
+                stylus.Events.TouchBegan.AddListener(_ => ++told);
+                stylus.Events.TouchMoved.AddListener(_ => ++told);
+                stylus.Events.TouchEnded.AddListener(_ => ++told);
+            });
+
+        [Test]
+        public void AnUntaggedColliderNearTheTipMakesNoGarbage() => Check(Circle(0.001f), () =>
+        {
+            Board();
+            GameObject bare = Make("bare");
+            bare.transform.SetParent(Make("parent").transform, false);
+            bare.AddComponent<BoxCollider>();
+        });
+
         private static Func<double, Vector3> Circle(float height) => seconds =>
             new Vector3(0.04f * (float)Math.Cos(5.0 * seconds), height, 0.04f * (float)Math.Sin(5.0 * seconds));
 
-        private void Check(Func<double, Vector3> path, Action makeScene)
+        private void Check(Func<double, Vector3> path, Action makeScene, Action<HapticStylus>? tell = null)
         {
             FinishLoading();
             makeScene();
             Output(out _);
             HapticStylus stylus = StylusAlong(path);
+            tell?.Invoke(stylus);
             var log = new TouchLog(stylus);
             World.Frames(WarmUpFrames);
             AudioDevice.Forget();
@@ -83,6 +112,15 @@ namespace HaptoFlow.ShimTests
             long before = GC.GetAllocatedBytesForCurrentThread();
             World.Frames(frames);
             return GC.GetAllocatedBytesForCurrentThread() - before;
+        }
+
+        private sealed class SteadyForce : TipForceSource
+        {
+            public override bool TryRead(out float forceNewtons)
+            {
+                forceNewtons = 0.5f;
+                return true;
+            }
         }
     }
 }

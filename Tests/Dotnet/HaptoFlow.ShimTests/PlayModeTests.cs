@@ -38,7 +38,7 @@ namespace HaptoFlow.ShimTests
             World.Frames(2);
             // A crash of the editor's play mode: objects are gone, nobody was told.
             World.EnterPlayMode();
-            Assert.That(SurfaceRegistry.TryFind(board.GetComponent<Collider>(), out _), Is.False);
+            Assert.That(SurfaceRegistry.Holds(board.GetComponent<Collider>(), board), Is.False);
         }
 
         [Test]

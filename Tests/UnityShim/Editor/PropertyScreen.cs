@@ -21,7 +21,8 @@ namespace UnityShim
                 drawer.OnGUI(position, property, label);
                 return;
             }
-            if (property.propertyType == SerializedPropertyType.Generic)
+            bool isEvent = typeof(UnityEngine.Events.UnityEventBase).IsAssignableFrom(property.FieldType);
+            if (property.propertyType == SerializedPropertyType.Generic && !isEvent)
             {
                 throw new NotSupportedException($"the shim draws no fields of {property.propertyPath}");
             }

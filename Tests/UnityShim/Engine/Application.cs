@@ -7,6 +7,8 @@ namespace UnityEngine
     {
         public static bool isPlaying => World.IsPlaying;
 
+        public static string persistentDataPath => ProjectFolders.Persistent;
+
         public static event Action? quitting
         {
             add => World.Quitting += value;

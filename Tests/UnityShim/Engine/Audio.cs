@@ -69,6 +69,8 @@ namespace UnityEngine
 
     public sealed class AudioListener : AudioBehaviour
     {
+        public static float volume { get; set; } = 1f;
+        public static bool pause { get; set; }
     }
 
     public sealed class AudioSource : AudioBehaviour

@@ -63,8 +63,14 @@ namespace UnityEngine
 
         public Vector3 ClosestPoint(Vector3 position) => Physics.ClosestPoint(position, this, PhysicsPosition, PhysicsRotation);
 
-        public bool Raycast(Ray ray, out RaycastHit hitInfo, float maxDistance) =>
-            Geometry.Raycast(this, ray, maxDistance, out hitInfo);
+        /// <summary>In world space, where physics has the collider. Here of meshes and terrains only.</summary>
+        public Bounds bounds => Triangles.BoundsOf(this);
+
+        public bool Raycast(Ray ray, out RaycastHit hitInfo, float maxDistance)
+        {
+            ++RayCount.Rays;
+            return Geometry.Raycast(this, ray, maxDistance, out hitInfo);
+        }
     }
 
     public class BoxCollider : Collider
@@ -146,6 +152,8 @@ namespace UnityEngine
 
     public partial class Physics
     {
+        public static bool queriesHitBackfaces { get; set; }
+
         public static void SyncTransforms() => PhysicsWorld.Sync();
 
         public static int OverlapSphereNonAlloc(Vector3 position, float radius, Collider[] results, int layerMask,

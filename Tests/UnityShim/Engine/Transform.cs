@@ -40,15 +40,22 @@ namespace UnityEngine
         {
             Vector3 place = position;
             Quaternion turned = rotation;
+            Transform? before = above;
             above?.Children.Remove(this);
             above = parent;
             above?.Children.Add(this);
+            UnityShim.World.TellOfChildren(before);
+            UnityShim.World.TellOfChildren(above);
             if (worldPositionStays)
             {
                 SetPositionAndRotation(place, turned);
             }
             UnityShim.World.RefreshActivity(gameObject);
         }
+
+        /// <summary>Itself included, as in Unity.</summary>
+        public bool IsChildOf(Transform parent) =>
+            ReferenceEquals(this, parent) || (above != null && above.IsChildOf(parent));
 
         public int childCount => Children.Count;
 

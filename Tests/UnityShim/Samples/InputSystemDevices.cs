@@ -20,12 +20,13 @@ namespace UnityEngine.InputSystem
             string? interactions = null, string? processors = null, string? expectedControlType = null) =>
             path = binding;
 
-        /// <summary>Those that the binding leads to: of devices that are there.</summary>
+        /// <summary>Those that the binding leads to: of devices that are there. An action without binding is one whose
+        /// value the test sets.</summary>
         public Utilities.ReadOnlyArray<InputControl> controls
         {
             get
             {
-                bool found = path != null && SimulatedInput.Control(path) != null;
+                bool found = path == null || SimulatedInput.Control(path) != null;
                 return new Utilities.ReadOnlyArray<InputControl>(found ? new[] { new InputControl() } : null);
             }
         }

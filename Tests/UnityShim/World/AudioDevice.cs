@@ -56,6 +56,8 @@ namespace UnityShim
                 numRealVoices = 32,
                 numVirtualVoices = 512,
             };
+            AudioListener.volume = 1f;
+            AudioListener.pause = false;
             Prepare();
             Forget();
             Failure = null;
@@ -135,13 +137,15 @@ namespace UnityShim
             for (int index = 0; index < World.AllObjects.Count; ++index)
             {
                 GameObject gameObject = World.AllObjects[index];
-                if (gameObject.TryGetComponent(out AudioSource playing) && playing.isPlaying)
+                if (gameObject.TryGetComponent(out AudioSource playing) && playing.isPlaying &&
+                    (!AudioListener.pause || playing.ignoreListenerPause))
                 {
+                    float volume = playing.ignoreListenerVolume ? 1f : AudioListener.volume;
                     Array.Clear(source, 0, source.Length);
                     RunFilters(gameObject, source);
                     for (int sample = 0; sample < mix.Length; ++sample)
                     {
-                        mix[sample] += playing.volume * source[sample];
+                        mix[sample] += volume * playing.volume * source[sample];
                     }
                 }
                 if (gameObject.TryGetComponent(out AudioListener ears) && ears.isActiveAndEnabled)

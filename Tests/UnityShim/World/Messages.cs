@@ -16,6 +16,7 @@ namespace UnityShim
         LateUpdate,
         OnDisable,
         OnDestroy,
+        OnTransformChildrenChanged,
     }
 
     /// <summary>The messages that one script answers, bound once, so that sending them makes no garbage.</summary>

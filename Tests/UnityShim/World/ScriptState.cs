@@ -49,7 +49,7 @@ namespace UnityShim
             {
                 return;
             }
-            begun = true;
+            begun = begun || message == Message.Start;
             messages.Send(message);
         }
 

@@ -48,15 +48,37 @@ namespace UnityShim
                 {
                     nearest = distance;
                     found = true;
+                    Vector3 front = Vector3.Cross(b - a, c - a) / Vector3.Cross(b - a, c - a).magnitude;
                     hit = new RaycastHit
                     {
                         point = ray.origin + distance * ray.direction,
-                        normal = Vector3.Cross(b - a, c - a) / Vector3.Cross(b - a, c - a).magnitude,
+                        // A back that is hit turns its normal towards the ray.
+                        normal = Vector3.Dot(front, ray.direction) > 0f ? -front : front,
                         distance = distance,
                     };
                 }
             }
             return found;
+        }
+
+        public static Bounds BoundsOf(Collider collider)
+        {
+            if (!(collider is MeshCollider) && !(collider is TerrainCollider))
+            {
+                throw new NotSupportedException("the shim knows bounds of meshes and terrains only");
+            }
+            Bounds bounds = new Bounds(collider.PhysicsPosition, Vector3.zero);
+            int count = Count(collider);
+            for (int index = 0; index < count; ++index)
+            {
+                Corners(collider, index, collider.PhysicsPosition, collider.PhysicsRotation,
+                    out Vector3 a, out Vector3 b, out Vector3 c);
+                bounds = index == 0 ? new Bounds(a, Vector3.zero) : bounds;
+                bounds.Encapsulate(a);
+                bounds.Encapsulate(b);
+                bounds.Encapsulate(c);
+            }
+            return bounds;
         }
 
         private static int Count(Collider collider) => collider switch
@@ -91,12 +113,18 @@ namespace UnityShim
             c = position + (upper ? data.VertexAt(x, z + 1) : data.VertexAt(x + 1, z));
         }
 
-        /// <summary>Fronts only (Moeller and Trumbore 1997).</summary>
+        /// <summary>Fronts, and backs where the project's physics settings say so (Moeller and Trumbore 1997).
+        /// </summary>
         private static bool Hits(Ray ray, Vector3 a, Vector3 b, Vector3 c, out float distance)
         {
             distance = 0f;
             Vector3 normal = Vector3.Cross(b - a, c - a);
             float towards = -Vector3.Dot(ray.direction, normal);
+            if (towards < 0f && Physics.queriesHitBackfaces)
+            {
+                normal = -normal;
+                towards = -towards;
+            }
             if (towards <= 1e-9f * normal.magnitude)
             {
                 return false;
@@ -108,9 +136,10 @@ namespace UnityShim
             }
             Vector3 point = ray.origin + distance * ray.direction;
             float tolerance = -1e-6f * normal.sqrMagnitude;
-            return Vector3.Dot(Vector3.Cross(b - a, point - a), normal) >= tolerance &&
-                Vector3.Dot(Vector3.Cross(c - b, point - b), normal) >= tolerance &&
-                Vector3.Dot(Vector3.Cross(a - c, point - c), normal) >= tolerance;
+            Vector3 winding = Vector3.Cross(b - a, c - a);
+            return Vector3.Dot(Vector3.Cross(b - a, point - a), winding) >= tolerance &&
+                Vector3.Dot(Vector3.Cross(c - b, point - b), winding) >= tolerance &&
+                Vector3.Dot(Vector3.Cross(a - c, point - c), winding) >= tolerance;
         }
 
         /// <summary>Ericson, Real-Time Collision Detection, 5.1.5.</summary>

@@ -162,6 +162,19 @@ namespace UnityShim
             }
         }
 
+        /// <summary>Direct children only, as Unity does.</summary>
+        internal static void TellOfChildren(Transform? parent)
+        {
+            if (parent == null)
+            {
+                return;
+            }
+            foreach (ScriptState state in Scripts.Where(state => state.Script.transform == parent).ToList())
+            {
+                state.Send(Message.OnTransformChildrenChanged);
+            }
+        }
+
         internal static void DestroyLater(Object condemned)
         {
             if (condemned != null)
@@ -206,10 +219,12 @@ namespace UnityShim
                 PhysicsWorld.Removed(component);
                 component.MarkDestroyed();
             }
-            gameObject.transform.parent?.Children.Remove(gameObject.transform);
+            Transform? above = gameObject.transform.parent;
+            above?.Children.Remove(gameObject.transform);
             Objects.Remove(gameObject);
             Kept.Remove(gameObject);
             gameObject.MarkDestroyed();
+            TellOfChildren(above);
         }
 
         private static void EndScript(Component component)

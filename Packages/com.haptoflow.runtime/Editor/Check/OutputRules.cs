@@ -16,7 +16,7 @@ namespace HaptoFlow.Editor
 
         public static IEnumerable<Finding> Check(SceneContents scene)
         {
-            if (scene.Styluses.Count > 0 && scene.Outputs.Count == 0)
+            if (scene.Styluses.Count > 0 && !SilentOutputRules.HasOutput(scene))
             {
                 yield return new Finding(MessageType.Info,
                     "The scene has no Haptic Output: one is made at play that sounds on every channel of the device. " +

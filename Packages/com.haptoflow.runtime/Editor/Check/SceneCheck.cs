@@ -16,6 +16,8 @@ namespace HaptoFlow.Editor
                 .Concat(SurfaceRules.Check(scene))
                 .Concat(ColliderRules.Check(scene))
                 .Concat(OutputRules.Check(scene))
+                .Concat(SilentOutputRules.Check(scene))
+                .Concat(RealObjectRules.Check(scene))
                 .OrderByDescending(finding => finding.Severity)
                 .ToArray();
         }

@@ -21,7 +21,7 @@ namespace HaptoFlow.Editor
                 if (seen.Add(owner))
                 {
                     string root = shared != null ? "description." : "own.";
-                    MaterialDescription material = surface.Material;
+                    MaterialDescription material = surface.SharedDescription;
                     foreach (Finding finding in CheckLabels(catalog, owner, material, root))
                     {
                         yield return finding;

@@ -14,9 +14,13 @@ namespace HaptoFlow.Editor
             "Audio Source: plays beside other sounds. Listener Channel: overwrites one channel, nothing else is heard " +
             "there. Mixer Effect: the native library plays inside an Audio Mixer. Chosen before the first frame.");
         private static readonly GUIContent Channel = new GUIContent("Channel",
-            "Of the audio device, from 0; -1 for all. A channel that the device does not have is silent.");
+            "Of the audio device, from 0; -1 for all. A channel that the device does not have is silent. Listener " +
+            "Channel needs one from 0.");
         private static readonly GUIContent Strength = new GUIContent("Strength", "Gain, 0 to 1.");
         private static readonly GUIContent Muted = new GUIContent("Muted", "Silent, and costs no inference.");
+        private static readonly GUIContent Obey = new GUIContent("Obey Listener",
+            "AudioListener.pause and AudioListener.volume reach the haptics too. Off, a game that turns its sound down " +
+            "keeps what the hand feels.");
         private static readonly GUIContent Mixer = new GUIContent("Audio Mixer",
             "The mixer that holds the effect HaptoFlow Voice.");
         private static readonly GUIContent Parameter = new GUIContent("Voice Parameter",
@@ -29,6 +33,7 @@ namespace HaptoFlow.Editor
         private SerializedProperty channel = null!;
         private SerializedProperty strength = null!;
         private SerializedProperty muted = null!;
+        private SerializedProperty obey = null!;
         private SerializedProperty mixer = null!;
         private SerializedProperty parameter = null!;
 
@@ -38,6 +43,7 @@ namespace HaptoFlow.Editor
             channel = serializedObject.FindProperty("channel");
             strength = serializedObject.FindProperty("strength");
             muted = serializedObject.FindProperty("muted");
+            obey = serializedObject.FindProperty("obeyListener");
             mixer = serializedObject.FindProperty("audioMixer");
             parameter = serializedObject.FindProperty("voiceParameter");
         }
@@ -49,12 +55,23 @@ namespace HaptoFlow.Editor
             serializedObject.Update();
             // What is shown is decided before anything is changed: nothing is drawn that was not laid out.
             bool byMixer = route.enumValueIndex == (int)OutputRoute.MixerEffect;
+            bool bySource = route.enumValueIndex == (int)OutputRoute.AudioSource;
+            bool lacksChannel = route.enumValueIndex == (int)OutputRoute.ListenerChannel && channel.intValue < 0;
             bool several = route.hasMultipleDifferentValues;
             using (new EditorGUI.DisabledScope(Application.isPlaying))
             {
                 EditorGUILayout.PropertyField(route, Route);
             }
             DrawWay(several || !byMixer, several || byMixer);
+            if (several || bySource)
+            {
+                EditorGUILayout.PropertyField(obey, Obey);
+            }
+            if (lacksChannel && !several)
+            {
+                EditorGUILayout.HelpBox("Choose a channel from 0: with -1 all game audio would be overwritten, so this " +
+                    "output stays silent.", MessageType.Error);
+            }
             EditorGUILayout.PropertyField(strength, Strength);
             EditorGUILayout.PropertyField(muted, Muted);
             if (serializedObject.ApplyModifiedProperties())

@@ -10,6 +10,9 @@ namespace HaptoFlow.Editor
     [CanEditMultipleObjects]
     internal sealed class HapticStylusEditor : UnityEditor.Editor
     {
+        private const string TouchBy = "touchBy";
+        private const string OfForce = "forceDecision.";
+
         private static readonly (string Field, GUIContent Title)[] Fields =
         {
             ("tip", new GUIContent("Tip", "Centre of the tip; empty for this object.")),
@@ -20,9 +23,23 @@ namespace HaptoFlow.Editor
                 "Rendered frames follow the hand best. Fixed updates suit tips that physics moves.")),
             ("force", new GUIContent("Tip Force",
                 "The stylus's own tip force, in newtons; empty for the spring model f = k d.")),
+            (TouchBy, new GUIContent("Touch By",
+                "Geometry: the tip cuts into a surface. Measured Force: the tip force decides near a surface, for a " +
+                "real object under the virtual one.")),
+            ("forceDecision.pressNewtons", new GUIContent("Press Force (N)", "A touch begins at this force.")),
+            ("forceDecision.releaseNewtons", new GUIContent("Release Force (N)",
+                "A touch ends at this force: below the press force by more than the sensor's noise.")),
+            ("forceDecision.nearMetres", new GUIContent("Near (m)",
+                "How far from a surface, on either side, the pressing tip may be: more than tracking and alignment are " +
+                "off.")),
             ("output", new GUIContent("Output",
                 "Where the wave goes; empty for the scene's output, or one that is made.")),
             ("strength", new GUIContent("Strength", "Gain, 0 to 1, on top of the surface's and the output's.")),
+            ("events.touchBegan", new GUIContent("Touch Began", "The tip touched a surface.")),
+            ("events.touchMoved", new GUIContent("Touch Moved", "The touch goes on: once an update.")),
+            ("events.surfaceChanged", new GUIContent("Surface Changed",
+                "The tip slid from one surface to this one without lifting.")),
+            ("events.touchEnded", new GUIContent("Touch Ended", "The touch ended; the surface is the last one.")),
         };
 
         private readonly StylusReadout readout = new StylusReadout();
@@ -36,9 +53,19 @@ namespace HaptoFlow.Editor
         public override void OnInspectorGUI()
         {
             serializedObject.Update();
+            // What is shown is decided before anything is changed: nothing is drawn that was not laid out.
+            bool byForce = Property(TouchBy).enumValueIndex == (int)TouchDecision.MeasuredForce;
+            bool lacksForce = byForce && Property("force").objectReferenceValue == null;
             for (int index = 0; index < properties.Length; ++index)
             {
-                EditorGUILayout.PropertyField(properties[index], Fields[index].Title);
+                if (byForce || !Fields[index].Field.StartsWith(OfForce, System.StringComparison.Ordinal))
+                {
+                    EditorGUILayout.PropertyField(properties[index], Fields[index].Title);
+                }
+            }
+            if (lacksForce && targets.Length == 1)
+            {
+                EditorGUILayout.HelpBox("Without a Tip Force geometry decides.", MessageType.Info);
             }
             serializedObject.ApplyModifiedProperties();
             if (!Application.isPlaying || targets.Length > 1)
@@ -49,5 +76,8 @@ namespace HaptoFlow.Editor
             EditorGUILayout.Space();
             ReadoutView.Draw("Now", readout.Rows);
         }
+
+        private SerializedProperty Property(string field) =>
+            properties[System.Array.FindIndex(Fields, each => each.Field == field)];
     }
 }

@@ -29,6 +29,24 @@ namespace HaptoFlow.Editor
             {
                 Add("Inference", "{0:0.00} ms a round, budget {1:0.00} ms", engine.LastRoundMs, engine.BudgetMs);
                 Add("Quality", TierOf(engine));
+                AddHealth(engine);
+            }
+        }
+
+        private void AddHealth(in EngineStatistics engine)
+        {
+            if (!engine.WorkerIsAlive)
+            {
+                Add("Worker", "has ended; Haptics.Restart starts it anew");
+            }
+            if (engine.PriorityWasRefused)
+            {
+                Add("Worker priority", "refused by the system: segments come late more often");
+            }
+            string failure = engine.FailedRounds > 0 || !engine.WorkerIsAlive ? Haptics.LastFailure : "";
+            if (failure.Length > 0)
+            {
+                Add("Last failure", failure);
             }
         }
 

@@ -15,7 +15,7 @@ namespace HaptoFlow.Editor
             if (stylus.IsTouching)
             {
                 HapticContact contact = stylus.Contact;
-                Add("Touches", "{0} ({1})", contact.Surface.name, contact.Surface.Material.Label);
+                Add("Touches", "{0} ({1})", contact.Surface.name, contact.Surface.SharedDescription.Label);
                 Add("Force", "{0:0.00} N", contact.ForceNewtons);
                 Add("Speed", "{0:0} mm/s", 1000.0 * contact.TangentialVelocity.magnitude);
                 Add("Penetration", "{0:0.0} mm", 1000.0 * contact.PenetrationMetres);
@@ -26,9 +26,10 @@ namespace HaptoFlow.Editor
             }
             if (!stylus.TryGetStatistics(out VoiceStatistics voice))
             {
-                Add("Voice", "none yet");
+                Add("Voice", SilenceWords.OfMissingVoice(stylus));
                 return;
             }
+            Add("Silence", SilenceWords.Of(voice));
             Add("Segments", "{0}, {1} late", voice.Inferences, voice.Late);
             if (voice.Inferences > 0)
             {

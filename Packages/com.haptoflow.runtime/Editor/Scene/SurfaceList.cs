@@ -54,7 +54,7 @@ namespace HaptoFlow.Editor
         private static string MaterialOf(HapticSurface surface)
         {
             LabelCatalog catalog = LabelCatalog.Current;
-            MaterialDescription material = surface.Material;
+            MaterialDescription material = surface.SharedDescription;
             string first = catalog.TextOf(material.Label);
             return material.SecondLabel.Length == 0 ? first : first + " and " + catalog.TextOf(material.SecondLabel);
         }

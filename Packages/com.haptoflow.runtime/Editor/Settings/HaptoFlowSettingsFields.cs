@@ -12,8 +12,10 @@ namespace HaptoFlow.Editor
             "Which tier generates. Auto measures this machine and takes the most accurate tier that fits the budget.");
         private static readonly GUIContent Budget = new GUIContent("Budget Share",
             "Auto: share of the time between two contact states that inference may take, 0.01 to 1.");
+        private static readonly GUIContent Follow = new GUIContent("Follow Display",
+            "The update rate is the refresh rate of the headset, or of the screen, as it is when the engine starts.");
         private static readonly GUIContent Rate = new GUIContent("Update Rate (Hz)",
-            "Contact states a second: the frame rate of the headset.");
+            "Contact states a second: counts where the display is not followed, or does not say its rate.");
         private static readonly GUIContent Ceiling = new GUIContent("Safety Ceiling",
             "No output sample is above this, whatever happens; 1 is full scale.");
         private static readonly GUIContent FullScale = new GUIContent("Full Scale (m/s\u00b2)",
@@ -22,7 +24,7 @@ namespace HaptoFlow.Editor
         /// <summary>Found by the search box of Project Settings.</summary>
         public static readonly string[] Keywords =
         {
-            "HaptoFlow", "haptic", "texture", "model", "quality", "draft", "standard", "fine", "update rate",
+            "HaptoFlow", "haptic", "texture", "model", "quality", "draft", "standard", "fine", "update rate", "display",
             "ceiling", "full scale",
         };
 
@@ -45,13 +47,14 @@ namespace HaptoFlow.Editor
             {
                 EditorGUILayout.PropertyField(settings.FindProperty("budgetShare"), Budget);
             }
+            EditorGUILayout.PropertyField(settings.FindProperty("followDisplay"), Follow);
             EditorGUILayout.PropertyField(settings.FindProperty("updateRateHz"), Rate);
             EditorGUILayout.PropertyField(settings.FindProperty("ceiling"), Ceiling);
             EditorGUILayout.PropertyField(settings.FindProperty("fullScaleMps2"), FullScale);
             if (settings.ApplyModifiedProperties() && Application.isPlaying)
             {
                 // Quality counts from the next segment on, the rest when an engine starts anew.
-                HapticSession.Existing?.Engine?.SetQuality(HaptoFlowSettings.Active.Quality);
+                HapticSession.Existing?.SetQuality(HaptoFlowSettings.Active.Quality);
             }
         }
     }

@@ -65,6 +65,8 @@ namespace HaptoFlow
                 case CharacterController controller:
                     found = OnController(controller, tip, scale, question);
                     break;
+                case MeshCollider mesh when mesh.convex && ConvexProbe.TryOutside(mesh, pose, question, out found):
+                    break;
                 case MeshCollider _:
                 case TerrainCollider _:
                     return RayProbe.TryClosest(collider, pose, question, out found);

@@ -72,6 +72,16 @@ namespace HaptoFlow
 
         internal void Touch() => ++Version;
 
+        internal void CopyFrom(MaterialDescription other)
+        {
+            label = other.label;
+            secondLabel = other.secondLabel;
+            blend = other.blend;
+            stiffnessNewtonsPerMetre = other.stiffnessNewtonsPerMetre;
+            strength = other.strength;
+            ++Version;
+        }
+
         private void Change(ref string field, string value)
         {
             field = value ?? "";

@@ -15,6 +15,9 @@ namespace HaptoFlow
         private static int versions;
 
         private readonly Task<Loaded> loading;
+        private readonly HapticCancellation? cancellation;
+        private readonly EngineHealth health = new EngineHealth();
+        private QualityChange? qualityChange;
         private bool reported;
 
         private HapticSession(HaptoFlowSettings settings)
@@ -30,6 +33,8 @@ namespace HaptoFlow
             }
             byte[] file = model.File;
             HapticEngineOptions options = OptionsOf(settings);
+            cancellation = NewCancellation();
+            options.Cancellation = cancellation;
             loading = Task.Run(() => Load(file, options));
         }
 
@@ -60,7 +65,12 @@ namespace HaptoFlow
         /// <summary>Takes over what was loaded meanwhile. Once a frame; no garbage when nothing happened.</summary>
         public void Poll()
         {
-            if (reported || !loading.IsCompleted)
+            if (reported)
+            {
+                Watch();
+                return;
+            }
+            if (!loading.IsCompleted)
             {
                 return;
             }
@@ -77,6 +87,19 @@ namespace HaptoFlow
             Debug.LogError($"HaptoFlow: the scene goes on without haptics: {cause.Message}");
         }
 
+        /// <summary>Changes the quality of a running engine. A tier that has to be loaded first is loaded by another
+        /// thread.</summary>
+        public void SetQuality(HapticQuality quality)
+        {
+            if (Engine != null)
+            {
+                qualityChange = new QualityChange(Engine, quality, qualityChange);
+            }
+        }
+
+        /// <summary>Waits until the quality that was asked for last is there, or was refused.</summary>
+        public void FinishQualityChange() => qualityChange?.Finish();
+
         /// <summary>Waits until loading has ended, well or not.</summary>
         public void FinishLoading()
         {
@@ -92,16 +115,53 @@ namespace HaptoFlow
             ending?.Close();
         }
 
-        /// <summary>Waits for a loading that is under way: a process or an application domain must not end beneath
-        /// it.</summary>
+        /// <summary>Ends a loading that is under way and waits for it: a process or an application domain must not end
+        /// beneath it.</summary>
         private void Close()
         {
+            cancellation?.Cancel();
+            qualityChange?.Finish();
             ((IAsyncResult)loading).AsyncWaitHandle.WaitOne();
             if (loading.Status == TaskStatus.RanToCompletion)
             {
                 loading.Result.Engine.Dispose();
             }
             Engine = null;
+            // Nobody is left to be told of a loading that was cancelled.
+            reported = true;
+            cancellation?.Dispose();
+        }
+
+        private void Watch()
+        {
+            if (Engine == null)
+            {
+                return;
+            }
+            string? failure = qualityChange?.TakeFailure();
+            if (failure != null)
+            {
+                Debug.LogWarning($"HaptoFlow: the quality stays as it was: {failure}");
+            }
+            string? death = health.Examine(Time.unscaledTimeAsDouble, Engine);
+            if (death != null)
+            {
+                Problem = death;
+                Debug.LogError($"HaptoFlow: nothing is felt from now on: {death}");
+            }
+        }
+
+        /// <summary>Null where there is no native library: loading says so.</summary>
+        private static HapticCancellation? NewCancellation()
+        {
+            try
+            {
+                return new HapticCancellation();
+            }
+            catch (HaptoFlowException)
+            {
+                return null;
+            }
         }
 
         private static HapticEngineOptions OptionsOf(HaptoFlowSettings settings)
@@ -109,7 +169,9 @@ namespace HaptoFlow
             HapticEngineOptions options = OptionsInstead ?? default;
             options.Quality = settings.Quality;
             options.BudgetShare = settings.BudgetShare;
-            options.UpdateRateHz = settings.UpdateRateHz;
+            options.UpdateRateHz = settings.FollowDisplay && DisplayRate.TryGet(out double displayHz)
+                ? displayHz
+                : settings.UpdateRateHz;
             options.FullScaleMps2 = settings.FullScaleMps2;
             return options;
         }

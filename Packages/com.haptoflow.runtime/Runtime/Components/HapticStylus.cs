@@ -1,6 +1,7 @@
 #nullable enable
 using HaptoFlow.Contact;
 using UnityEngine;
+using UnityEngine.Events;
 
 namespace HaptoFlow
 {
@@ -35,14 +36,25 @@ namespace HaptoFlow
         [SerializeField, Tooltip("The stylus's own tip force; empty for the spring model f = k d.")]
         private TipForceSource? force;
 
+        [SerializeField, Tooltip("What decides that the tip touches. Measured Force is for a real object under the " +
+            "virtual one, and needs a tip force.")]
+        private TouchDecision touchBy = TouchDecision.Geometry;
+
+        [SerializeField]
+        private ForceDecision forceDecision = new ForceDecision();
+
         [SerializeField, Tooltip("Where the wave goes; empty for the scene's output, or one that is made.")]
         private HapticOutput? output;
 
         [SerializeField, Range(0f, 1f)]
         private float strength = 1f;
 
+        [SerializeField]
+        private HapticStylusEvents events = new HapticStylusEvents();
+
         private TipContacts? contacts;
         private StylusVoice? voice;
+        private bool following;
         private bool touching;
         private HapticContact contact;
 
@@ -51,6 +63,10 @@ namespace HaptoFlow
 
         /// <summary>The touch goes on; once an update. Main thread.</summary>
         public event HapticContactHandler? TouchMoved;
+
+        /// <summary>The tip slid from one surface to another without lifting; the contact is the new one. Main thread.
+        /// </summary>
+        public event HapticContactHandler? SurfaceChanged;
 
         /// <summary>The touch ended; the contact is the last one. Main thread.</summary>
         public event HapticContactHandler? TouchEnded;
@@ -97,6 +113,19 @@ namespace HaptoFlow
             set => force = value;
         }
 
+        /// <summary>What decides that the tip touches.</summary>
+        public TouchDecision TouchBy
+        {
+            get => touchBy;
+            set => touchBy = value;
+        }
+
+        /// <summary>When a measured force is a touch; counts with <see cref="TouchDecision.MeasuredForce"/>.</summary>
+        public ForceDecision ForceDecision => forceDecision;
+
+        /// <summary>The events for wiring in the Inspector.</summary>
+        public HapticStylusEvents Events => events;
+
         /// <summary>Where the wave goes.</summary>
         public HapticOutput? Output
         {
@@ -138,21 +167,30 @@ namespace HaptoFlow
             EndTouch();
         }
 
+        /// <summary>Centre of the tip, in world space.</summary>
+        internal Vector3 TipPosition => tip != null ? tip.position : transform.position;
+
         private void OnEnable()
         {
             contacts ??= new TipContacts(new ContactSettings(), tipRadiusMetres);
             contacts.Tracker.TipRadiusMetres = tipRadiusMetres;
             voice ??= new StylusVoice(this);
+            following = true;
             HapticSession.Current.Poll();
         }
 
         private void OnDisable()
         {
+            following = false;
             ForgetMotion();
             voice?.Close();
         }
 
-        private void OnValidate() => TipRadiusMetres = tipRadiusMetres;
+        private void OnValidate()
+        {
+            TipRadiusMetres = tipRadiusMetres;
+            forceDecision.Forget();
+        }
 
         private void LateUpdate()
         {
@@ -176,12 +214,18 @@ namespace HaptoFlow
         {
             HapticSession session = HapticSession.Current;
             session.Poll();
+            contacts!.Tracker.Force = touchBy == TouchDecision.MeasuredForce ? forceDecision.Touch() : null;
             ContactReading reading;
             using (Markers.Contact.Auto())
             {
-                reading = contacts!.Update(SampleAt(nowSeconds), stepSeconds, layers, session, this);
+                reading = contacts.Update(SampleAt(nowSeconds), stepSeconds, layers, session, this);
             }
             TellOf(reading);
+            // A handler may have switched the stylus off: then nobody would close a voice that opened now.
+            if (!following)
+            {
+                return;
+            }
             using (Markers.Publish.Auto())
             {
                 voice!.Publish(reading, contacts.Touched?.Surface, session);
@@ -190,11 +234,20 @@ namespace HaptoFlow
 
         private TipSample SampleAt(double nowSeconds)
         {
-            Transform place = tip != null ? tip : transform;
-            double? measured = force != null && force.isActiveAndEnabled && force.TryRead(out float newtons)
-                ? newtons
-                : (double?)null;
-            return new TipSample(nowSeconds, place.position.ToDouble(), measured);
+            double? measured = TryReadForce(out float newtons) ? newtons : (double?)null;
+            return new TipSample(nowSeconds, TipPosition.ToDouble(), measured);
+        }
+
+        private bool TryReadForce(out float newtons)
+        {
+            newtons = 0f;
+            if (force == null || !force.isActiveAndEnabled)
+            {
+                return false;
+            }
+            return touchBy == TouchDecision.MeasuredForce
+                ? force.TryMeasure(out newtons)
+                : force.TryRead(out newtons);
         }
 
         private void TellOf(in ContactReading reading)
@@ -205,16 +258,33 @@ namespace HaptoFlow
                 EndTouch();
                 return;
             }
+            HapticSurface? before = touching ? contact.Surface : null;
             contact = new HapticContact(touched.Surface, touched.Collider!, reading);
-            bool began = !touching;
-            touching = true;
-            if (began)
+            if (!touching)
             {
+                touching = true;
                 TouchBegan?.Invoke(this, contact);
+                Invoke(events.TouchBegan);
+                return;
             }
-            else
+            if (!ReferenceEquals(before, contact.Surface))
+            {
+                SurfaceChanged?.Invoke(this, contact);
+                Invoke(events.SurfaceChanged);
+            }
+            if (touching)
             {
                 TouchMoved?.Invoke(this, contact);
+                Invoke(events.TouchMoved);
+            }
+        }
+
+        // A handler before this one may have ended the touch.
+        private void Invoke(UnityEvent<HapticSurface> told)
+        {
+            if (touching)
+            {
+                told.Invoke(contact.Surface);
             }
         }
 
@@ -224,6 +294,7 @@ namespace HaptoFlow
             {
                 touching = false;
                 TouchEnded?.Invoke(this, contact);
+                events.TouchEnded.Invoke(contact.Surface);
             }
         }
     }

@@ -5,10 +5,10 @@ using UnityEngine;
 namespace HaptoFlow
 {
     /// <summary>Makes a GameObject's colliders feelable: says what they are made of.</summary>
-    /// <remarks>Box, sphere, capsule and character colliders are exact. Mesh and terrain colliders are asked by rays
-    /// against their front faces: a tip deeper than 20 mm behind one is outside again. Triggers and wheel colliders are
-    /// left out.
-    /// </remarks>
+    /// <remarks>Box, sphere, capsule and character colliders are exact, and so are convex meshes for a tip outside of
+    /// them. Other mesh and terrain colliders are asked by rays against their front faces, whatever
+    /// Physics.queriesHitBackfaces says: a tip deeper than 20 mm behind one is outside again. Triggers and wheel
+    /// colliders are left out.</remarks>
     [AddComponentMenu("HaptoFlow/Haptic Surface")]
     [DisallowMultipleComponent]
     [HelpURL(HelpPages.Components + "haptic-surface")]
@@ -30,27 +30,51 @@ namespace HaptoFlow
         private Vector3 grain = new Vector3(1f, 0f, 0f);
 
         private readonly List<Collider> registered = new List<Collider>();
+        private bool isStale;
         private LabelBlend blend;
         private double labelStiffness;
         private int lookedUpVersion = -1;
         private MaterialDescription? lookedUpIn;
         private int lookedUpLabels = -1;
 
-        /// <summary>A shared material; null where the surface describes its own.</summary>
+        /// <summary>The shared material asset; null where the surface describes its own. Changing the asset changes
+        /// every surface that shares it, as Renderer.sharedMaterial does.</summary>
         public HapticMaterial? SharedMaterial
         {
             get => sharedMaterial;
             set => sharedMaterial = value;
         }
 
-        /// <summary>What counts: the shared material's description, or the surface's own.</summary>
-        public MaterialDescription Material => sharedMaterial != null ? sharedMaterial.Description : own;
+        /// <summary>What this surface is made of, to be changed: changes reach no other surface and no asset. As with
+        /// Renderer.material, asking for it gives a surface with a shared material a copy of its own, and
+        /// <see cref="SharedMaterial"/> is null from then on. To read only, ask
+        /// <see cref="SharedDescription"/>.</summary>
+        public MaterialDescription Material
+        {
+            get
+            {
+                if (sharedMaterial != null)
+                {
+                    own.CopyFrom(sharedMaterial.Description);
+                    sharedMaterial = null;
+                }
+                return own;
+            }
+        }
 
-        /// <summary>Colliders of children count too. Takes effect at <see cref="Refresh"/>.</summary>
+        /// <summary>What counts, to be read: the shared material's description, or the surface's own. A change of a
+        /// shared one changes the asset and every surface that shares it.</summary>
+        public MaterialDescription SharedDescription => sharedMaterial != null ? sharedMaterial.Description : own;
+
+        /// <summary>Colliders of children count too.</summary>
         public bool IncludeChildren
         {
             get => includeChildren;
-            set => includeChildren = value;
+            set
+            {
+                includeChildren = value;
+                isStale = true;
+            }
         }
 
         /// <summary>The tip's velocity is taken relative to the object; off, relative to the world.</summary>
@@ -67,11 +91,22 @@ namespace HaptoFlow
             set => grain = value;
         }
 
-        /// <summary>Colliders that lead to this surface.</summary>
-        public IReadOnlyList<Collider> Colliders => registered;
+        /// <summary>Colliders that lead to this surface. A child that comes or goes, and a collider added deeper below,
+        /// are noticed without help.</summary>
+        public IReadOnlyList<Collider> Colliders
+        {
+            get
+            {
+                if (isStale)
+                {
+                    Refresh();
+                }
+                return registered;
+            }
+        }
 
-        /// <summary>Looks for colliders again: after some were added, removed or moved to another parent. Main thread;
-        /// makes garbage.</summary>
+        /// <summary>Looks for colliders again now: only so that <see cref="Colliders"/> lists one that was added to, or
+        /// removed from, an object deeper below before a tip came near. Main thread; makes garbage.</summary>
         public void Refresh()
         {
             Unregister();
@@ -79,6 +114,28 @@ namespace HaptoFlow
             {
                 Register();
             }
+        }
+
+        /// <summary>The collider is where this surface looks, if no nearer surface stands between.</summary>
+        internal bool Reaches(Collider collider) => includeChildren
+            ? collider.transform.IsChildOf(transform)
+            : ReferenceEquals(collider.gameObject, gameObject);
+
+        /// <summary>A registered collider needs no new look-up.</summary>
+        internal bool Keeps(Collider collider) => !isStale && Reaches(collider);
+
+        /// <summary>Takes a collider that was found below this surface.</summary>
+        internal void Adopt(Collider collider)
+        {
+            if (isStale)
+            {
+                Refresh();
+            }
+            if (!registered.Contains(collider))
+            {
+                registered.Add(collider);
+            }
+            SurfaceRegistry.Add(collider, this);
         }
 
         /// <summary>The labels as the engine takes them, looked up again only when something changed.</summary>
@@ -92,13 +149,13 @@ namespace HaptoFlow
         internal double StiffnessFor(HapticSession session)
         {
             LookUp(session);
-            float described = Material.StiffnessNewtonsPerMetre;
+            float described = SharedDescription.StiffnessNewtonsPerMetre;
             return described > 0f ? described : labelStiffness;
         }
 
         private void LookUp(HapticSession session)
         {
-            MaterialDescription material = Material;
+            MaterialDescription material = SharedDescription;
             bool known = ReferenceEquals(material, lookedUpIn) && material.Version == lookedUpVersion &&
                 session.LabelsVersion == lookedUpLabels;
             if (known)
@@ -111,14 +168,38 @@ namespace HaptoFlow
             blend = session.Labels.Blend(material, this, out labelStiffness);
         }
 
-        private void OnEnable() => Register();
+        private void OnEnable()
+        {
+            Register();
+            TellSurfaceAbove();
+        }
 
         private void OnDisable() => Unregister();
 
-        private void OnValidate() => own.Touch();
+        private void OnDestroy() => TellSurfaceAbove();
+
+        // Told of direct children only; what changes deeper below is noticed when a tip comes near.
+        private void OnTransformChildrenChanged() => isStale = true;
+
+        private void OnValidate()
+        {
+            own.Touch();
+            isStale = true;
+        }
+
+        /// <summary>The colliders here were, or become, those of the surface above.</summary>
+        private void TellSurfaceAbove()
+        {
+            HapticSurface? above = SurfaceRegistry.OwnerOf(transform.parent);
+            if (above != null)
+            {
+                above.isStale = true;
+            }
+        }
 
         private void Register()
         {
+            isStale = false;
             if (includeChildren)
             {
                 GetComponentsInChildren(true, registered);

@@ -31,12 +31,17 @@ namespace HaptoFlow
         /// </summary>
         public static void Restart() => HapticSession.ShutDown();
 
-        /// <summary>From the next segment on; also kept in the active settings.</summary>
+        /// <summary>From the next segment on; also kept in the active settings. A tier that has to be loaded first is
+        /// loaded by another thread, while the present one goes on.</summary>
         public static void SetQuality(HapticQuality quality)
         {
             HaptoFlowSettings.Active.Quality = quality;
-            HapticSession.Existing?.Engine?.SetQuality(quality);
+            HapticSession.Existing?.SetQuality(quality);
         }
+
+        /// <summary>Text of the engine's newest failed round of inference, or of its worker's end; empty where there was
+        /// none. Makes garbage where there is one.</summary>
+        public static string LastFailure => HapticSession.Existing?.Engine?.LastFailure() ?? "";
 
         /// <summary>Silence at once, everywhere. Each stylus sounds again with its next touch-down.</summary>
         public static void Panic() => HapticVoice.PanicAll();

@@ -23,7 +23,11 @@ namespace HaptoFlow
         [Tooltip("Auto: share of the time between two contact states that inference may take.")]
         private float budgetShare = 0.25f;
 
-        [SerializeField, Range(1f, 1000f), Tooltip("Contact states a second, in Hz: the frame rate of the headset.")]
+        [SerializeField, Tooltip("The update rate is the headset's, or the screen's, where the display says it.")]
+        private bool followDisplay = true;
+
+        [SerializeField, Range(1f, 1000f)]
+        [Tooltip("Contact states a second, in Hz: counts where the display is not followed, or does not say its rate.")]
         private float updateRateHz = 72f;
 
         [SerializeField, Range(0f, 1f), Tooltip("Safety: no output sample is above this, whatever happens.")]
@@ -58,7 +62,16 @@ namespace HaptoFlow
             set => budgetShare = value;
         }
 
-        /// <summary>Contact states a second: the frame rate of the headset. 1 to 10000.</summary>
+        /// <summary>An engine that starts takes the refresh rate of the running headset, else of the screen, as its
+        /// update rate. A display that changes its rate later is followed after <see cref="Haptics.Restart"/>.</summary>
+        public bool FollowDisplay
+        {
+            get => followDisplay;
+            set => followDisplay = value;
+        }
+
+        /// <summary>Contact states a second, 1 to 10000: counts where the display is not followed, or does not say its
+        /// rate.</summary>
         public float UpdateRateHz
         {
             get => updateRateHz;

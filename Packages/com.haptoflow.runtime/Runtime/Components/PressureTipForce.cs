@@ -37,6 +37,15 @@ namespace HaptoFlow
             return pressed;
         }
 
+        /// <inheritdoc/>
+        public sealed override bool TryMeasure(out float forceNewtons)
+        {
+            bool hasNews = TryReadPressure(out float pressure);
+            bool pressed = hasNews && pressure > leastPressure;
+            forceNewtons = pressed ? Mathf.Clamp01(pressure) * newtonsAtFullPressure : 0f;
+            return hasNews && !float.IsNaN(pressure);
+        }
+
         /// <summary>The pressure now, 0 to 1; false where the device has no news. Main thread; must make no garbage.
         /// </summary>
         protected abstract bool TryReadPressure(out float pressure);

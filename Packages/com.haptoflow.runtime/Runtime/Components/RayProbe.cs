@@ -13,6 +13,8 @@ namespace HaptoFlow
     /// next,
     /// better direction. Directions to start with: the last contact's normal, the way the tip came, and six axes. A
     /// short ray goes first, so that a thin wall opposite is not taken for the surface.</para>
+    /// <para>No ray is cast for a tip that the collider's bounds keep out of reach. A tip that was touching, or that came
+    /// through the surface since the last frame, may be beyond flat bounds and is still asked for.</para>
     /// <para>Limits: a tip deeper than <see cref="DeepestMetres"/> behind a face counts as outside; in a corner the
     /// face
     /// that was touched first stays; an object without rigid body that a script moves is hit where it was at the last
@@ -26,6 +28,7 @@ namespace HaptoFlow
 
         // Hits come in single precision.
         private const double SmallestOffsetMetres = 1e-5;
+        private const double BoundsSlackMetres = 1e-4;
         private const int Refinements = 2;
 
         public static bool TryClosest(
@@ -33,12 +36,17 @@ namespace HaptoFlow
         {
             RigidPose physics = PhysicsPose(collider, pose);
             Double3 tip = physics.PointToWorld(pose.PointToLocal(question.TipMetres));
+            Double3 cameFrom = question.PreviousTipMetres - question.TipMetres;
+            if (IsOutOfBounds(collider, tip, question, cameFrom.Length))
+            {
+                found = default;
+                return false;
+            }
             var search = new Search(collider, question.ReachMetres, tip);
             if (question.PreviousLocalNormal.HasValue)
             {
                 search.Try(physics.DirectionToWorld(question.PreviousLocalNormal.Value));
             }
-            Double3 cameFrom = question.PreviousTipMetres - question.TipMetres;
             if (!search.Found && cameFrom.Length > SmallestMoveMetres)
             {
                 search.Try(physics.DirectionToWorld(pose.DirectionToLocal(cameFrom / cameFrom.Length)));
@@ -56,6 +64,13 @@ namespace HaptoFlow
                     physics.PointToLocal(search.Point), physics.DirectionToLocal(search.Normal), search.Distance)
                 : default;
             return search.Found && search.Distance <= question.ReachMetres;
+        }
+
+        private static bool IsOutOfBounds(Collider collider, Double3 tip, in ProbeQuestion question, double movedMetres)
+        {
+            double behind = question.PreviousLocalNormal.HasValue ? DeepestMetres : Math.Min(movedMetres, DeepestMetres);
+            double margin = question.ReachMetres + behind + BoundsSlackMetres;
+            return collider.bounds.SqrDistance(tip.ToVector()) > margin * margin;
         }
 
         /// <summary>Where the physics engine has a collider that is drawn at a pose.</summary>

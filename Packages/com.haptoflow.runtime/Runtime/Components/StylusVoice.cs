@@ -50,12 +50,12 @@ namespace HaptoFlow
                 ForceNewtons = (float)reading.ForceNewtons,
                 ApproachSpeedMps = (float)reading.ApproachSpeedMps,
             };
-            if (surface is object)
+            if (surface != null)
             {
                 state.Material = surface.BlendFor(session);
                 // A surface of which no label is known is left unfelt rather than felt as something else.
                 state.Touching = state.Material.Count > 0;
-                SetStrength(surface.Material.Strength * stylus.Strength * output!.Strength);
+                SetStrength(surface.SharedDescription.Strength * stylus.Strength * output!.Strength);
             }
             voice!.Publish(state);
         }
@@ -89,14 +89,29 @@ namespace HaptoFlow
                 Close();
                 return false;
             }
-            HapticOutput? chosen = stylus.Output;
-            HapticOutput wanted = chosen != null && chosen.isActiveAndEnabled ? chosen : HapticOutput.ForStylus(stylus);
+            HapticOutput? wanted = WantedOutput();
+            if (wanted == null)
+            {
+                Close();
+                return false;
+            }
             if (voice != null && ReferenceEquals(engine, session.Engine) && ReferenceEquals(output, wanted))
             {
                 return true;
             }
             Close();
             return !ReferenceEquals(refusedBy, session.Engine) && Open(session, wanted);
+        }
+
+        /// <summary>Null for silence: an output that is switched off is not replaced by another.</summary>
+        private HapticOutput? WantedOutput()
+        {
+            HapticOutput? chosen = stylus.Output;
+            if (chosen == null)
+            {
+                return SceneOutputs.For(stylus);
+            }
+            return chosen.isActiveAndEnabled ? chosen : null;
         }
 
         private bool Open(HapticSession session, HapticOutput wanted)

@@ -20,11 +20,27 @@ namespace HaptoFlow
             }
         }
 
-        public static bool TryFind(Collider collider, out HapticSurface surface) =>
-            Surfaces.TryGetValue(collider, out surface!);
+        /// <summary>The collider still leads to the surface as when it was last looked up.</summary>
+        public static bool Holds(Collider collider, HapticSurface surface) =>
+            Surfaces.TryGetValue(collider, out HapticSurface registered) && ReferenceEquals(registered, surface) &&
+            surface.Keeps(collider);
+
+        /// <summary>The surface that feels a collider, by where the collider is in the hierarchy now: also one that was
+        /// added, or moved below another parent, since anybody looked. Null for an untagged one.</summary>
+        public static HapticSurface? Resolve(Collider collider)
+        {
+            HapticSurface? owner = OwnerOf(collider.transform);
+            if (owner == null || !owner.isActiveAndEnabled || !owner.Reaches(collider))
+            {
+                Surfaces.Remove(collider);
+                return null;
+            }
+            owner.Adopt(collider);
+            return owner;
+        }
 
         /// <summary>The nearest surface at or above a transform.</summary>
-        public static HapticSurface? OwnerOf(Transform place)
+        public static HapticSurface? OwnerOf(Transform? place)
         {
             for (Transform? each = place; each != null; each = each.parent)
             {

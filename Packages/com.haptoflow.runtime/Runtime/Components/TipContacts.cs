@@ -66,12 +66,14 @@ namespace HaptoFlow
 
         private void Consider(double stepSeconds, int layers, HapticSession session, Object context)
         {
+            using FrontFacesOnly fronts = FrontFacesOnly.Begin();
             float radius = (float)(Tracker.ReachMetres + FollowedWithinMetres);
             int count = Physics.OverlapSphereNonAlloc(
                 Tracker.TipMetres.ToVector(), radius, colliders, layers, QueryTriggerInteraction.Ignore);
             for (int index = 0; index < count; ++index)
             {
-                if (SurfaceRegistry.TryFind(colliders[index], out HapticSurface surface))
+                HapticSurface? surface = SurfaceOf(colliders[index]);
+                if (surface is object)
                 {
                     Consider(colliders[index], surface, stepSeconds, session, context);
                 }
@@ -99,6 +101,20 @@ namespace HaptoFlow
             {
                 Tracker.Consider(new ContactCandidate(place.Tracked, pose, local));
             }
+        }
+
+        /// <summary>Looked up anew when a collider comes near, and when something changed about the surface that it led
+        /// to.</summary>
+        private HapticSurface? SurfaceOf(Collider collider)
+        {
+            foreach (NearbySurface each in near)
+            {
+                if (ReferenceEquals(each.Collider, collider) && SurfaceRegistry.Holds(collider, each.Surface))
+                {
+                    return each.Surface;
+                }
+            }
+            return SurfaceRegistry.Resolve(collider);
         }
 
         private NearbySurface? PlaceFor(Collider collider, HapticSurface surface)

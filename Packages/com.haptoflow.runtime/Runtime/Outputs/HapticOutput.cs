@@ -1,6 +1,5 @@
 #nullable enable
 using System;
-using System.Collections.Generic;
 using UnityEngine;
 using UnityEngine.Audio;
 
@@ -28,12 +27,10 @@ namespace HaptoFlow
     [HelpURL(HelpPages.Components + "haptic-output")]
     public sealed class HapticOutput : MonoBehaviour
     {
-        private static readonly List<HapticOutput> Enabled = new List<HapticOutput>();
-
         [SerializeField]
         private OutputRoute route = OutputRoute.AudioSource;
 
-        [SerializeField, Min(-1), Tooltip("Output channel, from 0; -1 for all.")]
+        [SerializeField, Min(-1), Tooltip("Output channel, from 0; -1 for all (not for Listener Channel).")]
         private int channel = HapticVoice.AllChannels;
 
         [SerializeField, Range(0f, 1f)]
@@ -41,6 +38,9 @@ namespace HaptoFlow
 
         [SerializeField]
         private bool muted;
+
+        [SerializeField, Tooltip("Audio Source: AudioListener.pause and AudioListener.volume reach the haptics too.")]
+        private bool obeyListener;
 
         [SerializeField, Tooltip("Mixer effect: the mixer that holds the effect.")]
         private AudioMixer? audioMixer;
@@ -54,7 +54,7 @@ namespace HaptoFlow
         private bool started;
         private volatile int sampleRateHz = 48000;
         private volatile int renderedChannel;
-        private volatile bool renderedElsewhere;
+        private volatile bool rendersHere;
 
         /// <summary>Can be chosen until the output's first frame.</summary>
         public OutputRoute Route
@@ -73,14 +73,33 @@ namespace HaptoFlow
             voiceParameter = exposedVoiceParameter;
         }
 
-        /// <summary>Output channel, from 0; -1 for all. A channel that the device does not have is silent.</summary>
+        /// <summary>Output channel, from 0; -1 for all. A channel that the device does not have is silent.
+        /// <see cref="OutputRoute.ListenerChannel"/> needs a channel of its own: with -1 it would overwrite everything
+        /// that the player hears, so it stays silent and logs an error.</summary>
         public int Channel
         {
             get => channel;
             set
             {
                 channel = value;
-                renderedChannel = value;
+                DecideRendering();
+                if (started)
+                {
+                    RefuseMissingChannel();
+                }
+            }
+        }
+
+        /// <summary>With <see cref="OutputRoute.AudioSource"/>: AudioListener.pause and AudioListener.volume reach the
+        /// haptics too. Off by default: a game that turns its sound down or pauses it keeps what the hand feels.
+        /// </summary>
+        public bool ObeyListener
+        {
+            get => obeyListener;
+            set
+            {
+                obeyListener = value;
+                TellSource();
             }
         }
 
@@ -117,18 +136,18 @@ namespace HaptoFlow
         /// <summary>Silence at once; each stylus sounds again with its next touch-down.</summary>
         public void Panic() => mixer.ForEach((voice, _) => voice.Panic(), 0);
 
-        /// <summary>The scene's output; where there is none, one is made that outlives scenes.</summary>
-        internal static HapticOutput ForStylus(HapticStylus stylus)
+        /// <summary>Made for a scene without output.</summary>
+        internal bool IsMade { get; private set; }
+
+        /// <summary>An output as <see cref="SceneOutputs"/> makes it: it counts as made before it wakes.</summary>
+        internal static HapticOutput Make()
         {
-            if (Enabled.Count > 0)
-            {
-                return Enabled[0];
-            }
             var owner = new GameObject("HaptoFlow Output");
-            DontDestroyOnLoad(owner);
-            Debug.Log("HaptoFlow: the scene has no Haptic Output, so one was made that plays on every channel of the " +
-                "audio device. Add one to choose a channel.", stylus);
-            return owner.AddComponent<HapticOutput>();
+            owner.SetActive(false);
+            var made = owner.AddComponent<HapticOutput>();
+            made.IsMade = true;
+            owner.SetActive(true);
+            return made;
         }
 
         internal void Add(HapticVoice voice)
@@ -156,33 +175,33 @@ namespace HaptoFlow
             }
         }
 
+        private void Awake() => SceneOutputs.Woke(this);
+
         private void OnEnable()
         {
-            Channel = channel;
-            renderedElsewhere = route == OutputRoute.MixerEffect;
+            DecideRendering();
             ReadConfiguration();
             AudioSettings.OnAudioConfigurationChanged += OnConfigurationChanged;
-            if (!Enabled.Contains(this))
-            {
-                Enabled.Add(this);
-            }
+            SceneOutputs.Add(this);
             if (started)
             {
                 PlaySource();
+                RefuseMissingChannel();
             }
         }
 
         private void Start()
         {
             started = true;
-            renderedElsewhere = route == OutputRoute.MixerEffect;
+            DecideRendering();
             PlaySource();
+            RefuseMissingChannel();
         }
 
         private void OnDisable()
         {
             AudioSettings.OnAudioConfigurationChanged -= OnConfigurationChanged;
-            Enabled.Remove(this);
+            SceneOutputs.Remove(this);
             if (source != null)
             {
                 source.Stop();
@@ -191,7 +210,28 @@ namespace HaptoFlow
 
         private void OnApplicationPause(bool paused) => mixer.ForEach((voice, on) => voice.SetPaused(on), paused);
 
-        private void OnValidate() => Channel = channel;
+        private void OnValidate()
+        {
+            DecideRendering();
+            TellSource();
+        }
+
+        private bool LacksChannel => route == OutputRoute.ListenerChannel && channel < 0;
+
+        private void DecideRendering()
+        {
+            renderedChannel = channel;
+            rendersHere = route != OutputRoute.MixerEffect && !LacksChannel;
+        }
+
+        private void RefuseMissingChannel()
+        {
+            if (LacksChannel)
+            {
+                Debug.LogError($"HaptoFlow: {name} is silent: the route Listener Channel overwrites a channel of its " +
+                    "own, and channel -1 would overwrite all that the player hears. Choose a channel from 0.", this);
+            }
+        }
 
         private void OnConfigurationChanged(bool deviceWasChanged)
         {
@@ -225,14 +265,24 @@ namespace HaptoFlow
             source.priority = 0;
             source.dopplerLevel = 0f;
             source.bypassReverbZones = true;
+            TellSource();
             source.Play();
+        }
+
+        private void TellSource()
+        {
+            if (source != null)
+            {
+                source.ignoreListenerPause = !obeyListener;
+                source.ignoreListenerVolume = !obeyListener;
+            }
         }
 
         // Audio thread: no garbage, no wait.
         private void OnAudioFilterRead(float[] data, int channels)
         {
             int wanted = renderedChannel;
-            if (wanted >= channels || renderedElsewhere)
+            if (wanted >= channels || !rendersHere)
             {
                 return;
             }
@@ -243,8 +293,5 @@ namespace HaptoFlow
                 meter.End(data, channels, wanted);
             }
         }
-
-        [RuntimeInitializeOnLoadMethod(RuntimeInitializeLoadType.SubsystemRegistration)]
-        private static void Forget() => Enabled.Clear();
     }
 }

@@ -13,6 +13,8 @@ namespace HaptoFlow.Contact
     /// <para>A touch begins where the tip sphere cuts into a surface and ends where a gap of the release distance has
     /// opened; between surfaces the deepest contact wins, but the one already touched keeps the tip until another is
     /// deeper by the switch margin.</para>
+    /// <para>With <see cref="Force"/>, a measured tip force decides instead, as long as there is one: pressed, the
+    /// nearest surface is touched where one is near; lifted, none is.</para>
     /// </remarks>
     internal sealed class ContactTracker
     {
@@ -37,8 +39,11 @@ namespace HaptoFlow.Contact
 
         private ContactCandidate current;
         private ContactCandidate deepest;
+        private ContactCandidate nearest;
         private bool hasCurrent;
         private bool hasDeepest;
+        private bool hasNearest;
+        private ForceVerdict verdict;
         private ContactStatistics statistics;
 
         /// <exception cref="ArgumentOutOfRangeException">A setting or the tip radius is out of range.</exception>
@@ -61,13 +66,18 @@ namespace HaptoFlow.Contact
                 : throw new ArgumentOutOfRangeException(nameof(value), "contact: TipRadiusMetres must be 0 or more");
         }
 
+        /// <summary>Lets a measured tip force decide; null where geometry does.</summary>
+        public ForceTouch? Force { get; set; }
+
         public ContactStatistics Statistics => statistics;
 
         /// <summary>Centre of the tip in this frame, valid after <see cref="BeginFrame"/> returned true.</summary>
         public Double3 TipMetres => tipMetres ?? Double3.Zero;
 
         /// <summary>Surfaces farther from the tip's centre than this play no part.</summary>
-        public double ReachMetres => TipRadiusMetres + Settings.ReleaseDistanceMetres;
+        public double ReachMetres => TipRadiusMetres + (verdict == ForceVerdict.Pressed
+            ? Force!.Settings.NearMetres + Force.Settings.NearMarginMetres
+            : Settings.ReleaseDistanceMetres);
 
         /// <summary>Time of this frame, on the samples' clock.</summary>
         public double NowSeconds => nowSeconds;
@@ -85,6 +95,7 @@ namespace HaptoFlow.Contact
             sample = tipSample;
             hasCurrent = false;
             hasDeepest = false;
+            hasNearest = false;
             ++statistics.Samples;
             bool timeUsable = Vectors.IsUsable(sample.TimeSeconds);
             bool positionUsable = Vectors.IsUsable(sample.PositionMetres);
@@ -99,6 +110,7 @@ namespace HaptoFlow.Contact
             {
                 nowSeconds = sample.TimeSeconds;
             }
+            verdict = Force?.Update(nowSeconds, sample.ForceNewtons) ?? ForceVerdict.Unknown;
             stepSeconds = started ? Vectors.Clamp(nowSeconds - before, 0.0, LongestFrameSeconds) : 0.0;
             started = started || timeUsable;
             if (positionUsable)
@@ -139,6 +151,12 @@ namespace HaptoFlow.Contact
                 deepest = candidate;
                 hasDeepest = true;
             }
+            bool isNear = verdict == ForceVerdict.Pressed && Force!.IsNear(-PenetrationOf(candidate), false);
+            if (isNear && (!hasNearest || GapOf(candidate) < GapOf(nearest)))
+            {
+                nearest = candidate;
+                hasNearest = true;
+            }
         }
 
         /// <summary>What this frame touches.</summary>
@@ -167,6 +185,8 @@ namespace HaptoFlow.Contact
             localNormal = null;
             tipMetres = null;
             history.Clear();
+            Force?.Forget();
+            verdict = ForceVerdict.Unknown;
         }
 
         /// <summary>A surface is gone: destroyed, switched off, or its place is used for another.</summary>
@@ -199,7 +219,31 @@ namespace HaptoFlow.Contact
         private double PenetrationOf(in ContactCandidate candidate) =>
             TipRadiusMetres - candidate.Local.SignedDistanceMetres;
 
+        private double GapOf(in ContactCandidate candidate) => Math.Abs(PenetrationOf(candidate));
+
         private bool ChooseContact(out ContactCandidate contact)
+        {
+            switch (verdict)
+            {
+                case ForceVerdict.Pressed:
+                    return ChooseNearest(out contact);
+                case ForceVerdict.Lifted:
+                    contact = default;
+                    return false;
+                default:
+                    return ChooseDeepest(out contact);
+            }
+        }
+
+        private bool ChooseNearest(out ContactCandidate contact)
+        {
+            bool kept = hasCurrent && Force!.IsNear(-PenetrationOf(current), true);
+            bool ahead = hasNearest && (!kept || GapOf(current) - GapOf(nearest) > Settings.SwitchMarginMetres);
+            contact = ahead ? nearest : current;
+            return kept || ahead;
+        }
+
+        private bool ChooseDeepest(out ContactCandidate contact)
         {
             bool kept = hasCurrent && PenetrationOf(current) >= -Settings.ReleaseDistanceMetres;
             contact = current;
@@ -250,7 +294,7 @@ namespace HaptoFlow.Contact
             double stiffness = own > 0.0 && Vectors.IsUsable(own)
                 ? own
                 : Settings.DefaultStiffnessNewtonsPerMetre;
-            double? measured = sample.ForceNewtons;
+            double? measured = verdict == ForceVerdict.Pressed ? Force!.ForceNewtons : sample.ForceNewtons;
             double force = measured.HasValue && Vectors.IsFinite(measured.Value)
                 ? measured.Value
                 : stiffness * penetrationMetres;

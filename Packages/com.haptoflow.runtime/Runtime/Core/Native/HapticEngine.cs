@@ -1,5 +1,6 @@
 #nullable enable
 using System;
+using System.Text;
 using HaptoFlow.Native;
 
 namespace HaptoFlow
@@ -52,6 +53,13 @@ namespace HaptoFlow
         /// <summary>From a contact state to the first sample generated from it, above 0 to 50 ms; 0 for the shortest
         /// that holds on this machine. Fixed, an engine without worker is deterministic.</summary>
         public double FixedLeadMs;
+
+        /// <summary>Ends the engine's creation early; null for none.</summary>
+        public HapticCancellation? Cancellation;
+
+        /// <summary>What a probe run of each graph may take for each 8 voices, above 0 to 3600000 ms; 0 for 10000 ms.
+        /// </summary>
+        public double ProbeLimitMs;
     }
 
     /// <summary>All voices of one model, and the one thread that generates for them. The thread sleeps while nothing
@@ -60,9 +68,11 @@ namespace HaptoFlow
     {
         private readonly EngineHandle handle;
 
-        /// <summary>Loads all tiers of the model and starts the worker. Takes as long as ONNX Runtime needs to optimise
+        /// <summary>Loads the tiers that the quality asks for, all of them for automatic quality, and starts the worker.
+        /// Takes as long as ONNX Runtime needs to optimise
         /// the graphs; runtime and model may be disposed afterwards.</summary>
-        /// <exception cref="HaptoFlowException">An option is out of range, or a graph is not usable.</exception>
+        /// <exception cref="HaptoFlowException">An option is out of range, a graph is not usable or too slow, or the
+        /// creation was cancelled.</exception>
         public HapticEngine(OnnxRuntime runtime, HapticModel model, in HapticEngineOptions options)
         {
             var native = new EngineOptions
@@ -77,15 +87,19 @@ namespace HaptoFlow
                 Seed = options.Seed,
                 WithoutWorker = options.WithoutWorker ? 1u : 0u,
                 FixedLeadMs = options.FixedLeadMs,
+                Cancellation = options.Cancellation?.Handle.Value ?? IntPtr.Zero,
+                ProbeLimitMs = options.ProbeLimitMs,
             };
             IntPtr opened;
             NativeCall.Check(NativeMethods.EngineCreate(&native, &opened));
             GC.KeepAlive(runtime);
             GC.KeepAlive(model);
+            GC.KeepAlive(options.Cancellation);
             handle = new EngineHandle(opened);
         }
 
-        /// <summary>From the next segment on.</summary>
+        /// <summary>From the next segment on. A tier that this quality asks for and that is not loaded is loaded first:
+        /// blocks for as long as ONNX Runtime needs.</summary>
         public void SetQuality(HapticQuality quality)
         {
             NativeCall.Check(NativeMethods.EngineSetQuality(handle.Value, (int)quality));
@@ -109,6 +123,23 @@ namespace HaptoFlow
             return statistics;
         }
 
+        /// <summary>Text of the newest failure, of a round of inference or of the worker itself; empty before the first.
+        /// Makes garbage.</summary>
+        public string LastFailure()
+        {
+            ulong length;
+            NativeCall.Check(NativeMethods.EngineLastFailure(handle.Value, null, 0, &length));
+            // A longer text that comes in between is cut.
+            var text = new byte[length + 1];
+            fixed (byte* bytes = text)
+            {
+                NativeCall.Check(NativeMethods.EngineLastFailure(handle.Value, bytes, (ulong)text.Length, &length));
+            }
+            GC.KeepAlive(this);
+            int end = Array.IndexOf(text, (byte)0);
+            return Encoding.UTF8.GetString(text, 0, end < 0 ? text.Length : end);
+        }
+
         /// <param name="tier">Index into the model's tiers.</param>
         public TierTimes Times(int tier)
         {
@@ -118,7 +149,8 @@ namespace HaptoFlow
             return times;
         }
 
-        /// <summary>The signal of one stylus tip. Blocks for the present round of inference.</summary>
+        /// <summary>The signal of one stylus tip. Blocks while another voice is opened or closed, never for inference.
+        /// </summary>
         /// <param name="sampleRateHz">Of the output, 8000 to 192000. It may change later.</param>
         /// <exception cref="HaptoFlowException">The rate is out of range, or 64 voices are open in this process.
         /// </exception>

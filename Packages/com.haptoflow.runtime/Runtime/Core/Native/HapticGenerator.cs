@@ -17,8 +17,11 @@ namespace HaptoFlow
         private readonly GeneratorHandle handle;
 
         /// <param name="tier">Name of a tier; null for the model's default.</param>
-        /// <exception cref="HaptoFlowException">There is no such tier, or a graph is not usable.</exception>
-        public HapticGenerator(OnnxRuntime runtime, HapticModel model, string? tier = null)
+        /// <param name="cancellation">Ends the creation early; null for none.</param>
+        /// <exception cref="HaptoFlowException">There is no such tier, a graph is not usable or too slow, or the
+        /// creation was cancelled.</exception>
+        public HapticGenerator(
+            OnnxRuntime runtime, HapticModel model, string? tier = null, HapticCancellation? cancellation = null)
         {
             IntPtr opened;
             fixed (byte* name = tier != null ? NativeCall.Utf8(tier) : null)
@@ -29,11 +32,13 @@ namespace HaptoFlow
                     Runtime = runtime.Handle.Value,
                     Model = model.Handle.Value,
                     Tier = (IntPtr)name,
+                    Cancellation = cancellation?.Handle.Value ?? IntPtr.Zero,
                 };
                 NativeCall.Check(NativeMethods.GeneratorCreate(&options, &opened));
             }
             GC.KeepAlive(runtime);
             GC.KeepAlive(model);
+            GC.KeepAlive(cancellation);
             handle = new GeneratorHandle(opened);
         }
 

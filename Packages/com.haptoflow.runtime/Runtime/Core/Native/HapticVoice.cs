@@ -73,7 +73,7 @@ namespace HaptoFlow
             }
         }
 
-        /// <summary>Gain of the output before the limiter, 0 to 1; glides within 10 ms.</summary>
+        /// <summary>Gain of the output before the limiter, 0 to 1; glides within 10 ms while the voice sounds.</summary>
         public void SetStrength(float strength) => NativeCall.Check(NativeMethods.VoiceSetStrength(Id, strength));
 
         /// <summary>Largest magnitude of the output, 0 to 1: whatever else happens, no sample is above it.</summary>
@@ -85,7 +85,7 @@ namespace HaptoFlow
         /// <summary>The same for an application that is suspended: independent of muting.</summary>
         public void SetPaused(bool paused) => NativeCall.Check(NativeMethods.VoiceSetPaused(Id, paused ? 1u : 0u));
 
-        /// <summary>Silence at the end of the next block. Sounds again with the next touch-down.</summary>
+        /// <summary>Silence at the end of the next block for what touches now; the next touch-down sounds.</summary>
         public void Panic() => NativeCall.Check(NativeMethods.VoicePanic(Id));
 
         /// <summary>Panic for every voice of the process. Does nothing where there is no native library.</summary>
@@ -118,7 +118,7 @@ namespace HaptoFlow
             return (int)place;
         }
 
-        /// <summary>Blocks for the present round of inference, and for a block that is being rendered.</summary>
+        /// <summary>Blocks for a block that is being rendered, at most 48 ms; never for inference.</summary>
         public void Dispose()
         {
             Close();

@@ -48,6 +48,12 @@ namespace HaptoFlow
         /// <summary>A graph failed while running, or returned numbers that are not finite.</summary>
         InferenceFailed = 21,
 
+        /// <summary>A load ended because its <see cref="HapticCancellation"/> was cancelled.</summary>
+        Cancelled = 22,
+
+        /// <summary>A probe run of a tier took too long; the message names the tier.</summary>
+        TierTooSlow = 23,
+
         /// <summary>The native library audioplugin_haptoflow, or a function of it, is not there.</summary>
         LibraryUnavailable = 100,
     }

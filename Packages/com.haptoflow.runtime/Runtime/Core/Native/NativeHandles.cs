@@ -65,4 +65,14 @@ namespace HaptoFlow.Native
 
         protected override int Close(IntPtr* closing) => NativeMethods.EngineClose(closing);
     }
+
+    internal sealed unsafe class CancellationHandle : NativeHandle
+    {
+        public CancellationHandle(IntPtr opened)
+            : base(opened)
+        {
+        }
+
+        protected override int Close(IntPtr* closing) => NativeMethods.CancellationClose(closing);
+    }
 }

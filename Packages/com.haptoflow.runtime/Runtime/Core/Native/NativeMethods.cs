@@ -27,6 +27,9 @@ namespace HaptoFlow.Native
         [DllImport(Library, EntryPoint = "haptoflow_status_name")]
         public static extern IntPtr StatusName(int status);
 
+        [DllImport(Library, EntryPoint = "haptoflow_silence_name")]
+        public static extern IntPtr SilenceName(int silence);
+
         [DllImport(Library, EntryPoint = "haptoflow_last_message")]
         public static extern IntPtr LastMessage();
 
@@ -35,6 +38,15 @@ namespace HaptoFlow.Native
 
         [DllImport(Library, EntryPoint = "haptoflow_runtime_close")]
         public static extern int RuntimeClose(IntPtr* runtime);
+
+        [DllImport(Library, EntryPoint = "haptoflow_cancellation_create")]
+        public static extern int CancellationCreate(IntPtr* cancellation);
+
+        [DllImport(Library, EntryPoint = "haptoflow_cancellation_cancel")]
+        public static extern int CancellationCancel(IntPtr cancellation);
+
+        [DllImport(Library, EntryPoint = "haptoflow_cancellation_close")]
+        public static extern int CancellationClose(IntPtr* cancellation);
 
         [DllImport(Library, EntryPoint = "haptoflow_model_open")]
         public static extern int ModelOpen(ModelOptions* options, IntPtr* model);
@@ -89,6 +101,9 @@ namespace HaptoFlow.Native
 
         [DllImport(Library, EntryPoint = "haptoflow_engine_get_statistics")]
         public static extern int EngineGetStatistics(IntPtr engine, EngineStatistics* statistics);
+
+        [DllImport(Library, EntryPoint = "haptoflow_engine_last_failure")]
+        public static extern int EngineLastFailure(IntPtr engine, byte* text, ulong capacity, ulong* length);
 
         [DllImport(Library, EntryPoint = "haptoflow_engine_tier_times")]
         public static extern int EngineTierTimes(IntPtr engine, uint index, TierTimes* times);

@@ -12,6 +12,12 @@ namespace HaptoFlow.Native
         public uint StructSize;
         public IntPtr OrtApiBase;
         public IntPtr LibraryPath;
+
+        /// <summary>Always null: a callback into managed code from threads of ONNX Runtime's own would have to be a
+        /// static method that this engine-free assembly cannot mark for ahead-of-time compilation. The standard error
+        /// stream, which Unity's player log holds, gets the messages.</summary>
+        public IntPtr Log;
+        public IntPtr LogContext;
     }
 
     [Preserve, StructLayout(LayoutKind.Sequential)]
@@ -62,6 +68,8 @@ namespace HaptoFlow.Native
         public IntPtr Tier;
         public int Steps;
         public uint MaximumBatch;
+        public IntPtr Cancellation;
+        public double ProbeLimitMs;
     }
 
     [Preserve, StructLayout(LayoutKind.Sequential)]
@@ -89,6 +97,8 @@ namespace HaptoFlow.Native
         public uint BatchVoices;
         public uint WithoutWorker;
         public double FixedLeadMs;
+        public IntPtr Cancellation;
+        public double ProbeLimitMs;
     }
 
     [Preserve, StructLayout(LayoutKind.Sequential)]

@@ -63,6 +63,24 @@ namespace HaptoFlow
 
         /// <summary>Milliseconds that this voice's inferences took in all; voices that share a run share its time.</summary>
         public double InferenceMilliseconds;
+
+        /// <summary>How often a touch sounded again after a silence within it: a pause, a mute, a change of rate,
+        /// missing states.</summary>
+        public ulong Resumptions;
+
+        /// <summary>Blocks asked for at a sample rate outside 8 to 192 kHz: all of them are silent.</summary>
+        public ulong UnsupportedRateBlocks;
+
+        /// <summary>Sample rate of the newest block, in Hz; 0 before the first.</summary>
+        public double DeviceRateHz;
+
+        /// <summary>Why the newest block is silent; <see cref="HapticSilence.None"/> where it sounds.</summary>
+        public HapticSilence Silence;
+
+        private uint isRateSupported;
+
+        /// <summary>False while the newest block's rate is outside 8 to 192 kHz.</summary>
+        public bool IsRateSupported => isRateSupported != 0;
     }
 
     /// <summary>What the engine did since it was made. Counts unless the name says otherwise.</summary>
@@ -102,6 +120,15 @@ namespace HaptoFlow
 
         /// <summary>What the last round took, all its voices together, in ms.</summary>
         public double LastRoundMs;
+
+        private uint workerIsAlive;
+        private uint priorityWasRefused;
+
+        /// <summary>False once the thread that generates has ended. True for an engine without one.</summary>
+        public bool WorkerIsAlive => workerIsAlive != 0;
+
+        /// <summary>The system did not let the worker run at a raised priority: segments come late more often.</summary>
+        public bool PriorityWasRefused => priorityWasRefused != 0;
 
         /// <summary>Automatic quality still measures.</summary>
         public bool IsMeasuring => isMeasuring != 0;

@@ -25,8 +25,10 @@ namespace HaptoFlow
         protected override bool TryReadPressure(out float value)
         {
             InputAction? action = pressure.action;
-            value = action != null ? action.ReadValue<float>() : 0f;
-            return action != null;
+            // Without a control that it is bound to, an action reads 0 for ever: that is no pen in the air.
+            bool hasDevice = action != null && action.controls.Count > 0;
+            value = hasDevice ? action!.ReadValue<float>() : 0f;
+            return hasDevice;
         }
 
         // An action of the component's own is nobody else's to enable; one of an asset may be shared.

@@ -5,6 +5,9 @@ namespace HaptoFlow
 {
     /// <summary>Tip force from an action of Meta's SDK: for MX Ink, the action that its action set binds to
     /// tip_logitech/force.</summary>
+    /// <remarks>The SDK logs an error for every call that fails, so it is asked only while the session has input focus,
+    /// and after a failure not again until something changes: the focus comes back, a controller connects or leaves,
+    /// the action gets another name, or this component is switched on again.</remarks>
     [AddComponentMenu("HaptoFlow/Tip Force (Meta)")]
     [HelpURL(HelpPages.Components + "tip-force-meta")]
     public sealed class MetaActionTipForce : PressureTipForce
@@ -12,8 +15,61 @@ namespace HaptoFlow
         [SerializeField, Tooltip("Name of the float action in the project's action sets.")]
         private string action = "tip";
 
+        private OVRPlugin.Controller connectedAtFailure;
+        private bool hadFocus;
+        private bool hasFailed;
+        private bool hasWarned;
+
+        /// <summary>Name of the float action in the project's action sets.</summary>
+        public string Action
+        {
+            get => action;
+            set
+            {
+                action = value;
+                AskAgain();
+            }
+        }
+
         /// <inheritdoc/>
-        protected override bool TryReadPressure(out float pressure) =>
-            OVRPlugin.GetActionStateFloat(action, out pressure);
+        protected override bool TryReadPressure(out float pressure)
+        {
+            pressure = 0f;
+            bool hasFocus = OVRPlugin.hasInputFocus;
+            bool gainedFocus = hasFocus && !hadFocus;
+            hadFocus = hasFocus;
+            if (!hasFocus || (hasFailed && !gainedFocus && OVRPlugin.GetConnectedControllers() == connectedAtFailure))
+            {
+                return false;
+            }
+            hasFailed = !OVRPlugin.GetActionStateFloat(action, out pressure);
+            if (hasFailed)
+            {
+                connectedAtFailure = OVRPlugin.GetConnectedControllers();
+                Warn();
+            }
+            return !hasFailed;
+        }
+
+        private void OnEnable() => AskAgain();
+
+        private void OnValidate() => AskAgain();
+
+        private void AskAgain()
+        {
+            hasFailed = false;
+            hasWarned = false;
+        }
+
+        private void Warn()
+        {
+            if (!hasWarned)
+            {
+                hasWarned = true;
+                Debug.LogWarning($"HaptoFlow: {name} reads no tip force: Meta's SDK has no float action \"{action}\" " +
+                    "that is bound to a connected pen (Project Settings > Meta XR > Input Actions). It is asked again " +
+                    "when the session or the controllers change.", this);
+            }
+        }
     }
 }

@@ -1,0 +1,111 @@
+#nullable enable
+using System;
+using System.Globalization;
+using System.IO;
+using System.Text;
+using HaptoFlow.Model;
+using HaptoFlow.Numerics;
+
+namespace HaptoFlow.Alignment
+{
+    /// <summary>A pose in a small file of its own: metres and a unit quaternion as JSON. It is written whole or not at
+    /// all, and nothing that it says is trusted. Any thread that may touch files.</summary>
+    internal static class SavedPose
+    {
+        private const string Format = "haptoflow pose";
+        private const int Version = 1;
+        private const int LongestFile = 4096;
+        private const double LargestMetres = 1000.0;
+
+        // A quaternion of six decimals is so close to length 1.
+        private const double LengthTolerance = 1e-3;
+
+        /// <exception cref="IOException">The file cannot be written.</exception>
+        /// <exception cref="UnauthorizedAccessException">The file cannot be written.</exception>
+        public static void Write(string path, in RigidPose pose)
+        {
+            string folder = Path.GetDirectoryName(Path.GetFullPath(path))!;
+            Directory.CreateDirectory(folder);
+            Double3 place = pose.PositionMetres;
+            Rotation turn = pose.Rotation;
+            string text = string.Format(CultureInfo.InvariantCulture,
+                "{{\"format\": \"{0}\", \"version\": {1}, \"position_m\": [{2:R}, {3:R}, {4:R}], " +
+                "\"rotation_xyzw\": [{5:R}, {6:R}, {7:R}, {8:R}]}}\n",
+                Format, Version, place.X, place.Y, place.Z, turn.X, turn.Y, turn.Z, turn.W);
+            string temporary = path + ".new";
+            File.WriteAllText(temporary, text, new UTF8Encoding(false));
+            if (File.Exists(path))
+            {
+                File.Replace(temporary, path, null);
+            }
+            else
+            {
+                File.Move(temporary, path);
+            }
+        }
+
+        /// <summary>False where there is no such file, or none that can be used.</summary>
+        /// <param name="problem">What is wrong with a file that is there; null where it is not.</param>
+        public static bool TryRead(string path, out RigidPose pose, out string? problem)
+        {
+            pose = RigidPose.Identity;
+            problem = null;
+            if (!File.Exists(path))
+            {
+                return false;
+            }
+            try
+            {
+                if (new FileInfo(path).Length > LongestFile)
+                {
+                    throw new FormatException("the file is longer than a pose can be");
+                }
+                pose = Parse(JsonValue.Parse(File.ReadAllText(path)));
+                return true;
+            }
+            catch (Exception error) when (error is FormatException || error is IOException ||
+                error is UnauthorizedAccessException)
+            {
+                problem = $"{path}: {error.Message}; delete the file and align again";
+                return false;
+            }
+        }
+
+        public static void Delete(string path) => File.Delete(path);
+
+        private static RigidPose Parse(JsonValue document)
+        {
+            if (document["format"].AsText() != Format || document["version"].AsInteger() != Version)
+            {
+                throw new FormatException($"this is no \"{Format}\" of version {Version}");
+            }
+            double[] place = Numbers(document["position_m"], 3, LargestMetres);
+            double[] turn = Numbers(document["rotation_xyzw"], 4, 1.0 + LengthTolerance);
+            double length = Math.Sqrt(turn[0] * turn[0] + turn[1] * turn[1] + turn[2] * turn[2] + turn[3] * turn[3]);
+            if (!(Math.Abs(length - 1.0) <= LengthTolerance))
+            {
+                throw new FormatException("rotation_xyzw is not of length 1");
+            }
+            return new RigidPose(
+                new Double3(place[0], place[1], place[2]), new Rotation(turn[0], turn[1], turn[2], turn[3]));
+        }
+
+        private static double[] Numbers(JsonValue array, int count, double largest)
+        {
+            if (array.AsArray().Count != count)
+            {
+                throw new FormatException($"{array.Path} does not hold {count} numbers");
+            }
+            var numbers = new double[count];
+            for (int index = 0; index < count; ++index)
+            {
+                numbers[index] = array[index].AsNumber();
+                if (!(Math.Abs(numbers[index]) <= largest))
+                {
+                    throw new FormatException($"{array[index].Path} is out of range");
+                }
+            }
+            return numbers;
+        }
+    }
+}

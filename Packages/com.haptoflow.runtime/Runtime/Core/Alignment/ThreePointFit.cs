@@ -1,0 +1,184 @@
+#nullable enable
+using System;
+using System.Collections.Generic;
+using System.Globalization;
+using HaptoFlow.Numerics;
+
+namespace HaptoFlow.Alignment
+{
+    /// <summary>Where an object is whose three marked points were touched.</summary>
+    internal readonly struct AlignmentFit
+    {
+        private AlignmentFit(string? refusal, in RigidPose pose, double largestErrorMetres)
+        {
+            Refusal = refusal;
+            Pose = pose;
+            LargestErrorMetres = largestErrorMetres;
+        }
+
+        /// <summary>Why there is no pose, with the remedy; null where there is one.</summary>
+        public string? Refusal { get; }
+
+        /// <summary>Takes the object's marked points to the touched ones.</summary>
+        public RigidPose Pose { get; }
+
+        /// <summary>From a marked point, moved, to where it was touched.</summary>
+        public double LargestErrorMetres { get; }
+
+        public static AlignmentFit Refuse(string why) => new AlignmentFit(why, RigidPose.Identity, 0.0);
+
+        public static AlignmentFit At(in RigidPose pose, double largestErrorMetres) =>
+            new AlignmentFit(null, pose, largestErrorMetres);
+    }
+
+    /// <summary>The rigid pose that takes three points of an object to the three places where they were touched, with
+    /// the least squared error. Any thread; pure.</summary>
+    /// <remarks>Three points lie in a plane on both sides, so the best rotation takes plane to plane, and what is left is
+    /// an angle within it. The points are numbered, which tells the plane's upper side from its lower.</remarks>
+    internal static class ThreePointFit
+    {
+        /// <summary>Sides shorter than this turn millimetres of touching error into a visible tilt.</summary>
+        public const double ShortestSideMetres = 0.02;
+
+        /// <summary>A triangle that is flatter says nothing of the turn around its longest side.</summary>
+        public const double SmallestHeightMetres = 0.01;
+
+        /// <summary>Beyond this a touched triangle is not the object's.</summary>
+        public const double LargestErrorMetres = 0.01;
+
+        private static readonly int[][] OtherOrders =
+        {
+            new[] { 0, 2, 1 }, new[] { 1, 0, 2 }, new[] { 1, 2, 0 }, new[] { 2, 0, 1 }, new[] { 2, 1, 0 },
+        };
+
+        /// <param name="marks">Three points of the object in its own frame, in metres.</param>
+        /// <param name="touched">Where the tip's centre was, in the same order, in metres.</param>
+        /// <param name="outward">Out of the object at the marked points, in its own frame: where the pen was.</param>
+        /// <param name="tipRadiusMetres">The tip's centre is so much outside of the touched place; 0 or more.</param>
+        public static AlignmentFit Solve(
+            IReadOnlyList<Double3> marks, IReadOnlyList<Double3> touched, Double3 outward, double tipRadiusMetres)
+        {
+            if (marks.Count != 3 || touched.Count != 3)
+            {
+                return AlignmentFit.Refuse("three marked and three touched points are needed");
+            }
+            string? refusal = WhyMarksUnusable(marks) ??
+                WhyUnusable(touched, "touched", "Touch the marked points again");
+            if (refusal != null)
+            {
+                return AlignmentFit.Refuse(refusal);
+            }
+            RigidPose pose = Fit(marks, touched);
+            double error = LargestError(marks, touched, pose);
+            return error > LargestErrorMetres
+                ? AlignmentFit.Refuse(WhyMismatched(marks, touched, error))
+                : AlignmentFit.At(WithoutTip(pose, marks, outward, tipRadiusMetres), error);
+        }
+
+        /// <summary>Why no touching of these marks could give a pose; null where it can.</summary>
+        public static string? WhyMarksUnusable(IReadOnlyList<Double3> marks) => marks.Count != 3
+            ? "three marked points are needed"
+            : WhyUnusable(marks, "marked", "Mark points that are farther apart");
+
+        private static RigidPose Fit(IReadOnlyList<Double3> marks, IReadOnlyList<Double3> touched)
+        {
+            RotationBasis from = BasisOf(marks);
+            RotationBasis to = BasisOf(touched);
+            Double3 markCentre = Centre(marks);
+            Double3 touchedCentre = Centre(touched);
+            double along = 0.0;
+            double across = 0.0;
+            for (int index = 0; index < 3; ++index)
+            {
+                Double3 mark = marks[index] - markCentre;
+                Double3 place = touched[index] - touchedCentre;
+                double markX = Double3.Dot(mark, from.First);
+                double markY = Double3.Dot(mark, from.Second);
+                double placeX = Double3.Dot(place, to.First);
+                double placeY = Double3.Dot(place, to.Second);
+                along += markX * placeX + markY * placeY;
+                across += markX * placeY - markY * placeX;
+            }
+            double angle = Math.Atan2(across, along);
+            var turned = new RotationBasis(Math.Cos(angle) * to.First + Math.Sin(angle) * to.Second, to.Third);
+            Rotation rotation = RotationBasis.Between(from, turned);
+            return new RigidPose(touchedCentre - rotation * markCentre, rotation);
+        }
+
+        /// <summary>The object lies a tip radius below the tip's centre.</summary>
+        private static RigidPose WithoutTip(
+            in RigidPose pose, IReadOnlyList<Double3> marks, Double3 outward, double tipRadiusMetres)
+        {
+            Double3 normal = BasisOf(marks).Third;
+            Double3 up = Double3.Dot(normal, outward) < 0.0 ? -normal : normal;
+            double radius = tipRadiusMetres > 0.0 && Vectors.IsUsable(tipRadiusMetres) ? tipRadiusMetres : 0.0;
+            return new RigidPose(pose.PositionMetres - radius * pose.DirectionToWorld(up), pose.Rotation);
+        }
+
+        private static RotationBasis BasisOf(IReadOnlyList<Double3> points)
+        {
+            Double3 first = Vectors.UnitOr(points[1] - points[0], Double3.Right);
+            Double3 normal = Double3.Cross(points[1] - points[0], points[2] - points[0]);
+            return new RotationBasis(first, Vectors.UnitOr(normal, Vectors.AnyPerpendicular(first)));
+        }
+
+        private static Double3 Centre(IReadOnlyList<Double3> points) => (points[0] + points[1] + points[2]) / 3.0;
+
+        private static double LargestError(
+            IReadOnlyList<Double3> marks, IReadOnlyList<Double3> touched, in RigidPose pose)
+        {
+            double largest = 0.0;
+            for (int index = 0; index < 3; ++index)
+            {
+                largest = Math.Max(largest, Double3.Distance(pose.PointToWorld(marks[index]), touched[index]));
+            }
+            return largest;
+        }
+
+        private static string? WhyUnusable(IReadOnlyList<Double3> points, string which, string remedy)
+        {
+            double longest = 0.0;
+            double shortest = double.PositiveInfinity;
+            for (int index = 0; index < 3; ++index)
+            {
+                if (!Vectors.IsUsable(points[index]))
+                {
+                    return $"{which} point {Number(index)} is not a place. {remedy}";
+                }
+                double side = Double3.Distance(points[index], points[(index + 1) % 3]);
+                longest = Math.Max(longest, side);
+                shortest = Math.Min(shortest, side);
+            }
+            if (shortest < ShortestSideMetres)
+            {
+                return $"two {which} points are only {Millimetres(shortest)} apart, {Millimetres(ShortestSideMetres)} " +
+                    $"are needed. {remedy}";
+            }
+            double height = Double3.Cross(points[1] - points[0], points[2] - points[0]).Length / longest;
+            return height < SmallestHeightMetres
+                ? $"the {which} points lie almost on one line: the third is {Millimetres(height)} beside it, " +
+                    $"{Millimetres(SmallestHeightMetres)} are needed. {remedy}"
+                : null;
+        }
+
+        private static string WhyMismatched(
+            IReadOnlyList<Double3> marks, IReadOnlyList<Double3> touched, double error)
+        {
+            string what = $"the touched triangle is not the marked one: {Millimetres(error)} are left between them. ";
+            foreach (int[] order in OtherOrders)
+            {
+                var reordered = new[] { touched[order[0]], touched[order[1]], touched[order[2]] };
+                if (LargestError(marks, reordered, Fit(marks, reordered)) <= LargestErrorMetres)
+                {
+                    return what + "It fits in another order: touch the points in the order of their numbers";
+                }
+            }
+            return what + "Touch the three points again, exactly";
+        }
+
+        private static string Number(int index) => (index + 1).ToString(CultureInfo.InvariantCulture);
+
+        private static string Millimetres(double metres) =>
+            (1000.0 * metres).ToString("0.0", CultureInfo.InvariantCulture) + " mm";
+    }
+}

@@ -1,0 +1,52 @@
+#nullable enable
+
+namespace HaptoFlow.Numerics
+{
+    /// <summary>Three unit vectors at right angles, third = first x second.</summary>
+    internal readonly struct RotationBasis
+    {
+        private readonly Double3 first;
+        private readonly Double3 second;
+        private readonly Double3 third;
+
+        /// <param name="first">Of unit length.</param>
+        /// <param name="third">Of unit length, at right angles to the first.</param>
+        public RotationBasis(Double3 first, Double3 third)
+        {
+            this.first = first;
+            this.third = third;
+            second = Double3.Cross(third, first);
+        }
+
+        public Double3 First => first;
+
+        public Double3 Second => second;
+
+        public Double3 Third => third;
+
+        /// <summary>The rotation that takes one basis to the other.</summary>
+        public static Rotation Between(in RotationBasis from, in RotationBasis to)
+        {
+            // Rows of the matrix to * transposed(from), whose quaternion Shepperd (1978) finds by its largest part.
+            Double3 x = Column(from, to, 0);
+            Double3 y = Column(from, to, 1);
+            Double3 z = Column(from, to, 2);
+            double trace = x.X + y.Y + z.Z;
+            if (trace >= x.X && trace >= y.Y && trace >= z.Z)
+            {
+                return new Rotation(y.Z - z.Y, z.X - x.Z, x.Y - y.X, 1.0 + trace).Unit;
+            }
+            if (x.X >= y.Y && x.X >= z.Z)
+            {
+                return new Rotation(1.0 + x.X - y.Y - z.Z, x.Y + y.X, z.X + x.Z, y.Z - z.Y).Unit;
+            }
+            return y.Y >= z.Z
+                ? new Rotation(x.Y + y.X, 1.0 + y.Y - x.X - z.Z, y.Z + z.Y, z.X - x.Z).Unit
+                : new Rotation(z.X + x.Z, y.Z + z.Y, 1.0 + z.Z - x.X - y.Y, x.Y - y.X).Unit;
+        }
+
+        /// <summary>Where the rotation takes one coordinate axis.</summary>
+        private static Double3 Column(in RotationBasis from, in RotationBasis to, int axis) =>
+            to.first * from.first[axis] + to.second * from.second[axis] + to.third * from.third[axis];
+    }
+}

@@ -1,0 +1,152 @@
+using System;
+using System.Linq;
+using System.Runtime.InteropServices;
+using HaptoFlow.Native;
+using HaptoFlow.Tests.Support;
+using NUnit.Framework;
+
+namespace HaptoFlow.RepositoryTests
+{
+    /// <summary>Reasons for silence, the engine's health and cancelled loads, through the real library.</summary>
+    public sealed class NativeHealthTests
+    {
+        private OnnxRuntime runtime = null!;
+        private HapticModel model = null!;
+
+        [OneTimeSetUp]
+        public void Open()
+        {
+            runtime = OnnxRuntime.Open();
+            model = HapticModel.Open(RepositoryFiles.DefaultModel);
+        }
+
+        [OneTimeTearDown]
+        public void Close()
+        {
+            model.Dispose();
+            runtime.Dispose();
+        }
+
+        [Test]
+        public void EveryReasonForSilenceHasTheLibrarysName()
+        {
+            foreach (HapticSilence silence in Enum.GetValues<HapticSilence>())
+            {
+                string name = Marshal.PtrToStringUTF8(NativeMethods.SilenceName((int)silence))!;
+                Assert.That(name.Replace("HAPTOFLOW_SILENCE_", "").Replace("_", ""),
+                    Is.EqualTo(silence.ToString()).IgnoreCase);
+            }
+            Assert.That(Marshal.PtrToStringUTF8(NativeMethods.SilenceName(9)), Is.EqualTo("HAPTOFLOW_UNKNOWN_SILENCE"));
+        }
+
+        [Test]
+        public void AVoiceSaysWhyItIsSilent()
+        {
+            using HapticEngine engine = Engine(default);
+            using HapticVoice voice = engine.OpenVoice(48000.0);
+            Assert.That(After(engine, voice, default, 48000.0).Silence, Is.EqualTo(HapticSilence.Rest));
+            Assert.That(After(engine, voice, Sliding(1), 48000.0).Silence, Is.EqualTo(HapticSilence.None));
+            voice.SetMuted(true);
+            Assert.That(After(engine, voice, Sliding(1), 48000.0).Silence, Is.EqualTo(HapticSilence.Muted));
+            voice.SetMuted(false);
+            VoiceStatistics again = After(engine, voice, Sliding(1), 48000.0);
+            Assert.That(again.Silence, Is.EqualTo(HapticSilence.None));
+            Assert.That(again.Resumptions, Is.EqualTo(1UL));
+            voice.Panic();
+            Assert.That(After(engine, voice, Sliding(1), 48000.0).Silence, Is.EqualTo(HapticSilence.Panic));
+            voice.SetPaused(true);
+            Assert.That(After(engine, voice, Sliding(2), 48000.0).Silence, Is.EqualTo(HapticSilence.Paused));
+        }
+
+        [Test]
+        public void AnUnsupportedRateIsCountedAndSaid()
+        {
+            using HapticEngine engine = Engine(default);
+            using HapticVoice voice = engine.OpenVoice(48000.0);
+            VoiceStatistics good = After(engine, voice, Sliding(1), 48000.0);
+            Assert.That(good.IsRateSupported, Is.True);
+            Assert.That(good.DeviceRateHz, Is.EqualTo(48000.0));
+            VoiceStatistics bad = After(engine, voice, Sliding(1), 384000.0);
+            Assert.That(bad.IsRateSupported, Is.False);
+            Assert.That(bad.Silence, Is.EqualTo(HapticSilence.Rate));
+            Assert.That(bad.UnsupportedRateBlocks, Is.GreaterThan(0UL));
+            Assert.That(bad.DeviceRateHz, Is.EqualTo(384000.0));
+        }
+
+        [Test]
+        public void AHealthyEngineSaysSo()
+        {
+            using HapticEngine engine = new HapticEngine(
+                runtime, model, new HapticEngineOptions { Quality = HapticQuality.Draft });
+            Assert.That(engine.Statistics().WorkerIsAlive, Is.True);
+            Assert.That(engine.LastFailure(), Is.Empty);
+            using HapticEngine stepped = Engine(default);
+            Assert.That(stepped.Statistics().WorkerIsAlive, Is.True);
+        }
+
+        [Test]
+        public void ACancelledLoadEndsWithThatStatusForEnginesAndGenerators()
+        {
+            using var cancellation = new HapticCancellation();
+            using (Engine(cancellation))
+            {
+                // Not cancelled, it changes nothing.
+            }
+            cancellation.Cancel();
+            cancellation.Cancel();
+            Assert.That(Assert.Throws<HaptoFlowException>(() => Engine(cancellation))!.Status,
+                Is.EqualTo(HaptoFlowStatus.Cancelled));
+            Assert.That(Assert.Throws<HaptoFlowException>(
+                () => new HapticGenerator(runtime, model, null, cancellation))!.Status,
+                Is.EqualTo(HaptoFlowStatus.Cancelled));
+        }
+
+        [Test]
+        public void AClosedCancellationIsRefused()
+        {
+            var cancellation = new HapticCancellation();
+            cancellation.Dispose();
+            cancellation.Dispose();
+            Assert.That(Assert.Throws<HaptoFlowException>(() => cancellation.Cancel())!.Status,
+                Is.EqualTo(HaptoFlowStatus.InvalidArgument));
+        }
+
+        [Test]
+        public void ATierThatIsSlowerThanTheLimitIsRefusedByName()
+        {
+            var refusal = Assert.Throws<HaptoFlowException>(() => new HapticEngine(runtime, model,
+                new HapticEngineOptions { Quality = HapticQuality.Fine, WithoutWorker = true, ProbeLimitMs = 1e-6 }));
+            Assert.That(refusal!.Status, Is.EqualTo(HaptoFlowStatus.TierTooSlow));
+            Assert.That(refusal.Message, Does.Contain("fine"));
+        }
+
+        private HapticEngine Engine(HapticCancellation? cancellation) => new HapticEngine(runtime, model,
+            new HapticEngineOptions
+            {
+                Quality = HapticQuality.Draft, WithoutWorker = true, FixedLeadMs = 8.0, Seed = 1,
+                Cancellation = cancellation,
+            });
+
+        private static ContactState Sliding(uint touch) => new ContactState
+        {
+            Touching = true,
+            TouchCounter = touch,
+            Material = LabelBlend.Of(1),
+            FirstVelocityMps = 0.05f,
+            ForceNewtons = 0.6f,
+        };
+
+        private static VoiceStatistics After(
+            HapticEngine engine, HapticVoice voice, in ContactState state, double rateHz)
+        {
+            var block = new float[512];
+            for (int count = 0; count < 10; ++count)
+            {
+                voice.Publish(state);
+                engine.Step();
+                voice.Render(block, 1, 0, rateHz);
+            }
+            return voice.Statistics();
+        }
+    }
+}

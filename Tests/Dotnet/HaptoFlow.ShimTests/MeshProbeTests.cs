@@ -1,0 +1,132 @@
+using System;
+using HaptoFlow.Tests;
+using NUnit.Framework;
+using UnityEngine;
+using UnityShim;
+
+namespace HaptoFlow.ShimTests
+{
+    /// <summary>What meshes cost, and what of them is felt.</summary>
+    public sealed class MeshProbeTests : SceneTest
+    {
+        [SetUp]
+        public void CountAnew() => RayCount.Rays = 0;
+
+        [TearDown]
+        public void FrontsOnly() => Physics.queriesHitBackfaces = false;
+
+        [Test]
+        public void AMeshBeyondReachOfItsBoundsCostsNoRay()
+        {
+            MeshBox(false);
+            HapticStylus stylus = StylusAlong(seconds => new Vector3(0.001f * (float)seconds, 0.01f, 0f));
+            World.Frames(20);
+            Assert.That(stylus.IsTouching, Is.False);
+            Assert.That(RayCount.Rays, Is.Zero);
+        }
+
+        [Test]
+        public void AConvexMeshCostsATipOutsideNoRayAndIsExact()
+        {
+            MeshBox(true);
+            HapticStylus stylus = StylusAlong(seconds => new Vector3(0.02f * (float)seconds, 0.001f, 0f));
+            World.Frames(20);
+            Assert.That(stylus.IsTouching, Is.True);
+            Assert.That(stylus.Contact.PenetrationMetres, Is.EqualTo(0.001f).Within(1e-5f));
+            Assert.That(Vector3.Dot(stylus.Contact.Normal, Vector3.up), Is.EqualTo(1f).Within(1e-4f));
+            Assert.That(RayCount.Rays, Is.Zero);
+        }
+
+        [Test]
+        public void AConvexMeshIsFeltWhereItIsDrawnNotWhereTheLastStepHadIt()
+        {
+            HapticSurface box = MeshBox(true);
+            HapticStylus stylus = StylusAlong(_ => new Vector3(0f, 0.001f, 0f));
+            World.Frames(5);
+            box.transform.position += new Vector3(0f, -0.0005f, 0f);
+            World.Frame(0.001);
+            Assert.That(stylus.Contact.PenetrationMetres, Is.EqualTo(0.0005f).Within(1e-5f));
+        }
+
+        [Test]
+        public void AConvexMeshIsFeltAroundItsEdgeAndInsideIt()
+        {
+            MeshBox(true);
+            HapticStylus stylus = StylusAlong(seconds => seconds < 0.2
+                ? new Vector3(0.1f + 0.001f, 0.001f, 0f)
+                : new Vector3(0f, Math.Max(-0.004f, 0.001f - 0.02f * (float)(seconds - 0.2)), 0f));
+            World.Frames(10);
+            Vector3 corner = new Vector3(1f, 1f, 0f).normalized;
+            Assert.That(Vector3.Dot(stylus.Contact.Normal, corner), Is.EqualTo(1f).Within(1e-3f));
+            stylus.ForgetMotion();
+            World.Frames(60);
+            Assert.That(stylus.IsTouching, Is.True);
+            Assert.That(stylus.Contact.PenetrationMetres, Is.EqualTo(0.006f).Within(1e-4f));
+            Assert.That(Vector3.Dot(stylus.Contact.Normal, Vector3.up), Is.EqualTo(1f).Within(1e-3f));
+        }
+
+        [Test]
+        public void AFlatMeshIsFeltThroughToFifteenMillimetresBehindItOnceItWasTouched()
+        {
+            Sheet();
+            HapticStylus stylus = StylusAlong(seconds =>
+                new Vector3(0f, Math.Max(-0.015f, 0.01f - 0.05f * (float)seconds), 0f));
+            World.Frames(90);
+            Assert.That(stylus.IsTouching, Is.True);
+            Assert.That(stylus.Contact.PenetrationMetres, Is.EqualTo(0.017f).Within(1e-4f));
+        }
+
+        [Test]
+        public void ATipThatCrossesAFlatMeshWithinOneFrameIsStillMet()
+        {
+            Sheet();
+            HapticStylus stylus = StylusAlong(seconds => new Vector3(0f, seconds < 0.1 ? 0.006f : -0.006f, 0f));
+            World.Frames(20);
+            Assert.That(stylus.IsTouching, Is.True);
+        }
+
+        [TestCase(false)]
+        [TestCase(true)]
+        public void WhetherQueriesHitBackFacesChangesNothing(bool hitsBacks)
+        {
+            Physics.queriesHitBackfaces = hitsBacks;
+            Sheet();
+            HapticStylus below = StylusAlong(seconds => new Vector3(0.01f * (float)seconds, -0.001f - 0.02f, 0f));
+            HapticStylus rising = StylusAlong(seconds =>
+                new Vector3(0f, Math.Min(-0.0022f, -0.03f + 0.05f * (float)seconds), 0f));
+            HapticStylus above = StylusAlong(seconds => new Vector3(0.01f * (float)seconds, 0.001f, 0f));
+            World.Frames(90);
+            Assert.That(above.Contact.PenetrationMetres, Is.EqualTo(0.001f).Within(1e-5f));
+            Assert.That(Vector3.Dot(above.Contact.Normal, Vector3.up), Is.EqualTo(1f).Within(1e-4f));
+            Assert.That(below.IsTouching, Is.False);
+            Assert.That(rising.IsTouching && Vector3.Dot(rising.Contact.Normal, Vector3.up) < 0f, Is.False,
+                "a back must not push downwards");
+            Assert.That(Physics.queriesHitBackfaces, Is.EqualTo(hitsBacks), "the project's setting is left as it was");
+        }
+
+        /// <summary>A closed box of 20 cm whose top is the plane y = 0.</summary>
+        private HapticSurface MeshBox(bool convex)
+        {
+            HapticSurface box = Tagged<MeshCollider>("wood", mesh =>
+            {
+                mesh.sharedMesh = TestMeshes.Box(0.2f);
+                mesh.convex = convex;
+            });
+            box.transform.position = new Vector3(0f, -0.1f, 0f);
+            Physics.SyncTransforms();
+            return box;
+        }
+
+        /// <summary>A square of 20 cm in the plane y = 0, its front upwards, as Unity's plane is.</summary>
+        private void Sheet()
+        {
+            var corners = new[]
+            {
+                new Vector3(-0.1f, 0f, -0.1f), new Vector3(-0.1f, 0f, 0.1f),
+                new Vector3(0.1f, 0f, 0.1f), new Vector3(0.1f, 0f, -0.1f),
+            };
+            Tagged<MeshCollider>("wood", mesh =>
+                mesh.sharedMesh = new Mesh { vertices = corners, triangles = new[] { 0, 1, 2, 0, 2, 3 } });
+        }
+    }
+}

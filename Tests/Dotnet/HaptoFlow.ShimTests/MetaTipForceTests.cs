@@ -1,0 +1,99 @@
+using System.Linq;
+using HaptoFlow.Tests;
+using NUnit.Framework;
+using UnityEngine;
+using UnityShim;
+
+namespace HaptoFlow.ShimTests
+{
+    /// <summary>Meta's SDK logs an error for every call that fails: it is asked only where it can answer.</summary>
+    public sealed class MetaTipForceTests : SceneTest
+    {
+        private MetaActionTipForce source = null!;
+
+        [SetUp]
+        public void PressAPen()
+        {
+            OVRPlugin.Reset();
+            HapticSurface board = Board();
+            board.Material.StiffnessNewtonsPerMetre = 700f;
+            HapticStylus stylus = StylusAlong(_ => new Vector3(0f, 0.001f, 0f));
+            source = stylus.gameObject.AddComponent<MetaActionTipForce>();
+            stylus.Force = source;
+        }
+
+        [TearDown]
+        public void PutThePenAway() => OVRPlugin.Reset();
+
+        [Test]
+        public void AMissingActionIsAskedForOnceAndNamedOnce()
+        {
+            World.Frames(90);
+            Assert.That(OVRPlugin.Calls, Is.EqualTo(1));
+            Assert.That(Said(LogType.Error, "GetActionStateFloat"), Is.EqualTo(1));
+            Assert.That(Said(LogType.Warning, "\"tip\""), Is.EqualTo(1));
+        }
+
+        [Test]
+        public void WithoutASessionNothingIsAsked()
+        {
+            OVRPlugin.hasInputFocus = false;
+            OVRPlugin.Tip = 0.4f;
+            World.Frames(90);
+            Assert.That(OVRPlugin.Calls, Is.Zero);
+            Assert.That(Said(LogType.Error, ""), Is.Zero);
+            OVRPlugin.hasInputFocus = true;
+            World.Frames(2);
+            Assert.That(source.TryRead(out float newtons), Is.True);
+            Assert.That(newtons, Is.EqualTo(0.4f).Within(1e-6f));
+        }
+
+        [Test]
+        public void ASessionThatComesBackIsAskedAgain()
+        {
+            World.Frames(10);
+            OVRPlugin.Tip = 0.4f;
+            World.Frames(10);
+            Assert.That(source.TryRead(out _), Is.False, "nothing has changed that it could know of");
+            OVRPlugin.hasInputFocus = false;
+            World.Frames(2);
+            OVRPlugin.hasInputFocus = true;
+            World.Frames(2);
+            Assert.That(source.TryRead(out _), Is.True);
+            Assert.That(Said(LogType.Error, ""), Is.EqualTo(1));
+        }
+
+        [Test]
+        public void APenThatConnectsIsAskedAgain()
+        {
+            World.Frames(10);
+            OVRPlugin.Tip = 0.4f;
+            OVRPlugin.Connected = OVRPlugin.Controller.LTouch | OVRPlugin.Controller.RTouch;
+            World.Frames(2);
+            Assert.That(source.TryRead(out _), Is.True);
+        }
+
+        [Test]
+        public void ANewActionNameAndAComponentSwitchedOnAgainAreAsked()
+        {
+            World.Frames(10);
+            OVRPlugin.Tip = 0.4f;
+            OVRPlugin.BoundAction = "force";
+            source.Action = "force";
+            World.Frames(2);
+            Assert.That(source.TryRead(out _), Is.True);
+            OVRPlugin.BoundAction = "tip";
+            World.Frames(2);
+            OVRPlugin.BoundAction = "force";
+            World.Frames(2);
+            Assert.That(source.TryRead(out _), Is.False);
+            source.enabled = false;
+            source.enabled = true;
+            World.Frames(2);
+            Assert.That(source.TryRead(out _), Is.True);
+        }
+
+        private static int Said(LogType type, string part) =>
+            Log.Lines.Count(line => line.Type == type && line.Text.Contains(part));
+    }
+}

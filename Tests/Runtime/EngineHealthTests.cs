@@ -1,0 +1,74 @@
+#nullable enable
+using System.Collections;
+using System.Linq;
+using NUnit.Framework;
+using UnityEngine;
+using UnityEngine.TestTools;
+
+namespace HaptoFlow.Tests
+{
+    /// <summary>What the running scene learns of its engine's health.</summary>
+    public sealed class EngineHealthTests : SceneTest
+    {
+        [Test]
+        public void AWorkerThatEndedIsToldOnceWithItsFailure()
+        {
+            var health = new EngineHealth();
+            // Statistics as they are before the library fills them: nobody is alive.
+            Assert.That(health.Judge(default, "the graph of tier draft failed"),
+                Does.Contain("(the graph of tier draft failed)").And.Contain("Haptics.Restart"));
+            Assert.That(health.Judge(default, "again"), Is.Null);
+            Assert.That(new EngineHealth().Judge(default, ""), Does.Not.Contain("("));
+        }
+
+        [UnityTest]
+        public IEnumerator AHealthyEngineIsToldOfNeverAndHasNoFailure()
+        {
+            FinishLoading();
+            Board();
+            Output(out _);
+            HapticStylus stylus = StylusAlong(seconds => new Vector3(0.05f * (float)seconds, 0.001f, 0f));
+            for (int frame = 0; frame < 200; ++frame)
+            {
+                yield return null;
+            }
+            Assert.That(Haptics.Problem, Is.Null);
+            Assert.That(Haptics.LastFailure, Is.Empty);
+            stylus.TryGetStatistics(out VoiceStatistics statistics);
+            Assert.That(statistics.Silence, Is.EqualTo(HapticSilence.None));
+        }
+
+        [UnityTest]
+        public IEnumerator AQualityWhoseTierIsNotLoadedIsLoadedBesideTheFrames()
+        {
+            FinishLoading();
+            HapticEngine engine = HapticSession.Current.Engine!;
+            uint draft = engine.Statistics().Tier;
+            Haptics.SetQuality(HapticQuality.Standard);
+            Haptics.SetQuality(HapticQuality.Fine);
+            HapticSession.Current.FinishQualityChange();
+            engine.Step();
+            yield return null;
+            int fine = HaptoFlowSettings.Active.Model!.Header.Tiers.ToList().FindIndex(tier => tier.Name == "fine");
+            Assert.That(engine.Statistics().Tier, Is.Not.EqualTo(draft).And.EqualTo((uint)fine));
+            Assert.That(HaptoFlowSettings.Active.Quality, Is.EqualTo(HapticQuality.Fine));
+        }
+
+        [UnityTest]
+        public IEnumerator ALoadingThatIsShutDownEndsWithoutAnError()
+        {
+            HaptoFlowSettings.Active.Quality = HapticQuality.Auto;
+            HapticSession loading = HapticSession.Current;
+            HapticSession.ShutDown();
+            loading.FinishLoading();
+            Assert.That(loading.Engine, Is.Null);
+            Assert.That(loading.Problem, Is.Null);
+            Assert.That(HapticSession.Existing, Is.Null);
+            FinishLoading();
+            Assert.That(Haptics.IsReady, Is.True, "the next one loads");
+            Haptics.SetQuality(HapticQuality.Draft);
+            Haptics.Restart();
+            yield return null;
+        }
+    }
+}

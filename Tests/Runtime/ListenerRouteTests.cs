@@ -1,0 +1,109 @@
+#nullable enable
+using System;
+using System.Collections;
+using System.Text.RegularExpressions;
+using NUnit.Framework;
+using UnityEngine;
+using UnityEngine.TestTools;
+
+namespace HaptoFlow.Tests
+{
+    /// <summary>What haptics and the rest of a game's sound do to each other.</summary>
+    public sealed class ListenerRouteTests : SceneTest
+    {
+        private const float Audible = 0.001f;
+
+        [UnityTest]
+        public IEnumerator AListenerChannelWithoutAChannelLeavesTheGamesSoundAloneAndSaysSo()
+        {
+            FinishLoading();
+            LogAssert.Expect(LogType.Error, new Regex("Ears is silent: .*Choose a channel"));
+            AudioTap tap = Ears(out HapticOutput output);
+            Board();
+            Circling().Output = output;
+            yield return Frames(40);
+            Assert.That(tap.Blocks, Is.GreaterThan(0));
+            Assert.That(tap.Peak(0), Is.EqualTo(0.25f).Within(1e-6f));
+            Assert.That(tap.Peak(1), Is.EqualTo(0.25f).Within(1e-6f));
+            output.Channel = 1;
+            yield return Frames(5);
+            tap.Restart();
+            yield return Frames(40);
+            Assert.That(tap.Peak(0), Is.EqualTo(0.25f).Within(1e-6f));
+            Assert.That(tap.Peak(1), Is.Not.EqualTo(0.25f).Within(1e-6f), "the haptics have their channel");
+        }
+
+        [UnityTest]
+        public IEnumerator TakingTheChannelAwayFromARunningListenerChannelIsRefusedToo()
+        {
+            FinishLoading();
+            LogAssert.Expect(LogType.Error, new Regex("Ears is silent"));
+            AudioTap tap = Ears(out HapticOutput output);
+            output.Channel = 1;
+            yield return Frames(10);
+            output.Channel = HapticVoice.AllChannels;
+            yield return Frames(5);
+            tap.Restart();
+            yield return Frames(10);
+            Assert.That(tap.Peak(0), Is.EqualTo(0.25f).Within(1e-6f));
+            Assert.That(tap.Peak(1), Is.EqualTo(0.25f).Within(1e-6f));
+        }
+
+        [UnityTest]
+        public IEnumerator APausedListenerAtVolumeZeroLeavesWhatIsFelt()
+        {
+            FinishLoading();
+            Board();
+            AudioTap tap = Output(out HapticOutput output);
+            Circling();
+            yield return null;
+            AudioListener.pause = true;
+            AudioListener.volume = 0f;
+            yield return Frames(40);
+            Assert.That(tap.Blocks, Is.GreaterThan(0));
+            Assert.That(tap.Peak(), Is.GreaterThan(Audible));
+            Assert.That(output.GetComponent<AudioSource>().ignoreListenerVolume, Is.True);
+            output.ObeyListener = true;
+            yield return null;
+            tap.Restart();
+            yield return Frames(10);
+            Assert.That(tap.Blocks, Is.Zero, "asked to obey, the source pauses with the listener");
+            Assert.That(output.GetComponent<AudioSource>().ignoreListenerVolume, Is.False);
+            AudioListener.pause = false;
+            AudioListener.volume = 1f;
+        }
+
+        private AudioTap Ears(out HapticOutput output)
+        {
+            GameObject listener = Make("Ears");
+            listener.AddComponent<AudioSource>();
+            listener.AddComponent<Hum>();
+            output = listener.AddComponent<HapticOutput>();
+            output.Route = OutputRoute.ListenerChannel;
+            return listener.AddComponent<AudioTap>();
+        }
+
+        private static IEnumerator Frames(int count)
+        {
+            for (int frame = 0; frame < count; ++frame)
+            {
+                yield return null;
+            }
+        }
+
+        private HapticStylus Circling() => StylusAlong(seconds => new Vector3(
+            0.05f * (float)Math.Cos(4.0 * seconds), 0.001f, 0.05f * (float)Math.Sin(4.0 * seconds)));
+
+        /// <summary>What other sources would play, on every channel.</summary>
+        private sealed class Hum : MonoBehaviour
+        {
+            private void OnAudioFilterRead(float[] data, int channels)
+            {
+                for (int index = 0; index < data.Length; ++index)
+                {
+                    data[index] = 0.25f;
+                }
+            }
+        }
+    }
+}

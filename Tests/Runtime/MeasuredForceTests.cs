@@ -1,0 +1,228 @@
+#nullable enable
+using System;
+using System.Collections;
+using NUnit.Framework;
+using UnityEngine;
+using UnityEngine.TestTools;
+
+namespace HaptoFlow.Tests
+{
+    /// <summary>A pen on a real object under a virtual one: its force decides, not some millimetres of tracking.
+    /// </summary>
+    public sealed class MeasuredForceTests : SceneTest
+    {
+        private const float Audible = 0.001f;
+
+        private FixedForce force = null!;
+
+        [UnityTest]
+        public IEnumerator APressingPenTouchesTheSurfaceThatIsMillimetresAwayAndSlidesOverIt()
+        {
+            FinishLoading();
+            HapticSurface board = Board();
+            AudioTap tap = Output(out _);
+            HapticStylus stylus = Pen(seconds => new Vector3(0.1f * (float)seconds - 0.1f, 0.009f, 0f));
+            force.ForceNewtons = 1.25f;
+            yield return Frames(60);
+            Assert.That(stylus.IsTouching, Is.True);
+            Assert.That(stylus.Contact.Surface, Is.SameAs(board));
+            Assert.That(stylus.Contact.ForceNewtons, Is.EqualTo(1.25f).Within(1e-6f));
+            Assert.That(stylus.Contact.FirstVelocityMps, Is.EqualTo(0.1f).Within(0.01f));
+            Assert.That(tap.Peak(), Is.GreaterThan(Audible));
+        }
+
+        [UnityTest]
+        public IEnumerator APenBelowTheVirtualSurfaceTouchesToo()
+        {
+            Board();
+            HapticStylus stylus = Pen(_ => new Vector3(0f, -0.008f, 0f));
+            force.ForceNewtons = 0.5f;
+            yield return Frames(3);
+            Assert.That(stylus.IsTouching, Is.True);
+            Assert.That(stylus.Contact.ForceNewtons, Is.EqualTo(0.5f).Within(1e-6f));
+        }
+
+        [UnityTest]
+        public IEnumerator APenInTheAirTouchesNothingAlsoInsideAVirtualObject()
+        {
+            Board();
+            HapticStylus stylus = Pen(_ => new Vector3(0f, -0.002f, 0f));
+            force.ForceNewtons = 0f;
+            yield return Frames(5);
+            Assert.That(stylus.IsTouching, Is.False);
+            stylus.TouchBy = TouchDecision.Geometry;
+            yield return Frames(2);
+            Assert.That(stylus.IsTouching, Is.True);
+            stylus.TouchBy = TouchDecision.MeasuredForce;
+            yield return Frames(1);
+            Assert.That(stylus.IsTouching, Is.False);
+        }
+
+        [UnityTest]
+        public IEnumerator APenThatPressesFarFromEverySurfaceTouchesNothing()
+        {
+            Board();
+            HapticStylus stylus = Pen(_ => new Vector3(0f, 0.03f, 0f));
+            force.ForceNewtons = 2f;
+            yield return Frames(5);
+            Assert.That(stylus.IsTouching, Is.False);
+            stylus.ForceDecision.NearMetres = 0.035f;
+            yield return Frames(2);
+            Assert.That(stylus.IsTouching, Is.True);
+        }
+
+        [UnityTest]
+        public IEnumerator LiftingOffEndsTheTouchInTheSameFrameAndPressingAgainIsANewOne()
+        {
+            Board();
+            HapticStylus stylus = Pen(_ => new Vector3(0f, 0.006f, 0f));
+            var log = new TouchLog(stylus);
+            force.ForceNewtons = 1f;
+            yield return Frames(3);
+            force.ForceNewtons = 0.01f;
+            yield return Frames(1);
+            Assert.That(log.Ended, Is.EqualTo(1));
+            force.ForceNewtons = 1f;
+            yield return Frames(1);
+            Assert.That(log.Began, Is.EqualTo(2));
+            Assert.That(stylus.Contact.TouchCounter, Is.EqualTo(2u));
+        }
+
+        [UnityTest]
+        public IEnumerator TrackingErrorsOfMillimetresLeaveOneTouch()
+        {
+            Board();
+            var random = new System.Random(11);
+            HapticStylus stylus = Pen(seconds => new Vector3(
+                0.05f * (float)seconds, 0.006f * (float)(2.0 * random.NextDouble() - 1.0), 0f));
+            var log = new TouchLog(stylus);
+            force.ForceNewtons = 0.8f;
+            yield return Frames(90);
+            Assert.That(log.Began, Is.EqualTo(1));
+            Assert.That(log.Ended, Is.Zero);
+        }
+
+        [UnityTest]
+        public IEnumerator SlidingFromOneSurfaceToTheNextIsOneTouchThatTellsOfTheChange()
+        {
+            HapticSurface left = Board("wood");
+            HapticSurface right = Board("fur");
+            left.transform.position = new Vector3(-0.2f, 0f, 0f);
+            right.transform.position = new Vector3(0.2f, 0f, 0f);
+            HapticStylus stylus = Pen(seconds => new Vector3(0.2f * (float)seconds - 0.1f, 0.005f, 0f));
+            var log = new TouchLog(stylus);
+            int changes = 0;
+            HapticSurface? to = null;
+            stylus.SurfaceChanged += (HapticStylus _, in HapticContact contact) =>
+            {
+                ++changes;
+                to = contact.Surface;
+            };
+            force.ForceNewtons = 0.8f;
+            yield return Frames(90);
+            Assert.That(log.Began, Is.EqualTo(1));
+            Assert.That(changes, Is.EqualTo(1));
+            Assert.That(to, Is.SameAs(right));
+        }
+
+        [UnityTest]
+        public IEnumerator AShortDropoutIsBridgedAndALongOneLeavesItToGeometry()
+        {
+            Board();
+            HapticStylus stylus = Pen(_ => new Vector3(0f, 0.006f, 0f));
+            force.ForceNewtons = 1f;
+            yield return Frames(5);
+            force.HasNews = false;
+            yield return Frames(2);
+            Assert.That(stylus.IsTouching, Is.True);
+            Assert.That(stylus.Contact.ForceNewtons, Is.EqualTo(1f).Within(1e-6f));
+            yield return Frames(20);
+            Assert.That(stylus.IsTouching, Is.False, "by geometry it is 4 mm above");
+            force.HasNews = true;
+            yield return Frames(1);
+            Assert.That(stylus.IsTouching, Is.True);
+        }
+
+        [UnityTest]
+        public IEnumerator ABrokenForceIsNeverFelt()
+        {
+            Board();
+            HapticStylus stylus = Pen(_ => new Vector3(0f, 0.006f, 0f));
+            force.ForceNewtons = float.NaN;
+            yield return Frames(5);
+            Assert.That(stylus.IsTouching, Is.False);
+            force.ForceNewtons = 1f;
+            yield return Frames(2);
+            force.ForceNewtons = float.NaN;
+            yield return Frames(2);
+            Assert.That(stylus.Contact.ForceNewtons, Is.EqualTo(1f).Within(1e-6f));
+            force.ForceNewtons = float.PositiveInfinity;
+            yield return Frames(20);
+            Assert.That(stylus.IsTouching, Is.False);
+        }
+
+        [UnityTest]
+        public IEnumerator WithoutAForceSourceGeometryDecides()
+        {
+            Board();
+            HapticStylus stylus = StylusAlong(_ => new Vector3(0f, 0.001f, 0f));
+            stylus.TouchBy = TouchDecision.MeasuredForce;
+            yield return Frames(3);
+            Assert.That(stylus.IsTouching, Is.True);
+            Assert.That(stylus.Contact.PenetrationMetres, Is.EqualTo(0.001f).Within(1e-5f));
+        }
+
+        [UnityTest]
+        public IEnumerator ThresholdsChangedWhileItRunsCountAtOnceAndImpossibleOnesAreMadePossible()
+        {
+            Board();
+            HapticStylus stylus = Pen(_ => new Vector3(0f, 0.006f, 0f));
+            force.ForceNewtons = 0.3f;
+            yield return Frames(2);
+            Assert.That(stylus.IsTouching, Is.True);
+            stylus.ForceDecision.PressNewtons = 0.5f;
+            stylus.ForceDecision.ReleaseNewtons = 5f;
+            yield return Frames(2);
+            Assert.That(stylus.IsTouching, Is.False);
+            force.ForceNewtons = 0.5f;
+            yield return Frames(2);
+            Assert.That(stylus.IsTouching, Is.True);
+            force.ForceNewtons = 0.46f;
+            yield return Frames(2);
+            Assert.That(stylus.IsTouching, Is.True);
+            force.ForceNewtons = 0.44f;
+            yield return Frames(2);
+            Assert.That(stylus.IsTouching, Is.False);
+        }
+
+        [UnityTest]
+        public IEnumerator MeshesAreTouchedByForceToo()
+        {
+            HapticSurface box = Tagged<MeshCollider>("wood", mesh => mesh.sharedMesh = TestMeshes.Box(0.2f));
+            box.transform.position = new Vector3(0f, -0.1f, 0f);
+            Physics.SyncTransforms();
+            HapticStylus stylus = Pen(_ => new Vector3(0f, 0.01f, 0f));
+            force.ForceNewtons = 0.5f;
+            yield return Frames(3);
+            Assert.That(stylus.IsTouching, Is.True);
+            Assert.That(Vector3.Dot(stylus.Contact.Normal, Vector3.up), Is.EqualTo(1f).Within(1e-4f));
+        }
+
+        private static IEnumerator Frames(int count)
+        {
+            for (int frame = 0; frame < count; ++frame)
+            {
+                yield return null;
+            }
+        }
+
+        private HapticStylus Pen(Func<double, Vector3> path)
+        {
+            HapticStylus stylus = StylusAlong(path);
+            force = stylus.gameObject.AddComponent<FixedForce>();
+            stylus.Force = force;
+            stylus.TouchBy = TouchDecision.MeasuredForce;
+            return stylus;
+        }
+    }
+}

@@ -1,0 +1,144 @@
+#nullable enable
+using System;
+using System.Collections;
+using System.Linq;
+using NUnit.Framework;
+using UnityEngine;
+using UnityEngine.TestTools;
+using Object = UnityEngine.Object;
+
+namespace HaptoFlow.Tests
+{
+    /// <summary>Which output a stylus plays on when outputs come, go and are switched off.</summary>
+    public sealed class SceneOutputsTests : SceneTest
+    {
+        private const float Audible = 0.001f;
+
+        [UnityTest]
+        public IEnumerator AnAuthorsOutputThatAppearsTakesOverFromTheOneThatWasMade()
+        {
+            FinishLoading();
+            Board();
+            HapticStylus stylus = Circling();
+            yield return Frames(30);
+            Assert.That(Outputs(), Has.Length.EqualTo(1), "one was made");
+            AudioTap tap = Output(out HapticOutput authors);
+            yield return Frames(40);
+            Assert.That(tap.Peak(), Is.GreaterThan(Audible));
+            Assert.That(Outputs(), Is.EqualTo(new[] { authors }), "the one that was made is gone");
+            Assert.That(stylus.TryGetStatistics(out _), Is.True);
+        }
+
+        [UnityTest]
+        public IEnumerator AnOutputThatWasMadeDoesNotOutliveItsScene()
+        {
+            FinishLoading();
+            Board();
+            Circling();
+            yield return Frames(5);
+            Assert.That(Outputs(), Has.Length.EqualTo(1));
+#if HAPTOFLOW_OUTSIDE_UNITY
+            UnityShim.World.LoadEmptyScene();
+            Assert.That(Outputs(), Is.Empty);
+#endif
+        }
+
+        [UnityTest]
+        public IEnumerator TheAssignedOutputSwitchedOffIsSilenceAndNoOtherIsMade()
+        {
+            FinishLoading();
+            Board();
+            AudioTap tap = Output(out HapticOutput output);
+            HapticStylus stylus = Circling();
+            stylus.Output = output;
+            yield return Frames(40);
+            Assert.That(tap.Peak(), Is.GreaterThan(Audible));
+            output.enabled = false;
+            yield return Frames(10);
+            Assert.That(Outputs(), Is.EqualTo(new[] { output }));
+            Assert.That(stylus.TryGetStatistics(out _), Is.False, "a stylus that cannot be heard has no voice");
+            output.enabled = true;
+            tap.Restart();
+            yield return Frames(40);
+            Assert.That(tap.Peak(), Is.GreaterThan(Audible));
+        }
+
+        [UnityTest]
+        public IEnumerator TheScenesOnlyOutputSwitchedOffIsSilenceAndNoOtherIsMade()
+        {
+            FinishLoading();
+            Board();
+            Output(out HapticOutput output);
+            Circling();
+            yield return Frames(5);
+            output.enabled = false;
+            yield return Frames(5);
+            Assert.That(Outputs(), Is.EqualTo(new[] { output }));
+        }
+
+        [UnityTest]
+        public IEnumerator AnOutputOnAnInactiveObjectIsSilenceUntilItIsActive()
+        {
+            FinishLoading();
+            Board();
+            GameObject owner = Make("Sleeping");
+            owner.SetActive(false);
+            var output = owner.AddComponent<HapticOutput>();
+            HapticStylus stylus = Circling();
+            yield return Frames(5);
+            Assert.That(Outputs(), Is.EqualTo(new[] { output }));
+            Assert.That(stylus.TryGetStatistics(out _), Is.False);
+            owner.SetActive(true);
+            yield return Frames(5);
+            Assert.That(stylus.TryGetStatistics(out _), Is.True);
+        }
+
+        [UnityTest]
+        public IEnumerator ADestroyedOutputIsReplacedByOneThatIsMade()
+        {
+            FinishLoading();
+            Board();
+            Output(out HapticOutput output);
+            HapticStylus stylus = Circling();
+            stylus.Output = output;
+            yield return Frames(5);
+            output.enabled = false;
+            yield return Frames(2);
+            Object.DestroyImmediate(output.gameObject);
+            yield return Frames(5);
+            Assert.That(Outputs(), Has.Length.EqualTo(1));
+            Assert.That(stylus.TryGetStatistics(out _), Is.True);
+        }
+
+        [UnityTest]
+        public IEnumerator AnAuthorsOutputThatWakesSwitchedOffSilencesTheOneThatWasMade()
+        {
+            FinishLoading();
+            Board();
+            HapticStylus stylus = Circling();
+            yield return Frames(5);
+            GameObject owner = Make("Late");
+            owner.SetActive(false);
+            var late = owner.AddComponent<HapticOutput>();
+            late.enabled = false;
+            owner.SetActive(true);
+            yield return Frames(5);
+            Assert.That(Outputs(), Is.EqualTo(new[] { late }));
+            Assert.That(stylus.TryGetStatistics(out _), Is.False);
+        }
+
+        private static HapticOutput[] Outputs() => Object.FindObjectsByType<HapticOutput>(
+            FindObjectsInactive.Include, FindObjectsSortMode.None).ToArray();
+
+        private static IEnumerator Frames(int count)
+        {
+            for (int frame = 0; frame < count; ++frame)
+            {
+                yield return null;
+            }
+        }
+
+        private HapticStylus Circling() => StylusAlong(seconds => new Vector3(
+            0.05f * (float)Math.Cos(4.0 * seconds), 0.001f, 0.05f * (float)Math.Sin(4.0 * seconds)));
+    }
+}

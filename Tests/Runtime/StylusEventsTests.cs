@@ -1,0 +1,57 @@
+#nullable enable
+using System.Collections;
+using System.Collections.Generic;
+using NUnit.Framework;
+using UnityEngine;
+using UnityEngine.TestTools;
+
+namespace HaptoFlow.Tests
+{
+    /// <summary>UnityEvents tell what the C# events tell.</summary>
+    public sealed class StylusEventsTests : SceneTest
+    {
+        [UnityTest]
+        public IEnumerator TheInspectorsEventsTellOfASlideOverTwoSurfacesAndOfItsEnd()
+        {
+            HapticSurface left = Board("wood");
+            HapticSurface right = Board("fur");
+            left.transform.position = new Vector3(-0.2f, 0f, 0f);
+            right.transform.position = new Vector3(0.2f, 0f, 0f);
+            HapticStylus stylus = StylusAlong(seconds => new Vector3(
+                0.4f * (float)seconds - 0.1f, seconds < 0.5 ? 0.0005f : 0.1f, 0f));
+            var told = new List<string>();
+            int moved = 0;
+            stylus.Events.TouchBegan.AddListener(surface => told.Add("began " + surface.name));
+            stylus.Events.SurfaceChanged.AddListener(surface => told.Add("changed " + surface.name));
+            stylus.Events.TouchEnded.AddListener(surface => told.Add("ended " + surface.name));
+            stylus.Events.TouchMoved.AddListener(_ => ++moved);
+            var log = new TouchLog(stylus);
+            for (int frame = 0; frame < 60; ++frame)
+            {
+                yield return null;
+            }
+            Assert.That(told, Is.EqualTo(new[] { "began wood", "changed fur", "ended fur" }));
+            Assert.That(moved, Is.EqualTo(log.Moved).And.GreaterThan(20));
+        }
+
+        [UnityTest]
+        public IEnumerator AHandlerThatSwitchesTheStylusOffHearsNoMoreOfThatTouchButItsEnd()
+        {
+            Board();
+            HapticStylus stylus = StylusAlong(_ => new Vector3(0f, 0.001f, 0f));
+            var told = new List<string>();
+            stylus.Events.TouchBegan.AddListener(_ =>
+            {
+                told.Add("began");
+                stylus.enabled = false;
+            });
+            stylus.Events.TouchMoved.AddListener(_ => told.Add("moved"));
+            stylus.Events.TouchEnded.AddListener(_ => told.Add("ended"));
+            for (int frame = 0; frame < 5; ++frame)
+            {
+                yield return null;
+            }
+            Assert.That(told, Is.EqualTo(new[] { "began", "ended" }));
+        }
+    }
+}

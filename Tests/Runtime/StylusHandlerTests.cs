@@ -1,0 +1,89 @@
+#nullable enable
+using System.Collections;
+using NUnit.Framework;
+using UnityEngine;
+using UnityEngine.TestTools;
+
+namespace HaptoFlow.Tests
+{
+    /// <summary>Handlers that do the unexpected while a stylus tells of a touch.</summary>
+    public sealed class StylusHandlerTests : SceneTest
+    {
+        [UnityTest]
+        public IEnumerator AStylusThatIsSwitchedOffByItsFirstTouchLeavesNoVoiceBehind()
+        {
+            FinishLoading();
+            Board();
+            Output(out _);
+            HapticStylus stylus = Pressing();
+            stylus.TouchBegan += (HapticStylus sender, in HapticContact _) => sender.enabled = false;
+            yield return null;
+            yield return null;
+            Assert.That(stylus.enabled, Is.False);
+            Assert.That(Voices(), Is.Zero);
+            Assert.That(stylus.IsTouching, Is.False);
+        }
+
+        [UnityTest]
+        public IEnumerator AStylusThatIsDestroyedByItsFirstTouchLeavesNoVoiceBehind()
+        {
+            FinishLoading();
+            Board();
+            Output(out _);
+            HapticStylus stylus = Pressing();
+            yield return null;
+            stylus.TouchMoved += (HapticStylus sender, in HapticContact _) => Object.DestroyImmediate(sender);
+            yield return null;
+            yield return null;
+            Assert.That(Voices(), Is.Zero);
+        }
+
+        [UnityTest]
+        public IEnumerator AStylusThatIsSwitchedOffAndOnByAHandlerStartsAnew()
+        {
+            FinishLoading();
+            Board();
+            Output(out _);
+            HapticStylus stylus = Pressing();
+            var log = new TouchLog(stylus);
+            bool done = false;
+            stylus.TouchBegan += (HapticStylus sender, in HapticContact _) =>
+            {
+                if (!done)
+                {
+                    done = true;
+                    sender.enabled = false;
+                    sender.enabled = true;
+                }
+            };
+            yield return null;
+            yield return null;
+            yield return null;
+            Assert.That(log.Began, Is.EqualTo(2));
+            Assert.That(log.Ended, Is.EqualTo(1));
+            Assert.That(Voices(), Is.EqualTo(1u));
+        }
+
+        [UnityTest]
+        public IEnumerator ASurfaceThatIsDestroyedByItsFirstTouchIsNotPublished()
+        {
+            FinishLoading();
+            Board();
+            Output(out _);
+            HapticStylus stylus = Pressing();
+            stylus.TouchBegan += (HapticStylus _, in HapticContact contact) =>
+                Object.DestroyImmediate(contact.Surface.gameObject);
+            yield return null;
+            yield return null;
+            Assert.That(stylus.IsTouching, Is.False);
+            stylus.TryGetStatistics(out VoiceStatistics statistics);
+            Assert.That(statistics.Updates, Is.GreaterThan(0UL));
+            Assert.That(statistics.Onsets, Is.Zero);
+        }
+
+        private static uint Voices() =>
+            Haptics.TryGetStatistics(out EngineStatistics engine) ? engine.Voices : uint.MaxValue;
+
+        private HapticStylus Pressing() => StylusAlong(_ => new Vector3(0f, 0.001f, 0f));
+    }
+}

@@ -1,0 +1,74 @@
+#nullable enable
+using System.Collections;
+using NUnit.Framework;
+using UnityEngine;
+using UnityEngine.TestTools;
+
+namespace HaptoFlow.Tests
+{
+    /// <summary>Own and shared materials, as Renderer.material and Renderer.sharedMaterial have it.</summary>
+    public sealed class SurfaceMaterialTests : SceneTest
+    {
+        [UnityTest]
+        public IEnumerator ChangingASurfacesMaterialChangesNeitherTheAssetNorItsOtherUsers()
+        {
+            FinishLoading();
+            HapticMaterial shared = Shared();
+            HapticSurface first = Board();
+            HapticSurface second = Board();
+            first.SharedMaterial = shared;
+            second.SharedMaterial = shared;
+            LabelBlend glass = second.BlendFor(HapticSession.Current);
+            first.Material.Label = "rubber";
+            Assert.That(shared.Description.Label, Is.EqualTo("glass"));
+            Assert.That(second.BlendFor(HapticSession.Current), Is.EqualTo(glass));
+            Assert.That(first.BlendFor(HapticSession.Current), Is.Not.EqualTo(glass));
+            Assert.That(first.SharedMaterial, Is.Null);
+            yield return null;
+        }
+
+        [UnityTest]
+        public IEnumerator TheOwnCopyBeginsAsTheSharedOneIs()
+        {
+            HapticMaterial shared = Shared();
+            HapticSurface board = Board("fur");
+            board.SharedMaterial = shared;
+            MaterialDescription own = board.Material;
+            Assert.That(own, Is.Not.SameAs(shared.Description));
+            Assert.That(own.Label, Is.EqualTo("glass"));
+            Assert.That(own.SecondLabel, Is.EqualTo("stone"));
+            Assert.That(own.Blend, Is.EqualTo(0.25f));
+            Assert.That(own.StiffnessNewtonsPerMetre, Is.EqualTo(321f));
+            Assert.That(own.Strength, Is.EqualTo(0.5f));
+            Assert.That(board.Material, Is.SameAs(own), "asked again, it is the same copy");
+            yield return null;
+        }
+
+        [UnityTest]
+        public IEnumerator ReadingTheMaterialLeavesTheSurfaceItsSharedMaterial()
+        {
+            HapticMaterial shared = Shared();
+            HapticSurface board = Board();
+            board.SharedMaterial = shared;
+            HapticStylus stylus = StylusAlong(_ => new Vector3(0f, 0.001f, 0f));
+            yield return null;
+            yield return null;
+            Assert.That(stylus.IsTouching, Is.True);
+            Assert.That(board.SharedDescription, Is.SameAs(shared.Description));
+            Assert.That(board.SharedMaterial, Is.SameAs(shared));
+            board.SharedMaterial = null;
+            Assert.That(board.SharedDescription, Is.SameAs(board.Material));
+        }
+
+        private static HapticMaterial Shared()
+        {
+            var shared = ScriptableObject.CreateInstance<HapticMaterial>();
+            shared.Description.Label = "glass";
+            shared.Description.SecondLabel = "stone";
+            shared.Description.Blend = 0.25f;
+            shared.Description.StiffnessNewtonsPerMetre = 321f;
+            shared.Description.Strength = 0.5f;
+            return shared;
+        }
+    }
+}
