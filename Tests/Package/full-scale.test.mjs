@@ -22,6 +22,7 @@ test('every language has the same default full scale as the C header', () => {
     'C#': numberIn([...runtime, 'Core', 'Native', 'HapticEngine.cs'], 'DefaultFullScaleMps2 = ([\\d.]+);'),
     Python: numberIn(['Training', 'haptoflow_training', 'evaluation', 'engine_render.py'], '\\nFULL_SCALE_MPS2 = ([\\d.]+)'),
     JavaScript: fullScaleMps2,
+    "the command line's help": numberIn(['NativePlugin', 'cli', 'render_command.cpp'], '\\+-1 in the WAV is (\\d+) m/s'),
   };
   for (const [language, value] of Object.entries(homes)) assert.equal(value, header, language);
 });
