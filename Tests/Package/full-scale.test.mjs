@@ -27,6 +27,12 @@ test('every language has the same default full scale as the C header', () => {
   for (const [language, value] of Object.entries(homes)) assert.equal(value, header, language);
 });
 
+test('the measurement counts from where the engine\'s knee begins', () => {
+  const engine = numberIn(['NativePlugin', 'src', 'dsp', 'limiter.hpp'], ' knee = ([\\d.]+)F;');
+  assert.equal(numberIn(['Training', 'haptoflow_training', 'evaluation', 'full_scale.py'], '\\nKNEE = ([\\d.]+)'), engine);
+  assert.equal(measured.knee, engine);
+});
+
 test('the pages that name the default full scale name this one', () => {
   const sentences = {
     'getting-started.md': /±1 is (\d+) m\/s²/,
