@@ -83,8 +83,9 @@ private:
         return each;
     }
     [[nodiscard]] bool succeeded(OrtStatus* status) const {
+        const bool isFine = status == nullptr;
         runtime_.api().ReleaseStatus(status);
-        return status == nullptr;
+        return isFine;
     }
 
     const Runtime& runtime_;
