@@ -62,8 +62,9 @@ nlohmann::ordered_json measure(const BenchCommandOptions& options) {
 }
 
 void runBench(const BenchCommandOptions& options) {
-    requireApart(std::array{NamedPath{"-o", options.outputPath}},
-                 std::array{NamedPath{"--model", options.modelPath}, NamedPath{"--paper-model", options.paperModelPath}});
+    requireApart(
+        std::array{NamedPath{"-o", options.outputPath}},
+        std::array{NamedPath{"--model", options.modelPath}, NamedPath{"--paper-model", options.paperModelPath}});
     // Before minutes of measuring, not after: the file must be one that can be written.
     std::optional<OutputFile> output;
     if (!options.outputPath.empty()) {

@@ -53,9 +53,8 @@ void writeName(std::ostream& output, const std::string& name) {
 }
 
 bool asksForStiffness(const contact::Scene& scene) {
-    return std::ranges::any_of(scene.surfaces, [](const contact::Surface& surface) {
-        return !surface.stiffnessNewtonsPerMetre.has_value();
-    });
+    return std::ranges::any_of(
+        scene.surfaces, [](const contact::Surface& surface) { return !surface.stiffnessNewtonsPerMetre.has_value(); });
 }
 
 void runContact(const ContactOptions& options) {

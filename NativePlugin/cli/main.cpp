@@ -20,8 +20,9 @@ std::vector<const CLI::App*> subcommandsOf(const CLI::App& app) {
 /// The subcommand that the words begin with; null where they begin with none.
 const CLI::App* subcommandIn(const CLI::App& app, const std::vector<std::string>& words) {
     const std::vector<const CLI::App*> all = subcommandsOf(app);
-    const auto found = std::ranges::find_if(
-        all, [&words](const CLI::App* subcommand) { return !words.empty() && subcommand->get_name() == words.front(); });
+    const auto found = std::ranges::find_if(all, [&words](const CLI::App* subcommand) {
+        return !words.empty() && subcommand->get_name() == words.front();
+    });
     return found == all.end() ? nullptr : *found;
 }
 

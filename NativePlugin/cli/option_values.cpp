@@ -34,8 +34,7 @@ CLI::Validator decimalBetween(double lowest, double highest, const std::string& 
 }
 
 CLI::Validator wholeBetween(std::uint64_t lowest, std::uint64_t highest, const std::string& unit) {
-    const std::string expected =
-        expectation("a whole number", std::to_string(lowest), std::to_string(highest), unit);
+    const std::string expected = expectation("a whole number", std::to_string(lowest), std::to_string(highest), unit);
     const auto check = [lowest, highest, expected](std::string& text) {
         std::uint64_t value = 0;
         const char* const end = text.data() + text.size();

@@ -3,7 +3,10 @@
 #include "exit_codes.hpp"
 
 #include <algorithm>
+#include <array>
+#include <atomic>
 #include <cerrno>
+#include <csignal>
 #include <cstdio>
 #include <fstream>
 #include <system_error>
@@ -55,6 +58,51 @@ fs::path makePartial(const fs::path& target, const fs::path& shown) {
     throw InputError(shown.string() + remedy);
 }
 
+/// Partial files of this process, for the signal that ends it: fixed in place, since a handler may not allocate. An
+/// entry counts once its flag is set.
+struct Unfinished {
+    std::atomic<bool> isUsed = false;
+    std::array<char, 4096> path{};
+};
+std::array<Unfinished, 8> unfinished;
+
+void removeUnfinished(int signal) {
+    for (Unfinished& entry : unfinished) {
+        if (entry.isUsed) {
+            std::remove(entry.path.data());
+        }
+    }
+    std::signal(signal, SIG_DFL);
+    std::raise(signal);
+}
+
+void rememberUnfinished(const fs::path& partial) {
+    const std::string path = partial.string();
+    for (Unfinished& entry : unfinished) {
+        if (!entry.isUsed && path.size() < entry.path.size()) {
+            std::copy(path.begin(), path.end(), entry.path.begin());
+            entry.path.at(path.size()) = '\0';
+            entry.isUsed = true;
+            break;
+        }
+    }
+    for (const int signal : {SIGINT, SIGTERM}) {
+        // Where somebody wants a signal ignored (nohup, a shell's background jobs), it stays ignored.
+        if (std::signal(signal, removeUnfinished) == SIG_IGN) {
+            std::signal(signal, SIG_IGN);
+        }
+    }
+}
+
+void forgetUnfinished(const fs::path& partial) {
+    const std::string path = partial.string();
+    for (Unfinished& entry : unfinished) {
+        if (entry.isUsed && path == entry.path.data()) {
+            entry.isUsed = false;
+        }
+    }
+}
+
 bool isSameFile(const fs::path& one, const fs::path& other) {
     std::error_code ignored;
     if (isSpecial(one) || isSpecial(other)) {
@@ -80,6 +128,7 @@ OutputFile::OutputFile(const fs::path& path) : path_(path), isWrittenInPlace_(is
     if (isWrittenInPlace_) {
         target_ = path;
         partial_ = makePartial(fs::temp_directory_path() / "haptoflow", path);
+        rememberUnfinished(partial_);
         return;
     }
     target_ = followLinks(path);
@@ -87,11 +136,13 @@ OutputFile::OutputFile(const fs::path& path) : path_(path), isWrittenInPlace_(is
         throw InputError(path.string() + remedy);
     }
     partial_ = makePartial(target_, path);
+    rememberUnfinished(partial_);
 }
 
 OutputFile::~OutputFile() {
     std::error_code ignored;
     fs::remove(partial_, ignored);
+    forgetUnfinished(partial_);
 }
 
 void OutputFile::commit() {
@@ -136,8 +187,9 @@ void requireApart(std::span<const NamedPath> outputs, std::span<const NamedPath>
 void requireWavName(const NamedPath& output) {
     const std::string ending = output.path.extension().string();
     std::string small = ending;
-    std::ranges::transform(small, small.begin(),
-                           [](char letter) { return letter >= 'A' && letter <= 'Z' ? static_cast<char>(letter + 32) : letter; });
+    std::ranges::transform(small, small.begin(), [](char letter) {
+        return letter >= 'A' && letter <= 'Z' ? static_cast<char>(letter + 32) : letter;
+    });
     if (ending.empty() || small == ".wav" || isSpecial(output.path)) {
         return;
     }

@@ -8,7 +8,7 @@ namespace haptoflow::cli {
 
 /// A file that appears whole or not at all. What is written goes to `partial()`; `commit` puts it in its place. A link
 /// is followed and stays; a device, a pipe or a file of /dev and /proc is written to, never replaced. Without `commit`
-/// nothing is left behind.
+/// nothing is left behind, nor where SIGINT or SIGTERM ends the process.
 class OutputFile {
 public:
     /// Throws InputError naming the path where nothing can be written there.

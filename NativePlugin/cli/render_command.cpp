@@ -118,9 +118,8 @@ std::vector<engine::MaterialBlend> blendsOf(const contact::Scene& scene, const m
         engine::MaterialBlend blend;
         for (const auto& [name, weight] : surface.material) {
             const model::Label& label = labelOf(model, modelPath, name, surface.name, scenePath);
-            blend.entries.at(blend.count) = {
-                .label = static_cast<std::uint32_t>(&label - model.header().labels.data()),
-                .weight = static_cast<float>(weight)};
+            blend.entries.at(blend.count) = {.label = static_cast<std::uint32_t>(&label - model.header().labels.data()),
+                                             .weight = static_cast<float>(weight)};
             ++blend.count;
         }
         blends.push_back(blend);
@@ -232,8 +231,7 @@ void requireSoundOptions(const RenderOptions& options) {
 
 /// A WAV file's sizes are 32-bit numbers: said before hours of rendering, not after.
 void requireRoom(const contact::Scene& scene, const StrokePlayer& player, const RenderOptions& options) {
-    const double seconds =
-        static_cast<double>(player.frames() - 1) / scene.updateRateHz + options.engine.tailSeconds;
+    const double seconds = static_cast<double>(player.frames() - 1) / scene.updateRateHz + options.engine.tailSeconds;
     const double mostSeconds = static_cast<double>(mostWavSamples) / options.engine.outputRateHz;
     if (seconds > mostSeconds) {
         throw InputError(options.strokePath + ": lasts " + std::to_string(std::llround(seconds)) +
@@ -296,7 +294,9 @@ void runRender(const RenderOptions& options) {
                                  .labels = labelsIn(scene),
                                  .wav = wav.filename().string(),
                                  .tier = tier.name,
-                                 .solver = !isSolved ? "" : isEuler ? "euler" : nameOf(solver.kind),
+                                 .solver = !isSolved ? ""
+                                           : isEuler ? "euler"
+                                                     : nameOf(solver.kind),
                                  .steps = solver.steps,
                                  .outputRateHz = options.engine.outputRateHz,
                                  .missedTouches = missedTouches},

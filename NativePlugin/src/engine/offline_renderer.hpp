@@ -67,9 +67,9 @@ public:
 /// The next contact state, times ascending; nothing at the end.
 using ContactStateSource = std::function<std::optional<ContactState>()>;
 
-/// Renders contact states (the first is time 0 of the output) without threads, by the same voice, timeline and generator
-/// as live, in memory that does not grow with the length. Throws std::invalid_argument for settings out of range, and
-/// what `next` and `sink` throw.
+/// Renders contact states (the first is time 0 of the output) without threads, by the same voice, timeline and
+/// generator as live, in memory that does not grow with the length. Throws std::invalid_argument for settings out of
+/// range, and what `next` and `sink` throw.
 OfflineFigures renderOffline(const model::ModelFile& model, inference::SegmentGenerator& generator,
                              const ContactStateSource& next, const OfflineSettings& settings, OfflineSink& sink);
 

@@ -22,14 +22,14 @@ struct Finished {
     std::string errors;
 };
 
-/// Runs the command line with these words, quoted for a shell, and with the repository's ONNX Runtime and model; `before`
-/// stands before it in the shell.
+/// Runs the command line with these words, quoted for a shell, and with the repository's ONNX Runtime and model;
+/// `before` stands before it in the shell.
 inline Finished runHaptoFlow(const std::string& words, const std::string& before = "") {
     const auto errors = std::filesystem::temp_directory_path() /
                         ("haptoflow_" + std::string(::testing::UnitTest::GetInstance()->current_test_info()->name()));
-    const std::string command = before + "HAPTOFLOW_ONNXRUNTIME='" HAPTOFLOW_TEST_ONNXRUNTIME
-                                         "' HAPTOFLOW_MODEL='" HAPTOFLOW_TEST_DEFAULT_MODEL
-                                         "' '" HAPTOFLOW_TEST_CLI "' " +
+    const std::string command = before +
+                                "HAPTOFLOW_ONNXRUNTIME='" HAPTOFLOW_TEST_ONNXRUNTIME
+                                "' HAPTOFLOW_MODEL='" HAPTOFLOW_TEST_DEFAULT_MODEL "' '" HAPTOFLOW_TEST_CLI "' " +
                                 words + " 2>'" + errors.string() + "'";
     FILE* pipe = popen(command.c_str(), "r");
     if (pipe == nullptr) {

@@ -126,7 +126,8 @@ TEST_F(ContactProgramTest, ASurfaceWithoutStiffnessPressesBackWithItsLabelsAsInR
         double depthMetres;
     };
     const auto springOn = [this](const std::string& material) {
-        write("scene.json", R"({"surfaces": [{"name": "table", "shape": {"plane": {}}, "material": )" + material + "}]}");
+        write("scene.json",
+              R"({"surfaces": [{"name": "table", "shape": {"plane": {}}, "material": )" + material + "}]}");
         EXPECT_EQ(run("contact " + at("scene.json") + " --stroke " + at("stroke.csv")), exitDone) << read("err.txt");
         std::string line = linesOf(read("out.txt")).at(1);
         const double force = std::stod(line.substr(line.rfind(',') + 1));

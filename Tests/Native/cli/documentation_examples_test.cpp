@@ -146,8 +146,9 @@ TEST_F(DocumentationExamplesTest, TheExamplesAreFoundInBlocksAndInLines) {
     const std::string page =
         "Say `haptoflow inspect MODEL --json` or `haptoflow contact`:\n```\nbuild/native/haptoflow render a.json "
         "--stroke b.csv -o c.wav\nls\n```\nnot haptoflow render this.\n```json\n{}\n```\n";
-    EXPECT_THAT(examplesOf(page), ::testing::ElementsAre("haptoflow inspect MODEL --json",
-                                                         "build/native/haptoflow render a.json --stroke b.csv -o c.wav"));
+    EXPECT_THAT(examplesOf(page),
+                ::testing::ElementsAre("haptoflow inspect MODEL --json",
+                                       "build/native/haptoflow render a.json --stroke b.csv -o c.wav"));
     EXPECT_THAT(blocksOf(page, "json"), ::testing::ElementsAre("{}\n"));
 }
 

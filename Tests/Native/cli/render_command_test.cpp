@@ -25,9 +25,9 @@ namespace {
 
 namespace fs = std::filesystem;
 using ::testing::AllOf;
+using testing::Finished;
 using ::testing::HasSubstr;
 using ::testing::Not;
-using testing::Finished;
 using testing::tinyModel;
 
 class RenderCommandTest : public testing::CommandLineTest {
@@ -95,9 +95,8 @@ TEST_F(RenderCommandTest, ALinkToADeviceStaysALink) {
 TEST_F(RenderCommandTest, APipeIsWrittenToAndStaysAPipe) {
     ASSERT_EQ(render("-o felt.wav").exitCode, 0);
     ASSERT_EQ(mkfifo(at("pipe").c_str(), 0600), 0);
-    const Finished piped =
-        testing::runHaptoFlow("render scene.json --stroke stroke.csv -o pipe; wait",
-                              "cd '" + at("").string() + "' && { cat pipe >read.wav & } && ");
+    const Finished piped = testing::runHaptoFlow("render scene.json --stroke stroke.csv -o pipe; wait",
+                                                 "cd '" + at("").string() + "' && { cat pipe >read.wav & } && ");
     EXPECT_TRUE(read("read.wav") == read("felt.wav")) << piped.errors;
     EXPECT_TRUE(fs::is_fifo(at("pipe")));
 }
@@ -126,6 +125,18 @@ TEST_F(RenderCommandTest, ARenderThatFailsLeavesNothingBehindAndTheOldFileAsItWa
     EXPECT_EQ(render("-o felt.wav").exitCode, 0);
     EXPECT_EQ(fileCount(), before);
     EXPECT_EQ(read("felt.wav.part"), "somebody else's");
+}
+
+TEST_F(RenderCommandTest, ARenderThatIsStoppedLeavesNothingBehind) {
+    write("stroke.csv", "t,x,y,z\n0,0,0.5,0\n9000,0.03,0.5,0\n");
+    const std::size_t before = fileCount();
+    const Finished stopped = testing::runHaptoFlow(
+        "render scene.json --stroke stroke.csv -o felt.wav --waveform raw.wav --rate 96000 & child=$!; "
+        "while ! test -s felt.wav.part && kill -0 $child; do sleep 0.01; done; kill -TERM $child; wait $child",
+        "cd '" + at("").string() + "'; ");
+    constexpr int endedByTerm = 128 + 15;
+    EXPECT_EQ(stopped.exitCode, endedByTerm) << stopped.errors;
+    EXPECT_EQ(fileCount(), before);
 }
 
 TEST_F(RenderCommandTest, AFolderInPlaceOfAFileIsABadInput) {
@@ -178,20 +189,23 @@ TEST_F(RenderCommandTest, AMisspeltCommandOptionOrQualityNamesTheOneThatWasMeant
     EXPECT_THAT(command.errors, HasSubstr("there is no command 'redner'; did you mean 'render'?"));
     const Finished unlike = run("xylophone");
     EXPECT_EQ(unlike.exitCode, 2);
-    EXPECT_THAT(unlike.errors, AllOf(HasSubstr("The commands are render, contact, inspect, bench"),
-                                     Not(HasSubstr("did you mean"))));
+    EXPECT_THAT(unlike.errors,
+                AllOf(HasSubstr("The commands are render, contact, inspect, bench"), Not(HasSubstr("did you mean"))));
     expectUsage("-o felt.wav --sede 4", "There is no option '--sede'; did you mean '--seed'?");
     expectUsage("-o felt.wav --qualty=fine", "did you mean '--quality'?");
     expectUsage("-o felt.wav --quality Standart", "did you mean 'standard'? This model has draft, standard, fine");
 }
 
 TEST_F(RenderCommandTest, AnUnknownLabelNamesTheNearestThreeAndWhereAllAreListed) {
-    for (const auto& [written, meant] : {std::pair{"wod", "'wood'"}, {"Wood", "'wood'"}, {"metal_mesh", "'metal mesh'"},
-                                         {"sandpapper", "'sandpaper'"}, {"cork", "'fur'"}}) {
+    for (const auto& [written, meant] : {std::pair{"wod", "'wood'"},
+                                         {"Wood", "'wood'"},
+                                         {"metal_mesh", "'metal mesh'"},
+                                         {"sandpapper", "'sandpaper'"},
+                                         {"cork", "'fur'"}}) {
         write("scene.json", std::string(R"({"surfaces": [{"name": "floor", "shape": {"plane": {}}, "material": ")") +
                                 written + "\"}]}");
-        for (const char* words : {"render scene.json --stroke stroke.csv -o felt.wav",
-                                  "contact scene.json --stroke stroke.csv"}) {
+        for (const char* words :
+             {"render scene.json --stroke stroke.csv -o felt.wav", "contact scene.json --stroke stroke.csv"}) {
             const Finished finished = run(words);
             EXPECT_EQ(finished.exitCode, 3);
             EXPECT_THAT(finished.errors,
@@ -272,7 +286,8 @@ TEST_F(RenderCommandTest, AStrokeThatNoWaveFileCouldHoldIsRefusedBeforeRendering
     write("stroke.csv", "t,x,y,z\n0,0,0.5,0\n100000,0.03,0.5,0\n");
     const Finished rendered = render("-o felt.wav --rate 192000");
     EXPECT_EQ(rendered.exitCode, 3);
-    EXPECT_THAT(rendered.errors, HasSubstr("stroke.csv: lasts 100000 s; a WAV file at this --rate has room for 5592 s"));
+    EXPECT_THAT(rendered.errors,
+                HasSubstr("stroke.csv: lasts 100000 s; a WAV file at this --rate has room for 5592 s"));
     EXPECT_FALSE(exists("felt.wav"));
 }
 
