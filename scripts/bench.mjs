@@ -63,6 +63,17 @@ function measure(args) {
   });
 }
 
+const help = `usage: ./run bench [--quick] [--only NAMES] [--events N] [--model FILE] [--no-paper] [--publish]
+
+Measures callback, latencies, inference, memory and contact into out/bench.json.
+
+  --quick      fewer events and devices: a first look
+  --only       some measurements: callback, latency, inference, voices, idle, contact
+  --events     events behind each latency
+  --model      another model file than the shipped one
+  --no-paper   without the comparison with the paper's architecture
+  --publish    a whole run of the shipped model, written into Documentation~/benchmarks.md too`;
+
 await runMain('bench', async (words) => {
   const options = optionsOf(words);
   await setUp(['build']);
@@ -79,4 +90,4 @@ await runMain('bench', async (words) => {
     writeFileSync(documentPath, withMeasuredTables(readFileSync(documentPath, 'utf8'), tables, modelSha256));
     console.log(`bench: ${documentPath}`);
   }
-});
+}, { help });

@@ -1,9 +1,62 @@
-// build: builds the native plugin and the command line (build/native)
+// build: builds the native plugin and the command line (--platform NAME for one of the package's platforms, --help)
+import { existsSync } from 'node:fs';
+import path from 'node:path';
+import { parseArgs } from 'node:util';
+import { buildAndroid, androidTools } from './build/android_build.mjs';
 import { buildNative } from './lib/native_build.mjs';
-import { runMain } from './lib/process.mjs';
+import { CommandError, runMain } from './lib/process.mjs';
+import { inRepository } from './lib/repository.mjs';
 import { setUp } from './lib/setup.mjs';
 
-await runMain('build', async () => {
-  await setUp(['build']);
-  await buildNative();
+/** What --platform takes, what a machine needs for it, and how it is built: by a preset, or by finding Android's tools. */
+const platforms = {
+  'linux-x64': { preset: () => 'release', purposes: ['build'], needs: 'a Linux x64 machine' },
+  'windows-x64': { preset: () => (process.platform === 'win32' ? 'windows-msvc' : 'windows-x64'), purposes: ['build', 'platforms'], needs: 'mingw-w64 on Linux, Visual Studio 2022 on Windows' },
+  macos: { preset: () => 'macos', purposes: ['build'], needs: 'a Mac' },
+  'android-arm64': { needs: 'the Android NDK and CMake: those that Unity\'s Hub installs, ANDROID_NDK_HOME, or Android Studio\'s' },
+};
+
+const help = `usage: npm run build -- [--platform NAME] [--help]
+
+Without --platform: the plugin and the command line for this machine, in build/native. With it: the plugin alone, in the
+folder below build/ from which \`npm run pack\` takes it.
+
+${Object.entries(platforms).map(([name, { needs }]) => `  ${name.padEnd(14)} needs ${needs}`).join('\n')}`;
+
+function optionsOf(words) {
+  try {
+    return parseArgs({ args: words, options: { platform: { type: 'string' }, help: { type: 'boolean', default: false } } }).values;
+  } catch (error) {
+    throw new CommandError(`${error.message}\n\n${help}`, 2);
+  }
+}
+
+/** On Debian the build tools are brought; elsewhere Android's own are looked for, and nothing else is needed. */
+async function buildForAndroid() {
+  await setUp(existsSync('/etc/debian_version') ? ['build'] : []);
+  const library = await buildAndroid(androidTools());
+  console.log(`build: ${path.relative(inRepository(), library)}; \`npm run pack\` takes it in`);
+}
+
+await runMain('build', async (words) => {
+  const { platform, help: wantsHelp } = optionsOf(words);
+  if (wantsHelp) {
+    console.log(help);
+    return 0;
+  }
+  if (platform === undefined) {
+    await setUp(['build']);
+    await buildNative();
+    return 0;
+  }
+  if (!Object.hasOwn(platforms, platform)) {
+    throw new CommandError(`--platform: no platform "${platform}"; there are ${Object.keys(platforms).join(', ')}`, 2);
+  }
+  if (platform === 'android-arm64') {
+    await buildForAndroid();
+    return 0;
+  }
+  await setUp(platforms[platform].purposes);
+  await buildNative({ preset: platforms[platform].preset(), targets: ['audioplugin_haptoflow'] });
+  return 0;
 });

@@ -6,6 +6,12 @@ import { CommandError, runMain } from './lib/process.mjs';
 import { inRepository } from './lib/repository.mjs';
 import { setUp } from './lib/setup.mjs';
 
+const help = `usage: ./run demo
+
+Installs what is missing (Debian, with root or sudo), builds the command line, renders a stroke over a scene and one stroke
+over eight labels, and makes out/demo/index.html: waveforms, spectrograms and players. Minutes the first time, then
+seconds. out/demo/report.json has the figures, out/demo/*.wav the sound.`;
+
 await runMain('demo', async () => {
   const begin = performance.now();
   const elapsed = () => `${((performance.now() - begin) / 1000).toFixed(1)} s`;
@@ -37,4 +43,4 @@ await runMain('demo', async () => {
     throw error;
   }
   console.log(`demo: open ${path.join(folder, 'index.html')} (${elapsed()})`);
-});
+}, { help, takesWords: false });

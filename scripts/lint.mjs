@@ -8,6 +8,12 @@ import { checkContent, checkJson, checkThreadTags } from './lint/house_checks.mj
 import { checkPythonSyntax, checkScriptSyntax } from './lint/syntax_checks.mjs';
 import { changedFiles, repositoryFiles } from './lint/files.mjs';
 
+const help = `usage: ./run lint [--all]
+
+Checks format, C++ rules, syntax and the house's own rules.
+
+  --all   clang-tidy on every file, not only on changed ones`;
+
 await runMain('lint', async (words) => {
   let all;
   try {
@@ -37,4 +43,4 @@ await runMain('lint', async (words) => {
     found += complaints.length;
   }
   return found > 0 ? 1 : 0;
-});
+}, { help });

@@ -1,4 +1,4 @@
-// pack: makes the Unity package's tarball, out/com.haptoflow.runtime-VERSION.tgz (--no-build, --help)
+// pack: makes the Unity package's tarball and ONNX Runtime's beside it, in out/ (--no-build, --help)
 import { mkdirSync } from 'node:fs';
 import path from 'node:path';
 import { parseArgs } from 'node:util';
@@ -7,49 +7,69 @@ import { CommandError, runMain } from './lib/process.mjs';
 import { inRepository } from './lib/repository.mjs';
 import { setUp } from './lib/setup.mjs';
 import { checkPackage } from './pack/check_package.mjs';
+import { packDependency } from './pack/dependency.mjs';
 import { buildNatives, findNatives, platforms } from './pack/natives.mjs';
 import { PackageFiles } from './pack/package_files.mjs';
 import { stagePackage } from './pack/stage.mjs';
 import { makeTarball } from './pack/tarball.mjs';
 
-const help = `usage: npm run pack -- [--no-build] [--help]
+const help = `usage: npm run pack -- [--no-build] [--require NAMES] [--help]
 
 Builds the native library for this machine, and for every other preset that is configured, puts the package together in
 out/package, checks it as Unity would read it, and makes out/com.haptoflow.runtime-VERSION.tgz.
-In Unity: Window > Package Manager > + > Install package from tarball.
+Beside it goes the tarball of com.github.asus4.onnxruntime (ONNX Runtime for Unity), which the package needs.
+In Unity: Window > Package Manager > + > Install package from tarball, that one first.
 
   --no-build   take the libraries as they lie in build/ (HAPTOFLOW_NATIVE_DIR stands for build/native)
+  --require    names of platforms whose library must go in, for example linux-x64,windows-x64,android-arm64: without one of
+               them no tarball is made and the exit code is 1
   --help       this text
 
 What goes in: Packages/com.haptoflow.runtime with the model, Samples~, Documentation~, Tests/Runtime, Tests/Editor, and a
 native library for each platform that has one:
 
-${platforms.map(({ name, presets, needs }) => `  ${name.padEnd(15)} cmake --preset ${presets[0].padEnd(14)} needs ${needs}`).join('\n')}
+${platforms.map(({ name, id, presets, needs }) => `  ${name.padEnd(15)} ${id.padEnd(14)} cmake --preset ${presets[0].padEnd(14)} needs ${needs}`).join('\n')}
 
 A library that was built on another machine goes to the same place below build/. Platforms without a library are named at
-the end; there, scenes go on without haptics.`;
+the end; there, scenes go on without haptics. Without any library no tarball is made and the exit code is 1.`;
 
 function optionsOf(words) {
   try {
-    return parseArgs({ args: words, options: { 'no-build': { type: 'boolean', default: false }, help: { type: 'boolean', default: false } } }).values;
+    const { values } = parseArgs({ args: words, options: { 'no-build': { type: 'boolean', default: false }, require: { type: 'string', default: '' } } });
+    return { ...values, required: requiredPlatforms(values.require) };
   } catch (error) {
+    if (error instanceof CommandError) throw error;
     throw new CommandError(`${error.message}\n\n${help}`, 2);
   }
+}
+
+function requiredPlatforms(names) {
+  return names.split(',').map((name) => name.trim()).filter((name) => name !== '').map((name) => {
+    const platform = platforms.find(({ id }) => id === name);
+    if (!platform) throw new CommandError(`--require ${name}: expected some of ${platforms.map(({ id }) => id).join(', ')}`, 2);
+    return platform;
+  });
+}
+
+/** A package without a library, or without one that was asked for, would be silent: said before it is made. */
+function requireNatives({ found, absent }, required) {
+  if (found.length === 0) {
+    throw new CommandError(`there is no native library, and without one every scene is silent; no tarball was made\n${absent.map(({ platform, why }) => `  ${platform.name}: ${why}`).join('\n')}`);
+  }
+  const lacking = absent.filter(({ platform }) => required.includes(platform));
+  if (lacking.length > 0) throw new CommandError(`--require: no tarball was made\n${lacking.map(({ platform, why }) => `  without ${platform.id}: ${why}`).join('\n')}`);
 }
 
 const mebibytes = (bytes) => `${(bytes / 2 ** 20).toFixed(1)} MiB`;
 
 await runMain('pack', async (words) => {
   const options = optionsOf(words);
-  if (options.help) {
-    console.log(help);
-    return 0;
-  }
   if (!options['no-build']) {
-    await setUp(['build']);
+    await setUp(['build', 'files']);
     await buildNatives();
   }
   const { found, absent } = findNatives();
+  requireNatives({ found, absent }, options.required);
   const folder = inRepository('out', 'package');
   stagePackage(folder, await repositoryFiles(), found);
   const files = PackageFiles.inFolder(folder);
@@ -60,10 +80,11 @@ await runMain('pack', async (words) => {
   console.log(`pack: ${files.names.length} files, checked`);
 
   mkdirSync(inRepository('out'), { recursive: true });
+  const runtime = await packDependency(inRepository('out'));
+  console.log(`pack: ${runtime.file} (${mebibytes(runtime.bytes)}${runtime.isNew ? '' : ', made before'}): install it first`);
   const tarball = await makeTarball(folder, inRepository('out'));
   for (const { platform, file } of found) console.log(`pack: with ${platform.name} (${path.relative(inRepository(), file)})`);
   for (const { platform, why } of absent) console.log(`pack: without ${platform.name}: ${why}`);
   console.log(`pack: ${tarball.file} (${mebibytes(tarball.bytes)}, ${mebibytes(tarball.unpackedBytes)} unpacked)`);
-  if (found.length === 0) console.log('pack: no native library at all: scenes will run without haptics');
   return 0;
-});
+}, { help });

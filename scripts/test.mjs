@@ -40,15 +40,23 @@ function showTable(rows) {
   for (const row of rows) console.log(line([row.name, row.passed, row.failed, row.skipped, row.seconds.toFixed(1)]));
 }
 
+const help = `usage: ./run test [--only ${Object.keys(runners).join('|')}]
+
+Installs what is missing (Debian, with root or sudo; the .NET SDK 10 without), builds, runs every test or those of one
+runner, and sums them into out/test/summary.json. What the system's packages do not have is named, counted as skipped, and
+said where it can be had.`;
+
 await runMain('test', async (words) => {
   const chosen = chosenRunners(words);
-  await setUp([...new Set(chosen.flatMap((name) => runners[name].purposes))]);
+  const leftOut = await setUp([...new Set(chosen.flatMap((name) => runners[name].purposes))]);
   const rows = [];
   for (const name of chosen) rows.push(await execute(name));
   const { passed, failed, skipped } = rows.reduce(addCounts, noCounts);
   mkdirSync(inRepository('out', 'test'), { recursive: true });
-  writeFileSync(inRepository('out', 'test', 'summary.json'), `${JSON.stringify({ passed, failed, skipped, runners: rows }, null, 2)}\n`);
+  writeFileSync(inRepository('out', 'test', 'summary.json'), `${JSON.stringify({ passed, failed, skipped, left_out: leftOut, runners: rows }, null, 2)}\n`);
   showTable(rows);
+  if (leftOut.length > 0) console.log('');
+  leftOut.forEach((sentence) => console.log(`test: ${sentence}`));
   console.log(`\n${closingLine({ passed, failed, skipped })}`);
   return failed > 0 ? 1 : 0;
-});
+}, { help });

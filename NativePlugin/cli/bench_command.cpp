@@ -5,17 +5,18 @@
 #include "exit_codes.hpp"
 #include "inference/onnx_runtime.hpp"
 #include "model_location.hpp"
+#include "option_values.hpp"
+#include "output_file.hpp"
 #include "progress_bar.hpp"
 
 #include <nlohmann/json.hpp>
 
-#include <filesystem>
+#include <array>
 #include <fstream>
 #include <iostream>
 #include <memory>
 #include <optional>
 #include <string>
-#include <system_error>
 #include <vector>
 
 namespace haptoflow::cli {
@@ -32,24 +33,14 @@ struct BenchCommandOptions {
     bool quiet = false;
 };
 
-/// Before minutes of measuring, not after: the file must be one that can be written. Leaves things as they were.
-void requireWritable(const std::filesystem::path& path) {
-    std::error_code ignored;
-    const bool existed = std::filesystem::exists(path, ignored);
-    if (!std::ofstream(path, std::ios::app)) {
-        throw InputError(path.string() + ": cannot be written: name a file in a folder that exists");
-    }
-    if (!existed) {
-        std::filesystem::remove(path, ignored);
-    }
-}
-
-void writeReport(const std::string& path, const nlohmann::ordered_json& report) {
-    std::ofstream file(path);
+void writeReport(OutputFile& output, const nlohmann::ordered_json& report) {
+    std::ofstream file(output.partial());
     file << report.dump(2) << '\n';
     if (!file.flush()) {
-        throw InputError(path + ": could not be written to its end; is the disk full?");
+        throw InputError(output.path().string() + ": could not be written to its end; is the disk full?");
     }
+    file.close();
+    output.commit();
 }
 
 nlohmann::ordered_json measure(const BenchCommandOptions& options) {
@@ -71,8 +62,13 @@ nlohmann::ordered_json measure(const BenchCommandOptions& options) {
 }
 
 void runBench(const BenchCommandOptions& options) {
+    requireApart(
+        std::array{NamedPath{"-o", options.outputPath}},
+        std::array{NamedPath{"--model", options.modelPath}, NamedPath{"--paper-model", options.paperModelPath}});
+    // Before minutes of measuring, not after: the file must be one that can be written.
+    std::optional<OutputFile> output;
     if (!options.outputPath.empty()) {
-        requireWritable(options.outputPath);
+        output.emplace(options.outputPath);
     }
     const nlohmann::ordered_json report = measure(options);
     if (options.json) {
@@ -80,8 +76,8 @@ void runBench(const BenchCommandOptions& options) {
     } else {
         bench::printTables(std::cout, report);
     }
-    if (!options.outputPath.empty()) {
-        writeReport(options.outputPath, report);
+    if (output) {
+        writeReport(*output, report);
     }
 }
 
@@ -105,7 +101,7 @@ void addBenchCommand(CLI::App& app, CommandOutcome& outcome) {
         ->add_option("--events", options->events,
                      "Events behind each latency; all other counts follow (default: 120, quick 24). Below 100 the p99 "
                      "is the worst")
-        ->check(CLI::Range(1, 10000));
+        ->transform(wholeBetween(1, 10000, ""));
     command->add_flag("--json", options->json, "Print the report as JSON in place of tables");
     command->add_option("-o,--output", options->outputPath, "Write the report as JSON too")->type_name("BENCH.json");
     command->add_flag("--quiet", options->quiet, "No progress bar");

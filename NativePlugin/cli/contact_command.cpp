@@ -1,14 +1,21 @@
 #include "contact_command.hpp"
 #include "commands.hpp"
 #include "exit_codes.hpp"
+#include "model_location.hpp"
+#include "option_values.hpp"
+#include "output_file.hpp"
 #include "scene_file.hpp"
+#include "scene_labels.hpp"
 #include "stroke_file.hpp"
+#include "stroke_player.hpp"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <fstream>
 #include <iostream>
 #include <memory>
+#include <optional>
 #include <string>
 
 namespace haptoflow::cli {
@@ -20,6 +27,8 @@ struct ContactOptions {
     std::string scenePath;
     std::string strokePath;
     std::string outputPath;
+    std::string modelPath;
+    std::optional<double> defaultStiffnessNewtonsPerMetre;
     contact::ContactSettings settings;
 };
 
@@ -43,30 +52,49 @@ void writeName(std::ostream& output, const std::string& name) {
     output << '"';
 }
 
+bool asksForStiffness(const contact::Scene& scene) {
+    return std::ranges::any_of(
+        scene.surfaces, [](const contact::Surface& surface) { return !surface.stiffnessNewtonsPerMetre.has_value(); });
+}
+
 void runContact(const ContactOptions& options) {
+    requireApart(std::array{NamedPath{"-o", options.outputPath}},
+                 std::array{NamedPath{"the scene", options.scenePath}, NamedPath{"the stroke", options.strokePath},
+                            NamedPath{"the model", options.modelPath}});
     const contact::Scene scene = readSceneFile(options.scenePath);
     const Stroke stroke = readStrokeFile(options.strokePath);
+    contact::ContactSettings settings = options.settings;
+    std::optional<model::ModelFile> model;
+    if (options.defaultStiffnessNewtonsPerMetre) {
+        settings.defaultStiffnessNewtonsPerMetre = *options.defaultStiffnessNewtonsPerMetre;
+    } else if (asksForStiffness(scene) || !options.modelPath.empty()) {
+        const std::filesystem::path modelPath = findModel(options.modelPath);
+        model = readModel(modelPath);
+        requireKnownLabels(scene, *model, modelPath, options.scenePath);
+        useStiffnessOfLabels(settings, *model);
+    }
     if (options.outputPath.empty()) {
-        writeContactStates(std::cout, scene, stroke, options.strokePath, options.settings);
+        writeContactStates(std::cout, scene, stroke, options.strokePath, settings);
         return;
     }
-    std::ofstream file(options.outputPath, std::ios::binary);
-    writeContactStates(file, scene, stroke, options.strokePath, options.settings);
+    OutputFile output(options.outputPath);
+    std::ofstream file(output.partial(), std::ios::binary);
+    writeContactStates(file, scene, stroke, options.strokePath, settings);
     file.close();
     if (!file) {
-        throw InputError(options.outputPath + ": cannot be written; expected a path in a folder that exists");
+        throw InputError(options.outputPath + ": could not be written to its end; is the disk full?");
     }
+    output.commit();
 }
 
 }  // namespace
 
 void writeContactStates(std::ostream& output, const contact::Scene& scene, const Stroke& stroke,
                         const std::string& strokeName, const contact::ContactSettings& settings) {
-    contact::ContactTracker tracker(scene, settings);
-    const std::size_t frames = frameCount(stroke, scene.updateRateHz, strokeName);
+    StrokePlayer player(scene, stroke, strokeName, settings);
     output << "t,surface,touching,touch_counter,px,py,pz,nx,ny,nz,penetration_m,vx_mps,vy_mps,approach_mps,force_n\n";
-    for (std::size_t frame = 0; frame < frames; ++frame) {
-        const contact::ContactReading reading = tracker.update(frameAt(stroke, scene.updateRateHz, frame));
+    while (const std::optional<contact::ContactReading> played = player.next()) {
+        const contact::ContactReading& reading = *played;
         writeNumber(output, reading.timeSeconds);
         output << ',';
         if (reading.touching) {
@@ -95,21 +123,27 @@ void addContactCommand(CLI::App& app, CommandOutcome& outcome) {
         ->type_name("STROKE.csv");
     command->add_option("-o,--output", options->outputPath, "Write to this file instead of standard output")
         ->type_name("FILE");
+    CLI::Option* model = command
+                             ->add_option("--model", options->modelPath,
+                                          "Model file whose labels give the stiffness that a surface leaves out "
+                                          "(default: the one shipped)")
+                             ->type_name("FILE");
     command
-        ->add_option("--default-stiffness", options->settings.defaultStiffnessNewtonsPerMetre,
-                     "N/m of surfaces that give no stiffness of their own")
-        ->check(CLI::Range(1e-3, 1e7))
-        ->capture_default_str();
+        ->add_option("--default-stiffness", options->defaultStiffnessNewtonsPerMetre,
+                     "N/m of surfaces that give no stiffness of their own, in place of their labels'; no model is read")
+        ->check(decimalBetween(1e-3, 1e7, "N/m"))
+        ->excludes(model);
     command
         ->add_option("--maximum-force", options->settings.maximumForceNewtons,
                      "Newtons at which spring and measured force saturate")
-        ->check(CLI::Range(1e-3, 1e3))
+        ->check(decimalBetween(1e-3, 1e3, "N"))
         ->capture_default_str();
     command->footer(
         "One line per frame of the scene's update_rate (90 Hz where it gives none): time, the surface touched\n"
         "(empty without touch), touch-downs so far, the contact point and the normal out of the surface, how deep\n"
         "the tip sits in it, the tip's speed along the surface's two tangent axes, the speed with which this touch\n"
-        "began, and the force: the stroke's own where it has one, else stiffness times depth.\n"
+        "began, and the force: the stroke's own where it has one, else depth times the stiffness of the surface or of\n"
+        "its labels.\n"
         "Metres, seconds, newtons; Unity's left-handed frame with y up.\n"
         "Example:\n"
         "  haptoflow contact scene.json --stroke stroke.csv -o states.csv\n"

@@ -1,12 +1,66 @@
 #include "commands.hpp"
 #include "exit_codes.hpp"
+#include "near_words.hpp"
 
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
+#include <array>
 #include <exception>
 #include <iostream>
+#include <string>
+#include <vector>
 
 namespace {
+
+std::vector<const CLI::App*> subcommandsOf(const CLI::App& app) {
+    return app.get_subcommands([](const CLI::App*) { return true; });
+}
+
+/// The subcommand that the words begin with; null where they begin with none.
+const CLI::App* subcommandIn(const CLI::App& app, const std::vector<std::string>& words) {
+    const std::vector<const CLI::App*> all = subcommandsOf(app);
+    const auto found = std::ranges::find_if(all, [&words](const CLI::App* subcommand) {
+        return !words.empty() && subcommand->get_name() == words.front();
+    });
+    return found == all.end() ? nullptr : *found;
+}
+
+/// Throws UsageError for a first word that is meant as a subcommand and is none.
+void requireSubcommand(const CLI::App& app, const std::vector<std::string>& words) {
+    if (words.empty() || words.front().starts_with('-') || subcommandIn(app, words) != nullptr) {
+        return;
+    }
+    std::vector<std::string> names;
+    std::string listed;
+    for (const CLI::App* subcommand : subcommandsOf(app)) {
+        names.push_back(subcommand->get_name());
+        listed += (listed.empty() ? "" : ", ") + names.back();
+    }
+    const std::string meant = haptoflow::cli::meantWord(words.front(), names);
+    throw haptoflow::cli::UsageError("there is no command '" + words.front() + "'; " +
+                                     (meant.empty() ? "" : haptoflow::cli::didYouMean(std::array{meant}) + " ") +
+                                     "The commands are " + listed);
+}
+
+/// Says which option each misspelt one was meant to be.
+void suggestOptions(const CLI::App& app, const std::vector<std::string>& words) {
+    const CLI::App* subcommand = subcommandIn(app, words);
+    std::vector<std::string> known;
+    for (const CLI::Option* option : (subcommand != nullptr ? *subcommand : app).get_options()) {
+        for (const std::string& name : option->get_lnames()) {
+            known.push_back("--" + name);
+        }
+    }
+    for (const std::string& word : words) {
+        const std::string option = word.substr(0, word.find('='));
+        if (option.starts_with("--") && option.size() > 2 && std::ranges::find(known, option) == known.end()) {
+            const std::string meant = haptoflow::cli::meantWord(option, known);
+            std::cerr << "There is no option '" << option << "'"
+                      << (meant.empty() ? "" : "; " + haptoflow::cli::didYouMean(std::array{meant})) << '\n';
+        }
+    }
+}
 
 int run(int argc, char** argv) {
     using namespace haptoflow::cli;
@@ -29,11 +83,17 @@ int run(int argc, char** argv) {
     addInspectCommand(app, outcome);
     addBenchCommand(app, outcome);
 
+    const std::vector<std::string> words(argv + std::min(argc, 1), argv + argc);
     try {
+        requireSubcommand(app, words);
         app.parse(argc, argv);
         return outcome.exitCode;
     } catch (const CLI::ParseError& error) {
-        return app.exit(error) == 0 ? exitDone : exitUsage;
+        if (app.exit(error) == 0) {
+            return exitDone;
+        }
+        suggestOptions(app, words);
+        return exitUsage;
     } catch (const UsageError& error) {
         std::cerr << "haptoflow: " << error.what() << '\n';
         return exitUsage;

@@ -106,6 +106,10 @@ fs::path findOnnxRuntime() {
 }
 
 model::ModelFile readModel(const fs::path& path) {
+    std::error_code ignored;
+    if (fs::is_directory(path, ignored)) {
+        throw InputError(path.string() + ": is a folder; expected a model file (.haptoflow)");
+    }
     try {
         return model::ModelFile::read(path);
     } catch (const model::ModelError& error) {

@@ -1,7 +1,10 @@
 #include "progress_bar.hpp"
 
+#include <chrono>
 #include <cstdio>
+#include <iostream>
 #include <string>
+#include <utility>
 
 #if defined(_WIN32)
 #include <io.h>
@@ -22,9 +25,29 @@ bool standardErrorIsTerminal() {
 
 }  // namespace
 
+ProgressBar progressLines(std::string_view command, std::function<double()> clockSeconds,
+                          std::function<void(const std::string&)> say) {
+    constexpr double betweenLinesSeconds = 10.0;
+    return [command = std::string(command), clockSeconds, say = std::move(say),
+            nextSeconds = clockSeconds() + betweenLinesSeconds](double share, std::string_view what) mutable {
+        const double nowSeconds = clockSeconds();
+        if (nowSeconds >= nextSeconds) {
+            nextSeconds = nowSeconds + betweenLinesSeconds;
+            say(command + ": " + std::to_string(static_cast<int>(share * 100.0)) + " %" +
+                (what.empty() ? "" : " " + std::string(what)));
+        }
+    };
+}
+
 ProgressBar progressBar(std::string_view command, bool quiet) {
-    if (quiet || !standardErrorIsTerminal()) {
+    if (quiet) {
         return [](double, std::string_view) {};
+    }
+    if (!standardErrorIsTerminal()) {
+        const auto clockSeconds = [] {
+            return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+        };
+        return progressLines(command, clockSeconds, [](const std::string& line) { std::cerr << line << '\n'; });
     }
     return [command = std::string(command), lastPercent = -1, lastWhat = std::string()](double share,
                                                                                         std::string_view what) mutable {

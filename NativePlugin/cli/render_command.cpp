@@ -1,22 +1,32 @@
 #include "commands.hpp"
-#include "contact/contact_tracker.hpp"
 #include "engine/offline_renderer.hpp"
 #include "exit_codes.hpp"
 #include "inference/onnx_segment_generator.hpp"
 #include "model/model_file.hpp"
 #include "model_location.hpp"
+#include "near_words.hpp"
+#include "option_values.hpp"
+#include "output_file.hpp"
 #include "progress_bar.hpp"
 #include "render_report.hpp"
 #include "scene_file.hpp"
+#include "scene_labels.hpp"
 #include "stroke_file.hpp"
+#include "stroke_player.hpp"
 #include "wav_file.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
 #include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <limits>
 #include <map>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -60,14 +70,6 @@ inference::SolverKind kindOf(model::TierSolver solver) {
     return inference::SolverKind::midpoint;
 }
 
-std::string labelsOf(const model::ModelHeader& header) {
-    std::string names;
-    for (const model::Label& label : header.labels) {
-        names += (names.empty() ? "" : ", ") + label.name;
-    }
-    return names;
-}
-
 const model::Tier& chooseTier(const model::ModelFile& model, const std::string& quality) {
     if (quality.empty()) {
         return model.header().tiers[model.header().defaultTier];
@@ -75,26 +77,37 @@ const model::Tier& chooseTier(const model::ModelFile& model, const std::string& 
     if (const model::Tier* tier = model.findTier(quality)) {
         return *tier;
     }
-    std::string tiers;
+    std::vector<std::string> tiers;
+    std::string listed;
     for (const model::Tier& tier : model.header().tiers) {
-        tiers += (tiers.empty() ? "" : ", ") + tier.name;
+        tiers.push_back(tier.name);
+        listed += (listed.empty() ? "" : ", ") + tier.name;
     }
-    throw UsageError("--quality " + quality + ": this model has " + tiers);
+    const std::string meant = meantWord(quality, tiers);
+    throw UsageError("--quality " + quality + ": " + (meant.empty() ? "" : didYouMean(std::array{meant}) + " ") +
+                     "This model has " + listed);
 }
 
-std::uint32_t labelIndex(const model::ModelFile& model, const std::string& name, const std::string& scenePath,
-                         const std::string& surface) {
-    const model::Label* label = model.findLabel(name);
-    if (label == nullptr) {
-        throw InputError(scenePath + ": surface '" + surface + "' has material '" + name +
-                         "', which the model does not know; it knows: " + labelsOf(model.header()));
+/// The solver that the options ask for, where it is one that the tier obeys.
+inference::SolverSettings chooseSolver(const model::Tier& tier, const std::string& solver, std::optional<int> steps) {
+    if (!steps) {
+        return {.kind = kindOf(tier.solver), .steps = tier.steps};
     }
-    return static_cast<std::uint32_t>(label - model.header().labels.data());
+    if (tier.kind == model::TierKind::direct) {
+        throw UsageError("--solver and --steps have no effect on the tier '" + tier.name +
+                         "', which is evaluated once: leave both out, or choose a tier of another kind with --quality "
+                         "(`haptoflow inspect` shows kinds)");
+    }
+    if (tier.kind == model::TierKind::averageVelocity && solver != "euler") {
+        throw UsageError("--solver " + solver + " has no effect on the tier '" + tier.name +
+                         "', which is always stepped by euler: did you mean --solver euler?");
+    }
+    return {.kind = solverNames().at(solver), .steps = *steps};
 }
 
 /// The engine's blend of each surface, in the scene's order.
 std::vector<engine::MaterialBlend> blendsOf(const contact::Scene& scene, const model::ModelFile& model,
-                                            const std::string& scenePath) {
+                                            const std::filesystem::path& modelPath, const std::string& scenePath) {
     std::vector<engine::MaterialBlend> blends;
     for (const contact::Surface& surface : scene.surfaces) {
         if (surface.material.size() > engine::MaterialBlend::capacity) {
@@ -104,7 +117,8 @@ std::vector<engine::MaterialBlend> blendsOf(const contact::Scene& scene, const m
         }
         engine::MaterialBlend blend;
         for (const auto& [name, weight] : surface.material) {
-            blend.entries.at(blend.count) = {.label = labelIndex(model, name, scenePath, surface.name),
+            const model::Label& label = labelOf(model, modelPath, name, surface.name, scenePath);
+            blend.entries.at(blend.count) = {.label = static_cast<std::uint32_t>(&label - model.header().labels.data()),
                                              .weight = static_cast<float>(weight)};
             ++blend.count;
         }
@@ -113,34 +127,19 @@ std::vector<engine::MaterialBlend> blendsOf(const contact::Scene& scene, const m
     return blends;
 }
 
-std::vector<engine::ContactState> followStroke(const contact::Scene& scene, const Stroke& stroke,
-                                               const model::ModelFile& model, const RenderOptions& options) {
-    const std::vector<engine::MaterialBlend> blends = blendsOf(scene, model, options.scenePath);
-    contact::ContactSettings settings;
-    settings.stiffnessOfLabel = [&model](std::string_view name) -> std::optional<double> {
-        const model::Label* label = model.findLabel(name);
-        return label == nullptr ? std::nullopt : std::optional(label->stiffnessNewtonsPerMetre);
-    };
-    contact::ContactTracker tracker(scene, settings);
-    const std::size_t frames = frameCount(stroke, scene.updateRateHz, options.strokePath);
-    std::vector<engine::ContactState> states;
-    states.reserve(frames);
-    for (std::size_t frame = 0; frame < frames; ++frame) {
-        const contact::ContactReading reading = tracker.update(frameAt(stroke, scene.updateRateHz, frame));
-        engine::ContactState state;
-        state.timeSeconds = reading.timeSeconds;
-        state.touching = reading.touching;
-        state.touchCounter = reading.touchCounter;
-        state.velocityMps = {static_cast<float>(reading.tangentialVelocityMps.x),
-                             static_cast<float>(reading.tangentialVelocityMps.y)};
-        state.forceNewtons = static_cast<float>(reading.forceNewtons);
-        state.approachSpeedMps = static_cast<float>(reading.approachSpeedMps);
-        if (reading.surfaceIndex >= 0) {
-            state.material = blends[static_cast<std::size_t>(reading.surfaceIndex)];
-        }
-        states.push_back(state);
+engine::ContactState stateOf(const contact::ContactReading& reading, std::span<const engine::MaterialBlend> blends) {
+    engine::ContactState state;
+    state.timeSeconds = reading.timeSeconds;
+    state.touching = reading.touching;
+    state.touchCounter = reading.touchCounter;
+    state.velocityMps = {static_cast<float>(reading.tangentialVelocityMps.x),
+                         static_cast<float>(reading.tangentialVelocityMps.y)};
+    state.forceNewtons = static_cast<float>(reading.forceNewtons);
+    state.approachSpeedMps = static_cast<float>(reading.approachSpeedMps);
+    if (reading.surfaceIndex >= 0) {
+        state.material = blends[static_cast<std::size_t>(reading.surfaceIndex)];
     }
-    return states;
+    return state;
 }
 
 std::vector<std::string> labelsIn(const contact::Scene& scene) {
@@ -155,22 +154,65 @@ std::vector<std::string> labelsIn(const contact::Scene& scene) {
     return labels;
 }
 
-void writeOutputs(const RenderOptions& options, const engine::OfflineRender& render, RenderIdentity identity) {
-    writeWav(options.outputPath, render.samples, static_cast<int>(std::lround(options.engine.outputRateHz)));
-    if (!options.waveformPath.empty()) {
-        std::vector<float> waveform = render.waveformMps2;
-        std::ranges::for_each(waveform, [&](float& sample) { sample /= options.engine.fullScaleMps2; });
-        writeWav(options.waveformPath, waveform, static_cast<int>(inference::waveformRateHz));
+/// The files of a render: they grow while it runs and appear when all of them are whole.
+class RenderFiles final : public engine::OfflineSink {
+public:
+    explicit RenderFiles(const RenderOptions& options)
+        : wav_(options.outputPath),
+          wavWriter_(wav_.partial(), static_cast<int>(options.engine.outputRateHz), options.outputPath),
+          fullScaleMps2_(options.engine.fullScaleMps2) {
+        if (!options.waveformPath.empty()) {
+            waveform_.emplace(options.waveformPath);
+            waveformWriter_.emplace(waveform_->partial(), static_cast<int>(inference::waveformRateHz),
+                                    options.waveformPath);
+        }
+        if (!options.reportPath.empty()) {
+            report_.emplace(options.reportPath);
+        }
     }
-    if (!options.reportPath.empty()) {
-        const std::filesystem::path wav(options.outputPath);
-        identity.name = wav.stem().string();
-        identity.wav = wav.filename().string();
-        writeRenderReport(options.reportPath, identity, render);
-    }
-}
 
-void runRender(const RenderOptions& options) {
+    void output(std::span<const float> samples) override { wavWriter_.write(samples); }
+
+    void waveform(std::span<const float> samplesMps2) override {
+        if (waveformWriter_) {
+            scaled_.assign(samplesMps2.begin(), samplesMps2.end());
+            std::ranges::for_each(scaled_, [this](float& sample) { sample /= fullScaleMps2_; });
+            waveformWriter_->write(scaled_);
+        }
+    }
+
+    void complete(const std::string& report) {
+        wavWriter_.close();
+        if (waveformWriter_) {
+            waveformWriter_->close();
+        }
+        if (report_) {
+            std::ofstream file(report_->partial(), std::ios::binary);
+            file << report;
+            if (!file.flush()) {
+                throw InputError(report_->path().string() + ": could not be written to its end; is the disk full?");
+            }
+        }
+        wav_.commit();
+        if (waveform_) {
+            waveform_->commit();
+        }
+        if (report_) {
+            report_->commit();
+        }
+    }
+
+private:
+    OutputFile wav_;
+    WavWriter wavWriter_;
+    std::optional<OutputFile> waveform_;
+    std::optional<WavWriter> waveformWriter_;
+    std::optional<OutputFile> report_;
+    float fullScaleMps2_;
+    std::vector<float> scaled_;
+};
+
+void requireSoundOptions(const RenderOptions& options) {
     if (options.solver.empty() != !options.steps.has_value()) {
         throw UsageError("--solver and --steps go together; give both, or --quality");
     }
@@ -178,26 +220,88 @@ void runRender(const RenderOptions& options) {
         throw UsageError(
             "--quality auto measures time and would not render the same twice; name a quality of the model");
     }
+    const NamedPath wav{"-o", options.outputPath};
+    const NamedPath waveform{"--waveform", options.waveformPath};
+    requireApart(std::array{wav, waveform, NamedPath{"--report", options.reportPath}},
+                 std::array{NamedPath{"the scene", options.scenePath}, NamedPath{"the stroke", options.strokePath},
+                            NamedPath{"the model", options.modelPath}});
+    requireWavName(wav);
+    requireWavName(waveform);
+}
+
+/// A WAV file's sizes are 32-bit numbers: said before hours of rendering, not after.
+void requireRoom(const contact::Scene& scene, const StrokePlayer& player, const RenderOptions& options) {
+    const double seconds = static_cast<double>(player.frames() - 1) / scene.updateRateHz + options.engine.tailSeconds;
+    const double mostSeconds = static_cast<double>(mostWavSamples) / options.engine.outputRateHz;
+    if (seconds > mostSeconds) {
+        throw InputError(options.strokePath + ": lasts " + std::to_string(std::llround(seconds)) +
+                         " s; a WAV file at this --rate has room for " + std::to_string(std::llround(mostSeconds)) +
+                         " s. Give a lower --rate or a shorter stroke");
+    }
+}
+
+/// What a user would wonder about who hears less than expected.
+void explainSilence(const RenderOptions& options, const engine::OfflineFigures& figures, std::uint64_t missedTouches,
+                    double updateRateHz) {
+    const std::string note = "haptoflow: note: " + options.strokePath;
+    if (figures.touches == 0 && missedTouches == 0) {
+        std::cerr << note << " never touches a surface of " << options.scenePath
+                  << ": the output is silent. `haptoflow contact` prints where the tip goes; positions are metres, y "
+                     "up, of the tip's centre.\n";
+    }
+    if (missedTouches > 0) {
+        std::cerr << note << ": " << missedTouches << " of " << figures.touches + missedTouches
+                  << " touches begin and end between two frames and are not felt: raise the scene's update_rate ("
+                  << updateRateHz << " Hz).\n";
+    }
+    if (figures.silentTouches > 0) {
+        std::cerr << note << ": " << figures.silentTouches << " of " << figures.touches
+                  << " touches make no sound: a texture sounds while the tip slides, and there it does not.\n";
+    }
+}
+
+void runRender(const RenderOptions& options) {
+    requireSoundOptions(options);
     const contact::Scene scene = readSceneFile(options.scenePath);
     const Stroke stroke = readStrokeFile(options.strokePath);
     const std::filesystem::path modelPath = findModel(options.modelPath);
     const model::ModelFile model = readModel(modelPath);
     const model::Tier& tier = chooseTier(model, options.quality);
-    inference::SolverSettings solver{.kind = kindOf(tier.solver), .steps = tier.steps};
-    if (options.steps) {
-        solver = {.kind = solverNames().at(options.solver), .steps = *options.steps};
-    }
-    const std::vector<engine::ContactState> states = followStroke(scene, stroke, model, options);
+    const inference::SolverSettings solver = chooseSolver(tier, options.solver, options.steps);
+    const std::vector<engine::MaterialBlend> blends = blendsOf(scene, model, modelPath, options.scenePath);
+    contact::ContactSettings settings;
+    useStiffnessOfLabels(settings, model);
+    StrokePlayer player(scene, stroke, options.strokePath, settings);
+    requireRoom(scene, player, options);
+    RenderFiles files(options);
     inference::OnnxSegmentGenerator generator(openRuntime(), model, tier.name, solver, 1);
-    const engine::OfflineRender render =
-        engine::renderOffline(model, generator, states, options.engine,
-                              [bar = progressBar("render", options.quiet)](double share) { bar(share, {}); });
-    writeOutputs(options, render,
-                 {.model = modelPath.filename().string(),
-                  .labels = labelsIn(scene),
-                  .solver = nameOf(solver.kind),
-                  .steps = solver.steps,
-                  .outputRateHz = options.engine.outputRateHz});
+
+    const ProgressBar bar = progressBar("render", options.quiet);
+    const engine::ContactStateSource next = [&]() -> std::optional<engine::ContactState> {
+        const std::optional<contact::ContactReading> reading = player.next();
+        bar(static_cast<double>(player.played()) / static_cast<double>(player.frames()), {});
+        return reading ? std::optional(stateOf(*reading, blends)) : std::nullopt;
+    };
+    const engine::OfflineFigures figures = engine::renderOffline(model, generator, next, options.engine, files);
+
+    const std::uint64_t allTouches = touchesOfEverySample(scene, stroke, options.strokePath, settings);
+    const std::uint64_t missedTouches = allTouches - std::min(allTouches, figures.touches);
+    const std::filesystem::path wav(options.outputPath);
+    const bool isSolved = tier.kind != model::TierKind::direct;
+    const bool isEuler = tier.kind == model::TierKind::averageVelocity;
+    files.complete(renderReport({.name = wav.stem().string(),
+                                 .model = modelPath.filename().string(),
+                                 .labels = labelsIn(scene),
+                                 .wav = wav.filename().string(),
+                                 .tier = tier.name,
+                                 .solver = !isSolved ? ""
+                                           : isEuler ? "euler"
+                                                     : nameOf(solver.kind),
+                                 .steps = solver.steps,
+                                 .outputRateHz = options.engine.outputRateHz,
+                                 .missedTouches = missedTouches},
+                                figures));
+    explainSilence(options, figures, missedTouches, scene.updateRateHz);
 }
 
 }  // namespace
@@ -215,22 +319,21 @@ void addRenderCommand(CLI::App& app, CommandOutcome& outcome) {
         ->required()
         ->type_name("OUT.wav");
     command->add_option("--model", options->modelPath, "Model file (default: the one shipped)")->type_name("FILE");
-    CLI::Option* quality =
-        command->add_option("--quality", options->quality, "A tier of the model: draft, standard or fine");
-    command->add_option("--solver", options->solver, "ODE solver in place of the tier's own")
-        ->check(CLI::IsMember({"euler", "midpoint", "heun"}))
-        ->excludes(quality);
-    command->add_option("--steps", options->steps, "Steps of that solver")->check(CLI::Range(1, 16))->excludes(quality);
+    command->add_option("--quality", options->quality, "A tier of the model: draft, standard or fine");
+    command->add_option("--solver", options->solver, "ODE solver in place of the tier's own; not for kind `direct`")
+        ->check(CLI::IsMember({"euler", "midpoint", "heun"}));
+    command->add_option("--steps", options->steps, "Steps of that solver")->transform(wholeBetween(1, 16, ""));
     command->add_option("--seed", options->engine.seed, "Key of the noise: the same gives the same bytes")
+        ->transform(wholeBetween(0, std::numeric_limits<std::uint64_t>::max(), ""))
         ->capture_default_str();
     command->add_option("--rate", options->engine.outputRateHz, "Output rate in Hz")
-        ->check(CLI::Range(8000.0, 192000.0))
+        ->transform(wholeBetween(8000, 192000, "Hz"))
         ->capture_default_str();
     command->add_option("--lead-ms", options->engine.leadMs, "From a contact state to the first sample made from it")
-        ->check(CLI::Range(0.0, 50.0))
+        ->check(decimalBetween(0.0, 50.0, "ms"))
         ->capture_default_str();
     command->add_option("--full-scale", options->engine.fullScaleMps2, "Acceleration in m/s^2 that is +-1 in the WAV")
-        ->check(CLI::Range(1.0F, 1000.0F))
+        ->check(decimalBetween(1.0, 1000.0, "m/s^2"))
         ->capture_default_str();
     command->add_option("--report", options->reportPath, "Write figures of the render as JSON")->type_name("R.json");
     command
@@ -241,7 +344,8 @@ void addRenderCommand(CLI::App& app, CommandOutcome& outcome) {
     command->footer(
         "Examples:\n"
         "  haptoflow render scene.json --stroke stroke.csv -o felt.wav --report felt.json\n"
-        "  haptoflow render scene.json --stroke stroke.csv -o fine.wav --solver midpoint --steps 4\n"
+        "  haptoflow render scene.json --stroke stroke.csv -o fine.wav --quality fine
+"
         "+-1 in the WAV is 200 m/s^2 (see --full-scale); most textures are quiet there, and true to each other.");
     command->callback([options, &outcome] {
         runRender(*options);

@@ -1,58 +1,40 @@
 #include "render_report.hpp"
 
-#include "exit_codes.hpp"
-
 #include <nlohmann/json.hpp>
 
-#include <algorithm>
-#include <cmath>
-#include <fstream>
-
 namespace haptoflow::cli {
-namespace {
 
-double percentile(std::vector<double> values, double share) {
-    if (values.empty()) {
-        return 0.0;
-    }
-    std::ranges::sort(values);
-    const auto last = static_cast<double>(values.size() - 1);
-    return values[static_cast<std::size_t>(std::lround(share * last))];
-}
-
-}  // namespace
-
-void writeRenderReport(const std::filesystem::path& path, const RenderIdentity& identity,
-                       const engine::OfflineRender& render) {
+std::string renderReport(const RenderIdentity& identity, const engine::OfflineFigures& figures) {
+    const bool isSolved = !identity.solver.empty();
     const nlohmann::ordered_json report{
         {"name", identity.name},
         {"model", identity.model},
         {"labels", identity.labels},
         {"wav", identity.wav},
-        {"seconds", static_cast<double>(render.samples.size()) / identity.outputRateHz},
-        {"rms_mps2", render.rmsMps2},
-        {"peak", render.peak},
-        {"segments", render.inferenceMs.size()},
-        {"inference_ms", {{"p50", percentile(render.inferenceMs, 0.5)}, {"p99", percentile(render.inferenceMs, 0.99)}}},
-        {"nonfinite", render.nonFinite},
-        {"underruns", render.underruns},
-        {"solver", identity.solver},
-        {"steps", identity.steps},
-        {"touches", render.onsets},
-        {"skipped", render.skipped},
-        {"failures", render.failures},
-        {"sanitised", render.sanitised},
-        {"limited_samples", render.limited},
+        {"seconds", static_cast<double>(figures.outputSamples) / identity.outputRateHz},
+        {"rms_mps2", figures.rmsMps2},
+        {"peak", figures.peak},
+        {"segments", figures.segments},
+        {"inference_ms", {{"p50", figures.inferenceMsMedian}, {"p99", figures.inferenceMsP99}}},
+        {"nonfinite", figures.nonFinite},
+        {"underruns", figures.underruns},
+        {"tier", identity.tier},
+        {"solver", isSolved ? nlohmann::ordered_json(identity.solver) : nlohmann::ordered_json()},
+        {"steps", isSolved ? nlohmann::ordered_json(identity.steps) : nlohmann::ordered_json()},
+        {"touches", figures.touches},
+        {"silent_touches", figures.silentTouches},
+        {"missed_touches", identity.missedTouches},
+        {"onsets", figures.onsets},
+        {"skipped", figures.skipped},
+        {"failures", figures.failures},
+        {"sanitised", figures.sanitised},
+        {"limited_samples", figures.limited},
         {"seams",
-         {{"count", render.seamStatistics.seams},
-          {"outlier_share", render.seamStatistics.outlierShare},
-          {"jump_ratio", render.seamStatistics.jumpRatio}}},
+         {{"count", figures.seamStatistics.seams},
+          {"outlier_share", figures.seamStatistics.outlierShare},
+          {"jump_ratio", figures.seamStatistics.jumpRatio}}},
     };
-    std::ofstream file(path);
-    file << report.dump(2) << '\n';
-    if (!file.flush()) {
-        throw InputError(path.string() + ": cannot be written: name a file in a folder that exists");
-    }
+    return report.dump(2) + '\n';
 }
 
 }  // namespace haptoflow::cli

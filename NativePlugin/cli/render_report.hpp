@@ -2,7 +2,7 @@
 
 #include "engine/offline_renderer.hpp"
 
-#include <filesystem>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -13,14 +13,17 @@ struct RenderIdentity {
     std::string model{};
     std::vector<std::string> labels{};
     std::string wav{};
+    std::string tier{};
+    /// Empty where the tier is evaluated once and knows neither solver nor steps.
     std::string solver{};
     int steps = 0;
     double outputRateHz = 0.0;
+    /// Touches of the stroke that begin and end between two frames.
+    std::uint64_t missedTouches = 0;
 };
 
 /// One render as JSON: `name`, `labels`, `wav`, `seconds`, `rms_mps2`, `peak`, `segments`, `inference_ms` {p50, p99},
-/// `nonfinite`, `underruns`, and what else the engine counted. Throws InputError naming the path.
-void writeRenderReport(const std::filesystem::path& path, const RenderIdentity& identity,
-                       const engine::OfflineRender& render);
+/// `nonfinite`, `underruns`, and what else the engine counted. `solver` and `steps` are null for a tier without them.
+[[nodiscard]] std::string renderReport(const RenderIdentity& identity, const engine::OfflineFigures& figures);
 
 }  // namespace haptoflow::cli

@@ -1,16 +1,15 @@
 #include "scene_file.hpp"
 
 #include "exit_codes.hpp"
+#include "input_file.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <fstream>
 #include <glm/geometric.hpp>
 #include <initializer_list>
-#include <iterator>
 #include <limits>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -338,11 +337,7 @@ contact::Scene parseScene(const json& document, const std::string& fileName) {
 }
 
 contact::Scene readSceneFile(const std::string& path) {
-    std::ifstream file(path, std::ios::binary);
-    if (!file) {
-        throw InputError(path + ": cannot be opened; expected a scene file (JSON)");
-    }
-    const std::string text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+    const std::string text = readInputFile(path, "a scene file (JSON)");
     try {
         DuplicateKeys duplicates(path);
         return parseScene(json::parse(text, std::ref(duplicates)), path);

@@ -1,16 +1,14 @@
 #include "stroke_file.hpp"
 
+#include "decimal_number.hpp"
 #include "exit_codes.hpp"
+#include "input_file.hpp"
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
-#include <fstream>
 #include <glm/common.hpp>
-#include <iterator>
 #include <optional>
-#include <system_error>
 
 namespace haptoflow::cli {
 namespace {
@@ -128,17 +126,11 @@ private:
     }
 
     double number(const std::vector<std::string_view>& cells, std::size_t column) const {
-        double value = 0.0;
-        const std::string_view cell = cells[column];
-        const char* end = cell.data() + cell.size();
-        // from_chars knows no plus sign; one sign is enough.
-        const bool plus = cell.starts_with('+') && !cell.starts_with("+-");
-        const char* begin = plus ? cell.data() + 1 : cell.data();
-        const auto [stop, error] = std::from_chars(begin, end, value);
-        if (error != std::errc() || stop != end || !(std::abs(value) <= largestValue)) {
+        const std::optional<double> value = decimalNumber(cells[column]);
+        if (!value || !(std::abs(*value) <= largestValue)) {
             fail(column, "expected a number within +-1e9 with a decimal point");
         }
-        return value;
+        return *value;
     }
 
     contact::TipSample readSample() const {
@@ -186,12 +178,7 @@ Stroke parseStroke(std::string_view text, const std::string& fileName) {
 }
 
 Stroke readStrokeFile(const std::string& path) {
-    std::ifstream file(path, std::ios::binary);
-    if (!file) {
-        throw InputError(path + ": cannot be opened; expected a stroke file (CSV)");
-    }
-    const std::string text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-    return parseStroke(text, path);
+    return parseStroke(readInputFile(path, "a stroke file (CSV)"), path);
 }
 
 contact::TipSample sampleStroke(const Stroke& stroke, double timeSeconds) {

@@ -7,15 +7,22 @@ set(haptoflow_borrowed_headers "${CMAKE_BINARY_DIR}/borrowed-headers")
 function(haptoflow_borrow_headers target folder probe)
   find_path(HAPTOFLOW_${folder}_INCLUDE_DIR "${folder}/${probe}" NO_CMAKE_FIND_ROOT_PATH REQUIRED
             DOC "Where the build machine has ${folder}/${probe}")
-  file(MAKE_DIRECTORY "${haptoflow_borrowed_headers}")
-  file(CREATE_LINK "${HAPTOFLOW_${folder}_INCLUDE_DIR}/${folder}" "${haptoflow_borrowed_headers}/${folder}" SYMBOLIC)
+  if(CMAKE_HOST_WIN32)
+    # No C library lies there, and links want a privilege.
+    set(haptoflow_borrowed_headers "${HAPTOFLOW_${folder}_INCLUDE_DIR}")
+  else()
+    file(MAKE_DIRECTORY "${haptoflow_borrowed_headers}")
+    file(CREATE_LINK "${HAPTOFLOW_${folder}_INCLUDE_DIR}/${folder}" "${haptoflow_borrowed_headers}/${folder}" SYMBOLIC)
+  endif()
   if(target AND NOT TARGET ${target})
     add_library(${target} INTERFACE IMPORTED GLOBAL)
     target_include_directories(${target} SYSTEM INTERFACE "${haptoflow_borrowed_headers}")
   endif()
 endfunction()
 
-haptoflow_borrow_headers(glm::glm glm glm.hpp)
+if(HAPTOFLOW_BUILD_CLI OR HAPTOFLOW_BUILD_TESTS)
+  haptoflow_borrow_headers(glm::glm glm glm.hpp)
+endif()
 haptoflow_borrow_headers(nlohmann_json::nlohmann_json nlohmann json.hpp)
 
 # GoogleTest is compiled with the tests, from the sources that its package installs beside the binaries.

@@ -22,7 +22,7 @@ namespace HaptoFlow.Samples.StylusTracing
             // A capsule is two units high.
             bool isTall = shape == PrimitiveType.Capsule;
             made.transform.localScale = isTall ? new Vector3(size.x, 0.5f * size.y, size.z) : size;
-            made.GetComponent<MeshRenderer>().material.color = colour;
+            PipelineMaterial.Paint(made.GetComponent<MeshRenderer>(), colour);
             return made;
         }
 
@@ -32,15 +32,6 @@ namespace HaptoFlow.Samples.StylusTracing
             var surface = owner.AddComponent<HapticSurface>();
             surface.Material.Label = label;
             return surface;
-        }
-
-        /// <summary>A pen's body above its tip; nothing collides with it.</summary>
-        public static void PenBody(Transform tip, Color colour)
-        {
-            GameObject body = Solid("Body", PrimitiveType.Capsule, default, new Vector3(0.008f, 0.14f, 0.008f), colour);
-            body.GetComponent<Collider>().enabled = false;
-            body.transform.SetParent(tip, false);
-            body.transform.localPosition = new Vector3(0f, 0.07f, 0f);
         }
 
         /// <summary>A line of text that can be read from its back side along z, as all text in Unity.</summary>

@@ -5,6 +5,7 @@ namespace HaptoFlow.Samples.StylusTracing
 {
     /// <summary>Builds the sample when it wakes: a table with objects of eight labels, a pen under the mouse, and one
     /// for each hand that holds a tracked stylus or controller.</summary>
+    [RequireComponent(typeof(PipelineMaterial))]
     public sealed class TracingScene : MonoBehaviour
     {
         private const string Hint = "hold the left mouse button and draw over the objects";

@@ -25,8 +25,8 @@ namespace HaptoFlow.Samples.StylusTracing
             rig.isTracked = Enabled("<XRHMD>/isTracked");
             rig.position = Enabled("<XRHMD>/centerEyePosition");
             rig.rotation = Enabled("<XRHMD>/centerEyeRotation");
-            XrPen.Create(rig.transform, "RightHand");
-            XrPen.Create(rig.transform, "LeftHand");
+            XrPen.Create(rig.transform, PenHand.Right);
+            XrPen.Create(rig.transform, PenHand.Left);
             return rig;
         }
 

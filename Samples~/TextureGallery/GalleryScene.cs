@@ -8,6 +8,7 @@ namespace HaptoFlow.Samples.TextureGallery
 {
     /// <summary>Builds the sample when it wakes: a tile for each label of the model, and a wide board that takes the
     /// label of the tile that was pressed last.</summary>
+    [RequireComponent(typeof(PipelineMaterial))]
     public sealed class GalleryScene : MonoBehaviour
     {
         private const string Hint = "press a tile to pick its label; stroke the tile, or the board below";

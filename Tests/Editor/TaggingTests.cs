@@ -103,7 +103,7 @@ namespace HaptoFlow.EditorTests
         {
             Undo.IncrementCurrentGroup();
             GameObject hand = Make("Hand");
-            GameObjectMenu.CreateStylus(new MenuCommand(hand));
+            CreateMenu.CreateStylus(new MenuCommand(hand));
             HapticStylus stylus = Object.FindObjectsByType<HapticStylus>(
                 FindObjectsInactive.Include, FindObjectsSortMode.None).Single();
             Assert.That(stylus.transform.parent, Is.EqualTo(hand.transform));

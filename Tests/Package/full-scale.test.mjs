@@ -22,8 +22,15 @@ test('every language has the same default full scale as the C header', () => {
     'C#': numberIn([...runtime, 'Core', 'Native', 'HapticEngine.cs'], 'DefaultFullScaleMps2 = ([\\d.]+);'),
     Python: numberIn(['Training', 'haptoflow_training', 'evaluation', 'engine_render.py'], '\\nFULL_SCALE_MPS2 = ([\\d.]+)'),
     JavaScript: fullScaleMps2,
+    "the command line's help": numberIn(['NativePlugin', 'cli', 'render_command.cpp'], '\\+-1 in the WAV is (\\d+) m/s'),
   };
   for (const [language, value] of Object.entries(homes)) assert.equal(value, header, language);
+});
+
+test('the measurement counts from where the engine\'s knee begins', () => {
+  const engine = numberIn(['NativePlugin', 'src', 'dsp', 'limiter.hpp'], ' knee = ([\\d.]+)F;');
+  assert.equal(numberIn(['Training', 'haptoflow_training', 'evaluation', 'full_scale.py'], '\\nKNEE = ([\\d.]+)'), engine);
+  assert.equal(measured.knee, engine);
 });
 
 test('the pages that name the default full scale name this one', () => {

@@ -1,6 +1,6 @@
 import assert from 'node:assert/strict';
 import { spawnSync } from 'node:child_process';
-import { existsSync, mkdirSync, mkdtempSync, rmSync, writeFileSync } from 'node:fs';
+import { cpSync, existsSync, mkdirSync, mkdtempSync, rmSync, symlinkSync, writeFileSync } from 'node:fs';
 import os from 'node:os';
 import path from 'node:path';
 import test from 'node:test';
@@ -57,7 +57,7 @@ test('--help teaches and builds nothing', () => {
   const { status, stdout } = pack('--help');
   assert.equal(status, 0);
   for (const word of ['--no-build', 'Install package from tarball', 'HAPTOFLOW_NATIVE_DIR']) assert.ok(stdout.includes(word), word);
-  for (const { name, presets } of platforms) assert.match(stdout, new RegExp(`^ {2}${name} +cmake --preset ${presets[0]} `, 'm'));
+  for (const { name, id, presets } of platforms) assert.match(stdout, new RegExp(`^ {2}${name} +${id} +cmake --preset ${presets[0]} `, 'm'));
 });
 
 test('an option that does not exist ends with 2 before anything is built', () => {
@@ -65,6 +65,34 @@ test('an option that does not exist ends with 2 before anything is built', () =>
   assert.equal(status, 2);
   assert.match(stderr, /--no-biuld/);
   assert.equal(stdout, '');
+});
+
+test('a platform that does not exist cannot be required', () => {
+  const { status, stderr } = pack('--no-build', '--require', 'linux-x64,andriod-arm64');
+  assert.equal(status, 2);
+  assert.match(stderr, /--require andriod-arm64: expected some of linux-x64, windows-x64, macos, android-arm64/);
+});
+
+test('without the library of a required platform, or without any, no tarball is made', () => {
+  inFolder((folder) => {
+    // A copy of the scripts has a build folder of its own, with nothing in it.
+    for (const name of ['scripts', 'package.json', 'CMakePresets.json']) cpSync(inRepository(name), path.join(folder, name), { recursive: true });
+    symlinkSync(inRepository('node_modules'), path.join(folder, 'node_modules'), 'junction');
+    const there = (...words) => spawnSync(process.execPath, [path.join(folder, 'scripts', 'pack.mjs'), '--no-build', ...words], { encoding: 'utf8', env: { ...process.env, HAPTOFLOW_NATIVE_DIR: path.join(folder, 'natives') } });
+
+    const none = there();
+    assert.equal(none.status, 1, none.stdout);
+    assert.match(none.stderr, /there is no native library/);
+    assert.match(none.stderr, /Android arm64: not built; the preset android-arm64 needs the Android NDK/);
+
+    mkdirSync(path.join(folder, 'natives'));
+    writeFileSync(path.join(folder, 'natives', 'libaudioplugin_haptoflow.so'), elf(62));
+    const other = there('--require', 'linux-x64,android-arm64');
+    assert.equal(other.status, 1, other.stdout);
+    assert.match(other.stderr, /without android-arm64: not built/);
+    assert.doesNotMatch(other.stderr, /without linux-x64/);
+    assert.ok(!existsSync(path.join(folder, 'out')));
+  });
 });
 
 test('libraries are told apart by their first bytes', () => {

@@ -1,6 +1,11 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import { run } from '../../scripts/lib/process.mjs';
+import { npmComplaint, run } from '../../scripts/lib/process.mjs';
+import { spawnSync } from 'node:child_process';
+import { mkdtempSync, rmSync, writeFileSync } from 'node:fs';
+import os from 'node:os';
+import path from 'node:path';
+import { inRepository } from '../../scripts/lib/repository.mjs';
 
 test('a program that hangs is ended at its limit and has failed, with the limit in what is said', async () => {
   const hanging = ['-e', 'setInterval(() => {}, 1000)'];
@@ -16,4 +21,31 @@ test('a program that ends within its limit is judged by itself', async () => {
 
 test('an option that nothing knows is refused, so that a variable for the child cannot be lost among them', () => {
   assert.throws(() => run(process.execPath, ['--version'], { quiet: true, HAPTOFLOW_TEST_CALLBACKS: '1' }), /unknown options HAPTOFLOW_TEST_CALLBACKS/);
+});
+
+/** What `runNpmOrFail` says in a process around which an npm was told to be silent, of a registry where nobody answers. */
+function npmWithoutRegistry() {
+  const folder = mkdtempSync(path.join(os.tmpdir(), 'haptoflow-npm-'));
+  try {
+    writeFileSync(path.join(folder, 'package.json'), '{"name": "nothing", "version": "1.0.0", "dependencies": {"no-such-package-here": "1.0.0"}}');
+    const module = JSON.stringify(inRepository('scripts', 'lib', 'process.mjs'));
+    const program = `import(${module}).then(({ runNpmOrFail }) => runNpmOrFail(['install', '--prefix', ${JSON.stringify(folder)}])).catch((error) => { console.error(error.message); process.exitCode = 9; })`;
+    const env = { ...process.env, npm_config_registry: 'http://127.0.0.1:9/', npm_config_loglevel: 'silent', npm_config_fetch_retry_mintimeout: '1', npm_config_fetch_retry_maxtimeout: '1', npm_config_cache: path.join(folder, 'cache') };
+    delete env.npm_execpath;
+    return spawnSync(process.execPath, ['-e', program], { encoding: 'utf8', env });
+  } finally {
+    rmSync(folder, { recursive: true, force: true });
+  }
+}
+
+test('an npm that cannot reach its registry says so, and what to do, although the npm around it was told to be silent', () => {
+  const { status, stderr } = npmWithoutRegistry();
+  assert.equal(status, 9, stderr);
+  assert.match(stderr, /ECONNREFUSED/);
+  assert.match(stderr, /`npm install` ended with 1: npm's registry cannot be reached: check the network/);
+});
+
+test('an npm that fails for another reason shows its words and where to learn more, one without words says that', () => {
+  assert.match(npmComplaint(['ci'], 1, 'npm ERR! lock file is wrong\n'), /^npm ERR! lock file is wrong\n`npm ci` ended with 1: `npm ci --loglevel=verbose` says more$/);
+  assert.match(npmComplaint(['ci'], 1, ''), /^npm said nothing\n/);
 });

@@ -45,12 +45,12 @@ test('without arguments every script is listed in one line, and nothing is insta
   for (const name of Object.keys(scripts)) assert.match(result.stdout, new RegExp(`^  ${name} +\\w.+$`, 'm'));
 });
 
-test('root without Node gets Node from apt-get and npm runs with the arguments', { skip: posixOnly }, () => {
-  const install = 'case "$*" in *install*) printf "#!/bin/sh\\nexit 0\\n" > $BIN/node; printf "#!/bin/sh\\necho npm \\$*\\n" > $BIN/npm; chmod +x $BIN/node $BIN/npm;; esac';
+test('root without Node gets Node from apt-get and the script runs with the arguments', { skip: posixOnly }, () => {
+  const install = 'case "$*" in *install*) printf "#!/bin/sh\\ntest \\$1 = -e || echo node \\$*\\n" > $BIN/node; printf "#!/bin/sh\\n" > $BIN/npm; chmod +x $BIN/node $BIN/npm;; esac';
   const chmod = 'exec /bin/chmod "$@"';
   const result = onBareMachine({ id: 'echo 0', 'apt-get': install, chmod }, ['demo', '--flag', 'two words']);
   assert.equal(result.status, 0, result.stderr);
-  assert.match(result.stdout, /npm run --silent demo -- --flag two words$/m);
+  assert.match(result.stdout, /^node scripts\/demo\.mjs --flag two words$/m);
 });
 
 test('without root and sudo the one command to type is printed and the exit code is 2', { skip: posixOnly }, () => {
@@ -58,6 +58,37 @@ test('without root and sudo the one command to type is printed and the exit code
   assert.equal(result.status, 2);
   assert.match(result.stderr, /sudo apt-get update && sudo apt-get install -y .* nodejs npm/);
   assert.ok(!result.stdout.includes('INSTALLED'));
+});
+
+test('where apt-get fails its reason and what to do are shown', { skip: posixOnly }, () => {
+  const result = onBareMachine({ id: 'echo 0', 'apt-get': 'echo "E: no such host" >&2; exit 100' }, ['demo']);
+  assert.equal(result.status, 2);
+  assert.match(result.stderr, /E: no such host/);
+  assert.match(result.stderr, /could not install Node and npm .* is the network there\?/);
+});
+
+test('what a script says as it fails is shown, and its exit code is that of ./run', { skip: posixOnly }, () => {
+  const result = onBareMachine({ node: 'test "$1" = -e || { echo "demo: no disk" >&2; exit 3; }', npm: 'exit 0' }, ['demo']);
+  assert.equal(result.status, 3);
+  assert.match(result.stderr, /demo: no disk/);
+});
+
+test('every script shows its help with --help and does nothing else', () => {
+  for (const name of Object.keys(scripts)) {
+    const file = inRepository('scripts', `${name.replace(':', '-')}.mjs`);
+    const result = spawnSync(process.execPath, [file, '--help'], { encoding: 'utf8', env: { ...process.env, PATH: '' } });
+    assert.equal(result.status, 0, `${name}: ${result.stderr}`);
+    assert.match(result.stdout, /^usage: /, name);
+    assert.doesNotMatch(result.stdout, /setup:|build:/, name);
+  }
+});
+
+test('a word that a script does not know ends with 2 before anything is installed', () => {
+  for (const name of ['demo', 'test', 'test-soak', 'lint', 'bench']) {
+    const result = spawnSync(process.execPath, [inRepository('scripts', `${name}.mjs`), '--no-such-word'], { encoding: 'utf8', env: { ...process.env, PATH: '' } });
+    assert.equal(result.status, 2, `${name}: ${result.stdout}${result.stderr}`);
+    assert.match(result.stderr, /--no-such-word/, name);
+  }
 });
 
 test('a Node that is too old counts as missing', { skip: posixOnly }, () => {

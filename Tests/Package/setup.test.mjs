@@ -1,9 +1,11 @@
 import assert from 'node:assert/strict';
-import { readFileSync } from 'node:fs';
+import { readFileSync, readdirSync } from 'node:fs';
+import path from 'node:path';
 import test from 'node:test';
-import { missingFromLock, missingPackages, packagesByPurpose, selectPackages } from '../../scripts/lib/packages.mjs';
+import { missingFromLock, missingPackages, offeredPackages, optionalPurposes, packageOfProgram, packagesByPurpose, selectPackages } from '../../scripts/lib/packages.mjs';
 import { cachedVariable } from '../../scripts/lib/native_build.mjs';
 import { inRepository } from '../../scripts/lib/repository.mjs';
+import { runners } from '../../scripts/lib/test_runners.mjs';
 
 test('the demo asks for no Python, no PyTorch, no test library and no cross compiler', () => {
   for (const name of selectPackages(['build'])) assert.doesNotMatch(name, /python|torch|gtest|mingw|aarch64|wine|clang/);
@@ -51,4 +53,101 @@ test('the lock file names no host and pins every development package to one vers
   assert.doesNotMatch(lock, /https?:/);
   const { devDependencies } = JSON.parse(readFileSync(inRepository('package.json'), 'utf8'));
   for (const [name, version] of Object.entries(devDependencies)) assert.match(version, /^\d+\.\d+\.\d+$/, name);
+});
+
+test('packages are offered where apt names a candidate', () => {
+  const policy = [
+    'clang-22:', '  Installed: (none)', '  Candidate: 1:22.1.8-1~deb12u1', '  Version table:', '     1:22.1.8 500',
+    'libclang-rt-22-dev:', '  Installed: (none)', '  Candidate: (none)', '  Version table:',
+    'git:', '  Installed: 1:2.39', '  Candidate: 1:2.39', '',
+  ].join('\n');
+  assert.deepEqual(offeredPackages(['clang-22', 'libclang-rt-22-dev', 'git', 'unknown'], policy), ['clang-22', 'git']);
+  assert.deepEqual(offeredPackages(['git'], ''), []);
+});
+
+test('what may be left out says what it needs and where that can be had', () => {
+  for (const [purpose, sentence] of Object.entries(optionalPurposes)) {
+    assert.ok(packagesByPurpose[purpose].length > 0, purpose);
+    assert.match(sentence, /is left out: it needs .+ Debian 12/, purpose);
+    for (const name of packagesByPurpose[purpose]) assert.ok(sentence.includes(name), `${purpose}: ${name}`);
+  }
+});
+
+/** Text files below a folder of the repository. */
+function filesBelow(folder, pattern) {
+  return readdirSync(inRepository(folder), { withFileTypes: true }).flatMap((entry) => {
+    const name = path.posix.join(folder, entry.name);
+    if (entry.isDirectory()) return entry.name === 'node_modules' ? [] : filesBelow(name, pattern);
+    return pattern.test(entry.name) ? [name] : [];
+  });
+}
+
+const startPatterns = [
+  // Of a script: run('git', ...); emulators name theirs as `command`.
+  /\b(?:run|runOrFail|succeeds|spawn|spawnSync|execFileSync)\(\s*'([^']+)'/g,
+  /\bjudgeJunit\([^,]+, '([^']+)'/g,
+  /\bcommand: '([^']+)'/g,
+  // Of a C++ test and of Python.
+  /\bpopen\(\s*"([\w./+-]+) /g,
+  /\[\s*"([\w./+-]+)", "[^"]*"[^\]]*\],? *(?:cwd|check|capture_output|env)/g,
+  // Of CMake and its presets.
+  /CMAKE_(?:C|CXX|RC)_COMPILER"?:? "?([\w./+-]+)/g,
+  /find_program\(\w+ NAMES ([\w.+-]+)/g,
+];
+
+/** Programs that a text starts by name. */
+function programsIn(text) {
+  return [...new Set(startPatterns.flatMap((pattern) => [...text.matchAll(pattern)].map(([, name]) => name)))];
+}
+
+// On every Debian, or brought by `run`; or started where it is known to be there, or may be missing.
+const always = new Set(['sh', '/bin/sh', 'bash', 'apt-get', 'apt-cache', 'dpkg-query', 'sudo', 'npm', 'node', 'dotnet', 'ccache']);
+
+/** The purposes that a script sets up itself. */
+const purposesOf = (script) => [...readFileSync(inRepository('scripts', script), 'utf8').matchAll(/setUp\(\[([^\]]*)\]\)/g)].flatMap(([, list]) => [...list.matchAll(/'(\w+)'/g)].map(([, name]) => name));
+
+const purposesOfRunners = (...names) => names.flatMap((name) => runners[name].purposes);
+
+/** Who starts what, and what is set up before. Other scripts set up what they say themselves. */
+const starters = [
+  { files: () => [...filesBelow('Tests/Package', /(?<!setup\.test)\.mjs$/), 'scripts/lint/files.mjs'], purposes: purposesOfRunners('package') },
+  { files: () => [...filesBelow('Tests/Training', /\.py$/), ...filesBelow('Training', /\.py$/)], purposes: purposesOfRunners('training') },
+  { files: () => filesBelow('Tests/Native', /\.(cpp|hpp|txt|cmake)$/), purposes: purposesOfRunners('native') },
+  { files: () => filesBelow('NativePlugin/cmake', /\.cmake$/), purposes: purposesOfRunners('platforms') },
+  { files: () => ['scripts/lib/platform_tests.mjs', 'scripts/lib/exported_names.mjs', 'scripts/lib/android_pages.mjs', 'Tests/Platforms/android-stand-in.cmake'], purposes: purposesOfRunners('platforms') },
+  { files: () => ['CMakePresets.json', 'scripts/lib/test_runners.mjs', 'scripts/lib/native_build.mjs'], purposes: Object.values(runners).flatMap(({ purposes }) => purposes) },
+  { files: () => ['scripts/lib/dotnet.mjs'], purposes: purposesOfRunners('dotnet') },
+  { files: () => filesBelow('scripts/lint', /\.mjs$/), purposes: purposesOf('lint.mjs') },
+  { files: () => filesBelow('scripts/pack', /\.(mjs|py)$/), purposes: purposesOf('pack.mjs') },
+];
+
+for (const { files, purposes } of starters) {
+  const names = files();
+  test(`set-up brings every program that ${names.length === 1 ? names[0] : `${path.posix.dirname(names[0])} (${names.length} files)`} starts`, () => {
+    const packages = selectPackages([...new Set(purposes)]);
+    assert.ok(names.length > 0);
+    for (const name of names) {
+      for (const program of programsIn(readFileSync(inRepository(name), 'utf8'))) {
+        if (always.has(program)) continue;
+        const brings = packageOfProgram[program];
+        assert.ok(brings, `${name} starts ${program}, of which packages.mjs does not know the package`);
+        assert.ok(packages.includes(brings), `${name} starts ${program}, and set-up does not bring ${brings} before`);
+      }
+    }
+  });
+}
+
+test('the programs that a text starts are found', () => {
+  assert.deepEqual(programsIn("await run('git', ['ls-files']); succeeds('clang++-22', ['--version'])").sort(), ['clang++-22', 'git']);
+  assert.deepEqual(programsIn("return judgeJunit('native.xml', 'ctest', ['--preset'])"), ['ctest']);
+  assert.deepEqual(programsIn("{ command: 'wine', args: [] }"), ['wine']);
+  assert.deepEqual(programsIn('popen("nm -D x", "r")'), ['nm']);
+  assert.deepEqual(programsIn('subprocess.run(\n["git", "rev-parse", "HEAD"], cwd=folder)'), ['git']);
+  assert.deepEqual(programsIn('set(CMAKE_CXX_COMPILER x86_64-w64-mingw32-g++-posix)'), ['x86_64-w64-mingw32-g++-posix']);
+  assert.deepEqual(programsIn('"CMAKE_C_COMPILER": "clang-22",'), ['clang-22']);
+});
+
+test('every program of the list is in a package that some purpose brings', () => {
+  const packages = new Set(Object.values(packagesByPurpose).flat());
+  for (const [program, name] of Object.entries(packageOfProgram)) assert.ok(packages.has(name), `${program}: ${name}`);
 });

@@ -11,7 +11,9 @@ import matplotlib
 import numpy as np
 import pytest
 
+from haptoflow_training.evaluation import accuracy
 from haptoflow_training.evaluation.accuracy_time_chart import PANELS, chart_lines, chart_points, draw_chart, draw_panel
+from haptoflow_training.evaluation.row_store import read_row
 
 matplotlib.use("Agg")
 from matplotlib import pyplot
@@ -96,6 +98,16 @@ def test_the_legend_explains_every_colour_and_the_bars(monkeypatch: pytest.Monke
     words = " ".join(text.get_text() for text in legend.get_texts())
     assert drawn and drawn <= colours
     assert "95 % interval over recordings" in words and "beyond the scale" in words
+
+
+@pytest.mark.parametrize("name", ["standard", "draft", "plain-euler-4", "ar", "spsi"])
+def test_the_bars_are_the_bootstrap_over_the_recordings_that_are_kept_of_the_row(name: str) -> None:
+    kept = read_row(ROOT / "Training" / "results" / "rows" / f"{name}-1.json")["conditions"]
+    assert len(kept) == 160
+    for panel in PANELS:
+        again = accuracy.with_interval(kept, panel.key)
+        point = next(entry for entry in chart_points(SHIPPED["rows"], panel.key) if entry.row == name)
+        assert (point.value, point.low, point.high) == pytest.approx(again, abs=2e-4)
 
 
 @pytest.mark.parametrize("panel", PANELS, ids=lambda panel: panel.key)

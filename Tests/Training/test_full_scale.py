@@ -87,7 +87,8 @@ def test_a_damaged_file_of_strokes_is_refused_by_its_line(tmp_path: Path, text: 
         read_recorded_strokes(path)
 
 
-# A fast one, a short one and a slow one; the pen of the third also leaves the table.
+_LOUDEST = ("sandpaper", "concrete", "stone")
+# Fast circles, a slow line, and circles of medium speed.
 _FEW = (
     "Study1/1/hybrid_horizontal_circle_large0",
     "Study1/2/hybrid_horizontal_vline_medium2",
@@ -101,11 +102,10 @@ def test_the_loudest_labels_leave_less_than_a_sample_in_a_thousand_in_the_knee_a
     assert ENGINE.is_file(), f"{ENGINE} is missing: build it with `npm run build`"
     assert len(model_labels(ENGINE, MODEL)) == 20
     recorded = read_recorded_strokes(STROKES)
-    levels = measure_levels(
-        ENGINE, MODEL, {name: recorded[name] for name in _FEW}, ("sandpaper", "concrete", "stone"), (1.0, 2.0), workers=2
-    )
+    strokes = {name: recorded[name] for name in _FEW}
+    levels = measure_levels(ENGINE, MODEL, strokes, _LOUDEST, (1.0, 2.0), workers=2)
     assert len(levels) == 18 and all(len(level.magnitudes_mps2) > 10000 for level in levels)
-    for label in ("sandpaper", "concrete", "stone"):
+    for label in _LOUDEST:
         own = [level for level in levels if level.label == label]
         assert share_in_knee(own, FULL_SCALE_MPS2) < ALLOWED_SHARE, label
         # The default before this one: the measurement tells the two apart.

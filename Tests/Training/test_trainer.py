@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import socket
 import subprocess
 import sys
 from pathlib import Path
@@ -103,12 +104,28 @@ def test_a_run_that_was_never_trained_cannot_be_loaded(tmp_path: Path) -> None:
         load_trained(tmp_path)
 
 
-def test_two_processes_under_torchrun_end_with_one_set_of_weights(tmp_path: Path) -> None:
+# A bare machine's own name resolves to nothing: torchrun must be told the loopback address.
+_TORCHRUN_ON_A_NAMELESS_MACHINE = """
+import runpy, socket
+socket.gethostname = lambda: "this-name-does-not-resolve.invalid"
+runpy.run_module("torch.distributed.run", run_name="__main__")
+"""
+
+
+def _free_port() -> str:
+    with socket.socket() as listener:
+        listener.bind(("127.0.0.1", 0))
+        return str(listener.getsockname()[1])
+
+
+def test_two_processes_under_torchrun_end_with_one_set_of_weights_where_the_machines_name_does_not_resolve(
+    tmp_path: Path,
+) -> None:
     script = Path(__file__).with_name("two_process_training.py")
     environment = dict(os.environ, OMP_NUM_THREADS="1", PYTHONPATH=os.pathsep.join(sys.path))
     subprocess.run(
-        [sys.executable, "-m", "torch.distributed.run", "--standalone", "--redirects", "1", "--tee", "1",
-         "--nproc_per_node", "2", str(script), str(tmp_path)],
+        [sys.executable, "-c", _TORCHRUN_ON_A_NAMELESS_MACHINE, "--master_addr", "127.0.0.1",
+         "--master_port", _free_port(), "--redirects", "1", "--tee", "1", "--nproc_per_node", "2", str(script), str(tmp_path)],
         env=environment, check=True, capture_output=True, timeout=240,
     )  # fmt: skip
     first, second = (torch.load(tmp_path / f"weights-{rank}.pt") for rank in (0, 1))

@@ -1,6 +1,6 @@
 import { existsSync, readFileSync } from 'node:fs';
 import os from 'node:os';
-import { CommandError, runOrFail } from './process.mjs';
+import { CommandError, runOrFail, succeeds } from './process.mjs';
 import { inRepository } from './repository.mjs';
 
 /** The value of a variable in a CMakeCache.txt, null where it is not set. */
@@ -20,12 +20,20 @@ export async function buildNative({ preset = 'release', tests = false, targets =
   const hasTests = cachedVariable(cached, 'HAPTOFLOW_BUILD_TESTS') === 'ON';
   if (!configured || (tests && !hasTests)) {
     console.log(`build: configuring ${folder}`);
-    await runOrFail('cmake', ['--preset', preset, `-DHAPTOFLOW_BUILD_TESTS=${tests ? 'ON' : 'OFF'}`], { quiet: true });
+    await runOrFail('cmake', ['--preset', preset, `-DHAPTOFLOW_BUILD_TESTS=${tests ? 'ON' : 'OFF'}`], { env: launchers(), quiet: true });
   }
   console.log(`build: ${targets.length > 0 ? targets.join(', ') : 'everything'} in ${folder}`);
   const targetArgs = targets.length > 0 ? ['--target', ...targets] : [];
   await runOrFail('cmake', ['--build', '--preset', preset, '-j', String(os.cpus().length), ...targetArgs], { quiet: !process.stdout.isTTY });
 }
+
+/** Where ccache is installed, what it has compiled before is not compiled again; CMake's own variables win. */
+function launchers() {
+  if (!succeeds('ccache', ['--version'])) return {};
+  return { CMAKE_C_COMPILER_LAUNCHER: 'ccache', CMAKE_CXX_COMPILER_LAUNCHER: 'ccache', ...pick(process.env, 'CMAKE_C_COMPILER_LAUNCHER', 'CMAKE_CXX_COMPILER_LAUNCHER') };
+}
+
+const pick = (values, ...names) => Object.fromEntries(names.filter((name) => values[name] !== undefined).map((name) => [name, values[name]]));
 
 /** The build folder of a configure preset, relative to the repository. */
 export function presetFolder(preset) {

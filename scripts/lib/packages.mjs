@@ -3,17 +3,63 @@ export const packagesByPurpose = {
   build: [
     'cmake', 'ninja-build', 'g++', 'pkg-config', 'libglm-dev', 'nlohmann-json3-dev', 'libcli11-dev', 'libsndfile1-dev',
   ],
-  test: ['libgtest-dev', 'libgmock-dev', 'libsoxr-dev', 'libkissfft-dev'],
+  test: ['libgtest-dev', 'libgmock-dev', 'libsoxr-dev', 'libkissfft-dev', 'binutils'],
+  libcxx: ['clang-16', 'libc++-16-dev', 'libc++abi-16-dev'],
+  realtime: ['clang-22', 'libclang-rt-22-dev'],
   python: [
     'python3', 'python3-torch', 'python3-onnx', 'python3-numpy', 'python3-scipy', 'python3-pandas', 'python3-matplotlib',
     'python3-tqdm', 'python3-pytest', 'python3-pytest-xdist', 'python3-openpyxl', 'libopenblas0-pthread',
   ],
   platforms: [
-    'g++-mingw-w64-x86-64-posix', 'wine', 'wine64', 'g++-aarch64-linux-gnu', 'qemu-user', 'googletest',
+    'g++-mingw-w64-x86-64-posix', 'binutils-mingw-w64-x86-64', 'wine', 'wine64', 'g++-aarch64-linux-gnu', 'qemu-user',
+    'googletest',
   ],
-  lint: ['clang-format', 'clang-tidy', 'python3'],
+  // What the SDK itself is made of, and what brings it where apt does not: see dotnet.mjs.
+  dotnet: ['ca-certificates', 'curl', 'libicu-dev'],
+  // Which files belong to the project, `git` says.
+  files: ['git'],
+  lint: ['git', 'clang-format', 'clang-tidy', 'python3'],
 };
 
+/** Programs that scripts and tests start, and the package above that brings each. Node and npm are brought by `run`. */
+export const packageOfProgram = {
+  cmake: 'cmake',
+  ctest: 'cmake',
+  ninja: 'ninja-build',
+  nm: 'binutils',
+  curl: 'curl',
+  git: 'git',
+  'clang-format': 'clang-format',
+  'clang-tidy': 'clang-tidy',
+  'clang-16': 'clang-16',
+  'clang++-16': 'clang-16',
+  'clang-22': 'clang-22',
+  'clang++-22': 'clang-22',
+  python3: 'python3',
+  '/usr/bin/python3': 'python3',
+  wine: 'wine',
+  wine64: 'wine64',
+  'qemu-aarch64': 'qemu-user',
+  'x86_64-w64-mingw32-objdump': 'binutils-mingw-w64-x86-64',
+  'x86_64-w64-mingw32-gcc-posix': 'g++-mingw-w64-x86-64-posix',
+  'x86_64-w64-mingw32-g++-posix': 'g++-mingw-w64-x86-64-posix',
+  'x86_64-w64-mingw32-windres': 'binutils-mingw-w64-x86-64',
+  'aarch64-linux-gnu-gcc': 'g++-aarch64-linux-gnu',
+  'aarch64-linux-gnu-g++': 'g++-aarch64-linux-gnu',
+};
+
+/**
+ * Purposes whose packages some releases of Debian do not have: what is left out there, and where it can be had. Every
+ * other purpose must be whole.
+ */
+export const optionalPurposes = {
+  libcxx:
+    'The build with Clang\'s library is left out: it needs Clang 16, which this system\'s packages do not have. Debian 12 ' +
+    'and Ubuntu 24.04 have it (clang-16, libc++-16-dev, libc++abi-16-dev)',
+  realtime:
+    'RealtimeSanitizer is left out: it needs Clang 22, which this system\'s packages do not have. Debian 12 has it in ' +
+    'bookworm-security (clang-22, libclang-rt-22-dev); elsewhere the packages of apt.llvm.org bring it',
+};
 /** Every package of the purposes, each once, in order. Throws RangeError for a purpose that does not exist. */
 export function selectPackages(purposes) {
   const selected = new Set();
@@ -35,6 +81,12 @@ export function missingPackages(wanted, dpkgOutput) {
       .map(([name]) => name),
   );
   return wanted.filter((name) => !installed.has(name));
+}
+
+/** The packages of `wanted` that `apt-cache policy ...` offers a version of. */
+export function offeredPackages(wanted, policyOutput) {
+  const offered = new Set([...policyOutput.matchAll(/^(\S+):\n(?: {2}.*\n)*? {2}Candidate: (?!\(none\))\S/gm)].map(([, name]) => name));
+  return wanted.filter((name) => offered.has(name));
 }
 
 /**

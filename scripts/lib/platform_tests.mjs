@@ -1,5 +1,6 @@
 import { existsSync } from 'node:fs';
 import path from 'node:path';
+import { judgeAndroidPages } from './android_pages.mjs';
 import { judgeExportsOfDll } from './exported_names.mjs';
 import { judgeJunit, results } from './judge_junit.mjs';
 import { buildNative, presetFolder } from './native_build.mjs';
@@ -56,5 +57,6 @@ export async function platformTests() {
       counts = addCounts(counts, await judgeExportsOfDll(inRepository(presetFolder(preset), 'audioplugin_haptoflow.dll')));
     }
   }
-  return counts;
+  console.log('test: pages of the library for Android');
+  return addCounts(counts, await judgeAndroidPages());
 }

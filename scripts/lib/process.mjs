@@ -1,4 +1,5 @@
 import { spawn, spawnSync } from 'node:child_process';
+import { readFileSync } from 'node:fs';
 import { repositoryRoot } from './repository.mjs';
 
 /** A failure whose message is all that a person needs: main prints it without a stack. */
@@ -57,13 +58,26 @@ export async function runOrFail(command, args, options = {}) {
   return output;
 }
 
-/** Runs npm: the one that runs this script, where one does, else the one on PATH. Its output is collected. */
+/**
+ * Runs npm: the one that runs this script, where one does, else the one on PATH. Its output is collected; where it fails
+ * the reason is shown, with what to do, even where an npm around this one was told to be silent.
+ */
 export async function runNpmOrFail(words) {
   const underNpm = process.env.npm_execpath;
   const [command, args] = underNpm ? [process.execPath, [underNpm, ...words]] : ['npm', words];
-  const { exitCode, output } = await run(command, args, { quiet: true, shell: !underNpm && process.platform === 'win32' });
-  if (exitCode !== 0) throw new CommandError(`${output.trimEnd()}\n\`npm ${words[0]}\` ended with ${exitCode}`);
+  const env = { npm_config_loglevel: 'error', npm_config_fetch_retries: '1' };
+  const { exitCode, output } = await run(command, args, { quiet: true, env, shell: !underNpm && process.platform === 'win32' });
+  if (exitCode !== 0) throw new CommandError(npmComplaint(words, exitCode, output));
   return output;
+}
+
+/** What to say when npm failed: its own words, and what to do. */
+export function npmComplaint(words, exitCode, output) {
+  const cannotReach = /\b(ENOTFOUND|EAI_AGAIN|ECONNREFUSED|ECONNRESET|ETIMEDOUT|ENETUNREACH|EHOSTUNREACH|ERR_SOCKET_TIMEOUT|CERT|certificate)/i.test(output);
+  const remedy = cannotReach
+    ? 'npm\'s registry cannot be reached: check the network, and behind a proxy `npm config set proxy` and NODE_EXTRA_CA_CERTS; `npm config get registry` says which registry is asked'
+    : `\`npm ${words.join(' ')} --loglevel=verbose\` says more`;
+  return [output.trimEnd() || 'npm said nothing', `\`npm ${words[0]}\` ended with ${exitCode}: ${remedy}`].join('\n');
 }
 
 /** True when `command args` starts and ends with 0. */
@@ -72,13 +86,30 @@ export function succeeds(command, args) {
   return result.error === undefined && result.status === 0;
 }
 
-/** Runs a script's main function; a CommandError ends the process with its message alone. */
-export async function runMain(name, main) {
+/**
+ * Runs a script's main function; a CommandError ends the process with its message alone. `--help` shows the script's help
+ * and does nothing else.
+ * @param {string} name @param {(words: string[]) => Promise<number | void>} main
+ * @param {{help?: string, takesWords?: boolean}} options help: below the usage line, in place of the script's first line;
+ *   takesWords: false refuses words that the script does not know
+ */
+export async function runMain(name, main, { help, takesWords = true } = {}) {
+  const words = process.argv.slice(2);
   try {
-    process.exitCode = (await main(process.argv.slice(2))) ?? 0;
+    if (words.includes('--help') || words.includes('-h')) {
+      console.log(help ?? `usage: ./run ${name}${takesWords ? ' [ARGUMENTS]' : ''}\n\n${firstLineOf(process.argv[1])}`);
+      return;
+    }
+    if (!takesWords && words.length > 0) throw new CommandError(`"${words[0]}" is not understood: \`./run ${name}\` takes no arguments`, 2);
+    process.exitCode = (await main(words)) ?? 0;
   } catch (error) {
     if (!(error instanceof CommandError)) throw error;
     console.error(`${name}: ${error.message}`);
     process.exitCode = error.exitCode;
   }
+}
+
+/** What a script's first line says that it does. */
+function firstLineOf(file) {
+  return readFileSync(file, 'utf8').split('\n', 1)[0].replace(/^\/\/ [\w:]+: /, '');
 }

@@ -1,44 +1,88 @@
 import { spawnSync } from 'node:child_process';
 import { existsSync, readFileSync } from 'node:fs';
-import { missingFromLock, missingPackages, selectPackages } from './packages.mjs';
+import { bringDotnet } from './dotnet.mjs';
+import { missingFromLock, missingPackages, offeredPackages, optionalPurposes, selectPackages } from './packages.mjs';
 import { CommandError, runNpmOrFail, runOrFail, succeeds } from './process.mjs';
 import { inRepository } from './repository.mjs';
 
 /**
- * Brings what a command needs and is not there, and says so: system packages (Debian), then npm packages.
- * @param {("build"|"test"|"platforms"|"python"|"lint")[]} purposes
+ * Brings what a command needs and is not there, and says so: system packages (Debian), the .NET SDK, then npm packages.
+ * @param {string[]} purposes of packages.mjs
+ * @returns {Promise<string[]>} what had to be left out (see optionalPurposes), a sentence each
  * @throws CommandError with exit code 2 and one command to type where this process may not install.
  */
 export async function setUp(purposes) {
-  await installSystemPackages(purposes);
+  const leftOut = await installSystemPackages(purposes);
+  if (purposes.includes('dotnet')) await bringDotnet({ asRoot: rootCommand() });
   await installNodePackages();
+  leftOut.forEach((sentence) => console.log(`setup: ${sentence}`));
+  return leftOut;
+}
+
+/** The words that make root of a command: none for root itself; null where this process cannot become root. */
+function rootCommand() {
+  if (process.getuid?.() === 0) return [];
+  return succeeds('sudo', ['-n', 'true']) ? ['sudo', '-n'] : null;
+}
+
+const installWords = (packages) => ['apt-get', 'install', '-y', '-qq', '--no-install-recommends', ...packages];
+
+function missingOf(wanted) {
+  const query = spawnSync('dpkg-query', ['-W', '-f', '${Package} ${db:Status-Status}\\n', ...wanted], { encoding: 'utf8' });
+  return missingPackages(wanted, query.stdout ?? '');
 }
 
 async function installSystemPackages(purposes) {
   if (!existsSync('/etc/debian_version') || !succeeds('dpkg-query', ['--version'])) {
     checkForeignSystem(purposes);
-    return;
+    return purposes.filter((purpose) => optionalPurposes[purpose] && !succeeds(programOf(purpose), ['--version'])).map((purpose) => optionalPurposes[purpose]);
   }
-  const wanted = selectPackages(purposes);
-  const query = spawnSync('dpkg-query', ['-W', '-f', '${Package} ${db:Status-Status}\\n', ...wanted], { encoding: 'utf8' });
-  const missing = missingPackages(wanted, query.stdout ?? '');
-  if (missing.length === 0) return;
-
-  const asRoot = process.getuid() === 0 ? [] : ['sudo', '-n'];
-  const install = ['apt-get', 'install', '-y', '-qq', '--no-install-recommends', ...missing];
-  if (asRoot.length > 0 && !succeeds('sudo', ['-n', 'true'])) {
-    throw new CommandError(
-      `${missing.length} system packages are missing and installing them needs root. Run this once, then again what you ran:\n` +
-        `  sudo apt-get update && sudo ${install.join(' ')}`,
-      2,
-    );
+  const optional = purposes.filter((purpose) => optionalPurposes[purpose]);
+  const missing = missingOf(selectPackages(purposes.filter((purpose) => !optionalPurposes[purpose])));
+  const asRoot = rootCommand();
+  if (missing.length > 0) {
+    if (asRoot === null) {
+      throw new CommandError(
+        `${missing.length} system packages are missing and installing them needs root. Run this once, then again what you ran:\n` +
+          `  sudo apt-get update && sudo ${installWords(missing).join(' ')}`,
+        2,
+      );
+    }
+    console.log(`setup: installing ${missing.length} system packages for ${purposes.join(' and ')}: ${missing.join(' ')}`);
+    await runApt(asRoot, ['apt-get', 'update', '-qq']);
+    await runApt(asRoot, ['env', 'DEBIAN_FRONTEND=noninteractive', ...installWords(missing)]);
   }
-  console.log(`setup: installing ${missing.length} system packages for ${purposes.join(' and ')}: ${missing.join(' ')}`);
-  const [update, ...updateArgs] = [...asRoot, 'apt-get', 'update', '-qq'];
-  await runOrFail(update, updateArgs, { quiet: true });
-  const [command, ...args] = [...asRoot, 'env', 'DEBIAN_FRONTEND=noninteractive', ...install];
-  await runOrFail(command, args, { quiet: true });
+  const leftOut = [];
+  for (const purpose of optional) leftOut.push(await installOptional(purpose, asRoot));
+  return leftOut.filter((sentence) => sentence !== null);
 }
+
+/** Null where a purpose's packages are there now, else the sentence that says what is left out. */
+async function installOptional(purpose, asRoot) {
+  const wanted = selectPackages([purpose]);
+  const missing = missingOf(wanted);
+  if (missing.length === 0) return null;
+  const policy = spawnSync('apt-cache', ['policy', ...missing], { encoding: 'utf8', env: { ...process.env, LC_ALL: 'C' } });
+  const offered = offeredPackages(missing, policy.stdout ?? '');
+  if (offered.length < missing.length) return optionalPurposes[purpose];
+  if (asRoot === null) return `${optionalPurposes[purpose].split(':')[0]}: run sudo ${installWords(missing).join(' ')}`;
+  console.log(`setup: installing ${missing.join(' ')}`);
+  await runApt(asRoot, ['env', 'DEBIAN_FRONTEND=noninteractive', ...installWords(missing)]);
+  return null;
+}
+
+async function runApt(asRoot, words) {
+  const [command, ...args] = [...asRoot, ...words];
+  try {
+    await runOrFail(command, args, { quiet: true });
+  } catch (error) {
+    if (!(error instanceof CommandError)) throw error;
+    throw new CommandError(`${error.message}\nThe system packages could not be installed: is the network there, and do the sources of apt answer (sudo apt-get update)?`, 2);
+  }
+}
+
+/** The program by which a purpose is known to be there on systems without apt. */
+const programOf = (purpose) => ({ libcxx: 'clang++-16', realtime: 'clang++-22' })[purpose];
 
 /** Elsewhere nothing is installed for you: say what is missing and which file lists it. */
 function checkForeignSystem(purposes) {
@@ -50,6 +94,7 @@ function checkForeignSystem(purposes) {
       }
     }
   }
+  if (purposes.includes('files') && !succeeds('git', ['--version'])) wants.push('git on PATH');
   if (purposes.includes('lint') && !succeeds('clang-format', ['--version'])) wants.push('clang-format and clang-tidy on PATH');
   if (purposes.includes('python') && findPython() === null) {
     wants.push('Python 3.11 with the packages of Training/pyproject.toml (HAPTOFLOW_PYTHON names the interpreter)');

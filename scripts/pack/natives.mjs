@@ -1,5 +1,6 @@
 import { closeSync, existsSync, openSync, readSync } from 'node:fs';
 import path from 'node:path';
+import { androidPreset, rebuildAndroid } from '../build/android_build.mjs';
 import { buildNative, presetFolder } from '../lib/native_build.mjs';
 import { inRepository } from '../lib/repository.mjs';
 
@@ -11,10 +12,10 @@ export const pluginsFolder = 'Runtime/Plugins';
  * that build it, and what a machine needs for the first of them.
  */
 export const platforms = [
-  { name: 'Linux x86-64', place: 'Linux/x64/libaudioplugin_haptoflow.so', kind: 'elf-x86-64', presets: ['release'], needs: 'a Linux x64 machine' },
-  { name: 'Windows x86-64', place: 'Windows/x64/audioplugin_haptoflow.dll', kind: 'pe-x86-64', presets: ['windows-x64', 'windows-msvc', 'release'], needs: 'mingw-w64' },
-  { name: 'macOS', place: 'macOS/libaudioplugin_haptoflow.dylib', kind: 'macho-universal', presets: ['macos'], needs: 'a Mac' },
-  { name: 'Android arm64', place: 'Android/arm64-v8a/libaudioplugin_haptoflow.so', kind: 'elf-arm64', presets: ['android-arm64'], needs: 'the Android NDK' },
+  { name: 'Linux x86-64', id: 'linux-x64', place: 'Linux/x64/libaudioplugin_haptoflow.so', kind: 'elf-x86-64', presets: ['release'], needs: 'a Linux x64 machine' },
+  { name: 'Windows x86-64', id: 'windows-x64', place: 'Windows/x64/audioplugin_haptoflow.dll', kind: 'pe-x86-64', presets: ['windows-x64', 'windows-msvc', 'release'], needs: 'mingw-w64' },
+  { name: 'macOS', id: 'macos', place: 'macOS/libaudioplugin_haptoflow.dylib', kind: 'macho-universal', presets: ['macos'], needs: 'a Mac' },
+  { name: 'Android arm64', id: 'android-arm64', place: 'Android/arm64-v8a/libaudioplugin_haptoflow.so', kind: 'elf-arm64', presets: ['android-arm64'], needs: 'the Android NDK' },
 ];
 
 const elfMachines = { 62: 'elf-x86-64', 183: 'elf-arm64' };
@@ -51,7 +52,10 @@ function beginningOf(file) {
 export async function buildNatives() {
   const own = process.platform === 'darwin' ? 'macos' : 'release';
   const configured = platforms.flatMap(({ presets }) => presets).filter((preset) => existsSync(inRepository(presetFolder(preset), 'build.ninja')));
-  for (const preset of new Set([own, ...configured])) await buildNative({ preset, targets: ['audioplugin_haptoflow'] });
+  for (const preset of new Set([own, ...configured])) {
+    if (preset === androidPreset) await rebuildAndroid();
+    else await buildNative({ preset, targets: ['audioplugin_haptoflow'] });
+  }
 }
 
 /** Folders that may hold a platform's library; HAPTOFLOW_NATIVE_DIR stands for that of the preset "release". */

@@ -4,17 +4,20 @@ Run from the repository's root, after `npm run build`:
 
     /usr/bin/python3 scripts/pack/sample_pictures.py [--engine build/native/haptoflow]
 
-StylusTracing.png: the scene from above with its stroke, the vibration in m/s^2, and its spectrogram.
-TextureGallery.png: the same stroke of 12 cm, there and back, on each label of the shipped model; each
-waveform as high as its tile, with its level (RMS) beside the label's name.
+StylusTracing.png: the scene as its camera sees it with a stroke, the vibration in m/s^2, and its spectrogram.
+TextureGallery.png: the wall of tiles, in their colours, with the same stroke of 12 cm, there and back, on each label of
+the shipped model: waveforms and spectrograms of one scale, the level (RMS) beside the name.
 """
 
 from __future__ import annotations
 
 import argparse
+import colorsys
 import csv
+import hashlib
 import io
 import json
+import re
 import subprocess
 import tempfile
 import warnings
@@ -26,11 +29,11 @@ import matplotlib
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
-from matplotlib.patches import Polygon
-from PIL import Image
+from matplotlib.patheffects import withStroke
+from PIL import Image, PngImagePlugin
 from scipy.io import wavfile
 from scipy.signal import spectrogram
-from scipy.spatial.transform import Rotation
+from scene_view import Camera, draw_solids, facets
 
 ROOT = Path(__file__).resolve().parents[2]
 SAMPLES = ROOT / "Samples~"
@@ -72,16 +75,17 @@ def render(engine: Path, scene: Path, stroke: Path, folder: Path) -> Render:
     return Render(rate_hz, FULL_SCALE_MPS2 * samples, contacts)
 
 
-def draw_spectrogram(axes: plt.Axes, felt: Render, bottom_db: float = -60.0) -> None:
-    """Decibels below the loudest bin of the picture."""
+def draw_spectrogram(axes: plt.Axes, felt: Render, top_db: float | None = None, range_db: float = 60.0) -> None:
+    """Decibels up to top_db of power density; without it, up to the loudest bin."""
     window = int(0.064 * felt.rate_hz)
     frequencies, times, power = spectrogram(
         felt.acceleration_mps2, felt.rate_hz, nperseg=window, noverlap=window * 7 // 8
     )
     shown = frequencies <= TOP_HZ
     levels = 10.0 * np.log10(power[shown] + 1e-20)
+    top = float(levels.max()) if top_db is None else top_db
     axes.imshow(
-        levels - levels.max(), origin="lower", aspect="auto", cmap="inferno", vmin=bottom_db, vmax=0.0,
+        levels, origin="lower", aspect="auto", cmap="inferno", vmin=top - range_db, vmax=top,
         extent=(times[0], times[-1], 0.0, TOP_HZ), interpolation="bilinear",
     )
 
@@ -91,53 +95,56 @@ def save(figure: plt.Figure, file: Path) -> None:
     pixels = io.BytesIO()
     figure.savefig(pixels, dpi=100)
     plt.close(figure)
-    Image.open(pixels).convert("RGB").quantize(160).save(file, optimize=True)
-
-
-def outline(surface: dict) -> np.ndarray:
-    """Corners [N, 2] of a surface seen from above, x and z in metres."""
-    rest = surface.get("motion", {}).get("keyframes", [surface])[0]
-    centre = np.array(rest.get("position", [0.0, 0.0, 0.0]))
-    turn = Rotation.from_quat(rest.get("rotation", [0.0, 0.0, 0.0, 1.0]))
-    shape = surface["shape"]
-    angles = np.linspace(0.0, 2.0 * np.pi, 64)
-    if "sphere" in shape:
-        height = -centre[1]
-        radius = np.sqrt(max(0.0, shape["sphere"]["radius"] ** 2 - height**2))
-        return centre[[0, 2]] + radius * np.stack([np.cos(angles), np.sin(angles)], axis=1)
-    if "capsule" in shape:
-        radius = shape["capsule"]["radius"]
-        reach = shape["capsule"]["height"] / 2.0 - radius
-        along = turn.apply([0.0, reach, 0.0])[[0, 2]]
-        ring = radius * np.stack([np.cos(angles), np.sin(angles)], axis=1)
-        side = np.where((ring @ along)[:, None] >= 0.0, 1.0, -1.0)
-        return centre[[0, 2]] + ring + side * along
-    half = np.array(shape["box"]["size"]) / 2.0
-    corners = np.array([[-1, 1, -1], [1, 1, -1], [1, 1, 1], [-1, 1, 1]]) * half
-    return (centre + turn.apply(corners))[:, [0, 2]]
+    text = PngImagePlugin.PngInfo()
+    text.add_text("Model-SHA-256", hashlib.sha256(MODEL.read_bytes()).hexdigest())
+    Image.open(pixels).convert("RGB").quantize(200).save(file, optimize=True, pnginfo=text)
 
 
 def draw_scene(axes: plt.Axes, scene: dict, felt: Render, stroke: np.ndarray) -> None:
-    for surface in scene["surfaces"]:
-        corners = outline(surface)
-        is_table = surface["name"] == "Table"
-        axes.add_patch(
-            Polygon(corners, facecolor=COLOURS[surface["material"]], alpha=0.35 if is_table else 1.0,
-                    edgecolor="#333333", linewidth=0.6)
-        )
-        place = (0.22, -0.262) if is_table else (corners[:, 0].mean(), corners[:, 1].max() + 0.012)
-        axes.text(*place, surface["material"], ha="center", va="bottom", fontsize=9)
+    """The sample's camera's view of table, objects, stroke and pen."""
+    camera = camera_of(SAMPLES / "StylusTracing/StylusTracing.unity")
+    table, *objects = scene["surfaces"]
+    far_first = sorted(objects, key=lambda surface: -facets(surface)[..., 2].mean())
+    # The table hides what is below it.
+    shown = [(np.maximum(facets(surface), [-np.inf, 0.0, -np.inf]), surface["material"]) for surface in far_first]
+    draw_solids(axes, camera, [(faces, COLOURS[label]) for faces, label in ((facets(table), table["material"]), *shown)])
     times = [float(row["t"]) for row in felt.contacts]
-    touching = np.interp(stroke[:, 0], times, [float(row["touching"]) for row in felt.contacts])
-    held = touching > 0.5
-    axes.plot(stroke[:, 1], stroke[:, 3], color="#222222", linewidth=0.6, linestyle=":")
-    axes.plot(np.where(held, stroke[:, 1], np.nan), stroke[:, 3], color="black", linewidth=1.6)
-    axes.text(0.30, 0.058, "slides", ha="center", va="top", fontsize=8)
-    axes.annotate("", (0.23, 0.065), (0.37, 0.065), arrowprops={"arrowstyle": "<->", "linewidth": 0.9})
-    axes.set_xlim(-0.52, 0.52)
-    axes.set_ylim(-0.31, 0.31)
+    held = np.interp(stroke[:, 0], times, [float(row["touching"]) for row in felt.contacts]) > 0.5
+    path = camera.seen(stroke[:, 1:4])
+    axes.plot(path[:, 0], path[:, 1], color="#222222", linewidth=0.7, linestyle=":")
+    axes.plot(np.where(held, path[:, 0], np.nan), path[:, 1], color="black", linewidth=2.0)
+    for surface in scene["surfaces"]:
+        corners = facets(surface).reshape(-1, 3)
+        place = corners.mean(axis=0) * [1, 0, 1] + [0.0, corners[:, 1].max(), 0.0]
+        place[2] = corners[:, 2].min() - 0.016
+        slides = " (slides)" if "motion" in surface else ""
+        right, up, _ = camera.seen(np.array([0.22, 0.0, -0.27]) if surface is table else place)
+        axes.text(
+            right, up, surface["material"] + slides, ha="center", va="center", fontsize=10,
+            path_effects=[withStroke(linewidth=3.0, foreground="white")], zorder=7,
+        )
+    draw_pen(axes, camera, stroke[np.flatnonzero(held)[-1], 1:4])
+    axes.set_xlim(-0.83, 0.83)
+    axes.set_ylim(-0.43, 0.36)
     axes.set_aspect("equal")
     axes.axis("off")
+
+
+def camera_of(unity_scene: Path) -> Camera:
+    """Where a scene's main camera stands, from Unity's own file."""
+    text = unity_scene.read_text(encoding="utf-8").split("m_Name: Main Camera")[1]
+    turn, place = (
+        tuple(map(float, re.findall(r"[xyzw]: ([-\d.e]+)", re.search(rf"{key}: (\{{.*\}})", text)[1])))
+        for key in ("m_LocalRotation", "m_LocalPosition")
+    )
+    return Camera(place, turn)
+
+
+def draw_pen(axes: plt.Axes, camera: Camera, tip: np.ndarray) -> None:
+    """Tip and shaft, leaning back towards the right hand."""
+    ends = camera.seen(np.stack([tip, tip + [0.008, 0.02, -0.006], tip + [0.06, 0.15, -0.045]]))
+    axes.plot(ends[:2, 0], ends[:2, 1], color="#c2410c", linewidth=3.0, solid_capstyle="round", zorder=6)
+    axes.plot(ends[1:, 0], ends[1:, 1], color="#30343a", linewidth=7.0, solid_capstyle="round", zorder=5)
 
 
 def draw_touches(axes: plt.Axes, scene: dict, felt: Render) -> None:
@@ -162,8 +169,9 @@ def tracing_picture(engine: Path, folder: Path, file: Path) -> None:
     felt = render(engine, scene_file, stroke_file, folder)
     scene = json.loads(scene_file.read_text(encoding="utf-8"))
     figure, (above, wave, colours) = plt.subplots(
-        3, 1, figsize=(9.6, 8.2), height_ratios=(3.2, 1.2, 1.6), layout="constrained"
+        3, 1, figsize=(9.6, 8.4), height_ratios=(3.6, 1.2, 1.6), layout="constrained"
     )
+    figure.suptitle("The sample's scene, drawn from its scene file: not a screenshot of Unity", fontsize=10)
     draw_scene(above, scene, felt, np.loadtxt(stroke_file, delimiter=",", skiprows=1))
     times = np.arange(len(felt.acceleration_mps2)) / felt.rate_hz
     wave.plot(times, felt.acceleration_mps2, color="#1f4e79", linewidth=0.3)
@@ -196,29 +204,54 @@ def gallery_picture(engine: Path, folder: Path, file: Path) -> None:
     labels = [label["name"] for label in header["labels"]]
     stroke = folder / "tile.stroke.csv"
     stroke.write_text(there_and_back(), encoding="utf-8")
-    rows = -(-len(labels) // 5)
+    felt = [tile_render(engine, label, stroke, folder) for label in labels]
+    reach = np.ceil(max(np.abs(one.acceleration_mps2).max() for one in felt) / 10.0) * 10.0
+    top_db = max(10.0 * np.log10(spectrogram(one.acceleration_mps2, one.rate_hz)[2].max()) for one in felt)
+    # As Wall.cs hangs them.
+    columns = int(np.ceil(np.sqrt(1.25 * len(labels))))
+    rows = -(-len(labels) // columns)
     figure, grid = plt.subplots(
-        2 * rows, 5, figsize=(9.6, 1.75 * rows), height_ratios=[1.0, 1.5] * rows, layout="constrained",
-        squeeze=False,
+        2 * rows + 1, columns, figsize=(9.6, 1.75 * rows + 0.9), height_ratios=[1.3, 1.0] * rows + [0.8],
+        layout="constrained", squeeze=False,
+    )
+    board = figure.add_subplot(grid[-1, 0].get_gridspec()[-1, :])
+    figure.suptitle(
+        f"One stroke on each tile. All waveforms ±{reach:.0f} m/s², all spectrograms of one scale "
+        "(drawn from renders: not a screenshot of Unity)", fontsize=10,
     )
     for axes in grid.flat:
         axes.axis("off")
-    for index, label in enumerate(labels):
-        scene = folder / "tile.scene.json"
-        shape = {"box": {"size": [0.13, 0.02, 0.09]}}
-        tile = {"name": "tile", "shape": shape, "position": [0, -0.01, 0], "material": label}
-        described = {"surfaces": [tile], "stylus": {"tip_radius": 0.002}, "update_rate": 72}
-        scene.write_text(json.dumps(described), encoding="utf-8")
-        felt = render(engine, scene, stroke, folder)
-        wave, colours = grid[2 * (index // 5), index % 5], grid[2 * (index // 5) + 1, index % 5]
-        level = float(np.sqrt(np.mean(felt.acceleration_mps2**2)))
-        wave.set_title(f"{label}, {level:.1f} m/s²", fontsize=8, pad=2)
-        wave.plot(felt.acceleration_mps2, color="#1f4e79", linewidth=0.3)
-        reach = 1.05 * np.abs(felt.acceleration_mps2).max()
-        wave.set_ylim(-reach, reach)
-        wave.set_xlim(0, len(felt.acceleration_mps2))
-        draw_spectrogram(colours, felt)
+    board.set(facecolor=(0.82, 0.8, 0.76), xticks=[], yticks=[])
+    board.text(0.5, 0.5, "the board: takes the label of the tile that was pressed last", ha="center", va="center")
+    for index, (label, one) in enumerate(zip(labels, felt, strict=True)):
+        wave, colours = grid[2 * (index // columns), index % columns], grid[2 * (index // columns) + 1, index % columns]
+        draw_tile(wave, label, one, reach, colorsys.hsv_to_rgb(index / len(labels), 0.45, 0.85))
+        draw_spectrogram(colours, one, top_db)
     save(figure, file)
+
+
+def tile_render(engine: Path, label: str, stroke: Path, folder: Path) -> Render:
+    scene = folder / "tile.scene.json"
+    shape = {"box": {"size": [0.13, 0.02, 0.09]}}
+    tile = {"name": "tile", "shape": shape, "position": [0, -0.01, 0], "material": label}
+    described = {"surfaces": [tile], "stylus": {"tip_radius": 0.002}, "update_rate": 72}
+    scene.write_text(json.dumps(described), encoding="utf-8")
+    return render(engine, scene, stroke, folder)
+
+
+def draw_tile(
+    axes: plt.Axes, label: str, felt: Render, reach_mps2: float, colour: tuple[float, float, float]
+) -> None:
+    """The tile in its colour, on it the waveform and its level."""
+    axes.axis("on")
+    axes.set_facecolor(colour)
+    axes.set_xticks([])
+    axes.set_yticks([])
+    level = float(np.sqrt(np.mean(felt.acceleration_mps2**2)))
+    axes.set_title(f"{label}, {level:.2g} m/s²", fontsize=9, pad=2)
+    axes.plot(felt.acceleration_mps2, color="#1a1a1a", linewidth=0.4)
+    axes.set_ylim(-reach_mps2, reach_mps2)
+    axes.set_xlim(0, len(felt.acceleration_mps2))
 
 
 def main() -> None:

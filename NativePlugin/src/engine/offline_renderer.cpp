@@ -5,35 +5,86 @@
 #include "engine/onset_levels.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
+#include <optional>
 #include <stdexcept>
+#include <vector>
 
 namespace haptoflow::engine {
 namespace {
 
+/// Keeps what the voice plays until it is taken. Told by the voice's callback, whose buffers here are kept and reused.
 class Recorder final : public WaveformSink {
 public:
     void played(std::int64_t start, std::span<const float> samplesMps2) noexcept override {
-        if (samples_.empty()) {
+        if (!origin_) {
             origin_ = start;
         }
         samples_.insert(samples_.end(), samplesMps2.begin(), samplesMps2.end());
     }
     void tookOver(std::int64_t sample) noexcept override { seams_.push_back(sample); }
 
-    [[nodiscard]] std::vector<float> takeSamples() noexcept { return std::move(samples_); }
-    /// As indices into the samples.
-    [[nodiscard]] std::vector<std::int64_t> takeSeams() noexcept {
-        for (std::int64_t& seam : seams_) {
-            seam -= origin_;
+    /// Hands on what came since the last time.
+    void hand(OfflineSink& sink, SeamMeter& meter) {
+        if (!origin_) {
+            return;
         }
-        return std::move(seams_);
+        for (const std::int64_t seam : seams_) {
+            meter.addSeam(seam - *origin_);
+        }
+        meter.addSamples(samples_);
+        if (!samples_.empty()) {
+            sink.waveform(samples_);
+        }
+        seams_.clear();
+        samples_.clear();
     }
 
 private:
     std::vector<float> samples_;
     std::vector<std::int64_t> seams_;
-    std::int64_t origin_ = 0;
+    std::optional<std::int64_t> origin_;
+};
+
+/// Counts touches, and those that ended without a sound.
+class TouchCounter {
+public:
+    void begin(std::uint32_t touch) noexcept {
+        if (touch_ != touch) {
+            end();
+            touch_ = touch;
+            ++touches_;
+        }
+    }
+    void heard() noexcept { isHeard_ = true; }
+    void end() noexcept {
+        silent_ += touch_ && !isHeard_ ? 1U : 0U;
+        touch_.reset();
+        isHeard_ = false;
+    }
+    [[nodiscard]] std::uint64_t touches() const noexcept { return touches_; }
+    [[nodiscard]] std::uint64_t silent() const noexcept { return silent_; }
+
+private:
+    std::optional<std::uint32_t> touch_;
+    bool isHeard_ = false;
+    std::uint64_t touches_ = 0;
+    std::uint64_t silent_ = 0;
+};
+
+class KeepingSink final : public OfflineSink {
+public:
+    explicit KeepingSink(OfflineRender& render) : render_(render) {}
+    void output(std::span<const float> samples) override {
+        render_.samples.insert(render_.samples.end(), samples.begin(), samples.end());
+    }
+    void waveform(std::span<const float> samplesMps2) override {
+        render_.waveformMps2.insert(render_.waveformMps2.end(), samplesMps2.begin(), samplesMps2.end());
+    }
+
+private:
+    OfflineRender& render_;
 };
 
 LiveVoiceSettings voiceSettings(const OfflineSettings& settings) {
@@ -52,46 +103,59 @@ LiveVoiceSettings voiceSettings(const OfflineSettings& settings) {
 class OfflineRenderer {
 public:
     OfflineRenderer(const model::ModelFile& model, inference::SegmentGenerator& generator,
-                    const OfflineSettings& settings)
+                    const OfflineSettings& settings, OfflineSink& sink)
         : generator_(generator),
           settings_(settings),
+          sink_(sink),
           levels_(model, generator),
           voice_(model, levels_, workerAlive_, voiceSettings(settings)) {
         voice_.renderer.setSink(&recorder_);
     }
 
-    OfflineRender run(std::span<const ContactState> states, const RenderProgress& progress) {
-        const double startSeconds = states.empty() ? 0.0 : states.front().timeSeconds;
-        double nowSeconds = startSeconds;
-        for (std::size_t i = 0; i < states.size(); ++i) {
-            ContactState state = states[i];
-            result_.sanitised += sanitise(state);
-            nowSeconds = std::max(state.timeSeconds, nowSeconds);
-            renderUntil(nowSeconds - startSeconds);
-            publish(state);
-            if (progress) {
-                progress(static_cast<double>(i + 1) / static_cast<double>(states.size()));
+    OfflineFigures run(const ContactStateSource& next) {
+        std::optional<double> startSeconds;
+        double nowSeconds = 0.0;
+        ContactState liftedOff;
+        while (std::optional<ContactState> state = next()) {
+            figures_.sanitised += sanitise(*state);
+            nowSeconds = std::max(state->timeSeconds, startSeconds ? nowSeconds : state->timeSeconds);
+            startSeconds = startSeconds.value_or(nowSeconds);
+            renderUntil(nowSeconds - *startSeconds);
+            if (state->touching) {
+                touches_.begin(state->touchCounter);
             }
+            publish(*state);
+            liftedOff.touchCounter = state->touchCounter;
         }
-        publish(liftedOff(states));
-        renderUntil(nowSeconds - startSeconds + settings_.tailSeconds);
+        publish(liftedOff);
+        renderUntil(nowSeconds - startSeconds.value_or(nowSeconds) + settings_.tailSeconds);
+        touches_.end();
         finish();
-        return std::move(result_);
+        return figures_;
     }
 
 private:
-    static ContactState liftedOff(std::span<const ContactState> states) {
-        ContactState state;
-        state.touchCounter = states.empty() ? 0 : states.back().touchCounter;
-        return state;
+    void renderUntil(double seconds) {
+        const auto end = static_cast<std::uint64_t>(std::llround(seconds * settings_.outputRateHz));
+        if (end <= figures_.outputSamples) {
+            return;
+        }
+        block_.resize(static_cast<std::size_t>(end - figures_.outputSamples));
+        voice_.renderer.render(block_, settings_.outputRateHz);
+        figures_.outputSamples = end;
+        measure();
+        sink_.output(block_);
+        recorder_.hand(sink_, seams_);
     }
 
-    void renderUntil(double seconds) {
-        const auto end = static_cast<std::size_t>(std::llround(seconds * settings_.outputRateHz));
-        const std::size_t begin = result_.samples.size();
-        if (end > begin) {
-            result_.samples.resize(end);
-            voice_.renderer.render(std::span(result_.samples).subspan(begin), settings_.outputRateHz);
+    void measure() {
+        for (const float sample : block_) {
+            squares_ += static_cast<double>(sample) * static_cast<double>(sample);
+            sounding_ += sample != 0.0F ? 1U : 0U;
+            figures_.peak = std::max(figures_.peak, static_cast<double>(std::abs(sample)));
+        }
+        if (std::ranges::any_of(block_, [](float sample) { return sample != 0.0F; })) {
+            touches_.heard();
         }
     }
 
@@ -102,56 +166,74 @@ private:
         LiveVoice* const voices[] = {&voice_};
         const RoundResult round = round_.run(voices, generator_);
         if (round.segments > 0) {
-            result_.inferenceMs.push_back(round.milliseconds / static_cast<double>(round.segments));
+            inferenceMs_.add(static_cast<float>(round.milliseconds / static_cast<double>(round.segments)));
         }
     }
 
     void finish() {
-        result_.seams = recorder_.takeSeams();
-        result_.waveformMps2 = recorder_.takeSamples();
-        result_.seamStatistics = measureSeams(result_.waveformMps2, result_.seams, dsp::Splice::maximumLength);
+        figures_.seamStatistics = seams_.statistics();
+        figures_.segments = inferenceMs_.count();
+        figures_.inferenceMsMedian = static_cast<double>(inferenceMs_.valueAtShare(0.5));
+        figures_.inferenceMsP99 = static_cast<double>(inferenceMs_.valueAtShare(0.99));
+        figures_.touches = touches_.touches();
+        figures_.silentTouches = touches_.silent();
         const VoiceCounters& counters = voice_.channels.counters;
-        result_.onsets = counters.onsets;
-        result_.skipped = counters.skipped;
-        result_.failures = counters.failures;
-        result_.underruns = counters.underruns;
-        result_.nonFinite = counters.nonFiniteSamples;
-        result_.limited = counters.limitedSamples;
-        double squares = 0.0;
-        std::size_t sounding = 0;
-        for (const float sample : result_.samples) {
-            squares += static_cast<double>(sample) * static_cast<double>(sample);
-            sounding += sample != 0.0F ? 1U : 0U;
-            result_.peak = std::max(result_.peak, static_cast<double>(std::abs(sample)));
-        }
-        if (sounding > 0) {
-            result_.rmsMps2 =
-                std::sqrt(squares / static_cast<double>(sounding)) * static_cast<double>(settings_.fullScaleMps2);
+        figures_.onsets = counters.onsets;
+        figures_.skipped = counters.skipped;
+        figures_.failures = counters.failures;
+        figures_.underruns = counters.underruns;
+        figures_.nonFinite = counters.nonFiniteSamples;
+        figures_.limited = counters.limitedSamples;
+        if (sounding_ > 0) {
+            figures_.rmsMps2 =
+                std::sqrt(squares_ / static_cast<double>(sounding_)) * static_cast<double>(settings_.fullScaleMps2);
         }
     }
 
     inference::SegmentGenerator& generator_;
     OfflineSettings settings_;
+    OfflineSink& sink_;
     std::atomic<bool> workerAlive_{true};
     OnsetLevels levels_;
     LiveVoice voice_;
     Recorder recorder_;
     InferenceRound round_;
-    OfflineRender result_;
+    SeamMeter seams_{dsp::Splice::maximumLength};
+    ValueHistogram inferenceMs_;
+    TouchCounter touches_;
+    std::vector<float> block_;
+    double squares_ = 0.0;
+    std::uint64_t sounding_ = 0;
+    OfflineFigures figures_;
 };
 
 }  // namespace
 
-OfflineRender renderOffline(const model::ModelFile& model, inference::SegmentGenerator& generator,
-                            std::span<const ContactState> states, const OfflineSettings& settings,
-                            const RenderProgress& progress) {
+OfflineFigures renderOffline(const model::ModelFile& model, inference::SegmentGenerator& generator,
+                             const ContactStateSource& next, const OfflineSettings& settings, OfflineSink& sink) {
     if (!(settings.leadMs >= 0.0 && settings.leadMs <= 50.0)) {
         throw std::invalid_argument("the lead must be 0 to 50 ms");
     }
     if (!(settings.tailSeconds >= 0.0 && settings.tailSeconds <= 10.0)) {
         throw std::invalid_argument("the tail must be 0 to 10 s");
     }
-    return OfflineRenderer(model, generator, settings).run(states, progress);
+    return OfflineRenderer(model, generator, settings, sink).run(next);
+}
+
+OfflineRender renderOffline(const model::ModelFile& model, inference::SegmentGenerator& generator,
+                            std::span<const ContactState> states, const OfflineSettings& settings) {
+    OfflineRender render;
+    KeepingSink sink(render);
+    const ContactStateSource next = [&states]() -> std::optional<ContactState> {
+        if (states.empty()) {
+            return std::nullopt;
+        }
+        const ContactState state = states.front();
+        states = states.subspan(1);
+        return state;
+    };
+    static_cast<OfflineFigures&>(render) = renderOffline(model, generator, next, settings, sink);
+    return render;
 }
 
 }  // namespace haptoflow::engine

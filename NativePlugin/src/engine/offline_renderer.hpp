@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -25,16 +26,18 @@ struct OfflineSettings {
     double tailSeconds = 0.1;
 };
 
-struct OfflineRender {
-    /// Output, +-1 at outputRateHz.
-    std::vector<float> samples;
-    /// What was played in waveform time (2 kHz, m/s^2), before level law, resampling, gate and limiter.
-    std::vector<float> waveformMps2;
-    /// Take-over samples of all segments but those after an onset, as indices into waveformMps2.
-    std::vector<std::int64_t> seams;
+/// What a render's own engine counted and measured. Fixed in size, however long the render.
+struct OfflineFigures {
     SeamStatistics seamStatistics;
-    /// Wall time of each segment's inference.
-    std::vector<double> inferenceMs;
+    /// Output samples, at outputRateHz.
+    std::uint64_t outputSamples = 0;
+    std::uint64_t segments = 0;
+    /// Wall time of a segment's inference, within 0.1 %.
+    double inferenceMsMedian = 0.0;
+    double inferenceMsP99 = 0.0;
+    /// Touches in the states, and those of them without a sample that is not zero.
+    std::uint64_t touches = 0;
+    std::uint64_t silentTouches = 0;
     std::uint64_t onsets = 0;
     std::uint64_t skipped = 0;
     std::uint64_t failures = 0;
@@ -44,17 +47,42 @@ struct OfflineRender {
     std::uint64_t limited = 0;
     /// RMS in m/s^2 while the voice sounds, as it leaves the limiter.
     double rmsMps2 = 0.0;
-    /// Largest magnitude of `samples`.
+    /// Largest magnitude of the output, +-1.
     double peak = 0.0;
 };
 
-/// Called with the share that is done, 0 to 1.
-using RenderProgress = std::function<void(double)>;
+/// Where a render goes, piece by piece.
+class OfflineSink {
+public:
+    OfflineSink() = default;
+    OfflineSink(const OfflineSink&) = delete;
+    OfflineSink& operator=(const OfflineSink&) = delete;
+    virtual ~OfflineSink() = default;
+    /// Output, +-1 at outputRateHz.
+    virtual void output(std::span<const float> samples) = 0;
+    /// What was played in waveform time (2 kHz, m/s^2), before level law, resampling, gate and limiter.
+    virtual void waveform(std::span<const float> samplesMps2) = 0;
+};
 
-/// Renders contact states (times ascending, the first is time 0 of the output) without threads, by the same voice,
-/// timeline and generator as live. Throws std::invalid_argument for settings out of range.
+/// The next contact state, times ascending; nothing at the end.
+using ContactStateSource = std::function<std::optional<ContactState>()>;
+
+/// Renders contact states (the first is time 0 of the output) without threads, by the same voice, timeline and
+/// generator as live, in memory that does not grow with the length. Throws std::invalid_argument for settings out of
+/// range, and what `next` and `sink` throw.
+OfflineFigures renderOffline(const model::ModelFile& model, inference::SegmentGenerator& generator,
+                             const ContactStateSource& next, const OfflineSettings& settings, OfflineSink& sink);
+
+/// A render that is kept whole.
+struct OfflineRender : OfflineFigures {
+    /// Output, +-1 at outputRateHz.
+    std::vector<float> samples;
+    /// What was played in waveform time (2 kHz, m/s^2).
+    std::vector<float> waveformMps2;
+};
+
+/// The same of states that are there already.
 [[nodiscard]] OfflineRender renderOffline(const model::ModelFile& model, inference::SegmentGenerator& generator,
-                                          std::span<const ContactState> states, const OfflineSettings& settings,
-                                          const RenderProgress& progress = {});
+                                          std::span<const ContactState> states, const OfflineSettings& settings);
 
 }  // namespace haptoflow::engine

@@ -2,58 +2,75 @@
 
 #include <algorithm>
 #include <cmath>
-#include <vector>
 
 namespace haptoflow::engine {
 
-SeamStatistics measureSeams(std::span<const float> waveform, std::span<const std::int64_t> seams,
-                            std::size_t spliceSamples) {
-    SeamStatistics statistics;
-    if (waveform.size() < 2) {
-        return statistics;
-    }
-    std::vector<float> differences(waveform.size(), 0.0F);
-    for (std::size_t i = 1; i < waveform.size(); ++i) {
-        differences[i] = std::abs(waveform[i] - waveform[i - 1]);
-    }
-    std::vector<float> ranked(differences.begin() + 1, differences.end());
-    const auto rank = static_cast<std::size_t>(0.999 * static_cast<double>(ranked.size() - 1));
-    std::ranges::nth_element(ranked, ranked.begin() + static_cast<std::ptrdiff_t>(rank));
-    const float percentile = ranked[rank];
+SeamMeter::SeamMeter(std::size_t spliceSamples)
+    : spliceSamples_(static_cast<std::int64_t>(std::max<std::size_t>(spliceSamples, 1))) {}
 
-    std::vector<bool> inSeam(waveform.size(), false);
-    std::size_t outliers = 0;
-    for (const std::int64_t seam : seams) {
-        if (seam < 1 || seam >= static_cast<std::int64_t>(waveform.size())) {
-            continue;
+void SeamMeter::addSeam(std::int64_t sample) {
+    // The first sample of a waveform has none before it to step from.
+    if (sample >= std::max<std::int64_t>(next_, 1)) {
+        open_.push_back({.begin = sample});
+    }
+}
+
+void SeamMeter::addSamples(std::span<const float> waveform) {
+    for (const float sample : waveform) {
+        if (next_ > 0) {
+            addDifference(std::abs(sample - last_));
         }
-        ++statistics.seams;
-        const auto first = static_cast<std::size_t>(seam);
-        const std::size_t end = std::min(first + std::max<std::size_t>(spliceSamples, 1), waveform.size());
-        float largest = 0.0F;
-        for (std::size_t i = first; i < end; ++i) {
-            inSeam[i] = true;
-            largest = std::max(largest, differences[i]);
+        last_ = sample;
+        ++next_;
+    }
+}
+
+void SeamMeter::addDifference(float difference) {
+    bool inSeam = false;
+    for (Seam& seam : open_) {
+        if (seam.begin <= next_) {
+            inSeam = true;
+            seams_ += seam.begin == next_ ? 1U : 0U;
+            seam.largest = std::max(seam.largest, difference);
         }
-        outliers += largest > percentile ? 1U : 0U;
     }
-    double seamSquares = 0.0;
-    double otherSquares = 0.0;
-    std::size_t seamSteps = 0;
-    for (std::size_t i = 1; i < differences.size(); ++i) {
-        const double square = static_cast<double>(differences[i]) * static_cast<double>(differences[i]);
-        (inSeam[i] ? seamSquares : otherSquares) += square;
-        seamSteps += inSeam[i] ? 1U : 0U;
+    while (!open_.empty() && open_.front().begin + spliceSamples_ <= next_ + 1) {
+        largestOfSeams_.add(open_.front().largest);
+        open_.pop_front();
     }
-    const std::size_t otherSteps = differences.size() - 1 - seamSteps;
-    if (statistics.seams > 0) {
-        statistics.outlierShare = static_cast<double>(outliers) / static_cast<double>(statistics.seams);
+    differences_.add(difference);
+    const double square = static_cast<double>(difference) * static_cast<double>(difference);
+    (inSeam ? seamSquares_ : otherSquares_) += square;
+    ++(inSeam ? seamSteps_ : otherSteps_);
+}
+
+SeamStatistics SeamMeter::statistics() const {
+    SeamStatistics statistics{.seams = seams_};
+    if (seams_ > 0) {
+        const float percentile = differences_.valueAtShare(0.999);
+        std::uint64_t outliers = largestOfSeams_.countAbove(percentile);
+        for (const Seam& seam : open_) {
+            outliers += seam.begin < next_ && seam.largest > percentile * 1.001F ? 1U : 0U;
+        }
+        statistics.outlierShare = static_cast<double>(outliers) / static_cast<double>(seams_);
     }
-    if (seamSteps > 0 && otherSteps > 0 && otherSquares > 0.0) {
-        statistics.jumpRatio = std::sqrt((seamSquares / static_cast<double>(seamSteps)) /
-                                         (otherSquares / static_cast<double>(otherSteps)));
+    if (seamSteps_ > 0 && otherSteps_ > 0 && otherSquares_ > 0.0) {
+        statistics.jumpRatio = std::sqrt((seamSquares_ / static_cast<double>(seamSteps_)) /
+                                         (otherSquares_ / static_cast<double>(otherSteps_)));
     }
     return statistics;
+}
+
+SeamStatistics measureSeams(std::span<const float> waveform, std::span<const std::int64_t> seams,
+                            std::size_t spliceSamples) {
+    SeamMeter meter(spliceSamples);
+    for (const std::int64_t seam : seams) {
+        if (seam < static_cast<std::int64_t>(waveform.size())) {
+            meter.addSeam(seam);
+        }
+    }
+    meter.addSamples(waveform);
+    return meter.statistics();
 }
 
 }  // namespace haptoflow::engine

@@ -1,7 +1,10 @@
 #pragma once
 
+#include "engine/value_histogram.hpp"
+
 #include <cstddef>
 #include <cstdint>
+#include <deque>
 #include <span>
 
 namespace haptoflow::engine {
@@ -15,8 +18,42 @@ struct SeamStatistics {
     double jumpRatio = 0.0;
 };
 
-/// `seams` are the take-over samples, indices into `waveform` (2 kHz, as played, before resampling). A seam is the step
-/// onto the take-over sample and, where a splice of `spliceSamples` follows, the steps inside it.
+/// Measures seams while the waveform (2 kHz, as played, before resampling) comes in, in memory that does not grow with
+/// it. A seam is the step onto the take-over sample and, where a splice follows, the steps inside it. Sizes within
+/// 0.1 % of the percentile count as equal to it.
+class SeamMeter {
+public:
+    explicit SeamMeter(std::size_t spliceSamples);
+
+    /// A segment takes over at that sample, an index into the waveform; ascending, and told before the sample is added.
+    void addSeam(std::int64_t sample);
+    void addSamples(std::span<const float> waveform);
+    /// Of everything added so far.
+    [[nodiscard]] SeamStatistics statistics() const;
+
+private:
+    struct Seam {
+        std::int64_t begin = 0;
+        float largest = 0.0F;
+    };
+
+    void addDifference(float difference);
+
+    std::int64_t spliceSamples_;
+    std::int64_t next_ = 0;
+    float last_ = 0.0F;
+    // Those whose splice is not over.
+    std::deque<Seam> open_;
+    ValueHistogram differences_;
+    ValueHistogram largestOfSeams_;
+    std::size_t seams_ = 0;
+    double seamSquares_ = 0.0;
+    double otherSquares_ = 0.0;
+    std::uint64_t seamSteps_ = 0;
+    std::uint64_t otherSteps_ = 0;
+};
+
+/// The same of a whole waveform; `seams` are the take-over samples, indices into it, ascending.
 [[nodiscard]] SeamStatistics measureSeams(std::span<const float> waveform, std::span<const std::int64_t> seams,
                                           std::size_t spliceSamples);
 

@@ -95,6 +95,29 @@ namespace HaptoFlow.EditorTests
         }
 
         [Test]
+        public void ASurfacesInspectorOpensThePreviewOnIt()
+        {
+            HapticSurface surface = Tagged("Table", "glass");
+            EditorScreen.Press("Preview");
+            Draw(surface);
+            var window = EditorWindow.GetWindow<TexturePreviewWindow>();
+            Assert.That(window.State.First.Label, Is.EqualTo("glass"));
+            WindowHost.Close(window);
+        }
+
+        [Test]
+        public void AMaterialsInspectorOpensThePreviewOnIt()
+        {
+            HapticMaterial material = ScriptableObject.CreateInstance<HapticMaterial>();
+            material.Description.Label = "cork";
+            EditorScreen.Press("Preview");
+            Draw(material);
+            var window = EditorWindow.GetWindow<TexturePreviewWindow>();
+            Assert.That(window.State.First.Label, Is.EqualTo("cork"));
+            WindowHost.Close(window);
+        }
+
+        [Test]
         public void BlendCountsOnlyWhereThereIsASecondLabel()
         {
             HapticSurface surface = Tagged("Table", "wood");

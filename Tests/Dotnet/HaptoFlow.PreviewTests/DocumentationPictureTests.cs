@@ -14,7 +14,7 @@ namespace HaptoFlow.PreviewTests
         public void TheWindowIsDrawnForTheDocumentation()
         {
             using var worker = new PreviewWorker();
-            var layout = new PreviewLayout(1200.0, 790.0);
+            var layout = new PreviewLayout(1200.0, 834.0);
             var settings = new StrokeSettings(0.12, 1.5, 30.0, 2.4);
             var request = new PreviewRequest(File.ReadAllBytes(RepositoryFiles.DefaultModel),
                 PresetStrokes.Make(StrokePreset.Spiral, settings),
@@ -28,7 +28,7 @@ namespace HaptoFlow.PreviewTests
             PreviewResult result = worker.Do(request, CancellationToken.None);
             Assert.That(result.Problem, Is.Null);
             string path = RepositoryFiles.In("Documentation~", "images", "texture-preview.png");
-            Png.Write(path, WindowPicture.Draw(result, layout, settings, "Spiral", 1.3));
+            Png.Write(path, WindowPicture.Draw(result, layout, settings, "Spiral", 1.3), request.ModelFile);
             Assert.That(new FileInfo(path).Length, Is.GreaterThan(50_000));
         }
     }

@@ -21,6 +21,12 @@ namespace HaptoFlow.PreviewTests
             Screen();
         }
 
+        private void Press(string label)
+        {
+            EditorScreen.Press(label);
+            Screen();
+        }
+
         [SetUp]
         public void Forget()
         {
@@ -66,6 +72,38 @@ namespace HaptoFlow.PreviewTests
             Assert.That(Screen().Count(item => item.Label == "Share"), Is.EqualTo(1));
             Enter("Compare", false);
             Assert.That(Screen().Select(item => item.Label), Does.Not.Contain("Material B"));
+        }
+
+        [Test]
+        public void WhatIsHeardIsAppliedToTheSelectionByAButtonAndTakenBackByUndo()
+        {
+            HapticSurface table = Make("Table").AddComponent<HapticSurface>();
+            table.Material.Label = "stone";
+            Selection.activeObject = table.gameObject;
+            State.Compares = true;
+            State.Active = 1;
+            Window.Finish();
+            Press("Apply to Selection");
+            Assert.That(table.Material.Label, Is.EqualTo("sandpaper"));
+            Assert.That(WindowHost.Notification, Is.EqualTo("Applied sandpaper to Table"));
+            Undo.PerformUndo();
+            Assert.That(table.Material.Label, Is.EqualTo("stone"));
+            Press("Take from Selection");
+            Assert.That(State.Second.Label, Is.EqualTo("stone"));
+            Assert.That(State.First.Label, Is.EqualTo("wood"));
+        }
+
+        [Test]
+        public void AHapticMaterialThatIsDroppedIsTaken()
+        {
+            HapticMaterial asset = Keep(ScriptableObject.CreateInstance<HapticMaterial>());
+            asset.Description.Label = "leather";
+            asset.Description.SecondLabel = "cork";
+            asset.Description.Blend = 0.75f;
+            Window.Finish();
+            Enter("Take from", asset);
+            Assert.That(State.Mixes(new string[0])[0], Is.EqualTo(new LabelMix("leather", "cork", 0.75f)));
+            Assert.That(Screen().Single(item => item.Label == "Take from").Value, Does.Not.Contain("leather"));
         }
 
         [Test]

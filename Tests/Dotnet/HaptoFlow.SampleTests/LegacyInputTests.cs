@@ -1,9 +1,12 @@
 extern alias Legacy;
 
+using System.Linq;
 using NUnit.Framework;
 using UnityEngine;
+using UnityEngine.TestTools;
 using UnityShim;
 using LegacyScene = Legacy::HaptoFlow.Samples.StylusTracing.TracingScene;
+using LegacyXrPen = Legacy::HaptoFlow.XrPen;
 
 namespace HaptoFlow.SampleTests
 {
@@ -21,6 +24,17 @@ namespace HaptoFlow.SampleTests
             PlayFor(0.4);
             Assert.That(scene.Pen.Stylus.IsTouching, Is.True);
             Assert.That(scene.Pen.Stylus.Contact.Surface.Material.Label, Is.EqualTo("jute"));
+        }
+
+        [Test]
+        public void AnXrPenWithoutTheInputSystemSleepsAndSaysWhatItNeeds()
+        {
+            LogAssert.ignoreFailingMessages = true;
+            LegacyXrPen pen = LegacyXrPen.Create(null, Legacy::HaptoFlow.PenHand.Left);
+            World.Frames(3);
+            Assert.That(pen.Stylus!.isActiveAndEnabled, Is.False);
+            Assert.That(pen.Hand, Is.EqualTo(Legacy::HaptoFlow.PenHand.Left));
+            Assert.That(Log.Lines.Count(line => line.Text.Contains("does not use the Input System")), Is.EqualTo(1));
         }
     }
 }

@@ -7,8 +7,6 @@ namespace HaptoFlow.SampleTests
     public sealed class SharedFilesTests : SampleTest
     {
         [TestCase("Build.cs")]
-        [TestCase("MousePen.cs")]
-        [TestCase("PenInput.cs")]
         [TestCase("StatusBoard.cs")]
         public void TheCopiesDifferInTheirNamespaceOnly(string name)
         {

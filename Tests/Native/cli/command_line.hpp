@@ -22,11 +22,14 @@ struct Finished {
     std::string errors;
 };
 
-/// Runs the command line with these words, quoted for a shell, and with the repository's ONNX Runtime.
-inline Finished runHaptoFlow(const std::string& words) {
+/// Runs the command line with these words, quoted for a shell, and with the repository's ONNX Runtime and model;
+/// `before` stands before it in the shell.
+inline Finished runHaptoFlow(const std::string& words, const std::string& before = "") {
     const auto errors = std::filesystem::temp_directory_path() /
                         ("haptoflow_" + std::string(::testing::UnitTest::GetInstance()->current_test_info()->name()));
-    const std::string command = "HAPTOFLOW_ONNXRUNTIME='" HAPTOFLOW_TEST_ONNXRUNTIME "' '" HAPTOFLOW_TEST_CLI "' " +
+    const std::string command = before +
+                                "HAPTOFLOW_ONNXRUNTIME='" HAPTOFLOW_TEST_ONNXRUNTIME
+                                "' HAPTOFLOW_MODEL='" HAPTOFLOW_TEST_DEFAULT_MODEL "' '" HAPTOFLOW_TEST_CLI "' " +
                                 words + " 2>'" + errors.string() + "'";
     FILE* pipe = popen(command.c_str(), "r");
     if (pipe == nullptr) {
@@ -43,5 +46,47 @@ inline Finished runHaptoFlow(const std::string& words) {
     std::filesystem::remove(errors);
     return run;
 }
+
+/// A folder with a scene (a wooden floor without a stiffness of its own), a stroke that slides over it for 0.3 s, and
+/// what a test puts there; gone with the test.
+class CommandLineTest : public ::testing::Test {
+protected:
+    void SetUp() override {
+        const ::testing::TestInfo& info = *::testing::UnitTest::GetInstance()->current_test_info();
+        folder_ = std::filesystem::temp_directory_path() /
+                  ("haptoflow_" + std::string(info.test_suite_name()) + "_" + std::string(info.name()));
+        std::filesystem::remove_all(folder_);
+        std::filesystem::create_directories(folder_);
+        write("scene.json", R"({"surfaces": [{"name": "floor", "shape": {"plane": {}}, "material": "wood"}]})");
+        write("stroke.csv", "t,x,y,z\n0,0,0.0005,0\n0.3,0.03,0.0005,0\n");
+    }
+    void TearDown() override { std::filesystem::remove_all(folder_); }
+
+    void write(const std::string& name, const std::string& text) const {
+        std::ofstream(folder_ / name, std::ios::binary) << text;
+    }
+    [[nodiscard]] std::string read(const std::string& name) const {
+        std::ifstream file(folder_ / name, std::ios::binary);
+        return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+    }
+    [[nodiscard]] std::filesystem::path at(const std::string& name) const { return folder_ / name; }
+    [[nodiscard]] bool exists(const std::string& name) const { return std::filesystem::exists(folder_ / name); }
+    [[nodiscard]] std::size_t fileCount() const {
+        const auto files = std::filesystem::directory_iterator(folder_);
+        return static_cast<std::size_t>(std::distance(begin(files), end(files)));
+    }
+
+    /// Runs the command line in the folder.
+    [[nodiscard]] Finished run(const std::string& words) const {
+        return runHaptoFlow(words, "cd '" + folder_.string() + "' && ");
+    }
+    /// `render` of the scene and the stroke with more words.
+    [[nodiscard]] Finished render(const std::string& words) const {
+        return run("render scene.json --stroke stroke.csv " + words);
+    }
+
+private:
+    std::filesystem::path folder_;
+};
 
 }  // namespace haptoflow::cli::testing

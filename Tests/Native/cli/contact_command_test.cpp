@@ -9,6 +9,8 @@
 #include <filesystem>
 #include <fstream>
 #include <sstream>
+#include <string>
+#include <utility>
 
 #ifndef _WIN32
 #include <sys/wait.h>
@@ -116,6 +118,55 @@ TEST_F(ContactProgramTest, DefaultStiffnessAndMaximumForceActOnTheForce) {
     ASSERT_EQ(run("contact " + at("scene.json") + " --stroke " + at("stroke.csv") + " --maximum-force 0.125"),
               exitDone);
     EXPECT_THAT(linesOf(read("out.txt"))[1], HasSubstr("0.0005,0,0,0,0.125"));
+}
+
+TEST_F(ContactProgramTest, ASurfaceWithoutStiffnessPressesBackWithItsLabelsAsInRender) {
+    struct Spring {
+        double forceNewtons;
+        double depthMetres;
+    };
+    const auto springOn = [this](const std::string& material) {
+        write("scene.json",
+              R"({"surfaces": [{"name": "table", "shape": {"plane": {}}, "material": )" + material + "}]}");
+        EXPECT_EQ(run("contact " + at("scene.json") + " --stroke " + at("stroke.csv")), exitDone) << read("err.txt");
+        std::string line = linesOf(read("out.txt")).at(1);
+        const double force = std::stod(line.substr(line.rfind(',') + 1));
+        for (int column = 0; column < 10; ++column) {
+            line.erase(0, line.find(',') + 1);
+        }
+        return Spring{force, std::stod(line)};
+    };
+    for (const auto& [material, stiffness] :
+         {std::pair{"\"stone\"", 4000.0}, {"\"cotton\"", 250.0}, {R"({"wood": 1, "cotton": 3})", 487.5}}) {
+        const Spring spring = springOn(material);
+        EXPECT_GT(spring.depthMetres, 0.0) << material;
+        EXPECT_NEAR(spring.forceNewtons, stiffness * spring.depthMetres, 1e-9) << material;
+    }
+}
+
+TEST_F(ContactProgramTest, WithAModelOfTheUsersOwnItsLabelsGiveTheStiffness) {
+    write("scene.json", R"({"surfaces": [{"name": "table", "shape": {"plane": {}}, "material": "rueld"}]})");
+    const std::string words = "contact " + at("scene.json") + " --stroke " + at("stroke.csv");
+    EXPECT_EQ(run(words), exitBadInput);
+    EXPECT_THAT(read("err.txt"), HasSubstr("'rueld', which the model does not know"));
+    EXPECT_EQ(run(words + " --default-stiffness 2000"), exitDone) << read("err.txt");
+    EXPECT_EQ(run(words + " --default-stiffness 2000 --model x.haptoflow"), exitUsage);
+    EXPECT_EQ(run(words + " --model " HAPTOFLOW_TEST_GOLDEN_DIR "/model/tiny.haptoflow"), exitBadInput);
+    write("scene.json", R"({"surfaces": [{"name": "table", "shape": {"plane": {}}, "material": "ruled"}]})");
+    EXPECT_EQ(run(words + " --model " HAPTOFLOW_TEST_GOLDEN_DIR "/model/tiny.haptoflow"), exitDone) << read("err.txt");
+    EXPECT_THAT(linesOf(read("out.txt")).at(1), HasSubstr(",0.0005,0,0,0,0.3"));
+}
+
+TEST_F(ContactProgramTest, AnOutputThatIsAnInputIsRefusedAndALinkIsFollowed) {
+    const std::string words = "contact " + at("scene.json") + " --stroke " + at("stroke.csv") + " -o ";
+    const std::string scene = read("scene.json");
+    EXPECT_EQ(run(words + at("scene.json")), exitUsage);
+    EXPECT_THAT(read("err.txt"), HasSubstr("is the same file as the scene"));
+    EXPECT_EQ(run(words + at("stroke.csv")), exitUsage);
+    EXPECT_EQ(read("scene.json"), scene);
+    std::filesystem::create_symlink("states.csv", at("link.csv").substr(1, at("link.csv").size() - 2));
+    EXPECT_EQ(run(words + at("link.csv")), exitDone) << read("err.txt");
+    EXPECT_EQ(linesOf(read("states.csv")).size(), 11U);
 }
 
 TEST_F(ContactProgramTest, WrongWordsAreUsageAndWrongFilesAreInput) {

@@ -51,6 +51,10 @@ struct Motion {
     ContactState after;
 };
 
+std::ostream& operator<<(std::ostream& stream, const Motion& motion) {
+    return stream << motion.name;
+}
+
 ContactState moving(float speedMps, float forceNewtons, std::uint32_t label = 0) {
     ContactState state = testing::sliding(speedMps, forceNewtons);
     state.material.entries[0].label = label;

@@ -11,6 +11,8 @@
 #include <functional>
 #include <limits>
 #include <numbers>
+#include <optional>
+#include <span>
 #include <vector>
 
 namespace haptoflow::engine {
@@ -59,6 +61,61 @@ TEST(OfflineRendererTest, SameStatesAndSeedGiveTheSameSamplesAndAnotherSeedOther
     EXPECT_EQ(first.samples, second.samples);
     EXPECT_NE(first.samples, other.samples);
     EXPECT_EQ(first.samples.size(), static_cast<std::size_t>(std::llround((states.back().timeSeconds + 0.1) * 48000)));
+}
+
+/// Keeps only how much came, in how large pieces.
+class CountingSink final : public OfflineSink {
+public:
+    void output(std::span<const float> samples) override {
+        outputSamples += samples.size();
+        largestPiece = std::max(largestPiece, samples.size());
+    }
+    void waveform(std::span<const float> samplesMps2) override {
+        waveformSamples += samplesMps2.size();
+        largestPiece = std::max(largestPiece, samplesMps2.size());
+    }
+
+    std::size_t outputSamples = 0;
+    std::size_t waveformSamples = 0;
+    std::size_t largestPiece = 0;
+};
+
+TEST(OfflineRendererTest, AStreamedRenderComesInPiecesOfOneUpdateAndMeasuresTheSame) {
+    const model::ModelFile model = testing::smallModel();
+    FakeGenerator generator(whiteNoise);
+    const std::vector<ContactState> states = slide(5.0);
+    const OfflineRender whole = renderOffline(model, generator, states, {});
+    CountingSink sink;
+    std::size_t next = 0;
+    const ContactStateSource source = [&]() -> std::optional<ContactState> {
+        return next < states.size() ? std::optional(states[next++]) : std::nullopt;
+    };
+    const OfflineFigures streamed = renderOffline(model, generator, source, {}, sink);
+    EXPECT_EQ(sink.outputSamples, whole.samples.size());
+    EXPECT_EQ(sink.waveformSamples, whole.waveformMps2.size());
+    // The tail of 0.1 s is the largest.
+    EXPECT_LE(sink.largestPiece, 4800U);
+    EXPECT_EQ(streamed.outputSamples, whole.samples.size());
+    EXPECT_EQ(streamed.rmsMps2, whole.rmsMps2);
+    EXPECT_EQ(streamed.peak, whole.peak);
+    EXPECT_EQ(streamed.segments, states.size());
+    EXPECT_EQ(streamed.seamStatistics.jumpRatio, whole.seamStatistics.jumpRatio);
+}
+
+TEST(OfflineRendererTest, TouchesWithoutASoundAreCounted) {
+    const model::ModelFile model = testing::smallModel();
+    FakeGenerator generator(whiteNoise);
+    std::vector<ContactState> states = slide(0.99);
+    for (std::size_t i = 0; i < states.size(); ++i) {
+        // Three touches of 20 states with a gap of 4: the second rests.
+        const std::size_t touch = i / 24;
+        states[i].touching = i % 24 < 20;
+        states[i].touchCounter = static_cast<std::uint32_t>(touch + 1);
+        states[i].velocityMps = {touch == 1 ? 0.0F : 0.1F, 0.0F};
+    }
+    const OfflineRender render = renderOffline(model, generator, states, {});
+    EXPECT_EQ(render.touches, 3U);
+    EXPECT_EQ(render.silentTouches, 1U);
 }
 
 TEST(OfflineRendererTest, EverySegmentGoesOnFromTheCommittedSamplesBeforeIt) {

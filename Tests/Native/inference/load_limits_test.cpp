@@ -232,6 +232,55 @@ TEST(OldRuntimeTest, ALoadIsCancelledBetweenItsGraphs) {
     EXPECT_THROW((void)loadDraft(tinyModel(), {.cancellation = cancellation}, OldRuntime::open()), LoadCancelled);
 }
 
+/// The test's ONNX Runtime, in which the cancellation comes while it loads a graph.
+class RuntimeCancelledWhileLoading {
+public:
+    static std::shared_ptr<const Runtime> open(const std::shared_ptr<Cancellation>& cancellation) {
+        state() = State{.cancellation = cancellation, .api = testRuntime()->api()};
+        state().api.CreateSessionFromArray = createSession;
+        state().api.SessionOptionsSetLoadCancellationFlag = setFlag;
+        static const OrtApiBase base{[](std::uint32_t) noexcept -> const OrtApi* { return &state().api; },
+                                     []() noexcept -> const char* { return "1.22.0"; }};
+        return Runtime::fromApiBase(&base);
+    }
+    static int flagsSet() { return state().flagsSet; }
+    static int sessionsMade() { return state().sessionsMade; }
+
+private:
+    struct State {
+        std::shared_ptr<Cancellation> cancellation;
+        OrtApi api{};
+        int flagsSet = 0;
+        int sessionsMade = 0;
+    };
+    static State& state() {
+        static State each;
+        return each;
+    }
+    static OrtStatus* ORT_API_CALL createSession(const OrtEnv* environment, const void* bytes, std::size_t count,
+                                                 const OrtSessionOptions* options, OrtSession** session) noexcept {
+        state().cancellation->cancel();
+        OrtStatus* status = testRuntime()->api().CreateSessionFromArray(environment, bytes, count, options, session);
+        state().sessionsMade += status == nullptr ? 1 : 0;
+        return status;
+    }
+    static OrtStatus* ORT_API_CALL setFlag(OrtSessionOptions* options, bool isCancelled) noexcept {
+        ++state().flagsSet;
+        return testRuntime()->api().SessionOptionsSetLoadCancellationFlag(options, isCancelled);
+    }
+};
+
+TEST(LoadLimitsTest, ACancellationWhileOnnxRuntimeLoadsAGraphReachesIt) {
+    if (testRuntime()->apiVersion() < 22) {
+        GTEST_SKIP() << "this ONNX Runtime cannot cancel a load";
+    }
+    const auto cancellation = std::make_shared<Cancellation>();
+    const auto runtime = RuntimeCancelledWhileLoading::open(cancellation);
+    EXPECT_THROW((void)loadDraft(tinyModel(), {.cancellation = cancellation}, runtime), LoadCancelled);
+    EXPECT_EQ(RuntimeCancelledWhileLoading::flagsSet(), 1);
+    EXPECT_EQ(RuntimeCancelledWhileLoading::sessionsMade(), 0);
+}
+
 struct Heard {
     static void callback(void* context, int severity, const char* message) {
         static_cast<Heard*>(context)->severities.push_back(severity);

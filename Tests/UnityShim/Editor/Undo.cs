@@ -33,6 +33,14 @@ namespace UnityEditor
         {
             foreach (Object target in objectsToUndo)
             {
+                if (target is Transform place)
+                {
+                    (Vector3 position, Quaternion rotation, Vector3 scale) =
+                        (place.localPosition, place.localRotation, place.localScale);
+                    Push(name, () => (place.localPosition, place.localRotation, place.localScale) =
+                        (position, rotation, scale));
+                    continue;
+                }
                 Dictionary<string, object?> before = SerializedFields.Snapshot(target);
                 Push(name, () => SerializedFields.Restore(target, before));
             }

@@ -74,7 +74,7 @@ namespace UnityEngine
     }
 
     [AttributeUsage(AttributeTargets.Class, Inherited = false, AllowMultiple = false)]
-    public sealed class HelpURLAttribute : Attribute
+    public class HelpURLAttribute : Attribute
     {
         public HelpURLAttribute(string url) => URL = url;
 

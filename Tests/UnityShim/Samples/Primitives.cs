@@ -12,8 +12,34 @@ namespace UnityEngine
 
     public partial class Renderer : Component
     {
-        public Material material { get; set; } = new Material();
-        public Material sharedMaterial => material;
+        private Material? shown = new Material();
+        private bool isOwn;
+
+        /// <summary>Reading it makes the renderer's own copy, as in Unity.</summary>
+        public Material material
+        {
+            get
+            {
+                if (!isOwn)
+                {
+                    shown = new Material(shown!);
+                    isOwn = true;
+                }
+                return shown!;
+            }
+            set => sharedMaterial = value;
+        }
+
+        public Material? sharedMaterial
+        {
+            get => shown;
+            set
+            {
+                shown = value;
+                isOwn = false;
+            }
+        }
+
         public bool enabled { get; set; } = true;
     }
 

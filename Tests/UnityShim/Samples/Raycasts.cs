@@ -10,13 +10,16 @@ namespace UnityEngine
         private const int MostSteps = 512;
         private static readonly Collider[] Found = new Collider[1024];
 
-        public static bool Raycast(Ray ray, out RaycastHit hitInfo, float maxDistance)
+        public static bool Raycast(Ray ray, out RaycastHit hitInfo, float maxDistance) =>
+            Raycast(ray, out hitInfo, maxDistance, LayersByDefault, QueryTriggerInteraction.Collide);
+
+        public static bool Raycast(Ray ray, out RaycastHit hitInfo, float maxDistance, int layerMask,
+            QueryTriggerInteraction queryTriggerInteraction)
         {
             World.RequireMainThread();
             hitInfo = default;
             bool hasHit = false;
-            int count = PhysicsWorld.Overlap(
-                ray.origin, maxDistance, Found, LayersByDefault, QueryTriggerInteraction.Collide);
+            int count = PhysicsWorld.Overlap(ray.origin, maxDistance, Found, layerMask, queryTriggerInteraction);
             for (int index = 0; index < count; ++index)
             {
                 Collider collider = Found[index];

@@ -118,6 +118,7 @@ namespace UnityShim
         internal static Component AddComponent(GameObject owner, Type type)
         {
             RequireMainThread();
+            AddRequired(owner, type);
             var component = (Component)Activator.CreateInstance(type)!;
             component.Attach(owner);
             owner.Components.Add(component);
@@ -134,6 +135,17 @@ namespace UnityShim
                 state.Refresh();
             }
             return component;
+        }
+
+        private static void AddRequired(GameObject owner, Type type)
+        {
+            foreach (RequireComponent required in type.GetCustomAttributes<RequireComponent>())
+            {
+                if (!owner.Components.Exists(required.m_Type0.IsInstanceOfType))
+                {
+                    AddComponent(owner, required.m_Type0);
+                }
+            }
         }
 
         internal static T[] Find<T>(bool alsoInactive)

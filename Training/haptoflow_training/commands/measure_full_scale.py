@@ -26,14 +26,14 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser], su
         "measure-full-scale",
         help=summary,
         description=(
-            "Renders recorded strokes on every label of a model through the engine's command line, with each force held "
-            "for the whole stroke, far below the limiter's knee, and reports the smallest full scale that bends less "
+            "Renders recorded strokes on every label of a model through the engine's command line, with each force "
+            "held for the whole stroke, far below the limiter's knee, and reports the smallest full scale that bends less "
             f"than {ALLOWED_SHARE:.1%} of the samples, with the shares at others."
         ),
         epilog="example:\n  haptoflow-training measure-full-scale --engine build/native/haptoflow \\\n"
         "    --model Packages/com.haptoflow.runtime/Runtime/Models/default.haptoflow \\\n"
-        "    --strokes ../shared/strokes/vr-pen-on-surface/strokes.csv --out Training/results/default/full-scale.json \\\n"
-        "    --page Documentation~/actuator-wiring.md",
+        "    --strokes ../shared/strokes/vr-pen-on-surface/strokes.csv \\\n"
+        "    --out Training/results/default/full-scale.json --page Documentation~/actuator-wiring.md",
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
     parser.add_argument("--engine", type=Path, required=True, help="the built command line, build/native/haptoflow")

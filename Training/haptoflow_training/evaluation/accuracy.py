@@ -221,13 +221,21 @@ def _by_label(rows: Sequence[dict[str, Any]], key: str) -> dict[str, list[float]
 
 
 def _add(result: dict[str, Any], key: str, rows: Sequence[dict[str, Any]], seed: int) -> None:
-    grouped = _by_label(rows, key)
-    result[key] = _median_of_means(grouped)
-    if not grouped:
+    if not _by_label(rows, key):
+        result[key] = None
         return
+    result[key], *interval = with_interval(rows, key, seed)
+    result[f"{key}_interval"] = interval
+
+
+def with_interval(rows: Sequence[dict[str, Any]], key: str, seed: int = 0) -> tuple[float, float, float]:
+    """Median over labels of each label's mean, and the ends of its 95 % bootstrap interval over the label's recordings.
+    At least one row has the figure."""
+    grouped = _by_label(rows, key)
     generator = np.random.default_rng(seed)
     draws = [
         np.median([np.mean(generator.choice(values, size=len(values))) for values in grouped.values()])
         for _ in range(_BOOTSTRAP_DRAWS)
     ]
-    result[f"{key}_interval"] = [float(value) for value in np.quantile(draws, [0.025, 0.975])]
+    low, high = np.quantile(draws, [0.025, 0.975])
+    return float(np.median([np.mean(values) for values in grouped.values()])), float(low), float(high)

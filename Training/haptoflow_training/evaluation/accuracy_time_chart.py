@@ -87,8 +87,8 @@ def chart_lines(points: Sequence[ChartPoint]) -> list[list[ChartPoint]]:
 
 
 def draw_chart(table: dict[str, Any], path: Path) -> None:
-    """One panel for the level, one for the spectrum, over milliseconds; what lies beyond a panel stands at its edge with
-    its value."""
+    """One panel for the level, one for the spectrum, over milliseconds. What lies beyond a panel stands at its edge
+    with its value."""
     import matplotlib
 
     matplotlib.use("Agg")
@@ -156,7 +156,8 @@ def _draw_another_recording(axis: Any, panel: Panel, rows: Sequence[dict[str, An
     axis.axhline(another[panel.key], color="#7a7a7a", linestyle="--", linewidth=1.0, zorder=1)
     axis.annotate(
         "another recording of the same material", (0.88, another[panel.key]), xycoords=("axes fraction", "data"),
-        xytext=(0, 3), textcoords="offset points", ha="right", va="bottom", fontsize=9, color="#5a5a5a",
+        xytext=(0, max(3.0, panel.name_lift)), textcoords="offset points", ha="right", va="bottom", fontsize=9,
+        color="#5a5a5a",
     )  # fmt: skip
 
 

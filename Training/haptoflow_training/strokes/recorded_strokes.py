@@ -17,7 +17,7 @@ _SHARE_ON_TABLE = 0.6
 
 
 def read_recorded_strokes(path: Path) -> dict[str, NDArray[np.float64]]:
-    """Name to [n, 4]: seconds and metres as recorded, the table roughly the x-y plane. InputError names what is wrong."""
+    """Name to [n, 4]: seconds and metres as recorded, the table roughly the x-y plane. InputError names the line."""
     rows: dict[str, list[list[float]]] = defaultdict(list)
     try:
         with path.open(newline="", encoding="utf-8") as file:
@@ -25,7 +25,8 @@ def read_recorded_strokes(path: Path) -> dict[str, NDArray[np.float64]]:
                 try:
                     rows[row["stroke_id"]].append([float(row[column]) for column in _COLUMNS])
                 except (KeyError, TypeError, ValueError) as error:
-                    raise InputError(f"{path}:{number}: expected stroke_id and numbers in {', '.join(_COLUMNS)}") from error
+                    expected = f"expected stroke_id and numbers in {', '.join(_COLUMNS)}"
+                    raise InputError(f"{path}:{number}: {expected}") from error
     except OSError as error:
         raise InputError(f"{path}: cannot be read ({error.strerror})") from error
     if not rows:

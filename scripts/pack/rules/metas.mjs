@@ -48,6 +48,7 @@ export function checkGuids(files) {
 /** The importers of Unity by kind of file, where the wrong one in a .meta loses settings. */
 const importers = [
   [/\.cs$/, 'MonoImporter'],
+  [/\.prefab$/, 'PrefabImporter'],
   [/\.asmdef$/, 'AssemblyDefinitionImporter'],
   [/\.(so|dll|dylib)$/, 'PluginImporter'],
   [/\.(mixer|asset|mat)$/, 'NativeFormatImporter'],

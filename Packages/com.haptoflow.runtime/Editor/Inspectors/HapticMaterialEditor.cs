@@ -9,7 +9,17 @@ namespace HaptoFlow.Editor
     [CanEditMultipleObjects]
     internal sealed class HapticMaterialEditor : UnityEditor.Editor
     {
-        public override void OnInspectorGUI() => Draw(serializedObject);
+        internal static readonly GUIContent Preview = new GUIContent("Preview",
+            "Opens the Texture Preview on this material: heard and seen without a headset.");
+
+        public override void OnInspectorGUI()
+        {
+            Draw(serializedObject);
+            if (GUILayout.Button(Preview))
+            {
+                TexturePreviewWindow.Open(target);
+            }
+        }
 
         internal static void Draw(SerializedObject material)
         {

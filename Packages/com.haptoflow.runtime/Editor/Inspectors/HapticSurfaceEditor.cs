@@ -55,6 +55,10 @@ namespace HaptoFlow.Editor
             {
                 TakeOver();
             }
+            if (GUILayout.Button(HapticMaterialEditor.Preview))
+            {
+                TexturePreviewWindow.Open(target);
+            }
             EditorGUILayout.HelpBox(extent, MessageType.None);
         }
 

@@ -7,7 +7,7 @@ using UnityEngine;
 namespace HaptoFlow.Editor
 {
     /// <summary>In the scene view: which colliders can be felt as what, and which not. A click shows one.</summary>
-    [Overlay(typeof(SceneView), "haptoflow-surfaces", "HaptoFlow Surfaces")]
+    [Overlay(typeof(SceneView), "haptoflow-surfaces", "HaptoFlow Surfaces", true)]
     internal sealed class SurfaceOverlay : IMGUIOverlay
     {
         private const int MostLines = 12;

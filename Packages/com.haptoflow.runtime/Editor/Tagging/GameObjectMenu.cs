@@ -6,11 +6,10 @@ using UnityEngine;
 
 namespace HaptoFlow.Editor
 {
-    /// <summary>GameObject > HaptoFlow.</summary>
+    /// <summary>GameObject > HaptoFlow: tags what is there.</summary>
     internal static class GameObjectMenu
     {
         private const string Tag = "GameObject/HaptoFlow/Tag Selected by Name or Physics Material";
-        private const string Stylus = "GameObject/HaptoFlow/Haptic Stylus";
         private const int Place = 11;
 
         [MenuItem(Tag, true, Place)]
@@ -31,19 +30,6 @@ namespace HaptoFlow.Editor
             TagPlan plan = TagPlan.For(SceneColliders.Below(selected), selected, matcher);
             Tagging.Apply(plan.Proposals, "Tag by Name or Physics Material");
             Debug.Log(Report(plan));
-        }
-
-        /// <summary>Tip and component, ready to be put on a controller.</summary>
-        [MenuItem(Stylus, false, Place - 1)]
-        internal static void CreateStylus(MenuCommand command)
-        {
-            var owner = new GameObject("Haptic Stylus");
-            var tip = new GameObject("Tip");
-            tip.transform.SetParent(owner.transform, false);
-            owner.AddComponent<HapticStylus>().Tip = tip.transform;
-            GameObjectUtility.SetParentAndAlign(owner, command.context as GameObject);
-            Undo.RegisterCreatedObjectUndo(owner, "Create Haptic Stylus");
-            Selection.activeObject = owner;
         }
 
         /// <summary>Prefabs that are selected as assets are opened to be changed.</summary>

@@ -22,6 +22,13 @@ namespace HaptoFlow.Editor
         [field: SerializeField]
         public float Share { get; set; } = 0.5f;
 
+        public void Take(LabelMix mix)
+        {
+            Label = mix.First;
+            SecondLabel = mix.Second;
+            Share = mix.Second.Length > 0 ? mix.Share : 0.5f;
+        }
+
         /// <summary>The label; where none is chosen, the one of that index among the model's.</summary>
         public string LabelOr(IReadOnlyList<string> labels, int index) =>
             Label.Length > 0 ? Label : index < labels.Count ? labels[index] : labels.Count > 0 ? labels[0] : "wood";

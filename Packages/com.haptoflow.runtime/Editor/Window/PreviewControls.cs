@@ -11,7 +11,7 @@ namespace HaptoFlow.Editor
     /// <summary>The window's controls for material and stroke. Main thread, within OnGUI.</summary>
     internal sealed class PreviewControls
     {
-        private const float LabelWidth = 96f;
+        public const float LabelWidth = 96f;
 
         private static readonly string[] StrokeNames =
         {

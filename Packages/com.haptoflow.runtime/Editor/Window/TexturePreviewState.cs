@@ -97,6 +97,9 @@ namespace HaptoFlow.Editor
             ++Version;
         }
 
+        /// <summary>The material that is heard becomes this one; can be undone.</summary>
+        public void Take(LabelMix mix) => Change("Material", changed => changed.Material(changed.Heard).Take(mix));
+
         /// <summary>Something was undone or done again.</summary>
         public void Forget() => ++Version;
     }

@@ -3,6 +3,7 @@ using System;
 using HaptoFlow.Preview;
 using UnityEditor;
 using UnityEngine;
+using Object = UnityEngine.Object;
 
 namespace HaptoFlow.Editor
 {
@@ -11,7 +12,7 @@ namespace HaptoFlow.Editor
     internal sealed class TexturePreviewWindow : EditorWindow
     {
         private const float Width = 1200f;
-        private const float Height = 800f;
+        private const float Height = 844f;
 
         // What may be seen of the window where it is docked into less; the rest is scrolled to.
         private const float LeastWidth = 480f;
@@ -49,6 +50,16 @@ namespace HaptoFlow.Editor
             {
                 Rect place = window.position;
                 window.position = new Rect(place.x, place.y, Width, Height);
+            }
+        }
+
+        /// <summary>Opens the window on what a surface or a Haptic Material asset is made of.</summary>
+        internal static void Open(Object described)
+        {
+            Open();
+            if (SceneMaterial.TryRead(described, out LabelMix mix))
+            {
+                GetWindow<TexturePreviewWindow>().State.Take(mix);
             }
         }
 
@@ -107,6 +118,10 @@ namespace HaptoFlow.Editor
             using (new GUILayout.AreaScope(layout.Controls.ToRect()))
             {
                 controls!.Draw(Session.Model);
+                if (SceneControls.Draw(State, Session.Model) is { } said)
+                {
+                    ShowNotification(new GUIContent(said));
+                }
                 player.DrawButtons(ExportLater);
             }
             DrawStroke(layout.StrokePanel);

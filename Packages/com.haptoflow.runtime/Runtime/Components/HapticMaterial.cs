@@ -91,6 +91,7 @@ namespace HaptoFlow
 
     /// <summary>A material that several surfaces share.</summary>
     [CreateAssetMenu(menuName = "HaptoFlow/Haptic Material", fileName = "HapticMaterial", order = 1)]
+    [HelpURL(HelpPages.Components + "haptic-material")]
     public sealed class HapticMaterial : ScriptableObject
     {
         [SerializeField]

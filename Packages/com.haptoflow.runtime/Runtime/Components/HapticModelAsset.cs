@@ -6,6 +6,7 @@ using UnityEngine;
 namespace HaptoFlow
 {
     /// <summary>A .haptoflow model as an asset: its bytes, as the importer found them.</summary>
+    [HelpURL(HelpPages.Components + "haptic-model")]
     public sealed class HapticModelAsset : ScriptableObject
     {
         [SerializeField, HideInInspector]

@@ -18,6 +18,7 @@ namespace HaptoFlow
     /// <summary>Follows a tip, finds the surface it touches, and makes that surface felt.</summary>
     [AddComponentMenu("HaptoFlow/Haptic Stylus")]
     [DefaultExecutionOrder(1000)]
+    [HelpURL(HelpPages.Components + "haptic-stylus")]
     public sealed class HapticStylus : MonoBehaviour
     {
         [SerializeField, Tooltip("Centre of the tip; empty for this object.")]

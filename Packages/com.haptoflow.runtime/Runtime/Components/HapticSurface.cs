@@ -11,6 +11,7 @@ namespace HaptoFlow
     /// colliders are left out.</remarks>
     [AddComponentMenu("HaptoFlow/Haptic Surface")]
     [DisallowMultipleComponent]
+    [HelpURL(HelpPages.Components + "haptic-surface")]
     public sealed class HapticSurface : MonoBehaviour
     {
         [SerializeField, Tooltip("A material shared with other surfaces; empty to describe one here.")]

@@ -8,6 +8,7 @@ namespace HaptoFlow
     /// HaptoFlowSettings in a Resources folder, are found by themselves; another can be set before the first stylus
     /// wakes.</summary>
     [CreateAssetMenu(menuName = "HaptoFlow/Settings", fileName = ResourceName, order = 2)]
+    [HelpURL(HelpPages.Components + "haptoflow-settings")]
     public sealed class HaptoFlowSettings : ScriptableObject
     {
         internal const string ResourceName = "HaptoFlowSettings";

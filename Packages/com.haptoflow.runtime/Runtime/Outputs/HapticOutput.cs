@@ -24,6 +24,7 @@ namespace HaptoFlow
     /// <summary>Feeds the haptic waves of styluses into Unity's audio output.</summary>
     [AddComponentMenu("HaptoFlow/Haptic Output")]
     [DisallowMultipleComponent]
+    [HelpURL(HelpPages.Components + "haptic-output")]
     public sealed class HapticOutput : MonoBehaviour
     {
         [SerializeField]

@@ -2,6 +2,7 @@ using System;
 using System.Buffers.Binary;
 using System.IO;
 using System.IO.Compression;
+using System.Security.Cryptography;
 using HaptoFlow.Preview;
 
 namespace HaptoFlow.PreviewTests
@@ -11,7 +12,8 @@ namespace HaptoFlow.PreviewTests
     {
         private static readonly byte[] Signature = { 0x89, (byte)'P', (byte)'N', (byte)'G', 13, 10, 26, 10 };
 
-        public static void Write(string path, PixelCanvas canvas)
+        /// <param name="model">The model file that was drawn with; the picture names its SHA-256. Null for a picture without one.</param>
+        public static void Write(string path, PixelCanvas canvas, byte[]? model = null)
         {
             Directory.CreateDirectory(Path.GetDirectoryName(path)!);
             using FileStream file = File.Create(path);
@@ -22,6 +24,11 @@ namespace HaptoFlow.PreviewTests
             header[8] = 8;
             header[9] = 6;
             Chunk(file, "IHDR", header);
+            if (model != null)
+            {
+                string name = Convert.ToHexString(SHA256.HashData(model)).ToLowerInvariant();
+                Chunk(file, "tEXt", System.Text.Encoding.Latin1.GetBytes("Model-SHA-256\0" + name));
+            }
             Chunk(file, "IDAT", Compressed(canvas));
             Chunk(file, "IEND", Array.Empty<byte>());
         }

@@ -42,6 +42,8 @@ namespace HaptoFlow.PreviewTests
             canvas.Fill(new Box(0.0, 0.0, width, Tab), Colour.Of(0x282828));
             canvas.FillRound(new Box(4.0, 2.0, 128.0, Tab), Palette.Window, 3.0);
             canvas.Text("Texture Preview", 68.0, 12.0, TextSize, Label, TextAlign.Centre);
+            canvas.Text("Drawn by a test with the window's own code: not a screenshot of Unity", width - 12.0, 12.0,
+                TextSize, Label, TextAlign.Right);
             canvas.Paste(result.StrokePanel, layout.StrokePanel.Left, layout.StrokePanel.Top + Tab);
             canvas.Paste(result.Charts, layout.Charts.Left, layout.Charts.Top + Tab);
             var picture = new WindowPicture(
@@ -75,21 +77,22 @@ namespace HaptoFlow.PreviewTests
             Box seed = Begin("Seed");
             canvas.FillRound(seed, Field, 3.0);
             canvas.Text(Number(result.Request.Seed), seed.Left + 6.0, seed.MiddleY, TextSize, Label);
+            Choice("Take from", "None (Haptic Material)");
+            Buttons(new[] { "Take from Selection", "Apply to Selection" }, new[] { 154.0, 154.0 }, -1);
             y += 6.0;
-            Buttons();
+            Buttons(new[] { "Stop", "A", "B", "Export WAV\u2026", "Measure" },
+                new[] { 56.0, 31.0, 31.0, 104.0, 82.0 }, 1);
             Switches(result);
             Help();
         }
 
-        private void Buttons()
+        private void Buttons(string[] names, double[] widths, int pressed)
         {
-            string[] names = { "Stop", "A", "B", "Export WAV\u2026", "Measure" };
-            double[] widths = { 56.0, 31.0, 31.0, 104.0, 82.0 };
             double x = controls.Left;
             for (int index = 0; index < names.Length; ++index)
             {
                 var box = new Box(x, controls.Top + y, widths[index], 22.0);
-                canvas.FillRound(box, index == 1 ? Pressed : Button, 3.0);
+                canvas.FillRound(box, index == pressed ? Pressed : Button, 3.0);
                 canvas.Text(names[index], x + 0.5 * widths[index], controls.Top + y + 11.0, TextSize, Label,
                     TextAlign.Centre);
                 x += widths[index] + 2.0;

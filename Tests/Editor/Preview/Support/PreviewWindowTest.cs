@@ -78,6 +78,16 @@ namespace HaptoFlow.PreviewTests
             return asset;
         }
 
+        internal GameObject Make(string name) => Keep(new GameObject(name));
+
+        /// <summary>Gone after the test.</summary>
+        internal T Keep<T>(T each)
+            where T : Object
+        {
+            made.Add(each);
+            return each;
+        }
+
         internal static byte[] DefaultFile() => ProjectSettingsAsset.DefaultModel()!.File;
 
         internal bool Key(KeyCode key, EventModifiers modifiers = EventModifiers.None) =>

@@ -7,6 +7,7 @@ namespace HaptoFlow
     /// <summary>Tip force from an action of the Input System. For MX Ink through OpenXR: its interaction profile, and a
     /// binding to tip_logitech/force.</summary>
     [AddComponentMenu("HaptoFlow/Tip Force (Input Action)")]
+    [HelpURL(HelpPages.Components + "tip-force-input-action")]
     public sealed class InputActionTipForce : PressureTipForce
     {
         [SerializeField, Tooltip("A value action of type Axis, 0 to 1.")]

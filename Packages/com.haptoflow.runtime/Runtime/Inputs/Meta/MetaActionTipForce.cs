@@ -9,6 +9,7 @@ namespace HaptoFlow
     /// and after a failure not again until something changes: the focus comes back, a controller connects or leaves,
     /// the action gets another name, or this component is switched on again.</remarks>
     [AddComponentMenu("HaptoFlow/Tip Force (Meta)")]
+    [HelpURL(HelpPages.Components + "tip-force-meta")]
     public sealed class MetaActionTipForce : PressureTipForce
     {
         [SerializeField, Tooltip("Name of the float action in the project's action sets.")]

@@ -1,0 +1,52 @@
+#include "option_values.hpp"
+
+#include "decimal_number.hpp"
+
+#include <charconv>
+#include <sstream>
+#include <system_error>
+
+namespace haptoflow::cli {
+namespace {
+
+std::string shortText(double value) {
+    std::ostringstream text;
+    text.imbue(std::locale::classic());
+    text << value;
+    return text.str();
+}
+
+std::string expectation(const std::string& kind, const std::string& lowest, const std::string& highest,
+                        const std::string& unit) {
+    return kind + " from " + lowest + " to " + highest + (unit.empty() ? "" : " " + unit);
+}
+
+}  // namespace
+
+CLI::Validator decimalBetween(double lowest, double highest, const std::string& unit) {
+    const std::string expected = expectation("a number", shortText(lowest), shortText(highest), unit);
+    const auto check = [lowest, highest, expected](std::string& text) {
+        const std::optional<double> value = decimalNumber(text);
+        return value && *value >= lowest && *value <= highest ? std::string()
+                                                              : "expected " + expected + ", found '" + text + "'";
+    };
+    return {check, shortText(lowest) + " to " + shortText(highest), expected};
+}
+
+CLI::Validator wholeBetween(std::uint64_t lowest, std::uint64_t highest, const std::string& unit) {
+    const std::string expected = expectation("a whole number", std::to_string(lowest), std::to_string(highest), unit);
+    const auto check = [lowest, highest, expected](std::string& text) {
+        std::uint64_t value = 0;
+        const char* const end = text.data() + text.size();
+        const auto [stop, error] = std::from_chars(text.data(), end, value);
+        if (error != std::errc() || stop != end || value < lowest || value > highest) {
+            return "expected " + expected + ", found '" + text + "'";
+        }
+        // CLI11 takes a leading zero for octal.
+        text = std::to_string(value);
+        return std::string();
+    };
+    return {check, std::to_string(lowest) + " to " + std::to_string(highest), expected};
+}
+
+}  // namespace haptoflow::cli

@@ -1,0 +1,108 @@
+#nullable enable
+using System.Collections.Generic;
+using System.Linq;
+using HaptoFlow.Preview;
+using UnityEditor;
+using UnityEngine;
+
+namespace HaptoFlow.Editor
+{
+    /// <summary>Labels to and from the scene: surfaces, untagged objects with colliders, Haptic Material assets. One
+    /// step of undo for all. Main thread.</summary>
+    internal static class SceneMaterial
+    {
+        /// <summary>What a surface, its object or a Haptic Material asset is made of.</summary>
+        /// <returns>False for anything else.</returns>
+        public static bool TryRead(Object? source, out LabelMix mix)
+        {
+            mix = default;
+            Object? described = source switch
+            {
+                HapticMaterial material => material,
+                HapticSurface surface => surface,
+                GameObject owner => SurfaceRegistry.OwnerOf(owner.transform),
+                _ => null,
+            };
+            if (described == null)
+            {
+                return false;
+            }
+            using var serialized = new SerializedObject(described);
+            SerializedProperty? shared = serialized.FindProperty("sharedMaterial");
+            if (shared != null && shared.objectReferenceValue != null)
+            {
+                return TryRead(shared.objectReferenceValue, out mix);
+            }
+            string path = described is HapticMaterial ? "description" : "own";
+            mix = new LabelMix(serialized.FindProperty(path + ".label").stringValue,
+                serialized.FindProperty(path + ".secondLabel").stringValue,
+                serialized.FindProperty(path + ".blend").floatValue);
+            return true;
+        }
+
+        /// <summary>Makes objects of a material: a surface is changed, an object with a collider becomes one, a Haptic
+        /// Material asset changes for everything that shares it. A surface that shared an asset no longer does.
+        /// </summary>
+        /// <returns>What was done, for people.</returns>
+        public static string Apply(LabelMix mix, IReadOnlyCollection<Object> selected)
+        {
+            Undo.IncrementCurrentGroup();
+            Undo.SetCurrentGroupName("Apply " + mix.Title);
+            int group = Undo.GetCurrentGroup();
+            var done = new List<Object>();
+            var left = new List<Object>();
+            foreach (Object each in selected)
+            {
+                (TryApply(mix, each) ? done : left).Add(each);
+            }
+            Undo.CollapseUndoOperations(group);
+            string remark = left.Count == 0
+                ? ""
+                : $"; not to {Names(left)}: no collider that can be felt, or no object of an open scene";
+            return done.Count == 0 && left.Count == 0
+                ? "Select objects of the scene, or Haptic Materials, first"
+                : $"Applied {mix.Title} to {(done.Count == 0 ? "nothing" : Names(done))}{remark}";
+        }
+
+        private static bool TryApply(LabelMix mix, Object target)
+        {
+            if (target is HapticMaterial)
+            {
+                Write(target, "description", mix);
+                return true;
+            }
+            // Prefabs that are selected as assets are opened to be changed.
+            if (!(target is GameObject owner) || EditorUtility.IsPersistent(owner))
+            {
+                return false;
+            }
+            if (!owner.TryGetComponent(out HapticSurface surface))
+            {
+                if (!SceneColliders.Below(new[] { owner }).Any())
+                {
+                    return false;
+                }
+                surface = Undo.AddComponent<HapticSurface>(owner);
+            }
+            Write(surface, "own", mix);
+            return true;
+        }
+
+        private static void Write(Object target, string path, LabelMix mix)
+        {
+            using var serialized = new SerializedObject(target);
+            SerializedProperty? shared = serialized.FindProperty("sharedMaterial");
+            if (shared != null)
+            {
+                shared.objectReferenceValue = null;
+            }
+            serialized.FindProperty(path + ".label").stringValue = mix.First;
+            serialized.FindProperty(path + ".secondLabel").stringValue = mix.Second;
+            serialized.FindProperty(path + ".blend").floatValue = mix.Share;
+            serialized.ApplyModifiedProperties();
+        }
+
+        private static string Names(IEnumerable<Object> objects) =>
+            string.Join(", ", objects.Select(each => each.name));
+    }
+}

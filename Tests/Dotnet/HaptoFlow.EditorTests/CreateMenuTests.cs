@@ -1,0 +1,155 @@
+using System.Linq;
+using HaptoFlow.Editor;
+using NUnit.Framework;
+using UnityEditor;
+using UnityEngine;
+using UnityEngine.Rendering;
+using UnityShim;
+
+namespace HaptoFlow.EditorTests
+{
+    /// <summary>GameObject > HaptoFlow: what it makes, and that one undo takes it back.</summary>
+    public sealed class CreateMenuTests : EditorTest
+    {
+        private Camera camera = null!;
+
+        [SetUp]
+        public void ANewSceneAsUnityMakesIt()
+        {
+            GameObject owner = Make("Main Camera");
+            owner.tag = "MainCamera";
+            owner.transform.position = new Vector3(0f, 1f, -10f);
+            camera = owner.AddComponent<Camera>();
+            Undo.IncrementCurrentGroup();
+        }
+
+        [Test]
+        public void AFirstSceneIsMadeByOneCommandAndTakenBackByOneUndo()
+        {
+            CreateMenu.CreateFirstScene(new MenuCommand(null));
+            Assert.That(All<HapticSurface>().Single().Material.Label, Is.EqualTo("wood"));
+            Assert.That(All<MousePen>().Single().Stylus, Is.SameAs(All<HapticStylus>().Single()));
+            Assert.That(All<HapticOutput>(), Has.Length.EqualTo(1));
+            Assert.That(camera.transform.position.magnitude, Is.LessThan(1f), "near enough to see 30 cm");
+            Undo.PerformUndo();
+            Assert.That(All<HapticSurface>(), Is.Empty);
+            Assert.That(All<HapticStylus>(), Is.Empty);
+            Assert.That(All<HapticOutput>(), Is.Empty);
+            Assert.That(camera.transform.position, Is.EqualTo(new Vector3(0f, 1f, -10f)));
+        }
+
+        [Test]
+        public void TheFirstScenesPlateIsSeenByItsCamera()
+        {
+            CreateMenu.CreateFirstScene(new MenuCommand(null));
+            foreach (float side in new[] { -0.15f, 0.15f })
+            {
+                Vector3 pixels = camera.WorldToScreenPoint(new Vector3(side, 0f, side));
+                Assert.That(pixels.x, Is.InRange(0f, camera.pixelWidth));
+                Assert.That(pixels.y, Is.InRange(0f, camera.pixelHeight));
+            }
+        }
+
+        [Test]
+        public void ACameraThatSomebodyPlacedStaysWhereItIs()
+        {
+            camera.transform.position = new Vector3(1f, 1f, 1f);
+            CreateMenu.CreateFirstScene(new MenuCommand(null));
+            Assert.That(camera.transform.position, Is.EqualTo(new Vector3(1f, 1f, 1f)));
+        }
+
+        [Test]
+        public void TheCheckFindsNothingToRemarkInAFirstScene()
+        {
+            Settings();
+            CreateMenu.CreateFirstScene(new MenuCommand(null));
+            Assert.That(SceneCheck.Run().Select(finding => finding.Text).Where(text => !text.Contains("audio device")),
+                Is.Empty);
+        }
+
+        [Test]
+        public void AFirstScenePlaysAndIsFeltWithoutAnyScript()
+        {
+            Settings();
+            CreateMenu.CreateFirstScene(new MenuCommand(null));
+            HapticStylus stylus = All<HapticStylus>().Single();
+            EditorSession.Play();
+            HapticSession.Current.FinishLoading();
+            SimulatedInput.Reset();
+            SimulatedInput.MousePosition = camera.WorldToScreenPoint(Vector3.zero);
+            SimulatedInput.MouseButton = true;
+            World.Frames(60);
+            Assert.That(stylus.IsTouching, Is.True);
+            Assert.That(stylus.Contact.Surface.Material.Label, Is.EqualTo("wood"));
+            SimulatedInput.Reset();
+            EditorSession.Stop();
+        }
+
+        [Test]
+        public void ATaggedCubeHasThePipelinesMaterialAndOneThatTheUserChoosesStaysInPlayMode()
+        {
+            var pipeline = ScriptableObject.CreateInstance<SimulatedPipeline>();
+            pipeline.Material = new Material(SimulatedPipeline.ShaderNamed("Lit"));
+            GraphicsSettings.defaultRenderPipeline = pipeline;
+            CreateMenu.CreateTaggedCube(new MenuCommand(null));
+            var renderer = All<HapticSurface>().Single().GetComponent<MeshRenderer>();
+            Assert.That(renderer.sharedMaterial, Is.SameAs(pipeline.Material));
+            var chosen = new Material(SimulatedPipeline.ShaderNamed("Chosen"));
+            renderer.sharedMaterial = chosen;
+            BuildHost.ProcessScene(null);
+            EditorSession.Play();
+            World.Frames(2);
+            Assert.That(renderer.sharedMaterial, Is.SameAs(chosen));
+            EditorSession.Stop();
+            GraphicsSettings.defaultRenderPipeline = null;
+        }
+
+        [Test]
+        public void AnXrPenHangsOnTheTrackingSpaceOfTheCamera()
+        {
+            GameObject space = Make("Camera Offset", Make("XR Origin"));
+            camera.transform.SetParent(space.transform, false);
+            CreateMenu.CreateRightPen(new MenuCommand(null));
+            CreateMenu.CreateLeftPen(new MenuCommand(null));
+            Assert.That(All<XrPen>().Select(pen => pen.Hand), Is.EqualTo(new[] { PenHand.Right, PenHand.Left }));
+            Assert.That(All<XrPen>().Select(pen => pen.transform.parent), Is.All.SameAs(space.transform));
+            Assert.That(All<XrPen>().Select(pen => pen.Stylus!.Force), Is.EqualTo(All<XrPen>()));
+        }
+
+        [Test]
+        public void WhatIsSelectedIsTheParentOfWhatIsMade()
+        {
+            GameObject hand = Make("Hand");
+            CreateMenu.CreateRightPen(new MenuCommand(hand));
+            CreateMenu.CreateMousePen(new MenuCommand(hand));
+            CreateMenu.CreateOutput(new MenuCommand(hand));
+            CreateMenu.CreateTaggedCube(new MenuCommand(hand));
+            Assert.That(hand.transform.childCount, Is.EqualTo(4));
+            Assert.That(Selection.activeObject, Is.SameAs(All<HapticSurface>().Single().gameObject));
+        }
+
+        [Test]
+        public void EachThingIsTakenBackByItsOwnUndo()
+        {
+            System.Action<MenuCommand>[] commands =
+            {
+                CreateMenu.CreateRightPen, CreateMenu.CreateLeftPen, CreateMenu.CreateMousePen, CreateMenu.CreateOutput,
+                CreateMenu.CreateTaggedCube, CreateMenu.CreateStylus,
+            };
+            int before = Count();
+            foreach (System.Action<MenuCommand> command in commands)
+            {
+                Undo.IncrementCurrentGroup();
+                command(new MenuCommand(null));
+                Assert.That(Count(), Is.GreaterThan(before), command.Method.Name);
+                Undo.PerformUndo();
+                Assert.That(Count(), Is.EqualTo(before), command.Method.Name);
+            }
+        }
+
+        private static int Count() => All<Transform>().Length;
+
+        private static T[] All<T>()
+            where T : Object => Object.FindObjectsByType<T>(FindObjectsInactive.Include, FindObjectsSortMode.None);
+    }
+}

@@ -1,0 +1,90 @@
+using System.Collections.Generic;
+using System.Globalization;
+using System.IO;
+using System.Linq;
+using System.Text.RegularExpressions;
+
+namespace HaptoFlow.EditorTests
+{
+    /// <summary>A prefab in YAML as a list of objects with their one-line fields; lists and nested values under the
+    /// name of what holds them.</summary>
+    internal sealed class PrefabFile
+    {
+        private readonly Dictionary<string, PrefabObject> objects;
+
+        public PrefabFile(string path) =>
+            objects = Regex.Split(File.ReadAllText(path), "^--- ", RegexOptions.Multiline).Skip(1)
+                .Select(text => new PrefabObject(text)).ToDictionary(each => each.Anchor);
+
+        public PrefabObject this[string anchor] => objects[anchor];
+
+        public PrefabObject Root => objects.Values.Single(each => each.Type == "Transform" &&
+            PrefabObject.Reference(each["m_Father"]) == "0");
+
+        /// <summary>"Mouse Pen/Body" for the game object that a component belongs to.</summary>
+        public string PathOf(PrefabObject transform)
+        {
+            string name = this[PrefabObject.Reference(transform["m_GameObject"])]["m_Name"];
+            string father = PrefabObject.Reference(transform["m_Father"]);
+            return father == "0" ? name : PathOf(this[father]) + "/" + name;
+        }
+
+        /// <summary>The components of the game object that a transform belongs to, in order.</summary>
+        public IReadOnlyList<PrefabObject> ComponentsOf(PrefabObject transform) =>
+            this[PrefabObject.Reference(transform["m_GameObject"])].List("m_Component").Select(each => this[each])
+                .ToArray();
+    }
+
+    /// <summary>One object of a prefab.</summary>
+    internal sealed class PrefabObject
+    {
+        private readonly Dictionary<string, string> fields = new Dictionary<string, string>();
+        private readonly Dictionary<string, List<string>> lists = new Dictionary<string, List<string>>();
+
+        public PrefabObject(string text)
+        {
+            string[] lines = text.Split('\n');
+            Anchor = Regex.Match(lines[0], @"&(\d+)").Groups[1].Value;
+            Type = lines[1].TrimEnd(':');
+            string last = "";
+            foreach (string line in lines.Skip(2))
+            {
+                Match field = Regex.Match(line, @"^  (\w+): ?(.*)$");
+                Match item = Regex.Match(line, @"^  - .*fileID: (\d+)");
+                Match nested = Regex.Match(line, @"^    (\w+): (.*)$");
+                if (field.Success)
+                {
+                    last = field.Groups[1].Value;
+                    fields[last] = field.Groups[2].Value;
+                    lists[last] = new List<string>();
+                }
+                else if (item.Success)
+                {
+                    lists[last].Add(item.Groups[1].Value);
+                }
+                else if (nested.Success)
+                {
+                    fields[last + "." + nested.Groups[1].Value] = nested.Groups[2].Value;
+                }
+            }
+        }
+
+        public string Anchor { get; }
+
+        /// <summary>"Transform", "MonoBehaviour" and the like.</summary>
+        public string Type { get; }
+
+        public string this[string name] => fields[name];
+
+        /// <summary>The fields that the script declares: those behind Unity's own.</summary>
+        public IEnumerable<string> ScriptFields => fields.Keys.SkipWhile(name => name != "m_EditorClassIdentifier")
+            .Skip(1).Where(name => !name.Contains('.'));
+
+        public IReadOnlyList<string> List(string name) => lists[name];
+
+        public static string Reference(string value) => Regex.Match(value, @"fileID: (\d+)").Groups[1].Value;
+
+        public static float[] Numbers(string value) => Regex.Matches(value, @"\w: ([-0-9.e]+)")
+            .Select(match => float.Parse(match.Groups[1].Value, CultureInfo.InvariantCulture)).ToArray();
+    }
+}

@@ -1,0 +1,89 @@
+using System.Linq;
+using HaptoFlow.Samples.StylusTracing;
+using NUnit.Framework;
+using UnityEngine;
+using UnityEngine.Rendering;
+using UnityShim;
+
+namespace HaptoFlow.SampleTests
+{
+    /// <summary>What the samples' objects are drawn with, as players and editors of the three render pipelines have
+    /// it.</summary>
+    public sealed class PipelineMaterialTests : SampleTest
+    {
+        [TearDown]
+        public void BuiltInAgain() => GraphicsSettings.defaultRenderPipeline = null;
+
+        [Test]
+        public void WithTheBuiltInPipelineObjectsKeepTheMaterialOfPrimitives()
+        {
+            OpenTracing(null);
+            foreach (MeshRenderer renderer in Renderers())
+            {
+                Assert.That(renderer.sharedMaterial!.shader, Is.Null, renderer.name);
+            }
+            Assert.That(ColourOf("Table"), Is.EqualTo(Exhibits.All[0].Colour));
+        }
+
+        [Test]
+        public void InAPlayerOfAnotherPipelineObjectsHaveTheMaterialThatTheBuildWroteIntoTheScene()
+        {
+            Shader lit = SimulatedPipeline.ShaderNamed("Lit");
+            // As in players of URP and HDRP: the pipeline names nothing.
+            GraphicsSettings.defaultRenderPipeline = ScriptableObject.CreateInstance<SimulatedPipeline>();
+            OpenTracing(new Material(lit));
+            PlayFor(0.1);
+            foreach (MeshRenderer renderer in Renderers())
+            {
+                Assert.That(renderer.sharedMaterial!.shader, Is.SameAs(lit), renderer.name);
+            }
+            Assert.That(ColourOf("Table"), Is.EqualTo(Exhibits.All[0].Colour));
+            Assert.That(ColourOf("Sack"), Is.EqualTo(Exhibits.All[7].Colour), "each has a copy of its own");
+        }
+
+        [Test]
+        public void InTheEditorOfAnotherPipelineObjectsHaveThePipelinesDefaultMaterial()
+        {
+            Shader lit = SimulatedPipeline.ShaderNamed("Lit");
+            var pipeline = ScriptableObject.CreateInstance<SimulatedPipeline>();
+            pipeline.Material = new Material(lit);
+            GraphicsSettings.defaultRenderPipeline = pipeline;
+            OpenTracing(null);
+            Assert.That(Renderers().Select(each => each.sharedMaterial!.shader), Is.All.SameAs(lit));
+            Assert.That(pipeline.Material.color, Is.EqualTo(Color.white), "the pipeline's own stays as it is");
+        }
+
+        [Test]
+        public void APlayerThatHasThePipelinesShaderMakesAMaterialOfIt()
+        {
+            Shader lit = SimulatedPipeline.ShaderNamed("Lit");
+            var pipeline = ScriptableObject.CreateInstance<SimulatedPipeline>();
+            pipeline.Shader = lit;
+            GraphicsSettings.defaultRenderPipeline = pipeline;
+            OpenTracing(null);
+            Assert.That(Renderers().Select(each => each.sharedMaterial!.shader), Is.All.SameAs(lit));
+        }
+
+        private void OpenTracing(Material? written)
+        {
+            Camera camera = CameraOf(new SceneFile(SampleFile("StylusTracing", "StylusTracing.unity")));
+            Wake<TracingScene>(bootstrap =>
+            {
+                bootstrap.View = camera;
+                bootstrap.GetComponent<PipelineMaterial>().Material = written;
+            });
+        }
+
+        /// <summary>Of the solids; text has a material of its font.</summary>
+        private static MeshRenderer[] Renderers()
+        {
+            MeshRenderer[] found = Object.FindObjectsByType<MeshRenderer>(
+                FindObjectsInactive.Include, FindObjectsSortMode.None);
+            MeshRenderer[] solids = found.Where(each => !each.TryGetComponent(out TextMesh _)).ToArray();
+            Assert.That(solids.Length, Is.AtLeast(Exhibits.All.Length + 3), "exhibits and three pens");
+            return solids;
+        }
+
+        private static Color ColourOf(string name) => Renderers().Single(each => each.name == name).material.color;
+    }
+}

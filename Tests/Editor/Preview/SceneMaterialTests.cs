@@ -1,0 +1,149 @@
+#nullable enable
+using HaptoFlow.Editor;
+using HaptoFlow.Preview;
+using NUnit.Framework;
+using UnityEditor;
+using UnityEngine;
+
+namespace HaptoFlow.PreviewTests
+{
+    /// <summary>From the preview to the scene and back.</summary>
+    public sealed class SceneMaterialTests : PreviewWindowTest
+    {
+        private static readonly LabelMix Mix = new LabelMix("rubber", "jute", 0.25f);
+
+        [Test]
+        public void ASelectedSurfaceIsMadeOfWhatIsHeardAndKeepsStiffnessAndStrength()
+        {
+            HapticSurface table = Surface("Table");
+            table.Material.StiffnessNewtonsPerMetre = 700f;
+            table.Material.Strength = 0.5f;
+            SceneMaterial.Apply(Mix, new Object[] { table.gameObject });
+            Assert.That(Read(table), Is.EqualTo(Mix));
+            Assert.That(table.Material.StiffnessNewtonsPerMetre, Is.EqualTo(700f));
+            Assert.That(table.Material.Strength, Is.EqualTo(0.5f));
+        }
+
+        [Test]
+        public void AnUntaggedObjectWithAColliderBecomesASurfaceAndOneWithoutIsNamed()
+        {
+            GameObject box = Make("Box");
+            box.AddComponent<BoxCollider>();
+            GameObject light = Make("Light");
+            string said = SceneMaterial.Apply(Mix, new Object[] { box, light });
+            Assert.That(Read(box.GetComponent<HapticSurface>()), Is.EqualTo(Mix));
+            Assert.That(light.TryGetComponent(out HapticSurface _), Is.False);
+            Assert.That(said, Does.StartWith("Applied rubber 75 % + jute 25 % to Box; not to Light"));
+        }
+
+        [Test]
+        public void OneUndoTakesTheWholeSelectionBack()
+        {
+            HapticSurface table = Surface("Table");
+            table.Material.Label = "wood";
+            GameObject box = Make("Box");
+            box.AddComponent<BoxCollider>();
+            HapticMaterial asset = Asset("leather");
+            Undo.IncrementCurrentGroup();
+            SceneMaterial.Apply(Mix, new Object[] { table.gameObject, box, asset });
+            Assert.That(asset.Description.Label, Is.EqualTo("rubber"));
+            Undo.PerformUndo();
+            Assert.That(Read(table), Is.EqualTo(new LabelMix("wood")));
+            Assert.That(box.TryGetComponent(out HapticSurface _), Is.False);
+            Assert.That(asset.Description.Label, Is.EqualTo("leather"));
+        }
+
+        [Test]
+        public void ASurfaceThatSharesAnAssetIsChangedAloneAndTheAssetStays()
+        {
+            HapticMaterial asset = Asset("leather");
+            HapticSurface first = Surface("First");
+            HapticSurface second = Surface("Second");
+            foreach (HapticSurface each in new[] { first, second })
+            {
+                Share(each, asset);
+            }
+            SceneMaterial.Apply(Mix, new Object[] { first.gameObject });
+            Assert.That(Read(first), Is.EqualTo(Mix));
+            Assert.That(Read(second), Is.EqualTo(new LabelMix("leather")));
+            Assert.That(asset.Description.Label, Is.EqualTo("leather"));
+        }
+
+        [Test]
+        public void WithNothingSelectedNothingChangesAndTheRemedyIsSaid() => Assert.That(
+            SceneMaterial.Apply(Mix, new Object[0]), Does.StartWith("Select objects of the scene"));
+
+        [Test]
+        public void WhatASharedMaterialSaysCountsWhenASurfaceIsTaken()
+        {
+            HapticSurface table = Surface("Table");
+            table.Material.Label = "wood";
+            Share(table, Asset("leather"));
+            Assert.That(Read(table), Is.EqualTo(new LabelMix("leather")));
+        }
+
+        [Test]
+        public void AChildTakesTheSurfaceAboveIt()
+        {
+            HapticSurface table = Surface("Table");
+            table.Material.Label = "stone";
+            GameObject leg = Make("Leg");
+            leg.transform.SetParent(table.transform, false);
+            Assert.That(SceneMaterial.TryRead(leg, out LabelMix mix), Is.True);
+            Assert.That(mix, Is.EqualTo(new LabelMix("stone")));
+            Assert.That(SceneMaterial.TryRead(Make("Lamp"), out _), Is.False);
+            Assert.That(SceneMaterial.TryRead(null, out _), Is.False);
+        }
+
+        [Test]
+        public void TheWindowOpensOnASurfaceAndSoundsLikeIt()
+        {
+            HapticSurface table = Surface("Table");
+            table.Material.Label = "wood";
+            SceneMaterial.Apply(Mix, new Object[] { table.gameObject });
+            TexturePreviewWindow.Open(table);
+            Window.Finish();
+            Assert.That(Window.Player!.Heard!.Sound.Material, Is.EqualTo(Mix));
+            Undo.PerformUndo();
+            Assert.That(State.First.Label, Is.EqualTo("wood"));
+        }
+
+        [Test]
+        public void WhileTheSecondMaterialIsHeardItIsTheOneThatIsTaken()
+        {
+            State.Compares = true;
+            State.Active = 1;
+            TexturePreviewWindow.Open(Asset("cork"));
+            Assert.That(State.First.Label, Is.EqualTo("wood"));
+            Assert.That(State.Second.Label, Is.EqualTo("cork"));
+        }
+
+        private HapticSurface Surface(string name)
+        {
+            GameObject owner = Make(name);
+            owner.AddComponent<BoxCollider>();
+            return owner.AddComponent<HapticSurface>();
+        }
+
+        private HapticMaterial Asset(string label)
+        {
+            HapticMaterial asset = Keep(ScriptableObject.CreateInstance<HapticMaterial>());
+            asset.name = label + " asset";
+            asset.Description.Label = label;
+            return asset;
+        }
+
+        private static void Share(HapticSurface surface, HapticMaterial asset)
+        {
+            using var serialized = new SerializedObject(surface);
+            serialized.FindProperty("sharedMaterial").objectReferenceValue = asset;
+            serialized.ApplyModifiedProperties();
+        }
+
+        private static LabelMix Read(HapticSurface surface)
+        {
+            Assert.That(SceneMaterial.TryRead(surface, out LabelMix mix), Is.True);
+            return mix;
+        }
+    }
+}

@@ -1,0 +1,156 @@
+// Every command line of `haptoflow` that the documentation shows is run, with the files that its page shows.
+#include "command_line.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <regex>
+#include <string>
+#include <vector>
+
+namespace haptoflow::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+const fs::path repository = HAPTOFLOW_TEST_REPOSITORY_DIR;
+
+std::string textOf(const fs::path& path) {
+    std::ifstream file(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+}
+
+/// The blocks between lines of ``` followed by `language`.
+std::vector<std::string> blocksOf(const std::string& page, const std::string& language) {
+    std::vector<std::string> blocks;
+    const std::string fence = "\n```";
+    for (std::size_t at = page.find(fence); at != std::string::npos;) {
+        const std::size_t begin = page.find('\n', at + 1) + 1;
+        const std::size_t end = page.find(fence, begin - 1);
+        if (end == std::string::npos) {
+            break;
+        }
+        if (page.substr(at + fence.size(), begin - 1 - at - fence.size()) == language) {
+            blocks.push_back(page.substr(begin, end + 1 - begin));
+        }
+        at = page.find(fence, page.find('\n', end + 1));
+    }
+    return blocks;
+}
+
+const std::regex example(R"((^|\n|`)((?:\S*/)?haptoflow (?:render|contact|inspect|bench)(?: [^`\n#]+)))");
+
+/// Command lines of a text: in blocks, and between backquotes where they have words beside the command.
+std::vector<std::string> examplesOf(const std::string& text) {
+    std::vector<std::string> examples;
+    for (auto found = std::sregex_iterator(text.begin(), text.end(), example); found != std::sregex_iterator();
+         ++found) {
+        examples.push_back((*found)[2].str());
+    }
+    return examples;
+}
+
+std::vector<fs::path> documentationPages() {
+    std::vector<fs::path> pages{repository / "README.md", repository / "Training/results/default/README.md"};
+    for (const char* folder : {"Documentation~", "Samples~"}) {
+        for (const auto& entry : fs::recursive_directory_iterator(repository / folder)) {
+            if (entry.path().extension() == ".md") {
+                pages.push_back(entry.path());
+            }
+        }
+    }
+    return pages;
+}
+
+class DocumentationExamplesTest : public testing::CommandLineTest {
+protected:
+    void SetUp() override {
+        CommandLineTest::SetUp();
+        for (const char* name : {"Samples~", "Packages", "Tests"}) {
+            fs::create_directory_symlink(repository / name, at(name));
+        }
+        fs::create_directories(at("build/native"));
+        fs::create_symlink(HAPTOFLOW_TEST_CLI, at("build/native/haptoflow"));
+        fs::copy_file(HAPTOFLOW_TEST_DEFAULT_MODEL, at("default.haptoflow"));
+    }
+
+    /// The files that a page shows or tells to make, under the names that its examples use.
+    void makeFilesOf(const fs::path& page, const std::string& text) const {
+        const std::vector<std::string> scenes = blocksOf(text, "json");
+        const std::vector<std::string> strokes = blocksOf(text, "csv");
+        if (!scenes.empty() && !strokes.empty()) {
+            write("scene.json", scenes.front());
+            write("stroke.csv", strokes.front());
+        }
+        for (const auto& entry : fs::directory_iterator(page.parent_path())) {
+            if (entry.path().string().ends_with(".scene.json") || entry.path().string().ends_with(".stroke.csv")) {
+                fs::copy_file(entry.path(), at(entry.path().filename().string()), fs::copy_options::overwrite_existing);
+            }
+        }
+        // Getting started: the first by its `cp`, the others by the training tools.
+        fs::copy_file(repository / "Samples~/HeadlessScenes/tracing.scene.json", at("desk.scene.json"),
+                      fs::copy_options::overwrite_existing);
+        fs::copy_file(repository / "Samples~/HeadlessScenes/tracing.stroke.csv", at("desk.stroke.csv"),
+                      fs::copy_options::overwrite_existing);
+        for (const char* model : {"cluster.haptoflow", "paper.haptoflow"}) {
+            fs::copy_file(HAPTOFLOW_TEST_DEFAULT_MODEL, at(model), fs::copy_options::overwrite_existing);
+        }
+    }
+
+    void expectToRun(std::string command, const std::string& place) const {
+        command = std::regex_replace(command, std::regex("^\\S*haptoflow "), "");
+        command = std::regex_replace(command, std::regex(" MODEL\\b"), " default.haptoflow");
+        if (command.starts_with("bench") && command.find("--help") == std::string::npos) {
+            // What it measures is measured elsewhere: here, that the words are understood and lead to an end.
+            command += " --events 1 --quiet --quick";
+        }
+        const testing::Finished finished = run(command);
+        EXPECT_EQ(finished.exitCode, 0) << place << ": haptoflow " << command << '\n' << finished.errors;
+        EXPECT_THAT(finished.errors, ::testing::Not(::testing::HasSubstr("note:"))) << place << ": " << command;
+    }
+};
+
+TEST_F(DocumentationExamplesTest, EveryCommandLineOfEveryPageRuns) {
+    std::size_t examples = 0;
+    for (const fs::path& page : documentationPages()) {
+        const std::string text = textOf(page);
+        ASSERT_FALSE(text.empty()) << page;
+        makeFilesOf(page, text);
+        for (const std::string& command : examplesOf(text)) {
+            ++examples;
+            expectToRun(command, page.filename().string());
+        }
+    }
+    // Scenes and strokes (2), getting started (4), headless scenes (2), stylus tracing, inspect twice, bench --help.
+    EXPECT_GE(examples, 12U);
+}
+
+TEST_F(DocumentationExamplesTest, EveryExampleOfTheHelpRuns) {
+    makeFilesOf(repository / "Documentation~/scene-and-stroke.md",
+                textOf(repository / "Documentation~/scene-and-stroke.md"));
+    std::size_t examples = 0;
+    for (const char* command : {"", "render ", "contact ", "inspect ", "bench "}) {
+        const std::string help = run(std::string(command) + "--help").output;
+        for (const std::string& line : examplesOf(std::regex_replace(help, std::regex("\n +"), "\n"))) {
+            ++examples;
+            expectToRun(line, std::string("haptoflow ") + command + "--help");
+        }
+    }
+    EXPECT_GE(examples, 10U);
+}
+
+TEST_F(DocumentationExamplesTest, TheExamplesAreFoundInBlocksAndInLines) {
+    const std::string page =
+        "Say `haptoflow inspect MODEL --json` or `haptoflow contact`:\n```\nbuild/native/haptoflow render a.json "
+        "--stroke b.csv -o c.wav\nls\n```\nnot haptoflow render this.\n```json\n{}\n```\n";
+    EXPECT_THAT(examplesOf(page),
+                ::testing::ElementsAre("haptoflow inspect MODEL --json",
+                                       "build/native/haptoflow render a.json --stroke b.csv -o c.wav"));
+    EXPECT_THAT(blocksOf(page, "json"), ::testing::ElementsAre("{}\n"));
+}
+
+}  // namespace
+}  // namespace haptoflow::cli

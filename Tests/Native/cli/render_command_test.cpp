@@ -1,0 +1,357 @@
+#include "command_line.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <sys/resource.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace haptoflow::cli {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::AllOf;
+using testing::Finished;
+using ::testing::HasSubstr;
+using ::testing::Not;
+using testing::tinyModel;
+
+class RenderCommandTest : public testing::CommandLineTest {
+protected:
+    [[nodiscard]] nlohmann::json reportOf(const std::string& words) const {
+        const Finished rendered = render("-o felt.wav --report felt.json " + words);
+        EXPECT_EQ(rendered.exitCode, 0) << rendered.errors;
+        return rendered.exitCode == 0 ? nlohmann::json::parse(read("felt.json")) : nlohmann::json::object();
+    }
+
+    /// That the words are refused as wrong usage, with such words in the message, and leave nothing behind.
+    void expectUsage(const std::string& words, const std::string& message) const {
+        const std::size_t before = fileCount();
+        const Finished rendered = render(words);
+        EXPECT_EQ(rendered.exitCode, 2) << words << '\n' << rendered.errors;
+        EXPECT_THAT(rendered.errors, HasSubstr(message)) << words;
+        EXPECT_EQ(fileCount(), before) << words;
+    }
+};
+
+TEST_F(RenderCommandTest, AnOutputThatIsAnInputIsRefusedByWhateverNameAndTheInputStaysAsItWas) {
+    fs::create_symlink(at("scene.json"), at("link.wav"));
+    fs::create_hard_link(at("stroke.csv"), at("other name.wav"));
+    fs::copy_file(tinyModel, at("model.wav"));
+    const std::string scene = read("scene.json");
+    const std::string stroke = read("stroke.csv");
+    expectUsage("-o scene.json", "-o scene.json: is the same file as the scene");
+    expectUsage("-o ./nowhere/../stroke.csv", "is the same file as the stroke");
+    expectUsage("-o link.wav", "is the same file as the scene");
+    expectUsage("-o 'other name.wav'", "is the same file as the stroke");
+    expectUsage("-o felt.wav --report scene.json", "--report scene.json: is the same file as the scene");
+    expectUsage("-o felt.wav --waveform stroke.csv", "is the same file as the stroke");
+    expectUsage("-o model.wav --model model.wav", "is the same file as the model");
+    EXPECT_EQ(read("scene.json"), scene);
+    EXPECT_EQ(read("stroke.csv"), stroke);
+    EXPECT_EQ(fs::file_size(at("model.wav")), fs::file_size(tinyModel));
+}
+
+TEST_F(RenderCommandTest, TwoOutputsOfOneNameAreRefused) {
+    expectUsage("-o felt.wav --waveform felt.wav", "is the same file as --waveform");
+    expectUsage("-o felt.wav --report ./felt.wav", "is the same file as --report");
+    fs::create_symlink("felt.wav", at("link.wav"));
+    expectUsage("-o felt.wav --waveform link.wav", "is the same file as --waveform");
+}
+
+TEST_F(RenderCommandTest, ALinkIsFollowedAndStays) {
+    write("target.wav", "old");
+    fs::create_symlink("target.wav", at("link.wav"));
+    fs::create_symlink("to come.wav", at("dangling.wav"));
+    ASSERT_EQ(render("-o link.wav").exitCode, 0);
+    ASSERT_EQ(render("-o dangling.wav").exitCode, 0);
+    EXPECT_TRUE(fs::is_symlink(at("link.wav")));
+    EXPECT_TRUE(fs::is_symlink(at("dangling.wav")));
+    EXPECT_EQ(read("target.wav").substr(0, 4), "RIFF");
+    EXPECT_TRUE(read("to come.wav") == read("target.wav"));
+}
+
+TEST_F(RenderCommandTest, ALinkToADeviceStaysALink) {
+    fs::create_symlink("/dev/null", at("nowhere.wav"));
+    EXPECT_EQ(render("-o nowhere.wav").exitCode, 0);
+    EXPECT_TRUE(fs::is_symlink(at("nowhere.wav")));
+    EXPECT_TRUE(fs::is_character_file(at("nowhere.wav")));
+}
+
+TEST_F(RenderCommandTest, APipeIsWrittenToAndStaysAPipe) {
+    ASSERT_EQ(render("-o felt.wav").exitCode, 0);
+    ASSERT_EQ(mkfifo(at("pipe").c_str(), 0600), 0);
+    const Finished piped = testing::runHaptoFlow("render scene.json --stroke stroke.csv -o pipe; wait",
+                                                 "cd '" + at("").string() + "' && { cat pipe >read.wav & } && ");
+    EXPECT_TRUE(read("read.wav") == read("felt.wav")) << piped.errors;
+    EXPECT_TRUE(fs::is_fifo(at("pipe")));
+}
+
+TEST_F(RenderCommandTest, StandardOutputTakesTheWaveFile) {
+    ASSERT_EQ(render("-o felt.wav").exitCode, 0);
+    EXPECT_TRUE(render("-o /dev/stdout").output == read("felt.wav"));
+}
+
+TEST_F(RenderCommandTest, AnOlderFileIsReplacedWithItsPermissions) {
+    write("felt.wav", "old");
+    fs::permissions(at("felt.wav"), fs::perms::owner_read | fs::perms::owner_write);
+    ASSERT_EQ(render("-o felt.wav").exitCode, 0);
+    EXPECT_EQ(read("felt.wav").substr(0, 4), "RIFF");
+    EXPECT_EQ(fs::status(at("felt.wav")).permissions(), fs::perms::owner_read | fs::perms::owner_write);
+}
+
+TEST_F(RenderCommandTest, ARenderThatFailsLeavesNothingBehindAndTheOldFileAsItWas) {
+    write("felt.wav", "old");
+    write("felt.wav.part", "somebody else's");
+    const std::size_t before = fileCount();
+    EXPECT_EQ(render("-o felt.wav --report no/such/folder.json").exitCode, 3);
+    EXPECT_EQ(render("-o felt.wav --waveform .").exitCode, 3);
+    EXPECT_EQ(fileCount(), before);
+    EXPECT_EQ(read("felt.wav"), "old");
+    EXPECT_EQ(render("-o felt.wav").exitCode, 0);
+    EXPECT_EQ(fileCount(), before);
+    EXPECT_EQ(read("felt.wav.part"), "somebody else's");
+}
+
+TEST_F(RenderCommandTest, ARenderThatIsStoppedLeavesNothingBehind) {
+    write("stroke.csv", "t,x,y,z\n0,0,0.5,0\n9000,0.03,0.5,0\n");
+    const std::size_t before = fileCount();
+    const Finished stopped = testing::runHaptoFlow(
+        "render scene.json --stroke stroke.csv -o felt.wav --waveform raw.wav --rate 96000 & child=$!; "
+        "while ! test -s felt.wav.part && kill -0 $child; do sleep 0.01; done; kill -TERM $child; wait $child",
+        "cd '" + at("").string() + "'; ");
+    constexpr int endedByTerm = 128 + 15;
+    EXPECT_EQ(stopped.exitCode, endedByTerm) << stopped.errors;
+    EXPECT_EQ(fileCount(), before);
+}
+
+TEST_F(RenderCommandTest, AFolderInPlaceOfAFileIsABadInput) {
+    fs::create_directory(at("folder"));
+    for (const char* words :
+         {"render folder --stroke stroke.csv -o felt.wav", "render scene.json --stroke folder -o felt.wav",
+          "render scene.json --stroke stroke.csv -o felt.wav --model folder",
+          "render scene.json --stroke stroke.csv -o folder", "contact folder --stroke stroke.csv",
+          "contact scene.json --stroke folder", "contact scene.json --stroke stroke.csv -o folder", "inspect folder"}) {
+        const Finished finished = run(words);
+        EXPECT_EQ(finished.exitCode, 3) << words;
+        EXPECT_THAT(finished.errors, HasSubstr("folder: is a folder; expected")) << words;
+    }
+}
+
+TEST_F(RenderCommandTest, NumbersThatAreNoneOrOutOfRangeAreUsage) {
+    for (const char* option : {"--rate", "--full-scale", "--lead-ms"}) {
+        for (const char* value : {"nan", "-nan", "NaN", "inf", "-1", "1e400", "0x10000", "12,5", "wood"}) {
+            expectUsage(std::string("-o felt.wav ") + option + "=" + value, std::string(option) + ": expected a");
+        }
+    }
+    expectUsage("-o felt.wav --rate 44100.5", "--rate: expected a whole number from 8000 to 192000 Hz");
+    expectUsage("-o felt.wav --solver euler --steps 2.5", "--steps: expected a whole number from 1 to 16");
+    for (const char* option : {"--default-stiffness", "--maximum-force"}) {
+        EXPECT_EQ(run(std::string("contact scene.json --stroke stroke.csv ") + option + "=nan").exitCode, 2) << option;
+    }
+}
+
+TEST_F(RenderCommandTest, ASeedIsTakenAsItIsOrRefused) {
+    for (const char* seed : {"-1", "18446744073709551616", "99999999999999999999999", "1e3", "0x10", "1.5", "+1"}) {
+        expectUsage(std::string("-o felt.wav --seed=") + seed, "--seed: expected a whole number from 0 to");
+    }
+    ASSERT_EQ(render("-o largest.wav --seed 18446744073709551615").exitCode, 0);
+    ASSERT_EQ(render("-o ten.wav --seed 10").exitCode, 0);
+    ASSERT_EQ(render("-o zero-ten.wav --seed 010").exitCode, 0);
+    EXPECT_TRUE(read("zero-ten.wav") == read("ten.wav"));
+    EXPECT_TRUE(read("largest.wav") != read("ten.wav"));
+}
+
+TEST_F(RenderCommandTest, AnotherKindOfSoundFileThanWavIsRefusedWithTheNameThatWouldDo) {
+    expectUsage("-o felt.mp3", "only WAV is written, not '.mp3'; did you mean felt.wav?");
+    expectUsage("-o felt.wav --waveform raw.flac", "did you mean raw.wav?");
+    EXPECT_EQ(render("-o FELT.WAV").exitCode, 0);
+    EXPECT_EQ(render("-o felt").exitCode, 0);
+}
+
+TEST_F(RenderCommandTest, AMisspeltCommandOptionOrQualityNamesTheOneThatWasMeant) {
+    const Finished command = run("redner scene.json --stroke stroke.csv -o felt.wav");
+    EXPECT_EQ(command.exitCode, 2);
+    EXPECT_THAT(command.errors, HasSubstr("there is no command 'redner'; did you mean 'render'?"));
+    const Finished unlike = run("xylophone");
+    EXPECT_EQ(unlike.exitCode, 2);
+    EXPECT_THAT(unlike.errors,
+                AllOf(HasSubstr("The commands are render, contact, inspect, bench"), Not(HasSubstr("did you mean"))));
+    expectUsage("-o felt.wav --sede 4", "There is no option '--sede'; did you mean '--seed'?");
+    expectUsage("-o felt.wav --qualty=fine", "did you mean '--quality'?");
+    expectUsage("-o felt.wav --quality Standart", "did you mean 'standard'? This model has draft, standard, fine");
+}
+
+TEST_F(RenderCommandTest, AnUnknownLabelNamesTheNearestThreeAndWhereAllAreListed) {
+    for (const auto& [written, meant] : {std::pair{"wod", "'wood'"},
+                                         {"Wood", "'wood'"},
+                                         {"metal_mesh", "'metal mesh'"},
+                                         {"sandpapper", "'sandpaper'"},
+                                         {"cork", "'fur'"}}) {
+        write("scene.json", std::string(R"({"surfaces": [{"name": "floor", "shape": {"plane": {}}, "material": ")") +
+                                written + "\"}]}");
+        for (const char* words :
+             {"render scene.json --stroke stroke.csv -o felt.wav", "contact scene.json --stroke stroke.csv"}) {
+            const Finished finished = run(words);
+            EXPECT_EQ(finished.exitCode, 3);
+            EXPECT_THAT(finished.errors,
+                        AllOf(HasSubstr(std::string("'") + written + "', which the model does not know; did you mean "),
+                              HasSubstr(meant), HasSubstr("default.haptoflow` lists all 20")));
+        }
+    }
+    EXPECT_FALSE(exists("felt.wav"));
+}
+
+TEST_F(RenderCommandTest, SolverAndStepsAreRefusedWhereTheTierIsEvaluatedOnce) {
+    expectUsage("-o felt.wav --solver midpoint --steps 4",
+                "--solver and --steps have no effect on the tier 'standard', which is evaluated once");
+    expectUsage("-o felt.wav --quality fine --solver euler --steps 1", "no effect on the tier 'fine'");
+    const nlohmann::json report = reportOf("");
+    EXPECT_EQ(report["tier"], "standard");
+    EXPECT_TRUE(report["solver"].is_null());
+    EXPECT_TRUE(report["steps"].is_null());
+}
+
+TEST_F(RenderCommandTest, TheReportSaysTheSolverThatTheTierObeyed) {
+    write("scene.json", R"({"surfaces": [{"name": "floor", "shape": {"plane": {}}, "material": "plain"}]})");
+    const std::string tiny = "--model '" + tinyModel + "' ";
+    const nlohmann::json own = reportOf(tiny);
+    EXPECT_EQ(own["tier"], "standard");
+    EXPECT_EQ(own["solver"], "midpoint");
+    EXPECT_EQ(own["steps"], 2);
+    const nlohmann::json asked = reportOf(tiny + "--solver heun --steps 3");
+    EXPECT_EQ(asked["solver"], "heun");
+    EXPECT_EQ(asked["steps"], 3);
+    expectUsage("-o no.wav " + tiny + "--quality draft --solver midpoint --steps 3",
+                "always stepped by euler: did you mean --solver euler?");
+    const nlohmann::json average = reportOf(tiny + "--quality draft --solver euler --steps 3");
+    EXPECT_EQ(average["solver"], "euler");
+    EXPECT_EQ(average["steps"], 3);
+}
+
+TEST_F(RenderCommandTest, AStrokeThatNeverTouchesSaysSo) {
+    write("stroke.csv", "t,x,y,z\n0,0,0.5,0\n0.3,0.03,0.5,0\n");
+    const Finished rendered = render("-o felt.wav --report felt.json");
+    EXPECT_EQ(rendered.exitCode, 0);
+    EXPECT_THAT(rendered.errors, AllOf(HasSubstr("note: stroke.csv never touches a surface of scene.json"),
+                                       HasSubstr("the output is silent")));
+    EXPECT_EQ(nlohmann::json::parse(read("felt.json"))["touches"], 0);
+}
+
+TEST_F(RenderCommandTest, TapsThatMakeNoSoundAreCountedAndSaidAndASlideIsNot) {
+    write("stroke.csv",
+          "t,x,y,z\n0,0,0.01,0\n0.1,0,0.0005,0\n0.2,0,0.0005,0\n0.3,0,0.01,0\n"
+          "0.4,0,0.0005,0\n0.5,0,0.0005,0\n0.6,0,0.01,0\n0.7,0,0.0005,0\n1.0,0.05,0.0005,0\n1.1,0.05,0.01,0\n");
+    const Finished rendered = render("-o felt.wav --report felt.json");
+    EXPECT_THAT(rendered.errors, HasSubstr("2 of 3 touches make no sound"));
+    const nlohmann::json report = nlohmann::json::parse(read("felt.json"));
+    EXPECT_EQ(report["touches"], 3);
+    EXPECT_EQ(report["silent_touches"], 2);
+    EXPECT_EQ(report["missed_touches"], 0);
+}
+
+TEST_F(RenderCommandTest, TapsBetweenTwoFramesAreCountedAndSaid) {
+    write("scene.json",
+          R"({"surfaces": [{"name": "floor", "shape": {"plane": {}}, "material": "wood"}], "update_rate": 10})");
+    write("stroke.csv",
+          "t,x,y,z\n0,0,0.01,0\n0.14,0,0.01,0\n0.15,0.001,0.0005,0\n0.16,0.002,0.01,0\n0.5,0.002,0.01,0\n");
+    const Finished rendered = render("-o felt.wav --report felt.json");
+    EXPECT_THAT(rendered.errors, HasSubstr("1 of 1 touches begin and end between two frames"));
+    EXPECT_EQ(nlohmann::json::parse(read("felt.json"))["missed_touches"], 1);
+}
+
+TEST_F(RenderCommandTest, AnOrdinaryStrokeIsRenderedWithoutANote) {
+    const Finished rendered = render("-o felt.wav");
+    EXPECT_EQ(rendered.exitCode, 0);
+    EXPECT_EQ(rendered.errors, "");
+}
+
+TEST_F(RenderCommandTest, AStrokeThatNoWaveFileCouldHoldIsRefusedBeforeRendering) {
+    write("scene.json",
+          R"({"surfaces": [{"name": "floor", "shape": {"plane": {}}, "material": "wood"}], "update_rate": 1})");
+    write("stroke.csv", "t,x,y,z\n0,0,0.5,0\n100000,0.03,0.5,0\n");
+    const Finished rendered = render("-o felt.wav --rate 192000");
+    EXPECT_EQ(rendered.exitCode, 3);
+    EXPECT_THAT(rendered.errors,
+                HasSubstr("stroke.csv: lasts 100000 s; a WAV file at this --rate has room for 5592 s"));
+    EXPECT_FALSE(exists("felt.wav"));
+}
+
+/// Peak memory in KiB of a render in a process of its own.
+long peakKibibytes(const fs::path& folder, const std::vector<std::string>& words) {
+    const pid_t child = fork();
+    if (child == 0) {
+        setenv("HAPTOFLOW_ONNXRUNTIME", HAPTOFLOW_TEST_ONNXRUNTIME, 1);
+        setenv("HAPTOFLOW_MODEL", HAPTOFLOW_TEST_DEFAULT_MODEL, 1);
+        std::vector<char*> arguments{const_cast<char*>(HAPTOFLOW_TEST_CLI)};
+        for (const std::string& word : words) {
+            arguments.push_back(const_cast<char*>(word.c_str()));
+        }
+        arguments.push_back(nullptr);
+        if (chdir(folder.c_str()) == 0) {
+            execv(HAPTOFLOW_TEST_CLI, arguments.data());
+        }
+        _exit(127);
+    }
+    int status = 0;
+    rusage usage{};
+    EXPECT_EQ(wait4(child, &status, 0, &usage), child);
+    EXPECT_EQ(WEXITSTATUS(status), 0);
+    return usage.ru_maxrss;
+}
+
+TEST_F(RenderCommandTest, MemoryDoesNotGrowWithTheLengthOfTheRender) {
+    const auto peakOf = [this](int seconds) {
+        std::string stroke = "t,x,y,z\n";
+        for (int second = 0; second <= seconds; ++second) {
+            stroke += std::to_string(second) + "," + (second % 2 == 0 ? "0" : "0.1") + ",0.0005,0\n";
+        }
+        write("stroke.csv", stroke);
+        return peakKibibytes(at(""), {"render", "scene.json", "--stroke", "stroke.csv", "-o", "felt.wav", "--waveform",
+                                      "raw.wav", "--quality", "draft", "--rate", "192000", "--quiet"});
+    };
+    const long shortPeak = peakOf(2);
+    const long longPeak = peakOf(90);
+    // 88 s more are 64 MiB of output.
+    EXPECT_LT(longPeak - shortPeak, 8 * 1024) << shortPeak << " KiB for 2 s, " << longPeak << " KiB for 90 s";
+    EXPECT_GT(fs::file_size(at("felt.wav")), 64U << 20U);
+}
+
+TEST_F(RenderCommandTest, TheReportAgreesWithTheWaveFile) {
+    const nlohmann::json report = reportOf("--rate 44100");
+    const std::string wav = read("felt.wav");
+    ASSERT_GT(wav.size(), 58U);
+    const std::size_t data = wav.find("data");
+    ASSERT_NE(data, std::string::npos);
+    std::uint32_t bytes = 0;
+    std::memcpy(&bytes, wav.data() + data + 4, sizeof bytes);
+    EXPECT_EQ(data + 8 + bytes, wav.size());
+    EXPECT_NEAR(report["seconds"].get<double>(), static_cast<double>(bytes) / 4.0 / 44100.0, 1e-9);
+    float peak = 0.0F;
+    for (std::size_t at = data + 8; at + 4 <= wav.size(); at += 4) {
+        float sample = 0.0F;
+        std::memcpy(&sample, wav.data() + at, sizeof sample);
+        peak = std::max(peak, std::abs(sample));
+    }
+    EXPECT_FLOAT_EQ(report["peak"].get<float>(), peak);
+    EXPECT_GT(peak, 0.0F);
+    EXPECT_EQ(report["touches"], 1);
+    EXPECT_EQ(report["silent_touches"], 0);
+}
+
+}  // namespace
+}  // namespace haptoflow::cli

@@ -1,0 +1,195 @@
+// Android's library: tools found in made-up installations of three systems, and the commands that use them.
+import assert from 'node:assert/strict';
+import { chmodSync, existsSync, mkdirSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
+import os from 'node:os';
+import path from 'node:path';
+import test from 'node:test';
+import { androidCommands, androidTools, buildAndroid, presetVariables, rebuildAndroid } from '../../scripts/build/android_build.mjs';
+import { findCmake, findJsonHeader, findNdk } from '../../scripts/build/android_tools.mjs';
+
+async function inFolder(act) {
+  const folder = mkdtempSync(path.join(os.tmpdir(), 'haptoflow-android-'));
+  try {
+    await act(folder);
+  } finally {
+    rmSync(folder, { recursive: true, force: true });
+  }
+}
+
+function write(file, text = '') {
+  mkdirSync(path.dirname(file), { recursive: true });
+  writeFileSync(file, text);
+}
+
+const makeNdk = (folder, revision = '23.1.7779620') => {
+  write(path.join(folder, 'build', 'cmake', 'android.toolchain.cmake'));
+  write(path.join(folder, 'source.properties'), `Pkg.Desc = Android NDK\nPkg.Revision = ${revision}\n`);
+  return folder;
+};
+
+/** A machine without anything, below a folder. */
+const bare = (folder, platform, more = {}) => ({
+  platform,
+  env: {},
+  home: path.join(folder, 'home'),
+  applications: path.join(folder, 'Applications'),
+  includes: [path.join(folder, 'include')],
+  versionOf: () => null,
+  ...more,
+});
+
+/** Where Unity's Hub has its editors, and the Android support within one, on each system. */
+const systems = {
+  win32: (folder) => ({ env: { ProgramFiles: path.join(folder, 'Program Files') }, hub: path.join(folder, 'Program Files', 'Unity', 'Hub', 'Editor'), inEditor: ['Editor', 'Data'] }),
+  darwin: (folder) => ({ env: {}, hub: path.join(folder, 'Applications', 'Unity', 'Hub', 'Editor'), inEditor: [] }),
+  linux: (folder) => ({ env: {}, hub: path.join(folder, 'home', 'Unity', 'Hub', 'Editor'), inEditor: ['Editor', 'Data'] }),
+};
+
+for (const [platform, layout] of Object.entries(systems)) {
+  test(`${platform}: the NDK and the CMake that Unity's Hub installed are found, those of the newest Unity first`, () =>
+    inFolder((folder) => {
+      const { env, hub, inEditor } = layout(folder);
+      const player = (version) => path.join(hub, version, ...inEditor, 'PlaybackEngines', 'AndroidPlayer');
+      for (const version of ['2022.3.9f1', '2022.3.10f1']) {
+        makeNdk(path.join(player(version), 'NDK'));
+        const suffix = platform === 'win32' ? '.exe' : '';
+        for (const name of ['cmake', 'ninja']) write(path.join(player(version), 'SDK', 'cmake', '3.22.1', 'bin', name + suffix));
+      }
+      mkdirSync(player('6000.0.78f1'), { recursive: true });
+      const versionOf = (program) => (path.isAbsolute(program) ? (program.includes('ninja') ? '1.10.2' : '3.22.1') : null);
+      const machine = bare(folder, platform, { env, versionOf });
+      const found = findNdk(machine);
+      assert.equal(found.ndk, path.join(player('2022.3.10f1'), 'NDK'));
+      assert.deepEqual(found.looked, [`${path.join(player('6000.0.78f1'), 'NDK')}: is not there`], 'without Android support');
+      const { cmake, ninja } = findCmake(machine);
+      assert.ok(cmake.startsWith(path.join(player('2022.3.10f1'), 'SDK', 'cmake', '3.22.1', 'bin', 'cmake')), cmake);
+      assert.equal(path.dirname(ninja), path.dirname(cmake));
+    }));
+
+  test(`${platform}: editors in a folder that the Hub's user chose are found`, () =>
+    inFolder((folder) => {
+      const { inEditor } = layout(folder);
+      const settings = { win32: ['AppData', 'Roaming', 'UnityHub'], darwin: ['Library', 'Application Support', 'UnityHub'], linux: ['.config', 'UnityHub'] }[platform];
+      const chosen = path.join(folder, 'disk two');
+      write(path.join(folder, 'home', ...settings, 'secondaryInstallPath.json'), JSON.stringify(chosen));
+      const ndk = makeNdk(path.join(chosen, '6000.0.1f1', ...inEditor, 'PlaybackEngines', 'AndroidPlayer', 'NDK'), '27.2.12479018');
+      assert.equal(findNdk(bare(folder, platform)).ndk, ndk);
+    }));
+
+  test(`${platform}: Android Studio's NDK is found where Unity brought none, the newest that is new enough`, () =>
+    inFolder((folder) => {
+      const sdk = { win32: ['AppData', 'Local', 'Android', 'Sdk'], darwin: ['Library', 'Android', 'sdk'], linux: ['Android', 'Sdk'] }[platform];
+      const ndks = path.join(folder, 'home', ...sdk, 'ndk');
+      makeNdk(path.join(ndks, '9.0.1'), '9.0.1');
+      const newest = makeNdk(path.join(ndks, '26.1.10909125'), '26.1.10909125');
+      makeNdk(path.join(ndks, '23.1.7779620'));
+      assert.equal(findNdk(bare(folder, platform)).ndk, newest);
+    }));
+
+  test(`${platform}: where there is none, every place that was looked at is named`, () =>
+    inFolder((folder) => {
+      const { env, hub } = layout(folder);
+      const { ndk, looked } = findNdk(bare(folder, platform, { env }));
+      assert.equal(ndk, null);
+      assert.deepEqual(looked.slice(0, 2), ['ANDROID_NDK_HOME: is not set', `${hub}: is not there`]);
+      assert.match(looked[2], /ndk: is not there$/);
+    }));
+}
+
+test('ANDROID_NDK_HOME counts before what is installed; a wrong one is named and not taken', () =>
+  inFolder((folder) => {
+    const installed = makeNdk(path.join(folder, 'home', 'Android', 'Sdk', 'ndk', '26.1.1'), '26.1.1');
+    const own = makeNdk(path.join(folder, 'own ndk'));
+    const found = (place) => findNdk(bare(folder, 'linux', { env: { ANDROID_NDK_HOME: place } }));
+    assert.equal(found(own).ndk, own);
+    const old = makeNdk(path.join(folder, 'old'), '21.4.7075529');
+    assert.equal(found(old).ndk, installed);
+    assert.deepEqual(found(old).looked, [`ANDROID_NDK_HOME=${old}: is r21; r23 or newer is needed`]);
+    assert.match(found(path.join(folder, 'nowhere')).looked[0], /nowhere: is not there$/);
+    assert.match(found(folder).looked[0], /has no build\/cmake\/android.toolchain.cmake$/);
+  }));
+
+test('CMake and Ninja on PATH count where they are new enough', () =>
+  inFolder((folder) => {
+    const sdk = path.join(folder, 'home', 'Android', 'Sdk', 'cmake', '3.31.0', 'bin');
+    write(path.join(sdk, 'cmake'));
+    const found = (version) => findCmake(bare(folder, 'linux', { versionOf: (program) => (program === 'cmake' ? version : program === 'ninja' ? '1.11.1' : '3.31.0') }));
+    assert.deepEqual([found('3.25.1').cmake, found('3.25.1').ninja], ['cmake', 'ninja']);
+    assert.equal(found('3.18.4').cmake, path.join(sdk, 'cmake'));
+    assert.match(found('3.18.4').looked[0], /^cmake: is 3\.18\.4; 3\.22 or newer is needed$/);
+    assert.equal(findCmake(bare(path.join(folder, 'none'), 'linux')).cmake, null);
+  }));
+
+test('the JSON library is found where vcpkg, the system or the user has it', () =>
+  inFolder((folder) => {
+    assert.equal(findJsonHeader(bare(folder, 'linux'), folder).folder, null);
+    write(path.join(folder, 'include', 'nlohmann', 'json.hpp'));
+    assert.equal(findJsonHeader(bare(folder, 'linux'), folder).folder, path.join(folder, 'include'));
+    assert.equal(findJsonHeader(bare(folder, 'win32'), folder).folder, null, 'Windows has no such folder');
+    const vcpkg = path.join(folder, 'vcpkg', 'installed', 'x64-windows', 'include');
+    write(path.join(vcpkg, 'nlohmann', 'json.hpp'));
+    assert.equal(findJsonHeader(bare(folder, 'win32', { env: { VCPKG_ROOT: path.join(folder, 'vcpkg') } }), folder).folder, vcpkg);
+    const own = path.join(folder, 'include');
+    assert.equal(findJsonHeader(bare(folder, 'win32', { env: { HAPTOFLOW_JSON_INCLUDE_DIR: own } }), folder).folder, own);
+  }));
+
+test('without an NDK the command ends with the module to add in Unity\'s Hub and every place it looked at', () =>
+  inFolder((folder) => {
+    assert.throws(() => androidTools(bare(folder, 'linux')), (error) => {
+      assert.equal(error.exitCode, 2);
+      assert.match(error.message, /Android Build Support/);
+      assert.ok(error.message.includes(path.join(folder, 'home', 'Unity', 'Hub', 'Editor')));
+      return true;
+    });
+  }));
+
+test('without CMake, or without the JSON library, the command says which and where it looked', () =>
+  inFolder((folder) => {
+    const env = { ANDROID_NDK_HOME: makeNdk(path.join(folder, 'ndk')) };
+    assert.throws(() => androidTools(bare(folder, 'darwin', { env })), /no CMake 3\.22 or newer[\s\S]*cmake: cannot be started/);
+    const versionOf = (program) => (program === 'cmake' ? '3.25.1' : null);
+    assert.throws(() => androidTools(bare(folder, 'darwin', { env, versionOf })), /no Ninja 1\.10 or newer/);
+    const both = () => '3.25.1';
+    assert.throws(() => androidTools(bare(folder, 'win32', { env, versionOf: both })), /nlohmann-json[\s\S]*vcpkg install/);
+  }));
+
+test('the command line has the preset\'s settings, the toolchain and Ninja, and no preset, which old CMake cannot read', () => {
+  const tools = { ndk: path.join('an ndk'), cmake: 'some-cmake', ninja: 'some-ninja', json: 'headers' };
+  const { configure, build } = androidCommands(tools, 'out folder');
+  assert.deepEqual(configure.slice(0, 1).concat(configure.slice(3, 7)), ['some-cmake', '-B', 'out folder', '-G', 'Ninja']);
+  for (const define of ['ANDROID_ABI=arm64-v8a', 'ANDROID_STL=c++_static', 'CMAKE_BUILD_TYPE=Release', 'HAPTOFLOW_BUILD_CLI=OFF', 'HAPTOFLOW_BUILD_TESTS=OFF', 'CMAKE_MAKE_PROGRAM=some-ninja', 'HAPTOFLOW_nlohmann_INCLUDE_DIR=headers']) {
+    assert.ok(configure.includes(`-D${define}`), define);
+  }
+  assert.ok(configure.includes(`-DCMAKE_TOOLCHAIN_FILE=${path.join('an ndk', 'build', 'cmake', 'android.toolchain.cmake')}`));
+  assert.ok(!configure.includes('--preset'));
+  assert.deepEqual(build.slice(0, 5), ['some-cmake', '--build', 'out folder', '--target', 'audioplugin_haptoflow']);
+  assert.equal(presetVariables('android-arm64').ANDROID_PLATFORM, 'android-29');
+});
+
+test('pack brings the library up to date with the tools of the build, without their being named again', { skip: process.platform === 'win32' }, () =>
+  inFolder(async (folder) => {
+    const cmake = path.join(folder, 'its cmake');
+    write(cmake, `#!/bin/sh\necho "$@" > '${folder}/log'\n: > '${folder}/libaudioplugin_haptoflow.so'\n`);
+    chmodSync(cmake, 0o755);
+    write(path.join(folder, 'CMakeCache.txt'), `CMAKE_COMMAND:INTERNAL=${cmake}\n`);
+    assert.equal(await rebuildAndroid(folder), path.join(folder, 'libaudioplugin_haptoflow.so'));
+    assert.match(readFileSync(path.join(folder, 'log'), 'utf8'), /^--build .* --target audioplugin_haptoflow/);
+  }));
+
+test('a folder that was configured with another NDK is configured anew; a build without library is an error', { skip: process.platform === 'win32' }, () =>
+  inFolder(async (folder) => {
+    const out = path.join(folder, 'out');
+    const log = path.join(folder, 'log');
+    const cmake = path.join(folder, 'cmake');
+    write(cmake, `#!/bin/sh\necho "$1 $2" >> '${log}'\n[ "$1" = -S ] || [ -e '${folder}/fails' ] || { mkdir -p '${out}'; : > '${out}/libaudioplugin_haptoflow.so'; }\n`);
+    chmodSync(cmake, 0o755);
+    const tools = { ndk: makeNdk(path.join(folder, 'ndk')), cmake, ninja: 'ninja', json: folder };
+    write(path.join(out, 'CMakeCache.txt'), 'CMAKE_TOOLCHAIN_FILE:FILEPATH=another\n');
+    write(path.join(out, 'CMakeFiles', 'old'));
+    assert.equal(await buildAndroid(tools, out), path.join(out, 'libaudioplugin_haptoflow.so'));
+    assert.ok(!existsSync(path.join(out, 'CMakeFiles', 'old')));
+    assert.match(readFileSync(log, 'utf8'), /^-S .*\n--build /);
+    rmSync(path.join(out, 'libaudioplugin_haptoflow.so'));
+    write(path.join(folder, 'fails'));
+    await assert.rejects(buildAndroid(tools, out), /made no library/);
+  }));

@@ -1,0 +1,41 @@
+// The drawings of clicks: what the script draws, honest about what they are, shown where they belong.
+import assert from 'node:assert/strict';
+import { existsSync, readFileSync } from 'node:fs';
+import test from 'node:test';
+import { inRepository } from '../../scripts/lib/repository.mjs';
+import { drawn, pictureFile, pictures } from '../../scripts/pack/click_pictures.mjs';
+
+const read = (...parts) => readFileSync(inRepository(...parts), 'utf8');
+const names = Object.keys(pictures);
+
+test('the drawings in the documentation are what the script draws', () => {
+  for (const name of names) {
+    assert.ok(existsSync(pictureFile(name)), name);
+    assert.equal(readFileSync(pictureFile(name), 'utf8'), drawn(name), `${name}: run node scripts/pack/click_pictures.mjs`);
+  }
+});
+
+test('each drawing says that it is one', () => {
+  for (const name of names) assert.match(drawn(name), /A drawing after Unity&?[^<]*not a screenshot/, name);
+});
+
+test('the pages of installation and first scene show every drawing, with a sentence for those who cannot see it', () => {
+  const pages = { install: read('Documentation~', 'installation.md'), first: read('Documentation~', 'first-scene.md') };
+  for (const name of names) assert.match(pages[name.split('-')[0]], new RegExp(`!\\[Drawing: [^\\]]{20,}\\]\\(images/${name}\\.svg\\)`), name);
+  for (const page of Object.values(pages)) assert.match(page, /drawings after Unity's menus, not screenshots/);
+});
+
+test('the drawn entries of GameObject > HaptoFlow are entries of the menu', () => {
+  const source = read('Packages', 'com.haptoflow.runtime', 'Editor', 'Tagging', 'CreateMenu.cs');
+  const menus = [...source.matchAll(/"GameObject\/HaptoFlow\/([^"]+)"/g)].map(([, menu]) => menu);
+  const shown = [...drawn('first-scene-1-menu').matchAll(/>([^<>]+)<\/text>/g)].map(([, words]) => words);
+  assert.ok(menus.length >= 6);
+  assert.deepEqual(menus.filter((menu) => shown.includes(menu)), ['First Scene', 'Tagged Cube', 'Mouse Pen', 'XR Pen (Right Hand)', 'XR Pen (Left Hand)']);
+});
+
+test('the drawn tarballs bear the names that pack gives them', () => {
+  const { name, version, dependencies } = JSON.parse(read('Packages', 'com.haptoflow.runtime', 'package.json'));
+  const picture = drawn('install-3-two-files');
+  assert.ok(picture.includes(`>${name}-${version}.tgz<`));
+  for (const [dependency, its] of Object.entries(dependencies)) assert.ok(picture.includes(`>${dependency}-${its}.tgz<`));
+});

@@ -1,0 +1,97 @@
+import assert from 'node:assert/strict';
+import { spawnSync } from 'node:child_process';
+import { chmodSync, existsSync, mkdirSync, mkdtempSync, readFileSync, rmSync, symlinkSync, writeFileSync } from 'node:fs';
+import os from 'node:os';
+import path from 'node:path';
+import test from 'node:test';
+import { bringDotnet, dotnetEnvironment, findDotnet } from '../../scripts/lib/dotnet.mjs';
+
+const posixOnly = process.platform === 'win32' ? 'the programs of this test are shell scripts' : false;
+const sdk = (version) => `test "$1" = --list-sdks && echo "${version} [/somewhere]"`;
+
+/** Acts on a machine that has only the programs given: name -> shell text. `log` has what they noted. */
+async function onMachine(programs, act) {
+  const root = mkdtempSync(path.join(os.tmpdir(), 'haptoflow-dotnet-'));
+  try {
+    const bin = path.join(root, 'bin');
+    mkdirSync(bin);
+    for (const tool of ['sh', 'bash', 'mkdir', 'chmod', 'cat', 'env']) {
+      symlinkSync(spawnSync('sh', ['-c', `command -v ${tool}`], { encoding: 'utf8' }).stdout.trim(), path.join(bin, tool));
+    }
+    for (const [name, text] of Object.entries(programs)) {
+      writeFileSync(path.join(bin, name), `#!/bin/sh\n${text}\n`);
+      chmodSync(path.join(bin, name), 0o755);
+    }
+    const log = path.join(root, 'log');
+    const folder = path.join(root, 'build', 'dotnet');
+    const notes = () => (existsSync(log) ? readFileSync(log, 'utf8') : '');
+    return await act({ place: { folder, env: { PATH: bin, BIN: bin, LOG: log } }, folder, notes });
+  } finally {
+    rmSync(root, { recursive: true, force: true });
+  }
+}
+
+const noApt = 'echo "N: Unable to locate package"';
+const aptOffers = 'printf "dotnet-sdk-10.0:\\n  Installed: (none)\\n  Candidate: 10.0.1\\n  Version table:\\n"';
+const aptInstalls = 'echo "apt $*" >> $LOG; printf "#!/bin/sh\\n%s\\n" \'echo "10.0.100 [/x]"\' > $BIN/dotnet; chmod +x $BIN/dotnet';
+// Writes, in place of Microsoft's script, one that notes its words and puts an SDK into the folder that it is told.
+const curlBrings = `echo "curl $*" >> $LOG
+while [ $# -gt 1 ]; do [ "$1" = -o ] && to="$2"; shift; done
+cat > "$to" <<'SCRIPT'
+echo "script $*" >> $LOG
+while [ $# -gt 1 ]; do [ "$1" = --install-dir ] && to="$2"; shift; done
+printf '#!/bin/sh\\necho "10.0.203 [/y]"\\n' > "$to/dotnet"
+chmod +x "$to/dotnet"
+SCRIPT`;
+
+test('an SDK 10 on PATH is used and nothing is brought', { skip: posixOnly }, () =>
+  onMachine({ dotnet: sdk('10.0.401'), 'apt-cache': aptOffers, 'apt-get': aptInstalls, curl: curlBrings }, async ({ place, notes }) => {
+    assert.equal(await bringDotnet({ ...place, asRoot: [] }), 'dotnet');
+    assert.equal(notes(), '');
+  }));
+
+test('an older SDK does not count, and apt brings the right one where it offers it', { skip: posixOnly }, () =>
+  onMachine({ dotnet: sdk('8.0.100'), 'apt-cache': aptOffers, 'apt-get': aptInstalls, curl: curlBrings }, async ({ place, notes }) => {
+    assert.equal(findDotnet(place), null);
+    assert.equal(await bringDotnet({ ...place, asRoot: [] }), 'dotnet');
+    assert.match(notes(), /^apt install .*dotnet-sdk-10\.0$/m);
+    assert.doesNotMatch(notes(), /curl/);
+  }));
+
+test('where apt has none the install script brings it into the folder, without root, and from there it is used', { skip: posixOnly }, () =>
+  onMachine({ 'apt-cache': noApt, 'apt-get': aptInstalls, curl: curlBrings }, async ({ place, folder, notes }) => {
+    const brought = await bringDotnet({ ...place, asRoot: null });
+    assert.equal(brought, path.join(folder, 'dotnet'));
+    assert.match(notes(), /^curl .*https:\/\/dot\.net\/v1\/dotnet-install\.sh$/m);
+    assert.match(notes(), new RegExp(`^script --channel 10\\.0 --install-dir ${folder} --no-path$`, 'm'));
+    assert.doesNotMatch(notes(), /^apt /m);
+    assert.equal(findDotnet(place), brought);
+    assert.equal(dotnetEnvironment(brought).DOTNET_ROOT, folder);
+    const again = await bringDotnet({ ...place, asRoot: null });
+    assert.equal(again, brought);
+    assert.equal(notes().match(/^curl/gm).length, 1);
+  }));
+
+test('without root an offer of apt is passed over for the script', { skip: posixOnly }, () =>
+  onMachine({ 'apt-cache': aptOffers, 'apt-get': aptInstalls, curl: curlBrings }, async ({ place, folder, notes }) => {
+    assert.equal(await bringDotnet({ ...place, asRoot: null }), path.join(folder, 'dotnet'));
+    assert.doesNotMatch(notes(), /^apt /m);
+  }));
+
+for (const [what, curl] of [['cannot be fetched', 'echo "curl: (6) Could not resolve host: dot.net" >&2; exit 6'], ['fails', curlBrings.replace('echo "script', 'echo "no space left"; exit 1; echo "script')]]) {
+  test(`where apt has none and the script ${what} one line gives the reasons and the command to run`, { skip: posixOnly }, () =>
+    onMachine({ 'apt-cache': noApt, curl }, async ({ place, folder }) => {
+      await assert.rejects(bringDotnet({ ...place, asRoot: [] }), (error) => {
+        assert.equal(error.exitCode, 2);
+        assert.doesNotMatch(error.message, /\n/);
+        assert.match(error.message, /apt has no dotnet-sdk-10\.0; Microsoft's install script (cannot be fetched: curl: \(6\)|ended with 1: no space left)/);
+        assert.ok(error.message.endsWith(`curl -fsSL https://dot.net/v1/dotnet-install.sh | bash -s -- --channel 10.0 --install-dir ${folder}`));
+        return true;
+      });
+    }));
+}
+
+test('on a machine without curl, too, the line says what is missing', { skip: posixOnly }, () =>
+  onMachine({ 'apt-cache': noApt }, async ({ place }) => {
+    await assert.rejects(bringDotnet({ ...place, asRoot: [] }), /cannot start `curl`: it is not installed/);
+  }));

@@ -1,0 +1,128 @@
+using System;
+using System.Collections.Generic;
+using System.Linq;
+using UnityEditor;
+using UnityEditor.Build;
+using UnityEditor.Build.Reporting;
+using UnityEngine;
+using UnityEngine.SceneManagement;
+using UnityShim;
+using Object = UnityEngine.Object;
+
+namespace UnityEditor
+{
+    public enum BuildTarget
+    {
+        StandaloneOSX = 2,
+        StandaloneWindows = 5,
+        iOS = 9,
+        Android = 13,
+        StandaloneWindows64 = 19,
+        WebGL = 20,
+        StandaloneLinux64 = 24,
+    }
+
+    public enum AndroidArchitecture : uint
+    {
+        None = 0,
+        ARMv7 = 1,
+        ARM64 = 2,
+    }
+
+    public sealed partial class PlayerSettings
+    {
+        public sealed partial class Android
+        {
+            public static AndroidArchitecture targetArchitectures { get; set; } = AndroidArchitecture.ARM64;
+        }
+    }
+
+    public sealed partial class PluginImporter : AssetImporter
+    {
+        internal readonly BuildTarget[] Platforms;
+
+        internal PluginImporter(string path, BuildTarget[] platforms)
+        {
+            assetPath = path;
+            Platforms = platforms;
+        }
+
+        public static PluginImporter[] GetImporters(BuildTarget platform) =>
+            BuildHost.Plugins.Where(plugin => plugin.Platforms.Contains(platform)).ToArray();
+    }
+}
+
+namespace UnityEditor.Build
+{
+    public interface IOrderedCallback
+    {
+        int callbackOrder { get; }
+    }
+
+    public interface IPreprocessBuildWithReport : IOrderedCallback
+    {
+        void OnPreprocessBuild(BuildReport report);
+    }
+
+    public interface IProcessSceneWithReport : IOrderedCallback
+    {
+        void OnProcessScene(Scene scene, BuildReport report);
+    }
+}
+
+namespace UnityEditor.Build.Reporting
+{
+    public partial struct BuildSummary
+    {
+        public BuildTarget platform { get; internal set; }
+    }
+
+    public sealed partial class BuildReport : Object
+    {
+        internal BuildReport(BuildTarget platform) => summary = new BuildSummary { platform = platform };
+
+        public BuildSummary summary { get; }
+    }
+}
+
+namespace UnityShim
+{
+    /// <summary>A player build as callbacks see it.</summary>
+    public static class BuildHost
+    {
+        internal static readonly List<PluginImporter> Plugins = new List<PluginImporter>();
+
+        /// <summary>A native library of the project, enabled for some platforms.</summary>
+        public static void AddPlugin(string path, params BuildTarget[] platforms) =>
+            Plugins.Add(new PluginImporter(path, platforms));
+
+        public static void ForgetPlugins() => Plugins.Clear();
+
+        /// <summary>What runs before anything is built.</summary>
+        public static void Preprocess(BuildTarget platform)
+        {
+            var report = new BuildReport(platform);
+            foreach (IPreprocessBuildWithReport callback in Callbacks<IPreprocessBuildWithReport>())
+            {
+                callback.OnPreprocessBuild(report);
+            }
+        }
+
+        /// <summary>The open scene as it goes into a player, or, with no platform, into play mode.</summary>
+        public static void ProcessScene(BuildTarget? platform)
+        {
+            BuildReport report = platform.HasValue ? new BuildReport(platform.Value) : null!;
+            foreach (IProcessSceneWithReport callback in Callbacks<IProcessSceneWithReport>())
+            {
+                callback.OnProcessScene(default, report);
+            }
+        }
+
+        private static IEnumerable<T> Callbacks<T>()
+            where T : IOrderedCallback => EditorTypes.All
+            .Where(type => typeof(T).IsAssignableFrom(type) && !type.IsInterface && !type.IsAbstract)
+            .Select(type => (T)Activator.CreateInstance(type, true))
+            .OrderBy(callback => callback.callbackOrder)
+            .ToArray();
+    }
+}

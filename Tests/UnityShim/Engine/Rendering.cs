@@ -1,0 +1,95 @@
+using System;
+using System.Linq;
+using UnityShim;
+
+namespace UnityEngine
+{
+    public sealed partial class Shader : Object
+    {
+        internal Shader(string name) => this.name = name;
+    }
+
+    public partial class Material
+    {
+        public Material(Shader shader) => this.shader = shader;
+
+        public Material(Material source)
+        {
+            shader = source.shader;
+            color = source.color;
+            name = source.name;
+        }
+
+        public Shader? shader { get; set; }
+    }
+
+    public sealed partial class Camera
+    {
+        /// <summary>The first switched-on camera of an active object with the tag.</summary>
+        public static Camera? main => World.Find<Camera>(false).FirstOrDefault(
+            camera => camera.enabled && camera.gameObject.tag == "MainCamera");
+    }
+
+    public sealed partial class GameObject
+    {
+        public string tag { get; set; } = "Untagged";
+    }
+
+    [AttributeUsage(AttributeTargets.Class, AllowMultiple = true)]
+    public sealed partial class RequireComponent : Attribute
+    {
+        public Type m_Type0;
+
+        public RequireComponent(Type requiredComponent) => m_Type0 = requiredComponent;
+    }
+}
+
+namespace UnityEngine.Rendering
+{
+    public abstract partial class RenderPipelineAsset : ScriptableObject
+    {
+        public virtual Material? defaultMaterial => null;
+
+        public virtual Shader? defaultShader => null;
+    }
+
+    public sealed partial class GraphicsSettings : Object
+    {
+        private GraphicsSettings()
+        {
+        }
+
+        public static RenderPipelineAsset? defaultRenderPipeline { get; set; }
+
+        public static RenderPipelineAsset? currentRenderPipeline => defaultRenderPipeline;
+    }
+}
+
+namespace UnityEngine.SceneManagement
+{
+    /// <summary>There is one: all that lies in the world.</summary>
+    public partial struct Scene
+    {
+        public GameObject[] GetRootGameObjects() =>
+            World.AllObjects.Where(each => each.transform.parent is null).ToArray();
+    }
+}
+
+namespace UnityShim
+{
+    /// <summary>A render pipeline as tests want it.</summary>
+    public sealed class SimulatedPipeline : UnityEngine.Rendering.RenderPipelineAsset
+    {
+        /// <summary>What the editor names; null as in players of URP and HDRP.</summary>
+        public UnityEngine.Material? Material { get; set; }
+
+        /// <summary>Null as in players that were built without it.</summary>
+        public UnityEngine.Shader? Shader { get; set; }
+
+        public override UnityEngine.Material? defaultMaterial => Material;
+
+        public override UnityEngine.Shader? defaultShader => Shader;
+
+        public static UnityEngine.Shader ShaderNamed(string name) => new UnityEngine.Shader(name);
+    }
+}

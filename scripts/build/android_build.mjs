@@ -1,0 +1,100 @@
+import { existsSync, readFileSync, rmSync } from 'node:fs';
+import os from 'node:os';
+import path from 'node:path';
+import { cachedVariable, presetFolder } from '../lib/native_build.mjs';
+import { CommandError, runOrFail } from '../lib/process.mjs';
+import { inRepository, repositoryRoot } from '../lib/repository.mjs';
+import { findCmake, findJsonHeader, findNdk, thisMachine } from './android_tools.mjs';
+
+/** The preset whose settings are taken; CMake of Android's SDK is too old to read presets itself. */
+export const androidPreset = 'android-arm64';
+export const androidTarget = 'audioplugin_haptoflow';
+
+/** The cache variables of a preset with those that it inherits. */
+export function presetVariables(name, presets = JSON.parse(readFileSync(inRepository('CMakePresets.json'), 'utf8')).configurePresets) {
+  const preset = presets.find((candidate) => candidate.name === name);
+  const inherited = preset.inherits ? presetVariables(preset.inherits, presets) : {};
+  return { ...inherited, ...preset.cacheVariables };
+}
+
+const list = (looked) => looked.map((line) => `  ${line}`).join('\n');
+
+/**
+ * What the build needs, found on a machine.
+ * @throws CommandError that says where it looked and what to install
+ */
+export function androidTools(machine = thisMachine()) {
+  const { ndk, looked } = findNdk(machine);
+  if (ndk === null) {
+    throw new CommandError(
+      `no Android NDK r23 or newer: in Unity's Hub choose Installs > (gear) > Add modules > Android Build Support with SDK & NDK Tools, or set ANDROID_NDK_HOME. Looked at:\n${list(looked)}`,
+      2,
+    );
+  }
+  const programs = findCmake(machine);
+  if (programs.cmake === null || programs.ninja === null) {
+    throw new CommandError(
+      `no ${programs.cmake === null ? 'CMake 3.22' : 'Ninja 1.10'} or newer: Android Studio's SDK Manager > SDK Tools > CMake has both, as Unity's own SDK does. Looked at:\n${list(programs.looked)}`,
+      2,
+    );
+  }
+  const json = findJsonHeader(machine, repositoryRoot);
+  if (json.folder === null) {
+    throw new CommandError(
+      'the header library nlohmann-json is not there: `vcpkg install nlohmann-json` with VCPKG_ROOT set, `brew install nlohmann-json`, ' +
+        `or HAPTOFLOW_JSON_INCLUDE_DIR as the folder that holds nlohmann/json.hpp. Looked at:\n${list(json.looked)}`,
+      2,
+    );
+  }
+  return { ndk, cmake: programs.cmake, ninja: programs.ninja, json: json.folder };
+}
+
+/** The two command lines that make the library: to configure and to build. */
+export function androidCommands({ ndk, cmake, ninja, json }, folder) {
+  const variables = {
+    ...presetVariables(androidPreset),
+    CMAKE_TOOLCHAIN_FILE: path.join(ndk, 'build', 'cmake', 'android.toolchain.cmake'),
+    CMAKE_MAKE_PROGRAM: ninja,
+    HAPTOFLOW_nlohmann_INCLUDE_DIR: json,
+  };
+  const defines = Object.entries(variables).map(([name, value]) => `-D${name}=${value}`);
+  return {
+    configure: [cmake, '-S', repositoryRoot, '-B', folder, '-G', 'Ninja', ...defines],
+    build: [cmake, '--build', folder, '--target', androidTarget, '-j', String(os.cpus().length)],
+  };
+}
+
+/**
+ * Brings a library that was built before up to date with the tools that its folder was configured with: whoever named an
+ * NDK for the build need not name it again for `pack`. @returns {Promise<string>} its path
+ */
+export async function rebuildAndroid(folder = inRepository(presetFolder(androidPreset))) {
+  const cmake = cachedVariable(readFileSync(path.join(folder, 'CMakeCache.txt'), 'utf8'), 'CMAKE_COMMAND');
+  const [command, ...args] = androidCommands({ ndk: '', cmake, ninja: '', json: '' }, folder).build;
+  await runOrFail(command, args, { quiet: !process.stdout.isTTY });
+  return builtLibrary(folder);
+}
+
+/** Builds Android's library. @returns {Promise<string>} its path */
+export async function buildAndroid(tools = androidTools(), folder = inRepository(presetFolder(androidPreset))) {
+  console.log(`build: with the NDK ${tools.ndk}`);
+  forgetOtherToolchain(folder, path.join(tools.ndk, 'build', 'cmake', 'android.toolchain.cmake'));
+  const { configure, build } = androidCommands(tools, folder);
+  for (const [command, ...args] of [configure, build]) await runOrFail(command, args, { quiet: !process.stdout.isTTY });
+  return builtLibrary(folder);
+}
+
+function builtLibrary(folder) {
+  const library = path.join(folder, `lib${androidTarget}.so`);
+  if (!existsSync(library)) throw new CommandError(`${library}: the build ended well, but made no library`);
+  return library;
+}
+
+/** CMake does not change the toolchain of a folder that was configured with another. */
+function forgetOtherToolchain(folder, toolchain) {
+  const cache = path.join(folder, 'CMakeCache.txt');
+  if (existsSync(cache) && cachedVariable(readFileSync(cache, 'utf8'), 'CMAKE_TOOLCHAIN_FILE') !== toolchain) {
+    rmSync(cache);
+    rmSync(path.join(folder, 'CMakeFiles'), { recursive: true, force: true });
+  }
+}

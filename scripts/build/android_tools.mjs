@@ -1,0 +1,148 @@
+import { spawnSync } from 'node:child_process';
+import { existsSync, readFileSync, readdirSync } from 'node:fs';
+import os from 'node:os';
+import path from 'node:path';
+
+/** Oldest that the sources compile with: C++20's library, and what the CMake files ask for. */
+const oldestNdkMajor = 23;
+const oldestCmake = [3, 22];
+
+/** This machine, as the search sees it; tests pass made-up ones. */
+export const thisMachine = () => ({
+  env: process.env,
+  platform: process.platform,
+  home: os.homedir(),
+  applications: '/Applications',
+  versionOf: (program) => {
+    const { error, status, stdout } = spawnSync(program, ['--version'], { encoding: 'utf8' });
+    return error || status !== 0 ? null : (stdout.match(/\d+(\.\d+)+/)?.[0] ?? null);
+  },
+});
+
+const numbers = (text) => (text.match(/\d+/g) ?? []).map(Number);
+
+/** Newest first: "2022.3.9f1" before "2022.3.10f1" would be wrong by letters. */
+const byVersion = (one, other) => {
+  const [a, b] = [numbers(one), numbers(other)];
+  const place = a.findIndex((value, index) => value !== b[index]);
+  return place < 0 ? b.length - a.length : (b[place] ?? -1) - a[place];
+};
+
+const foldersIn = (folder) =>
+  existsSync(folder)
+    ? readdirSync(folder, { withFileTypes: true }).filter((entry) => entry.isDirectory() || entry.isSymbolicLink()).map(({ name }) => name).sort(byVersion)
+    : [];
+
+/** Where Unity's Hub keeps its settings. */
+function hubSettings({ env, platform, home }) {
+  if (platform === 'win32') return path.join(env.APPDATA ?? path.join(home, 'AppData', 'Roaming'), 'UnityHub');
+  return platform === 'darwin' ? path.join(home, 'Library', 'Application Support', 'UnityHub') : path.join(home, '.config', 'UnityHub');
+}
+
+/** The folder that the Hub's user chose for editors; null where none was chosen. */
+function chosenEditors(machine) {
+  try {
+    const chosen = JSON.parse(readFileSync(path.join(hubSettings(machine), 'secondaryInstallPath.json'), 'utf8'));
+    return typeof chosen === 'string' && chosen !== '' ? chosen : null;
+  } catch {
+    return null;
+  }
+}
+
+/** Folders that hold a folder for each version of Unity. */
+function editorFolders(machine) {
+  const { env, platform, home, applications } = machine;
+  const usual = {
+    win32: path.join(env.ProgramFiles ?? 'C:\\Program Files', 'Unity', 'Hub', 'Editor'),
+    darwin: path.join(applications, 'Unity', 'Hub', 'Editor'),
+  }[platform] ?? path.join(home, 'Unity', 'Hub', 'Editor');
+  return [chosenEditors(machine), usual].filter((folder) => folder !== null);
+}
+
+/** Unity's Android support of each installed version, the newest version of a folder first. */
+function androidPlayers(machine) {
+  const inEditor = machine.platform === 'darwin' ? [] : ['Editor', 'Data'];
+  return editorFolders(machine).flatMap((folder) =>
+    foldersIn(folder).map((version) => path.join(folder, version, ...inEditor, 'PlaybackEngines', 'AndroidPlayer')),
+  );
+}
+
+/** Android SDKs outside of Unity: Android Studio's. */
+function androidSdks({ env, platform, home }) {
+  const usual = {
+    win32: path.join(env.LOCALAPPDATA ?? path.join(home, 'AppData', 'Local'), 'Android', 'Sdk'),
+    darwin: path.join(home, 'Library', 'Android', 'sdk'),
+  }[platform] ?? path.join(home, 'Android', 'Sdk');
+  return [...new Set([env.ANDROID_HOME, env.ANDROID_SDK_ROOT, usual].filter(Boolean))];
+}
+
+/** Why a folder is no NDK that can be used; null for one that can. */
+function whyNoNdk(folder) {
+  if (!existsSync(folder)) return 'is not there';
+  if (!existsSync(path.join(folder, 'build', 'cmake', 'android.toolchain.cmake'))) return 'has no build/cmake/android.toolchain.cmake';
+  const properties = path.join(folder, 'source.properties');
+  const revision = existsSync(properties) ? readFileSync(properties, 'utf8').match(/Pkg\.Revision\s*=\s*([\d.]+)/)?.[1] : undefined;
+  const major = revision === undefined ? oldestNdkMajor : Number(revision.split('.')[0]);
+  return major < oldestNdkMajor ? `is r${major}; r${oldestNdkMajor} or newer is needed` : null;
+}
+
+/**
+ * The Android NDK: one that the environment names, else one that Unity's Hub installed, else Android Studio's.
+ * @returns {{ndk: string | null, looked: string[]}} looked: each place in turn, and why it is none
+ */
+export function findNdk(machine = thisMachine()) {
+  const named = ['ANDROID_NDK_HOME', 'ANDROID_NDK_ROOT'].filter((name) => machine.env[name]).map((name) => ({ place: machine.env[name], label: `${name}=` }));
+  const ofUnity = androidPlayers(machine).map((folder) => path.join(folder, 'NDK'));
+  const ofStudio = androidSdks(machine).flatMap((sdk) => foldersIn(path.join(sdk, 'ndk')).map((version) => path.join(sdk, 'ndk', version)));
+  const looked = [];
+  for (const { place, label } of [...named, ...[...ofUnity, ...ofStudio].map((folder) => ({ place: folder, label: '' }))]) {
+    const why = whyNoNdk(place);
+    if (why === null) return { ndk: place, looked };
+    looked.push(`${label}${place}: ${why}`);
+  }
+  if (named.length === 0) looked.unshift('ANDROID_NDK_HOME: is not set');
+  const parents = [...editorFolders(machine), ...androidSdks(machine).map((sdk) => path.join(sdk, 'ndk'))];
+  looked.push(...parents.filter((folder) => foldersIn(folder).length === 0).map((folder) => `${folder}: ${existsSync(folder) ? 'holds no version' : 'is not there'}`));
+  return { ndk: null, looked };
+}
+
+const isAtLeast = (version, oldest) => {
+  const [major, minor] = numbers(version);
+  return major > oldest[0] || (major === oldest[0] && minor >= oldest[1]);
+};
+
+/**
+ * CMake and Ninja: those on PATH, else those of an Android SDK, which Unity's Hub installs side by side.
+ * @returns {{cmake: string | null, ninja: string | null, looked: string[]}}
+ */
+export function findCmake(machine = thisMachine()) {
+  const suffix = machine.platform === 'win32' ? '.exe' : '';
+  const sdks = [...androidPlayers(machine).map((folder) => path.join(folder, 'SDK')), ...androidSdks(machine)];
+  const folders = sdks.flatMap((sdk) => foldersIn(path.join(sdk, 'cmake')).map((version) => path.join(sdk, 'cmake', version, 'bin')));
+  const looked = [];
+  const firstGood = (name, oldest) => {
+    for (const program of [name, ...folders.map((folder) => path.join(folder, name + suffix))]) {
+      const version = program === name || existsSync(program) ? machine.versionOf(program) : null;
+      if (version !== null && isAtLeast(version, oldest)) return program;
+      looked.push(version === null ? `${program}: cannot be started` : `${program}: is ${version}; ${oldest.join('.')} or newer is needed`);
+    }
+    return null;
+  };
+  return { cmake: firstGood('cmake', oldestCmake), ninja: firstGood('ninja', [1, 10]), looked };
+}
+
+/**
+ * The folder that holds nlohmann/json.hpp, the one library that the plugin's sources include.
+ * @returns {{folder: string | null, looked: string[]}}
+ */
+export function findJsonHeader(machine = thisMachine(), repository = '.') {
+  const { env, platform } = machine;
+  const installed = [path.join(repository, 'vcpkg_installed'), ...[env.VCPKG_ROOT, env.VCPKG_INSTALLATION_ROOT].filter(Boolean).map((root) => path.join(root, 'installed'))];
+  const ofVcpkg = installed.flatMap((folder) => foldersIn(folder).map((triplet) => path.join(folder, triplet, 'include')));
+  const ofSystem = platform === 'win32' ? [] : (machine.includes ?? ['/usr/include', '/usr/local/include', '/opt/homebrew/include', '/opt/local/include']);
+  const named = env.HAPTOFLOW_JSON_INCLUDE_DIR ? [env.HAPTOFLOW_JSON_INCLUDE_DIR] : [];
+  const places = [...named, ...ofVcpkg, ...ofSystem];
+  const folder = places.find((place) => existsSync(path.join(place, 'nlohmann', 'json.hpp'))) ?? null;
+  const empty = installed.filter((place) => foldersIn(place).length === 0);
+  return { folder, looked: [...places, ...empty].map((place) => `${place}: has no nlohmann/json.hpp`) };
+}

@@ -1,0 +1,45 @@
+import { mkdirSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
+import { CommandError, runOrFail } from './process.mjs';
+import { inRepository } from './repository.mjs';
+
+/** Devices with Android 15 and later may have pages of 16 KiB; they load no library whose segments are aligned to less. */
+export const androidPageBytes = 16384;
+
+/** The largest alignment of the segments that a 64-bit little-endian ELF loads; 0 where there is none. */
+export function loadAlignment(elf) {
+  const [offset, size, count] = [Number(elf.readBigUInt64LE(32)), elf.readUInt16LE(54), elf.readUInt16LE(56)];
+  const headers = Array.from({ length: count }, (_, index) => elf.subarray(offset + index * size, offset + (index + 1) * size));
+  const load = 1;
+  return Math.max(0, ...headers.filter((header) => header.readUInt32LE(0) === load).map((header) => Number(header.readBigUInt64LE(48))));
+}
+
+/** The options of a link command that CMake makes for the library, by which its pages are chosen. */
+export const pageOptions = (command) => [...command.matchAll(/-Wl,-z,max-page-size=\S+/g)].map(([option]) => option);
+
+/**
+ * One test: CMake links the library for Android with segments that a device with pages of 16 KiB loads. The library is
+ * configured for an Android without an NDK, its link options are taken from the build that CMake wrote, and a small library
+ * is linked with them.
+ */
+export async function judgeAndroidPages() {
+  const folder = inRepository('build', 'android-stand-in');
+  try {
+    rmSync(folder, { recursive: true, force: true });
+    mkdirSync(folder, { recursive: true });
+    const toolchain = inRepository('Tests', 'Platforms', 'android-stand-in.cmake');
+    const words = ['-S', inRepository(), '-B', folder, '-G', 'Ninja', `-DCMAKE_TOOLCHAIN_FILE=${toolchain}`, '-DHAPTOFLOW_BUILD_TESTS=OFF', '-DHAPTOFLOW_BUILD_CLI=OFF'];
+    await runOrFail('cmake', words, { quiet: true });
+    const commands = await runOrFail('ninja', ['-C', folder, '-t', 'commands', 'audioplugin_haptoflow'], { quiet: true });
+    const link = commands.split('\n').find((line) => line.includes('-shared') && line.includes('libaudioplugin_haptoflow.so')) ?? '';
+    const [source, library] = ['page.c', 'page.so'].map((name) => `${folder}/${name}`);
+    writeFileSync(source, 'int page = 1;\n');
+    await runOrFail('aarch64-linux-gnu-gcc', ['-shared', '-fPIC', source, '-o', library, ...pageOptions(link)], { quiet: true });
+    const alignment = loadAlignment(readFileSync(library));
+    if (alignment === androidPageBytes) return { passed: 1, failed: 0, skipped: 0 };
+    console.error(`test: for Android the library's segments are aligned to ${alignment} bytes; expected ${androidPageBytes}`);
+  } catch (error) {
+    if (!(error instanceof CommandError)) throw error;
+    console.error(`test: ${error.message}`);
+  }
+  return { passed: 0, failed: 1, skipped: 0 };
+}

@@ -1,0 +1,82 @@
+import { spawnSync } from 'node:child_process';
+import { existsSync, mkdirSync } from 'node:fs';
+import path from 'node:path';
+import { offeredPackages } from './packages.mjs';
+import { CommandError, run } from './process.mjs';
+import { inRepository } from './repository.mjs';
+
+const aptPackage = 'dotnet-sdk-10.0';
+const script = 'https://dot.net/v1/dotnet-install.sh';
+
+/** Where set-up puts the SDK that no package brings. */
+export const dotnetFolder = () => inRepository('build', 'dotnet');
+
+/**
+ * The `dotnet` whose SDK 10 the C# tests run with: the one that set-up brought, else the one on PATH; null where there
+ * is none.
+ * @param {{folder?: string, env?: NodeJS.ProcessEnv}} place
+ */
+export function findDotnet({ folder = dotnetFolder(), env = process.env } = {}) {
+  const candidates = [path.join(folder, process.platform === 'win32' ? 'dotnet.exe' : 'dotnet'), 'dotnet'];
+  return candidates.find((command) => {
+    const listed = spawnSync(command, ['--list-sdks'], { encoding: 'utf8', env });
+    return listed.status === 0 && /^10\./m.test(listed.stdout);
+  }) ?? null;
+}
+
+/** What `dotnet` needs in its environment: one in a folder of its own is not found by the programs that it starts. */
+export function dotnetEnvironment(dotnet) {
+  const own = path.isAbsolute(dotnet) ? { DOTNET_ROOT: path.dirname(dotnet) } : {};
+  return { ...own, DOTNET_CLI_TELEMETRY_OPTOUT: '1', DOTNET_NOLOGO: '1' };
+}
+
+/**
+ * Brings the .NET SDK 10 where it is missing: from apt where it is offered and may be installed, else by Microsoft's own
+ * install script into `folder`, without root.
+ * @param {{folder?: string, env?: NodeJS.ProcessEnv, asRoot: string[] | null}} place asRoot: the words before apt-get,
+ *   null where this process may not install
+ * @returns {Promise<string>} the command
+ * @throws CommandError (2), one line with the command to run, where neither can be reached
+ */
+export async function bringDotnet({ folder = dotnetFolder(), env = process.env, asRoot }) {
+  const present = findDotnet({ folder, env });
+  if (present) return present;
+  const reasons = [await installFromApt(env, asRoot), await installFromScript(folder, env)];
+  const brought = findDotnet({ folder, env });
+  if (brought) return brought;
+  throw new CommandError(
+    `the C# tests need the .NET SDK 10 and it could not be brought (${reasons.filter(Boolean).join('; ')}). Run this where ` +
+      `the network allows it, then again what you ran: curl -fsSL ${script} | bash -s -- --channel 10.0 --install-dir ${folder}`,
+    2,
+  );
+}
+
+/** Null where it went well, else why not. */
+async function installFromApt(env, asRoot) {
+  const policy = spawnSync('apt-cache', ['policy', aptPackage], { encoding: 'utf8', env: { ...env, LC_ALL: 'C' } });
+  if (offeredPackages([aptPackage], policy.stdout ?? '').length === 0) return `apt has no ${aptPackage}`;
+  if (asRoot === null) return `installing ${aptPackage} needs root`;
+  console.log(`setup: installing ${aptPackage}`);
+  const [command, ...args] = [...asRoot, 'apt-get', 'install', '-y', '-qq', '--no-install-recommends', aptPackage];
+  const { exitCode, output } = await run(command, args, { env, quiet: true });
+  return exitCode === 0 ? null : `apt-get ended with ${exitCode}: ${lastLine(output)}`;
+}
+
+async function installFromScript(folder, env) {
+  if (findDotnet({ folder, env })) return null;
+  if (process.platform === 'win32') return 'the install script is for POSIX systems';
+  mkdirSync(folder, { recursive: true });
+  const file = path.join(folder, 'dotnet-install.sh');
+  try {
+    const fetched = await run('curl', ['-fsSL', '--retry', '2', '--connect-timeout', '20', '-o', file, script], { env, quiet: true });
+    if (fetched.exitCode !== 0 || !existsSync(file)) return `Microsoft's install script cannot be fetched: ${lastLine(fetched.output)}`;
+    console.log(`setup: bringing the .NET SDK 10 into ${folder} by Microsoft's install script`);
+    const installed = await run('bash', [file, '--channel', '10.0', '--install-dir', folder, '--no-path'], { env, quiet: true });
+    return installed.exitCode === 0 ? null : `Microsoft's install script ended with ${installed.exitCode}: ${lastLine(installed.output)}`;
+  } catch (error) {
+    if (!(error instanceof CommandError)) throw error;
+    return error.message;
+  }
+}
+
+const lastLine = (output) => output.trim().split('\n').at(-1) ?? '';

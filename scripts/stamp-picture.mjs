@@ -1,9 +1,0 @@
-// stamp-picture: writes into PNG files which model they were drawn with, the shipped one (node scripts/stamp-picture.mjs FILE...)
-import { readFileSync, writeFileSync } from 'node:fs';
-import { sha256Of, shippedModel, stampedPicture } from './lib/model_stamp.mjs';
-import { CommandError, runMain } from './lib/process.mjs';
-
-await runMain('stamp-picture', async (files) => {
-  if (files.length === 0) throw new CommandError('which PNG files?', 2);
-  for (const file of files) writeFileSync(file, stampedPicture(readFileSync(file), sha256Of(shippedModel)));
-});
