@@ -344,8 +344,7 @@ void addRenderCommand(CLI::App& app, CommandOutcome& outcome) {
     command->footer(
         "Examples:\n"
         "  haptoflow render scene.json --stroke stroke.csv -o felt.wav --report felt.json\n"
-        "  haptoflow render scene.json --stroke stroke.csv -o fine.wav --quality fine
-"
+        "  haptoflow render scene.json --stroke stroke.csv -o fine.wav --quality fine\n"
         "+-1 in the WAV is 200 m/s^2 (see --full-scale); most textures are quiet there, and true to each other.");
     command->callback([options, &outcome] {
         runRender(*options);
