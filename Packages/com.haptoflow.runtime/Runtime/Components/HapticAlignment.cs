@@ -14,6 +14,7 @@ namespace HaptoFlow
     /// <see cref="TakePoint"/> is called where the tip is. The pose is kept under <see cref="SaveName"/> and relative
     /// to the parent: it holds as long as the tracking space stays where it was.</remarks>
     [AddComponentMenu("HaptoFlow/Haptic Alignment")]
+    [HelpURL(HelpPages.Components + "haptic-alignment")]
     [DefaultExecutionOrder(1100)]
     [DisallowMultipleComponent]
     public sealed class HapticAlignment : MonoBehaviour
