@@ -17,6 +17,8 @@ public:
     WavWriter(const std::filesystem::path& file, int rateHz, std::string shownAs);
     WavWriter(const WavWriter&) = delete;
     WavWriter& operator=(const WavWriter&) = delete;
+    WavWriter(WavWriter&&) = delete;
+    WavWriter& operator=(WavWriter&&) = delete;
     ~WavWriter();
 
     void write(std::span<const float> samples);
