@@ -2,6 +2,9 @@
 #include "exit_codes.hpp"
 #include "near_words.hpp"
 
+#include "inference/inference_error.hpp"
+#include "model/model_error.hpp"
+
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
@@ -99,6 +102,13 @@ int run(int argc, char** argv) {
         return exitUsage;
     } catch (const InputError& error) {
         std::cerr << "haptoflow: " << error.what() << '\n';
+        return exitBadInput;
+    } catch (const haptoflow::model::ModelError& error) {
+        // One of the model's graphs, read when it is loaded into ONNX Runtime.
+        std::cerr << "haptoflow: model: " << error.what() << '\n';
+        return exitBadInput;
+    } catch (const haptoflow::inference::TierTooSlow& error) {
+        std::cerr << "haptoflow: model: " << error.what() << '\n';
         return exitBadInput;
     } catch (const std::exception& error) {
         std::cerr << "haptoflow: internal error: " << error.what() << '\n';

@@ -1,4 +1,5 @@
 #include "command_line.hpp"
+#include "model/model_builder.hpp"
 
 #include <nlohmann/json.hpp>
 
@@ -64,6 +65,17 @@ TEST_F(RenderCommandTest, AnOutputThatIsAnInputIsRefusedByWhateverNameAndTheInpu
     EXPECT_EQ(read("scene.json"), scene);
     EXPECT_EQ(read("stroke.csv"), stroke);
     EXPECT_EQ(fs::file_size(at("model.wav")), fs::file_size(tinyModel));
+}
+
+TEST_F(RenderCommandTest, AModelWhoseGraphsCannotBeLoadedIsABadInputFileNamedByTierAndGraph) {
+    // Whole by its checksums, and without a graph that ONNX Runtime could run.
+    const std::vector<std::byte> bytes = model::testing::ModelBuilder{}.build();
+    write("broken.haptoflow", {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+    write("oak.json", R"({"surfaces": [{"name": "floor", "shape": {"plane": {}}, "material": "oak"}]})");
+    const Finished rendered = run("render oak.json --stroke stroke.csv -o felt.wav --model broken.haptoflow");
+    EXPECT_EQ(rendered.exitCode, 3) << rendered.errors;
+    EXPECT_THAT(rendered.errors, AllOf(HasSubstr("tier"), Not(HasSubstr("internal"))));
+    EXPECT_FALSE(exists("felt.wav"));
 }
 
 TEST_F(RenderCommandTest, TwoOutputsOfOneNameAreRefused) {
