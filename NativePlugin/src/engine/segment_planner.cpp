@@ -94,11 +94,10 @@ bool SegmentPlanner::looksAgain() noexcept {
 }
 
 bool SegmentPlanner::awaitsCallback() const noexcept {
+    // Whatever kept `wake` from generating for it passes when the callback moves on: an onset that is not played yet, a
+    // clock that stands still, a hop that would be too short, a full queue.
     const WorkerMessage& contact = channels_.toWorker.current();
-    const Playhead& playhead = channels_.playhead.current();
-    const bool isPlaying = playhead.running && playhead.onset == contact.onset;
-    const bool standsStill = playhead.stream == stream_ && playhead.timeline.head == lastHead_;
-    return contact.sliding && contact.slides != settledSlides_ && (!isPlaying || standsStill);
+    return contact.sliding && contact.slides != settledSlides_;
 }
 
 void SegmentPlanner::learn() noexcept {
