@@ -62,8 +62,9 @@ StepScript stepScript(const Hand& hand, const DeviceShape& shape, std::size_t st
     hold(script.states, Hand::lifted(counter - 1), now, quietSeconds);
     now = quietSeconds;
     while (script.steps.size() < steps) {
-        // The first label of a stroke waits for the seed to be over.
-        const double firstSeconds = 0.15 + phase(random);
+        // The first label of a stroke waits for the seed to be over. Whole updates: a hand's states come at the update
+        // rate for as long as it touches.
+        const double firstSeconds = std::ceil(0.15 / updateSeconds) * updateSeconds;
         for (std::size_t place = 0; place < hand.labelCount(); ++place) {
             if (place > 0) {
                 script.steps.push_back({script.states.size(), place});
@@ -73,10 +74,11 @@ StepScript stepScript(const Hand& hand, const DeviceShape& shape, std::size_t st
             now += seconds;
         }
         // The last step must sound before the tip leaves.
-        const double tailSeconds = 2.0 * shape.periodSeconds() + 0.06;
+        const double tailSeconds = std::ceil((2.0 * shape.periodSeconds() + 0.06) / updateSeconds) * updateSeconds;
         hold(script.states, hand.sliding(counter, hand.labelCount() - 1), now, now + tailSeconds);
         now += tailSeconds;
-        const double pauseSeconds = shape.periodSeconds() + 0.02;
+        // Strokes begin at any phase of the device's blocks.
+        const double pauseSeconds = shape.periodSeconds() + 0.02 + phase(random);
         hold(script.states, Hand::lifted(counter), now, now + pauseSeconds);
         now += pauseSeconds;
         ++counter;

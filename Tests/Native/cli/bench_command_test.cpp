@@ -1,5 +1,6 @@
 #include "command_line.hpp"
 
+#include "bench/contact_script.hpp"
 #include "bench/distribution.hpp"
 #include "bench/latency_bench.hpp"
 #include "bench/watched_generators.hpp"
@@ -18,6 +19,7 @@
 #include <fstream>
 #include <iterator>
 #include <numeric>
+#include <random>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -147,6 +149,21 @@ TEST(BenchCommandTest, LatenciesHaveARowForEachDeviceWithItsGoalAndTheUsualBlock
         EXPECT_LE(step["goal"], step["lead"]["worst"].get<double>() + period + 1.0 + 1e-3);
         EXPECT_NEAR(step["filter_delay"], 1.2, 0.1) << "the resampler alone: inside the range nothing else filters";
         EXPECT_GE(step["within_goal_and_filters"], step["within_goal"]);
+    }
+}
+
+TEST(BenchCommandTest, AStrokeWhoseLabelStepsIsPublishedAtTheUpdateRateForAsLongAsItTouches) {
+    const bench::Hand hand(model::ModelFile::read(HAPTOFLOW_TEST_DEFAULT_MODEL));
+    std::mt19937_64 random(5);
+    for (const bench::DeviceShape& shape : bench::BenchPlan::full().devices) {
+        const bench::StepScript script = bench::stepScript(hand, shape, 40, 1, random);
+        ASSERT_GE(script.steps.size(), 40U);
+        for (std::size_t i = 1; i < script.states.size(); ++i) {
+            const bench::TimedState& before = script.states[i - 1];
+            if (before.state.touching && script.states[i].state.touching) {
+                ASSERT_NEAR(script.states[i].seconds - before.seconds, 1.0 / bench::updateRateHz, 1e-9) << "state " << i;
+            }
+        }
     }
 }
 
