@@ -101,7 +101,7 @@ function programsIn(text) {
 }
 
 // On every Debian, or brought by `run`; or started where it is known to be there, or may be missing.
-const always = new Set(['sh', '/bin/sh', 'bash', 'apt-get', 'apt-cache', 'dpkg-query', 'sudo', 'npm', 'node', 'dotnet', 'ccache']);
+const always = new Set(['sh', '/bin/sh', 'bash', 'tar', 'apt-get', 'apt-cache', 'dpkg-query', 'sudo', 'npm', 'node', 'dotnet', 'ccache']);
 
 /** The purposes that a script sets up itself. */
 const purposesOf = (script) => [...readFileSync(inRepository('scripts', script), 'utf8').matchAll(/setUp\(\[([^\]]*)\]\)/g)].flatMap(([, list]) => [...list.matchAll(/'(\w+)'/g)].map(([, name]) => name));
