@@ -46,4 +46,4 @@ await runMain('test:soak', async (words) => {
   console.log(`\n${closingLine(counts)}`);
   if (words.includes('--publish') && counts.failed === 0) publish();
   return counts.failed > 0 ? 1 : 0;
-}, { takesWords: false });
+});

@@ -41,3 +41,10 @@ test('a misspelt option of the soak ends with 2 before anything is built', () =>
   assert.match(stderr, /--pubish/);
   assert.equal(stdout, '');
 });
+
+test('the soak takes --publish, and of several words names the one that it does not know', () => {
+  const { status, stderr } = spawnSync(process.execPath, [inRepository('scripts', 'test-soak.mjs'), '--publish', '--publsh'], { encoding: 'utf8' });
+  assert.equal(status, 2);
+  assert.match(stderr, /'--publsh'/);
+  assert.doesNotMatch(stderr, /takes no arguments/);
+});
