@@ -64,9 +64,8 @@ public:
     }
 
     [[nodiscard]] nlohmann::ordered_json figures() const {
-        nlohmann::ordered_json row{{"voices", device_.voices},
-                                   {"block_frames", device_.blockFrames},
-                                   {"sample_rate_hz", device_.rateHz}};
+        nlohmann::ordered_json row{
+            {"voices", device_.voices}, {"block_frames", device_.blockFrames}, {"sample_rate_hz", device_.rateHz}};
         for (std::size_t kind = 0; kind < kindNames.size(); ++kind) {
             if (seconds_.at(kind).empty()) {
                 throw MeasurementError("no block of the kind " + std::string(kindNames.at(kind)) + " was measured");
@@ -85,8 +84,8 @@ private:
         std::uniform_real_distribution<double> speedShare(0.1, 0.9);
         for (std::size_t voice = 0; voice < voices_.size(); ++voice) {
             const std::size_t place = (touch_ + voice) % hand_.labelCount();
-            engine_->publish(*voices_[voice], isTouching ? hand_.sliding(touch_, place, speedShare(random_))
-                                                         : Hand::lifted(touch_));
+            engine_->publish(*voices_[voice],
+                             isTouching ? hand_.sliding(touch_, place, speedShare(random_)) : Hand::lifted(touch_));
         }
     }
     void setPaused(bool isPaused) {

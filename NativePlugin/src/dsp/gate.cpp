@@ -26,8 +26,8 @@ double checkedRate(double sampleRateHz) {
     return sampleRateHz;
 }
 
-/// Half a period of the raised cosine: 0 at the first point, 1 at the last. Linear interpolation between its points errs
-/// by (pi / 1024)^2 / 16, below 1e-6.
+/// Half a period of the raised cosine: 0 at the first point, 1 at the last. Linear interpolation between its points
+/// errs by (pi / 1024)^2 / 16, below 1e-6.
 using Curve = std::array<float, 1025>;
 
 const Curve& raisedCosine() {

@@ -5,9 +5,9 @@
 
 namespace haptoflow::dsp {
 
-/// Takes m/s^2 to the output's +-1: exactly linear to a knee at 0.7 of the ceiling, above it a smooth, monotone approach
-/// to the ceiling that never gets there, however large the input. Memoryless, so it adds no delay.
-/// Audio thread: allocates nothing, waits for nothing.
+/// Takes m/s^2 to the output's +-1: exactly linear to a knee at 0.7 of the ceiling, above it a smooth, monotone
+/// approach to the ceiling that never gets there, however large the input. Memoryless, so it adds no delay. Audio
+/// thread: allocates nothing, waits for nothing.
 class SoftLimiter {
 public:
     /// Where the knee begins, as a share of the ceiling.

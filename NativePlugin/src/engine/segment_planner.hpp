@@ -32,7 +32,8 @@ public:
     /// Looks at the newest contact and playhead. True where a segment is wanted; `request` then says which.
     [[nodiscard]] bool wake() noexcept;
     /// True while the newest contact slides, has no segment yet and waits for the callback to play its onset or to move
-    /// on: look again soon, nobody will call. Not for ever: each true is one look, and a generated segment begins the count anew.
+    /// on: look again soon, nobody will call. Not for ever: each true is one look, and a generated segment begins the
+    /// count anew.
     [[nodiscard]] bool looksAgain() noexcept;
     /// Valid until `deliver` or the next `wake`.
     [[nodiscard]] const inference::SegmentRequest& request() const noexcept { return request_; }

@@ -34,7 +34,8 @@ public:
     /// Throws std::invalid_argument for a rate outside 8-192 kHz or a full scale that is not above 0.
     Voice(double outputRateHz, float fullScaleMps2);
 
-    /// Touch-down, or sliding resumed: the second half of the seed sounds with the next sample, the first half is its past.
+    /// Touch-down, or sliding resumed: the second half of the seed sounds with the next sample, the first half is its
+    /// past.
     void onset(std::span<const float, WaveformTimeline::seedSamples> seedMps2) noexcept;
     /// See WaveformTimeline::commit.
     std::int64_t commit(std::int64_t start, std::span<const float, inference::segmentSamples> segment) noexcept;

@@ -62,7 +62,8 @@ void WaveformTimeline::overwrite(std::int64_t start, std::span<const float> samp
 
 void WaveformTimeline::history(std::int64_t start, std::span<float, inference::segmentSamples> out) const noexcept {
     const std::int64_t begin = start - segmentLength;
-    const std::int64_t firstKnown = std::clamp<std::int64_t>(std::max<std::int64_t>(head_ - segmentLength, 0), begin, start);
+    const std::int64_t firstKnown =
+        std::clamp<std::int64_t>(std::max<std::int64_t>(head_ - segmentLength, 0), begin, start);
     const std::int64_t endKnown = std::clamp(coveredUntil_, firstKnown, start);
     std::ranges::fill(out, 0.0F);
     copyOut(firstKnown, std::span<float>(out).subspan(static_cast<std::size_t>(firstKnown - begin),

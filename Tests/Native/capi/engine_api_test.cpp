@@ -219,7 +219,8 @@ TEST(EngineApiTest, OptionsOutOfRangeAreRefusedByName) {
     EXPECT_THAT(refusal([](auto& o) { o.batch_voices = 65; }), ::testing::HasSubstr("batch_voices"));
     EXPECT_THAT(refusal([](auto& o) { o.fixed_lead_ms = 51.0; }), ::testing::HasSubstr("lead"));
     for (const double fullScaleMps2 : {-60.0, 1e-9, 1e12, std::nan(""), HUGE_VAL}) {
-        EXPECT_THAT(refusal([=](auto& o) { o.full_scale_mps2 = fullScaleMps2; }), ::testing::HasSubstr("full_scale_mps2"));
+        EXPECT_THAT(refusal([=](auto& o) { o.full_scale_mps2 = fullScaleMps2; }),
+                    ::testing::HasSubstr("full_scale_mps2"));
     }
     EXPECT_THAT(refusal([](auto& o) { o.model = nullptr; }), ::testing::HasSubstr("model"));
     EXPECT_EQ(haptoflow_voice_set_strength(open.voice, 1.5F), HAPTOFLOW_INVALID_ARGUMENT);

@@ -68,8 +68,9 @@ void expectRatio(const Json& ratio, const Json& numerator, const Json& denominat
 
 TEST(BenchCommandTest, TheReportHasEveryKeyOfTheContractAndNoneForWhatDoesNotExist) {
     const Json report = reportOf("all");
-    for (const char* key : {"callback_us", "callback_events_us", "onset_ms", "contact_to_sound_ms", "stop_ms", "inference_ms",
-                            "speedup_vs_paper_architecture", "voices", "idle", "memory_mib", "load_ms", "contact"}) {
+    for (const char* key :
+         {"callback_us", "callback_events_us", "onset_ms", "contact_to_sound_ms", "stop_ms", "inference_ms",
+          "speedup_vs_paper_architecture", "voices", "idle", "memory_mib", "load_ms", "contact"}) {
         EXPECT_TRUE(report.contains(key)) << key;
     }
     EXPECT_FALSE(report.contains("effects"));
@@ -161,7 +162,8 @@ TEST(BenchCommandTest, AStrokeWhoseLabelStepsIsPublishedAtTheUpdateRateForAsLong
         for (std::size_t i = 1; i < script.states.size(); ++i) {
             const bench::TimedState& before = script.states[i - 1];
             if (before.state.touching && script.states[i].state.touching) {
-                ASSERT_NEAR(script.states[i].seconds - before.seconds, 1.0 / bench::updateRateHz, 1e-9) << "state " << i;
+                ASSERT_NEAR(script.states[i].seconds - before.seconds, 1.0 / bench::updateRateHz, 1e-9)
+                    << "state " << i;
             }
         }
     }

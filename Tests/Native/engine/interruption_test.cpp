@@ -162,9 +162,7 @@ TEST_P(InterruptionTest, ResumingIsCountedApartFromTouches) {
 
 INSTANTIATE_TEST_SUITE_P(Of, InterruptionTest,
                          ::testing::Combine(::testing::ValuesIn(interruptions()), ::testing::ValuesIn(motions())),
-                         [](const auto& test) {
-                             return std::get<0>(test.param).name + std::get<1>(test.param).name;
-                         });
+                         [](const auto& test) { return std::get<0>(test.param).name + std::get<1>(test.param).name; });
 
 TEST(StrengthTest, SetToZeroBeforeTheVeryFirstTouchNothingSounds) {
     const model::ModelFile model = testing::smallModel();

@@ -2,8 +2,8 @@
 #include "engine/live_engine.hpp"
 
 #include "fake_generators.hpp"
-#include "simulated_device.hpp"
 #include "inference/inference_error.hpp"
+#include "simulated_device.hpp"
 #include "test_model.hpp"
 
 #include <gtest/gtest.h>
