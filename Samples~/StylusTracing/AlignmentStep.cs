@@ -23,7 +23,7 @@ namespace HaptoFlow.Samples.StylusTracing
         /// <summary>What takes the points and moves the table.</summary>
         public HapticAlignment Alignment { get; private set; } = null!;
 
-        /// <summary>What it says now.</summary>
+        /// <summary>The text that tells the next step.</summary>
         public string Text => text.text;
 
         /// <param name="exhibits">What moves; the plane y = 0 of its own frame is the top of the table.</param>

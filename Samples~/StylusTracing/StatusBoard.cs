@@ -26,7 +26,7 @@ namespace HaptoFlow.Samples.StylusTracing
             return board;
         }
 
-        /// <summary>What it says now.</summary>
+        /// <summary>The text that the board shows.</summary>
         public string Text => text.text;
 
         private void Update()

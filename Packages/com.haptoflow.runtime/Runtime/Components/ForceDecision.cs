@@ -62,10 +62,10 @@ namespace HaptoFlow
             set => Change(ref nearMetres, Mathf.Clamp(value, LeastMetres, MostMetres));
         }
 
-        /// <summary>One and the same until something changes.</summary>
+        /// <summary>The decision with these thresholds; the same object until a threshold changes.</summary>
         internal ForceTouch Touch() => touch ??= NewTouch();
 
-        /// <summary>One more that decides by the same thresholds.</summary>
+        /// <summary>A further decision with the same thresholds.</summary>
         internal ForceTouch NewTouch()
         {
             float press = Mathf.Max(LeastNewtons, pressNewtons);
