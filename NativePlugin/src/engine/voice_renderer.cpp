@@ -121,9 +121,10 @@ SoundConditions VoiceRenderer::conditions(double rateHz) const noexcept {
 
 void VoiceRenderer::decide(double rateHz) noexcept {
     Silence wanted = silenceFor(conditions(rateHz));
-    if (wanted == Silence::rate) {
+    const bool isPreparable = OutputStage::supports(rateHz);
+    if (wanted == Silence::rate && isPreparable) {
         fallSilent(wanted);
-        if (!voice_.isSilent() || !OutputStage::supports(rateHz)) {
+        if (!voice_.isSilent()) {
             return;
         }
         requestOutput(rateHz);
@@ -137,8 +138,8 @@ void VoiceRenderer::decide(double rateHz) noexcept {
         return;
     }
     fallSilent(wanted);
-    // A touch that came and went while the voice had to be silent is over; one that waits for a rate is not.
-    if (wanted != Silence::rate && !contact.sliding) {
+    // A touch that came and went while the voice had to be silent is over, unless the worker is preparing for a rate.
+    if (!contact.sliding && (wanted != Silence::rate || !isPreparable)) {
         playedOnset_ = contact.onset;
     }
 }

@@ -127,6 +127,24 @@ TEST_F(SilenceTest, ARateThatNoOutputRunsAtIsCountedNamedAndAsksTheWorkerForNoth
     }
 }
 
+TEST_F(SilenceTest, ATapAtARateThatNoOutputRunsAtIsOverWhenTheRateIsServedAgain) {
+    SimulatedDevice device(model_, tone_);
+    device.run(0.05, [](double) { return testing::lifted(0); });
+    device.setRate(1.0e6);
+    device.publish(testing::sliding());
+    device.publish(testing::lifted(1));
+    device.run(0.05, [](double) { return testing::lifted(1); });
+    device.setRate(48000.0);
+    device.run(0.1, [](double) { return testing::lifted(1); });
+    EXPECT_EQ(testing::peak(device.output), 0.0F) << "nobody wants to feel it later";
+    EXPECT_EQ(device.counters().taps, 0U);
+    const std::size_t next = device.output.size();
+    ContactState touch = testing::sliding();
+    touch.touchCounter = 2;
+    device.run(0.05, [&touch](double) { return touch; });
+    EXPECT_GT(testing::peak(std::span<const float>(device.output).subspan(next)), 0.2F / 60.0F);
+}
+
 TEST_F(SilenceTest, AVoiceIsNotMadeForARateThatNoOutputRunsAt) {
     FakeGenerator tone(testing::continueTone);
     for (const double impossible : {0.0, 7999.0, 192001.0, std::numeric_limits<double>::quiet_NaN()}) {
