@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdio>
 #include <exception>
 #include <iostream>
 #include <string>
@@ -119,5 +120,11 @@ int run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-    return run(argc, argv);
+    try {
+        return run(argc, argv);
+    } catch (...) {
+        // Not even the message of the first failure could be written: nothing that throws is left to say it with.
+        (void)std::fputs("haptoflow: internal error\n", stderr);
+        return haptoflow::cli::exitInternal;
+    }
 }
