@@ -182,9 +182,8 @@ typedef struct haptoflow_runtime_options {
 HAPTOFLOW_API haptoflow_status haptoflow_runtime_open(const haptoflow_runtime_options* options,
                                                       haptoflow_runtime** runtime);
 
-/* Closes *runtime and sets it to null; a null handle is fine. Generators and engines made with it stay usable; what ONNX
- * Runtime says of them from now on is heard by nobody where there was a log.
- * Errors: INVALID_ARGUMENT.
+/* Closes *runtime and sets it to null; a null handle is fine. Generators and engines made with it stay usable; what
+ * ONNX Runtime says of them from now on is heard by nobody where there was a log. Errors: INVALID_ARGUMENT.
  * [loader-thread] Blocks while ONNX Runtime lets go of its memory and while a call of the log is under way. */
 HAPTOFLOW_API haptoflow_status haptoflow_runtime_close(haptoflow_runtime** runtime);
 
@@ -458,11 +457,10 @@ HAPTOFLOW_API haptoflow_status haptoflow_engine_create(const haptoflow_engine_op
  * [loader-thread] Blocks for the present round of inference, the present blocks and, while voices sound, their fade. */
 HAPTOFLOW_API haptoflow_status haptoflow_engine_close(haptoflow_engine** engine);
 
-/* From the next segment on. Tiers that this quality asks for and that are not loaded yet are loaded first, by the calling
- * thread, while the engine goes on with its present one; they stay loaded. Where that fails, the quality stays as it
- * was. Errors: INVALID_ARGUMENT, MODEL_INCONSISTENT, TIER_TOO_SLOW, OUT_OF_MEMORY.
- * [loader-thread] Blocks while ONNX Runtime optimises the graphs of such a tier; takes microseconds where all are
- * loaded. */
+/* From the next segment on. Tiers that this quality asks for and that are not loaded yet are loaded first, by the
+ * calling thread, while the engine goes on with its present one; they stay loaded. Where that fails, the quality stays
+ * as it was. Errors: INVALID_ARGUMENT, MODEL_INCONSISTENT, TIER_TOO_SLOW, OUT_OF_MEMORY. [loader-thread] Blocks while
+ * ONNX Runtime optimises the graphs of such a tier; takes microseconds where all are loaded. */
 HAPTOFLOW_API haptoflow_status haptoflow_engine_set_quality(haptoflow_engine* engine, haptoflow_quality quality);
 
 /* One round of inference for all voices that want one. Engines without worker only. Errors: INVALID_ARGUMENT.
@@ -480,9 +478,9 @@ HAPTOFLOW_API haptoflow_status haptoflow_engine_tier_times(const haptoflow_engin
                                                            haptoflow_tier_times* times);
 
 /* Writes the text of the newest failure, of a round of inference or of the worker itself, into text: at most capacity
- * bytes, the zero byte at the end included; "" before the first failure. *length becomes the whole text's length without
- * that byte. text may be null where capacity is 0. Errors: INVALID_ARGUMENT, OUT_OF_MEMORY.
- * [any-thread] Blocks for as long as another thread opens or closes a handle, or the worker notes a failure. */
+ * bytes, the zero byte at the end included; "" before the first failure. *length becomes the whole text's length
+ * without that byte. text may be null where capacity is 0. Errors: INVALID_ARGUMENT, OUT_OF_MEMORY. [any-thread] Blocks
+ * for as long as another thread opens or closes a handle, or the worker notes a failure. */
 HAPTOFLOW_API haptoflow_status haptoflow_engine_last_failure(const haptoflow_engine* engine, char* text,
                                                              uint64_t capacity, uint64_t* length);
 
@@ -580,10 +578,9 @@ HAPTOFLOW_API haptoflow_status haptoflow_voice_publish(haptoflow_voice voice, co
 /* Writes frame_count frames of the voice into one channel of interleaved samples, or into all with
  * HAPTOFLOW_ALL_CHANNELS; other channels stay as they are. Samples are +-1. channel_count is 1 to 64.
  * Where sample_rate_hz is not what it was, the voice fades within 5 ms, is silent until the worker has prepared for the
- * new rate, and a touch that still goes on sounds again, as its newest state asks. At a rate outside 8 to 192 kHz it stays
- * silent, and the voice's statistics say so. A voice that is not open, or busy, writes zeros.
- * Errors: INVALID_ARGUMENT, BUSY; the message is not set by this function.
- * [audio-callback] */
+ * new rate, and a touch that still goes on sounds again, as its newest state asks. At a rate outside 8 to 192 kHz it
+ * stays silent, and the voice's statistics say so. A voice that is not open, or busy, writes zeros. Errors:
+ * INVALID_ARGUMENT, BUSY; the message is not set by this function. [audio-callback] */
 HAPTOFLOW_API haptoflow_status haptoflow_voice_render(haptoflow_voice voice, float* interleaved, uint32_t frame_count,
                                                       uint32_t channel_count, int32_t channel, double sample_rate_hz);
 
