@@ -202,7 +202,7 @@ namespace HaptoFlow.Tests
             Board();
             GameObject listener = Make("Ears");
             listener.AddComponent<AudioSource>();
-            listener.AddComponent<Noise>();
+            listener.AddComponent<SteadySource>();
             var output = listener.AddComponent<HapticOutput>();
             output.Channel = 1;
             output.Route = OutputRoute.ListenerChannel;
@@ -285,22 +285,6 @@ namespace HaptoFlow.Tests
             HapticOutput made = SceneOutputs.For(first)!;
             Assert.That(made.GetComponent<AudioSource>().isPlaying, Is.True);
             Object.DestroyImmediate(made.gameObject);
-        }
-
-        /// <summary>Draws a circle of 5 cm on the board, 1 mm deep, at 0.2 m/s.</summary>
-        private HapticStylus Circling() => StylusAlong(seconds => new Vector3(
-            0.05f * (float)Math.Cos(4.0 * seconds), 0.001f, 0.05f * (float)Math.Sin(4.0 * seconds)));
-
-        /// <summary>What other sources would play, on every channel.</summary>
-        private sealed class Noise : MonoBehaviour
-        {
-            private void OnAudioFilterRead(float[] data, int channels)
-            {
-                for (int index = 0; index < data.Length; ++index)
-                {
-                    data[index] = 0.25f;
-                }
-            }
         }
     }
 }

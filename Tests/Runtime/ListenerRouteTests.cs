@@ -77,7 +77,7 @@ namespace HaptoFlow.Tests
         {
             GameObject listener = Make("Ears");
             listener.AddComponent<AudioSource>();
-            listener.AddComponent<Hum>();
+            listener.AddComponent<SteadySource>();
             output = listener.AddComponent<HapticOutput>();
             output.Route = OutputRoute.ListenerChannel;
             return listener.AddComponent<AudioTap>();
@@ -88,21 +88,6 @@ namespace HaptoFlow.Tests
             for (int frame = 0; frame < count; ++frame)
             {
                 yield return null;
-            }
-        }
-
-        private HapticStylus Circling() => StylusAlong(seconds => new Vector3(
-            0.05f * (float)Math.Cos(4.0 * seconds), 0.001f, 0.05f * (float)Math.Sin(4.0 * seconds)));
-
-        /// <summary>What other sources would play, on every channel.</summary>
-        private sealed class Hum : MonoBehaviour
-        {
-            private void OnAudioFilterRead(float[] data, int channels)
-            {
-                for (int index = 0; index < data.Length; ++index)
-                {
-                    data[index] = 0.25f;
-                }
             }
         }
     }

@@ -137,8 +137,5 @@ namespace HaptoFlow.Tests
                 yield return null;
             }
         }
-
-        private HapticStylus Circling() => StylusAlong(seconds => new Vector3(
-            0.05f * (float)Math.Cos(4.0 * seconds), 0.001f, 0.05f * (float)Math.Sin(4.0 * seconds)));
     }
 }

@@ -182,8 +182,8 @@ typedef struct haptoflow_runtime_options {
 HAPTOFLOW_API haptoflow_status haptoflow_runtime_open(const haptoflow_runtime_options* options,
                                                       haptoflow_runtime** runtime);
 
-/* Closes *runtime and sets it to null; a null handle is fine. Generators and engines made with it stay usable; what
- * ONNX Runtime says of them from now on is heard by nobody where there was a log. Errors: INVALID_ARGUMENT.
+/* Closes *runtime and sets it to null; a null handle is fine. Generators and engines made with it stay usable. Its log
+ * callback is not called again after this call returns. Errors: INVALID_ARGUMENT.
  * [loader-thread] Blocks while ONNX Runtime lets go of its memory and while a call of the log is under way. */
 HAPTOFLOW_API haptoflow_status haptoflow_runtime_close(haptoflow_runtime** runtime);
 

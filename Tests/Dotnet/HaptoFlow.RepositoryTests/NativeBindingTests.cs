@@ -9,25 +9,8 @@ using NUnit.Framework;
 
 namespace HaptoFlow.RepositoryTests
 {
-    public sealed class NativeBindingTests
+    public sealed class NativeBindingTests : OpenModelTest
     {
-        private OnnxRuntime runtime = null!;
-        private HapticModel model = null!;
-
-        [OneTimeSetUp]
-        public void Open()
-        {
-            runtime = OnnxRuntime.Open();
-            model = HapticModel.Open(RepositoryFiles.DefaultModel);
-        }
-
-        [OneTimeTearDown]
-        public void Close()
-        {
-            model.Dispose();
-            runtime.Dispose();
-        }
-
         // What a C compiler for a 64-bit platform says of haptoflow.h.
         [TestCase(typeof(RuntimeOptions), 40)]
         [TestCase(typeof(ModelOptions), 32)]

@@ -8,25 +8,8 @@ using NUnit.Framework;
 namespace HaptoFlow.RepositoryTests
 {
     /// <summary>Reasons for silence, the engine's health and cancelled loads, through the real library.</summary>
-    public sealed class NativeHealthTests
+    public sealed class NativeHealthTests : OpenModelTest
     {
-        private OnnxRuntime runtime = null!;
-        private HapticModel model = null!;
-
-        [OneTimeSetUp]
-        public void Open()
-        {
-            runtime = OnnxRuntime.Open();
-            model = HapticModel.Open(RepositoryFiles.DefaultModel);
-        }
-
-        [OneTimeTearDown]
-        public void Close()
-        {
-            model.Dispose();
-            runtime.Dispose();
-        }
-
         [Test]
         public void EveryReasonForSilenceHasTheLibrarysName()
         {

@@ -76,6 +76,10 @@ namespace HaptoFlow.Tests
             box.center = new Vector3(0f, -0.01f, 0f);
         });
 
+        /// <summary>Draws a circle of 5 cm on the board, 1 mm deep, at 0.2 m/s.</summary>
+        internal HapticStylus Circling() => StylusAlong(seconds => new Vector3(
+            0.05f * (float)Math.Cos(4.0 * seconds), 0.001f, 0.05f * (float)Math.Sin(4.0 * seconds)));
+
         /// <summary>A stylus with a tip of 2 mm that follows a path.</summary>
         internal HapticStylus StylusAlong(Func<double, Vector3> path)
         {

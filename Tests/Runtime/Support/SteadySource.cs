@@ -1,0 +1,17 @@
+#nullable enable
+using UnityEngine;
+
+namespace HaptoFlow.Tests
+{
+    /// <summary>What other sources would play, on every channel.</summary>
+    internal sealed class SteadySource : MonoBehaviour
+    {
+        private void OnAudioFilterRead(float[] data, int channels)
+        {
+            for (int index = 0; index < data.Length; ++index)
+            {
+                data[index] = 0.25f;
+            }
+        }
+    }
+}
