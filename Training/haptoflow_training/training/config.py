@@ -41,13 +41,15 @@ class DataConfig:
 class ModelConfig:
     """What is trained. architecture: `unet` (the velocity field, `width` to `levels`) or one of the baselines.
 
-    ribs: the field hears what the ribs of ruled surfaces would do next (raw samples only).
+    ribs: the field hears what the ribs of ruled surfaces would do next (raw samples only). impulses: it strikes rare
+    events from the tails of its noise (raw samples only).
     `representation` is handed to `build_representation`. hears_previous: false leaves the previous waveform out; level:
     `law` or `constant` (one level for everything): both to show what they are worth.
     """
 
     architecture: str = "unet"
     ribs: bool = False
+    impulses: bool = False
     hears_previous: bool = True
     level: str = "law"
     width: int = 64

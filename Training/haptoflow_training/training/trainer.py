@@ -34,7 +34,7 @@ from haptoflow_training.training.moving_average import MovingAverage
 from haptoflow_training.training.processes import Processes
 from haptoflow_training.training.reflow import ReflowPairs, join_pairs
 from haptoflow_training.training.run_log import MetricsLog, plot_metrics, source_commit, write_json
-from haptoflow_training.training.spectral_balance import SpectralBalance
+from haptoflow_training.training.label_balance import LabelBalance
 
 _COLUMNS = ("step", "phase", "field_loss", "level_loss", "validation_field_loss", "validation_level_loss", "seconds")
 _LOG_EVERY = 100
@@ -65,6 +65,7 @@ def build_model(config: TrainingConfig, wave_vectors: WaveVectors) -> HaptoFlowM
             average=config.recipe.objective == "average-velocity",
             hears_previous=shape.hears_previous,
             ribs=shape.ribs,
+            impulses=shape.impulses,
             levels=shape.levels,
         )
     else:
@@ -153,14 +154,14 @@ class Trainer:
             adopt_base(self.model, base, list(store.labels))
         if start is not None:
             adopt_start(self.model, start, list(store.labels))
-        self._balance = SpectralBalance(len(store.labels))
+        self._balance = LabelBalance(len(store.labels))
         self._losses = Losses(
             self.model, config.solver, train_level=not config.recipe.shares_base, balance=self._balance
         )
         self._pairs: ReflowPairs | None = None
         self._average = MovingAverage(self.model, optimiser.average_decay)
         self._optimiser = torch.optim.AdamW(
-            self.model.parameters(), lr=optimiser.learning_rate, weight_decay=optimiser.weight_decay
+            self.model.parameters(), lr=optimiser.learning_rate, weight_decay=optimiser.weight_decay, foreach=True
         )
         seed = config.seed * 1000 + processes.rank
         self._noise = torch.Generator().manual_seed(seed)
