@@ -21,7 +21,7 @@ _FUNDAMENTALS_HZ = (20.0, 800.0)
 _SHALLOWEST_DEPTH, _LEAST_COHERENCE = 0.1, 0.4
 _BEFORE_CHANGE, _AFTER_CHANGE = 100, 200
 
-IDENTITY = ("label", "kind", "speed_mps", "force_newtons", "direction_degrees", "crossing_degrees")
+IDENTITY = ("label", "kind", "speed_mps", "force_newtons", "direction_degrees", "crossing_degrees", "seed")
 
 
 def measure_cell(

@@ -62,7 +62,7 @@ def run_closed_loop(
     seed: int,
     advance: Callable[[int], None] = lambda count: None,
 ) -> ClosedLoopRun:
-    """Render `motions` [n, samples, 3] for `embeddings` [n, 64], from silence.
+    """Render `motions` [n, samples, 3] for `embeddings` [n, 64], or [n, hops, 64] where labels change, from silence.
 
     Each segment is told the mean motion of the hop before it, which is all that a tracker can know, and takes over
     by the engine's splice.
@@ -74,11 +74,12 @@ def run_closed_loop(
     starts = hop_positions(samples, update_rate_hz)
     generator = np.random.default_rng(seed)
     before = 0
-    for start in starts:
+    for hop, start in enumerate(starts):
+        embedding = embeddings if embeddings.ndim == 2 else embeddings[:, hop]
         known = motions[:, before:start] if start > before else motions[:, :1]
         past = out[:, start : start + SEGMENT_SAMPLES].copy()
         noise = generator.standard_normal((rows, SEGMENT_SAMPLES)).astype(np.float32)
-        segment = source.generate(embeddings, known.mean(axis=1).astype(np.float32), past, noise)
+        segment = source.generate(embedding, known.mean(axis=1).astype(np.float32), past, noise)
         if start > 0:
             segment = spliced(wave[:, start : start + SEGMENT_SAMPLES], segment)
         wave[:, start : start + SEGMENT_SAMPLES] = segment
