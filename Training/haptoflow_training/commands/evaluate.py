@@ -16,8 +16,9 @@ from haptoflow_training.evaluation import accuracy
 from haptoflow_training.evaluation.accuracy import Yardstick
 from haptoflow_training.evaluation.accuracy_time import machine_words, table, timed_rows, with_times
 from haptoflow_training.evaluation.accuracy_time_chart import draw_chart
-from haptoflow_training.evaluation.accuracy_time_report import draw_spectra, write_document
+from haptoflow_training.evaluation.accuracy_time_report import write_document
 from haptoflow_training.evaluation.engine_library import EngineGenerator, EngineLibrary, default_engine
+from haptoflow_training.evaluation.label_spectra import draw_spectra
 from haptoflow_training.evaluation.model_stamp import SHIPPED_MODEL, graphs_sha256, sha256_of
 from haptoflow_training.evaluation.reference_conditions import conditions
 from haptoflow_training.evaluation.reference_set import ReferencePair, reference_set

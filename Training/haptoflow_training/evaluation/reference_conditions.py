@@ -21,7 +21,7 @@ from haptoflow_training.recordings.synthetic.carriers import hand_ride
 _SECONDS_AT = {0.01: 24.0, 0.03: 24.0, 0.08: 20.0, 0.15: 16.0, 0.275: 16.0, 0.5: 12.0, 1.0: 12.0, 1.5: 12.0}
 CONSTANT_SPEEDS_MPS = tuple(_SECONDS_AT)
 # A kurtosis of 40 comes from a dozen blows a minute: rare blows need time.
-_IMPACT_SECONDS, _FASTEST_RARE_IMPACTS_MPS = 12.0, 0.15
+_IMPACT_FACTOR, _FASTEST_RARE_IMPACTS_MPS = 2.5, 0.15
 _FORCES_NEWTONS = (0.2, 0.6, 1.35, 3.0)
 _CORNERS = ((0.03, 3.0), (0.15, 0.2), (0.5, 3.0))
 _DIRECTIONS_DEGREES = (0.0, 225.0, 110.0, 315.0)
@@ -83,7 +83,9 @@ def _of_label(materials: tuple[Material, ...], index: int, material: Material) -
         seed += 1
     across = material.dominant_ruling.direction_degrees if material.dominant_ruling else 110.0
     for speed in _REVERSAL_SPEEDS_MPS:
-        yield Condition(material.label, index, "reversal", speed, 1.0, across, _SECONDS, seed)
+        yield Condition(
+            material.label, index, "reversal", speed, 1.0, across, _long_enough(material, speed, _SECONDS), seed
+        )
         seed += 1
     yield Condition(material.label, index, "stop", _STOP_SPEED_MPS, 1.0, across, _SECONDS, seed)
     yield Condition(material.label, index, "varying", 0.0, 0.0, 0.0, _HAND_SECONDS, seed + 1)
@@ -98,24 +100,27 @@ def _of_label(materials: tuple[Material, ...], index: int, material: Material) -
 def _steady(index: int, material: Material) -> Iterator[tuple[str, float, float, float, float, float]]:
     """(kind, speed, force, direction, crossing, seconds) of what holds still."""
     ruling = material.dominant_ruling
+    across = ruling.direction_degrees if ruling else 0.0
     for number, (speed, seconds) in enumerate(_SECONDS_AT.items()):
         force = _FORCES_NEWTONS[(index + number) % len(_FORCES_NEWTONS)]
         turned = _DIRECTIONS_DEGREES[(index // 2 + number) % len(_DIRECTIONS_DEGREES)]
-        direction = ruling.direction_degrees if ruling else turned
-        if material.impact_density > 0.0 and speed <= _FASTEST_RARE_IMPACTS_MPS:
-            seconds += _IMPACT_SECONDS
-        yield "constant", speed, force, direction, 0.0, seconds
+        direction = across if ruling else turned
+        yield "constant", speed, force, direction, 0.0, _long_enough(material, speed, seconds)
     for speed, force in _CORNERS:
-        yield "constant", speed, force, ruling.direction_degrees if ruling else 0.0, 0.0, _SECONDS
+        yield "constant", speed, force, across, 0.0, _long_enough(material, speed, _SECONDS)
     for crossing in CROSSINGS_DEGREES if ruling else ():
-        assert ruling is not None
         for speed in _CROSSED_SPEEDS_MPS:
             # Crossed at 45 degrees from behind, the direction is the one that is held out.
             behind = 180.0 if crossing == 45.0 else 0.0
-            yield "oblique", speed, 1.0, (ruling.direction_degrees + crossing + behind) % 360.0, crossing, _SECONDS
+            yield "oblique", speed, 1.0, (across + crossing + behind) % 360.0, crossing, _SECONDS
     for speed in _NAP_SPEEDS_MPS if material.nap else ():
         for behind in (0.0, 180.0):
             yield "nap", speed, 1.0, (material.grain_degrees + behind) % 360.0, 0.0, _SECONDS
+
+
+def _long_enough(material: Material, speed_mps: float, seconds: float) -> float:
+    has_rare_blows = material.impact_density > 0.0 and speed_mps <= _FASTEST_RARE_IMPACTS_MPS
+    return seconds * (_IMPACT_FACTOR if has_rare_blows else 1.0)
 
 
 def rib_rates_hz(material: Material, speed_mps: float, direction_degrees: float) -> tuple[float, ...]:
