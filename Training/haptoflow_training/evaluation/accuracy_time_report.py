@@ -54,8 +54,9 @@ def _outcome(table: Mapping[str, Any]) -> list[str]:
             lines += [f"**{title}**: no rival is measured yet.", ""]
             continue
         counts = {outcome: sum(len(rival.figures(outcome)) for rival in found) for outcome in (AHEAD, EVEN, BEHIND)}
-        words = f"**{title}**, {len(found)} rivals, {sum(counts.values())} comparisons: `standard` is ahead in {counts[AHEAD]}, even in {counts[EVEN]}, behind in {counts[BEHIND]}."
-        lines += [f"{words} {_wins(found)}", ""]
+        many = f"{len(found)} rival{'s' if len(found) > 1 else ''}, {sum(counts.values())} comparisons"
+        words = f"ahead in {counts[AHEAD]}, even in {counts[EVEN]}, behind in {counts[BEHIND]}"
+        lines += [f"**{title}**, {many}: `standard` is {words}. {_wins(found)}", ""]
     return lines
 
 
