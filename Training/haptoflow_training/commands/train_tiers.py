@@ -16,6 +16,7 @@ from haptoflow_training.export.exporter import export_run
 from haptoflow_training.export.trained_tier import load_tiers
 from haptoflow_training.models.level_model import LevelModel
 from haptoflow_training.training.config import load_config
+from haptoflow_training.training.held_out import HeldOut
 from haptoflow_training.training.job_lanes import Job, run_jobs
 from haptoflow_training.training.recordings_source import Source, open_source
 from haptoflow_training.training.run_log import last_step, write_json
@@ -96,7 +97,7 @@ def _level_offsets(default: Path, source: Source) -> list[float] | None:
         return None
     with tqdm(total=hops(source.store), unit="hop", desc="levels") as bar:
         made = TierSource(tier)
-        return level_offsets_db(made, made.embeddings, source.store, bar.update)
+        return level_offsets_db(made, made.embeddings, source.store, HeldOut.of(tier.config.batch), bar.update)
 
 
 def _train_all(files: list[Path], out: Path, lanes: int, more: list[str]) -> None:
