@@ -72,6 +72,7 @@ def _export_baseline(baseline: Baseline) -> bytes:
         "previous": wave.clone(),
         "embedding": torch.zeros(2, EMBEDDING_SIZE),
         "motion": torch.full((2, 3), 0.1),
+        "rib_phase": torch.zeros(2, 2),
     }
     return _export(BaselineGraph(baseline), {name: examples[name] for name in baseline.inputs}, "segment")
 

@@ -51,7 +51,7 @@ class TrainedTier:
     ) -> Tensor:
         """What the exported graph returns: the velocity, or the segment of a direct tier."""
         if isinstance(self.model.field, Baseline):
-            return self.model.field(noisy, previous, embedding, motion)
+            return self.model.one_step(noisy, previous, embedding, motion)
         if self.kind == "direct":
             return self.model.one_step(noisy, previous, embedding, motion)
         return self.model.field(noisy, time, previous, embedding, motion, interval)

@@ -35,6 +35,8 @@ class HaptoFlowModel(nn.Module):
 
     def one_step(self, noise: Tensor, previous: Tensor, embedding: Tensor, motion: Tensor) -> Tensor:
         """The segment [B, 1, 200] that a network taught to be whole in one step makes; all in unit scale."""
+        if isinstance(self.field, Baseline):
+            return self.field(noise, previous, embedding, motion, torch.zeros(1, 2))
         return self.band_limit(previous, noise + self.field(noise, torch.zeros(1, 1), previous, embedding, motion))
 
     def log_level(self, label: Tensor, motion: Tensor) -> Tensor:

@@ -12,7 +12,6 @@ from haptoflow_training.models.label_embedding import rib_frequencies_hz
 from haptoflow_training.models.level_model import level_loss
 from haptoflow_training.models.rib_comb import PARTIALS
 from haptoflow_training.models.unit_scale import scaled_previous
-from haptoflow_training.models.velocity_field import VelocityField
 from haptoflow_training.training.batches import Chain, SegmentBatch
 from haptoflow_training.training.config import SolverConfig
 from haptoflow_training.training.energy_distance import energy_distance_loss, spectra
@@ -21,7 +20,7 @@ from haptoflow_training.training.mean_flow import AverageField, mean_flow_loss
 from haptoflow_training.training.reflow import ReflowPairs, reflow_loss
 from haptoflow_training.training.spectral_balance import SpectralBalance, spectral_features
 
-# `own`: what a baseline is trained for in its own paper.
+# `own`: what a baseline is trained for by its own form.
 Objective = Literal["level", "flow", "average-velocity", "reflow", "energy", "own"]
 
 _BALANCE_WEIGHT = 2.0
@@ -105,7 +104,7 @@ class Losses(nn.Module):
             return model.field(noisy, time, encoded_previous, embedding, batch.motion)
 
         if objective == "own":
-            own = model.field.loss(segment, encoded_previous, embedding, batch.motion, generator)
+            own = model.field.loss(segment, encoded_previous, embedding, batch.motion, torch.zeros(1, 2), generator)
             return (own / power).sum() / power.reciprocal().sum()
         if objective == "flow":
             return flow_matching_loss(field, segment, generator, 1.0 / power)
@@ -153,7 +152,7 @@ class Losses(nn.Module):
     ) -> tuple[list[Tensor], Tensor]:
         """The partials [B, 2, P] of each segment, seen from its past, and which of them can sound, [B, P]: none for a
         network without ribs."""
-        comb = self.model.field.comb if isinstance(self.model.field, VelocityField) else None
+        comb = self.model.field.comb
         if comb is None:
             nothing = torch.zeros(len(batch.label), 2, PARTIALS)
             return [nothing] * len(segments), nothing[:, 0]
@@ -193,7 +192,7 @@ class Losses(nn.Module):
         start = torch.zeros(label.shape[0], 1)
         if objective == "average-velocity":
             made = noise + model.field(noise, start, previous, embedding, motion, torch.ones_like(start))
-        elif objective == "energy":
+        elif objective in ("energy", "own"):
             made = model.one_step(noise, previous, embedding, motion)
         else:
             made = solve(field, noise, self._solver.kind, self._solver.steps)
