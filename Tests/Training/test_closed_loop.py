@@ -14,10 +14,17 @@ class Probe:
     def __init__(self) -> None:
         self.motions: list[np.ndarray] = []
         self.pasts: list[np.ndarray] = []
+        self.phases: list[np.ndarray] = []
 
     def generate(
-        self, embeddings: np.ndarray, motions: np.ndarray, previous_mps2: np.ndarray, noise: np.ndarray
+        self,
+        embeddings: np.ndarray,
+        motions: np.ndarray,
+        previous_mps2: np.ndarray,
+        noise: np.ndarray,
+        rib_phase: np.ndarray,
     ) -> np.ndarray:
+        self.phases.append(rib_phase.copy())
         self.motions.append(motions.copy())
         self.pasts.append(previous_mps2.copy())
         return np.tile(1000.0 * len(self.pasts) + np.arange(200), (len(embeddings), 1)).astype(np.float32)
@@ -59,3 +66,24 @@ def test_the_level_holds_across_a_splice_of_strangers() -> None:
     power = np.square(spliced(old, new)).mean(axis=0)
     # The correlation is estimated from 32 samples and never negative: a bias of a few per cent.
     np.testing.assert_allclose(power[:8], 1.0, atol=0.1)
+
+
+@pytest.mark.parametrize("rate_hz", [30.0, 72.0, 120.0])
+def test_the_rib_phase_is_what_the_told_motions_have_travelled_along_each_wave_vector_wrapped(rate_hz: float) -> None:
+    probe = Probe()
+    embeddings = np.zeros((2, 64), np.float32)
+    embeddings[0, -4:], embeddings[1, -4:] = (0.4, 0.0, 0.0, 0.8), (-1.1, 0.3, 0.0, 0.0)
+    # There, and with the same speed back: the phase is to come back to where it began.
+    motions = np.zeros((2, 4000, 3), np.float32)
+    motions[:, :2000, 0], motions[:, :2000, 1] = 0.7, -0.2
+    motions[:, 2000:, :2] = -motions[:, :2000, :2]
+    run = run_closed_loop(probe, embeddings, motions, update_rate_hz=rate_hz, seed=1)
+    for row, vectors in enumerate(embeddings[:, -4:].astype(float).reshape(2, 2, 2)):
+        for hop in range(len(run.hop_starts)):
+            travelled_mm = np.zeros(2)
+            for before in range(hop):
+                samples = run.hop_starts[before + 1] - run.hop_starts[before]
+                travelled_mm += probe.motions[before][row, :2] * samples / 2.0
+            turns = probe.phases[hop][row] - vectors @ travelled_mm
+            np.testing.assert_allclose(turns, np.round(turns), atol=1e-4)
+        assert np.all((np.array(probe.phases)[:, row] >= 0.0) & (np.array(probe.phases)[:, row] <= 1.0))

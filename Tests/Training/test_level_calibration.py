@@ -28,7 +28,9 @@ class _KnownSource:
     def __init__(self, gain_db: tuple[float, float]) -> None:
         self._gain = 10.0 ** (np.array(gain_db) / 20.0)
 
-    def generate(self, embeddings: _Floats, motions: _Floats, previous_mps2: _Floats, noise: _Floats) -> _Floats:
+    def generate(
+        self, embeddings: _Floats, motions: _Floats, previous_mps2: _Floats, noise: _Floats, rib_phase: _Floats
+    ) -> _Floats:
         del previous_mps2
         speed, force = np.hypot(motions[:, 0], motions[:, 1]), motions[:, 2]
         label = embeddings[:, 0].astype(int)

@@ -163,7 +163,8 @@ def test_settings_out_of_range_are_refused_by_their_key(wrong: dict[str, float])
 
 def _loud(samples: int = 2000) -> PreparedRecording:
     moving = np.tile(np.array([0.04, 0.03, 0.5], dtype=np.float32), (samples, 1))
-    return PreparedRecording(np.ones(samples, dtype=np.float32), moving)
+    place = np.linspace([1.0, 2.0], [1.0 + 0.02 * samples, 2.0 + 0.015 * samples], samples, dtype=np.float32)
+    return PreparedRecording(np.ones(samples, dtype=np.float32), moving, place)
 
 
 def test_padding_puts_whole_silent_segments_before_and_after_with_the_probability_asked_for() -> None:

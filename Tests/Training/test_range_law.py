@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 import pytest
 import torch
-from training_fixtures import FakeRecording, FakeStore
+from training_fixtures import FakeRecording, FakeStore, travelled_mm
 
 from haptoflow_training.evaluation.metrics import fundamental_hz
 from haptoflow_training.export.exponents import LabelExponents, fit_exponents
@@ -48,7 +48,7 @@ def _slow_store() -> FakeStore:
             motions.append(prepared.motion)
             recordings.append(FakeRecording(index, "machine", "train", start, len(prepared.waveform_mps2)))
             start += len(prepared.waveform_mps2)
-    return FakeStore(np.concatenate(waves), np.concatenate(motions), 10.0, list(LABELS), recordings)
+    return FakeStore(np.concatenate(waves), np.concatenate(motions), travelled_mm(np.concatenate(motions)), 10.0, list(LABELS), recordings)
 
 
 @pytest.fixture(scope="module")

@@ -17,7 +17,7 @@ from haptoflow_training.export.trained_tier import TrainedTier, load_tiers
 from haptoflow_training.models.rib_comb import PARTIALS
 from haptoflow_training.training.batches import SegmentBatch, SegmentBatches
 from haptoflow_training.training.config import BatchConfig, ModelConfig, RecipeConfig, SolverConfig
-from haptoflow_training.training.energy_distance import WINDOW_SAMPLES, energy_distance_loss, magnitudes, spectra
+from haptoflow_training.training.energy_distance import WINDOW_SAMPLES, energy_distance_loss, envelopes, powers_by_bin, spectra
 from haptoflow_training.training.losses import Losses
 from haptoflow_training.training.mean_flow import mean_flow_loss
 from haptoflow_training.training.reflow import ReflowPairs, reflow_loss
@@ -34,9 +34,9 @@ def _loss(recorded: torch.Tensor, past: torch.Tensor, drawn: tuple[torch.Tensor,
     return energy_distance_loss(
         heard[0],
         (heard[1], heard[2]),
-        torch.ones(len(past)),
         waves=None if own else (recorded, *drawn),
         lines=(nothing, nothing, nothing),
+        envelopes=tuple(envelopes(past, segment) for segment in (recorded, *drawn)),
     ).item()
 
 
@@ -46,7 +46,7 @@ def _energy(draw: Callable[[int], torch.Tensor]) -> float:
 
 @pytest.mark.parametrize("window", WINDOW_SAMPLES)
 def test_white_noise_has_mean_power_one_in_every_window(window: int) -> None:
-    power = magnitudes(_noise(400, 400, 5), window).square().mean(dim=(0, 1))
+    power = powers_by_bin(_noise(400, 400, 5), window).mean(dim=(0, 1))
     assert power[1:-1].mean().item() == pytest.approx(1.0, rel=0.05)
 
 
@@ -106,9 +106,42 @@ def test_a_mean_flow_learnt_from_two_points_jumps_to_them_in_one_step() -> None:
     assert made.std().item() == pytest.approx(1.5, abs=0.3), "the plain flow's one step would land on the mean, 0"
 
 
+def _blows(seed: int, rate: float) -> torch.Tensor:
+    """[256, 200] of noise power 1: even for rate 1, in a share `rate` of the samples for less."""
+    generator = torch.Generator().manual_seed(seed)
+    noise = torch.randn(256, 200, generator=generator)
+    return noise * (torch.rand(256, 200, generator=generator) < rate) / rate**0.5
+
+
+@pytest.mark.parametrize("rate", [0.01, 0.1, 0.4])
+def test_the_energy_distance_prefers_blows_as_rare_as_recorded_to_even_noise_of_the_same_power_and_to_rarer_ones(
+    rate: float,
+) -> None:
+    recorded, past = _blows(1, rate), torch.zeros(256, 200)
+
+    def loss(drawn_rate: float) -> float:
+        return _loss(recorded, past, (_blows(2, drawn_rate), _blows(3, drawn_rate)), own=True)
+
+    assert loss(rate) < loss(1.0) - 0.05
+    assert loss(rate) < loss(0.3 * rate) - 0.02
+
+
+def test_the_energy_distance_hears_a_modulation_that_the_spectrum_does_not() -> None:
+    time = torch.arange(400) / 2000.0
+    swing = (1.0 + torch.sin(2.0 * math.pi * 40.0 * time + 6.28 * torch.rand(256, 1))).expand(256, 400)
+
+    def swinging(seed: int) -> torch.Tensor:
+        return (swing * _noise(256, 400, seed))[:, 200:] / 1.5**0.5
+
+    past = (swing * _noise(256, 400, 9))[:, :200] / 1.5**0.5
+    even = [_noise(256, 200, seed) for seed in (5, 6)]
+    swung = _loss(swinging(1), past, (swinging(2), swinging(3)), own=True)
+    assert swung < _loss(swinging(1), past, (even[0], even[1]), own=True) - 0.02
+
+
 def test_reflow_is_least_for_the_field_that_joins_each_pair_straight() -> None:
     noise, target = _noise(32, 8, 1).unsqueeze(1), _noise(32, 8, 2).unsqueeze(1)
-    pairs = ReflowPairs(noise, target, noise, torch.zeros(32, dtype=torch.long), torch.zeros(32, 3))
+    pairs = ReflowPairs(noise, target, noise, torch.zeros(32, dtype=torch.long), torch.zeros(32, 3), torch.zeros(32, 2))
     generator = torch.Generator().manual_seed(0)
     assert reflow_loss(lambda state, time: target - noise, pairs, generator).item() < 1e-10
     assert reflow_loss(lambda state, time: torch.zeros_like(state), pairs, generator).item() > 1.0
@@ -142,9 +175,14 @@ def test_living_through_a_chain_appends_each_hop_of_what_was_generated() -> None
     label = torch.tensor([0, 1, 0])
     lived = losses.live_through(chain, label, "flow", torch.Generator().manual_seed(1))
     generator = torch.Generator().manual_seed(1)
-    first = losses.generate(chain.start, label, chain.motion[:, 0], "flow", generator)[:, :, : chain.hop_samples]
+
+    def hop(number: int, previous: torch.Tensor) -> torch.Tensor:
+        where = chain.motion[:, number], chain.position_mm[:, number]
+        return losses.generate(previous, label, *where, "flow", generator)[:, :, : chain.hop_samples]
+
+    first = hop(0, chain.start)
     kept = torch.cat([chain.start[:, :, chain.hop_samples :], first], dim=2)
-    second = losses.generate(kept, label, chain.motion[:, 1], "flow", generator)[:, :, : chain.hop_samples]
+    second = hop(1, kept)
     torch.testing.assert_close(lived, torch.cat([kept[:, :, chain.hop_samples :], second], dim=2))
 
 
@@ -166,7 +204,7 @@ def test_a_recipe_runs_through_its_phases_and_says_how_its_network_is_to_be_run(
     tier = TrainedTier(*load_trained(tmp_path))
     assert tier.kind == kind
     made = tier.generate(torch.randn(3, 1, 200), torch.zeros(3, 1, 200), torch.randn(3, 64), torch.rand(3, 3),
-                         tier.solver, tier.steps)  # fmt: skip
+                         torch.rand(3, 2), tier.solver, tier.steps)  # fmt: skip
     assert made.shape == (3, 1, 200) and torch.isfinite(made).all()
 
 

@@ -12,13 +12,13 @@ import torch
 from test_trainer import ALONE, _config
 from training_fixtures import make_store
 
-from haptoflow_training.models.label_embedding import LabelEmbedding, rib_frequencies_hz
-from haptoflow_training.models.rib_comb import GAINS, HARMONICS, PARTIALS, RibComb
+from haptoflow_training.models.label_embedding import LabelEmbedding, rib_frequencies_hz, rib_phase
+from haptoflow_training.models.rib_comb import GAINS, PARTIALS, RibComb
 from haptoflow_training.models.velocity_field import VelocityField
 from haptoflow_training.recordings.synthetic.carriers import FASTEST_MMPS, guided_ride
 from haptoflow_training.recordings.synthetic.contact import SIMULATION_RATE_HZ
 from haptoflow_training.training.config import ModelConfig, RecipeConfig
-from haptoflow_training.training.energy_distance import energy_distance_loss, spectra
+from haptoflow_training.training.energy_distance import energy_distance_loss, envelopes, spectra
 from haptoflow_training.training.trainer import Trainer, load_trained
 
 EMBEDDING = LabelEmbedding(64, [((0.4, 0.0),), ((0.8, 0.0), (0.0, 0.8)), ()])
@@ -45,20 +45,25 @@ def test_ribs_sound_at_speed_across_them_over_their_wavelength() -> None:
 
 
 def _comb(
-    noise: torch.Tensor, past: torch.Tensor, label: int, speed_mps: float, gains: torch.Tensor | None = None
+    past: torch.Tensor,
+    label: int,
+    speed_mps: float,
+    gains: torch.Tensor | None = None,
+    turns: tuple[float, float] = (0.0, 0.0),
 ) -> torch.Tensor:
-    """[B, 5, 200]: past carried on by both families of ribs, fresh by both, lines."""
-    count = noise.shape[0]
+    """[B, 5, 200]: past carried on by both families of ribs, pulses of both, lines."""
+    count = len(past)
     motion = torch.tensor([[speed_mps, 0.0, 1.0]] * count)
     embedding = EMBEDDING(torch.tensor([label] * count))
-    return RibComb()(noise, torch.flip(past, [2]), embedding, motion, torch.zeros(1, GAINS) if gains is None else gains)
+    phase = torch.tensor([turns] * count)
+    return RibComb()(torch.flip(past, [2]), embedding, motion, phase, torch.zeros(1, GAINS) if gains is None else gains)
 
 
 @pytest.mark.parametrize("speed_mps", [0.1, 0.237, 0.9])
 def test_the_comb_carries_a_tone_and_its_overtone_on_with_their_phases(speed_mps: float) -> None:
     fundamental = 400.0 * speed_mps
     tones = [f for f in (fundamental, 2.0 * fundamental) if f < 960.0]
-    combed = _comb(torch.randn(1, 1, 200), _wave(tones, -200, 0), 0, speed_mps)
+    combed = _comb(_wave(tones, -200, 0), 0, speed_mps)
     truth = _wave(tones, 0, 200)[0, 0]
     error = (combed[0, 0] - truth).square().mean().sqrt() / truth.square().mean().sqrt()
     assert error.item() < 0.25, "a ramp of 100 ms tells harmonics 20 Hz apart from their neighbours"
@@ -71,33 +76,61 @@ def _only(kind: int, partial: int) -> torch.Tensor:
     return gains.reshape(1, GAINS)
 
 
-def test_lines_are_past_fresh_and_noise_partial_by_partial_by_their_gains() -> None:
+def test_lines_are_the_past_s_and_the_surface_s_partial_by_partial_by_their_gains() -> None:
     fundamental = 200.0
-    noise = 0.3 * _wave([fundamental], 0, 200)
     past = _wave([fundamental, 2.0 * fundamental], -200, 0)
+    time = torch.arange(200) / 2000.0
+
+    def partial(order: int, turns: float, lag: float) -> torch.Tensor:
+        """cos of what the rib phase has become, lag radians behind."""
+        return torch.cos(2.0 * math.pi * order * (turns + fundamental * time) - lag).reshape(1, 1, -1)
+
     expected = {
         (0, 0): _wave([fundamental], 0, 200),
         (0, 1): _wave([2.0 * fundamental], 0, 200),
-        (1, 0): noise / 0.3,
-        (2, 0): noise,
-        (2, 1): torch.zeros(1, 1, 200),
+        (2, 0): partial(1, 0.3, 0.0),
+        (2, 2): partial(3, 0.3, 0.0),
+        (3, 1): partial(2, 0.3, 0.5 * math.pi),
     }
-    for (kind, partial), line in expected.items():
-        made = _comb(noise, past, 0, 0.5, _only(kind, partial))[:, 4:]
-        torch.testing.assert_close(made, line, rtol=0.0, atol=3e-2, msg=f"gain {kind} of partial {partial}")
-    every = _comb(noise, past, 0, 0.5, torch.tensor([[1.0] * PARTIALS + [0.0] * 3 * PARTIALS]))
+    for (kind, number), line in expected.items():
+        made = _comb(past, 0, 0.5, _only(kind, number), (0.3, 0.0))[:, 4:]
+        torch.testing.assert_close(made, line, rtol=0.0, atol=3e-2, msg=f"gain {kind} of partial {number}")
+    every = _comb(past, 0, 0.5, torch.tensor([[1.0] * PARTIALS + [0.0] * 3 * PARTIALS]))
     torch.testing.assert_close(every[:, 4], every[:, 0])
+
+
+def test_a_stroke_that_turns_back_meets_the_same_ribs_backwards() -> None:
+    gains = torch.randn(1, GAINS, generator=torch.Generator().manual_seed(4))
+    gains[:, : 2 * PARTIALS] = 0.0
+    against = gains.reshape(1, 4, PARTIALS).clone()
+    # Seen from the other side, what lagged behind is ahead.
+    against[:, 3] *= -1.0
+    silence = torch.zeros(1, 1, 200)
+    position_mm = 7.31
+    turn = rib_phase(EMBEDDING(torch.tensor([0])), torch.tensor([[position_mm, 0.0]]))[0, 0].item()
+    there = _comb(silence, 0, 0.2, gains, (turn, 0.0))[0, 4]
+    # The way back begins where the way there has come to with its last sample.
+    end = (turn + 0.4 * 200.0 * 199.0 / 2000.0) % 1.0
+    back = _comb(silence, 0, -0.2, against.reshape(1, GAINS), (end, 0.0))[0, 4]
+    torch.testing.assert_close(back, torch.flip(there, [0]), rtol=0.0, atol=2e-3)
+    assert there.square().mean() > 0.5
+
+
+def test_a_rib_phase_counts_ribs_from_position_zero_after_metres_as_after_millimetres() -> None:
+    mesh = EMBEDDING(torch.tensor([1, 1, 2]))
+    found = rib_phase(mesh, torch.tensor([[10.0, -1.0], [12000.25, 3.0], [4.0, 4.0]]))
+    torch.testing.assert_close(found, torch.tensor([[0.0, 0.2], [0.2, 0.4], [0.0, 0.0]]), rtol=0.0, atol=2e-3)
 
 
 def test_the_comb_s_waves_are_cosines_and_sines_of_every_harmonic_counted_from_the_seam() -> None:
     motion = torch.tensor([[0.11, 0.0, 1.0]])
-    waves, audible = RibComb().waves(EMBEDDING(torch.tensor([0])), motion)
+    waves, signed = RibComb().waves(EMBEDDING(torch.tensor([0])), motion)
     time = (torch.arange(200) + 0.5) / 2000.0
     for order in (1, 2, 7, 12):
         angle = 2.0 * math.pi * 44.0 * order * time
         both = torch.stack([angle.cos(), angle.sin()])
         torch.testing.assert_close(waves[0, 2 * order - 2 : 2 * order], both, rtol=0.0, atol=1e-4)
-    assert audible.reshape(2, HARMONICS).sum(dim=1).tolist() == [12.0, 0.0]
+    assert signed[0, :, 0].tolist() == pytest.approx([44.0, 0.0])
 
 
 def test_a_network_taught_nothing_adds_no_lines_and_one_with_unit_gains_carries_the_past_on() -> None:
@@ -105,7 +138,7 @@ def test_a_network_taught_nothing_adds_no_lines_and_one_with_unit_gains_carries_
     motion = torch.tensor([[0.5, 0.0, 1.0]])
     past = _wave([200.0], -200, 0)
     embedding = EMBEDDING(torch.tensor([0]))
-    arguments = (torch.zeros(1, 1, 200), torch.zeros(1, 1), past, embedding, motion)
+    arguments = (torch.zeros(1, 1, 200), torch.zeros(1, 1), past, embedding, motion, torch.zeros(1, 2))
     assert field(*arguments).abs().max().item() == 0.0
     assert field.line_gains is not None
     with torch.no_grad():
@@ -114,48 +147,47 @@ def test_a_network_taught_nothing_adds_no_lines_and_one_with_unit_gains_carries_
 
 
 def test_a_line_that_has_grown_beyond_all_power_there_is_is_carried_on_no_larger_than_that() -> None:
-    lines = _comb(torch.zeros(1, 1, 200), 5.0 * _wave([200.0], -200, 0), 0, 0.5, _only(0, 0))[:, 4]
+    lines = _comb(5.0 * _wave([200.0], -200, 0), 0, 0.5, _only(0, 0))[:, 4]
     assert lines.abs().max().item() == pytest.approx(1.5, abs=0.02)
 
 
 @pytest.mark.parametrize("size", [0.05, 1.0, 3.0])
 def test_a_held_line_goes_on_in_phase_at_its_own_amplitude_however_loud_the_past_was(size: float) -> None:
-    lines = _comb(torch.zeros(1, 1, 200), size * _wave([200.0], -200, 0), 0, 0.5, 0.4 * _only(3, 0))[:, 4]
+    lines = _comb(size * _wave([200.0], -200, 0), 0, 0.5, 0.4 * _only(1, 0))[:, 4]
     torch.testing.assert_close(lines, 0.4 * _wave([200.0], 0, 200)[:, 0], rtol=0.0, atol=0.02)
 
 
-def test_fresh_partials_have_unit_size_and_a_phase_of_the_noise() -> None:
-    combed = _comb(torch.randn(2, 1, 200), torch.zeros(2, 1, 200), 0, 0.5)
-    below_960_hz = 4
-    power = combed[:, 2].square().mean(dim=1)
-    torch.testing.assert_close(power, torch.full((2,), below_960_hz / 2.0), rtol=0.15, atol=0.0)
-    assert (combed[0, 2] - combed[1, 2]).abs().max().item() > 0.5
-    assert combed[:, 0].abs().max().item() == 0.0, "silence before leaves nothing to carry on"
+def test_pulses_pass_as_often_as_ribs_do_and_silence_before_leaves_nothing_to_carry_on() -> None:
+    combed = _comb(torch.zeros(1, 1, 200), 0, 0.1, turns=(0.5, 0.0))
+    peaks = [
+        place
+        for place in range(2, 198)
+        if combed[0, 2, place] > 2.0 and combed[0, 2, place] == combed[0, 2, place - 2 : place + 3].max()
+    ]
+    # 0.4 ribs a millimetre at 100 mm/s: every 50 samples one, the first half a rib away.
+    assert peaks == [25, 75, 125, 175]
+    assert combed[:, 0].abs().max().item() == 0.0
+    assert combed[:, 3].abs().max().item() == 0.0, "a second family of ribs that is not there"
 
 
 @pytest.mark.parametrize(
-    ("label", "speed_mps"), [(2, 0.5), (0, 0.0), (0, 0.02), (0, 20.0)], ids=["no ribs", "rest", "crawling", "too fast"]
+    ("label", "speed_mps"), [(2, 0.5), (0, 0.0), (0, 20.0)], ids=["no ribs", "rest", "too fast"]
 )
 def test_where_no_rib_can_sound_the_comb_is_silent_and_finite(label: int, speed_mps: float) -> None:
-    combed = _comb(torch.randn(1, 1, 200), torch.randn(1, 1, 200), label, speed_mps, torch.ones(1, GAINS))
+    combed = _comb(torch.randn(1, 1, 200), label, speed_mps, torch.ones(1, GAINS))
     assert combed.abs().max().item() == 0.0
 
 
-def _seen_from_its_past(shift_of_past: float, shift_of_segment: float) -> torch.Tensor:
-    comb = RibComb()
-    waves, audible = comb.waves(EMBEDDING(torch.tensor([0])), torch.tensor([[0.5, 0.0, 1.0]]))
-    time = torch.arange(-199, 201) / 2000.0
-    past, segment = (
-        torch.cos(2.0 * math.pi * 200.0 * time + shift).reshape(1, 1, -1) for shift in (shift_of_past, shift_of_segment)
-    )
-    return comb.coherence(waves, audible, torch.flip(past[:, :, :200], [2]), segment[:, :, 200:])[0, :, 0]
-
-
-def test_a_line_that_holds_its_phase_is_seen_in_phase_whatever_the_phase_is_and_one_that_turned_is_not() -> None:
-    for phase in (0.0, 1.0, 4.0):
-        torch.testing.assert_close(_seen_from_its_past(phase, phase), torch.tensor([1.0, 0.0]), rtol=0.0, atol=0.02)
-        turned = _seen_from_its_past(phase, phase + 0.5 * math.pi)
-        torch.testing.assert_close(turned.abs(), torch.tensor([0.0, 1.0]), rtol=0.0, atol=0.02)
+def test_a_segment_s_partials_are_told_as_the_surface_sees_them_wherever_the_tip_is() -> None:
+    comb, embedding, motion = RibComb(), EMBEDDING(torch.tensor([0])), torch.tensor([[0.5, 0.0, 1.0]])
+    for turns in (0.0, 0.21, 0.8):
+        phase = 2.0 * math.pi * (turns + 200.0 * torch.arange(200) / 2000.0)
+        segments = torch.stack([phase.cos(), phase.sin(), (2.0 * phase).cos()]).unsqueeze(0)
+        seen, told_apart = comb.profile(embedding, motion, torch.tensor([[turns, 0.0]]), segments)
+        expected = torch.zeros(3, 2, PARTIALS)
+        expected[0, 0, 0] = expected[1, 1, 0] = expected[2, 0, 1] = 1.0
+        torch.testing.assert_close(seen[0], expected, rtol=0.0, atol=0.02)
+        assert told_apart[0].nonzero().flatten().tolist() == [0, 1, 2, 3]
 
 
 def test_the_energy_distance_prefers_draws_that_hold_the_recording_s_phase_over_draws_that_do_not() -> None:
@@ -173,7 +205,10 @@ def test_the_energy_distance_prefers_draws_that_hold_the_recording_s_phase_over_
     def loss(first: torch.Tensor, second: torch.Tensor, *, own_past: bool) -> float:
         waves = None if own_past else (recorded, *draws)
         lines = (holds, first, second)
-        return energy_distance_loss(heard[0], (heard[1], heard[2]), torch.ones(64), waves=waves, lines=lines).item()
+        shapes = tuple(envelopes(past, wave) for wave in (recorded, *draws))
+        return energy_distance_loss(
+            heard[0], (heard[1], heard[2]), waves=waves, lines=lines, envelopes=shapes
+        ).item()
 
     for own_past in (False, True):
         assert loss(turned[0], turned[1], own_past=own_past) > loss(holds, holds, own_past=own_past) + 0.5

@@ -123,10 +123,11 @@ def test_a_rival_without_ribs_has_no_lines_and_one_with_them_is_silent_there_unt
     torch.manual_seed(2)
     with_ribs = build_baseline("autoregressive", ribs=True)
     assert build_baseline("autoregressive").comb is None and with_ribs.comb is not None
-    inputs = _condition(4, speed_mps=0.4)
-    silent = torch.zeros(4, 1, 200)
     assert with_ribs.lines is not None
-    assert with_ribs.lines(silent + 1.0, *inputs).abs().max().item() == 0.0
+    past = torch.randn(4, 1, 200)
+    lines, rest = with_ribs.lines(past, *_condition(4, speed_mps=0.4))
+    assert lines.abs().max().item() == 0.0
+    assert torch.equal(rest, past)
 
 
 def _condition(count: int, speed_mps: float) -> tuple[Tensor, Tensor, Tensor]:

@@ -23,9 +23,15 @@ class FakeRecording:
 class FakeStore:
     waveform: NDArray[np.float32]
     motion: NDArray[np.float32]
+    position_mm: NDArray[np.float32]
     peak_mps2: float
     labels: list[str]
     recordings: list[FakeRecording]
+
+
+def travelled_mm(motion: NDArray[np.floating]) -> NDArray[np.float32]:
+    """Where a tip that starts at 0 is, [n, 2], from its motion [n, 3] in m/s."""
+    return (1000.0 / RATE_HZ * np.cumsum(motion[:, :2], axis=0, dtype=np.float64)).astype(np.float32)
 
 
 def make_store(*, seconds: float = 4.0, recordings_per_split: int = 2, seed: int = 3) -> FakeStore:
@@ -53,6 +59,7 @@ def make_store(*, seconds: float = 4.0, recordings_per_split: int = 2, seed: int
     return FakeStore(
         (np.concatenate(waves) / peak).astype(np.float32),
         np.concatenate(motions).astype(np.float32),
+        np.concatenate([travelled_mm(motion) for motion in motions]),
         peak,
         ["tone", "noise"],
         recordings,

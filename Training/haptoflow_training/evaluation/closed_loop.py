@@ -20,7 +20,9 @@ _Floats = NDArray[np.float32]
 class SegmentSource(Protocol):
     """What makes segments [n, 200] in m/s^2: the engine, or a reference row of the evaluation."""
 
-    def generate(self, embeddings: _Floats, motions: _Floats, previous_mps2: _Floats, noise: _Floats) -> _Floats: ...
+    def generate(
+        self, embeddings: _Floats, motions: _Floats, previous_mps2: _Floats, noise: _Floats, rib_phase: _Floats
+    ) -> _Floats: ...
 
 
 @dataclass(frozen=True)
@@ -65,7 +67,7 @@ def run_closed_loop(
     """Render `motions` [n, samples, 3] for `embeddings` [n, 64], from silence.
 
     Each segment is told the mean motion of the hop before it, which is all that a tracker can know, and takes over
-    by the engine's splice.
+    by the engine's splice. The rib phase is counted from these motions, as the engine counts it.
     """
     rows, samples, _ = motions.shape
     # Before the wave's beginning lies silence, long enough to be the first segment's past.
@@ -73,12 +75,18 @@ def run_closed_loop(
     wave = out[:, SEGMENT_SAMPLES:]
     starts = hop_positions(samples, update_rate_hz)
     generator = np.random.default_rng(seed)
+    wave_vectors = embeddings[:, -4:].astype(np.float64).reshape(rows, 2, 2)
+    phase = np.zeros((rows, 2))
+    told = np.zeros((rows, 3), dtype=np.float32)
     before = 0
     for start in starts:
+        travelled_mm = told[:, :2].astype(np.float64) * (1000.0 * (start - before) / SAMPLE_RATE_HZ)
+        phase = np.mod(phase + np.einsum("rkc,rc->rk", wave_vectors, travelled_mm), 1.0)
         known = motions[:, before:start] if start > before else motions[:, :1]
         past = out[:, start : start + SEGMENT_SAMPLES].copy()
         noise = generator.standard_normal((rows, SEGMENT_SAMPLES)).astype(np.float32)
-        segment = source.generate(embeddings, known.mean(axis=1).astype(np.float32), past, noise)
+        told = known.mean(axis=1).astype(np.float32)
+        segment = source.generate(embeddings, told, past, noise, phase.astype(np.float32))
         if start > 0:
             segment = spliced(wave[:, start : start + SEGMENT_SAMPLES], segment)
         wave[:, start : start + SEGMENT_SAMPLES] = segment

@@ -105,7 +105,9 @@ class TierSource:
         self.embeddings: _Floats = tier.model.embedding.weight.detach().numpy()
 
     @torch.no_grad()
-    def generate(self, embeddings: _Floats, motions: _Floats, previous_mps2: _Floats, noise: _Floats) -> _Floats:
+    def generate(
+        self, embeddings: _Floats, motions: _Floats, previous_mps2: _Floats, noise: _Floats, rib_phase: _Floats
+    ) -> _Floats:
         """Segments [n, 200] in m/s^2, as SegmentSource."""
         model, tier = self._tier.model, self._tier
         embedding, motion = torch.from_numpy(embeddings), torch.from_numpy(motions)
@@ -113,6 +115,8 @@ class TierSource:
         previous = model.representation.encode(scaled_previous(torch.from_numpy(previous_mps2).unsqueeze(1), log_level))
         # A latent's noise has a shape of its own.
         drawn = torch.randn(previous.shape) if model.representation.is_latent else torch.from_numpy(noise).unsqueeze(1)
-        made = tier.generate(drawn, previous, embedding, motion, tier.solver, tier.steps)
+        made = tier.generate(
+            drawn, previous, embedding, motion, torch.from_numpy(rib_phase), tier.solver, tier.steps
+        )
         segments: _Floats = (model.representation.decode(made) * log_level.exp().unsqueeze(-1)).squeeze(1).numpy()
         return segments

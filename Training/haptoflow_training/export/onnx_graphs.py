@@ -47,8 +47,11 @@ class _OneStep(nn.Module):
         super().__init__()
         self.model = model
 
-    def forward(self, noisy: Tensor, previous: Tensor, embedding: Tensor, motion: Tensor) -> Tensor:
-        return self.model.one_step(noisy, previous, embedding, motion)
+    def forward(
+        self, noisy: Tensor, previous: Tensor, embedding: Tensor, motion: Tensor, rib_phase: Tensor | None = None
+    ) -> Tensor:
+        phase = noisy.new_zeros(()) if rib_phase is None else rib_phase
+        return self.model.one_step(noisy, previous, embedding, motion, phase)
 
 
 class _AverageVelocity(nn.Module):
@@ -59,9 +62,16 @@ class _AverageVelocity(nn.Module):
         self.field = field
 
     def forward(
-        self, noisy: Tensor, time: Tensor, interval: Tensor, previous: Tensor, embedding: Tensor, motion: Tensor
+        self,
+        noisy: Tensor,
+        time: Tensor,
+        interval: Tensor,
+        previous: Tensor,
+        embedding: Tensor,
+        motion: Tensor,
+        rib_phase: Tensor | None = None,
     ) -> Tensor:
-        return self.field(noisy, time, previous, embedding, motion, interval)
+        return self.field(noisy, time, previous, embedding, motion, rib_phase, interval)
 
 
 def _export_baseline(baseline: Baseline) -> bytes:
@@ -72,7 +82,7 @@ def _export_baseline(baseline: Baseline) -> bytes:
         "previous": wave.clone(),
         "embedding": torch.zeros(2, EMBEDDING_SIZE),
         "motion": torch.full((2, 3), 0.1),
-        "rib_phase": torch.zeros(2, 2),
+        "rib_phase": torch.full((2, 2), 0.25),
     }
     return _export(BaselineGraph(baseline), {name: examples[name] for name in baseline.inputs}, "segment")
 
@@ -92,6 +102,8 @@ def export_network(model: HaptoFlowModel, kind: str) -> bytes:
         "embedding": torch.zeros(batch, EMBEDDING_SIZE),
         "motion": torch.full((batch, 3), 0.1),
     }
+    if field.comb is not None:
+        conditions["rib_phase"] = torch.full((batch, 2), 0.25)
     if kind == "flow":
         return _export(field, {"noisy": wave, "time": moment, **conditions}, "velocity")
     if kind == "average-velocity":

@@ -8,6 +8,7 @@ from typing import Any
 import torch
 
 from haptoflow_training.export.trained_tier import TrainedTier
+from haptoflow_training.models.label_embedding import rib_phase
 from haptoflow_training.models.unit_scale import scaled_previous
 from haptoflow_training.training.batches import SegmentBatch
 from haptoflow_training.training.run_log import write_json
@@ -31,11 +32,12 @@ def write_parity(
         kind, steps = _SOLVERS[tier.kind][row // len(tiers) % len(_SOLVERS[tier.kind])]
         embedding = tier.model.embedding(batch.label[row : row + 1])
         motion, previous = batch.motion[row : row + 1], batch.previous[row : row + 1]
+        phase = rib_phase(embedding, batch.position_mm[row : row + 1])
         log_level = tier.model.level(embedding, motion)
         scaled = scaled_previous(previous, log_level)
         noise = torch.randn(1, 1, 200, generator=generator)
         start, interval = torch.zeros(1, 1), torch.full((1, 1), 1.0 / steps)
-        segment = tier.generate(noise, scaled, embedding, motion, kind, steps) * torch.exp(log_level).unsqueeze(-1)
+        segment = tier.generate(noise, scaled, embedding, motion, phase, kind, steps) * torch.exp(log_level).unsqueeze(-1)
         cases.append(
             {
                 "tier": tier.name,
@@ -43,10 +45,13 @@ def write_parity(
                 "steps": steps,
                 "embedding": embedding.flatten().tolist(),
                 "motion": motion.flatten().tolist(),
+                "rib_phase": phase.flatten().tolist(),
                 "previous": previous.flatten().tolist(),
                 "noise": noise.flatten().tolist(),
                 "log_level": log_level.item(),
-                "field_at_start": tier.evaluate(noise, start, interval, scaled, embedding, motion).flatten().tolist(),
+                "field_at_start": tier.evaluate(noise, start, interval, scaled, embedding, motion, phase)
+                .flatten()
+                .tolist(),
                 "segment": segment.flatten().tolist(),
             }
         )

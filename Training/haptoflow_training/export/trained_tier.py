@@ -47,23 +47,35 @@ class TrainedTier:
         return 1 if self.kind == "direct" else self.config.solver.steps
 
     def evaluate(
-        self, noisy: Tensor, time: Tensor, interval: Tensor, previous: Tensor, embedding: Tensor, motion: Tensor
+        self,
+        noisy: Tensor,
+        time: Tensor,
+        interval: Tensor,
+        previous: Tensor,
+        embedding: Tensor,
+        motion: Tensor,
+        rib_phase: Tensor,
     ) -> Tensor:
         """What the exported graph returns: the velocity, or the segment of a direct tier."""
-        if isinstance(self.model.field, Baseline):
-            return self.model.one_step(noisy, previous, embedding, motion)
         if self.kind == "direct":
-            return self.model.one_step(noisy, previous, embedding, motion)
-        return self.model.field(noisy, time, previous, embedding, motion, interval)
+            return self.model.one_step(noisy, previous, embedding, motion, rib_phase)
+        return self.model.field(noisy, time, previous, embedding, motion, rib_phase, interval)
 
     def generate(
-        self, noise: Tensor, previous: Tensor, embedding: Tensor, motion: Tensor, solver: str, steps: int
+        self,
+        noise: Tensor,
+        previous: Tensor,
+        embedding: Tensor,
+        motion: Tensor,
+        rib_phase: Tensor,
+        solver: str,
+        steps: int,
     ) -> Tensor:
         """A segment in unit scale [B, 1, 200] from noise, as the engine makes it."""
 
         def field(noisy: Tensor, time: Tensor) -> Tensor:
             interval = torch.full_like(time, 1.0 / steps)
-            return self.evaluate(noisy, time, interval, previous, embedding, motion)
+            return self.evaluate(noisy, time, interval, previous, embedding, motion, rib_phase)
 
         if self.kind == "direct":
             return field(noise, torch.zeros(noise.shape[0], 1))

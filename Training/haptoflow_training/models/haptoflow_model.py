@@ -33,11 +33,15 @@ class HaptoFlowModel(nn.Module):
         self.field = field
         self.band_limit = BandLimit()
 
-    def one_step(self, noise: Tensor, previous: Tensor, embedding: Tensor, motion: Tensor) -> Tensor:
-        """The segment [B, 1, 200] that a network taught to be whole in one step makes; all in unit scale."""
+    def one_step(
+        self, noise: Tensor, previous: Tensor, embedding: Tensor, motion: Tensor, rib_phase: Tensor
+    ) -> Tensor:
+        """The segment [B, 1, 200] that a network taught to be whole in one step makes; all in unit scale. rib_phase
+        [B, 2] in turns, at the segment's first sample."""
         if isinstance(self.field, Baseline):
-            return self.field(noise, previous, embedding, motion, torch.zeros(1, 2))
-        return self.band_limit(previous, noise + self.field(noise, torch.zeros(1, 1), previous, embedding, motion))
+            return self.field(noise, previous, embedding, motion, rib_phase)
+        change = self.field(noise, torch.zeros(1, 1), previous, embedding, motion, rib_phase)
+        return self.band_limit(previous, noise + change)
 
     def log_level(self, label: Tensor, motion: Tensor) -> Tensor:
         """[B, 1]: natural logarithm of the RMS in m/s^2 expected for label [B] and motion [B, 3]."""

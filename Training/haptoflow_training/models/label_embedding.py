@@ -39,8 +39,21 @@ class LabelEmbedding(nn.Module):
         return torch.cat([self.learnt(label), self.wave_numbers[label]], dim=1)
 
 
-def rib_frequencies_hz(embedding: Tensor, motion: Tensor) -> Tensor:
-    """[B, 2, 1]: |k . v| of both wave vectors for embedding [B, 64] and motion [B, 3] (m/s)."""
+def signed_rib_frequencies_hz(embedding: Tensor, motion: Tensor) -> Tensor:
+    """[B, 2, 1]: k . v of both wave vectors for embedding [B, 64] and motion [B, 3] (m/s); below zero against them."""
     vectors = embedding[:, -WAVE_NUMBERS:].reshape(-1, WAVE_VECTORS, 2)
     velocity_mmps = 1000.0 * motion[:, 0:2].unsqueeze(2)
-    return (vectors @ velocity_mmps).abs()
+    return vectors @ velocity_mmps
+
+
+def rib_frequencies_hz(embedding: Tensor, motion: Tensor) -> Tensor:
+    """[B, 2, 1]: |k . v| of both wave vectors for embedding [B, 64] and motion [B, 3] (m/s)."""
+    return signed_rib_frequencies_hz(embedding, motion).abs()
+
+
+def rib_phase(embedding: Tensor, position_mm: Tensor) -> Tensor:
+    """[B, 2]: the rib phase k . x of both wave vectors in turns, wrapped to [0, 1), at position_mm [B, 2] (doubles: a
+    stroke of metres crosses thousands of ribs)."""
+    vectors = embedding[:, -WAVE_NUMBERS:].detach().double().reshape(-1, WAVE_VECTORS, 2)
+    turns = (vectors @ position_mm.double().unsqueeze(2)).squeeze(2)
+    return (turns - turns.floor()).to(embedding.dtype)

@@ -1,7 +1,9 @@
-"""What the ribs of a surface would do next: the past's own harmonics carried on, and the same comb of fresh noise.
+"""What the ribs of a surface would do next: the past's own harmonics carried on, and those of the place on the surface.
 
-A network of local convolutions cannot carry a phase over a hundred milliseconds at any pitch; projecting the past on
-the harmonics of the known rib frequency can, exactly, and leaves to the network how much of it to keep.
+A network of local convolutions cannot carry a phase over a hundred milliseconds at any pitch. Projecting the past on the
+harmonics of the known rib frequency can, exactly; and the rib phase, which the engine counts from the travelled distance,
+says where on its profile the tip is, so that all harmonics keep their places to each other for as long as a stroke lasts.
+How much of either a surface needs is learnt: machined ribs follow the phase, woven threads wander from it.
 """
 
 from __future__ import annotations
@@ -11,27 +13,32 @@ import math
 import torch
 from torch import Tensor, nn
 
-from haptoflow_training.models.label_embedding import WAVE_VECTORS, rib_frequencies_hz
+from haptoflow_training.models.label_embedding import WAVE_VECTORS, signed_rib_frequencies_hz
 
 SAMPLE_RATE_HZ = 2000.0
 # A pulse train at a crawl has its power far above the fundamental.
-HARMONICS = 12
+HARMONICS = 14
 PARTIALS = WAVE_VECTORS * HARMONICS
-COMB_CHANNELS = 2 * WAVE_VECTORS
-# Of each partial: carried on, fresh, as it stands in the noise, and carried on at an amplitude of its own.
+COMB_CHANNELS = 2 * WAVE_VECTORS + 1
+# Of each partial: the past's carried on, carried on at an amplitude of its own, and two of the surface's: in phase with
+# the rib phase and a quarter turn behind it.
 GAINS = 4 * PARTIALS
 # In unit scale a line of all the power there is has an amplitude of 1.4: one that has grown beyond is not carried on as
 # it is, so that a line whose gain is a little above 1 in the loop cannot run away.
 _LARGEST_AMPLITUDE = 1.5
-# Below this fundamental the past holds less than a period; above the other, a harmonic leaves the band.
-_LOWEST_FUNDAMENTAL_HZ, _HIGHEST_HZ = 9.0, 960.0
+# The past holds a partial where it holds nearly a period of the fundamental; the surface has one wherever the tip moves.
+_LOWEST_IN_PAST_HZ, _LOWEST_HZ, _HIGHEST_HZ = 9.0, 0.5, 960.0
+# Below, the partials of one segment cannot be told from each other.
+_LOWEST_TOLD_APART_HZ = 5.0
+# Partials of unit size that stand in phase make pulses 14 times as high as one of them.
+_PULSE_SCALE = 0.3
 _SMALL = 1e-5
 # How many samples follow a place whose sine is computed.
 _STRIDE = 20
 
 
 class RibComb(nn.Module):
-    """Hears noise and past, and tells what the ribs of label and motion make of them.
+    """Hears past and rib phase, and tells what the ribs of label and motion make of them.
 
     Partials are the harmonics of both wave vectors, one family after the other; each has a cosine and a sine, counted
     from the middle between past and segment.
@@ -40,8 +47,11 @@ class RibComb(nn.Module):
     turn: Tensor
     phase: Tensor
     weights: Tensor
-    backwards: Tensor
+    even: Tensor
+    mirror: Tensor
     order: Tensor
+    turns: Tensor
+    quarters: Tensor
     families: Tensor
 
     def __init__(self, samples: int = 200) -> None:
@@ -69,65 +79,80 @@ class RibComb(nn.Module):
         self.register_buffer("phase", phase.reshape(1, 1, -1), persistent=False)
         # The newest past counts most: a hand that speeds up has left the older pitch behind.
         newest_first = torch.linspace(1.0, 0.05, samples)
-        weights = torch.stack([newest_first / newest_first.sum(), torch.full((samples,), 1.0 / samples)])
-        self.register_buffer("weights", 2.0 * weights.unsqueeze(0), persistent=False)
+        self.register_buffer("weights", (2.0 * newest_first / newest_first.sum()).reshape(1, 1, -1), persistent=False)
+        self.register_buffer("even", torch.full((1, 1, samples), 2.0 / samples), persistent=False)
         # Time runs backwards in the mirrored past: cosines are the same, sines change their sign.
-        backwards = torch.tensor([[1.0, -1.0], [1.0, 1.0]])
-        self.register_buffer("backwards", backwards.reshape(1, 2, 1, 2), persistent=False)
+        self.register_buffer("mirror", torch.tensor([[[1.0, -1.0]]]), persistent=False)
         order = torch.arange(1, HARMONICS + 1, dtype=torch.float32)
         self.register_buffer("order", order.reshape(1, 1, HARMONICS), persistent=False)
+        self.register_buffer("turns", 2.0 * math.pi * order.reshape(1, 1, HARMONICS), persistent=False)
+        self.register_buffer("quarters", torch.tensor([quarter, 0.0]).reshape(1, 1, 2), persistent=False)
         families = torch.eye(WAVE_VECTORS).repeat_interleave(HARMONICS, dim=1)
-        rows = torch.cat([families, families, torch.ones(1, PARTIALS)])
-        self.register_buffer("families", rows.reshape(1, COMB_CHANNELS + 1, PARTIALS, 1), persistent=False)
+        rows = torch.cat([families, _PULSE_SCALE * families, torch.ones(1, PARTIALS)])
+        self.register_buffer("families", rows.reshape(1, COMB_CHANNELS, PARTIALS, 1), persistent=False)
 
     def waves(self, embedding: Tensor, motion: Tensor) -> tuple[Tensor, Tensor]:
-        """Cosine and sine of each partial at one motion, [B, 48, N]; and [B, 1, 24, 1], 1 where a partial can sound
-        and be told apart, else 0. embedding [B, 64], motion [B, 3]; no gradient: wave vectors are not learnt."""
-        fundamental = rib_frequencies_hz(embedding.detach(), motion)
-        frequency = fundamental * self.order
-        told_apart = (fundamental > _LOWEST_FUNDAMENTAL_HZ) & (frequency < _HIGHEST_HZ)
-        audible = told_apart.to(motion.dtype).reshape(-1, 1, PARTIALS, 1)
+        """Cosine and sine of each partial at one motion, [B, 56, N]; and the signed fundamentals [B, 2, 1] in Hz.
+        embedding [B, 64], motion [B, 3]; no gradient: wave vectors are not learnt."""
+        signed = signed_rib_frequencies_hz(embedding.detach(), motion)
+        frequency = signed.abs() * self.order
         sines = torch.sin(frequency.reshape(-1, PARTIALS, 1) * self.turn + self.phase)
         places, within = sines.split([4 * self.samples // _STRIDE, 2 * _STRIDE], dim=2)
         places = places.reshape(-1, PARTIALS, 2 * self.samples // _STRIDE, 2)
         waves = _thin_product(places, within.reshape(-1, PARTIALS, 2, _STRIDE))
-        return waves.reshape(-1, 2 * PARTIALS, self.samples), audible
+        return waves.reshape(-1, 2 * PARTIALS, self.samples), signed
 
-    def amplitudes(self, waves: Tensor, audible: Tensor, mirrored: Tensor, segment: Tensor) -> Tensor:
-        """[B, 2, 24, 2], cosine and sine: what every partial of the past would be if it went on, then what it is in the
-        segment. mirrored [B, 1, N]: the past, newest first; segment [B, 1, N]."""
-        projected = torch.cat([mirrored, segment], dim=1) * self.weights @ waves.transpose(1, 2)
-        return projected.reshape(-1, 2, PARTIALS, 2) * (audible * self.backwards)
+    def audible(self, signed_hz: Tensor, lowest_hz: float) -> Tensor:
+        """[B, 28, 1], 1 where a partial can sound and its fundamental is above lowest_hz, else 0."""
+        fundamental = signed_hz.abs()
+        inside = (fundamental > lowest_hz) & (fundamental * self.order < _HIGHEST_HZ)
+        return inside.to(signed_hz.dtype).reshape(-1, PARTIALS, 1)
 
-    def coherence(self, waves: Tensor, audible: Tensor, mirrored: Tensor, segment: Tensor) -> Tensor:
-        """A segment's amplitudes seen from its past's: [B, 2, 24], what goes on in phase and what a quarter turn off.
+    def surface(self, signed_hz: Tensor, rib_phase: Tensor) -> Tensor:
+        """[B, 28, 2]: cosine and sine of each partial's phase at the middle between past and segment, from the rib phase
+        [B, 2] in turns at the segment's first sample, counted the way in which the tip moves."""
+        ahead = torch.sign(signed_hz) * rib_phase.unsqueeze(2) - signed_hz.abs() * (0.5 / SAMPLE_RATE_HZ)
+        return torch.sin((ahead * self.turns).reshape(-1, PARTIALS, 1) + self.quarters)
 
-        What is comparable between two segments that follow different pasts. Zero where the past has no such partial.
+    def profile(self, embedding: Tensor, motion: Tensor, rib_phase: Tensor, segments: Tensor) -> tuple[Tensor, Tensor]:
+        """The partials of S segments [B, S, N] as the surface sees them: [B, S, 2, 28], in phase with the rib phase and a
+        quarter turn behind; and which of them can be told apart, [B, 28]."""
+        waves, signed = self.waves(embedding, motion)
+        told_apart = self.audible(signed, _LOWEST_TOLD_APART_HZ).squeeze(2)
+        amplitudes = (segments * self.even @ waves.transpose(1, 2)).reshape(len(waves), -1, PARTIALS, 2)
+        cosine, sine = (amplitudes * told_apart.reshape(-1, 1, PARTIALS, 1)).unbind(dim=3)
+        ahead, behind = self.surface(signed, rib_phase).unsqueeze(1).unbind(dim=3)
+        in_phase = cosine * ahead - sine * behind
+        return torch.stack([in_phase, cosine * behind + sine * ahead], dim=2), told_apart
+
+    def forward(self, mirrored: Tensor, embedding: Tensor, motion: Tensor, rib_phase: Tensor, gains: Tensor) -> Tensor:
+        """[B, 5, N]: four channels and the lines, from the mirrored past [B, 1, N], rib phase [B, 2] and gains [B, 112].
+
+        Channels: for each wave vector the past carried on, then pulses, one for each rib that passes. Lines: the sum of
+        all partials: the past's carried on (no larger than all the power there is) and of unit size with the phase of
+        the past, then the surface's in phase and a quarter turn behind, by gains in that order.
         """
-        past, own = self.amplitudes(waves, audible, mirrored, segment).unbind(dim=1)
-        past_cosine, past_sine = (past / (past.norm(p=2, dim=2, keepdim=True) + _SMALL)).unbind(dim=2)
-        cosine, sine = own.unbind(dim=2)
-        in_phase = cosine * past_cosine + sine * past_sine
-        return torch.stack([in_phase, cosine * past_sine - sine * past_cosine], dim=1)
+        waves, signed = self.waves(embedding, motion)
+        carried, pulses, lines = self.partials(waves, signed, mirrored, rib_phase, gains)
+        rows = torch.stack([carried, carried, pulses, pulses, lines], dim=1) * self.families
+        return rows.reshape(-1, COMB_CHANNELS, 2 * PARTIALS) @ waves
 
-    def forward(self, noisy: Tensor, mirrored: Tensor, embedding: Tensor, motion: Tensor, gains: Tensor) -> Tensor:
-        """[B, 5, N]: channels for the network, then lines, from noise and mirrored past [B, 1, N].
-
-        Channels: for each wave vector the past carried on, then noise of unit partials with a phase of its own, which
-        is what a touch-down from silence starts from. Lines: the sum of all partials, carried on (no larger than all
-        the power there is), fresh, as they stand in the noise, and of unit size with the phase of the past, by gains
-        [B, 96] in that order. The last holds a line's level in the loop, where the first alone would let it fade.
-        """
-        waves, audible = self.waves(embedding, motion)
-        pairs = self.amplitudes(waves, audible, mirrored, noisy)
-        carried, own = pairs.split(1, dim=1)
-        carried_size, own_size = (pairs.norm(p=2, dim=3, keepdim=True) + _SMALL).split(1, dim=1)
-        fresh = own / own_size
-        kept, drawn, left, held = gains.reshape(-1, 4, PARTIALS, 1).split(1, dim=1)
-        bounded = kept * torch.clamp(_LARGEST_AMPLITUDE / carried_size, max=1.0)
-        lines = carried * (bounded + held / carried_size) + fresh * drawn + own * left
-        rows = torch.cat([carried, carried, fresh, fresh, lines], dim=1) * self.families
-        return rows.reshape(-1, COMB_CHANNELS + 1, 2 * PARTIALS) @ waves
+    def partials(
+        self, waves: Tensor, signed_hz: Tensor, mirrored: Tensor, rib_phase: Tensor, gains: Tensor
+    ) -> tuple[Tensor, Tensor, Tensor]:
+        """Cosine and sine of every partial [B, 28, 2] of the past carried on, of the pulses and of the lines."""
+        told = self.audible(signed_hz, _LOWEST_IN_PAST_HZ) * self.mirror
+        carried = (mirrored * self.weights @ waves.transpose(1, 2)).reshape(-1, PARTIALS, 2) * told
+        size = carried.norm(p=2, dim=2, keepdim=True) + _SMALL
+        surface = self.surface(signed_hz, rib_phase)
+        kept, held, in_phase, behind = gains.reshape(-1, 4, PARTIALS, 1).unbind(dim=1)
+        bounded = kept * torch.clamp(_LARGEST_AMPLITUDE / size, max=1.0)
+        ahead, aside = surface.split(1, dim=2)
+        # A partial p cos(P + a) + q sin(P + a), with P the surface's phase: cosine p cos P + q sin P, sine q cos P - p sin P.
+        turned = torch.cat([in_phase * ahead + behind * aside, behind * ahead - in_phase * aside], dim=2)
+        sounding = self.audible(signed_hz, _LOWEST_HZ)
+        lines = carried * (bounded + held / size) + turned * sounding
+        return carried, torch.cat([ahead, -aside], dim=2) * sounding, lines
 
 
 def _thin_product(left: Tensor, right: Tensor) -> Tensor:

@@ -13,6 +13,8 @@ from torch import Tensor, nn
 
 from haptoflow_training.models.conditioning import EMBEDDING_SIZE, MotionEncoder, TimeEncoder
 from haptoflow_training.models.rib_comb import COMB_CHANNELS, GAINS, RibComb
+from haptoflow_training.models.rung_impulses import GAINS as IMPULSE_GAINS
+from haptoflow_training.models.rung_impulses import RungImpulses
 
 _CONDITION_SIZE = 96
 
@@ -24,6 +26,14 @@ def _unit_length(features: Tensor) -> Tensor:
 
 def _convolution(inputs: int, outputs: int, width: int, stride: int = 1) -> nn.Conv2d:
     return nn.Conv2d(inputs, outputs, (1, width), stride=(1, stride), padding=(0, width // 2))
+
+
+def _silent(outputs: int) -> nn.Linear:
+    """Gains of the condition that begin at zero."""
+    layer = nn.Linear(_CONDITION_SIZE, outputs)
+    nn.init.zeros_(layer.weight)
+    nn.init.zeros_(layer.bias)
+    return layer
 
 
 class PositionMixer(nn.Module):
@@ -67,7 +77,8 @@ class VelocityField(nn.Module):
     (200); time: [B, 1], or [1, 1] for all; embedding: [B, 64]; motion: [B, 3]. Returns [B, C, N]. N must divide by `patch`.
     Without `hears_previous`, the previous waveform has no effect. With `average`, the field is the average velocity
     over [t, t + interval] (MeanFlow) and takes interval [B, 1]. With `ribs` (raw samples only), it hears what the ribs
-    of a ruled surface would do next. levels: 2 for a U-net, whose second level has half the positions; 1 for its first
+    of a ruled surface would do next, from the past and from rib_phase [B, 2] in turns. With `impulses` (raw samples
+    only), rare events come from the tails of the noise. levels: 2 for a U-net, whose second level has half the positions; 1 for its first
     block alone, at less than half the time.
     """
 
@@ -85,6 +96,7 @@ class VelocityField(nn.Module):
         average: bool = False,
         hears_previous: bool = True,
         ribs: bool = False,
+        impulses: bool = False,
         levels: int = 2,
     ) -> None:
         super().__init__()
@@ -105,7 +117,8 @@ class VelocityField(nn.Module):
         self.interval = TimeEncoder() if average else None
         self.motion = MotionEncoder()
         self.comb = RibComb(positions) if ribs else None
-        heard = channels + (COMB_CHANNELS if ribs else 0)
+        self.impulses = RungImpulses(positions) if impulses else None
+        heard = channels + (COMB_CHANNELS if ribs else 0) + (1 if impulses else 0)
         self.enter = nn.Conv2d(heard, width, (1, patch), stride=(1, patch))
         self.previous_fine = nn.Conv2d(
             channels, previous_width, (1, 3 * patch), stride=(1, patch), padding=(0, patch)
@@ -136,10 +149,8 @@ class VelocityField(nn.Module):
         self.register_buffer("film_factors", torch.tensor(factors).repeat_interleave(repeats), persistent=False)
         with torch.no_grad():
             self.film.bias += torch.tensor([1.0, 0.0] * len(blocks)).repeat_interleave(repeats)
-        self.line_gains = nn.Linear(_CONDITION_SIZE, GAINS) if ribs else None
-        if self.line_gains is not None:
-            nn.init.zeros_(self.line_gains.weight)
-            nn.init.zeros_(self.line_gains.bias)
+        self.line_gains = _silent(GAINS) if ribs else None
+        self.impulse_gains = _silent(IMPULSE_GAINS) if impulses else None
 
     def forward(
         self,
@@ -148,6 +159,7 @@ class VelocityField(nn.Module):
         previous: Tensor,
         embedding: Tensor,
         motion: Tensor,
+        rib_phase: Tensor | None = None,
         interval: Tensor | None = None,
     ) -> Tensor:
         moment = self.time(time)
@@ -166,19 +178,27 @@ class VelocityField(nn.Module):
         mirrored = previous[:, :, self.newest_first]
         past = self.previous_fine(mirrored.unsqueeze(2))
 
-        heard, lines = noisy, None
+        heard, added = [noisy], []
         if self.comb is not None and self.line_gains is not None:
-            combed = self.comb(noisy, mirrored, embedding, motion, self.line_gains(condition))
-            channels, lines = combed.split([COMB_CHANNELS, 1], dim=1)
-            heard = torch.cat([noisy, channels], dim=1)
-        entered = self.enter(heard.unsqueeze(2))
+            if rib_phase is None:
+                raise ValueError("a field with ribs needs the rib phase")
+            combed = self.comb(mirrored, embedding, motion, rib_phase, self.line_gains(condition))
+            heard.append(combed)
+            added.append(combed[:, -1:])
+        if self.impulses is not None and self.impulse_gains is not None:
+            struck = self.impulses(noisy, self.impulse_gains(condition))
+            heard.append(struck)
+            added.append(struck)
+        entered = self.enter(torch.cat(heard, dim=1).unsqueeze(2))
         fine = self.fine_down(torch.cat([entered, past], dim=1), film_parts[0], film_parts[1])
         if self.levels == 2:
             past_coarse = self.previous_coarse(nn.functional.silu(past))
             coarse = self.coarse(torch.cat([self.down(fine), past_coarse], dim=1), film_parts[2], film_parts[3])
             fine = self.fine_up(torch.cat([self.up(coarse), fine], dim=1), film_parts[4], film_parts[5])
         made = self._leave(fine)
-        return made if lines is None else made + lines
+        for waves in added:
+            made = made + waves
+        return made
 
     def _condition(self, told: Tensor, moment: Tensor) -> Tensor:
         """A moment that is the same for all counts as a constant of the layer: a node less."""

@@ -1,4 +1,4 @@
-"""Velocity and force on the grid of the waveform, from sensors with clocks of their own."""
+"""Velocity, position and force on the grid of the waveform, from sensors with clocks of their own."""
 
 from __future__ import annotations
 
@@ -22,13 +22,9 @@ def velocity_mps(
     The slope of a cubic fitted to a window of samples (Savitzky-Golay): constant speed and constant
     acceleration pass without bias, position steps of 0.1 mm are averaged. Beyond its ends the stylus rests.
     """
-    step = float(np.median(np.diff(time_seconds)))
-    count = max(2, 1 + round((time_seconds[-1] - time_seconds[0]) / step))
-    uniform = np.linspace(time_seconds[0], time_seconds[-1], count)
-    positions = np.column_stack(
-        [np.interp(uniform, time_seconds, axis) for axis in np.asarray(position_mm).T]
-    )
+    uniform, positions = _uniform(time_seconds, position_mm)
     step = float(uniform[1] - uniform[0])
+    count = len(uniform)
     window = max(5, 2 * round(window_seconds / step / 2) + 1)
     resting = np.pad(positions, ((window // 2, window // 2), (0, 0)), mode="edge")
     slopes = signal.savgol_filter(resting, window, 3, deriv=1, delta=step, axis=0)[
@@ -38,6 +34,26 @@ def velocity_mps(
     if count < 4:
         return np.column_stack([np.interp(clamped, uniform, axis) for axis in slopes.T]) / 1000.0
     return CubicSpline(uniform, slopes, axis=0)(clamped) / 1000.0
+
+
+def position_mm_on_grid(
+    time_seconds: NDArray[np.float64], position_mm: NDArray[np.floating], grid_seconds: NDArray[np.float64]
+) -> NDArray[np.float64]:
+    """Positions [k, 2] in mm at `time_seconds` -> [n, 2] in mm at `grid_seconds` (clamped at the ends): a cubic spline
+    through what was read."""
+    uniform, positions = _uniform(time_seconds, position_mm)
+    clamped = np.clip(grid_seconds, uniform[0], uniform[-1])
+    return np.asarray(CubicSpline(uniform, positions, axis=0)(clamped))
+
+
+def _uniform(
+    time_seconds: NDArray[np.float64], position_mm: NDArray[np.floating]
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Times [m] at the readings' median distance, and the positions [m, 2] in mm at them."""
+    step = float(np.median(np.diff(time_seconds)))
+    count = max(2, 1 + round((time_seconds[-1] - time_seconds[0]) / step))
+    uniform = np.linspace(time_seconds[0], time_seconds[-1], count)
+    return uniform, np.column_stack([np.interp(uniform, time_seconds, axis) for axis in np.asarray(position_mm).T])
 
 
 def force_newtons(

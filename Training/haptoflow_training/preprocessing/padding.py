@@ -72,10 +72,12 @@ def _pad_front(
     else:
         motion[:fade, 2] *= gain
     return PreparedRecording(
-        np.concatenate([np.zeros(samples, dtype=np.float32), waveform]), np.concatenate([silence, motion])
+        np.concatenate([np.zeros(samples, dtype=np.float32), waveform]),
+        np.concatenate([silence, motion]),
+        np.concatenate([np.repeat(prepared.position_mm[:1], samples, axis=0), prepared.position_mm]),
     )
 
 
 def _reversed(prepared: PreparedRecording) -> PreparedRecording:
     waveform: NDArray[np.float32] = prepared.waveform_mps2[::-1]
-    return PreparedRecording(waveform, prepared.motion[::-1])
+    return PreparedRecording(waveform, prepared.motion[::-1], prepared.position_mm[::-1])

@@ -19,12 +19,13 @@ _CONTEXT_SECONDS = 0.2
 
 @dataclass(frozen=True)
 class PreparedRecording:
-    """waveform_mps2: [n] float32, m/s^2. motion: [n, 3] float32: vx, vy in m/s, force in N. All finite, n
-    > 0.
+    """waveform_mps2: [n] float32, m/s^2. motion: [n, 3] float32: vx, vy in m/s, force in N. position_mm: [n, 2] float32:
+    where the tip is on the surface. All finite, n > 0.
     """
 
     waveform_mps2: NDArray[np.float32]
     motion: NDArray[np.float32]
+    position_mm: NDArray[np.float32]
 
 
 def preprocess_recording(recording: Recording, settings: PreprocessingSettings) -> PreparedRecording:
@@ -49,6 +50,7 @@ def preprocess_recording(recording: Recording, settings: PreprocessingSettings) 
     velocity = motion.velocity_mps(
         recording.position_time_seconds, recording.position_mm, grid, settings.velocity_window_seconds
     )
+    position = motion.position_mm_on_grid(recording.position_time_seconds, recording.position_mm, grid)
     force = motion.force_newtons(
         recording.force_time_seconds, recording.force_newtons, grid, settings.force_low_pass_hz
     )
@@ -56,6 +58,7 @@ def preprocess_recording(recording: Recording, settings: PreprocessingSettings) 
     return PreparedRecording(
         waveform[middle].astype(np.float32),
         np.column_stack([velocity, force])[middle].astype(np.float32),
+        position[middle].astype(np.float32),
     )
 
 

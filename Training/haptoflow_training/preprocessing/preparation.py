@@ -7,6 +7,7 @@ import shutil
 from collections import deque
 from collections.abc import Iterable, Iterator
 from concurrent.futures import Future, ProcessPoolExecutor
+from contextlib import ExitStack
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, BinaryIO, Protocol
@@ -162,15 +163,16 @@ def _append_all(
     stored: list[StoredRecording] = []
     skipped: list[SkippedRecording] = []
     start = 0
-    waveform_path, motion_path = folder / store_module.WAVEFORM_FILE, folder / store_module.MOTION_FILE
-    with waveform_path.open("wb") as waveform_file, motion_path.open("wb") as motion_file:
+    with ExitStack() as opened:
+        files = [opened.enter_context((folder / name).open("wb")) for name in store_module.ARRAY_FILES]
         for item in prepared:
             if item.padded is None:
                 skipped.append(SkippedRecording(item.identity.name, item.problem or ""))
                 continue
-            length = len(item.padded.prepared.waveform_mps2)
-            _append(waveform_file, item.padded.prepared.waveform_mps2)
-            _append(motion_file, item.padded.prepared.motion)
+            whole = item.padded.prepared
+            length = len(whole.waveform_mps2)
+            for file, values in zip(files, (whole.waveform_mps2, whole.motion, whole.position_mm), strict=True):
+                _append(file, values)
             identity = item.identity
             stored.append(
                 StoredRecording(
@@ -216,7 +218,7 @@ def _rescale(path: Path, peak_mps2: float) -> None:
 
 
 def _is_store_or_empty(out: Path) -> bool:
-    ours = {store_module.STORE_FILE, store_module.WAVEFORM_FILE, store_module.MOTION_FILE}
+    ours = {store_module.STORE_FILE, *store_module.ARRAY_FILES}
     return out.is_dir() and {entry.name for entry in out.iterdir()} <= ours
 
 

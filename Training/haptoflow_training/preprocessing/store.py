@@ -1,7 +1,7 @@
-"""The store of prepared recordings: `store.json` beside two raw little-endian arrays, opened without copying.
+"""The store of prepared recordings: `store.json` beside three raw little-endian arrays, opened without copying.
 
 `waveform.f32` [total] holds m/s^2 divided by `peak_mps2`; `motion.f32` [total, 3] holds vx, vy in m/s and
-force in N. `store.json` is written last: a folder without it is unfinished.
+force in N; `position.f32` [total, 2] holds the place on the surface in mm. `store.json` is written last: a folder without it is unfinished.
 """
 
 from __future__ import annotations
@@ -20,10 +20,12 @@ from haptoflow_training.preprocessing.settings import PreprocessingSettings
 from haptoflow_training.preprocessing.split import Split
 from haptoflow_training.recordings.recording import Protocol
 
-STORE_VERSION = 1
+STORE_VERSION = 2
 STORE_FILE = "store.json"
 WAVEFORM_FILE = "waveform.f32"
 MOTION_FILE = "motion.f32"
+POSITION_FILE = "position.f32"
+ARRAY_FILES = (WAVEFORM_FILE, MOTION_FILE, POSITION_FILE)
 STORED_FLOAT = np.dtype("<f4")
 
 
@@ -68,11 +70,13 @@ class SkippedRecording:
 @dataclass(frozen=True)
 class SegmentStore:
     """waveform: [total] float32, unit scale (not clipped: a fifth of the recordings peaks above 1).
-    motion: [total, 3] float32: vx, vy in m/s, force in N. Both are read-only memory maps, safe to share."""
+    motion: [total, 3] float32: vx, vy in m/s, force in N. position_mm: [total, 2] float32: the place on the surface.
+    All are read-only memory maps, safe to share."""
 
     path: Path
     waveform: NDArray[np.float32]
     motion: NDArray[np.float32]
+    position_mm: NDArray[np.float32]
     labels: list[str]
     recordings: list[StoredRecording]
     skipped: list[SkippedRecording]
@@ -114,6 +118,7 @@ class SegmentStore:
                 path=root,
                 waveform=_map(root / WAVEFORM_FILE, (total,)),
                 motion=_map(root / MOTION_FILE, (total, 3)),
+                position_mm=_map(root / POSITION_FILE, (total, 2)),
                 labels=list(header["labels"]),
                 recordings=recordings,
                 skipped=skipped,
@@ -156,7 +161,7 @@ def write_header(
 def _read_header(root: Path) -> dict[str, Any]:
     header_path = root / STORE_FILE
     if not header_path.is_file():
-        if (root / WAVEFORM_FILE).exists() or (root / MOTION_FILE).exists():
+        if any((root / name).exists() for name in ARRAY_FILES):
             raise InputError(f"{root}: an unfinished store ({STORE_FILE} is missing); run prepare again")
         raise InputError(f"{root}: not a store; expected a folder with {STORE_FILE}, made by prepare")
     try:

@@ -33,10 +33,11 @@ class StoredRecording(Protocol):
 
 
 class Store(Protocol):
-    """The memory-mapped store of `prepare`: waveform [n] in units of peak_mps2, motion [n, 3]."""
+    """The memory-mapped store of `prepare`: waveform [n] in units of peak_mps2, motion [n, 3], position_mm [n, 2]."""
 
     waveform: NDArray[np.float32]
     motion: NDArray[np.float32]
+    position_mm: NDArray[np.float32]
     peak_mps2: float
     labels: list[str]
     recordings: list[StoredRecording]
@@ -47,11 +48,12 @@ class Chain:
     """What came before a batch's previous waveform, for the network to live through on its own output.
 
     start [B, 1, 200]: the waveform before the first hop, m/s^2. motion [B, K, 3]: the condition of each hop.
-    hop_samples: samples that each hop appends.
+    position_mm [B, K, 2]: where each hop begins. hop_samples: samples that each hop appends.
     """
 
     start: Tensor
     motion: Tensor
+    position_mm: Tensor
     hop_samples: int
 
 
@@ -59,7 +61,8 @@ class Chain:
 class SegmentBatch:
     """waveforms in m/s^2: previous [B, 1, 200], segment [B, 1, 200]; label [B]; motion [B, 3]: the condition.
 
-    motion_path [B, 11, 3]: the motion at evenly spaced samples of the segment, its ends included.
+    position_mm [B, 2]: where the segment begins. motion_path [B, 11, 3]: the motion at evenly spaced samples of the
+    segment, its ends included.
     level_motion [B, 3] and level_mean_square_mps2 [B, 1]: a 50 ms window for the level model.
     """
 
@@ -67,6 +70,7 @@ class SegmentBatch:
     segment: Tensor
     label: Tensor
     motion: Tensor
+    position_mm: Tensor
     motion_path: Tensor
     level_motion: Tensor
     level_mean_square_mps2: Tensor
@@ -167,6 +171,7 @@ class SegmentBatches:
         chain = Chain(
             start=torch.from_numpy(start).unsqueeze(1),
             motion=torch.from_numpy(motion.astype(np.float32)),
+            position_mm=torch.from_numpy(self._store.position_mm[windows[:, SEGMENT_SAMPLES::hop][:, :hops]]),
             hop_samples=hop,
         )
         return dataclasses.replace(batch, chain=chain)
@@ -204,6 +209,7 @@ class SegmentBatches:
             segment=torch.from_numpy(waves[:, SEGMENT_SAMPLES:].copy()).unsqueeze(1),
             label=torch.from_numpy(self._labels[recordings]),
             motion=torch.from_numpy(motion.astype(np.float32)),
+            position_mm=torch.from_numpy(self._store.position_mm[split_point]),
             motion_path=torch.from_numpy(motions[:, _KNOTS].astype(np.float32)),
             level_motion=torch.from_numpy(level_motion.astype(np.float32)),
             level_mean_square_mps2=torch.from_numpy(

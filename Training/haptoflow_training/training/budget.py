@@ -18,10 +18,19 @@ class Budget:
         self._last = time.process_time()
 
     @classmethod
-    def shared_out(cls, seconds: float, steps: Sequence[int], seconds_per_step: Sequence[float]) -> Budget:
-        """`seconds` for phases of these steps: each is lengthened or shortened by the same factor."""
+    def shared_out(
+        cls, seconds: float, steps: Sequence[int], seconds_per_step: Sequence[float], *, kept: Sequence[bool]
+    ) -> Budget:
+        """`seconds` for phases of these steps. Those that are `kept` get the time that their steps take, as long as that
+        is half of all at most; the others share what is left, each lengthened or shortened by the same factor."""
         wanted = [count * each for count, each in zip(steps, seconds_per_step, strict=True)]
-        return cls([seconds * part / sum(wanted) for part in wanted])
+        fixed = sum(part for part, is_kept in zip(wanted, kept, strict=True) if is_kept)
+        scaled = sum(wanted) - fixed
+        if not scaled:
+            return cls([seconds * part / fixed for part in wanted])
+        share = min(1.0, 0.5 * seconds / fixed) if fixed else 1.0
+        rest = (seconds - share * fixed) / scaled
+        return cls([part * (share if is_kept else rest) for part, is_kept in zip(wanted, kept, strict=True)])
 
     def start(self) -> None:
         """Leave out of account what the process has done until now."""

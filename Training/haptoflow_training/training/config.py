@@ -42,13 +42,15 @@ class ModelConfig:
     """What is trained. architecture: `unet` (the velocity field, `width` to `levels`) or one of the baselines.
 
     ribs: the field hears what the ribs of ruled surfaces would do next, and a baseline has their lines added (raw samples
-    only). sampled: a baseline that regresses by itself (transformer, dstn, spsi) draws its segment.
+    only). impulses: it strikes rare events from the tails of its noise (raw samples only). sampled: a baseline that
+    regresses by itself (transformer, dstn, spsi) draws its segment.
     `representation` is handed to `build_representation`. hears_previous: false leaves the previous waveform out; level:
     `law` or `constant` (one level for everything): both to show what they are worth.
     """
 
     architecture: str = "unet"
     ribs: bool = False
+    impulses: bool = False
     sampled: bool = False
     hears_previous: bool = True
     level: str = "law"
@@ -64,8 +66,8 @@ class OptimiserConfig:
     """AdamW with warm-up, cosine decay over each phase's second half, gradient clipping and a moving average.
 
     budget_seconds: what the whole run may take of one core, in seconds of its own computing time, so that a machine that
-    does other work meanwhile takes nothing from it. All phases are lengthened or shortened by the same factor, and end by
-    the clock; 0 for phases of exactly the stated steps.
+    does other work meanwhile takes nothing from it. The level's phases keep about their steps, the network's are
+    lengthened or shortened by one factor, and all end by the clock; 0 for phases of exactly the stated steps.
     """
 
     budget_seconds: float = 0.0

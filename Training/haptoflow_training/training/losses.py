@@ -8,17 +8,17 @@ import torch
 from torch import Tensor, nn
 
 from haptoflow_training.models.haptoflow_model import HaptoFlowModel
-from haptoflow_training.models.label_embedding import rib_frequencies_hz
+from haptoflow_training.models.label_embedding import rib_frequencies_hz, rib_phase
 from haptoflow_training.models.level_model import level_loss
 from haptoflow_training.models.rib_comb import PARTIALS
 from haptoflow_training.models.unit_scale import scaled_previous
 from haptoflow_training.training.batches import Chain, SegmentBatch
 from haptoflow_training.training.config import SolverConfig
-from haptoflow_training.training.energy_distance import energy_distance_loss, spectra
+from haptoflow_training.training.energy_distance import energy_distance_loss, envelopes, spectra
 from haptoflow_training.training.flow_matching import flow_matching_loss, solve
 from haptoflow_training.training.mean_flow import AverageField, mean_flow_loss
 from haptoflow_training.training.reflow import ReflowPairs, reflow_loss
-from haptoflow_training.training.spectral_balance import SpectralBalance, spectral_features
+from haptoflow_training.training.label_balance import LabelBalance, label_features
 
 # `own`: what a baseline is trained for by its own form.
 Objective = Literal["level", "flow", "average-velocity", "reflow", "energy", "own"]
@@ -39,7 +39,7 @@ class Losses(nn.Module):
         solver: SolverConfig,
         *,
         train_level: bool = True,
-        balance: SpectralBalance | None = None,
+        balance: LabelBalance | None = None,
     ) -> None:
         super().__init__()
         self.model = model
@@ -70,9 +70,10 @@ class Losses(nn.Module):
 
     def _reflow_loss(self, pairs: ReflowPairs, generator: torch.Generator) -> Tensor:
         embedding = self.model.embedding(pairs.label)
+        phase = rib_phase(embedding, pairs.position_mm)
 
         def field(noisy: Tensor, time: Tensor) -> Tensor:
-            return self.model.field(noisy, time, pairs.previous, embedding, pairs.motion)
+            return self.model.field(noisy, time, pairs.previous, embedding, pairs.motion, phase)
 
         return reflow_loss(field, pairs, generator)
 
@@ -91,29 +92,32 @@ class Losses(nn.Module):
         # outweigh a hundred ordinary segments.
         power = segment.square().mean(dim=(1, 2)).clamp(min=1.0)
         encoded_previous = model.representation.encode(previous)
+        phase = rib_phase(embedding, batch.position_mm)
 
         def bound(rows: slice) -> AverageField:
             def field(noisy: Tensor, time: Tensor, interval: Tensor) -> Tensor:
                 return model.field(
-                    noisy, time, encoded_previous[rows], embedding[rows], batch.motion[rows], interval
+                    noisy, time, encoded_previous[rows], embedding[rows], batch.motion[rows], phase[rows], interval
                 )
 
             return field
 
         def field(noisy: Tensor, time: Tensor) -> Tensor:
-            return model.field(noisy, time, encoded_previous, embedding, batch.motion)
+            return model.field(noisy, time, encoded_previous, embedding, batch.motion, phase)
 
         if objective == "own":
-            own = model.field.loss(segment, encoded_previous, embedding, batch.motion, torch.zeros(1, 2), generator)
+            own = model.field.loss(segment, encoded_previous, embedding, batch.motion, phase, generator)
             return (own / power).sum() / power.reciprocal().sum()
         if objective == "flow":
             return flow_matching_loss(field, segment, generator, 1.0 / power)
         if objective == "average-velocity":
             return mean_flow_loss(bound, segment, generator, 1.0 / power)
-        noises = [torch.randn(segment.shape, generator=generator) for _ in range(2)]
-        first, second = (model.one_step(noise, previous, embedding, batch.motion) for noise in noises)
+        # Both draws in one pass: many small products cost less as few large ones.
+        noise = torch.randn(2 * len(segment), *segment.shape[1:], generator=generator)
+        condition = [torch.cat([part, part]) for part in (previous, embedding, batch.motion, phase)]
+        first, second = model.one_step(noise, *condition).chunk(2)
         recorded = (recorded_previous, segment)
-        return self._one_step_loss(batch, embedding, recorded, previous, (first, second), power.rsqrt())
+        return self._one_step_loss(batch, embedding, recorded, previous, (first, second), phase)
 
     def _one_step_loss(
         self,
@@ -122,46 +126,44 @@ class Losses(nn.Module):
         recorded: tuple[Tensor, Tensor],
         past: Tensor,
         drawn: tuple[Tensor, Tensor],
-        weight: Tensor,
+        phase: Tensor,
     ) -> Tensor:
-        """Of a recording (past and segment) and two draws that follow `past`, [B, 1, 200] each, in unit scale; weight
-        [B]."""
-        pasts, segments = (recorded[0], past, past), (recorded[1], *drawn)
-        heard = [spectra(*(wave.squeeze(1) for wave in pair)) for pair in zip(pasts, segments, strict=True)]
-        partials, audible = self._partials(batch, embedding, pasts, segments)
+        """Of a recording (past and segment) and two draws that follow `past`, [B, 1, 200] each, in unit scale; phase
+        [B, 2]: the rib phase. Every segment counts alike: a weight that knew of a recorded burst would ask for fewer."""
+        pasts = [wave.squeeze(1) for wave in (recorded[0], past, past)]
+        segments = [wave.squeeze(1) for wave in (recorded[1], *drawn)]
+        heard = [spectra(*pair) for pair in zip(pasts, segments, strict=True)]
+        partials, audible = self._partials(batch, embedding, (recorded[1], *drawn), phase)
         loss = energy_distance_loss(
             heard[0],
             (heard[1], heard[2]),
-            weight,
-            waves=None if batch.chain is not None else tuple(wave.squeeze(1) for wave in segments),
+            waves=None if batch.chain is not None else tuple(segments),
             lines=tuple(partials),
+            envelopes=tuple(envelopes(*pair) for pair in zip(pasts, segments, strict=True)),
         )
         if self._balance is None:
             return loss
         ribs_hz = rib_frequencies_hz(embedding.detach(), batch.motion).squeeze(2)
         features = [
-            spectral_features(spectrum, ribs_hz, partial, audible)
-            for spectrum, partial in zip(heard, partials, strict=True)
+            label_features(spectrum, ribs_hz, partial, audible, segment)
+            for spectrum, partial, segment in zip(heard, partials, segments, strict=True)
         ]
         speed_mps = batch.motion[:, 0:2].norm(dim=1)
-        balance = self._balance.loss(batch.label, speed_mps, features[0], (features[1], features[2]), weight)
+        balance = self._balance.loss(batch.label, speed_mps, features[0], (features[1], features[2]))
         return loss + _BALANCE_WEIGHT * balance
 
     def _partials(
-        self, batch: SegmentBatch, embedding: Tensor, pasts: tuple[Tensor, ...], segments: tuple[Tensor, ...]
+        self, batch: SegmentBatch, embedding: Tensor, segments: tuple[Tensor, ...], phase: Tensor
     ) -> tuple[list[Tensor], Tensor]:
-        """The partials [B, 2, P] of each segment, seen from its past, and which of them can sound, [B, P]: none for a
-        network without ribs."""
+        """The partials [B, 2, P] of each segment, seen from the rib phase, and which of them can be told apart, [B, P]:
+        none for a network without ribs."""
         comb = self.model.field.comb
         if comb is None:
             nothing = torch.zeros(len(batch.label), 2, PARTIALS)
             return [nothing] * len(segments), nothing[:, 0]
-        waves, audible = comb.waves(embedding, batch.motion)
-        partials = [
-            comb.coherence(waves, audible, torch.flip(past, dims=[2]), segment.reshape(-1, 1, comb.samples))
-            for past, segment in zip(pasts, segments, strict=True)
-        ]
-        return partials, audible.reshape(-1, PARTIALS)
+        profiles, told_apart = comb.profile(embedding, batch.motion, phase, torch.cat(segments, dim=1))
+        recorded, *drawn = profiles.unbind(dim=1)
+        return [recorded.detach(), *drawn], told_apart
 
     @torch.no_grad()
     def live_through(
@@ -170,30 +172,38 @@ class Losses(nn.Module):
         """The previous waveform [B, 1, 200] in m/s^2 that the network itself leaves after the chain's hops."""
         model, previous = self.model, chain.start
         for hop in range(chain.motion.shape[1]):
-            segment = self.generate(previous, label, chain.motion[:, hop], objective, generator)
+            where = chain.motion[:, hop], chain.position_mm[:, hop]
+            segment = self.generate(previous, label, *where, objective, generator)
             appended = segment[:, :, : chain.hop_samples]
             previous = torch.cat([previous[:, :, appended.shape[2] :], appended], dim=2)
         return previous
 
     @torch.no_grad()
     def generate(
-        self, previous_mps2: Tensor, label: Tensor, motion: Tensor, objective: Objective, generator: torch.Generator
+        self,
+        previous_mps2: Tensor,
+        label: Tensor,
+        motion: Tensor,
+        position_mm: Tensor,
+        objective: Objective,
+        generator: torch.Generator,
     ) -> Tensor:
         """One segment [B, 1, 200] in m/s^2, made as the objective's tier is run."""
         model = self.model
         embedding = model.embedding(label)
+        phase = rib_phase(embedding, position_mm)
         log_level = model.level(embedding, motion)
         previous = model.representation.encode(scaled_previous(previous_mps2, log_level))
         noise = torch.randn(label.shape[0], *model.representation.shape, generator=generator)
 
         def field(noisy: Tensor, time: Tensor) -> Tensor:
-            return model.field(noisy, time, previous, embedding, motion)
+            return model.field(noisy, time, previous, embedding, motion, phase)
 
         start = torch.zeros(label.shape[0], 1)
         if objective == "average-velocity":
-            made = noise + model.field(noise, start, previous, embedding, motion, torch.ones_like(start))
+            made = noise + model.field(noise, start, previous, embedding, motion, phase, torch.ones_like(start))
         elif objective in ("energy", "own"):
-            made = model.one_step(noise, previous, embedding, motion)
+            made = model.one_step(noise, previous, embedding, motion, phase)
         else:
             made = solve(field, noise, self._solver.kind, self._solver.steps)
         return model.representation.decode(made) * torch.exp(log_level).unsqueeze(-1)
@@ -208,9 +218,10 @@ class Losses(nn.Module):
         previous = scaled_previous(batch.previous, model.level(embedding, batch.motion))
         previous = model.representation.encode(previous)
         noise = torch.randn(batch.label.shape[0], *model.representation.shape, generator=generator)
+        phase = rib_phase(embedding, batch.position_mm)
 
         def field(noisy: Tensor, time: Tensor) -> Tensor:
-            return model.field(noisy, time, previous, embedding, batch.motion)
+            return model.field(noisy, time, previous, embedding, batch.motion, phase)
 
         return noise, solve(field, noise, "midpoint", 4), previous, batch
 

@@ -20,12 +20,18 @@ class ReflowPairs:
     previous: Tensor
     label: Tensor
     motion: Tensor
+    position_mm: Tensor
 
     def draw(self, count: int, generator: torch.Generator) -> ReflowPairs:
         """`count` pairs at random."""
         rows = torch.randint(self.noise.shape[0], (count,), generator=generator)
         return ReflowPairs(
-            self.noise[rows], self.target[rows], self.previous[rows], self.label[rows], self.motion[rows]
+            self.noise[rows],
+            self.target[rows],
+            self.previous[rows],
+            self.label[rows],
+            self.motion[rows],
+            self.position_mm[rows],
         )
 
 
@@ -37,6 +43,7 @@ def join_pairs(parts: list[tuple[Tensor, Tensor, Tensor, SegmentBatch]]) -> Refl
         torch.cat([part[2] for part in parts]),
         torch.cat([part[3].label for part in parts]),
         torch.cat([part[3].motion for part in parts]),
+        torch.cat([part[3].position_mm for part in parts]),
     )
 
 

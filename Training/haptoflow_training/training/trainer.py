@@ -37,7 +37,7 @@ from haptoflow_training.training.moving_average import MovingAverage
 from haptoflow_training.training.processes import Processes
 from haptoflow_training.training.reflow import ReflowPairs, join_pairs
 from haptoflow_training.training.run_log import MetricsLog, plot_metrics, source_commit, write_json
-from haptoflow_training.training.spectral_balance import SpectralBalance
+from haptoflow_training.training.label_balance import LabelBalance
 
 _COLUMNS = ("step", "phase", "field_loss", "level_loss", "validation_field_loss", "validation_level_loss", "seconds")
 _LOG_EVERY = 100
@@ -71,6 +71,7 @@ def build_model(config: TrainingConfig, wave_vectors: WaveVectors) -> HaptoFlowM
             average=config.recipe.objective == "average-velocity",
             hears_previous=shape.hears_previous,
             ribs=shape.ribs,
+            impulses=shape.impulses,
             levels=shape.levels,
         )
     else:
@@ -162,14 +163,14 @@ class Trainer:
             adopt_base(self.model, base, list(store.labels))
         if start is not None:
             adopt_start(self.model, start, list(store.labels))
-        self._balance = SpectralBalance(len(store.labels))
+        self._balance = LabelBalance(len(store.labels))
         self._losses = Losses(
             self.model, config.solver, train_level=not config.recipe.shares_base, balance=self._balance
         )
         self._pairs: ReflowPairs | None = None
         self._average = MovingAverage(self.model, optimiser.average_decay)
         self._optimiser = torch.optim.AdamW(
-            self.model.parameters(), lr=optimiser.learning_rate, weight_decay=optimiser.weight_decay
+            self.model.parameters(), lr=optimiser.learning_rate, weight_decay=optimiser.weight_decay, foreach=True
         )
         seed = config.seed * 1000 + processes.rank
         self._noise = torch.Generator().manual_seed(seed)
@@ -281,7 +282,10 @@ class Trainer:
             self._store, self._folder, self._processes, self._base, self._wave_vectors, self._start,
         )  # fmt: skip
         budget = Budget.shared_out(
-            config.optimiser.budget_seconds, self._planned_steps, [tried._seconds_per_step(p) for p in tried._phases]
+            config.optimiser.budget_seconds,
+            self._planned_steps,
+            [tried._seconds_per_step(phase) for phase in tried._phases],
+            kept=[phase.objective == "level" for phase in self._phases],
         )
         budget.start()
         return budget

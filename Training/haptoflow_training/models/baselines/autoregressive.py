@@ -139,14 +139,9 @@ class AutoregressiveBaseline(Baseline):
     def own_form(self, noisy: Tensor, previous: Tensor, embedding: Tensor, motion: Tensor) -> Tensor:
         coefficients, log_gain = self.process(embedding, motion)
         drive = noisy[:, 0] * log_gain.exp()
-        wave = self.filter(drive, coefficients, self._past(previous, embedding, motion))
+        wave = self.filter(drive, coefficients, previous[:, 0, -ORDER:])
         # A past that another filter made can swing a slow one far out; no network is shown more than this.
         return wave.clamp(-PREVIOUS_LIMIT, PREVIOUS_LIMIT).unsqueeze(1)
-
-    def _past(self, previous: Tensor, embedding: Tensor, motion: Tensor) -> Tensor:
-        """[B, 16]: the samples before the segment that the filter goes on from."""
-        rest = previous if self.lines is None else self.lines.rest_of_past(previous, embedding, motion)
-        return rest[:, 0, -ORDER:]
 
     def loss(
         self,
@@ -159,8 +154,8 @@ class AutoregressiveBaseline(Baseline):
     ) -> Tensor:
         """[B]: Gaussian negative log-likelihood per sample of the one-step prediction errors of what the ribs leave."""
         coefficients, log_gain = self.process(embedding, motion)
-        rest = self.rest(segment, previous, embedding, motion, rib_phase, generator)
-        wave = torch.cat([self._past(previous, embedding, motion), rest[:, 0]], dim=1)
+        rest, past = self.rest(segment, previous, embedding, motion, rib_phase)
+        wave = torch.cat([past[:, 0, -ORDER:], rest[:, 0]], dim=1)
         taps = torch.cat([torch.ones_like(log_gain), coefficients], dim=1)
         # Windows run forwards in time, the filter backwards.
         windows = wave.unfold(1, ORDER + 1, 1)

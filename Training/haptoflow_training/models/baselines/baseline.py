@@ -10,7 +10,7 @@ from haptoflow_training.models.rib_comb import RibComb
 
 SEGMENT_SAMPLES = 200
 INPUTS = ("noisy", "previous", "embedding", "motion", "rib_phase")
-RIB_INPUTS = ("noisy", "previous")
+RIB_INPUTS = ("previous", "rib_phase")
 
 
 class Baseline(nn.Module):
@@ -35,11 +35,13 @@ class Baseline(nn.Module):
     def forward(self, noisy: Tensor, previous: Tensor, embedding: Tensor, motion: Tensor, rib_phase: Tensor) -> Tensor:
         """Segment [B, 1, 200] from standard normal noise and previous waveform [B, 1, 200], embedding [B, 64],
         motion [B, 3] (vx, vy in m/s, force in N) and rib phase [B, 2] (turns)."""
-        made = self.own_form(noisy, previous, embedding, motion)
-        return made if self.lines is None else made + self.lines(noisy, previous, embedding, motion, rib_phase)
+        if self.lines is None:
+            return self.own_form(noisy, previous, embedding, motion)
+        lines, rest = self.lines(previous, embedding, motion, rib_phase)
+        return lines + self.own_form(noisy, rest, embedding, motion)
 
     def own_form(self, noisy: Tensor, previous: Tensor, embedding: Tensor, motion: Tensor) -> Tensor:
-        """[B, 1, 200]: what the rival makes in the form that was published, without the ribs' lines."""
+        """[B, 1, 200]: what the rival makes in the form that was published, from the past as the ribs' lines leave it."""
         raise NotImplementedError
 
     def loss(
@@ -55,19 +57,14 @@ class Baseline(nn.Module):
         raise NotImplementedError
 
     def rest(
-        self,
-        segment: Tensor,
-        previous: Tensor,
-        embedding: Tensor,
-        motion: Tensor,
-        rib_phase: Tensor,
-        generator: torch.Generator,
-    ) -> Tensor:
-        """[B, 1, 200]: a recorded segment less the ribs' lines: what the published form is fitted to."""
+        self, segment: Tensor, previous: Tensor, embedding: Tensor, motion: Tensor, rib_phase: Tensor
+    ) -> tuple[Tensor, Tensor]:
+        """What the ribs' lines leave of a recorded segment and of the past before it, [B, 1, 200] each: what the published
+        form is fitted to."""
         if self.lines is None:
-            return segment
-        noise = torch.randn(segment.shape, generator=generator)
-        return segment - self.lines(noise, previous, embedding, motion, rib_phase)
+            return segment, previous
+        lines, rest = self.lines(previous, embedding, motion, rib_phase)
+        return segment - lines, rest
 
 
 class RegressingBaseline(Baseline):

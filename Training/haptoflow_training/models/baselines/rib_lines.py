@@ -10,13 +10,15 @@ import torch
 from torch import Tensor, nn
 
 from haptoflow_training.models.baselines.condition import ConditionPerceptron
-from haptoflow_training.models.rib_comb import COMB_CHANNELS, GAINS, RibComb
+from haptoflow_training.models.rib_comb import GAINS, PARTIALS, RibComb
 
 _HIDDEN = 96
 
 
 class RibLines(nn.Module):
-    """Lines to add to a segment; silent until trained."""
+    """Lines in a segment and in the past before it; silent until trained."""
+
+    backwards: Tensor
 
     def __init__(self) -> None:
         super().__init__()
@@ -25,17 +27,14 @@ class RibLines(nn.Module):
         last = self.gains.layers[-1]
         nn.init.zeros_(last.weight)
         nn.init.zeros_(last.bias)
+        # Seen from the seam, the past runs backwards: cosines are the same, sines change their sign.
+        self.register_buffer("backwards", torch.tensor([[[1.0, -1.0]]]), persistent=False)
 
-    def forward(self, noisy: Tensor, previous: Tensor, embedding: Tensor, motion: Tensor, rib_phase: Tensor) -> Tensor:
-        """[B, 1, 200]: the lines of the segment, in unit scale."""
+    def forward(self, previous: Tensor, embedding: Tensor, motion: Tensor, rib_phase: Tensor) -> tuple[Tensor, Tensor]:
+        """The lines of the segment, and what they leave of the previous waveform, [B, 1, 200] each, in unit scale."""
         mirrored = torch.flip(previous, dims=[2])
-        return self.comb(noisy, mirrored, embedding, motion, self.gains(embedding, motion))[:, COMB_CHANNELS:]
-
-    def rest_of_past(self, previous: Tensor, embedding: Tensor, motion: Tensor) -> Tensor:
-        """[B, 1, 200]: the previous waveform without its partials, for a filter that must not ring on with them."""
-        mirrored = torch.flip(previous, dims=[2])
-        waves, audible = self.comb.waves(embedding, motion)
-        # Seen from the seam, the past's partials run backwards: cosines are the same, sines change their sign.
-        going_on = self.comb.amplitudes(waves, audible, mirrored, torch.zeros_like(previous))[:, :1]
-        partials = (going_on * going_on.new_tensor([1.0, -1.0])).reshape(-1, 1, waves.shape[1])
-        return previous - torch.flip(partials @ waves, dims=[2])
+        waves, signed_hz = self.comb.waves(embedding, motion)
+        gains = self.gains(embedding, motion)
+        lines = self.comb.partials(waves, signed_hz, mirrored, rib_phase, gains)[2]
+        rest = mirrored - (lines * self.backwards).reshape(-1, 1, 2 * PARTIALS) @ waves
+        return lines.reshape(-1, 1, 2 * PARTIALS) @ waves, torch.flip(rest, dims=[2])

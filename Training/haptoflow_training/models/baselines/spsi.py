@@ -127,6 +127,9 @@ class SpsiBaseline(Baseline):
         self.is_sampled = sampled
         self.inputs = reads("noisy", ribs=ribs)
         self.perceptron = ConditionPerceptron(BINS)
+        if sampled:
+            # White noise of unit scale: a likelihood that begins far below the recordings' power overshoots.
+            nn.init.constant_(self.perceptron.layers[-1].bias, 0.5 * math.log(float(hann_window().square().sum())))
         self.inversion = SinglePassInversion()
 
     def log_magnitudes(self, embedding: Tensor, motion: Tensor) -> Tensor:
@@ -149,10 +152,9 @@ class SpsiBaseline(Baseline):
         rib_phase: Tensor,
         generator: torch.Generator,
     ) -> Tensor:
-        rest = self.rest(segment, previous, embedding, motion, rib_phase, generator)
+        rest, _ = self.rest(segment, previous, embedding, motion, rib_phase)
         power = magnitude_spectrum(rest).square() + POWER_FLOOR
         stated = self.log_magnitudes(embedding, motion)
         if not self.is_sampled:
             return (stated - 0.5 * power.log()).square().mean(dim=1)
-        limited = stated.clamp(-LOG_MAGNITUDE_LIMIT, LOG_MAGNITUDE_LIMIT)
-        return (2.0 * limited + power * torch.exp(-2.0 * limited)).mean(dim=1)
+        return (2.0 * stated + power * torch.exp(-2.0 * stated)).mean(dim=1)

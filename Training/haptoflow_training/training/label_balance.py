@@ -1,10 +1,11 @@
-"""Mean spectra, label by label: what a network makes a little too loud or too quiet everywhere.
+"""Mean spectra and tails, label by label: what a network makes a little too much or too little of everywhere.
 
 The energy distance (energy_distance.py) compares single segments, whose spectra scatter by several decibels; that a
 resonance is a decibel too low over all of a label's segments hardly shows in it, but is most of what the averaged
 spectrum of a minute misses. Here magnitudes are averaged over some hundred segments of the same label and speed,
 recorded and drawn, and half the squared difference of the averages' logarithms is the loss. The averages are running
-ones; a batch's gradient is that of its own share in them.
+ones; a batch's gradient is that of its own share in them. Moments of the samples and of 5 ms frames stand beside the
+spectra: how rare and how large a material's blows are shows in no segment, only in hundreds.
 """
 
 from __future__ import annotations
@@ -16,10 +17,10 @@ import torch
 from torch import Tensor
 
 from haptoflow_training.models.rib_comb import PARTIALS
-from haptoflow_training.training.energy_distance import WINDOW_SAMPLES
+from haptoflow_training.training.energy_distance import WINDOW_SAMPLES, Spectra
 
 # Speeds are told apart at these borders: a resonance of the contact rises with speed.
-_SPEED_BORDERS_MPS = (0.1, 0.4)
+_SPEED_BORDERS_MPS = (0.03, 0.08, 0.2, 0.5)
 _SPEED_CLASSES = len(_SPEED_BORDERS_MPS) + 1
 # Segments of one label and speed that an average remembers, and those without which it says nothing.
 _MEMORY_SEGMENTS, _FEWEST_SEGMENTS = 80.0, 16.0
@@ -33,24 +34,40 @@ _LONG_BINS_HZ = torch.arange(201) * 5.0
 
 
 @dataclass(frozen=True)
-class SpectralFeatures:
-    """values and counted [B, K]: magnitudes by frequency, amplitudes of partials, and noise between a ruled surface's
-    lines by band; counted is 0 where a segment has no such thing."""
+class LabelFeatures:
+    """values and counted [B, K]: magnitudes by frequency, amplitudes of partials, noise between a ruled surface's lines by
+    band, and moments; counted is 0 where a segment has no such thing."""
 
     values: Tensor
     counted: Tensor
 
 
-FEATURES = _BINS + PARTIALS + _BANDS
-# Each of the three kinds counts as much as another.
-_SHARES = torch.cat([torch.full((count,), 1.0 / count) for count in (_BINS, PARTIALS, _BANDS)])
+# Of the samples' sizes and of the frames' RMS. The fourth would need thousands of segments to be known.
+_MOMENTS = (1.0, 3.0)
+_FRAME_SAMPLES = 10
+# A blow this many times as large as the level says how large blows are; a larger one would say nothing else for long.
+_LARGEST_SIZE = 16.0
+_KINDS = (_BINS, PARTIALS, _BANDS, 2 * len(_MOMENTS))
+FEATURES = sum(_KINDS)
+# Each kind counts as much as another.
+_SHARES = torch.cat([torch.full((count,), 1.0 / count) for count in _KINDS])
 
 
-def spectral_features(spectra: list[Tensor], ribs_hz: Tensor, partials: Tensor, audible: Tensor) -> SpectralFeatures:
-    """Of segments and their pasts. spectra: by window (energy_distance.spectra); ribs_hz [B, 2]: the frequency of each
-    family of ribs; partials [B, 2, 24] of the segment; audible [B, 24]: which of them can sound."""
+def _moments(segment: Tensor) -> list[Tensor]:
+    """[B] each, of a segment [B, 200] in unit scale."""
+    sizes = segment.abs().clamp(max=_LARGEST_SIZE)
+    frames = (sizes.square().reshape(len(sizes), -1, _FRAME_SAMPLES).mean(dim=2) + 1e-8).sqrt()
+    return [values.pow(order).mean(dim=1) for values in (sizes, frames) for order in _MOMENTS]
+
+
+def label_features(
+    spectra: Spectra, ribs_hz: Tensor, partials: Tensor, audible: Tensor, segment: Tensor
+) -> LabelFeatures:
+    """Of segments [B, 200] and their pasts. spectra: by window (energy_distance.spectra); ribs_hz [B, 2]: the frequency
+    of each family of ribs; partials [B, 2, 28] of the segment; audible [B, 28]: which of them can sound."""
     # Of the windows as long as a segment, the first is all past.
-    short, long = spectra[WINDOW_SAMPLES.index(200)][:, 1:], spectra[WINDOW_SAMPLES.index(400)][:, 0, 1:]
+    magnitudes = spectra.magnitudes
+    short, long = magnitudes[WINDOW_SAMPLES.index(200)][:, 1:], magnitudes[WINDOW_SAMPLES.index(400)][:, 0, 1:]
     bins = short.mean(dim=1)
     amplitudes = (partials.square().sum(dim=1) + 1e-8).sqrt()
     # Of lines at k spacing, sin^4(pi f / spacing) keeps what lies between them.
@@ -61,17 +78,19 @@ def spectral_features(spectra: list[Tensor], ribs_hz: Tensor, partials: Tensor, 
     noise = (between * long).reshape(-1, _BANDS, 25).sum(dim=2)
     noise = noise / between.reshape(-1, _BANDS, 25).sum(dim=2).clamp(min=1.0)
     ruled = resolved.any(dim=1, keepdim=True).to(bins.dtype).expand(-1, _BANDS)
-    return SpectralFeatures(
-        torch.cat([bins, amplitudes, noise], dim=1), torch.cat([torch.ones_like(bins), audible, ruled], dim=1)
+    moments = torch.stack(_moments(segment), dim=1)
+    return LabelFeatures(
+        torch.cat([bins, amplitudes, noise, moments], dim=1),
+        torch.cat([torch.ones_like(bins), audible, ruled, torch.ones_like(moments)], dim=1),
     )
 
 
-class SpectralBalance:
+class LabelBalance:
     """Running averages of features by label and speed, and the loss of a batch against them. Not part of the model."""
 
     def __init__(self, labels: int) -> None:
         groups = labels * _SPEED_CLASSES
-        self._sums = {name: torch.zeros(groups, FEATURES) for name in ("recorded", "drawn", "weight", "count")}
+        self._sums = {name: torch.zeros(groups, FEATURES) for name in ("recorded", "drawn", "count")}
 
     def state(self) -> dict[str, Tensor]:
         """What a resumed run goes on from."""
@@ -85,34 +104,31 @@ class SpectralBalance:
         self,
         label: Tensor,
         speed_mps: Tensor,
-        recorded: SpectralFeatures,
-        drawn: tuple[SpectralFeatures, SpectralFeatures],
-        weight: Tensor,
+        recorded: LabelFeatures,
+        drawn: tuple[LabelFeatures, LabelFeatures],
     ) -> Tensor:
-        """Of a batch; label [B], speed [B], weight [B] by which segments count, as in the energy distance.
+        """Of a batch; label [B], speed [B].
 
         Averages are updated with the batch before they are compared.
         """
         speed_class = torch.bucketize(speed_mps, torch.tensor(_SPEED_BORDERS_MPS))
         group = label * _SPEED_CLASSES + speed_class
         values = 0.5 * (drawn[0].values + drawn[1].values)
-        counted = weight.unsqueeze(1) * recorded.counted
-        self._remember(group, counted, recorded, values.detach())
+        self._remember(group, recorded, values.detach())
         error, mean = self._errors()
-        share = (counted / weight.sum()) * _SHARES
+        share = (recorded.counted / len(label)) * _SHARES
         # d/dvalue of (log mean drawn - log mean recorded)^2 / 2, with the batch's share in the mean as weight.
         slope = (error / mean)[group]
         pull = (share * slope * values).sum()
         stated = 0.5 * (share * error[group].square()).sum()
         return pull - pull.detach() + stated
 
-    def _remember(self, group: Tensor, counted: Tensor, recorded: SpectralFeatures, drawn: Tensor) -> None:
+    def _remember(self, group: Tensor, recorded: LabelFeatures, drawn: Tensor) -> None:
         arrived = torch.zeros_like(self._sums["count"]).index_add_(0, group, recorded.counted)
         kept = torch.exp(-arrived / _MEMORY_SEGMENTS)
         new = {
-            "recorded": counted * recorded.values,
-            "drawn": counted * drawn,
-            "weight": counted,
+            "recorded": recorded.counted * recorded.values,
+            "drawn": recorded.counted * drawn,
             "count": recorded.counted,
         }
         for name, sums in self._sums.items():
@@ -120,7 +136,7 @@ class SpectralBalance:
 
     def _errors(self) -> tuple[Tensor, Tensor]:
         """(log ratio of drawn to recorded average, 0 where too little was heard; average drawn), [groups, K]."""
-        weight = self._sums["weight"].clamp(min=1e-6)
-        recorded, drawn = (self._sums[name] / weight + _FLOOR for name in ("recorded", "drawn"))
+        count = self._sums["count"].clamp(min=1e-6)
+        recorded, drawn = (self._sums[name] / count + _FLOOR for name in ("recorded", "drawn"))
         error = (drawn / recorded).log().clamp(-_LARGEST_ERROR, _LARGEST_ERROR)
         return torch.where(self._sums["count"] >= _FEWEST_SEGMENTS, error, torch.zeros_like(error)), drawn

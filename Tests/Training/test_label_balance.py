@@ -1,4 +1,4 @@
-"""Mean spectra by label and speed: what the loss sees, and where it leads."""
+"""Mean spectra and moments by label and speed: what the loss sees, and where it leads."""
 
 from __future__ import annotations
 
@@ -9,17 +9,19 @@ import torch
 
 from haptoflow_training.models.rib_comb import PARTIALS
 from haptoflow_training.training.energy_distance import spectra
-from haptoflow_training.training.spectral_balance import SpectralBalance, SpectralFeatures, spectral_features
+from haptoflow_training.training.label_balance import LabelBalance, LabelFeatures, label_features
 
 ROWS = 32
-_BANDS = slice(101 + PARTIALS, None)
+_BANDS = slice(101 + PARTIALS, 101 + PARTIALS + 8)
+_MOMENTS = slice(101 + PARTIALS + 8, None)
 
 
-def _features(wave: torch.Tensor, ribs_hz: tuple[float, float] = (0.0, 0.0)) -> SpectralFeatures:
+def _features(wave: torch.Tensor, ribs_hz: tuple[float, float] = (0.0, 0.0)) -> LabelFeatures:
     """Of waves [B, 400]."""
     nothing = torch.zeros(len(wave), 2, PARTIALS)
     ribs = torch.tensor([ribs_hz] * len(wave))
-    return spectral_features(spectra(wave[:, :200], wave[:, 200:]), ribs, nothing, nothing[:, 0])
+    heard = spectra(wave[:, :200], wave[:, 200:])
+    return label_features(heard, ribs, nothing, nothing[:, 0], wave[:, 200:])
 
 
 def _noise(generator: torch.Generator, shape: torch.Tensor) -> torch.Tensor:
@@ -28,16 +30,16 @@ def _noise(generator: torch.Generator, shape: torch.Tensor) -> torch.Tensor:
 
 
 def _heard(
-    balance: SpectralBalance, label: torch.Tensor, speed_mps: float, recorded: torch.Tensor, *drawn: torch.Tensor
+    balance: LabelBalance, label: torch.Tensor, speed_mps: float, recorded: torch.Tensor, *drawn: torch.Tensor
 ) -> torch.Tensor:
     first, second = (_features(wave) for wave in drawn)
     speeds = torch.full(label.shape, speed_mps)
-    return balance.loss(label, speeds, _features(recorded), (first, second), torch.ones(len(label)))
+    return balance.loss(label, speeds, _features(recorded), (first, second))
 
 
 def test_a_network_with_a_gain_for_each_label_and_frequency_learns_the_recordings_mean_spectra() -> None:
     generator = torch.Generator().manual_seed(1)
-    balance = SpectralBalance(2)
+    balance = LabelBalance(2)
     frequency = torch.arange(201) / 200.0
     truth = torch.stack([1.0 + (-(((frequency - 0.3) / 0.05) ** 2)).exp(), 1.5 - frequency])
     gains = torch.zeros(2, 201, requires_grad=True)
@@ -56,21 +58,22 @@ def test_a_network_with_a_gain_for_each_label_and_frequency_learns_the_recording
 
 
 def test_what_is_stated_is_half_the_squared_error_of_the_averages_and_its_slope_is_the_batch_s_share() -> None:
-    balance, generator = SpectralBalance(1), torch.Generator().manual_seed(2)
+    balance, generator = LabelBalance(1), torch.Generator().manual_seed(2)
     label, flat = torch.zeros(ROWS, dtype=torch.long), torch.ones(ROWS, 201)
     gain = torch.tensor(1.25, requires_grad=True)
     loss = torch.zeros(())
     for _ in range(20):
         waves = [_noise(generator, flat) for _ in range(3)]
         loss = _heard(balance, label, 0.2, waves[0], gain * waves[1], gain * waves[2])
-    # No line and no ribs: of three kinds of features there is one.
-    assert loss.item() == pytest.approx(0.5 * math.log(1.25) ** 2, rel=0.15)
+    # No line and no ribs: of four kinds of features there are two; half of the moments grow with the gain, half with its
+    # third power.
+    assert loss.item() == pytest.approx(0.5 * math.log(1.25) ** 2 * (1.0 + 0.5 * (1.0 + 9.0)), rel=0.15)
     (slope,) = torch.autograd.grad(loss, gain)
-    assert slope.item() == pytest.approx(math.log(1.25) / 1.25, rel=0.1)
+    assert slope.item() == pytest.approx(math.log(1.25) / 1.25 * (1.0 + 0.5 * (1.0 + 9.0)), rel=0.15)
 
 
 def test_labels_and_speeds_are_averaged_apart_and_one_that_was_hardly_heard_says_nothing() -> None:
-    balance, generator = SpectralBalance(2), torch.Generator().manual_seed(3)
+    balance, generator = LabelBalance(2), torch.Generator().manual_seed(3)
     label, flat = torch.zeros(ROWS, dtype=torch.long), torch.ones(ROWS, 201)
 
     def loss(label: torch.Tensor, speed_mps: float, gain: float) -> float:
@@ -80,8 +83,8 @@ def test_labels_and_speeds_are_averaged_apart_and_one_that_was_hardly_heard_says
 
     for _ in range(10):
         assert loss(label, 0.05, 2.0) > 0.15
-        assert loss(label, 0.2, 1.0) < 0.02
-        assert loss(label + 1, 0.05, 1.0) < 0.02
+        assert loss(label, 0.2, 1.0) < 0.05
+        assert loss(label + 1, 0.05, 1.0) < 0.05
     assert loss(label[:4], 0.9, 2.0) == 0.0
 
 
@@ -103,9 +106,32 @@ def test_noise_between_the_lines_of_a_ruled_surface_is_heard_apart_from_the_line
     assert _features(noise, (30.0, 0.0)).counted[:, _BANDS].max() == 0.0, "lines too close for the window"
 
 
+def test_blows_that_are_as_loud_as_even_noise_differ_from_it_in_their_moments_and_a_scale_learns_how_rare_they_are() -> None:
+    generator = torch.Generator().manual_seed(5)
+
+    def blows(share: torch.Tensor) -> torch.Tensor:
+        """Even noise and rare blows by share of power, [32, 400]."""
+        rare = torch.randn(ROWS, 400, generator=generator)
+        rare = rare * (torch.rand(ROWS, 400, generator=generator) < 0.02) / 0.02**0.5
+        return share.sqrt() * rare + (1.0 - share).sqrt() * torch.randn(ROWS, 400, generator=generator)
+
+    even, rare = (_features(blows(torch.tensor(share))).values[:, _MOMENTS].mean(dim=0) for share in (0.0, 0.6))
+    assert (rare / even)[0].item() < 0.9 and (rare / even)[1].item() > 1.5
+
+    balance, label = LabelBalance(1), torch.zeros(ROWS, dtype=torch.long)
+    share = torch.tensor(0.1, requires_grad=True)
+    optimiser = torch.optim.Adam([share], lr=0.02)
+    for _ in range(250):
+        optimiser.zero_grad()
+        drawn = blows(share), blows(share)
+        _heard(balance, label, 0.2, blows(torch.tensor(0.6)), *drawn).backward()
+        optimiser.step()
+    assert share.item() == pytest.approx(0.6, abs=0.12)
+
+
 def test_a_balance_that_is_restored_goes_on_where_the_other_stood() -> None:
     label, flat = torch.zeros(ROWS, dtype=torch.long), torch.ones(ROWS, 201)
-    balances = SpectralBalance(1), SpectralBalance(1)
+    balances = LabelBalance(1), LabelBalance(1)
     waves = [_noise(torch.Generator().manual_seed(seed), flat) for seed in range(3)]
     _heard(balances[0], label, 0.2, *waves)
     balances[1].restore({name: sums.clone() for name, sums in balances[0].state().items()})

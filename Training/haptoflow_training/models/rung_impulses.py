@@ -1,0 +1,77 @@
+"""Rare events from Gaussian noise: what lies beyond three rungs of it, each struck into a kernel of its own.
+
+A network of smooth layers turns Gaussian noise into something nearly Gaussian. An asperity that strikes the tip a few
+times a second is none: its events are made here, from the tails of the same noise that everything else is made from.
+How often a rung is passed is fixed (4.6, 0.9 and 0.2 % of the samples); how hard and with what ring, the condition says.
+"""
+
+from __future__ import annotations
+
+import math
+
+import torch
+from torch import Tensor, nn
+
+SAMPLE_RATE_HZ = 2000.0
+RUNGS = (2.0, 2.6, 3.1)
+TAPS = 64
+_RINGS_HZ = (50.0, 90.0, 160.0, 280.0, 500.0, 800.0)
+_RING_DECAY = 0.4
+# A delta, then cosine and sine of each ring.
+ATOMS = 1 + 2 * len(_RINGS_HZ)
+GAINS = len(RUNGS) * ATOMS
+# Convolution as products of matrices, a window of the segment at a time.
+_WINDOW = 25
+
+
+def _excess_deviation(rung: float) -> float:
+    """Standard deviation of sign(n) max(|n| - rung, 0) of standard normal n: E = 2 [(1 + t^2) Q(t) - t p(t)]."""
+    tail = 0.5 * math.erfc(rung / math.sqrt(2.0))
+    density = math.exp(-0.5 * rung * rung) / math.sqrt(2.0 * math.pi)
+    return math.sqrt(2.0 * ((1.0 + rung * rung) * tail - rung * density))
+
+
+def _atoms() -> Tensor:
+    """[13, 64] of unit energy."""
+    time = torch.arange(TAPS) / SAMPLE_RATE_HZ
+    delta = torch.zeros(TAPS)
+    delta[0] = 1.0
+    atoms = [delta]
+    for ring_hz in _RINGS_HZ:
+        turn = 2.0 * math.pi * ring_hz * time
+        decay = torch.exp(-_RING_DECAY * turn)
+        atoms += [decay * torch.cos(turn), decay * torch.sin(turn)]
+    return torch.stack([atom / atom.norm() for atom in atoms])
+
+
+class RungImpulses(nn.Module):
+    """noise [B, 1, N] and gains [B, 39] to impulses [B, 1, N]; nothing comes out where all gains are zero."""
+
+    rungs: Tensor
+    scales: Tensor
+    atoms: Tensor
+    read: Tensor
+    tap: Tensor
+
+    def __init__(self, samples: int = 200) -> None:
+        super().__init__()
+        self.samples, self.windows = samples, samples // _WINDOW
+        self.register_buffer("rungs", torch.tensor(RUNGS).reshape(1, -1, 1), persistent=False)
+        scales = torch.tensor([1.0 / _excess_deviation(rung) for rung in RUNGS])
+        self.register_buffer("scales", scales.reshape(1, -1, 1), persistent=False)
+        self.register_buffer("atoms", _atoms(), persistent=False)
+        # A window's samples are made from its own and those of three windows before it.
+        reach = 3 * _WINDOW
+        source = torch.arange(reach + _WINDOW)
+        read = torch.arange(self.windows).unsqueeze(1) * _WINDOW + source
+        self.register_buffer("read", read, persistent=False)
+        tap = torch.arange(_WINDOW) + reach - source.unsqueeze(1)
+        self.register_buffer("tap", torch.where((tap >= 0) & (tap < TAPS), tap, TAPS), persistent=False)
+        self.reach = reach
+
+    def forward(self, noise: Tensor, gains: Tensor) -> Tensor:
+        excess = torch.relu(noise - self.rungs) - torch.relu(-noise - self.rungs)
+        struck = nn.functional.pad(excess * self.scales, (self.reach, 0))[:, :, self.read]
+        kernels = nn.functional.pad(gains.reshape(-1, len(RUNGS), ATOMS) @ self.atoms, (0, 1))[:, :, self.tap]
+        struck = struck.transpose(1, 2).reshape(-1, self.windows, len(RUNGS) * self.read.shape[1])
+        return (struck @ kernels.reshape(-1, struck.shape[2], _WINDOW)).reshape(-1, 1, self.samples)
