@@ -51,7 +51,7 @@ class RungImpulses(nn.Module):
     scales: Tensor
     atoms: Tensor
     read: Tensor
-    tap: Tensor
+    struck_atoms: Tensor
 
     def __init__(self, samples: int = 200) -> None:
         super().__init__()
@@ -65,13 +65,15 @@ class RungImpulses(nn.Module):
         source = torch.arange(reach + _WINDOW)
         read = torch.arange(self.windows).unsqueeze(1) * _WINDOW + source
         self.register_buffer("read", read, persistent=False)
+        # How much of each atom every sample of a window has from every sample that it is made from, [13, 100 * 25].
         tap = torch.arange(_WINDOW) + reach - source.unsqueeze(1)
-        self.register_buffer("tap", torch.where((tap >= 0) & (tap < TAPS), tap, TAPS), persistent=False)
+        shifted = nn.functional.pad(self.atoms, (0, 1))[:, torch.where((tap >= 0) & (tap < TAPS), tap, TAPS)]
+        self.register_buffer("struck_atoms", shifted.reshape(ATOMS, -1), persistent=False)
         self.reach = reach
 
     def forward(self, noise: Tensor, gains: Tensor) -> Tensor:
         excess = torch.relu(noise - self.rungs) - torch.relu(-noise - self.rungs)
         struck = nn.functional.pad(excess * self.scales, (self.reach, 0))[:, :, self.read]
-        kernels = nn.functional.pad(gains.reshape(-1, len(RUNGS), ATOMS) @ self.atoms, (0, 1))[:, :, self.tap]
         struck = struck.transpose(1, 2).reshape(-1, self.windows, len(RUNGS) * self.read.shape[1])
-        return (struck @ kernels.reshape(-1, struck.shape[2], _WINDOW)).reshape(-1, 1, self.samples)
+        kernels = (gains.reshape(-1, ATOMS) @ self.struck_atoms).reshape(-1, struck.shape[2], _WINDOW)
+        return (struck @ kernels).reshape(-1, 1, self.samples)

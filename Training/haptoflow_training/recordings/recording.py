@@ -59,7 +59,8 @@ class Recording:
 
     acceleration_time_seconds: [n] float64, increasing, irregular. acceleration_g: [n, 3] float, g, gravity on Z.
     force_time_seconds: [m] float64. force_newtons: [m] float. position_time_seconds: [k] float64.
-    position_mm: [k, 2] float, millimetres, X and Y of the scan area.
+    position_mm: [k, 2] float, millimetres, X and Y of the scan area. specimen: which piece of its material a synthetic
+    recording is of; None where nobody said, as in files.
     """
 
     identity: RecordingIdentity
@@ -70,6 +71,7 @@ class Recording:
     force_newtons: NDArray[np.floating]
     position_time_seconds: NDArray[np.float64]
     position_mm: NDArray[np.floating]
+    specimen: int | None = None
 
     @property
     def duration_seconds(self) -> float:

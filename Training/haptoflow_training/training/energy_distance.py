@@ -66,6 +66,15 @@ class Spectra:
     logarithms: list[Tensor]
 
 
+def halves_of(spectra: Spectra) -> tuple[Spectra, Spectra]:
+    """Of the first and the second half of the batch."""
+    first, second = (
+        [[part.chunk(2)[half] for part in parts] for parts in (spectra.magnitudes, spectra.logarithms)]
+        for half in range(2)
+    )
+    return Spectra(*first), Spectra(*second)
+
+
 def spectral_distance(first: Spectra, second: Spectra) -> Tensor:
     """[B]: mean over windows of the mean magnitude difference and the RMS over bins of the log magnitudes'."""
     total = torch.zeros(first.magnitudes[0].shape[0])
@@ -146,7 +155,7 @@ def energy_distance_loss(
     *,
     waves: tuple[Tensor, ...] | None,
     lines: tuple[Tensor, ...],
-    envelopes: tuple[list[Tensor], ...],
+    envelopes: tuple[list[Tensor], list[Tensor], list[Tensor]],
 ) -> Tensor:
     """The loss of a batch from the spectra of the recording and of two draws, each with its past.
 

@@ -14,7 +14,7 @@ from haptoflow_training.models.rib_comb import PARTIALS
 from haptoflow_training.models.unit_scale import scaled_previous
 from haptoflow_training.training.batches import Chain, SegmentBatch
 from haptoflow_training.training.config import SolverConfig
-from haptoflow_training.training.energy_distance import energy_distance_loss, envelopes, spectra
+from haptoflow_training.training.energy_distance import energy_distance_loss, envelopes, halves_of, spectra
 from haptoflow_training.training.flow_matching import flow_matching_loss, solve
 from haptoflow_training.training.mean_flow import AverageField, mean_flow_loss
 from haptoflow_training.training.reflow import ReflowPairs, reflow_loss
@@ -130,16 +130,19 @@ class Losses(nn.Module):
     ) -> Tensor:
         """Of a recording (past and segment) and two draws that follow `past`, [B, 1, 200] each, in unit scale; phase
         [B, 2]: the rib phase. Every segment counts alike: a weight that knew of a recorded burst would ask for fewer."""
-        pasts = [wave.squeeze(1) for wave in (recorded[0], past, past)]
         segments = [wave.squeeze(1) for wave in (recorded[1], *drawn)]
-        heard = [spectra(*pair) for pair in zip(pasts, segments, strict=True)]
+        true = recorded[0].squeeze(1), segments[0]
+        # Both draws in one pass here, too.
+        own = torch.cat([past, past]).squeeze(1), torch.cat(segments[1:])
+        heard = [spectra(*true), *halves_of(spectra(*own))]
+        shapes = [envelopes(*true), *zip(*(shape.chunk(2) for shape in envelopes(*own)), strict=True)]
         partials, audible = self._partials(batch, embedding, (recorded[1], *drawn), phase)
         loss = energy_distance_loss(
             heard[0],
             (heard[1], heard[2]),
             waves=None if batch.chain is not None else tuple(segments),
             lines=tuple(partials),
-            envelopes=tuple(envelopes(*pair) for pair in zip(pasts, segments, strict=True)),
+            envelopes=(shapes[0], list(shapes[1]), list(shapes[2])),
         )
         if self._balance is None:
             return loss

@@ -10,8 +10,15 @@ from haptoflow_training.recordings.synthetic.protocols import (
     record_machine_condition,
 )
 from haptoflow_training.recordings.synthetic.recorder import record_condition
+from haptoflow_training.recordings.synthetic.specimens import (
+    HELD_OUT_SPECIMEN,
+    TRAINING_SPECIMENS,
+    training_specimen,
+)
 
 __all__ = [
+    "HELD_OUT_SPECIMEN",
+    "TRAINING_SPECIMENS",
     "Material",
     "hand_conditions",
     "load_materials",
@@ -21,4 +28,5 @@ __all__ = [
     "record_hand_condition",
     "record_machine",
     "record_machine_condition",
+    "training_specimen",
 ]

@@ -21,6 +21,7 @@ from haptoflow_training.recordings.synthetic.measurement import (
     measure,
     slope_db_per_octave,
 )
+from haptoflow_training.recordings.synthetic.specimens import TRAINING_SPECIMENS
 
 _RESONANCE_HZ = (30.0, 700.0)
 _ABSORPTION_DB_PER_OCTAVE = (-7.0, 7.0)
@@ -30,14 +31,15 @@ _HEIGHT_EXPONENT = (1.3, 4.5)
 def calibrate(
     material: Material, *, seed: int, design: Design = Design(), rounds: int = 6
 ) -> tuple[Material, Measurement]:
-    """Measure, correct, measure again: the round that came nearest to the targets, with its measurement.
+    """Measure the training specimens, correct, measure again: the round that came nearest to the targets, with its
+    measurement.
 
     Level and force exponent answer one to one, the speed exponent by half of the height exponent; resonance
     and absorption are solved for together on the measured spectrum, reweighted by the new filters.
     """
     best: tuple[float, Material, Measurement] | None = None
     for _ in range(rounds):
-        measured = measure(material, seed=seed, design=design)
+        measured = measure(material, seed=seed, design=design, specimens=TRAINING_SPECIMENS)
         distance = _distance(Deviation.of(measured.targets(), material.targets))
         if best is None or distance < best[0]:
             best = (distance, material, measured)

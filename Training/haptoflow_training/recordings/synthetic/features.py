@@ -3,38 +3,38 @@
 from __future__ import annotations
 
 import math
-from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
 
 from haptoflow_training.recordings.synthetic.materials import Material, Ruling
-from haptoflow_training.recordings.synthetic.surface import (
-    TipPath,
-    octave_height,
-    octave_tile,
-    read_tile,
-    upper_weight,
-)
+from haptoflow_training.recordings.synthetic.random_field import RandomField, field_key, place_fractions
+from haptoflow_training.recordings.synthetic.surface import TipPath, octave_height, upper_weight
 
-_ASPERITY_CELLS = 512
+# The numbers under which features have random fields of their own, beside the octaves' 0 to 13.
+_RULING_JITTER, _SLIP_WANDER, _ASPERITY_SIZE, _ASPERITY_PLACE = 100, 200, 300, 301
 _RULING_HARMONICS = 14
 _SLIP_HARMONICS = 6
 
 
-def ruling_height(material: Material, ruling: Ruling, number: int, path: TipPath) -> NDArray[np.float64]:
+def ruling_height(
+    material: Material, ruling: Ruling, number: int, path: TipPath, *, specimen: int
+) -> NDArray[np.float64]:
     """Heights [n] in micrometres of one family of ribs.
 
     Harmonics fall as n^(-a/2), the random field's own law, and leave before their frequency
-    n |v . direction| / wavelength nears the simulation's limit. Phases are fixed, so every rib looks alike.
+    n |v . direction| / wavelength nears the simulation's limit. Phases are fixed, so every rib looks alike, and
+    belong to the label: but for the jitter, every specimen has its ribs at the same places.
     """
     angle = math.radians(ruling.direction_degrees)
     direction = np.array([math.cos(angle), math.sin(angle)])
     across = path.position_mm @ direction / ruling.wavelength_mm
     rate = np.abs(path.velocity_mmps @ direction) / ruling.wavelength_mm
     if ruling.jitter > 0.0:
-        tile = octave_tile(material.surface_seed, 20 + number)
-        across = across + ruling.jitter * read_tile(tile, path.position_mm, 7.0 * ruling.wavelength_mm, 0.4)
+        field = RandomField(
+            material.surface_seed, specimen, _RULING_JITTER + number, 7.0 * ruling.wavelength_mm
+        )
+        across = across + ruling.jitter * field.at(path.position_mm)
     turn = np.exp(2j * math.pi * across)
     rng = np.random.default_rng([material.surface_seed, 20, number])
     phases = rng.uniform(0.0, 2.0 * math.pi, _RULING_HARMONICS)
@@ -49,36 +49,54 @@ def ruling_height(material: Material, ruling: Ruling, number: int, path: TipPath
     return unit * ruling.relative_height * profile
 
 
-@lru_cache(maxsize=24)
-def _asperities(surface_seed: int, density: float) -> NDArray[np.float32]:
-    rng = np.random.default_rng([surface_seed, 88])
-    shape = (_ASPERITY_CELLS, _ASPERITY_CELLS)
-    size = rng.exponential(1.0, shape) * np.where(rng.random(shape) < 0.5, -1.0, 1.0)
-    return np.where(rng.random(shape) < density, size, 0.0).astype(np.float32)
-
-
-def impact_acceleration(material: Material, path: TipPath, rate_hz: float) -> NDArray[np.float64]:
-    """Impulses [n] in m/s^2: one wherever the tip enters a cell of the surface that holds an asperity.
+def impact_acceleration(
+    material: Material, path: TipPath, rate_hz: float, *, specimen: int
+) -> NDArray[np.float64]:
+    """Impulses [n] in m/s^2: one wherever the tip meets the asperity of a cell of the surface that holds one.
 
     Their rate is proportional to speed; the velocity each one lends the tip grows so that, together, the
-    level follows the random field's law. Sizes are exponential: the tails are heavy.
+    level follows the random field's law. Sizes are exponential: the tails are heavy. An asperity lies anywhere
+    in its cell, so that impacts keep no beat.
     """
     impulses = np.zeros(len(path.position_mm))
     if material.impact_strength <= 0.0 or material.impact_density <= 0.0:
         return impulses
     cells = np.floor(path.position_mm / material.impact_spacing_mm).astype(np.int64)
     entered = 1 + np.flatnonzero(np.any(np.diff(cells, axis=0) != 0, axis=1))
-    table = _asperities(material.surface_seed, material.impact_density)
-    size = table[cells[entered, 0] % _ASPERITY_CELLS, cells[entered, 1] % _ASPERITY_CELLS]
-    speed = np.hypot(*path.velocity_mmps[entered].T) / 100.0
+    i, j = cells[entered].T
+    held, side, quantile, _ = place_fractions(field_key(material.surface_seed, specimen, _ASPERITY_SIZE), i, j)
+    hits = held < material.impact_density
+    size = np.where(side < 0.5, -1.0, 1.0) * -np.log1p(-quantile)
+    struck = _samples_of_closest_approach(material, path, entered, specimen)
+    hits &= struck < len(impulses)
+    struck = struck[hits]
+    speed = np.hypot(*path.velocity_mmps[struck].T) / 100.0
     exponent = 0.5 * (material.calibrated.height_exponent - 1.0) - 0.5
-    jump_mmps = material.impact_strength * material.calibrated.height_micrometres * size * speed**exponent
-    impulses[entered] = 1e-3 * jump_mmps * rate_hz
+    jump_mmps = material.impact_strength * material.calibrated.height_micrometres * size[hits] * speed**exponent
+    np.add.at(impulses, struck, 1e-3 * jump_mmps * rate_hz)
     return impulses
 
 
+def _samples_of_closest_approach(
+    material: Material, path: TipPath, entered: NDArray[np.int64], specimen: int
+) -> NDArray[np.int64]:
+    """For each sample at which a cell is entered, that at which the tip has come nearest to the cell's asperity; the
+    path's length where it ends before.
+    """
+    cells = np.floor(path.position_mm[entered] / material.impact_spacing_mm)
+    key = field_key(material.surface_seed, specimen, _ASPERITY_PLACE)
+    x, y, _, _ = place_fractions(key, *cells.astype(np.int64).T)
+    asperity_mm = material.impact_spacing_mm * (cells + np.stack([x, y], axis=1))
+    velocity = path.velocity_mmps[entered]
+    heading = velocity / np.maximum(np.hypot(*velocity.T), 1e-9)[:, None]
+    ahead_mm = np.maximum(np.sum((asperity_mm - path.position_mm[entered]) * heading, axis=1), 0.0)
+    steps = np.hypot(*np.diff(path.position_mm, axis=0).T)
+    travelled = np.concatenate([[0.0], np.cumsum(steps)])
+    return np.searchsorted(travelled, travelled[entered] + ahead_mm)
+
+
 def slip_acceleration(
-    material: Material, path: TipPath, force_newtons: NDArray[np.float64], rate_hz: float
+    material: Material, path: TipPath, force_newtons: NDArray[np.float64], rate_hz: float, *, specimen: int
 ) -> NDArray[np.float64]:
     """Relaxation oscillation [n] in m/s^2 along the movement: the tip sticks, is stretched, and slips.
 
@@ -88,7 +106,7 @@ def slip_acceleration(
     if material.stick_slip_strength <= 0.0:
         return np.zeros(len(force_newtons))
     speed = np.hypot(*path.velocity_mmps.T)
-    wander = read_tile(octave_tile(material.surface_seed, 30), path.position_mm, 4.0, 0.9)
+    wander = RandomField(material.surface_seed, specimen, _SLIP_WANDER, 4.0).at(path.position_mm)
     length = material.stick_slip_length_mm * np.exp(0.25 * wander) * np.maximum(force_newtons, 0.05) ** 0.4
     rate = speed / length
     turn = np.exp(2j * math.pi * np.cumsum(rate) / rate_hz)

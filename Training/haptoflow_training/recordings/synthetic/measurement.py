@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import asdict, dataclass
+from functools import partial
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,6 +14,7 @@ from haptoflow_training.preprocessing.pipeline import preprocess_recording
 from haptoflow_training.preprocessing.settings import PreprocessingSettings
 from haptoflow_training.recordings.synthetic.materials import Material, Targets
 from haptoflow_training.recordings.synthetic.recorder import record_condition
+from haptoflow_training.recordings.synthetic.specimens import HELD_OUT_SPECIMEN
 
 REFERENCE_SPEED_MMPS, REFERENCE_FORCE_NEWTONS = 100.0, 1.0
 _LEVEL_BAND_HZ = (20.0, 500.0)
@@ -79,24 +82,27 @@ class Deviation:
 TOLERANCE = Deviation(1.5, 0.15, 0.15, 0.15, 2.0)
 
 
-def measure(material: Material, *, seed: int, design: Design = Design()) -> Measurement:
+def measure(
+    material: Material, *, seed: int, design: Design = Design(), specimens: Sequence[int] = (HELD_OUT_SPECIMEN,)
+) -> Measurement:
     """Record the design's conditions, prepare them as training does, and fit RMS = k (v/100)^p F^q.
+
+    The directions go round `specimens`.
 
     The sensor's own noise, measured at rest, is subtracted as power. p and q are a least-squares fit of log
     RMS over all conditions; k, centroid, slope are those of the reference condition, 100 mm/s and 1 N.
     """
-    resting = _spectrum(_waveforms(material, 0.0, 1.0, seed, design, 1))
+    record = partial(_waveforms, material, design, specimens)
+    resting = _spectrum(record(0.0, 1.0, seed, 1))
     rows, levels = [], []
     for speed in design.speeds_mmps:
         for force in design.forces_newtons:
-            frequency, power = _spectrum(_waveforms(material, speed, force, seed, design, 1))
+            frequency, power = _spectrum(record(speed, force, seed, 1))
             rows.append([1.0, np.log(speed / REFERENCE_SPEED_MMPS), np.log(force / REFERENCE_FORCE_NEWTONS)])
             levels.append(np.log(band_level(frequency, np.maximum(power - resting[1], _SPECTRUM_FLOOR))))
     _, p, q = np.linalg.lstsq(np.array(rows), np.array(levels), rcond=None)[0]
 
-    waveforms = _waveforms(
-        material, REFERENCE_SPEED_MMPS, REFERENCE_FORCE_NEWTONS, seed + 1000, design, design.reference_repeats
-    )
+    waveforms = record(REFERENCE_SPEED_MMPS, REFERENCE_FORCE_NEWTONS, seed + 1000, design.reference_repeats)
     frequency, power = _spectrum(waveforms)
     power = np.maximum(power - resting[1], _SPECTRUM_FLOOR)
     crest = float(np.mean([np.percentile(np.abs(each), 99.9) / np.std(each) for each in waveforms]))
@@ -133,7 +139,13 @@ def slope_db_per_octave(frequency_hz: NDArray[np.float64], spectrum: NDArray[np.
 
 
 def _waveforms(
-    material: Material, speed_mmps: float, force_newtons: float, seed: int, design: Design, repeats: int
+    material: Material,
+    design: Design,
+    specimens: Sequence[int],
+    speed_mmps: float,
+    force_newtons: float,
+    seed: int,
+    repeats: int,
 ) -> list[NDArray[np.float64]]:
     waveforms = []
     for repeat in range(repeats):
@@ -145,6 +157,7 @@ def _waveforms(
                 force_newtons=force_newtons,
                 duration_seconds=design.duration_seconds,
                 seed=seed + 10 * number + 100 * repeat,
+                specimen=specimens[number % len(specimens)],
             )
             prepared = preprocess_recording(recording, PreprocessingSettings())
             waveforms.append(prepared.waveform_mps2.astype(np.float64))

@@ -1,6 +1,7 @@
 """The two protocols: the published data set's machine design, and free hand strokes.
 
-Every recording is seeded by (seed, its identity): order, subset and parallelism change nothing.
+Every recording is seeded by (seed, its identity): order, subset and parallelism change nothing. The identity also says
+which of the training specimens is recorded.
 """
 
 from __future__ import annotations
@@ -13,12 +14,13 @@ from haptoflow_training.recordings.recording import Recording, RecordingIdentity
 from haptoflow_training.recordings.synthetic.carriers import guided_ride, hand_ride, machine_pass
 from haptoflow_training.recordings.synthetic.materials import Material, select_materials
 from haptoflow_training.recordings.synthetic.recorder import record_ride
+from haptoflow_training.recordings.synthetic.specimens import training_specimen
 
 MACHINE_DIRECTIONS_DEGREES = tuple(range(0, 360, 45))
 MACHINE_SPEEDS_MMPS = (20, 30, 40, 50, 60)
 MACHINE_FORCES_MILLINEWTONS = (500, 1000)
 MACHINE_REPEATS = 2
-SLOWEST_HAND_MMPS, FASTEST_HAND_MMPS = 15.0, 900.0
+SLOWEST_HAND_MMPS, FASTEST_HAND_MMPS = 6.0, 900.0
 LIGHTEST_HAND_NEWTONS, HEAVIEST_HAND_NEWTONS = 0.15, 3.5
 
 
@@ -59,8 +61,10 @@ def hand_conditions(material: Material, *, seed: int, recordings: int) -> list[R
     return identities
 
 
-def record_machine_condition(material: Material, identity: RecordingIdentity, *, seed: int) -> Recording:
-    """One machine pass."""
+def record_machine_condition(
+    material: Material, identity: RecordingIdentity, *, seed: int, specimen: int | None = None
+) -> Recording:
+    """One machine pass. specimen: None is the one that the training protocol records under this identity."""
     if identity.direction_degrees is None:
         raise ValueError(f"{identity.name} is not a machine recording")
     rng = _generator(seed, identity)
@@ -70,7 +74,8 @@ def record_machine_condition(material: Material, identity: RecordingIdentity, *,
         speed_mmps=float(identity.speed_mmps),
         force_newtons=1e-3 * identity.force_millinewtons,
     )
-    return record_ride(material, identity, ride, rng)
+    chosen = training_specimen(identity) if specimen is None else specimen
+    return record_ride(material, identity, ride, rng, specimen=chosen)
 
 
 def record_hand_condition(
@@ -80,8 +85,12 @@ def record_hand_condition(
     seed: int,
     duration_seconds: float = 8.0,
     guided_share: float = 0.0,
+    specimen: int | None = None,
 ) -> Recording:
-    """One hand stroke: free, or guided for `guided_share` of all, spread evenly over the repeats."""
+    """One hand stroke: free, or guided for `guided_share` of all, spread evenly over the repeats.
+
+    specimen: None is the one that the training protocol records under this identity.
+    """
     rng = _generator(seed, identity)
     guided = int((identity.repeat + 1) * guided_share) > int(identity.repeat * guided_share)
     ride = (guided_ride if guided else hand_ride)(
@@ -90,7 +99,8 @@ def record_hand_condition(
         median_speed_mmps=float(identity.speed_mmps),
         median_force_newtons=1e-3 * identity.force_millinewtons,
     )
-    return record_ride(material, identity, ride, rng)
+    chosen = training_specimen(identity) if specimen is None else specimen
+    return record_ride(material, identity, ride, rng, specimen=chosen)
 
 
 def record_machine(

@@ -10,6 +10,7 @@ from haptoflow_training.recordings.synthetic.carriers import Ride, path_from_vel
 from haptoflow_training.recordings.synthetic.contact import SIMULATION_RATE_HZ, tool_acceleration
 from haptoflow_training.recordings.synthetic.materials import Material
 from haptoflow_training.recordings.synthetic.sensors import sense
+from haptoflow_training.recordings.synthetic.specimens import HELD_OUT_SPECIMEN
 
 
 def record_ride(
@@ -18,19 +19,21 @@ def record_ride(
     ride: Ride,
     rng: np.random.Generator,
     *,
+    specimen: int,
     noise: bool = True,
 ) -> Recording:
-    """What the sensors say of one ride over one material."""
-    acceleration = tool_acceleration(material, ride.path, ride.force_newtons) + ride.carrier_mps2
+    """What the sensors say of one ride over one specimen of a material."""
+    texture = tool_acceleration(material, ride.path, ride.force_newtons, specimen=specimen)
     return sense(
         identity,
         material.label,
         rng,
         rate_hz=SIMULATION_RATE_HZ,
-        acceleration_mps2=acceleration,
+        acceleration_mps2=texture + ride.carrier_mps2,
         force_newtons=ride.force_newtons,
         position_mm=ride.path.position_mm,
         noise=noise,
+        specimen=specimen,
     )
 
 
@@ -41,25 +44,30 @@ def record_condition(
     force_newtons: ArrayLike,
     duration_seconds: float,
     seed: int,
+    specimen: int = HELD_OUT_SPECIMEN,
     noise: bool = True,
 ) -> Recording:
     """A recording along a prescribed trajectory, with no carrier's noise: the truth to evaluate against.
 
     velocity_mps: (vx, vy), each a number or an array spread evenly over the duration, m/s, up to 1.5 in all.
-    force_newtons: a number or such an array, 0-5 N. seed: place on the surface and sensor noise; the surface
-    itself is the material's. `noise` False leaves out sensor noise and steps. Deterministic by its arguments.
+    force_newtons: a number or such an array, 0-5 N. seed: place on the surface and sensor noise. specimen: which piece
+    of the material, 0 or more; by default the one that no training protocol records. `noise` False leaves out sensor
+    noise and steps. Deterministic by its arguments.
     """
     count = int(round(duration_seconds * SIMULATION_RATE_HZ))
     velocity_mmps = 1e3 * np.stack([_spread(component, count) for component in velocity_mps], axis=1)
     force = _spread(force_newtons, count)
     if not (np.all(np.isfinite(velocity_mmps)) and np.all(np.isfinite(force)) and np.all(force >= 0.0)):
         raise ValueError("velocity and force must be finite, force zero or more")
+    if specimen < 0:
+        raise ValueError(f"specimen is {specimen}; expected 0 or more")
     speed = int(round(float(np.median(np.hypot(*velocity_mmps.T)))))
     press = int(round(1e3 * float(np.median(force))))
     identity = RecordingIdentity(material.texture_id, None, speed, press, seed)
     rng = np.random.default_rng([seed, material.texture_id, 5])
     path = path_from_velocity(rng.uniform(-500.0, 500.0, size=2), velocity_mmps)
-    return record_ride(material, identity, Ride(path, force, np.zeros((count, 3))), rng, noise=noise)
+    ride = Ride(path, force, np.zeros((count, 3)))
+    return record_ride(material, identity, ride, rng, specimen=specimen, noise=noise)
 
 
 def _spread(values: ArrayLike, count: int) -> NDArray[np.float64]:

@@ -37,6 +37,7 @@ def sense(
     force_newtons: NDArray[np.float64],
     position_mm: NDArray[np.float64],
     noise: bool = True,
+    specimen: int | None = None,
 ) -> Recording:
     """A Recording from truth on a uniform clock: acceleration [n, 3], force [n], position [n, 2].
 
@@ -63,7 +64,7 @@ def sense(
     position = position_mm[np.minimum(np.round(position_time * rate_hz).astype(int), len(position_mm) - 1)]
     if noise:
         position = np.round(position / _POSITION_STEP_MM) * _POSITION_STEP_MM
-    return Recording(identity, label, stamps, sensed, force_time, force, position_time, position)
+    return Recording(identity, label, stamps, sensed, force_time, force, position_time, position, specimen)
 
 
 def soft_limit(values: NDArray[np.float64], limit: float) -> NDArray[np.float64]:
