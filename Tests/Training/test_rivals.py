@@ -27,7 +27,9 @@ from haptoflow_training.models.baselines import build_baseline
 from haptoflow_training.models.baselines.autoregressive import AutoregressiveBaseline
 from haptoflow_training.models.baselines.baseline import Baseline
 from haptoflow_training.models.baselines.spsi import SpsiBaseline
-from haptoflow_training.training.config import BatchConfig, TrainingConfig, load_config
+from haptoflow_training.training.batches import SegmentBatches
+from haptoflow_training.training.config import BatchConfig, ModelConfig, TrainingConfig, load_config
+from haptoflow_training.training.losses import Losses
 from haptoflow_training.training.recordings_source import Source
 from haptoflow_training.training.trainer import Trainer, build_model, planned_steps
 
@@ -261,6 +263,21 @@ def _train(words: list[str]) -> int:
     from haptoflow_training.cli import main
 
     return main(["train", *words])
+
+
+@pytest.mark.parametrize(("architecture", "alike"), [("autoregressive", True), ("transformer", False)])
+def test_a_likelihood_counts_a_burst_like_any_other_segment_and_a_squared_error_does_not(
+    architecture: str, alike: bool, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    config = TrainingConfig(model=ModelConfig(architecture=architecture))
+    model = build_model(config, WAVE_VECTORS)
+    batch = SegmentBatches(make_store(), "train", BatchConfig(), 3).draw(6)
+    batch.segment[0] *= 1000.0
+    rows = torch.tensor([6.0, 0.0, 0.0, 0.0, 0.0, 0.0])
+    monkeypatch.setattr(model.field, "loss", lambda *_: rows)
+    _, field = Losses(model, config.solver)(batch, "own", torch.Generator().manual_seed(1))
+    assert (field.item() == pytest.approx(1.0)) == alike
+    assert alike or field.item() < 0.01
 
 
 def test_the_lines_of_a_form_are_told_apart_by_the_energy_distance_as_our_network_s_are() -> None:

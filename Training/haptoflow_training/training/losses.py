@@ -107,7 +107,9 @@ class Losses(nn.Module):
 
         if objective == "own":
             own = model.field.loss(segment, encoded_previous, embedding, batch.motion, phase, generator)
-            return (own / power).sum() / power.reciprocal().sum()
+            # A likelihood is of all segments alike: weighted down by what it has to foresee, it would foresee less.
+            weight = torch.ones_like(power) if model.field.is_sampled else power.reciprocal()
+            return (weight * own).sum() / weight.sum()
         if objective == "flow":
             return flow_matching_loss(field, segment, generator, 1.0 / power)
         if objective == "average-velocity":
