@@ -59,10 +59,10 @@ def _straight(start_mm, heading, speed_mmps, count):
 
 def test_the_same_spot_has_the_same_height_at_another_speed_and_on_the_way_back():
     wood = MATERIALS["wood"]
-    slow = random_height(wood, _straight([3.0, 4.0], 0.3, 100.0, 4001))[0]
-    fast = random_height(wood, _straight([3.0, 4.0], 0.3, 200.0, 2001))[0]
+    slow = random_height(wood, _straight([3.0, 4.0], 0.3, 100.0, 4001), specimen=1)[0]
+    fast = random_height(wood, _straight([3.0, 4.0], 0.3, 200.0, 2001), specimen=1)[0]
     end = np.array([3.0, 4.0]) + 50.0 * np.array([np.cos(0.3), np.sin(0.3)])
-    back = random_height(wood, _straight(end, 0.3 + np.pi, 100.0, 4001))[0]
+    back = random_height(wood, _straight(end, 0.3 + np.pi, 100.0, 4001), specimen=1)[0]
     assert np.allclose(back[::-1], slow, atol=1e-6)
     # At another speed only the octaves that fade in and out differ.
     assert np.corrcoef(np.diff(slow[::2]), np.diff(fast))[0, 1] > 0.95
@@ -70,7 +70,7 @@ def test_the_same_spot_has_the_same_height_at_another_speed_and_on_the_way_back(
 
 def test_two_materials_have_different_surfaces():
     path = _straight([3.0, 4.0], 0.3, 100.0, 4000)
-    one, other = (random_height(MATERIALS[label], path)[0] for label in ("wood", "plywood"))
+    one, other = (random_height(MATERIALS[label], path, specimen=1)[0] for label in ("wood", "plywood"))
     assert abs(np.corrcoef(np.diff(one), np.diff(other))[0, 1]) < 0.2
 
 
@@ -173,7 +173,7 @@ def test_the_three_axes_carry_different_but_related_signals():
 def test_off_the_surface_the_tip_falls_no_faster_than_its_force_pushes():
     count = 8000
     path = _straight([0.0, 0.0], 0.1, 1500.0, count)
-    normal = tool_acceleration(MATERIALS["sandpaper"], path, np.full(count, 0.2))[:, 2]
+    normal = tool_acceleration(MATERIALS["sandpaper"], path, np.full(count, 0.2), specimen=4)[:, 2]
     assert normal.min() > -(0.2 / 0.02 + 9.81) * 1.001
     assert normal.max() > -1.3 * normal.min()
 
@@ -234,7 +234,7 @@ def test_hand_recordings_cover_slow_to_fast_and_light_to_firm():
     identities = hand_conditions(MATERIALS["wood"], seed=1, recordings=40)
     speeds = np.array([identity.speed_mmps for identity in identities])
     forces = np.array([identity.force_millinewtons for identity in identities])
-    assert speeds.min() < 20 and speeds.max() > 700
+    assert speeds.min() < 8 and speeds.max() > 700
     assert 60 < np.median(speeds) < 220
     assert forces.min() < 250 and forces.max() > 2500
     assert abs(np.corrcoef(np.log(speeds), np.log(forces))[0, 1]) < 0.4

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import astuple
+from dataclasses import astuple, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -37,6 +37,7 @@ def calibrate(
     Level and force exponent answer one to one, the speed exponent by half of the height exponent; resonance
     and absorption are solved for together on the measured spectrum, reweighted by the new filters.
     """
+    design = replace(design, fast_speeds_mmps=())
     best: tuple[float, Material, Measurement] | None = None
     for _ in range(rounds):
         measured = measure(material, seed=seed, design=design, specimens=TRAINING_SPECIMENS)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import asdict, dataclass
 from functools import partial
 
@@ -25,13 +25,16 @@ _SPECTRUM_FLOOR = 1e-12
 
 @dataclass(frozen=True)
 class Design:
-    """Which conditions are measured; powers are averaged over the directions."""
+    """Which conditions are measured; powers are averaged over the directions. fast_speeds_mmps: at 1 N only, for the
+    centroid's exponent up to there; none leaves it out.
+    """
 
     speeds_mmps: tuple[float, ...] = (20.0, 50.0, 100.0, 150.0, 200.0)
     forces_newtons: tuple[float, ...] = (0.3, 1.0, 2.0)
     directions_degrees: tuple[float, ...] = (0.0, 45.0, 90.0, 135.0)
     duration_seconds: float = 1.8
     reference_repeats: int = 3
+    fast_speeds_mmps: tuple[float, ...] = (400.0, 800.0, 1500.0)
 
 
 @dataclass(frozen=True)
@@ -39,6 +42,8 @@ class Measurement:
     """What came out, in the terms of `Targets`, with the spectrum at the reference condition.
 
     frequency_hz [n]; spectrum [n] in (m/s^2)^2/Hz; crest: the 99.9th percentile of |a| over its RMS.
+    centroid_exponent: the centroid grows as speed^this over the design's speeds; fast_centroid_exponent: from the
+    fastest of these to the fastest at all, None where the design has no fast speeds.
     """
 
     k: float
@@ -47,6 +52,8 @@ class Measurement:
     centroid_hz: float
     slope_db_per_octave: float
     crest: float
+    centroid_exponent: float
+    fast_centroid_exponent: float | None
     frequency_hz: NDArray[np.float64]
     spectrum: NDArray[np.float64]
 
@@ -94,13 +101,16 @@ def measure(
     """
     record = partial(_waveforms, material, design, specimens)
     resting = _spectrum(record(0.0, 1.0, seed, 1))
-    rows, levels = [], []
+    rows, levels, centroids = [], [], []
     for speed in design.speeds_mmps:
         for force in design.forces_newtons:
             frequency, power = _spectrum(record(speed, force, seed, 1))
             rows.append([1.0, np.log(speed / REFERENCE_SPEED_MMPS), np.log(force / REFERENCE_FORCE_NEWTONS)])
-            levels.append(np.log(band_level(frequency, np.maximum(power - resting[1], _SPECTRUM_FLOOR))))
+            texture = np.maximum(power - resting[1], _SPECTRUM_FLOOR)
+            levels.append(np.log(band_level(frequency, texture)))
+            centroids.append(np.log(centroid_hz(frequency, texture)))
     _, p, q = np.linalg.lstsq(np.array(rows), np.array(levels), rcond=None)[0]
+    _, centroid_exponent, _ = np.linalg.lstsq(np.array(rows), np.array(centroids), rcond=None)[0]
 
     waveforms = record(REFERENCE_SPEED_MMPS, REFERENCE_FORCE_NEWTONS, seed + 1000, design.reference_repeats)
     frequency, power = _spectrum(waveforms)
@@ -108,8 +118,30 @@ def measure(
     crest = float(np.mean([np.percentile(np.abs(each), 99.9) / np.std(each) for each in waveforms]))
     return Measurement(
         band_level(frequency, power), float(p), float(q), centroid_hz(frequency, power),
-        slope_db_per_octave(frequency, power), crest, frequency, power,
+        slope_db_per_octave(frequency, power), crest, float(centroid_exponent),
+        _fast_centroid_exponent(record, design, resting[1], seed), frequency, power,
     )
+
+
+def pooled_exponent(exponents: Iterable[float]) -> float:
+    """Of one line through the logarithms of all labels, each with a level of its own; the labels share a design."""
+    return float(np.mean(list(exponents)))
+
+
+def _fast_centroid_exponent(
+    record: Callable[[float, float, int, int], list[NDArray[np.float64]]],
+    design: Design,
+    resting: NDArray[np.float64],
+    seed: int,
+) -> float | None:
+    if not design.fast_speeds_mmps:
+        return None
+    speeds = (max(design.speeds_mmps), *design.fast_speeds_mmps)
+    centroids = []
+    for speed in speeds:
+        frequency, power = _spectrum(record(speed, REFERENCE_FORCE_NEWTONS, seed, 1))
+        centroids.append(centroid_hz(frequency, np.maximum(power - resting, _SPECTRUM_FLOOR)))
+    return float(np.polyfit(np.log(speeds), np.log(centroids), 1)[0])
 
 
 def band_level(frequency_hz: NDArray[np.float64], spectrum: NDArray[np.float64]) -> float:

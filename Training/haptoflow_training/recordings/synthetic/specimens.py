@@ -17,12 +17,13 @@ _DEGREES_BETWEEN_DIRECTIONS = 45
 def training_specimen(identity: RecordingIdentity) -> int:
     """The specimen that the training protocols record under this identity, one of TRAINING_SPECIMENS.
 
-    Hand recordings go round the specimens by repeat, machine recordings by direction and repeat. Each round begins one
-    later than the round before, so that what recurs every second or fourth time meets all specimens.
+    Hand recordings go round the specimens by repeat, machine recordings by direction. Each round begins one later than
+    the round before, so that what recurs every second or fourth time meets all specimens. Repeats of a machine pass
+    are on two specimens.
     """
-    if identity.direction_degrees is None:
-        place = identity.repeat
-    else:
-        place = identity.direction_degrees // _DEGREES_BETWEEN_DIRECTIONS + 2 * identity.repeat
     count = len(TRAINING_SPECIMENS)
-    return TRAINING_SPECIMENS[(place + place // count) % count]
+    if identity.direction_degrees is None:
+        place, further = identity.repeat, 0
+    else:
+        place, further = identity.direction_degrees // _DEGREES_BETWEEN_DIRECTIONS, 2 * identity.repeat
+    return TRAINING_SPECIMENS[(place + place // count + further) % count]

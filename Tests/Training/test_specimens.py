@@ -1,0 +1,159 @@
+"""Several specimens of a label: other random surfaces, the same label; one that no training recording touches."""
+
+from __future__ import annotations
+
+from collections import Counter
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from haptoflow_training.recordings.recording import RecordingIdentity
+from haptoflow_training.recordings.synthetic import (
+    HELD_OUT_SPECIMEN,
+    TRAINING_SPECIMENS,
+    hand_conditions,
+    load_materials,
+    machine_conditions,
+    protocols,
+    record_condition,
+    record_hand,
+    record_hand_condition,
+    record_machine,
+    record_machine_condition,
+    training_specimen,
+)
+from haptoflow_training.recordings.synthetic.contact import SIMULATION_RATE_HZ
+from haptoflow_training.recordings.synthetic.features import impact_acceleration, ruling_height
+from haptoflow_training.recordings.synthetic.surface import TipPath, random_height
+from haptoflow_training.training.config import load_config
+from haptoflow_training.training.recordings_source import synthetic_recordings
+
+MATERIALS = {material.label: material for material in load_materials()}
+CONFIGURATIONS = Path(__file__).parents[2] / "Training" / "configs"
+
+
+def _path(speed_mmps: float = 200.0, seconds: float = 2.0, degrees: float = 20.0) -> TipPath:
+    angle = np.radians(degrees)
+    velocity = np.tile(speed_mmps * np.array([np.cos(angle), np.sin(angle)]), (int(seconds * SIMULATION_RATE_HZ), 1))
+    return TipPath(np.cumsum(velocity, axis=0) / SIMULATION_RATE_HZ, velocity)
+
+
+def test_another_specimen_has_another_random_surface_and_other_asperities() -> None:
+    heights = [random_height(MATERIALS["stone"], _path(), specimen=each)[0] for each in (0, 1, HELD_OUT_SPECIMEN)]
+    assert np.abs(np.corrcoef(np.diff(heights, axis=1))[np.triu_indices(3, 1)]).max() < 0.15
+    struck = [
+        impact_acceleration(MATERIALS["stone"], _path(), SIMULATION_RATE_HZ, specimen=each) != 0.0 for each in (0, 4)
+    ]
+    assert np.mean(struck[0][struck[1]]) < 0.1
+
+
+def test_specimens_have_their_ribs_at_the_same_places_but_for_the_jitter() -> None:
+    for label in ("corduroy", "metal mesh", "jute"):
+        material = MATERIALS[label]
+        for number, ruling in enumerate(material.rulings):
+            machined = replace(ruling, jitter=0.0)
+            one, other = (ruling_height(material, machined, number, _path(), specimen=each) for each in (0, 4))
+            assert np.array_equal(one, other)
+            one, other = (ruling_height(material, ruling, number, _path(), specimen=each) for each in (0, 4))
+            assert not np.array_equal(one, other)
+
+
+def test_the_phase_of_ribs_is_the_wave_vector_times_the_recorded_position_on_every_specimen() -> None:
+    """The first harmonic of what is felt has one phase against the position, wherever a stroke begins."""
+    turns = []
+    for seed, specimen in enumerate((0, 0, 3, 3, HELD_OUT_SPECIMEN, HELD_OUT_SPECIMEN)):
+        recording = record_condition(
+            MATERIALS["corduroy"],
+            velocity_mps=(0.15, 0.0),
+            force_newtons=1.0,
+            duration_seconds=2.0,
+            seed=seed,
+            specimen=specimen,
+            noise=False,
+        )
+        time = recording.acceleration_time_seconds
+        settled = (time > 0.3) & (time < 1.9)
+        across = np.interp(time, recording.position_time_seconds, recording.position_mm[:, 0]) / 2.5
+        normal = recording.acceleration_g[settled, 2] - recording.acceleration_g[settled, 2].mean()
+        line = np.mean(normal * np.exp(-2j * np.pi * across[settled]))
+        turns.append(line / np.abs(line))
+    assert np.abs(np.angle(np.array(turns) / np.mean(turns))).max() < 0.3, np.angle(turns)
+
+
+def test_specimens_of_a_label_have_its_level() -> None:
+    def rms(specimen: int) -> float:
+        levels = []
+        for seed in range(3):
+            recording = record_condition(
+                MATERIALS["plastic"], velocity_mps=(0.1, 0.03), force_newtons=1.0, duration_seconds=2.0, seed=seed,
+                specimen=specimen,
+            )  # fmt: skip
+            levels.append(np.var(recording.acceleration_g[1200:], axis=0).sum())
+        return float(np.sqrt(np.mean(levels)))
+
+    levels_db = 20.0 * np.log10([rms(specimen) for specimen in (*TRAINING_SPECIMENS, HELD_OUT_SPECIMEN)])
+    assert np.ptp(levels_db) < 1.0
+
+
+def test_no_recording_of_the_default_training_is_of_the_held_out_specimen(monkeypatch: pytest.MonkeyPatch) -> None:
+    counted: Counter[int] = Counter()
+    for ride in ("machine_pass", "hand_ride", "guided_ride"):
+        monkeypatch.setattr(protocols, ride, lambda rng, **condition: None)
+    monkeypatch.setattr(protocols, "record_ride", lambda *ride, specimen: counted.update([specimen]))
+    recordings = list(synthetic_recordings(load_config(CONFIGURATIONS / "default" / "standard.toml").data))
+    for recording in recordings:
+        recording.load()
+    assert counted.total() == len(recordings) > 1000
+    assert HELD_OUT_SPECIMEN not in counted
+    assert set(counted) == set(TRAINING_SPECIMENS)
+    assert max(counted.values()) < 1.3 * min(counted.values())
+
+
+def test_recordings_say_their_specimen_and_the_protocols_record_the_one_that_the_identity_gives() -> None:
+    materials = list(MATERIALS.values())
+    hand = list(record_hand(materials, seed=1, labels=["glass"], recordings_per_label=5, duration_seconds=2.0))
+    machine = list(record_machine(materials, seed=1, labels=["glass"], speeds_mmps=[60], forces_millinewtons=[500]))
+    for recording in hand + machine:
+        assert recording.specimen == training_specimen(recording.identity)
+    assert {recording.specimen for recording in hand} == {recording.specimen for recording in machine}
+    condition = {"velocity_mps": (0.1, 0.0), "force_newtons": 1.0, "duration_seconds": 0.5, "seed": 1}
+    assert record_condition(MATERIALS["glass"], **condition).specimen == HELD_OUT_SPECIMEN
+    assert record_condition(MATERIALS["glass"], **condition, specimen=2).specimen == 2
+    with pytest.raises(ValueError, match="specimen is -1"):
+        record_condition(MATERIALS["glass"], **condition, specimen=-1)
+
+
+def test_a_stroke_or_pass_on_a_chosen_specimen_follows_the_same_motion_over_another_surface() -> None:
+    stroke = hand_conditions(MATERIALS["wood"], seed=1, recordings=3)[1]
+    usual, chosen = (
+        record_hand_condition(MATERIALS["wood"], stroke, seed=1, duration_seconds=2.0, specimen=each)
+        for each in (None, HELD_OUT_SPECIMEN)
+    )
+    assert np.array_equal(usual.position_mm, chosen.position_mm)
+    assert not np.array_equal(usual.acceleration_g, chosen.acceleration_g)
+    passes = [
+        record_machine_condition(MATERIALS["wood"], RecordingIdentity(0, 0, 60, 500, 0), seed=1, specimen=each)
+        for each in (None, HELD_OUT_SPECIMEN)
+    ]
+    assert [each.specimen for each in passes] == [0, HELD_OUT_SPECIMEN]
+
+
+def test_every_specimen_has_guided_and_free_strokes_slow_and_fast_ones_and_both_ways_of_a_pass() -> None:
+    identities = hand_conditions(MATERIALS["wood"], seed=1, recordings=60)
+    for share in (0.25, 0.5, 0.85):
+        for guided in (True, False):
+            met = {
+                training_specimen(each)
+                for each in identities
+                if (int((each.repeat + 1) * share) > int(each.repeat * share)) == guided
+            }
+            assert met == set(TRAINING_SPECIMENS)
+    for specimen in TRAINING_SPECIMENS:
+        speeds = [each.speed_mmps for each in identities if training_specimen(each) == specimen]
+        assert min(speeds) < 12 and max(speeds) > 600
+    passes = machine_conditions(MATERIALS["wood"])
+    for specimen in TRAINING_SPECIMENS:
+        directions = {each.direction_degrees for each in passes if training_specimen(each) == specimen}
+        assert len(directions) == 4
