@@ -8,6 +8,7 @@ import sys
 from pathlib import Path
 
 from haptoflow_training.commands.export import announce
+from haptoflow_training.commands.level_offsets import by_label, measured_offsets_db
 from haptoflow_training.export.exporter import export_run
 from haptoflow_training.training.config import TrainingConfig, load_config
 from haptoflow_training.training.processes import join_processes
@@ -91,9 +92,12 @@ def run(options: argparse.Namespace) -> int:
             print(f"haptoflow-training: {stop}", file=sys.stderr)
             return 0
         if processes.is_first and options.export is not None:
+            offsets = measured_offsets_db(options.out, source) if config.recipe.calibrate_level else None
             checksum = export_run(
-                options.out, source.store, source.labels, source.provenance, options.export, options.parity
-            )
-            write_json(options.out / "export.json", {"file": options.export.name, "crc32": f"{checksum:08x}"})
+                options.out, source.store, source.labels, source.provenance, options.export, options.parity,
+                level_offsets_db=offsets,
+            )  # fmt: skip
+            described = {"file": options.export.name, "crc32": f"{checksum:08x}"}
+            write_json(options.out / "export.json", {**described, **by_label(offsets, source)})
             announce(options.export, checksum)
     return 0

@@ -6,19 +6,15 @@ import argparse
 import os
 from pathlib import Path
 
-import torch
 from tqdm import tqdm
 
 from haptoflow_training.commands.export import announce
+from haptoflow_training.commands.level_offsets import by_label, measured_offsets_db
 from haptoflow_training.errors import InputError
-from haptoflow_training.evaluation.level_calibration import TierSource, hops, level_offsets_db
 from haptoflow_training.export.exporter import export_run
-from haptoflow_training.export.trained_tier import load_tiers
-from haptoflow_training.models.level_model import LevelModel
 from haptoflow_training.training.config import load_config
-from haptoflow_training.training.held_out import HeldOut
 from haptoflow_training.training.job_lanes import Job, run_jobs
-from haptoflow_training.training.recordings_source import Source, open_source
+from haptoflow_training.training.recordings_source import open_source
 from haptoflow_training.training.run_log import last_step, write_json
 from haptoflow_training.training.trainer import planned_steps
 
@@ -70,7 +66,7 @@ def run(options: argparse.Namespace) -> int:
         return 0
     folders = [options.out / path.stem for path in tier_files]
     default = options.out / "standard" if options.out / "standard" in folders else folders[0]
-    offsets = _level_offsets(default, source)
+    offsets = measured_offsets_db(default, source)
     checksum = export_run(
         default,
         source.store,
@@ -82,22 +78,9 @@ def run(options: argparse.Namespace) -> int:
         offsets,
     )
     described = {"file": options.export.name, "crc32": f"{checksum:08x}"}
-    by_label = {info.name: round(offset, 3) for info, offset in zip(source.labels, offsets or [], strict=False)}
-    write_json(options.out / "export.json", {**described, "level_offsets_db": by_label})
+    write_json(options.out / "export.json", {**described, **by_label(offsets, source)})
     announce(options.export, checksum)
     return 0
-
-
-def _level_offsets(default: Path, source: Source) -> list[float] | None:
-    """What the default tier gives too much of each label, in dB, for the export to take back from all tiers; None where
-    the level is one for all labels."""
-    torch.set_num_threads(1)
-    tier = load_tiers([default])[0]
-    if not isinstance(tier.model.level, LevelModel):
-        return None
-    with tqdm(total=hops(source.store), unit="hop", desc="levels") as bar:
-        made = TierSource(tier)
-        return level_offsets_db(made, made.embeddings, source.store, HeldOut.of(tier.config.batch), bar.update)
 
 
 def _train_all(files: list[Path], out: Path, lanes: int, more: list[str]) -> None:

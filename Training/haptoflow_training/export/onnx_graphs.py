@@ -82,6 +82,7 @@ def _export_baseline(baseline: Baseline) -> bytes:
         "previous": wave.clone(),
         "embedding": torch.zeros(2, EMBEDDING_SIZE),
         "motion": torch.full((2, 3), 0.1),
+        "rib_phase": torch.full((2, 2), 0.25),
     }
     return _export(BaselineGraph(baseline), {name: examples[name] for name in baseline.inputs}, "segment")
 

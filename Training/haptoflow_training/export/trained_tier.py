@@ -57,8 +57,6 @@ class TrainedTier:
         rib_phase: Tensor,
     ) -> Tensor:
         """What the exported graph returns: the velocity, or the segment of a direct tier."""
-        if isinstance(self.model.field, Baseline):
-            return self.model.field(noisy, previous, embedding, motion)
         if self.kind == "direct":
             return self.model.one_step(noisy, previous, embedding, motion, rib_phase)
         return self.model.field(noisy, time, previous, embedding, motion, rib_phase, interval)

@@ -38,6 +38,8 @@ class HaptoFlowModel(nn.Module):
     ) -> Tensor:
         """The segment [B, 1, 200] that a network taught to be whole in one step makes; all in unit scale. rib_phase
         [B, 2] in turns, at the segment's first sample."""
+        if isinstance(self.field, Baseline):
+            return self.field(noise, previous, embedding, motion, rib_phase)
         change = self.field(noise, torch.zeros(1, 1), previous, embedding, motion, rib_phase)
         return self.band_limit(previous, noise + change)
 

@@ -133,20 +133,26 @@ class RibComb(nn.Module):
         the past, then the surface's in phase and a quarter turn behind, by gains in that order.
         """
         waves, signed = self.waves(embedding, motion)
-        told = self.audible(signed, _LOWEST_IN_PAST_HZ) * self.mirror
+        carried, pulses, lines = self.partials(waves, signed, mirrored, rib_phase, gains)
+        rows = torch.stack([carried, carried, pulses, pulses, lines], dim=1) * self.families
+        return rows.reshape(-1, COMB_CHANNELS, 2 * PARTIALS) @ waves
+
+    def partials(
+        self, waves: Tensor, signed_hz: Tensor, mirrored: Tensor, rib_phase: Tensor, gains: Tensor
+    ) -> tuple[Tensor, Tensor, Tensor]:
+        """Cosine and sine of every partial [B, 28, 2] of the past carried on, of the pulses and of the lines."""
+        told = self.audible(signed_hz, _LOWEST_IN_PAST_HZ) * self.mirror
         carried = (mirrored * self.weights @ waves.transpose(1, 2)).reshape(-1, PARTIALS, 2) * told
         size = carried.norm(p=2, dim=2, keepdim=True) + _SMALL
-        surface = self.surface(signed, rib_phase)
+        surface = self.surface(signed_hz, rib_phase)
         kept, held, in_phase, behind = gains.reshape(-1, 4, PARTIALS, 1).unbind(dim=1)
         bounded = kept * torch.clamp(_LARGEST_AMPLITUDE / size, max=1.0)
         ahead, aside = surface.split(1, dim=2)
         # A partial p cos(P + a) + q sin(P + a), with P the surface's phase: cosine p cos P + q sin P, sine q cos P - p sin P.
         turned = torch.cat([in_phase * ahead + behind * aside, behind * ahead - in_phase * aside], dim=2)
-        sounding = self.audible(signed, _LOWEST_HZ)
+        sounding = self.audible(signed_hz, _LOWEST_HZ)
         lines = carried * (bounded + held / size) + turned * sounding
-        pulses = torch.cat([ahead, -aside], dim=2) * sounding
-        rows = torch.stack([carried, carried, pulses, pulses, lines], dim=1) * self.families
-        return rows.reshape(-1, COMB_CHANNELS, 2 * PARTIALS) @ waves
+        return carried, torch.cat([ahead, -aside], dim=2) * sounding, lines
 
 
 def _thin_product(left: Tensor, right: Tensor) -> Tensor:

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any, TypeVar
 
 from haptoflow_training.errors import InputError
-from haptoflow_training.models.baselines import ARCHITECTURES
+from haptoflow_training.models.baselines import ARCHITECTURES, REGRESSING
 
 
 @dataclass(frozen=True)
@@ -41,8 +41,9 @@ class DataConfig:
 class ModelConfig:
     """What is trained. architecture: `unet` (the velocity field, `width` to `levels`) or one of the baselines.
 
-    ribs: the field hears what the ribs of ruled surfaces would do next (raw samples only). impulses: it strikes rare
-    events from the tails of its noise (raw samples only).
+    ribs: the field hears what the ribs of ruled surfaces would do next, and a baseline has their lines added (raw samples
+    only). impulses: it strikes rare events from the tails of its noise (raw samples only). sampled: a baseline that
+    regresses by itself (transformer, dstn, spsi) draws its segment.
     `representation` is handed to `build_representation`. hears_previous: false leaves the previous waveform out; level:
     `law` or `constant` (one level for everything): both to show what they are worth.
     """
@@ -50,6 +51,7 @@ class ModelConfig:
     architecture: str = "unet"
     ribs: bool = False
     impulses: bool = False
+    sampled: bool = False
     hears_previous: bool = True
     level: str = "law"
     width: int = 64
@@ -61,8 +63,14 @@ class ModelConfig:
 
 @dataclass(frozen=True)
 class OptimiserConfig:
-    """AdamW with warm-up, cosine decay over each phase's second half, gradient clipping and a moving average."""
+    """AdamW with warm-up, cosine decay over each phase's second half, gradient clipping and a moving average.
 
+    budget_seconds: what the whole run may take of one core, in seconds of its own computing time, so that a machine that
+    does other work meanwhile takes nothing from it. The level's phases keep about their steps, the network's are
+    lengthened or shortened by one factor, and all end by the clock; 0 for phases of exactly the stated steps.
+    """
+
+    budget_seconds: float = 0.0
     learning_rate: float = 6e-4
     weight_decay: float = 1e-4
     batch_size: int = 96
@@ -113,6 +121,8 @@ class RecipeConfig:
     energy_steps: one-step fine-tuning by a spectral energy distance; afterwards the network is a `direct` tier.
     self_forcing_steps: the objective of the phase before, on the network's own output as previous waveform.
     shares_base: keep the embedding and level model of another run (`--base`), as a further tier of its file does.
+    calibrate_level: `train --export` takes back what the trained network makes too loud or too quiet of each label in
+    closed loop, as train-tiers does for the default model.
     """
 
     objective: str = "flow"
@@ -125,6 +135,7 @@ class RecipeConfig:
     self_forcing_steps: int = 0
     self_forcing_learning_rate: float = 3e-4
     shares_base: bool = False
+    calibrate_level: bool = False
 
 
 @dataclass(frozen=True)
@@ -242,6 +253,7 @@ def _check(config: TrainingConfig, path: Path) -> None:
         (optimiser.learning_rate > 0.0, "optimiser.learning_rate", "above 0"),
         (optimiser.batch_size >= 1, "optimiser.batch_size", "at least 1"),
         (optimiser.steps >= 0, "optimiser.steps", "at least 0"),
+        (optimiser.budget_seconds >= 0.0, "optimiser.budget_seconds", "at least 0"),
         (0.0 <= optimiser.average_decay < 1.0, "optimiser.average_decay", "0 to below 1"),
         (
             len(config.batch.hop_samples) == 2
@@ -270,9 +282,27 @@ def _check(config: TrainingConfig, path: Path) -> None:
             f"'unet' or a baseline: {', '.join(ARCHITECTURES)}",
         ),
         (
-            config.model.architecture == "unet" or config.recipe == RecipeConfig(),
+            not config.model.sampled or config.model.architecture in REGRESSING,
+            "model.sampled",
+            f"false but for {', '.join(REGRESSING)}: all else draws by itself",
+        ),
+        (
+            config.model.architecture == "unet"
+            or (config.recipe.objective == "flow" and config.recipe.reflow_steps == 0),
             "recipe",
-            "left out for a baseline, which is trained by its own loss alone",
+            "no average velocity and no reflow for a baseline, which has no flow",
+        ),
+        (
+            config.recipe.energy_steps == 0 or config.model.sampled or config.model.architecture not in REGRESSING,
+            "recipe.energy_steps",
+            "0 for a baseline that does not draw: set model.sampled",
+        ),
+        (
+            config.recipe.self_forcing_steps == 0
+            or config.recipe.energy_steps > 0
+            or config.model.architecture == "unet",
+            "recipe.self_forcing_steps",
+            "0 for a baseline without energy_steps",
         ),
         (
             not config.model.ribs or config.model.representation.get("kind", "raw") == "raw",
@@ -280,6 +310,11 @@ def _check(config: TrainingConfig, path: Path) -> None:
             "false with a latent representation",
         ),
         (config.model.level in ("law", "constant"), "model.level", "'law' or 'constant'"),
+        (
+            not config.recipe.calibrate_level or config.model.level == "law",
+            "recipe.calibrate_level",
+            "false with a constant level, which has no label's level to shift",
+        ),
         (config.tier in ("draft", "standard", "fine"), "tier", "'draft', 'standard' or 'fine'"),
         (config.recipe.objective in ("flow", "average-velocity"), "recipe.objective", "'flow' or 'average-velocity'"),
         (

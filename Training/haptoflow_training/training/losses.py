@@ -12,7 +12,6 @@ from haptoflow_training.models.label_embedding import rib_frequencies_hz, rib_ph
 from haptoflow_training.models.level_model import level_loss
 from haptoflow_training.models.rib_comb import PARTIALS
 from haptoflow_training.models.unit_scale import scaled_previous
-from haptoflow_training.models.velocity_field import VelocityField
 from haptoflow_training.training.batches import Chain, SegmentBatch
 from haptoflow_training.training.config import SolverConfig
 from haptoflow_training.training.energy_distance import energy_distance_loss, envelopes, halves_of, spectra
@@ -21,7 +20,7 @@ from haptoflow_training.training.mean_flow import AverageField, mean_flow_loss
 from haptoflow_training.training.reflow import ReflowPairs, reflow_loss
 from haptoflow_training.training.label_balance import LabelBalance, label_features
 
-# `own`: what a baseline is trained for in its own paper.
+# `own`: what a baseline is trained for by its own form.
 Objective = Literal["level", "flow", "average-velocity", "reflow", "energy", "own"]
 
 _BALANCE_WEIGHT = 2.0
@@ -107,8 +106,10 @@ class Losses(nn.Module):
             return model.field(noisy, time, encoded_previous, embedding, batch.motion, phase)
 
         if objective == "own":
-            own = model.field.loss(segment, encoded_previous, embedding, batch.motion, generator)
-            return (own / power).sum() / power.reciprocal().sum()
+            own = model.field.loss(segment, encoded_previous, embedding, batch.motion, phase, generator)
+            # A likelihood is of all segments alike: weighted down by what it has to foresee, it would foresee less.
+            weight = torch.ones_like(power) if model.field.is_sampled else power.reciprocal()
+            return (weight * own).sum() / weight.sum()
         if objective == "flow":
             return flow_matching_loss(field, segment, generator, 1.0 / power)
         if objective == "average-velocity":
@@ -161,7 +162,7 @@ class Losses(nn.Module):
     ) -> tuple[list[Tensor], Tensor]:
         """The partials [B, 2, P] of each segment, seen from the rib phase, and which of them can be told apart, [B, P]:
         none for a network without ribs."""
-        comb = self.model.field.comb if isinstance(self.model.field, VelocityField) else None
+        comb = self.model.field.comb
         if comb is None:
             nothing = torch.zeros(len(batch.label), 2, PARTIALS)
             return [nothing] * len(segments), nothing[:, 0]
@@ -206,7 +207,7 @@ class Losses(nn.Module):
         start = torch.zeros(label.shape[0], 1)
         if objective == "average-velocity":
             made = noise + model.field(noise, start, previous, embedding, motion, phase, torch.ones_like(start))
-        elif objective == "energy":
+        elif objective in ("energy", "own"):
             made = model.one_step(noise, previous, embedding, motion, phase)
         else:
             made = solve(field, noise, self._solver.kind, self._solver.steps)

@@ -1,11 +1,13 @@
 """The training loop: level model first, then level and velocity field together, then the level once more.
 
 Resumable: a checkpoint holds weights, moving average, optimiser, generators and position; a run that is started
-again in the same folder goes on from it and ends with the same weights as one that was never stopped.
+again in the same folder goes on from it and ends with the same weights as one that was never stopped. A run with a
+budget of time goes on with what is left of it; how many steps that makes is the machine's matter.
 """
 
 from __future__ import annotations
 
+import dataclasses
 import math
 import os
 import signal
@@ -28,6 +30,7 @@ from haptoflow_training.models.level_model import ConstantLevel, LevelModel
 from haptoflow_training.models.representation import build_representation
 from haptoflow_training.models.velocity_field import VelocityField
 from haptoflow_training.training.batches import SegmentBatches, Store
+from haptoflow_training.training.budget import Budget
 from haptoflow_training.training.config import TrainingConfig, config_from_dict
 from haptoflow_training.training.losses import Losses, Objective
 from haptoflow_training.training.moving_average import MovingAverage
@@ -40,6 +43,9 @@ _COLUMNS = ("step", "phase", "field_loss", "level_loss", "validation_field_loss"
 _LOG_EVERY = 100
 _CHECKPOINT_EVERY = 1000
 _VALIDATION_BATCH = 512
+# Of each phase, to see what its steps cost before a budget is shared out; the first ones warm up.
+_REHEARSED_STEPS, _WARM_UP_STEPS = 12, 2
+_REHEARSED_PAIRS = 500
 
 
 class TrainingStopped(Exception):
@@ -69,7 +75,7 @@ def build_model(config: TrainingConfig, wave_vectors: WaveVectors) -> HaptoFlowM
             levels=shape.levels,
         )
     else:
-        field = build_baseline(shape.architecture)
+        field = build_baseline(shape.architecture, ribs=shape.ribs, sampled=shape.sampled)
     level = LevelModel() if shape.level == "law" else ConstantLevel()
     return HaptoFlowModel(wave_vectors=wave_vectors, representation=representation, level=level, field=field)
 
@@ -139,12 +145,15 @@ class Trainer:
         start: Path | None = None,
     ) -> None:
         self._config, self._store, self._folder, self._processes = config, store, folder, processes
-        self._start = start
+        self._start, self._base, self._wave_vectors = start, base, wave_vectors
         optimiser = config.optimiser
-        self._phases = _phases(config)
+        self._phases = list(_phases(config))
+        self._budget: Budget | None = None
         torch.set_num_threads(config.threads)
         torch.manual_seed(config.seed)
         self.model = build_model(config, wave_vectors or [()] * len(store.labels))
+        if optimiser.budget_seconds and processes.count > 1:
+            raise InputError("optimiser.budget_seconds is of one process; leave it out under torchrun")
         if config.recipe.shares_base != (base is not None):
             raise InputError(
                 "--base FOLDER and recipe.shares_base = true go together: the one names the run whose level is kept, "
@@ -222,12 +231,16 @@ class Trainer:
         if self._processes.count > 1:
             losses = DistributedDataParallel(self._losses, find_unused_parameters=True)
         bar = tqdm(total=self._total, initial=self._step, unit="step", disable=log is None, desc=self._config.name)
-        for phase in self._phases:
+        if self._config.optimiser.budget_seconds and self._budget is None:
+            self._budget = self._shared_out_budget()
+        for index, phase in enumerate(self._phases):
             if self._step >= phase.end:
                 continue
             self._enter(phase)
             while self._step < phase.end:
                 level, field = self._train_step(losses, phase)
+                phase = self._paced(index)
+                bar.total = self._total
                 bar.update()
                 if self._step % _LOG_EVERY == 0 or self._step == phase.end:
                     self._seconds += time.monotonic() - clock
@@ -238,6 +251,54 @@ class Trainer:
                 if self._stop:
                     raise TrainingStopped(f"stopped at step {self._step} of {self._total}; start again to go on")
         bar.close()
+
+    def _paced(self, index: int) -> _Phase:
+        """The phase that runs, as long as its share of the budget lets it be by now."""
+        if self._budget is not None:
+            self._budget.spend(index)
+            done = self._step - self._phases[index].first_step
+            self._plan([*self._planned_steps[:index], self._budget.steps(index, done), *self._planned_steps[index + 1 :]])
+        return self._phases[index]
+
+    @property
+    def _planned_steps(self) -> list[int]:
+        return [phase.steps for phase in self._phases]
+
+    def _plan(self, steps: Sequence[int]) -> None:
+        first = 0
+        for index, (phase, count) in enumerate(zip(list(self._phases), steps, strict=True)):
+            self._phases[index] = dataclasses.replace(phase, first_step=first, steps=count)
+            first += count
+
+    def _shared_out_budget(self) -> Budget:
+        """Of a run that is about to begin: what steps cost is tried on a network that is thrown away."""
+        config = self._config
+        tried = Trainer(
+            dataclasses.replace(
+                config,
+                optimiser=dataclasses.replace(config.optimiser, budget_seconds=0.0),
+                recipe=dataclasses.replace(config.recipe, reflow_pairs=_REHEARSED_PAIRS),
+            ),
+            self._store, self._folder, self._processes, self._base, self._wave_vectors, self._start,
+        )  # fmt: skip
+        budget = Budget.shared_out(
+            config.optimiser.budget_seconds,
+            self._planned_steps,
+            [tried._seconds_per_step(phase) for phase in tried._phases],
+            kept=[phase.objective == "level" for phase in self._phases],
+        )
+        budget.start()
+        return budget
+
+    def _seconds_per_step(self, phase: _Phase) -> float:
+        self._step = phase.first_step
+        self._enter(phase)
+        for _ in range(_WARM_UP_STEPS):
+            self._train_step(self._losses, phase)
+        begun = time.process_time()
+        for _ in range(_REHEARSED_STEPS):
+            self._train_step(self._losses, phase)
+        return (time.process_time() - begun) / _REHEARSED_STEPS
 
     def _enter(self, phase: _Phase) -> None:
         if self._step == phase.first_step and phase.name in ("reflow", "energy", "polish"):
@@ -328,6 +389,8 @@ class Trainer:
                 "labels": list(self._store.labels),
                 "step": self._step,
                 "seconds": self._seconds,
+                "steps": self._planned_steps,
+                "budget": (self._budget.allotted_seconds, self._budget.used_seconds) if self._budget else None,
                 "model": self.model.state_dict(),
                 "average": self._average.state(),
                 "optimiser": self._optimiser.state_dict(),
@@ -349,6 +412,8 @@ class Trainer:
         self._average.restore(content["average"])
         self._optimiser.load_state_dict(content["optimiser"])
         self._step, self._seconds = content["step"], content["seconds"]
+        self._plan(content["steps"])
+        self._budget = Budget(*content["budget"]) if content["budget"] else None
         self._noise.set_state(own["noise"])
         self._batches.restore(own["batches"])
         self._balance.restore(own["balance"])
@@ -367,10 +432,18 @@ class Trainer:
                 "steps": self._step,
                 "processes": self._processes.count,
                 "training_seconds": round(self._seconds, 1),
+                "phases": self._described_phases(),
                 "validation_level_loss": level,
                 "validation_field_loss": field,
             },
         )
+
+    def _described_phases(self) -> list[dict[str, Any]]:
+        used = self._budget.used_seconds if self._budget else [None] * len(self._phases)
+        return [
+            {"name": phase.name, "steps": phase.steps, **({"core_seconds": round(seconds, 1)} if seconds else {})}
+            for phase, seconds in zip(self._phases, used, strict=True)
+        ]
 
 
 def _save_atomically(content: dict[str, object], path: Path) -> None:

@@ -14,7 +14,8 @@ import math
 import torch
 from torch import Tensor, nn
 
-from haptoflow_training.models.baselines.baseline import SEGMENT_SAMPLES, Baseline, ConditionPerceptron
+from haptoflow_training.models.baselines.baseline import SEGMENT_SAMPLES, Baseline, reads
+from haptoflow_training.models.baselines.condition import ConditionPerceptron
 from haptoflow_training.models.unit_scale import PREVIOUS_LIMIT
 
 ORDER = 16
@@ -103,12 +104,16 @@ def _log_cosh(argument: Tensor) -> Tensor:
 
 
 class AutoregressiveBaseline(Baseline):
-    """Material and motion to a filter and a level; the noise drives it on from the previous waveform."""
+    """Material and motion to a filter and a level; the noise drives it on from the previous waveform.
+
+    With ribs, it drives on what of the previous waveform is not of the ribs, and their lines are added.
+    """
 
     damping: Tensor
 
-    def __init__(self) -> None:
-        super().__init__()
+    def __init__(self, *, ribs: bool = False) -> None:
+        super().__init__(ribs=ribs)
+        self.inputs = reads("noisy", "previous", ribs=ribs)
         self.perceptron = ConditionPerceptron(ORDER + 1)
         self.filter = AllPoleFilter()
         damping = POLE_DAMPING ** torch.arange(1.0, ORDER + 1.0).unsqueeze(0)
@@ -131,7 +136,7 @@ class AutoregressiveBaseline(Baseline):
         log_gain = log_level - _log_cosh(argument).sum(dim=1, keepdim=True)
         return step_up(torch.tanh(argument)) * self.damping, log_gain
 
-    def forward(self, noisy: Tensor, previous: Tensor, embedding: Tensor, motion: Tensor) -> Tensor:
+    def own_form(self, noisy: Tensor, previous: Tensor, embedding: Tensor, motion: Tensor) -> Tensor:
         coefficients, log_gain = self.process(embedding, motion)
         drive = noisy[:, 0] * log_gain.exp()
         wave = self.filter(drive, coefficients, previous[:, 0, -ORDER:])
@@ -139,11 +144,18 @@ class AutoregressiveBaseline(Baseline):
         return wave.clamp(-PREVIOUS_LIMIT, PREVIOUS_LIMIT).unsqueeze(1)
 
     def loss(
-        self, segment: Tensor, previous: Tensor, embedding: Tensor, motion: Tensor, generator: torch.Generator
+        self,
+        segment: Tensor,
+        previous: Tensor,
+        embedding: Tensor,
+        motion: Tensor,
+        rib_phase: Tensor,
+        generator: torch.Generator,
     ) -> Tensor:
-        """[B]: Gaussian negative log-likelihood per sample of the one-step prediction errors."""
+        """[B]: Gaussian negative log-likelihood per sample of the one-step prediction errors of what the ribs leave."""
         coefficients, log_gain = self.process(embedding, motion)
-        wave = torch.cat([previous[:, 0, -ORDER:], segment[:, 0]], dim=1)
+        rest, past = self.rest(segment, previous, embedding, motion, rib_phase)
+        wave = torch.cat([past[:, 0, -ORDER:], rest[:, 0]], dim=1)
         taps = torch.cat([torch.ones_like(log_gain), coefficients], dim=1)
         # Windows run forwards in time, the filter backwards.
         windows = wave.unfold(1, ORDER + 1, 1)

@@ -1,47 +1,99 @@
-"""What all baselines share: one signature, one way into a graph, one way to hear of material and motion."""
+"""What all baselines share: one signature, one way into a graph, and the ribs' lines where they are given the same."""
 
 from __future__ import annotations
 
 import torch
 from torch import Tensor, nn
 
-from haptoflow_training.models.conditioning import EMBEDDING_SIZE, MotionEncoder, MotionFeatures
+from haptoflow_training.models.baselines.rib_lines import RibLines
+from haptoflow_training.models.rib_comb import RibComb
 
 SEGMENT_SAMPLES = 200
-INPUTS = ("noisy", "previous", "embedding", "motion")
+INPUTS = ("noisy", "previous", "embedding", "motion", "rib_phase")
+RIB_INPUTS = ("previous", "rib_phase")
 
 
 class Baseline(nn.Module):
     """A network that returns the whole segment in one pass, in unit scale (waves are divided by the level).
 
     `inputs` names what its exported graph reads, in the order of `INPUTS`; the rest of forward's arguments do
-    not reach its output.
+    not reach its output. `is_sampled`: it draws a segment instead of stating a mean, so that a distance between
+    distributions can teach it. `comb` is that of its ribs' lines, None without them.
     """
 
     inputs: tuple[str, ...] = INPUTS
+    is_sampled = True
 
-    def forward(self, noisy: Tensor, previous: Tensor, embedding: Tensor, motion: Tensor) -> Tensor:
-        """Segment [B, 1, 200] from standard normal noise and previous waveform [B, 1, 200], embedding [B, 64]
-        and motion [B, 3] (vx, vy in m/s, force in N)."""
+    def __init__(self, *, ribs: bool = False) -> None:
+        super().__init__()
+        self.lines = RibLines() if ribs else None
+
+    @property
+    def comb(self) -> RibComb | None:
+        return None if self.lines is None else self.lines.comb
+
+    def forward(self, noisy: Tensor, previous: Tensor, embedding: Tensor, motion: Tensor, rib_phase: Tensor) -> Tensor:
+        """Segment [B, 1, 200] from standard normal noise and previous waveform [B, 1, 200], embedding [B, 64],
+        motion [B, 3] (vx, vy in m/s, force in N) and rib phase [B, 2] (turns)."""
+        if self.lines is None:
+            return self.own_form(noisy, previous, embedding, motion)
+        lines, rest = self.lines(previous, embedding, motion, rib_phase)
+        return lines + self.own_form(noisy, rest, embedding, motion)
+
+    def own_form(self, noisy: Tensor, previous: Tensor, embedding: Tensor, motion: Tensor) -> Tensor:
+        """[B, 1, 200]: what the rival makes in the form that was published, from the past as the ribs' lines leave it."""
         raise NotImplementedError
 
     def loss(
-        self, segment: Tensor, previous: Tensor, embedding: Tensor, motion: Tensor, generator: torch.Generator
+        self,
+        segment: Tensor,
+        previous: Tensor,
+        embedding: Tensor,
+        motion: Tensor,
+        rib_phase: Tensor,
+        generator: torch.Generator,
     ) -> Tensor:
         """[B]: what this baseline is trained to make small for recorded segments [B, 1, 200], row by row."""
         raise NotImplementedError
 
+    def rest(
+        self, segment: Tensor, previous: Tensor, embedding: Tensor, motion: Tensor, rib_phase: Tensor
+    ) -> tuple[Tensor, Tensor]:
+        """What the ribs' lines leave of a recorded segment and of the past before it, [B, 1, 200] each: what the published
+        form is fitted to."""
+        if self.lines is None:
+            return segment, previous
+        lines, rest = self.lines(previous, embedding, motion, rib_phase)
+        return segment - lines, rest
 
-class DeterministicBaseline(Baseline):
-    """One answer for one question: trained by mean squared error on the segment, no noise read."""
 
-    inputs = ("previous", "embedding", "motion")
+class RegressingBaseline(Baseline):
+    """One answer for one question: trained by mean squared error on the segment, no noise read. `sampled`: it reads
+    noise, and the mean squared error is no more than a start."""
+
+    def __init__(self, *, ribs: bool = False, sampled: bool = False) -> None:
+        super().__init__(ribs=ribs)
+        self.is_sampled = sampled
+        self.inputs = reads(*(("noisy",) if sampled else ()), "previous", ribs=ribs)
 
     def loss(
-        self, segment: Tensor, previous: Tensor, embedding: Tensor, motion: Tensor, generator: torch.Generator
+        self,
+        segment: Tensor,
+        previous: Tensor,
+        embedding: Tensor,
+        motion: Tensor,
+        rib_phase: Tensor,
+        generator: torch.Generator,
     ) -> Tensor:
-        answer = self(torch.zeros_like(segment), previous, embedding, motion)
+        noise = torch.randn(segment.shape, generator=generator)
+        answer = self(noise, previous, embedding, motion, rib_phase)
         return (answer - segment).square().mean(dim=(1, 2))
+
+
+def reads(*own: str, ribs: bool) -> tuple[str, ...]:
+    """The inputs of a baseline in their order: its own, material and motion, and what the ribs' lines read."""
+    wanted = {*own, "embedding", "motion", *(RIB_INPUTS if ribs else ())}
+    return tuple(name for name in INPUTS if name in wanted)
 
 
 class BaselineGraph(nn.Module):
@@ -56,33 +108,3 @@ class BaselineGraph(nn.Module):
         # Only what the baseline does not read is missing, so nothing of the stand-in is left in the graph.
         stand_in = given[0].new_zeros(())
         return self.baseline(*(named.get(name, stand_in) for name in INPUTS))
-
-
-class ConditionEncoder(nn.Module):
-    """Embedding [B, 64] and motion [B, 3] to one vector [B, size]."""
-
-    def __init__(self, size: int) -> None:
-        super().__init__()
-        self.motion = MotionEncoder()
-        self.project = nn.Linear(2 * EMBEDDING_SIZE, size)
-
-    def forward(self, embedding: Tensor, motion: Tensor) -> Tensor:
-        return self.project(torch.cat([embedding, self.motion(motion)], dim=1))
-
-
-class ConditionPerceptron(nn.Module):
-    """Embedding [B, 64] and motion features through two hidden layers to [B, outputs]."""
-
-    def __init__(self, outputs: int, hidden: int = 256) -> None:
-        super().__init__()
-        self.features = MotionFeatures()
-        self.layers = nn.Sequential(
-            nn.Linear(EMBEDDING_SIZE + self.features.size, hidden),
-            nn.SiLU(),
-            nn.Linear(hidden, hidden),
-            nn.SiLU(),
-            nn.Linear(hidden, outputs),
-        )
-
-    def forward(self, embedding: Tensor, motion: Tensor) -> Tensor:
-        return self.layers(torch.cat([embedding, self.features(motion)], dim=1))

@@ -13,11 +13,8 @@ import math
 import torch
 from torch import Tensor, nn
 
-from haptoflow_training.models.baselines.baseline import (
-    SEGMENT_SAMPLES,
-    ConditionEncoder,
-    DeterministicBaseline,
-)
+from haptoflow_training.models.baselines.baseline import SEGMENT_SAMPLES, RegressingBaseline
+from haptoflow_training.models.baselines.condition import ConditionEncoder
 
 STATE = 128
 CONDITION = 64
@@ -40,11 +37,12 @@ class DecoderCell(nn.Module):
         return torch.sigmoid(leave) * torch.tanh(cell), cell
 
 
-class DstnBaseline(DeterministicBaseline):
-    """Previous waveform, material and motion to the segment, 20 steps of 10 samples."""
+class DstnBaseline(RegressingBaseline):
+    """Previous waveform, material and motion to the segment, 20 steps of 10 samples. Sampled, each step of the writer
+    hears the noise of its own 10 samples too."""
 
-    def __init__(self) -> None:
-        super().__init__()
+    def __init__(self, *, ribs: bool = False, sampled: bool = False) -> None:
+        super().__init__(ribs=ribs, sampled=sampled)
         self.condition = ConditionEncoder(CONDITION)
         self.convolutions = nn.Sequential(
             nn.Conv1d(1, 32, 9, stride=5, padding=4),
@@ -55,14 +53,14 @@ class DstnBaseline(DeterministicBaseline):
         self.first_state = nn.Linear(CONDITION, 2 * STATE)
         self.encoder = nn.LSTM(64, STATE)
         self.query = nn.Linear(STATE, STATE, bias=False)
-        self.decoder = DecoderCell(STEP_SAMPLES + CONDITION + STATE)
+        self.decoder = DecoderCell((2 if sampled else 1) * STEP_SAMPLES + CONDITION + STATE)
         self.leave = nn.Linear(2 * STATE, STEP_SAMPLES)
 
     def _attend(self, hidden: Tensor, states: Tensor) -> Tensor:
         scores = torch.matmul(states, self.query(hidden).unsqueeze(-1)) * (1.0 / math.sqrt(STATE))
         return (torch.softmax(scores, dim=1) * states).sum(dim=1)
 
-    def forward(self, noisy: Tensor, previous: Tensor, embedding: Tensor, motion: Tensor) -> Tensor:
+    def own_form(self, noisy: Tensor, previous: Tensor, embedding: Tensor, motion: Tensor) -> Tensor:
         condition = self.condition(embedding, motion)
         features = self.convolutions(previous).permute(2, 0, 1)
         # A first state made from the condition has the batch's size by itself, in the exported graph too.
@@ -72,9 +70,11 @@ class DstnBaseline(DeterministicBaseline):
 
         written = previous[:, 0, -STEP_SAMPLES:]
         steps = []
-        for _ in range(STEPS):
+        drawn = noisy.reshape(-1, SEGMENT_SAMPLES).split(STEP_SAMPLES, dim=1) if self.is_sampled else None
+        for step in range(STEPS):
             context = self._attend(hidden, states)
-            hidden, cell = self.decoder(torch.cat([written, condition, context], dim=1), hidden, cell)
+            heard = [written, condition, context] + ([drawn[step]] if drawn is not None else [])
+            hidden, cell = self.decoder(torch.cat(heard, dim=1), hidden, cell)
             written = self.leave(torch.cat([hidden, context], dim=1))
             steps.append(written)
         return torch.cat(steps, dim=1).unsqueeze(1)

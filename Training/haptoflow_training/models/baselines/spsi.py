@@ -12,7 +12,8 @@ import math
 import torch
 from torch import Tensor, nn
 
-from haptoflow_training.models.baselines.baseline import SEGMENT_SAMPLES, Baseline, ConditionPerceptron
+from haptoflow_training.models.baselines.baseline import SEGMENT_SAMPLES, Baseline, reads
+from haptoflow_training.models.baselines.condition import ConditionPerceptron
 
 BINS = SEGMENT_SAMPLES // 2 + 1
 HOP_SAMPLES = 20
@@ -115,29 +116,45 @@ class SinglePassInversion(nn.Module):
 class SpsiBaseline(Baseline):
     """Material and motion to magnitudes; the noise chooses the phases of the first frame.
 
-    Squared error of log magnitudes settles on their geometric mean: for a Gaussian texture that is 2.5 dB
-    below the level of the recording. This belongs to the method and is not corrected.
+    As published, the squared error of log magnitudes settles on their geometric mean: for a Gaussian texture that is
+    2.5 dB below the level of the recording. This belongs to the method and is not corrected. `sampled`: trained by the
+    likelihood of the power spectrum instead (Whittle 1953: each bin's power is exponential about its mean), which
+    settles on the mean power and has no such bias.
     """
 
-    inputs = ("noisy", "embedding", "motion")
-
-    def __init__(self) -> None:
-        super().__init__()
+    def __init__(self, *, ribs: bool = False, sampled: bool = False) -> None:
+        super().__init__(ribs=ribs)
+        self.is_sampled = sampled
+        self.inputs = reads("noisy", ribs=ribs)
         self.perceptron = ConditionPerceptron(BINS)
+        if sampled:
+            # White noise of unit scale: a likelihood that begins far below the recordings' power overshoots.
+            nn.init.constant_(self.perceptron.layers[-1].bias, 0.5 * math.log(float(hann_window().square().sum())))
         self.inversion = SinglePassInversion()
 
     def log_magnitudes(self, embedding: Tensor, motion: Tensor) -> Tensor:
-        """[B, 101]: natural logarithm of what `magnitude_spectrum` is expected to return."""
+        """[B, 101]: natural logarithm of what `magnitude_spectrum` is expected to return: of the magnitude, or, sampled,
+        of the root of the mean power."""
         return self.perceptron(embedding, motion)
 
-    def forward(self, noisy: Tensor, previous: Tensor, embedding: Tensor, motion: Tensor) -> Tensor:
+    def own_form(self, noisy: Tensor, previous: Tensor, embedding: Tensor, motion: Tensor) -> Tensor:
         limited = self.log_magnitudes(embedding, motion).clamp(-LOG_MAGNITUDE_LIMIT, LOG_MAGNITUDE_LIMIT)
         # The normal distribution function makes uniform phases of normal noise.
         turns = 0.5 * torch.erf(noisy[:, 0, :BINS] * math.sqrt(0.5))
         return self.inversion(limited.exp(), turns)
 
     def loss(
-        self, segment: Tensor, previous: Tensor, embedding: Tensor, motion: Tensor, generator: torch.Generator
+        self,
+        segment: Tensor,
+        previous: Tensor,
+        embedding: Tensor,
+        motion: Tensor,
+        rib_phase: Tensor,
+        generator: torch.Generator,
     ) -> Tensor:
-        recorded = 0.5 * (magnitude_spectrum(segment).square() + POWER_FLOOR).log()
-        return (self.log_magnitudes(embedding, motion) - recorded).square().mean(dim=1)
+        rest, _ = self.rest(segment, previous, embedding, motion, rib_phase)
+        power = magnitude_spectrum(rest).square() + POWER_FLOOR
+        stated = self.log_magnitudes(embedding, motion)
+        if not self.is_sampled:
+            return (stated - 0.5 * power.log()).square().mean(dim=1)
+        return (2.0 * stated + power * torch.exp(-2.0 * stated)).mean(dim=1)

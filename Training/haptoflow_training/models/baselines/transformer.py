@@ -12,11 +12,8 @@ import math
 import torch
 from torch import Tensor, nn
 
-from haptoflow_training.models.baselines.baseline import (
-    SEGMENT_SAMPLES,
-    ConditionEncoder,
-    DeterministicBaseline,
-)
+from haptoflow_training.models.baselines.baseline import SEGMENT_SAMPLES, RegressingBaseline
+from haptoflow_training.models.baselines.condition import ConditionEncoder
 
 WIDTH = 128
 HEADS = 4
@@ -92,13 +89,15 @@ class DecoderLayer(nn.Module):
         return tokens + self.feed_forward(tokens)
 
 
-class TransformerBaseline(DeterministicBaseline):
-    """Previous waveform, material and motion to the segment, all 20 tokens at once."""
+class TransformerBaseline(RegressingBaseline):
+    """Previous waveform, material and motion to the segment, all 20 tokens at once. Sampled, each query hears the noise
+    of its own 10 samples too."""
 
-    def __init__(self) -> None:
-        super().__init__()
+    def __init__(self, *, ribs: bool = False, sampled: bool = False) -> None:
+        super().__init__(ribs=ribs, sampled=sampled)
         self.condition = ConditionEncoder(WIDTH)
         self.enter = nn.Linear(TOKEN_SAMPLES, WIDTH)
+        self.enter_noise = nn.Linear(TOKEN_SAMPLES, WIDTH, bias=False) if sampled else None
         # As large as the tokens they are added to: with a tenth of it, attention cannot tell positions apart
         # and training stays at silence, the mean of all phases.
         self.positions = nn.Parameter(torch.randn(1, MEMORY_TOKENS, WIDTH))
@@ -108,7 +107,7 @@ class TransformerBaseline(DeterministicBaseline):
         self.decoder = nn.ModuleList(DecoderLayer() for _ in range(LAYERS))
         self.leave = nn.Sequential(nn.LayerNorm(WIDTH), nn.Linear(WIDTH, TOKEN_SAMPLES))
 
-    def forward(self, noisy: Tensor, previous: Tensor, embedding: Tensor, motion: Tensor) -> Tensor:
+    def own_form(self, noisy: Tensor, previous: Tensor, embedding: Tensor, motion: Tensor) -> Tensor:
         past = self.enter(previous.reshape(-1, TOKENS, TOKEN_SAMPLES))
         condition = self.condition(embedding, motion).unsqueeze(1)
         memory = torch.cat([past, condition], dim=1) + self.positions
@@ -117,6 +116,8 @@ class TransformerBaseline(DeterministicBaseline):
         memory = self.memory_norm(memory)
         # Broadcasting makes the queries as many as the batch has rows.
         tokens = self.queries + condition
+        if self.enter_noise is not None:
+            tokens = tokens + self.enter_noise(noisy.reshape(-1, TOKENS, TOKEN_SAMPLES))
         for layer in self.decoder:
             tokens = layer(tokens, memory)
         return self.leave(tokens).reshape(-1, 1, SEGMENT_SAMPLES)

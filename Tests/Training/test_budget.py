@@ -1,0 +1,139 @@
+"""A budget of time: phases lengthened or shortened by one factor, ended by the clock, gone on with after a stop."""
+
+from __future__ import annotations
+
+import dataclasses
+import json
+import time
+from pathlib import Path
+
+import pytest
+from test_trainer import ALONE, _config
+from training_fixtures import make_store
+
+from haptoflow_training.errors import InputError
+from haptoflow_training.training.budget import Budget
+from haptoflow_training.training.config import TrainingConfig
+from haptoflow_training.training.processes import Processes
+from haptoflow_training.training.trainer import Trainer, TrainingStopped, load_trained
+
+SECONDS_PER_STEP = {"level": 1.0, "field": 4.0, "polish": 1.0}
+
+
+class _Clock:
+    """Computing time that passes with training steps alone."""
+
+    def __init__(self, monkeypatch: pytest.MonkeyPatch) -> None:
+        self.now = 0.0
+        monkeypatch.setattr(time, "process_time", lambda: self.now)
+        train_step = Trainer._train_step
+
+        def step(trainer: Trainer, losses: object, phase: object) -> object:
+            self.now += SECONDS_PER_STEP[phase.name]  # type: ignore[attr-defined]
+            return train_step(trainer, losses, phase)  # type: ignore[arg-type]
+
+        monkeypatch.setattr(Trainer, "_train_step", step)
+
+
+@pytest.fixture
+def clock(monkeypatch: pytest.MonkeyPatch) -> _Clock:
+    return _Clock(monkeypatch)
+
+
+def _budgeted(seconds: float) -> TrainingConfig:
+    """20 + 30 + 10 steps of 1, 4 and 1 seconds: 150 seconds without a budget, 30 of them for the level."""
+    config = _config()
+    return dataclasses.replace(config, optimiser=dataclasses.replace(config.optimiser, budget_seconds=seconds))
+
+
+def _phases(folder: Path) -> dict[str, dict[str, float]]:
+    run = json.loads((folder / "run.json").read_text(encoding="utf-8"))
+    return {phase["name"]: phase for phase in run["phases"]}
+
+
+def test_a_budget_keeps_what_is_kept_and_scales_every_other_phase_by_the_same_factor() -> None:
+    kept = [True, False, False, True]
+    budget = Budget.shared_out(210.0, [20, 30, 15, 10], [1.0, 4.0, 4.0, 1.0], kept=kept)
+    assert budget.allotted_seconds == pytest.approx([20.0, 120.0, 60.0, 10.0])
+    short = Budget.shared_out(40.0, [20, 30, 15, 10], [1.0, 4.0, 4.0, 1.0], kept=kept)
+    assert short.allotted_seconds == pytest.approx([20 / 1.5, 20 / 1.5, 10 / 1.5, 10 / 1.5])
+    alone = Budget.shared_out(60.0, [20, 10], [1.0, 1.0], kept=[True, True])
+    assert alone.allotted_seconds == pytest.approx([40.0, 20.0])
+
+
+def test_the_share_of_planned_steps_that_are_done_is_the_share_of_time_that_is_over(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    budget = Budget([100.0], [25.0])
+    assert budget.steps(0, 50) == 200
+    assert Budget([100.0], [100.0]).steps(0, 77) == 77
+    assert Budget([100.0], [0.0]).steps(0, 0) == 1
+
+
+@pytest.mark.parametrize("seconds", [75.0, 300.0])
+def test_a_run_makes_as_many_steps_as_its_budget_has_time_for(seconds: float, tmp_path: Path, clock: _Clock) -> None:
+    Trainer(_budgeted(seconds), make_store(), tmp_path, ALONE).run()
+    phases = _phases(tmp_path)
+    for name, steps in (("level", 20), ("field", (seconds - 30.0) / 4.0), ("polish", 10)):
+        assert phases[name]["steps"] == pytest.approx(steps, abs=1.0), name
+    assert sum(phase["core_seconds"] for phase in phases.values()) == pytest.approx(seconds, abs=6.0)
+
+
+def test_steps_that_become_slower_on_the_way_are_fewer_and_the_phase_ends_in_its_time(
+    tmp_path: Path, clock: _Clock, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    trainer = Trainer(_budgeted(150.0), make_store(), tmp_path, ALONE)
+    enter = trainer._enter
+
+    def slower(phase: object) -> None:
+        monkeypatch.setitem(SECONDS_PER_STEP, "field", 8.0)
+        enter(phase)  # type: ignore[arg-type]
+
+    monkeypatch.setattr(trainer, "_enter", slower)
+    trainer.run()
+    phases = _phases(tmp_path)
+    assert phases["field"]["steps"] == 15
+    assert phases["field"]["core_seconds"] == pytest.approx(120.0, abs=8.0)
+
+
+def test_the_learning_rate_of_a_budgeted_phase_has_fallen_when_its_time_is_over(tmp_path: Path, clock: _Clock) -> None:
+    trainer = Trainer(_budgeted(300.0), make_store(), tmp_path, ALONE)
+    rates: list[float] = []
+    learning_rate = trainer._learning_rate
+
+    def remember(phase: object) -> float:
+        rates.append(learning_rate(phase))  # type: ignore[arg-type]
+        return rates[-1]
+
+    trainer._learning_rate = remember  # type: ignore[method-assign,assignment]
+    trainer.run()
+    field = rates[20:-10]
+    assert max(field) > 0.9 * 6e-4
+    assert field[-1] < 0.1 * 6e-4
+
+
+def test_a_stopped_run_goes_on_with_what_is_left_of_its_budget(tmp_path: Path, clock: _Clock) -> None:
+    stopped = Trainer(_budgeted(300.0), make_store(), tmp_path, ALONE)
+    train_step = stopped._train_step
+
+    def stop_in_the_middle(*arguments: object) -> object:
+        result = train_step(*arguments)  # type: ignore[arg-type]
+        stopped._stop = stopped._step == 60
+        return result
+
+    stopped._train_step = stop_in_the_middle  # type: ignore[method-assign,assignment]
+    with pytest.raises(TrainingStopped):
+        stopped.run()
+    clock.now += 1000.0
+    Trainer(_budgeted(300.0), make_store(), tmp_path, ALONE).run()
+    phases = _phases(tmp_path)
+    steps = [phases[name]["steps"] for name in ("level", "field", "polish")]
+    assert steps == pytest.approx([20, 270 / 4.0, 10], abs=1.0)
+    finished = Trainer(_budgeted(300.0), make_store(), tmp_path, ALONE)
+    finished.run()
+    assert load_trained(tmp_path)[0].optimiser.budget_seconds == 300.0
+
+
+def test_several_processes_and_a_budget_are_refused(tmp_path: Path) -> None:
+    with pytest.raises(InputError, match="budget_seconds"):
+        Trainer(_budgeted(10.0), make_store(), tmp_path, Processes(rank=0, count=2))

@@ -1,0 +1,285 @@
+"""Rivals that are given the same: each new form learns what it is for, keeps its phases, and becomes a model file."""
+
+from __future__ import annotations
+
+import dataclasses
+import json
+import math
+from pathlib import Path
+
+import numpy as np
+import onnx
+import pytest
+import scipy.signal
+import torch
+from test_export import PROVENANCE
+from test_graph_operators import _check
+from test_trainer import ALONE
+from torch import Tensor
+from training_fixtures import make_store
+
+from haptoflow_training.commands import train
+from haptoflow_training.errors import InputError
+from haptoflow_training.export.exporter import export_run
+from haptoflow_training.export.label_info import LabelInfo
+from haptoflow_training.export.model_file import read_model_file
+from haptoflow_training.models.baselines import build_baseline
+from haptoflow_training.models.baselines.autoregressive import AutoregressiveBaseline
+from haptoflow_training.models.baselines.baseline import Baseline
+from haptoflow_training.models.baselines.spsi import SpsiBaseline
+from haptoflow_training.training.batches import SegmentBatches
+from haptoflow_training.training.config import BatchConfig, ModelConfig, TrainingConfig, load_config
+from haptoflow_training.training.losses import Losses
+from haptoflow_training.training.recordings_source import Source
+from haptoflow_training.training.trainer import Trainer, build_model, planned_steps
+
+CONFIGS = Path(__file__).parents[2] / "Training" / "configs" / "evaluation"
+GIVEN_THE_SAME = (
+    "ar-ribs", "mean-flow-ribs", "reflow-ribs", "spsi-ribs", "transformer-noise", "dstn-noise",
+)  # fmt: skip
+INFOS = [LabelInfo("tone", "metal", 900.0, 0.3, 0.002, ((0.5, 0.0),)), LabelInfo("noise", "stone", 1500.0, 0.6)]
+WAVE_VECTORS = [[(0.5, 0.0)], []]
+
+
+def _shortened(name: str) -> TrainingConfig:
+    """The shipped configuration, a few steps a phase."""
+    config = load_config(CONFIGS / f"{name}.toml")
+    few = {
+        key: min(4, getattr(config.recipe, key)) for key in ("reflow_steps", "energy_steps", "self_forcing_steps")
+    }
+    return dataclasses.replace(
+        config,
+        optimiser=dataclasses.replace(
+            config.optimiser, budget_seconds=0.0, batch_size=8, level_steps=4, level_polish_steps=2,
+            steps=min(4, config.optimiser.steps), warm_up_steps=2, average_decay=0.5,
+        ),
+        batch=BatchConfig(),
+        recipe=dataclasses.replace(config.recipe, **few, reflow_pairs=500, energy_batch_size=6),
+    )  # fmt: skip
+
+
+@pytest.mark.parametrize("name", GIVEN_THE_SAME)
+def test_a_rival_of_the_second_block_has_what_our_network_has(name: str) -> None:
+    ours, rival = load_config(CONFIGS.parent / "default" / "standard.toml"), load_config(CONFIGS / f"{name}.toml")
+    again = load_config(CONFIGS / "standard.toml")
+    assert rival.model.ribs and rival.model.level == "law" and rival.recipe.calibrate_level
+    assert rival.data == ours.data
+    assert rival.batch == ours.batch
+    assert rival.optimiser.budget_seconds == again.optimiser.budget_seconds > 0.0
+
+
+@pytest.mark.parametrize("name", ["standard", "one-step", "one-step-deaf", "one-step-no-ribs", "one-step-recorded-past"])
+def test_an_ablation_follows_the_default_recipe_but_for_what_it_leaves_out(name: str) -> None:
+    ours, ablation = load_config(CONFIGS.parent / "default" / "standard.toml"), load_config(CONFIGS / f"{name}.toml")
+    assert (ablation.data, ablation.batch) == (ours.data, ours.batch)
+    assert (ablation.optimiser.steps, ablation.recipe.energy_steps) == (ours.optimiser.steps, ours.recipe.energy_steps)
+    assert ablation.model == dataclasses.replace(
+        ours.model,
+        hears_previous=name != "one-step-deaf" and ours.model.hears_previous,
+        ribs=name != "one-step-no-ribs" and ours.model.ribs,
+    )
+
+
+@pytest.mark.parametrize("name", GIVEN_THE_SAME)
+def test_a_rival_of_the_second_block_goes_through_its_phases_and_becomes_a_model_file(
+    name: str, tmp_path: Path
+) -> None:
+    config, store = _shortened(name), make_store(seconds=6.0, recordings_per_split=4)
+    Trainer(config, store, tmp_path / "run", ALONE, wave_vectors=WAVE_VECTORS).run()
+    phases = json.loads((tmp_path / "run" / "run.json").read_text(encoding="utf-8"))["phases"]
+    assert [phase["steps"] for phase in phases] == planned_steps(config)
+    export_run(tmp_path / "run", store, INFOS, PROVENANCE, tmp_path / "m.haptoflow", tmp_path / "parity.json")
+    file = read_model_file(tmp_path / "m.haptoflow")
+    graph = file.graphs[f"{config.tier}.field"]
+    _check(graph)
+    inputs = [value.name for value in onnx.load_from_string(graph).graph.input]
+    assert "noisy" in inputs and inputs[-1] == "rib_phase"
+
+
+@pytest.mark.parametrize("name", ["transformer", "dstn", "spsi"])
+def test_a_baseline_that_regresses_cannot_be_taught_by_a_distance_of_draws(name: str, tmp_path: Path) -> None:
+    text = f'[model]\narchitecture = "{name}"\n[recipe]\nenergy_steps = 5\n'
+    (tmp_path / "run.toml").write_text(text, encoding="utf-8")
+    with pytest.raises(InputError, match="energy_steps.*model.sampled"):
+        load_config(tmp_path / "run.toml")
+
+
+@pytest.mark.parametrize(
+    ("text", "key"),
+    [
+        ('[model]\nsampled = true\n', "model.sampled"),
+        ('[model]\narchitecture = "autoregressive"\nsampled = true\n', "model.sampled"),
+        ('[model]\narchitecture = "autoregressive"\n[recipe]\nreflow_steps = 3\n', "recipe"),
+        ('[model]\narchitecture = "autoregressive"\n[recipe]\nself_forcing_steps = 3\n', "recipe.self_forcing_steps"),
+        ('[model]\nlevel = "constant"\n[recipe]\ncalibrate_level = true\n', "recipe.calibrate_level"),
+        ("[optimiser]\nbudget_seconds = -1\n", "optimiser.budget_seconds"),
+    ],
+)
+def test_what_a_form_cannot_do_is_refused_by_its_key(text: str, key: str, tmp_path: Path) -> None:
+    (tmp_path / "run.toml").write_text(text, encoding="utf-8")
+    with pytest.raises(InputError, match=f"key '{key}'"):
+        load_config(tmp_path / "run.toml")
+
+
+def test_a_rival_without_ribs_has_no_lines_and_one_with_them_is_silent_there_until_taught() -> None:
+    torch.manual_seed(2)
+    with_ribs = build_baseline("autoregressive", ribs=True)
+    assert build_baseline("autoregressive").comb is None and with_ribs.comb is not None
+    assert with_ribs.lines is not None
+    past = torch.randn(4, 1, 200)
+    lines, rest = with_ribs.lines(past, *_condition(4, speed_mps=0.4))
+    assert lines.abs().max().item() == 0.0
+    assert torch.equal(rest, past)
+
+
+def _condition(count: int, speed_mps: float) -> tuple[Tensor, Tensor, Tensor]:
+    """Embedding with ribs of 2 mm along x, motion across them, rib phase from the count."""
+    embedding = torch.full((1, 64), 0.3)
+    embedding[:, -4:] = torch.tensor([0.5, 0.0, 0.0, 0.0])
+    motion = torch.tensor([[speed_mps, 0.0, 1.0]])
+    phase = torch.stack([torch.linspace(0.0, 0.9, count), torch.zeros(count)], dim=1)
+    return embedding.expand(count, -1), motion.expand(count, -1), phase
+
+
+_RINGING = np.array([1.0, -2.0 * 0.9 * math.cos(2.0 * math.pi * 0.15), 0.81])
+_DRIVE = 0.25
+_LINE = 0.8
+
+
+def _ribbed_texture(count: int, seed: int) -> tuple[Tensor, Tensor, tuple[Tensor, Tensor, Tensor]]:
+    """Previous and segment [count, 1, 200] of an autoregressive texture under ribs that pass at 100 Hz, in the phase that
+    the surface has, and their conditions."""
+    generator = np.random.default_rng(seed)
+    noise = scipy.signal.lfilter([_DRIVE], _RINGING, generator.standard_normal((count, 900)))[:, 500:]
+    embedding, motion, phase = _condition(count, 0.2)
+    phase = torch.cat([torch.from_numpy(generator.random((count, 1))).float(), phase[:, 1:]], dim=1)
+    turns = 100.0 * torch.arange(-200, 200) / 2000.0 + phase[:, :1]
+    wave = torch.from_numpy(noise).float() + _LINE * torch.cos(2.0 * math.pi * turns)
+    return wave[:, None, :200], wave[:, None, 200:], (embedding, motion, phase)
+
+
+def _learn(baseline: Baseline, steps: int) -> None:
+    optimiser, generator = torch.optim.Adam(baseline.parameters(), lr=5e-3), torch.Generator().manual_seed(1)
+    for step in range(steps):
+        previous, segment, condition = _ribbed_texture(24, step)
+        loss = baseline.loss(segment, previous, *condition, generator).mean()
+        optimiser.zero_grad()
+        loss.backward()
+        optimiser.step()
+
+
+def _line_of(wave: Tensor, phase: Tensor) -> Tensor:
+    """[B]: amplitude of the ribs' line in segments [B, 1, 200], in the surface's phase."""
+    turns = 100.0 * torch.arange(200) / 2000.0 + phase[:, :1]
+    return 2.0 * (wave[:, 0] * torch.cos(2.0 * math.pi * turns)).mean(dim=1)
+
+
+def test_autoregressive_noise_is_the_rest_of_what_the_ribs_make() -> None:
+    torch.manual_seed(3)
+    baseline = AutoregressiveBaseline(ribs=True)
+    _learn(baseline, 250)
+    previous, _, condition = _ribbed_texture(256, 10_000)
+    with torch.no_grad():
+        made = baseline(torch.randn(256, 1, 200), previous, *condition)
+        coefficients, log_gain = baseline.process(*condition[:2])
+    assert _line_of(made, condition[2]).mean().item() == pytest.approx(_LINE, rel=0.1)
+    # Without the lines, the prediction error would hold what the filter cannot foresee of them.
+    assert log_gain.exp().mean().item() == pytest.approx(_DRIVE, rel=0.1)
+    learned = np.concatenate([[1.0], coefficients[0].double().numpy()])
+    response = [np.abs(scipy.signal.freqz([1.0], a, worN=128)[1]) for a in (_RINGING, learned)]
+    assert np.abs(20.0 * np.log10(response[1] / response[0])).mean() < 1.5
+
+
+def test_an_autoregressive_segment_goes_on_where_its_past_ended_with_lines_as_without() -> None:
+    torch.manual_seed(4)
+    baseline = AutoregressiveBaseline(ribs=True)
+    _learn(baseline, 250)
+    previous, segment, condition = _ribbed_texture(512, 20_000)
+    with torch.no_grad():
+        made = baseline(torch.randn(512, 1, 200), previous, *condition)
+    jumps = [(wave[:, 0, 0] - previous[:, 0, -1]).square().mean().sqrt().item() for wave in (segment, made)]
+    assert jumps[1] == pytest.approx(jumps[0], rel=0.15)
+
+
+def test_spsi_that_draws_states_the_mean_power_and_not_the_geometric_mean() -> None:
+    torch.manual_seed(5)
+    baseline, generator = SpsiBaseline(sampled=True), torch.Generator().manual_seed(1)
+    optimiser = torch.optim.Adam(baseline.parameters(), lr=3e-3)
+    condition = _condition(64, 0.2)
+    for step in range(120):
+        noise = torch.randn(64, 1, 200, generator=torch.Generator().manual_seed(step))
+        loss = baseline.loss(2.0 * noise, torch.zeros_like(noise), *condition, generator).mean()
+        optimiser.zero_grad()
+        loss.backward()
+        optimiser.step()
+    with torch.no_grad():
+        made = baseline(torch.randn(64, 1, 200), torch.zeros(64, 1, 200), *condition)
+    # A published one would stay 2.5 dB below.
+    assert 20.0 * math.log10(made.square().mean().sqrt().item() / 2.0) == pytest.approx(0.0, abs=0.4)
+
+
+@pytest.mark.parametrize("architecture", ["transformer", "dstn"])
+def test_a_network_given_noise_draws_another_segment_for_another_noise(architecture: str) -> None:
+    torch.manual_seed(6)
+    baseline, condition = build_baseline(architecture, sampled=True), _condition(2, 0.2)
+    previous = torch.randn(1, 1, 200).expand(2, -1, -1)
+    same = tuple(part[:1].expand(2, -1) for part in condition)
+    made = baseline(torch.randn(2, 1, 200), previous, *same)
+    assert (made[0] - made[1]).abs().max().item() > 1e-3
+
+
+def test_the_level_that_a_trained_row_makes_too_loud_is_taken_back_at_its_export(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    store = make_store(seconds=6.0, recordings_per_split=4)
+    source = Source(store, INFOS, PROVENANCE)  # type: ignore[arg-type]
+    monkeypatch.setattr(train, "open_source", lambda *_: source)
+    measured: list[Path] = []
+
+    def offsets(folder: Path, given: Source) -> list[float]:
+        measured.append(folder)
+        return [2.0, -1.0]
+
+    monkeypatch.setattr(train, "measured_offsets_db", offsets)
+    text = (
+        '[model]\nwidth = 16\nprevious_width = 8\n[optimiser]\nbatch_size = 8\nlevel_steps = 4\nsteps = 4\n'
+        "level_polish_steps = 0\n[recipe]\ncalibrate_level = {}\n"
+    )
+    levels = []
+    for name, value in (("as-is", "false"), ("calibrated", "true")):
+        config, out = tmp_path / f"{name}.toml", tmp_path / name
+        config.write_text(text.format(value), encoding="utf-8")
+        words = ["--config", str(config), "--out", str(out), "--export", str(tmp_path / f"{name}.haptoflow")]
+        assert _train(words) == 0
+        said = json.loads((out / "export.json").read_text(encoding="utf-8"))
+        levels.append(said.get("level_offsets_db"))
+    assert levels == [None, {"tone": 2.0, "noise": -1.0}]
+    assert measured == [tmp_path / "calibrated"]
+    header = read_model_file(tmp_path / "calibrated.haptoflow").header
+    assert header["measurements"]["level_offsets_db"] == [2.0, -1.0]
+
+
+def _train(words: list[str]) -> int:
+    from haptoflow_training.cli import main
+
+    return main(["train", *words])
+
+
+@pytest.mark.parametrize(("architecture", "alike"), [("autoregressive", True), ("transformer", False)])
+def test_a_likelihood_counts_a_burst_like_any_other_segment_and_a_squared_error_does_not(
+    architecture: str, alike: bool, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    config = TrainingConfig(model=ModelConfig(architecture=architecture))
+    model = build_model(config, WAVE_VECTORS)
+    batch = SegmentBatches(make_store(), "train", BatchConfig(), 3).draw(6)
+    batch.segment[0] *= 1000.0
+    rows = torch.tensor([6.0, 0.0, 0.0, 0.0, 0.0, 0.0])
+    monkeypatch.setattr(model.field, "loss", lambda *_: rows)
+    _, field = Losses(model, config.solver)(batch, "own", torch.Generator().manual_seed(1))
+    assert (field.item() == pytest.approx(1.0)) == alike
+    assert alike or field.item() < 0.01
+
+
+def test_the_lines_of_a_form_are_told_apart_by_the_energy_distance_as_our_network_s_are() -> None:
+    model = build_model(_shortened("ar-ribs"), WAVE_VECTORS)
+    assert model.field.comb is not None

@@ -1,0 +1,40 @@
+"""The ribs of a ruled surface for rivals that are given the same: lines beside what their own form makes.
+
+The lines are those of our network (models/rib_comb.py), their gains a perceptron's of material and motion. What the
+rival's own form has to make is the rest.
+"""
+
+from __future__ import annotations
+
+import torch
+from torch import Tensor, nn
+
+from haptoflow_training.models.baselines.condition import ConditionPerceptron
+from haptoflow_training.models.rib_comb import GAINS, PARTIALS, RibComb
+
+_HIDDEN = 96
+
+
+class RibLines(nn.Module):
+    """Lines in a segment and in the past before it; silent until trained."""
+
+    backwards: Tensor
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.comb = RibComb()
+        self.gains = ConditionPerceptron(GAINS, _HIDDEN)
+        last = self.gains.layers[-1]
+        nn.init.zeros_(last.weight)
+        nn.init.zeros_(last.bias)
+        # Seen from the seam, the past runs backwards: cosines are the same, sines change their sign.
+        self.register_buffer("backwards", torch.tensor([[[1.0, -1.0]]]), persistent=False)
+
+    def forward(self, previous: Tensor, embedding: Tensor, motion: Tensor, rib_phase: Tensor) -> tuple[Tensor, Tensor]:
+        """The lines of the segment, and what they leave of the previous waveform, [B, 1, 200] each, in unit scale."""
+        mirrored = torch.flip(previous, dims=[2])
+        waves, signed_hz = self.comb.waves(embedding, motion)
+        gains = self.gains(embedding, motion)
+        lines = self.comb.partials(waves, signed_hz, mirrored, rib_phase, gains)[2]
+        rest = mirrored - (lines * self.backwards).reshape(-1, 1, 2 * PARTIALS) @ waves
+        return lines.reshape(-1, 1, 2 * PARTIALS) @ waves, torch.flip(rest, dims=[2])
