@@ -62,6 +62,7 @@ extern "C" {
 #define HAPTOFLOW_SEGMENT_SAMPLES 200
 #define HAPTOFLOW_EMBEDDING_SIZE 64
 #define HAPTOFLOW_MOTION_SIZE 3
+#define HAPTOFLOW_RIB_COUNT 2
 
 /* The acceleration in m/s^2 that is +-1 in the output unless options say otherwise. */
 #define HAPTOFLOW_DEFAULT_FULL_SCALE_MPS2 200.0
@@ -330,6 +331,10 @@ typedef struct haptoflow_batch {
     const float* previous_mps2;
     /* count * HAPTOFLOW_SEGMENT_SAMPLES standard normal numbers. Not needed for levels. */
     const float* noise;
+    /* count * HAPTOFLOW_RIB_COUNT: how far the tip has travelled along each of the embedding's wave vectors at the
+     * segment's first sample, in turns from 0 to below 1; null for zeros. Not needed for levels. Only graphs with the
+     * input "rib_phase" read it. */
+    const float* rib_phases;
 } haptoflow_batch;
 
 /* Loads the tier's graphs into ONNX Runtime, checks and runs them. Close it with haptoflow_generator_close.

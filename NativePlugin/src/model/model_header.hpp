@@ -77,6 +77,8 @@ struct SeedEntry {
     std::size_t label = 0;
     std::array<double, 2> velocityMps{};
     double forceNewtons = 0.0;
+    /// Turns along each wave vector of the label at the seed's sample 200, the first that sounds; 0 where not given.
+    std::array<double, 2> ribPhase{};
 };
 
 enum class BlobType { float32, onnx };
