@@ -58,7 +58,7 @@ extern "C" {
 #define HAPTOFLOW_VERSION_PATCH 0
 #define HAPTOFLOW_VERSION_TEXT "0.1.0"
 
-/* Samples of a segment and of the previous waveform; numbers of a material embedding and of a motion. */
+/* Samples of a segment and of the previous waveform; numbers of a material embedding, a motion and a rib phase. */
 #define HAPTOFLOW_SEGMENT_SAMPLES 200
 #define HAPTOFLOW_EMBEDDING_SIZE 64
 #define HAPTOFLOW_MOTION_SIZE 3

@@ -15,9 +15,9 @@ RibTurns ribTurnsPerSample(std::span<const float, inference::embeddingSize> embe
     const auto waveVectors = embedding.last<2 * inference::ribCount>();
     RibTurns turns;
     for (std::size_t rib = 0; rib < turns.size(); ++rib) {
-        const double cyclesPerSecond =
-            (static_cast<double>(waveVectors[2 * rib]) * vxMps + static_cast<double>(waveVectors[2 * rib + 1]) * vyMps) *
-            millimetresPerMetre;
+        const double cyclesPerSecond = (static_cast<double>(waveVectors[2 * rib]) * vxMps +
+                                        static_cast<double>(waveVectors[2 * rib + 1]) * vyMps) *
+                                       millimetresPerMetre;
         turns[rib] = cyclesPerSecond / inference::waveformRateHz;
     }
     return turns;
