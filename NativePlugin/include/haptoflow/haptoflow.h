@@ -376,18 +376,21 @@ typedef struct haptoflow_engine haptoflow_engine;
 
 typedef int32_t haptoflow_quality;
 enum {
-    /* Measures the model's tiers on this machine while nothing touches, takes the most accurate that fits the budget,
-     * one less when the machine cannot keep up, and one more when it can again. */
+    /* Measures the model's tiers on this machine while nothing touches, takes the most accurate that fits the budget (by
+     * the figures in the model's header), a faster one when the machine cannot keep up, and a more accurate one when it
+     * can again. */
     HAPTOFLOW_QUALITY_AUTO = 0,
+    /* The tier "draft"; where the model has none, its first. */
     HAPTOFLOW_QUALITY_DRAFT = 1,
+    /* The tier "standard"; where the model has none, its default tier. */
     HAPTOFLOW_QUALITY_STANDARD = 2,
+    /* The tier "fine"; where the model has none, its most accurate. */
     HAPTOFLOW_QUALITY_FINE = 3
 };
 
 typedef struct haptoflow_engine_options {
     uint32_t struct_size;
-    /* The tier of that name; where the model has none, the nearest that it has. That tier alone is loaded; all of the
-     * model's for HAPTOFLOW_QUALITY_AUTO. */
+    /* Its tier alone is loaded; all of the model's for HAPTOFLOW_QUALITY_AUTO. */
     haptoflow_quality quality;
     const haptoflow_runtime* runtime;
     const haptoflow_model* model;
