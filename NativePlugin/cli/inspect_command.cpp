@@ -117,7 +117,7 @@ void printTiers(std::ostream& stream, const model::ModelFile& file) {
              std::to_string(tier.parameters), std::to_string(file.blob(tier.field).size()), figures(tier.accuracyJson),
              figures(tier.costJson)});
     }
-    stream << "\nTiers, the most accurate last (" << header.tiers.size() << ")\n";
+    stream << "\nTiers (" << header.tiers.size() << ")\n";
     printTable(stream, rows);
 }
 

@@ -319,7 +319,8 @@ void addRenderCommand(CLI::App& app, CommandOutcome& outcome) {
         ->required()
         ->type_name("OUT.wav");
     command->add_option("--model", options->modelPath, "Model file (default: the one shipped)")->type_name("FILE");
-    command->add_option("--quality", options->quality, "A tier of the model: draft, standard or fine");
+    command->add_option("--quality", options->quality,
+                        "A tier of the model, such as draft; `haptoflow inspect` lists them");
     command->add_option("--solver", options->solver, "ODE solver in place of the tier's own; not for kind `direct`")
         ->check(CLI::IsMember({"euler", "midpoint", "heun"}));
     command->add_option("--steps", options->steps, "Steps of that solver")->transform(wholeBetween(1, 16, ""));
@@ -344,7 +345,7 @@ void addRenderCommand(CLI::App& app, CommandOutcome& outcome) {
     command->footer(
         "Examples:\n"
         "  haptoflow render scene.json --stroke stroke.csv -o felt.wav --report felt.json\n"
-        "  haptoflow render scene.json --stroke stroke.csv -o fine.wav --quality fine\n"
+        "  haptoflow render scene.json --stroke stroke.csv -o draft.wav --quality draft\n"
         "+-1 in the WAV is 200 m/s^2 (see --full-scale); most textures are quiet there, and true to each other.");
     command->callback([options, &outcome] {
         runRender(*options);

@@ -44,14 +44,14 @@ namespace HaptoFlow.Tests
             FinishLoading();
             HapticEngine engine = HapticSession.Current.Engine!;
             uint draft = engine.Statistics().Tier;
-            Haptics.SetQuality(HapticQuality.Standard);
             Haptics.SetQuality(HapticQuality.Fine);
+            Haptics.SetQuality(HapticQuality.Standard);
             HapticSession.Current.FinishQualityChange();
             engine.Step();
             yield return null;
-            int fine = HaptoFlowSettings.Active.Model!.Header.Tiers.ToList().FindIndex(tier => tier.Name == "fine");
-            Assert.That(engine.Statistics().Tier, Is.Not.EqualTo(draft).And.EqualTo((uint)fine));
-            Assert.That(HaptoFlowSettings.Active.Quality, Is.EqualTo(HapticQuality.Fine));
+            int place = HaptoFlowSettings.Active.Model!.Header.Tiers.ToList().FindIndex(tier => tier.Name == "standard");
+            Assert.That(engine.Statistics().Tier, Is.Not.EqualTo(draft).And.EqualTo((uint)place));
+            Assert.That(HaptoFlowSettings.Active.Quality, Is.EqualTo(HapticQuality.Standard));
         }
 
         [UnityTest]

@@ -58,10 +58,11 @@ extern "C" {
 #define HAPTOFLOW_VERSION_PATCH 0
 #define HAPTOFLOW_VERSION_TEXT "0.1.0"
 
-/* Samples of a segment and of the previous waveform; numbers of a material embedding and of a motion. */
+/* Samples of a segment and of the previous waveform; numbers of a material embedding, a motion and a rib phase. */
 #define HAPTOFLOW_SEGMENT_SAMPLES 200
 #define HAPTOFLOW_EMBEDDING_SIZE 64
 #define HAPTOFLOW_MOTION_SIZE 3
+#define HAPTOFLOW_RIB_COUNT 2
 
 /* The acceleration in m/s^2 that is +-1 in the output unless options say otherwise. */
 #define HAPTOFLOW_DEFAULT_FULL_SCALE_MPS2 200.0
@@ -330,6 +331,10 @@ typedef struct haptoflow_batch {
     const float* previous_mps2;
     /* count * HAPTOFLOW_SEGMENT_SAMPLES standard normal numbers. Not needed for levels. */
     const float* noise;
+    /* count * HAPTOFLOW_RIB_COUNT: how far the tip has travelled along each of the embedding's wave vectors at the
+     * segment's first sample, in turns from 0 to below 1; null for zeros. Not needed for levels. Only graphs with the
+     * input "rib_phase" read it. */
+    const float* rib_phases;
 } haptoflow_batch;
 
 /* Loads the tier's graphs into ONNX Runtime, checks and runs them. Close it with haptoflow_generator_close.
@@ -371,18 +376,21 @@ typedef struct haptoflow_engine haptoflow_engine;
 
 typedef int32_t haptoflow_quality;
 enum {
-    /* Measures the model's tiers on this machine while nothing touches, takes the most accurate that fits the budget,
-     * one less when the machine cannot keep up, and one more when it can again. */
+    /* Measures the model's tiers on this machine while nothing touches, takes the most accurate that fits the budget (by
+     * the figures in the model's header), a faster one when the machine cannot keep up, and a more accurate one when it
+     * can again. */
     HAPTOFLOW_QUALITY_AUTO = 0,
+    /* The tier "draft"; where the model has none, its first. */
     HAPTOFLOW_QUALITY_DRAFT = 1,
+    /* The tier "standard"; where the model has none, its default tier. */
     HAPTOFLOW_QUALITY_STANDARD = 2,
+    /* The tier "fine"; where the model has none, its most accurate. */
     HAPTOFLOW_QUALITY_FINE = 3
 };
 
 typedef struct haptoflow_engine_options {
     uint32_t struct_size;
-    /* The tier of that name; where the model has none, the nearest that it has. That tier alone is loaded; all of the
-     * model's for HAPTOFLOW_QUALITY_AUTO. */
+    /* Its tier alone is loaded; all of the model's for HAPTOFLOW_QUALITY_AUTO. */
     haptoflow_quality quality;
     const haptoflow_runtime* runtime;
     const haptoflow_model* model;

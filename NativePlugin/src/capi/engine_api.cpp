@@ -41,7 +41,7 @@ std::size_t tierOfQuality(const model::ModelHeader& header, haptoflow_quality qu
         case HAPTOFLOW_QUALITY_DRAFT:
             return named("draft", 0);
         case HAPTOFLOW_QUALITY_FINE:
-            return named("fine", header.tiers.size() - 1);
+            return named("fine", model::tiersByAccuracy(header.tiers).back());
         default:
             throw std::invalid_argument("quality is " + std::to_string(quality) + "; expected 0 to 3");
     }
@@ -71,6 +71,7 @@ engine::LiveEngineSettings engineSettings(const haptoflow_engine_options& given,
     engine::LiveEngineSettings settings;
     settings.updateRateHz = orDefault(given.update_rate_hz, usualUpdateRateHz);
     settings.quality = qualitySettings(header, given.quality, 1000.0 * budgetShare / settings.updateRateHz);
+    settings.tiersByAccuracy = model::tiersByAccuracy(header.tiers);
     settings.fullScaleMps2 = static_cast<float>(orDefault(given.full_scale_mps2, usualFullScaleMps2));
     settings.seed = given.seed;
     settings.hasWorker = given.without_worker == 0;

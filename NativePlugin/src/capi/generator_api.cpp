@@ -11,6 +11,7 @@ using namespace haptoflow::capi;
 
 static_assert(inference::segmentSamples == HAPTOFLOW_SEGMENT_SAMPLES);
 static_assert(inference::embeddingSize == HAPTOFLOW_EMBEDDING_SIZE);
+static_assert(inference::ribCount == HAPTOFLOW_RIB_COUNT);
 static_assert(inference::largestBatch == HAPTOFLOW_MAXIMUM_BATCH);
 
 namespace {
@@ -20,7 +21,8 @@ constexpr std::size_t motionSize = HAPTOFLOW_MOTION_SIZE;
 
 // What the first version of the options could not do without; steps and maximum_batch have defaults.
 constexpr std::size_t mandatoryOptions = offsetof(haptoflow_generator_options, steps);
-constexpr std::size_t mandatoryBatch = offsetof(haptoflow_batch, previous_mps2);
+constexpr std::size_t mandatoryForLevels = offsetof(haptoflow_batch, previous_mps2);
+constexpr std::size_t mandatoryForSegments = offsetof(haptoflow_batch, rib_phases);
 
 inference::SolverSettings solverSettings(haptoflow_solver solver, int32_t steps,
                                          const inference::SolverSettings& tierSolver) {
@@ -64,7 +66,7 @@ std::span<const float, inference::segmentSamples> waveformAt(const float* wavefo
 }
 
 std::vector<inference::SegmentRequest> requestsOf(const haptoflow_batch* batch, bool withWaveforms) {
-    const auto given = readDescriptor(batch, withWaveforms ? sizeof(haptoflow_batch) : mandatoryBatch, "batch");
+    const auto given = readDescriptor(batch, withWaveforms ? mandatoryForSegments : mandatoryForLevels, "batch");
     (void)require(given.embeddings, "batch: embeddings");
     (void)require(given.motions, "batch: motions");
     if (withWaveforms) {
@@ -81,6 +83,9 @@ std::vector<inference::SegmentRequest> requestsOf(const haptoflow_batch* batch, 
         std::copy_n(given.embeddings + index * inference::embeddingSize, inference::embeddingSize,
                     request.embedding.begin());
         std::copy_n(given.motions + index * motionSize, motionSize, request.motion.begin());
+        if (withWaveforms && given.rib_phases != nullptr) {
+            std::copy_n(given.rib_phases + index * inference::ribCount, inference::ribCount, request.ribPhase.begin());
+        }
         requests.push_back(request);
     }
     return requests;

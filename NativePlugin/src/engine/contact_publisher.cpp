@@ -5,6 +5,7 @@
 #include "engine/seed_retrieval.hpp"
 
 #include <algorithm>
+#include <optional>
 
 namespace haptoflow::engine {
 
@@ -37,6 +38,7 @@ ContactAction ContactPublisher::publish(ContactState state) noexcept {
     audio.levelGain = static_cast<float>(ranged.levelGain);
     audio.readingRate = ranged.readingRate;
     audio.seedMps2 = seedMps2_;
+    audio.seedRibs = seedRibs_;
     channels_.toAudio.post();
 
     slides_ += follower_.sliding() ? 1 : 0;
@@ -53,12 +55,19 @@ ContactAction ContactPublisher::publish(ContactState state) noexcept {
 
 void ContactPublisher::retrieve(const ContactState& state, std::size_t label,
                                 const std::array<float, 3>& motion) noexcept {
-    const auto seed = retrieveSeed(model_, label, motion);
-    const float levelMps2 = levels_.at(state.material, motion);
     seedMps2_.fill(0.0F);
-    for (std::size_t i = 0; i < std::min(seed.size(), seedMps2_.size()); ++i) {
-        seedMps2_[i] = seed[i] * levelMps2;
+    seedRibs_ = {};
+    const std::optional<std::size_t> chosen = retrieveSeed(model_, label, motion);
+    if (!chosen) {
+        return;
     }
+    const float levelMps2 = levels_.at(state.material, motion);
+    std::ranges::transform(model_.seed(*chosen), seedMps2_.begin(),
+                           [levelMps2](float sample) { return sample * levelMps2; });
+    // The seed sounds as recorded: it goes on over its ribs by its own velocity, whatever the hand's is.
+    const model::SeedEntry& seed = model_.header().seeds[*chosen];
+    seedRibs_.phase = seed.ribPhase;
+    seedRibs_.turnsPerSample = ribTurnsPerSample(model_.embedding(label), seed.velocityMps[0], seed.velocityMps[1]);
 }
 
 }  // namespace haptoflow::engine

@@ -30,6 +30,7 @@ private:
     std::uint32_t onsets_ = 0;
     std::uint64_t slides_ = 0;
     std::array<float, WaveformTimeline::seedSamples> seedMps2_{};
+    SeedRibs seedRibs_{};
 };
 
 }  // namespace haptoflow::engine

@@ -63,7 +63,7 @@ LiveEngine::LiveEngine(std::shared_ptr<const model::ModelFile> model, EngineTier
       tiers_(std::move(tiers)),
       settings_(checked(settings)),
       levels_(std::make_unique<OnsetLevels>(*model_, firstLoaded(tiers_), limits)),
-      quality_(tiers_.size(), settings.quality, startTier) {
+      quality_(tiers_.size(), settings.quality, startTier, settings.tiersByAccuracy) {
     if (!isLoaded(settings_.quality)) {
         throw std::invalid_argument("quality: a tier that is not loaded");
     }

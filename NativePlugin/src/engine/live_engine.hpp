@@ -24,6 +24,8 @@ namespace haptoflow::engine {
 
 struct LiveEngineSettings {
     QualitySettings quality{};
+    /// Places of the tiers, the least accurate first; empty for their own order.
+    std::vector<std::size_t> tiersByAccuracy{};
     /// Contact states a second, by which the budget and the pace of measuring go.
     double updateRateHz = 72.0;
     float fullScaleMps2 = dsp::SoftLimiter::defaultFullScaleMps2;
@@ -67,7 +69,7 @@ struct EngineStatistics {
 /// The worker holds no lock while the network runs: adding, removing and reading never wait for inference.
 class LiveEngine {
 public:
-    /// `tiers` in the model's order, cheapest first; at least one. Those that `settings` want must be loaded: all for
+    /// `tiers` in the model's order; at least one. Those that `settings` want must be loaded: all for
     /// automatic quality, else the one. Runs the level graph of the first loaded for OnsetLevels. Throws
     /// std::invalid_argument for settings out of range or a tier that is not loaded, inference::InferenceError,
     /// inference::LoadCancelled, std::system_error.

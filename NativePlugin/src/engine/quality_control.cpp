@@ -2,10 +2,21 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 namespace haptoflow::engine {
+namespace {
+
+std::vector<std::size_t> inTheirOwnOrder(std::size_t tiers) {
+    std::vector<std::size_t> order(tiers);
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    return order;
+}
+
+}  // namespace
 
 void RunTimes::add(double milliseconds) noexcept {
     const std::size_t before = count_.load(std::memory_order_relaxed);
@@ -28,10 +39,19 @@ double RunTimes::percentile(double share) const noexcept {
     return static_cast<double>(*place);
 }
 
-QualityControl::QualityControl(std::size_t tiers, const QualitySettings& settings, std::size_t startTier)
-    : settings_(settings), times_(tiers), tier_(settings.fixedTier.value_or(startTier)) {
+QualityControl::QualityControl(std::size_t tiers, const QualitySettings& settings, std::size_t startTier,
+                               std::vector<std::size_t> byAccuracy)
+    : settings_(settings),
+      times_(tiers),
+      firstMedianMs_(tiers),
+      byAccuracy_(byAccuracy.empty() ? inTheirOwnOrder(tiers) : std::move(byAccuracy)),
+      tier_(settings.fixedTier.value_or(startTier)) {
     if (tier_ >= tiers) {
         throw std::invalid_argument("quality control: tier " + std::to_string(tier_) + " of " + std::to_string(tiers));
+    }
+    if (!std::ranges::is_permutation(byAccuracy_, inTheirOwnOrder(tiers))) {
+        throw std::invalid_argument("quality control: the order of accuracy must name each of the " +
+                                    std::to_string(tiers) + " tiers once");
     }
 }
 
@@ -51,27 +71,63 @@ void QualityControl::measured(std::size_t tier, double milliseconds) noexcept {
     if (tier >= times_.size()) {
         return;
     }
-    times_[tier].add(milliseconds);
+    note(tier, milliseconds);
     if (isAutomatic() && !tierToMeasure()) {
         tier_ = fittingTier();
     }
 }
 
 std::size_t QualityControl::fittingTier() const noexcept {
-    std::size_t fitting = 0;
-    for (std::size_t tier = 0; tier < times_.size(); ++tier) {
-        if (times_[tier].percentile(0.99) * static_cast<double>(voices_) <= settings_.budgetMs) {
-            fitting = tier;
+    for (auto tier = byAccuracy_.rbegin(); tier != byAccuracy_.rend(); ++tier) {
+        if (times_[*tier].percentile(0.99) * static_cast<double>(voices_) <= settings_.budgetMs) {
+            return *tier;
         }
     }
-    return fitting;
+    return *std::ranges::min_element(byAccuracy_, {}, [this](std::size_t tier) { return firstMedianMs_[tier]; });
+}
+
+std::size_t QualityControl::rankOf(std::size_t tier) const noexcept {
+    return static_cast<std::size_t>(std::ranges::find(byAccuracy_, tier) - byAccuracy_.begin());
+}
+
+bool QualityControl::isKnownToOutrun(std::size_t tier, std::size_t other) const noexcept {
+    return firstMedianMs_[tier] && firstMedianMs_[other] && *firstMedianMs_[tier] <= *firstMedianMs_[other];
+}
+
+void QualityControl::note(std::size_t tier, double milliseconds) noexcept {
+    times_[tier].add(milliseconds);
+    if (times_[tier].count() == measuringRuns) {
+        firstMedianMs_[tier] = times_[tier].percentile(0.5);
+    }
+}
+
+std::optional<std::size_t> QualityControl::fasterTier() const noexcept {
+    for (std::size_t rank = rankOf(tier_); rank > 0; --rank) {
+        const std::size_t tier = byAccuracy_[rank - 1];
+        if (!isKnownToOutrun(tier_, tier)) {
+            return tier;
+        }
+    }
+    return std::nullopt;
+}
+
+std::optional<std::size_t> QualityControl::betterTier() const noexcept {
+    for (std::size_t rank = rankOf(tier_) + 1; rank < byAccuracy_.size(); ++rank) {
+        const std::size_t tier = byAccuracy_[rank];
+        const auto outruns = [&](std::size_t other) { return isKnownToOutrun(other, tier); };
+        const auto better = byAccuracy_.begin() + static_cast<std::ptrdiff_t>(rank) + 1;
+        if (std::none_of(better, byAccuracy_.end(), outruns)) {
+            return tier;
+        }
+    }
+    return std::nullopt;
 }
 
 void QualityControl::ran(double milliseconds, std::size_t voices) noexcept {
     if (voices == 0) {
         return;
     }
-    times_[tier_].add(milliseconds / static_cast<double>(voices));
+    note(tier_, milliseconds / static_cast<double>(voices));
     if (!isAutomatic()) {
         return;
     }
@@ -79,7 +135,7 @@ void QualityControl::ran(double milliseconds, std::size_t voices) noexcept {
         // Rather before the overruns than after them.
         voices_ = voices;
         const std::size_t before = tier_;
-        while (!tierToMeasure() && tier_ > fittingTier()) {
+        while (!tierToMeasure() && rankOf(tier_) > rankOf(fittingTier()) && fasterTier()) {
             stepDown();
         }
         if (tier_ != before) {
@@ -104,21 +160,22 @@ void QualityControl::ran(double milliseconds, std::size_t voices) noexcept {
 void QualityControl::stepDown() noexcept {
     overruns_ = 0;
     roundsInWindow_ = 0;
-    if (tier_ == 0) {
+    const auto faster = fasterTier();
+    if (!faster) {
         return;
     }
-    --tier_;
+    tier_ = *faster;
     ++stepsDown_;
     patienceRounds_ = std::min(2 * patienceRounds_, longestPatienceRounds);
 }
 
 void QualityControl::considerStepUp(std::size_t voices) noexcept {
-    if (tier_ + 1 >= times_.size() || roundsSinceOverrun_ < patienceRounds_) {
+    if (roundsSinceOverrun_ < patienceRounds_) {
         return;
     }
-    const double expectedMs = times_[tier_ + 1].percentile(0.5) * static_cast<double>(voices);
-    if (expectedMs <= roomToStepUp * settings_.budgetMs) {
-        ++tier_;
+    const auto better = betterTier();
+    if (better && times_[*better].percentile(0.5) * static_cast<double>(voices) <= roomToStepUp * settings_.budgetMs) {
+        tier_ = *better;
         ++stepsUp_;
         roundsSinceOverrun_ = 0;
         overruns_ = 0;

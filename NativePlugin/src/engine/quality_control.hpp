@@ -32,16 +32,19 @@ struct QualitySettings {
     double budgetMs = 3.47;
 };
 
-/// Decides which tier of the model generates the next segments. Tiers are numbered from the cheapest to the most
-/// accurate. Automatic: after measuring, the most accurate whose 99th percentile, times as many voices as touch, fits
-/// the budget; one down when rounds overrun, one up again only after a long time without, and with room to spare. One
-/// thread at a time, but for the times, which any thread may read.
+/// Decides which tier of the model generates the next segments. Automatic: after measuring, the most accurate whose
+/// 99th percentile, times as many voices as touch, fits the budget, or else the fastest; when rounds overrun, the next
+/// less accurate one that is faster; a more accurate one again only after a long time without, and with room to spare.
+/// One thread at a time, but for the times, which any thread may read.
 class QualityControl {
 public:
     /// How often each tier is run before automatic quality decides.
     static constexpr std::size_t measuringRuns = 20;
 
-    QualityControl(std::size_t tiers, const QualitySettings& settings, std::size_t startTier);
+    /// `byAccuracy` names each tier once, the least accurate first; empty for their own order. Throws
+    /// std::invalid_argument for a tier or an order that the model does not have.
+    QualityControl(std::size_t tiers, const QualitySettings& settings, std::size_t startTier,
+                   std::vector<std::size_t> byAccuracy = {});
 
     [[nodiscard]] std::size_t tier() const noexcept { return tier_; }
     [[nodiscard]] bool isAutomatic() const noexcept { return !settings_.fixedTier.has_value(); }
@@ -67,11 +70,21 @@ private:
     static constexpr double roomToStepUp = 0.7;
 
     [[nodiscard]] std::size_t fittingTier() const noexcept;
+    /// The next less accurate tier that is not known to be as slow as the present one.
+    [[nodiscard]] std::optional<std::size_t> fasterTier() const noexcept;
+    /// The next more accurate tier that no still more accurate one is known to outrun.
+    [[nodiscard]] std::optional<std::size_t> betterTier() const noexcept;
+    [[nodiscard]] std::size_t rankOf(std::size_t tier) const noexcept;
+    [[nodiscard]] bool isKnownToOutrun(std::size_t tier, std::size_t other) const noexcept;
+    void note(std::size_t tier, double milliseconds) noexcept;
     void stepDown() noexcept;
     void considerStepUp(std::size_t voices) noexcept;
 
     QualitySettings settings_;
     std::vector<RunTimes> times_;
+    // Medians of the first runs: later ones were not made under the same load. Empty until there are enough.
+    std::vector<std::optional<double>> firstMedianMs_;
+    std::vector<std::size_t> byAccuracy_;
     std::size_t tier_;
     std::uint64_t roundsSinceOverrun_ = 0;
     std::uint64_t roundsInWindow_ = 0;

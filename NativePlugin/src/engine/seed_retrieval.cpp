@@ -24,11 +24,11 @@ double distance(const model::SeedEntry& seed, const std::array<float, 3>& motion
 
 }  // namespace
 
-std::span<const float> retrieveSeed(const model::ModelFile& model, std::size_t label,
-                                    const std::array<float, 3>& motion) noexcept {
+std::optional<std::size_t> retrieveSeed(const model::ModelFile& model, std::size_t label,
+                                        const std::array<float, 3>& motion) noexcept {
     const auto& seeds = model.header().seeds;
     double nearest = std::numeric_limits<double>::infinity();
-    std::size_t chosen = seeds.size();
+    std::optional<std::size_t> chosen;
     for (std::size_t i = 0; i < seeds.size(); ++i) {
         if (seeds[i].label != label) {
             continue;
@@ -39,10 +39,7 @@ std::span<const float> retrieveSeed(const model::ModelFile& model, std::size_t l
             chosen = i;
         }
     }
-    if (chosen == seeds.size()) {
-        return {};
-    }
-    return model.seed(chosen);
+    return chosen;
 }
 
 }  // namespace haptoflow::engine

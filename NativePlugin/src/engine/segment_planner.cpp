@@ -58,6 +58,9 @@ bool SegmentPlanner::wake() noexcept {
     skipUntil(contact.slides - 1);
     settledSlides_ = contact.slides;
     looks_ = 0;
+    if (isNewStream) {
+        ribs_.begin(playhead.streamStart, playhead.seedRibs);
+    }
     if (!replaces) {
         hop_ = isNewStream ? 0 : head - lastHead_;
     }
@@ -135,6 +138,7 @@ std::int64_t SegmentPlanner::leadSamples(std::int64_t blockAdvance, double readi
 void SegmentPlanner::prepare(std::int64_t start) noexcept {
     plannedStart_ = start;
     mirror_.history(start, history_);
+    request_.ribPhase = ribs_.at(start);
     inference::fillStandardNormal({.seed = settings_.seed, .voice = settings_.voice, .segment = segments_}, noise_);
     ++segments_;
 }
@@ -157,6 +161,8 @@ bool SegmentPlanner::deliver(std::span<const float, inference::segmentSamples> s
         return false;
     }
     mirror_.commit(plannedStart_, sent.segment.samplesMps2);
+    ribs_.add(plannedStart_, ribTurnsPerSample(request_.embedding, static_cast<double>(request_.motion[0]),
+                                               static_cast<double>(request_.motion[1])));
 
     const std::int64_t head = playhead.timeline.head;
     const auto lead = static_cast<double>(leadSamples(playhead.blockAdvance, contact.readingRate));

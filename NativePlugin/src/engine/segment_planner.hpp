@@ -1,6 +1,7 @@
 #pragma once
 
 #include "engine/lead_estimator.hpp"
+#include "engine/rib_phase.hpp"
 #include "engine/voice_channels.hpp"
 #include "engine/waveform_timeline.hpp"
 #include "inference/segment_generator.hpp"
@@ -61,6 +62,8 @@ private:
     LeadEstimator lead_;
     // What the callback will have committed once it has taken all that was sent.
     WaveformTimeline mirror_;
+    // Of the present stream.
+    RibTrack ribs_;
 
     struct Sent {
         QueuedSegment segment;

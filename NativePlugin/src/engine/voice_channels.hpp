@@ -2,6 +2,7 @@
 
 #include "engine/mailbox.hpp"
 #include "engine/output_stage.hpp"
+#include "engine/rib_phase.hpp"
 #include "engine/segment_queue.hpp"
 #include "engine/silence.hpp"
 #include "engine/waveform_timeline.hpp"
@@ -26,6 +27,7 @@ struct AudioMessage {
     /// The seed in m/s^2 for the newest state that slid, in every message: an onset survives being overwritten, and
     /// what resumes within a touch begins with the sound of the state that it resumes with.
     std::array<float, WaveformTimeline::seedSamples> seedMps2{};
+    SeedRibs seedRibs{};
 };
 
 /// What the worker has to know of a contact.
@@ -46,6 +48,9 @@ struct Playhead {
     std::uint64_t stream = 0;
     /// AudioMessage::onset of that stream.
     std::uint32_t onset = 0;
+    /// The head when that stream began, and the ribs of the seed that it began with.
+    std::int64_t streamStart = 0;
+    SeedRibs seedRibs{};
     /// False while nothing is read: the clock stands still.
     bool running = false;
     /// Sequence of the newest segment that the callback took or dropped, and for each of the last ones, at its sequence

@@ -159,6 +159,8 @@ void VoiceRenderer::begin() noexcept {
     const AudioMessage& contact = channels_.toAudio.current();
     count(contact.onset != playedOnset_ ? channels_.counters.onsets : channels_.counters.resumptions);
     ++stream_;
+    streamStart_ = voice_.timeline().head();
+    seedRibs_ = contact.seedRibs;
     playedOnset_ = contact.onset;
     silence_ = Silence::none;
     tapFramesLeft_ = contact.sliding ? 0 : static_cast<std::uint64_t>(tapSeconds * voice_.outputRateHz());
@@ -251,6 +253,8 @@ void VoiceRenderer::report(std::uint64_t uncoveredBefore, bool sounded) noexcept
     Playhead& playhead = channels_.playhead.draft();
     playhead.stream = stream_;
     playhead.onset = playedOnset_;
+    playhead.streamStart = streamStart_;
+    playhead.seedRibs = seedRibs_;
     playhead.running = running;
     playhead.takenSequence = takenSequence_;
     playhead.headAtTake = headAtTake_;

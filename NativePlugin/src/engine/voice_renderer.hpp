@@ -62,6 +62,8 @@ private:
     Silence silence_ = Silence::rest;
     // Generations of playback: one more at each touch and each resumption, so that older segments are dropped.
     std::uint64_t stream_ = 0;
+    std::int64_t streamStart_ = 0;
+    SeedRibs seedRibs_{};
     std::uint32_t playedOnset_ = 0;
     std::uint64_t tapFramesLeft_ = 0;
 

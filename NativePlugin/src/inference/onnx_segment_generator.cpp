@@ -182,7 +182,9 @@ void OnnxSegmentGenerator::prepare(std::span<const SegmentRequest> requests) {
     }
     field_.setPrevious(previous);
 
+    const auto ribPhases = field_.ribPhases();
     for (std::size_t index = 0; index < requests.size(); ++index) {
+        std::ranges::copy(requests[index].ribPhase, ribPhases.subspan(index * ribCount).begin());
         const auto point = std::span(points_).subspan(index * pointSize_, pointSize_);
         if (point.size() == segmentSamples) {
             std::ranges::copy(requests[index].noise, point.begin());

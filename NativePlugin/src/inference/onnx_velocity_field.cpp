@@ -30,6 +30,10 @@ std::span<float> OnnxVelocityField::motions() {
     return field_.input(field_input::motion);
 }
 
+std::span<float> OnnxVelocityField::ribPhases() {
+    return field_.input(field_input::ribPhase);
+}
+
 void OnnxVelocityField::setPrevious(std::span<const float> waveforms) {
     if (encoder_) {
         std::ranges::copy(waveforms, encoder_->input(0).begin());

@@ -20,9 +20,10 @@ public:
                       std::size_t maximumBatch, const LoadLimits& limits);
 
     void setBatch(std::size_t batch);
-    /// The conditions of the batch, to be filled before `evaluate`: batch * 64, batch * 3.
+    /// The conditions of the batch, to be filled before `evaluate`: batch * 64, batch * 3, batch * 2.
     [[nodiscard]] std::span<float> embeddings();
     [[nodiscard]] std::span<float> motions();
+    [[nodiscard]] std::span<float> ribPhases();
     /// batch * 200 numbers in unit scale; a latent tier encodes them here, once for all steps. Throws InferenceError.
     void setPrevious(std::span<const float> waveforms);
 

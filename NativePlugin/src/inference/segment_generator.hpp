@@ -9,6 +9,8 @@ namespace haptoflow::inference {
 inline constexpr std::size_t segmentSamples = 200;
 inline constexpr std::size_t embeddingSize = 64;
 inline constexpr double waveformRateHz = 2000.0;
+/// Wave vectors of a ruled material: x and y of each, in cycles per millimetre, are the embedding's last numbers.
+inline constexpr std::size_t ribCount = 2;
 
 enum class SolverKind { euler, midpoint, heun };
 
@@ -26,6 +28,9 @@ struct SegmentRequest {
     std::span<const float, segmentSamples> previous;
     /// Standard normal noise, the solver's starting point.
     std::span<const float, segmentSamples> noise;
+    /// For each of the embedding's wave vectors, how far the tip has travelled along it at the segment's first sample:
+    /// turns in [0, 1). Read by graphs that have the input `rib_phase`.
+    std::array<float, ribCount> ribPhase{};
 };
 
 /// Turns contact states into segments. Worker thread; one user at a time; may allocate.

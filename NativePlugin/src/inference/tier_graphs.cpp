@@ -10,6 +10,7 @@ namespace {
 const std::vector<std::int64_t> waveformShape{1, static_cast<std::int64_t>(segmentSamples)};
 const TensorSignature embedding{"embedding", {static_cast<std::int64_t>(embeddingSize)}};
 const TensorSignature motion{"motion", {3}};
+const TensorSignature ribPhase{"rib_phase", {static_cast<std::int64_t>(ribCount)}};
 
 const std::vector<std::int64_t>& pointShape(const model::Tier& tier) {
     return tier.representation == model::TierRepresentation::latent ? tier.latentShape : waveformShape;
@@ -31,7 +32,7 @@ OnnxGraph loadField(std::shared_ptr<const Runtime> runtime, const model::ModelFi
                     std::size_t maximumBatch, const LoadLimits& limits) {
     const bool direct = tier.kind == model::TierKind::direct;
     GraphSignature signature{
-        {{"noisy", pointShape(tier)}, {"time", {1}}, {"previous", pointShape(tier)}, embedding, motion},
+        {{"noisy", pointShape(tier)}, {"time", {1}}, {"previous", pointShape(tier)}, embedding, motion, ribPhase},
         {direct ? "segment" : "velocity", pointShape(tier)}};
     if (tier.kind == model::TierKind::averageVelocity) {
         signature.inputs.push_back({"interval", {1}});

@@ -16,7 +16,9 @@ inline constexpr std::size_t time = 1;
 inline constexpr std::size_t previous = 2;
 inline constexpr std::size_t embedding = 3;
 inline constexpr std::size_t motion = 4;
-inline constexpr std::size_t interval = 5;
+inline constexpr std::size_t ribPhase = 5;
+/// Kind `average-velocity` only.
+inline constexpr std::size_t interval = 6;
 }  // namespace field_input
 namespace level_input {
 inline constexpr std::size_t embedding = 0;

@@ -70,6 +70,10 @@ SeedEntry readSeed(const HeaderNode& node, const NameIndex& labelNames) {
     const auto velocity = node.at("velocity_mps").numbers(2, -maximumSpeedMps, maximumSpeedMps);
     seed.velocityMps = {velocity[0], velocity[1]};
     seed.forceNewtons = node.at("force_newtons").number(0.0, maximumForceNewtons);
+    if (const auto phase = node.find("rib_phase")) {
+        const auto turns = phase->numbers(seed.ribPhase.size(), 0.0, 1.0);
+        std::ranges::copy(turns, seed.ribPhase.begin());
+    }
     return seed;
 }
 

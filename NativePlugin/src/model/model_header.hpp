@@ -70,13 +70,22 @@ struct Tier {
     /// Measured figures as compact JSON objects.
     std::string accuracyJson;
     std::string costJson;
+    /// How far off the tier was measured to be: its spectral distance and the 90th percentile of its level error,
+    /// added. Empty where one of them was not measured.
+    std::optional<double> errorDb;
 };
+
+/// Places of the tiers, the least accurate first; of equally accurate ones, that which stands first in the file. Where
+/// a tier was not measured, the order of the file counts for all.
+[[nodiscard]] std::vector<std::size_t> tiersByAccuracy(const std::vector<Tier>& tiers);
 
 struct SeedEntry {
     /// Index into ModelHeader::labels.
     std::size_t label = 0;
     std::array<double, 2> velocityMps{};
     double forceNewtons = 0.0;
+    /// Turns along each wave vector of the label at the seed's sample 200, the first that sounds; 0 where not given.
+    std::array<double, 2> ribPhase{};
 };
 
 enum class BlobType { float32, onnx };

@@ -1,6 +1,12 @@
 #include "model/tier_header.hpp"
 
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
 #include <array>
+#include <cmath>
+#include <numeric>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -61,7 +67,35 @@ std::vector<std::int64_t> readLatentShape(const HeaderNode& node) {
     return shape;
 }
 
+/// The figure of this name, where it is one that an error in dB can have.
+std::optional<double> errorOf(const nlohmann::json& accuracy, const char* figure) {
+    const auto found = accuracy.find(figure);
+    if (found == accuracy.end() || !found->is_number()) {
+        return std::nullopt;
+    }
+    const double value = found->get<double>();
+    return std::isfinite(value) && value >= 0.0 ? std::optional(value) : std::nullopt;
+}
+
+std::optional<double> readError(const std::string& accuracyJson) {
+    const nlohmann::json accuracy = nlohmann::json::parse(accuracyJson);
+    const auto spectral = errorOf(accuracy, "lsd_db");
+    const auto level = errorOf(accuracy, "level_error_p90_db");
+    return spectral && level ? std::optional(*spectral + *level) : std::nullopt;
+}
+
 }  // namespace
+
+std::vector<std::size_t> tiersByAccuracy(const std::vector<Tier>& tiers) {
+    std::vector<std::size_t> order(tiers.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    if (std::ranges::all_of(tiers, [](const Tier& tier) { return tier.errorDb.has_value(); })) {
+        std::ranges::stable_sort(order, [&tiers](std::size_t first, std::size_t second) {
+            return *tiers[first].errorDb > *tiers[second].errorDb;
+        });
+    }
+    return order;
+}
 
 Tier readTier(const HeaderNode& node, const NameIndex& blobNames, const std::vector<Blob>& blobs) {
     Tier tier;
@@ -80,6 +114,7 @@ Tier readTier(const HeaderNode& node, const NameIndex& blobNames, const std::vec
     }
     tier.accuracyJson = node.at("accuracy").objectText();
     tier.costJson = node.at("cost").objectText();
+    tier.errorDb = readError(tier.accuracyJson);
     return tier;
 }
 

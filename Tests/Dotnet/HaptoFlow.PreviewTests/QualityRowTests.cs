@@ -15,12 +15,12 @@ namespace HaptoFlow.PreviewTests
         {
             ModelHeader header = MeasuredModel.Header();
             IReadOnlyList<QualityRow> rows = QualityRow.Of(header, MeasuredModel.Timings());
-            Assert.That(rows.Select(row => row.Name), Is.EqualTo(new[] { "draft", "standard", "fine" }));
+            Assert.That(rows.Select(row => row.Name), Is.EqualTo(header.Tiers.Select(tier => tier.Name)));
             Assert.That(rows[0].LevelErrorDecibels, Is.EqualTo(-0.42));
             Assert.That(rows[0].GoodnessOfFit, Is.EqualTo(0.962));
             Assert.That(rows[0].SpectralDistanceDecibels, Is.EqualTo(3.18));
             Assert.That(rows[1].IsDefault, Is.True);
-            Assert.That(rows[2].Timing!.MedianMs, Is.EqualTo(0.87));
+            Assert.That(rows[1].Timing!.MedianMs, Is.EqualTo(0.47));
         }
 
         [Test]

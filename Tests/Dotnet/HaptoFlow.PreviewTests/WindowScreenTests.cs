@@ -110,9 +110,17 @@ namespace HaptoFlow.PreviewTests
         public void QualitiesAreThoseOfTheModel()
         {
             Window.Finish();
-            Enter("Quality", 2);
-            Assert.That(State.Tier, Is.EqualTo("fine"));
-            Assert.That(Screen().Single(item => item.Label == "Quality").Value, Is.EqualTo("fine"));
+            Enter("Quality", 0);
+            Assert.That(State.Tier, Is.EqualTo("draft"));
+            Assert.That(Screen().Single(item => item.Label == "Quality").Value, Is.EqualTo("draft"));
+        }
+
+        [Test]
+        public void AQualityThatTheModelLacksIsItsDefault()
+        {
+            Window.Finish();
+            State.Tier = "exquisite";
+            Assert.That(Screen().Single(item => item.Label == "Quality").Value, Is.EqualTo("standard"));
         }
 
         [Test]

@@ -98,9 +98,9 @@ namespace HaptoFlow.RepositoryTests
         public void ATierThatIsSlowerThanTheLimitIsRefusedByName()
         {
             var refusal = Assert.Throws<HaptoFlowException>(() => new HapticEngine(runtime, model,
-                new HapticEngineOptions { Quality = HapticQuality.Fine, WithoutWorker = true, ProbeLimitMs = 1e-6 }));
+                new HapticEngineOptions { Quality = HapticQuality.Draft, WithoutWorker = true, ProbeLimitMs = 1e-6 }));
             Assert.That(refusal!.Status, Is.EqualTo(HaptoFlowStatus.TierTooSlow));
-            Assert.That(refusal.Message, Does.Contain("fine"));
+            Assert.That(refusal.Message, Does.Contain("draft"));
         }
 
         private HapticEngine Engine(HapticCancellation? cancellation) => new HapticEngine(runtime, model,

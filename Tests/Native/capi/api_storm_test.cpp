@@ -294,8 +294,14 @@ private:
         const std::vector<float> embeddings = wildFloats(std::size_t{count} * HAPTOFLOW_EMBEDDING_SIZE);
         const std::vector<float> motions = wildFloats(std::size_t{count} * HAPTOFLOW_MOTION_SIZE);
         const std::vector<float> waveforms = wildFloats(std::size_t{count} * HAPTOFLOW_SEGMENT_SAMPLES);
-        haptoflow_batch batch{sizeOf(sizeof(batch)), count,           embeddings.data(), motions.data(),
-                              waveforms.data(),      waveforms.data()};
+        const std::vector<float> ribPhases = wildFloats(std::size_t{count} * HAPTOFLOW_RIB_COUNT);
+        haptoflow_batch batch{sizeOf(sizeof(batch)),
+                              count,
+                              embeddings.data(),
+                              motions.data(),
+                              waveforms.data(),
+                              waveforms.data(),
+                              oneIn(2) ? ribPhases.data() : nullptr};
         if (oneIn(8)) {
             batch.count = next();
             batch.motions = nullptr;

@@ -123,7 +123,8 @@ protected:
             input<haptoflow_generator_options>("haptoflow_generator_options", "haptoflow_generator_create",
                                                offsetof(haptoflow_generator_options, steps), generatorOptions_,
                                                opening(haptoflow_generator_create, haptoflow_generator_close)),
-            input<haptoflow_batch>("haptoflow_batch", "haptoflow_generator_generate", sizeof(haptoflow_batch), batch_,
+            input<haptoflow_batch>("haptoflow_batch", "haptoflow_generator_generate",
+                                   offsetof(haptoflow_batch, rib_phases), batch_,
                                    [this](const haptoflow_batch* batch) {
                                        return haptoflow_generator_generate(generator_, batch, segment_.data());
                                    }),
@@ -172,7 +173,7 @@ protected:
     std::array<float, HAPTOFLOW_MOTION_SIZE> motion_{0.1F, 0.0F, 1.0F};
     std::array<float, HAPTOFLOW_SEGMENT_SAMPLES> silence_{};
     std::array<float, HAPTOFLOW_SEGMENT_SAMPLES> segment_{};
-    haptoflow_batch batch_{0, 1, embedding_.data(), motion_.data(), silence_.data(), silence_.data()};
+    haptoflow_batch batch_{0, 1, embedding_.data(), motion_.data(), silence_.data(), silence_.data(), nullptr};
 };
 
 TEST_F(DescriptorSizesTest, EveryDescriptorOfTheHeaderIsInATable) {

@@ -239,10 +239,10 @@ TEST(EngineApiTest, AnEngineWithAWorkerIsNotSteppedByHand) {
 }
 
 TEST(EngineApiTest, QualityNamesATierWhichIsReadableWithItsMeasuredTime) {
-    OpenEngine open(defaultModelPath, false, HAPTOFLOW_QUALITY_FINE);
+    OpenEngine open(tinyModelPath, false, HAPTOFLOW_QUALITY_FINE);
     uint32_t tiers = 0;
     ASSERT_EQ(haptoflow_model_tier_count(open.model, &tiers), HAPTOFLOW_OK);
-    EXPECT_EQ(open.engineStatistics().tier, tiers - 1);
+    EXPECT_EQ(open.engineStatistics().tier, 2U);
     ASSERT_EQ(haptoflow_engine_set_quality(open.engine, HAPTOFLOW_QUALITY_DRAFT), HAPTOFLOW_OK);
     for (int update = 0; update < 5; ++update) {
         (void)open.update(slidingState());

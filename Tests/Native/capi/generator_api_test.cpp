@@ -1,4 +1,6 @@
 #include "c11_user.h"
+#include "inference/rebuilt_model.hpp"
+#include "inference/rib_graph.hpp"
 #include "open_handles.hpp"
 #include "support/dynamic_library.hpp"
 
@@ -48,7 +50,7 @@ struct Golden {
     }
 
     [[nodiscard]] haptoflow_batch batch() const {
-        return {sizeof(haptoflow_batch), 3, embeddings.data(), motions.data(), previous.data(), noise.data()};
+        return {sizeof(haptoflow_batch), 3, embeddings.data(), motions.data(), previous.data(), noise.data(), nullptr};
     }
 
     std::vector<float> embeddings;
@@ -107,6 +109,53 @@ TEST_F(GeneratorApiTest, ChangesTheSolverAndGoesBackToTheTiersOwn) {
     EXPECT_EQ(haptoflow_generator_set_solver(generator_, HAPTOFLOW_SOLVER_OF_TIER, 2), HAPTOFLOW_INVALID_ARGUMENT);
     EXPECT_EQ(haptoflow_generator_set_solver(generator_, HAPTOFLOW_SOLVER_EULER, 17), HAPTOFLOW_INVALID_ARGUMENT);
     EXPECT_EQ(haptoflow_generator_set_solver(generator_, 9, 1), HAPTOFLOW_INVALID_ARGUMENT);
+}
+
+/// The tiny model, whose direct tier answers with the phase of its ribs.
+std::vector<std::byte> ribModelBytes() {
+    const model::ModelFile tiny = model::ModelFile::read(tinyModelPath);
+    return inference::testing::withGraphs(tiny,
+                                          {{"direct_field", inference::testing::ribField("segment", {1, samples})}});
+}
+
+TEST(GeneratorRibPhaseTest, ThePhasesOfABatchReachTheGraphAndABatchWithoutThemStandsAtZero) {
+    const Golden golden;
+    const std::vector<std::byte> bytes = ribModelBytes();
+    haptoflow_runtime* runtime = openRuntime();
+    const haptoflow_model_options modelOptions{sizeof(modelOptions), bytes.data(), bytes.size(), nullptr};
+    haptoflow_model* model = nullptr;
+    ASSERT_EQ(haptoflow_model_open(&modelOptions, &model), HAPTOFLOW_OK) << message();
+    haptoflow_generator_options options{};
+    options.struct_size = sizeof(options);
+    options.runtime = runtime;
+    options.model = model;
+    options.tier = "direct";
+    haptoflow_generator* generator = nullptr;
+    ASSERT_EQ(haptoflow_generator_create(&options, &generator), HAPTOFLOW_OK) << message();
+
+    const std::array<float, 6> phases{0.25F, 0.5F, 0.9F, 0.0F, 0.0F, 0.75F};
+    std::vector<float> segments(3 * samples);
+    haptoflow_batch batch = golden.batch();
+    batch.rib_phases = phases.data();
+    ASSERT_EQ(haptoflow_generator_generate(generator, &batch, segments.data()), HAPTOFLOW_OK) << message();
+    for (std::size_t i = 0; i < segments.size(); ++i) {
+        const std::size_t row = i / samples;
+        const float expected = inference::testing::firstRibWeight * phases[2 * row] +
+                               inference::testing::secondRibWeight * phases[2 * row + 1];
+        ASSERT_NEAR(segments[i] / golden.levels[row], expected, 1e-5F) << i;
+    }
+    // A caller that was compiled with a header that did not know of them.
+    batch.struct_size = offsetof(haptoflow_batch, rib_phases);
+    ASSERT_EQ(haptoflow_generator_generate(generator, &batch, segments.data()), HAPTOFLOW_OK) << message();
+    EXPECT_THAT(segments, ::testing::Each(0.0F));
+    batch.struct_size = sizeof(batch);
+    batch.rib_phases = nullptr;
+    ASSERT_EQ(haptoflow_generator_generate(generator, &batch, segments.data()), HAPTOFLOW_OK) << message();
+    EXPECT_THAT(segments, ::testing::Each(0.0F));
+
+    EXPECT_EQ(haptoflow_generator_close(&generator), HAPTOFLOW_OK);
+    EXPECT_EQ(haptoflow_model_close(&model), HAPTOFLOW_OK);
+    EXPECT_EQ(haptoflow_runtime_close(&runtime), HAPTOFLOW_OK);
 }
 
 TEST_F(GeneratorApiTest, LevelsNeedNoWaveforms) {

@@ -3,7 +3,9 @@
 
 #include "inference/rebuilt_model.hpp"
 
+#include <array>
 #include <chrono>
+#include <functional>
 #include <map>
 #include <mutex>
 #include <string>
@@ -32,9 +34,10 @@ protected:
     }
 
     /// The tiny model with other graphs.
-    void openModel(const Graphs& graphs) {
+    void openModel(
+        const Graphs& graphs, const std::function<void(nlohmann::json&)>& editHeader = [](auto&) {}) {
         EXPECT_EQ(haptoflow_model_close(&model_), HAPTOFLOW_OK);
-        const Bytes bytes = inference::testing::withGraphs(model::ModelFile::read(tinyModelPath), graphs);
+        const Bytes bytes = inference::testing::withGraphs(model::ModelFile::read(tinyModelPath), graphs, editHeader);
         const haptoflow_model_options options{sizeof(options), bytes.data(), bytes.size(), nullptr};
         ASSERT_EQ(haptoflow_model_open(&options, &model_), HAPTOFLOW_OK) << message();
     }
@@ -98,6 +101,58 @@ TEST_F(LoadingApiTest, AnEngineOfOneQualityLoadsThatTierAlone) {
         expectRefused(engineOptions(quality), HAPTOFLOW_MODEL_INCONSISTENT,
                       std::string("tier \"") + tier + "\", graph \"flow_field\": uses the operator \"Loop\"");
     }
+}
+
+TEST_F(LoadingApiTest, AQualityThatTheModelLacksIsTheFirstTheDefaultOrTheMostAccurateTier) {
+    const auto keepTiers = [this](const std::vector<double>& errorsDb, const std::vector<std::string>& names) {
+        openModel({}, [&](nlohmann::json& header) {
+            nlohmann::json tiers = nlohmann::json::array();
+            for (std::size_t tier = 0; tier < names.size(); ++tier) {
+                tiers.push_back(header["tiers"][tier]);
+                tiers[tier]["name"] = names[tier];
+                tiers[tier]["accuracy"] = {{"lsd_db", errorsDb[tier]}, {"level_error_p90_db", 0.5}};
+            }
+            header["tiers"] = tiers;
+            header["default_tier"] = names[1];
+        });
+    };
+    const auto tierFor = [this](haptoflow_quality quality) { return tierOf(open(engineOptions(quality))); };
+    keepTiers({2.0, 1.0}, {"draft", "standard"});
+    EXPECT_EQ(tierFor(HAPTOFLOW_QUALITY_DRAFT), 0U);
+    EXPECT_EQ(tierFor(HAPTOFLOW_QUALITY_STANDARD), 1U);
+    EXPECT_EQ(tierFor(HAPTOFLOW_QUALITY_FINE), 1U);
+    keepTiers({1.0, 2.0}, {"draft", "standard"});
+    EXPECT_EQ(tierFor(HAPTOFLOW_QUALITY_FINE), 0U) << "by its figures, not by its place";
+    keepTiers({2.0, 3.0, 1.0}, {"small", "medium", "large"});
+    EXPECT_EQ(tierFor(HAPTOFLOW_QUALITY_DRAFT), 0U);
+    EXPECT_EQ(tierFor(HAPTOFLOW_QUALITY_STANDARD), 1U);
+    EXPECT_EQ(tierFor(HAPTOFLOW_QUALITY_FINE), 2U);
+}
+
+TEST_F(LoadingApiTest, AutomaticQualityTakesTheTierThatWasMeasuredToBeTheMostAccurateAndNotTheLast) {
+    openModel({}, [](nlohmann::json& header) {
+        header["tiers"].erase(3);
+        header["tiers"].erase(3);
+        const std::array<double, 3> errorsDb{2.0, 1.0, 3.0};
+        for (std::size_t tier = 0; tier < errorsDb.size(); ++tier) {
+            header["tiers"][tier]["accuracy"] = {{"lsd_db", errorsDb[tier]}, {"level_error_p90_db", 0.5}};
+        }
+        header["default_tier"] = "draft";
+    });
+    haptoflow_engine_options options = engineOptions(HAPTOFLOW_QUALITY_AUTO);
+    options.without_worker = 0;
+    options.fixed_lead_ms = 0.0;
+    // 40 ms for graphs that take microseconds.
+    options.update_rate_hz = 25.0;
+    options.budget_share = 1.0;
+    haptoflow_engine* engine = open(options);
+    haptoflow_engine_statistics statistics{};
+    do {
+        std::this_thread::sleep_for(std::chrono::milliseconds(20));
+        statistics.struct_size = sizeof(statistics);
+        ASSERT_EQ(haptoflow_engine_get_statistics(engine, &statistics), HAPTOFLOW_OK);
+    } while (statistics.is_measuring != 0);
+    EXPECT_EQ(statistics.tier, standardTier);
 }
 
 TEST_F(LoadingApiTest, AnotherQualityIsLoadedWhenItIsAskedForAndKeepsTheModelsIndex) {

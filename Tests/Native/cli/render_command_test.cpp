@@ -205,7 +205,7 @@ TEST_F(RenderCommandTest, AMisspeltCommandOptionOrQualityNamesTheOneThatWasMeant
                 AllOf(HasSubstr("The commands are render, contact, inspect, bench"), Not(HasSubstr("did you mean"))));
     expectUsage("-o felt.wav --sede 4", "There is no option '--sede'; did you mean '--seed'?");
     expectUsage("-o felt.wav --qualty=fine", "did you mean '--quality'?");
-    expectUsage("-o felt.wav --quality Standart", "did you mean 'standard'? This model has draft, standard, fine");
+    expectUsage("-o felt.wav --quality Standart", "did you mean 'standard'? This model has draft, standard");
 }
 
 TEST_F(RenderCommandTest, AnUnknownLabelNamesTheNearestThreeAndWhereAllAreListed) {
@@ -231,7 +231,7 @@ TEST_F(RenderCommandTest, AnUnknownLabelNamesTheNearestThreeAndWhereAllAreListed
 TEST_F(RenderCommandTest, SolverAndStepsAreRefusedWhereTheTierIsEvaluatedOnce) {
     expectUsage("-o felt.wav --solver midpoint --steps 4",
                 "--solver and --steps have no effect on the tier 'standard', which is evaluated once");
-    expectUsage("-o felt.wav --quality fine --solver euler --steps 1", "no effect on the tier 'fine'");
+    expectUsage("-o felt.wav --quality draft --solver euler --steps 1", "no effect on the tier 'draft'");
     const nlohmann::json report = reportOf("");
     EXPECT_EQ(report["tier"], "standard");
     EXPECT_TRUE(report["solver"].is_null());

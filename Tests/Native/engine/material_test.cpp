@@ -66,13 +66,13 @@ TEST(ContactStateTest, EveryFieldOfARuinedStateBecomesFiniteAndIsCounted) {
 TEST(SeedRetrievalTest, TheSeedRecordedNearestToTheMotionIsTaken) {
     const model::ModelFile model = testing::smallModel();
     // "oak" has seeds at (0.1, -0.05) m/s and 1 N, and at (0.2, -0.05) m/s and 2 N.
-    EXPECT_EQ(retrieveSeed(model, 0, {0.09F, -0.04F, 1.0F}).data(), model.seed(0).data());
-    EXPECT_EQ(retrieveSeed(model, 0, {0.3F, -0.05F, 2.5F}).data(), model.seed(1).data());
+    EXPECT_EQ(retrieveSeed(model, 0, {0.09F, -0.04F, 1.0F}), 0U);
+    EXPECT_EQ(retrieveSeed(model, 0, {0.3F, -0.05F, 2.5F}), 1U);
 }
 
 TEST(SeedRetrievalTest, ALabelWithoutSeedsGivesNone) {
     const model::ModelFile model = testing::smallModel();
-    EXPECT_TRUE(retrieveSeed(model, 5, {0.1F, 0.0F, 1.0F}).empty());
+    EXPECT_EQ(retrieveSeed(model, 5, {0.1F, 0.0F, 1.0F}), std::nullopt);
 }
 
 }  // namespace

@@ -3,7 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <stdexcept>
+#include <vector>
 
 namespace haptoflow::engine {
 namespace {
@@ -124,6 +126,69 @@ TEST(QualityControlTest, AFixedTierStaysWhateverItCosts) {
     runRounds(control, 1000, 50.0);
     EXPECT_EQ(control.tier(), 2U);
     EXPECT_EQ(control.times(2).percentile(0.5), 50.0) << "what it costs is known all the same";
+}
+
+/// Three tiers whose third is less accurate than the second, measured at so many milliseconds each.
+QualityControl controlByAccuracy(double first, double second, double third) {
+    QualityControl control(3, {.fixedTier = std::nullopt, .budgetMs = budgetMs}, 1, {0, 2, 1});
+    const std::array<double, 3> times{first, second, third};
+    while (const auto tier = control.tierToMeasure()) {
+        control.measured(*tier, times.at(*tier));
+    }
+    return control;
+}
+
+TEST(QualityControlTest, TheMostAccurateIsTheOneThatWasMeasuredSoAndNotTheLast) {
+    EXPECT_EQ(controlByAccuracy(0.2, 0.5, 1.5).tier(), 1U);
+    EXPECT_EQ(controlByAccuracy(0.2, 3.5, 1.5).tier(), 2U) << "the second most accurate, where the first does not fit";
+    EXPECT_EQ(controlByAccuracy(0.2, 3.5, 3.5).tier(), 0U);
+}
+
+TEST(QualityControlTest, AStepDownGoesToATierThatIsFaster) {
+    QualityControl control = controlByAccuracy(0.2, 0.5, 1.5);
+    runRounds(control, 3, 9.0);
+    EXPECT_EQ(control.tier(), 0U) << "the tier between them is slower than the one that was too slow";
+    EXPECT_EQ(control.stepsDown(), 1U);
+    runRounds(control, 100, 9.0);
+    EXPECT_EQ(control.tier(), 0U);
+    EXPECT_EQ(control.stepsDown(), 1U);
+}
+
+TEST(QualityControlTest, AStepUpPassesATierThatIsSlowerAndLessAccurateThanAnother) {
+    QualityControl control = controlByAccuracy(0.2, 0.5, 1.5);
+    runRounds(control, 3, 9.0);
+    ASSERT_EQ(control.tier(), 0U);
+    runRounds(control, 6000, 0.2);
+    EXPECT_EQ(control.tier(), 1U);
+    EXPECT_EQ(control.stepsUp(), 1U);
+}
+
+TEST(QualityControlTest, WhichTierIsFasterIsToldByTimesOfTheSameLoad) {
+    QualityControl control = measuredControl(0.2, 0.5, 3.5);
+    ASSERT_EQ(control.tier(), 1U);
+    runRounds(control, 3, 9.0);
+    ASSERT_EQ(control.tier(), 0U);
+    // Another program slows the fast tier down for as long as its times are kept, and rests.
+    runRounds(control, 128, 1.9);
+    runRounds(control, 800, 0.2);
+    ASSERT_EQ(control.tier(), 1U);
+    runRounds(control, 3, 9.0);
+    EXPECT_EQ(control.tier(), 0U);
+}
+
+TEST(QualityControlTest, TooSlowAMachineGetsTheFastestTierWhereverItStands) {
+    QualityControl control(3, {.fixedTier = std::nullopt, .budgetMs = budgetMs}, 0, {0, 1, 2});
+    const std::array<double, 3> times{40.0, 20.0, 80.0};
+    while (const auto tier = control.tierToMeasure()) {
+        control.measured(*tier, times.at(*tier));
+    }
+    EXPECT_EQ(control.tier(), 1U);
+}
+
+TEST(QualityControlTest, AnOrderThatIsNotOneOfItsTiersIsRefused) {
+    for (const std::vector<std::size_t>& order : {std::vector<std::size_t>{0, 1}, {0, 1, 1}, {0, 1, 3}, {0, 1, 2, 3}}) {
+        EXPECT_THROW(QualityControl(3, {.fixedTier = 0, .budgetMs = budgetMs}, 0, order), std::invalid_argument);
+    }
 }
 
 TEST(QualityControlTest, QualityMayBeChangedAtAnyTime) {

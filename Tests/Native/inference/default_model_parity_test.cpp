@@ -33,7 +33,8 @@ protected:
             const SolverSettings solver{solverNamed(row.at("solver")), row.at("steps").get<int>()};
             SCOPED_TRACE(tier + ' ' + row.at("solver").get<std::string>() + ' ' + std::to_string(solver.steps));
             RequestBatch batch;
-            batch.add(row.at("embedding"), row.at("motion"), row.at("previous"), row.at("noise"));
+            batch.add(row.at("embedding"), row.at("motion"), row.at("previous"), row.at("noise"),
+                      row.value("rib_phase", std::array<float, ribCount>{}));
             const auto requests = batch.requests();
             OnnxSegmentGenerator generator(testRuntime(), *model_, tier, solver, 1);
             compare(row, requests, generator);

@@ -3,14 +3,16 @@
 #include "../model/onnx_writer.hpp"
 #include "model/model_file.hpp"
 
+#include <functional>
 #include <map>
 #include <string>
 
 namespace haptoflow::inference::testing {
 
-/// The bytes of a model file whose named graphs are others; everything else stays.
-inline model::testing::Bytes withGraphs(const model::ModelFile& model,
-                                        const std::map<std::string, model::testing::Bytes>& graphs) {
+/// The bytes of a model file whose named graphs are others and whose header is edited; everything else stays.
+inline model::testing::Bytes withGraphs(
+    const model::ModelFile& model, const std::map<std::string, model::testing::Bytes>& graphs,
+    const std::function<void(nlohmann::json&)>& editHeader = [](nlohmann::json&) {}) {
     model::testing::ModelBuilder builder;
     builder.header = nlohmann::json::parse(model.headerText());
     builder.blobs.clear();
@@ -22,6 +24,7 @@ inline model::testing::Bytes withGraphs(const model::ModelFile& model,
              other != graphs.end() ? other->second : model::testing::Bytes(bytes.begin(), bytes.end())});
     }
     builder.header.erase("blobs");
+    editHeader(builder.header);
     return builder.build();
 }
 

@@ -41,12 +41,12 @@ inline SolverKind solverNamed(const std::string& name) {
 class RequestBatch {
 public:
     void add(const std::vector<float>& embedding, const std::vector<float>& motion, const std::vector<float>& previous,
-             const std::vector<float>& noise) {
+             const std::vector<float>& noise, const std::array<float, ribCount>& ribPhase = {}) {
         if (embedding.size() != embeddingSize || motion.size() != 3 || previous.size() != segmentSamples ||
             noise.size() != segmentSamples) {
             throw std::runtime_error("a golden request has the wrong sizes");
         }
-        rows_.push_back(std::make_unique<Row>(Row{embedding, motion, previous, noise}));
+        rows_.push_back(std::make_unique<Row>(Row{embedding, motion, previous, noise, ribPhase}));
     }
 
     [[nodiscard]] std::vector<SegmentRequest> requests() const {
@@ -58,6 +58,7 @@ public:
                                    std::span<const float>(row->noise).first<segmentSamples>()};
             std::ranges::copy(row->embedding, request.embedding.begin());
             std::ranges::copy(row->motion, request.motion.begin());
+            request.ribPhase = row->ribPhase;
             result.push_back(request);
         }
         return result;
@@ -69,6 +70,7 @@ private:
         std::vector<float> motion;
         std::vector<float> previous;
         std::vector<float> noise;
+        std::array<float, ribCount> ribPhase;
     };
 
     std::vector<std::unique_ptr<Row>> rows_;

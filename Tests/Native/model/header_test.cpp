@@ -137,6 +137,26 @@ TEST(HeaderTest, RefusesASeedWithAnAbsurdVelocityOrForce) {
                         "entries[0].force_newtons");
 }
 
+TEST(HeaderTest, ReadsTheRibPhaseOfASeedAndTakesZeroWhereThereIsNone) {
+    ModelBuilder builder;
+    builder.header["seed_bank"]["entries"][1]["rib_phase"] = {0.25, 0.875};
+    const ModelFile model = ModelFile::parse(builder.build());
+    EXPECT_EQ(model.header().seeds[0].ribPhase, (std::array<double, 2>{0.0, 0.0}));
+    EXPECT_EQ(model.header().seeds[1].ribPhase, (std::array<double, 2>{0.25, 0.875}));
+}
+
+TEST(HeaderTest, RefusesARibPhaseThatIsNotTwoNumbersFromZeroToOne) {
+    expectHeaderRefusal([](Json& header) { header["seed_bank"]["entries"][0]["rib_phase"] = {0.5}; },
+                        "\"seed_bank.entries[0].rib_phase\": expected an array of 2 numbers");
+    expectHeaderRefusal(
+        [](Json& header) {
+            header["seed_bank"]["entries"][0]["rib_phase"] = {0.5, 1.5};
+        },
+        "entries[0].rib_phase[1]\": expected a number from 0 to 1");
+    expectHeaderRefusal([](Json& header) { header["seed_bank"]["entries"][2]["rib_phase"] = 0.5; },
+                        "entries[2].rib_phase");
+}
+
 TEST(HeaderTest, RefusesASeedBankWithFewerEntriesThanRows) {
     expectHeaderRefusal([](Json& header) { header["seed_bank"]["entries"].erase(2); }, "as many entries");
 }

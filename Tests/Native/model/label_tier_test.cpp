@@ -1,5 +1,8 @@
 #include "refusal.hpp"
 
+#include <array>
+#include <vector>
+
 namespace haptoflow::model::testing {
 namespace {
 
@@ -166,6 +169,44 @@ TEST(TierTest, RefusesALatentThatIsEmptyOrHuge) {
                 tier["decoder"] = "field";
             },
             "latent_shape");
+    }
+}
+
+/// The order of three tiers, the least accurate first, by their accuracy objects.
+std::vector<std::size_t> orderOf(const std::array<Json, 3>& accuracies) {
+    ModelBuilder builder;
+    builder.header["tiers"].push_back(builder.header["tiers"][1]);
+    builder.header["tiers"][2]["name"] = "fine";
+    for (std::size_t tier = 0; tier < accuracies.size(); ++tier) {
+        builder.header["tiers"][tier]["accuracy"] = accuracies[tier];
+    }
+    return tiersByAccuracy(ModelFile::parse(builder.build()).header().tiers);
+}
+
+Json measured(double spectralDistanceDb, double levelErrorDb) {
+    return {{"lsd_db", spectralDistanceDb}, {"level_error_p90_db", levelErrorDb}, {"gfc_recording", 0.99}};
+}
+
+TEST(TierAccuracyTest, TheSmallestSumOfSpectralDistanceAndLevelErrorIsTheMostAccurate) {
+    using Order = std::vector<std::size_t>;
+    EXPECT_EQ(orderOf({measured(3.0, 1.0), measured(2.0, 1.0), measured(1.0, 1.0)}), (Order{0, 1, 2}));
+    EXPECT_EQ(orderOf({measured(1.26, 0.98), measured(1.195, 0.76), measured(1.1925, 1.01)}), (Order{0, 2, 1}))
+        << "a spectrum that is nearer by nothing does not make up for the level";
+    EXPECT_EQ(orderOf({measured(1.0, 0.5), measured(1.0, 1.0), measured(2.0, 1.0)}), (Order{2, 1, 0}));
+}
+
+TEST(TierAccuracyTest, EquallyAccurateTiersStandAsInTheFile) {
+    using Order = std::vector<std::size_t>;
+    EXPECT_EQ(orderOf({measured(1.0, 1.0), measured(1.0, 1.0), measured(3.0, 1.0)}), (Order{2, 0, 1}));
+}
+
+TEST(TierAccuracyTest, WhereATierWasNotMeasuredTheOrderOfTheFileCountsForAll) {
+    using Order = std::vector<std::size_t>;
+    const Json best = measured(1.0, 1.0);
+    for (const Json& unknown :
+         {Json::object(), Json{{"lsd_db", 2.0}}, Json{{"lsd_db", 2.0}, {"level_error_p90_db", "1"}},
+          Json{{"lsd_db", nullptr}, {"level_error_p90_db", 1.0}}, measured(-1.0, 0.5)}) {
+        EXPECT_EQ(orderOf({best, measured(2.0, 2.0), unknown}), (Order{0, 1, 2})) << unknown;
     }
 }
 

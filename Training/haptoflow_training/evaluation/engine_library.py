@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from haptoflow_training.errors import InputError
 
 SEGMENT_SAMPLES = 200
+RIB_COUNT = 2
 MAXIMUM_BATCH = 256
 SOLVERS = {"tier": 0, "euler": 1, "midpoint": 2, "heun": 3}
 
@@ -59,6 +60,7 @@ class _Batch(ctypes.Structure):
         ("motions", _pointer),
         ("previous_mps2", _pointer),
         ("noise", _pointer),
+        ("rib_phases", _pointer),
     ]
 
 
@@ -144,9 +146,20 @@ class EngineGenerator:
             )
         return rows
 
-    def generate(self, embeddings: _Floats, motions: _Floats, previous_mps2: _Floats, noise: _Floats) -> _Floats:
-        """Segments [n, 200] in m/s^2 from embeddings [n, 64], motions [n, 3], previous and noise [n, 200]."""
-        given = (embeddings, motions, previous_mps2, noise)
+    def generate(
+        self,
+        embeddings: _Floats,
+        motions: _Floats,
+        previous_mps2: _Floats,
+        noise: _Floats,
+        rib_phase: _Floats | None = None,
+    ) -> _Floats:
+        """Segments [n, 200] in m/s^2 from embeddings [n, 64], motions [n, 3], previous and noise [n, 200].
+
+        rib_phase: [n, 2], turns along the embedding's wave vectors at each segment's first sample; zeros if None.
+        """
+        phases = np.zeros((len(embeddings), RIB_COUNT), dtype=np.float32) if rib_phase is None else rib_phase
+        given = (embeddings, motions, previous_mps2, noise, phases)
         arrays = [np.ascontiguousarray(array, dtype=np.float32) for array in given]
         count = len(arrays[0])
         pointers = [array.ctypes.data_as(_pointer) for array in arrays]

@@ -9,7 +9,8 @@ namespace HaptoFlow.Editor
     {
         private static readonly GUIContent Model = new GUIContent("Model", "The .haptoflow model that renders.");
         private static readonly GUIContent Quality = new GUIContent("Quality",
-            "Which tier generates. Auto measures this machine and takes the most accurate tier that fits the budget.");
+            "Which tier generates. Auto measures this machine and takes the most accurate tier that fits the budget; " +
+            "Fine takes the most accurate one where the model has no tier of that name.");
         private static readonly GUIContent Budget = new GUIContent("Budget Share",
             "Auto: share of the time between two contact states that inference may take, 0.01 to 1.");
         private static readonly GUIContent Follow = new GUIContent("Follow Display",

@@ -112,7 +112,7 @@ namespace HaptoFlow.Editor
         private void DrawQuality(PreviewModel model)
         {
             string[] tiers = model.Tiers.ToArray();
-            int present = Array.IndexOf(tiers, state.Tier.Length > 0 ? state.Tier : model.DefaultTier);
+            int present = Array.IndexOf(tiers, model.TierOrDefault(state.Tier));
             int tier = EditorGUILayout.Popup(Quality, present, tiers);
             if (tier != present)
             {

@@ -32,6 +32,10 @@ namespace HaptoFlow.Editor
 
         public string DefaultTier { get; }
 
+        /// <summary>The tier of that name, or the model's default where it has none: a window may have been saved with
+        /// another model.</summary>
+        public string TierOrDefault(string name) => Tiers.Contains(name) ? name : DefaultTier;
+
         /// <summary>Why there is nothing to preview; null where there is.</summary>
         public string? Problem { get; }
 

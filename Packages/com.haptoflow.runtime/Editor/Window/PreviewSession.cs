@@ -128,7 +128,7 @@ namespace HaptoFlow.Editor
             return new PreviewRequest(Model.File, Stroke, mixes)
             {
                 Active = state.Heard,
-                Tier = state.Tier.Length > 0 ? state.Tier : Model.DefaultTier,
+                Tier = Model.TierOrDefault(state.Tier),
                 Seed = unchecked((ulong)state.Seed),
                 IsSketch = askedSketch,
                 Measurement = measurement,

@@ -102,7 +102,7 @@ namespace HaptoFlow.Model
             Cost = json["cost"];
         }
 
-        /// <summary>"draft", "standard" or "fine".</summary>
+        /// <summary>Usually "draft", "standard" or "fine".</summary>
         public string Name { get; }
 
         /// <summary>"flow", "average-velocity" or "direct".</summary>

@@ -9,16 +9,17 @@ namespace HaptoFlow
     public enum HapticQuality
     {
         /// <summary>Measures the model's tiers on this machine while nothing touches, takes the most accurate that fits
-        /// the budget, one less when the machine cannot keep up, and one more when it can again.</summary>
+        /// the budget (by the figures in the model's header), a faster one when the machine cannot keep up, and a more
+        /// accurate one when it can again.</summary>
         Auto = 0,
 
-        /// <summary>The tier of that name, or the nearest.</summary>
+        /// <summary>The tier "draft"; where the model has none, its first.</summary>
         Draft = 1,
 
-        /// <summary>The tier of that name, or the nearest.</summary>
+        /// <summary>The tier "standard"; where the model has none, its default tier.</summary>
         Standard = 2,
 
-        /// <summary>The tier of that name, or the nearest.</summary>
+        /// <summary>The tier "fine"; where the model has none, its most accurate.</summary>
         Fine = 3,
     }
 
@@ -29,7 +30,7 @@ namespace HaptoFlow
         /// but for less than one sample in a thousand.</summary>
         public const double DefaultFullScaleMps2 = 200.0;
 
-        /// <summary>The tier of that name; where the model has none, the nearest that it has.</summary>
+        /// <summary>Which tier generates.</summary>
         public HapticQuality Quality;
 
         /// <summary>Contact states a second, 1 to 10000; 0 for 72.</summary>

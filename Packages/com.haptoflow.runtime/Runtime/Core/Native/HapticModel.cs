@@ -72,7 +72,7 @@ namespace HaptoFlow
         /// <summary>Place among the model's tiers.</summary>
         public int Index { get; }
 
-        /// <summary>"draft", "standard" or "fine".</summary>
+        /// <summary>Usually "draft", "standard" or "fine".</summary>
         public string Name { get; }
 
         /// <summary>"flow", "average-velocity" or "direct".</summary>

@@ -1,0 +1,455 @@
+#include "engine/live_engine.hpp"
+#include "engine/offline_renderer.hpp"
+#include "simulated_device.hpp"
+#include "test_model.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <memory>
+#include <numbers>
+#include <ranges>
+#include <string>
+#include <utility>
+#include <vector>
+
+// The phase of ribs belongs to the surface: what a segment is told is how far the tip has travelled along the ribs.
+
+namespace haptoflow::engine {
+namespace {
+
+using inference::SegmentRequest;
+using testing::DeviceSettings;
+using testing::FakeGenerator;
+using testing::SimulatedDevice;
+
+constexpr double seedPhase = 0.3;
+constexpr double otherSeedPhase = 0.75;
+constexpr double seedSpeedMps = 0.1;
+/// Cycles per millimetre, so that 0.1 m/s crosses 20 ribs a second.
+constexpr float coarse = 0.2F;
+constexpr float fine = 0.35F;
+/// From one sample to the next, a sine of amplitude sqrt(2) that crosses 35 ribs a second changes by 0.16; where the
+/// rate changes, the splice adds to that. A phase that jumps by a tenth of a turn changes it by up to 0.9.
+constexpr float largestStepWithoutAJump = 0.25F;
+
+double turnsPerSample(std::span<const float> waveVector, const std::array<float, 3>& motion) {
+    return (static_cast<double>(waveVector[0]) * static_cast<double>(motion[0]) +
+            static_cast<double>(waveVector[1]) * static_cast<double>(motion[1])) *
+           1000.0 / inference::waveformRateHz;
+}
+
+float ribs(double turns) {
+    return static_cast<float>(std::numbers::sqrt2 * std::sin(2.0 * std::numbers::pi * turns));
+}
+
+/// What a perfect network makes of a ruled surface: a sine that stands where the request's phase says.
+void ribsOf(const SegmentRequest& request, std::span<float> segment) {
+    const double step = turnsPerSample(std::span(request.embedding).subspan(60, 2), request.motion);
+    for (std::size_t i = 0; i < segment.size(); ++i) {
+        segment[i] = ribs(static_cast<double>(request.ribPhase[0]) + step * static_cast<double>(i));
+    }
+}
+
+/// Two ruled labels, the second with finer ribs. Each has one seed: its ribs as the tip crosses them at 0.1 m/s along
+/// x, at its own phase.
+model::ModelFile ribModel() {
+    model::testing::ModelBuilder builder;
+    std::vector<float> embedding(2 * model::embeddingSize, 0.5F);
+    std::vector<float> seeds(2 * model::seedSamples);
+    auto entries = nlohmann::json::array();
+    const std::array<float, 2> waveNumbers{coarse, fine};
+    const std::array<double, 2> phases{seedPhase, otherSeedPhase};
+    for (std::size_t label = 0; label < 2; ++label) {
+        float* const row = embedding.data() + label * model::embeddingSize;
+        const std::array<float, 4> waveVectors{waveNumbers[label], 0.0F, 0.0F, 2.0F * waveNumbers[label]};
+        std::ranges::copy(waveVectors, row + 60);
+        for (std::size_t i = 0; i < model::seedSamples; ++i) {
+            const double turns = (static_cast<double>(i) - 200.0) *
+                                 turnsPerSample(waveVectors, {static_cast<float>(seedSpeedMps), 0.0F, 1.0F});
+            seeds[label * model::seedSamples + i] = ribs(phases[label] + turns);
+        }
+        entries.push_back({{"label", label == 0 ? "oak" : "metal mesh"},
+                           {"velocity_mps", {seedSpeedMps, 0.0}},
+                           {"force_newtons", 1.0},
+                           {"rib_phase", {phases[label], 0.125}}});
+    }
+    builder.header["seed_bank"]["entries"] = entries;
+    builder.blobs[0].bytes = model::testing::bytesOf(embedding);
+    builder.blobs[1].shape = {2, 400};
+    builder.blobs[1].bytes = model::testing::bytesOf(seeds);
+    return model::ModelFile::parse(builder.build());
+}
+
+ContactState onLabel(std::uint32_t label, float speedMps = static_cast<float>(seedSpeedMps)) {
+    ContactState state = testing::sliding(speedMps);
+    state.material.entries[0].label = label;
+    return state;
+}
+
+class RibPhaseTest : public ::testing::Test {
+protected:
+    model::ModelFile model_ = ribModel();
+    FakeGenerator generator_{[this](const SegmentRequest& request, std::span<float> segment) {
+        phases_.push_back(request.ribPhase);
+        speedsMps_.push_back(request.motion[0]);
+        turns_.push_back(turnsPerSample(std::span(request.embedding).subspan(60, 2), request.motion));
+        ribsOf(request, segment);
+    }};
+    // Of each request.
+    std::vector<std::array<float, 2>> phases_;
+    std::vector<float> speedsMps_;
+    std::vector<double> turns_;
+
+    void forget() {
+        phases_.clear();
+        speedsMps_.clear();
+        turns_.clear();
+    }
+
+    static std::optional<ContactState> slide(double) { return onLabel(0); }
+
+    /// Each segment goes on from the newest one that began there or before, the first from the seed.
+    void expectEachPhaseToFollow(const SimulatedDevice& device, double firstPhase, double seedTurns) const {
+        const std::vector<std::int64_t>& starts = device.waveform.seams;
+        ASSERT_EQ(device.counters().dropped + device.counters().late, 0U) << "each request has its seam";
+        ASSERT_LE(starts.size(), phases_.size());
+        for (std::size_t i = 0; i < starts.size(); ++i) {
+            std::size_t before = i;
+            while (before > 0 && starts[before - 1] > starts[i]) {
+                --before;
+            }
+            const double expected = before == 0
+                                        ? firstPhase + seedTurns * static_cast<double>(starts[i])
+                                        : static_cast<double>(phases_[before - 1][0]) +
+                                              turns_[before - 1] * static_cast<double>(starts[i] - starts[before - 1]);
+            const double gap = static_cast<double>(phases_[i][0]) - expected;
+            ASSERT_NEAR(gap, std::round(gap), 1e-5) << "segment " << i << " at " << starts[i];
+        }
+    }
+
+    /// How far what was played is from the ribs that the tip crosses since it came down, at one speed.
+    static double largestError(std::span<const float> played, double firstPhase, double turns) {
+        double largest = 0.0;
+        for (std::size_t i = 0; i < played.size(); ++i) {
+            const double expected = static_cast<double>(ribs(firstPhase + turns * static_cast<double>(i)));
+            largest = std::max(largest, std::abs(static_cast<double>(played[i]) - expected));
+        }
+        return largest;
+    }
+};
+
+TEST_F(RibPhaseTest, AStrokeAtOneSpeedCrossesTheSeedsRibsWithoutAJumpAtAnyUpdateRate) {
+    for (const double updateHz : {30.0, 72.0, 120.0}) {
+        for (const double latency : {0.002, 0.012, 0.045}) {
+            DeviceSettings settings;
+            settings.updateHz = updateHz;
+            settings.latencySeconds = [latency](double) { return latency; };
+            SimulatedDevice device(model_, generator_, settings);
+            device.run(2.0, slide);
+            ASSERT_GT(device.waveform.samples.size(), 3000U);
+            ASSERT_GT(device.counters().inferences, 20U);
+            EXPECT_LT(largestError(device.waveform.samples, seedPhase, 0.01), 2e-3) << updateHz << " Hz, " << latency;
+        }
+    }
+}
+
+TEST_F(RibPhaseTest, PhasesAreTurnsFromZeroToBelowOne) {
+    SimulatedDevice device(model_, generator_);
+    device.run(3.0, [](double t) { return onLabel(0, t < 1.5 ? 0.37F : -0.29F); });
+    ASSERT_GT(phases_.size(), 100U);
+    for (const auto& phase : phases_) {
+        EXPECT_GE(std::min(phase[0], phase[1]), 0.0F);
+        EXPECT_LT(std::max(phase[0], phase[1]), 1.0F);
+    }
+}
+
+TEST_F(RibPhaseTest, AStrokeThatTurnsBackMeetsTheSameRibsBackwards) {
+    SimulatedDevice device(model_, generator_);
+    device.run(1.0, slide);
+    device.run(0.9, [](double) { return onLabel(0, -static_cast<float>(seedSpeedMps)); });
+    const auto back = std::ranges::find_if(speedsMps_, [](float speed) { return speed < 0.0F; });
+    ASSERT_EQ(device.counters().dropped, 0U) << "each request has its seam";
+    const auto turn = static_cast<std::size_t>(
+        device.waveform.seams.at(static_cast<std::size_t>(std::distance(speedsMps_.begin(), back))));
+    const std::vector<float>& played = device.waveform.samples;
+    ASSERT_GT(played.size(), turn + 1500);
+    for (std::size_t n = 5; n < 1500; ++n) {
+        ASSERT_NEAR(played[turn + n], played[turn - n], 3e-3F) << n << " samples from the turn";
+    }
+}
+
+TEST_F(RibPhaseTest, TheSecondWaveVectorHasItsOwnPhase) {
+    SimulatedDevice device(model_, generator_);
+    // Along y, across the second wave vector alone: 0.4 cycles per millimetre at 0.05 m/s.
+    device.run(0.5, [](double) {
+        ContactState state = onLabel(0, 0.0F);
+        state.velocityMps = {0.0F, 0.05F};
+        return state;
+    });
+    ASSERT_GT(phases_.size(), 20U);
+    // The seed moves along x; from the first segment on the tip does not.
+    for (const auto& phase : phases_) {
+        EXPECT_NEAR(phase[0], phases_.front()[0], 1e-4F);
+    }
+    EXPECT_NEAR(phases_.front()[1], 0.125F, 1e-6F);
+    // 667 of 48,000 frames make 27 or 28 samples, and blocks of 256 frames round that up or down.
+    double turns = 0.0;
+    for (std::size_t i = 1; i < phases_.size(); ++i) {
+        const double step = static_cast<double>(phases_[i][1]) - static_cast<double>(phases_[i - 1][1]);
+        turns += step - std::floor(step);
+    }
+    EXPECT_NEAR(turns / static_cast<double>(phases_.size() - 1), 0.4 * 50.0 / 72.0, 0.01);
+}
+
+TEST_F(RibPhaseTest, AnotherSpeedAtEveryUpdateNeverMakesThePhaseJump) {
+    for (const std::size_t blockFrames : {64U, 256U, 1024U}) {
+        for (const double updateHz : {30.0, 72.0, 120.0}) {
+            SCOPED_TRACE(std::to_string(blockFrames) + " frames, " + std::to_string(updateHz) + " Hz");
+            DeviceSettings settings;
+            settings.blockFrames = blockFrames;
+            settings.updateHz = updateHz;
+            forget();
+            SimulatedDevice device(model_, generator_, settings);
+            device.run(3.0, [](double t) {
+                return onLabel(0, 0.1F + 0.07F * static_cast<float>(std::sin(2.0 * std::numbers::pi * 1.7 * t)));
+            });
+            ASSERT_GT(device.counters().inferences, 60U);
+            expectEachPhaseToFollow(device, seedPhase, 0.01);
+            EXPECT_LT(testing::largestStep(device.waveform.samples), largestStepWithoutAJump);
+        }
+    }
+}
+
+TEST_F(RibPhaseTest, ASegmentThatReplacesAnotherGoesOnFromTheOneBeforeBoth) {
+    // Several states come while one long block plays, each with another speed; only the last of them sounds. Beyond
+    // the range the lead is longer, so that a later state may take over earlier.
+    for (const float fastMps : {0.15F, 1.1F}) {
+        DeviceSettings settings;
+        settings.blockFrames = 4096;
+        settings.updateHz = 120.0;
+        forget();
+        SimulatedDevice device(model_, generator_, settings);
+        int update = 0;
+        device.run(3.0, [&update, fastMps](double) { return onLabel(0, ++update % 3 == 0 ? 0.05F : fastMps); });
+        const std::vector<std::int64_t>& starts = device.waveform.seams;
+        ASSERT_GT(std::ranges::count_if(std::views::iota(std::size_t{1}, starts.size()),
+                                        [&starts](std::size_t i) { return starts[i] <= starts[i - 1]; }),
+                  60);
+        expectEachPhaseToFollow(device, seedPhase, 0.01);
+    }
+}
+
+TEST_F(RibPhaseTest, ChainedSegmentsGoOnWithThePhaseOfTheOneBefore) {
+    DeviceSettings settings;
+    settings.updateHz = 11.0;
+    settings.fixedLeadSamples = 60;
+    SimulatedDevice device(model_, generator_, settings);
+    device.run(3.0, [](double t) { return onLabel(0, t < 1.5 ? 0.1F : 0.06F); });
+    ASSERT_GT(device.counters().inferences, 3 * 11 + 20U) << "updates, and segments chained behind them";
+    expectEachPhaseToFollow(device, seedPhase, 0.01);
+    EXPECT_LT(testing::largestStep(device.waveform.samples), largestStepWithoutAJump);
+}
+
+TEST_F(RibPhaseTest, BeyondTheRangeThePhaseFollowsTheMotionThatTheNetworkIsAskedFor) {
+    // Twice as fast as the range: read faster in waveform time, where the network hears of 0.4 m/s.
+    SimulatedDevice device(model_, generator_);
+    device.run(1.0, [](double) { return onLabel(0, 0.8F); });
+    ASSERT_GT(device.waveform.seams.size(), 10U);
+    const auto first = static_cast<std::size_t>(device.waveform.seams.front());
+    const std::span<const float> played = std::span<const float>(device.waveform.samples).subspan(first + 4);
+    const double phaseThere = seedPhase + 0.01 * static_cast<double>(first);
+    ASSERT_GT(played.size(), 1500U);
+    EXPECT_LT(largestError(played.first(1500), phaseThere + 4 * 0.04, 0.04), 5e-3);
+}
+
+TEST_F(RibPhaseTest, AnotherLabelOrBlendWithinATouchNeverMakesThePhaseJump) {
+    SimulatedDevice device(model_, generator_);
+    device.run(3.0, [](double t) {
+        ContactState state = onLabel(t < 0.5 || t > 2.5 ? 0 : 1);
+        if (t > 1.0 && t < 2.0) {
+            const auto share = static_cast<float>(t - 1.0);
+            state.material.entries[0] = {.label = 0, .weight = share};
+            state.material.entries[1] = {.label = 1, .weight = 1.0F - share};
+            state.material.count = 2;
+        }
+        return state;
+    });
+    EXPECT_EQ(device.counters().onsets, 1U);
+    expectEachPhaseToFollow(device, seedPhase, 0.01);
+    EXPECT_LT(testing::largestStep(device.waveform.samples), largestStepWithoutAJump);
+}
+
+TEST_F(RibPhaseTest, ABlendAdvancesByItsOwnWaveVector) {
+    SimulatedDevice device(model_, generator_);
+    device.run(1.5, [](double) {
+        ContactState state = onLabel(0);
+        state.material.entries[0].weight = 0.25F;
+        state.material.entries[1] = {.label = 1, .weight = 0.75F};
+        state.material.count = 2;
+        return state;
+    });
+    const auto first = static_cast<std::size_t>(device.waveform.seams.front());
+    // The second label weighs more, so that the seed is its.
+    const double phaseThere = otherSeedPhase + 0.0175 * static_cast<double>(first);
+    const double turns = 0.25 * 0.01 + 0.75 * 0.0175;
+    const std::span<const float> played = std::span<const float>(device.waveform.samples).subspan(first + 4);
+    EXPECT_LT(largestError(played.first(2000), phaseThere + 4 * turns, turns), 5e-3);
+}
+
+TEST_F(RibPhaseTest, ATouchDownBeginsWithThePhaseOfItsSeedHoweverTheTipMoves) {
+    SimulatedDevice device(model_, generator_);
+    device.run(0.3, [](double) { return onLabel(1, 0.03F); });
+    const auto first = static_cast<double>(device.waveform.seams.front());
+    const double expected = otherSeedPhase + 0.0175 * first;
+    EXPECT_NEAR(phases_.front()[0], expected - std::floor(expected), 1e-5);
+    EXPECT_NEAR(phases_.front()[1], 0.125F, 1e-6F) << "the seed does not move along the second wave vector";
+}
+
+TEST_F(RibPhaseTest, ATouchThatResumesBeginsWithThePhaseOfItsSeedAgain) {
+    SimulatedDevice device(model_, generator_);
+    device.run(0.537, slide);
+    device.controls().muted = true;
+    device.run(0.2, slide);
+    const std::size_t seamsBefore = device.waveform.seams.size();
+    const std::size_t begin = device.waveform.samples.size();
+    device.controls().muted = false;
+    device.run(0.5, slide);
+    ASSERT_EQ(device.counters().resumptions, 1U);
+    ASSERT_GT(device.waveform.seams.size(), seamsBefore + 10);
+    const auto resumed = std::span<const float>(device.waveform.samples).subspan(begin);
+    EXPECT_LT(largestError(resumed, seedPhase, 0.01), 2e-3);
+}
+
+TEST_F(RibPhaseTest, ASecondTouchBeginsWithThePhaseOfItsSeed) {
+    SimulatedDevice device(model_, generator_);
+    device.run(0.537, slide);
+    device.run(0.1, [](double) { return testing::lifted(); });
+    const std::size_t begin = device.waveform.samples.size();
+    const auto second = [](double) {
+        ContactState state = onLabel(1);
+        state.touchCounter = 2;
+        return state;
+    };
+    device.run(0.5, second);
+    const auto played = std::span<const float>(device.waveform.samples).subspan(begin);
+    ASSERT_GT(played.size(), 800U);
+    EXPECT_LT(largestError(played, otherSeedPhase, 0.0175), 3e-3);
+}
+
+TEST_F(RibPhaseTest, AFailedRunIsNoPartOfTheWay) {
+    int asked = 0;
+    FakeGenerator failing([&](const SegmentRequest& request, std::span<float> segment) {
+        if (++asked % 3 == 0) {
+            throw inference::InferenceError("a test says so");
+        }
+        ribsOf(request, segment);
+    });
+    SimulatedDevice device(model_, failing);
+    device.run(2.0, [](double t) { return onLabel(0, t < 1.0 ? 0.1F : 0.04F); });
+    ASSERT_GT(device.counters().failures, 20U);
+    EXPECT_LT(testing::largestStep(device.waveform.samples), largestStepWithoutAJump);
+}
+
+TEST_F(RibPhaseTest, SeedsWithoutAPhaseBeginAtZero) {
+    const model::ModelFile model = testing::smallModel();
+    SimulatedDevice device(model, generator_);
+    device.run(0.3, slide);
+    const auto first = static_cast<double>(device.waveform.seams.front());
+    const auto row = model.embedding(0);
+    const model::SeedEntry& seed = model.header().seeds[0];
+    const std::array<float, 3> seedMotion{static_cast<float>(seed.velocityMps[0]),
+                                          static_cast<float>(seed.velocityMps[1]), 1.0F};
+    const double expected = first * turnsPerSample(row.subspan(60, 2), seedMotion);
+    EXPECT_NEAR(phases_.front()[0], expected - std::floor(expected), 1e-4);
+}
+
+TEST_F(RibPhaseTest, TheLiveVoiceAndTheOfflineRendererCrossTheSameRibs) {
+    const auto hand = [](double t) {
+        ContactState state = onLabel(0, 0.1F + 0.06F * static_cast<float>(std::sin(2.0 * std::numbers::pi * t)));
+        state.timeSeconds = t;
+        return state;
+    };
+    std::vector<ContactState> states;
+    for (int update = 0; update < 144; ++update) {
+        states.push_back(hand(update / 72.0));
+    }
+    const OfflineRender offline = renderOffline(model_, generator_, states, {.leadMs = 8.0});
+    DeviceSettings settings;
+    settings.fixedLeadSamples = 16;
+    settings.blockFrames = 48;
+    SimulatedDevice device(model_, generator_, settings);
+    device.run(2.0, hand);
+    const std::size_t common = std::min(offline.waveformMps2.size(), device.waveform.samples.size());
+    ASSERT_GT(common, 3500U);
+    // A block of 1 ms later, the tip is up to a sixtieth of a rib further.
+    double largest = 0.0;
+    for (std::size_t i = 0; i < common; ++i) {
+        const double difference = static_cast<double>(offline.waveformMps2[i] - device.waveform.samples[i]);
+        largest = std::max(largest, std::abs(difference));
+    }
+    EXPECT_LT(largest, std::numbers::sqrt2 * 2.0 * std::numbers::pi * 0.05);
+    EXPECT_LT(testing::largestStep(std::span<const float>(offline.waveformMps2).first(common)),
+              largestStepWithoutAJump);
+}
+
+TEST_F(RibPhaseTest, VoicesOfOneBatchHaveEachTheirOwnPhase) {
+    const auto model = std::make_shared<const model::ModelFile>(ribModel());
+    std::vector<std::vector<std::array<float, 2>>> rounds;
+    class Recording final : public inference::SegmentGenerator {
+    public:
+        explicit Recording(std::vector<std::vector<std::array<float, 2>>>& rounds) : rounds_(rounds) {}
+        void generate(std::span<const SegmentRequest> requests, std::span<float> segments) override {
+            rounds_.emplace_back();
+            for (std::size_t i = 0; i < requests.size(); ++i) {
+                rounds_.back().push_back(requests[i].ribPhase);
+                ribsOf(requests[i], segments.subspan(i * inference::segmentSamples, inference::segmentSamples));
+            }
+        }
+        void levels(std::span<const SegmentRequest>, std::span<float> levels) override {
+            std::ranges::fill(levels, 1.0F);
+        }
+
+    private:
+        std::vector<std::vector<std::array<float, 2>>>& rounds_;
+    };
+    EngineTiers tiers;
+    tiers.push_back(std::make_unique<Recording>(rounds));
+    LiveEngineSettings settings;
+    settings.quality.fixedTier = 0;
+    settings.hasWorker = false;
+    settings.fixedLeadMs = 8.0;
+    LiveEngine engine(model, std::move(tiers), 0, settings);
+    const std::array<std::shared_ptr<LiveVoice>, 3> voices{engine.addVoice(48000.0), engine.addVoice(48000.0),
+                                                           engine.addVoice(48000.0)};
+    const std::array<ContactState, 3> states{onLabel(0), onLabel(1), onLabel(0, 0.05F)};
+    std::array<float, 960> block{};
+    for (int update = 0; update < 20; ++update) {
+        for (std::size_t i = 0; i < voices.size(); ++i) {
+            engine.publish(*voices[i], states[i]);
+            voices[i]->renderer.render({}, 48000.0);
+        }
+        (void)engine.step();
+        for (const auto& voice : voices) {
+            voice->renderer.render(block, 48000.0);
+        }
+    }
+    ASSERT_EQ(rounds.size(), 20U);
+    // A hop of 40 samples.
+    const std::array<double, 3> hopTurns{0.4, 0.7, 0.2};
+    for (std::size_t round = 2; round < rounds.size(); ++round) {
+        ASSERT_EQ(rounds[round].size(), 3U);
+        for (std::size_t i = 0; i < voices.size(); ++i) {
+            const double step = static_cast<double>(rounds[round][i][0]) - static_cast<double>(rounds[round - 1][i][0]);
+            EXPECT_NEAR(step - std::floor(step), hopTurns[i], 1e-4) << "voice " << i << ", round " << round;
+        }
+    }
+    for (const auto& voice : voices) {
+        engine.removeVoice(*voice);
+    }
+}
+
+}  // namespace
+}  // namespace haptoflow::engine

@@ -1,0 +1,40 @@
+#pragma once
+
+#include "../model/onnx_writer.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+#include <vector>
+
+namespace haptoflow::inference::testing {
+
+/// What the graph below writes for each turn along the two wave vectors.
+inline constexpr float firstRibWeight = 0.5F;
+inline constexpr float secondRibWeight = -0.25F;
+
+/// A field graph that reads nothing but the input `rib_phase`, of so many numbers, and writes the same number
+/// everywhere in a point of this shape: first phase * firstRibWeight + second phase * secondRibWeight.
+inline model::testing::Bytes ribField(std::string_view output, const model::testing::Dimensions& shape,
+                                      std::size_t phases = 2) {
+    using namespace model::testing;
+    std::size_t size = 1;
+    Dimensions reshaped{-1};
+    for (const std::int64_t dimension : shape) {
+        size *= static_cast<std::size_t>(dimension);
+        reshaped.push_back(dimension);
+    }
+    std::vector<float> weights(phases * size);
+    for (std::size_t i = 0; i < weights.size(); ++i) {
+        weights[i] = i < size ? firstRibWeight : secondRibWeight;
+    }
+    OnnxWriter writer;
+    writer.input("rib_phase", {static_cast<std::int64_t>(phases)}).output(output, shape);
+    writer.constant(
+        floatTensor("weights", {static_cast<std::int64_t>(phases), static_cast<std::int64_t>(size)}, weights));
+    writer.constant(integerTensor("shape", reshaped));
+    writer.apply("MatMul", {"rib_phase", "weights"}, {"flat"});
+    return writer.apply("Reshape", {"flat", "shape"}, {std::string(output)}).model().written();
+}
+
+}  // namespace haptoflow::inference::testing

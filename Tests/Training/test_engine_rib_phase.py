@@ -1,0 +1,43 @@
+"""The rib phase on its way from Python through the C interface into a graph."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+
+import numpy as np
+
+from haptoflow_training.evaluation.engine_library import EngineGenerator, default_engine
+
+ROOT = Path(__file__).parents[2]
+sys.path.insert(0, str(ROOT / "Tests" / "Golden" / "model"))
+
+import make_tiny_model  # noqa: E402
+import tiny_graphs  # noqa: E402
+from haptoflow_writer import write_model  # noqa: E402
+
+WEIGHTS = np.array([[0.5], [-0.25]], dtype=np.float32)
+
+
+def _rib_graph() -> bytes:
+    """segment = rib_phase @ WEIGHTS, the same at every sample."""
+    graph = tiny_graphs._Graph()
+    weighted = graph.apply("MatMul", "rib_phase", graph.constant(np.repeat(WEIGHTS, tiny_graphs.SAMPLES, axis=1)))
+    graph.apply("Reshape", weighted, graph.constant([-1, 1, tiny_graphs.SAMPLES]), output="segment")
+    return graph.finish({"rib_phase": ["B", 2]}, {"segment": ["B", 1, tiny_graphs.SAMPLES]})
+
+
+def test_each_request_of_a_batch_brings_its_own_rib_phase_and_none_means_zero(tmp_path: Path) -> None:
+    model = tmp_path / "ribs.haptoflow"
+    write_model(model, make_tiny_model.header(), {**make_tiny_model.blobs(), "direct_field": _rib_graph()})
+    random = np.random.default_rng(1)
+    embedding = random.normal(size=(3, 64)).astype(np.float32)
+    motion = np.array([[0.1, 0.0, 1.0], [0.0, 0.2, 2.0], [-0.1, 0.1, 0.5]], dtype=np.float32)
+    waves = np.zeros((3, 200), dtype=np.float32)
+    phases = np.array([[0.25, 0.5], [0.9, 0.0], [0.0, 0.75]], dtype=np.float32)
+    level = np.exp(tiny_graphs.log_level(embedding, motion))
+    with EngineGenerator(default_engine(ROOT), model, "direct") as generator:
+        with_phase = generator.generate(embedding, motion, waves, waves, phases)
+        without = generator.generate(embedding, motion, waves, waves)
+    np.testing.assert_allclose(with_phase / level, np.repeat(phases @ WEIGHTS, 200, axis=1), atol=1e-5)
+    np.testing.assert_array_equal(without, 0.0)
