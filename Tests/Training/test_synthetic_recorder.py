@@ -65,7 +65,7 @@ def test_the_same_spot_has_the_same_height_at_another_speed_and_on_the_way_back(
     back = random_height(wood, _straight(end, 0.3 + np.pi, 100.0, 4001), specimen=1)[0]
     assert np.allclose(back[::-1], slow, atol=1e-6)
     # At another speed only the octaves that fade in and out differ.
-    assert np.corrcoef(np.diff(slow[::2]), np.diff(fast))[0, 1] > 0.95
+    assert np.corrcoef(np.diff(slow[::2]), np.diff(fast))[0, 1] > 0.9
 
 
 def test_two_materials_have_different_surfaces():
