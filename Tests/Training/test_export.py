@@ -21,6 +21,7 @@ from haptoflow_training.export.model_file import ModelFile, read_model_file
 from haptoflow_training.export.seed_bank import build_seed_bank
 from haptoflow_training.models.codec.small_codec import SmallCodec, SmallCodecShape
 from haptoflow_training.training.config import ModelConfig
+from haptoflow_training.training.held_out import HeldOut
 from haptoflow_training.training.trainer import Trainer
 
 INFOS = [LabelInfo("tone", "metal", 900.0, 0.3, 0.002), LabelInfo("noise", "stone", 1500.0, 0.6)]
@@ -67,7 +68,7 @@ def test_no_path_of_the_training_machine_is_in_the_file(exported: tuple[Path, Mo
 
 def test_seeds_are_recordings_of_unit_level_with_their_conditions(exported: tuple[Path, ModelFile, FakeStore]) -> None:
     store = exported[2]
-    bank = build_seed_bank(store, seed=1)
+    bank = build_seed_bank(store, seed=1, held_out=HeldOut())
     assert len(bank.entries) == len(bank.waves) >= 10
     np.testing.assert_allclose(np.sqrt(np.square(bank.waves).mean(axis=1)), 1.0, rtol=1e-3)
     tones = [wave for wave, entry in zip(bank.waves, bank.entries, strict=True) if entry["label"] == "tone"]
@@ -77,11 +78,11 @@ def test_seeds_are_recordings_of_unit_level_with_their_conditions(exported: tupl
 
 def test_exponents_are_those_of_the_recordings() -> None:
     store = make_store(seconds=8.0, recordings_per_split=8)
-    tone = fit_exponents(store, 0, periodic=True, seed=1)
+    tone = fit_exponents(store, 0, periodic=True, seed=1, held_out=HeldOut())
     assert tone.level_speed == pytest.approx(1.0, abs=0.08)
     assert tone.level_force == pytest.approx(0.3, abs=0.08)
     assert tone.frequency == 1.0
-    noise = fit_exponents(store, 1, periodic=False, seed=1)
+    noise = fit_exponents(store, 1, periodic=False, seed=1, held_out=HeldOut())
     assert noise.level_speed == pytest.approx(0.5, abs=0.08)
     assert noise.frequency == pytest.approx(0.0, abs=0.05)
 

@@ -34,7 +34,7 @@ def _heard(
 ) -> torch.Tensor:
     first, second = (_features(wave) for wave in drawn)
     speeds = torch.full(label.shape, speed_mps)
-    return balance.loss(label, speeds, _features(recorded), (first, second))
+    return balance.loss(label, speeds, _features(recorded), (first, second), torch.ones(len(label)))
 
 
 def test_a_network_with_a_gain_for_each_label_and_frequency_learns_the_recordings_mean_spectra() -> None:

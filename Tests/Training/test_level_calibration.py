@@ -17,6 +17,7 @@ from haptoflow_training.export.exporter import export_run
 from haptoflow_training.export.model_file import read_model_file
 from haptoflow_training.export.trained_tier import load_tiers
 from haptoflow_training.models.level_model import LevelModel, shift_level
+from haptoflow_training.training.held_out import HeldOut
 from haptoflow_training.training.trainer import Trainer
 
 _Floats = NDArray[np.float32]
@@ -43,14 +44,14 @@ def test_what_is_too_loud_or_too_quiet_of_a_label_is_measured_in_closed_loop() -
     embeddings = np.zeros((2, 64), dtype=np.float32)
     embeddings[1, 0] = 1.0
     counted = []
-    found = level_offsets_db(_KnownSource((2.0, -1.0)), embeddings, store, counted.append)
+    found = level_offsets_db(_KnownSource((2.0, -1.0)), embeddings, store, HeldOut(), counted.append)
     assert found == pytest.approx([2.0, -1.0], abs=0.3)
     assert sum(counted) == hops(store)
 
 
 def test_a_recording_of_less_than_a_window_says_nothing_and_breaks_nothing() -> None:
     store = make_store(seconds=0.09, recordings_per_split=1)
-    assert level_offsets_db(_KnownSource((2.0, -1.0)), np.zeros((2, 64), dtype=np.float32), store) == [0.0, 0.0]
+    assert level_offsets_db(_KnownSource((2.0, -1.0)), np.zeros((2, 64), dtype=np.float32), store, HeldOut()) == [0.0, 0.0]
 
 
 def test_a_shift_of_the_level_is_the_label_s_own_and_the_same_at_every_motion() -> None:
@@ -76,7 +77,7 @@ def test_a_level_shifted_in_the_file_scales_the_closed_loop_by_just_that(tmp_pat
 
     tier = load_tiers([tmp_path / "run"])[0]
     source = TierSource(tier)
-    before = level_offsets_db(source, source.embeddings, store)
+    before = level_offsets_db(source, source.embeddings, store, HeldOut())
     shift_level(tier.model.level, tier.model.embedding.weight, torch.tensor([-1.5, 0.5]) * (np.log(10.0) / 20.0))
-    after = level_offsets_db(source, source.embeddings, store)
+    after = level_offsets_db(source, source.embeddings, store, HeldOut())
     assert np.subtract(after, before) == pytest.approx([-1.5, 0.5], abs=0.05)

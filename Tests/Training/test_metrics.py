@@ -6,7 +6,6 @@ import numpy as np
 import pytest
 
 from haptoflow_training.evaluation import metrics
-from haptoflow_training.evaluation.accuracy import summary
 
 RATE_HZ = 2000
 
@@ -75,19 +74,3 @@ def test_a_level_that_grows_by_two_decibels_a_minute_drifts_by_two() -> None:
 def test_a_power_law_has_no_kink_and_a_corner_has_its_size() -> None:
     assert metrics.kink_db(np.linspace(0.0, 40.0, 20)) == pytest.approx(0.0, abs=1e-9)
     assert metrics.kink_db(np.concatenate([np.zeros(5), np.arange(1.0, 6.0)])) == pytest.approx(1.0)
-
-
-def test_a_summary_takes_the_median_over_labels_and_its_interval_covers_it() -> None:
-    rows = [
-        {"label": label, "level_error_db": error, "gfc_recording": 0.9 + 0.01 * error, "gfc_segment": 0.8, "rmse": 1.4,
-         "lsd_db": 1.0, "continuity": None, "band_errors_db": [error] * 9}
-        for label, errors in {"a": (0.0, 2.0), "b": (3.0, 5.0), "c": (-9.0, -7.0)}.items()
-        for error in errors
-    ]  # fmt: skip
-    figures = summary(rows)
-    assert figures["level_error_db"] == pytest.approx(1.0)
-    assert figures["level_error_worst_db"] == 9.0
-    assert figures["gfc_label_worst"] == pytest.approx(0.82)
-    low, high = figures["level_error_db_interval"]
-    assert low <= 1.0 <= high and high > low
-    assert figures["continuity"] is None and figures["f0_error_percent"] is None

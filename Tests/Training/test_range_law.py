@@ -15,6 +15,7 @@ from haptoflow_training.models.level_model import LevelModel, level_loss
 from haptoflow_training.preprocessing.pipeline import preprocess_recording
 from haptoflow_training.preprocessing.settings import PreprocessingSettings
 from haptoflow_training.recordings.synthetic import load_materials, record_condition, record_machine
+from haptoflow_training.training.held_out import HeldOut
 
 LABELS = ("wood", "stone", "metal mesh", "plastic", "leather", "corduroy", "sandpaper")
 EDGE_MPS = 0.06
@@ -55,7 +56,10 @@ def _slow_store() -> FakeStore:
 def taught() -> Taught:
     store = _slow_store()
     periodic = {material.label: bool(material.rulings) for material in load_materials()}
-    exponents = [fit_exponents(store, row, periodic=periodic[label], seed=1) for row, label in enumerate(LABELS)]
+    exponents = [
+        fit_exponents(store, row, periodic=periodic[label], seed=1, held_out=HeldOut())
+        for row, label in enumerate(LABELS)
+    ]
     torch.manual_seed(1)
     level, embedding = LevelModel(), torch.randn(len(LABELS), 64)
     optimiser = torch.optim.AdamW(level.parameters(), lr=3e-3, weight_decay=0.01)

@@ -34,6 +34,7 @@ def _loss(recorded: torch.Tensor, past: torch.Tensor, drawn: tuple[torch.Tensor,
     return energy_distance_loss(
         heard[0],
         (heard[1], heard[2]),
+        torch.ones(len(past)),
         waves=None if own else (recorded, *drawn),
         lines=(nothing, nothing, nothing),
         envelopes=tuple(envelopes(past, segment) for segment in (recorded, *drawn)),

@@ -2,51 +2,129 @@
 
 from __future__ import annotations
 
+import dataclasses
+import math
+
 import numpy as np
-from numpy.typing import NDArray
-from scipy.signal import welch
+import pytest
 
-from haptoflow_training.evaluation import reference_set as subject
-from haptoflow_training.evaluation.reference_set import Condition, conditions
-from haptoflow_training.recordings.synthetic import load_materials
+from haptoflow_training.evaluation.reference_conditions import (
+    CONSTANT_SPEEDS_MPS,
+    Condition,
+    conditions,
+    is_on_other_label,
+    motion_of,
+    rib_rates_hz,
+)
+from haptoflow_training.evaluation.reference_set import record_pair
+from haptoflow_training.recordings.synthetic import Material, load_materials
 
-
-def _fine_structure(wave: NDArray[np.floating]) -> NDArray[np.float64]:
-    """What a spectrum of 2 Hz resolution has beyond its smooth form, dB, 100 to 900 Hz."""
-    frequency, power = welch(wave, 2000.0, nperseg=1024)
-    decibels = 10.0 * np.log10(power)
-    kernel = np.ones(21) / 21.0
-    chosen = (frequency > 100.0) & (frequency < 900.0)
-    return (decibels - np.convolve(decibels, kernel, mode="same"))[chosen]
-
-
-def _condition(label: str, speed_mps: float) -> Condition:
-    found = [entry for entry in conditions(load_materials()) if entry.label == label and entry.speed_mps == speed_mps]
-    assert len(found) == 1
-    return found[0]
+MATERIALS = load_materials()
+CHOSEN = conditions(MATERIALS)
+RULED = {material.label for material in MATERIALS if material.rulings}
 
 
-def test_two_recordings_of_a_condition_share_no_fine_structure_of_their_spectra() -> None:
-    # A straight line over a surface made of periodic tiles would have lines that no real surface has, in both the same.
-    material = next(entry for entry in load_materials() if entry.label == "stone")
-    recorded, independent, _ = subject._record_pair((material, _condition("stone", 1.0), 1))
-    correlation = np.corrcoef(_fine_structure(recorded), _fine_structure(independent))[0, 1]
-    assert abs(correlation) < 0.3, correlation
+def _material(label: str) -> Material:
+    return next(entry for entry in MATERIALS if entry.label == label)
+
+
+def _first(label: str, kind: str, **wanted: object) -> Condition:
+    for entry in CHOSEN:
+        if entry.label == label and entry.kind == kind and all(getattr(entry, k) == v for k, v in wanted.items()):
+            return entry
+    raise AssertionError((label, kind, wanted))
+
+
+def test_the_grid_reaches_from_a_crawl_to_a_flick_and_from_a_touch_to_a_push_on_every_label() -> None:
+    assert min(CONSTANT_SPEEDS_MPS) == 0.01 and max(CONSTANT_SPEEDS_MPS) == 1.5
+    for material in MATERIALS:
+        own = [entry for entry in CHOSEN if entry.label == material.label]
+        assert {entry.speed_mps for entry in own if entry.kind == "constant"} >= set(CONSTANT_SPEEDS_MPS)
+        assert {entry.kind for entry in own} >= {"constant", "reversal", "stop", "varying", "change"}
+        forces = [entry.force_newtons for entry in own if entry.kind == "constant"]
+        assert min(forces) == 0.2 and max(forces) == 3.0
+
+
+def test_the_grid_holds_what_training_leaves_out_speed_force_and_direction() -> None:
+    assert any(0.25 <= entry.speed_mps < 0.3 for entry in CHOSEN)
+    assert any(1.2 <= entry.force_newtons < 1.5 for entry in CHOSEN)
+    assert any(entry.direction_degrees == 225.0 for entry in CHOSEN)
+
+
+def test_ruled_labels_are_crossed_at_five_angles_and_the_rate_of_each_family_is_k_times_v() -> None:
+    for label in RULED:
+        own = [entry for entry in CHOSEN if entry.label == label and entry.kind in ("constant", "oblique")]
+        assert {entry.crossing_degrees for entry in own} == {0.0, 15.0, 30.0, 45.0, 60.0}
+    mesh = _material("metal mesh")
+    assert rib_rates_hz(mesh, 0.03, 30.0) == pytest.approx((25.0 * math.cos(math.pi / 6), 12.5))
+    assert rib_rates_hz(mesh, 0.03, 225.0) == pytest.approx((25.0 * math.sqrt(0.5),) * 2)
+    assert rib_rates_hz(mesh, 0.03, 0.0) == pytest.approx((25.0,)), "along its ribs a family is not felt"
+    assert rib_rates_hz(mesh, 1.5, 0.0) == () and rib_rates_hz(_material("stone"), 0.1, 0.0) == ()
+
+
+def test_only_ruled_labels_on_straight_steady_strokes_have_rib_rates() -> None:
+    assert {entry.label for entry in CHOSEN if entry.rib_rates_hz} == RULED
+    assert all(entry.is_steady for entry in CHOSEN if entry.rib_rates_hz)
+
+
+def test_labels_with_a_nap_are_stroked_along_and_against_it_at_the_same_speeds() -> None:
+    for label in ("carpet", "fur"):
+        own = [entry for entry in CHOSEN if entry.label == label and entry.kind == "nap"]
+        grain = _material(label).grain_degrees
+        along = {entry.speed_mps for entry in own if entry.direction_degrees == grain}
+        against = {entry.speed_mps for entry in own if entry.direction_degrees == (grain + 180.0) % 360.0}
+        assert along == against and len(along) >= 2
+
+
+def test_recordings_last_longer_where_blows_are_rare_and_all_of_them_take_less_than_two_hours() -> None:
+    assert _first("concrete", "constant", speed_mps=0.03).seconds > _first("glass", "constant", speed_mps=0.03).seconds
+    assert sum(entry.seconds for entry in CHOSEN) < 7200.0
+
+
+def test_no_two_recordings_share_a_seed_within_a_label() -> None:
+    for label in {entry.label for entry in CHOSEN}:
+        seeds = [entry.seed for entry in CHOSEN if entry.label == label]
+        assert len(seeds) == len(set(seeds))
 
 
 def test_the_motion_that_networks_are_told_is_the_one_that_was_recorded() -> None:
-    material = next(entry for entry in load_materials() if entry.label == "stone")
-    condition = _condition("stone", 0.5)
-    recorded, _, motion = subject._record_pair((material, condition, 1))
-    assert motion.shape == (len(recorded), 3)
+    condition = dataclasses.replace(_first("stone", "constant", speed_mps=0.5), seconds=2.0)
+    recorded, independent, motion = record_pair((condition, _material("stone"), _material("glass")))
+    assert motion.shape == (len(recorded), 3) and abs(len(recorded) - 4000) < 40
     np.testing.assert_allclose(np.hypot(motion[:, 0], motion[:, 1]), 0.5, rtol=1e-5)
-    turned = np.degrees(np.unwrap(np.arctan2(motion[:, 1], motion[:, 0])))
-    assert abs(abs(turned[-1] - turned[0]) - condition.turn_degrees) < 0.3
-    assert abs(((turned.mean() - condition.direction_degrees) + 180.0) % 360.0 - 180.0) < 0.1
+    turned = np.degrees(np.arctan2(motion[:, 1], motion[:, 0])) % 360.0
+    np.testing.assert_allclose(turned, condition.direction_degrees, atol=0.01)
+    assert abs(np.corrcoef(recorded, independent)[0, 1]) < 0.2
 
 
-def test_across_ribs_a_stroke_is_straight_since_its_direction_is_its_pitch() -> None:
-    chosen = conditions(load_materials())
-    ruled = {material.label for material in load_materials() if material.rulings}
-    constant = [entry for entry in chosen if entry.kind == "constant"]
-    assert all((entry.turn_degrees == 0.0) == (entry.label in ruled) for entry in constant)
+def test_a_stroke_that_turns_back_slides_at_full_speed_all_the_time_but_for_the_turn() -> None:
+    condition = _first("wood", "reversal", speed_mps=0.4)
+    motion = motion_of(condition, _material("wood"), 0.3)
+    speed = np.hypot(motion[:, 0], motion[:, 1])
+    assert np.mean(speed > 0.38) > 0.9 and speed.min() < 0.01
+    along = motion[:, :2] @ [math.cos(math.radians(110.0)), math.sin(math.radians(110.0))]
+    assert np.mean(along > 0.0) == pytest.approx(0.5, abs=0.03)
+
+
+def test_starts_and_stops_rest_a_third_of_the_time_and_keep_their_force() -> None:
+    motion = motion_of(_first("wood", "stop"), _material("wood"), 0.3)
+    speed = np.hypot(motion[:, 0], motion[:, 1])
+    assert np.mean(speed < 1e-6) == pytest.approx(1 / 3, abs=0.05) and speed.max() == pytest.approx(0.15)
+    assert np.all(motion[:, 2] == 1.0)
+
+
+def test_a_hand_s_motion_is_finite_and_never_pulls() -> None:
+    motion = motion_of(_first("fur", "varying"), _material("fur"), 0.3)
+    assert np.all(np.isfinite(motion)) and motion[:, 2].min() >= 0.0
+    assert np.hypot(motion[:, 0], motion[:, 1]).max() <= 1.6
+
+
+def test_a_change_of_label_is_made_of_the_two_labels_recordings_turn_by_turn() -> None:
+    condition = dataclasses.replace(_first("glass", "change"), seconds=4.0)
+    other = MATERIALS[condition.other_index]
+    assert other.label != "glass" and condition.other_label == other.label
+    mixed, _, _ = record_pair((condition, _material("glass"), other))
+    plain, _, _ = record_pair((dataclasses.replace(condition, kind="constant"), _material("glass"), other))
+    elsewhere = is_on_other_label(len(mixed))
+    np.testing.assert_array_equal(mixed[~elsewhere], plain[~elsewhere])
+    assert not np.array_equal(mixed[elsewhere], plain[elsewhere]) and elsewhere.mean() == pytest.approx(0.5, abs=0.02)

@@ -207,7 +207,7 @@ def test_the_energy_distance_prefers_draws_that_hold_the_recording_s_phase_over_
         lines = (holds, first, second)
         shapes = tuple(envelopes(past, wave) for wave in (recorded, *draws))
         return energy_distance_loss(
-            heard[0], (heard[1], heard[2]), waves=waves, lines=lines, envelopes=shapes
+            heard[0], (heard[1], heard[2]), torch.ones(64), waves=waves, lines=lines, envelopes=shapes
         ).item()
 
     for own_past in (False, True):

@@ -13,14 +13,15 @@ from haptoflow_training.evaluation.workplace import Workplace
 
 _ORIGIN = {"configuration_crc32": "1", "graphs_crc32": "2", "recordings_crc32": "3", "reduced": False}
 _CONDITION: dict[str, Any] = {
-    "label": "glass", "kind": "constant", "speed_mps": 0.03, "force_newtons": 1.35, "level_error_db": -0.123456,
-    "gfc_recording": 0.98764, "lsd_db": 1.0, "f0_error_percent": None, "harmonic_share": None,
+    "label": "glass", "kind": "constant", "speed_mps": 0.03, "force_newtons": 1.35, "direction_degrees": 225.0,
+    "crossing_degrees": 0.0, "seed": 9001, "level_error_db": -0.123456, "gfc_recording": 0.98764, "lsd_db": 1.0,
+    "told_apart_percent": 55.0, "recorded_kurtosis": 3.2, "rmse": 1.4,
 }  # fmt: skip
 _RESULT = {
-    "made_from": _ORIGIN, "name": "row", "seed": 1, "summary": {"lsd_db": 1.0}, "discrimination": 0.5,
-    "conditions": [{**_CONDITION, "rmse": 1.4, "band_errors_db": [1.0]}, {**_CONDITION, "speed_mps": 1.5}],
+    "made_from": _ORIGIN, "name": "row", "seed": 1, "discrimination": 0.5,
+    "conditions": [_CONDITION, {**_CONDITION, "speed_mps": 1.5}],
 }  # fmt: skip
-_ROW = PlannedRow("row", "family", model="model")
+_ROW = PlannedRow("row", "ours", model="model")
 
 
 @pytest.fixture
@@ -39,7 +40,7 @@ def test_a_row_is_read_as_it_was_written_to_four_digits_a_line_for_each_recordin
 
 
 def test_a_row_without_recordings_such_as_one_for_its_time_alone_is_read_as_it_was_written(tmp_path: Path) -> None:
-    timed = {"made_from": _ORIGIN, "name": "size", "seed": 1, "summary": {}, "discrimination": None}
+    timed = {"made_from": _ORIGIN, "name": "size", "seed": 1, "discrimination": None}
     write_row(tmp_path / "size.json", timed)
     assert read_row(tmp_path / "size.json") == {**timed, "conditions": []}
 

@@ -15,7 +15,7 @@ from haptoflow_training.evaluation.workplace import Workplace
 from haptoflow_training.training.config import load_config
 from haptoflow_training.training.job_lanes import Job
 
-_ROW = PlannedRow("row", "family", model="small")
+_ROW = PlannedRow("row", "as-published", model="small")
 
 
 @pytest.fixture
@@ -48,7 +48,7 @@ def _leave_as_trained(place: Workplace, seed: int = 1) -> Path:
 
 
 def test_rows_of_the_same_model_share_one_training_for_each_seed(place: Workplace, started: list[Job]) -> None:
-    other = PlannedRow("other", "family", model="small", solver="euler", steps=8)
+    other = PlannedRow("other", "as-published", model="small", solver="euler", steps=8)
     train_models(place, [(_ROW, 1), (other, 1), (other, 2), (PlannedRow("silence", "reference"), 1)], 2)
     assert [job.name for job in started] == ["small, seed 1", "small, seed 2"]
     assert started[1].product == place.model_file(_ROW, 2) and "--seed 2" in " ".join(started[1].words)
@@ -75,7 +75,15 @@ def test_a_row_in_a_codec_s_latents_brings_the_codec_s_training_once(place: Work
     for name in ("one", "two"):
         text = f'name = "{name}"\n[data]\nsource = "synthetic"\n{latent}'
         (place.root / f"{name}.toml").write_text(text, encoding="utf-8")
-    train_models(place, [(PlannedRow(name, "family", model=name), 1) for name in ("one", "two")], 1)
+    train_models(place, [(PlannedRow(name, "as-published", model=name), 1) for name in ("one", "two")], 1)
     assert [job.name for job in started] == ["the small codec", "one, seed 1", "two, seed 1"]
     # The checkpoint's path is relative to the repository, wherever the evaluation is started from.
     assert {job.folder for job in started} == {place.root}
+
+
+def test_further_seeds_of_the_shipped_model_are_trainings_of_its_recipe(place: Workplace, started: list[Job]) -> None:
+    shipped = PlannedRow("standard", "ours", model="a/default.haptoflow", seeds=(1, 2), seeds_model="small")
+    assert place.model_file(shipped, 1) == place.root / "a" / "default.haptoflow"
+    assert place.model_file(shipped, 2) == place.model_file(_ROW, 2)
+    train_models(place, [(shipped, 1), (shipped, 2)], 1)
+    assert [job.name for job in started] == ["small, seed 2"]

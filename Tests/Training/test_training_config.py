@@ -54,9 +54,13 @@ def test_every_row_of_the_evaluation_names_a_model_or_a_training_that_is_there()
 @pytest.mark.parametrize(
     ("text", "complaint"),
     [
-        ('[[row]]\nname = "a"\nfamily = "b"', "'model' is missing"),
-        ('[[row]]\nname = "a"\nfamly = "b"', "unknown key 'famly'"),
-        ('[[row]]\nname = "silence"\nfamily = "b"\n[[row]]\nname = "silence"\nfamily = "b"', "stands there twice"),
+        ('[[row]]\nname = "a"\nblock = "ours"', "'model' is missing"),
+        ('[[row]]\nname = "a"\nmodel = "b"', "'block' is missing"),
+        ('[[row]]\nname = "a"\nblock = "rivals"\nmodel = "b"', "'rivals', expected one of ours"),
+        ('[[row]]\nname = "a"\nblock = "reference"\nmodel = "b"', "are of the block 'reference'"),
+        ('[[row]]\nname = "a"\nblok = "b"', "unknown key 'blok'"),
+        ('[[row]]\nname = "a"\nblock = "ours"\nmodel = "b"\nseeds = []', "'seeds' is empty"),
+        ('[[row]]\nname = "silence"\nblock = "reference"\n' * 2, "stands there twice"),
         ("", "no \\[\\[row"),
     ],
 )

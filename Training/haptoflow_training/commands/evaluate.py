@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import argparse
-import json
+import datetime
 import os
 import sys
 from pathlib import Path
@@ -14,22 +14,25 @@ from tqdm import tqdm
 from haptoflow_training.errors import InputError
 from haptoflow_training.evaluation import accuracy
 from haptoflow_training.evaluation.accuracy import Yardstick
-from haptoflow_training.evaluation.accuracy_time import merged, table, with_earlier_times
+from haptoflow_training.evaluation.accuracy_time import machine_words, table, timed_rows, with_times
 from haptoflow_training.evaluation.accuracy_time_chart import draw_chart
-from haptoflow_training.evaluation.accuracy_time_report import draw_spectra, write_document
+from haptoflow_training.evaluation.accuracy_time_report import write_document
 from haptoflow_training.evaluation.engine_library import EngineGenerator, EngineLibrary, default_engine
-from haptoflow_training.evaluation.model_stamp import SHIPPED_MODEL, sha256_of
-from haptoflow_training.evaluation.reference_set import ReferencePair, conditions, reference_set
+from haptoflow_training.evaluation.label_spectra import draw_spectra
+from haptoflow_training.evaluation.model_stamp import SHIPPED_MODEL, graphs_sha256, sha256_of
+from haptoflow_training.evaluation.reference_conditions import conditions
+from haptoflow_training.evaluation.reference_set import ReferencePair, reference_set
 from haptoflow_training.evaluation.row_plan import PlannedRow, load_plan
 from haptoflow_training.evaluation.row_runner import UPDATE_RATE_HZ, made_from, measure_row
 from haptoflow_training.evaluation.row_store import stored_row
 from haptoflow_training.evaluation.row_training import train_models
-from haptoflow_training.evaluation.timing import Milliseconds, TimedSource, time_sources
-from haptoflow_training.evaluation.workplace import Workplace, is_of_repository
+from haptoflow_training.evaluation.timing import TimedSource, time_sources
+from haptoflow_training.evaluation.timing_history import append_run, published_run, timing_run
+from haptoflow_training.evaluation.workplace import Workplace
 from haptoflow_training.export.annotation import annotate_model
 from haptoflow_training.export.model_file import read_model_file
 from haptoflow_training.recordings.synthetic import load_materials
-from haptoflow_training.training.run_log import write_json
+from haptoflow_training.training.run_log import source_commit, write_json
 
 _ROOT = Path(__file__).resolve().parents[3]
 
@@ -42,7 +45,8 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser], su
             "Measures every row of the plan on recordings that nobody trained on: accuracy in open and closed loop, "
             "milliseconds per segment through the engine. Trains the models that rows need (about ten minutes of one "
             "core each), keeps what is measured beside the results, and goes on where it was stopped. A row whose figures "
-            "are kept is measured again only when its configuration or its model has changed."
+            "are kept is measured again only when its configuration or its model has changed. Every timing run is added "
+            "to timing-history.json; the first complete one of the shipped model is the one that is published."
         ),
         epilog=(
             "examples:\n"
@@ -91,12 +95,21 @@ def run(options: argparse.Namespace) -> int:
             missing = f"{row.model} has no tier '{row.tier}'" if row.tier else f"{row.model} is not trained yet"
             tqdm.write(f"evaluate: {row.name} is left out: {missing}", file=sys.stderr)
     timed = [row for row in chosen if not row.is_reference and _is_there(place.model_file(row, row.seeds[0]), row.tier)]
-    hot, paced = _time_rows(place, engine, timed, options.quick)
-    result = table(plan, measured, hot, paced)
-    _print(result)
-    if not options.quick:
-        _write(options, place, engine, yardstick.pairs, plan, result)
+    run = _time_rows(place, engine, timed, options.quick, is_complete=not (options.rows or options.quick))
+    if options.quick:
+        _print(with_times(table(plan, measured), run))
+        return 0
+    for row in plan:
+        if row.name not in measured and (kept := _stored(place, yardstick, row)):
+            measured[row.name] = kept
+    _write(options, place, engine, yardstick.pairs, plan, table(plan, measured), run)
     return 0
+
+
+def _stored(place: Workplace, yardstick: Yardstick, row: PlannedRow) -> list[dict[str, Any]]:
+    """What was measured of a row before and still holds, the first seed's first; nothing without that one."""
+    found = [stored_row(place, row, seed, made_from(place, yardstick, row, seed)) for seed in row.seeds]
+    return [result for result in found if result is not None] if found[0] is not None else []
 
 
 def _is_stored(place: Workplace, yardstick: Yardstick, row: PlannedRow, seed: int) -> bool:
@@ -120,8 +133,10 @@ def _pairs(options: argparse.Namespace) -> list[ReferencePair]:
 
 
 def _time_rows(
-    place: Workplace, engine: EngineLibrary, rows: list[PlannedRow], quick: bool
-) -> tuple[dict[str, Milliseconds], dict[str, Milliseconds]]:
+    place: Workplace, engine: EngineLibrary, rows: list[PlannedRow], quick: bool, is_complete: bool
+) -> dict[str, Any]:
+    """A run of the timing history."""
+    before = os.getloadavg()
     generators = [
         EngineGenerator(engine, place.model_file(row, row.seeds[0]), row.tier or None, row.solver, row.steps)
         for row in rows
@@ -135,21 +150,30 @@ def _time_rows(
         )
     for generator in generators:
         generator.close()
-    return hot, paced
+    return timing_run(
+        hot, paced, date=datetime.datetime.now(datetime.UTC).isoformat(timespec="seconds"),
+        commit=source_commit(place.root), graphs_sha256=graphs_sha256(place.root / SHIPPED_MODEL),
+        is_complete=is_complete, machine=machine_words(), load_before=before, load_after=os.getloadavg(),
+    )  # fmt: skip
 
 
 def _print(result: dict[str, Any]) -> None:
-    names = (("ms", 8), ("level dB", 10), ("p90", 7), ("GFC", 8), ("worst", 8), ("LSD dB", 8), ("f0 %", 7))
-    print(f"{'row':22}" + "".join(f"{name:>{width}}" for name, width in (*names, ("seams", 7), ("drift", 7))))
+    names = (("ms", 8), ("level dB", 10), ("p90", 7), ("GFC", 8), ("LSD dB", 8), ("crest", 7), ("ln kurt", 8))
+    print(f"{'row':24}" + "".join(f"{name:>{width}}" for name, width in (*names, ("modul.", 7), ("ribs", 7), ("told %", 7))))
     for row in result["rows"]:
         hot = row["ms_per_segment"]
-        cells = (row["level_error_db"], row["level_error_p90_db"], row["gfc_recording"], row["gfc_label_worst"])
-        more = (row["lsd_db"], row["f0_error_percent"], row["continuity"], row["drift_db_per_min"])
         print(
-            f"{row['name']:22}{_shown(hot and hot['p50'], 8, 3)}{_shown(cells[0], 10, 2)}{_shown(cells[1], 7, 2)}"
-            f"{_shown(cells[2], 8, 4)}{_shown(cells[3], 8, 3)}{_shown(more[0], 8, 2)}{_shown(more[1], 7, 2)}"
-            f"{_shown(more[2], 7, 2)}{_shown(more[3], 7, 2)}"
+            f"{row['name']:24}{_shown(hot and hot['p50'], 8, 3)}{_shown(row.get('level_error_db'), 10, 2)}"
+            f"{_shown(row.get('level_error_p90_db'), 7, 2)}{_shown(row.get('gfc_recording'), 8, 4)}"
+            f"{_shown(row.get('lsd_db'), 8, 2)}{_shown(_median(row, 'crest_error_db'), 7, 2)}"
+            f"{_shown(_median(row, 'kurtosis_log_ratio'), 8, 2)}{_shown(_median(row, 'modulation_error_db'), 7, 2)}"
+            f"{_shown(_median(row, 'rib_modulation_error_db'), 7, 1)}{_shown(_median(row, 'told_apart_percent'), 7, 0)}"
         )
+
+
+def _median(row: dict[str, Any], key: str) -> float | None:
+    spread = row.get(key)
+    return None if spread is None else float(spread["median"])
 
 
 def _shown(value: float | None, width: int, digits: int) -> str:
@@ -163,17 +187,17 @@ def _write(
     pairs: list[ReferencePair],
     plan: list[PlannedRow],
     result: dict[str, Any],
+    run: dict[str, Any],
 ) -> None:
     out = options.out / "accuracy-time.json"
     options.out.mkdir(parents=True, exist_ok=True)
-    if out.exists():
-        old = json.loads(out.read_text(encoding="utf-8"))
-        result = with_earlier_times(result, old)
-        if options.rows:
-            result = merged(old, result, plan)
+    history = append_run(options.out / "timing-history.json", run)
+    shipped = place.root / SHIPPED_MODEL
+    result = with_times(result, published_run(history, graphs_sha256(shipped), timed_rows(result)))
+    _print(result)
     # The file's own tiers are annotated first: that changes its bytes, and the figures are to name what is shipped.
     _annotate(place, plan, result)
-    result = {**result, "model_sha256": _model_sha256(options, place, result)}
+    result = {**result, "model_sha256": sha256_of(shipped), "model_bytes": shipped.stat().st_size}
     write_json(out, result)
     images = options.document.parent / "images"
     images.mkdir(exist_ok=True)
@@ -181,21 +205,14 @@ def _write(
     standard = next((row for row in plan if row.extended and place.model_file(row, row.seeds[0]).exists()), None)
     if standard is not None:
         model = place.model_file(standard, standard.seeds[0])
+        steady = [pair for pair in pairs if pair.condition.is_steady]
         with EngineGenerator(engine, model, standard.tier or None) as generator:
             made = accuracy.generate_set(
-                generator, generator.embeddings, pairs, update_rate_hz=UPDATE_RATE_HZ, seed=31, open_loop=False
+                generator, generator.embeddings, steady, update_rate_hz=UPDATE_RATE_HZ, seed=31, open_loop=False
             )
-        draw_spectra(pairs, made.closed, images / "label-spectra.png", sha256_of(model))
+        draw_spectra(steady, made.closed, images / "label-spectra.png", sha256_of(model))
     write_document(result, options.document, images, True, standard is not None)
     print(f"evaluate: {out} and {options.document}")
-
-
-def _model_sha256(options: argparse.Namespace, place: Workplace, result: dict[str, Any]) -> str:
-    """Of the repository's model. Where only rows of other models were measured, the figures of its own stay those of
-    the file that they were measured with."""
-    if options.rows and not any(is_of_repository(row) and row.name in options.rows for row in load_plan(options.plan)):
-        return str(result.get("model_sha256", ""))
-    return sha256_of(place.root / SHIPPED_MODEL)
 
 
 def _annotate(place: Workplace, plan: list[PlannedRow], result: dict[str, Any]) -> None:
@@ -206,4 +223,3 @@ def _annotate(place: Workplace, plan: list[PlannedRow], result: dict[str, Any]) 
         rows = {tier: measured[row.name] for tier, row in tiers.items() if row.model == file}
         parity = place.root / "Tests" / "Golden" / "model" / "default.parity.json"
         annotate_model(place.root / file, result["machine"], rows, parity)
-

@@ -11,6 +11,7 @@ from tqdm import tqdm
 from haptoflow_training.evaluation.level_calibration import TierSource, hops, level_offsets_db
 from haptoflow_training.export.trained_tier import load_tiers
 from haptoflow_training.models.level_model import LevelModel
+from haptoflow_training.training.held_out import HeldOut
 from haptoflow_training.training.recordings_source import Source
 
 
@@ -23,7 +24,7 @@ def measured_offsets_db(folder: Path, source: Source) -> list[float] | None:
         return None
     with tqdm(total=hops(source.store), unit="hop", desc="levels") as bar:
         made = TierSource(tier)
-        return level_offsets_db(made, made.embeddings, source.store, bar.update)
+        return level_offsets_db(made, made.embeddings, source.store, HeldOut.of(tier.config.batch), bar.update)
 
 
 def by_label(offsets_db: list[float] | None, source: Source) -> dict[str, Any]:

@@ -11,7 +11,6 @@ from tqdm import tqdm
 from haptoflow_training.commands.export import announce
 from haptoflow_training.commands.level_offsets import by_label, measured_offsets_db
 from haptoflow_training.errors import InputError
-from haptoflow_training.training.recordings_source import open_source
 from haptoflow_training.export.exporter import export_run
 from haptoflow_training.training.config import load_config
 from haptoflow_training.training.job_lanes import Job, run_jobs

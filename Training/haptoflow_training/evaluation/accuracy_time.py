@@ -4,29 +4,20 @@ from __future__ import annotations
 
 import datetime
 import platform
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from haptoflow_training.evaluation.accuracy import level_error_p90_db, over_labels
-from haptoflow_training.evaluation.row_plan import PlannedRow
-from haptoflow_training.evaluation.timing import Milliseconds
+from haptoflow_training.evaluation.cell_figures import IDENTITY
+from haptoflow_training.evaluation.judged_figures import JUDGED, spread
+from haptoflow_training.evaluation.row_plan import OURS, PlannedRow
+from haptoflow_training.evaluation.row_summary import label_table, level_error_p90_db, over_labels, summary
+from haptoflow_training.evaluation.verdicts import verdict
 
-_FIGURES = (
-    "level_error_db",
-    "level_error_p90_db",
-    "level_error_worst_db",
-    "gfc_recording",
-    "gfc_label_worst",
-    "gfc_segment",
-    "rmse",
-    "lsd_db",
-    "band_error_db",
-    "f0_error_percent",
-    "harmonic_share",
-    "continuity",
-)
-_SEED_FIGURES = ("level_error_db", "gfc_recording", "lsd_db")
+STANDARD = "standard"
+_SEED_HEADLINES = ("level_error_db", "gfc_recording", "lsd_db")
+_KEPT = ("fast", "kink_db", "drift_seconds")
+_TIMES = ("ms_per_segment", "ms_paced")
 
 
 def machine_words() -> str:
@@ -40,95 +31,88 @@ def machine_words() -> str:
     return f"{model}, one thread, {platform.system()}"
 
 
-def table(
-    plan: Sequence[PlannedRow],
-    measured: dict[str, list[dict[str, Any]]],
-    hot: dict[str, Milliseconds],
-    paced: dict[str, Milliseconds],
-) -> dict[str, Any]:
-    """measured: for each row's name one result per seed (row_runner.measure_row). Rows that were not measured are
-    left out and named in `not_measured`."""
-    rows = [
-        _row(row, measured[row.name], hot.get(row.name), paced.get(row.name)) for row in plan if row.name in measured
-    ]
+def table(plan: Sequence[PlannedRow], measured: Mapping[str, Sequence[dict[str, Any]]]) -> dict[str, Any]:
+    """measured: for each row's name one result per seed (row_runner.measure_row), the first one's first. Rows that were
+    not measured are left out and named in `not_measured`. Times are put in by `with_times`."""
+    standard = measured[STANDARD][0]["conditions"] if STANDARD in measured else []
+    rows = [_row(row, measured[row.name], standard) for row in plan if row.name in measured]
     today = datetime.date.today().isoformat()
     return {"machine": machine_words(), "date": today, "not_measured": _absent(plan, rows), "rows": rows}
 
 
-def merged(old: dict[str, Any], new: dict[str, Any], plan: Sequence[PlannedRow]) -> dict[str, Any]:
-    """Rows measured now replace their old ones; the others stay as they are, with the times of their own run."""
-    by_name = {row["name"]: row for row in [*old["rows"], *new["rows"]]}
-    rows = [by_name[row.name] for row in plan if row.name in by_name]
-    kept = {"model_sha256": old["model_sha256"]} if "model_sha256" in old else {}
-    return {**new, **kept, "not_measured": _absent(plan, rows), "rows": rows}
+def timed_rows(table: Mapping[str, Any]) -> set[str]:
+    """Names of the rows that a complete timing run holds: all but the references."""
+    return {row["name"] for row in table["rows"] if row["block"] != "reference"}
 
 
-def with_earlier_times(new: dict[str, Any], old: dict[str, Any]) -> dict[str, Any]:
-    """Rows that were not timed now, since their models are not there, keep the times of an earlier run."""
-    earlier = {row["name"]: row for row in old["rows"]}
-    rows = []
-    for row in new["rows"]:
-        before = earlier.get(row["name"], {})
-        if row["ms_per_segment"] is None and before.get("ms_per_segment") is not None:
-            row = {**row, **{key: before.get(key) for key in ("ms_per_segment", "ms_paced", "timed_on")}}
-        rows.append(row)
-    return {**new, "rows": rows}
+def with_times(table: dict[str, Any], run: Mapping[str, Any] | None) -> dict[str, Any]:
+    """The table with the times of one run alone; a row that it does not hold has none."""
+    nothing = dict.fromkeys(_TIMES)
+    times = {} if run is None else run["rows"]
+    rows = [{**row, **nothing, **times.get(row["name"], {})} for row in table["rows"]]
+    timed = None if run is None else {key: value for key, value in run.items() if key != "rows"}
+    return {**table, "timed": timed, "rows": rows}
 
 
-def _absent(plan: Sequence[PlannedRow], rows: list[dict[str, Any]]) -> list[str]:
+def _absent(plan: Sequence[PlannedRow], rows: Sequence[dict[str, Any]]) -> list[str]:
     present = {row["name"] for row in rows}
     return [row.name for row in plan if row.name not in present]
 
 
 def _row(
-    row: PlannedRow, results: list[dict[str, Any]], hot: Milliseconds | None, paced: Milliseconds | None
+    row: PlannedRow, results: Sequence[dict[str, Any]], standard: Sequence[dict[str, Any]]
 ) -> dict[str, Any]:
     first = results[0]
-    figures = first["summary"]
+    cells = first["conditions"]
     entry: dict[str, Any] = {
         "name": row.name,
+        "block": row.block,
+        "rival": row.rival_name,
         "family": row.family,
         "solver": row.solver,
         "steps": row.steps,
         "evaluations": row.evaluations,
-        "parameters": results[0]["parameters"],
-        "bytes": results[0]["bytes"],
-        "ms_per_segment": None if hot is None else {"p50": round(hot.p50, 4), "p99": round(hot.p99, 4)},
-        "ms_paced": None if paced is None else {"p50": round(paced.p50, 4), "p99": round(paced.p99, 4)},
-        "timed_on": None if hot is None else datetime.date.today().isoformat(),
+        "parameters": first["parameters"],
+        "bytes": first["bytes"],
+        **dict.fromkeys(_TIMES),
+        **_rounded(summary(cells)),
+        "drift_db_per_min": _rounded(first["drift_db_per_min"]),
+        "label_discrimination": _rounded(first["discrimination"]),
+        **{key: _rounded(first[key]) for key in _KEPT if key in first},
+        "recordings": len(cells),
+        "seeds": len(results),
     }
-    for key in _FIGURES:
-        entry[key] = _rounded(figures.get(key))
-        if (interval := figures.get(f"{key}_interval")) is not None:
-            entry[f"{key}_interval"] = [round(float(value), 4) for value in interval]
-    entry["drift_db_per_min"] = _rounded(first["drift_db_per_min"])
-    entry["label_discrimination"] = _rounded(first["discrimination"])
-    for key in ("fast", "kink_db", "drift_seconds"):
-        if key in first:
-            entry[key] = first[key]
-    entry["recordings"] = len(first.get("conditions", ()))
-    entry["seeds"] = len(results)
+    if row.block == OURS and cells:
+        entry["by_label"] = _rounded(label_table(cells))
+    if row.name != STANDARD and cells and standard:
+        entry["verdict"] = verdict(standard, cells)
     if len(results) > 1:
         entry["by_seed"] = _by_seed(results)
     return entry
 
 
-def _by_seed(results: list[dict[str, Any]]) -> dict[str, Any]:
+def _by_seed(results: Sequence[dict[str, Any]]) -> dict[str, Any]:
     """Figures of each seed on the recordings that all of them were measured on."""
-    keyed = [{_identity(condition): condition for condition in result["conditions"]} for result in results]
+    keyed = [{tuple(cell[key] for key in IDENTITY): cell for cell in result["conditions"]} for result in results]
     shared = [key for key in keyed[0] if all(key in other for other in keyed)]
-    common = [[conditions[key] for key in shared] for conditions in keyed]
+    common = [[cells[key] for key in shared] for cells in keyed]
+    spreads = {figure.key: [spread(cells, figure) for cells in common] for figure in JUDGED}
     return {
         "seeds": [result["seed"] for result in results],
         "recordings": len(shared),
-        "level_error_p90_db": [_rounded(level_error_p90_db(conditions)) for conditions in common],
-        **{key: [_rounded(over_labels(conditions, key)) for conditions in common] for key in _SEED_FIGURES},
+        "level_error_p90_db": [_rounded(level_error_p90_db(cells)) for cells in common],
+        **{key: [_rounded(over_labels(cells, key)) for cells in common] for key in _SEED_HEADLINES},
+        "medians": {
+            key: [_rounded(None if found is None else found["median"]) for found in values]
+            for key, values in spreads.items()
+        },
     }
 
 
-def _identity(condition: dict[str, Any]) -> tuple[Any, ...]:
-    return tuple(condition[key] for key in ("label", "kind", "speed_mps", "force_newtons"))
-
-
-def _rounded(value: float | None) -> float | None:
-    return None if value is None else round(float(value), 4)
+def _rounded(value: Any) -> Any:
+    """To four digits, at any depth."""
+    if isinstance(value, dict):
+        return {key: _rounded(entry) for key, entry in value.items()}
+    if isinstance(value, list):
+        return [_rounded(entry) for entry in value]
+    return round(float(value), 4) if isinstance(value, float) else value

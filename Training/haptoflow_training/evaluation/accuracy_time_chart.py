@@ -2,21 +2,23 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 from haptoflow_training.evaluation.model_stamp import picture_metadata
+from haptoflow_training.evaluation.row_plan import ABLATION, AS_PUBLISHED, OURS, REFERENCE
 
 _OURS = "HaptoFlow"
 # What a part of the network is worth is for the table; the chart is for the choice.
-_NOT_DRAWN = ("ablations", "reference")
+_NOT_DRAWN = (ABLATION, REFERENCE)
+_OTHERS = ("other architectures", "#2f7d57")
 _LEGEND = {
     "HaptoFlow": ("HaptoFlow: draft, standard, fine", "#d1495b"),
     "plain flow matching": ("plain flow matching, 1 to 16 steps", "#4a73b5"),
     "other recipes": ("other few-step recipes: MeanFlow, reflow", "#8a5fb0"),
-    "baselines": ("other architectures", "#2f7d57"),
+    "baselines": _OTHERS,
 }
 # The points that carry the message, in words; all others are told apart in the table.
 _NAMED = {
@@ -25,6 +27,8 @@ _NAMED = {
     "fine": "fine",
     "plain-euler-1": "1 Euler step",
     "plain-euler-16": "16 Euler steps",
+    "ar": "AR",
+    "ar-ribs": "AR with ribs",
     "spsi": "SPSI",
     "transformer": "Transformer",
     "dstn": "DSTN",
@@ -33,20 +37,22 @@ _NAMED = {
 
 @dataclass(frozen=True)
 class Panel:
-    """A figure of the table over time. limits: dB, linear. name_lift: where our names stand, points above ours."""
+    """A figure of the table over time. limits: in `unit`, linear. name_lift: where our names stand, points above ours."""
 
     key: str
     title: str
+    unit: str
     limits: tuple[float, float]
     name_lift: float
 
 
 @dataclass(frozen=True)
 class ChartPoint:
-    """value and the ends of its 95 % interval in dB; name is empty where the table tells it."""
+    """value and the ends of its 95 % interval; name is empty where the table tells it."""
 
     row: str
     family: str
+    block: str
     milliseconds: float
     value: float
     low: float
@@ -55,25 +61,29 @@ class ChartPoint:
 
 
 PANELS = (
-    Panel("level_error_db", "Level error, dB (0 is right, below is too quiet)", (-10.0, 2.0), 15.0),
-    Panel("lsd_db", "Log-spectral distance, dB (lower is better)", (0.0, 16.0), -14.0),
+    Panel("told_apart_percent", "Told apart from recordings, % (50 is chance, lower is better)", "%", (40.0, 100.0), -14.0),
+    Panel("lsd_db", "Log-spectral distance, dB (lower is better)", "dB", (0.0, 16.0), -14.0),
 )
+
+
+def panel_value(row: Mapping[str, Any], key: str) -> float | None:
+    """A row's figure, or the median of its spread."""
+    value = row.get(key)
+    return value["median"] if isinstance(value, Mapping) else value
 
 
 def chart_points(rows: Sequence[dict[str, Any]], key: str) -> list[ChartPoint]:
     """Every row that is drawn and was both timed and measured."""
-    return [
-        ChartPoint(
-            row["name"],
-            row["family"],
-            row["ms_per_segment"]["p50"],
-            row[key],
-            *row.get(f"{key}_interval", (row[key], row[key])),
-            _NAMED.get(row["name"], ""),
-        )
-        for row in rows
-        if row["family"] not in _NOT_DRAWN and row["ms_per_segment"] is not None and row[key] is not None
-    ]
+    points = []
+    for row in rows:
+        value = panel_value(row, key)
+        if _is_timed(row) and value is not None:
+            low, high = row.get(f"{key}_interval", (value, value))
+            name = _NAMED.get(row["name"], "")
+            points.append(
+                ChartPoint(row["name"], row["family"], row["block"], row["ms_per_segment"]["p50"], value, low, high, name)
+            )
+    return points
 
 
 def chart_lines(points: Sequence[ChartPoint]) -> list[list[ChartPoint]]:
@@ -87,8 +97,8 @@ def chart_lines(points: Sequence[ChartPoint]) -> list[list[ChartPoint]]:
 
 
 def draw_chart(table: dict[str, Any], path: Path) -> None:
-    """One panel for the level, one for the spectrum, over milliseconds. What lies beyond a panel stands at its edge
-    with its value."""
+    """One panel for what a hand tells apart, one for the spectrum, over milliseconds. What lies beyond a panel stands at
+    its edge with its value."""
     import matplotlib
 
     matplotlib.use("Agg")
@@ -97,7 +107,7 @@ def draw_chart(table: dict[str, Any], path: Path) -> None:
     figure, axes = pyplot.subplots(1, 2, figsize=(12.0, 6.0))
     for axis, panel in zip(axes, PANELS, strict=True):
         draw_panel(axis, panel, table["rows"])
-    handles = _legend_handles({row["family"] for row in table["rows"]})
+    handles = _legend_handles({row["family"] for row in table["rows"] if row["block"] not in _NOT_DRAWN})
     figure.legend(handles=handles, loc="lower center", ncols=3, frameon=False, fontsize=10)
     figure.tight_layout(rect=(0.0, 0.11, 1.0, 1.0))
     figure.savefig(path, dpi=110, metadata=picture_metadata(table["model_sha256"]))
@@ -109,9 +119,9 @@ def draw_panel(axis: Any, panel: Panel, rows: Sequence[dict[str, Any]]) -> None:
     points = chart_points(rows, panel.key)
     axis.set_ylim(*panel.limits)
     axis.set_xscale("log")
-    _set_times(axis, [row["ms_per_segment"]["p50"] for row in rows if _is_timed(row)])
+    _set_times(axis, [row["ms_per_segment"]["p50"] for row in rows if _is_timed(row)] or [0.1, 10.0])
     axis.set_title(panel.title, fontsize=12)
-    axis.set_ylabel("dB")
+    axis.set_ylabel(panel.unit)
     axis.grid(alpha=0.25)
     _draw_another_recording(axis, panel, rows)
     for line in chart_lines(points):
@@ -126,16 +136,16 @@ def draw_panel(axis: Any, panel: Panel, rows: Sequence[dict[str, Any]]) -> None:
     for rank, point in enumerate(sorted(beyond, key=lambda entry: entry.milliseconds)):
         _draw_beyond(axis, panel, point, rank)
     for row in rows:
-        if _is_timed(row) and row[panel.key] is None:
+        if _is_timed(row) and panel_value(row, panel.key) is None:
             _draw_time_alone(axis, row)
 
 
 def _is_timed(row: dict[str, Any]) -> bool:
-    return row["ms_per_segment"] is not None and row["family"] not in _NOT_DRAWN
+    return row["ms_per_segment"] is not None and row["block"] not in _NOT_DRAWN
 
 
 def _colour(family: str) -> str:
-    return _LEGEND[family][1]
+    return _LEGEND.get(family, _OTHERS)[1]
 
 
 def _set_times(axis: Any, milliseconds: Sequence[float]) -> None:
@@ -151,21 +161,24 @@ def _set_times(axis: Any, milliseconds: Sequence[float]) -> None:
 
 def _draw_another_recording(axis: Any, panel: Panel, rows: Sequence[dict[str, Any]]) -> None:
     another = next((row for row in rows if row["name"] == "independent-draw"), None)
-    if another is None:
+    value = None if another is None else panel_value(another, panel.key)
+    if value is None:
         return
-    axis.axhline(another[panel.key], color="#7a7a7a", linestyle="--", linewidth=1.0, zorder=1)
+    axis.axhline(value, color="#7a7a7a", linestyle="--", linewidth=1.0, zorder=1)
     axis.annotate(
-        "another recording of the same material", (0.88, another[panel.key]), xycoords=("axes fraction", "data"),
+        "another recording of the same material", (0.88, value), xycoords=("axes fraction", "data"),
         xytext=(0, max(3.0, panel.name_lift)), textcoords="offset points", ha="right", va="bottom", fontsize=9,
         color="#5a5a5a",
     )  # fmt: skip
 
 
 def _draw_point(axis: Any, panel: Panel, point: ChartPoint) -> None:
-    ours = point.family == _OURS
+    ours = point.block == OURS
+    colour = _colour(point.family)
     axis.plot(
         point.milliseconds, point.value, marker="*" if ours else "o", markersize=14 if ours else 6,
-        linestyle="none", color=_colour(point.family), zorder=4 if ours else 3,
+        linestyle="none", color=colour, markerfacecolor="white" if point.block == AS_PUBLISHED else colour,
+        zorder=4 if ours else 3,
     )  # fmt: skip
     axis.errorbar(
         point.milliseconds, point.value,
@@ -186,7 +199,7 @@ _NAME_ASIDE = {"draft": 4.0, "standard": 0.0, "fine": -2.0}
 
 
 def _name_offset(panel: Panel, point: ChartPoint) -> tuple[float, float]:
-    return (_NAME_ASIDE.get(point.row, 8.0), panel.name_lift if point.family == _OURS else 7.0)
+    return (_NAME_ASIDE.get(point.row, 8.0), panel.name_lift if point.block == OURS else 7.0)
 
 
 def _draw_beyond(axis: Any, panel: Panel, point: ChartPoint, rank: int) -> None:
@@ -198,7 +211,7 @@ def _draw_beyond(axis: Any, panel: Panel, point: ChartPoint, rank: int) -> None:
         clip_on=False, zorder=5,
     )  # fmt: skip
     axis.annotate(
-        f"{point.name or point.row}: {point.value:.0f} dB", (point.milliseconds, edge), xytext=(8, lift),
+        f"{point.name or point.row}: {point.value:.0f} {panel.unit}", (point.milliseconds, edge), xytext=(8, lift),
         textcoords="offset points", va="center", fontsize=9, color=_colour(point.family),
     )  # fmt: skip
 
@@ -221,6 +234,8 @@ def _legend_handles(families: set[str]) -> list[Any]:
         for family, (words, colour) in _LEGEND.items()
         if family in families
     ]  # fmt: skip
+    for words, face in (("hollow: as published", "white"), ("filled: given the same", "#777777")):
+        handles.append(Line2D([], [], color="#777777", marker="o", markersize=7, markerfacecolor=face, linestyle="none", label=words))  # fmt: skip
     bar = Line2D([], [], color="#333333", marker="|", markersize=12, markeredgewidth=1.4, linestyle="none",
                  label="bar: 95 % interval over recordings")  # fmt: skip
     edge = Line2D([], [], color="#333333", marker="v", markersize=7, linestyle="none", label="beyond the scale")

@@ -1,142 +1,167 @@
-"""Documentation~/accuracy-and-time.md and its pictures, generated from accuracy-time.json."""
+"""Documentation~/accuracy-and-time.md, generated from accuracy-time.json."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import math
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-import numpy as np
-from numpy.typing import NDArray
-
+from haptoflow_training.evaluation.accuracy_time_words import BLOCK_TITLES, DEFINITIONS, INTRODUCTION
 from haptoflow_training.evaluation.goals import judge
-from haptoflow_training.evaluation.metrics import power_spectrum
-from haptoflow_training.evaluation.model_stamp import model_line, picture_metadata
-from haptoflow_training.evaluation.reference_set import ReferencePair
+from haptoflow_training.evaluation.judged_figures import BY_KEY, JUDGED
+from haptoflow_training.evaluation.model_stamp import model_line
+from haptoflow_training.evaluation.row_plan import BLOCKS, OURS, RIVAL_BLOCKS
+from haptoflow_training.evaluation.verdicts import AHEAD, BEHIND, EVEN, RivalVerdict, rivals
 
-_OURS = "HaptoFlow"
-
-_WORDS = """\
-Beside the tiers of the shipped model (bold) stand other recipes for the same network, and our forms of other
-architectures, all trained on the same recordings. In the table:
-
-| short | what it is |
-|---|---|
-| GFC | goodness of fit of the magnitude spectra: 1 is the recording's own spectrum, whatever the level |
-| LSD | log-spectral distance between the power spectra, in dB: 0 is the recording's own spectrum and level |
-| RMSE | root mean square error, sample by sample |
-| plain | flow matching without further training, integrated by Euler's, Heun's or the midpoint rule in so many steps |
-| MeanFlow, reflow | recipes that train flow matching for few steps: the mean velocity over an interval; straightened paths |
-| AR | autoregressive filters, one for each condition, interpolated (after Culbertson et al. 2014) |
-| SPSI | single-pass spectrogram inversion: a network names the magnitudes, the phase is found behind it (Heravi et al. 2024) |
-| DSTN | deep spatial-temporal network: convolutions and a recurrent encoder and decoder (Joolee and Jeon 2022) |
-| Transformer | an encoder and decoder with attention over the past waveform (Cai and Zhu 2022) |
-| paper-codec | flow matching on the latents of a small codec, as in the paper; `paper-codec-size` has the sizes of the paper's networks, untrained, for the time alone |
-
-The paper is Eguchi, Hiroi and Hiraki, *HaptoFlow: High-Fidelity Real-Time Vibrotactile Generation via Flow Matching for
-Virtual Reality* (2026, to appear in an IEEE VGTC sponsored conference;
-[project page](https://tamago117.github.io/HaptoFlow/)). It also names SPSI, DSTN and the Transformer as its rivals; their
-sizes are not published, so ours are sensible small ones. Every figure is defined [below](#what-the-figures-mean).
-"""
-
-_DEFINITIONS = """\
-## What the figures mean
-
-Everything is measured on recordings that nobody trained on, through the C++ engine, in closed loop at 72 Hz: the
-network's previous waveform is its own output, from silence on. The recordings are synthetic (`recorder-report.md`).
-Conditions: every label at 0.03, 0.08, 0.15, 0.275, 0.5, 1.0 and 1.5 m/s, 0.5 to 2.5 N, three directions, 24 seconds
-each, and a free hand stroke. 0.25-0.3 m/s and 1.2-1.5 N are left out of training, as is the direction of 225
-degrees. Ruled surfaces are crossed in a straight line, all others on an arc of 30 degrees: straight lines of many metres
-would meet the recorder's periodic surface in the same few thousand waves, lines in the spectrum that both recordings of
-a pair would share and no real surface has. Where nothing else is said, a figure is the median over labels of each label's mean; the intervals in the JSON
-are 95 % bootstrap intervals over recordings.
-
-| figure | definition |
-|---|---|
-| level | level error, dB: 20 log10 of generated RMS over recorded RMS, signed; p90 and worst of its size over recordings |
-| GFC | goodness of fit of magnitude spectra averaged over the recording, 1024-sample Hann windows: sum A B / sqrt(sum A² sum B²) |
-| segment GFC | the same on single 100 ms segments made from the true previous waveform (the paper's protocol) |
-| RMSE | RMS of sample differences over the recording's RMS, same protocol: 1 is silence, 1.41 an independent draw |
-| LSD | log-spectral distance, dB: RMS over 20-1000 Hz of the difference of mean power spectra, 128 ms windows |
-| bands | median size of the energy error in nine critical bands (Bark edges, 20-1000 Hz), dB |
-| f0, harmonics | periodic labels, 20 Hz < v / wavelength < 800 Hz: error of the fundamental; share of power within 3 % of its multiples, over the recording's |
-| seams | RMS of sample differences at hop boundaries over that of all others |
-| drift | size of the slope of the level at 0.15 m/s and 1 N, dB a minute (ten minutes for rows marked extended in the plan, one otherwise) |
-| named right | share of renders that a classifier trained on the independent recordings gives their own label |
-| ms | one segment through the engine, one thread; hot: one after the other; live: one every 1/72 s. All rows in one run, in random order |
-
-Two of these are traps, and are here because the paper reports them: segment GFC punishes correct randomness (an
-independent draw of the true process scores about 0.8), and RMSE rewards silence.
-"""
+_Row = Mapping[str, Any]
+_SIGNS = {AHEAD: "ahead", EVEN: "even", BEHIND: "**behind**"}
 
 
 def write_document(table: dict[str, Any], out: Path, images: Path, picture: bool, spectra: bool) -> None:
     """Write the document; `picture` and `spectra` say which images exist beside it."""
     lines = ["# What accuracy costs in time", ""]
+    lines += _outcome(table)
     lines += [f"Measured on {table['date']}: {table['machine']}. Generated by `npm run evaluate`; do not edit.", ""]
-    lines += [model_line(table["model_sha256"]), ""]
-    lines += [_WORDS]
+    lines += [model_line(table["model_sha256"]), "", _timing_line(table.get("timed")), ""]
+    lines += [INTRODUCTION]
     if picture:
-        caption = "Level error and log-spectral distance of each tier and its rivals over milliseconds for a segment"
+        caption = "Told apart and log-spectral distance of each tier and its rivals over milliseconds for a segment"
         lines += [f"![{caption}]({images.name}/accuracy-time.png)", ""]
-    lines += _main_table(table["rows"])
+    for block in BLOCKS:
+        lines += _block_tables([row for row in table["rows"] if row["block"] == block], block)
     if table["not_measured"]:
-        names = ", ".join(table["not_measured"])
-        lines += [
-            f"Not measured yet, so not judged: {names}. Each wants a training of about ten minutes of one core; "
-            "`npm run evaluate` measures them and adds them here.",
-            "",
-        ]
-    if elsewhere := [row for row in table["rows"] if row["ms_per_segment"] and row["timed_on"] != table["date"]]:
-        named = ", ".join(f"{row['name']} ({row['timed_on']})" for row in elsewhere)
-        lines += [f"Timed in earlier runs, so not quite comparable: {named}.", ""]
+        lines += [f"Not measured yet, so not judged: {', '.join(table['not_measured'])}. `npm run evaluate` trains and adds them.", ""]
+    lines += _verdict_table(table["rows"])
     lines += _goal_table(table)
+    lines += _label_table(table["rows"])
+    lines += _worst_table(table["rows"])
     lines += _seed_table(table["rows"])
     lines += _fast_table(table["rows"])
     if spectra:
         lines += ["## Spectra by label", "", f"![Mean spectra of every label]({images.name}/label-spectra.png)", ""]
-    lines += [_DEFINITIONS]
+    lines += [DEFINITIONS]
     out.write_text("\n".join(lines), encoding="utf-8")
+
+
+def _outcome(table: Mapping[str, Any]) -> list[str]:
+    """Two lines at the page's top: whom `standard` is ahead of, even with and behind, and where a rival wins."""
+    lines = []
+    for block in RIVAL_BLOCKS:
+        title = block.replace("-", " ").capitalize()
+        found = rivals(table["rows"], (block,))
+        if not found:
+            lines += [f"**{title}**: no rival is measured yet.", ""]
+            continue
+        counts = {outcome: sum(len(rival.figures(outcome)) for rival in found) for outcome in (AHEAD, EVEN, BEHIND)}
+        many = f"{len(found)} rival{'s' if len(found) > 1 else ''}, {sum(counts.values())} comparisons"
+        words = f"ahead in {counts[AHEAD]}, even in {counts[EVEN]}, behind in {counts[BEHIND]}"
+        lines += [f"**{title}**, {many}: `standard` is {words}. {_wins(found)}", ""]
+    return lines
+
+
+def _wins(found: Sequence[RivalVerdict]) -> str:
+    wins = [
+        f"{rival.rival} in {', '.join(BY_KEY[key].words for key in rival.figures(BEHIND))}"
+        for rival in found if rival.figures(BEHIND)
+    ]  # fmt: skip
+    return f"Rivals that win: {'; '.join(wins)}." if wins else "No rival wins in any figure."
+
+
+def _timing_line(run: Mapping[str, Any] | None) -> str:
+    if run is None:
+        return "Not timed yet."
+    loads = " and ".join(" / ".join(f"{value:.2f}" for value in run[key]) for key in ("load_before", "load_after"))
+    return (
+        f"Times are those of the first complete run with this model: {run['date']}, {run['machine']}, commit "
+        f"`{run['commit'][:12]}`, load averages before and after {loads}. Every run stands in "
+        "`Training/results/timing-history.json`."
+    )
 
 
 def _cell(value: float | None, digits: int, signed: bool = False) -> str:
     return "" if value is None else f"{value:{'+' if signed else ''}.{digits}f}"
 
 
-def _level_cell(row: dict[str, Any]) -> str:
-    if row["level_error_db"] is None:
-        return "time only"
-    return f"{row['level_error_db']:+.2f} ({row['level_error_p90_db']:.1f}, {row['level_error_worst_db']:.1f})"
+def _spread(values: Mapping[str, float] | None, digits: int) -> str:
+    """Median (p90) of a spread."""
+    return "" if values is None else f"{values['median']:.{digits}f} ({values['p90']:.{digits}f})"
 
 
-def _main_table(rows: Sequence[dict[str, Any]]) -> list[str]:
-    lines = [
-        "| row | evaluations | ms hot | ms live (p99) | level dB (p90, worst) | GFC (worst label) | LSD dB | bands dB "
-        "| f0 % | harmonics | seams | drift dB/min | segment GFC | RMSE | named right | parameters |",
-        "|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|",
+def _factor(values: Mapping[str, float] | None) -> str:
+    """Of a spread of logarithms: the factor by which the median (and p90) is off."""
+    return "" if values is None else f"{math.exp(values['median']):.2f} ({math.exp(values['p90']):.1f})"
+
+
+def _name(row: _Row) -> str:
+    return f"**{row['name']}**" if row["block"] == OURS else str(row["name"])
+
+
+def _block_tables(rows: Sequence[_Row], block: str) -> list[str]:
+    if not rows:
+        return []
+    lines = [f"## {BLOCK_TITLES[block]}", ""]
+    lines += [
+        "| row | ms hot | ms live (p99) | level dB (p90) | GFC (p90) | LSD dB (p90) | told apart % (worst label) "
+        "| crest dB | kurtosis, factor | modulation dB | ribs dB | coherence |",
+        "|---|---|---|---|---|---|---|---|---|---|---|---|",
     ]
-    for row in rows:
-        hot, live = row["ms_per_segment"], row["ms_paced"]
-        cells = [
-            f"**{row['name']}**" if row["family"] == _OURS else row["name"],
-            str(row["evaluations"] or ""),
-            "" if hot is None else _cell(hot["p50"], 3),
-            "" if live is None else f"{_cell(live['p50'], 3)} ({_cell(live['p99'], 3)})",
-            _level_cell(row),
-            "" if row["gfc_recording"] is None else f"{row['gfc_recording']:.4f} ({row['gfc_label_worst']:.3f})",
-            _cell(row["lsd_db"], 2),
-            _cell(row["band_error_db"], 2),
-            _cell(row["f0_error_percent"], 2),
-            _cell(row["harmonic_share"], 2),
-            _cell(row["continuity"], 2),
-            _cell(row["drift_db_per_min"], 2),
-            _cell(row["gfc_segment"], 3),
-            _cell(row["rmse"], 2),
-            _cell(row["label_discrimination"], 2),
-            f"{row['parameters']:,}" if row["parameters"] else "",
-        ]
-        lines.append("| " + " | ".join(cells) + " |")
+    lines += ["| " + " | ".join(_accuracy_cells(row)) + " |" for row in rows]
+    lines += ["", "Errors of time, and of the spectrum by cell, are the median cell's, in brackets that which nine cells in ten keep.", ""]
+    lines += [
+        "| row | evaluations | f0 % | harmonics | bands dB | envelope kurtosis, factor | envelope variation, factor "
+        "| seams | drift dB/min | segment GFC | RMSE | named right | parameters |",
+        "|---|---|---|---|---|---|---|---|---|---|---|---|---|",
+    ]
+    lines += ["| " + " | ".join(_further_cells(row)) + " |" for row in rows if row.get("level_error_db") is not None]
     return [*lines, ""]
+
+
+def _accuracy_cells(row: _Row) -> list[str]:
+    hot, live = row["ms_per_segment"], row["ms_paced"]
+    times = ["" if hot is None else _cell(hot["p50"], 3)]
+    times += ["" if live is None else f"{_cell(live['p50'], 3)} ({_cell(live['p99'], 3)})"]
+    if row.get("level_error_db") is None:
+        return [_name(row), *times, "time only", *[""] * 8]
+    cells, told = row["cells"], row["told_apart_percent"]
+    return [
+        _name(row), *times,
+        f"{row['level_error_db']:+.2f} ({row['level_error_p90_db']:.1f})",
+        f"{row['gfc_recording']:.4f} ({cells['gfc_recording']['p90']:.3f})",
+        f"{row['lsd_db']:.2f} ({cells['lsd_db']['p90']:.1f})",
+        "" if told is None else f"{told['median']:.0f} ({told['worst']:.0f})",
+        _spread(row["crest_error_db"], 1), _factor(row["kurtosis_log_ratio"]), _spread(row["modulation_error_db"], 1),
+        _spread(row["rib_modulation_error_db"], 1), _spread(row["rib_coherence"], 2),
+    ]  # fmt: skip
+
+
+def _further_cells(row: _Row) -> list[str]:
+    return [
+        _name(row), str(row["evaluations"] or ""), _cell(row["f0_error_percent"], 2), _cell(row["harmonic_share"], 2),
+        _cell(row["band_error_db"], 2), _factor(row["envelope_kurtosis_log_ratio"]),
+        _factor(row["envelope_variation_log_ratio"]), _cell(row["continuity"], 2), _cell(row["drift_db_per_min"], 2),
+        _cell(row["gfc_segment"], 3), _cell(row["rmse"], 2), _cell(row["label_discrimination"], 2),
+        f"{row['parameters']:,}" if row["parameters"] else "",
+    ]  # fmt: skip
+
+
+def _verdict_table(rows: Sequence[_Row]) -> list[str]:
+    found = rivals(rows, RIVAL_BLOCKS)
+    if not found:
+        return []
+    lines = ["## Ahead, even, behind", "", "Of `standard` beside each rival.", ""]
+    lines += ["| rival | block | " + " | ".join(figure.words for figure in JUDGED) + " |"]
+    lines += ["|---|---|" + "---|" * len(JUDGED)]
+    for rival in found:
+        cells = [_SIGNS.get(rival.by_figure.get(figure.key, ""), "") for figure in JUDGED]
+        lines.append(f"| {rival.rival} | {rival.block.replace('-', ' ')} | " + " | ".join(cells) + " |")
+    lines.append("")
+    for rival in found:
+        if len(names := set(rival.variants.values())) > 1:
+            by_row = {name: [BY_KEY[key].words for key, row in rival.variants.items() if row == name] for name in sorted(names)}
+            stands = "; ".join(f"`{name}` in {', '.join(words)}" for name, words in by_row.items())
+            lines += [f"{rival.rival} stands by its best row in each figure: {stands}.", ""]
+    return lines
 
 
 def _goal_table(table: dict[str, Any]) -> list[str]:
@@ -149,28 +174,62 @@ def _goal_table(table: dict[str, Any]) -> list[str]:
     return [*lines, ""]
 
 
-def _seed_table(rows: Sequence[dict[str, Any]]) -> list[str]:
+def _label_table(rows: Sequence[_Row]) -> list[str]:
+    """Of the default tier, or the first of ours that is there."""
+    row = next((row for row in rows if row.get("by_label")), None)
+    if row is None:
+        return []
+    lines = [f"## By label: {row['name']}", "", "What nine cells in ten of the label keep; logarithms as they are.", ""]
+    lines += ["| label | " + " | ".join(figure.words for figure in JUDGED) + " |", "|---|" + "---|" * len(JUDGED)]
+    for label, figures in row["by_label"].items():
+        cells = [_cell(figures.get(figure.key), 0 if figure.over_labels else 2) for figure in JUDGED]
+        lines.append(f"| {label} | " + " | ".join(cells) + " |")
+    return [*lines, ""]
+
+
+def _worst_table(rows: Sequence[_Row]) -> list[str]:
+    shown = [row for row in rows if row["block"] in (OURS, "reference") and row.get("worst_cells")]
+    if not shown:
+        return []
+    lines = ["## The worst cells", "", "Of each row, the three that are furthest beyond what nine cells in ten should keep.", ""]
+    lines += ["| row | label | motion | m/s | N | degrees | figure | error | times the limit |"]
+    lines += ["|---|---|---|---|---|---|---|---|---|"]
+    for row in shown:
+        for cell in row["worst_cells"]:
+            lines.append(
+                f"| {_name(row)} | {cell['label']} | {cell['kind']} | {cell['speed_mps']:g} | {cell['force_newtons']:g} "
+                f"| {cell['direction_degrees']:g} | {BY_KEY[cell['figure']].words} | {cell['value']:.3g} "
+                f"| {cell['times_limit']:.1f} |"
+            )
+    return [*lines, ""]
+
+
+def _seed_table(rows: Sequence[_Row]) -> list[str]:
     repeated = [row for row in rows if "by_seed" in row]
     if not repeated:
         return []
-    count = repeated[0]["by_seed"]["recordings"]
+    counts = sorted({row["by_seed"]["recordings"] for row in repeated})
     lines = [
         "## How much is chance",
         "",
-        f"Rows whose training was repeated with other seeds, each measured on the same {count} recordings (of every label "
-        "another quarter of its conditions), so that the first seed's figures are others than above.",
+        f"Rows whose training was repeated with other seeds, each measured on the same {' or '.join(map(str, counts))} recordings "
+        "(of every label another quarter of its conditions), so that the first seed's figures are others than above.",
         "",
-        "| row | seeds | level dB | level p90 dB | GFC | LSD dB |",
-        "|---|---|---|---|---|---|",
+        "| row | seeds | level dB | level p90 dB | GFC | LSD dB | told apart % | crest dB | kurtosis, ln | modulation dB |",
+        "|---|---|---|---|---|---|---|---|---|---|",
     ]
     for row in repeated:
         seeds = row["by_seed"]
         cells = [
             _values(seeds["level_error_db"], 2, True), _values(seeds["level_error_p90_db"], 1),
             _values(seeds["gfc_recording"], 3), _values(seeds["lsd_db"], 2),
+            *(_values(seeds["medians"][key], digits) for key, digits in _SEED_MEDIANS),
         ]  # fmt: skip
         lines.append(f"| {row['name']} | {', '.join(map(str, seeds['seeds']))} | " + " | ".join(cells) + " |")
     return [*lines, ""]
+
+
+_SEED_MEDIANS = (("told_apart_percent", 0), ("crest_error_db", 1), ("kurtosis_log_ratio", 2), ("modulation_error_db", 1))
 
 
 def _values(values: Sequence[float | None], digits: int, signed: bool = False) -> str:
@@ -199,35 +258,3 @@ def _fast_table(rows: Sequence[dict[str, Any]]) -> list[str]:
             "",
         ]
     return lines
-
-
-def draw_spectra(pairs: Sequence[ReferencePair], waves: Sequence[NDArray[np.float32]], path: Path, model_sha256: str) -> None:
-    """Mean power spectra of recordings and of the default tier's closed loop, one panel a label."""
-    import matplotlib
-
-    matplotlib.use("Agg")
-    from matplotlib import pyplot
-
-    labels = list(dict.fromkeys(pair.condition.label for pair in pairs))
-    columns = 5
-    count = -(-len(labels) // columns)
-    figure, axes = pyplot.subplots(count, columns, figsize=(15.0, 2.5 * count), sharex=True, squeeze=False)
-    frequency = np.fft.rfftfreq(256, 1.0 / 2000.0)
-    for axis, label in zip(axes.flat, labels, strict=False):
-        rows = [index for index, pair in enumerate(pairs) if pair.condition.label == label]
-        for name, colour, chosen in (
-            ("recorded", "#3a3a3a", [pairs[index].recorded for index in rows]),
-            ("generated", "#d1495b", [waves[index] for index in rows]),
-        ):
-            power = np.mean([power_spectrum(wave[400:], 256) for wave in chosen], axis=0)
-            axis.plot(frequency[2:], 10.0 * np.log10(power[2:] + 1e-9), color=colour, linewidth=1.2, label=name)
-        axis.set_title(label, fontsize=10)
-        axis.grid(alpha=0.25)
-    axes[0][0].legend(fontsize=8)
-    for axis in axes[-1]:
-        axis.set_xlabel("Hz")
-    for row in axes:
-        row[0].set_ylabel("dB")
-    figure.tight_layout()
-    figure.savefig(path, dpi=90, metadata=picture_metadata(model_sha256))
-    pyplot.close(figure)

@@ -64,7 +64,7 @@ def run_closed_loop(
     seed: int,
     advance: Callable[[int], None] = lambda count: None,
 ) -> ClosedLoopRun:
-    """Render `motions` [n, samples, 3] for `embeddings` [n, 64], from silence.
+    """Render `motions` [n, samples, 3] for `embeddings` [n, 64], or [n, hops, 64] where labels change, from silence.
 
     Each segment is told the mean motion of the hop before it, which is all that a tracker can know, and takes over
     by the engine's splice. The rib phase is counted from these motions, as the engine counts it.
@@ -75,18 +75,19 @@ def run_closed_loop(
     wave = out[:, SEGMENT_SAMPLES:]
     starts = hop_positions(samples, update_rate_hz)
     generator = np.random.default_rng(seed)
-    wave_vectors = embeddings[:, -4:].astype(np.float64).reshape(rows, 2, 2)
-    phase = np.zeros((rows, 2))
+    wave_vectors, phase = np.zeros((rows, 2, 2)), np.zeros((rows, 2))
     told = np.zeros((rows, 3), dtype=np.float32)
     before = 0
-    for start in starts:
+    for hop, start in enumerate(starts):
         travelled_mm = told[:, :2].astype(np.float64) * (1000.0 * (start - before) / SAMPLE_RATE_HZ)
         phase = np.mod(phase + np.einsum("rkc,rc->rk", wave_vectors, travelled_mm), 1.0)
+        embedding = embeddings if embeddings.ndim == 2 else embeddings[:, hop]
+        wave_vectors = embedding[:, -4:].astype(np.float64).reshape(rows, 2, 2)
         known = motions[:, before:start] if start > before else motions[:, :1]
         past = out[:, start : start + SEGMENT_SAMPLES].copy()
         noise = generator.standard_normal((rows, SEGMENT_SAMPLES)).astype(np.float32)
         told = known.mean(axis=1).astype(np.float32)
-        segment = source.generate(embeddings, told, past, noise, phase.astype(np.float32))
+        segment = source.generate(embedding, told, past, noise, phase.astype(np.float32))
         if start > 0:
             segment = spliced(wave[:, start : start + SEGMENT_SAMPLES], segment)
         wave[:, start : start + SEGMENT_SAMPLES] = segment

@@ -17,6 +17,7 @@ from haptoflow_training.evaluation.closed_loop import SegmentSource, hop_positio
 from haptoflow_training.export.trained_tier import TrainedTier
 from haptoflow_training.models.unit_scale import scaled_previous
 from haptoflow_training.training.batches import Store, StoredRecording
+from haptoflow_training.training.held_out import HeldOut
 
 _Floats = NDArray[np.float32]
 
@@ -37,12 +38,17 @@ def hops(store: Store) -> int:
 
 
 def level_offsets_db(
-    source: SegmentSource, embeddings: _Floats, store: Store, advance: Callable[[int], None] = lambda count: None
+    source: SegmentSource,
+    embeddings: _Floats,
+    store: Store,
+    held_out: HeldOut,
+    advance: Callable[[int], None] = lambda count: None,
 ) -> list[float]:
     """By label, generated level over recorded in dB, in closed loop at 72 Hz: the mean over classes of speed (borders
     20 mm/s to 1.6 m/s), so that a speed at which hands linger counts no more than another; 0 where nothing was heard.
 
-    embeddings [labels, 64]. Recordings that the test split keeps are left alone.
+    embeddings [labels, 64]. Recordings that the test split keeps are left alone, and windows of which a sample lies in a
+    held-out band are not compared.
     """
     chosen = _chosen(store)
     longest = max(recording.length for recording in chosen)
@@ -56,11 +62,13 @@ def level_offsets_db(
         recorded = store.waveform[_span(recording)] * store.peak_mps2
         motion = store.motion[_span(recording)]
         count = recording.length // _WINDOW_SAMPLES
+        held = held_out.holds(motion[: count * _WINDOW_SAMPLES]).reshape(count, _WINDOW_SAMPLES).any(axis=1)
+        compared = np.flatnonzero(~held[_SETTLING_WINDOWS:]) + _SETTLING_WINDOWS
         for values, into in ((wave, made), (recorded, heard)):
             windows = values[: count * _WINDOW_SAMPLES].reshape(count, _WINDOW_SAMPLES)
-            into.append(np.square(windows, dtype=np.float64).mean(axis=1)[_SETTLING_WINDOWS:])
+            into.append(np.square(windows, dtype=np.float64).mean(axis=1)[compared])
         speed = np.hypot(motion[:, 0], motion[:, 1])[: count * _WINDOW_SAMPLES].reshape(count, _WINDOW_SAMPLES)
-        speeds.append(speed.mean(axis=1)[_SETTLING_WINDOWS:])
+        speeds.append(speed.mean(axis=1)[compared])
         owners.append(np.full(len(speeds[-1]), recording.label_index))
     powers = np.stack([np.concatenate(made), np.concatenate(heard)], axis=1)
     classes = np.digitize(np.concatenate(speeds), _SPEED_BORDERS_MPS)

@@ -7,6 +7,7 @@ import re
 from pathlib import Path
 
 from haptoflow_training.errors import InputError
+from haptoflow_training.export.model_file import read_model_file
 
 SHIPPED_MODEL = Path("Packages") / "com.haptoflow.runtime" / "Runtime" / "Models" / "default.haptoflow"
 # The key of a PNG file's text; JavaScript and C# write the same.
@@ -16,6 +17,12 @@ _PICTURE_KEY = "Model-SHA-256"
 def sha256_of(path: Path) -> str:
     """Of a file's bytes, in hexadecimal."""
     return hashlib.sha256(path.read_bytes()).hexdigest()
+
+
+def graphs_sha256(path: Path) -> str:
+    """Of what a model file computes with, without its header, which holds figures that are measured with it."""
+    graphs = read_model_file(path).graphs
+    return hashlib.sha256(b"".join(graphs[name] for name in sorted(graphs))).hexdigest()
 
 
 def model_line(sha256: str) -> str:

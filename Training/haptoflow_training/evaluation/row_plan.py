@@ -10,23 +10,35 @@ from typing import Any
 from haptoflow_training.errors import InputError
 from haptoflow_training.evaluation.reference_rows import REFERENCE_ROWS
 
+AS_PUBLISHED, GIVEN_THE_SAME, OURS, ABLATION, REFERENCE = (
+    "as-published", "given-the-same", "ours", "ablation", "reference",
+)  # fmt: skip
+BLOCKS = (OURS, AS_PUBLISHED, GIVEN_THE_SAME, ABLATION, REFERENCE)
+RIVAL_BLOCKS = (AS_PUBLISHED, GIVEN_THE_SAME)
+
 
 @dataclass(frozen=True)
 class PlannedRow:
-    """model: a .haptoflow file from the repository's root, or the name of a training in the plan's own folder (its
+    """block: `ours`, `as-published` (a rival in its own form), `given-the-same` (a rival with our inputs and budget),
+    `ablation` or `reference`. rival: whose row it is, in words; rows of one network at several numbers of steps are one
+    rival and bear the same name (default: the row's own). family: colours the chart.
+    model: a .haptoflow file from the repository's root, or the name of a training in the plan's own folder (its
     TOML file without the ending); empty for a reference row. seeds: of the training; those after the first are measured
-    on every fourth recording, to tell how much of a row is chance. quick: measured by --quick too. extended: the long
-    measurements too (ten minutes of drift, speeds by update rates, level across speed). time_only: random weights of a
-    true size, no accuracy is measured."""
+    on every fourth recording, to tell how much of a row is chance. seeds_model: the training that further seeds are of,
+    where `model` is a file. quick: measured by --quick too. extended: the long measurements too (ten minutes of drift,
+    speeds by update rates, level across speed). time_only: random weights of a true size, no accuracy is measured."""
 
     name: str
-    family: str
+    block: str
+    rival: str = ""
+    family: str = ""
     model: str = ""
     tier: str = ""
     solver: str = "tier"
     steps: int = 0
     evaluations: int = 0
     seeds: tuple[int, ...] = (1,)
+    seeds_model: str = ""
     quick: bool = False
     extended: bool = False
     time_only: bool = False
@@ -34,6 +46,14 @@ class PlannedRow:
     @property
     def is_reference(self) -> bool:
         return self.name in REFERENCE_ROWS
+
+    @property
+    def rival_name(self) -> str:
+        return self.rival or self.name
+
+    def model_of(self, seed: int) -> str:
+        """The file or the training that a seed of the row is measured with."""
+        return self.seeds_model if self.seeds_model and seed != self.seeds[0] else self.model
 
 
 def load_plan(path: Path) -> list[PlannedRow]:
@@ -60,10 +80,16 @@ def load_plan(path: Path) -> list[PlannedRow]:
 
 
 def _row(entry: dict[str, Any], where: str) -> PlannedRow:
-    for key in ("name", "family"):
+    for key in ("name", "block"):
         if not isinstance(entry.get(key), str):
             raise InputError(f"{where}: key '{key}' is missing, expected text")
     row = PlannedRow(**{**entry, "seeds": tuple(entry.get("seeds", (1,)))})
+    if row.block not in BLOCKS:
+        raise InputError(f"{where}: key 'block' is '{row.block}', expected one of {', '.join(BLOCKS)}")
+    if row.is_reference != (row.block == REFERENCE):
+        raise InputError(f"{where}: only {', '.join(REFERENCE_ROWS)} are of the block '{REFERENCE}', and always")
     if not row.is_reference and not row.model:
         raise InputError(f"{where}: key 'model' is missing; only {', '.join(REFERENCE_ROWS)} have none")
+    if not row.seeds:
+        raise InputError(f"{where}: key 'seeds' is empty, expected a number at least")
     return row

@@ -1,6 +1,7 @@
 """Measured rows as files: what is measured once need not be again, on another machine neither.
 
-A row's file holds its summary and, by recording, the figures that tell where it is good and where it is not.
+A row's file holds, by recording, every figure that was measured there; what is summed up of them is not kept, so that
+it can be summed up in another way without measuring again.
 """
 
 from __future__ import annotations
@@ -9,31 +10,33 @@ import json
 from pathlib import Path
 from typing import Any
 
+from haptoflow_training.evaluation.cell_figures import IDENTITY
+from haptoflow_training.evaluation.judged_figures import JUDGED
 from haptoflow_training.evaluation.row_plan import PlannedRow
 from haptoflow_training.evaluation.workplace import Workplace
 from haptoflow_training.training.run_log import write_text
 
-_IDENTITY = ("label", "kind", "speed_mps", "force_newtons")
-_FIGURES = ("level_error_db", "gfc_recording", "lsd_db", "f0_error_percent", "harmonic_share")
+_UNJUDGED = ("gfc_segment", "rmse", "band_error_db", "continuity", "recorded_kurtosis", "change_level_error_db", "change_crest_error_db")
+_COLUMNS = (*IDENTITY, *(figure.key for figure in JUDGED), *_UNJUDGED)
 _DIGITS = 4
 
 
 def write_row(path: Path, result: dict[str, Any]) -> None:
     """Write a row, its recordings as a table: columns, then a line for each."""
-    columns = (*_IDENTITY, *_FIGURES)
-    recordings = [[_rounded(entry.get(column)) for column in columns] for entry in result.get("conditions", [])]
+    recordings = [[_rounded(entry.get(column)) for column in _COLUMNS] for entry in result.get("conditions", [])]
     head = {key: value for key, value in result.items() if key != "conditions"}
-    text = json.dumps({**head, "columns": columns, "conditions": []}, indent=2, ensure_ascii=False)
+    text = json.dumps({**head, "columns": _COLUMNS, "conditions": []}, indent=2, ensure_ascii=False)
     lines = ",\n".join(f"    {json.dumps(line, ensure_ascii=False)}" for line in recordings)
     path.parent.mkdir(parents=True, exist_ok=True)
     write_text(path, text.replace('"conditions": []', f'"conditions": [\n{lines}\n  ]') + "\n")
 
 
 def read_row(path: Path) -> dict[str, Any]:
-    """A row as it was measured; of its recordings, what `write_row` keeps."""
+    """A row as it was measured, to four digits."""
     stored: dict[str, Any] = json.loads(path.read_text(encoding="utf-8"))
     columns = stored.pop("columns")
-    stored["conditions"] = [dict(zip(columns, line, strict=True)) for line in stored["conditions"]]
+    cells = [dict(zip(columns, line, strict=True)) for line in stored["conditions"]]
+    stored["conditions"] = [{key: value for key, value in cell.items() if value is not None} for cell in cells]
     return stored
 
 

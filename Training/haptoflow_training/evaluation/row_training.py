@@ -20,8 +20,8 @@ def train_models(place: Workplace, rows: Sequence[tuple[PlannedRow, int]], lanes
 
     InputError names the log of a training that failed, as one does whose folder belongs to another configuration.
     """
-    trained = [(row, seed) for row, seed in rows if not (row.is_reference or is_of_repository(row))]
-    wanted = {place.model_file(row, seed): (row.model, seed) for row, seed in trained}
+    trained = [(row, seed) for row, seed in rows if not (row.is_reference or is_of_repository(row, seed))]
+    wanted = {place.model_file(row, seed): (row.model_of(seed), seed) for row, seed in trained}
     jobs = [
         _training(place, model, seed, out)
         for out, (model, seed) in wanted.items()

@@ -27,9 +27,9 @@ class Workplace:
 
     def model_file(self, row: PlannedRow, seed: int) -> Path:
         """The row's model: of the repository, or as its training exports it."""
-        if is_of_repository(row):
+        if is_of_repository(row, seed):
             return self.root / row.model
-        return self.work / "models" / f"{row.model}-{seed}.haptoflow"
+        return self.work / "models" / f"{row.model_of(seed)}-{seed}.haptoflow"
 
     def config_file(self, model: str) -> Path:
         """The configuration that a trained model is made from."""
@@ -51,11 +51,12 @@ class Workplace:
 
     def configuration_crc32(self, row: PlannedRow, seed: int) -> str:
         """Of how a row's model is trained; empty where nothing is trained for it."""
-        if row.is_reference or is_of_repository(row):
+        if row.is_reference or is_of_repository(row, seed):
             return ""
-        return f"{zlib.crc32(json.dumps(self.configuration(row.model, seed), sort_keys=True).encode()):08x}"
+        described = json.dumps(self.configuration(row.model_of(seed), seed), sort_keys=True)
+        return f"{zlib.crc32(described.encode()):08x}"
 
 
-def is_of_repository(row: PlannedRow) -> bool:
-    """Whether the row's model is a file of the repository, and not one that the evaluation trains."""
-    return row.model.endswith(".haptoflow")
+def is_of_repository(row: PlannedRow, seed: int) -> bool:
+    """Whether the model of a row's seed is a file of the repository, and not one that the evaluation trains."""
+    return row.model_of(seed).endswith(".haptoflow")

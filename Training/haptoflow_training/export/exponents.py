@@ -8,6 +8,7 @@ import numpy as np
 
 from haptoflow_training.export.recorded_windows import draw_windows
 from haptoflow_training.training.batches import Store
+from haptoflow_training.training.held_out import HeldOut
 
 _SLIDING_MPS = 0.008
 
@@ -30,11 +31,13 @@ def _centroid_hz(waves: np.ndarray, rate_hz: float) -> np.ndarray:
     return (power * frequencies[band]).sum(axis=1) / (power.sum(axis=1) + 1e-12)
 
 
-def fit_exponents(store: Store, label_index: int, *, periodic: bool, seed: int) -> LabelExponents:
+def fit_exponents(
+    store: Store, label_index: int, *, periodic: bool, seed: int, held_out: HeldOut
+) -> LabelExponents:
     """Least squares of log RMS over log speed and log force in the upper half of the recorded speeds, where the
     law will be continued; the frequency exponent of a periodic label is 1 (v / wavelength), that of another is
     the slope of the log spectral centroid."""
-    windows = draw_windows(store, label_index, samples=400, count=3000, seed=seed)
+    windows = draw_windows(store, label_index, samples=400, count=3000, seed=seed, held_out=held_out)
     sliding = (windows.speed_mps > _SLIDING_MPS) & (windows.unsteadiness < 0.35) & (windows.motion[:, 2] > 0.05)
     if sliding.sum() >= 40:
         sliding &= windows.speed_mps >= np.median(windows.speed_mps[sliding])

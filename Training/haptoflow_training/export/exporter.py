@@ -27,6 +27,7 @@ from haptoflow_training.models.representation import CodecRepresentation
 from haptoflow_training.models.velocity_field import parameter_count
 from haptoflow_training.training.batches import SEGMENT_SAMPLES, SegmentBatches, Store
 from haptoflow_training.training.config import TrainingConfig
+from haptoflow_training.training.held_out import HeldOut
 from haptoflow_training.training.run_log import source_commit
 
 _PERCENTILES = (5, 25, 50, 75, 95)
@@ -60,8 +61,8 @@ def _range(store: Store) -> dict[str, Any]:
     }
 
 
-def _label_entry(store: Store, row: int, info: LabelInfo, seed: int) -> dict[str, Any]:
-    exponents = fit_exponents(store, row, periodic=info.periodic, seed=seed)
+def _label_entry(store: Store, row: int, info: LabelInfo, seed: int, held_out: HeldOut) -> dict[str, Any]:
+    exponents = fit_exponents(store, row, periodic=info.periodic, seed=seed, held_out=held_out)
     return {
         "name": info.name,
         "embedding_row": row,
@@ -122,7 +123,7 @@ def _header(
         "normalisation": {"unit": "m/s^2", "peak_mps2": float(store.peak_mps2)},
         "range": _range(store),
         "embedding_size": EMBEDDING_SIZE,
-        "labels": [_label_entry(store, row, info, config.seed) for row, info in enumerate(infos)],
+        "labels": [_label_entry(store, row, info, config.seed, HeldOut.of(config.batch)) for row, info in enumerate(infos)],
         "tiers": [_tier_entry(tier) for tier in tiers],
         "default_tier": config.tier,
         "seed_bank": {"samples": SEED_SAMPLES, "tensor": "seeds", "entries": seed_entries},
@@ -173,7 +174,7 @@ def export_run(
     config, model = default.config, default.model
     if [info.name for info in infos] != default.labels:
         raise InputError(f"{folder}: trained on labels {default.labels}, described are {[info.name for info in infos]}")
-    bank = build_seed_bank(store, seed=config.seed)
+    bank = build_seed_bank(store, seed=config.seed, held_out=HeldOut.of(config.batch))
     run_file = folder / "run.json"
     measurements = json.loads(run_file.read_text(encoding="utf-8")) if run_file.exists() else {}
     measurements.pop("configuration", None)

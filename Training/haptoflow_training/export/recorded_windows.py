@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from haptoflow_training.training.batches import Store
+from haptoflow_training.training.held_out import HeldOut, clear_spans
 
 
 @dataclass(frozen=True)
@@ -28,8 +29,11 @@ class RecordedWindows:
         return np.sqrt(np.square(self.waves).mean(axis=1))
 
 
-def draw_windows(store: Store, label_index: int, *, samples: int, count: int, seed: int) -> RecordedWindows:
-    """`count` random windows of the label's training recordings, wholly inside one recording each."""
+def draw_windows(
+    store: Store, label_index: int, *, samples: int, count: int, seed: int, held_out: HeldOut
+) -> RecordedWindows:
+    """`count` random windows of the label's training recordings, wholly inside one recording each and outside the
+    held-out bands."""
     recordings = [
         recording
         for recording in store.recordings
@@ -37,11 +41,18 @@ def draw_windows(store: Store, label_index: int, *, samples: int, count: int, se
     ]
     if not recordings:
         raise ValueError(f"label '{store.labels[label_index]}' has no training recording of {samples} samples")
+    spans = clear_spans(
+        store.motion,
+        np.array([recording.start for recording in recordings], dtype=np.int64),
+        np.array([recording.length for recording in recordings], dtype=np.int64),
+        held_out,
+    )
+    room = np.maximum(spans.lengths - samples, 0)
+    if not room.any():
+        raise ValueError(f"label '{store.labels[label_index]}' has no {samples} samples outside the held-out bands")
     generator = np.random.default_rng([seed, label_index])
-    room = np.array([recording.length - samples for recording in recordings])
-    chosen = generator.choice(len(recordings), size=count, p=room / room.sum())
-    starts = np.array([recording.start for recording in recordings])[chosen]
-    starts = starts + (generator.random(count) * room[chosen]).astype(np.int64)
+    chosen = generator.choice(len(room), size=count, p=room / room.sum())
+    starts = spans.starts[chosen] + (generator.random(count) * room[chosen]).astype(np.int64)
     windows = starts[:, None] + np.arange(samples)[None, :]
     motion = store.motion[windows]
     speed = np.hypot(motion[..., 0], motion[..., 1])

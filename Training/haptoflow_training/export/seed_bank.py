@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from haptoflow_training.export.recorded_windows import RecordedWindows, draw_windows
 from haptoflow_training.training.batches import Store
+from haptoflow_training.training.held_out import HeldOut
 
 SEED_SAMPLES = 400
 _SPEEDS_MPS = (0.008, 0.02, 0.04, 0.07, 0.12, 0.2, 0.35, 0.6, 0.9, 1.3)
@@ -36,15 +37,15 @@ def _condition_distance(windows: RecordedWindows, speed_mps: float, force_newton
     )
 
 
-def build_seed_bank(store: Store, *, seed: int, candidates: int = 3000) -> SeedBank:
+def build_seed_bank(store: Store, *, seed: int, held_out: HeldOut, candidates: int = 3000) -> SeedBank:
     """For every label, the steadiest recorded window nearest to each point of a grid of speeds and forces.
 
-    Grid points that no recording comes near are left out; a label keeps at least its steadiest window.
+    Grid points that no recording outside the held-out bands comes near are left out; a label keeps at least its steadiest window.
     """
     waves: list[NDArray[np.float32]] = []
     entries: list[dict[str, object]] = []
     for index, label in enumerate(store.labels):
-        windows = draw_windows(store, index, samples=SEED_SAMPLES, count=candidates, seed=seed)
+        windows = draw_windows(store, index, samples=SEED_SAMPLES, count=candidates, seed=seed, held_out=held_out)
         chosen: set[int] = set()
         for speed_mps in _SPEEDS_MPS:
             for force_newtons in _FORCES_NEWTONS:

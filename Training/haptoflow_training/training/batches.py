@@ -13,11 +13,10 @@ from torch import Tensor
 
 from haptoflow_training.errors import InputError
 from haptoflow_training.training.config import BatchConfig
+from haptoflow_training.training.held_out import HeldOut, clear_spans
 
 SEGMENT_SAMPLES = 200
 LEVEL_WINDOW_SAMPLES = 100
-# A recording that lies wholly inside a held-out band is drawn from after this many tries all the same.
-_HELD_OUT_TRIES = 12
 # Where inside a segment its motion is told, for the level to follow: every 10 ms, both ends included.
 _KNOTS = np.linspace(0, SEGMENT_SAMPLES - 1, 11).round().astype(np.int64)
 
@@ -80,7 +79,8 @@ class SegmentBatch:
 class SegmentBatches:
     """Draws batches: label uniform but for the emphasised, protocol by share, recording uniform, position uniform.
 
-    Only windows that lie wholly inside recordings of `split` are drawn, so nothing leaks between splits.
+    Only windows that lie wholly inside recordings of `split` and outside the held-out bands are drawn, with their
+    chains, so nothing leaks between splits, and what is held out is never seen.
     """
 
     def __init__(self, store: Store, split: str, config: BatchConfig, seed: int) -> None:
@@ -98,11 +98,17 @@ class SegmentBatches:
         self._lengths = np.array([recording.length for recording in long_enough], dtype=np.int64)
         self._labels = np.array([recording.label_index for recording in long_enough], dtype=np.int64)
         machine = np.array([recording.protocol == "machine" for recording in long_enough])
+        self._spans = clear_spans(store.motion, self._starts, self._lengths, HeldOut.of(config))
         self._groups = [
             tuple(np.flatnonzero((self._labels == label) & chosen) for chosen in (machine, ~machine))
             for label in range(len(store.labels))
         ]
-        self._present = np.array([label for label, groups in enumerate(self._groups) if any(map(len, groups))])
+        usable = self._room(2 * SEGMENT_SAMPLES)[1] > 0
+        if not usable.any():
+            raise ValueError(f"no recording of split '{split}' has two segments outside the held-out bands")
+        self._present = np.array(
+            [label for label, groups in enumerate(self._groups) if any(usable[group].any() for group in groups)]
+        )
         self._shares = self._label_shares()
 
     def _label_shares(self) -> NDArray[np.float64]:
@@ -114,41 +120,42 @@ class SegmentBatches:
         weights = np.array([self._config.emphasis if name in emphasised else 1.0 for name in names])
         return weights / weights.sum()
 
-    def _draw_recordings(self, count: int) -> NDArray[np.int64]:
-        labels = self._generator.choice(self._present, size=count, p=self._shares)
+    def _room(self, samples: int) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+        """Places at which a window of so many samples fits: of each clear span, and of each recording in all."""
+        by_span = np.maximum(self._spans.lengths - samples, 0)
+        by_recording = np.bincount(self._spans.owners, by_span, len(self._starts)).astype(np.int64)
+        return by_span, by_recording
+
+    def _draw_recordings(self, count: int, usable: NDArray[np.bool_] | None = None) -> NDArray[np.int64]:
+        """usable: recordings with room for what is wanted. A label without any is left out of the draw."""
+        groups = self._groups
+        present, shares = self._present, self._shares
+        if usable is not None:
+            groups = [tuple(group[usable[group]] for group in pair) for pair in groups]
+            kept = np.array([any(map(len, groups[label])) for label in present])
+            present, shares = present[kept], shares[kept] / shares[kept].sum()
+        labels = self._generator.choice(present, size=count, p=shares)
         from_machine = self._generator.random(count) < self._config.machine_share
         position = self._generator.random(count)
         chosen = np.empty(count, dtype=np.int64)
         for row, label in enumerate(labels):
-            machine, hand = self._groups[label]
+            machine, hand = groups[label]
             group = machine if (from_machine[row] and len(machine)) or not len(hand) else hand
             chosen[row] = group[int(position[row] * len(group))]
         return chosen
 
-    def _draw_split_points(self, recordings: NDArray[np.int64], lead_in: int) -> NDArray[np.int64]:
-        """Where previous waveform and segment meet: `lead_in` samples and a segment after the recording's start or later,
-        outside the held-out bands."""
+    def _draw_split_points(self, count: int, lead_in: int) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+        """(recordings, where previous waveform and segment meet): from `lead_in` samples and a segment before the point
+        to a segment after it, everything lies in one recording and outside the held-out bands."""
         before = lead_in + SEGMENT_SAMPLES
-        room = self._lengths[recordings] - before - SEGMENT_SAMPLES
-        first = self._starts[recordings] + before
-        points = first + (self._generator.random(len(recordings)) * room).astype(np.int64)
-        for _ in range(_HELD_OUT_TRIES):
-            held = np.flatnonzero(self._is_held_out(points))
-            if not len(held):
-                break
-            points[held] = first[held] + (self._generator.random(len(held)) * room[held]).astype(np.int64)
-        return points
-
-    def _is_held_out(self, points: NDArray[np.int64]) -> NDArray[np.bool_]:
-        motion = self._store.motion[points]
-        held = np.zeros(len(points), dtype=np.bool_)
-        for value, band in (
-            (np.hypot(motion[:, 0], motion[:, 1]), self._config.held_out_speed_mps),
-            (motion[:, 2], self._config.held_out_force_newtons),
-        ):
-            if band:
-                held |= (value >= band[0]) & (value < band[1])
-        return held
+        by_span, by_recording = self._room(before + SEGMENT_SAMPLES)
+        recordings = self._draw_recordings(count, by_recording > 0)
+        # All places of all spans in one row, a recording's side by side.
+        ends = np.cumsum(by_span)
+        first = (np.cumsum(by_recording) - by_recording)[recordings]
+        place = first + (self._generator.random(count) * by_recording[recordings]).astype(np.int64)
+        span = np.searchsorted(ends, place, side="right")
+        return recordings, self._spans.starts[span] + before + place - (ends - by_span)[span]
 
     def draw_chains(self, count: int) -> SegmentBatch:
         """A fresh batch whose previous waveforms can be replaced by what the network makes over several hops.
@@ -158,11 +165,10 @@ class SegmentBatches:
         """
         config, generator = self._config, self._generator
         hop = int(generator.integers(config.hop_samples[0], config.hop_samples[1] + 1))
-        longest = (int(self._lengths.min()) - 2 * SEGMENT_SAMPLES - 1) // hop
+        longest = (self._longest_common_span() - 2 * SEGMENT_SAMPLES - 1) // hop
         hops = min(int(generator.integers(config.chain_hops[0], config.chain_hops[1] + 1)), longest)
         lead_in = hops * hop
-        recordings = self._draw_recordings(count)
-        split_point = self._draw_split_points(recordings, lead_in)
+        recordings, split_point = self._draw_split_points(count, lead_in)
         batch = self._pairs(recordings, split_point, np.full(count, hop))
         windows = split_point[:, None] + np.arange(-lead_in - SEGMENT_SAMPLES, 0)[None, :]
         start = self._store.waveform[windows[:, :SEGMENT_SAMPLES]] * np.float32(self._store.peak_mps2)
@@ -176,11 +182,15 @@ class SegmentBatches:
         )
         return dataclasses.replace(batch, chain=chain)
 
+    def _longest_common_span(self) -> int:
+        """Samples that every label has in one piece."""
+        labels = self._labels[self._spans.owners]
+        return int(min(self._spans.lengths[labels == label].max() for label in self._present))
+
     def draw(self, count: int) -> SegmentBatch:
         """A fresh batch of `count` pairs."""
         config, generator = self._config, self._generator
-        recordings = self._draw_recordings(count)
-        split_point = self._draw_split_points(recordings, 0)
+        recordings, split_point = self._draw_split_points(count, 0)
         hop = generator.integers(config.hop_samples[0], config.hop_samples[1] + 1, size=count)
         return self._pairs(recordings, split_point, hop)
 

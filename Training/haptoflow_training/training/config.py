@@ -86,8 +86,9 @@ class OptimiserConfig:
 class BatchConfig:
     """How training pairs are drawn.
 
-    held_out_speed_mps, held_out_force_newtons: [from, to]: pairs whose segment begins inside the band are not drawn;
-    empty for none.
+    held_out_speed_mps, held_out_force_newtons, held_out_direction_degrees: [from, to]: nothing is drawn, nor read for
+    levels, seeds and exponents, of which a sample lies inside the band; empty for none. Directions are counter-clockwise
+    from the surface's first axis.
     hop_samples: the condition of a pair is the mean motion over this many leading samples of the segment, drawn
     from [min, max] (the hops of 120 Hz to 30 Hz updates). silence_probability: previous waveform zeroed, as at
     touch-down. machine_share: share of pairs from machine recordings where both
@@ -107,6 +108,7 @@ class BatchConfig:
     emphasis: float = 1.0
     held_out_speed_mps: tuple[float, ...] = ()
     held_out_force_newtons: tuple[float, ...] = ()
+    held_out_direction_degrees: tuple[float, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -264,6 +266,7 @@ def _check(config: TrainingConfig, path: Path) -> None:
             for name, band in (
                 ("held_out_speed_mps", config.batch.held_out_speed_mps),
                 ("held_out_force_newtons", config.batch.held_out_force_newtons),
+                ("held_out_direction_degrees", config.batch.held_out_direction_degrees),
             )
         ),
         (

@@ -152,12 +152,13 @@ def spectra(past: Tensor, segment: Tensor) -> Spectra:
 def energy_distance_loss(
     recorded: Spectra,
     drawn: tuple[Spectra, Spectra],
+    weight: Tensor,
     *,
     waves: tuple[Tensor, ...] | None,
     lines: tuple[Tensor, ...],
     envelopes: tuple[list[Tensor], list[Tensor], list[Tensor]],
 ) -> Tensor:
-    """The loss of a batch from the spectra of the recording and of two draws, each with its past.
+    """The loss of a batch from the spectra of the recording and of two draws, each with its past; weight [B].
 
     waves: recorded segment and draws [B, 200], where all follow the same past; None where the draws follow a past of
     the network's own, since then the samples have no reason to agree and only spectra are compared.
@@ -170,4 +171,4 @@ def energy_distance_loss(
         loss = loss + energy_score(waves[0], (waves[1], waves[2]), sample_distance)
     loss = loss + _LINE_WEIGHT * energy_score(lines[0], (lines[1], lines[2]), line_distance)
     loss = loss + energy_score(envelopes[0], (envelopes[1], envelopes[2]), envelope_distance)
-    return loss.mean()
+    return (weight * loss).sum() / weight.sum()

@@ -106,30 +106,32 @@ class LabelBalance:
         speed_mps: Tensor,
         recorded: LabelFeatures,
         drawn: tuple[LabelFeatures, LabelFeatures],
+        weight: Tensor,
     ) -> Tensor:
-        """Of a batch; label [B], speed [B].
+        """Of a batch; label [B], speed [B], weight [B] by which segments count, as in the energy distance.
 
         Averages are updated with the batch before they are compared.
         """
         speed_class = torch.bucketize(speed_mps, torch.tensor(_SPEED_BORDERS_MPS))
         group = label * _SPEED_CLASSES + speed_class
         values = 0.5 * (drawn[0].values + drawn[1].values)
-        self._remember(group, recorded, values.detach())
+        counted = weight.unsqueeze(1) * recorded.counted
+        self._remember(group, counted, recorded.values, values.detach())
         error, mean = self._errors()
-        share = (recorded.counted / len(label)) * _SHARES
+        share = (counted / weight.sum()) * _SHARES
         # d/dvalue of (log mean drawn - log mean recorded)^2 / 2, with the batch's share in the mean as weight.
         slope = (error / mean)[group]
         pull = (share * slope * values).sum()
         stated = 0.5 * (share * error[group].square()).sum()
         return pull - pull.detach() + stated
 
-    def _remember(self, group: Tensor, recorded: LabelFeatures, drawn: Tensor) -> None:
-        arrived = torch.zeros_like(self._sums["count"]).index_add_(0, group, recorded.counted)
+    def _remember(self, group: Tensor, counted: Tensor, recorded: Tensor, drawn: Tensor) -> None:
+        arrived = torch.zeros_like(self._sums["count"]).index_add_(0, group, counted)
         kept = torch.exp(-arrived / _MEMORY_SEGMENTS)
         new = {
-            "recorded": recorded.counted * recorded.values,
-            "drawn": recorded.counted * drawn,
-            "count": recorded.counted,
+            "recorded": counted * recorded,
+            "drawn": counted * drawn,
+            "count": counted,
         }
         for name, sums in self._sums.items():
             sums.mul_(kept).index_add_(0, group, new[name])

@@ -24,6 +24,8 @@ from haptoflow_training.training.label_balance import LabelBalance, label_featur
 Objective = Literal["level", "flow", "average-velocity", "reflow", "energy", "own"]
 
 _BALANCE_WEIGHT = 2.0
+# Power of a past in unit scale, and change of the level's logarithm within a segment, beyond which it counts less.
+_LOUD_PAST, _UNSTEADY_LOG_LEVEL = 4.0, 0.4
 
 
 class Losses(nn.Module):
@@ -82,7 +84,8 @@ class Losses(nn.Module):
         embedding = model.embedding(batch.label)
         # The field sees waves of unit scale; it must not move the level to make its own task easier.
         log_level = model.log_level(batch.label, batch.motion).detach()
-        segment = model.representation.encode(self._steady_segment(batch, embedding))
+        steady_segment, unsteadiness = self._steady_segment(batch, embedding)
+        segment = model.representation.encode(steady_segment)
         recorded_previous = scaled_previous(batch.previous, log_level)
         previous = recorded_previous
         if batch.chain is not None:
@@ -119,7 +122,8 @@ class Losses(nn.Module):
         condition = [torch.cat([part, part]) for part in (previous, embedding, batch.motion, phase)]
         first, second = model.one_step(noise, *condition).chunk(2)
         recorded = (recorded_previous, segment)
-        return self._one_step_loss(batch, embedding, recorded, previous, (first, second), phase)
+        weight = _steadiness(unsteadiness, recorded_previous)
+        return self._one_step_loss(batch, embedding, recorded, previous, (first, second), phase, weight)
 
     def _one_step_loss(
         self,
@@ -129,9 +133,10 @@ class Losses(nn.Module):
         past: Tensor,
         drawn: tuple[Tensor, Tensor],
         phase: Tensor,
+        weight: Tensor,
     ) -> Tensor:
         """Of a recording (past and segment) and two draws that follow `past`, [B, 1, 200] each, in unit scale; phase
-        [B, 2]: the rib phase. Every segment counts alike: a weight that knew of a recorded burst would ask for fewer."""
+        [B, 2]: the rib phase; weight [B] of each segment."""
         segments = [wave.squeeze(1) for wave in (recorded[1], *drawn)]
         true = recorded[0].squeeze(1), segments[0]
         # Both draws in one pass here, too.
@@ -142,6 +147,7 @@ class Losses(nn.Module):
         loss = energy_distance_loss(
             heard[0],
             (heard[1], heard[2]),
+            weight,
             waves=None if batch.chain is not None else tuple(segments),
             lines=tuple(partials),
             envelopes=(shapes[0], list(shapes[1]), list(shapes[2])),
@@ -154,7 +160,7 @@ class Losses(nn.Module):
             for spectrum, partial, segment in zip(heard, partials, segments, strict=True)
         ]
         speed_mps = batch.motion[:, 0:2].norm(dim=1)
-        balance = self._balance.loss(batch.label, speed_mps, features[0], (features[1], features[2]))
+        balance = self._balance.loss(batch.label, speed_mps, features[0], (features[1], features[2]), weight)
         return loss + _BALANCE_WEIGHT * balance
 
     def _partials(
@@ -230,13 +236,24 @@ class Losses(nn.Module):
 
         return noise, solve(field, noise, "midpoint", 4), previous, batch
 
-    def _steady_segment(self, batch: SegmentBatch, embedding: Tensor) -> Tensor:
+    def _steady_segment(self, batch: SegmentBatch, embedding: Tensor) -> tuple[Tensor, Tensor]:
         """The segment in unit scale as if the motion went on as it began: each sample is divided by the level of its
-        own moment, since at run time the hand's next tenth of a second is not known."""
+        own moment, since at run time the hand's next tenth of a second is not known. And how far the logarithm of the
+        level goes from that of the condition, [B]."""
         rows, knots, _ = batch.motion_path.shape
         path = batch.motion_path.reshape(rows * knots, 3)
         with torch.no_grad():
             log_level = self.model.level(embedding.repeat_interleave(knots, dim=0), path).reshape(rows, 1, knots)
+            told = self.model.level(embedding, batch.motion).unsqueeze(1)
+            unsteadiness = (log_level - told).abs().amax(dim=(1, 2))
         samples = batch.segment.shape[-1]
         log_level = nn.functional.interpolate(log_level, size=samples, mode="linear", align_corners=True)
-        return batch.segment * torch.exp(-log_level)
+        return batch.segment * torch.exp(-log_level), unsteadiness
+
+
+def _steadiness(unsteadiness: Tensor, previous: Tensor) -> Tensor:
+    """[B]: the weight of a segment by what is known before it: near 1 where the level holds within a few decibels and the
+    past [B, 1, 200] is about as loud as it should be. What a stop or a start leaves in unit scale looks like a blow, and
+    is none. A weight that knew the segment itself would ask for fewer blows than were recorded."""
+    loudness = (previous.square().mean(dim=(1, 2)) / _LOUD_PAST).clamp(min=1.0)
+    return loudness.rsqrt() / (1.0 + (unsteadiness / _UNSTEADY_LOG_LEVEL).pow(4))

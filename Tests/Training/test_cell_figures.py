@@ -1,0 +1,123 @@
+"""What is measured of one recording: the right figures for its motion, and only those that it can have."""
+
+from __future__ import annotations
+
+import dataclasses
+from typing import Any
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+from haptoflow_training.evaluation import accuracy
+from haptoflow_training.evaluation.cell_figures import measure_cell
+from haptoflow_training.evaluation.closed_loop import run_closed_loop
+from haptoflow_training.evaluation.judged_figures import BY_KEY
+from haptoflow_training.evaluation.reference_conditions import Condition, is_on_other_label
+from haptoflow_training.evaluation.reference_set import ReferencePair
+
+_SAMPLES = 24000
+_NOTHING = np.zeros(0, dtype=np.float32)
+_STARTS = np.arange(0, _SAMPLES, 28)
+
+
+def _noise(seed: int) -> NDArray[np.float32]:
+    return np.random.default_rng(seed).standard_normal(_SAMPLES).astype(np.float32)
+
+
+def _pair(recorded: NDArray[np.float32], kind: str = "constant", **more: Any) -> ReferencePair:
+    motion = np.zeros((_SAMPLES, 3), dtype=np.float32)
+    condition = Condition("a", 0, kind, 0.1, 1.0, 0.0, 12.0, 1, **more)
+    return ReferencePair(condition, recorded, recorded, motion)
+
+
+def _ribbed(depth: float, rate_hz: float, seed: int, drift: float = 0.0) -> NDArray[np.float32]:
+    time = np.arange(_SAMPLES) / 2000.0
+    wander = drift * np.cumsum(np.random.default_rng(seed + 1).standard_normal(_SAMPLES)) / np.sqrt(1000.0)
+    line = np.cos(2 * np.pi * rate_hz * time + wander)
+    return (_noise(seed) * np.sqrt(1.0 + depth * line) + 0.5 * line).astype(np.float32)
+
+
+def test_gaussian_noise_for_impacts_is_short_of_crest_and_kurtosis_and_right_in_level() -> None:
+    recorded = _noise(1)
+    recorded[::400] *= 25.0
+    made = _noise(2) * recorded.std()
+    cell = measure_cell(_pair(recorded), made, _NOTHING, _STARTS)
+    assert abs(cell["level_error_db"]) < 0.3 and cell["recorded_kurtosis"] > 20.0
+    assert cell["crest_error_db"] < -5.0 and cell["kurtosis_log_ratio"] < -1.5
+    assert cell["envelope_kurtosis_log_ratio"] < -1.0 and cell["envelope_variation_log_ratio"] < -0.5
+
+
+def test_surfaces_without_ribs_have_no_figures_of_ribs() -> None:
+    cell = measure_cell(_pair(_noise(1)), _noise(2), _NOTHING, _STARTS)
+    assert not {"rib_modulation_error_db", "rib_coherence", "f0_error_percent", "harmonic_share"} & set(cell)
+
+
+def test_ribs_that_are_faint_and_drift_are_seen_as_such() -> None:
+    pair = _pair(_ribbed(0.9, 50.0, 3), rib_rates_hz=(50.0,))
+    good = measure_cell(pair, _ribbed(0.9, 50.0, 5), _NOTHING, _STARTS)
+    faint = measure_cell(pair, _ribbed(0.2, 50.0, 5), _NOTHING, _STARTS)
+    drifting = measure_cell(pair, _ribbed(0.9, 50.0, 5, drift=3.0), _NOTHING, _STARTS)
+    assert abs(good["rib_modulation_error_db"]) < 1.0 and good["rib_coherence"] > 0.95
+    assert faint["rib_modulation_error_db"] < -6.0
+    assert drifting["rib_coherence"] < 0.5 and good["f0_error_percent"] < 0.2
+
+
+def test_of_two_families_the_worse_one_is_what_counts() -> None:
+    both = _ribbed(0.8, 50.0, 3) + _ribbed(0.0, 83.0, 4)
+    one = _ribbed(0.8, 50.0, 5) + _noise(6)
+    cell = measure_cell(_pair(both.astype(np.float32), rib_rates_hz=(50.0, 83.0)), one.astype(np.float32), _NOTHING, _STARTS)
+    assert cell["rib_coherence"] < 0.7
+
+
+def test_ribs_too_slow_for_a_line_are_judged_by_the_swing_of_the_power() -> None:
+    cell = measure_cell(_pair(_ribbed(0.9, 8.3, 3), rib_rates_hz=(8.3,)), _noise(4), _NOTHING, _STARTS)
+    assert cell["rib_modulation_error_db"] < -15.0 and cell["rib_coherence"] < 0.7 and "f0_error_percent" not in cell
+
+
+def test_silence_is_as_wrong_as_can_be_and_no_figure_of_it_is_infinite() -> None:
+    cell = measure_cell(_pair(_ribbed(0.9, 50.0, 3), rib_rates_hz=(50.0,)), np.zeros(_SAMPLES, np.float32), _NOTHING, _STARTS)
+    assert cell["level_error_db"] < -100.0 and cell["modulation_error_db"] > 10.0
+    assert all(np.isfinite(cell[key]) for key in BY_KEY if key in cell)
+
+
+def test_a_change_of_label_is_judged_around_the_changes_alone_and_each_way_by_itself() -> None:
+    elsewhere = is_on_other_label(_SAMPLES)
+    levels = np.where(elsewhere, 4.0, 1.0).astype(np.float32)
+    pair = _pair(_noise(1) * levels, "change", other_label="b", other_index=1)
+    right = measure_cell(pair, _noise(2) * levels, _NOTHING, _STARTS)
+    assert abs(right["change_level_error_db"]) < 0.7 and abs(right["change_crest_error_db"]) < 0.7
+    assert "level_error_db" not in right and "told_apart_percent" not in right
+    # The generator that goes on with the old label for a tenth of a second is heard both ways.
+    late = np.roll(levels, 200)
+    assert abs(measure_cell(pair, _noise(2) * late, _NOTHING, _STARTS)["change_level_error_db"]) > 3.0
+    away = (np.arange(_SAMPLES) % 1000 > 300) & (np.arange(_SAMPLES) % 1000 < 800)
+    loud = _noise(2) * levels * np.where(away, 9.0, 1.0).astype(np.float32)
+    assert abs(measure_cell(pair, loud, _NOTHING, _STARTS)["change_level_error_db"]) < 0.7
+
+
+class _Echo:
+    """Segments whose level is the embedding's first number."""
+
+    def generate(self, embeddings: Any, motions: Any, previous_mps2: Any, noise: Any) -> Any:
+        return (noise * embeddings[:, :1]).astype(np.float32)
+
+
+def test_in_a_change_of_label_each_hop_is_told_the_label_that_is_under_the_tip() -> None:
+    embeddings = np.zeros((2, 64), dtype=np.float32)
+    embeddings[:, 0] = (1.0, 4.0)
+    plain = _pair(_noise(1))
+    change = dataclasses.replace(_pair(_noise(1), "change", other_label="b", other_index=1))
+    made = accuracy.generate_set(_Echo(), embeddings, [plain, change], update_rate_hz=72.0, seed=1)
+    elsewhere = is_on_other_label(_SAMPLES)
+    assert made.closed[0].std() == pytest.approx(1.0, abs=0.05)
+    assert made.closed[1][~elsewhere].std() == pytest.approx(1.0, abs=0.3)
+    assert made.closed[1][elsewhere].std() == pytest.approx(4.0, abs=0.3)
+    assert len(made.opened[0]) and not len(made.opened[1])
+
+
+def test_a_closed_loop_takes_an_embedding_for_each_hop() -> None:
+    embeddings = np.zeros((1, 72, 64), dtype=np.float32)
+    embeddings[0, 36:, 0] = 5.0
+    run = run_closed_loop(_Echo(), embeddings, np.zeros((1, 2000, 3), np.float32), update_rate_hz=72.0, seed=1)
+    assert np.abs(run.waves[0, :990]).max() == 0.0 and run.waves[0, 1010:].std() > 4.0

@@ -1,0 +1,95 @@
+"""Renders and recordings told apart as a hand would: by chance alone where they are draws of one process."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+from haptoflow_training.evaluation.reference_conditions import Condition
+from haptoflow_training.evaluation.reference_set import ReferencePair
+from haptoflow_training.evaluation.told_apart import features, logistic_regression, told_apart_percent
+
+_SAMPLES = 24400
+
+
+def _wave(seed: int, level: float, impacts: float = 0.0) -> NDArray[np.float32]:
+    generator = np.random.default_rng(seed)
+    wave = np.convolve(generator.standard_normal(_SAMPLES), np.hanning(7), mode="same")
+    wave += impacts * np.where(generator.random(_SAMPLES) < 0.001, generator.choice([-1.0, 1.0], _SAMPLES), 0.0)
+    return (level * wave).astype(np.float32)
+
+
+def _pairs(label: str, kind: str = "constant", impacts: float = 0.0) -> list[ReferencePair]:
+    motion = np.zeros((_SAMPLES, 3), dtype=np.float32)
+    pairs = []
+    for number in range(12):
+        condition = Condition(label, 0, kind, 0.1 + 0.05 * number, 1.0, 0.0, 12.0, number)
+        recorded, again = (_wave(100 * repeat + number, 1.0 + 0.3 * number, impacts) for repeat in (1, 2))
+        pairs.append(ReferencePair(condition, recorded, again, motion))
+    return pairs
+
+
+def _mean(values: list[float | None]) -> float:
+    return float(np.mean([value for value in values if value is not None]))
+
+
+def test_another_draw_of_the_same_process_is_told_apart_by_chance_alone() -> None:
+    pairs = _pairs("stone", impacts=30.0)
+    found = told_apart_percent(pairs, [pair.independent for pair in pairs])
+    assert len(found) == 12 and 35.0 < _mean(found) < 62.0
+
+
+def test_gaussian_noise_of_the_right_spectrum_is_told_from_rare_impacts() -> None:
+    pairs = _pairs("stone", impacts=60.0)
+    made = [
+        (pair.recorded.std() / np.std(_wave(n, 1.0)) * _wave(7000 + n, 1.0)).astype(np.float32)
+        for n, pair in enumerate(pairs)
+    ]
+    assert _mean(told_apart_percent(pairs, made)) > 85.0
+
+
+def test_a_label_that_is_right_is_not_blamed_for_another_that_is_wrong() -> None:
+    right, wrong = _pairs("wood"), _pairs("stone")
+    made = [pair.independent for pair in right] + [4.0 * pair.independent for pair in wrong]
+    found = told_apart_percent([*right, *wrong], made)
+    assert _mean(found[:12]) < 62.0 and _mean(found[12:]) > 75.0
+
+
+def test_what_lies_below_what_a_hand_feels_tells_nothing() -> None:
+    pairs = _pairs("glass")
+    faint = [
+        ReferencePair(pair.condition, 1e-4 * pair.recorded, pair.independent, pair.motion) for pair in pairs
+    ]
+    silence = [np.zeros(_SAMPLES, dtype=np.float32)] * 12
+    bands = features(faint[0].recorded)[:, :9]
+    np.testing.assert_allclose(bands, -40.0, atol=0.1)
+    np.testing.assert_allclose(features(silence[0])[:, :9], -40.0)
+
+
+def test_changes_of_label_are_not_asked_about() -> None:
+    pairs = _pairs("wood", kind="change")
+    assert told_apart_percent(pairs, [pair.independent for pair in pairs]) == [None] * 12
+
+
+def test_a_motion_is_never_learnt_from_and_asked_about() -> None:
+    # Every motion has its own pitch. Learnt by heart, each would name its render; from other motions, none does.
+    generator = np.random.default_rng(3)
+    time = np.arange(_SAMPLES) / 2000.0
+    motion = np.zeros((_SAMPLES, 3), dtype=np.float32)
+    pairs, made = [], []
+    for number in range(12):
+        pitches = generator.uniform(50.0, 900.0, size=2)
+        tones = [(np.sin(2 * np.pi * pitch * time) + 0.1 * generator.standard_normal(_SAMPLES)) for pitch in pitches]
+        condition = Condition("a", 0, "constant", 0.1, 1.0, 0.0, 12.0, number)
+        pairs.append(ReferencePair(condition, tones[0].astype(np.float32), tones[0].astype(np.float32), motion))
+        made.append(tones[1].astype(np.float32))
+    assert _mean(told_apart_percent(pairs, made)) < 75.0
+
+
+def test_the_regression_finds_the_weights_that_made_the_sides() -> None:
+    generator = np.random.default_rng(5)
+    given = generator.standard_normal((40000, 3))
+    truth = np.array([1.0, -2.0, 0.0])
+    sides = (generator.random(40000) < 1.0 / (1.0 + np.exp(-(given @ truth + 0.5)))).astype(np.float64)
+    assert logistic_regression(given, sides) == pytest.approx([1.0, -2.0, 0.0, 0.5], abs=0.06)
