@@ -111,6 +111,7 @@ def test_a_baseline_that_regresses_cannot_be_taught_by_a_distance_of_draws(name:
         ('[model]\narchitecture = "autoregressive"\nsampled = true\n', "model.sampled"),
         ('[model]\narchitecture = "autoregressive"\n[recipe]\nreflow_steps = 3\n', "recipe"),
         ('[model]\narchitecture = "autoregressive"\n[recipe]\nself_forcing_steps = 3\n', "recipe.self_forcing_steps"),
+        ('[model]\narchitecture = "autoregressive"\n[recipe]\nenergy_steps = 3\n', "recipe.energy_steps"),
         ('[model]\nlevel = "constant"\n[recipe]\ncalibrate_level = true\n', "recipe.calibrate_level"),
         ("[optimiser]\nbudget_seconds = -1\n", "optimiser.budget_seconds"),
     ],
@@ -199,6 +200,17 @@ def test_an_autoregressive_segment_goes_on_where_its_past_ended_with_lines_as_wi
         made = baseline(torch.randn(512, 1, 200), previous, *condition)
     jumps = [(wave[:, 0, 0] - previous[:, 0, -1]).square().mean().sqrt().item() for wave in (segment, made)]
     assert jumps[1] == pytest.approx(jumps[0], rel=0.15)
+
+
+def test_a_distance_between_draws_teaches_the_lines_and_leaves_the_filter_to_its_likelihood() -> None:
+    torch.manual_seed(7)
+    baseline = AutoregressiveBaseline(ribs=True)
+    previous, segment, condition = _ribbed_texture(4, 1)
+    made = baseline(torch.randn(4, 1, 200), previous, *condition)
+    (made - segment).square().mean().backward()
+    assert baseline.lines is not None
+    assert baseline.lines.gains.layers[-1].weight.grad is not None
+    assert all(parameter.grad is None for parameter in baseline.perceptron.parameters())
 
 
 def test_spsi_that_draws_states_the_mean_power_and_not_the_geometric_mean() -> None:

@@ -298,6 +298,11 @@ def _check(config: TrainingConfig, path: Path) -> None:
             "0 for a baseline that does not draw: set model.sampled",
         ),
         (
+            config.recipe.energy_steps == 0 or config.model.ribs or config.model.architecture != "autoregressive",
+            "recipe.energy_steps",
+            "0 for an autoregressive filter without ribs, which its likelihood alone fits",
+        ),
+        (
             config.recipe.self_forcing_steps == 0
             or config.recipe.energy_steps > 0
             or config.model.architecture == "unet",

@@ -137,7 +137,8 @@ class AutoregressiveBaseline(Baseline):
         return step_up(torch.tanh(argument)) * self.damping, log_gain
 
     def own_form(self, noisy: Tensor, previous: Tensor, embedding: Tensor, motion: Tensor) -> Tensor:
-        coefficients, log_gain = self.process(embedding, motion)
+        # The likelihood alone fits the filter: a distance between draws, which teaches the lines, only blurs it.
+        coefficients, log_gain = (part.detach() for part in self.process(embedding, motion))
         drive = noisy[:, 0] * log_gain.exp()
         wave = self.filter(drive, coefficients, previous[:, 0, -ORDER:])
         # A past that another filter made can swing a slow one far out; no network is shown more than this.
