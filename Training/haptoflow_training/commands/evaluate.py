@@ -158,8 +158,11 @@ def _time_rows(
 
 
 def _print(result: dict[str, Any]) -> None:
-    names = (("ms", 8), ("level dB", 10), ("p90", 7), ("GFC", 8), ("LSD dB", 8), ("crest", 7), ("ln kurt", 8))
-    print(f"{'row':24}" + "".join(f"{name:>{width}}" for name, width in (*names, ("modul.", 7), ("ribs", 7), ("told %", 7))))
+    names = (
+        ("ms", 8), ("level dB", 10), ("p90", 7), ("GFC", 8), ("LSD dB", 8), ("crest", 7), ("ln kurt", 8), ("modul.", 7),
+        ("ribs", 7), ("told %", 7),
+    )  # fmt: skip
+    print(f"{'row':24}" + "".join(f"{name:>{width}}" for name, width in names))
     for row in result["rows"]:
         hot = row["ms_per_segment"]
         print(
