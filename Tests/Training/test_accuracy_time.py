@@ -112,8 +112,11 @@ def test_a_page_is_written_of_what_is_there_and_says_at_its_top_who_is_ahead(
     pairs: list[ReferencePair], tmp_path: Path
 ) -> None:
     times = {"p50": 0.2, "p99": 0.3}
-    run = {"date": "2026-11-23", "commit": "c" * 40, "machine": "m", "load_before": [0.1, 0.2, 0.3], "load_after": [1.0, 2.0, 3.0],
-           "rows": {name: {"ms_per_segment": times, "ms_paced": times} for name in ("standard", "size")}}  # fmt: skip
+    run = {
+        "date": "2026-11-23", "commit": "c" * 40, "machine": "m",
+        "load_before": [0.1, 0.2, 0.3], "load_after": [1.0, 2.0, 3.0],
+        "rows": {name: {"ms_per_segment": times, "ms_paced": times} for name in ("standard", "size")},
+    }  # fmt: skip
     result = with_times({"model_sha256": "0" * 64, **table(PLAN, _measured(pairs))}, run)
     assert result["rows"][1]["ms_per_segment"] is None, "a row that the run does not hold has no time"
     images = tmp_path / "images"

@@ -23,9 +23,14 @@ ROOT = Path(__file__).parents[2]
 SHIPPED = json.loads((ROOT / "Training" / "results" / "accuracy-time.json").read_text(encoding="utf-8"))
 
 
-def _row(name: str, family: str, milliseconds: float | None, lsd: float | None = None, block: str = "as-published") -> dict[str, Any]:
-    told = None if lsd is None else {"median": 60.0 + lsd, "p90": 99.0, "worst": 100.0}
-    intervals = {} if lsd is None else {"lsd_db_interval": [lsd - 0.3, lsd + 0.1], "told_apart_percent_interval": [58.0 + lsd, 61.0 + lsd]}
+def _row(
+    name: str, family: str, milliseconds: float | None, lsd: float | None = None, block: str = "as-published"
+) -> dict[str, Any]:
+    told, intervals = None, {}
+    if lsd is not None:
+        told = {"median": 60.0 + lsd, "p90": 99.0, "worst": 100.0}
+        intervals["lsd_db_interval"] = [lsd - 0.3, lsd + 0.1]
+        intervals["told_apart_percent_interval"] = [58.0 + lsd, 61.0 + lsd]
     times = None if milliseconds is None else {"p50": milliseconds}
     return {
         "name": name, "family": family, "block": block, "ms_per_segment": times, "lsd_db": lsd, "told_apart_percent": told,
@@ -88,13 +93,15 @@ def test_only_the_points_that_carry_the_message_are_named(axes: Any) -> None:
 
 def test_the_median_label_is_what_is_drawn_of_told_apart_and_a_table_without_times_has_no_points() -> None:
     points = {point.row: point for point in chart_points(ROWS, "told_apart_percent")}
-    assert (points["standard"].value, points["standard"].low, points["standard"].high) == pytest.approx((61.1, 59.1, 62.1))
+    ours = points["standard"]
+    assert (ours.value, ours.low, ours.high) == pytest.approx((61.1, 59.1, 62.1))
     assert chart_points([{**row, "ms_per_segment": None} for row in ROWS], "lsd_db") == []
 
 
 def test_rivals_as_published_are_hollow_and_rivals_given_the_same_are_filled(axes: Any) -> None:
     draw_panel(axes, PANELS[1], ROWS)
-    faces = {(round(line.get_xdata()[0], 3), line.get_ydata()[0]): line.get_markerfacecolor() for line in axes.lines if line.get_marker() == "o"}
+    circles = [line for line in axes.lines if line.get_marker() == "o"]
+    faces = {(line.get_xdata()[0], line.get_ydata()[0]): line.get_markerfacecolor() for line in circles}
     assert faces[(0.6, 4.0)] == "white" and faces[(0.4, 1.5)] == "#2f7d57"
 
 

@@ -66,7 +66,7 @@ def test_ribs_that_are_faint_and_drift_are_seen_as_such() -> None:
 def test_of_two_families_the_worse_one_is_what_counts() -> None:
     both = _ribbed(0.8, 50.0, 3) + _ribbed(0.0, 83.0, 4)
     one = _ribbed(0.8, 50.0, 5) + _noise(6)
-    cell = measure_cell(_pair(both.astype(np.float32), rib_rates_hz=(50.0, 83.0)), one.astype(np.float32), _NOTHING, _STARTS)
+    cell = measure_cell(_pair(both, rib_rates_hz=(50.0, 83.0)), one, _NOTHING, _STARTS)
     assert cell["rib_coherence"] < 0.7
 
 
@@ -76,7 +76,8 @@ def test_ribs_too_slow_for_a_line_are_judged_by_the_swing_of_the_power() -> None
 
 
 def test_silence_is_as_wrong_as_can_be_and_no_figure_of_it_is_infinite() -> None:
-    cell = measure_cell(_pair(_ribbed(0.9, 50.0, 3), rib_rates_hz=(50.0,)), np.zeros(_SAMPLES, np.float32), _NOTHING, _STARTS)
+    pair = _pair(_ribbed(0.9, 50.0, 3), rib_rates_hz=(50.0,))
+    cell = measure_cell(pair, np.zeros(_SAMPLES, np.float32), _NOTHING, _STARTS)
     assert cell["level_error_db"] < -100.0 and cell["modulation_error_db"] > 10.0
     assert all(np.isfinite(cell[key]) for key in BY_KEY if key in cell)
 

@@ -74,7 +74,7 @@ def test_a_table_that_reaches_everything_holds_everywhere() -> None:
         ("special", "oblique_lsd_db", 1.6, "LSD across ribs"),
         ("cells", "f0_error_percent", _spread(1.1), "error of the fundamental"),
         ("cells", "harmonic_share", _spread(0.7), "harmonic share"),
-        ("special", "impact_kurtosis_log_ratio", _spread(0.41), "impacts: kurtosis"),
+        ("special", "impact_kurtosis_log_ratio", _spread(0.41), "impacts: factor of kurtosis"),
         ("special", "impact_crest_error_db", _spread(1.6), "impacts: crest"),
         ("special", "rib_modulation_error_db", _spread(3.1), "ribs, 0.01 to 0.5 m/s: modulation"),
         ("special", "rib_coherence", _spread(0.7), "ribs, 0.01 to 0.5 m/s: coherence"),
@@ -140,7 +140,8 @@ def test_rows_that_are_missing_leave_their_goals_unjudged() -> None:
     alone = judge({"rows": [row for row in _table()["rows"] if row["name"] == "standard"]})
     for beginning in (
         "standard behind draft", "GFC below our", "LSD above it", "behind a rival, as", "behind a rival, given",
-        "times faster than the paper's sizes, hot: standard", "times faster than the paper's sizes, hot: draft", "size of the model",
+        "times faster than the paper's sizes, hot: standard", "times faster than the paper's sizes, hot: draft",
+        "size of the model",
     ):  # fmt: skip
         goal = _named(alone, beginning)
         assert goal.measured == "not measured" and goal.holds is None

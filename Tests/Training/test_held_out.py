@@ -32,6 +32,13 @@ BATCH = BatchConfig(
 HELD_OUT = HeldOut.of(BATCH)
 
 
+def _wandering(
+    generator: np.random.Generator, time: NDArray[np.float64], every_seconds: float, low: float, high: float
+) -> NDArray[np.float64]:
+    knots = np.arange(0.0, time[-1] + 2.0 * every_seconds, every_seconds)
+    return np.interp(time, knots, generator.uniform(low, high, len(knots)))
+
+
 def _store(seconds: float = 60.0) -> FakeStore:
     """Two labels, hand and machine, whose strokes wander through all bands. The wave tells the place: each sample's
     value is its index, so that whatever is drawn says where it was taken from."""
@@ -40,12 +47,13 @@ def _store(seconds: float = 60.0) -> FakeStore:
     motions, recordings = [], []
     for number in range(8):
         time = np.arange(count) / 2000.0
-        speed = np.exp(np.interp(time, np.arange(0, seconds + 1, 0.8), generator.uniform(np.log(0.02), np.log(0.9), int(seconds / 0.8) + 2)[: len(np.arange(0, seconds + 1, 0.8))]))
-        heading = np.interp(time, np.arange(0, seconds + 2, 1.5), generator.uniform(0, 2 * np.pi, len(np.arange(0, seconds + 2, 1.5))))
-        force = np.interp(time, np.arange(0, seconds + 2, 1.1), generator.uniform(0.3, 2.5, len(np.arange(0, seconds + 2, 1.1))))
+        speed = np.exp(_wandering(generator, time, 0.8, np.log(0.02), np.log(0.9)))
+        heading = _wandering(generator, time, 1.5, 0.0, 2.0 * np.pi)
+        force = _wandering(generator, time, 1.1, 0.3, 2.5)
         motions.append(np.stack([speed * np.cos(heading), speed * np.sin(heading), force], axis=1))
         split = "train" if number < 6 else "validation"
-        recordings.append(FakeRecording(number % 2, "machine" if number % 4 < 2 else "hand", split, number * count, count))
+        protocol = "machine" if number % 4 < 2 else "hand"
+        recordings.append(FakeRecording(number % 2, protocol, split, number * count, count))
     wave = np.arange(8 * count, dtype=np.float32)
     return FakeStore(wave, np.concatenate(motions).astype(np.float32), 1.0, ["a", "b"], recordings)
 

@@ -87,3 +87,9 @@ def test_further_seeds_of_the_shipped_model_are_trainings_of_its_recipe(place: W
     assert place.model_file(shipped, 2) == place.model_file(_ROW, 2)
     train_models(place, [(shipped, 1), (shipped, 2)], 1)
     assert [job.name for job in started] == ["small, seed 2"]
+
+
+def test_seeds_of_a_training_that_nobody_describes_are_left_out_and_the_shipped_file_is_not(place: Workplace) -> None:
+    shipped = PlannedRow("standard", "ours", model="a/default.haptoflow", seeds=(1, 2), seeds_model="nowhere")
+    assert place.seeds_of(shipped) == [1] and place.seeds_of(PlannedRow("r", "as-published", model="nowhere")) == []
+    assert place.seeds_of(_ROW) == [1] and place.seeds_of(PlannedRow("silence", "reference")) == [1]

@@ -33,7 +33,7 @@ def test_a_run_that_lacks_a_row_of_the_table_is_kept_and_not_published() -> None
 
 
 def test_as_long_as_no_run_holds_every_row_the_first_one_that_left_none_out_by_request_is_shown() -> None:
-    runs = [_run("a", 1.0, "standard"), _run("a", 3.0, "standard", complete=True), _run("a", 2.0, "standard", complete=True)]
+    runs = [_run("a", 1.0, "standard"), *(_run("a", time, "standard", complete=True) for time in (3.0, 2.0))]
     assert published_run(runs, "a", _WANTED) is runs[1]
     runs.append(_run("a", 9.0, *_WANTED, complete=True))
     assert published_run(runs, "a", _WANTED) is runs[3]

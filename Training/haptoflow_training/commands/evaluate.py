@@ -84,11 +84,11 @@ def run(options: argparse.Namespace) -> int:
     engine = default_engine(_ROOT)
     yardstick = accuracy.make_yardstick(_pairs(options))
     if not (options.quick or options.no_train):
-        wanted = [(row, seed) for row in chosen for seed in row.seeds]
+        wanted = [(row, seed) for row in chosen for seed in place.seeds_of(row)]
         train_models(place, [entry for entry in wanted if not _is_stored(place, yardstick, *entry)], options.lanes)
     measured: dict[str, list[dict[str, Any]]] = {}
     for row in tqdm(chosen, desc="rows", unit="row"):
-        seeds = [seed for seed in row.seeds if _can_be_measured(place, yardstick, row, seed)]
+        seeds = [seed for seed in place.seeds_of(row) if _can_be_measured(place, yardstick, row, seed)]
         if row.seeds[0] in seeds:
             measured[row.name] = [measure_row(place, engine, yardstick, row, seed) for seed in seeds]
         else:
@@ -108,8 +108,8 @@ def run(options: argparse.Namespace) -> int:
 
 def _stored(place: Workplace, yardstick: Yardstick, row: PlannedRow) -> list[dict[str, Any]]:
     """What was measured of a row before and still holds, the first seed's first; nothing without that one."""
-    found = [stored_row(place, row, seed, made_from(place, yardstick, row, seed)) for seed in row.seeds]
-    return [result for result in found if result is not None] if found[0] is not None else []
+    found = [stored_row(place, row, seed, made_from(place, yardstick, row, seed)) for seed in place.seeds_of(row)]
+    return [result for result in found if result is not None] if found and found[0] is not None else []
 
 
 def _is_stored(place: Workplace, yardstick: Yardstick, row: PlannedRow, seed: int) -> bool:
@@ -158,8 +158,11 @@ def _time_rows(
 
 
 def _print(result: dict[str, Any]) -> None:
-    names = (("ms", 8), ("level dB", 10), ("p90", 7), ("GFC", 8), ("LSD dB", 8), ("crest", 7), ("ln kurt", 8))
-    print(f"{'row':24}" + "".join(f"{name:>{width}}" for name, width in (*names, ("modul.", 7), ("ribs", 7), ("told %", 7))))
+    names = (
+        ("ms", 8), ("level dB", 10), ("p90", 7), ("GFC", 8), ("LSD dB", 8), ("crest", 7), ("ln kurt", 8), ("modul.", 7),
+        ("ribs", 7), ("told %", 7),
+    )  # fmt: skip
+    print(f"{'row':24}" + "".join(f"{name:>{width}}" for name, width in names))
     for row in result["rows"]:
         hot = row["ms_per_segment"]
         print(

@@ -37,7 +37,7 @@ _NAMED = {
 
 @dataclass(frozen=True)
 class Panel:
-    """A figure of the table over time. limits: in `unit`, linear. name_lift: where our names stand, points above ours."""
+    """A figure of the table over time. limits: in `unit`, linear. name_lift: points that names stand above ours."""
 
     key: str
     title: str
@@ -61,7 +61,7 @@ class ChartPoint:
 
 
 PANELS = (
-    Panel("told_apart_percent", "Told apart from recordings, % (50 is chance, lower is better)", "%", (40.0, 100.0), -14.0),
+    Panel("told_apart_percent", "Told apart from recordings, % (50 is chance)", "%", (40.0, 100.0), -14.0),
     Panel("lsd_db", "Log-spectral distance, dB (lower is better)", "dB", (0.0, 16.0), -14.0),
 )
 
@@ -80,9 +80,8 @@ def chart_points(rows: Sequence[dict[str, Any]], key: str) -> list[ChartPoint]:
         if _is_timed(row) and value is not None:
             low, high = row.get(f"{key}_interval", (value, value))
             name = _NAMED.get(row["name"], "")
-            points.append(
-                ChartPoint(row["name"], row["family"], row["block"], row["ms_per_segment"]["p50"], value, low, high, name)
-            )
+            milliseconds = row["ms_per_segment"]["p50"]
+            points.append(ChartPoint(row["name"], row["family"], row["block"], milliseconds, value, low, high, name))
     return points
 
 
@@ -235,7 +234,8 @@ def _legend_handles(families: set[str]) -> list[Any]:
         if family in families
     ]  # fmt: skip
     for words, face in (("hollow: as published", "white"), ("filled: given the same", "#777777")):
-        handles.append(Line2D([], [], color="#777777", marker="o", markersize=7, markerfacecolor=face, linestyle="none", label=words))  # fmt: skip
+        look = {"marker": "o", "markersize": 7, "markerfacecolor": face, "linestyle": "none"}
+        handles.append(Line2D([], [], color="#777777", label=words, **look))
     bar = Line2D([], [], color="#333333", marker="|", markersize=12, markeredgewidth=1.4, linestyle="none",
                  label="bar: 95 % interval over recordings")  # fmt: skip
     edge = Line2D([], [], color="#333333", marker="v", markersize=7, linestyle="none", label="beyond the scale")

@@ -31,7 +31,8 @@ def write_document(table: dict[str, Any], out: Path, images: Path, picture: bool
     for block in BLOCKS:
         lines += _block_tables([row for row in table["rows"] if row["block"] == block], block)
     if table["not_measured"]:
-        lines += [f"Not measured yet, so not judged: {', '.join(table['not_measured'])}. `npm run evaluate` trains and adds them.", ""]
+        names = ", ".join(table["not_measured"])
+        lines += [f"Not measured yet, so not judged: {names}. `npm run evaluate` trains and adds them.", ""]
     lines += _verdict_table(table["rows"])
     lines += _goal_table(table)
     lines += _label_table(table["rows"])
@@ -107,7 +108,7 @@ def _block_tables(rows: Sequence[_Row], block: str) -> list[str]:
         "|---|---|---|---|---|---|---|---|---|---|---|---|",
     ]
     lines += ["| " + " | ".join(_accuracy_cells(row)) + " |" for row in rows]
-    lines += ["", "Errors of time, and of the spectrum by cell, are the median cell's, in brackets that which nine cells in ten keep.", ""]
+    lines += ["", "In brackets: what nine cells in ten keep, or what is named there.", ""]
     lines += [
         "| row | evaluations | f0 % | harmonics | bands dB | envelope kurtosis, factor | envelope variation, factor "
         "| seams | drift dB/min | segment GFC | RMSE | named right | parameters |",
@@ -158,10 +159,13 @@ def _verdict_table(rows: Sequence[_Row]) -> list[str]:
     lines.append("")
     for rival in found:
         if len(names := set(rival.variants.values())) > 1:
-            by_row = {name: [BY_KEY[key].words for key, row in rival.variants.items() if row == name] for name in sorted(names)}
-            stands = "; ".join(f"`{name}` in {', '.join(words)}" for name, words in by_row.items())
+            stands = "; ".join(f"`{name}` in {', '.join(_figures_of(rival, name))}" for name in sorted(names))
             lines += [f"{rival.rival} stands by its best row in each figure: {stands}.", ""]
     return lines
+
+
+def _figures_of(rival: RivalVerdict, row: str) -> list[str]:
+    return [BY_KEY[key].words for key, best in rival.variants.items() if best == row]
 
 
 def _goal_table(table: dict[str, Any]) -> list[str]:
@@ -169,7 +173,8 @@ def _goal_table(table: dict[str, Any]) -> list[str]:
     if not goals:
         return []
     verdicts = {True: "yes", False: "**no**", None: "not judged"}
-    lines = ["## What the default tier was meant to reach", "", "| figure | goal | measured | holds |", "|---|---|---|---|"]
+    lines = ["## What the default tier was meant to reach", ""]
+    lines += ["| figure | goal | measured | holds |", "|---|---|---|---|"]
     lines += [f"| {goal.what} | {goal.wanted} | {goal.measured} | {verdicts[goal.holds]} |" for goal in goals]
     return [*lines, ""]
 
@@ -191,7 +196,8 @@ def _worst_table(rows: Sequence[_Row]) -> list[str]:
     shown = [row for row in rows if row["block"] in (OURS, "reference") and row.get("worst_cells")]
     if not shown:
         return []
-    lines = ["## The worst cells", "", "Of each row, the three that are furthest beyond what nine cells in ten should keep.", ""]
+    lines = ["## The worst cells", ""]
+    lines += ["Of each row, the three that are furthest beyond what nine cells in ten should keep.", ""]
     lines += ["| row | label | motion | m/s | N | degrees | figure | error | times the limit |"]
     lines += ["|---|---|---|---|---|---|---|---|---|"]
     for row in shown:
@@ -212,10 +218,12 @@ def _seed_table(rows: Sequence[_Row]) -> list[str]:
     lines = [
         "## How much is chance",
         "",
-        f"Rows whose training was repeated with other seeds, each measured on the same {' or '.join(map(str, counts))} recordings "
-        "(of every label another quarter of its conditions), so that the first seed's figures are others than above.",
+        f"Rows whose training was repeated with other seeds, each measured on the same {' or '.join(map(str, counts))} "
+        "recordings (of every label another quarter of its conditions), so that the first seed's figures are others than "
+        "above.",
         "",
-        "| row | seeds | level dB | level p90 dB | GFC | LSD dB | told apart % | crest dB | kurtosis, ln | modulation dB |",
+        "| row | seeds | level dB | level p90 dB | GFC | LSD dB | told apart % | crest dB | kurtosis, ln "
+        "| modulation dB |",
         "|---|---|---|---|---|---|---|---|---|---|",
     ]
     for row in repeated:
@@ -229,7 +237,9 @@ def _seed_table(rows: Sequence[_Row]) -> list[str]:
     return [*lines, ""]
 
 
-_SEED_MEDIANS = (("told_apart_percent", 0), ("crest_error_db", 1), ("kurtosis_log_ratio", 2), ("modulation_error_db", 1))
+_SEED_MEDIANS = (
+    ("told_apart_percent", 0), ("crest_error_db", 1), ("kurtosis_log_ratio", 2), ("modulation_error_db", 1),
+)  # fmt: skip
 
 
 def _values(values: Sequence[float | None], digits: int, signed: bool = False) -> str:

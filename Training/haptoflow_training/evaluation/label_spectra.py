@@ -13,7 +13,9 @@ from haptoflow_training.evaluation.model_stamp import picture_metadata
 from haptoflow_training.evaluation.reference_set import ReferencePair
 
 
-def draw_spectra(pairs: Sequence[ReferencePair], waves: Sequence[NDArray[np.float32]], path: Path, model_sha256: str) -> None:
+def draw_spectra(
+    pairs: Sequence[ReferencePair], waves: Sequence[NDArray[np.float32]], path: Path, model_sha256: str
+) -> None:
     """Mean power spectra of recordings and of the default tier's closed loop, one panel a label."""
     import matplotlib
 

@@ -16,7 +16,10 @@ from haptoflow_training.evaluation.row_plan import PlannedRow
 from haptoflow_training.evaluation.workplace import Workplace
 from haptoflow_training.training.run_log import write_text
 
-_UNJUDGED = ("gfc_segment", "rmse", "band_error_db", "continuity", "recorded_kurtosis", "change_level_error_db", "change_crest_error_db")
+_UNJUDGED = (
+    "gfc_segment", "rmse", "band_error_db", "continuity", "recorded_kurtosis", "change_level_error_db",
+    "change_crest_error_db",
+)  # fmt: skip
 _COLUMNS = (*IDENTITY, *(figure.key for figure in JUDGED), *_UNJUDGED)
 _DIGITS = 4
 

@@ -82,7 +82,8 @@ def worst_cells(cells: Sequence[_Cell]) -> list[dict[str, Any]]:
         ]
         if over:
             times, figure = max(over, key=lambda entry: entry[0])
-            found.append({**{key: cell[key] for key in IDENTITY}, "figure": figure.key, "value": cell[figure.key], "times_limit": times})  # fmt: skip
+            identity = {key: cell[key] for key in IDENTITY}
+            found.append({**identity, "figure": figure.key, "value": cell[figure.key], "times_limit": times})
     return sorted(found, key=lambda entry: -entry["times_limit"])[:_WORST_CELLS]
 
 
@@ -149,7 +150,7 @@ def over_labels(cells: Sequence[_Cell], key: str) -> float | None:
 def with_interval(cells: Sequence[_Cell], key: str, seed: int = 0) -> tuple[float, float, float]:
     """`over_labels` of a figure that at least one cell has, and the ends of its interval."""
     grouped = by_label(cells, key)
-    draws = np.median([means for means in _resampled_means(grouped, seed)], axis=0)
+    draws = np.median(_resampled_means(grouped, seed), axis=0)
     low, high = np.quantile(draws, _INTERVAL)
     return float(np.median([np.mean(values) for values in grouped.values()])), float(low), float(high)
 

@@ -31,6 +31,13 @@ class Workplace:
             return self.root / row.model
         return self.work / "models" / f"{row.model_of(seed)}-{seed}.haptoflow"
 
+    def seeds_of(self, row: PlannedRow) -> list[int]:
+        """The row's seeds but for those of a training that the plan's folder does not describe."""
+        return [
+            seed for seed in row.seeds
+            if row.is_reference or is_of_repository(row, seed) or self.config_file(row.model_of(seed)).exists()
+        ]  # fmt: skip
+
     def config_file(self, model: str) -> Path:
         """The configuration that a trained model is made from."""
         return self.plan.parent / f"{model}.toml"

@@ -123,7 +123,9 @@ def _header(
         "normalisation": {"unit": "m/s^2", "peak_mps2": float(store.peak_mps2)},
         "range": _range(store),
         "embedding_size": EMBEDDING_SIZE,
-        "labels": [_label_entry(store, row, info, config.seed, HeldOut.of(config.batch)) for row, info in enumerate(infos)],
+        "labels": [
+            _label_entry(store, row, info, config.seed, HeldOut.of(config.batch)) for row, info in enumerate(infos)
+        ],
         "tiers": [_tier_entry(tier) for tier in tiers],
         "default_tier": config.tier,
         "seed_bank": {"samples": SEED_SAMPLES, "tensor": "seeds", "entries": seed_entries},

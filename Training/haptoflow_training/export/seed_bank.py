@@ -40,7 +40,8 @@ def _condition_distance(windows: RecordedWindows, speed_mps: float, force_newton
 def build_seed_bank(store: Store, *, seed: int, held_out: HeldOut, candidates: int = 3000) -> SeedBank:
     """For every label, the steadiest recorded window nearest to each point of a grid of speeds and forces.
 
-    Grid points that no recording outside the held-out bands comes near are left out; a label keeps at least its steadiest window.
+    Grid points that no recording outside the held-out bands comes near are left out; a label keeps at least its steadiest
+    window.
     """
     waves: list[NDArray[np.float32]] = []
     entries: list[dict[str, object]] = []
