@@ -68,12 +68,28 @@ def test_no_path_of_the_training_machine_is_in_the_file(exported: tuple[Path, Mo
 
 def test_seeds_are_recordings_of_unit_level_with_their_conditions(exported: tuple[Path, ModelFile, FakeStore]) -> None:
     store = exported[2]
-    bank = build_seed_bank(store, seed=1, held_out=HeldOut())
+    bank = build_seed_bank(store, np.zeros((2, 4), np.float32), seed=1, held_out=HeldOut())
     assert len(bank.entries) == len(bank.waves) >= 10
     np.testing.assert_allclose(np.sqrt(np.square(bank.waves).mean(axis=1)), 1.0, rtol=1e-3)
     tones = [wave for wave, entry in zip(bank.waves, bank.entries, strict=True) if entry["label"] == "tone"]
     spectra = np.abs(np.fft.rfft(tones, axis=1))
     assert (spectra.argmax(axis=1) == 30).all(), "150 Hz is bin 30 of 400 samples at 2 kHz"
+
+
+def test_a_seed_of_a_ruled_label_says_at_which_rib_phase_it_begins_to_sound_and_another_does_not() -> None:
+    store = make_store()
+    wave_numbers = np.array([[0.4, 0.1, 0.0, 0.8], [0.0, 0.0, 0.0, 0.0]], np.float32)
+    bank = build_seed_bank(store, wave_numbers, seed=1, held_out=HeldOut(), candidates=200)
+    windows = np.lib.stride_tricks.sliding_window_view(store.waveform, 400)
+    sizes = np.sqrt(np.square(windows, dtype=np.float64).mean(axis=1)) + 1e-12
+    for wave, entry in zip(bank.waves, bank.entries, strict=True):
+        if entry["label"] == "noise":
+            assert "rib_phase" not in entry
+            continue
+        start = int((windows @ wave / sizes).argmax())
+        turns = wave_numbers[0].reshape(2, 2) @ store.position_mm[start + 200] - entry["rib_phase"]
+        np.testing.assert_allclose(turns, np.round(turns), atol=1e-3)
+        assert all(0.0 <= turn < 1.0 for turn in entry["rib_phase"])
 
 
 def test_exponents_are_those_of_the_recordings() -> None:

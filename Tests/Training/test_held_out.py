@@ -109,7 +109,7 @@ def test_seeds_and_exponents_are_read_outside_the_bands_alone(monkeypatch: pytes
 
     monkeypatch.setattr("haptoflow_training.export.seed_bank.draw_windows", spy)
     monkeypatch.setattr("haptoflow_training.export.exponents.draw_windows", spy)
-    build_seed_bank(STORE, seed=1, held_out=HELD_OUT, candidates=400)
+    build_seed_bank(STORE, np.zeros((len(STORE.labels), 4), np.float32), seed=1, held_out=HELD_OUT, candidates=400)
     fit_exponents(STORE, 0, periodic=False, seed=1, held_out=HELD_OUT)
     assert len(read) == 3 and sum(len(waves) for waves in read) == 3800
     assert [_count_held(waves) for waves in read] == [0, 0, 0]

@@ -176,7 +176,8 @@ def export_run(
     config, model = default.config, default.model
     if [info.name for info in infos] != default.labels:
         raise InputError(f"{folder}: trained on labels {default.labels}, described are {[info.name for info in infos]}")
-    bank = build_seed_bank(store, seed=config.seed, held_out=HeldOut.of(config.batch))
+    wave_numbers = model.embedding.wave_numbers.numpy()
+    bank = build_seed_bank(store, wave_numbers, seed=config.seed, held_out=HeldOut.of(config.batch))
     run_file = folder / "run.json"
     measurements = json.loads(run_file.read_text(encoding="utf-8")) if run_file.exists() else {}
     measurements.pop("configuration", None)

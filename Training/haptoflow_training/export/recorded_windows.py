@@ -14,11 +14,12 @@ from haptoflow_training.training.held_out import HeldOut, clear_spans
 @dataclass(frozen=True)
 class RecordedWindows:
     """waves [n, samples] in m/s^2; motion [n, 3]: mean vx, vy (m/s) and force (N); unsteadiness [n]: standard
-    deviation of log speed over the window."""
+    deviation of log speed over the window. position_mm [n, 2]: the place on the surface at the window's middle sample."""
 
     waves: NDArray[np.float32]
     motion: NDArray[np.float32]
     unsteadiness: NDArray[np.float32]
+    position_mm: NDArray[np.float32]
 
     @property
     def speed_mps(self) -> NDArray[np.float32]:
@@ -60,4 +61,5 @@ def draw_windows(
         waves=(store.waveform[windows] * np.float32(store.peak_mps2)).astype(np.float32),
         motion=motion.mean(axis=1).astype(np.float32),
         unsteadiness=np.log(speed + 0.002).std(axis=1).astype(np.float32),
+        position_mm=store.position_mm[starts + samples // 2],
     )

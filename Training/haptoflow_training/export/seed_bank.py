@@ -23,7 +23,8 @@ _FARTHEST = 0.5
 
 @dataclass(frozen=True)
 class SeedBank:
-    """waves [N, 400], each of RMS 1; entries: label, velocity_mps, force_newtons of each row."""
+    """waves [N, 400], each of RMS 1; entries: label, velocity_mps, force_newtons of each row, and rib_phase of one whose
+    label has ribs: turns along each wave vector at sample 200, the first that sounds."""
 
     waves: NDArray[np.float32]
     entries: list[dict[str, object]]
@@ -37,11 +38,13 @@ def _condition_distance(windows: RecordedWindows, speed_mps: float, force_newton
     )
 
 
-def build_seed_bank(store: Store, *, seed: int, held_out: HeldOut, candidates: int = 3000) -> SeedBank:
+def build_seed_bank(
+    store: Store, wave_numbers: NDArray[np.float32], *, seed: int, held_out: HeldOut, candidates: int = 3000
+) -> SeedBank:
     """For every label, the steadiest recorded window nearest to each point of a grid of speeds and forces.
 
     Grid points that no recording outside the held-out bands comes near are left out; a label keeps at least its steadiest
-    window.
+    window. wave_numbers [labels, 4]: k1x, k1y, k2x, k2y of each label's ribs in cycles per millimetre, 0 for none.
     """
     waves: list[NDArray[np.float32]] = []
     entries: list[dict[str, object]] = []
@@ -62,11 +65,15 @@ def build_seed_bank(store: Store, *, seed: int, held_out: HeldOut, candidates: i
             if rms <= 0.0:
                 continue
             waves.append((wave / rms).astype(np.float32))
-            entries.append(
-                {
-                    "label": label,
-                    "velocity_mps": [round(float(value), 5) for value in windows.motion[row, :2]],
-                    "force_newtons": round(float(windows.motion[row, 2]), 4),
-                }
-            )
+            entry: dict[str, object] = {
+                "label": label,
+                "velocity_mps": [round(float(value), 5) for value in windows.motion[row, :2]],
+                "force_newtons": round(float(windows.motion[row, 2]), 4),
+            }
+            wave_vectors = wave_numbers[index].astype(np.float64).reshape(2, 2)
+            if wave_vectors.any():
+                turns = np.mod(wave_vectors @ windows.position_mm[row].astype(np.float64), 1.0)
+                # Rounded up, a phase just below a whole turn would be outside its range.
+                entry["rib_phase"] = [round(float(turn), 5) % 1.0 for turn in turns]
+            entries.append(entry)
     return SeedBank(np.stack(waves), entries)
