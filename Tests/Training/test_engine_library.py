@@ -58,7 +58,9 @@ def test_every_source_is_timed_as_often_as_asked_whatever_the_order() -> None:
     class Counting:
         runs = 0
 
-        def generate(self, embeddings: np.ndarray, motions: np.ndarray, past: np.ndarray, noise: np.ndarray) -> np.ndarray:
+        def generate(
+            self, embeddings: np.ndarray, motions: np.ndarray, past: np.ndarray, noise: np.ndarray, phase: np.ndarray
+        ) -> np.ndarray:
             self.runs += 1
             return past
 

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 import pytest
 from numpy.typing import NDArray
-from training_fixtures import FakeRecording, FakeStore
+from training_fixtures import FakeRecording, FakeStore, travelled_mm
 
 from haptoflow_training.evaluation.level_calibration import level_offsets_db
 from haptoflow_training.evaluation.reference_conditions import conditions
@@ -55,7 +55,8 @@ def _store(seconds: float = 60.0) -> FakeStore:
         protocol = "machine" if number % 4 < 2 else "hand"
         recordings.append(FakeRecording(number % 2, protocol, split, number * count, count))
     wave = np.arange(8 * count, dtype=np.float32)
-    return FakeStore(wave, np.concatenate(motions).astype(np.float32), 1.0, ["a", "b"], recordings)
+    whole = np.concatenate(motions).astype(np.float32)
+    return FakeStore(wave, whole, travelled_mm(whole), 1.0, ["a", "b"], recordings)
 
 
 STORE = _store()
@@ -124,7 +125,7 @@ def test_the_level_is_calibrated_on_windows_outside_the_bands_alone() -> None:
     store = dataclasses.replace(STORE, waveform=level * noise)
 
     class Right:
-        def generate(self, embeddings: Any, motions: Any, previous_mps2: Any, noise: Any) -> Any:
+        def generate(self, embeddings: Any, motions: Any, previous_mps2: Any, noise: Any, rib_phase: Any) -> Any:
             return noise
 
     embeddings = np.zeros((2, 64), dtype=np.float32)
