@@ -78,16 +78,16 @@ def test_seeds_are_recordings_of_unit_level_with_their_conditions(exported: tupl
 
 def test_a_seed_of_a_ruled_label_says_at_which_rib_phase_it_begins_to_sound_and_another_does_not() -> None:
     store = make_store()
-    wave_numbers = np.array([[0.4, 0.1, 0.0, 0.8], [0.0, 0.0, 0.0, 0.0]], np.float32)
+    wave_numbers = np.array([[0.0, 0.0, 0.0, 0.0], [0.4, 0.1, 0.0, 0.8]], np.float32)
     bank = build_seed_bank(store, wave_numbers, seed=1, held_out=HeldOut(), candidates=200)
     windows = np.lib.stride_tricks.sliding_window_view(store.waveform, 400)
     normalised = windows / (np.sqrt(np.square(windows).mean(axis=1, keepdims=True)) + 1e-12)
     for wave, entry in zip(bank.waves, bank.entries, strict=True):
-        if entry["label"] == "noise":
+        if entry["label"] == "tone":
             assert "rib_phase" not in entry
             continue
         start = int(np.square(normalised - wave).sum(axis=1).argmin())
-        turns = wave_numbers[0].reshape(2, 2) @ store.position_mm[start + 200] - entry["rib_phase"]
+        turns = wave_numbers[1].reshape(2, 2) @ store.position_mm[start + 200] - entry["rib_phase"]
         np.testing.assert_allclose(turns, np.round(turns), atol=1e-3)
         assert all(0.0 <= turn < 1.0 for turn in entry["rib_phase"])
 
