@@ -71,9 +71,9 @@ def test_the_comb_carries_a_tone_and_its_overtone_on_with_their_phases(speed_mps
 
 
 def _only(kind: int, partial: int) -> torch.Tensor:
-    gains = torch.zeros(1, 4, PARTIALS)
-    gains[0, kind, partial] = 1.0
-    return gains.reshape(1, GAINS)
+    gains = torch.zeros(1, GAINS)
+    gains[0, kind * PARTIALS + partial] = 1.0
+    return gains
 
 
 def test_lines_are_the_past_s_and_the_surface_s_partial_by_partial_by_their_gains() -> None:
@@ -95,25 +95,60 @@ def test_lines_are_the_past_s_and_the_surface_s_partial_by_partial_by_their_gain
     for (kind, number), line in expected.items():
         made = _comb(past, 0, 0.5, _only(kind, number), (0.3, 0.0))[:, 4:]
         torch.testing.assert_close(made, line, rtol=0.0, atol=3e-2, msg=f"gain {kind} of partial {number}")
-    every = _comb(past, 0, 0.5, torch.tensor([[1.0] * PARTIALS + [0.0] * 3 * PARTIALS]))
+    every = _comb(past, 0, 0.5, torch.tensor([[1.0] * PARTIALS + [0.0] * (GAINS - PARTIALS)]))
     torch.testing.assert_close(every[:, 4], every[:, 0])
 
 
 def test_a_stroke_that_turns_back_meets_the_same_ribs_backwards() -> None:
     gains = torch.randn(1, GAINS, generator=torch.Generator().manual_seed(4))
-    gains[:, : 2 * PARTIALS] = 0.0
-    against = gains.reshape(1, 4, PARTIALS).clone()
+    gains[:, : 2 * PARTIALS] = gains[:, 4 * PARTIALS :] = 0.0
+    against = gains.clone()
     # Seen from the other side, what lagged behind is ahead.
-    against[:, 3] *= -1.0
+    against[:, 3 * PARTIALS : 4 * PARTIALS] *= -1.0
     silence = torch.zeros(1, 1, 200)
     position_mm = 7.31
     turn = rib_phase(EMBEDDING(torch.tensor([0])), torch.tensor([[position_mm, 0.0]]))[0, 0].item()
     there = _comb(silence, 0, 0.2, gains, (turn, 0.0))[0, 4]
     # The way back begins where the way there has come to with its last sample.
     end = (turn + 0.4 * 200.0 * 199.0 / 2000.0) % 1.0
-    back = _comb(silence, 0, -0.2, against.reshape(1, GAINS), (end, 0.0))[0, 4]
+    back = _comb(silence, 0, -0.2, against, (end, 0.0))[0, 4]
     torch.testing.assert_close(back, torch.flip(there, [0]), rtol=0.0, atol=2e-3)
     assert there.square().mean() > 0.5
+
+
+@pytest.mark.parametrize("wandered_turns", [0.0, 0.12, -0.2])
+def test_a_profile_that_has_wandered_from_the_rib_phase_goes_on_whole_from_where_the_past_shows_it(
+    wandered_turns: float,
+) -> None:
+    fundamental, turns = 40.0, 0.37
+    gains = torch.zeros(1, GAINS)
+    profile = gains[0, 4 * PARTIALS : 6 * PARTIALS].view(2, PARTIALS)
+    profile[0, :4], profile[1, :4] = torch.tensor([0.5, -0.4, 0.3, 0.3]), torch.tensor([0.2, 0.3, -0.4, 0.2])
+    # Sharp: what is asked about is the offset.
+    gains[0, 6 * PARTIALS : 6 * PARTIALS + 2] = 3.0
+
+    def wave(start: int, stop: int) -> torch.Tensor:
+        time = torch.arange(start, stop) / 2000.0
+        angle = 2.0 * math.pi * (turns + wandered_turns + fundamental * time)
+        partials = [
+            profile[0, order - 1] * torch.cos(order * angle) + profile[1, order - 1] * torch.sin(order * angle)
+            for order in range(1, 5)
+        ]
+        return torch.stack(partials).sum(dim=0).reshape(1, 1, -1)
+
+    made = _comb(wave(-200, 0), 0, 0.1, gains, (turns, 0.0))[0, 4]
+    truth = wave(0, 200)[0, 0]
+    assert ((made - truth).square().mean() / truth.square().mean()).sqrt().item() < 0.2
+
+
+def test_without_a_past_the_wandering_profile_stays_near_the_rib_phase() -> None:
+    gains = torch.zeros(1, GAINS)
+    gains[0, 4 * PARTIALS] = 1.0
+    gains[0, 6 * PARTIALS + 2 :] = 3.0
+    silence = torch.zeros(1, 1, 200)
+    made = _comb(silence, 0, 0.5, gains, (0.3, 0.0))[0, 4]
+    truth = torch.cos(2.0 * math.pi * (0.3 + 200.0 * torch.arange(200) / 2000.0))
+    torch.testing.assert_close(made, truth, rtol=0.0, atol=0.1)
 
 
 def test_a_rib_phase_counts_ribs_from_position_zero_after_metres_as_after_millimetres() -> None:

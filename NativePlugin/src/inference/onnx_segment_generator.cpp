@@ -13,7 +13,7 @@
 namespace haptoflow::inference {
 namespace {
 
-constexpr float previousLimit = 8.0F;
+constexpr float previousLimit = 16.0F;
 constexpr float quietestLogLevel = -20.0F;
 constexpr float loudestLogLevel = 20.0F;
 

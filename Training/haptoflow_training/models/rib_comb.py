@@ -3,7 +3,9 @@
 A network of local convolutions cannot carry a phase over a hundred milliseconds at any pitch. Projecting the past on the
 harmonics of the known rib frequency can, exactly; and the rib phase, which the engine counts from the travelled distance,
 says where on its profile the tip is, so that all harmonics keep their places to each other for as long as a stroke lasts.
-How much of either a surface needs is learnt: machined ribs follow the phase, woven threads wander from it.
+How much of either a surface needs is learnt: machined ribs follow the phase, woven threads wander from it. Where they
+have wandered to, the past tells: the profile is laid over it at every offset, and the partials of those that fit go on
+together.
 """
 
 from __future__ import annotations
@@ -21,8 +23,9 @@ HARMONICS = 14
 PARTIALS = WAVE_VECTORS * HARMONICS
 COMB_CHANNELS = 2 * WAVE_VECTORS + 1
 # Of each partial: the past's carried on, carried on at an amplitude of its own, and two of the surface's: in phase with
-# the rib phase and a quarter turn behind it.
-GAINS = 4 * PARTIALS
+# the rib phase and a quarter turn behind it; then two of the profile that wanders. Of each wave vector: how sharply the
+# past decides where that has wandered to, and how near to the rib phase it stays, as logarithms.
+GAINS = 6 * PARTIALS + 2 * WAVE_VECTORS
 # In unit scale a line of all the power there is has an amplitude of 1.4: one that has grown beyond is not carried on as
 # it is, so that a line whose gain is a little above 1 in the loop cannot run away.
 _LARGEST_AMPLITUDE = 1.5
@@ -33,6 +36,11 @@ _LOWEST_TOLD_APART_HZ = 5.0
 # Partials of unit size that stand in phase make pulses 14 times as high as one of them.
 _PULSE_SCALE = 0.3
 _SMALL = 1e-5
+# Offsets at which the wandering profile is laid over the past, how sharply a partial of size 1 decides, and how near to
+# the rib phase it stays (as of a von Mises distribution), both before anything is learnt.
+_OFFSETS = 64
+_SHARPNESS, _NEARNESS = 8.0, 2.0
+_LARGEST_LOGARITHM = 3.0
 # How many samples follow a place whose sine is computed.
 _STRIDE = 20
 
@@ -53,6 +61,9 @@ class RibComb(nn.Module):
     turns: Tensor
     quarters: Tensor
     families: Tensor
+    overlaps: Tensor
+    turned_by: Tensor
+    nearness: Tensor
 
     def __init__(self, samples: int = 200) -> None:
         super().__init__()
@@ -90,6 +101,11 @@ class RibComb(nn.Module):
         families = torch.eye(WAVE_VECTORS).repeat_interleave(HARMONICS, dim=1)
         rows = torch.cat([families, _PULSE_SCALE * families, torch.ones(1, PARTIALS)])
         self.register_buffer("families", rows.reshape(1, COMB_CHANNELS, PARTIALS, 1), persistent=False)
+        offsets = 2.0 * math.pi * torch.arange(_OFFSETS) / _OFFSETS
+        turned = order.unsqueeze(1) * offsets
+        self.register_buffer("overlaps", torch.cat([turned.cos(), turned.sin()]).unsqueeze(0), persistent=False)
+        self.register_buffer("turned_by", torch.cat([turned.cos(), turned.sin()]).t().unsqueeze(0), persistent=False)
+        self.register_buffer("nearness", _NEARNESS * offsets.cos().reshape(1, 1, -1), persistent=False)
 
     def waves(self, embedding: Tensor, motion: Tensor) -> tuple[Tensor, Tensor]:
         """Cosine and sine of each partial at one motion, [B, 56, N]; and the signed fundamentals [B, 2, 1] in Hz.
@@ -125,12 +141,29 @@ class RibComb(nn.Module):
         in_phase = cosine * ahead - sine * behind
         return torch.stack([in_phase, cosine * behind + sine * ahead], dim=2), told_apart
 
+    def _wandered(self, wandering: Tensor, profile: Tensor, carried: Tensor, by_family: Tensor) -> Tensor:
+        """Partials [B, 28, 2] that go on from where the profile fits the past [B, 28, 2]: the mean over offsets, each as
+        likely as it overlaps with what is carried on and lies near the rib phase. by_family [B, 4]: logarithms of how
+        sharp and how near."""
+        sharp, near = by_family.clamp(-_LARGEST_LOGARITHM, _LARGEST_LOGARITHM).exp().reshape(-1, 2, WAVE_VECTORS, 1).unbind(1)
+        cosine, sine = profile.unbind(dim=2)
+        past_cosine, past_sine = carried.unbind(dim=2)
+        # Of z = cosine - i sine, past times conjugate profile: its angle is what a partial has wandered by.
+        overlap = torch.stack([past_cosine * cosine + past_sine * sine, past_cosine * sine - past_sine * cosine], dim=1)
+        overlap = overlap.reshape(-1, 2, WAVE_VECTORS, HARMONICS).transpose(1, 2).reshape(-1, WAVE_VECTORS, 2 * HARMONICS)
+        likely = torch.softmax(_SHARPNESS * sharp * (overlap @ self.overlaps) + near * self.nearness, dim=2)
+        turn = (likely @ self.turned_by).reshape(-1, WAVE_VECTORS, 2, HARMONICS).transpose(1, 2)
+        turn_cosine, turn_sine = turn.reshape(-1, 2, PARTIALS, 1).unbind(dim=1)
+        ahead, aside = wandering.split(1, dim=2)
+        return torch.cat([ahead * turn_cosine + aside * turn_sine, aside * turn_cosine - ahead * turn_sine], dim=2)
+
     def forward(self, mirrored: Tensor, embedding: Tensor, motion: Tensor, rib_phase: Tensor, gains: Tensor) -> Tensor:
-        """[B, 5, N]: four channels and the lines, from the mirrored past [B, 1, N], rib phase [B, 2] and gains [B, 112].
+        """[B, 5, N]: four channels and the lines, from the mirrored past [B, 1, N], rib phase [B, 2] and gains [B, 172].
 
         Channels: for each wave vector the past carried on, then pulses, one for each rib that passes. Lines: the sum of
         all partials: the past's carried on (no larger than all the power there is) and of unit size with the phase of
-        the past, then the surface's in phase and a quarter turn behind, by gains in that order.
+        the past, then the surface's in phase and a quarter turn behind, then those of the profile that wanders, by gains in
+        that order.
         """
         waves, signed = self.waves(embedding, motion)
         carried, pulses, lines = self.partials(waves, signed, mirrored, rib_phase, gains)
@@ -145,14 +178,22 @@ class RibComb(nn.Module):
         carried = (mirrored * self.weights @ waves.transpose(1, 2)).reshape(-1, PARTIALS, 2) * told
         size = carried.norm(p=2, dim=2, keepdim=True) + _SMALL
         surface = self.surface(signed_hz, rib_phase)
-        kept, held, in_phase, behind = gains.reshape(-1, 4, PARTIALS, 1).unbind(dim=1)
+        by_partial, by_family = gains.split([6 * PARTIALS, 2 * WAVE_VECTORS], dim=1)
+        kept, held, *profiles = by_partial.reshape(-1, 6, PARTIALS, 1).unbind(dim=1)
         bounded = kept * torch.clamp(_LARGEST_AMPLITUDE / size, max=1.0)
-        ahead, aside = surface.split(1, dim=2)
-        # A partial p cos(P + a) + q sin(P + a), with P the surface's phase: cosine p cos P + q sin P, sine q cos P - p sin P.
-        turned = torch.cat([in_phase * ahead + behind * aside, behind * ahead - in_phase * aside], dim=2)
+        still, wandering = _turned(profiles[0], profiles[1], surface), _turned(profiles[2], profiles[3], surface)
+        wandered = self._wandered(wandering, still + wandering, carried, by_family)
         sounding = self.audible(signed_hz, _LOWEST_HZ)
-        lines = carried * (bounded + held / size) + turned * sounding
+        lines = carried * (bounded + held / size) + (still + wandered) * sounding
+        ahead, aside = surface.split(1, dim=2)
         return carried, torch.cat([ahead, -aside], dim=2) * sounding, lines
+
+
+def _turned(in_phase: Tensor, behind: Tensor, surface: Tensor) -> Tensor:
+    """[B, 28, 2]: cosine and sine of partials p cos(P + a) + q sin(P + a), with P the surface's phase: p cos P + q sin P
+    and q cos P - p sin P."""
+    ahead, aside = surface.split(1, dim=2)
+    return torch.cat([in_phase * ahead + behind * aside, behind * ahead - in_phase * aside], dim=2)
 
 
 def _thin_product(left: Tensor, right: Tensor) -> Tensor:

@@ -6,7 +6,7 @@ import torch
 from torch import Tensor
 
 # What a previous waveform is limited to: a burst that no level foresaw must not drive the network out of its range.
-PREVIOUS_LIMIT = 8.0
+PREVIOUS_LIMIT = 16.0
 
 
 def unit_scale(wave_mps2: Tensor, log_level: Tensor) -> Tensor:
