@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from haptoflow_training.cli import main
-from haptoflow_training.recordings.synthetic import load_materials
+from haptoflow_training.recordings.synthetic import TRAINING_SPECIMENS, load_materials
 from haptoflow_training.recordings.synthetic.calibration import calibrate
 from haptoflow_training.recordings.synthetic.contact import resonance_steps
 from haptoflow_training.recordings.synthetic.materials import DEFAULT_MATERIALS_PATH, Targets
@@ -160,6 +160,7 @@ def test_record_writes_a_data_set_that_says_it_is_synthetic_and_completes_an_unf
     assert main([*words, "--out", str(tmp_path / "a")]) == 0
     provenance = json.loads((tmp_path / "a" / "provenance.json").read_text())
     assert provenance["synthetic"] is True and provenance["seed"] == 4
+    assert provenance["specimens"] == list(TRAINING_SPECIMENS)
     assert (tmp_path / "a" / "texture_list.xlsx").is_file()
     files = sorted((tmp_path / "a" / "sensor_data" / "accel").glob("*_hand_*.csv"))
     assert len(files) == 4 and {each.name.split("_")[0] for each in files} == {"0", "16"}

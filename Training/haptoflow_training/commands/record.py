@@ -20,6 +20,7 @@ from haptoflow_training.recordings.dataset_writer import (
 )
 from haptoflow_training.recordings.recording import RecordingIdentity
 from haptoflow_training.recordings.synthetic import (
+    TRAINING_SPECIMENS,
     Material,
     hand_conditions,
     load_materials,
@@ -80,6 +81,7 @@ def run(options: argparse.Namespace) -> int:
             "labels": [each.label for each in chosen],
             "recordings": len(wanted),
             "hand_duration_seconds": options.duration_seconds,
+            "specimens": list(TRAINING_SPECIMENS),
         },
     )
     if len(missing) < len(wanted):

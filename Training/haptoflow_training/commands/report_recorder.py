@@ -169,15 +169,15 @@ def _markdown(rows: list[Row], speed: float) -> str:
         "RMS in 20-500 Hz = k (v / 100 mm/s)^p (F / 1 N)^q; p and q are fitted over all conditions; k, "
         "centroid and slope (60-450 Hz, third octaves) are those at 100 mm/s and 1 N. The sensor's noise at rest "
         "is subtracted as power. Ruled surfaces are measured the same way: their slope is that of the comb's "
-        "envelope. The specimen measured is the one held out; the calibration used the training specimens. crest: 99.9th "
-        "percentile over RMS; 3.3 is Gaussian noise. centroid ~ v^: exponent of the centroid over the same conditions; "
-        f"fast: from {max(design.speeds_mmps):g} to {max(design.fast_speeds_mmps):g} mm/s at 1 N.\n\n",
+        "envelope. The specimen measured is the one held out; the calibration used the training specimens. crest: "
+        "99.9th percentile over RMS; 3.3 is Gaussian noise. centroid ~ v^: exponent of the centroid over the same "
+        f"conditions; fast: from {max(design.speeds_mmps):g} to {max(design.fast_speeds_mmps):g} mm/s at 1 N.\n\n",
         f"Allowed: {TOLERANCE.level_db} dB, {TOLERANCE.p} in p, {TOLERANCE.q} in q, {TOLERANCE.centroid:.0%} "
         f"in centroid, {TOLERANCE.slope_db_per_octave} dB/octave. Each cell: measured (target).\n\n",
         f"**{passed} of {len(rows)} materials meet their targets.** One processor core records {speed:.0f} "
         "seconds of hand strokes in a second.\n\n",
-        f"Pooled over the labels, the centroid grows as v^{_pooled(rows):.2f} (published, tool-held: about v^0.15), and "
-        f"as v^{_number(_pooled_fast(rows))} at the fast speeds.\n\n",
+        f"Pooled over the labels, the centroid grows as v^{_pooled(rows):.2f} (published, tool-held: about v^0.15), "
+        f"and as v^{_number(_pooled_fast(rows))} at the fast speeds.\n\n",
         _TABLE_HEAD,
     ]
     for row in rows:

@@ -91,7 +91,7 @@ def resonance_steps(
 ) -> NDArray[np.float64]:
     """By how many factors of _RESONANCE_STEP the contact's resonance exceeds that at 100 mm/s and 1 N.
 
-    The contact is Hertzian: pressed harder, it is stiffer. Surface, tool grip and skin are viscoelastic: deformed faster,
+    The contact is Hertzian: pressed harder, it is stiffer. Surface, grip and skin are viscoelastic: deformed faster,
     they are stiffer as well. Together with the finite tip, which at low speed averages away what is met at high
     frequency, this moves the spectral centroid with speed as the published field statistics of tool-held textures
     have it, about as v^0.15 pooled over textures; the exponent of the speed was chosen for that. On a power-law
