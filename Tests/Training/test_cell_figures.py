@@ -100,7 +100,7 @@ def test_a_change_of_label_is_judged_around_the_changes_alone_and_each_way_by_it
 class _Echo:
     """Segments whose level is the embedding's first number."""
 
-    def generate(self, embeddings: Any, motions: Any, previous_mps2: Any, noise: Any) -> Any:
+    def generate(self, embeddings: Any, motions: Any, previous_mps2: Any, noise: Any, rib_phase: Any) -> Any:
         return (noise * embeddings[:, :1]).astype(np.float32)
 
 

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import dataclasses
 import math
+from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -16,8 +18,9 @@ from haptoflow_training.evaluation.reference_conditions import (
     motion_of,
     rib_rates_hz,
 )
-from haptoflow_training.evaluation.reference_set import record_pair
-from haptoflow_training.recordings.synthetic import Material, load_materials
+from haptoflow_training.evaluation import reference_set as subject
+from haptoflow_training.evaluation.reference_set import record_pair, rib_phases
+from haptoflow_training.recordings.synthetic import HELD_OUT_SPECIMEN, Material, load_materials
 
 MATERIALS = load_materials()
 CHOSEN = conditions(MATERIALS)
@@ -89,7 +92,8 @@ def test_no_two_recordings_share_a_seed_within_a_label() -> None:
 
 def test_the_motion_that_networks_are_told_is_the_one_that_was_recorded() -> None:
     condition = dataclasses.replace(_first("stone", "constant", speed_mps=0.5), seconds=2.0)
-    recorded, independent, motion = record_pair((condition, _material("stone"), _material("glass")))
+    pair = record_pair((condition, _material("stone"), _material("glass")))
+    recorded, independent, motion = pair.recorded, pair.independent, pair.motion
     assert motion.shape == (len(recorded), 3) and abs(len(recorded) - 4000) < 40
     np.testing.assert_allclose(np.hypot(motion[:, 0], motion[:, 1]), 0.5, rtol=1e-5)
     turned = np.degrees(np.arctan2(motion[:, 1], motion[:, 0])) % 360.0
@@ -123,8 +127,59 @@ def test_a_change_of_label_is_made_of_the_two_labels_recordings_turn_by_turn() -
     condition = dataclasses.replace(_first("glass", "change"), seconds=4.0)
     other = MATERIALS[condition.other_index]
     assert other.label != "glass" and condition.other_label == other.label
-    mixed, _, _ = record_pair((condition, _material("glass"), other))
-    plain, _, _ = record_pair((dataclasses.replace(condition, kind="constant"), _material("glass"), other))
+    mixed = record_pair((condition, _material("glass"), other)).recorded
+    plain = record_pair((dataclasses.replace(condition, kind="constant"), _material("glass"), other)).recorded
     elsewhere = is_on_other_label(len(mixed))
     np.testing.assert_array_equal(mixed[~elsewhere], plain[~elsewhere])
     assert not np.array_equal(mixed[elsewhere], plain[elsewhere]) and elsewhere.mean() == pytest.approx(0.5, abs=0.02)
+
+
+def test_both_of_a_pair_are_recorded_on_the_specimen_that_training_never_sees(monkeypatch: pytest.MonkeyPatch) -> None:
+    specimens: list[int] = []
+
+    def spy(*arguments: Any, **named: Any) -> Any:
+        specimens.append(named["specimen"])
+        return record(*arguments, **named)
+
+    record = subject.record_condition
+    monkeypatch.setattr(subject, "record_condition", spy)
+    condition = dataclasses.replace(_first("glass", "change"), seconds=1.0)
+    record_pair((condition, _material("glass"), MATERIALS[condition.other_index]))
+    assert specimens == [HELD_OUT_SPECIMEN] * 4
+
+
+def test_the_phase_of_the_ribs_is_that_of_the_place_on_the_surface_where_the_recording_is() -> None:
+    # Ribs as high as corduroy's: the recorded power swings with the phase that the place gives, at its start and later.
+    condition = dataclasses.replace(_first("corduroy", "constant", speed_mps=0.03), seconds=6.0)
+    pair = record_pair((condition, _material("corduroy"), _material("glass")))
+    ruling = _material("corduroy").dominant_ruling
+    assert ruling is not None
+    embedding = np.zeros(64, dtype=np.float32)
+    embedding[-4] = 1.0 / ruling.wavelength_mm
+    samples = np.arange(len(pair.recorded))
+    phase = rib_phases(pair, embedding, samples)
+    assert np.all(phase[:, 1] == 0.0) and 0.0 <= phase.min() and phase.max() < 1.0
+    turned = np.diff(np.unwrap(2.0 * np.pi * phase[:, 0])).mean() * 2000.0 / (2.0 * np.pi)
+    assert turned == pytest.approx(condition.rib_rates_hz[0], rel=1e-3)
+    swing = [
+        np.angle(np.sum(np.square(part, dtype=np.float64) * np.exp(-2j * np.pi * at)))
+        for part, at in zip(np.array_split(pair.recorded, 4), np.array_split(phase[:, 0], 4), strict=True)
+    ]
+    assert np.abs(np.angle(np.exp(1j * np.subtract(swing, swing[0])))).max() < 0.8
+
+
+def test_recordings_are_made_anew_where_the_recorder_s_code_has_changed(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    condition = dataclasses.replace(_first("glass", "stop"), seconds=1.0)
+    monkeypatch.setattr(subject, "conditions", lambda materials: [condition])
+    counted: list[int] = []
+    first = subject.reference_set(tmp_path / "cache.npz", 1, counted.append)
+    written = (tmp_path / "cache.npz").stat().st_mtime_ns
+    again = subject.reference_set(tmp_path / "cache.npz", 1, counted.append)
+    assert (tmp_path / "cache.npz").stat().st_mtime_ns == written and counted == [1, 1]
+    np.testing.assert_array_equal(first[0].recorded, again[0].recorded)
+    assert again[0].start_mm == pytest.approx(first[0].start_mm) and again[0].condition == condition
+    monkeypatch.setattr(subject, "_recorder_crc32", lambda: "other")
+    subject.reference_set(tmp_path / "cache.npz", 1, counted.append)
+    assert (tmp_path / "cache.npz").stat().st_mtime_ns != written

@@ -8,10 +8,14 @@ from pathlib import Path
 
 import pytest
 
+from haptoflow_training.commands.evaluate import _can_be_measured
 from haptoflow_training.evaluation import row_training
+from haptoflow_training.evaluation.accuracy import make_yardstick
 from haptoflow_training.evaluation.row_plan import PlannedRow
+from haptoflow_training.evaluation.row_runner import made_from
 from haptoflow_training.evaluation.row_training import train_models
 from haptoflow_training.evaluation.workplace import Workplace
+from haptoflow_training.models.codec.small_codec import SmallCodec, SmallCodecShape
 from haptoflow_training.training.config import load_config
 from haptoflow_training.training.job_lanes import Job
 
@@ -93,3 +97,15 @@ def test_seeds_of_a_training_that_nobody_describes_are_left_out_and_the_shipped_
     shipped = PlannedRow("standard", "ours", model="a/default.haptoflow", seeds=(1, 2), seeds_model="nowhere")
     assert place.seeds_of(shipped) == [1] and place.seeds_of(PlannedRow("r", "as-published", model="nowhere")) == []
     assert place.seeds_of(_ROW) == [1] and place.seeds_of(PlannedRow("silence", "reference")) == [1]
+
+
+def test_what_the_codec_alone_leaves_is_a_ruler_without_a_model_and_needs_the_codec(place: Workplace) -> None:
+    text = '[model]\npatch = 5\n[model.representation]\nkind = "small-codec"\ncheckpoint = "codec/small-codec.pt"\n'
+    (place.root / "paper-codec.toml").write_text(text, encoding="utf-8")
+    row = PlannedRow("small-codec-reconstruction", "reference")
+    yardstick = make_yardstick([])
+    assert row.is_reference and place.codec_checkpoint == place.root / "codec" / "small-codec.pt"
+    assert made_from(place, yardstick, row, 1)["graphs_crc32"] is None and not _can_be_measured(place, yardstick, row, 1)
+    place.codec_checkpoint.parent.mkdir()
+    SmallCodec(SmallCodecShape(latent_channels=12, width=8)).save(place.codec_checkpoint)
+    assert made_from(place, yardstick, row, 1)["graphs_crc32"] and _can_be_measured(place, yardstick, row, 1)

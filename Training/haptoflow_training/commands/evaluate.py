@@ -22,6 +22,7 @@ from haptoflow_training.evaluation.label_spectra import draw_spectra
 from haptoflow_training.evaluation.model_stamp import SHIPPED_MODEL, graphs_sha256, sha256_of
 from haptoflow_training.evaluation.reference_conditions import conditions
 from haptoflow_training.evaluation.reference_set import ReferencePair, reference_set
+from haptoflow_training.evaluation.reference_rows import CODEC_ROW
 from haptoflow_training.evaluation.row_plan import PlannedRow, load_plan
 from haptoflow_training.evaluation.row_runner import UPDATE_RATE_HZ, made_from, measure_row
 from haptoflow_training.evaluation.row_store import stored_row
@@ -92,7 +93,8 @@ def run(options: argparse.Namespace) -> int:
         if row.seeds[0] in seeds:
             measured[row.name] = [measure_row(place, engine, yardstick, row, seed) for seed in seeds]
         else:
-            missing = f"{row.model} has no tier '{row.tier}'" if row.tier else f"{row.model} is not trained yet"
+            named = row.model or str(place.codec_checkpoint)
+            missing = f"{named} has no tier '{row.tier}'" if row.tier else f"{named} is not trained yet"
             tqdm.write(f"evaluate: {row.name} is left out: {missing}", file=sys.stderr)
     timed = [row for row in chosen if not row.is_reference and _is_there(place.model_file(row, row.seeds[0]), row.tier)]
     run = _time_rows(place, engine, timed, options.quick, is_complete=not (options.rows or options.quick))
@@ -117,6 +119,8 @@ def _is_stored(place: Workplace, yardstick: Yardstick, row: PlannedRow, seed: in
 
 
 def _can_be_measured(place: Workplace, yardstick: Yardstick, row: PlannedRow, seed: int) -> bool:
+    if row.name == CODEC_ROW:
+        return place.codec_checkpoint.exists() or _is_stored(place, yardstick, row, seed)
     is_there = row.is_reference or _is_there(place.model_file(row, seed), row.tier)
     return is_there or _is_stored(place, yardstick, row, seed)
 

@@ -15,7 +15,7 @@ from haptoflow_training.evaluation.cell_figures import SETTLING_SAMPLES, measure
 from haptoflow_training.evaluation.closed_loop import SAMPLE_RATE_HZ, SegmentSource, hop_positions, run_closed_loop
 from haptoflow_training.evaluation.label_classifier import LabelClassifier, concatenate, window_features
 from haptoflow_training.evaluation.reference_conditions import is_on_other_label
-from haptoflow_training.evaluation.reference_set import ReferencePair
+from haptoflow_training.evaluation.reference_set import ReferencePair, rib_phases
 from haptoflow_training.evaluation.told_apart import told_apart_percent
 
 _Floats = NDArray[np.float32]
@@ -88,7 +88,9 @@ def open_loop_wave(source: SegmentSource, embedding: _Floats, pair: ReferencePai
     previous = pair.recorded[: count * 200].reshape(count, 200)
     motion = pair.motion[: count * 200].reshape(count, 200, 3)[:, -28:].mean(axis=1)
     noise = np.random.default_rng(seed).standard_normal((count, 200)).astype(np.float32)
-    return source.generate(np.tile(embedding, (count, 1)), motion.astype(np.float32), previous, noise).reshape(-1)
+    phases = rib_phases(pair, embedding, 200 * np.arange(1, count + 1))
+    told = np.tile(embedding, (count, 1))
+    return source.generate(told, motion.astype(np.float32), previous, noise, phases).reshape(-1)
 
 
 def measure(pairs: Sequence[ReferencePair], made: GeneratedSet) -> list[dict[str, Any]]:

@@ -9,6 +9,8 @@ from haptoflow_training.evaluation.metrics import power_spectrum
 from haptoflow_training.evaluation.reference_set import ReferencePair
 
 REFERENCE_ROWS = ("independent-draw", "mean-spectrum", "white-noise", "silence")
+# What the small codec alone leaves of each recording: the best that a row in its latents could score.
+CODEC_ROW = "small-codec-reconstruction"
 _ENVELOPE_SAMPLES = 200
 _SPECTRUM_WINDOW = 400
 

@@ -8,12 +8,13 @@ from pathlib import Path
 from typing import Any
 
 from haptoflow_training.errors import InputError
-from haptoflow_training.evaluation.reference_rows import REFERENCE_ROWS
+from haptoflow_training.evaluation.reference_rows import CODEC_ROW, REFERENCE_ROWS
 
 AS_PUBLISHED, GIVEN_THE_SAME, OURS, ABLATION, REFERENCE = (
     "as-published", "given-the-same", "ours", "ablation", "reference",
 )  # fmt: skip
 BLOCKS = (OURS, AS_PUBLISHED, GIVEN_THE_SAME, ABLATION, REFERENCE)
+_ROWS_WITHOUT_MODEL = (*REFERENCE_ROWS, CODEC_ROW)
 RIVAL_BLOCKS = (AS_PUBLISHED, GIVEN_THE_SAME)
 
 
@@ -45,7 +46,7 @@ class PlannedRow:
 
     @property
     def is_reference(self) -> bool:
-        return self.name in REFERENCE_ROWS
+        return self.name in _ROWS_WITHOUT_MODEL
 
     @property
     def rival_name(self) -> str:
@@ -87,9 +88,9 @@ def _row(entry: dict[str, Any], where: str) -> PlannedRow:
     if row.block not in BLOCKS:
         raise InputError(f"{where}: key 'block' is '{row.block}', expected one of {', '.join(BLOCKS)}")
     if row.is_reference != (row.block == REFERENCE):
-        raise InputError(f"{where}: only {', '.join(REFERENCE_ROWS)} are of the block '{REFERENCE}', and always")
+        raise InputError(f"{where}: only {', '.join(_ROWS_WITHOUT_MODEL)} are of the block '{REFERENCE}', and always")
     if not row.is_reference and not row.model:
-        raise InputError(f"{where}: key 'model' is missing; only {', '.join(REFERENCE_ROWS)} have none")
+        raise InputError(f"{where}: key 'model' is missing; only {', '.join(_ROWS_WITHOUT_MODEL)} have none")
     if not row.seeds:
         raise InputError(f"{where}: key 'seeds' is empty, expected a number at least")
     return row

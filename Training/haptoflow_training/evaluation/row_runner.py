@@ -13,13 +13,14 @@ from haptoflow_training.evaluation.accuracy import Yardstick
 from haptoflow_training.evaluation.closed_loop import hop_positions, run_closed_loop
 from haptoflow_training.evaluation.engine_library import EngineGenerator, EngineLibrary
 from haptoflow_training.evaluation.metrics import kink_db, rms
-from haptoflow_training.evaluation.reference_rows import reference_waves
+from haptoflow_training.evaluation.reference_rows import CODEC_ROW, reference_waves
 from haptoflow_training.evaluation.reference_set import ReferencePair
 from haptoflow_training.evaluation.row_plan import PlannedRow
 from haptoflow_training.evaluation.row_summary import over_labels
 from haptoflow_training.evaluation.row_store import read_row, stored_row, write_row
 from haptoflow_training.evaluation.workplace import Workplace
 from haptoflow_training.export.model_file import read_model_file
+from haptoflow_training.models.codec.codec_reconstruction import codec_reconstruction
 
 UPDATE_RATE_HZ = 72.0
 UPDATE_RATES_HZ = (30.0, 72.0, 120.0)
@@ -64,6 +65,9 @@ def made_from(place: Workplace, yardstick: Yardstick, row: PlannedRow, seed: int
 
 
 def _graphs_crc32(place: Workplace, row: PlannedRow, seed: int) -> str | None:
+    if row.name == CODEC_ROW:
+        codec = place.codec_checkpoint
+        return f"{zlib.crc32(codec.read_bytes()):08x}" if codec.exists() else None
     if row.is_reference:
         return ""
     model = place.model_file(row, seed)
@@ -83,7 +87,10 @@ def _pairs(place: Workplace, yardstick: Yardstick, row: PlannedRow, seed: int) -
 
 def _reference_figures(place: Workplace, yardstick: Yardstick, row: PlannedRow, seed: int) -> dict[str, Any]:
     pairs = _pairs(place, yardstick, row, seed)
-    waves = reference_waves(row.name, pairs, _SEED)
+    if row.name == CODEC_ROW:
+        waves = codec_reconstruction(place.codec_checkpoint, [pair.recorded for pair in pairs])
+    else:
+        waves = reference_waves(row.name, pairs, _SEED)
     nothing = [np.zeros(0, dtype=np.float32)] * len(pairs)
     starts = [hop_positions(len(wave), UPDATE_RATE_HZ) for wave in waves]
     rows = accuracy.measure(pairs, accuracy.GeneratedSet(waves, nothing, starts))

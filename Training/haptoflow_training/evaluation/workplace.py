@@ -13,6 +13,9 @@ from haptoflow_training.evaluation.row_plan import PlannedRow
 from haptoflow_training.training.config import load_config
 
 
+_CODEC_CONFIGURATION = "paper-codec"
+
+
 @dataclass(frozen=True)
 class Workplace:
     """root: the repository. work: where trainings and models are kept (not committed). results: where measured rows are.
@@ -24,6 +27,12 @@ class Workplace:
     store: Path
     results: Path
     quick: bool = False
+
+    @property
+    def codec_checkpoint(self) -> Path:
+        """The small codec's, which rows in its latents bring with their training."""
+        representation = load_config(self.config_file(_CODEC_CONFIGURATION)).model.representation
+        return self.root / str(representation["checkpoint"])
 
     def model_file(self, row: PlannedRow, seed: int) -> Path:
         """The row's model: of the repository, or as its training exports it."""
