@@ -40,7 +40,7 @@ def _check(graph: bytes) -> None:
 
 @pytest.mark.parametrize("kind", ["flow", "average-velocity", "direct"])
 def test_every_kind_of_tier_of_the_shipped_sizes_uses_operators_of_the_list(kind: str) -> None:
-    for size in ("draft", "standard", "fine"):
+    for size in ("draft", "standard"):
         model = build_model(load_config(CONFIGS / "default" / f"{size}.toml"), NO_RIBS)
         _check(export_network(model, kind))
     _check(export_level_model(model.level))

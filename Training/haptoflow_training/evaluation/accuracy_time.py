@@ -14,7 +14,6 @@ from haptoflow_training.evaluation.row_plan import OURS, PlannedRow
 from haptoflow_training.evaluation.row_summary import label_table, level_error_p90_db, over_labels, summary
 from haptoflow_training.evaluation.verdicts import verdict
 
-STANDARD = "standard"
 _SEED_HEADLINES = ("level_error_db", "gfc_recording", "lsd_db")
 _KEPT = ("fast", "kink_db", "drift_seconds")
 _TIMES = ("ms_per_segment", "ms_paced")
@@ -34,8 +33,12 @@ def machine_words() -> str:
 def table(plan: Sequence[PlannedRow], measured: Mapping[str, Sequence[dict[str, Any]]]) -> dict[str, Any]:
     """measured: for each row's name one result per seed (row_runner.measure_row), the first one's first. Rows that were
     not measured are left out and named in `not_measured`. Times are put in by `with_times`."""
-    standard = measured[STANDARD][0]["conditions"] if STANDARD in measured else []
-    rows = [_row(row, measured[row.name], standard) for row in plan if row.name in measured]
+
+    def judged_against(row: PlannedRow) -> Sequence[dict[str, Any]]:
+        own = row.against == row.name or row.against not in measured
+        return [] if own else measured[row.against][0]["conditions"]
+
+    rows = [_row(row, measured[row.name], judged_against(row)) for row in plan if row.name in measured]
     today = datetime.date.today().isoformat()
     return {"machine": machine_words(), "date": today, "not_measured": _absent(plan, rows), "rows": rows}
 
@@ -60,7 +63,7 @@ def _absent(plan: Sequence[PlannedRow], rows: Sequence[dict[str, Any]]) -> list[
 
 
 def _row(
-    row: PlannedRow, results: Sequence[dict[str, Any]], standard: Sequence[dict[str, Any]]
+    row: PlannedRow, results: Sequence[dict[str, Any]], reference: Sequence[dict[str, Any]]
 ) -> dict[str, Any]:
     first = results[0]
     cells = first["conditions"]
@@ -84,8 +87,9 @@ def _row(
     }
     if row.block == OURS and cells:
         entry["by_label"] = _rounded(label_table(cells))
-    if row.name != STANDARD and cells and standard:
-        entry["verdict"] = verdict(standard, cells)
+    if cells and reference:
+        entry["against"] = row.against
+        entry["verdict"] = verdict(reference, cells)
     if len(results) > 1:
         entry["by_seed"] = _by_seed(results)
     return entry

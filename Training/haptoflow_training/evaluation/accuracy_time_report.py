@@ -56,8 +56,9 @@ def _outcome(table: Mapping[str, Any]) -> list[str]:
             continue
         counts = {outcome: sum(len(rival.figures(outcome)) for rival in found) for outcome in (AHEAD, EVEN, BEHIND)}
         many = f"{len(found)} rival{'s' if len(found) > 1 else ''}, {sum(counts.values())} comparisons"
+        ours = " or ".join(sorted({f"`{row['against']}`" for row in table["rows"] if row["block"] == block and "against" in row}))
         words = f"ahead in {counts[AHEAD]}, even in {counts[EVEN]}, behind in {counts[BEHIND]}"
-        lines += [f"**{title}**, {many}: `standard` is {words}. {_wins(found)}", ""]
+        lines += [f"**{title}**, {many}: {ours} is {words}. {_wins(found)}", ""]
     return lines
 
 
@@ -150,7 +151,7 @@ def _verdict_table(rows: Sequence[_Row]) -> list[str]:
     found = rivals(rows, RIVAL_BLOCKS)
     if not found:
         return []
-    lines = ["## Ahead, even, behind", "", "Of `standard` beside each rival.", ""]
+    lines = ["## Ahead, even, behind", "", "Of ours beside each rival that was trained as long.", ""]
     lines += ["| rival | block | " + " | ".join(figure.words for figure in JUDGED) + " |"]
     lines += ["|---|---|" + "---|" * len(JUDGED)]
     for rival in found:

@@ -16,6 +16,7 @@ AS_PUBLISHED, GIVEN_THE_SAME, OURS, ABLATION, REFERENCE = (
 BLOCKS = (OURS, AS_PUBLISHED, GIVEN_THE_SAME, ABLATION, REFERENCE)
 _ROWS_WITHOUT_MODEL = (*REFERENCE_ROWS, CODEC_ROW)
 RIVAL_BLOCKS = (AS_PUBLISHED, GIVEN_THE_SAME)
+DEFAULT_AGAINST = "standard"
 
 
 @dataclass(frozen=True)
@@ -23,6 +24,7 @@ class PlannedRow:
     """block: `ours`, `as-published` (a rival in its own form), `given-the-same` (a rival with our inputs and budget),
     `ablation` or `reference`. rival: whose row it is, in words; rows of one network at several numbers of steps are one
     rival and bear the same name (default: the row's own). family: colours the chart.
+    against: the row that this one is judged against; one that was trained as long.
     model: a .haptoflow file from the repository's root, or the name of a training in the plan's own folder (its
     TOML file without the ending); empty for a reference row. seeds: of the training; those after the first are measured
     on every fourth recording, to tell how much of a row is chance. seeds_model: the training that further seeds are of,
@@ -40,6 +42,7 @@ class PlannedRow:
     evaluations: int = 0
     seeds: tuple[int, ...] = (1,)
     seeds_model: str = ""
+    against: str = DEFAULT_AGAINST
     quick: bool = False
     extended: bool = False
     time_only: bool = False
@@ -77,6 +80,9 @@ def load_plan(path: Path) -> list[PlannedRow]:
             raise InputError(f"{path}: row '{name}' stands there twice")
     if not rows:
         raise InputError(f"{path}: no [[row]] in it")
+    for row in rows:
+        if row.against != DEFAULT_AGAINST and row.against not in names:
+            raise InputError(f"{path}: row '{row.name}': key 'against' names no row of the plan: '{row.against}'")
     return rows
 
 

@@ -15,14 +15,14 @@ _Cell = Mapping[str, Any]
 AHEAD, EVEN, BEHIND = "ahead", "even", "behind"
 
 
-def verdict(standard: Sequence[_Cell], rival: Sequence[_Cell]) -> dict[str, str]:
-    """For each judged figure that both have: whether `standard` is ahead of the rival, even with it or behind it.
+def verdict(ours: Sequence[_Cell], rival: Sequence[_Cell]) -> dict[str, str]:
+    """For each judged figure that both have: whether ours is ahead of the rival, even with it or behind it.
 
-    Judged is the size of the error, rival's less standard's, of each recording that both were measured on; the mean over
+    Judged is the size of the error, rival's less ours, of each recording that both were measured on; the mean over
     labels of each label's mean. Ahead or behind means that its 95 % bootstrap interval, over recordings within labels,
     excludes zero.
     """
-    by_identity = {_identity(cell): cell for cell in standard}
+    by_identity = {_identity(cell): cell for cell in ours}
     pairs = [(by_identity[_identity(cell)], cell) for cell in rival if _identity(cell) in by_identity]
     found = {}
     for figure in JUDGED:
