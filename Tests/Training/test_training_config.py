@@ -60,6 +60,7 @@ def test_every_row_of_the_evaluation_names_a_model_or_a_training_that_is_there()
         ('[[row]]\nname = "a"\nblock = "reference"\nmodel = "b"', "are of the block 'reference'"),
         ('[[row]]\nname = "a"\nblok = "b"', "unknown key 'blok'"),
         ('[[row]]\nname = "a"\nblock = "ours"\nmodel = "b"\nseeds = []', "'seeds' is empty"),
+        ('[[row]]\nname = "a"\nblock = "ours"\nmodel = "b"\nagainst = "c"', "names no row of the plan: 'c'"),
         ('[[row]]\nname = "silence"\nblock = "reference"\n' * 2, "stands there twice"),
         ("", "no \\[\\[row"),
     ],

@@ -11,6 +11,7 @@ together.
 from __future__ import annotations
 
 import math
+from typing import NamedTuple
 
 import torch
 from torch import Tensor, nn
@@ -45,22 +46,34 @@ _LARGEST_LOGARITHM = 3.0
 _STRIDE = 20
 
 
+class Ribs(NamedTuple):
+    """What ribs are at one motion and place. waves [B, 56, N]: cosine and sine of each partial, counted from the middle
+    between past and segment. ahead, across and pulses [B, 1, 28, 2], with P the phase of the surface there: (cos P, cos P),
+    (sin P, -sin P) and (cos P, -sin P). told and sounding [B, 1, 28, 1]: 1 where the past can hold a partial, and where
+    the surface has it."""
+
+    waves: Tensor
+    ahead: Tensor
+    across: Tensor
+    pulses: Tensor
+    told: Tensor
+    sounding: Tensor
+
+
 class RibComb(nn.Module):
     """Hears past and rib phase, and tells what the ribs of label and motion make of them.
 
-    Partials are the harmonics of both wave vectors, one family after the other; each has a cosine and a sine, counted
-    from the middle between past and segment.
+    Partials are the harmonics of both wave vectors, one family after the other; each has a cosine and a sine. Matrices
+    stand where loops over partials would be easier to read: every node of a graph costs time.
     """
 
-    turn: Tensor
-    phase: Tensor
-    weights: Tensor
+    weight: Tensor
+    bias: Tensor
+    newest: Tensor
     even: Tensor
     mirror: Tensor
-    order: Tensor
-    turns: Tensor
-    quarters: Tensor
     families: Tensor
+    swap: Tensor
     overlaps: Tensor
     turned_by: Tensor
     nearness: Tensor
@@ -69,93 +82,98 @@ class RibComb(nn.Module):
         super().__init__()
         if samples % _STRIDE != 0:
             raise ValueError(f"{samples} samples do not divide into strides of {_STRIDE}")
-        self.samples = samples
-        # Sines of sums from products of sines: 10 places and 20 samples after each stand for all 200. In each partial's
-        # row stand (cos, -sin) of the places for its cosine, (sin, cos) for its sine, then cos and sin of the samples,
-        # counted from half a sample before the segment: as far as the past's last sample is from there. All are sines:
-        # a cosine is one that is a quarter turn ahead.
-        quarter = 0.5 * math.pi
-        places = torch.arange(0, samples, _STRIDE).repeat_interleave(2).repeat(2)
-        within = (torch.arange(_STRIDE) + 0.5).repeat(2)
-        turn = 2.0 * math.pi / SAMPLE_RATE_HZ * torch.cat([places, within])
-        self.register_buffer("turn", turn.reshape(1, 1, -1), persistent=False)
-        strides = samples // _STRIDE
-        phase = torch.cat(
-            [
-                torch.tensor([quarter, 2.0 * quarter]).repeat(strides),
-                torch.tensor([0.0, quarter]).repeat(strides),
-                torch.tensor([quarter, 0.0]).repeat_interleave(_STRIDE),
-            ]
-        )
-        self.register_buffer("phase", phase.reshape(1, 1, -1), persistent=False)
+        self.samples, self.strides = samples, samples // _STRIDE
+        # Two for each place, twice, two for each sample after a place, and six of the surface.
+        self.sines = PARTIALS * (4 * self.strides + 2 * _STRIDE + 6)
+        order = torch.arange(1, HARMONICS + 1, dtype=torch.float64)
+        weight, bias = _angles_and_margins(order, self.strides)
+        self.register_buffer("weight", weight.float(), persistent=False)
+        self.register_buffer("bias", bias.float(), persistent=False)
         # The newest past counts most: a hand that speeds up has left the older pitch behind.
         newest_first = torch.linspace(1.0, 0.05, samples)
-        self.register_buffer("weights", (2.0 * newest_first / newest_first.sum()).reshape(1, 1, -1), persistent=False)
+        self.register_buffer("newest", (2.0 * newest_first / newest_first.sum()).reshape(1, 1, -1), persistent=False)
         self.register_buffer("even", torch.full((1, 1, samples), 2.0 / samples), persistent=False)
         # Time runs backwards in the mirrored past: cosines are the same, sines change their sign.
-        self.register_buffer("mirror", torch.tensor([[[1.0, -1.0]]]), persistent=False)
-        order = torch.arange(1, HARMONICS + 1, dtype=torch.float32)
-        self.register_buffer("order", order.reshape(1, 1, HARMONICS), persistent=False)
-        self.register_buffer("turns", 2.0 * math.pi * order.reshape(1, 1, HARMONICS), persistent=False)
-        self.register_buffer("quarters", torch.tensor([quarter, 0.0]).reshape(1, 1, 2), persistent=False)
-        families = torch.eye(WAVE_VECTORS).repeat_interleave(HARMONICS, dim=1)
-        rows = torch.cat([families, _PULSE_SCALE * families, torch.ones(1, PARTIALS)])
+        self.register_buffer("mirror", torch.tensor([1.0, -1.0]).reshape(1, 1, 1, 2), persistent=False)
+        family = torch.eye(WAVE_VECTORS).repeat_interleave(HARMONICS, dim=1)
+        rows = torch.cat([family, _PULSE_SCALE * family, torch.ones(1, PARTIALS)])
         self.register_buffer("families", rows.reshape(1, COMB_CHANNELS, PARTIALS, 1), persistent=False)
-        offsets = 2.0 * math.pi * torch.arange(_OFFSETS) / _OFFSETS
+        self.register_buffer("swap", torch.tensor([1, 0]), persistent=False)
+
+        offsets = 2.0 * math.pi * torch.arange(_OFFSETS, dtype=torch.float64) / _OFFSETS
         turned = order.unsqueeze(1) * offsets
-        self.register_buffer("overlaps", torch.cat([turned.cos(), turned.sin()]).unsqueeze(0), persistent=False)
-        self.register_buffer("turned_by", torch.cat([turned.cos(), turned.sin()]).t().unsqueeze(0), persistent=False)
-        self.register_buffer("nearness", _NEARNESS * offsets.cos().reshape(1, 1, -1), persistent=False)
+        # Of z = cosine - i sine, past times conjugate profile, turned back: products of equal parts by cosines, of
+        # unequal ones by sines.
+        parts = torch.stack([turned.cos(), turned.cos(), turned.sin(), -turned.sin()], dim=1)
+        self.register_buffer("overlaps", (_SHARPNESS * parts.reshape(-1, _OFFSETS)).float(), persistent=False)
+        both = [torch.stack(pair, dim=1) for pair in ((turned.cos(), turned.cos()), (turned.sin(), -turned.sin()))]
+        turned_by = torch.cat([each.reshape(-1, _OFFSETS) for each in both]).t()
+        self.register_buffer("turned_by", turned_by.float().contiguous(), persistent=False)
+        nearness = (_NEARNESS * offsets.cos()).float().reshape(1, 1, 1, -1)
+        self.register_buffer("nearness", nearness, persistent=False)
 
-    def waves(self, embedding: Tensor, motion: Tensor) -> tuple[Tensor, Tensor]:
-        """Cosine and sine of each partial at one motion, [B, 56, N]; and the signed fundamentals [B, 2, 1] in Hz.
-        embedding [B, 64], motion [B, 3]; no gradient: wave vectors are not learnt."""
-        signed = signed_rib_frequencies_hz(embedding.detach(), motion)
-        frequency = signed.abs() * self.order
-        sines = torch.sin(frequency.reshape(-1, PARTIALS, 1) * self.turn + self.phase)
-        places, within = sines.split([4 * self.samples // _STRIDE, 2 * _STRIDE], dim=2)
-        places = places.reshape(-1, PARTIALS, 2 * self.samples // _STRIDE, 2)
-        waves = _thin_product(places, within.reshape(-1, PARTIALS, 2, _STRIDE))
-        return waves.reshape(-1, 2 * PARTIALS, self.samples), signed
-
-    def audible(self, signed_hz: Tensor, lowest_hz: float) -> Tensor:
-        """[B, 28, 1], 1 where a partial can sound and its fundamental is above lowest_hz, else 0."""
-        fundamental = signed_hz.abs()
-        inside = (fundamental > lowest_hz) & (fundamental * self.order < _HIGHEST_HZ)
-        return inside.to(signed_hz.dtype).reshape(-1, PARTIALS, 1)
-
-    def surface(self, signed_hz: Tensor, rib_phase: Tensor) -> Tensor:
-        """[B, 28, 2]: cosine and sine of each partial's phase at the middle between past and segment, from the rib phase
-        [B, 2] in turns at the segment's first sample, counted the way in which the tip moves."""
-        ahead = torch.sign(signed_hz) * rib_phase.unsqueeze(2) - signed_hz.abs() * (0.5 / SAMPLE_RATE_HZ)
-        return torch.sin((ahead * self.turns).reshape(-1, PARTIALS, 1) + self.quarters)
+    def ribs(self, embedding: Tensor, motion: Tensor, rib_phase: Tensor) -> Ribs:
+        """Of embedding [B, 64], motion [B, 3] and rib phase [B, 2] in turns at the segment's first sample; no gradient:
+        wave vectors are not learnt."""
+        signed = signed_rib_frequencies_hz(embedding.detach(), motion).reshape(-1, WAVE_VECTORS)
+        # The phase is counted the way in which the tip moves.
+        place = torch.cat([signed.abs(), torch.sign(signed) * rib_phase], dim=1)
+        angles, margins = torch.addmm(self.bias, place, self.weight).split([self.sines, 3 * PARTIALS], dim=1)
+        half = 2 * PARTIALS * _STRIDE
+        places, within, surface = torch.sin(angles).split([4 * PARTIALS * self.strides, half, 6 * PARTIALS], dim=1)
+        waves = _thin_product(
+            places.reshape(-1, PARTIALS, 2 * self.strides, 2), within.reshape(-1, PARTIALS, 2, _STRIDE)
+        )
+        inside, told, sounding = (margins > 0.0).to(motion.dtype).reshape(-1, 3, PARTIALS, 1).split(1, dim=1)
+        return Ribs(
+            waves.reshape(-1, 2 * PARTIALS, self.samples),
+            *surface.reshape(-1, 3, PARTIALS, 2).split(1, dim=1),
+            inside * told,
+            inside * sounding,
+        )
 
     def profile(self, embedding: Tensor, motion: Tensor, rib_phase: Tensor, segments: Tensor) -> tuple[Tensor, Tensor]:
         """The partials of S segments [B, S, N] as the surface sees them: [B, S, 2, 28], in phase with the rib phase and a
         quarter turn behind; and which of them can be told apart, [B, 28]."""
-        waves, signed = self.waves(embedding, motion)
-        told_apart = self.audible(signed, _LOWEST_TOLD_APART_HZ).squeeze(2)
-        amplitudes = (segments * self.even @ waves.transpose(1, 2)).reshape(len(waves), -1, PARTIALS, 2)
-        cosine, sine = (amplitudes * told_apart.reshape(-1, 1, PARTIALS, 1)).unbind(dim=3)
-        ahead, behind = self.surface(signed, rib_phase).unsqueeze(1).unbind(dim=3)
-        in_phase = cosine * ahead - sine * behind
-        return torch.stack([in_phase, cosine * behind + sine * ahead], dim=2), told_apart
+        ribs = self.ribs(embedding, motion, rib_phase)
+        fundamental = signed_rib_frequencies_hz(embedding.detach(), motion).abs().repeat_interleave(HARMONICS, dim=1)
+        told_apart = (fundamental > _LOWEST_TOLD_APART_HZ).to(motion.dtype).unsqueeze(1) * ribs.sounding
+        amplitudes = (segments * self.even @ ribs.waves.transpose(1, 2)).reshape(len(motion), -1, PARTIALS, 2)
+        # Turned back by the surface's phase: what is across changes its sign.
+        seen = (amplitudes * ribs.ahead - self._swapped(amplitudes) * ribs.across) * told_apart
+        return seen.transpose(2, 3), told_apart.reshape(-1, PARTIALS)
 
-    def _wandered(self, wandering: Tensor, profile: Tensor, carried: Tensor, by_family: Tensor) -> Tensor:
-        """Partials [B, 28, 2] that go on from where the profile fits the past [B, 28, 2]: the mean over offsets, each as
-        likely as it overlaps with what is carried on and lies near the rib phase. by_family [B, 4]: logarithms of how
-        sharp and how near."""
-        sharp, near = by_family.clamp(-_LARGEST_LOGARITHM, _LARGEST_LOGARITHM).exp().reshape(-1, 2, WAVE_VECTORS, 1).unbind(1)
-        cosine, sine = profile.unbind(dim=2)
-        past_cosine, past_sine = carried.unbind(dim=2)
-        # Of z = cosine - i sine, past times conjugate profile: its angle is what a partial has wandered by.
-        overlap = torch.stack([past_cosine * cosine + past_sine * sine, past_cosine * sine - past_sine * cosine], dim=1)
-        overlap = overlap.reshape(-1, 2, WAVE_VECTORS, HARMONICS).transpose(1, 2).reshape(-1, WAVE_VECTORS, 2 * HARMONICS)
-        likely = torch.softmax(_SHARPNESS * sharp * (overlap @ self.overlaps) + near * self.nearness, dim=2)
-        turn = (likely @ self.turned_by).reshape(-1, WAVE_VECTORS, 2, HARMONICS).transpose(1, 2)
-        turn_cosine, turn_sine = turn.reshape(-1, 2, PARTIALS, 1).unbind(dim=1)
-        ahead, aside = wandering.split(1, dim=2)
-        return torch.cat([ahead * turn_cosine + aside * turn_sine, aside * turn_cosine - ahead * turn_sine], dim=2)
+    def partials(self, ribs: Ribs, mirrored: Tensor, gains: Tensor) -> tuple[Tensor, Tensor, Tensor]:
+        """Cosine and sine of every partial [B, 1, 28, 2] of the past carried on, of the pulses and of the lines."""
+        projected = (mirrored * self.newest @ ribs.waves.transpose(1, 2)).reshape(-1, 1, PARTIALS, 2)
+        carried = projected * self.mirror * ribs.told
+        by_past, by_surface, by_family = gains.split([2 * PARTIALS, 4 * PARTIALS, 2 * WAVE_VECTORS], dim=1)
+        kept, held = by_past.reshape(-1, 2, PARTIALS, 1).split(1, dim=1)
+        over_size = 1.0 / (carried.norm(p=2, dim=3, keepdim=True) + _SMALL)
+        from_past = carried * (kept * torch.clamp(_LARGEST_AMPLITUDE * over_size, max=1.0) + held * over_size)
+
+        profiles = by_surface.reshape(-1, 2, 2, PARTIALS).transpose(2, 3)
+        # A partial p cos(P + a) + q sin(P + a): cosine p cos P + q sin P, sine q cos P - p sin P.
+        turned = profiles * ribs.ahead + self._swapped(profiles) * ribs.across
+        still, wandering = turned.split(1, dim=1)
+        ahead, across = self._wandered(turned.sum(dim=1, keepdim=True), carried, by_family)
+        wandered = wandering * ahead + self._swapped(wandering) * across
+        return carried, ribs.pulses * ribs.sounding, from_past + (still + wandered) * ribs.sounding
+
+    def _swapped(self, pairs: Tensor) -> Tensor:
+        return torch.index_select(pairs, 3, self.swap)
+
+    def _wandered(self, profile: Tensor, carried: Tensor, by_family: Tensor) -> tuple[Tensor, Tensor]:
+        """By what the profile's partials [B, 1, 28, 2] are turned to go on from where they fit the past: the mean over
+        offsets, each as likely as it overlaps with what is carried on and lies near the rib phase; as (cosine, cosine) and
+        (sine, -sine), [B, 1, 28, 2] each. by_family [B, 4]: logarithms of how sharp and how near."""
+        weights = by_family.clamp(-_LARGEST_LOGARITHM, _LARGEST_LOGARITHM).exp()
+        sharp, near = weights.reshape(-1, 2, WAVE_VECTORS, 1).split(1, dim=1)
+        products = torch.cat([carried * profile, carried * self._swapped(profile)], dim=3)
+        overlap = products.reshape(-1, 1, WAVE_VECTORS, 4 * HARMONICS) @ self.overlaps
+        likely = torch.softmax(sharp * overlap + near * self.nearness, dim=3)
+        ahead, across = (likely @ self.turned_by).split(2 * HARMONICS, dim=3)
+        return ahead.reshape(-1, 1, PARTIALS, 2), across.reshape(-1, 1, PARTIALS, 2)
 
     def forward(self, mirrored: Tensor, embedding: Tensor, motion: Tensor, rib_phase: Tensor, gains: Tensor) -> Tensor:
         """[B, 5, N]: four channels and the lines, from the mirrored past [B, 1, N], rib phase [B, 2] and gains [B, 172].
@@ -165,35 +183,46 @@ class RibComb(nn.Module):
         the past, then the surface's in phase and a quarter turn behind, then those of the profile that wanders, by gains in
         that order.
         """
-        waves, signed = self.waves(embedding, motion)
-        carried, pulses, lines = self.partials(waves, signed, mirrored, rib_phase, gains)
-        rows = torch.stack([carried, carried, pulses, pulses, lines], dim=1) * self.families
-        return rows.reshape(-1, COMB_CHANNELS, 2 * PARTIALS) @ waves
-
-    def partials(
-        self, waves: Tensor, signed_hz: Tensor, mirrored: Tensor, rib_phase: Tensor, gains: Tensor
-    ) -> tuple[Tensor, Tensor, Tensor]:
-        """Cosine and sine of every partial [B, 28, 2] of the past carried on, of the pulses and of the lines."""
-        told = self.audible(signed_hz, _LOWEST_IN_PAST_HZ) * self.mirror
-        carried = (mirrored * self.weights @ waves.transpose(1, 2)).reshape(-1, PARTIALS, 2) * told
-        size = carried.norm(p=2, dim=2, keepdim=True) + _SMALL
-        surface = self.surface(signed_hz, rib_phase)
-        by_partial, by_family = gains.split([6 * PARTIALS, 2 * WAVE_VECTORS], dim=1)
-        kept, held, *profiles = by_partial.reshape(-1, 6, PARTIALS, 1).unbind(dim=1)
-        bounded = kept * torch.clamp(_LARGEST_AMPLITUDE / size, max=1.0)
-        still, wandering = _turned(profiles[0], profiles[1], surface), _turned(profiles[2], profiles[3], surface)
-        wandered = self._wandered(wandering, still + wandering, carried, by_family)
-        sounding = self.audible(signed_hz, _LOWEST_HZ)
-        lines = carried * (bounded + held / size) + (still + wandered) * sounding
-        ahead, aside = surface.split(1, dim=2)
-        return carried, torch.cat([ahead, -aside], dim=2) * sounding, lines
+        ribs = self.ribs(embedding, motion, rib_phase)
+        carried, pulses, lines = self.partials(ribs, mirrored, gains)
+        rows = torch.cat([carried, carried, pulses, pulses, lines], dim=1) * self.families
+        return rows.reshape(-1, COMB_CHANNELS, 2 * PARTIALS) @ ribs.waves
 
 
-def _turned(in_phase: Tensor, behind: Tensor, surface: Tensor) -> Tensor:
-    """[B, 28, 2]: cosine and sine of partials p cos(P + a) + q sin(P + a), with P the surface's phase: p cos P + q sin P
-    and q cos P - p sin P."""
-    ahead, aside = surface.split(1, dim=2)
-    return torch.cat([in_phase * ahead + behind * aside, behind * ahead - in_phase * aside], dim=2)
+def _angles_and_margins(order: Tensor, strides: int) -> tuple[Tensor, Tensor]:
+    """What size and phase of both fundamentals, [B, 4], are multiplied by, and what is added: for the angles whose sines
+    are waves and surface, and for how far each partial is inside the limits of its frequency.
+
+    Sines of sums come from products of sines: 10 places and 20 samples after each stand for all 200. For each partial
+    stand (cos, -sin) of the places for its cosine and (sin, cos) for its sine; then cos and sin of the samples, counted
+    from half a sample before the segment, as far as the past's last sample is from there. All are sines: a cosine is one
+    that is a quarter turn ahead, and a sine below zero one that is half a turn ahead.
+    """
+    quarter, whole = 0.5 * math.pi, 2.0 * math.pi
+    family = torch.eye(WAVE_VECTORS, dtype=torch.float64).repeat_interleave(HARMONICS, dim=1)
+    orders = family * order.repeat(WAVE_VECTORS)
+    nothing = torch.zeros_like(orders)
+    place = whole / SAMPLE_RATE_HZ * torch.arange(0, strides * _STRIDE, _STRIDE, dtype=torch.float64)
+    within = whole / SAMPLE_RATE_HZ * (torch.arange(_STRIDE, dtype=torch.float64) + 0.5)
+    by_place = place.repeat_interleave(2).repeat(2)
+    lead_of_place = torch.tensor([quarter, whole / 2.0] * strides + [0.0, quarter] * strides, dtype=torch.float64)
+    by_sample = within.repeat(2)
+    lead_of_sample = torch.tensor([quarter] * _STRIDE + [0.0] * _STRIDE, dtype=torch.float64)
+
+    def spread(turns: Tensor) -> Tensor:
+        return (orders.unsqueeze(2) * turns).reshape(WAVE_VECTORS, -1)
+
+    before = -0.5 * whole / SAMPLE_RATE_HZ
+    leads = [(quarter, quarter), (0.0, whole / 2.0), (quarter, whole / 2.0)]
+    pair = torch.ones(2, dtype=torch.float64)
+    by_size = [spread(by_place), spread(by_sample), *[spread(before * pair)] * 3, -orders, family, family]
+    by_phase = [nothing.repeat(1, len(by_place)), nothing.repeat(1, len(by_sample)), *[spread(whole * pair)] * 3]
+    by_phase += [nothing] * 3
+    added = [lead_of_place.repeat(PARTIALS), lead_of_sample.repeat(PARTIALS)]
+    added += [torch.tensor(lead, dtype=torch.float64).repeat(PARTIALS) for lead in leads]
+    limits = (_HIGHEST_HZ, -_LOWEST_IN_PAST_HZ, -_LOWEST_HZ)
+    added += [torch.full((PARTIALS,), limit, dtype=torch.float64) for limit in limits]
+    return torch.cat([torch.cat(by_size, dim=1), torch.cat(by_phase, dim=1)]), torch.cat(added)
 
 
 def _thin_product(left: Tensor, right: Tensor) -> Tensor:

@@ -72,8 +72,8 @@ class RungImpulses(nn.Module):
         self.reach = reach
 
     def forward(self, noise: Tensor, gains: Tensor) -> Tensor:
-        excess = torch.relu(noise - self.rungs) - torch.relu(-noise - self.rungs)
+        excess = noise - torch.maximum(torch.minimum(noise, self.rungs), -self.rungs)
         struck = nn.functional.pad(excess * self.scales, (self.reach, 0))[:, :, self.read]
-        struck = struck.transpose(1, 2).reshape(-1, self.windows, len(RUNGS) * self.read.shape[1])
-        kernels = (gains.reshape(-1, ATOMS) @ self.struck_atoms).reshape(-1, struck.shape[2], _WINDOW)
-        return (struck @ kernels).reshape(-1, 1, self.samples)
+        sources = len(RUNGS) * self.read.shape[1]
+        kernels = (gains.reshape(-1, ATOMS) @ self.struck_atoms).reshape(-1, sources, _WINDOW)
+        return (struck.transpose(1, 2).reshape(-1, self.windows, sources) @ kernels).reshape(-1, 1, self.samples)

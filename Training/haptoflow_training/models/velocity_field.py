@@ -167,9 +167,7 @@ class VelocityField(nn.Module):
             moment = moment + self.interval(interval)
         told = torch.cat([embedding, self.motion(motion)], dim=1)
         condition = nn.functional.silu(self._condition(told, moment))
-        # On the weights, which a graph has as constants, and not on what they make.
-        factors = self.film_factors
-        film = nn.functional.linear(condition, self.film.weight * factors.unsqueeze(1), self.film.bias * factors)
+        film, line_gains, impulse_gains = self._modulation(condition)
         film_parts = film.reshape(-1, sum(self._film_sizes), 1, 1).split(self._film_sizes, dim=1)
 
         if not self.hears_previous:
@@ -179,14 +177,14 @@ class VelocityField(nn.Module):
         past = self.previous_fine(mirrored.unsqueeze(2))
 
         heard, added = [noisy], []
-        if self.comb is not None and self.line_gains is not None:
+        if self.comb is not None:
             if rib_phase is None:
                 raise ValueError("a field with ribs needs the rib phase")
-            combed = self.comb(mirrored, embedding, motion, rib_phase, self.line_gains(condition))
+            combed = self.comb(mirrored, embedding, motion, rib_phase, line_gains)
             heard.append(combed)
             added.append(combed[:, -1:])
-        if self.impulses is not None and self.impulse_gains is not None:
-            struck = self.impulses(noisy, self.impulse_gains(condition))
+        if self.impulses is not None:
+            struck = self.impulses(noisy, impulse_gains)
             heard.append(struck)
             added.append(struck)
         entered = self.enter(torch.cat(heard, dim=1).unsqueeze(2))
@@ -199,6 +197,24 @@ class VelocityField(nn.Module):
         for waves in added:
             made = made + waves
         return made
+
+    def _modulation(self, condition: Tensor) -> tuple[Tensor, Tensor, Tensor]:
+        """FiLM parameters, gains of lines and gains of impulses (empty for none), by one layer of all their weights."""
+        # On the weights, which a graph has as constants, and not on what they make.
+        factors = self.film_factors
+        weights, biases = [self.film.weight * factors.unsqueeze(1)], [self.film.bias * factors]
+        sizes = [len(factors)]
+        for layer in (self.line_gains, self.impulse_gains):
+            sizes.append(0 if layer is None else layer.out_features)
+            if layer is not None:
+                weights.append(layer.weight)
+                biases.append(layer.bias)
+        made = nn.functional.linear(condition, torch.cat(weights), torch.cat(biases))
+        if sizes[1:] == [0, 0]:
+            return made, made[:, :0], made[:, :0]
+        film, *gains = made.split([size for size in sizes if size], dim=1)
+        lines, impulses = (gains.pop(0) if size else film[:, :0] for size in sizes[1:])
+        return film, lines, impulses
 
     def _condition(self, told: Tensor, moment: Tensor) -> Tensor:
         """A moment that is the same for all counts as a constant of the layer: a node less."""

@@ -18,8 +18,6 @@ _HIDDEN = 96
 class RibLines(nn.Module):
     """Lines in a segment and in the past before it; silent until trained."""
 
-    backwards: Tensor
-
     def __init__(self) -> None:
         super().__init__()
         self.comb = RibComb()
@@ -27,14 +25,11 @@ class RibLines(nn.Module):
         last = self.gains.layers[-1]
         nn.init.zeros_(last.weight)
         nn.init.zeros_(last.bias)
-        # Seen from the seam, the past runs backwards: cosines are the same, sines change their sign.
-        self.register_buffer("backwards", torch.tensor([[[1.0, -1.0]]]), persistent=False)
 
     def forward(self, previous: Tensor, embedding: Tensor, motion: Tensor, rib_phase: Tensor) -> tuple[Tensor, Tensor]:
         """The lines of the segment, and what they leave of the previous waveform, [B, 1, 200] each, in unit scale."""
         mirrored = torch.flip(previous, dims=[2])
-        waves, signed_hz = self.comb.waves(embedding, motion)
-        gains = self.gains(embedding, motion)
-        lines = self.comb.partials(waves, signed_hz, mirrored, rib_phase, gains)[2]
-        rest = mirrored - (lines * self.backwards).reshape(-1, 1, 2 * PARTIALS) @ waves
-        return lines.reshape(-1, 1, 2 * PARTIALS) @ waves, torch.flip(rest, dims=[2])
+        ribs = self.comb.ribs(embedding, motion, rib_phase)
+        lines = self.comb.partials(ribs, mirrored, self.gains(embedding, motion))[2]
+        rest = mirrored - (lines * self.comb.mirror).reshape(-1, 1, 2 * PARTIALS) @ ribs.waves
+        return lines.reshape(-1, 1, 2 * PARTIALS) @ ribs.waves, torch.flip(rest, dims=[2])
