@@ -20,6 +20,7 @@ from training_fixtures import make_store
 
 from haptoflow_training.commands import train
 from haptoflow_training.errors import InputError
+from haptoflow_training.evaluation.row_plan import PlannedRow, load_plan
 from haptoflow_training.export.exporter import export_run
 from haptoflow_training.export.label_info import LabelInfo
 from haptoflow_training.export.model_file import read_model_file
@@ -68,7 +69,12 @@ def test_a_rival_of_the_second_block_has_what_our_network_has(name: str) -> None
     assert rival.optimiser.budget_seconds == again.optimiser.budget_seconds > 0.0
 
 
-@pytest.mark.parametrize("name", ["standard", "one-step", "one-step-deaf", "one-step-no-ribs", "one-step-recorded-past"])
+@pytest.mark.parametrize(
+    "name",
+    [
+        "standard", "one-step", "one-step-deaf", "one-step-no-ribs", "one-step-no-impulses", "one-step-recorded-past",
+    ],
+)  # fmt: skip
 def test_an_ablation_follows_the_default_recipe_but_for_what_it_leaves_out(name: str) -> None:
     ours, ablation = load_config(CONFIGS.parent / "default" / "standard.toml"), load_config(CONFIGS / f"{name}.toml")
     assert (ablation.data, ablation.batch) == (ours.data, ours.batch)
@@ -77,7 +83,14 @@ def test_an_ablation_follows_the_default_recipe_but_for_what_it_leaves_out(name:
         ours.model,
         hears_previous=name != "one-step-deaf" and ours.model.hears_previous,
         ribs=name != "one-step-no-ribs" and ours.model.ribs,
+        impulses=name != "one-step-no-impulses" and ours.model.impulses,
     )
+
+
+@pytest.mark.parametrize("row", [row for row in load_plan(CONFIGS / "rows.toml") if row.block == "as-published"])
+def test_a_rival_as_published_has_neither_ribs_nor_impulses_which_are_ours(row: PlannedRow) -> None:
+    model = load_config(CONFIGS / f"{row.model}.toml").model
+    assert not model.ribs and not model.impulses
 
 
 @pytest.mark.parametrize("name", GIVEN_THE_SAME)

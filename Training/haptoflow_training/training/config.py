@@ -314,6 +314,11 @@ def _check(config: TrainingConfig, path: Path) -> None:
             "model.ribs",
             "false with a latent representation",
         ),
+        (
+            not config.model.impulses or config.model.representation.get("kind", "raw") == "raw",
+            "model.impulses",
+            "false with a latent representation",
+        ),
         (config.model.level in ("law", "constant"), "model.level", "'law' or 'constant'"),
         (
             not config.recipe.calibrate_level or config.model.level == "law",
