@@ -33,7 +33,7 @@ def test_segments_of_a_batch_are_those_that_python_made_of_the_same_weights(engi
         with EngineGenerator(engine, model, str(case["tier"]), str(case["solver"]), int(str(case["steps"]))) as generator:
             arrays = [
                 np.array([case[key], case[key]], dtype=np.float32)
-                for key in ("embedding", "motion", "previous", "noise")
+                for key in ("embedding", "motion", "previous", "noise", "rib_phase")
             ]
             made = generator.generate(*arrays)
         tolerance = 1e-4 * float(np.exp(float(str(case["log_level"]))))

@@ -247,7 +247,7 @@ def test_an_older_store_is_replaced_but_a_folder_of_other_files_is_not(tmp_path:
         (lambda root: (root / "position.f32").unlink(), "position.f32: missing, expected"),
         (lambda root: (root / "waveform.f32").unlink(), "waveform.f32: missing"),
         (lambda root: (root / "store.json").write_text("{"), "not readable as JSON"),
-        (lambda root: (root / "store.json").write_text('{"version": 99}'), "store version 99, expected 1"),
+        (lambda root: (root / "store.json").write_text('{"version": 99}'), "store version 99, expected 2"),
         (lambda root: (root / "store.json").write_text('{"version": 1}'), "damaged"),
         (lambda root: [path.unlink() for path in root.iterdir()], "not a store"),
     ],
