@@ -86,7 +86,7 @@ def answer(case: dict, requests: dict[str, np.ndarray]) -> tuple[np.ndarray, np.
     """Levels [B,1] and segments [B,200], both in m/s^2."""
     level = np.exp(graphs.log_level(requests["embedding"], requests["motion"]))
     cond = graphs.condition(requests["embedding"], requests["motion"])[:, :, None]
-    previous = np.clip(requests["previous"] / level, -8.0, 8.0)[:, None, :]
+    previous = np.clip(requests["previous"] / level, -16.0, 16.0)[:, None, :]
     noise = requests["noise"][:, None, :]
     steps = case["steps"]
     if case["tier"] == "direct":
