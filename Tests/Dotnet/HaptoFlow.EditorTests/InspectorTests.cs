@@ -20,8 +20,9 @@ namespace HaptoFlow.EditorTests
             IReadOnlyList<Drawn> drawn = Draw(AssetImporter.GetAtPath(ProjectSettingsAsset.DefaultModelPath)!);
             string[] labels = Model().Header.Labels.Select(label => label.Name).ToArray();
             Assert.That(labels, Has.Length.EqualTo(20).And.SubsetOf(drawn.Select(item => item.Label)));
-            Assert.That(drawn.Count(item => item.Label == "Accuracy"), Is.EqualTo(3));
-            Assert.That(drawn.Count(item => item.Label == "Time"), Is.EqualTo(3));
+            int tiers = Model().Header.Tiers.Count;
+            Assert.That(drawn.Count(item => item.Label == "Accuracy"), Is.EqualTo(tiers));
+            Assert.That(drawn.Count(item => item.Label == "Time"), Is.EqualTo(tiers));
             Assert.That(Value(drawn, "Licence"), Is.EqualTo("MIT"));
             Assert.That(drawn.Select(item => item.Kind), Has.None.EqualTo(DrawnKind.Button), "nothing to apply");
         }

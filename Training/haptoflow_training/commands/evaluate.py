@@ -44,7 +44,7 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser], su
         help=summary,
         description=(
             "Measures every row of the plan on recordings that nobody trained on: accuracy in open and closed loop, "
-            "milliseconds per segment through the engine. Trains the models that rows need (about ten minutes of one "
+            "milliseconds per segment through the engine. Trains the models that rows need (about seventeen minutes of one "
             "core each), keeps what is measured beside the results, and goes on where it was stopped. A row whose figures "
             "are kept is measured again only when its configuration or its model has changed. Every timing run is added "
             "to timing-history.json; the first complete one of the shipped model is the one that is published."

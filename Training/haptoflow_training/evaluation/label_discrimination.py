@@ -18,7 +18,12 @@ from haptoflow_training.evaluation.label_classifier import LabelClassifier, Wind
 from haptoflow_training.evaluation.model_stamp import model_line, picture_metadata
 from haptoflow_training.preprocessing.pipeline import PreparedRecording, preprocess_recording
 from haptoflow_training.preprocessing.settings import PreprocessingSettings
-from haptoflow_training.recordings.synthetic import Material, hand_conditions, record_hand_condition
+from haptoflow_training.recordings.synthetic import (
+    HELD_OUT_SPECIMEN,
+    Material,
+    hand_conditions,
+    record_hand_condition,
+)
 
 _SLIDING_MPS = 0.01
 
@@ -89,7 +94,10 @@ def _prepared(material: Material, recordings: int, seed: int) -> list[tuple[str,
     return [
         (
             identity.name,
-            preprocess_recording(record_hand_condition(material, identity, seed=seed), PreprocessingSettings()),
+            preprocess_recording(
+                record_hand_condition(material, identity, seed=seed, specimen=HELD_OUT_SPECIMEN),
+                PreprocessingSettings(),
+            ),
         )
         for identity in hand_conditions(material, seed=seed, recordings=recordings)
     ]
