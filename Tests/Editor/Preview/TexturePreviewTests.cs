@@ -1,6 +1,7 @@
 #nullable enable
 using System.IO;
 using System.Linq;
+using HaptoFlow.Editor;
 using HaptoFlow.Preview;
 using NUnit.Framework;
 using UnityEditor;
