@@ -65,8 +65,8 @@ def test_what_is_stated_is_half_the_squared_error_of_the_averages_and_its_slope_
     for _ in range(20):
         waves = [_noise(generator, flat) for _ in range(3)]
         loss = _heard(balance, label, 0.2, waves[0], gain * waves[1], gain * waves[2])
-    # No line and no ribs: of four kinds of features there are two; half of the moments grow with the gain, half with its
-    # third power.
+    # No line and no ribs: of four kinds of features there are two; half of the moments grow with the gain, half with
+    # its third power.
     assert loss.item() == pytest.approx(0.5 * math.log(1.25) ** 2 * (1.0 + 0.5 * (1.0 + 9.0)), rel=0.15)
     (slope,) = torch.autograd.grad(loss, gain)
     assert slope.item() == pytest.approx(math.log(1.25) / 1.25 * (1.0 + 0.5 * (1.0 + 9.0)), rel=0.15)
@@ -106,7 +106,7 @@ def test_noise_between_the_lines_of_a_ruled_surface_is_heard_apart_from_the_line
     assert _features(noise, (30.0, 0.0)).counted[:, _BANDS].max() == 0.0, "lines too close for the window"
 
 
-def test_blows_that_are_as_loud_as_even_noise_differ_from_it_in_their_moments_and_a_scale_learns_how_rare_they_are() -> None:
+def test_blows_as_loud_as_even_noise_differ_from_it_in_their_moments_and_a_scale_learns_how_rare_they_are() -> None:
     generator = torch.Generator().manual_seed(5)
 
     def blows(share: torch.Tensor) -> torch.Tensor:

@@ -49,7 +49,8 @@ def _slow_store() -> FakeStore:
             motions.append(prepared.motion)
             recordings.append(FakeRecording(index, "machine", "train", start, len(prepared.waveform_mps2)))
             start += len(prepared.waveform_mps2)
-    return FakeStore(np.concatenate(waves), np.concatenate(motions), travelled_mm(np.concatenate(motions)), 10.0, list(LABELS), recordings)
+    motion = np.concatenate(motions)
+    return FakeStore(np.concatenate(waves), motion, travelled_mm(motion), 10.0, list(LABELS), recordings)
 
 
 @pytest.fixture(scope="module")

@@ -17,7 +17,13 @@ from haptoflow_training.export.trained_tier import TrainedTier, load_tiers
 from haptoflow_training.models.rib_comb import PARTIALS
 from haptoflow_training.training.batches import SegmentBatch, SegmentBatches
 from haptoflow_training.training.config import BatchConfig, ModelConfig, RecipeConfig, SolverConfig
-from haptoflow_training.training.energy_distance import WINDOW_SAMPLES, energy_distance_loss, envelopes, powers_by_bin, spectra
+from haptoflow_training.training.energy_distance import (
+    WINDOW_SAMPLES,
+    energy_distance_loss,
+    envelopes,
+    powers_by_bin,
+    spectra,
+)
 from haptoflow_training.training.losses import Losses
 from haptoflow_training.training.mean_flow import mean_flow_loss
 from haptoflow_training.training.reflow import ReflowPairs, reflow_loss

@@ -197,8 +197,8 @@ namespace HaptoFlow.PreviewTests
         public void TheTableHasTheMillisecondsOfThisMachine()
         {
             Window.Finish();
-            Assert.That(
-                Window.Session!.Shown!.Qualities, Has.Count.EqualTo(ProjectSettingsAsset.DefaultModel()!.Header.Tiers.Count));
+            int tiers = ProjectSettingsAsset.DefaultModel()!.Header.Tiers.Count;
+            Assert.That(Window.Session!.Shown!.Qualities, Has.Count.EqualTo(tiers));
             Assert.That(Window.Session.Shown.Qualities.Select(row => row.Timing!.MedianMs), Is.All.GreaterThan(0.0));
         }
 
