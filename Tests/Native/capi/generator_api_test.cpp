@@ -118,6 +118,21 @@ std::vector<std::byte> ribModelBytes() {
                                           {{"direct_field", inference::testing::ribField("segment", {1, samples})}});
 }
 
+TEST_F(GeneratorApiTest, AStructSizeThatEndsWithinAPointerLeavesThePointerOut) {
+    createMidpointOfThreeSteps();
+    const Golden golden;
+    std::vector<float> segments(3 * samples);
+    std::array<float, 3 * HAPTOFLOW_RIB_COUNT> phases{};
+    for (std::uint32_t bytes = 1; bytes < sizeof(void*); ++bytes) {
+        haptoflow_batch batch = golden.batch();
+        // The pointer's first bytes alone would be an address that nobody gave.
+        batch.rib_phases = phases.data();
+        batch.struct_size = static_cast<std::uint32_t>(offsetof(haptoflow_batch, rib_phases)) + bytes;
+        ASSERT_EQ(haptoflow_generator_generate(generator_, &batch, segments.data()), HAPTOFLOW_OK) << bytes;
+        EXPECT_THAT(segments, ::testing::Pointwise(::testing::FloatNear(1e-4F), golden.segments)) << bytes;
+    }
+}
+
 TEST(GeneratorRibPhaseTest, ThePhasesOfABatchReachTheGraphAndABatchWithoutThemStandsAtZero) {
     const Golden golden;
     const std::vector<std::byte> bytes = ribModelBytes();
