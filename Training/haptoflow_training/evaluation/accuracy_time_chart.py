@@ -15,7 +15,7 @@ _OURS = "HaptoFlow"
 _NOT_DRAWN = (ABLATION, REFERENCE)
 _OTHERS = ("other architectures", "#2f7d57")
 _LEGEND = {
-    "HaptoFlow": ("HaptoFlow: draft, standard, fine", "#d1495b"),
+    "HaptoFlow": ("HaptoFlow", "#d1495b"),
     "plain flow matching": ("plain flow matching, 1 to 16 steps", "#4a73b5"),
     "other recipes": ("other few-step recipes: MeanFlow, reflow", "#8a5fb0"),
     "baselines": _OTHERS,
