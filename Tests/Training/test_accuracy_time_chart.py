@@ -146,5 +146,6 @@ def test_no_name_of_the_shipped_picture_covers_another_one(axes: Any, panel: Any
         for index, first in enumerate(axes.texts) for other, second in enumerate(axes.texts)
         if index < other and boxes[index].overlaps(boxes[other])
     ]  # fmt: skip
-    assert len(boxes) > 5 and np.all([box.width > 0 for box in boxes])
+    # Our tiers, the ruler and the paper's time at the least.
+    assert len(boxes) >= 4 and np.all([box.width > 0 for box in boxes])
     assert covered == []
