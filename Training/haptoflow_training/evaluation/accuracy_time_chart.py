@@ -193,8 +193,8 @@ def _draw_point(axis: Any, panel: Panel, point: ChartPoint) -> None:
 
 
 # Ours lie close together at the good end: their names fan out, above the points or below.
-_NAME_SIDES = {"draft": "right", "standard": "center"}
-_NAME_ASIDE = {"draft": 4.0, "standard": 0.0, "fine": -2.0}
+_NAME_SIDES = {"draft": "right", "standard": "left"}
+_NAME_ASIDE = {"draft": 2.0, "standard": -4.0, "fine": 2.0}
 
 
 def _name_offset(panel: Panel, point: ChartPoint) -> tuple[float, float]:
