@@ -6,6 +6,7 @@ INTRODUCTION = """\
 | GFC | goodness of fit of the magnitude spectra: 1 is the recording's own spectrum, whatever the level |
 | LSD | log-spectral distance between the power spectra, dB: 0 is the recording's own spectrum and level |
 | crest | 99.9th percentile over RMS: how far impacts stand out |
+| RMSE | root mean square error, sample by sample |
 | modulation | spectrum of the envelope from 2 to 100 Hz: how the vibration swells and fades |
 | told apart | share of one-second excerpts that a trained classifier gives to the right side, recording or render: 50 % is chance |
 | plain | flow matching without further training, integrated by Euler's, Heun's or the midpoint rule in so many steps |
