@@ -376,9 +376,9 @@ typedef struct haptoflow_engine haptoflow_engine;
 
 typedef int32_t haptoflow_quality;
 enum {
-    /* Measures the model's tiers on this machine while nothing touches, takes the most accurate that fits the budget (by
-     * the figures in the model's header), a faster one when the machine cannot keep up, and a more accurate one when it
-     * can again. */
+    /* Measures the model's tiers on this machine while nothing touches, takes the most accurate that fits the budget
+     * (by the figures in the model's header), a faster one when the machine cannot keep up, and a more accurate one
+     * when it can again. */
     HAPTOFLOW_QUALITY_AUTO = 0,
     /* The tier "draft"; where the model has none, its first. */
     HAPTOFLOW_QUALITY_DRAFT = 1,

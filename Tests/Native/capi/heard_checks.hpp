@@ -13,6 +13,8 @@ namespace haptoflow::capi::testing {
 
 /// -60 dB.
 constexpr float silence = 0.001F;
+/// 0.04 m/s^2 at the default full scale: four times what a fingertip feels at its most sensitive.
+constexpr float faintestTouch = 0.0002F;
 
 /// What the limiter was given: its knee is at 0.7, and above it nears 1 as a hyperbola does.
 inline std::vector<float> unlimited(const std::vector<float>& heard) {
