@@ -8,7 +8,7 @@ import time
 from pathlib import Path
 
 import pytest
-from test_trainer import ALONE, _config
+from test_trainer import ALONE, _config, ask_to_stop_after
 from training_fixtures import make_store
 
 from haptoflow_training.errors import InputError
@@ -114,14 +114,7 @@ def test_the_learning_rate_of_a_budgeted_phase_has_fallen_when_its_time_is_over(
 
 def test_a_stopped_run_goes_on_with_what_is_left_of_its_budget(tmp_path: Path, clock: _Clock) -> None:
     stopped = Trainer(_budgeted(300.0), make_store(), tmp_path, ALONE)
-    train_step = stopped._train_step
-
-    def stop_in_the_middle(*arguments: object) -> object:
-        result = train_step(*arguments)  # type: ignore[arg-type]
-        stopped._stop = stopped._step == 60
-        return result
-
-    stopped._train_step = stop_in_the_middle  # type: ignore[method-assign,assignment]
+    ask_to_stop_after(stopped, 60)
     with pytest.raises(TrainingStopped):
         stopped.run()
     clock.now += 1000.0

@@ -188,10 +188,16 @@ def _line_of(wave: Tensor, phase: Tensor) -> Tensor:
     return 2.0 * (wave[:, 0] * torch.cos(2.0 * math.pi * turns)).mean(dim=1)
 
 
-def test_autoregressive_noise_is_the_rest_of_what_the_ribs_make() -> None:
-    torch.manual_seed(3)
+def _learned_autoregressive(seed: int) -> AutoregressiveBaseline:
+    """Autoregressive filters with ribs that have learned the ribbed texture."""
+    torch.manual_seed(seed)
     baseline = AutoregressiveBaseline(ribs=True)
     _learn(baseline, 250)
+    return baseline
+
+
+def test_autoregressive_noise_is_the_rest_of_what_the_ribs_make() -> None:
+    baseline = _learned_autoregressive(seed=3)
     previous, _, condition = _ribbed_texture(256, 10_000)
     with torch.no_grad():
         made = baseline(torch.randn(256, 1, 200), previous, *condition)
@@ -205,9 +211,7 @@ def test_autoregressive_noise_is_the_rest_of_what_the_ribs_make() -> None:
 
 
 def test_an_autoregressive_segment_goes_on_where_its_past_ended_with_lines_as_without() -> None:
-    torch.manual_seed(4)
-    baseline = AutoregressiveBaseline(ribs=True)
-    _learn(baseline, 250)
+    baseline = _learned_autoregressive(seed=4)
     previous, segment, condition = _ribbed_texture(512, 20_000)
     with torch.no_grad():
         made = baseline(torch.randn(512, 1, 200), previous, *condition)

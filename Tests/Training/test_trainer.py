@@ -33,6 +33,18 @@ def _config(steps: int = 30) -> TrainingConfig:
     )
 
 
+def ask_to_stop_after(trainer: Trainer, step: int) -> None:
+    """Ask the trainer to stop as soon as it has made this many steps, as a signal would."""
+    train_step = trainer._train_step
+
+    def stop_in_the_middle(*arguments: object) -> object:
+        result = train_step(*arguments)  # type: ignore[arg-type]
+        trainer._stop = trainer._step == step
+        return result
+
+    trainer._train_step = stop_in_the_middle  # type: ignore[method-assign,assignment]
+
+
 def test_training_lowers_both_validation_losses(tmp_path: Path) -> None:
     trainer = Trainer(_config(steps=150), make_store(), tmp_path, ALONE)
     level_before, field_before = trainer.validate()
@@ -68,14 +80,7 @@ def test_a_stopped_run_goes_on_to_the_weights_of_one_that_was_never_stopped(tmp_
     Trainer(_config(), store, tmp_path / "whole", ALONE).run()
 
     interrupted = Trainer(_config(), store, tmp_path / "halves", ALONE)
-    train_step = interrupted._train_step
-
-    def stop_in_the_middle(*arguments: object) -> object:
-        result = train_step(*arguments)  # type: ignore[arg-type]
-        interrupted._stop = interrupted._step == 33
-        return result
-
-    interrupted._train_step = stop_in_the_middle  # type: ignore[method-assign,assignment]
+    ask_to_stop_after(interrupted, 33)
     with pytest.raises(TrainingStopped, match="step 33 of 60"):
         interrupted.run()
     Trainer(_config(), store, tmp_path / "halves", ALONE).run()

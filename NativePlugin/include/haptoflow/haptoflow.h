@@ -380,17 +380,17 @@ enum {
      * (by the figures in the model's header), a faster one when the machine cannot keep up, and a more accurate one
      * when it can again. */
     HAPTOFLOW_QUALITY_AUTO = 0,
-    /* The tier "draft"; where the model has none, its first. */
+    /* The tier "draft", or the model's first tier if it has no such tier. */
     HAPTOFLOW_QUALITY_DRAFT = 1,
-    /* The tier "standard"; where the model has none, its default tier. */
+    /* The tier "standard", or the model's default tier if it has no such tier. */
     HAPTOFLOW_QUALITY_STANDARD = 2,
-    /* The tier "fine"; where the model has none, its most accurate. */
+    /* The tier "fine", or the model's most accurate tier if it has no such tier. */
     HAPTOFLOW_QUALITY_FINE = 3
 };
 
 typedef struct haptoflow_engine_options {
     uint32_t struct_size;
-    /* Its tier alone is loaded; all of the model's for HAPTOFLOW_QUALITY_AUTO. */
+    /* Only the tier of this quality is loaded. HAPTOFLOW_QUALITY_AUTO loads every tier of the model. */
     haptoflow_quality quality;
     const haptoflow_runtime* runtime;
     const haptoflow_model* model;

@@ -32,10 +32,11 @@ struct QualitySettings {
     double budgetMs = 3.47;
 };
 
-/// Decides which tier of the model generates the next segments. Automatic: after measuring, the most accurate whose
-/// 99th percentile, times as many voices as touch, fits the budget, or else the fastest; when rounds overrun, the next
-/// less accurate one that is faster; a more accurate one again only after a long time without, and with room to spare.
-/// One thread at a time, but for the times, which any thread may read.
+/// Decides which tier of the model generates the next segments. Automatic quality first measures every tier. It then
+/// takes the most accurate tier that fits the budget: its 99th percentile times the number of touching voices. If none
+/// fits, it takes the fastest. When rounds overrun the budget, it steps down to the next less accurate tier that is
+/// faster. It steps up again only after a long time without overruns, and only if the better tier fits with room to
+/// spare. One thread at a time calls it; any thread may read the times.
 class QualityControl {
 public:
     /// How often each tier is run before automatic quality decides.

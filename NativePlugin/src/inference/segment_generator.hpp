@@ -9,7 +9,8 @@ namespace haptoflow::inference {
 inline constexpr std::size_t segmentSamples = 200;
 inline constexpr std::size_t embeddingSize = 64;
 inline constexpr double waveformRateHz = 2000.0;
-/// Wave vectors of a ruled material: x and y of each, in cycles per millimetre, are the embedding's last numbers.
+/// How many wave vectors an embedding has. Their x and y components, in cycles per millimetre, are the embedding's last
+/// 2 * ribCount numbers; they are zero for a material without ribs.
 inline constexpr std::size_t ribCount = 2;
 
 enum class SolverKind { euler, midpoint, heun };

@@ -111,7 +111,7 @@ TEST_F(GeneratorApiTest, ChangesTheSolverAndGoesBackToTheTiersOwn) {
     EXPECT_EQ(haptoflow_generator_set_solver(generator_, 9, 1), HAPTOFLOW_INVALID_ARGUMENT);
 }
 
-/// The tiny model, whose direct tier answers with the phase of its ribs.
+/// A copy of the tiny model whose direct tier returns the rib phase that it is given.
 std::vector<std::byte> ribModelBytes() {
     const model::ModelFile tiny = model::ModelFile::read(tinyModelPath);
     return inference::testing::withGraphs(tiny,

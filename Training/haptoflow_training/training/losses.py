@@ -166,8 +166,8 @@ class Losses(nn.Module):
     def _partials(
         self, batch: SegmentBatch, embedding: Tensor, segments: tuple[Tensor, ...], phase: Tensor
     ) -> tuple[list[Tensor], Tensor]:
-        """The partials [B, 2, P] of each segment, seen from the rib phase, and which of them can be told apart, [B, P]:
-        none for a network without ribs."""
+        """For each segment, its partials [B, 2, P] relative to the rib phase; and a mask [B, P] of those that one segment
+        can resolve. Both are zero for a network without ribs."""
         comb = self.model.field.comb
         if comb is None:
             nothing = torch.zeros(len(batch.label), 2, PARTIALS)
