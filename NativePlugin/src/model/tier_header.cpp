@@ -90,8 +90,10 @@ std::vector<std::size_t> tiersByAccuracy(const std::vector<Tier>& tiers) {
     std::vector<std::size_t> order(tiers.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
     if (std::ranges::all_of(tiers, [](const Tier& tier) { return tier.errorDb.has_value(); })) {
-        std::ranges::stable_sort(order, [&tiers](std::size_t first, std::size_t second) {
-            return *tiers[first].errorDb > *tiers[second].errorDb;
+        std::ranges::sort(order, [&tiers](std::size_t first, std::size_t second) {
+            const double firstErrorDb = *tiers[first].errorDb;
+            const double secondErrorDb = *tiers[second].errorDb;
+            return firstErrorDb > secondErrorDb || (firstErrorDb == secondErrorDb && first < second);
         });
     }
     return order;
