@@ -72,7 +72,7 @@ def test_a_rival_of_the_second_block_has_what_our_network_has(name: str) -> None
 @pytest.mark.parametrize(
     "name",
     [
-        "standard", "one-step", "one-step-deaf", "one-step-no-ribs", "one-step-no-impulses", "one-step-recorded-past",
+        "standard", "one-step-deaf", "one-step-no-ribs", "one-step-no-impulses", "one-step-recorded-past",
     ],
 )  # fmt: skip
 def test_an_ablation_follows_the_default_recipe_but_for_what_it_leaves_out(name: str) -> None:
