@@ -13,7 +13,7 @@ from test_trainer import ALONE, _config
 from training_fixtures import make_store
 
 from haptoflow_training.models.label_embedding import LabelEmbedding, rib_frequencies_hz, rib_phase
-from haptoflow_training.models.rib_comb import GAINS, PARTIALS, RibComb
+from haptoflow_training.models.rib_comb import GAINS, PARTIALS, RibComb, spread_gains
 from haptoflow_training.models.velocity_field import VelocityField
 from haptoflow_training.recordings.synthetic.carriers import FASTEST_MMPS, guided_ride
 from haptoflow_training.recordings.synthetic.contact import SIMULATION_RATE_HZ
@@ -56,7 +56,8 @@ def _comb(
     motion = torch.tensor([[speed_mps, 0.0, 1.0]] * count)
     embedding = EMBEDDING(torch.tensor([label] * count))
     phase = torch.tensor([turns] * count)
-    return RibComb()(torch.flip(past, [2]), embedding, motion, phase, torch.zeros(1, GAINS) if gains is None else gains)
+    spread = (torch.zeros(1, GAINS) if gains is None else gains)[:, spread_gains()]
+    return RibComb()(torch.flip(past, [2]), embedding, motion, phase, spread)
 
 
 @pytest.mark.parametrize("speed_mps", [0.1, 0.237, 0.9])

@@ -27,6 +27,8 @@ COMB_CHANNELS = 2 * WAVE_VECTORS + 1
 # the rib phase and a quarter turn behind it; then two of the profile that wanders. Of each wave vector: how sharply the
 # past decides where that has wandered to, and how near to the rib phase it stays, as logarithms.
 GAINS = 6 * PARTIALS + 2 * WAVE_VECTORS
+# A family's harmonics, cosine and sine of each side by side.
+_PAIRS = 2 * HARMONICS
 # In unit scale a line of all the power there is has an amplitude of 1.4: one that has grown beyond is not carried on as
 # it is, so that a line whose gain is a little above 1 in the loop cannot run away.
 _LARGEST_AMPLITUDE = 1.5
@@ -48,9 +50,10 @@ _STRIDE = 20
 
 class Ribs(NamedTuple):
     """What ribs are at one motion and place. waves [B, 56, N]: cosine and sine of each partial, counted from the middle
-    between past and segment. ahead, across and pulses [B, 1, 28, 2], with P the phase of the surface there: (cos P, cos P),
-    (sin P, -sin P) and (cos P, -sin P). told and sounding [B, 1, 28, 1]: 1 where the past can hold a partial, and where
-    the surface has it."""
+    between past and segment. The others are [B, 1, 2, 28]: a family for each wave vector, and two values for each of its
+    harmonics. ahead, across and pulses, with P the phase of the surface there: (cos P, cos P), (sin P, -sin P) and
+    (cos P, -sin P). told: (1, -1) where the past can hold a partial, 0 elsewhere: time runs backwards in the mirrored
+    past, where cosines are the same and sines change their sign. sounding: 1 where the surface has a partial."""
 
     waves: Tensor
     ahead: Tensor
@@ -60,11 +63,21 @@ class Ribs(NamedTuple):
     sounding: Tensor
 
 
+def spread_gains() -> Tensor:
+    """Which of the 172 gains of a `RibComb` stand where in the 228 that it takes: those of the past stand for cosine and
+    sine, those of profiles lie side by side. Networks apply it to the weights of the layer that makes their gains, which
+    a graph has as constants."""
+    past, profiles, families = torch.arange(GAINS).split([2 * PARTIALS, 4 * PARTIALS, 2 * WAVE_VECTORS])
+    pairs = profiles.reshape(2, 2, PARTIALS).transpose(1, 2)
+    return torch.cat([past.repeat_interleave(2), pairs.flatten(), families])
+
+
 class RibComb(nn.Module):
     """Hears past and rib phase, and tells what the ribs of label and motion make of them.
 
     Partials are the harmonics of both wave vectors, one family after the other; each has a cosine and a sine. Matrices
-    stand where loops over partials would be easier to read: every node of a graph costs time.
+    stand where loops over partials would be easier to read, and shapes are chosen so that few values have to be laid out
+    anew: every node of a graph costs time.
     """
 
     weight: Tensor
@@ -72,6 +85,8 @@ class RibComb(nn.Module):
     newest: Tensor
     even: Tensor
     mirror: Tensor
+    signs: Tensor
+    pairs: Tensor
     families: Tensor
     swap: Tensor
     overlaps: Tensor
@@ -86,29 +101,32 @@ class RibComb(nn.Module):
         # Two for each place, twice, two for each sample after a place, and six of the surface.
         self.sines = PARTIALS * (4 * self.strides + 2 * _STRIDE + 6)
         order = torch.arange(1, HARMONICS + 1, dtype=torch.float64)
-        weight, bias = _angles_and_margins(order, self.strides)
+        weight, bias, signs = _angles_and_limits(order, self.strides)
+        self.register_buffer("signs", signs.float(), persistent=False)
         self.register_buffer("weight", weight.float(), persistent=False)
         self.register_buffer("bias", bias.float(), persistent=False)
         # The newest past counts most: a hand that speeds up has left the older pitch behind.
         newest_first = torch.linspace(1.0, 0.05, samples)
         self.register_buffer("newest", (2.0 * newest_first / newest_first.sum()).reshape(1, 1, -1), persistent=False)
         self.register_buffer("even", torch.full((1, 1, samples), 2.0 / samples), persistent=False)
-        # Time runs backwards in the mirrored past: cosines are the same, sines change their sign.
-        self.register_buffer("mirror", torch.tensor([1.0, -1.0]).reshape(1, 1, 1, 2), persistent=False)
-        family = torch.eye(WAVE_VECTORS).repeat_interleave(HARMONICS, dim=1)
-        rows = torch.cat([family, _PULSE_SCALE * family, torch.ones(1, PARTIALS)])
-        self.register_buffer("families", rows.reshape(1, COMB_CHANNELS, PARTIALS, 1), persistent=False)
-        self.register_buffer("swap", torch.tensor([1, 0]), persistent=False)
+        mirror = torch.tensor([1.0, -1.0]).repeat(HARMONICS)
+        self.register_buffer("mirror", mirror.reshape(1, 1, 1, _PAIRS), persistent=False)
+        family = torch.eye(WAVE_VECTORS)
+        rows = torch.cat([family, _PULSE_SCALE * family, torch.ones(1, WAVE_VECTORS)]).unsqueeze(2)
+        self.register_buffer("families", rows.repeat(1, 1, _PAIRS).unsqueeze(0), persistent=False)
+        self.register_buffer("swap", torch.arange(_PAIRS).reshape(-1, 2).flip(1).flatten(), persistent=False)
+        # Sums cosine and sine of a partial, for both of them.
+        pairs = torch.eye(HARMONICS).repeat_interleave(2, dim=0).repeat_interleave(2, dim=1)
+        self.register_buffer("pairs", pairs, persistent=False)
 
         offsets = 2.0 * math.pi * torch.arange(_OFFSETS, dtype=torch.float64) / _OFFSETS
         turned = order.unsqueeze(1) * offsets
         # Of z = cosine - i sine, past times conjugate profile, turned back: products of equal parts by cosines, of
         # unequal ones by sines.
-        parts = torch.stack([turned.cos(), turned.cos(), turned.sin(), -turned.sin()], dim=1)
-        self.register_buffer("overlaps", (_SHARPNESS * parts.reshape(-1, _OFFSETS)).float(), persistent=False)
         both = [torch.stack(pair, dim=1) for pair in ((turned.cos(), turned.cos()), (turned.sin(), -turned.sin()))]
-        turned_by = torch.cat([each.reshape(-1, _OFFSETS) for each in both]).t()
-        self.register_buffer("turned_by", turned_by.float().contiguous(), persistent=False)
+        turns = torch.cat([each.reshape(-1, _OFFSETS) for each in both])
+        self.register_buffer("overlaps", (_SHARPNESS * turns).float(), persistent=False)
+        self.register_buffer("turned_by", turns.t().float().contiguous(), persistent=False)
         nearness = (_NEARNESS * offsets.cos()).float().reshape(1, 1, 1, -1)
         self.register_buffer("nearness", nearness, persistent=False)
 
@@ -118,80 +136,82 @@ class RibComb(nn.Module):
         signed = signed_rib_frequencies_hz(embedding.detach(), motion).reshape(-1, WAVE_VECTORS)
         # The phase is counted the way in which the tip moves.
         place = torch.cat([signed.abs(), torch.sign(signed) * rib_phase], dim=1)
-        angles, margins = torch.addmm(self.bias, place, self.weight).split([self.sines, 3 * PARTIALS], dim=1)
+        angles, limits = torch.addmm(self.bias, place, self.weight).split([self.sines, 4 * PARTIALS], dim=1)
         half = 2 * PARTIALS * _STRIDE
         places, within, surface = torch.sin(angles).split([4 * PARTIALS * self.strides, half, 6 * PARTIALS], dim=1)
         waves = _thin_product(
             places.reshape(-1, PARTIALS, 2 * self.strides, 2), within.reshape(-1, PARTIALS, 2, _STRIDE)
         )
-        inside, told, sounding = (margins > 0.0).to(motion.dtype).reshape(-1, 3, PARTIALS, 1).split(1, dim=1)
+        inside = torch.where(limits.abs() < 1.0, self.signs, torch.zeros_like(self.signs))
         return Ribs(
             waves.reshape(-1, 2 * PARTIALS, self.samples),
-            *surface.reshape(-1, 3, PARTIALS, 2).split(1, dim=1),
-            inside * told,
-            inside * sounding,
+            *surface.reshape(-1, 3, WAVE_VECTORS, _PAIRS).split(1, dim=1),
+            *inside.reshape(-1, 2, WAVE_VECTORS, _PAIRS).split(1, dim=1),
         )
 
     def profile(self, embedding: Tensor, motion: Tensor, rib_phase: Tensor, segments: Tensor) -> tuple[Tensor, Tensor]:
         """The partials of S segments [B, S, N] as the surface sees them: [B, S, 2, 28], in phase with the rib phase and a
         quarter turn behind; and which of them can be told apart, [B, 28]."""
         ribs = self.ribs(embedding, motion, rib_phase)
-        fundamental = signed_rib_frequencies_hz(embedding.detach(), motion).abs().repeat_interleave(HARMONICS, dim=1)
-        told_apart = (fundamental > _LOWEST_TOLD_APART_HZ).to(motion.dtype).unsqueeze(1) * ribs.sounding
-        amplitudes = (segments * self.even @ ribs.waves.transpose(1, 2)).reshape(len(motion), -1, PARTIALS, 2)
+        fundamental = signed_rib_frequencies_hz(embedding.detach(), motion).abs().unsqueeze(1)
+        told_apart = (fundamental > _LOWEST_TOLD_APART_HZ).to(motion.dtype) * ribs.sounding
+        projected = segments * self.even @ ribs.waves.transpose(1, 2)
+        amplitudes = projected.reshape(len(motion), -1, WAVE_VECTORS, _PAIRS)
         # Turned back by the surface's phase: what is across changes its sign.
         seen = (amplitudes * ribs.ahead - self._swapped(amplitudes) * ribs.across) * told_apart
-        return seen.transpose(2, 3), told_apart.reshape(-1, PARTIALS)
+        in_phase_and_behind = seen.reshape(len(motion), -1, PARTIALS, 2).transpose(2, 3)
+        return in_phase_and_behind, told_apart.reshape(len(motion), PARTIALS, 2)[:, :, 0]
 
-    def partials(self, ribs: Ribs, mirrored: Tensor, gains: Tensor) -> tuple[Tensor, Tensor, Tensor]:
-        """Cosine and sine of every partial [B, 1, 28, 2] of the past carried on, of the pulses and of the lines."""
-        projected = (mirrored * self.newest @ ribs.waves.transpose(1, 2)).reshape(-1, 1, PARTIALS, 2)
-        carried = projected * self.mirror * ribs.told
-        by_past, by_surface, by_family = gains.split([2 * PARTIALS, 4 * PARTIALS, 2 * WAVE_VECTORS], dim=1)
-        kept, held = by_past.reshape(-1, 2, PARTIALS, 1).split(1, dim=1)
-        over_size = 1.0 / (carried.norm(p=2, dim=3, keepdim=True) + _SMALL)
-        from_past = carried * (kept * torch.clamp(_LARGEST_AMPLITUDE * over_size, max=1.0) + held * over_size)
+    def partials(self, ribs: Ribs, mirrored: Tensor, gains: Tensor) -> tuple[Tensor, Tensor]:
+        """Cosine and sine of every partial, [B, 1, 2, 28] each: of the past carried on, and of the lines before
+        `sounding` takes out what the surface does not have. gains [B, 228]: see `spread_gains`."""
+        projected = mirrored * self.newest @ ribs.waves.transpose(1, 2)
+        carried = projected.reshape(-1, 1, WAVE_VECTORS, _PAIRS) * ribs.told
+        by_partial, by_family = gains.split([8 * PARTIALS, 2 * WAVE_VECTORS], dim=1)
+        kept, held, profiles = by_partial.reshape(-1, 4, WAVE_VECTORS, _PAIRS).split([1, 1, 2], dim=1)
+        # A norm over pairs would have to lay them out anew. The small square keeps the root's gradient finite at zero.
+        size = torch.sqrt((carried * carried) @ self.pairs + _SMALL**2)
+        from_past = carried * ((kept * size.clamp(max=_LARGEST_AMPLITUDE) + held) / size)
 
-        profiles = by_surface.reshape(-1, 2, 2, PARTIALS).transpose(2, 3)
         # A partial p cos(P + a) + q sin(P + a): cosine p cos P + q sin P, sine q cos P - p sin P.
         turned = profiles * ribs.ahead + self._swapped(profiles) * ribs.across
         still, wandering = turned.split(1, dim=1)
-        ahead, across = self._wandered(turned.sum(dim=1, keepdim=True), carried, by_family)
-        wandered = wandering * ahead + self._swapped(wandering) * across
-        return carried, ribs.pulses * ribs.sounding, from_past + (still + wandered) * ribs.sounding
+        ahead, across = self._wandered(still + wandering, carried, by_family)
+        return carried, from_past + (still + (wandering * ahead + self._swapped(wandering) * across))
 
     def _swapped(self, pairs: Tensor) -> Tensor:
         return torch.index_select(pairs, 3, self.swap)
 
     def _wandered(self, profile: Tensor, carried: Tensor, by_family: Tensor) -> tuple[Tensor, Tensor]:
-        """By what the profile's partials [B, 1, 28, 2] are turned to go on from where they fit the past: the mean over
+        """By what the profile's partials [B, 1, 2, 28] are turned to go on from where they fit the past: the mean over
         offsets, each as likely as it overlaps with what is carried on and lies near the rib phase; as (cosine, cosine) and
-        (sine, -sine), [B, 1, 28, 2] each. by_family [B, 4]: logarithms of how sharp and how near."""
+        (sine, -sine), [B, 1, 2, 28] each. by_family [B, 4]: logarithms of how sharp and how near."""
         weights = by_family.clamp(-_LARGEST_LOGARITHM, _LARGEST_LOGARITHM).exp()
         sharp, near = weights.reshape(-1, 2, WAVE_VECTORS, 1).split(1, dim=1)
-        products = torch.cat([carried * profile, carried * self._swapped(profile)], dim=3)
-        overlap = products.reshape(-1, 1, WAVE_VECTORS, 4 * HARMONICS) @ self.overlaps
+        overlap = torch.cat([carried * profile, carried * self._swapped(profile)], dim=3) @ self.overlaps
         likely = torch.softmax(sharp * overlap + near * self.nearness, dim=3)
-        ahead, across = (likely @ self.turned_by).split(2 * HARMONICS, dim=3)
-        return ahead.reshape(-1, 1, PARTIALS, 2), across.reshape(-1, 1, PARTIALS, 2)
+        ahead, across = (likely @ self.turned_by).split(_PAIRS, dim=3)
+        return ahead, across
 
     def forward(self, mirrored: Tensor, embedding: Tensor, motion: Tensor, rib_phase: Tensor, gains: Tensor) -> Tensor:
-        """[B, 5, N]: four channels and the lines, from the mirrored past [B, 1, N], rib phase [B, 2] and gains [B, 172].
+        """[B, 5, N]: four channels and the lines, from the mirrored past [B, 1, N], rib phase [B, 2] and gains [B, 228].
 
         Channels: for each wave vector the past carried on, then pulses, one for each rib that passes. Lines: the sum of
         all partials: the past's carried on (no larger than all the power there is) and of unit size with the phase of
         the past, then the surface's in phase and a quarter turn behind, then those of the profile that wanders, by gains in
-        that order.
+        that order, as `spread_gains` lays them out.
         """
         ribs = self.ribs(embedding, motion, rib_phase)
-        carried, pulses, lines = self.partials(ribs, mirrored, gains)
-        rows = torch.cat([carried, carried, pulses, pulses, lines], dim=1) * self.families
+        carried, lines = self.partials(ribs, mirrored, gains)
+        channels = torch.cat([carried, carried, ribs.pulses, ribs.pulses, lines], dim=1)
+        rows = channels * self.families * ribs.sounding
         return rows.reshape(-1, COMB_CHANNELS, 2 * PARTIALS) @ ribs.waves
 
 
-def _angles_and_margins(order: Tensor, strides: int) -> tuple[Tensor, Tensor]:
+def _angles_and_limits(order: Tensor, strides: int) -> tuple[Tensor, Tensor, Tensor]:
     """What size and phase of both fundamentals, [B, 4], are multiplied by, and what is added: for the angles whose sines
-    are waves and surface, and for how far each partial is inside the limits of its frequency.
+    are waves and surface, and for what lies between -1 and 1 where the past can hold a partial, then where the surface
+    has it, twice each; and what these count there.
 
     Sines of sums come from products of sines: 10 places and 20 samples after each stand for all 200. For each partial
     stand (cos, -sin) of the places for its cosine and (sin, cos) for its sine; then cos and sin of the samples, counted
@@ -215,14 +235,19 @@ def _angles_and_margins(order: Tensor, strides: int) -> tuple[Tensor, Tensor]:
     before = -0.5 * whole / SAMPLE_RATE_HZ
     leads = [(quarter, quarter), (0.0, whole / 2.0), (quarter, whole / 2.0)]
     pair = torch.ones(2, dtype=torch.float64)
-    by_size = [spread(by_place), spread(by_sample), *[spread(before * pair)] * 3, -orders, family, family]
+    by_size = [spread(by_place), spread(by_sample), *[spread(before * pair)] * 3]
     by_phase = [nothing.repeat(1, len(by_place)), nothing.repeat(1, len(by_sample)), *[spread(whole * pair)] * 3]
-    by_phase += [nothing] * 3
+    by_phase += [nothing] * 4
     added = [lead_of_place.repeat(PARTIALS), lead_of_sample.repeat(PARTIALS)]
     added += [torch.tensor(lead, dtype=torch.float64).repeat(PARTIALS) for lead in leads]
-    limits = (_HIGHEST_HZ, -_LOWEST_IN_PAST_HZ, -_LOWEST_HZ)
-    added += [torch.full((PARTIALS,), limit, dtype=torch.float64) for limit in limits]
-    return torch.cat([torch.cat(by_size, dim=1), torch.cat(by_phase, dim=1)]), torch.cat(added)
+    # Of the fundamental: from the lowest on, as long as the harmonic is below the highest.
+    highest = _HIGHEST_HZ / order.repeat(WAVE_VECTORS)
+    for lowest in (_LOWEST_IN_PAST_HZ, _LOWEST_HZ):
+        centre, reach = 0.5 * (highest + lowest), 0.5 * (highest - lowest)
+        by_size.append((family / reach).repeat_interleave(2, dim=1))
+        added.append((-centre / reach).repeat_interleave(2))
+    signs = torch.cat([torch.tensor([1.0, -1.0]).repeat(PARTIALS), torch.ones(2 * PARTIALS)])
+    return torch.cat([torch.cat(by_size, dim=1), torch.cat(by_phase, dim=1)]), torch.cat(added), signs
 
 
 def _thin_product(left: Tensor, right: Tensor) -> Tensor:

@@ -62,18 +62,20 @@ class RungImpulses(nn.Module):
         self.register_buffer("atoms", _atoms(), persistent=False)
         # A window's samples are made from its own and those of three windows before it.
         reach = 3 * _WINDOW
+        windows_read = torch.arange(self.windows).unsqueeze(1) + torch.arange(4)
+        self.register_buffer("read", windows_read, persistent=False)
         source = torch.arange(reach + _WINDOW)
-        read = torch.arange(self.windows).unsqueeze(1) * _WINDOW + source
-        self.register_buffer("read", read, persistent=False)
         # How much of each atom every sample of a window has from every sample that it is made from, [13, 100 * 25].
         tap = torch.arange(_WINDOW) + reach - source.unsqueeze(1)
         shifted = nn.functional.pad(self.atoms, (0, 1))[:, torch.where((tap >= 0) & (tap < TAPS), tap, TAPS)]
         self.register_buffer("struck_atoms", shifted.reshape(ATOMS, -1), persistent=False)
-        self.reach = reach
+        self.reach, self.sources = reach, len(source)
 
     def forward(self, noise: Tensor, gains: Tensor) -> Tensor:
-        excess = noise - torch.maximum(torch.minimum(noise, self.rungs), -self.rungs)
-        struck = nn.functional.pad(excess * self.scales, (self.reach, 0))[:, :, self.read]
-        sources = len(RUNGS) * self.read.shape[1]
-        kernels = (gains.reshape(-1, ATOMS) @ self.struck_atoms).reshape(-1, sources, _WINDOW)
-        return (struck.transpose(1, 2).reshape(-1, self.windows, sources) @ kernels).reshape(-1, 1, self.samples)
+        # Windows are picked as whole blocks, before rungs multiply them: a single sample costs as much as a block.
+        padded = nn.functional.pad(noise, (self.reach, 0)).reshape(-1, self.windows + 3, _WINDOW)
+        heard = padded[:, self.read].reshape(-1, self.windows, 1, self.sources)
+        excess = heard - torch.maximum(torch.minimum(heard, self.rungs), -self.rungs)
+        struck = (excess * self.scales).reshape(-1, self.windows, len(RUNGS) * self.sources)
+        kernels = (gains.reshape(-1, ATOMS) @ self.struck_atoms).reshape(-1, len(RUNGS) * self.sources, _WINDOW)
+        return (struck @ kernels).reshape(-1, 1, self.samples)

@@ -12,7 +12,7 @@ import torch
 from torch import Tensor, nn
 
 from haptoflow_training.models.conditioning import EMBEDDING_SIZE, MotionEncoder, TimeEncoder
-from haptoflow_training.models.rib_comb import COMB_CHANNELS, GAINS, RibComb
+from haptoflow_training.models.rib_comb import COMB_CHANNELS, GAINS, RibComb, spread_gains
 from haptoflow_training.models.rung_impulses import GAINS as IMPULSE_GAINS
 from haptoflow_training.models.rung_impulses import RungImpulses
 
@@ -84,6 +84,7 @@ class VelocityField(nn.Module):
 
     film_factors: Tensor
     newest_first: Tensor
+    line_spread: Tensor
 
     def __init__(
         self,
@@ -150,6 +151,7 @@ class VelocityField(nn.Module):
         with torch.no_grad():
             self.film.bias += torch.tensor([1.0, 0.0] * len(blocks)).repeat_interleave(repeats)
         self.line_gains = _silent(GAINS) if ribs else None
+        self.register_buffer("line_spread", spread_gains(), persistent=False)
         self.impulse_gains = _silent(IMPULSE_GAINS) if impulses else None
 
     def forward(
@@ -203,12 +205,15 @@ class VelocityField(nn.Module):
         # On the weights, which a graph has as constants, and not on what they make.
         factors = self.film_factors
         weights, biases = [self.film.weight * factors.unsqueeze(1)], [self.film.bias * factors]
-        sizes = [len(factors)]
-        for layer in (self.line_gains, self.impulse_gains):
-            sizes.append(0 if layer is None else layer.out_features)
-            if layer is not None:
-                weights.append(layer.weight)
-                biases.append(layer.bias)
+        sizes = [len(factors), 0, 0]
+        if self.line_gains is not None:
+            weights.append(self.line_gains.weight[self.line_spread])
+            biases.append(self.line_gains.bias[self.line_spread])
+            sizes[1] = len(self.line_spread)
+        if self.impulse_gains is not None:
+            weights.append(self.impulse_gains.weight)
+            biases.append(self.impulse_gains.bias)
+            sizes[2] = self.impulse_gains.out_features
         made = nn.functional.linear(condition, torch.cat(weights), torch.cat(biases))
         if sizes[1:] == [0, 0]:
             return made, made[:, :0], made[:, :0]

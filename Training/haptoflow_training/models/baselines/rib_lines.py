@@ -10,7 +10,7 @@ import torch
 from torch import Tensor, nn
 
 from haptoflow_training.models.baselines.condition import ConditionPerceptron
-from haptoflow_training.models.rib_comb import GAINS, PARTIALS, RibComb
+from haptoflow_training.models.rib_comb import GAINS, PARTIALS, RibComb, spread_gains
 
 _HIDDEN = 96
 
@@ -18,9 +18,12 @@ _HIDDEN = 96
 class RibLines(nn.Module):
     """Lines in a segment and in the past before it; silent until trained."""
 
+    spread: Tensor
+
     def __init__(self) -> None:
         super().__init__()
         self.comb = RibComb()
+        self.register_buffer("spread", spread_gains(), persistent=False)
         self.gains = ConditionPerceptron(GAINS, _HIDDEN)
         last = self.gains.layers[-1]
         nn.init.zeros_(last.weight)
@@ -30,6 +33,7 @@ class RibLines(nn.Module):
         """The lines of the segment, and what they leave of the previous waveform, [B, 1, 200] each, in unit scale."""
         mirrored = torch.flip(previous, dims=[2])
         ribs = self.comb.ribs(embedding, motion, rib_phase)
-        lines = self.comb.partials(ribs, mirrored, self.gains(embedding, motion))[2]
+        gains = torch.index_select(self.gains(embedding, motion), 1, self.spread)
+        lines = self.comb.partials(ribs, mirrored, gains)[1] * ribs.sounding
         rest = mirrored - (lines * self.comb.mirror).reshape(-1, 1, 2 * PARTIALS) @ ribs.waves
         return lines.reshape(-1, 1, 2 * PARTIALS) @ ribs.waves, torch.flip(rest, dims=[2])
