@@ -24,7 +24,7 @@ from haptoflow_training.evaluation.reference_conditions import conditions
 from haptoflow_training.evaluation.reference_set import ReferencePair, reference_set
 from haptoflow_training.evaluation.reference_rows import CODEC_ROW
 from haptoflow_training.evaluation.row_plan import PlannedRow, load_plan
-from haptoflow_training.evaluation.row_runner import UPDATE_RATE_HZ, made_from, measure_row
+from haptoflow_training.evaluation.row_runner import UPDATE_RATE_HZ, made_from, measure_rows
 from haptoflow_training.evaluation.row_store import stored_row
 from haptoflow_training.evaluation.row_training import train_models
 from haptoflow_training.evaluation.timing import TimedSource, time_sources
@@ -44,7 +44,7 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser], su
         help=summary,
         description=(
             "Measures every row of the plan on recordings that nobody trained on: accuracy in open and closed loop, "
-            "milliseconds per segment through the engine. Trains the models that rows need (about seventeen minutes of one "
+            "milliseconds per segment through the engine. Trains the models that rows need (about eight minutes of one "
             "core each), keeps what is measured beside the results, and goes on where it was stopped. A row whose figures "
             "are kept is measured again only when its configuration or its model has changed. Every timing run is added "
             "to timing-history.json; the first complete one of the shipped model is the one that is published."
@@ -69,7 +69,7 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser], su
     )
     parser.add_argument("--document", type=Path, default=_ROOT / "Documentation~" / "accuracy-and-time.md")
     parser.add_argument("--lanes", type=int, default=os.cpu_count() or 1, help="trainings at a time (default: cores)")
-    parser.add_argument("--workers", type=int, default=os.cpu_count() or 1, help="recording processes (default: cores)")
+    parser.add_argument("--workers", type=int, default=os.cpu_count() or 1, help="processes that record and measure (default: cores)")
     parser.set_defaults(run=run)
 
 
@@ -82,20 +82,12 @@ def run(options: argparse.Namespace) -> int:
     if options.quick:
         chosen = [row for row in chosen if row.quick]
     place = Workplace(_ROOT, options.plan, options.work, options.store, options.out, options.quick)
-    engine = default_engine(_ROOT)
     yardstick = accuracy.make_yardstick(_pairs(options))
     if not (options.quick or options.no_train):
         wanted = [(row, seed) for row in chosen for seed in place.seeds_of(row)]
         train_models(place, [entry for entry in wanted if not _is_stored(place, yardstick, *entry)], options.lanes)
-    measured: dict[str, list[dict[str, Any]]] = {}
-    for row in tqdm(chosen, desc="rows", unit="row"):
-        seeds = [seed for seed in place.seeds_of(row) if _can_be_measured(place, yardstick, row, seed)]
-        if row.seeds[0] in seeds:
-            measured[row.name] = [measure_row(place, engine, yardstick, row, seed) for seed in seeds]
-        else:
-            named = row.model or str(place.codec_checkpoint)
-            missing = f"{named} has no tier '{row.tier}'" if row.tier else f"{named} is not trained yet"
-            tqdm.write(f"evaluate: {row.name} is left out: {missing}", file=sys.stderr)
+    measured = _measured(place, yardstick, chosen, options.workers)
+    engine = default_engine(_ROOT)
     timed = [row for row in chosen if not row.is_reference and _is_there(place.model_file(row, row.seeds[0]), row.tier)]
     run = _time_rows(place, engine, timed, options.quick, is_complete=not (options.rows or options.quick))
     if options.quick:
@@ -106,6 +98,27 @@ def run(options: argparse.Namespace) -> int:
             measured[row.name] = kept
     _write(options, place, engine, yardstick.pairs, plan, table(plan, measured), run)
     return 0
+
+
+def _measured(
+    place: Workplace, yardstick: Yardstick, rows: list[PlannedRow], workers: int
+) -> dict[str, list[dict[str, Any]]]:
+    """Figures of every row whose first seed can be measured, that one's first; says which rows are left out."""
+    wanted: list[tuple[PlannedRow, int]] = []
+    for row in rows:
+        seeds = [seed for seed in place.seeds_of(row) if _can_be_measured(place, yardstick, row, seed)]
+        if row.seeds[0] in seeds:
+            wanted += [(row, seed) for seed in seeds]
+        else:
+            named = row.model or str(place.codec_checkpoint)
+            missing = f"{named} has no tier '{row.tier}'" if row.tier else f"{named} is not trained yet"
+            tqdm.write(f"evaluate: {row.name} is left out: {missing}", file=sys.stderr)
+    with tqdm(total=len(wanted), desc="rows and seeds", unit="row") as bar:
+        figures = measure_rows(place, yardstick, wanted, workers, bar.update)
+    measured: dict[str, list[dict[str, Any]]] = {}
+    for row, seed in wanted:
+        measured.setdefault(row.name, []).append(figures[row.name, seed])
+    return measured
 
 
 def _stored(place: Workplace, yardstick: Yardstick, row: PlannedRow) -> list[dict[str, Any]]:

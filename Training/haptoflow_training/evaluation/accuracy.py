@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import zlib
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -19,7 +19,8 @@ from haptoflow_training.evaluation.reference_set import ReferencePair, rib_phase
 from haptoflow_training.evaluation.told_apart import told_apart_percent
 
 _Floats = NDArray[np.float32]
-_MAXIMUM_ROWS = 256
+# Recordings in a batch are as long as its longest: few of them, so that little is made in vain.
+_MAXIMUM_ROWS = 32
 
 
 @dataclass(frozen=True)
@@ -39,7 +40,6 @@ def generate_set(
     *,
     update_rate_hz: float,
     seed: int,
-    advance: Callable[[int], None] = lambda count: None,
     open_loop: bool = True,
 ) -> GeneratedSet:
     """Run every pair's motion through `source`; embeddings [labels, 64] by label index.
@@ -62,9 +62,7 @@ def generate_set(
         elsewhere = np.array([pairs[row].condition.kind == "change" for row in rows])
         is_other = elsewhere[:, None] & is_on_other_label(longest)[hops][None, :]
         told = np.where(is_other[:, :, None], others[:, None], chosen[:, None])
-        run = run_closed_loop(
-            source, told, motions, update_rate_hz=update_rate_hz, seed=seed + first, advance=advance
-        )
+        run = run_closed_loop(source, told, motions, update_rate_hz=update_rate_hz, seed=seed + first)
         for place, row in enumerate(rows):
             length = len(pairs[row].recorded)
             closed[row] = run.waves[place, :length]
@@ -157,19 +155,11 @@ def drift_db_per_minute(
     seconds: float,
     update_rate_hz: float,
     seed: int,
-    advance: Callable[[int], None] = lambda count: None,
 ) -> tuple[float, float]:
     """(median, worst) over labels of the absolute drift at 0.15 m/s and 1 N."""
     samples = int(seconds * SAMPLE_RATE_HZ)
     motion = np.array([0.15, 0.0, 1.0], dtype=np.float32)
     motions = np.broadcast_to(motion, (len(embeddings), samples, 3))
-    run = run_closed_loop(source, embeddings, motions, update_rate_hz=update_rate_hz, seed=seed, advance=advance)
+    run = run_closed_loop(source, embeddings, motions, update_rate_hz=update_rate_hz, seed=seed)
     drifts = [abs(metrics.drift_db_per_minute(wave[SETTLING_SAMPLES:])) for wave in run.waves]
     return float(np.median(drifts)), float(np.max(drifts))
-
-
-def hops_of(pairs: Sequence[ReferencePair], update_rate_hz: float) -> int:
-    """Closed-loop hops that `generate_set` makes: what its progress counts."""
-    lengths = sorted(len(pair.recorded) for pair in pairs)
-    batches = [lengths[first : first + _MAXIMUM_ROWS] for first in range(0, len(lengths), _MAXIMUM_ROWS)]
-    return sum(len(hop_positions(batch[-1], update_rate_hz)) for batch in batches)

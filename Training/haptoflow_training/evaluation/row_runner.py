@@ -1,17 +1,21 @@
-"""Measures the planned rows one after the other; what is measured is kept, so that a stopped evaluation goes on."""
+"""Measures the planned rows, several at a time; what is measured is kept, so that a stopped evaluation goes on."""
 
 from __future__ import annotations
 
+import functools
 import zlib
+from collections.abc import Callable, Sequence
+from concurrent.futures import ProcessPoolExecutor, as_completed
+from multiprocessing import get_context
+from pathlib import Path
 from typing import Any
 
 import numpy as np
-from tqdm import tqdm
-
+import torch
 from haptoflow_training.evaluation import accuracy
 from haptoflow_training.evaluation.accuracy import Yardstick
 from haptoflow_training.evaluation.closed_loop import hop_positions, run_closed_loop
-from haptoflow_training.evaluation.engine_library import EngineGenerator, EngineLibrary
+from haptoflow_training.evaluation.engine_library import EngineGenerator, EngineLibrary, default_engine
 from haptoflow_training.evaluation.metrics import kink_db, rms
 from haptoflow_training.evaluation.reference_rows import CODEC_ROW, reference_waves
 from haptoflow_training.evaluation.reference_set import ReferencePair
@@ -34,9 +38,38 @@ _SWEEP_SPEEDS = 25
 _SWEEP_SECONDS = 4.0
 
 
-def measure_row(
-    place: Workplace, engine: EngineLibrary, yardstick: Yardstick, row: PlannedRow, seed: int
-) -> dict[str, Any]:
+# Of a worker process: where, and with what every row is measured.
+_worker: list[tuple[Workplace, Yardstick]] = []
+
+
+def measure_rows(
+    place: Workplace,
+    yardstick: Yardstick,
+    wanted: Sequence[tuple[PlannedRow, int]],
+    workers: int,
+    advance: Callable[[int], object] = lambda count: None,
+) -> dict[tuple[str, int], dict[str, Any]]:
+    """Figures of rows and seeds by name and seed, `workers` at a time; `advance` is told of each that is done."""
+    # Forked, so that recordings and classifier need not be copied; each worker opens an engine of its own.
+    with ProcessPoolExecutor(workers, get_context("fork"), _prepare_worker, (place, yardstick)) as pool:
+        jobs = {pool.submit(_measure_in_worker, row, seed): (row.name, seed) for row, seed in wanted}
+        figures = {}
+        for job in as_completed(jobs):
+            figures[jobs[job]] = job.result()
+            advance(1)
+    return figures
+
+
+def _prepare_worker(place: Workplace, yardstick: Yardstick) -> None:
+    torch.set_num_threads(1)
+    _worker.append((place, yardstick))
+
+
+def _measure_in_worker(row: PlannedRow, seed: int) -> dict[str, Any]:
+    return measure_row(*_worker[0], row, seed)
+
+
+def measure_row(place: Workplace, yardstick: Yardstick, row: PlannedRow, seed: int) -> dict[str, Any]:
     """Figures of one row and seed, from its file where it was measured before on the same model and recordings."""
     origin = made_from(place, yardstick, row, seed)
     if stored := stored_row(place, row, seed, origin):
@@ -44,10 +77,10 @@ def measure_row(
     if row.is_reference:
         figures = _reference_figures(place, yardstick, row, seed)
     elif row.time_only:
-        with EngineGenerator(engine, place.model_file(row, seed), row.tier or None, row.solver, row.steps) as generator:
+        with _generator(place, row, seed) as generator:
             figures = {"discrimination": None, "drift_db_per_min": None, **_sizes(generator, row)}
     else:
-        figures = _engine_figures(place, engine, yardstick, row, seed)
+        figures = _engine_figures(place, yardstick, row, seed)
     write_row(place.row_file(row, seed), {"made_from": origin, "name": row.name, "seed": seed, **figures})
     return read_row(place.row_file(row, seed))
 
@@ -103,27 +136,31 @@ def _reference_figures(place: Workplace, yardstick: Yardstick, row: PlannedRow, 
     }
 
 
-def _engine_figures(
-    place: Workplace, engine: EngineLibrary, yardstick: Yardstick, row: PlannedRow, seed: int
-) -> dict[str, Any]:
+@functools.cache
+def _engine(root: Path) -> EngineLibrary:
+    return default_engine(root)
+
+
+def _generator(place: Workplace, row: PlannedRow, seed: int) -> EngineGenerator:
     model = place.model_file(row, seed)
+    return EngineGenerator(_engine(place.root), model, row.tier or None, row.solver, row.steps)
+
+
+def _engine_figures(place: Workplace, yardstick: Yardstick, row: PlannedRow, seed: int) -> dict[str, Any]:
     pairs = _pairs(place, yardstick, row, seed)
     extended = row.extended and not place.quick
     drift_seconds = _LONG_DRIFT_SECONDS if extended else _SHORT_DRIFT_SECONDS
-    hops = accuracy.hops_of(pairs, UPDATE_RATE_HZ) + int(drift_seconds * UPDATE_RATE_HZ)
-    with EngineGenerator(engine, model, row.tier or None, row.solver, row.steps) as generator:
-        with tqdm(total=hops, desc=f"{row.name}, seed {seed}", unit="hop", leave=False) as bar:
-            made = accuracy.generate_set(
-                generator, generator.embeddings, pairs, update_rate_hz=UPDATE_RATE_HZ, seed=_SEED, advance=bar.update
-            )
-            embeddings = generator.embeddings[::4] if _is_reduced(place, row, seed) else generator.embeddings
-            drift = accuracy.drift_db_per_minute(
-                generator, embeddings, seconds=drift_seconds, update_rate_hz=UPDATE_RATE_HZ, seed=_SEED,
-                advance=bar.update,
-            )  # fmt: skip
+    with _generator(place, row, seed) as generator:
+        made = accuracy.generate_set(
+            generator, generator.embeddings, pairs, update_rate_hz=UPDATE_RATE_HZ, seed=_SEED
+        )
+        embeddings = generator.embeddings[::4] if _is_reduced(place, row, seed) else generator.embeddings
+        drift = accuracy.drift_db_per_minute(
+            generator, embeddings, seconds=drift_seconds, update_rate_hz=UPDATE_RATE_HZ, seed=_SEED
+        )
         rows = accuracy.measure(pairs, made)
         result: dict[str, Any] = {
-                "discrimination": accuracy.label_discrimination(yardstick.classifier, pairs, made.closed),
+            "discrimination": accuracy.label_discrimination(yardstick.classifier, pairs, made.closed),
             "conditions": rows,
             **_sizes(generator, row),
             "drift_db_per_min": drift[0],
