@@ -18,6 +18,7 @@ from haptoflow_training.models.codec.reconstruction_loss import (
 from haptoflow_training.models.codec.small_codec import SmallCodec, SmallCodecShape
 from haptoflow_training.models.codec.small_codec_config import SmallCodecConfig, read_small_codec_config
 from haptoflow_training.training.codec_trainer import SegmentSampler, train_small_codec, validate
+from haptoflow_training.training.held_out import HeldOut
 
 CONFIGS = Path(__file__).resolve().parents[2] / "Training" / "configs"
 
@@ -103,7 +104,7 @@ def test_training_reaches_ten_decibels_on_recordings_it_has_not_seen(
     store: Store, trained: tuple[SmallCodec, SmallCodecConfig]
 ) -> None:
     codec, config = trained
-    unseen = SegmentSampler(store, "test").draw(np.random.default_rng(9), 64)
+    unseen = SegmentSampler(store, "test", HeldOut()).draw(np.random.default_rng(9), 64)
     assert validate(codec, unseen) > 10.0
     assert validate(SmallCodec(config.shape), unseen) < 1.0
 
@@ -112,7 +113,7 @@ def test_training_reaches_ten_decibels_on_recordings_it_has_not_seen(
 def test_the_latents_of_a_trained_codec_have_unit_scale_in_every_channel(
     store: Store, trained: tuple[SmallCodec, SmallCodecConfig]
 ) -> None:
-    latent = trained[0].encode(SegmentSampler(store, "train").draw(np.random.default_rng(11), 512))
+    latent = trained[0].encode(SegmentSampler(store, "train", HeldOut()).draw(np.random.default_rng(11), 512))
     assert latent.mean(dim=(0, 2)).abs().max() < 0.15
     torch.testing.assert_close(latent.std(dim=(0, 2)), torch.ones(16), atol=0.15, rtol=0.0)
 
@@ -171,14 +172,14 @@ def test_a_store_without_a_finite_signal_is_refused(tmp_path: Path, value: float
 def test_segments_stay_inside_recordings_of_their_split() -> None:
     marks = np.repeat(np.arange(1, 6, dtype=np.float32), 250)
     spans = tuple(Span(k * 250, 250, "train" if k % 2 == 0 else "test") for k in range(5))
-    segments = SegmentSampler(Store(marks, spans), "train").draw(np.random.default_rng(1), 200)
+    segments = SegmentSampler(Store(marks, spans), "train", HeldOut()).draw(np.random.default_rng(1), 200)
     assert segments.shape == (200, 1, 200)
     # A constant recording gives constant segments; a window across two recordings would not.
     assert segments.std(dim=2).max() < 1e-6
 
 
 def test_segments_have_unit_scale_give_or_take_the_gain_spread(store: Store) -> None:
-    segments = SegmentSampler(store, "train").draw(np.random.default_rng(2), 400)
+    segments = SegmentSampler(store, "train", HeldOut()).draw(np.random.default_rng(2), 400)
     level_db = 10.0 * torch.log10(segments.square().mean(dim=(1, 2)))
     assert level_db.abs().max() <= 9.001
     assert level_db.std() > 4.0

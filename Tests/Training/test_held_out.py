@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+import torch
 from numpy.typing import NDArray
 from training_fixtures import FakeRecording, FakeStore, travelled_mm
 
@@ -20,7 +21,9 @@ from haptoflow_training.export.seed_bank import build_seed_bank
 from haptoflow_training.preprocessing.pipeline import preprocess_recording
 from haptoflow_training.preprocessing.settings import PreprocessingSettings
 from haptoflow_training.recordings.synthetic import load_materials, machine_conditions, record_machine_condition
+from haptoflow_training.models.codec.small_codec_config import read_small_codec_config
 from haptoflow_training.training.batches import SegmentBatches
+from haptoflow_training.training.codec_trainer import SegmentSampler
 from haptoflow_training.training.config import BatchConfig, load_config
 from haptoflow_training.training.held_out import HeldOut, clear_spans
 
@@ -90,6 +93,23 @@ def test_no_sample_of_a_chain_lies_in_a_held_out_band() -> None:
         end = batch.segment.numpy()[:, 0, -1].astype(np.int64)
         held = np.concatenate([[0], np.cumsum(HELD_OUT.holds(STORE.motion))])
         assert np.all(held[end + 1] - held[start] == 0)
+
+
+def test_no_sample_of_a_codec_s_segment_lies_in_a_held_out_band() -> None:
+    marked = np.where(HELD_OUT.holds(STORE.motion), 1000.0, 1.0).astype(np.float32)
+    store = dataclasses.replace(STORE, waveform=marked)
+    kept, free = (
+        SegmentSampler(store, "train", bands).draw(np.random.default_rng(3), 2000) for bands in (HELD_OUT, HeldOut())
+    )
+    assert torch.all(kept.amax(dim=2) < 1.01 * kept.amin(dim=2)) and torch.any(free.amax(dim=2) > 2.0 * free.amin(dim=2))
+
+
+def test_the_codec_holds_out_what_networks_do() -> None:
+    config = read_small_codec_config(ROOT / "Training" / "configs" / "codec-small.toml")
+    network = load_config(ROOT / "Training" / "configs" / "default" / "standard.toml")
+    assert config.held_out_as is not None
+    bands = HeldOut.of(load_config(config.held_out_as).batch)
+    assert bands == HeldOut.of(network.batch) != HeldOut()
 
 
 def test_without_bands_the_same_store_gives_away_what_would_be_held_out() -> None:

@@ -28,6 +28,8 @@ from haptoflow_training.models.codec.reconstruction_loss import (
 )
 from haptoflow_training.models.codec.small_codec import SEGMENT_SAMPLES, SmallCodec
 from haptoflow_training.models.codec.small_codec_config import SmallCodecConfig
+from haptoflow_training.training.config import load_config
+from haptoflow_training.training.held_out import HeldOut, clear_spans
 from haptoflow_training.training.run_log import MetricsLog
 
 CHECKPOINT_NAME = "checkpoint.pt"
@@ -41,7 +43,7 @@ _GAIN_SPREAD_DB = 9.0
 _QUIET_RELATIVE_RMS = 0.01
 _GRADIENT_LIMIT = 2.0
 _WEIGHT_DECAY = 1e-4
-_NOT_COMPARED_ON_RESUME = ("output_folder", "threads")
+_NOT_COMPARED_ON_RESUME = ("output_folder", "threads", "held_out_as")
 
 
 class RecordingSpan(Protocol):
@@ -56,30 +58,34 @@ class RecordingSpan(Protocol):
 
 
 class WaveformStore(Protocol):
-    """Prepared recordings at 2 kHz, one after the other in one array of any scale."""
+    """Prepared recordings at 2 kHz, one after the other in one array of any scale, and the motion [n, 3] of each sample."""
 
     @property
     def waveform(self) -> NDArray[np.float32]: ...
+    @property
+    def motion(self) -> NDArray[np.float32]: ...
     @property
     def recordings(self) -> Sequence[RecordingSpan]: ...
 
 
 class SegmentSampler:
-    """Random segments of one split in unit scale, every start of every recording equally likely."""
+    """Random segments of one split in unit scale, every start outside the held-out bands equally likely."""
 
-    def __init__(self, store: WaveformStore, split: str) -> None:
-        spans = [
-            (span.start, span.length - SEGMENT_SAMPLES + 1)
-            for span in store.recordings
-            if span.split == split and span.length >= SEGMENT_SAMPLES
-        ]
-        if not spans:
+    def __init__(self, store: WaveformStore, split: str, held_out: HeldOut) -> None:
+        spans = [span for span in store.recordings if span.split == split]
+        starts = np.array([span.start for span in spans], dtype=np.int64)
+        lengths = np.array([span.length for span in spans], dtype=np.int64)
+        if held_out != HeldOut():
+            clear = clear_spans(store.motion, starts, lengths, held_out)
+            starts, lengths = clear.starts, clear.lengths
+        long_enough = lengths >= SEGMENT_SAMPLES
+        if not long_enough.any():
             raise InputError(
                 f"the prepared recordings have no segment of split '{split}', expected one; prepare more"
             )
         self._store = store
-        self._starts = np.array([start for start, _ in spans], dtype=np.int64)
-        self._ends = np.cumsum([count for _, count in spans], dtype=np.int64)
+        self._starts = starts[long_enough]
+        self._ends = np.cumsum(lengths[long_enough] - SEGMENT_SAMPLES + 1)
         self._offsets = np.arange(SEGMENT_SAMPLES, dtype=np.int64)
         probe = self._cut(np.random.default_rng(0), 1024)
         self._quiet_rms = _QUIET_RELATIVE_RMS * float(np.sqrt(np.mean(np.square(probe))))
@@ -109,8 +115,15 @@ def _learning_rate(config: SmallCodecConfig, step: int) -> float:
     return config.learning_rate * (0.02 + 0.98 * 0.5 * (1.0 + math.cos(math.pi * progress)))
 
 
+def _held_out(config: SmallCodecConfig) -> HeldOut:
+    return HeldOut() if config.held_out_as is None else HeldOut.of(load_config(config.held_out_as).batch)
+
+
 def _comparable(config: SmallCodecConfig) -> dict[str, Any]:
-    return {key: value for key, value in asdict(config).items() if key not in _NOT_COMPARED_ON_RESUME}
+    named = {key: value for key, value in asdict(config).items() if key not in _NOT_COMPARED_ON_RESUME}
+    # The bands, not the file that names them.
+    described: dict[str, Any] = json.loads(json.dumps({**named, **asdict(_held_out(config))}))
+    return described
 
 
 class _Run:
@@ -190,8 +203,9 @@ def train_small_codec(store: WaveformStore, config: SmallCodecConfig) -> SmallCo
     """
     torch.set_num_threads(config.threads)
     config.output_folder.mkdir(parents=True, exist_ok=True)
-    training, validation = SegmentSampler(store, "train"), SegmentSampler(store, "validation")
-    held_out = validation.draw(np.random.default_rng([config.seed, 0]), config.validation_segments)
+    held_out = _held_out(config)
+    training, validation = (SegmentSampler(store, split, held_out) for split in ("train", "validation"))
+    unseen = validation.draw(np.random.default_rng([config.seed, 0]), config.validation_segments)
     run = _Run(config)
     run.resume()
 
@@ -204,7 +218,7 @@ def train_small_codec(store: WaveformStore, config: SmallCodecConfig) -> SmallCo
             progress.update()
             if run.step % config.validate_every_steps == 0 or run.step == config.steps:
                 run.elapsed_seconds = spent_before + time.perf_counter() - began
-                snr_db = validate(run.codec, held_out)
+                snr_db = validate(run.codec, unseen)
                 rate = _learning_rate(config, run.step)
                 row = (run.step, in_time, in_spectrum, snr_db, rate, run.elapsed_seconds)
                 log.append(dict(zip(_LOG_COLUMNS, row, strict=True)))

@@ -19,7 +19,8 @@ class SmallCodecConfig:
 
     output_folder: checkpoint, log and result are written there. steps: of `batch` segments each.
     learning_rate: falls by a cosine over the second half. spectral_weight: of the spectral loss beside the
-    time loss. validate_every_steps: also the interval of log and checkpoint. threads: of PyTorch.
+    time loss. held_out_as: the configuration of a network, whose held-out bands are the codec's too; none where it is
+    missing. validate_every_steps: also the interval of log and checkpoint. threads: of PyTorch.
     """
 
     output_folder: Path
@@ -32,8 +33,10 @@ class SmallCodecConfig:
     validate_every_steps: int = 250
     validation_segments: int = 512
     threads: int = 2
+    held_out_as: Path | None = None
 
 
+_PATHS = {"Path": "folder", "Path | None": "file"}
 _LEAST = {"seed": 0, "spectral_weight": 0.0, "learning_rate": 1e-8}
 
 
@@ -43,9 +46,9 @@ def _checked(table: type[Table], values: dict[str, Any], path: Path, section: st
         if known.get(key, "SmallCodecShape") == "SmallCodecShape":
             names = ", ".join(sorted(known.keys() - {"shape"}))
             raise InputError(f"{path}: [{section}] {key} is unknown, expected one of {names}")
-        if known[key] == "Path":
+        if known[key] in _PATHS:
             if not isinstance(value, str) or not value:
-                raise InputError(f"{path}: [{section}] {key} = {value!r}, expected a folder as text")
+                raise InputError(f"{path}: [{section}] {key} = {value!r}, expected a {_PATHS[known[key]]} as text")
             continue
         whole = known[key] == "int"
         allowed = int if whole else (int, float)
@@ -59,7 +62,7 @@ def _checked(table: type[Table], values: dict[str, Any], path: Path, section: st
 def read_small_codec_config(path: Path | str) -> SmallCodecConfig:
     """Read a TOML file with the tables [codec] and [training]; InputError names file, key and what to expect.
 
-    A relative output_folder counts from the folder the command runs in.
+    A relative output_folder counts from the folder the command runs in, a relative held_out_as from the file's own.
     """
     path = Path(path)
     try:
@@ -79,4 +82,7 @@ def read_small_codec_config(path: Path | str) -> SmallCodecConfig:
         raise InputError(f"{path}: [training] output_folder is missing, expected a folder for the results")
     shape = SmallCodecShape(**_checked(SmallCodecShape, content.get("codec", {}), path, "codec"))
     values = dict(_checked(SmallCodecConfig, training, path, "training"))
-    return SmallCodecConfig(shape=shape, **{**values, "output_folder": Path(values["output_folder"])})
+    values["output_folder"] = Path(values["output_folder"])
+    if "held_out_as" in values:
+        values["held_out_as"] = path.parent / values["held_out_as"]
+    return SmallCodecConfig(shape=shape, **values)
