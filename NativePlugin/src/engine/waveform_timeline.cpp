@@ -46,14 +46,24 @@ std::int64_t WaveformTimeline::commit(std::int64_t start,
     return takeOver;
 }
 
+Continuation WaveformTimeline::continuationFrom(std::int64_t start) const noexcept {
+    constexpr auto most = static_cast<std::int64_t>(dsp::Splice::correlationSamples);
+    Continuation continuation;
+    continuation.start = start;
+    continuation.count = static_cast<std::size_t>(std::clamp<std::int64_t>(coveredUntil_ - start, 0, most));
+    copyOut(start, std::span(continuation.samplesMps2).first(continuation.count));
+    return continuation;
+}
+
 void WaveformTimeline::overwrite(std::int64_t start, std::span<const float> samples) noexcept {
-    std::array<float, dsp::Splice::correlationSamples> continuation{};
-    const std::int64_t running = std::clamp<std::int64_t>(coveredUntil_ - start, 0, dsp::Splice::correlationSamples);
-    const std::span<float> known = std::span(continuation).first(static_cast<std::size_t>(running));
-    copyOut(start, known);
+    // A splice of a splice would raise the seam again and again: its gains hold the level of what they join, once.
+    if (start != beforeLastSegment_.start) {
+        beforeLastSegment_ = continuationFrom(start);
+    }
+    const std::span<const float> continuation = beforeLastSegment_.known();
     copyIn(start, samples);
     dsp::Splice splice;
-    splice.begin(known, samples, dsp::Splice::maximumLength);
+    splice.begin(continuation, samples, dsp::Splice::maximumLength);
     for (std::size_t i = 0; splice.active(); ++i) {
         at(start + static_cast<std::int64_t>(i)) = splice.next(continuation[i], samples[i]);
     }
@@ -94,6 +104,7 @@ void WaveformTimeline::read(std::span<float> out) noexcept {
 void WaveformTimeline::view(TimelineView& out) const noexcept {
     out.head = head_;
     out.coveredUntil = std::clamp(coveredUntil_, head_, head_ + aheadLimit);
+    out.beforeLastSegment = beforeLastSegment_;
     const std::int64_t begin = head_ - pastLimit;
     copyOut(begin, std::span(out.samplesMps2).first(static_cast<std::size_t>(out.coveredUntil - begin)));
 }
@@ -101,6 +112,7 @@ void WaveformTimeline::view(TimelineView& out) const noexcept {
 void WaveformTimeline::restore(const TimelineView& from) noexcept {
     head_ = from.head;
     coveredUntil_ = from.coveredUntil;
+    beforeLastSegment_ = from.beforeLastSegment;
     const std::int64_t begin = head_ - pastLimit;
     copyIn(begin, std::span(from.samplesMps2).first(static_cast<std::size_t>(coveredUntil_ - begin)));
 }
@@ -109,6 +121,7 @@ void WaveformTimeline::clear() noexcept {
     ring_.fill(0.0F);
     coveredUntil_ = head_;
     endGain_ = 1.0F;
+    beforeLastSegment_ = {};
 }
 
 }  // namespace haptoflow::engine

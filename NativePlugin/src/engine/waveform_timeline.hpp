@@ -10,6 +10,16 @@
 
 namespace haptoflow::engine {
 
+/// What ran on from `start` before a segment took over there, as far as a splice looks at it.
+struct Continuation {
+    /// -1: no segment has taken over anywhere.
+    std::int64_t start = -1;
+    std::size_t count = 0;
+    std::array<float, dsp::Splice::correlationSamples> samplesMps2{};
+
+    [[nodiscard]] std::span<const float> known() const noexcept { return std::span(samplesMps2).first(count); }
+};
+
 /// What is committed of a timeline, for another thread to plan with.
 struct TimelineView {
     /// Room for the past, and for what may be committed ahead of the head.
@@ -18,6 +28,7 @@ struct TimelineView {
 
     std::int64_t head = 0;
     std::int64_t coveredUntil = 0;
+    Continuation beforeLastSegment;
     /// Samples from head - pastSamples to coveredUntil, m/s^2.
     std::array<float, pastSamples + aheadSamples> samplesMps2{};
 };
@@ -34,7 +45,8 @@ public:
     /// Touch-down: 200 samples of `seed` (400, m/s^2) become the past unplayed, 200 follow from the head on. Where an
     /// earlier touch still has samples there, a splice hands over.
     void open(std::span<const float, seedSamples> seedMps2) noexcept;
-    /// `segment` (200, m/s^2) takes over at `start`. One that comes late loses what the head has passed; one that is
+    /// `segment` (200, m/s^2) takes over at `start`, spliced with what ran there before; where another segment took over at
+    /// the same sample and nothing of it was read, that one leaves no trace. One that comes late loses what the head has passed; one that is
     /// past altogether, or that would leave a hole or reach further than a view, changes nothing. Returns the sample at
     /// which it took over, or -1.
     std::int64_t commit(std::int64_t start, std::span<const float, inference::segmentSamples> segment) noexcept;
@@ -69,12 +81,14 @@ private:
     void copyIn(std::int64_t start, std::span<const float> samples) noexcept;
     void copyOut(std::int64_t start, std::span<float> out) const noexcept;
     void overwrite(std::int64_t start, std::span<const float> samples) noexcept;
+    [[nodiscard]] Continuation continuationFrom(std::int64_t start) const noexcept;
 
     std::array<float, capacity> ring_{};
     // Starts where a whole past fits before it, so that no index is negative.
     std::int64_t head_ = inference::segmentSamples;
     std::int64_t coveredUntil_ = inference::segmentSamples;
     float endGain_ = 1.0F;
+    Continuation beforeLastSegment_;
     std::uint64_t uncoveredSamples_ = 0;
 };
 

@@ -63,6 +63,68 @@ TEST(WaveformTimelineTest, ASegmentThatGoesOnAsTheRunningOneDoesLeavesNoTrace) {
     }
 }
 
+/// A wave that resembles no other with another number, but for the first sample, which all of them share.
+Segment unlikeSegment(int number) {
+    Segment segment{};
+    for (std::size_t i = 0; i < segment.size(); ++i) {
+        const auto turn = static_cast<double>(i * static_cast<std::size_t>(number + 3) * 37 % 101);
+        segment[i] = i == 0 ? 1.0F : static_cast<float>(std::sin(turn));
+    }
+    return segment;
+}
+
+/// A second within a touch whose callback reads nothing until `replaced` segments have come for one place.
+std::vector<float> heardAfterReplacing(std::int64_t ahead, int replaced, bool isViewedBetween) {
+    WaveformTimeline timeline;
+    Seed seed{};
+    std::ranges::copy(unlikeSegment(50), seed.begin());
+    std::ranges::copy(unlikeSegment(51), seed.begin() + 200);
+    timeline.open(seed);
+    readSamples(timeline, 20);
+    const std::int64_t start = timeline.head() + ahead;
+    for (int number = replaced - 1; number >= 0; --number) {
+        EXPECT_EQ(timeline.commit(start, unlikeSegment(number)), start);
+        if (isViewedBetween) {
+            TimelineView view;
+            timeline.view(view);
+            WaveformTimeline other;
+            other.restore(view);
+            timeline = other;
+        }
+    }
+    return readSamples(timeline, 150);
+}
+
+TEST(WaveformTimelineTest, OfSegmentsForOnePlaceOnlyTheLastIsSplicedWithWhatRanBeforeThem) {
+    for (const std::int64_t ahead : {0, 1, 70}) {
+        const std::vector<float> last = heardAfterReplacing(ahead, 1, false);
+        EXPECT_EQ(heardAfterReplacing(ahead, 2, false), last) << ahead;
+        EXPECT_EQ(heardAfterReplacing(ahead, 12, false), last) << ahead;
+        EXPECT_EQ(heardAfterReplacing(ahead, 12, true), last) << ahead << ", planned with on another thread";
+    }
+}
+
+TEST(WaveformTimelineTest, ASegmentForAPlaceThatHasSoundedIsSplicedWithWhatSounds) {
+    WaveformTimeline timeline;
+    timeline.open(countingSeed());
+    const std::int64_t start = timeline.head();
+    timeline.commit(start, constantSegment(5.0F));
+    readSamples(timeline, 10);
+    timeline.commit(start, constantSegment(5.0F));
+    for (const float sample : readSamples(timeline, 150)) {
+        ASSERT_EQ(sample, 5.0F);
+    }
+}
+
+TEST(WaveformTimelineTest, AfterClearingNothingOfAnEarlierSpliceComesBack) {
+    WaveformTimeline timeline;
+    timeline.open(countingSeed());
+    timeline.commit(timeline.head(), constantSegment(5.0F));
+    timeline.clear();
+    timeline.commit(timeline.head(), constantSegment(7.0F));
+    EXPECT_EQ(readSamples(timeline, 10), std::vector<float>(10, 7.0F));
+}
+
 TEST(WaveformTimelineTest, ThePastOfASegmentHoldsTheSamplesNotYetPlayed) {
     WaveformTimeline timeline;
     timeline.open(countingSeed());
