@@ -146,7 +146,7 @@ TEST_F(LiveEngineTest, ManyVoicesPublishersAndCallbacksAtOnceLeaveEveryWaveWhole
         });
     }
     threads.emplace_back([&] {
-        for (int i = 0; !done; ++i) {
+        while (!done) {
             const auto passing = engine->addVoice(44100.0);
             engine->publish(*passing, testing::sliding());
             std::this_thread::sleep_for(std::chrono::milliseconds(3));

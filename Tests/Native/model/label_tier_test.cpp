@@ -159,7 +159,7 @@ TEST(TierTest, RefusesALatentTierWithoutShapeEncoderOrDecoder) {
 }
 
 TEST(TierTest, RefusesALatentThatIsEmptyOrHuge) {
-    for (const Json& shape : {Json::array(), Json({0}), Json({4096, 4096, 4096})}) {
+    for (const Json& shape : {Json::array(), Json::array({0}), Json::array({4096, 4096, 4096})}) {
         expectHeaderRefusal(
             [&shape](Json& header) {
                 Json& tier = header["tiers"][1];
