@@ -48,11 +48,11 @@ for band errors, fundamentals and harmonics the median over cells. `median`, `p9
 errors over cells: nine cells in ten are at least as good as p90. For told apart they are over labels. Intervals in the
 JSON are 95 % bootstrap intervals over recordings, drawn within labels.
 
-**Ahead, even, behind.** Rivals are judged against `standard-same-time`, which is `standard`'s recipe at the rivals' time of
-one core, 1,000 seconds; the shipped `standard` was trained longer, and is judged beside our own rows. Two rows are compared
-on the same recordings: the size of the rival's error less that of ours, the mean over labels of each label's mean. Ahead means that its 95 % bootstrap interval lies above zero, behind
-that it lies below, even that it holds zero. Rows of one network at several numbers of steps are one rival, which stands
-by its best row in each figure.
+**Ahead, even, behind.** Rivals and ablations are judged against `standard-same-time`, which is `standard`'s recipe at
+their own time of one core, 500 seconds; the shipped `standard` was trained longer, and is judged beside our own rows. Two
+rows are compared on the same recordings: the size of the rival's error less that of ours, the mean over labels of each
+label's mean. Ahead means that its 95 % bootstrap interval lies above zero, behind that it lies below, even that it holds
+zero. Rows of one network at several numbers of steps are one rival, which stands by its best row in each figure.
 
 | figure | definition |
 |---|---|
