@@ -1,0 +1,34 @@
+#pragma once
+
+#include <span>
+
+namespace haptoflow::effects {
+
+/// One ringing mode: amplitude e^(-decay t) sin(2 pi frequency t), by a recursion of two multiplications a sample.
+/// Audio thread: allocates nothing, waits for nothing.
+class DecayingSinusoid {
+public:
+    /// Below this it has ended: a hundredth of what a fingertip feels at its most sensitive.
+    static constexpr double silentMps2 = 1e-4;
+
+    /// Rings from the next sample on, whatever rang before. Frequencies beyond 0.45 of the rate, and anything that is
+    /// not finite or not above 0, ring not at all.
+    void start(double frequencyHz, double decayPerSecond, double amplitudeMps2, double sampleRateHz) noexcept;
+    void stop() noexcept { *this = DecayingSinusoid(); }
+    /// Adds the next samples.
+    void addTo(std::span<float> samplesMps2) noexcept;
+
+    [[nodiscard]] bool isIdle() const noexcept { return envelopeMps2_ < silentMps2; }
+    /// What its amplitude has decayed to.
+    [[nodiscard]] double envelopeMps2() const noexcept { return envelopeMps2_; }
+
+private:
+    double newest_ = 0.0;
+    double previous_ = 0.0;
+    double feedback_ = 0.0;
+    double damping_ = 0.0;
+    double decay_ = 0.0;
+    double envelopeMps2_ = 0.0;
+};
+
+}  // namespace haptoflow::effects

@@ -1,0 +1,99 @@
+#include "effects/strikes.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace haptoflow::effects {
+namespace {
+
+// What presses a tip that has bounced back to the surface: a hand, not gravity alone.
+constexpr double returnAccelerationMps2 = 25.0;
+// The slowest decay that a model file may state, and the largest amplitude that can ring.
+constexpr double slowestDecayPerSecond = 10.0;
+constexpr double largestAmplitudeMps2 = 1e5;
+
+}  // namespace
+
+Strikes::Strikes(EffectKind kind, double sampleRateHz, double decayFactor) noexcept
+    : kind_(kind), sampleRateHz_(sampleRateHz), decayFactor_(decayFactor) {}
+
+void Strikes::strike(double speedMps, const ImpactResponse& response) noexcept {
+    if (!(speedMps > 0.0)) {
+        return;
+    }
+    const double speed = std::min(speedMps, highestSpeedMps);
+    ring(speed, response);
+    reboundsLeft_ = rebounds;
+    planRebound(speed, response);
+}
+
+void Strikes::ring(double speedMps, const ImpactResponse& response) noexcept {
+    ++struck_;
+    for (const ImpactResponse::Mode& mode : response.modes) {
+        const double amplitude = std::min(static_cast<double>(mode.gainPerSecond) * speedMps, largestAmplitudeMps2);
+        const double decay = std::max(static_cast<double>(mode.decayPerSecond), slowestDecayPerSecond) * decayFactor_;
+        const auto quietest = std::ranges::min_element(ringing_, {}, &DecayingSinusoid::envelopeMps2);
+        if (amplitude > quietest->envelopeMps2()) {
+            quietest->start(mode.frequencyHz, decay, amplitude, sampleRateHz_);
+        }
+    }
+}
+
+void Strikes::planRebound(double speedMps, const ImpactResponse& response) noexcept {
+    rebound_ = {};
+    const double restitution = std::clamp(static_cast<double>(response.restitution), 0.0, 0.9);
+    if (reboundsLeft_ == 0 || !(restitution > 0.0)) {
+        reboundsLeft_ = 0;
+        return;
+    }
+    --reboundsLeft_;
+    rebound_.speedMps = restitution * speedMps;
+    rebound_.response = response;
+    const double flightSeconds = 2.0 * rebound_.speedMps / returnAccelerationMps2;
+    rebound_.samplesLeft = 1 + static_cast<std::uint64_t>(flightSeconds * sampleRateHz_);
+}
+
+EffectDeclaration Strikes::declaration() const noexcept {
+    // ln(largest / silent) / slowest decay, after the last rebound's flight.
+    const double ringSeconds = std::log(largestAmplitudeMps2 / DecayingSinusoid::silentMps2) / slowestDecayPerSecond;
+    const double flightsSeconds = static_cast<double>(rebounds) * 2.0 * 0.9 * highestSpeedMps / returnAccelerationMps2;
+    return {.kind = kind_,
+            .reads = contact_field::touch | contact_field::material |
+                     (kind_ == EffectKind::impact ? contact_field::approachSpeed : contact_field::velocity),
+            .latencySeconds = 0.0,
+            .tailSeconds = ringSeconds / decayFactor_ + flightsSeconds,
+            .memoryBytes = sizeof(Strikes)};
+}
+
+void Strikes::process(std::span<float> samplesMps2) noexcept {
+    while (!samplesMps2.empty()) {
+        const bool isDue = rebound_.samplesLeft > 0;
+        const std::size_t until =
+            isDue ? static_cast<std::size_t>(std::min<std::uint64_t>(rebound_.samplesLeft, samplesMps2.size()))
+                  : samplesMps2.size();
+        for (DecayingSinusoid& sinusoid : ringing_) {
+            sinusoid.addTo(samplesMps2.first(until));
+        }
+        samplesMps2 = samplesMps2.subspan(until);
+        rebound_.samplesLeft -= isDue ? until : 0;
+        if (isDue && rebound_.samplesLeft == 0) {
+            const Rebound landed = rebound_;
+            ring(landed.speedMps, landed.response);
+            planRebound(landed.speedMps, landed.response);
+        }
+    }
+}
+
+void Strikes::reset() noexcept {
+    for (DecayingSinusoid& sinusoid : ringing_) {
+        sinusoid.stop();
+    }
+    rebound_ = {};
+    reboundsLeft_ = 0;
+}
+
+bool Strikes::isIdle() const noexcept {
+    return rebound_.samplesLeft == 0 && std::ranges::all_of(ringing_, &DecayingSinusoid::isIdle);
+}
+
+}  // namespace haptoflow::effects

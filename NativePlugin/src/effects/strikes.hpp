@@ -1,0 +1,70 @@
+#pragma once
+
+#include "effects/decaying_sinusoid.hpp"
+#include "effects/effect.hpp"
+
+#include <array>
+#include <cstdint>
+
+namespace haptoflow::effects {
+
+/// How a material answers a blow: a sum of decaying sinusoids whose amplitudes are proportional to the speed of the
+/// blow (Okamura, Cutkosky, Dennerlein 2001: a(t) = A(v) e^(-Bt) sin(2 pi f t)).
+struct ImpactResponse {
+    struct Mode {
+        /// 0 for none.
+        float frequencyHz = 0.0F;
+        float decayPerSecond = 0.0F;
+        /// m/s^2 for each m/s of the blow.
+        float gainPerSecond = 0.0F;
+    };
+    static constexpr std::size_t modeCount = 2;
+    std::array<Mode, modeCount> modes{};
+    /// Share of the speed that is left after a rebound, 0 to 0.9; 0 for no rebounds.
+    float restitution = 0.0F;
+};
+
+/// A source of blows: the landing of a tip (kind impact) or its crossing of an edge (kind edge).
+///
+/// Blows that overlap ring together; where there is no room for one more, it takes the place of the one that has become
+/// the quietest. Audio thread but for construction.
+class Strikes final : public Effect {
+public:
+    /// Speeds are clamped to this.
+    static constexpr double highestSpeedMps = 5.0;
+    static constexpr std::size_t capacity = 8;
+    static constexpr std::size_t rebounds = 2;
+
+    /// `decayFactor` multiplies the responses' decay: an edge is shorter than a landing.
+    Strikes(EffectKind kind, double sampleRateHz, double decayFactor = 1.0) noexcept;
+
+    /// A blow with the next sample, and its rebounds after it. A speed that is not above 0 is none.
+    void strike(double speedMps, const ImpactResponse& response) noexcept;
+
+    [[nodiscard]] EffectDeclaration declaration() const noexcept override;
+    void process(std::span<float> samplesMps2) noexcept override;
+    void reset() noexcept override;
+    [[nodiscard]] bool isIdle() const noexcept override;
+    /// Blows so far, rebounds included.
+    [[nodiscard]] std::uint64_t struck() const noexcept { return struck_; }
+
+private:
+    struct Rebound {
+        std::uint64_t samplesLeft = 0;
+        double speedMps = 0.0;
+        ImpactResponse response{};
+    };
+
+    void ring(double speedMps, const ImpactResponse& response) noexcept;
+    void planRebound(double speedMps, const ImpactResponse& response) noexcept;
+
+    EffectKind kind_;
+    double sampleRateHz_;
+    double decayFactor_;
+    std::array<DecayingSinusoid, capacity> ringing_{};
+    Rebound rebound_{};
+    std::size_t reboundsLeft_ = 0;
+    std::uint64_t struck_ = 0;
+};
+
+}  // namespace haptoflow::effects

@@ -1,0 +1,174 @@
+#include "effects/strikes.hpp"
+
+#include "support/counting_new.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <vector>
+
+namespace haptoflow::effects {
+namespace {
+
+constexpr double rateHz = 48000.0;
+
+ImpactResponse ringing(float frequencyHz, float decayPerSecond, float gainPerSecond) {
+    ImpactResponse response;
+    response.modes[0] = {frequencyHz, decayPerSecond, gainPerSecond};
+    return response;
+}
+
+std::vector<float> next(Strikes& strikes, std::size_t count, std::size_t block = 256) {
+    std::vector<float> out(count);
+    for (std::size_t i = 0; i < count; i += block) {
+        strikes.process(std::span(out).subspan(i, std::min(block, count - i)));
+    }
+    return out;
+}
+
+float peakOf(const std::vector<float>& samples) {
+    return std::ranges::max(samples, {}, [](float sample) { return std::abs(sample); });
+}
+
+TEST(StrikesTest, ABlowIsADecayingSinusoidFromTheNextSampleOn) {
+    for (const double rate : {8000.0, 44100.0, 48000.0, 192000.0}) {
+        Strikes strikes(EffectKind::impact, rate);
+        strikes.strike(0.2, ringing(180.0F, 90.0F, 600.0F));
+        const std::vector<float> heard = next(strikes, static_cast<std::size_t>(0.1 * rate), 61);
+        for (std::size_t i = 0; i < heard.size(); ++i) {
+            const double seconds = static_cast<double>(i) / rate;
+            const double expected =
+                120.0 * std::exp(-90.0 * seconds) * std::sin(2.0 * std::numbers::pi * 180.0 * seconds);
+            ASSERT_NEAR(static_cast<double>(heard[i]), expected, 1e-3) << "rate " << rate << ", sample " << i;
+        }
+    }
+}
+
+TEST(StrikesTest, TheAmplitudeIsProportionalToTheSpeedFromOneCentimetreToTwoMetresASecond) {
+    const auto peakAt = [](double speedMps) {
+        Strikes strikes(EffectKind::impact, rateHz);
+        strikes.strike(speedMps, ringing(200.0F, 60.0F, 500.0F));
+        return static_cast<double>(peakOf(next(strikes, 4800)));
+    };
+    const double atOne = peakAt(1.0);
+    for (const double speedMps : {0.01, 0.03, 0.1, 0.3, 0.7, 2.0}) {
+        EXPECT_NEAR(peakAt(speedMps) / (speedMps * atOne), 1.0, 1e-4) << speedMps;
+    }
+    EXPECT_DOUBLE_EQ(peakAt(7.0), peakAt(Strikes::highestSpeedMps));
+}
+
+TEST(StrikesTest, ReboundsComeAfterTheirFlightsSofterEachTime) {
+    ImpactResponse response = ringing(400.0F, 2000.0F, 500.0F);
+    response.restitution = 0.5F;
+    Strikes strikes(EffectKind::impact, rateHz);
+    strikes.strike(0.5, response);
+    const std::vector<float> heard = next(strikes, 9600, 100);
+    // Flights of 2 v / 25 m/s^2: 20 ms with the 0.25 m/s that are left, then 10 ms.
+    const auto peakFrom = [&](double fromSeconds, double untilSeconds) {
+        return static_cast<double>(
+            peakOf(std::vector<float>(heard.begin() + static_cast<std::ptrdiff_t>(fromSeconds * rateHz),
+                                      heard.begin() + static_cast<std::ptrdiff_t>(untilSeconds * rateHz))));
+    };
+    const double first = peakFrom(0.0, 0.01);
+    EXPECT_LT(peakFrom(0.015, 0.0199), 0.01 * first);
+    EXPECT_NEAR(peakFrom(0.0199, 0.0299) / first, 0.5, 0.01);
+    EXPECT_NEAR(peakFrom(0.0301, 0.04) / first, 0.25, 0.01);
+    EXPECT_EQ(strikes.struck(), 3U);
+    EXPECT_TRUE(strikes.isIdle());
+}
+
+TEST(StrikesTest, NothingRunsOnOnceABlowHasDecayed) {
+    Strikes strikes(EffectKind::impact, rateHz);
+    EXPECT_TRUE(strikes.isIdle());
+    strikes.strike(2.0, ringing(100.0F, 40.0F, 1000.0F));
+    EXPECT_FALSE(strikes.isIdle());
+    const double decaySeconds = std::log(2000.0 / DecayingSinusoid::silentMps2) / 40.0;
+    next(strikes, static_cast<std::size_t>((decaySeconds + 0.01) * rateHz));
+    EXPECT_TRUE(strikes.isIdle());
+    EXPECT_EQ(next(strikes, 256), std::vector<float>(256, 0.0F));
+}
+
+TEST(StrikesTest, NoBlowRingsLongerThanItsDeclaredTail) {
+    for (const float decay : {0.0F, 10.0F, 500.0F}) {
+        ImpactResponse response = ringing(60.0F, decay, std::numeric_limits<float>::max());
+        response.restitution = 1.0F;
+        Strikes strikes(EffectKind::impact, 8000.0);
+        strikes.strike(1e9, response);
+        next(strikes, static_cast<std::size_t>((strikes.declaration().tailSeconds + 0.1) * 8000.0));
+        EXPECT_TRUE(strikes.isIdle()) << decay;
+    }
+}
+
+TEST(StrikesTest, ManyBlowsAtOnceStayBoundedAndTheLoudestAreKept) {
+    Strikes strikes(EffectKind::impact, rateHz);
+    strikes.strike(1.0, ringing(150.0F, 50.0F, 400.0F));
+    for (int blow = 0; blow < 200; ++blow) {
+        strikes.strike(0.001, ringing(300.0F, 50.0F, 400.0F));
+    }
+    const float peak = peakOf(next(strikes, 4800));
+    EXPECT_GT(peak, 300.0F) << "the loud one was thrown out";
+    EXPECT_LT(peak, 400.0F * 1.1F);
+}
+
+TEST(StrikesTest, WhatIsNoBlowMakesNoSound) {
+    constexpr float nan = std::numeric_limits<float>::quiet_NaN();
+    constexpr float infinity = std::numeric_limits<float>::infinity();
+    Strikes strikes(EffectKind::impact, rateHz);
+    for (const double speedMps : {0.0, -1.0, std::numeric_limits<double>::quiet_NaN()}) {
+        strikes.strike(speedMps, ringing(150.0F, 50.0F, 400.0F));
+    }
+    for (const ImpactResponse& response :
+         {ImpactResponse{}, ringing(nan, 50.0F, 400.0F), ringing(150.0F, nan, nan), ringing(-3.0F, 50.0F, 400.0F),
+          ringing(infinity, 50.0F, 400.0F), ringing(40000.0F, 50.0F, 400.0F), ringing(150.0F, infinity, 400.0F)}) {
+        strikes.strike(0.5, response);
+    }
+    EXPECT_EQ(next(strikes, 512), std::vector<float>(512, 0.0F));
+    strikes.strike(std::numeric_limits<double>::infinity(), ringing(150.0F, 50.0F, infinity));
+    for (const float sample : next(strikes, 4800)) {
+        ASSERT_TRUE(std::isfinite(sample));
+    }
+}
+
+TEST(StrikesTest, AResetSilencesAtOnceAndForgetsRebounds) {
+    ImpactResponse response = ringing(150.0F, 50.0F, 400.0F);
+    response.restitution = 0.8F;
+    Strikes strikes(EffectKind::impact, rateHz);
+    strikes.strike(1.0, response);
+    next(strikes, 100);
+    strikes.reset();
+    EXPECT_TRUE(strikes.isIdle());
+    EXPECT_EQ(next(strikes, 48000), std::vector<float>(48000, 0.0F));
+}
+
+TEST(StrikesTest, ASourceAddsToWhatIsThere) {
+    Strikes alone(EffectKind::edge, rateHz, 3.0);
+    Strikes added(EffectKind::edge, rateHz, 3.0);
+    alone.strike(0.3, ringing(220.0F, 80.0F, 300.0F));
+    added.strike(0.3, ringing(220.0F, 80.0F, 300.0F));
+    std::vector<float> out(480, 2.0F);
+    added.process(out);
+    const std::vector<float> blow = next(alone, 480);
+    for (std::size_t i = 0; i < out.size(); ++i) {
+        ASSERT_FLOAT_EQ(out[i], 2.0F + blow[i]);
+    }
+}
+
+TEST(StrikesTest, NothingAllocates) {
+    Strikes strikes(EffectKind::impact, rateHz);
+    ImpactResponse response = ringing(150.0F, 50.0F, 400.0F);
+    response.restitution = 0.7F;
+    std::vector<float> out(512);
+    const std::size_t before = haptoflow::testing::allocationCount();
+    for (int block = 0; block < 50; ++block) {
+        strikes.strike(0.1 * block, response);
+        strikes.process(out);
+    }
+    strikes.reset();
+    EXPECT_EQ(haptoflow::testing::allocationCount(), before);
+}
+
+}  // namespace
+}  // namespace haptoflow::effects
