@@ -54,6 +54,11 @@ void Gate::reset() noexcept {
     opening_ = false;
 }
 
+void Gate::openAtOnce() noexcept {
+    position_ = fullyOpen();
+    opening_ = true;
+}
+
 float Gate::nextGain() noexcept {
     const std::uint64_t full = fullyOpen();
     if (opening_) {

@@ -19,6 +19,8 @@ public:
     void close() noexcept { opening_ = false; }
     /// Closed at once, without a ramp: for a stream that starts anew.
     void reset() noexcept;
+    /// Fully open at once, without a ramp: for what begins at zero by itself.
+    void openAtOnce() noexcept;
 
     [[nodiscard]] bool isOpening() const noexcept { return opening_; }
     /// True once silence is reached and nothing has asked for opening since.

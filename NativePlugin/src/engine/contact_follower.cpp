@@ -13,11 +13,12 @@ ContactAction ContactFollower::update(const ContactState& state) noexcept {
     touching_ = state.touching;
     const bool wasSliding = sliding_;
     const float threshold = wasSliding && !newTouch ? slideEndMps : slideStartMps;
-    sliding_ = state.touching && speed >= threshold;
+    const bool hasTexture = state.asksFor(effects::EffectKind::texture);
+    sliding_ = hasTexture && state.touching && speed >= threshold;
     if (sliding_) {
         return wasSliding && !newTouch ? ContactAction::slide : ContactAction::onset;
     }
-    if (newTouch && !state.touching && speed >= slideStartMps) {
+    if (newTouch && hasTexture && !state.touching && speed >= slideStartMps) {
         return ContactAction::tap;
     }
     return wasSliding ? ContactAction::release : ContactAction::rest;

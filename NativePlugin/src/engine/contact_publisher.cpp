@@ -1,13 +1,26 @@
 #include "engine/contact_publisher.hpp"
 
+#include "engine/impact_responses.hpp"
 #include "engine/material.hpp"
 #include "engine/range_law.hpp"
 #include "engine/seed_retrieval.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 
 namespace haptoflow::engine {
+namespace {
+
+using effects::EffectKind;
+
+// An edge is a blow at this share of the speed along the surface where it is as high as the second figure, or where the
+// level changes by the third: a step as high as a stylus's tip is wide, and a change from smooth to rough.
+constexpr double edgeShareOfSpeed = 0.2;
+constexpr double fullEdgeMetres = 0.002;
+constexpr double fullEdgeDb = 20.0;
+
+}  // namespace
 
 ContactPublisher::ContactPublisher(const model::ModelFile& model, const OnsetLevels& levels,
                                    VoiceChannels& channels) noexcept
@@ -18,6 +31,7 @@ ContactAction ContactPublisher::publish(ContactState state) noexcept {
     counters.sanitised.fetch_add(sanitise(state), std::memory_order_relaxed);
     counters.updates.fetch_add(1, std::memory_order_relaxed);
 
+    const std::uint64_t touchesBefore = follower_.touches();
     const ContactAction action = follower_.update(state);
     const Material material = resolveMaterial(model_, state.material);
     const RangedMotion ranged = applyRangeLaw(model_.header(), material, state.velocityMps, state.forceNewtons);
@@ -26,6 +40,15 @@ ContactAction ContactPublisher::publish(ContactState state) noexcept {
     if (follower_.sliding() || action == ContactAction::tap) {
         retrieve(state, material.dominantLabel, ranged.motion);
     }
+    if (follower_.touches() != touchesBefore) {
+        noteImpact(state);
+    } else if (state.touching && wasTouching_) {
+        noteEdge(state, material.dominantLabel, ranged.motion);
+    }
+    wasTouching_ = state.touching;
+    lastLabel_ = material.dominantLabel;
+    lastMaterial_ = state.material;
+    lastEdgeCounter_ = state.edgeCounter;
     if (action == ContactAction::rest && state.touching) {
         counters.skipped.fetch_add(1, std::memory_order_relaxed);
     }
@@ -39,6 +62,8 @@ ContactAction ContactPublisher::publish(ContactState state) noexcept {
     audio.readingRate = ranged.readingRate;
     audio.seedMps2 = seedMps2_;
     audio.seedRibs = seedRibs_;
+    audio.impact = impact_;
+    audio.edge = edge_;
     channels_.toAudio.post();
 
     slides_ += follower_.sliding() ? 1 : 0;
@@ -51,6 +76,39 @@ ContactAction ContactPublisher::publish(ContactState state) noexcept {
     worker.readingRate = ranged.readingRate;
     channels_.toWorker.post();
     return action;
+}
+
+void ContactPublisher::noteImpact(const ContactState& state) noexcept {
+    if (!state.asksFor(EffectKind::impact) || !(state.approachSpeedMps > 0.0F)) {
+        return;
+    }
+    ++impact_.counter;
+    impact_.speedMps = state.approachSpeedMps;
+    impact_.response = impactResponse(model_, state.material);
+}
+
+void ContactPublisher::noteEdge(const ContactState& state, std::size_t dominantLabel,
+                                const std::array<float, 3>& motion) noexcept {
+    if (!state.asksFor(EffectKind::edge)) {
+        return;
+    }
+    double change = 0.0;
+    if (dominantLabel != lastLabel_) {
+        const auto before = static_cast<double>(levels_.at(lastMaterial_, motion));
+        const auto after = static_cast<double>(levels_.at(state.material, motion));
+        change = std::abs(20.0 * std::log10(std::max(after, 1e-6) / std::max(before, 1e-6))) / fullEdgeDb;
+    }
+    if (state.edgeCounter != lastEdgeCounter_) {
+        change = std::max(change, static_cast<double>(state.edgeHeightMetres) / fullEdgeMetres);
+    }
+    const double speedMps = std::hypot(state.velocityMps[0], state.velocityMps[1]);
+    const double blowMps = edgeShareOfSpeed * speedMps * std::min(change, 1.0);
+    if (!(blowMps > 0.0)) {
+        return;
+    }
+    ++edge_.counter;
+    edge_.speedMps = static_cast<float>(blowMps);
+    edge_.response = impactResponse(model_, state.material);
 }
 
 void ContactPublisher::retrieve(const ContactState& state, std::size_t label,

@@ -21,6 +21,8 @@ public:
     ContactAction publish(ContactState state) noexcept;
 
 private:
+    void noteImpact(const ContactState& state) noexcept;
+    void noteEdge(const ContactState& state, std::size_t dominantLabel, const std::array<float, 3>& motion) noexcept;
     void retrieve(const ContactState& state, std::size_t label, const std::array<float, 3>& motion) noexcept;
 
     const model::ModelFile& model_;
@@ -31,6 +33,13 @@ private:
     std::uint64_t slides_ = 0;
     std::array<float, WaveformTimeline::seedSamples> seedMps2_{};
     SeedRibs seedRibs_{};
+    BlowMessage impact_;
+    BlowMessage edge_;
+    // Of the last state that touched; of no touch before the first.
+    bool wasTouching_ = false;
+    std::size_t lastLabel_ = 0;
+    MaterialBlend lastMaterial_{};
+    std::uint32_t lastEdgeCounter_ = 0;
 };
 
 }  // namespace haptoflow::engine

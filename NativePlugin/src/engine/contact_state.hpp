@@ -1,5 +1,7 @@
 #pragma once
 
+#include "effects/effect.hpp"
+
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -31,9 +33,18 @@ struct ContactState {
     /// Speed into the surface, latched at touch-down.
     float approachSpeedMps = 0.0F;
     MaterialBlend material{};
+    /// What the surface asks for: texture, impact, edge. Other bits count for nothing.
+    effects::EffectMask effects = effects::maskOf(effects::EffectKind::texture);
+    /// One more at each edge that the tip crosses while it touches, and how high the newest is.
+    std::uint32_t edgeCounter = 0;
+    float edgeHeightMetres = 0.0F;
+
+    [[nodiscard]] bool asksFor(effects::EffectKind kind) const noexcept {
+        return (effects & effects::maskOf(kind)) != 0;
+    }
 };
 
-/// Makes every field finite and physical: speed to 20 m/s, force to 0-1,000 N, weights to 0-1.
+/// Makes every field finite and physical: speed to 20 m/s, force to 0-1,000 N, weights to 0-1, an edge to 0-1 m.
 /// Returns how many fields had to be changed.
 std::uint32_t sanitise(ContactState& state) noexcept;
 

@@ -21,6 +21,7 @@ std::uint32_t sanitise(ContactState& state) noexcept {
     }
     limit(state.forceNewtons, 0.0F, strongestNewtons);
     limit(state.approachSpeedMps, -fastestMps, fastestMps);
+    limit(state.edgeHeightMetres, 0.0F, 1.0F);
     if (state.material.count > MaterialBlend::capacity) {
         state.material.count = MaterialBlend::capacity;
         ++changes;

@@ -3,6 +3,7 @@
 #include "dsp/gate.hpp"
 #include "dsp/level_smoother.hpp"
 #include "dsp/waveform_resampler.hpp"
+#include "engine/effect_stage.hpp"
 
 namespace haptoflow::engine {
 
@@ -18,11 +19,13 @@ struct OutputStage {
 
     /// Throws std::invalid_argument for a rate outside 8-192 kHz.
     explicit OutputStage(double outputRateHz)
-        : rateHz(outputRateHz), resampler(outputRateHz), gate(outputRateHz), strength(outputRateHz) {}
+        : rateHz(outputRateHz), resampler(outputRateHz), gate(outputRateHz), effects(outputRateHz), strength(outputRateHz) {}
 
     double rateHz;
     dsp::WaveformResampler resampler;
+    /// Of the texture alone.
     dsp::Gate gate;
+    EffectStage effects;
     dsp::LevelSmoother strength;
 };
 

@@ -17,7 +17,7 @@ std::unique_ptr<OutputStage> Voice::exchangeOutput(std::unique_ptr<OutputStage> 
 }
 
 void Voice::onset(std::span<const float, WaveformTimeline::seedSamples> seedMps2) noexcept {
-    const bool fromSilence = isSilent();
+    const bool fromSilence = isTextureSilent();
     if (fromSilence) {
         timeline_.clear();
     }
@@ -26,6 +26,37 @@ void Voice::onset(std::span<const float, WaveformTimeline::seedSamples> seedMps2
         prime();
     }
     output_->gate.open();
+}
+
+void Voice::stop() noexcept {
+    output_->gate.close();
+    output_->effects.close();
+}
+
+void Voice::strikeImpact(double speedMps, const effects::ImpactResponse& response) noexcept {
+    noteBlow(effects::EffectKind::impact);
+    output_->effects.strikeImpact(speedMps, response);
+}
+
+void Voice::strikeEdge(double speedMps, const effects::ImpactResponse& response) noexcept {
+    noteBlow(effects::EffectKind::edge);
+    output_->effects.strikeEdge(speedMps, response);
+}
+
+void Voice::noteBlow(effects::EffectKind kind) noexcept {
+    EffectFigures::OfKind& figures = figures_.of(kind);
+    figures.prepared = 1;
+    ++figures.events;
+}
+
+void Voice::exchangeProcessors(std::unique_ptr<Processors> fresh) noexcept {
+    const auto note = [this](const std::unique_ptr<effects::Effect>& effect, effects::EffectKind kind) {
+        figures_.of(kind).prepared += effect == nullptr ? 0 : 1;
+    };
+    note(fresh->delay, effects::EffectKind::delay);
+    note(fresh->compensation, effects::EffectKind::compensation);
+    note(fresh->exposureGuard, effects::EffectKind::exposureGuard);
+    output_->effects.exchange(std::move(fresh));
 }
 
 void Voice::setStrength(float strength) noexcept {
@@ -62,7 +93,7 @@ std::int64_t Voice::commit(std::int64_t start, std::span<const float, inference:
 
 void Voice::setRangeLaw(double levelGain, double readingRate) noexcept {
     readingRate_ = readingRate;
-    if (isSilent()) {
+    if (isTextureSilent()) {
         level_.reset(static_cast<float>(levelGain));
     } else {
         level_.setTarget(static_cast<float>(levelGain));
@@ -100,8 +131,13 @@ void Voice::render(std::span<float> out) noexcept {
             std::ranges::fill(block, 0.0F);
             continue;
         }
-        produce(block);
-        output_->gate.process(block);
+        if (isTextureSilent()) {
+            std::ranges::fill(block, 0.0F);
+        } else {
+            produce(block);
+            output_->gate.process(block);
+        }
+        output_->effects.process(block, figures_);
         output_->strength.process(block);
         limiter_.process(block);
     }
@@ -114,6 +150,7 @@ void Voice::renderStop(std::span<float> out) noexcept {
         out[i] *= static_cast<float>(count - 1 - i) / static_cast<float>(count);
     }
     output_->gate.reset();
+    output_->effects.reset();
     timeline_.clear();
 }
 

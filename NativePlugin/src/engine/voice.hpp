@@ -25,9 +25,10 @@ public:
     virtual void tookOver(std::int64_t sample) noexcept = 0;
 };
 
-/// One stylus tip's signal: timeline, level, reading rate, output rate, gate, strength, limiter, in this order.
+/// One stylus tip's signal: timeline, level, reading rate, output rate, gate, effects, strength, limiter, in this order.
 ///
-/// While the gate is closed nothing is read: the waveform clock stands still and `render` writes zeros.
+/// While the texture's gate is closed nothing is read: the waveform clock stands still. Where no effect sounds either,
+/// `render` writes zeros.
 /// Everything here is bounded, allocates nothing (but for construction) and waits for nothing; one thread.
 class Voice {
 public:
@@ -39,8 +40,19 @@ public:
     void onset(std::span<const float, WaveformTimeline::seedSamples> seedMps2) noexcept;
     /// See WaveformTimeline::commit.
     std::int64_t commit(std::int64_t start, std::span<const float, inference::segmentSamples> segment) noexcept;
-    /// Lift-off: silence within 5 ms, whatever else happens.
+    /// Lift-off: the texture is silent within 5 ms, whatever else happens; effects sound on to their end.
     void release() noexcept { output_->gate.close(); }
+    /// Everything is silent within 5 ms, and stays so until `allowEffects`.
+    void stop() noexcept;
+    /// Effects may sound. Changes nothing while they may already.
+    void allowEffects() noexcept { output_->effects.open(); }
+    /// A blow with the next sample; `allowEffects` comes first.
+    void strikeImpact(double speedMps, const effects::ImpactResponse& response) noexcept;
+    void strikeEdge(double speedMps, const effects::ImpactResponse& response) noexcept;
+    [[nodiscard]] EffectStage& effects() noexcept { return output_->effects; }
+    /// See EffectStage::exchange.
+    void exchangeProcessors(std::unique_ptr<Processors> fresh) noexcept;
+    [[nodiscard]] const EffectFigures& effectFigures() const noexcept { return figures_; }
     /// Silent at the end of the block that `out` is, whatever its length: a straight line down to zero over it, and
     /// what was committed is dropped.
     void renderStop(std::span<float> out) noexcept;
@@ -62,15 +74,17 @@ public:
     [[nodiscard]] std::unique_ptr<OutputStage> exchangeOutput(std::unique_ptr<OutputStage> output) noexcept;
 
     /// True while nothing sounds and nothing is read.
-    [[nodiscard]] bool isSilent() const noexcept { return output_->gate.isClosed(); }
+    [[nodiscard]] bool isSilent() const noexcept { return isTextureSilent() && output_->effects.isIdle(); }
     [[nodiscard]] const WaveformTimeline& timeline() const noexcept { return timeline_; }
     [[nodiscard]] const dsp::SoftLimiter& limiter() const noexcept { return limiter_; }
     /// Null for none. Must outlive the voice or be taken away.
     void setSink(WaveformSink* sink) noexcept { sink_ = sink; }
 
 private:
-    static constexpr std::size_t blockSamples = 64;
+    static constexpr std::size_t blockSamples = EffectStage::blockSamples;
 
+    void noteBlow(effects::EffectKind kind) noexcept;
+    [[nodiscard]] bool isTextureSilent() const noexcept { return output_->gate.isClosed(); }
     void produce(std::span<float> out) noexcept;
     void readWaveform(std::span<float> out) noexcept;
     void prime() noexcept;
@@ -81,6 +95,7 @@ private:
     dsp::RateWarp warp_;
     dsp::SoftLimiter limiter_;
     double readingRate_ = 1.0;
+    EffectFigures figures_;
     WaveformSink* sink_ = nullptr;
 };
 

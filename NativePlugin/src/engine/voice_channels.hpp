@@ -15,6 +15,14 @@
 
 namespace haptoflow::engine {
 
+/// The newest blow of a kind.
+struct BlowMessage {
+    /// One more at each blow.
+    std::uint32_t counter = 0;
+    float speedMps = 0.0F;
+    effects::ImpactResponse response{};
+};
+
 /// What the callback has to know of a contact.
 struct AudioMessage {
     /// One more at each onset: touch-down, or sliding resumed.
@@ -28,6 +36,9 @@ struct AudioMessage {
     /// what resumes within a touch begins with the sound of the state that it resumes with.
     std::array<float, WaveformTimeline::seedSamples> seedMps2{};
     SeedRibs seedRibs{};
+    /// In every message: a landing between two frames survives being overwritten.
+    BlowMessage impact;
+    BlowMessage edge;
 };
 
 /// What the worker has to know of a contact.
@@ -77,8 +88,19 @@ struct VoiceControls {
     std::atomic<std::uint64_t> silencedTouch{0};
 };
 
+/// EffectFigures::OfKind for any thread to read.
+struct EffectCounters {
+    std::atomic<std::uint64_t> prepared{0};
+    std::atomic<std::uint64_t> runs{0};
+    std::atomic<std::uint64_t> samples{0};
+    std::atomic<std::uint64_t> nanoseconds{0};
+    std::atomic<std::uint64_t> events{0};
+};
+
 /// What a voice has done; every counter only grows. Any thread reads.
 struct VoiceCounters {
+    /// By effects::EffectKind; of the texture there is nothing here, the other counters tell of it.
+    std::array<EffectCounters, effects::effectKinds> effects{};
     std::atomic<std::uint64_t> updates{0};
     std::atomic<std::uint64_t> onsets{0};
     /// How often a touch sounded again after a silence within it: pause, mute, a rate change, missing states.
@@ -137,12 +159,18 @@ struct VoiceChannels {
     std::atomic<OutputStage*> freshOutput{nullptr};
     std::atomic<OutputStage*> usedOutput{nullptr};
 
+    /// The same of the processors that the voice asks for.
+    std::atomic<Processors*> freshProcessors{nullptr};
+    std::atomic<Processors*> usedProcessors{nullptr};
+
     VoiceChannels() = default;
     VoiceChannels(const VoiceChannels&) = delete;
     VoiceChannels& operator=(const VoiceChannels&) = delete;
     ~VoiceChannels() {
         delete freshOutput.load();
         delete usedOutput.load();
+        delete freshProcessors.load();
+        delete usedProcessors.load();
     }
 };
 

@@ -30,6 +30,7 @@ void VoiceRenderer::render(std::span<float> out, double rateHz) noexcept {
     readPanic();
     noteRate(rateHz);
     noteBlock(out.size());
+    takeProcessors();
 
     const std::uint64_t uncoveredBefore = voice_.timeline().uncoveredSamples();
     bool sounded = isSounding();
@@ -40,6 +41,7 @@ void VoiceRenderer::render(std::span<float> out, double rateHz) noexcept {
         fallSilent(Silence::panic);
     } else if (!stopsWithBlock_) {
         decide(rateHz);
+        readBlows();
         sounded = isSounding();
         takeSegments();
         soundUntilStale(out);
@@ -47,7 +49,9 @@ void VoiceRenderer::render(std::span<float> out, double rateHz) noexcept {
     contactAgeFrames_ += out.size();
     count(channels_.counters.renderedFrames, out.size());
     channels_.audible.store(!voice_.isSilent(), std::memory_order_release);
-    channels_.silence.store(silence_, std::memory_order_relaxed);
+    // After a landing the tip rests, and what it struck still rings.
+    const bool ringsAtRest = silence_ == Silence::rest && !voice_.isSilent();
+    channels_.silence.store(ringsAtRest ? Silence::none : silence_, std::memory_order_relaxed);
     report(uncoveredBefore, sounded);
 }
 
@@ -152,6 +156,9 @@ void VoiceRenderer::fallSilent(Silence reason) noexcept {
             count(channels_.counters.staleStops);
         }
     }
+    if (reason != Silence::rest) {
+        voice_.stop();
+    }
     silence_ = reason;
 }
 
@@ -169,6 +176,52 @@ void VoiceRenderer::begin() noexcept {
     }
     voice_.setRangeLaw(contact.levelGain, contact.readingRate);
     voice_.onset(contact.seedMps2);
+}
+
+void VoiceRenderer::readBlows() noexcept {
+    const AudioMessage& contact = channels_.toAudio.current();
+    const bool landed = contact.impact.counter != seenImpacts_;
+    const bool crossed = contact.edge.counter != seenEdges_;
+    seenImpacts_ = contact.impact.counter;
+    seenEdges_ = contact.edge.counter;
+    // What came while the voice had to be silent is over.
+    if (silence_ != Silence::none && silence_ != Silence::rest) {
+        return;
+    }
+    voice_.allowEffects();
+    if (contact.touch <= silencedTouch_) {
+        return;
+    }
+    if (landed) {
+        voice_.strikeImpact(static_cast<double>(contact.impact.speedMps), contact.impact.response);
+    }
+    if (crossed) {
+        voice_.strikeEdge(static_cast<double>(contact.edge.speedMps), contact.edge.response);
+    }
+}
+
+void VoiceRenderer::takeProcessors() noexcept {
+    // The worker deletes one used set at a time.
+    if (channels_.usedProcessors.load(std::memory_order_acquire) != nullptr) {
+        return;
+    }
+    EffectStage& stage = voice_.effects();
+    if (voice_.isSilent()) {
+        stage.finishHandOver();
+    }
+    std::unique_ptr<Processors> used = stage.takeUsed();
+    if (used == nullptr && !stage.isHandingOver()) {
+        std::unique_ptr<Processors> fresh(channels_.freshProcessors.exchange(nullptr, std::memory_order_acq_rel));
+        if (fresh == nullptr) {
+            return;
+        }
+        if (fresh->rateHz == voice_.outputRateHz()) {
+            voice_.exchangeProcessors(std::move(fresh));
+        } else {
+            used = std::move(fresh);
+        }
+    }
+    channels_.usedProcessors.store(used.release(), std::memory_order_release);
 }
 
 void VoiceRenderer::takeSegments() noexcept {
@@ -216,7 +269,7 @@ void VoiceRenderer::soundUntilStale(std::span<float> out) noexcept {
     const std::size_t fresh = framesUntilStale(out.size());
     sound(out.first(fresh));
     if (fresh < out.size()) {
-        if (isSounding()) {
+        if (!voice_.isSilent()) {
             fallSilent(Silence::stale);
         }
         sound(out.subspan(fresh));
@@ -236,6 +289,18 @@ void VoiceRenderer::sound(std::span<float> out) noexcept {
     voice_.render(out);
 }
 
+void VoiceRenderer::reportEffects() noexcept {
+    for (std::size_t kind = 0; kind < effects::effectKinds; ++kind) {
+        const EffectFigures::OfKind& figures = voice_.effectFigures().kinds[kind];
+        EffectCounters& counters = channels_.counters.effects[kind];
+        counters.prepared.store(figures.prepared, std::memory_order_relaxed);
+        counters.runs.store(figures.runs, std::memory_order_relaxed);
+        counters.samples.store(figures.samples, std::memory_order_relaxed);
+        counters.nanoseconds.store(figures.nanoseconds, std::memory_order_relaxed);
+        counters.events.store(figures.events, std::memory_order_relaxed);
+    }
+}
+
 void VoiceRenderer::report(std::uint64_t uncoveredBefore, bool sounded) noexcept {
     VoiceCounters& counters = channels_.counters;
     const WaveformTimeline& timeline = voice_.timeline();
@@ -244,6 +309,7 @@ void VoiceRenderer::report(std::uint64_t uncoveredBefore, bool sounded) noexcept
     }
     counters.nonFiniteSamples.store(voice_.limiter().nonFiniteCount(), std::memory_order_relaxed);
     counters.limitedSamples.store(voice_.limiter().limitedCount(), std::memory_order_relaxed);
+    reportEffects();
 
     const bool running = isSounding();
     if (!running && !reportedRunning_) {

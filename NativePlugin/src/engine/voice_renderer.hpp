@@ -47,6 +47,9 @@ private:
     [[nodiscard]] SoundConditions conditions(double rateHz) const noexcept;
     void decide(double rateHz) noexcept;
     void begin() noexcept;
+    void readBlows() noexcept;
+    void takeProcessors() noexcept;
+    void reportEffects() noexcept;
     void fallSilent(Silence reason) noexcept;
     void takeSegments() noexcept;
     void requestOutput(double rateHz) noexcept;
@@ -66,6 +69,9 @@ private:
     SeedRibs seedRibs_{};
     std::uint32_t playedOnset_ = 0;
     std::uint64_t tapFramesLeft_ = 0;
+    // Of BlowMessage::counter.
+    std::uint32_t seenImpacts_ = 0;
+    std::uint32_t seenEdges_ = 0;
 
     bool hasContact_ = false;
     std::uint64_t contactAgeFrames_ = 0;

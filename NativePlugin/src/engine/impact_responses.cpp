@@ -1,0 +1,91 @@
+#include "engine/impact_responses.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+namespace haptoflow::engine {
+namespace {
+
+using effects::ImpactResponse;
+
+/// A sum of one mode over labels.
+struct MeanMode {
+    double weight = 0.0;
+    double logFrequency = 0.0;
+    double logDecay = 0.0;
+    double gain = 0.0;
+
+    void add(double share, const ImpactResponse::Mode& mode) noexcept {
+        if (!(mode.frequencyHz > 0.0F && mode.decayPerSecond > 0.0F)) {
+            return;
+        }
+        weight += share;
+        logFrequency += share * std::log(static_cast<double>(mode.frequencyHz));
+        logDecay += share * std::log(static_cast<double>(mode.decayPerSecond));
+        gain += share * static_cast<double>(mode.gainPerSecond);
+    }
+
+    /// `total`: of all labels, also of those without this mode, which make it softer.
+    [[nodiscard]] ImpactResponse::Mode mode(double total) const noexcept {
+        if (!(weight > 0.0)) {
+            return {};
+        }
+        return {.frequencyHz = static_cast<float>(std::exp(logFrequency / weight)),
+                .decayPerSecond = static_cast<float>(std::exp(logDecay / weight)),
+                .gainPerSecond = static_cast<float>(gain / total)};
+    }
+};
+
+}  // namespace
+
+ImpactResponse impactResponse(const model::Label& label) noexcept {
+    ImpactResponse response;
+    if (label.impact) {
+        for (std::size_t i = 0; i < response.modes.size(); ++i) {
+            const model::ImpactMode& mode = label.impact->modes[i];
+            response.modes[i] = {.frequencyHz = static_cast<float>(mode.frequencyHz),
+                                 .decayPerSecond = static_cast<float>(mode.decayPerSecond),
+                                 .gainPerSecond = static_cast<float>(mode.gainPerSecond)};
+        }
+        response.restitution = static_cast<float>(label.impact->restitution);
+        return response;
+    }
+    const double frequencyHz = std::clamp(5.0 * std::sqrt(label.stiffnessNewtonsPerMetre), 25.0, 450.0);
+    response.modes[0] = {.frequencyHz = static_cast<float>(frequencyHz),
+                         .decayPerSecond = static_cast<float>(60.0 + 0.15 * frequencyHz),
+                         .gainPerSecond = static_cast<float>(0.15 * 2.0 * std::numbers::pi * frequencyHz)};
+    return response;
+}
+
+ImpactResponse impactResponse(const model::ModelFile& model, const MaterialBlend& blend) noexcept {
+    const auto& labels = model.header().labels;
+    std::array<MeanMode, ImpactResponse::modeCount> means{};
+    double total = 0.0;
+    double restitution = 0.0;
+    for (std::size_t i = 0; i < std::min(blend.count, MaterialBlend::capacity); ++i) {
+        const LabelWeight entry = blend.entries[i];
+        if (entry.label >= labels.size() || !(entry.weight > 0.0F)) {
+            continue;
+        }
+        const double weight = entry.weight;
+        const ImpactResponse own = impactResponse(labels[entry.label]);
+        for (std::size_t mode = 0; mode < means.size(); ++mode) {
+            means[mode].add(weight, own.modes[mode]);
+        }
+        restitution += weight * static_cast<double>(own.restitution);
+        total += weight;
+    }
+    if (!(total > 0.0)) {
+        return labels.empty() ? ImpactResponse{} : impactResponse(labels.front());
+    }
+    ImpactResponse response;
+    for (std::size_t mode = 0; mode < means.size(); ++mode) {
+        response.modes[mode] = means[mode].mode(total);
+    }
+    response.restitution = static_cast<float>(restitution / total);
+    return response;
+}
+
+}  // namespace haptoflow::engine

@@ -1,0 +1,441 @@
+#include "engine/impact_responses.hpp"
+#include "simulated_device.hpp"
+#include "test_model.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <random>
+#include <vector>
+
+namespace haptoflow::engine {
+namespace {
+
+using effects::EffectKind;
+using effects::EffectMask;
+using effects::maskOf;
+using testing::FakeGenerator;
+using testing::SimulatedDevice;
+
+constexpr float silence = 1e-3F / 60.0F;
+
+ContactState landing(float approachSpeedMps, EffectMask mask, std::uint32_t touch = 1) {
+    ContactState state = testing::sliding(0.0F);
+    state.touchCounter = touch;
+    state.approachSpeedMps = approachSpeedMps;
+    state.effects = mask;
+    return state;
+}
+
+class VoiceEffectsTest : public ::testing::Test {
+protected:
+    static constexpr EffectMask texture = maskOf(EffectKind::texture);
+    static constexpr EffectMask impact = maskOf(EffectKind::impact);
+    static constexpr EffectMask edge = maskOf(EffectKind::edge);
+
+    static const EffectCounters& of(const SimulatedDevice& device, EffectKind kind) {
+        return device.counters().effects[static_cast<std::size_t>(kind)];
+    }
+    static std::span<const float> from(const SimulatedDevice& device, std::size_t frame) {
+        return std::span<const float>(device.output).subspan(frame);
+    }
+    static void renderBlocks(SimulatedDevice& device, int count) {
+        for (int block = 0; block < count; ++block) {
+            device.renderBlock();
+        }
+    }
+
+    model::ModelFile model_ = testing::smallModel();
+    FakeGenerator tone_{testing::continueTone};
+};
+
+TEST_F(VoiceEffectsTest, ALandingAtRestIsFeltAndCostsNoInference) {
+    SimulatedDevice device(model_, tone_);
+    device.run(0.05, [](double) { return testing::lifted(0); });
+    device.run(0.5, [](double) { return landing(0.3F, texture | impact); });
+    EXPECT_GT(testing::peak(device.output), 0.05F);
+    EXPECT_EQ(of(device, EffectKind::impact).events, 1U);
+    EXPECT_GT(of(device, EffectKind::impact).samples, 480U);
+    EXPECT_EQ(device.counters().inferences, 0U);
+    EXPECT_EQ(device.counters().onsets, 0U);
+}
+
+TEST_F(VoiceEffectsTest, ALandingSoundsWithTheFirstSampleOfTheNextBlockWithoutARamp) {
+    SimulatedDevice device(model_, tone_);
+    device.publish(landing(0.3F, impact));
+    device.renderBlock();
+    const auto firstRise = static_cast<double>(device.output[1]) * 60.0;
+    const effects::ImpactResponse response = impactResponse(model_.header().labels[0]);
+    const double turn = 2.0 * 3.14159265358979 * static_cast<double>(response.modes[0].frequencyHz) / 48000.0;
+    EXPECT_NEAR(firstRise, 0.3 * static_cast<double>(response.modes[0].gainPerSecond) * std::sin(turn), 0.01);
+}
+
+TEST_F(VoiceEffectsTest, ATapBetweenTwoStatesIsFeltOnce) {
+    SimulatedDevice device(model_, tone_);
+    device.run(0.05, [](double) { return testing::lifted(0); });
+    ContactState gone = landing(0.4F, texture | impact, 1);
+    gone.touching = false;
+    const std::size_t begin = device.output.size();
+    device.run(1.0, [&gone](double) { return gone; });
+    EXPECT_EQ(of(device, EffectKind::impact).events, 1U);
+    EXPECT_GT(testing::peak(from(device, begin)), 0.05F);
+    EXPECT_LT(testing::peak(from(device, begin + 40000)), silence);
+}
+
+TEST_F(VoiceEffectsTest, WhatASurfaceDoesNotAskForNeverRuns) {
+    SimulatedDevice device(model_, tone_);
+    int update = 0;
+    device.run(1.0, [&update](double) {
+        ContactState state = testing::sliding(0.2F);
+        state.approachSpeedMps = 0.5F;
+        state.touchCounter = static_cast<std::uint32_t>(update++ / 10 + 1);
+        state.material.entries[0].label = static_cast<std::uint32_t>(update % 2);
+        return state;
+    });
+    for (const EffectCounters& counters : device.counters().effects) {
+        EXPECT_EQ(counters.prepared + counters.runs + counters.samples + counters.nanoseconds + counters.events, 0U);
+    }
+    EXPECT_GT(device.counters().inferences, 10U);
+}
+
+TEST_F(VoiceEffectsTest, ASurfaceWithoutTextureCostsNoInferenceHoweverFastTheTipSlides) {
+    SimulatedDevice device(model_, tone_);
+    device.run(0.5, [](double) {
+        ContactState state = testing::sliding(0.4F);
+        state.effects = impact | edge;
+        return state;
+    });
+    EXPECT_EQ(device.counters().inferences, 0U);
+    EXPECT_EQ(testing::peak(device.output), 0.0F);
+}
+
+TEST_F(VoiceEffectsTest, ATextureThatIsSwitchedOffWhileTheTipSlidesFadesAndComesBack) {
+    SimulatedDevice device(model_, tone_);
+    const auto with = [](EffectMask mask) {
+        return [mask](double) {
+            ContactState state = testing::sliding();
+            state.effects = mask;
+            return state;
+        };
+    };
+    device.run(0.3, with(texture));
+    const std::size_t off = device.output.size();
+    device.run(0.3, with(impact));
+    EXPECT_LT(testing::peak(from(device, off + 256 + 700 + 256)), silence);
+    const std::size_t on = device.output.size();
+    device.run(0.3, with(texture));
+    EXPECT_GT(testing::peak(from(device, on)), 0.2F / 60.0F);
+    EXPECT_LT(testing::largestStep(device.output), 0.02F);
+}
+
+TEST_F(VoiceEffectsTest, ALandingOnAnotherSurfaceWhileSlidingAddsToTheTexture) {
+    const auto play = [this](float approachSpeedMps) {
+        testing::DeviceSettings settings;
+        settings.fixedLeadSamples = 16;
+        SimulatedDevice device(model_, tone_, settings);
+        device.run(0.4, [approachSpeedMps](double seconds) {
+            ContactState state = testing::sliding();
+            state.effects = texture | impact;
+            state.touchCounter = seconds < 0.2 ? 1U : 2U;
+            state.approachSpeedMps = seconds < 0.2 ? 0.0F : approachSpeedMps;
+            return state;
+        });
+        return device.output;
+    };
+    const std::vector<float> without = play(0.0F);
+    const std::vector<float> with = play(0.05F);
+    std::vector<float> blow(with.size());
+    std::ranges::transform(with, without, blow.begin(), std::minus<>());
+    EXPECT_EQ(testing::peak(std::span<const float>(blow).first(9000)), 0.0F);
+    const double peak = 60.0 * static_cast<double>(testing::peak(blow));
+    const double expected = 0.05 * static_cast<double>(impactResponse(model_.header().labels[0]).modes[0].gainPerSecond);
+    EXPECT_GT(peak, 0.6 * expected);
+    EXPECT_LT(peak, 1.01 * expected);
+}
+
+TEST_F(VoiceEffectsTest, PanicEndsALandingWithTheBlockAndOnlyTheNextTouchIsFeltAgain) {
+    SimulatedDevice device(model_, tone_);
+    device.publish(landing(0.5F, impact, 1));
+    device.renderBlock();
+    EXPECT_GT(testing::peak(device.output), 0.01F);
+    device.voice().channels.panic();
+    device.renderBlock();
+    const std::size_t after = device.output.size();
+    device.publish(landing(0.5F, impact, 1));
+    renderBlocks(device, 10);
+    EXPECT_EQ(testing::peak(from(device, after)), 0.0F);
+    device.publish(landing(0.5F, impact, 2));
+    renderBlocks(device, 2);
+    EXPECT_GT(testing::peak(from(device, after)), 0.01F);
+}
+
+TEST_F(VoiceEffectsTest, AnIsolatedLandingThatAPanicForestalledIsNotFeltLater) {
+    SimulatedDevice device(model_, tone_);
+    device.publish(landing(0.5F, impact, 1));
+    device.voice().channels.panic();
+    renderBlocks(device, 10);
+    EXPECT_EQ(testing::peak(device.output), 0.0F);
+}
+
+TEST_F(VoiceEffectsTest, MutedPausedOrStaleALandingEndsWithinFiveMillisecondsAndIsNotPlayedLater) {
+    for (const int reason : {0, 1, 2}) {
+        SimulatedDevice device(model_, tone_);
+        device.publish(landing(2.0F, impact));
+        renderBlocks(device, 2);
+        device.controls().muted = reason == 0;
+        device.controls().paused = reason == 1;
+        if (reason == 2) {
+            // 100 ms without a state; the ring of 0.1 s would go on.
+            renderBlocks(device, 19);
+        }
+        const std::size_t begin = device.output.size();
+        renderBlocks(device, 3);
+        EXPECT_EQ(testing::peak(from(device, begin + 256)), 0.0F) << reason;
+        device.controls().muted = false;
+        device.controls().paused = false;
+        const std::size_t later = device.output.size();
+        device.publish(landing(2.0F, impact));
+        renderBlocks(device, 20);
+        EXPECT_EQ(testing::peak(from(device, later)), 0.0F) << reason;
+        EXPECT_LT(testing::largestStep(device.output), 0.3F) << reason;
+    }
+}
+
+TEST_F(VoiceEffectsTest, AtAnotherRateALandingFadesAndTheNextOneIsFelt) {
+    SimulatedDevice device(model_, tone_);
+    std::uint32_t touch = 1;
+    device.run(0.02, [&touch](double) { return landing(0.5F, impact, touch); });
+    device.setRate(24000.0);
+    device.run(0.1, [&touch](double) { return landing(0.5F, impact, touch); });
+    touch = 2;
+    const std::size_t begin = device.output.size();
+    device.run(0.1, [&touch](double) { return landing(0.5F, impact, touch); });
+    EXPECT_GT(testing::peak(from(device, begin)), 0.01F);
+    EXPECT_EQ(of(device, EffectKind::impact).events, 2U);
+}
+
+/// Crosses from one label to another, and back, every 100 ms.
+ContactState crossing(double seconds, float speedMps, EffectMask mask) {
+    ContactState state = testing::sliding(speedMps);
+    state.effects = mask;
+    state.material.entries[0].label = static_cast<int>(std::floor(seconds / 0.1)) % 2 == 0 ? 0U : 1U;
+    return state;
+}
+
+/// Makes nothing, and calls the model's first label ten times as loud as the others.
+class LoudFirstLabel final : public inference::SegmentGenerator {
+public:
+    explicit LoudFirstLabel(const model::ModelFile& model) : model_(model) {}
+    void generate(std::span<const inference::SegmentRequest>, std::span<float> segments) override {
+        std::ranges::fill(segments, 0.0F);
+    }
+    void levels(std::span<const inference::SegmentRequest> requests, std::span<float> levelsMps2) override {
+        std::ranges::transform(requests, levelsMps2.begin(), [this](const inference::SegmentRequest& request) {
+            return std::ranges::equal(request.embedding, model_.embedding(0)) ? 1.0F : 0.1F;
+        });
+    }
+
+private:
+    const model::ModelFile& model_;
+};
+
+TEST_F(VoiceEffectsTest, CrossingToALabelOfAnotherLevelIsFeltByHowFastTheTipIs) {
+    LoudFirstLabel generator(model_);
+    const auto peakAt = [&](float speedMps) {
+        SimulatedDevice device(model_, generator);
+        device.run(0.55, [speedMps](double seconds) { return crossing(seconds, speedMps, edge); });
+        EXPECT_EQ(of(device, EffectKind::edge).events, 5U) << speedMps;
+        return static_cast<double>(testing::peak(device.output));
+    };
+    EXPECT_NEAR(peakAt(0.2F) / peakAt(0.05F), 4.0, 0.2);
+}
+
+TEST_F(VoiceEffectsTest, WithoutAChangeOfLevelHeightOrSpeedThereIsNoEdge) {
+    SimulatedDevice device(model_, tone_);
+    // The labels of this generator are equally loud.
+    device.run(0.5, [](double seconds) { return crossing(seconds, 0.2F, edge); });
+    // At rest nothing is crossed, whatever the label becomes.
+    device.run(0.5, [](double seconds) {
+        ContactState state = crossing(seconds, 0.0F, edge);
+        state.edgeCounter = static_cast<std::uint32_t>(seconds / 0.05);
+        state.edgeHeightMetres = 0.01F;
+        return state;
+    });
+    EXPECT_EQ(of(device, EffectKind::edge).events, 0U);
+    EXPECT_EQ(testing::peak(device.output), 0.0F);
+}
+
+TEST_F(VoiceEffectsTest, ARimIsFeltByItsHeightUpToTheTipsOwn) {
+    const auto peakAt = [this](float heightMetres) {
+        SimulatedDevice device(model_, tone_);
+        device.run(0.2, [heightMetres](double seconds) {
+            ContactState state = testing::sliding(0.2F);
+            state.effects = edge;
+            state.edgeCounter = seconds < 0.1 ? 0U : 1U;
+            state.edgeHeightMetres = heightMetres;
+            return state;
+        });
+        return static_cast<double>(testing::peak(device.output));
+    };
+    EXPECT_EQ(peakAt(0.0F), 0.0);
+    EXPECT_NEAR(peakAt(0.001F) / peakAt(0.0005F), 2.0, 0.05);
+    EXPECT_DOUBLE_EQ(peakAt(0.5F), peakAt(0.002F));
+    EXPECT_EQ(peakAt(std::numeric_limits<float>::quiet_NaN()), 0.0);
+}
+
+TEST_F(VoiceEffectsTest, AnApproachThatIsNoNumberIsNoLanding) {
+    SimulatedDevice device(model_, tone_);
+    std::uint32_t touch = 0;
+    for (const float speed : {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity(), -1.0F}) {
+        device.publish(landing(speed, impact, ++touch));
+        renderBlocks(device, 3);
+    }
+    EXPECT_EQ(testing::peak(device.output), 0.0F);
+    EXPECT_GE(device.counters().sanitised, 2U);
+}
+
+TEST_F(VoiceEffectsTest, TenMinutesOfLandingsEdgesAndInterruptionsStayBoundedAndEndInSilence) {
+    std::mt19937 random(7);
+    SimulatedDevice device(model_, tone_);
+    std::uint32_t touch = 1;
+    std::uint32_t edges = 0;
+    bool touching = true;
+    double peak = 0.0;
+    for (int second = 0; second < 600; ++second) {
+        device.run(1.0, [&](double) {
+            const auto draw = static_cast<std::uint32_t>(random());
+            touching = draw % 16 != 0 ? touching : !touching;
+            touch += draw % 23 == 0 ? 1 : 0;
+            edges += draw % 31 == 0 ? 1 : 0;
+            ContactState state = testing::sliding(static_cast<float>(draw % 100) * 0.01F);
+            state.touching = touching;
+            state.touchCounter = touch;
+            state.effects = (draw >> 8) % 8;
+            state.approachSpeedMps = static_cast<float>((draw >> 12) % 300) * 0.01F;
+            state.material.entries[0].label = (draw >> 20) % 3;
+            state.edgeCounter = edges;
+            state.edgeHeightMetres = static_cast<float>((draw >> 22) % 100) * 0.001F;
+            device.controls().muted = draw % 97 == 0;
+            if (draw % 211 == 0) {
+                device.voice().channels.panic();
+            }
+            return state;
+        });
+        for (const float sample : device.output) {
+            ASSERT_TRUE(std::isfinite(sample));
+        }
+        peak = std::max(peak, static_cast<double>(testing::peak(device.output)));
+        device.output.clear();
+    }
+    EXPECT_LE(peak, 1.0);
+    EXPECT_GT(of(device, EffectKind::impact).events, 100U);
+    EXPECT_GT(of(device, EffectKind::edge).events, 100U);
+    device.controls().muted = false;
+    device.run(2.0, [&](double) { return testing::lifted(touch); });
+    device.output.clear();
+    device.run(0.1, [&](double) { return testing::lifted(touch); });
+    EXPECT_EQ(testing::peak(device.output), 0.0F);
+}
+
+/// Turns the signal upside down, and counts its own lives.
+class Inverter final : public effects::Effect {
+public:
+    explicit Inverter(int& alive, float gain = -1.0F) : alive_(alive), gain_(gain) { ++alive_; }
+    ~Inverter() override { --alive_; }
+    [[nodiscard]] effects::EffectDeclaration declaration() const noexcept override { return {}; }
+    void process(std::span<float> samples) noexcept override {
+        std::ranges::transform(samples, samples.begin(), [this](float sample) { return gain_ * sample; });
+    }
+    void reset() noexcept override {}
+    [[nodiscard]] bool isIdle() const noexcept override { return true; }
+
+private:
+    int& alive_;
+    float gain_;
+};
+
+class ProcessorsTest : public VoiceEffectsTest {
+protected:
+    void offer(SimulatedDevice& device, float gain, double rateHz = 48000.0) {
+        auto fresh = std::make_unique<Processors>();
+        fresh->version = ++version_;
+        fresh->rateHz = rateHz;
+        if (gain != 0.0F) {
+            fresh->compensation = std::make_unique<Inverter>(alive_, gain);
+        }
+        delete device.voice().channels.freshProcessors.exchange(fresh.release());
+    }
+    static void collect(SimulatedDevice& device) { delete device.voice().channels.usedProcessors.exchange(nullptr); }
+
+    int alive_ = 0;
+    std::uint64_t version_ = 0;
+};
+
+TEST_F(ProcessorsTest, TheWholeSignalGoesThroughThemAndBackWithoutAClick) {
+    SimulatedDevice device(model_, tone_);
+    const auto slide = [](double) { return testing::sliding(); };
+    device.run(0.3, slide);
+    const float tone = testing::largestStep(device.output);
+    for (const float gain : {-1.0F, 0.5F, -1.0F, 0.0F}) {
+        offer(device, gain);
+        device.run(0.1, slide);
+        collect(device);
+        device.run(0.1, slide);
+        collect(device);
+    }
+    EXPECT_LT(testing::largestStep(device.output), 1.3F * tone);
+    EXPECT_EQ(alive_, 0);
+    EXPECT_EQ(of(device, EffectKind::compensation).prepared, 3U);
+    const std::uint64_t runs = of(device, EffectKind::compensation).runs;
+    EXPECT_GT(runs, 100U);
+    device.run(0.3, slide);
+    EXPECT_EQ(of(device, EffectKind::compensation).runs, runs) << "switched off means never run";
+}
+
+TEST_F(ProcessorsTest, AtRestTheyAreTakenAtOnceAndDoNotRun) {
+    SimulatedDevice device(model_, tone_);
+    for (int offered = 0; offered < 5; ++offered) {
+        offer(device, -1.0F);
+        renderBlocks(device, 3);
+        collect(device);
+    }
+    EXPECT_EQ(alive_, 1);
+    EXPECT_EQ(of(device, EffectKind::compensation).runs, 0U);
+    EXPECT_EQ(testing::peak(device.output), 0.0F);
+}
+
+TEST_F(ProcessorsTest, OfAnotherRateTheyAreNotTaken) {
+    SimulatedDevice device(model_, tone_);
+    offer(device, -1.0F, 44100.0);
+    renderBlocks(device, 2);
+    EXPECT_EQ(of(device, EffectKind::compensation).prepared, 0U);
+    collect(device);
+    EXPECT_EQ(alive_, 0);
+}
+
+TEST_F(ProcessorsTest, PanicAndMuteEndInSilenceThroughThemToo) {
+    SimulatedDevice device(model_, tone_);
+    offer(device, 0.5F);
+    device.run(0.2, [](double) { return testing::sliding(); });
+    device.voice().channels.panic();
+    device.renderBlock();
+    const std::size_t after = device.output.size();
+    device.run(0.2, [](double) { return testing::sliding(); });
+    EXPECT_EQ(testing::peak(from(device, after)), 0.0F);
+    device.run(0.1, [](double) { return testing::lifted(1); });
+    ContactState next = testing::sliding();
+    next.touchCounter = 2;
+    const std::size_t resumed = device.output.size();
+    device.run(0.2, [&next](double) { return next; });
+    EXPECT_GT(testing::peak(from(device, resumed)), 0.1F / 60.0F);
+    device.controls().muted = true;
+    const std::size_t muted = device.output.size();
+    device.run(0.2, [&next](double) { return next; });
+    EXPECT_EQ(testing::peak(from(device, muted + 768)), 0.0F);
+}
+
+}  // namespace
+}  // namespace haptoflow::engine
