@@ -503,6 +503,27 @@ typedef uint64_t haptoflow_voice;
 /* As a channel: all of them. */
 #define HAPTOFLOW_ALL_CHANNELS (-1)
 
+/* What a voice's signal can go through, in this order. A scene pays only for what it asks for. */
+typedef int32_t haptoflow_effect;
+enum {
+    /* What the network generates while the tip slides. */
+    HAPTOFLOW_EFFECT_TEXTURE = 0,
+    /* The blow of a landing: decaying sinusoids of the label, as loud as the approach was fast. */
+    HAPTOFLOW_EFFECT_IMPACT = 1,
+    /* The crossing of a rim, or to a label of another level. */
+    HAPTOFLOW_EFFECT_EDGE = 2,
+    HAPTOFLOW_EFFECT_DELAY = 3,
+    HAPTOFLOW_EFFECT_COMPENSATION = 4,
+    HAPTOFLOW_EFFECT_EXPOSURE_GUARD = 5
+};
+
+#define HAPTOFLOW_EFFECT_COUNT 6
+/* Sets of effects: one bit each, and one for none of them. */
+#define HAPTOFLOW_ASKS_FOR_TEXTURE 0x1u
+#define HAPTOFLOW_ASKS_FOR_IMPACT 0x2u
+#define HAPTOFLOW_ASKS_FOR_EDGE 0x4u
+#define HAPTOFLOW_ASKS_FOR_NOTHING 0x80000000u
+
 typedef struct haptoflow_contact_state {
     uint32_t struct_size;
     /* 1 while the tip touches a surface, 0 otherwise. */
@@ -521,7 +542,28 @@ typedef struct haptoflow_contact_state {
     float force_newtons;
     /* Into the surface, at touch-down. */
     float approach_speed_mps;
+    /* What the surface asks for: HAPTOFLOW_ASKS_FOR_TEXTURE, _IMPACT and _EDGE together; 0 for the texture alone. */
+    uint32_t effects;
+    /* One more at each rim that the tip crosses while it touches, and how high the newest one is, 0 to 1 m. A change of
+     * label needs no count: the voice sees it. */
+    uint32_t edge_counter;
+    float edge_height_metres;
 } haptoflow_contact_state;
+
+/* What one effect has done for a voice. Of an effect that nobody asks for, everything is 0. */
+typedef struct haptoflow_effect_statistics {
+    uint32_t struct_size;
+    /* 1 while the voice asks for it: of impact and edge, its newest contact state. */
+    uint32_t is_asked_for;
+    /* How often it was made ready, blocks that it ran for, samples in them (of the texture at 2 kHz, of the others at the
+     * output's rate), and what they took in all. */
+    uint64_t prepared;
+    uint64_t runs;
+    uint64_t samples;
+    double microseconds;
+    /* Blows, of impact and edge. */
+    uint64_t events;
+} haptoflow_effect_statistics;
 
 typedef struct haptoflow_voice_statistics {
     uint32_t struct_size;
@@ -618,6 +660,10 @@ HAPTOFLOW_API haptoflow_status haptoflow_panic(void);
 /* Errors: INVALID_ARGUMENT. [publisher] */
 HAPTOFLOW_API haptoflow_status haptoflow_voice_get_statistics(haptoflow_voice voice,
                                                               haptoflow_voice_statistics* statistics);
+
+/* Errors: INVALID_ARGUMENT. [publisher] */
+HAPTOFLOW_API haptoflow_status haptoflow_voice_effect_statistics(haptoflow_voice voice, haptoflow_effect effect,
+                                                                 haptoflow_effect_statistics* statistics);
 
 /* The voice's place among the process's voices, 0 to HAPTOFLOW_MAXIMUM_VOICES - 1: what the parameter "Voice" of
  * Unity's mixer effect names. Places are used again. Errors: INVALID_ARGUMENT. [publisher] */

@@ -10,7 +10,14 @@
 using namespace haptoflow;
 using namespace haptoflow::capi;
 
+using effects::EffectKind;
+
 static_assert(engine::MaterialBlend::capacity == HAPTOFLOW_MAXIMUM_BLEND);
+static_assert(effects::effectKinds == HAPTOFLOW_EFFECT_COUNT);
+static_assert(static_cast<int>(EffectKind::exposureGuard) == HAPTOFLOW_EFFECT_EXPOSURE_GUARD);
+static_assert(effects::maskOf(EffectKind::texture) == HAPTOFLOW_ASKS_FOR_TEXTURE);
+static_assert(effects::maskOf(EffectKind::impact) == HAPTOFLOW_ASKS_FOR_IMPACT);
+static_assert(effects::maskOf(EffectKind::edge) == HAPTOFLOW_ASKS_FOR_EDGE);
 
 namespace {
 
@@ -34,6 +41,9 @@ engine::ContactState contactState(const haptoflow_contact_state& given) {
     state.velocityMps = {given.velocity_mps[0], given.velocity_mps[1]};
     state.forceNewtons = given.force_newtons;
     state.approachSpeedMps = given.approach_speed_mps;
+    state.effects = given.effects == 0 ? HAPTOFLOW_ASKS_FOR_TEXTURE : given.effects;
+    state.edgeCounter = given.edge_counter;
+    state.edgeHeightMetres = given.edge_height_metres;
     state.material.count = given.label_count;
     for (std::size_t i = 0; i < engine::MaterialBlend::capacity; ++i) {
         state.material.entries[i] = {given.labels[i], given.weights[i]};
@@ -169,6 +179,32 @@ haptoflow_status haptoflow_voice_get_statistics(haptoflow_voice voice, haptoflow
         content.device_rate_hz = channels.deviceRateHz;
         content.silence = static_cast<haptoflow_silence>(channels.silence.load());
         content.is_rate_supported = channels.isRateSupported ? 1 : 0;
+        writeDescriptor(statistics, content, "statistics");
+    });
+}
+
+haptoflow_status haptoflow_voice_effect_statistics(haptoflow_voice voice, haptoflow_effect effect,
+                                                   haptoflow_effect_statistics* statistics) {
+    return guarded([&] {
+        if (effect < 0 || effect >= HAPTOFLOW_EFFECT_COUNT) {
+            throw std::invalid_argument("effect is " + std::to_string(effect) + "; expected 0 to 5");
+        }
+        const VoiceTable::Use use = requireVoice(voice);
+        const engine::VoiceCounters& counters = use->voice->channels.counters;
+        const engine::EffectCounters& own = counters.effects[static_cast<std::size_t>(effect)];
+        haptoflow_effect_statistics content{};
+        content.is_asked_for = (counters.askedFor.load() >> static_cast<unsigned>(effect)) & 1U;
+        content.prepared = own.prepared;
+        content.runs = own.runs;
+        content.samples = own.samples;
+        content.microseconds = static_cast<double>(own.nanoseconds) * 1e-3;
+        content.events = own.events;
+        if (effect == HAPTOFLOW_EFFECT_TEXTURE) {
+            content.prepared = counters.onsets + counters.resumptions;
+            content.runs = counters.inferences;
+            content.samples = content.runs * inference::segmentSamples;
+            content.microseconds = static_cast<double>(counters.inferenceNanoseconds) * 1e-3;
+        }
         writeDescriptor(statistics, content, "statistics");
     });
 }

@@ -14,6 +14,8 @@ namespace {
 
 using effects::EffectKind;
 
+constexpr effects::EffectMask surfaceEffects =
+    effects::maskOf(EffectKind::texture) | effects::maskOf(EffectKind::impact) | effects::maskOf(EffectKind::edge);
 // An edge is a blow at this share of the speed along the surface where it is as high as the second figure, or where the
 // level changes by the third: a step as high as a stylus's tip is wide, and a change from smooth to rough.
 constexpr double edgeShareOfSpeed = 0.2;
@@ -40,6 +42,7 @@ ContactAction ContactPublisher::publish(ContactState state) noexcept {
     if (follower_.sliding() || action == ContactAction::tap) {
         retrieve(state, material.dominantLabel, ranged.motion);
     }
+    counters.askedFor.store(state.touching ? state.effects & surfaceEffects : 0, std::memory_order_relaxed);
     if (follower_.touches() != touchesBefore) {
         noteImpact(state);
     } else if (state.touching && wasTouching_) {

@@ -101,6 +101,8 @@ struct EffectCounters {
 struct VoiceCounters {
     /// By effects::EffectKind; of the texture there is nothing here, the other counters tell of it.
     std::array<EffectCounters, effects::effectKinds> effects{};
+    /// What the newest contact state asks for, and the processors that the voice has.
+    std::atomic<effects::EffectMask> askedFor{0};
     std::atomic<std::uint64_t> updates{0};
     std::atomic<std::uint64_t> onsets{0};
     /// How often a touch sounded again after a silence within it: pause, mute, a rate change, missing states.

@@ -162,6 +162,11 @@ protected:
                                                [this](haptoflow_voice_statistics* statistics) {
                                                    return haptoflow_voice_get_statistics(open_.voice, statistics);
                                                }),
+            output<haptoflow_effect_statistics>(
+                "haptoflow_effect_statistics",
+                [this](haptoflow_effect_statistics* statistics) {
+                    return haptoflow_voice_effect_statistics(open_.voice, HAPTOFLOW_EFFECT_TEXTURE, statistics);
+                }),
         };
     }
 

@@ -1,0 +1,79 @@
+#include "engine/impact_responses.hpp"
+
+#include "test_model.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace haptoflow::engine {
+namespace {
+
+model::Label labelOf(double stiffness) {
+    model::Label label;
+    label.stiffnessNewtonsPerMetre = stiffness;
+    return label;
+}
+
+TEST(ImpactResponsesTest, WithoutAWordOfTheModelWhatIsHarderRingsHigherWithinTheTactileBand) {
+    float before = 0.0F;
+    for (const double stiffness : {100.0, 350.0, 1200.0, 4000.0}) {
+        const effects::ImpactResponse response = impactResponse(labelOf(stiffness));
+        EXPECT_GT(response.modes[0].frequencyHz, before) << stiffness;
+        EXPECT_GT(response.modes[0].gainPerSecond, 0.0F);
+        EXPECT_EQ(response.modes[1].frequencyHz, 0.0F);
+        before = response.modes[0].frequencyHz;
+    }
+    EXPECT_FLOAT_EQ(impactResponse(labelOf(1e-3)).modes[0].frequencyHz, 25.0F);
+    EXPECT_FLOAT_EQ(impactResponse(labelOf(1e6)).modes[0].frequencyHz, 450.0F);
+}
+
+TEST(ImpactResponsesTest, WhatTheModelSaysHolds) {
+    model::Label label = labelOf(800.0);
+    label.impact = model::Impact{.modes = {{{90.0, 70.0, 110.0}, {}}}, .restitution = 0.1};
+    const effects::ImpactResponse response = impactResponse(label);
+    EXPECT_FLOAT_EQ(response.modes[0].frequencyHz, 90.0F);
+    EXPECT_FLOAT_EQ(response.modes[0].decayPerSecond, 70.0F);
+    EXPECT_FLOAT_EQ(response.modes[0].gainPerSecond, 110.0F);
+    EXPECT_FLOAT_EQ(response.restitution, 0.1F);
+}
+
+MaterialBlend blendOf(std::uint32_t first, float weight, std::uint32_t second, float otherWeight) {
+    MaterialBlend blend;
+    blend.entries[0] = {first, weight};
+    blend.entries[1] = {second, otherWeight};
+    blend.count = 2;
+    return blend;
+}
+
+TEST(ImpactResponsesTest, ABlendLiesBetweenItsLabelsAndWhatTheModelDoesNotHaveIsLeftOut) {
+    model::testing::ModelBuilder builder;
+    builder.header["labels"][0]["stiffness_newtons_per_metre"] = 400.0;
+    builder.header["labels"][1]["stiffness_newtons_per_metre"] = 6400.0;
+    const model::ModelFile model = model::ModelFile::parse(builder.build());
+    const auto frequencyOf = [&model](const MaterialBlend& blend) {
+        return impactResponse(model, blend).modes[0].frequencyHz;
+    };
+    EXPECT_FLOAT_EQ(frequencyOf(blendOf(0, 1.0F, 1, 0.0F)), 100.0F);
+    EXPECT_FLOAT_EQ(frequencyOf(blendOf(0, 0.0F, 1, 0.7F)), 400.0F);
+    EXPECT_NEAR(frequencyOf(blendOf(0, 0.5F, 1, 0.5F)), 200.0F, 1e-3F);
+    EXPECT_FLOAT_EQ(frequencyOf(blendOf(0, 0.5F, 99, 0.5F)), 100.0F);
+    EXPECT_FLOAT_EQ(frequencyOf(MaterialBlend{}), 100.0F) << "none is the first label";
+}
+
+TEST(ImpactResponsesTest, AModeThatOneLabelOfABlendLacksIsSofter) {
+    model::testing::ModelBuilder builder;
+    const nlohmann::json mode = {{"frequency_hz", 90.0}, {"decay_per_second", 70.0}, {"gain_per_second", 100.0}};
+    const nlohmann::json ring = {{"frequency_hz", 600.0}, {"decay_per_second", 500.0}, {"gain_per_second", 40.0}};
+    builder.header["labels"][0]["impact"] = {{"modes", {mode, ring}}, {"restitution", 0.2}};
+    builder.header["labels"][1]["impact"] = {{"modes", nlohmann::json::array({mode})}, {"restitution", 0.0}};
+    const model::ModelFile model = model::ModelFile::parse(builder.build());
+    const effects::ImpactResponse response = impactResponse(model, blendOf(0, 0.25F, 1, 0.75F));
+    EXPECT_FLOAT_EQ(response.modes[0].gainPerSecond, 100.0F);
+    EXPECT_FLOAT_EQ(response.modes[1].frequencyHz, 600.0F);
+    EXPECT_FLOAT_EQ(response.modes[1].gainPerSecond, 10.0F);
+    EXPECT_FLOAT_EQ(response.restitution, 0.05F);
+}
+
+}  // namespace
+}  // namespace haptoflow::engine
