@@ -69,6 +69,8 @@ namespace UnityEditor
             return totalPosition;
         }
 
+        public static bool ToggleLeft(Rect position, GUIContent label, bool value) => EditorScreen.Field(label, value);
+
         public static Rect IndentedRect(Rect source) => source;
 
         public static bool DropdownButton(Rect position, GUIContent content, FocusType focusType) =>

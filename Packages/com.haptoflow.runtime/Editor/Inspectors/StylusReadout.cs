@@ -6,6 +6,11 @@ namespace HaptoFlow.Editor
     {
         private const double SamplesPerMillisecond = 2.0;
 
+        private static readonly string[] Names =
+        {
+            "Texture", "Impact", "Edge", "Delay", "Compensation", "Exposure Guard",
+        };
+
         protected override void Read(HapticStylus stylus)
         {
             if (Haptics.Problem != null)
@@ -37,11 +42,28 @@ namespace HaptoFlow.Editor
             }
             Add("Underruns", "{0}", voice.Underruns);
             Add("Lead", "{0:0.0} ms", voice.LeadSamples / SamplesPerMillisecond);
+            ReadChain(stylus);
             ulong repaired = voice.Sanitised + voice.NonFiniteSamples + voice.Failures;
             if (repaired > 0)
             {
                 Add("Put right", "{0} inputs, {1} samples, {2} failed runs",
                     voice.Sanitised, voice.NonFiniteSamples, voice.Failures);
+            }
+        }
+
+        /// <summary>The stages that run, or have run; those that nobody asked for do not show.</summary>
+        private void ReadChain(HapticStylus stylus)
+        {
+            for (HapticEffect effect = HapticEffect.Impact; effect <= HapticEffect.ExposureGuard; ++effect)
+            {
+                if (!stylus.TryGetEffectStatistics(effect, out EffectStatistics stage) ||
+                    (stage.Prepared == 0 && !stage.IsAskedFor))
+                {
+                    continue;
+                }
+                double microseconds = stage.Runs > 0 ? stage.Microseconds / stage.Runs : 0.0;
+                Add(Names[(int)effect], stage.Events > 0 ? "{0} blows, {1:0.0} us a block" : "{1:0.0} us a block",
+                    stage.Events, microseconds);
             }
         }
     }

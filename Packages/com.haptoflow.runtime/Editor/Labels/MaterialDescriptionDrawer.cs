@@ -9,7 +9,7 @@ namespace HaptoFlow.Editor
     [CustomPropertyDrawer(typeof(MaterialDescription))]
     internal sealed class MaterialDescriptionDrawer : PropertyDrawer
     {
-        private const int FieldRows = 5;
+        private const int FieldRows = 6;
         private const float RemarkWidth = 110f;
 
         private static readonly GUIContent Label = new GUIContent("Label",
@@ -20,6 +20,15 @@ namespace HaptoFlow.Editor
             "0: the first label alone. 1: the second alone.");
         private static readonly GUIContent Stiffness = new GUIContent("Stiffness (N/m)",
             "Of the spring model: force a metre of penetration. 0: what the model says of the label.");
+        private static readonly GUIContent Effects = new GUIContent("Effects",
+            "What the tip feels here. What no surface asks for costs nothing.");
+        private static readonly (string Name, GUIContent Content)[] EffectToggles =
+        {
+            ("texture", new GUIContent("Texture", "The tip feels the material's texture while it slides.")),
+            ("impact", new GUIContent("Impact", "The tip feels a landing, as hard as it was fast.")),
+            ("edge", new GUIContent("Edge",
+                "The tip feels rims, and the crossing to a rougher or smoother label.")),
+        };
         private static readonly GUIContent Strength = new GUIContent("Strength",
             "Gain of the output while this is touched, 0 to 1.");
 
@@ -52,6 +61,28 @@ namespace HaptoFlow.Editor
             DrawStiffness(row, property.FindPropertyRelative("stiffnessNewtonsPerMetre"), first);
             row.y += RowHeight;
             EditorGUI.PropertyField(row, property.FindPropertyRelative("strength"), Strength);
+            row.y += RowHeight;
+            DrawEffects(row, property);
+        }
+
+        private static void DrawEffects(Rect row, SerializedProperty property)
+        {
+            Rect rest = EditorGUI.PrefixLabel(row, Effects);
+            var place = new Rect(rest.x, rest.y, rest.width / EffectToggles.Length, rest.height);
+            foreach ((string name, GUIContent content) in EffectToggles)
+            {
+                SerializedProperty toggle = property.FindPropertyRelative(name);
+                using (var drawn = new EditorGUI.PropertyScope(place, content, toggle))
+                using (var changed = new EditorGUI.ChangeCheckScope())
+                {
+                    bool asked = EditorGUI.ToggleLeft(place, drawn.content, toggle.boolValue);
+                    if (changed.changed)
+                    {
+                        toggle.boolValue = asked;
+                    }
+                }
+                place.x += place.width;
+            }
         }
 
         private static void DrawStiffness(Rect row, SerializedProperty stiffness, SerializedProperty label)

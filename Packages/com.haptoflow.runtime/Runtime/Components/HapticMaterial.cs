@@ -24,6 +24,15 @@ namespace HaptoFlow
         [SerializeField, Range(0f, 1f), Tooltip("Gain of the output while this is touched.")]
         private float strength = 1f;
 
+        [SerializeField, Tooltip("The tip feels the material's texture while it slides.")]
+        private bool texture = true;
+
+        [SerializeField, Tooltip("The tip feels a landing, as hard as it was fast.")]
+        private bool impact = true;
+
+        [SerializeField, Tooltip("The tip feels rims, and the crossing to a rougher or smoother label.")]
+        private bool edge = true;
+
         /// <summary>A label of the model, by name.</summary>
         public string Label
         {
@@ -67,6 +76,27 @@ namespace HaptoFlow
             set => strength = Mathf.Clamp01(value);
         }
 
+        /// <summary>Which effects this has: any of <see cref="HapticEffects.Texture"/>,
+        /// <see cref="HapticEffects.Impact"/> and <see cref="HapticEffects.Edge"/>;
+        /// <see cref="HapticEffects.Nothing"/> for none of them. An effect that no surface asks for costs
+        /// nothing.</summary>
+        public HapticEffects Effects
+        {
+            get
+            {
+                HapticEffects chosen = (texture ? HapticEffects.Texture : 0) | (impact ? HapticEffects.Impact : 0) |
+                    (edge ? HapticEffects.Edge : 0);
+                return chosen == HapticEffects.Unspecified ? HapticEffects.Nothing : chosen;
+            }
+            set
+            {
+                HapticEffects asked = value == HapticEffects.Unspecified ? HapticEffects.Texture : value;
+                texture = (asked & HapticEffects.Texture) != 0;
+                impact = (asked & HapticEffects.Impact) != 0;
+                edge = (asked & HapticEffects.Edge) != 0;
+            }
+        }
+
         /// <summary>One more at each change that matters to whoever looked the labels up.</summary>
         internal int Version { get; private set; }
 
@@ -79,6 +109,9 @@ namespace HaptoFlow
             blend = other.blend;
             stiffnessNewtonsPerMetre = other.stiffnessNewtonsPerMetre;
             strength = other.strength;
+            texture = other.texture;
+            impact = other.impact;
+            edge = other.edge;
             ++Version;
         }
 

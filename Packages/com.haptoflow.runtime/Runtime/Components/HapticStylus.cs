@@ -156,6 +156,13 @@ namespace HaptoFlow
             return voice != null && voice.TryGetStatistics(out statistics);
         }
 
+        /// <summary>What one stage of the stylus's voice did. False while the stylus has no voice.</summary>
+        public bool TryGetEffectStatistics(HapticEffect effect, out EffectStatistics statistics)
+        {
+            statistics = default;
+            return voice != null && voice.TryGetEffectStatistics(effect, out statistics);
+        }
+
         /// <summary>Silence at once; sounds again with the next touch-down.</summary>
         public void Panic() => voice?.Panic();
 

@@ -26,6 +26,12 @@ namespace HaptoFlow
             return IsOpen;
         }
 
+        public bool TryGetEffectStatistics(HapticEffect effect, out EffectStatistics statistics)
+        {
+            statistics = IsOpen ? voice!.EffectStatistics(effect) : default;
+            return IsOpen;
+        }
+
         public void Panic()
         {
             if (IsOpen)
@@ -55,6 +61,7 @@ namespace HaptoFlow
                 state.Material = surface.BlendFor(session);
                 // A surface of which no label is known is left unfelt rather than felt as something else.
                 state.Touching = state.Material.Count > 0;
+                state.Effects = surface.SharedDescription.Effects;
                 SetStrength(surface.SharedDescription.Strength * stylus.Strength * output!.Strength);
             }
             voice!.Publish(state);

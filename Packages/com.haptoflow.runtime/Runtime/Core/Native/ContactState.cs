@@ -27,5 +27,15 @@ namespace HaptoFlow
 
         /// <summary>Into the surface, at touch-down, in m/s.</summary>
         public float ApproachSpeedMps;
+
+        /// <summary>What the surface asks for; the texture alone where nothing is said.</summary>
+        public HapticEffects Effects;
+
+        /// <summary>One more at each rim that the tip crosses while it touches. A change of label needs no count: the
+        /// voice sees it.</summary>
+        public uint EdgeCounter;
+
+        /// <summary>How high the newest rim is, 0 to 1 m.</summary>
+        public float EdgeHeightMetres;
     }
 }

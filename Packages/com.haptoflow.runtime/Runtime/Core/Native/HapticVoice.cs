@@ -36,6 +36,9 @@ namespace HaptoFlow
                 LabelCount = (uint)state.Material.Count,
                 ForceNewtons = state.ForceNewtons,
                 ApproachSpeedMps = state.ApproachSpeedMps,
+                Effects = (uint)state.Effects,
+                EdgeCounter = state.EdgeCounter,
+                EdgeHeightMetres = state.EdgeHeightMetres,
             };
             for (int index = 0; index < state.Material.Count; ++index)
             {
@@ -107,6 +110,15 @@ namespace HaptoFlow
         {
             var statistics = new VoiceStatistics { StructSize = (uint)sizeof(VoiceStatistics) };
             NativeCall.Check(NativeMethods.VoiceGetStatistics(Id, &statistics));
+            return statistics;
+        }
+
+        /// <summary>What one stage of the voice did so far; all zero for one that nobody asked for.</summary>
+        /// <exception cref="HaptoFlowException">The voice is closed, or there is no such effect.</exception>
+        public EffectStatistics EffectStatistics(HapticEffect effect)
+        {
+            var statistics = new EffectStatistics { StructSize = (uint)sizeof(EffectStatistics) };
+            NativeCall.Check(NativeMethods.VoiceEffectStatistics(Id, (int)effect, &statistics));
             return statistics;
         }
 

@@ -142,6 +142,9 @@ namespace HaptoFlow.Native
         [DllImport(Library, EntryPoint = "haptoflow_voice_get_statistics")]
         public static extern int VoiceGetStatistics(ulong voice, VoiceStatistics* statistics);
 
+        [DllImport(Library, EntryPoint = "haptoflow_voice_effect_statistics")]
+        public static extern int VoiceEffectStatistics(ulong voice, int effect, EffectStatistics* statistics);
+
         [DllImport(Library, EntryPoint = "haptoflow_voice_place")]
         public static extern int VoicePlace(ulong voice, uint* place);
 

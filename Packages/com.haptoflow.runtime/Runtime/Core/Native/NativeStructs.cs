@@ -113,5 +113,8 @@ namespace HaptoFlow.Native
         public fixed float VelocityMps[2];
         public float ForceNewtons;
         public float ApproachSpeedMps;
+        public uint Effects;
+        public uint EdgeCounter;
+        public float EdgeHeightMetres;
     }
 }

@@ -84,6 +84,33 @@ namespace HaptoFlow
         public bool IsRateSupported => isRateSupported != 0;
     }
 
+    /// <summary>What one stage of a voice did since the voice was opened; all zero for one that nobody asked for.
+    /// </summary>
+    [Preserve, StructLayout(LayoutKind.Sequential)]
+    public struct EffectStatistics
+    {
+        internal uint StructSize;
+        private uint isAskedFor;
+
+        /// <summary>How often it was made ready.</summary>
+        public ulong Prepared;
+
+        /// <summary>Blocks that it ran for; of the texture, segments.</summary>
+        public ulong Runs;
+
+        /// <summary>Samples in them: of the texture at 2 kHz, of the others at the output's rate.</summary>
+        public ulong Samples;
+
+        /// <summary>What they took in all.</summary>
+        public double Microseconds;
+
+        /// <summary>Blows, of impact and edge.</summary>
+        public ulong Events;
+
+        /// <summary>The voice asks for it at present: of impact and edge, its newest contact state.</summary>
+        public bool IsAskedFor => isAskedFor != 0;
+    }
+
     /// <summary>What the engine did since it was made. Counts unless the name says otherwise.</summary>
     [Preserve, StructLayout(LayoutKind.Sequential)]
     public struct EngineStatistics

@@ -1,0 +1,52 @@
+#nullable enable
+using System.Collections;
+using NUnit.Framework;
+using UnityEngine;
+using UnityEngine.TestTools;
+
+namespace HaptoFlow.Tests
+{
+    /// <summary>What a surface asks for reaches the voice, and nothing else runs.</summary>
+    public sealed class SurfaceEffectsTests : SceneTest
+    {
+        [UnityTest]
+        public IEnumerator ASurfaceWithImpactsAsksForThem() => Land(true);
+
+        [UnityTest]
+        public IEnumerator ASurfaceWithoutImpactsDoesNot() => Land(false);
+
+        private IEnumerator Land(bool isAskedFor)
+        {
+            FinishLoading();
+            HapticSurface board = Board();
+            board.Material.Effects = isAskedFor ? HapticEffects.Impact : HapticEffects.Texture;
+            HapticStylus stylus = StylusAlong(
+                seconds => new Vector3(0f, Mathf.Max(0.001f, 0.02f - 0.3f * (float)seconds), 0f));
+            for (int frame = 0; frame < 12; ++frame)
+            {
+                yield return null;
+            }
+            Assert.That(stylus.IsTouching, Is.True);
+            Assert.That(stylus.TryGetEffectStatistics(HapticEffect.Impact, out EffectStatistics impact), Is.True);
+            Assert.That(impact.IsAskedFor, Is.EqualTo(isAskedFor));
+            Assert.That(stylus.TryGetEffectStatistics(HapticEffect.Edge, out EffectStatistics edge), Is.True);
+            Assert.That(edge.IsAskedFor, Is.False);
+            Assert.That(edge.Runs + edge.Prepared + edge.Events, Is.Zero);
+        }
+
+        [Test]
+        public void AMaterialHasAllEffectsOfItsSurfaceUntilItIsToldOtherwise()
+        {
+            var description = new MaterialDescription();
+            Assert.That(
+                description.Effects, Is.EqualTo(HapticEffects.Texture | HapticEffects.Impact | HapticEffects.Edge));
+            description.Effects = HapticEffects.Nothing;
+            Assert.That(description.Effects, Is.EqualTo(HapticEffects.Nothing));
+            description.Effects = HapticEffects.Edge;
+            Assert.That(description.Effects, Is.EqualTo(HapticEffects.Edge));
+            var copy = new MaterialDescription();
+            copy.CopyFrom(description);
+            Assert.That(copy.Effects, Is.EqualTo(HapticEffects.Edge));
+        }
+    }
+}
