@@ -1,0 +1,120 @@
+#include "effects/delay.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+#include <string>
+
+namespace haptoflow::effects {
+namespace {
+
+double checkedRateHz(double rateHz) {
+    if (!(rateHz >= 8000.0 && rateHz <= 192000.0)) {
+        throw std::invalid_argument("the sample rate is " + std::to_string(rateHz) + " Hz; expected 8000 to 192000");
+    }
+    return rateHz;
+}
+
+}  // namespace
+
+Delay::Delay(double sampleRateHz)
+    : sampleRateHz_(checkedRateHz(sampleRateHz)),
+      longest_(static_cast<std::size_t>(std::llround(highestSeconds * sampleRateHz))),
+      line_(std::bit_ceil(longest_ + 1), 0.0F),
+      fade_(static_cast<std::size_t>(std::lround(fadeSeconds * sampleRateHz))),
+      silent_(longest_ + 1),
+      faded_(fade_.size()) {
+    for (std::size_t i = 0; i < fade_.size(); ++i) {
+        const double share = static_cast<double>(i + 1) / static_cast<double>(fade_.size());
+        fade_[i] = static_cast<float>(0.5 - 0.5 * std::cos(std::numbers::pi * share));
+    }
+}
+
+void Delay::setDelaySeconds(double seconds) noexcept {
+    if (std::isnan(seconds)) {
+        return;
+    }
+    const double within = std::clamp(seconds, 0.0, highestSeconds);
+    asked_ = std::min(longest_, static_cast<std::size_t>(std::llround(within * sampleRateHz_)));
+    if (isIdle()) {
+        current_ = asked_;
+        faded_ = fade_.size();
+        declare();
+    }
+}
+
+double Delay::delaySeconds() const noexcept {
+    return static_cast<double>(asked_) / sampleRateHz_;
+}
+
+EffectDeclaration Delay::declaration() const noexcept {
+    const double seconds = declaredSeconds_.load(std::memory_order_relaxed);
+    return {.kind = EffectKind::delay,
+            .reads = contact_field::none,
+            .latencySeconds = seconds,
+            .tailSeconds = seconds,
+            .memoryBytes = sizeof(Delay) + (line_.capacity() + fade_.capacity()) * sizeof(float)};
+}
+
+void Delay::declare() noexcept {
+    const std::size_t longer = faded_ < fade_.size() ? std::max(current_, previous_) : current_;
+    declaredSeconds_.store(static_cast<double>(longer) / sampleRateHz_, std::memory_order_relaxed);
+}
+
+void Delay::write(float sample) noexcept {
+    newest_ = (newest_ + 1) & (line_.size() - 1);
+    line_[newest_] = sample;
+    held_ = std::min(held_ + 1, longest_ + 1);
+    silent_ = sample == 0.0F ? std::min(silent_ + 1, longest_ + 1) : 0;
+}
+
+// What was written before the last reset is still in memory, but no longer held.
+float Delay::tap(std::size_t delaySamples) const noexcept {
+    return delaySamples < held_ ? line_[(newest_ - delaySamples) & (line_.size() - 1)] : 0.0F;
+}
+
+void Delay::startFadeIfAsked() noexcept {
+    if (faded_ == fade_.size() && asked_ != current_) {
+        previous_ = current_;
+        current_ = asked_;
+        faded_ = 0;
+        declare();
+    }
+}
+
+float Delay::nextOfFade() noexcept {
+    const float weight = fade_[faded_];
+    const float out = weight * tap(current_) + (1.0F - weight) * tap(previous_);
+    if (++faded_ == fade_.size()) {
+        declare();
+    }
+    return out;
+}
+
+void Delay::process(std::span<float> samplesMps2) noexcept {
+    for (float& sample : samplesMps2) {
+        startFadeIfAsked();
+        if (!std::isfinite(sample)) {
+            ++nonFiniteCount_;
+            sample = 0.0F;
+        }
+        write(sample);
+        sample = faded_ < fade_.size() ? nextOfFade() : tap(current_);
+    }
+}
+
+void Delay::reset() noexcept {
+    held_ = 0;
+    silent_ = longest_ + 1;
+    current_ = asked_;
+    faded_ = fade_.size();
+    declare();
+}
+
+bool Delay::isIdle() const noexcept {
+    return silent_ > longest_;
+}
+
+}  // namespace haptoflow::effects

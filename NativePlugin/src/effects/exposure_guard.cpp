@@ -1,0 +1,232 @@
+#include "effects/exposure_guard.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <stdexcept>
+#include <string>
+
+namespace haptoflow::effects {
+namespace {
+
+constexpr double ticksPerSecond = 100.0;
+constexpr double recentSeconds = 60.0;
+// After 10 s of play.
+constexpr double leastRecentWeight = 0.1535;
+// Below this weighted mean square nothing plays: a millimetre per second squared.
+constexpr double silentMeanSquare = 1e-6;
+// No hand is shaken harder; a broken sample must not weigh for hours.
+constexpr double largestMps2 = 1e4;
+// Of a pause, however long: enough for a hundredth of a second each in pauses of 40 s.
+constexpr std::uint64_t mostPauseSteps = 4096;
+
+double checkedRateHz(double rateHz) {
+    if (!(rateHz >= 8000.0 && rateHz <= 192000.0)) {
+        throw std::invalid_argument("the sample rate is " + std::to_string(rateHz) + " Hz; expected 8000 to 192000");
+    }
+    return rateHz;
+}
+
+const ExposureLaw& checkedLaw(const ExposureLaw& law) {
+    if (!law.isValid()) {
+        throw std::invalid_argument("the exposure law has a value that is not finite or not above 0, or a lowest gain "
+                                    "above 1");
+    }
+    return law;
+}
+
+double decibels(double gain) noexcept {
+    return 20.0 * std::log10(gain);
+}
+
+}  // namespace
+
+bool ExposureLaw::isValid() const noexcept {
+    const auto isPositive = [](double value) { return std::isfinite(value) && value > 0.0; };
+    return isPositive(actuatorGain) && isPositive(shortTermMps2) && isPositive(shortTermSeconds) &&
+           isPositive(dailyMps2) && isPositive(dailySeconds) && isPositive(reserveSeconds) &&
+           isPositive(slewDbPerSecond) && isPositive(lowestGain) && lowestGain <= 1.0;
+}
+
+ExposureGuard::ExposureGuard(double sampleRateHz, const ExposureLaw& law)
+    : law_(checkedLaw(law)),
+      sampleRateHz_(checkedRateHz(sampleRateHz)),
+      tickSamples_(static_cast<std::size_t>(std::lround(sampleRateHz / ticksPerSecond))),
+      tickSeconds_(static_cast<double>(tickSamples_) / sampleRateHz),
+      shortTermShare_(1.0 - std::exp(-tickSeconds_ / law.shortTermSeconds)),
+      recentShare_(1.0 - std::exp(-tickSeconds_ / recentSeconds)),
+      weighting_(sampleRateHz) {}
+
+void ExposureGuard::setActuatorGain(double gain) noexcept {
+    if (std::isfinite(gain) && gain > 0.0) {
+        law_.actuatorGain = gain;
+    }
+}
+
+void ExposureGuard::process(std::span<float> samplesMps2) noexcept {
+    for (float& sample : samplesMps2) {
+        sample = passThrough(sample);
+        if (++tickPosition_ == tickSamples_) {
+            finishTick();
+        }
+    }
+}
+
+float ExposureGuard::passThrough(float sample) noexcept {
+    const float finite = std::isfinite(sample) ? sample : 0.0F;
+    const double atHand = std::clamp(static_cast<double>(finite) * law_.actuatorGain, -largestMps2, largestMps2);
+    const double weighted = weighting_.next(atHand);
+    squares_ += atHand * atHand;
+    weightedSquares_ += weighted * weighted;
+    if (gainFrom_ == 1.0 && gainTo_ == 1.0) {
+        return finite;
+    }
+    const double share = static_cast<double>(tickPosition_) / static_cast<double>(tickSamples_);
+    return static_cast<float>(static_cast<double>(finite) * (gainFrom_ + share * (gainTo_ - gainFrom_)));
+}
+
+void ExposureGuard::finishTick() noexcept {
+    const auto count = static_cast<double>(tickSamples_);
+    measure(squares_ / count, weightedSquares_ / count);
+    tickPosition_ = 0;
+    squares_ = 0.0;
+    weightedSquares_ = 0.0;
+    advanceSlots(tickSeconds_);
+    moveGain(tickSeconds_);
+    publish();
+}
+
+void ExposureGuard::measure(double meanSquare, double weightedMeanSquare) noexcept {
+    shortTermSquare_ += shortTermShare_ * (meanSquare - shortTermSquare_);
+    if (weightedMeanSquare > silentMeanSquare) {
+        recentSquare_ += recentShare_ * (weightedMeanSquare - recentSquare_);
+        recentWeight_ += recentShare_ * (1.0 - recentWeight_);
+    }
+    const double gain = 0.5 * (gainFrom_ + gainTo_);
+    const double energy = gain * gain * weightedMeanSquare * tickSeconds_;
+    slotEnergies_[slot_] += energy;
+    energy_ += energy;
+}
+
+void ExposureGuard::advanceSlots(double seconds) noexcept {
+    const double slotLength = law_.dailySeconds / static_cast<double>(slots - 1);
+    slotSeconds_ += seconds;
+    for (std::size_t advanced = 0; slotSeconds_ >= slotLength && advanced < slots; ++advanced) {
+        slotSeconds_ -= slotLength;
+        slot_ = (slot_ + 1) % slots;
+        slotEnergies_[slot_] = 0.0;
+        energy_ = std::accumulate(slotEnergies_.begin(), slotEnergies_.end(), 0.0);
+    }
+    if (slotSeconds_ >= slotLength) {
+        slotSeconds_ = std::fmod(slotSeconds_, slotLength);
+    }
+}
+
+double ExposureGuard::shortTermTarget() const noexcept {
+    const double level = std::sqrt(shortTermSquare_);
+    return level > law_.shortTermMps2 ? law_.shortTermMps2 / level : 1.0;
+}
+
+double ExposureGuard::doseTarget() const noexcept {
+    const double left = law_.dailyMps2 * law_.dailyMps2 * law_.dailySeconds - energy_;
+    const double allowed = std::max(0.0, left) / law_.reserveSeconds;
+    // Of the time that has played so far, not of the silence before it, and of 10 s at least.
+    const double recent = recentSquare_ / std::max(recentWeight_, leastRecentWeight);
+    return recent > allowed ? std::sqrt(allowed / recent) : 1.0;
+}
+
+void ExposureGuard::moveGain(double seconds) noexcept {
+    const double shortTerm = shortTermTarget();
+    const double dose = doseTarget();
+    const double targetDb = decibels(std::max(law_.lowestGain, std::min(shortTerm, dose)));
+    const double stepDb = law_.slewDbPerSecond * seconds;
+    gainDb_ = std::min(0.0, std::clamp(targetDb, gainDb_ - stepDb, gainDb_ + stepDb));
+    gainFrom_ = gainTo_;
+    gainTo_ = gainDb_ == 0.0 ? 1.0 : std::max(law_.lowestGain, std::pow(10.0, gainDb_ / 20.0));
+    if (gainTo_ == 1.0) {
+        reason_ = ExposureReason::none;
+        loweredSeconds_ = 0.0;
+        return;
+    }
+    loweredSeconds_ += seconds;
+    if (std::min(shortTerm, dose) < 1.0) {
+        reason_ = shortTerm < dose ? ExposureReason::shortTerm : ExposureReason::dose;
+    }
+}
+
+void ExposureGuard::passSilence(std::uint64_t samples) noexcept {
+    weighting_.reset();
+    const std::uint64_t untilTick = tickSamples_ - tickPosition_;
+    if (samples < untilTick) {
+        tickPosition_ += static_cast<std::size_t>(samples);
+        return;
+    }
+    finishTick();
+    passTicks((samples - untilTick) / tickSamples_);
+    tickPosition_ = static_cast<std::size_t>((samples - untilTick) % tickSamples_);
+}
+
+// Long pauses in coarser steps: the gain only rises in silence, and no faster than it may.
+void ExposureGuard::passTicks(std::uint64_t ticks) noexcept {
+    const std::uint64_t step = ticks / mostPauseSteps + 1;
+    while (ticks > 0) {
+        const std::uint64_t now = std::min(step, ticks);
+        const double seconds = static_cast<double>(now) * tickSeconds_;
+        shortTermSquare_ *= std::exp(-seconds / law_.shortTermSeconds);
+        advanceSlots(seconds);
+        moveGain(seconds);
+        ticks -= now;
+    }
+    publish();
+}
+
+void ExposureGuard::forgetExposure() noexcept {
+    shortTermSquare_ = 0.0;
+    recentSquare_ = 0.0;
+    recentWeight_ = 0.0;
+    slotEnergies_.fill(0.0);
+    slotSeconds_ = 0.0;
+    energy_ = 0.0;
+    squares_ = 0.0;
+    weightedSquares_ = 0.0;
+    gainDb_ = 0.0;
+    gainFrom_ = 1.0;
+    gainTo_ = 1.0;
+    reason_ = ExposureReason::none;
+    loweredSeconds_ = 0.0;
+    publish();
+}
+
+void ExposureGuard::publish() noexcept {
+    publishedReason_.store(reason_, std::memory_order_relaxed);
+    publishedGain_.store(gainTo_, std::memory_order_relaxed);
+    publishedShortTermMps2_.store(std::sqrt(shortTermSquare_), std::memory_order_relaxed);
+    publishedDailyMps2_.store(std::sqrt(energy_ / law_.dailySeconds), std::memory_order_relaxed);
+    publishedLoweredSeconds_.store(loweredSeconds_, std::memory_order_relaxed);
+}
+
+ExposureReport ExposureGuard::report() const noexcept {
+    return {.reason = publishedReason_.load(std::memory_order_relaxed),
+            .gain = publishedGain_.load(std::memory_order_relaxed),
+            .shortTermMps2 = publishedShortTermMps2_.load(std::memory_order_relaxed),
+            .dailyMps2 = publishedDailyMps2_.load(std::memory_order_relaxed),
+            .loweredSeconds = publishedLoweredSeconds_.load(std::memory_order_relaxed)};
+}
+
+EffectDeclaration ExposureGuard::declaration() const noexcept {
+    return {.kind = EffectKind::exposureGuard,
+            .reads = contact_field::none,
+            .latencySeconds = 0.0,
+            .tailSeconds = 0.0,
+            .memoryBytes = sizeof(ExposureGuard)};
+}
+
+void ExposureGuard::reset() noexcept {
+    weighting_.reset();
+}
+
+bool ExposureGuard::isIdle() const noexcept {
+    return gainFrom_ == 1.0 && gainTo_ == 1.0;
+}
+
+}  // namespace haptoflow::effects

@@ -1,0 +1,266 @@
+#include "effects/wave_features.hpp"
+
+#include "effects/perceived_intensity.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+
+namespace haptoflow::effects {
+namespace {
+
+constexpr double binHz = 15.625;
+constexpr std::size_t windowFall = 16;
+constexpr std::size_t fastSamples = 8;
+constexpr std::size_t slowLag = 10;
+constexpr double slowSeconds = 0.03;
+constexpr std::size_t onsetSearchSamples = 16;
+constexpr double onsetShareOfPeak = 0.25;
+constexpr std::size_t transientSamples = 16;
+// Beyond every device and wave; keeps squares finite whatever comes in.
+constexpr double largestMps2 = 1e6;
+// Of r^2: below it nothing can be felt, and its spectrum says nothing.
+constexpr double imperceptible = 1e-6;
+constexpr double firstCentroidHz = 160.0;
+
+bool isWithin(double value, double low, double high) noexcept {
+    return value >= low && value <= high;
+}
+
+}  // namespace
+
+bool WaveFeatureOptions::isValid() const noexcept {
+    return isWithin(frameSeconds, 0.002, 0.032) && minFrequencyHz > 0.0 && minFrequencyHz <= maxFrequencyHz &&
+           maxFrequencyHz <= 1000.0 && isWithin(onsetEnergyRatio, 1.0, 1e6) && isWithin(onsetThresholds, 0.0, 1e6) &&
+           isWithin(refractorySeconds, 0.0, 10.0);
+}
+
+WaveFeatures::WaveFeatures(const WaveFeatureOptions& options)
+    : options_(options),
+      filter_(ThresholdFilter::shared()),
+      frameSamples_(options.frameSeconds * sampleRateHz),
+      slowShare_(1.0 - std::exp(-1.0 / (slowSeconds * sampleRateHz))),
+      refractorySamples_(static_cast<std::uint64_t>(std::max(0.0, options.refractorySeconds) * sampleRateHz)) {
+    if (!options.isValid()) {
+        throw std::invalid_argument(
+            "wave features: expected frames of 2 to 32 ms, a device range within 0 to 1000 Hz, an onset ratio of 1 to "
+            "1e6, onset thresholds of 0 to 1e6 and a refractory time of 0 to 10 s");
+    }
+    for (std::size_t i = 0; i < historySamples; ++i) {
+        const std::size_t fromEnd = historySamples - i;
+        const double share = fromEnd <= windowFall
+                                 ? static_cast<double>(fromEnd) / static_cast<double>(windowFall)
+                                 : static_cast<double>(i + 1) / static_cast<double>(historySamples - windowFall);
+        window_[i] = std::pow(std::sin(0.5 * std::numbers::pi * share), 2.0);
+        cosines_[i] = std::cos(2.0 * std::numbers::pi * static_cast<double>(i) / static_cast<double>(historySamples));
+    }
+    for (std::size_t bin = 0; bin < bins; ++bin) {
+        exponents_[bin] = intensityExponent(binHz * static_cast<double>(bin));
+    }
+    reset();
+}
+
+void WaveFeatures::reset() noexcept {
+    wave_.fill(0.0);
+    thresholds_.fill(0.0);
+    taken_ = 0;
+    frame_ = 0;
+    centroidHz_ = firstCentroidHz;
+    slowEnergy_ = 0.0;
+    fastEnergy_ = 0.0;
+    hasOnset_ = false;
+    onset_ = 0;
+    quietUntil_ = 0;
+}
+
+void WaveFeatures::setDeviceRange(double minFrequencyHz, double maxFrequencyHz) noexcept {
+    if (minFrequencyHz > 0.0 && minFrequencyHz <= maxFrequencyHz && maxFrequencyHz <= 1000.0) {
+        options_.minFrequencyHz = minFrequencyHz;
+        options_.maxFrequencyHz = maxFrequencyHz;
+    }
+}
+
+std::size_t WaveFeatures::framesWithin(std::size_t samples) const noexcept {
+    return static_cast<std::size_t>(static_cast<double>(samples) / frameSamples_) + 2;
+}
+
+std::uint64_t WaveFeatures::frameStart(std::uint64_t frame) const noexcept {
+    return static_cast<std::uint64_t>(std::llround(static_cast<double>(frame) * frameSamples_));
+}
+
+bool WaveFeatures::isFrameDue() const noexcept {
+    return taken_ >= frameStart(frame_ + 1) + lookaheadSamples;
+}
+
+WaveFeatures::Progress WaveFeatures::process(std::span<const float> waveMps2, std::span<WaveFrame> frames) noexcept {
+    Progress progress;
+    while (true) {
+        if (isFrameDue()) {
+            if (progress.frames == frames.size()) {
+                return progress;
+            }
+            frames[progress.frames++] = finishFrame();
+        }
+        if (progress.samples == waveMps2.size()) {
+            return progress;
+        }
+        const float sample = waveMps2[progress.samples++];
+        take(std::isfinite(sample) ? std::clamp(static_cast<double>(sample), -largestMps2, largestMps2) : 0.0);
+    }
+}
+
+void WaveFeatures::take(double mps2) noexcept {
+    const std::size_t at = taken_ % historySamples;
+    wave_[at] = mps2;
+    thresholds_[at] = filtered();
+    ++taken_;
+    followEnergy();
+    lookForOnset();
+}
+
+double WaveFeatures::filtered() const noexcept {
+    double sum = 0.0;
+    for (std::size_t tap = 0; tap < historySamples; ++tap) {
+        sum += filter_.impulseResponse()[tap] * wave_[(taken_ - tap) % historySamples];
+    }
+    return sum;
+}
+
+void WaveFeatures::followEnergy() noexcept {
+    const auto squareBefore = [this](std::size_t samples) {
+        const double value = thresholds_[(taken_ - 1 - samples) % historySamples];
+        return value * value;
+    };
+    double squares = 0.0;
+    for (std::size_t before = 0; before < fastSamples; ++before) {
+        squares += squareBefore(before);
+    }
+    fastEnergy_ = squares / static_cast<double>(fastSamples);
+    slowEnergy_ += slowShare_ * (squareBefore(slowLag) - slowEnergy_);
+}
+
+void WaveFeatures::lookForOnset() noexcept {
+    if (taken_ < quietUntil_ || hasOnset_) {
+        return;
+    }
+    const bool isFelt = fastEnergy_ > 0.5 * options_.onsetThresholds * options_.onsetThresholds;
+    if (isFelt && fastEnergy_ > options_.onsetEnergyRatio * slowEnergy_) {
+        hasOnset_ = true;
+        onset_ = onsetBefore(taken_);
+        quietUntil_ = taken_ + refractorySamples_;
+    }
+}
+
+std::uint64_t WaveFeatures::onsetBefore(std::uint64_t end) const noexcept {
+    const std::uint64_t start = end - std::min<std::uint64_t>(end, onsetSearchSamples);
+    double peak = 0.0;
+    for (std::uint64_t i = start; i < end; ++i) {
+        peak = std::max(peak, std::abs(wave_[i % historySamples]));
+    }
+    for (std::uint64_t i = start; i < end; ++i) {
+        if (std::abs(wave_[i % historySamples]) >= onsetShareOfPeak * peak) {
+            return i;
+        }
+    }
+    return end - 1;
+}
+
+WaveFrame WaveFeatures::finishFrame() noexcept {
+    const std::uint64_t start = frameStart(frame_);
+    const std::uint64_t end = frameStart(frame_ + 1);
+    ++frame_;
+    const Spectrum spectrum = spectrumOfHistory();
+    if (spectrum.energy > imperceptible) {
+        centroidHz_ = spectrum.centroidHz;
+    }
+    const double ratio = std::sqrt(2.0 * meanSquare(start, end, centroidHz_));
+    const double intensity =
+        spectrum.energy > imperceptible ? intensityOfRatio(ratio, spectrum.exponent) : 0.0;
+    const double frequencyHz = clampedToDevice(centroidHz_);
+    return {.firstSample = start,
+            .sampleCount = static_cast<std::uint32_t>(end - start),
+            .intensity = static_cast<float>(intensity),
+            .centroidHz = static_cast<float>(centroidHz_),
+            .frequencyHz = static_cast<float>(frequencyHz),
+            .amplitudeMps2 = static_cast<float>(amplitudeOfIntensity(intensity, frequencyHz)),
+            .transient = transientWithin(start, end)};
+}
+
+WaveFeatures::Spectrum WaveFeatures::spectrumOfHistory() const noexcept {
+    History windowed;
+    for (std::size_t i = 0; i < historySamples; ++i) {
+        windowed[i] = window_[i] * thresholds_[(taken_ + i) % historySamples];
+    }
+    Spectrum spectrum;
+    for (std::size_t bin = 1; bin < bins; ++bin) {
+        double real = 0.0;
+        double imaginary = 0.0;
+        for (std::size_t i = 0; i < historySamples; ++i) {
+            real += windowed[i] * cosines_[bin * i % historySamples];
+            imaginary += windowed[i] * cosines_[(bin * i + 3 * historySamples / 4) % historySamples];
+        }
+        const double energy = real * real + imaginary * imaginary;
+        spectrum.energy += energy;
+        spectrum.centroidHz += energy * static_cast<double>(bin);
+        spectrum.exponent += energy * exponents_[bin];
+    }
+    if (spectrum.energy > 0.0) {
+        spectrum.centroidHz *= binHz / spectrum.energy;
+        spectrum.exponent /= spectrum.energy;
+    }
+    return spectrum;
+}
+
+// Over [start, end), delayed by the filter and lengthened on both sides to whole half periods, of what is held; what
+// follows an onset is no part of a frame before it.
+double WaveFeatures::meanSquare(std::uint64_t start, std::uint64_t end, double centroidHz) const noexcept {
+    const double halfPeriod = 0.5 * sampleRateHz / centroidHz;
+    const auto frameLength = static_cast<double>(end - start);
+    const double length = std::min(std::ceil(frameLength / halfPeriod - 1e-9) * halfPeriod,
+                                   static_cast<double>(historySamples) - 2.0);
+    const double wantedEnd = static_cast<double>(end) + filter_.delaySamples() + 0.5 * (length - frameLength);
+    const std::uint64_t heldEnd = hasOnset_ && onset_ >= end ? onset_ : taken_;
+    const double last = std::min(wantedEnd, static_cast<double>(heldEnd));
+    const double first = last - length;
+    double sum = 0.0;
+    const auto firstSample = static_cast<std::int64_t>(std::floor(first));
+    for (std::int64_t i = std::max<std::int64_t>(0, firstSample); static_cast<double>(i) < last; ++i) {
+        const double share = std::min(static_cast<double>(i) + 1.0, last) - std::max(static_cast<double>(i), first);
+        const double value = thresholds_[static_cast<std::size_t>(i) % historySamples];
+        sum += share * value * value;
+    }
+    return sum / length;
+}
+
+WaveTransient WaveFeatures::transientWithin(std::uint64_t start, std::uint64_t end) noexcept {
+    if (!hasOnset_ || onset_ >= end) {
+        return {};
+    }
+    hasOnset_ = false;
+    double peak = 0.0;
+    double sums = 0.0;
+    double differences = 0.0;
+    double last = 0.0;
+    for (std::uint64_t i = onset_; i < std::min<std::uint64_t>(onset_ + transientSamples, taken_); ++i) {
+        const double value = wave_[i % historySamples];
+        peak = std::max(peak, std::abs(value));
+        sums += (value + last) * (value + last);
+        differences += (value - last) * (value - last);
+        last = value;
+    }
+    // Of a sinusoid, neighbours add up to 2 cos(turn / 2) and differ by 2 sin(turn / 2), a quarter period apart.
+    const double turn = 2.0 * std::atan2(std::sqrt(differences), std::sqrt(sums));
+    const double ownHz = turn / (2.0 * std::numbers::pi) * sampleRateHz;
+    const double frequencyHz = clampedToDevice(ownHz);
+    const double amplitude = amplitudeOfIntensity(intensityOfSinusoid(peak, ownHz), frequencyHz);
+    return {.offsetSeconds = static_cast<float>(static_cast<double>(std::max(onset_, start) - start) / sampleRateHz),
+            .amplitudeMps2 = static_cast<float>(amplitude),
+            .frequencyHz = static_cast<float>(frequencyHz)};
+}
+
+double WaveFeatures::clampedToDevice(double frequencyHz) const noexcept {
+    return std::clamp(frequencyHz, options_.minFrequencyHz, options_.maxFrequencyHz);
+}
+
+}  // namespace haptoflow::effects

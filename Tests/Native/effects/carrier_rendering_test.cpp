@@ -1,0 +1,180 @@
+#include "effects/carrier_rendering.hpp"
+#include "effects/perceived_intensity.hpp"
+
+#include "effects/feature_signals.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+namespace haptoflow::effects {
+namespace {
+
+using testing::decayingSinusoidFrom;
+using testing::featureNoise;
+using testing::featureSine;
+using testing::textureNoise;
+
+WaveFeatureOptions touchPlus() {
+    WaveFeatureOptions options;
+    options.minFrequencyHz = 40.0;
+    options.maxFrequencyHz = 400.0;
+    return options;
+}
+
+WaveFeatureOptions motorOfOneFrequency() {
+    WaveFeatureOptions options;
+    options.frameSeconds = 0.008;
+    options.minFrequencyHz = 160.0;
+    options.maxFrequencyHz = 160.0;
+    return options;
+}
+
+IntensityErrorSummary errorOf(const std::vector<float>& wave, const WaveFeatureOptions& options,
+                              const CarrierRendering& rendering = {}) {
+    return summarise(intensityErrors(wave, renderCarrier(framesOf(wave, options), rendering), options));
+}
+
+std::vector<WaveFrame> constantFrames(std::size_t count, float amplitude, float frequencyHz) {
+    std::vector<WaveFrame> frames(count);
+    for (std::size_t i = 0; i < count; ++i) {
+        frames[i].firstSample = 10 * i;
+        frames[i].sampleCount = 10;
+        frames[i].amplitudeMps2 = amplitude;
+        frames[i].frequencyHz = frequencyHz;
+    }
+    return frames;
+}
+
+TEST(CarrierRenderingTest, ASinusoidOfEveryFrequencyIsRenderedAsIntenseAsItWas) {
+    for (const CarrierShape shape : {CarrierShape::held, CarrierShape::linear}) {
+        for (double frequencyHz = 40.0; frequencyHz <= 400.0; frequencyHz += 20.0) {
+            const std::vector<float> wave = featureSine(frequencyHz, 5.0, 1.0);
+            const IntensityErrorSummary own = errorOf(wave, touchPlus(), {.shape = shape});
+            const IntensityErrorSummary motor = errorOf(wave, motorOfOneFrequency(), {.shape = shape});
+            EXPECT_GT(own.feltFrames, 190U);
+            EXPECT_LT(own.meanMagnitudeDb, 0.6) << frequencyHz;
+            EXPECT_LT(own.percentile95Db, 1.7) << frequencyHz;
+            EXPECT_LT(motor.meanMagnitudeDb, 0.6) << frequencyHz;
+            EXPECT_LT(motor.percentile95Db, 1.0) << frequencyHz;
+        }
+    }
+}
+
+TEST(CarrierRenderingTest, NoiseIsRenderedAsIntenseAsItWas) {
+    for (const std::vector<float>& wave : {textureNoise(5.0, 10.0, 1), textureNoise(60.0, 10.0, 2),
+                                           featureNoise(5.0, 10.0, 3), textureNoise(0.5, 10.0, 4)}) {
+        for (const CarrierShape shape : {CarrierShape::held, CarrierShape::linear}) {
+            const IntensityErrorSummary own = errorOf(wave, touchPlus(), {.shape = shape});
+            const IntensityErrorSummary motor = errorOf(wave, motorOfOneFrequency(), {.shape = shape});
+            EXPECT_LT(std::abs(own.meanDb), 0.9);
+            EXPECT_LT(own.meanMagnitudeDb, 1.3);
+            EXPECT_LT(own.percentile95Db, 3.5);
+            EXPECT_LT(motor.meanMagnitudeDb, 1.1);
+            EXPECT_LT(motor.percentile95Db, 3.0);
+        }
+    }
+}
+
+TEST(CarrierRenderingTest, ADecayingSinusoidIsRenderedAsIntenseAsItWasFrameByFrame) {
+    for (const double frequencyHz : {80.0, 150.0, 250.0}) {
+        for (std::size_t start = 200; start < 210; ++start) {
+            const IntensityErrorSummary error =
+                errorOf(decayingSinusoidFrom(start, frequencyHz, 60.0, 60.0, 0.5), touchPlus());
+            EXPECT_LT(error.meanMagnitudeDb, 2.0) << frequencyHz << " Hz from " << start;
+            EXPECT_LT(error.percentile95Db, 5.0) << frequencyHz << " Hz from " << start;
+        }
+    }
+}
+
+TEST(CarrierRenderingTest, TheErrorSaysByHowMuchARenderingIsTooStrong) {
+    const std::vector<float> wave = featureSine(160.0, 20.0, 1.0);
+    for (const double factor : {0.5, 1.0, 2.0}) {
+        std::vector<float> played = wave;
+        for (float& sample : played) {
+            sample *= static_cast<float>(factor);
+        }
+        const IntensityErrorSummary error = summarise(intensityErrors(wave, played));
+        const double expected = 20.0 * std::log10(intensityOfSinusoid(20.0 * factor, 160.0) /
+                                                  intensityOfSinusoid(20.0, 160.0));
+        EXPECT_NEAR(error.meanDb, expected, 0.15) << factor;
+    }
+}
+
+TEST(CarrierRenderingTest, WhatIsFeltInNeitherWaveIsLeftOutAndWhatIsMissingCounts) {
+    const std::vector<float> faint = featureSine(160.0, 0.01, 1.0);
+    EXPECT_TRUE(intensityErrors(faint, faint).empty());
+    EXPECT_EQ(summarise({}).feltFrames, 0U);
+    const std::vector<float> wave = featureSine(160.0, 5.0, 1.0);
+    const IntensityErrorSummary missing = summarise(intensityErrors(wave, {}));
+    EXPECT_GT(missing.feltFrames, 190U);
+    EXPECT_LT(missing.meanDb, -30.0);
+}
+
+TEST(CarrierRenderingTest, ACarrierHasItsFramesAmplitudeFrequencyAndLengthAtEveryRate) {
+    for (const double rateHz : {500.0, 2000.0, 8000.0, 48000.0}) {
+        const std::vector<float> wave =
+            renderCarrier(constantFrames(200, 3.0F, 120.0F), {.sampleRateHz = rateHz});
+        ASSERT_EQ(wave.size(), static_cast<std::size_t>(rateHz));
+        double squares = 0.0;
+        int crossings = 0;
+        for (std::size_t i = 1; i < wave.size(); ++i) {
+            squares += static_cast<double>(wave[i]) * static_cast<double>(wave[i]);
+            crossings += (wave[i - 1] < 0.0F) != (wave[i] < 0.0F) ? 1 : 0;
+        }
+        EXPECT_NEAR(std::sqrt(2.0 * squares / static_cast<double>(wave.size())), 3.0, 0.03) << rateHz;
+        EXPECT_NEAR(crossings, 240, 2) << rateHz;
+    }
+}
+
+TEST(CarrierRenderingTest, ACarrierNeverJumps) {
+    std::vector<WaveFrame> frames = constantFrames(200, 1.0F, 100.0F);
+    for (std::size_t i = 0; i < frames.size(); ++i) {
+        frames[i].amplitudeMps2 = i % 3 == 0 ? 0.0F : 1.0F;
+        frames[i].frequencyHz = i % 2 == 0 ? 60.0F : 400.0F;
+    }
+    for (const CarrierShape shape : {CarrierShape::held, CarrierShape::linear}) {
+        const std::vector<float> wave = renderCarrier(frames, {.shape = shape, .sampleRateHz = 48000.0});
+        float largest = 0.0F;
+        for (std::size_t i = 1; i < wave.size(); ++i) {
+            largest = std::max(largest, std::abs(wave[i] - wave[i - 1]));
+        }
+        // The steepest sinusoid, and an edge of half a millisecond.
+        EXPECT_LT(static_cast<double>(largest), 2.0 * std::numbers::pi * 400.0 / 48000.0 + 1.0 / 24.0 + 1e-3);
+    }
+}
+
+TEST(CarrierRenderingTest, ASlowMotorComesUpWithItsTimeConstant) {
+    const std::vector<float> wave =
+        renderCarrier(constantFrames(40, 1.0F, 200.0F), {.sampleRateHz = 48000.0, .riseSeconds = 0.02});
+    const auto peakUntil = [&](double seconds) {
+        float peak = 0.0F;
+        for (std::size_t i = 0; i < static_cast<std::size_t>(seconds * 48000.0); ++i) {
+            peak = std::max(peak, std::abs(wave[i]));
+        }
+        return static_cast<double>(peak);
+    };
+    EXPECT_NEAR(peakUntil(0.02), 1.0 - std::exp(-1.0), 0.06);
+    EXPECT_NEAR(peakUntil(0.2), 1.0, 0.01);
+}
+
+TEST(CarrierRenderingTest, NothingIsRenderedFromNothing) {
+    EXPECT_TRUE(renderCarrier({}).empty());
+    EXPECT_TRUE(renderCarrier(constantFrames(3, 1.0F, 100.0F), {.sampleRateHz = 0.0}).empty());
+    EXPECT_TRUE(framesOf({}).empty());
+}
+
+TEST(CarrierRenderingTest, TheFramesOfAWholeWaveReachItsEnd) {
+    for (const std::size_t length : {1U, 9U, 10U, 11U, 2000U}) {
+        const std::vector<WaveFrame> frames = framesOf(std::vector<float>(length, 1.0F));
+        ASSERT_FALSE(frames.empty());
+        EXPECT_GE(frames.back().firstSample + frames.back().sampleCount, length);
+        EXPECT_LT(frames.back().firstSample, length);
+    }
+}
+
+}  // namespace
+}  // namespace haptoflow::effects

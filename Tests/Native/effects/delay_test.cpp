@@ -1,0 +1,329 @@
+#include "effects/delay.hpp"
+
+#include "support/counting_new.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <random>
+#include <stdexcept>
+#include <vector>
+
+namespace haptoflow::effects {
+namespace {
+
+constexpr double everyRateHz[] = {8000.0, 11025.0, 24000.0, 44100.0, 48000.0, 96000.0, 192000.0};
+
+void playThrough(Delay& delay, std::vector<float>& samples, std::size_t from, std::size_t count,
+                 std::size_t block = 256) {
+    for (std::size_t i = from; i < from + count; i += block) {
+        delay.process(std::span(samples).subspan(i, std::min(block, from + count - i)));
+    }
+}
+
+void playThrough(Delay& delay, std::vector<float>& samples) {
+    playThrough(delay, samples, 0, samples.size());
+}
+
+std::vector<float> sineWave(double frequencyHz, double lineRateHz, std::size_t count, double amplitudeMps2 = 1.0) {
+    std::vector<float> out(count);
+    for (std::size_t i = 0; i < count; ++i) {
+        out[i] = static_cast<float>(
+            amplitudeMps2 * std::sin(2.0 * std::numbers::pi * frequencyHz * static_cast<double>(i) / lineRateHz));
+    }
+    return out;
+}
+
+double largestStep(const std::vector<float>& samples) {
+    double largest = 0.0;
+    for (std::size_t i = 1; i < samples.size(); ++i) {
+        largest = std::max(largest, static_cast<double>(std::abs(samples[i] - samples[i - 1])));
+    }
+    return largest;
+}
+
+TEST(DelayTest, AnImpulseComesOutTheRoundedNumberOfSamplesLaterAtEveryRate) {
+    for (const double lineRateHz : everyRateHz) {
+        for (const double seconds : {0.0, 1.4 / lineRateHz, 1.6 / lineRateHz, 0.0103, 0.1303, 0.5}) {
+            Delay delay(lineRateHz);
+            delay.setDelaySeconds(seconds);
+            const auto later = static_cast<std::size_t>(std::llround(seconds * lineRateHz));
+            std::vector<float> samples(later + 500, 0.0F);
+            samples[100] = 7.0F;
+            playThrough(delay, samples);
+            for (std::size_t i = 0; i < samples.size(); ++i) {
+                ASSERT_EQ(samples[i], i == 100 + later ? 7.0F : 0.0F)
+                    << lineRateHz << " Hz, " << seconds << " s, " << i;
+            }
+        }
+    }
+}
+
+TEST(DelayTest, ADelayOfZeroPassesTheSignalBitForBit) {
+    Delay delay(48000.0);
+    std::mt19937 random(3);
+    std::normal_distribution<float> noise(0.0F, 30.0F);
+    std::vector<float> samples(10000);
+    std::ranges::generate(samples, [&] { return noise(random); });
+    samples[17] = std::numeric_limits<float>::denorm_min();
+    samples[18] = -0.0F;
+    const std::vector<float> sent = samples;
+    for (std::size_t i = 0; i < samples.size(); i += 100) {
+        delay.setDelaySeconds(0.0);
+        delay.process(std::span(samples).subspan(i, 100));
+    }
+    EXPECT_EQ(samples, sent);
+    EXPECT_TRUE(std::signbit(samples[18]));
+}
+
+TEST(DelayTest, HowTheSignalIsCutIntoBlocksChangesNothing) {
+    const std::vector<float> sent = sineWave(170.0, 44100.0, 44100);
+    std::vector<float> whole = sent;
+    std::vector<float> cut = sent;
+    Delay one(44100.0);
+    Delay other(44100.0);
+    one.setDelaySeconds(0.05);
+    other.setDelaySeconds(0.05);
+    playThrough(one, whole, 0, 10000, 10000);
+    playThrough(other, cut, 0, 10000, 1);
+    one.setDelaySeconds(0.2);
+    other.setDelaySeconds(0.2);
+    playThrough(one, whole, 10000, 34100, 34100);
+    playThrough(other, cut, 10000, 34100, 37);
+    EXPECT_EQ(whole, cut);
+}
+
+TEST(DelayTest, AChangeWhileSoundingFadesWithoutAClickAndThenIsExact) {
+    for (const double lineRateHz : everyRateHz) {
+        for (const auto& [before, after] : {std::pair{0.0, 0.2}, {0.2, 0.0}, {0.5, 0.01}, {0.05, 0.051}}) {
+            Delay delay(lineRateHz);
+            const auto second = static_cast<std::size_t>(lineRateHz);
+            std::vector<float> samples = sineWave(63.0, lineRateHz, 2 * second);
+            const std::vector<float> sent = samples;
+            delay.setDelaySeconds(before);
+            playThrough(delay, samples, 0, second);
+            delay.setDelaySeconds(after);
+            playThrough(delay, samples, second, second);
+            // The steepest that the sine itself is, and the fade between two taps at most 2 apart.
+            const double sineStep = 2.0 * std::numbers::pi * 63.0 / lineRateHz;
+            const double fadeStep = std::numbers::pi / (Delay::fadeSeconds * lineRateHz);
+            EXPECT_LE(largestStep(std::vector<float>(samples.begin() + static_cast<std::ptrdiff_t>(second) - 2,
+                                                     samples.end())),
+                      1.01 * (sineStep + fadeStep))
+                << lineRateHz << " Hz, from " << before << " to " << after;
+            const auto later = static_cast<std::size_t>(std::llround(after * lineRateHz));
+            const auto faded = second + static_cast<std::size_t>(Delay::fadeSeconds * lineRateHz) + 2;
+            for (std::size_t i = faded; i < samples.size(); ++i) {
+                ASSERT_EQ(samples[i], sent[i - later]) << lineRateHz << " Hz, sample " << i;
+            }
+        }
+    }
+}
+
+TEST(DelayTest, AFadeStaysBetweenItsTwoTaps) {
+    Delay delay(8000.0);
+    std::mt19937 random(5);
+    std::uniform_real_distribution<float> noise(-1.0F, 1.0F);
+    std::vector<float> samples(8000);
+    std::ranges::generate(samples, [&] { return noise(random); });
+    const std::vector<float> sent = samples;
+    playThrough(delay, samples, 0, 4000);
+    delay.setDelaySeconds(0.3);
+    playThrough(delay, samples, 4000, 4000);
+    for (std::size_t i = 4000; i < samples.size(); ++i) {
+        const float one = sent[i];
+        const float other = sent[i - 2400];
+        ASSERT_GE(samples[i], std::min(one, other) - 1e-6F) << i;
+        ASSERT_LE(samples[i], std::max(one, other) + 1e-6F) << i;
+    }
+}
+
+TEST(DelayTest, ChangesDuringAFadeWaitForItsEndAndTheNewestWins) {
+    constexpr double lineRateHz = 10000.0;
+    Delay waiting(lineRateHz);
+    Delay reference(lineRateHz);
+    std::vector<float> samples = sineWave(90.0, lineRateHz, 20000);
+    std::vector<float> expected = samples;
+    const auto fade = static_cast<std::size_t>(std::lround(Delay::fadeSeconds * lineRateHz));
+    playThrough(waiting, samples, 0, 10000);
+    playThrough(reference, expected, 0, 10000);
+    waiting.setDelaySeconds(0.1);
+    reference.setDelaySeconds(0.1);
+    playThrough(waiting, samples, 10000, 50);
+    waiting.setDelaySeconds(0.4);
+    playThrough(waiting, samples, 10050, 50);
+    waiting.setDelaySeconds(0.02);
+    playThrough(waiting, samples, 10100, 9900);
+    // As if the newest had been asked for when the fade ended.
+    playThrough(reference, expected, 10000, fade);
+    reference.setDelaySeconds(0.02);
+    playThrough(reference, expected, 10000 + fade, 10000 - fade);
+    EXPECT_EQ(samples, expected);
+}
+
+TEST(DelayTest, GoingBackDuringAFadeIsAChangeToo) {
+    Delay delay(10000.0);
+    std::vector<float> samples = sineWave(90.0, 10000.0, 4000);
+    const std::vector<float> sent = samples;
+    delay.setDelaySeconds(0.01);
+    playThrough(delay, samples, 0, 1000);
+    delay.setDelaySeconds(0.05);
+    playThrough(delay, samples, 1000, 10);
+    delay.setDelaySeconds(0.01);
+    playThrough(delay, samples, 1010, 2990);
+    for (std::size_t i = 2000; i < samples.size(); ++i) {
+        ASSERT_EQ(samples[i], sent[i - 100]);
+    }
+}
+
+TEST(DelayTest, DelaysOutOfRangeAreClampedAndNaNIsIgnored) {
+    Delay delay(8000.0);
+    delay.setDelaySeconds(9.0);
+    EXPECT_DOUBLE_EQ(delay.delaySeconds(), 0.5);
+    delay.setDelaySeconds(std::numeric_limits<double>::quiet_NaN());
+    EXPECT_DOUBLE_EQ(delay.delaySeconds(), 0.5);
+    delay.setDelaySeconds(std::numeric_limits<double>::infinity());
+    EXPECT_DOUBLE_EQ(delay.delaySeconds(), 0.5);
+    delay.setDelaySeconds(-1.0);
+    EXPECT_DOUBLE_EQ(delay.delaySeconds(), 0.0);
+    delay.setDelaySeconds(-std::numeric_limits<double>::infinity());
+    EXPECT_DOUBLE_EQ(delay.delaySeconds(), 0.0);
+}
+
+TEST(DelayTest, IsIdleOnlyOnceTheLineHoldsNothingButSilence) {
+    constexpr double lineRateHz = 8000.0;
+    Delay delay(lineRateHz);
+    EXPECT_TRUE(delay.isIdle());
+    std::vector<float> samples(8000, 0.0F);
+    samples[0] = 1.0F;
+    playThrough(delay, samples, 0, 1);
+    EXPECT_FALSE(delay.isIdle()) << "a longer delay would still bring the impulse";
+    playThrough(delay, samples, 1, 4000);
+    EXPECT_FALSE(delay.isIdle()) << "the longest delay brings it with the next sample";
+    playThrough(delay, samples, 4001, 1);
+    EXPECT_TRUE(delay.isIdle());
+}
+
+TEST(DelayTest, WhatAnIdleLineSkipsIsNotMissed) {
+    // The engine does not run an idle stage: the first impulse after a pause is as late as any other.
+    Delay delay(8000.0);
+    delay.setDelaySeconds(0.1);
+    std::vector<float> first(9000, 0.0F);
+    first[0] = 1.0F;
+    playThrough(delay, first);
+    ASSERT_TRUE(delay.isIdle());
+    delay.setDelaySeconds(0.25);
+    std::vector<float> second(3000, 0.0F);
+    second[0] = 2.0F;
+    playThrough(delay, second);
+    EXPECT_EQ(std::ranges::max_element(second) - second.begin(), 2000);
+    EXPECT_EQ(std::ranges::count_if(second, [](float sample) { return sample != 0.0F; }), 1);
+}
+
+TEST(DelayTest, AResetForgetsTheSignalAndKeepsTheDelay) {
+    Delay delay(8000.0);
+    delay.setDelaySeconds(0.1);
+    std::vector<float> samples = sineWave(100.0, 8000.0, 4000);
+    playThrough(delay, samples);
+    delay.setDelaySeconds(0.2);
+    playThrough(delay, samples, 0, 40);
+    delay.reset();
+    EXPECT_TRUE(delay.isIdle());
+    std::vector<float> after(4000, 0.0F);
+    after[0] = 1.0F;
+    playThrough(delay, after);
+    for (std::size_t i = 0; i < after.size(); ++i) {
+        ASSERT_EQ(after[i], i == 1600 ? 1.0F : 0.0F) << i;
+    }
+}
+
+TEST(DelayTest, DeclaresItsDelayAsLatencyAndTail) {
+    Delay delay(48000.0);
+    EXPECT_EQ(delay.declaration().kind, EffectKind::delay);
+    EXPECT_EQ(delay.declaration().reads, contact_field::none);
+    EXPECT_DOUBLE_EQ(delay.declaration().latencySeconds, 0.0);
+    delay.setDelaySeconds(0.3);
+    EXPECT_DOUBLE_EQ(delay.declaration().latencySeconds, 0.3);
+    EXPECT_DOUBLE_EQ(delay.declaration().tailSeconds, 0.3);
+    EXPECT_GE(delay.declaration().memoryBytes, 24000 * sizeof(float));
+    // While it fades to a shorter one the longer one still sounds.
+    std::vector<float> samples = sineWave(100.0, 48000.0, 48000);
+    playThrough(delay, samples, 0, 40000);
+    delay.setDelaySeconds(0.1);
+    playThrough(delay, samples, 40000, 100);
+    EXPECT_DOUBLE_EQ(delay.declaration().tailSeconds, 0.3);
+    playThrough(delay, samples, 40100, 4000);
+    EXPECT_DOUBLE_EQ(delay.declaration().tailSeconds, 0.1);
+}
+
+TEST(DelayTest, NothingThatIsNotFiniteStaysInTheLine) {
+    Delay delay(8000.0);
+    delay.setDelaySeconds(0.01);
+    std::vector<float> samples(4000, 1.0F);
+    samples[10] = std::numeric_limits<float>::quiet_NaN();
+    samples[11] = std::numeric_limits<float>::infinity();
+    playThrough(delay, samples, 0, 20);
+    delay.setDelaySeconds(0.005);
+    playThrough(delay, samples, 20, 3980);
+    for (const float sample : samples) {
+        ASSERT_TRUE(std::isfinite(sample));
+    }
+    EXPECT_EQ(delay.nonFiniteCount(), 2U);
+}
+
+TEST(DelayTest, RatesOutsideWhatVoicesPlayAtAreRefused) {
+    for (const double lineRateHz : {0.0, 7999.0, 192001.0, std::numeric_limits<double>::quiet_NaN()}) {
+        EXPECT_THROW(Delay{lineRateHz}, std::invalid_argument) << lineRateHz;
+    }
+}
+
+TEST(DelayTest, TenMinutesOfRandomChangesStayBoundedAndFreeOfClicks) {
+    constexpr double lineRateHz = 8000.0;
+    Delay delay(lineRateHz);
+    std::mt19937 random(11);
+    std::uniform_int_distribution<int> blocks(1, 900);
+    std::uniform_real_distribution<double> delays(-0.1, 0.6);
+    std::vector<float> block;
+    const double limit =
+        1.01 * (2.0 * std::numbers::pi * 50.0 + std::numbers::pi / Delay::fadeSeconds) / lineRateHz;
+    float last = 0.0F;
+    double largest = 0.0;
+    double peak = 0.0;
+    for (std::size_t at = 0; at < static_cast<std::size_t>(600.0 * lineRateHz);) {
+        block.resize(static_cast<std::size_t>(blocks(random)));
+        for (std::size_t i = 0; i < block.size(); ++i) {
+            block[i] = static_cast<float>(
+                std::sin(2.0 * std::numbers::pi * std::fmod(50.0 * static_cast<double>(at + i) / lineRateHz, 1.0)));
+        }
+        at += block.size();
+        if (random() % 3 == 0) {
+            delay.setDelaySeconds(random() % 10 == 0 ? std::nan("") : delays(random));
+        }
+        delay.process(block);
+        for (const float sample : block) {
+            largest = std::max(largest, static_cast<double>(std::abs(sample - last)));
+            peak = std::max(peak, static_cast<double>(std::abs(sample)));
+            last = sample;
+        }
+    }
+    EXPECT_LE(largest, limit);
+    EXPECT_LE(peak, 1.000001);
+}
+
+TEST(DelayTest, NothingAllocatesOnceMade) {
+    Delay delay(192000.0);
+    std::vector<float> samples(1024, 0.5F);
+    const std::size_t before = haptoflow::testing::allocationCount();
+    for (int block = 0; block < 400; ++block) {
+        delay.setDelaySeconds(0.001 * (block % 500));
+        delay.process(samples);
+    }
+    delay.reset();
+    EXPECT_EQ(haptoflow::testing::allocationCount(), before);
+}
+
+}  // namespace
+}  // namespace haptoflow::effects

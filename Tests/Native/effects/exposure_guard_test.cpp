@@ -1,0 +1,383 @@
+#include "effects/exposure_guard.hpp"
+
+#include "support/counting_new.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <random>
+#include <stdexcept>
+#include <vector>
+
+namespace haptoflow::effects {
+namespace {
+
+constexpr double voiceRateHz = 8000.0;
+
+/// A day of eight minutes, so that hours pass in seconds.
+ExposureLaw shortDay() {
+    ExposureLaw law;
+    law.dailySeconds = 480.0;
+    law.reserveSeconds = 10.0;
+    return law;
+}
+
+struct Tone {
+    double frequencyHz;
+    double amplitudeMps2;
+};
+
+/// Plays tones through a guard, block by block, and remembers what it did.
+class Session {
+public:
+    explicit Session(ExposureGuard& guard, double sampleRateHz = voiceRateHz) : guard_(guard), rateHz_(sampleRateHz) {}
+
+    void play(double seconds, const std::vector<Tone>& tones) {
+        const auto count = static_cast<std::uint64_t>(std::llround(seconds * rateHz_));
+        std::vector<float> sent;
+        std::vector<float> block;
+        for (std::uint64_t done = 0; done < count; done += block.size()) {
+            sent.assign(static_cast<std::size_t>(std::min<std::uint64_t>(400, count - done)), 0.0F);
+            for (const Tone& tone : tones) {
+                add(tone, sent);
+            }
+            at_ += sent.size();
+            block = sent;
+            guard_.process(block);
+            untouched = untouched && block == sent;
+            double squares = 0.0;
+            for (const float sample : block) {
+                squares += static_cast<double>(sample) * static_cast<double>(sample);
+            }
+            lastRmsMps2 = std::sqrt(squares / static_cast<double>(block.size()));
+            const double gain = guard_.report().gain;
+            const double blockSeconds = static_cast<double>(block.size()) / rateHz_;
+            steepestDbPerSecond =
+                std::max(steepestDbPerSecond, std::abs(20.0 * std::log10(gain / lastGain_)) / blockSeconds);
+            highestDailyMps2 = std::max(highestDailyMps2, guard_.report().dailyMps2);
+            lastGain_ = gain;
+        }
+    }
+
+    bool untouched = true;
+    double lastRmsMps2 = 0.0;
+    double steepestDbPerSecond = 0.0;
+    double highestDailyMps2 = 0.0;
+
+private:
+    // A rotating phasor: a sine call for each of a hundred million samples would be most of the test.
+    void add(const Tone& tone, std::vector<float>& samples) const {
+        const double turn = 2.0 * std::numbers::pi * tone.frequencyHz / rateHz_;
+        const double start = std::fmod(tone.frequencyHz * static_cast<double>(at_) / rateHz_, 1.0);
+        double sine = tone.amplitudeMps2 * std::sin(2.0 * std::numbers::pi * start);
+        double cosine = tone.amplitudeMps2 * std::cos(2.0 * std::numbers::pi * start);
+        const double sineTurn = std::sin(turn);
+        const double cosineTurn = std::cos(turn);
+        for (float& sample : samples) {
+            sample += static_cast<float>(sine);
+            const double next = sine * cosineTurn + cosine * sineTurn;
+            cosine = cosine * cosineTurn - sine * sineTurn;
+            sine = next;
+        }
+    }
+
+    ExposureGuard& guard_;
+    double rateHz_;
+    std::uint64_t at_ = 0;
+    double lastGain_ = 1.0;
+};
+
+// As loud as the shipped strokes on the loudest labels with 3 N: root mean square and weighted level.
+const std::vector<Tone> wholeSet{{160.0, 43.6}, {25.0, 12.0}};      // 32 m/s^2, weighted 6.3
+const std::vector<Tone> loudestStroke{{160.0, 70.7}, {25.0, 22.6}};  // 52.5 m/s^2, weighted 11.5
+const std::vector<Tone> fullScale{{160.0, 200.0}};
+
+TEST(ExposureGuardTest, AnHourOfSlidingOverTheLoudestLabelsIsNotTouched) {
+    ExposureGuard guard(voiceRateHz);
+    Session session(guard);
+    session.play(3600.0, wholeSet);
+    EXPECT_TRUE(session.untouched);
+    EXPECT_EQ(guard.report().reason, ExposureReason::none);
+    EXPECT_NEAR(guard.report().shortTermMps2, 32.0, 0.5);
+    EXPECT_NEAR(guard.report().dailyMps2, 6.3 * std::sqrt(1.0 / 8.0), 0.1);
+}
+
+TEST(ExposureGuardTest, TenMinutesOfTheLoudestStrokeAreNotTouched) {
+    ExposureGuard guard(voiceRateHz);
+    Session session(guard);
+    session.play(600.0, loudestStroke);
+    EXPECT_TRUE(session.untouched);
+}
+
+TEST(ExposureGuardTest, MinutesAtFullScaleAreBroughtDownToTheShortTermLimitAndItSaysWhy) {
+    ExposureGuard guard(voiceRateHz);
+    Session session(guard);
+    session.play(55.0, fullScale);
+    EXPECT_TRUE(session.untouched);
+    session.play(20.0, fullScale);
+    EXPECT_FALSE(session.untouched);
+    EXPECT_EQ(guard.report().reason, ExposureReason::shortTerm);
+    EXPECT_GT(guard.report().loweredSeconds, 5.0);
+    session.play(200.0, fullScale);
+    const double expected = 200.0 / std::numbers::sqrt2 * 60.0 / guard.report().shortTermMps2;
+    EXPECT_NEAR(session.lastRmsMps2, expected, 0.02 * expected);
+    session.play(1500.0, fullScale);
+    EXPECT_LT(session.lastRmsMps2, 61.0);
+    EXPECT_LE(session.steepestDbPerSecond, 1.21) << "a block of 50 ms may end within a hundredth";
+}
+
+TEST(ExposureGuardTest, AWeightedLevelThatUsesUpTheDayIsBroughtDownAndItSaysWhy) {
+    ExposureGuard guard(voiceRateHz);
+    Session session(guard);
+    // 20 m/s^2 at 16 Hz: 14.1 unweighted, far from the first limit, 12.7 weighted. 600 s before the end of the day's
+    // 180000 m^2/s^3 it has used 84000 of them, after 520 s.
+    session.play(500.0, {{16.0, 20.0}});
+    EXPECT_TRUE(session.untouched);
+    session.play(60.0, {{16.0, 20.0}});
+    EXPECT_FALSE(session.untouched);
+    EXPECT_EQ(guard.report().reason, ExposureReason::dose);
+    EXPECT_LE(session.steepestDbPerSecond, 1.21);
+}
+
+TEST(ExposureGuardTest, TheDailyExposureApproachesItsLimitAndDoesNotPassIt) {
+    ExposureGuard guard(voiceRateHz, shortDay());
+    Session session(guard);
+    session.play(1000.0, {{16.0, 20.0}});
+    EXPECT_LE(session.highestDailyMps2, 2.5 * 1.1) << "beyond what sounds while the gain moves";
+    EXPECT_GT(session.highestDailyMps2, 2.4);
+}
+
+TEST(ExposureGuardTest, ThePartOfTheDayThatIsPastIsGivenBack) {
+    ExposureGuard guard(voiceRateHz, shortDay());
+    Session session(guard);
+    session.play(60.0, {{16.0, 20.0}});
+    ASSERT_LT(guard.report().gain, 0.5);
+    session.play(500.0, {});
+    EXPECT_LT(guard.report().dailyMps2, 1e-3);
+    session.play(60.0, {{16.0, 1.0}});
+    EXPECT_EQ(guard.report().gain, 1.0);
+    EXPECT_EQ(guard.report().reason, ExposureReason::none);
+    EXPECT_EQ(guard.report().loweredSeconds, 0.0);
+    session.untouched = true;
+    session.play(10.0, {{16.0, 1.0}});
+    EXPECT_TRUE(session.untouched);
+}
+
+TEST(ExposureGuardTest, APauseDoesNotBringBackALevelWhoseDoseIsSpent) {
+    ExposureGuard guard(voiceRateHz, shortDay());
+    Session session(guard);
+    session.play(120.0, {{16.0, 20.0}});
+    const double before = guard.report().gain;
+    session.play(60.0, {});
+    session.play(1.0, {{16.0, 20.0}});
+    EXPECT_LT(guard.report().gain, 1.3 * before);
+}
+
+TEST(ExposureGuardTest, ItRecoversAsSlowlyAsItLowers) {
+    ExposureLaw law;
+    law.shortTermSeconds = 2.0;
+    law.dailyMps2 = 1000.0;
+    ExposureGuard guard(voiceRateHz, law);
+    Session session(guard);
+    session.play(30.0, fullScale);
+    ASSERT_NEAR(guard.report().gain, 60.0 / 141.4, 0.01);
+    session.play(3.0, {});
+    EXPECT_LT(guard.report().gain, 0.7);
+    EXPECT_FALSE(guard.isIdle());
+    session.play(10.0, {});
+    EXPECT_EQ(guard.report().gain, 1.0);
+    EXPECT_TRUE(guard.isIdle());
+    EXPECT_LE(session.steepestDbPerSecond, 1.21);
+}
+
+TEST(ExposureGuardTest, NothingIsLoweredBeyondTheLowestGain) {
+    ExposureLaw law = shortDay();
+    law.actuatorGain = 1000.0;
+    ExposureGuard guard(voiceRateHz, law);
+    Session session(guard);
+    session.play(120.0, fullScale);
+    EXPECT_DOUBLE_EQ(guard.report().gain, law.lowestGain);
+}
+
+TEST(ExposureGuardTest, TheActuatorsGainScalesWhatIsCounted) {
+    ExposureGuard weak(voiceRateHz);
+    ExposureGuard strong(voiceRateHz);
+    weak.setActuatorGain(0.25);
+    strong.setActuatorGain(0.5);
+    strong.setActuatorGain(std::numeric_limits<double>::quiet_NaN());
+    strong.setActuatorGain(0.0);
+    strong.setActuatorGain(-1.0);
+    strong.setActuatorGain(std::numeric_limits<double>::infinity());
+    Session first(weak);
+    Session second(strong);
+    first.play(10.0, fullScale);
+    second.play(10.0, fullScale);
+    EXPECT_NEAR(strong.report().shortTermMps2 / weak.report().shortTermMps2, 2.0, 1e-6);
+    EXPECT_NEAR(strong.report().dailyMps2 / weak.report().dailyMps2, 2.0, 1e-6);
+}
+
+TEST(ExposureGuardTest, TheLawIsTheSameAtEveryRate) {
+    ExposureLaw law = shortDay();
+    law.shortTermSeconds = 4.0;
+    ExposureGuard reference(48000.0, law);
+    Session expected(reference, 48000.0);
+    for (const double rate : {8000.0, 11025.0, 44100.0, 192000.0}) {
+        ExposureGuard guard(rate, law);
+        Session session(guard, rate);
+        reference.forgetExposure();
+        for (int step = 0; step < 6; ++step) {
+            const std::vector<Tone> tones{{20.0 + 30.0 * step, 40.0 * (step + 1)}};
+            session.play(2.0, tones);
+            expected.play(2.0, tones);
+            EXPECT_NEAR(guard.report().shortTermMps2 / reference.report().shortTermMps2, 1.0, 0.01) << rate;
+            EXPECT_NEAR(guard.report().dailyMps2 / reference.report().dailyMps2, 1.0, 0.01) << rate;
+            EXPECT_NEAR(20.0 * std::log10(guard.report().gain / reference.report().gain), 0.0, 0.1) << rate;
+        }
+        EXPECT_LT(guard.report().gain, 0.7);
+    }
+}
+
+TEST(ExposureGuardTest, HowTheSignalIsCutIntoBlocksChangesNothing) {
+    ExposureLaw law = shortDay();
+    law.shortTermSeconds = 0.5;
+    law.slewDbPerSecond = 20.0;
+    std::vector<float> sent(44100 * 3);
+    std::mt19937 random(2);
+    std::normal_distribution<float> noise(0.0F, 150.0F);
+    std::ranges::generate(sent, [&] { return noise(random); });
+    const auto played = [&](std::size_t block) {
+        ExposureGuard guard(44100.0, law);
+        std::vector<float> out = sent;
+        for (std::size_t i = 0; i < out.size(); i += block) {
+            guard.process(std::span(out).subspan(i, std::min(block, out.size() - i)));
+        }
+        return out;
+    };
+    const std::vector<float> whole = played(sent.size());
+    EXPECT_NE(whole, sent);
+    for (const std::size_t block : {1U, 7U, 64U, 441U, 1024U}) {
+        EXPECT_EQ(played(block), whole) << block;
+    }
+}
+
+TEST(ExposureGuardTest, SilenceThatWasNotRunCountsAsIfItHadBeen) {
+    ExposureGuard run(voiceRateHz, shortDay());
+    ExposureGuard passed(voiceRateHz, shortDay());
+    Session first(run);
+    Session second(passed);
+    first.play(50.0, {{16.0, 20.0}});
+    second.play(50.0, {{16.0, 20.0}});
+    for (const double pause : {3.0, 20.0, 100.0, 400.0}) {
+        first.play(pause, {});
+        passed.passSilence(static_cast<std::uint64_t>(pause * voiceRateHz));
+        EXPECT_NEAR(passed.report().gain, run.report().gain, 0.02) << pause;
+        EXPECT_NEAR(passed.report().shortTermMps2, run.report().shortTermMps2, 1e-3) << pause;
+        EXPECT_NEAR(passed.report().dailyMps2, run.report().dailyMps2, 5e-3) << pause;
+        EXPECT_EQ(passed.report().reason, run.report().reason) << pause;
+    }
+}
+
+TEST(ExposureGuardTest, AResetKeepsWhatTheHandHasReceived) {
+    ExposureGuard guard(voiceRateHz, shortDay());
+    Session session(guard);
+    session.play(60.0, {{16.0, 20.0}});
+    const ExposureReport before = guard.report();
+    ASSERT_LT(before.gain, 1.0);
+    guard.reset();
+    EXPECT_EQ(guard.report().gain, before.gain);
+    EXPECT_EQ(guard.report().dailyMps2, before.dailyMps2);
+    guard.forgetExposure();
+    EXPECT_EQ(guard.report().gain, 1.0);
+    EXPECT_EQ(guard.report().dailyMps2, 0.0);
+    EXPECT_EQ(guard.report().reason, ExposureReason::none);
+}
+
+TEST(ExposureGuardTest, NoSampleThatIsNotFiniteGetsThroughOrIntoTheDose) {
+    ExposureGuard guard(voiceRateHz);
+    std::vector<float> samples(8000, 1.0F);
+    samples[5] = std::numeric_limits<float>::quiet_NaN();
+    samples[6] = std::numeric_limits<float>::infinity();
+    samples[7] = -std::numeric_limits<float>::infinity();
+    samples[8] = std::numeric_limits<float>::max();
+    guard.process(samples);
+    EXPECT_EQ(samples[5], 0.0F);
+    EXPECT_EQ(samples[6], 0.0F);
+    EXPECT_EQ(samples[7], 0.0F);
+    for (const float sample : samples) {
+        ASSERT_TRUE(std::isfinite(sample));
+    }
+    EXPECT_TRUE(std::isfinite(guard.report().dailyMps2));
+    EXPECT_TRUE(std::isfinite(guard.report().shortTermMps2));
+    EXPECT_GT(guard.report().gain, 0.0);
+}
+
+TEST(ExposureGuardTest, LawsAndRatesThatMakeNoSenseAreRefused) {
+    ExposureLaw law;
+    law.dailyMps2 = 0.0;
+    EXPECT_THROW(ExposureGuard(voiceRateHz, law), std::invalid_argument);
+    law = {};
+    law.lowestGain = 1.5;
+    EXPECT_THROW(ExposureGuard(voiceRateHz, law), std::invalid_argument);
+    law = {};
+    law.slewDbPerSecond = std::numeric_limits<double>::quiet_NaN();
+    EXPECT_THROW(ExposureGuard(voiceRateHz, law), std::invalid_argument);
+    EXPECT_THROW(ExposureGuard(7000.0), std::invalid_argument);
+    EXPECT_THROW(ExposureGuard(std::numeric_limits<double>::quiet_NaN()), std::invalid_argument);
+}
+
+TEST(ExposureGuardTest, TenMinutesOfRandomLevelsGainsAndPausesStayWithinTheLaw) {
+    ExposureLaw law = shortDay();
+    law.shortTermSeconds = 20.0;
+    law.slewDbPerSecond = 20.0;
+    ExposureGuard guard(voiceRateHz, law);
+    Session session(guard);
+    std::mt19937 random(19);
+    std::uniform_real_distribution<double> unit(0.0, 1.0);
+    for (double seconds = 0.0; seconds < 600.0;) {
+        const double length = 0.05 + 3.0 * unit(random);
+        seconds += length;
+        switch (random() % 6) {
+            case 0: session.play(length, {}); break;
+            case 1: guard.passSilence(static_cast<std::uint64_t>(length * voiceRateHz)); break;
+            case 2: guard.setActuatorGain(0.2 + unit(random)); [[fallthrough]];
+            case 3: guard.reset(); [[fallthrough]];
+            default: session.play(length, {{30.0 + 400.0 * unit(random), 100.0 * unit(random)}}); break;
+        }
+        const ExposureReport report = guard.report();
+        ASSERT_GE(report.gain, law.lowestGain);
+        ASSERT_LE(report.gain, 1.0);
+        ASSERT_TRUE(std::isfinite(report.dailyMps2));
+        ASSERT_EQ(report.reason == ExposureReason::none, report.gain == 1.0);
+    }
+    EXPECT_LE(session.highestDailyMps2, 2.5 * 1.2);
+}
+
+TEST(ExposureGuardTest, NothingAllocates) {
+    ExposureGuard guard(48000.0, shortDay());
+    std::vector<float> samples(512, 150.0F);
+    const std::size_t before = haptoflow::testing::allocationCount();
+    for (int block = 0; block < 500; ++block) {
+        guard.setActuatorGain(1.0 + 0.001 * block);
+        guard.process(samples);
+        guard.passSilence(1000);
+        static_cast<void>(guard.report());
+    }
+    guard.reset();
+    guard.forgetExposure();
+    EXPECT_EQ(haptoflow::testing::allocationCount(), before);
+}
+
+TEST(ExposureGuardTest, DeclaresNeitherLatencyNorTail) {
+    ExposureGuard guard(48000.0);
+    EXPECT_EQ(guard.declaration().kind, EffectKind::exposureGuard);
+    EXPECT_EQ(guard.declaration().reads, contact_field::none);
+    EXPECT_EQ(guard.declaration().latencySeconds, 0.0);
+    EXPECT_EQ(guard.declaration().tailSeconds, 0.0);
+    EXPECT_EQ(guard.declaration().memoryBytes, sizeof(ExposureGuard));
+}
+
+}  // namespace
+}  // namespace haptoflow::effects
