@@ -6,6 +6,7 @@
 #include <cmath>
 #include <complex>
 #include <numbers>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -16,7 +17,7 @@ namespace {
 constexpr double lowestHz = 5.0;
 constexpr double pointsPerOctave = 24.0;
 constexpr std::size_t points = 289;
-constexpr double transitionOctaves = 0.5;
+constexpr double transitionOctaves = 1.0;
 // A notch narrower than this is the measurement's, or moves with temperature and grip: it is not filled.
 constexpr double smoothingOctaves = 1.0 / 6.0;
 // What is smaller is not worth a filter.
@@ -71,7 +72,7 @@ std::vector<double> smoothedDecibels(const ActuatorProfile& profile) {
     return smoothed;
 }
 
-/// 1 in the band, 0 from half an octave outside on, a raised cosine between.
+/// 1 in the band, 0 from an octave outside on, a raised cosine between.
 double shareOf(double hz, const std::array<double, 2>& bandHz) {
     const double octavesOutside = std::max({std::log2(bandHz[0] / hz), std::log2(hz / bandHz[1]), 0.0});
     const double way = std::min(octavesOutside / transitionOctaves, 1.0);
@@ -99,26 +100,33 @@ double powerAt(const std::vector<double>& actuatorDecibels, double levelDecibels
     return broadbandPower([&gains](std::size_t point) { return asFactor(gains[point]); });
 }
 
-/// The highest level that broadband noise is not made louder for. The power rises with the level until all of the band
-/// is boosted to the bound, and falls then.
+/// The highest level to which the actuator can be raised before broadband noise gets louder; where no level makes it
+/// louder, the one that takes least from it. The power does not only rise with the level: what has been boosted to the
+/// bound, and what is given up, falls again.
 double findLevel(const std::vector<double>& actuatorDecibels, double boostDecibels,
                  const std::array<double, 2>& bandHz) {
     constexpr double step = 0.5;
     const auto power = [&](double level) { return powerAt(actuatorDecibels, level, boostDecibels, bandHz); };
     const auto [lowest, highest] = std::ranges::minmax(actuatorDecibels);
-    double below = lowest - step;
-    double powerBelow = power(below);
-    while (below < highest + Compensation::largestCutDecibels) {
-        const double powerAbove = power(below + step);
-        if (powerAbove > 1.0) {
-            break;
+    std::optional<double> crossing;
+    double loudest = lowest;
+    double loudestPower = 0.0;
+    double powerBelow = 0.0;
+    for (double level = lowest - step; level < highest + Compensation::largestCutDecibels; level += step) {
+        const double here = power(level);
+        if (here > 1.0 && powerBelow <= 1.0) {
+            crossing = level - step;
         }
-        if (powerAbove < powerBelow && powerBelow > 0.999) {
-            return below;
+        if (here >= loudestPower) {
+            loudest = level;
+            loudestPower = here;
         }
-        below += step;
-        powerBelow = powerAbove;
+        powerBelow = here;
     }
+    if (!crossing) {
+        return loudest;
+    }
+    double below = *crossing;
     double above = below + step;
     for (int halving = 0; halving < 30; ++halving) {
         const double middle = 0.5 * (below + above);

@@ -14,14 +14,14 @@ struct CompensationSettings {
     /// No frequency is raised by more than this, 0 to 24 dB.
     double largestBoostDecibels = 12.0;
     /// Where the actuator is compensated, rising, 20 to 1000 Hz. The part that the profile does not cover is left out.
-    std::array<double, 2> bandHz{40.0, 1000.0};
+    std::array<double, 2> bandHz{50.0, 1000.0};
 };
 
 /// Makes an actuator play what was meant: the regularised inverse of its magnitude, minimum-phase.
 ///
 /// - The boost is bounded, and where the actuator gives next to nothing it falls again: no power goes where nothing
 ///   would be felt. Nothing is lowered by more than `largestCutDecibels`.
-/// - Half an octave outside of the band the gain is back at 0 dB. A profile without a point in the band changes
+/// - An octave outside of the band the gain is back at 0 dB. A profile without a point in the band changes
 ///   nothing.
 /// - Level: white noise and pink noise of 20 to 1000 Hz leave with at most the power that they came with, so that a
 ///   broadband texture keeps its headroom. A texture whose energy lies where the actuator is weak gets louder, by the

