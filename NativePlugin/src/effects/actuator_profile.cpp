@@ -241,14 +241,10 @@ ActuatorProfile ActuatorProfile::parse(std::string_view text) {
 }
 
 std::string ActuatorProfile::toJson() const {
-    nlohmann::ordered_json document = {{"format_version", formatVersion},
-                                       {"name", name},
-                                       {"approximate", isApproximate},
-                                       {"provenance", provenance},
-                                       {"rated_level_mps2", nullptr},
-                                       {"frequency_hz", frequencyHz},
-                                       {"magnitude_db", magnitudeDecibels},
-                                       {"resonances_hz", resonancesHz}};
+    nlohmann::ordered_json document = {{"format_version", formatVersion},   {"name", name},
+                                       {"approximate", isApproximate},      {"provenance", provenance},
+                                       {"rated_level_mps2", nullptr},       {"frequency_hz", frequencyHz},
+                                       {"magnitude_db", magnitudeDecibels}, {"resonances_hz", resonancesHz}};
     if (ratedLevelMps2) {
         document["rated_level_mps2"] = *ratedLevelMps2;
     }
@@ -282,8 +278,7 @@ double ActuatorProfile::magnitudeDecibelsAt(double hz) const noexcept {
         return magnitudeDecibels.back();
     }
     const auto above = static_cast<std::size_t>(std::ranges::upper_bound(frequencyHz, hz) - frequencyHz.begin());
-    const double share =
-        std::log(hz / frequencyHz[above - 1]) / std::log(frequencyHz[above] / frequencyHz[above - 1]);
+    const double share = std::log(hz / frequencyHz[above - 1]) / std::log(frequencyHz[above] / frequencyHz[above - 1]);
     return std::lerp(magnitudeDecibels[above - 1], magnitudeDecibels[above], share);
 }
 

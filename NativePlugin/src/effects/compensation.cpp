@@ -88,8 +88,7 @@ std::vector<double> gainsFor(const std::vector<double>& actuatorDecibels, double
     for (std::size_t point = 0; point < points; ++point) {
         const double magnitude = asFactor(actuatorDecibels[point] - levelDecibels);
         const double inverse = magnitude / (magnitude * magnitude + bound);
-        gains[point] =
-            shareOf(hzAt(point), bandHz) * std::max(inDecibels(inverse), -Compensation::largestCutDecibels);
+        gains[point] = shareOf(hzAt(point), bandHz) * std::max(inDecibels(inverse), -Compensation::largestCutDecibels);
     }
     return gains;
 }
@@ -198,8 +197,7 @@ Compensation::Compensation(const ActuatorProfile& profile, double sampleRateHz, 
         bound = std::max(bound - excess, 0.0);
     }
     const double excess = std::max(largestGain(*filter_, sampleRateHz) - settings.largestBoostDecibels, 0.0);
-    const double power =
-        broadbandPower([this](std::size_t point) { return std::abs(filter_->response(hzAt(point))); });
+    const double power = broadbandPower([this](std::size_t point) { return std::abs(filter_->response(hzAt(point))); });
     filter_->scale(asFactor(-excess) / std::sqrt(std::max(power, 1.0)));
     tailSeconds_ = filter_->tailSeconds(tailPeakMps2, silentMps2);
     measureLatency();

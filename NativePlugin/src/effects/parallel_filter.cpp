@@ -39,7 +39,8 @@ Vector solve(Matrix matrix, Vector right) {
             for (std::size_t k = 0; k < column; ++k) {
                 sum -= matrix[row][k] * matrix[column][k];
             }
-            matrix[row][column] = row == column ? std::sqrt(std::max(sum, ridge * ridge)) : sum / matrix[column][column];
+            matrix[row][column] =
+                row == column ? std::sqrt(std::max(sum, ridge * ridge)) : sum / matrix[column][column];
         }
     }
     for (std::size_t row = 0; row < unknowns; ++row) {
@@ -134,8 +135,8 @@ double ParallelFilter::tailSeconds(double peak, double silent) const noexcept {
     double longest = 0.0;
     for (std::size_t section = 0; section < sections; ++section) {
         const double struck = std::max(
-            std::abs(in0_[section]), ringing(section, in1_[section] - back1_[section] * in0_[section],
-                                             -back2_[section] * in0_[section]));
+            std::abs(in0_[section]),
+            ringing(section, in1_[section] - back1_[section] * in0_[section], -back2_[section] * in0_[section]));
         const double loudest = struck * peak / (1.0 - radius_[section]);
         const double share = silent / static_cast<double>(sections);
         if (loudest > share) {
