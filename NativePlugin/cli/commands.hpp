@@ -14,6 +14,7 @@ struct CommandOutcome {
 void addRenderCommand(CLI::App& app, CommandOutcome& outcome);
 void addContactCommand(CLI::App& app, CommandOutcome& outcome);
 void addInspectCommand(CLI::App& app, CommandOutcome& outcome);
+void addActuatorCommand(CLI::App& app, CommandOutcome& outcome);
 void addBenchCommand(CLI::App& app, CommandOutcome& outcome);
 
 }  // namespace haptoflow::cli

@@ -1,14 +1,13 @@
 #include "decimal_number.hpp"
 
 #include <charconv>
-#include <system_error>
-#include <version>
-
-#ifndef __cpp_lib_to_chars
+#include <cmath>
+#include <iomanip>
 #include <locale>
 #include <sstream>
 #include <string>
-#endif
+#include <system_error>
+#include <version>
 
 namespace haptoflow::cli {
 namespace {
@@ -50,6 +49,14 @@ std::optional<double> decimalNumber(std::string_view text) {
         text.remove_prefix(1);
     }
     return unsignedOrNegative(text);
+}
+
+std::string fixedDecimals(double value, int digits) {
+    std::ostringstream stream;
+    stream.imbue(std::locale::classic());
+    const double unit = std::pow(10.0, -digits);
+    stream << std::fixed << std::setprecision(digits) << std::round(value / unit) * unit + 0.0;
+    return stream.str();
 }
 
 }  // namespace haptoflow::cli

@@ -30,9 +30,13 @@ const CLI::App* subcommandIn(const CLI::App& app, const std::vector<std::string>
     return found == all.end() ? nullptr : *found;
 }
 
-/// Throws UsageError for a first word that is meant as a subcommand and is none.
+/// Throws UsageError for a word that stands where a subcommand is meant and is none.
 void requireSubcommand(const CLI::App& app, const std::vector<std::string>& words) {
-    if (words.empty() || words.front().starts_with('-') || subcommandIn(app, words) != nullptr) {
+    if (words.empty() || words.front().starts_with('-') || subcommandsOf(app).empty()) {
+        return;
+    }
+    if (const CLI::App* subcommand = subcommandIn(app, words)) {
+        requireSubcommand(*subcommand, {words.begin() + 1, words.end()});
         return;
     }
     std::vector<std::string> names;
@@ -42,16 +46,20 @@ void requireSubcommand(const CLI::App& app, const std::vector<std::string>& word
         listed += (listed.empty() ? "" : ", ") + names.back();
     }
     const std::string meant = haptoflow::cli::meantWord(words.front(), names);
-    throw haptoflow::cli::UsageError("there is no command '" + words.front() + "'; " +
+    const std::string place = app.get_parent() == nullptr ? "" : app.get_name() + ' ';
+    throw haptoflow::cli::UsageError("there is no command '" + place + words.front() + "'; " +
                                      (meant.empty() ? "" : haptoflow::cli::didYouMean(std::array{meant}) + " ") +
                                      "The commands are " + listed);
 }
 
 /// Says which option each misspelt one was meant to be.
 void suggestOptions(const CLI::App& app, const std::vector<std::string>& words) {
-    const CLI::App* subcommand = subcommandIn(app, words);
+    if (const CLI::App* subcommand = subcommandIn(app, words)) {
+        suggestOptions(*subcommand, {words.begin() + 1, words.end()});
+        return;
+    }
     std::vector<std::string> known;
-    for (const CLI::Option* option : (subcommand != nullptr ? *subcommand : app).get_options()) {
+    for (const CLI::Option* option : app.get_options()) {
         for (const std::string& name : option->get_lnames()) {
             known.push_back("--" + name);
         }
@@ -78,6 +86,7 @@ int run(int argc, char** argv) {
         "  haptoflow render scene.json --stroke stroke.csv -o felt.wav\n"
         "  haptoflow contact scene.json --stroke stroke.csv\n"
         "  haptoflow inspect default.haptoflow\n"
+        "  haptoflow actuator show voice-coil\n"
         "  haptoflow bench --quick\n"
         "Exit codes: 0 done, 2 wrong usage, 3 bad input file, 4 internal error.");
 
@@ -85,6 +94,7 @@ int run(int argc, char** argv) {
     addRenderCommand(app, outcome);
     addContactCommand(app, outcome);
     addInspectCommand(app, outcome);
+    addActuatorCommand(app, outcome);
     addBenchCommand(app, outcome);
 
     const std::vector<std::string> words(argv + std::min(argc, 1), argv + argc);

@@ -5,6 +5,7 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <vector>
 
 namespace haptoflow::cli {
 
@@ -14,7 +15,8 @@ inline constexpr std::uint64_t mostWavSamples = (0xFFFF'FFFFULL - 1024) / sizeof
 /// Writes one channel of 32-bit float samples, +-1, piece by piece. Throws InputError that calls the file `shownAs`.
 class WavWriter {
 public:
-    WavWriter(const std::filesystem::path& file, int rateHz, std::string shownAs);
+    /// `comment` is text that stands in the file beside the samples; readRecording gives it back.
+    WavWriter(const std::filesystem::path& file, int rateHz, std::string shownAs, const std::string& comment = "");
     WavWriter(const WavWriter&) = delete;
     WavWriter& operator=(const WavWriter&) = delete;
     WavWriter(WavWriter&&) = delete;
@@ -30,5 +32,16 @@ private:
     std::unique_ptr<SoundFile> file_;
     std::string shownAs_;
 };
+
+/// One channel of a sound file.
+struct Recording {
+    double rateHz = 0.0;
+    std::vector<float> samples;
+    std::string comment;
+};
+
+/// Reads channel `channel` (from 1 on; 0 for a file that may have one only) of a sound file of 8 to 192 kHz and at most
+/// ten minutes. Throws InputError that calls the file by its path; samples that are not finite are refused too.
+[[nodiscard]] Recording readRecording(const std::string& path, int channel = 0);
 
 }  // namespace haptoflow::cli

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <complex>
 #include <numbers>
-#include <utility>
 
+#include "dsp/fourier_transform.hpp"
 #include "dsp/kaiser_window.hpp"
 
 namespace haptoflow::dsp {
@@ -21,41 +21,6 @@ constexpr double attenuationDecibels = 84.0;
 constexpr std::size_t transformLength = std::size_t{1} << 15;
 // Bounds the logarithm at the stopband's zeros.
 constexpr double magnitudeFloor = 1e-6;
-
-/// In place, length a power of two; the inverse is scaled by 1/length.
-void transform(std::vector<Complex>& values, bool inverse) {
-    const std::size_t length = values.size();
-    for (std::size_t i = 1, j = 0; i < length; ++i) {
-        std::size_t bit = length >> 1;
-        for (; (j & bit) != 0; bit >>= 1) {
-            j ^= bit;
-        }
-        j ^= bit;
-        if (i < j) {
-            std::swap(values[i], values[j]);
-        }
-    }
-    std::vector<Complex> roots(length / 2);
-    const double turn = (inverse ? 2.0 : -2.0) * std::numbers::pi / static_cast<double>(length);
-    for (std::size_t i = 0; i < roots.size(); ++i) {
-        roots[i] = std::polar(1.0, turn * static_cast<double>(i));
-    }
-    for (std::size_t half = 1; half < length; half *= 2) {
-        const std::size_t rootStride = length / (2 * half);
-        for (std::size_t start = 0; start < length; start += 2 * half) {
-            for (std::size_t k = 0; k < half; ++k) {
-                const Complex odd = values[start + half + k] * roots[k * rootStride];
-                values[start + half + k] = values[start + k] - odd;
-                values[start + k] += odd;
-            }
-        }
-    }
-    if (inverse) {
-        for (Complex& value : values) {
-            value /= static_cast<double>(length);
-        }
-    }
-}
 
 std::vector<Complex> linearPhasePrototype() {
     const double beta = kaiserBeta(attenuationDecibels);
@@ -79,21 +44,21 @@ const MinimumPhaseKernel& MinimumPhaseKernel::shared() {
 // folding the cepstrum of log |H| onto positive time gives the minimum-phase filter of the same magnitude.
 MinimumPhaseKernel::MinimumPhaseKernel() {
     std::vector<Complex> values = linearPhasePrototype();
-    transform(values, false);
+    fourierTransform(values, Direction::forward);
     const double floor = magnitudeFloor * std::abs(values[0]);
     for (Complex& value : values) {
         value = std::log(std::max(std::abs(value), floor));
     }
-    transform(values, true);
+    fourierTransform(values, Direction::inverse);
     for (std::size_t i = 1; i < transformLength / 2; ++i) {
         values[i] *= 2.0;
         values[transformLength - i] = 0.0;
     }
-    transform(values, false);
+    fourierTransform(values, Direction::forward);
     for (Complex& value : values) {
         value = std::exp(value);
     }
-    transform(values, true);
+    fourierTransform(values, Direction::inverse);
 
     grid_.resize(lengthInputSamples * gridPerInputSample);
     double sum = 0.0;

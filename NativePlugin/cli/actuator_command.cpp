@@ -1,0 +1,426 @@
+#include "actuator_identification.hpp"
+#include "commands.hpp"
+#include "decimal_number.hpp"
+#include "effects/actuator_profile.hpp"
+#include "effects/compensation.hpp"
+#include "exit_codes.hpp"
+#include "exponential_sweep.hpp"
+#include "input_file.hpp"
+#include "model_location.hpp"
+#include "option_values.hpp"
+#include "output_file.hpp"
+#include "svg_plot.hpp"
+#include "texture_distance.hpp"
+#include "wav_file.hpp"
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <cstdint>
+#include <fstream>
+#include <iomanip>
+#include <iostream>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace haptoflow::cli {
+namespace {
+
+using effects::ActuatorProfile;
+
+constexpr const char* actuatorColour = "#c2410c";
+constexpr const char* compensationColour = "#1d4ed8";
+constexpr const char* togetherColour = "#15803d";
+constexpr const char* quietColour = "#888";
+
+struct SweepOptions {
+    std::string outputPath;
+    std::uint32_t rateHz = 48000;
+    ExponentialSweep sweep;
+};
+
+struct IdentifyOptions {
+    std::string recordingPath;
+    std::string sweepPath;
+    std::string outputPath;
+    std::string plotPath;
+    std::string name;
+    int channel = 0;
+    std::optional<double> mps2PerUnit;
+};
+
+struct ShowOptions {
+    std::string profile;
+    std::string plotPath;
+    std::string modelPath;
+    bool labels = false;
+    effects::CompensationSettings compensation;
+};
+
+void writeText(const OutputFile& file, const std::string& text) {
+    std::ofstream stream(file.partial(), std::ios::binary);
+    stream << text;
+    if (!stream.flush()) {
+        throw InputError(file.path().string() + ": could not be written to its end; is the disk full?");
+    }
+}
+
+/// A built-in profile by its name, else a file.
+ActuatorProfile readProfile(const std::string& nameOrPath) {
+    if (std::optional<ActuatorProfile> builtIn = ActuatorProfile::builtIn(nameOrPath)) {
+        return *std::move(builtIn);
+    }
+    const std::string text =
+        readInputFile(nameOrPath, "an actuator profile (JSON), or the name of a built-in one: flat, voice-coil");
+    try {
+        return ActuatorProfile::parse(text);
+    } catch (const effects::ProfileError& error) {
+        throw InputError(nameOrPath + ": " + error.what());
+    }
+}
+
+void runSweep(const SweepOptions& options) {
+    requireWavName({"-o", options.outputPath});
+    const ExponentialSweep& sweep = options.sweep;
+    if (!(sweep.toHz >= 2.0 * sweep.fromHz)) {
+        throw UsageError("--from-hz and --to-hz are less than an octave apart; the sweep rises from one to the other");
+    }
+    if (sweep.toHz > 0.45 * options.rateHz) {
+        throw UsageError("--to-hz " + fixedDecimals(sweep.toHz, 0) + " is too high for --rate " +
+                         std::to_string(options.rateHz) + "; at most " + fixedDecimals(0.45 * options.rateHz, 0) +
+                         " Hz");
+    }
+    OutputFile file(options.outputPath);
+    WavWriter writer(file.partial(), static_cast<int>(options.rateHz), options.outputPath, sweep.describe());
+    writer.write(sweep.samples(options.rateHz));
+    writer.write(std::vector<float>(
+        static_cast<std::size_t>(ExponentialSweep::silenceSeconds * static_cast<double>(options.rateHz))));
+    writer.close();
+    file.commit();
+}
+
+ExponentialSweep readSweep(const std::string& path) {
+    const std::optional<ExponentialSweep> sweep = ExponentialSweep::parse(readRecording(path).comment);
+    if (!sweep) {
+        throw InputError(
+            path +
+            ": does not say which sweep it holds; expected the file that `haptoflow actuator sweep` wrote, "
+            "not converted by another program");
+    }
+    return *sweep;
+}
+
+/// Decibels that hold all finite values of the lines, and what a tick is worth.
+PlotPanel decibelPanel(std::vector<PlotLine> lines, double lowestShown) {
+    PlotPanel panel{.axis = "dB", .lowest = 0.0, .highest = 0.0, .tick = 10.0, .lines = std::move(lines)};
+    for (const PlotLine& line : panel.lines) {
+        for (const double value : line.values) {
+            if (std::isfinite(value)) {
+                panel.lowest = std::min(panel.lowest, value);
+                panel.highest = std::max(panel.highest, value);
+            }
+        }
+    }
+    panel.lowest = std::max(std::floor(panel.lowest / 10.0) * 10.0, lowestShown);
+    panel.highest = std::ceil((panel.highest + 1.0) / 10.0) * 10.0;
+    return panel;
+}
+
+std::string plotOf(const Identification& found) {
+    const ActuatorProfile& profile = found.profile;
+    const PlotPanel magnitude = decibelPanel({{"actuator", actuatorColour, profile.magnitudeDecibels},
+                                              {"harmonics 2 to 5", compensationColour, found.distortionDecibels, true},
+                                              {"noise", quietColour, found.noiseDecibels, true}},
+                                             -100.0);
+    const PlotPanel phase{
+        .axis = "phase, degrees",
+        .lowest = -180.0,
+        .highest = 180.0,
+        .tick = 90.0,
+        .lines = {{"phase behind a delay of " + fixedDecimals(profile.measurement->delaySeconds * 1000.0, 2) + " ms",
+                   actuatorColour, profile.phaseDegrees}}};
+    return svgPlot(profile.name + ": measured response", profile.frequencyHz, {magnitude, phase});
+}
+
+void describe(const ActuatorProfile& profile) {
+    std::cout << profile.name << (profile.isApproximate ? " (approximate)" : "") << '\n' << profile.provenance << '\n';
+    std::cout << "  range         " << fixedDecimals(profile.frequencyHz.front(), 1) << " to "
+              << fixedDecimals(profile.frequencyHz.back(), 1) << " Hz, " << profile.frequencyHz.size() << " points"
+              << (profile.phaseDegrees.empty() ? ", no phase" : "") << '\n';
+    std::cout << "  resonances   ";
+    for (const double hz : profile.resonancesHz) {
+        std::cout << ' ' << fixedDecimals(hz, 1);
+    }
+    std::cout << (profile.resonancesHz.empty() ? " none" : " Hz") << '\n';
+    std::cout << "  rated level   "
+              << (profile.ratedLevelMps2
+                      ? fixedDecimals(*profile.ratedLevelMps2, 2) + " m/s^2 at 0 dB for an output of 1"
+                      : "unknown")
+              << '\n';
+    if (profile.measurement) {
+        const effects::ActuatorMeasurement& measured = *profile.measurement;
+        std::cout << "  measurement   delay " << fixedDecimals(measured.delaySeconds * 1000.0, 2) << " ms, distortion "
+                  << fixedDecimals(measured.distortionPercent, 2) << " %, signal to noise "
+                  << fixedDecimals(measured.signalToNoiseDecibels, 1) << " dB, at "
+                  << fixedDecimals(measured.sampleRateHz, 0) << " Hz\n";
+    }
+}
+
+void runIdentify(const IdentifyOptions& options) {
+    requireApart(
+        std::array{NamedPath{"-o", options.outputPath}, NamedPath{"--plot", options.plotPath}},
+        std::array{NamedPath{"the recording", options.recordingPath}, NamedPath{"--sweep", options.sweepPath}});
+    const ExponentialSweep sweep = readSweep(options.sweepPath);
+    const Recording recording = readRecording(options.recordingPath, options.channel);
+    OutputFile file(options.outputPath);
+    std::optional<OutputFile> plot;
+    if (!options.plotPath.empty()) {
+        plot.emplace(options.plotPath);
+    }
+    const std::filesystem::path output(options.outputPath);
+    const Identification found = identifyActuator(recording, sweep,
+                                                  {.name = options.name.empty() ? output.stem().string() : options.name,
+                                                   .recordingName = options.recordingPath,
+                                                   .mps2PerUnit = options.mps2PerUnit});
+    writeText(file, found.profile.toJson());
+    if (plot) {
+        writeText(*plot, plotOf(found));
+    }
+    file.commit();
+    if (plot) {
+        plot->commit();
+    }
+    describe(found.profile);
+    constexpr double noticeablePercent = 10.0;
+    if (found.profile.measurement->distortionPercent > noticeablePercent) {
+        std::cerr << "haptoflow: note: " << options.recordingPath << ": the actuator distorts by "
+                  << fixedDecimals(found.profile.measurement->distortionPercent, 0)
+                  << " %; a quieter sweep (--level) measures what it does at the levels of textures.\n";
+    }
+}
+
+double microsecondsPerBlock(effects::Compensation& compensation, std::vector<float>& block) {
+    constexpr int blocks = 200;
+    double best = 1e9;
+    for (int round = 0; round < 5; ++round) {
+        const auto begin = std::chrono::steady_clock::now();
+        for (int i = 0; i < blocks; ++i) {
+            block.front() = 1.0F;
+            compensation.process(block);
+        }
+        const std::chrono::duration<double, std::micro> taken = std::chrono::steady_clock::now() - begin;
+        best = std::min(best, taken.count() / blocks);
+    }
+    return best;
+}
+
+void describeCompensation(const ActuatorProfile& profile, effects::Compensation& compensation,
+                          const effects::CompensationSettings& settings) {
+    std::cout << "\nCompensation, at most +" << fixedDecimals(settings.largestBoostDecibels, 1) << " dB\n";
+    if (compensation.isTransparent()) {
+        std::cout << "  none: the profile asks for no change\n";
+        return;
+    }
+    constexpr std::size_t blockSamples = 480;
+    std::vector<float> block(blockSamples);
+    const double microseconds = microsecondsPerBlock(compensation, block);
+    const effects::EffectDeclaration declared = compensation.declaration();
+    std::cout << "  band          " << fixedDecimals(compensation.bandHz()[0], 0) << " to "
+              << fixedDecimals(compensation.bandHz()[1], 0) << " Hz, levelled to "
+              << fixedDecimals(compensation.levelDecibels(), 1) << " dB\n"
+              << "  latency       " << fixedDecimals(declared.latencySeconds * 1000.0, 1)
+              << " ms at the latest frequency of the band, "
+              << fixedDecimals(compensation.groupDelaySeconds(250.0) * 1000.0, 1) << " ms at 250 Hz\n"
+              << "  tail, memory  " << fixedDecimals(declared.tailSeconds, 2) << " s, " << declared.memoryBytes
+              << " bytes\n"
+              << "  cost          " << fixedDecimals(microseconds, 1) << " us for 10 ms at 48 kHz on this machine, "
+              << fixedDecimals(microseconds / 100.0, 2) << " % of it\n\n"
+              << "      Hz  actuator dB  compensation dB  together dB\n";
+    for (const double hz : {20.0, 25.0, 31.5, 40.0, 50.0, 63.0, 80.0, 100.0, 125.0, 160.0, 200.0, 250.0, 315.0, 400.0,
+                            500.0, 630.0, 800.0, 1000.0}) {
+        const double actuator = profile.magnitudeDecibelsAt(hz);
+        const double gain = compensation.gainDecibels(hz);
+        std::cout << std::setw(8) << fixedDecimals(hz, 1) << std::setw(13) << fixedDecimals(actuator, 1)
+                  << std::setw(17) << fixedDecimals(gain, 1) << std::setw(13) << fixedDecimals(actuator + gain, 1)
+                  << '\n';
+    }
+}
+
+std::string plotOf(const ActuatorProfile& profile, const effects::Compensation& compensation) {
+    std::vector<double> frequencyHz;
+    std::vector<double> actuator;
+    std::vector<double> gain;
+    std::vector<double> together;
+    for (int point = 0; point <= 240; ++point) {
+        const double hz = 20.0 * std::pow(60.0, point / 240.0);
+        frequencyHz.push_back(hz);
+        actuator.push_back(profile.magnitudeDecibelsAt(hz));
+        gain.push_back(compensation.gainDecibels(hz));
+        together.push_back(actuator.back() + gain.back());
+    }
+    return svgPlot(profile.name + (profile.isApproximate ? " (approximate)" : "") + " and its compensation",
+                   frequencyHz,
+                   {decibelPanel({{"actuator", actuatorColour, actuator},
+                                  {"compensation", compensationColour, gain, true},
+                                  {"together", togetherColour, together}},
+                                 -60.0)});
+}
+
+void describeLabels(const ShowOptions& options, const ActuatorProfile& profile) {
+    const std::filesystem::path path = findModel(options.modelPath);
+    const std::vector<TextureDistance> distances = textureDistances(readModel(path), profile, options.compensation);
+    std::size_t width = 5;
+    for (const TextureDistance& each : distances) {
+        width = std::max(width, each.label.size());
+    }
+    std::cout << "\nLog-spectral distance from the wanted texture to what this actuator plays, 20-1000 Hz, dB\n  "
+              << std::left << std::setw(static_cast<int>(width)) << "label" << std::right
+              << "  uncompensated  compensated\n";
+    for (const TextureDistance& each : distances) {
+        std::cout << "  " << std::left << std::setw(static_cast<int>(width)) << each.label << std::right
+                  << std::setw(15) << fixedDecimals(each.uncompensatedDecibels, 2) << std::setw(13)
+                  << fixedDecimals(each.compensatedDecibels, 2) << '\n';
+    }
+}
+
+void runShow(const ShowOptions& options) {
+    if (!options.modelPath.empty() && !options.labels) {
+        throw UsageError("--model has no effect without --labels; give both or neither");
+    }
+    requireApart(std::array{NamedPath{"--plot", options.plotPath}},
+                 std::array{NamedPath{"the profile", options.profile}, NamedPath{"the model", options.modelPath}});
+    const ActuatorProfile profile = readProfile(options.profile);
+    constexpr double shownRateHz = 48000.0;
+    effects::Compensation compensation(profile, shownRateHz, options.compensation);
+    describe(profile);
+    describeCompensation(profile, compensation, options.compensation);
+    if (options.labels) {
+        describeLabels(options, profile);
+    }
+    if (!options.plotPath.empty()) {
+        OutputFile plot(options.plotPath);
+        writeText(plot, plotOf(profile, compensation));
+        plot.commit();
+    }
+}
+
+void addSweep(CLI::App& actuator, CommandOutcome& outcome) {
+    CLI::App* command = actuator.add_subcommand("sweep", "Write the sweep that is played to measure an actuator");
+    const auto options = std::make_shared<SweepOptions>();
+    command->add_option("-o,--output", options->outputPath, "The WAV file, one channel of 32-bit float")
+        ->required()
+        ->type_name("SWEEP.wav");
+    command->add_option("--rate", options->rateHz, "Of the audio device, in Hz")
+        ->transform(wholeBetween(8000, 192000, "Hz"))
+        ->capture_default_str();
+    command->add_option("--seconds", options->sweep.seconds, "Longer is less sensitive to noise")
+        ->check(decimalBetween(1.0, 120.0, "s"))
+        ->capture_default_str();
+    command->add_option("--from-hz", options->sweep.fromHz, "Where it begins")
+        ->check(decimalBetween(5.0, 10000.0, "Hz"))
+        ->capture_default_str();
+    command->add_option("--to-hz", options->sweep.toHz, "Where it ends")
+        ->check(decimalBetween(10.0, 20000.0, "Hz"))
+        ->capture_default_str();
+    command->add_option("--level", options->sweep.level, "Amplitude as a share of full scale")
+        ->check(decimalBetween(0.001, 1.0, ""))
+        ->capture_default_str();
+    command->footer(
+        "An exponential sine sweep, and a second of silence: record until that is over. Its figures stand in the file\n"
+        "as a comment, from which `identify` takes them.\n"
+        "At a resonance the actuator moves most: begin with a low --level, and raise it until the recording is well\n"
+        "above the noise.\n"
+        "Example:\n"
+        "  haptoflow actuator sweep -o sweep.wav --level 0.1");
+    command->callback([options, &outcome] {
+        runSweep(*options);
+        outcome.exitCode = exitDone;
+    });
+}
+
+void addIdentify(CLI::App& actuator, CommandOutcome& outcome) {
+    CLI::App* command = actuator.add_subcommand("identify", "Make an actuator's profile from its recorded sweep");
+    const auto options = std::make_shared<IdentifyOptions>();
+    command->add_option("recording", options->recordingPath, "What the sensor heard, at any rate from 8 to 192 kHz")
+        ->required()
+        ->type_name("RECORDING.wav");
+    command->add_option("--sweep", options->sweepPath, "The file that was played, as `sweep` wrote it")
+        ->required()
+        ->type_name("SWEEP.wav");
+    command->add_option("-o,--output", options->outputPath, "The profile")->required()->type_name("PROFILE.json");
+    command->add_option("--plot", options->plotPath, "Magnitude, distortion, noise and phase as a picture")
+        ->type_name("PLOT.svg");
+    command->add_option("--name", options->name, "What the profile is called (default: the file's name)")
+        ->check([](const std::string& name) {
+            const bool isPlain = std::ranges::none_of(
+                name, [](char letter) { return static_cast<unsigned char>(letter) < 0x20 || letter == 0x7F; });
+            return isPlain && !name.empty() && name.size() <= 128 ? std::string()
+                                                                  : std::string("expected one line of 1 to 128 bytes");
+        });
+    command->add_option("--channel", options->channel, "Of the recording, counted from 1; needed where it has several")
+        ->transform(wholeBetween(1, 1024, ""));
+    command
+        ->add_option("--mps2-per-unit", options->mps2PerUnit,
+                     "m/s^2 of a sample of 1 in the recording, where the sensor is calibrated: gives the rated level")
+        ->check(decimalBetween(1e-6, 1e6, "m/s^2"));
+    command->footer(
+        "Fix an accelerometer where the fingers hold the pen, start recording, play the sweep through the actuator,\n"
+        "stop after the silence. A hand that holds the pen as in use belongs to the measurement.\n"
+        "The profile holds magnitude (the strongest frequency is 0 dB) and phase, smoothed over a twelfth of an "
+        "octave,\n"
+        "resonances, and the measurement's delay, distortion and signal to noise; frequencies at either end that do "
+        "not\n"
+        "stand out of the noise are left out.\n"
+        "Example:\n"
+        "  haptoflow actuator identify recording.wav --sweep sweep.wav -o pen.json --plot pen.svg\n"
+        "Format and law are explained in Documentation~/actuator-profile.md.");
+    command->callback([options, &outcome] {
+        runIdentify(*options);
+        outcome.exitCode = exitDone;
+    });
+}
+
+void addShow(CLI::App& actuator, CommandOutcome& outcome) {
+    CLI::App* command = actuator.add_subcommand("show", "Print a profile, and what compensation for it does and costs");
+    const auto options = std::make_shared<ShowOptions>();
+    command->add_option("profile", options->profile, "A profile's file, or a built-in one: flat, voice-coil")
+        ->required()
+        ->type_name("PROFILE");
+    command->add_option("--boost", options->compensation.largestBoostDecibels, "Bound of the compensation")
+        ->check(decimalBetween(0.0, 24.0, "dB"))
+        ->capture_default_str();
+    command->add_option("--plot", options->plotPath, "Actuator, compensation and both together as a picture")
+        ->type_name("PLOT.svg");
+    command->add_flag("--labels", options->labels,
+                      "Add, for each label of the model, how far the played texture is from the wanted one");
+    command->add_option("--model", options->modelPath, "Model file for --labels (default: the one shipped)")
+        ->type_name("FILE");
+    command->footer(
+        "Example:\n"
+        "  haptoflow actuator show voice-coil --labels --plot voice-coil.svg");
+    command->callback([options, &outcome] {
+        runShow(*options);
+        outcome.exitCode = exitDone;
+    });
+}
+
+}  // namespace
+
+void addActuatorCommand(CLI::App& app, CommandOutcome& outcome) {
+    CLI::App* command = app.add_subcommand("actuator", "Measure an actuator, and show what compensates for it");
+    command->require_subcommand(1);
+    addSweep(*command, outcome);
+    addIdentify(*command, outcome);
+    addShow(*command, outcome);
+    command->footer(
+        "In this order: write the sweep, play it through the actuator while an accelerometer records, identify, show.\n"
+        "  haptoflow actuator sweep -o sweep.wav\n"
+        "  haptoflow actuator identify recording.wav --sweep sweep.wav -o pen.json --plot pen.svg\n"
+        "  haptoflow actuator show pen.json --labels");
+}
+
+}  // namespace haptoflow::cli

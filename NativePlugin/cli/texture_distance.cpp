@@ -1,0 +1,136 @@
+#include "texture_distance.hpp"
+
+#include "dsp/fourier_transform.hpp"
+#include "dsp/waveform_resampler.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <cstddef>
+#include <numbers>
+#include <span>
+#include <utility>
+
+namespace haptoflow::cli {
+namespace {
+
+constexpr double rateHz = 8000.0;
+constexpr std::size_t window = 1024;
+constexpr double lowestHz = 20.0;
+constexpr double highestHz = 1000.0;
+constexpr double dynamicDecibels = 60.0;
+
+/// Mean power at each bin, of windows that overlap by half.
+using Spectrum = std::vector<double>;
+
+void addPower(Spectrum& spectrum, const std::vector<float>& samples) {
+    for (std::size_t start = 0; start + window <= samples.size(); start += window / 2) {
+        std::vector<std::complex<double>> values(window);
+        for (std::size_t i = 0; i < window; ++i) {
+            const double turn = 2.0 * std::numbers::pi * static_cast<double>(i) / static_cast<double>(window);
+            values[i] = (0.5 - 0.5 * std::cos(turn)) * static_cast<double>(samples[start + i]);
+        }
+        dsp::fourierTransform(values, dsp::Direction::forward);
+        for (std::size_t bin = 0; bin < spectrum.size(); ++bin) {
+            spectrum[bin] += std::norm(values[bin]);
+        }
+    }
+}
+
+double hzOf(std::size_t bin) {
+    return static_cast<double>(bin) * rateHz / static_cast<double>(window);
+}
+
+/// What was wanted and what is played, in dB, where both count.
+struct LabelSpectra {
+    std::string label;
+    std::vector<double> uncompensated;
+    std::vector<double> compensated;
+};
+
+LabelSpectra spectraOf(const model::ModelFile& model, std::size_t label, const effects::ActuatorProfile& profile,
+                       effects::Compensation& compensation) {
+    Spectrum wanted(window / 2);
+    Spectrum compensated(window / 2);
+    for (std::size_t seed = 0; seed < model.header().seeds.size(); ++seed) {
+        if (model.header().seeds[seed].label != label) {
+            continue;
+        }
+        const std::span<const float, model::seedSamples> waveform = model.seed(seed);
+        dsp::WaveformResampler resampler(rateHz);
+        // Played twice: the first time the filters swing in.
+        std::vector<float> texture(2 * static_cast<std::size_t>(4 * model::seedSamples));
+        for (std::size_t turn = 0; turn < 2; ++turn) {
+            resampler.process(waveform, std::span(texture).subspan(turn * texture.size() / 2, texture.size() / 2));
+        }
+        std::vector<float> played = texture;
+        compensation.reset();
+        compensation.process(played);
+        const auto half = static_cast<std::ptrdiff_t>(texture.size() / 2);
+        addPower(wanted, {texture.begin() + half, texture.end()});
+        addPower(compensated, {played.begin() + half, played.end()});
+    }
+    LabelSpectra spectra{.label = model.header().labels[label].name, .uncompensated = {}, .compensated = {}};
+    const double loudest = std::ranges::max(wanted);
+    for (std::size_t bin = 0; bin < wanted.size(); ++bin) {
+        if (hzOf(bin) < lowestHz || hzOf(bin) > highestHz ||
+            wanted[bin] <= loudest * std::pow(10.0, -dynamicDecibels / 10.0)) {
+            continue;
+        }
+        const double actuator = profile.magnitudeDecibelsAt(hzOf(bin));
+        spectra.uncompensated.push_back(actuator);
+        spectra.compensated.push_back(actuator + 10.0 * std::log10(compensated[bin] / wanted[bin]));
+    }
+    return spectra;
+}
+
+using Differences = std::vector<double> LabelSpectra::*;
+
+/// The one strength that suits all labels best: the mean of their mean differences.
+double strengthDecibels(const std::vector<LabelSpectra>& labels, Differences differences) {
+    double sum = 0.0;
+    for (const LabelSpectra& label : labels) {
+        double labelSum = 0.0;
+        for (const double difference : label.*differences) {
+            labelSum += difference;
+        }
+        sum += labelSum / static_cast<double>((label.*differences).size());
+    }
+    return sum / static_cast<double>(labels.size());
+}
+
+double distance(const LabelSpectra& label, Differences differences, double strength) {
+    double sum = 0.0;
+    for (const double difference : label.*differences) {
+        sum += (difference - strength) * (difference - strength);
+    }
+    return std::sqrt(sum / static_cast<double>((label.*differences).size()));
+}
+
+}  // namespace
+
+std::vector<TextureDistance> textureDistances(const model::ModelFile& model, const effects::ActuatorProfile& profile,
+                                              const effects::CompensationSettings& settings) {
+    effects::Compensation compensation(profile, rateHz, settings);
+    std::vector<LabelSpectra> labels;
+    for (std::size_t label = 0; label < model.header().labels.size(); ++label) {
+        LabelSpectra spectra = spectraOf(model, label, profile, compensation);
+        if (!spectra.compensated.empty()) {
+            labels.push_back(std::move(spectra));
+        }
+    }
+    std::vector<TextureDistance> distances;
+    if (labels.empty()) {
+        return distances;
+    }
+    const double without = strengthDecibels(labels, &LabelSpectra::uncompensated);
+    const double with = strengthDecibels(labels, &LabelSpectra::compensated);
+    for (const LabelSpectra& label : labels) {
+        distances.push_back({.label = label.label,
+                             .uncompensatedDecibels = distance(label, &LabelSpectra::uncompensated, without),
+                             .compensatedDecibels = distance(label, &LabelSpectra::compensated, with)});
+    }
+    return distances;
+}
+
+}  // namespace haptoflow::cli

@@ -1,0 +1,51 @@
+#include "dsp/fourier_transform.hpp"
+
+#include <bit>
+#include <cstddef>
+#include <numbers>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+namespace haptoflow::dsp {
+
+void fourierTransform(std::vector<std::complex<double>>& values, Direction direction) {
+    using Complex = std::complex<double>;
+    const std::size_t length = values.size();
+    if (!std::has_single_bit(length)) {
+        throw std::invalid_argument("a Fourier transform of " + std::to_string(length) +
+                                    " values; expected a power of two");
+    }
+    for (std::size_t i = 1, j = 0; i < length; ++i) {
+        std::size_t bit = length >> 1;
+        for (; (j & bit) != 0; bit >>= 1) {
+            j ^= bit;
+        }
+        j ^= bit;
+        if (i < j) {
+            std::swap(values[i], values[j]);
+        }
+    }
+    std::vector<Complex> roots(length / 2);
+    const double turn = (direction == Direction::inverse ? 2.0 : -2.0) * std::numbers::pi / static_cast<double>(length);
+    for (std::size_t i = 0; i < roots.size(); ++i) {
+        roots[i] = std::polar(1.0, turn * static_cast<double>(i));
+    }
+    for (std::size_t half = 1; half < length; half *= 2) {
+        const std::size_t rootStride = length / (2 * half);
+        for (std::size_t start = 0; start < length; start += 2 * half) {
+            for (std::size_t k = 0; k < half; ++k) {
+                const Complex odd = values[start + half + k] * roots[k * rootStride];
+                values[start + half + k] = values[start + k] - odd;
+                values[start + k] += odd;
+            }
+        }
+    }
+    if (direction == Direction::inverse) {
+        for (Complex& value : values) {
+            value /= static_cast<double>(length);
+        }
+    }
+}
+
+}  // namespace haptoflow::dsp

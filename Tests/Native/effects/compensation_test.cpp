@@ -1,0 +1,438 @@
+#include "effects/compensation.hpp"
+
+#include "support/counting_new.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <limits>
+#include <numbers>
+#include <random>
+#include <stdexcept>
+#include <vector>
+
+namespace haptoflow::effects::compensation_test {
+namespace {
+
+constexpr double rateHz = 48000.0;
+constexpr double twoPi = 2.0 * std::numbers::pi;
+constexpr std::array rates{8000.0, 16000.0, 44100.0, 48000.0, 96000.0, 192000.0};
+
+ActuatorProfile voiceCoil() {
+    return *ActuatorProfile::builtIn("voice-coil");
+}
+
+ActuatorProfile profileOf(std::vector<double> frequencyHz, std::vector<double> magnitudeDecibels) {
+    ActuatorProfile profile;
+    profile.name = "test";
+    profile.provenance = "test";
+    profile.frequencyHz = std::move(frequencyHz);
+    profile.magnitudeDecibels = std::move(magnitudeDecibels);
+    return profile;
+}
+
+ActuatorProfile randomProfile(std::mt19937& random, double largestDecibels) {
+    std::uniform_real_distribution<double> decibels(-largestDecibels, largestDecibels);
+    std::uniform_real_distribution<double> octaves(0.01, 1.0);
+    ActuatorProfile profile = profileOf({}, {});
+    for (double hz = 15.0; hz < 2000.0; hz *= std::exp2(octaves(random))) {
+        profile.frequencyHz.push_back(hz);
+        profile.magnitudeDecibels.push_back(decibels(random));
+    }
+    profile.frequencyHz.push_back(2000.0);
+    profile.magnitudeDecibels.push_back(0.0);
+    return profile;
+}
+
+void run(Compensation& compensation, std::vector<float>& samples, std::size_t block = 256) {
+    for (std::size_t i = 0; i < samples.size(); i += block) {
+        compensation.process(std::span(samples).subspan(i, std::min(block, samples.size() - i)));
+    }
+}
+
+/// The response as what `process` makes of one sample, over two seconds.
+class MeasuredResponse {
+public:
+    // So large that what counts as silent lies far below its end.
+    static constexpr double impulse = 1e5;
+
+    MeasuredResponse(const ActuatorProfile& profile, double sampleRateHz, const CompensationSettings& settings = {})
+        : rateHz_(sampleRateHz), samples_(static_cast<std::size_t>(2.0 * sampleRateHz)) {
+        Compensation compensation(profile, sampleRateHz, settings);
+        samples_[0] = static_cast<float>(impulse);
+        run(compensation, samples_);
+    }
+
+    [[nodiscard]] double decibelsAt(double hz) const {
+        std::complex<double> sum = 0.0;
+        const std::complex<double> step = std::polar(1.0, -twoPi * hz / rateHz_);
+        std::complex<double> turn = 1.0;
+        for (const float sample : samples_) {
+            sum += turn * static_cast<double>(sample);
+            turn *= step;
+        }
+        return 20.0 * std::log10(std::abs(sum) / impulse);
+    }
+
+private:
+    double rateHz_;
+    std::vector<float> samples_;
+};
+
+std::vector<float> noise(std::size_t count, float amplitude, unsigned seed) {
+    std::mt19937 random(seed);
+    std::normal_distribution<float> normal(0.0F, amplitude);
+    std::vector<float> samples(count);
+    std::ranges::generate(samples, [&] { return normal(random); });
+    return samples;
+}
+
+/// Noise of up to 1 kHz with the same power at each frequency, as a texture has it at the output rate.
+std::vector<float> textureNoise(std::size_t count, float amplitude, unsigned seed) {
+    std::vector<float> samples = noise(count, amplitude, seed);
+    for (int pass = 0; pass < 4; ++pass) {
+        double state = 0.0;
+        for (float& sample : samples) {
+            state += 0.15 * (static_cast<double>(sample) - state);
+            sample = static_cast<float>(state);
+        }
+    }
+    return samples;
+}
+
+double powerOf(const std::vector<float>& samples) {
+    double sum = 0.0;
+    for (const float sample : samples) {
+        sum += static_cast<double>(sample) * static_cast<double>(sample);
+    }
+    return sum / static_cast<double>(samples.size());
+}
+
+TEST(CompensationTest, TheCompensatedVoiceCoilIsFlatWithinThreeDecibelsFrom60To400HzAtEveryRate) {
+    const ActuatorProfile coil = voiceCoil();
+    for (const double rate : rates) {
+        const MeasuredResponse response(coil, rate);
+        const double level = Compensation(coil, rate).levelDecibels();
+        double uncompensated = 0.0;
+        for (double hz = 60.0; hz <= 400.0; hz *= std::exp2(1.0 / 24.0)) {
+            const double played = coil.magnitudeDecibelsAt(hz) + response.decibelsAt(hz);
+            EXPECT_NEAR(played, level, 3.0) << rate << " Hz, at " << hz << " Hz";
+            uncompensated = std::max(uncompensated, std::abs(coil.magnitudeDecibelsAt(hz) - level));
+        }
+        EXPECT_GT(uncompensated, 6.0) << "nothing was to be compensated";
+    }
+}
+
+TEST(CompensationTest, AnyActuatorIsFlatWithinThreeDecibelsWhereTheBoostSuffices) {
+    std::mt19937 random(5);
+    for (int round = 0; round < 40; ++round) {
+        const double low = std::uniform_real_distribution<double>(70.0, 200.0)(random);
+        const double high = low * std::uniform_real_distribution<double>(1.6, 3.0)(random);
+        const double depth = std::uniform_real_distribution<double>(-10.0, 0.0)(random);
+        const ActuatorProfile profile =
+            profileOf({20.0, 45.0, low, std::sqrt(low * high), high, 1200.0}, {-14.0, -9.0, 0.0, depth, -1.0, -8.0});
+        const Compensation compensation(profile, rateHz);
+        int flat = 0;
+        for (double hz = 60.0; hz <= 400.0; hz *= std::exp2(1.0 / 24.0)) {
+            const double wanted = compensation.levelDecibels() - profile.magnitudeDecibelsAt(hz);
+            if (wanted < 9.0) {
+                EXPECT_NEAR(compensation.gainDecibels(hz), wanted, 3.0) << round << ", at " << hz << " Hz";
+                ++flat;
+            }
+        }
+        EXPECT_GT(flat, 30) << round;
+    }
+}
+
+TEST(CompensationTest, TheResponseIsTheSameAtEveryRate) {
+    const MeasuredResponse reference(voiceCoil(), rateHz);
+    for (const double rate : rates) {
+        const MeasuredResponse response(voiceCoil(), rate);
+        for (double hz = 10.0; hz <= 1200.0; hz *= std::exp2(1.0 / 12.0)) {
+            EXPECT_NEAR(response.decibelsAt(hz), reference.decibelsAt(hz), 0.3) << rate << " Hz, at " << hz << " Hz";
+        }
+    }
+}
+
+TEST(CompensationTest, WhatItSaysOfItsGainIsWhatItDoes) {
+    const Compensation compensation(voiceCoil(), rateHz);
+    const MeasuredResponse response(voiceCoil(), rateHz);
+    for (double hz = 15.0; hz <= 10000.0; hz *= 1.2) {
+        EXPECT_NEAR(compensation.gainDecibels(hz), response.decibelsAt(hz), 0.01) << hz;
+    }
+}
+
+TEST(CompensationTest, NothingIsRaisedAboveTheLargestBoostWhateverTheProfile) {
+    std::mt19937 random(11);
+    for (const double boost : {0.0, 3.0, 12.0, 24.0}) {
+        for (int round = 0; round < 12; ++round) {
+            const double extent = std::array{6.0, 20.0, 60.0, 200.0}[static_cast<std::size_t>(round) % 4];
+            const Compensation compensation(randomProfile(random, extent), rateHz, {.largestBoostDecibels = boost});
+            for (double hz = 2.0; hz < 23000.0; hz *= 1.01) {
+                ASSERT_LE(compensation.gainDecibels(hz), boost + 0.1) << boost << " dB, at " << hz << " Hz";
+            }
+        }
+    }
+    const Compensation coil(voiceCoil(), rateHz, {.largestBoostDecibels = 3.0});
+    EXPECT_GT(coil.gainDecibels(50.0), 1.0);
+}
+
+TEST(CompensationTest, NoPowerIsSpentWhereTheActuatorGivesNothing) {
+    const ActuatorProfile deaf =
+        profileOf({20.0, 60.0, 80.0, 100.0, 120.0, 300.0, 1200.0}, {-90.0, -90.0, -90.0, -10.0, 0.0, -3.0, -6.0});
+    const Compensation compensation(deaf, rateHz);
+    EXPECT_LT(compensation.gainDecibels(60.0), -6.0);
+    EXPECT_GT(compensation.gainDecibels(100.0), 0.0);
+}
+
+TEST(CompensationTest, OutsideOfTheBandTheGainIsBackAtZero) {
+    std::mt19937 random(3);
+    for (int round = 0; round < 20; ++round) {
+        const ActuatorProfile profile = round == 0 ? voiceCoil() : randomProfile(random, 10.0);
+        for (const double rate : {8000.0, 48000.0, 192000.0}) {
+            const Compensation compensation(profile, rate, {.bandHz = {60.0, 400.0}});
+            for (const double hz : {5.0, 10.0, 20.0, 30.0, 800.0, 1000.0, 1500.0, 3000.0}) {
+                EXPECT_NEAR(compensation.gainDecibels(hz), 0.0, 0.7) << round << ": " << hz << " Hz at " << rate;
+            }
+        }
+    }
+}
+
+TEST(CompensationTest, TheBandEndsWhereTheProfileEnds) {
+    const Compensation compensation(profileOf({100.0, 150.0, 300.0}, {-6.0, 0.0, -6.0}), rateHz);
+    EXPECT_EQ(compensation.bandHz()[0], 100.0);
+    EXPECT_EQ(compensation.bandHz()[1], 300.0);
+    EXPECT_NEAR(compensation.gainDecibels(50.0), 0.0, 0.7);
+    EXPECT_NEAR(compensation.gainDecibels(600.0), 0.0, 0.7);
+    EXPECT_TRUE(Compensation(profileOf({2000.0, 3000.0}, {0.0, -20.0}), rateHz).isTransparent());
+    EXPECT_TRUE(Compensation(profileOf({1.0, 2.0}, {0.0, -20.0}), rateHz).isTransparent());
+}
+
+TEST(CompensationTest, ABroadbandTextureKeepsItsPowerAndClipsNoMoreOften) {
+    std::mt19937 random(17);
+    for (int round = 0; round < 6; ++round) {
+        const ActuatorProfile profile = round == 0 ? voiceCoil() : randomProfile(random, 12.0);
+        Compensation compensation(profile, rateHz);
+        const std::vector<float> before = textureNoise(static_cast<std::size_t>(10 * rateHz), 100.0F, 1);
+        std::vector<float> after = before;
+        run(compensation, after);
+        EXPECT_LE(10.0 * std::log10(powerOf(after) / powerOf(before)), 0.5) << round;
+        const auto loud = static_cast<float>(3.0 * std::sqrt(powerOf(before)));
+        const auto bent = [loud](const std::vector<float>& samples) {
+            return std::ranges::count_if(samples, [loud](float sample) { return std::abs(sample) > loud; });
+        };
+        EXPECT_GT(bent(before), 100);
+        EXPECT_LE(static_cast<double>(bent(after)), 1.35 * static_cast<double>(bent(before))) << round;
+    }
+}
+
+TEST(CompensationTest, TheFirstSampleInIsInTheFirstSampleOut) {
+    for (const double rate : rates) {
+        Compensation compensation(voiceCoil(), rate);
+        std::vector<float> samples(8);
+        samples[0] = 1.0F;
+        run(compensation, samples);
+        EXPECT_GT(std::abs(samples[0]), 0.3F) << rate;
+    }
+}
+
+TEST(CompensationTest, NoToneOfTheBandComesLaterThanDeclared) {
+    std::mt19937 random(23);
+    for (int round = 0; round < 5; ++round) {
+        const ActuatorProfile profile = round == 0 ? voiceCoil() : randomProfile(random, 6.0);
+        Compensation compensation(profile, rateHz);
+        const double latency = compensation.declaration().latencySeconds;
+        EXPECT_GE(latency, 0.0);
+        for (double hz = 50.0; hz <= 900.0; hz *= 1.3) {
+            // The centroid of the energy of a burst of 40 periods under a smooth window.
+            const auto length = static_cast<std::size_t>(40.0 / hz * rateHz);
+            std::vector<float> samples(2 * length);
+            const auto centroid = [&samples] {
+                double energy = 0.0;
+                double moment = 0.0;
+                for (std::size_t i = 0; i < samples.size(); ++i) {
+                    const double power = static_cast<double>(samples[i]) * static_cast<double>(samples[i]);
+                    energy += power;
+                    moment += power * static_cast<double>(i) / rateHz;
+                }
+                return moment / energy;
+            };
+            for (std::size_t i = 0; i < length; ++i) {
+                const double share = static_cast<double>(i) / static_cast<double>(length);
+                samples[i] = static_cast<float>((0.5 - 0.5 * std::cos(twoPi * share)) *
+                                                std::sin(twoPi * hz * static_cast<double>(i) / rateHz));
+            }
+            const double before = centroid();
+            compensation.reset();
+            run(compensation, samples);
+            EXPECT_LE(centroid() - before, latency + 3e-4) << round << ", at " << hz << " Hz";
+        }
+    }
+}
+
+TEST(CompensationTest, ItHasEndedWithinItsDeclaredTail) {
+    for (const double rate : rates) {
+        Compensation compensation(voiceCoil(), rate);
+        EXPECT_TRUE(compensation.isIdle());
+        std::vector<float> samples = noise(static_cast<std::size_t>(0.3 * rate), 60.0F, 4);
+        std::ranges::for_each(samples, [](float& sample) { sample = std::clamp(sample, -200.0F, 200.0F); });
+        run(compensation, samples);
+        EXPECT_FALSE(compensation.isIdle());
+        std::vector<float> silence(static_cast<std::size_t>(compensation.declaration().tailSeconds * rate));
+        run(compensation, silence);
+        std::vector<float> more(256);
+        run(compensation, more);
+        EXPECT_TRUE(compensation.isIdle()) << rate;
+        run(compensation, more);
+        EXPECT_EQ(more, std::vector<float>(256, 0.0F)) << rate;
+    }
+}
+
+TEST(CompensationTest, WhatIsSaidToBeIdleHasNothingLeftThatCouldBeFelt) {
+    Compensation compensation(voiceCoil(), 192000.0);
+    std::vector<float> samples = noise(4000, 30.0F, 9);
+    run(compensation, samples);
+    float loudestSinceIdle = 0.0F;
+    bool wasIdle = false;
+    for (int block = 0; block < 20000; ++block) {
+        std::vector<float> silence(64);
+        compensation.process(silence);
+        for (const float sample : silence) {
+            loudestSinceIdle = wasIdle ? std::max(loudestSinceIdle, std::abs(sample)) : 0.0F;
+        }
+        wasIdle = compensation.isIdle();
+    }
+    EXPECT_TRUE(wasIdle);
+    EXPECT_LE(loudestSinceIdle, static_cast<float>(Compensation::silentMps2));
+}
+
+TEST(CompensationTest, AFlatActuatorChangesNoByte) {
+    for (const double offset : {0.0, -30.0, 12.0}) {
+        Compensation compensation(profileOf({20.0, 1200.0}, {offset, offset}), rateHz);
+        EXPECT_TRUE(compensation.isTransparent()) << offset;
+        const std::vector<float> before = noise(1000, 20.0F, 2);
+        std::vector<float> after = before;
+        run(compensation, after);
+        EXPECT_EQ(after, before);
+        EXPECT_TRUE(compensation.isIdle());
+        EXPECT_EQ(compensation.declaration().latencySeconds, 0.0);
+        EXPECT_EQ(compensation.declaration().tailSeconds, 0.0);
+    }
+    EXPECT_TRUE(Compensation(*ActuatorProfile::builtIn("flat"), 8000.0).isTransparent());
+}
+
+TEST(CompensationTest, AGainOfTheWholeProfileChangesNothingButTheLevel) {
+    ActuatorProfile louder = voiceCoil();
+    std::ranges::for_each(louder.magnitudeDecibels, [](double& decibels) { decibels += 37.0; });
+    const Compensation one(voiceCoil(), rateHz);
+    const Compensation other(louder, rateHz);
+    EXPECT_NEAR(other.levelDecibels(), one.levelDecibels() + 37.0, 0.01);
+    for (double hz = 20.0; hz < 2000.0; hz *= 1.1) {
+        EXPECT_NEAR(one.gainDecibels(hz), other.gainDecibels(hz), 0.01) << hz;
+    }
+}
+
+TEST(CompensationTest, SamplesThatAreNotFiniteOrHugeDoNotStay) {
+    constexpr float nan = std::numeric_limits<float>::quiet_NaN();
+    constexpr float infinity = std::numeric_limits<float>::infinity();
+    for (const double rate : rates) {
+        Compensation compensation(voiceCoil(), rate);
+        std::vector<float> samples = noise(static_cast<std::size_t>(0.1 * rate), 5.0F, 6);
+        for (std::size_t i = 0; i < samples.size(); i += 7) {
+            samples[i] = std::array{nan, infinity, -infinity, std::numeric_limits<float>::max()}[i % 4];
+        }
+        run(compensation, samples, 33);
+        for (const float sample : samples) {
+            ASSERT_TRUE(std::isfinite(sample));
+            ASSERT_LT(std::abs(sample), 1e8F);
+        }
+        std::vector<float> silence(static_cast<std::size_t>(4.0 * rate));
+        run(compensation, silence);
+        EXPECT_TRUE(compensation.isIdle()) << rate;
+    }
+}
+
+TEST(CompensationTest, EveryProfileGivesABoundedFilterAtEveryRate) {
+    std::mt19937 random(29);
+    for (int round = 0; round < 30; ++round) {
+        const ActuatorProfile profile = randomProfile(random, 200.0);
+        const double rate = rates[static_cast<std::size_t>(round) % rates.size()];
+        Compensation compensation(profile, rate, {.largestBoostDecibels = 24.0});
+        std::vector<float> samples = noise(static_cast<std::size_t>(rate), 50.0F, 8);
+        run(compensation, samples);
+        for (const float sample : samples) {
+            ASSERT_TRUE(std::isfinite(sample)) << round;
+            ASSERT_LT(std::abs(sample), 16.0F * 500.0F) << round;
+        }
+        EXPECT_TRUE(std::isfinite(compensation.declaration().tailSeconds));
+        EXPECT_LT(compensation.declaration().tailSeconds, 3.0);
+        EXPECT_LT(compensation.declaration().latencySeconds, 1.0);
+    }
+}
+
+TEST(CompensationTest, TheOutputDoesNotDependOnHowItIsCutIntoBlocks) {
+    const std::vector<float> before = noise(9600, 20.0F, 12);
+    std::vector<float> whole = before;
+    Compensation once(voiceCoil(), rateHz);
+    run(once, whole, whole.size());
+    for (const std::size_t block : {1UL, 7UL, 480UL}) {
+        Compensation compensation(voiceCoil(), rateHz);
+        std::vector<float> cut = before;
+        run(compensation, cut, block);
+        EXPECT_EQ(cut, whole) << block;
+    }
+}
+
+TEST(CompensationTest, AResetForgetsAllSignal) {
+    Compensation compensation(voiceCoil(), rateHz);
+    const std::vector<float> input = noise(960, 20.0F, 13);
+    std::vector<float> first = input;
+    run(compensation, first);
+    compensation.reset();
+    EXPECT_TRUE(compensation.isIdle());
+    std::vector<float> silence(256);
+    run(compensation, silence);
+    EXPECT_EQ(silence, std::vector<float>(256, 0.0F));
+    std::vector<float> again = input;
+    run(compensation, again);
+    EXPECT_EQ(again, first);
+}
+
+TEST(CompensationTest, RatesAndSettingsOutOfRangeAreRefused) {
+    constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+    for (const double rate : {0.0, 7999.0, 192001.0, -48000.0, nan, std::numeric_limits<double>::infinity()}) {
+        EXPECT_THROW(Compensation(voiceCoil(), rate), std::invalid_argument) << rate;
+    }
+    for (const double boost : {-1.0, 24.1, nan}) {
+        EXPECT_THROW(Compensation(voiceCoil(), rateHz, {.largestBoostDecibels = boost}), std::invalid_argument);
+    }
+    for (const std::array<double, 2> band :
+         {std::array{19.0, 500.0}, {40.0, 1001.0}, {400.0, 60.0}, {nan, 400.0}, {60.0, nan}, {60.0, 60.0}}) {
+        EXPECT_THROW(Compensation(voiceCoil(), rateHz, {.bandHz = band}), std::invalid_argument);
+    }
+}
+
+TEST(CompensationTest, ItDeclaresThatItReadsNothingOfTheContact) {
+    const Compensation compensation(voiceCoil(), rateHz);
+    EXPECT_EQ(compensation.declaration().kind, EffectKind::compensation);
+    EXPECT_EQ(compensation.declaration().reads, contact_field::none);
+    EXPECT_EQ(compensation.declaration().memoryBytes, sizeof(Compensation));
+}
+
+TEST(CompensationTest, NothingAllocatesOnceItIsMade) {
+    Compensation compensation(voiceCoil(), rateHz);
+    std::vector<float> samples = noise(512, 20.0F, 14);
+    const std::size_t before = haptoflow::testing::allocationCount();
+    for (int block = 0; block < 50; ++block) {
+        compensation.process(samples);
+        (void)compensation.isIdle();
+        (void)compensation.declaration();
+    }
+    compensation.reset();
+    EXPECT_EQ(haptoflow::testing::allocationCount(), before);
+}
+
+}  // namespace
+}  // namespace haptoflow::effects::compensation_test
