@@ -665,6 +665,50 @@ HAPTOFLOW_API haptoflow_status haptoflow_voice_get_statistics(haptoflow_voice vo
 HAPTOFLOW_API haptoflow_status haptoflow_voice_effect_statistics(haptoflow_voice voice, haptoflow_effect effect,
                                                                  haptoflow_effect_statistics* statistics);
 
+/* Everything comes this much later, for studies and slow displays; 0 to 0.5 s, 0 for no delay. A change fades within
+ * 20 ms. A lift-off closes the texture before the delay; mute, pause and panic act behind it, at once.
+ * Errors: INVALID_ARGUMENT, OUT_OF_MEMORY. [publisher] */
+HAPTOFLOW_API haptoflow_status haptoflow_voice_set_delay(haptoflow_voice voice, double seconds);
+
+/* What plays the voice, so that its resonances and weak bands are evened out: an actuator profile as JSON, length bytes
+ * of it, or the name of one that the library brings along ("flat", "voice-coil"); null for no compensation. Prepared by
+ * the worker for the output's rate; the hand-over takes 10 ms.
+ * Errors: INVALID_ARGUMENT (the message names the key), OUT_OF_MEMORY. [loader-thread] Reads the profile. */
+HAPTOFLOW_API haptoflow_status haptoflow_voice_set_actuator(haptoflow_voice voice, const char* profile,
+                                                            uint64_t length);
+
+/* 1 brings down what is strong for too long, slowly and never to silence; 0 leaves it. actuator_gain: acceleration at the
+ * hand for each m/s^2 of the voice, above 0 to 1000; 0 for 1. The law stands in Documentation~/effects-and-outputs.md; it
+ * is no medical device. Errors: INVALID_ARGUMENT, OUT_OF_MEMORY. [publisher] */
+HAPTOFLOW_API haptoflow_status haptoflow_voice_set_exposure_guard(haptoflow_voice voice, uint32_t is_on,
+                                                                  float actuator_gain);
+
+/* Why the exposure guard lowers a voice. */
+typedef int32_t haptoflow_exposure_reason;
+enum {
+    HAPTOFLOW_EXPOSURE_NONE = 0,
+    /* Minutes at a high level. */
+    HAPTOFLOW_EXPOSURE_SHORT_TERM = 1,
+    /* The day's dose, weighted as ISO 5349-1 does. */
+    HAPTOFLOW_EXPOSURE_DOSE = 2
+};
+
+/* What the exposure guard has measured, as the newest block left it; all zero, and a gain of 1, without one. */
+typedef struct haptoflow_exposure {
+    uint32_t struct_size;
+    haptoflow_exposure_reason reason;
+    /* What the voice is multiplied by. */
+    double gain;
+    /* The equivalent level of the last minutes without the guard, and the daily exposure A(8) that reached the hand,
+     * m/s^2; for how long the level has been lowered. */
+    double short_term_mps2;
+    double daily_mps2;
+    double lowered_seconds;
+} haptoflow_exposure;
+
+/* Errors: INVALID_ARGUMENT. [publisher] */
+HAPTOFLOW_API haptoflow_status haptoflow_voice_exposure(haptoflow_voice voice, haptoflow_exposure* exposure);
+
 /* The voice's place among the process's voices, 0 to HAPTOFLOW_MAXIMUM_VOICES - 1: what the parameter "Voice" of
  * Unity's mixer effect names. Places are used again. Errors: INVALID_ARGUMENT. [publisher] */
 HAPTOFLOW_API haptoflow_status haptoflow_voice_place(haptoflow_voice voice, uint32_t* place);

@@ -5,7 +5,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <memory>
 #include <string>
+#include <string_view>
+#include <utility>
 
 using namespace haptoflow;
 using namespace haptoflow::capi;
@@ -14,6 +17,7 @@ using effects::EffectKind;
 
 static_assert(engine::MaterialBlend::capacity == HAPTOFLOW_MAXIMUM_BLEND);
 static_assert(effects::effectKinds == HAPTOFLOW_EFFECT_COUNT);
+static_assert(static_cast<int>(effects::ExposureReason::dose) == HAPTOFLOW_EXPOSURE_DOSE);
 static_assert(static_cast<int>(EffectKind::exposureGuard) == HAPTOFLOW_EFFECT_EXPOSURE_GUARD);
 static_assert(effects::maskOf(EffectKind::texture) == HAPTOFLOW_ASKS_FOR_TEXTURE);
 static_assert(effects::maskOf(EffectKind::impact) == HAPTOFLOW_ASKS_FOR_IMPACT);
@@ -49,6 +53,25 @@ engine::ContactState contactState(const haptoflow_contact_state& given) {
         state.material.entries[i] = {given.labels[i], given.weights[i]};
     }
     return state;
+}
+
+effects::EffectMask askedProcessors(engine::VoiceChannels& channels) {
+    const std::lock_guard lock(channels.processorMutex);
+    const engine::ProcessorSettings& settings = channels.processorSettings;
+    return (settings.hasDelay ? effects::maskOf(EffectKind::delay) : 0U) |
+           (settings.actuator != nullptr ? effects::maskOf(EffectKind::compensation) : 0U) |
+           (settings.hasExposureGuard ? effects::maskOf(EffectKind::exposureGuard) : 0U);
+}
+
+effects::ActuatorProfile readActuator(std::string_view text) {
+    if (const auto builtIn = effects::ActuatorProfile::builtIn(text)) {
+        return *builtIn;
+    }
+    try {
+        return effects::ActuatorProfile::parse(text);
+    } catch (const effects::ProfileError& error) {
+        throw std::invalid_argument(std::string("profile: ") + error.what());
+    }
 }
 
 float requireUnit(float value, const char* name) {
@@ -183,6 +206,63 @@ haptoflow_status haptoflow_voice_get_statistics(haptoflow_voice voice, haptoflow
     });
 }
 
+haptoflow_status haptoflow_voice_set_delay(haptoflow_voice voice, double seconds) {
+    return guarded([&] {
+        if (!(seconds >= 0.0 && seconds <= effects::Delay::highestSeconds)) {
+            throw std::invalid_argument("seconds is " + std::to_string(seconds) + "; expected 0 to 0.5");
+        }
+        const VoiceTable::Use use = requireVoice(voice);
+        use->voice->channels.controls.delaySeconds = seconds;
+        use->engine->changeProcessors(*use->voice, [seconds](engine::ProcessorSettings& settings) {
+            return std::exchange(settings.hasDelay, seconds > 0.0) != (seconds > 0.0);
+        });
+    });
+}
+
+haptoflow_status haptoflow_voice_set_actuator(haptoflow_voice voice, const char* profile, uint64_t length) {
+    return guarded([&] {
+        const VoiceTable::Use use = requireVoice(voice);
+        std::shared_ptr<const effects::ActuatorProfile> actuator;
+        if (profile != nullptr) {
+            actuator = std::make_shared<const effects::ActuatorProfile>(readActuator({profile, length}));
+        }
+        use->engine->changeProcessors(*use->voice, [&actuator](engine::ProcessorSettings& settings) {
+            const bool changes = settings.actuator != nullptr || actuator != nullptr;
+            settings.actuator = std::move(actuator);
+            return changes;
+        });
+    });
+}
+
+haptoflow_status haptoflow_voice_set_exposure_guard(haptoflow_voice voice, uint32_t is_on, float actuator_gain) {
+    return guarded([&] {
+        constexpr float largestGain = 1000.0F;
+        if (!(actuator_gain >= 0.0F && actuator_gain <= largestGain)) {
+            throw std::invalid_argument("actuator_gain is " + std::to_string(actuator_gain) + "; expected 0 to 1000");
+        }
+        const VoiceTable::Use use = requireVoice(voice);
+        const double gain = actuator_gain == 0.0F ? 1.0 : static_cast<double>(actuator_gain);
+        use->voice->channels.controls.actuatorGain = gain;
+        use->engine->changeProcessors(*use->voice, [is_on](engine::ProcessorSettings& settings) {
+            return std::exchange(settings.hasExposureGuard, is_on != 0) != (is_on != 0);
+        });
+    });
+}
+
+haptoflow_status haptoflow_voice_exposure(haptoflow_voice voice, haptoflow_exposure* exposure) {
+    return guarded([&] {
+        const VoiceTable::Use use = requireVoice(voice);
+        const engine::VoiceChannels& channels = use->voice->channels;
+        haptoflow_exposure content{};
+        content.reason = static_cast<haptoflow_exposure_reason>(channels.exposureReason.load());
+        content.gain = channels.exposureGain;
+        content.short_term_mps2 = channels.exposureShortTermMps2;
+        content.daily_mps2 = channels.exposureDailyMps2;
+        content.lowered_seconds = channels.exposureLoweredSeconds;
+        writeDescriptor(exposure, content, "exposure");
+    });
+}
+
 haptoflow_status haptoflow_voice_effect_statistics(haptoflow_voice voice, haptoflow_effect effect,
                                                    haptoflow_effect_statistics* statistics) {
     return guarded([&] {
@@ -193,7 +273,8 @@ haptoflow_status haptoflow_voice_effect_statistics(haptoflow_voice voice, haptof
         const engine::VoiceCounters& counters = use->voice->channels.counters;
         const engine::EffectCounters& own = counters.effects[static_cast<std::size_t>(effect)];
         haptoflow_effect_statistics content{};
-        content.is_asked_for = (counters.askedFor.load() >> static_cast<unsigned>(effect)) & 1U;
+        content.is_asked_for = ((counters.askedFor | askedProcessors(use->voice->channels)) >>
+                                static_cast<unsigned>(effect)) & 1U;
         content.prepared = own.prepared;
         content.runs = own.runs;
         content.samples = own.samples;

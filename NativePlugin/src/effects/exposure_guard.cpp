@@ -180,6 +180,22 @@ void ExposureGuard::passTicks(std::uint64_t ticks) noexcept {
     publish();
 }
 
+void ExposureGuard::continueFrom(const ExposureGuard& before) noexcept {
+    shortTermSquare_ = before.shortTermSquare_;
+    recentSquare_ = before.recentSquare_;
+    recentWeight_ = before.recentWeight_;
+    slotEnergies_ = before.slotEnergies_;
+    slot_ = before.slot_;
+    slotSeconds_ = before.slotSeconds_;
+    energy_ = before.energy_;
+    gainDb_ = before.gainDb_;
+    gainFrom_ = before.gainFrom_;
+    gainTo_ = before.gainTo_;
+    reason_ = before.reason_;
+    loweredSeconds_ = before.loweredSeconds_;
+    publish();
+}
+
 void ExposureGuard::forgetExposure() noexcept {
     shortTermSquare_ = 0.0;
     recentSquare_ = 0.0;

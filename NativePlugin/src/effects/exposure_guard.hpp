@@ -84,6 +84,8 @@ public:
     void setActuatorGain(double gain) noexcept;
     /// Counts time that passed in silence without `process`.
     void passSilence(std::uint64_t samples) noexcept;
+    /// The same hand at another rate: takes over what `before` has measured, and its gain.
+    void continueFrom(const ExposureGuard& before) noexcept;
     /// Another hand: forgets all exposure and lowers nothing.
     void forgetExposure() noexcept;
 

@@ -31,10 +31,9 @@ void forEach(const Processors* processors, const Visit& visit) {
     if (processors == nullptr) {
         return;
     }
-    const std::array<std::pair<effects::Effect*, EffectKind>, 3> stages{{
+    const std::array<std::pair<effects::Effect*, EffectKind>, 2> stages{{
         {processors->delay.get(), EffectKind::delay},
         {processors->compensation.get(), EffectKind::compensation},
-        {processors->exposureGuard.get(), EffectKind::exposureGuard},
     }};
     for (const auto& [effect, kind] : stages) {
         if (effect != nullptr) {
@@ -74,6 +73,9 @@ void EffectStage::strikeEdge(double speedMps, const effects::ImpactResponse& res
 }
 
 void EffectStage::exchange(std::unique_ptr<Processors> fresh) noexcept {
+    if (fresh->exposureGuard == nullptr || guard_ == nullptr) {
+        std::swap(guard_, fresh->exposureGuard);
+    }
     leaving_ = std::exchange(processors_, std::move(fresh));
     fadeLeft_ = fadeSamples_;
 }
@@ -103,6 +105,30 @@ bool EffectStage::isIdle() const noexcept {
            (fadeLeft_ == 0 || allIdle(leaving_.get()));
 }
 
+void EffectStage::adoptExposure(const EffectStage& before) noexcept {
+    if (guard_ != nullptr && before.guard_ != nullptr) {
+        guard_->continueFrom(*before.guard_);
+    }
+}
+
+void EffectStage::setDelaySeconds(double seconds) noexcept {
+    if (processors_ != nullptr && processors_->delay != nullptr) {
+        processors_->delay->setDelaySeconds(seconds);
+    }
+}
+
+void EffectStage::setActuatorGain(double gain) noexcept {
+    if (guard_ != nullptr) {
+        guard_->setActuatorGain(gain);
+    }
+}
+
+void EffectStage::passSilence(std::size_t samples) noexcept {
+    if (guard_ != nullptr) {
+        guard_->passSilence(samples);
+    }
+}
+
 std::uint64_t EffectStage::version() const noexcept {
     return processors_ == nullptr ? 0 : processors_->version;
 }
@@ -110,6 +136,9 @@ std::uint64_t EffectStage::version() const noexcept {
 void EffectStage::reset() noexcept {
     impact_.reset();
     edge_.reset();
+    if (guard_ != nullptr) {
+        guard_->reset();
+    }
     resetAll(processors_.get());
     resetAll(leaving_.get());
     fadeLeft_ = 0;
@@ -120,6 +149,9 @@ void EffectStage::process(std::span<float> samplesMps2, EffectFigures& figures) 
     runSources(samplesMps2, figures);
     if (hasProcessors()) {
         runProcessors(samplesMps2, figures);
+        if (guard_ != nullptr) {
+            run(*guard_, EffectKind::exposureGuard, samplesMps2, figures);
+        }
         passGate(samplesMps2);
     }
 }
@@ -144,7 +176,7 @@ void EffectStage::runSources(std::span<float> samplesMps2, EffectFigures& figure
 }
 
 bool EffectStage::hasProcessors() const noexcept {
-    bool has = fadeLeft_ > 0;
+    bool has = fadeLeft_ > 0 || guard_ != nullptr;
     forEach(processors_.get(), [&has](const effects::Effect&, EffectKind) { has = true; });
     return has;
 }

@@ -1,7 +1,9 @@
 #pragma once
 
 #include "dsp/gate.hpp"
+#include "effects/delay.hpp"
 #include "effects/effect.hpp"
+#include "effects/exposure_guard.hpp"
 #include "effects/strikes.hpp"
 
 #include <array>
@@ -31,12 +33,12 @@ struct EffectFigures {
 
 /// Stages that change the whole signal, made together for one output rate; null where a voice does not ask for one.
 struct Processors {
-    /// VoiceChannels::wantedProcessors when they were made.
+    /// ProcessorSettings::version when they were made.
     std::uint64_t version = 0;
     double rateHz = 0.0;
-    std::unique_ptr<effects::Effect> delay;
+    std::unique_ptr<effects::Delay> delay;
     std::unique_ptr<effects::Effect> compensation;
-    std::unique_ptr<effects::Effect> exposureGuard;
+    std::unique_ptr<effects::ExposureGuard> exposureGuard;
 };
 
 /// What stands behind the texture of a voice, for one output rate: blows are added, then the whole goes through the
@@ -58,6 +60,14 @@ public:
     [[nodiscard]] bool isHandingOver() const noexcept { return fadeLeft_ > 0; }
     /// At once; for a voice that is silent.
     void finishHandOver() noexcept { fadeLeft_ = 0; }
+    /// What a guard has measured goes on in this stage's, where it has one: another rate is the same hand.
+    void adoptExposure(const EffectStage& before) noexcept;
+    void setDelaySeconds(double seconds) noexcept;
+    void setActuatorGain(double gain) noexcept;
+    /// Time that passed without `process`.
+    void passSilence(std::size_t samples) noexcept;
+    /// Null for none. Any thread may read its report while the stage lives.
+    [[nodiscard]] const effects::ExposureGuard* exposureGuard() const noexcept { return guard_.get(); }
     /// What the last hand-over has left behind; null while it is under way and where there was none.
     [[nodiscard]] std::unique_ptr<Processors> takeUsed() noexcept;
 
@@ -88,6 +98,8 @@ private:
     dsp::Gate gate_;
     std::unique_ptr<Processors> processors_;
     std::unique_ptr<Processors> leaving_;
+    // Not handed over: what it has measured would be lost.
+    std::unique_ptr<effects::ExposureGuard> guard_;
     std::size_t fadeSamples_;
     std::size_t fadeLeft_ = 0;
 };

@@ -120,11 +120,27 @@ void LiveEngine::gatherVoices() {
 
 ContactAction LiveEngine::publish(LiveVoice& voice, const ContactState& state) noexcept {
     const ContactAction action = voice.publisher.publish(state);
-    const bool wantsOutput = voice.channels.wantedRateHz.load(std::memory_order_relaxed) != 0.0;
+    const VoiceChannels& channels = voice.channels;
+    const bool wantsOutput = channels.wantedRateHz.load(std::memory_order_relaxed) != 0.0 ||
+                             channels.lacksProcessors.load(std::memory_order_relaxed) ||
+                             channels.usedProcessors.load(std::memory_order_relaxed) != nullptr;
     if (action != ContactAction::rest || wantsOutput) {
         signal_.post();
     }
     return action;
+}
+
+void LiveEngine::changeProcessors(LiveVoice& voice, const std::function<bool(ProcessorSettings&)>& change) {
+    VoiceChannels& channels = voice.channels;
+    {
+        const std::lock_guard lock(channels.processorMutex);
+        if (!change(channels.processorSettings)) {
+            return;
+        }
+        channels.wantedProcessors.store(++channels.processorSettings.version, std::memory_order_release);
+        channels.lacksProcessors.store(true, std::memory_order_release);
+    }
+    signal_.post();
 }
 
 RoundResult LiveEngine::step() {

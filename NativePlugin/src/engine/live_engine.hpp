@@ -90,6 +90,9 @@ public:
 
     /// Publishes on one of this engine's voices and wakes the worker where it has something to do. Wait-free.
     ContactAction publish(LiveVoice& voice, const ContactState& state) noexcept;
+    /// `change` edits what the voice asks for and says whether that is another thing than before; the worker then
+    /// prepares it. Any thread but the audio callback's.
+    void changeProcessors(LiveVoice& voice, const std::function<bool(ProcessorSettings&)>& change);
 
     /// One round by hand, for an engine without worker. Not while the worker runs.
     RoundResult step();

@@ -180,18 +180,53 @@ void SegmentPlanner::fail() noexcept {
     channels_.counters.failures.fetch_add(1, std::memory_order_relaxed);
 }
 
+ProcessorSettings SegmentPlanner::wantedProcessors() const {
+    const std::lock_guard lock(channels_.processorMutex);
+    return channels_.processorSettings;
+}
+
+std::unique_ptr<Processors> SegmentPlanner::processorsFor(double rateHz) const {
+    const VoiceControls& controls = channels_.controls;
+    return makeProcessors(wantedProcessors(), rateHz, controls.delaySeconds, controls.actuatorGain);
+}
+
+void SegmentPlanner::serveProcessors() noexcept {
+    delete channels_.usedProcessors.exchange(nullptr, std::memory_order_acq_rel);
+    const double rateHz = channels_.stageRateHz.load(std::memory_order_acquire);
+    const std::uint64_t wanted = channels_.wantedProcessors.load(std::memory_order_acquire);
+    const bool isServed = madeVersion_ == wanted && madeRateHz_ == rateHz;
+    if (rateHz == 0.0 || isServed || !channels_.lacksProcessors.load(std::memory_order_acquire)) {
+        return;
+    }
+    try {
+        std::unique_ptr<Processors> made = processorsFor(rateHz);
+        if (made != nullptr) {
+            madeVersion_ = made->version;
+            madeRateHz_ = rateHz;
+            delete channels_.freshProcessors.exchange(made.release(), std::memory_order_acq_rel);
+        }
+    } catch (const std::exception&) {
+        // Without memory the voice goes on as it is, and asks again with its next state.
+        return;
+    }
+}
+
 void SegmentPlanner::serveOutputRate() noexcept {
+    serveProcessors();
     delete channels_.usedOutput.exchange(nullptr, std::memory_order_acq_rel);
     const double rateHz = channels_.wantedRateHz.exchange(0.0, std::memory_order_acq_rel);
     if (rateHz == 0.0) {
         return;
     }
     try {
-        delete channels_.freshOutput.exchange(new OutputStage(rateHz), std::memory_order_acq_rel);
-    } catch (const std::invalid_argument&) {
-        // Not a rate that audio runs at; the callback asks again when it changes.
-        return;
-    } catch (const std::bad_alloc&) {
+        auto stage = std::make_unique<OutputStage>(rateHz);
+        if (std::unique_ptr<Processors> made = processorsFor(rateHz)) {
+            stage->effects.exchange(std::move(made));
+            stage->effects.finishHandOver();
+        }
+        delete channels_.freshOutput.exchange(stage.release(), std::memory_order_acq_rel);
+    } catch (const std::exception&) {
+        // Not a rate that audio runs at, or no memory; the callback asks again.
         return;
     }
 }

@@ -44,11 +44,14 @@ public:
     /// The run failed: nothing goes out.
     void fail() noexcept;
 
-    /// The worker makes and deletes output stages for the callback. Allocates. Never throws: a rate that no stage can
-    /// be made for leaves the voice silent.
+    /// The worker makes and deletes output stages and processors for the callback. Allocates. Never throws: a rate that
+    /// no stage can be made for leaves the voice silent.
     void serveOutputRate() noexcept;
 
 private:
+    [[nodiscard]] ProcessorSettings wantedProcessors() const;
+    [[nodiscard]] std::unique_ptr<Processors> processorsFor(double rateHz) const;
+    void serveProcessors() noexcept;
     [[nodiscard]] bool mayReplace() const noexcept;
     [[nodiscard]] bool awaitsCallback() const noexcept;
     void skipUntil(std::uint64_t slides) noexcept;
@@ -74,6 +77,10 @@ private:
     std::array<Sent, SegmentQueue::capacity> sent_{};
     std::uint64_t sequence_ = 0;
     std::uint64_t segments_ = 0;
+
+    // Of the newest processors that were made.
+    std::uint64_t madeVersion_ = 0;
+    double madeRateHz_ = 0.0;
 
     // Sliding states that were generated for or counted as skipped.
     std::uint64_t settledSlides_ = 0;

@@ -12,6 +12,7 @@ Voice::Voice(double outputRateHz, float fullScaleMps2)
 
 std::unique_ptr<OutputStage> Voice::exchangeOutput(std::unique_ptr<OutputStage> output) noexcept {
     output->strength.reset(output_->strength.target());
+    output->effects.adoptExposure(output_->effects);
     std::swap(output_, output);
     return output;
 }
@@ -50,12 +51,12 @@ void Voice::noteBlow(effects::EffectKind kind) noexcept {
 }
 
 void Voice::exchangeProcessors(std::unique_ptr<Processors> fresh) noexcept {
-    const auto note = [this](const std::unique_ptr<effects::Effect>& effect, effects::EffectKind kind) {
+    const auto note = [this](const effects::Effect* effect, effects::EffectKind kind) {
         figures_.of(kind).prepared += effect == nullptr ? 0 : 1;
     };
-    note(fresh->delay, effects::EffectKind::delay);
-    note(fresh->compensation, effects::EffectKind::compensation);
-    note(fresh->exposureGuard, effects::EffectKind::exposureGuard);
+    note(fresh->delay.get(), effects::EffectKind::delay);
+    note(fresh->compensation.get(), effects::EffectKind::compensation);
+    note(fresh->exposureGuard.get(), effects::EffectKind::exposureGuard);
     output_->effects.exchange(std::move(fresh));
 }
 
@@ -129,6 +130,7 @@ void Voice::render(std::span<float> out) noexcept {
         out = out.subspan(block.size());
         if (isSilent()) {
             std::ranges::fill(block, 0.0F);
+            output_->effects.passSilence(block.size());
             continue;
         }
         if (isTextureSilent()) {

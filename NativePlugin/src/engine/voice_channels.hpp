@@ -2,6 +2,7 @@
 
 #include "engine/mailbox.hpp"
 #include "engine/output_stage.hpp"
+#include "engine/processor_settings.hpp"
 #include "engine/rib_phase.hpp"
 #include "engine/segment_queue.hpp"
 #include "engine/silence.hpp"
@@ -12,6 +13,7 @@
 #include <atomic>
 #include <cstdint>
 #include <memory>
+#include <mutex>
 
 namespace haptoflow::engine {
 
@@ -86,6 +88,10 @@ struct VoiceControls {
     std::atomic<std::uint32_t> panics{0};
     /// The newest touch at the newest panic: it and all before it stay silent.
     std::atomic<std::uint64_t> silencedTouch{0};
+    /// Of the delay, where the voice has one: 0 to 0.5 s.
+    std::atomic<double> delaySeconds{0.0};
+    /// For the exposure guard: m/s^2 at the hand for each m/s^2 of the signal.
+    std::atomic<double> actuatorGain{1.0};
 };
 
 /// EffectFigures::OfKind for any thread to read.
@@ -161,7 +167,21 @@ struct VoiceChannels {
     std::atomic<OutputStage*> freshOutput{nullptr};
     std::atomic<OutputStage*> usedOutput{nullptr};
 
-    /// The same of the processors that the voice asks for.
+    /// What the voice asks for. Set by any thread but the callback's, under the mutex.
+    std::mutex processorMutex;
+    ProcessorSettings processorSettings;
+    /// ProcessorSettings::version, for the callback, and whether it has others or none.
+    std::atomic<std::uint64_t> wantedProcessors{0};
+    std::atomic<bool> lacksProcessors{false};
+    /// The rate that the callback's stage was made for.
+    std::atomic<double> stageRateHz{0.0};
+    /// ExposureReport of the newest block. Set by the callback.
+    std::atomic<effects::ExposureReason> exposureReason{effects::ExposureReason::none};
+    std::atomic<double> exposureGain{1.0};
+    std::atomic<double> exposureShortTermMps2{0.0};
+    std::atomic<double> exposureDailyMps2{0.0};
+    std::atomic<double> exposureLoweredSeconds{0.0};
+    /// Made by the worker, as output stages are.
     std::atomic<Processors*> freshProcessors{nullptr};
     std::atomic<Processors*> usedProcessors{nullptr};
 

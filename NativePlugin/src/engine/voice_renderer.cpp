@@ -79,6 +79,8 @@ void VoiceRenderer::readControls() noexcept {
     const VoiceControls& controls = channels_.controls;
     voice_.setStrength(unitRange(controls.strength.load(std::memory_order_relaxed)));
     voice_.setCeiling(unitRange(controls.ceiling.load(std::memory_order_relaxed)));
+    voice_.effects().setDelaySeconds(controls.delaySeconds.load(std::memory_order_relaxed));
+    voice_.effects().setActuatorGain(controls.actuatorGain.load(std::memory_order_relaxed));
 }
 
 void VoiceRenderer::readPanic() noexcept {
@@ -201,6 +203,9 @@ void VoiceRenderer::readBlows() noexcept {
 }
 
 void VoiceRenderer::takeProcessors() noexcept {
+    const std::uint64_t wanted = channels_.wantedProcessors.load(std::memory_order_acquire);
+    channels_.stageRateHz.store(voice_.outputRateHz(), std::memory_order_release);
+    channels_.lacksProcessors.store(wanted != voice_.effects().version(), std::memory_order_release);
     // The worker deletes one used set at a time.
     if (channels_.usedProcessors.load(std::memory_order_acquire) != nullptr) {
         return;
@@ -298,6 +303,14 @@ void VoiceRenderer::reportEffects() noexcept {
         counters.samples.store(figures.samples, std::memory_order_relaxed);
         counters.nanoseconds.store(figures.nanoseconds, std::memory_order_relaxed);
         counters.events.store(figures.events, std::memory_order_relaxed);
+    }
+    if (const effects::ExposureGuard* guard = voice_.effects().exposureGuard()) {
+        const effects::ExposureReport report = guard->report();
+        channels_.exposureReason.store(report.reason, std::memory_order_relaxed);
+        channels_.exposureGain.store(report.gain, std::memory_order_relaxed);
+        channels_.exposureShortTermMps2.store(report.shortTermMps2, std::memory_order_relaxed);
+        channels_.exposureDailyMps2.store(report.dailyMps2, std::memory_order_relaxed);
+        channels_.exposureLoweredSeconds.store(report.loweredSeconds, std::memory_order_relaxed);
     }
 }
 

@@ -162,6 +162,10 @@ protected:
                                                [this](haptoflow_voice_statistics* statistics) {
                                                    return haptoflow_voice_get_statistics(open_.voice, statistics);
                                                }),
+            output<haptoflow_exposure>("haptoflow_exposure",
+                                       [this](haptoflow_exposure* exposure) {
+                                           return haptoflow_voice_exposure(open_.voice, exposure);
+                                       }),
             output<haptoflow_effect_statistics>(
                 "haptoflow_effect_statistics",
                 [this](haptoflow_effect_statistics* statistics) {

@@ -3,7 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <cstddef>
-#include <cstring>
+#include <limits>
+#include <string>
 #include <vector>
 
 namespace haptoflow::capi::testing {
@@ -80,6 +81,65 @@ TEST_F(VoiceEffectsApiTest, ARimIsFeltAsOftenAsItIsCounted) {
     }
     EXPECT_EQ(of(HAPTOFLOW_EFFECT_EDGE).events, 2U);
     EXPECT_EQ(open_.statistics().inferences, 0U);
+}
+
+TEST_F(VoiceEffectsApiTest, AVoicePlaysThroughWhatItAsksForAndThroughNothingElse) {
+    EXPECT_EQ(haptoflow_voice_set_delay(open_.voice, 0.01), HAPTOFLOW_OK) << message();
+    EXPECT_EQ(haptoflow_voice_set_actuator(open_.voice, "voice-coil", 10), HAPTOFLOW_OK) << message();
+    for (int update = 0; update < 20; ++update) {
+        (void)open_.update(slidingState());
+    }
+    for (const haptoflow_effect effect : {HAPTOFLOW_EFFECT_DELAY, HAPTOFLOW_EFFECT_COMPENSATION}) {
+        EXPECT_EQ(of(effect).prepared, 2U - static_cast<unsigned>(effect == HAPTOFLOW_EFFECT_COMPENSATION)) << effect;
+        EXPECT_EQ(of(effect).is_asked_for, 1U);
+        EXPECT_GT(of(effect).runs, 10U);
+    }
+    EXPECT_EQ(of(HAPTOFLOW_EFFECT_EXPOSURE_GUARD).prepared, 0U);
+    EXPECT_EQ(haptoflow_voice_set_delay(open_.voice, 0.0), HAPTOFLOW_OK);
+    EXPECT_EQ(haptoflow_voice_set_actuator(open_.voice, nullptr, 0), HAPTOFLOW_OK);
+    for (int update = 0; update < 5; ++update) {
+        (void)open_.update(slidingState());
+    }
+    const uint64_t runs = of(HAPTOFLOW_EFFECT_DELAY).runs;
+    (void)open_.update(slidingState());
+    EXPECT_EQ(of(HAPTOFLOW_EFFECT_DELAY).runs, runs) << "switched off means never run";
+    EXPECT_EQ(of(HAPTOFLOW_EFFECT_DELAY).is_asked_for, 0U);
+}
+
+TEST_F(VoiceEffectsApiTest, AProfileThatIsNoneIsRefusedByKeyAndLeavesTheOldOne) {
+    EXPECT_EQ(haptoflow_voice_set_actuator(open_.voice, "voice-coil", 10), HAPTOFLOW_OK);
+    const std::string broken = R"({"name": "x"})";
+    EXPECT_EQ(haptoflow_voice_set_actuator(open_.voice, broken.data(), broken.size()), HAPTOFLOW_INVALID_ARGUMENT);
+    EXPECT_THAT(message(), ::testing::HasSubstr("profile: "));
+    EXPECT_EQ(haptoflow_voice_set_actuator(open_.voice, "loudspeaker", 11), HAPTOFLOW_INVALID_ARGUMENT);
+    EXPECT_EQ(of(HAPTOFLOW_EFFECT_COMPENSATION).is_asked_for, 1U);
+}
+
+TEST_F(VoiceEffectsApiTest, DelayAndGuardOutOfRangeAreRefusedByName) {
+    for (const double seconds : {-0.1, 0.6, std::numeric_limits<double>::quiet_NaN()}) {
+        EXPECT_EQ(haptoflow_voice_set_delay(open_.voice, seconds), HAPTOFLOW_INVALID_ARGUMENT);
+        EXPECT_THAT(message(), ::testing::HasSubstr("expected 0 to 0.5"));
+    }
+    for (const float gain : {-1.0F, 1e9F, std::numeric_limits<float>::quiet_NaN()}) {
+        EXPECT_EQ(haptoflow_voice_set_exposure_guard(open_.voice, 1, gain), HAPTOFLOW_INVALID_ARGUMENT);
+    }
+}
+
+TEST_F(VoiceEffectsApiTest, TheExposureOfAVoiceIsReadableAndHarmlessWithoutAGuard) {
+    haptoflow_exposure exposure{};
+    exposure.struct_size = sizeof(exposure);
+    EXPECT_EQ(haptoflow_voice_exposure(open_.voice, &exposure), HAPTOFLOW_OK);
+    EXPECT_EQ(exposure.gain, 1.0);
+    EXPECT_EQ(exposure.daily_mps2, 0.0);
+    EXPECT_EQ(haptoflow_voice_set_exposure_guard(open_.voice, 1, 0.0F), HAPTOFLOW_OK);
+    for (int update = 0; update < 40; ++update) {
+        (void)open_.update(slidingState());
+    }
+    EXPECT_EQ(haptoflow_voice_exposure(open_.voice, &exposure), HAPTOFLOW_OK);
+    EXPECT_EQ(exposure.reason, HAPTOFLOW_EXPOSURE_NONE);
+    EXPECT_EQ(exposure.gain, 1.0);
+    EXPECT_GT(exposure.daily_mps2, 0.0);
+    EXPECT_LT(exposure.daily_mps2, 0.1);
 }
 
 TEST_F(VoiceEffectsApiTest, AnEffectThatThereIsNotIsRefusedByName) {

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <functional>
 #include <memory>
 #include <random>
 #include <vector>
@@ -405,6 +406,94 @@ TEST_F(ProcessorsTest, AtRestTheyAreTakenAtOnceAndDoNotRun) {
     EXPECT_EQ(alive_, 1);
     EXPECT_EQ(of(device, EffectKind::compensation).runs, 0U);
     EXPECT_EQ(testing::peak(device.output), 0.0F);
+}
+
+/// As LiveEngine::changeProcessors does.
+void ask(SimulatedDevice& device, const std::function<void(ProcessorSettings&)>& change) {
+    VoiceChannels& channels = device.voice().channels;
+    change(channels.processorSettings);
+    channels.wantedProcessors = ++channels.processorSettings.version;
+    channels.lacksProcessors = true;
+    device.voice().planner.serveOutputRate();
+}
+
+TEST_F(ProcessorsTest, ADelayMakesALandingComeLaterToTheSample) {
+    SimulatedDevice direct(model_, tone_);
+    SimulatedDevice delayed(model_, tone_);
+    delayed.controls().delaySeconds = 0.05;
+    ask(delayed, [](ProcessorSettings& settings) { settings.hasDelay = true; });
+    delayed.renderBlock();
+    direct.renderBlock();
+    for (SimulatedDevice* device : {&direct, &delayed}) {
+        for (int block = 0; block < 20; ++block) {
+            device->publish(landing(0.3F, impact));
+            device->renderBlock();
+        }
+    }
+    constexpr std::size_t later = 2400;
+    // The hand-over is done by then.
+    for (std::size_t i = 512; i + later < direct.output.size(); ++i) {
+        ASSERT_FLOAT_EQ(delayed.output[i + later], direct.output[i]) << i;
+    }
+}
+
+TEST_F(ProcessorsTest, LiftOffClosesTheTextureBeforeTheDelayAndPanicActsBehindIt) {
+    SimulatedDevice device(model_, tone_);
+    device.controls().delaySeconds = 0.2;
+    ask(device, [](ProcessorSettings& settings) { settings.hasDelay = true; });
+    device.run(0.6, [](double) { return testing::sliding(); });
+    const std::size_t lifted = device.output.size();
+    device.run(0.3, [](double) { return testing::lifted(1); });
+    EXPECT_GT(testing::peak(from(device, lifted + 9000)), 0.5F / 60.0F) << "what was stroked still comes";
+    EXPECT_LT(testing::peak(from(device, lifted + 9600 + 240 + 512)), silence);
+    ContactState again = testing::sliding();
+    again.touchCounter = 2;
+    device.run(0.4, [&again](double) { return again; });
+    device.voice().channels.panic();
+    device.renderBlock();
+    const std::size_t panicked = device.output.size();
+    device.run(0.4, [&again](double) { return again; });
+    EXPECT_EQ(testing::peak(from(device, panicked)), 0.0F);
+}
+
+TEST_F(ProcessorsTest, SettingsThatChangeAtAnyMomentWhileSlidingNeverClick) {
+    std::mt19937 random(11);
+    SimulatedDevice device(model_, tone_);
+    const auto profile = std::make_shared<const effects::ActuatorProfile>(
+        *effects::ActuatorProfile::builtIn("voice-coil"));
+    const auto slide = [](double) { return testing::sliding(); };
+    device.run(0.5, slide);
+    const float tone = testing::largestStep(device.output);
+    for (int change = 0; change < 300; ++change) {
+        const auto draw = static_cast<std::uint32_t>(random());
+        device.controls().delaySeconds = static_cast<double>(draw % 500) * 0.001;
+        ask(device, [&](ProcessorSettings& settings) {
+            settings.hasDelay = (draw >> 10) % 2 == 0;
+            settings.hasExposureGuard = (draw >> 11) % 2 == 0;
+            settings.actuator = (draw >> 12) % 2 == 0 ? profile : nullptr;
+        });
+        device.run(0.003 * static_cast<double>((draw >> 16) % 20), slide);
+    }
+    EXPECT_LT(testing::largestStep(device.output), 4.2F * tone) << "12 dB of boost is a factor of 4";
+    for (const EffectKind kind : {EffectKind::delay, EffectKind::compensation, EffectKind::exposureGuard}) {
+        EXPECT_GT(of(device, kind).prepared, 20U);
+        EXPECT_GT(of(device, kind).runs, 100U);
+    }
+}
+
+TEST_F(ProcessorsTest, AtAnotherRateTheVoiceHasWhatItAskedForWithItsFirstSound) {
+    SimulatedDevice device(model_, tone_);
+    ask(device, [](ProcessorSettings& settings) { settings.hasExposureGuard = true; });
+    const auto slide = [](double) { return testing::sliding(); };
+    device.run(0.5, slide);
+    const double before = device.voice().channels.exposureDailyMps2;
+    EXPECT_GT(before, 0.0);
+    device.setRate(24000.0);
+    device.run(0.3, slide);
+    EXPECT_GE(device.voice().channels.exposureDailyMps2, before) << "the same hand";
+    const std::uint64_t runs = of(device, EffectKind::exposureGuard).runs;
+    device.run(0.1, slide);
+    EXPECT_GT(of(device, EffectKind::exposureGuard).runs, runs);
 }
 
 TEST_F(ProcessorsTest, OfAnotherRateTheyAreNotTaken) {

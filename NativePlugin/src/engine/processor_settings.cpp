@@ -1,0 +1,29 @@
+#include "engine/processor_settings.hpp"
+
+#include "effects/compensation.hpp"
+
+namespace haptoflow::engine {
+
+std::unique_ptr<Processors> makeProcessors(const ProcessorSettings& settings, double rateHz, double delaySeconds,
+                                           double actuatorGain) {
+    if (settings.version == 0) {
+        return nullptr;
+    }
+    auto made = std::make_unique<Processors>();
+    made->version = settings.version;
+    made->rateHz = rateHz;
+    if (settings.hasDelay) {
+        made->delay = std::make_unique<effects::Delay>(rateHz);
+        made->delay->setDelaySeconds(delaySeconds);
+    }
+    if (settings.actuator != nullptr) {
+        made->compensation = std::make_unique<effects::Compensation>(*settings.actuator, rateHz);
+    }
+    if (settings.hasExposureGuard) {
+        made->exposureGuard = std::make_unique<effects::ExposureGuard>(rateHz);
+        made->exposureGuard->setActuatorGain(actuatorGain);
+    }
+    return made;
+}
+
+}  // namespace haptoflow::engine
