@@ -29,8 +29,9 @@ double checkedRateHz(double rateHz) {
 
 const ExposureLaw& checkedLaw(const ExposureLaw& law) {
     if (!law.isValid()) {
-        throw std::invalid_argument("the exposure law has a value that is not finite or not above 0, or a lowest gain "
-                                    "above 1");
+        throw std::invalid_argument(
+            "the exposure law has a value that is not finite or not above 0, or a lowest gain "
+            "above 1");
     }
     return law;
 }
@@ -50,8 +51,7 @@ bool ExposureLaw::isValid() const noexcept {
 
 ExposureGuard::ExposureGuard(double sampleRateHz, const ExposureLaw& law)
     : law_(checkedLaw(law)),
-      sampleRateHz_(checkedRateHz(sampleRateHz)),
-      tickSamples_(static_cast<std::size_t>(std::lround(sampleRateHz / ticksPerSecond))),
+      tickSamples_(static_cast<std::size_t>(std::lround(checkedRateHz(sampleRateHz) / ticksPerSecond))),
       tickSeconds_(static_cast<double>(tickSamples_) / sampleRateHz),
       shortTermShare_(1.0 - std::exp(-tickSeconds_ / law.shortTermSeconds)),
       recentShare_(1.0 - std::exp(-tickSeconds_ / recentSeconds)),

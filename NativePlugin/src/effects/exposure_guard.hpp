@@ -111,7 +111,6 @@ private:
     void publish() noexcept;
 
     ExposureLaw law_;
-    double sampleRateHz_;
     std::size_t tickSamples_;
     double tickSeconds_;
     double shortTermShare_;

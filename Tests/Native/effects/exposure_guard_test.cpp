@@ -91,7 +91,7 @@ private:
 };
 
 // As loud as the shipped strokes on the loudest labels with 3 N: root mean square and weighted level.
-const std::vector<Tone> wholeSet{{160.0, 43.6}, {25.0, 12.0}};      // 32 m/s^2, weighted 6.3
+const std::vector<Tone> wholeSet{{160.0, 43.6}, {25.0, 12.0}};       // 32 m/s^2, weighted 6.3
 const std::vector<Tone> loudestStroke{{160.0, 70.7}, {25.0, 22.6}};  // 52.5 m/s^2, weighted 11.5
 const std::vector<Tone> fullScale{{160.0, 200.0}};
 
@@ -340,11 +340,21 @@ TEST(ExposureGuardTest, TenMinutesOfRandomLevelsGainsAndPausesStayWithinTheLaw) 
         const double length = 0.05 + 3.0 * unit(random);
         seconds += length;
         switch (random() % 6) {
-            case 0: session.play(length, {}); break;
-            case 1: guard.passSilence(static_cast<std::uint64_t>(length * voiceRateHz)); break;
-            case 2: guard.setActuatorGain(0.2 + unit(random)); [[fallthrough]];
-            case 3: guard.reset(); [[fallthrough]];
-            default: session.play(length, {{30.0 + 400.0 * unit(random), 100.0 * unit(random)}}); break;
+            case 0:
+                session.play(length, {});
+                break;
+            case 1:
+                guard.passSilence(static_cast<std::uint64_t>(length * voiceRateHz));
+                break;
+            case 2:
+                guard.setActuatorGain(0.2 + unit(random));
+                [[fallthrough]];
+            case 3:
+                guard.reset();
+                [[fallthrough]];
+            default:
+                session.play(length, {{30.0 + 400.0 * unit(random), 100.0 * unit(random)}});
+                break;
         }
         const ExposureReport report = guard.report();
         ASSERT_GE(report.gain, law.lowestGain);

@@ -1,6 +1,6 @@
+#include "effects/wave_features.hpp"
 #include "effects/perceived_intensity.hpp"
 #include "effects/threshold_filter.hpp"
-#include "effects/wave_features.hpp"
 
 #include "effects/feature_signals.hpp"
 #include "support/counting_new.hpp"
@@ -215,8 +215,8 @@ TEST(WaveFeaturesTest, AnOnsetIsFoundOnceAndWithinAMillisecondWhereverItFallsInA
             EXPECT_GE(transients[0].offsetSeconds, 0.0F);
             EXPECT_LE(transients[0].offsetSeconds, 0.005F);
             EXPECT_NEAR(static_cast<double>(transients[0].frequencyHz), frequencyHz, 0.4 * frequencyHz);
-            const double peak = static_cast<double>(*std::ranges::max_element(
-                wave, {}, [](float sample) { return std::abs(sample); }));
+            const double peak =
+                static_cast<double>(*std::ranges::max_element(wave, {}, [](float sample) { return std::abs(sample); }));
             const double played = intensityOfSinusoid(static_cast<double>(transients[0].amplitudeMps2),
                                                       static_cast<double>(transients[0].frequencyHz));
             const double wanted = intensityOfSinusoid(std::abs(peak), frequencyHz);
@@ -343,8 +343,7 @@ TEST(WaveFeaturesTest, WhatIsNotFiniteCountsAsZeroAndEverythingStaysFinite) {
         ASSERT_EQ(frames[i].intensity, expected[i].intensity);
     }
     WaveFeatures shaken;
-    for (const WaveFrame& frame :
-         allFrames(shaken, std::vector<float>(2000, std::numeric_limits<float>::max()), 28)) {
+    for (const WaveFrame& frame : allFrames(shaken, std::vector<float>(2000, std::numeric_limits<float>::max()), 28)) {
         ASSERT_TRUE(std::isfinite(frame.intensity));
         ASSERT_TRUE(std::isfinite(frame.amplitudeMps2));
         ASSERT_TRUE(std::isfinite(frame.transient.amplitudeMps2));
