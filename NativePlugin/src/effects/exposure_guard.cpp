@@ -59,6 +59,9 @@ ExposureGuard::ExposureGuard(double sampleRateHz, const ExposureLaw& law)
 
 void ExposureGuard::setActuatorGain(double gain) noexcept {
     if (std::isfinite(gain) && gain > 0.0) {
+        // What has played lately foretells what will: so much louder or softer now.
+        const double change = gain / law_.actuatorGain;
+        recentSquare_ *= change * change;
         law_.actuatorGain = gain;
     }
 }
@@ -142,7 +145,7 @@ void ExposureGuard::moveGain(double seconds) noexcept {
     const double stepDb = law_.slewDbPerSecond * seconds;
     gainDb_ = std::min(0.0, std::clamp(targetDb, gainDb_ - stepDb, gainDb_ + stepDb));
     gainFrom_ = gainTo_;
-    gainTo_ = gainDb_ == 0.0 ? 1.0 : std::max(law_.lowestGain, std::pow(10.0, gainDb_ / 20.0));
+    gainTo_ = std::pow(10.0, gainDb_ / 20.0);
     if (gainTo_ == 1.0) {
         reason_ = ExposureReason::none;
         loweredSeconds_ = 0.0;

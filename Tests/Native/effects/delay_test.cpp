@@ -226,10 +226,10 @@ TEST(DelayTest, WhatAnIdleLineSkipsIsNotMissed) {
 TEST(DelayTest, AResetForgetsTheSignalAndKeepsTheDelay) {
     Delay delay(8000.0);
     delay.setDelaySeconds(0.1);
-    std::vector<float> samples = sineWave(100.0, 8000.0, 4000);
+    std::vector<float> samples(4000, 5.0F);
     playThrough(delay, samples);
     delay.setDelaySeconds(0.2);
-    playThrough(delay, samples, 0, 40);
+    playThrough(delay, samples, 3000, 40);
     delay.reset();
     EXPECT_TRUE(delay.isIdle());
     std::vector<float> after(4000, 0.0F);
