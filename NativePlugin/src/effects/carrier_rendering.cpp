@@ -69,8 +69,8 @@ std::vector<float> renderCarrier(std::span<const WaveFrame> frames, const Carrie
         while (index + 1 < frames.size() && seconds >= endSeconds(frames[index])) {
             ++index;
         }
-        const Carrier carrier = rendering.shape == CarrierShape::held ? heldAt(frames, index, seconds)
-                                                                      : linearAt(frames, index, seconds);
+        const Carrier carrier =
+            rendering.shape == CarrierShape::held ? heldAt(frames, index, seconds) : linearAt(frames, index, seconds);
         amplitude += follow * (carrier.amplitudeMps2 - amplitude);
         turns = std::fmod(turns + carrier.frequencyHz / rendering.sampleRateHz, 1.0);
         wave[i] = static_cast<float>(amplitude * std::sin(2.0 * std::numbers::pi * turns));
@@ -97,7 +97,7 @@ std::vector<IntensityError> intensityErrors(std::span<const float> wantedMps2, s
     std::vector<IntensityError> errors;
     errors.reserve(wanted.size());
     for (std::size_t i = 0; i < wanted.size(); ++i) {
-        const double wantedIntensity = static_cast<double>(wanted[i].intensity);
+        const auto wantedIntensity = static_cast<double>(wanted[i].intensity);
         const double playedIntensity = i < played.size() ? static_cast<double>(played[i].intensity) : 0.0;
         if (std::max(wantedIntensity, playedIntensity) < 1.0) {
             continue;

@@ -29,8 +29,9 @@ double checkedRateHz(double rateHz) {
 
 const ExposureLaw& checkedLaw(const ExposureLaw& law) {
     if (!law.isValid()) {
-        throw std::invalid_argument("the exposure law has a value that is not finite or not above 0, or a lowest gain "
-                                    "above 1");
+        throw std::invalid_argument(
+            "the exposure law has a value that is not finite or not above 0, or a lowest gain "
+            "above 1");
     }
     return law;
 }
@@ -50,8 +51,7 @@ bool ExposureLaw::isValid() const noexcept {
 
 ExposureGuard::ExposureGuard(double sampleRateHz, const ExposureLaw& law)
     : law_(checkedLaw(law)),
-      sampleRateHz_(checkedRateHz(sampleRateHz)),
-      tickSamples_(static_cast<std::size_t>(std::lround(sampleRateHz / ticksPerSecond))),
+      tickSamples_(static_cast<std::size_t>(std::lround(checkedRateHz(sampleRateHz) / ticksPerSecond))),
       tickSeconds_(static_cast<double>(tickSamples_) / sampleRateHz),
       shortTermShare_(1.0 - std::exp(-tickSeconds_ / law.shortTermSeconds)),
       recentShare_(1.0 - std::exp(-tickSeconds_ / recentSeconds)),
@@ -59,6 +59,9 @@ ExposureGuard::ExposureGuard(double sampleRateHz, const ExposureLaw& law)
 
 void ExposureGuard::setActuatorGain(double gain) noexcept {
     if (std::isfinite(gain) && gain > 0.0) {
+        // What has played lately foretells what will: so much louder or softer now.
+        const double change = gain / law_.actuatorGain;
+        recentSquare_ *= change * change;
         law_.actuatorGain = gain;
     }
 }
@@ -142,7 +145,7 @@ void ExposureGuard::moveGain(double seconds) noexcept {
     const double stepDb = law_.slewDbPerSecond * seconds;
     gainDb_ = std::min(0.0, std::clamp(targetDb, gainDb_ - stepDb, gainDb_ + stepDb));
     gainFrom_ = gainTo_;
-    gainTo_ = gainDb_ == 0.0 ? 1.0 : std::max(law_.lowestGain, std::pow(10.0, gainDb_ / 20.0));
+    gainTo_ = std::pow(10.0, gainDb_ / 20.0);
     if (gainTo_ == 1.0) {
         reason_ = ExposureReason::none;
         loweredSeconds_ = 0.0;

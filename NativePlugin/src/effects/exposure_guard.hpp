@@ -80,7 +80,8 @@ public:
     /// Throws std::invalid_argument unless `sampleRateHz` is 8000 to 192000 and the law is valid.
     explicit ExposureGuard(double sampleRateHz, const ExposureLaw& law = {});
 
-    /// From the next sample on; one that is not finite or not above 0 is ignored. May be called before every block.
+    /// From the next sample on; what has played lately counts as if with the new one, the dose stays. One that is not
+    /// finite or not above 0 is ignored. May be called before every block.
     void setActuatorGain(double gain) noexcept;
     /// Counts time that passed in silence without `process`.
     void passSilence(std::uint64_t samples) noexcept;
@@ -113,7 +114,6 @@ private:
     void publish() noexcept;
 
     ExposureLaw law_;
-    double sampleRateHz_;
     std::size_t tickSamples_;
     double tickSeconds_;
     double shortTermShare_;

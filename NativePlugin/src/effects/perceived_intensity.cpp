@@ -76,9 +76,8 @@ double ratioOfIntensity(double intensity, double exponent) noexcept {
         return 0.0;
     }
     const double below = std::pow(std::min(intensity, contourIntensity), 1.0 / exponent);
-    return intensity <= contourIntensity
-               ? below
-               : below * std::pow(intensity / contourIntensity, 1.0 / exponentAboveContour);
+    return intensity <= contourIntensity ? below
+                                         : below * std::pow(intensity / contourIntensity, 1.0 / exponentAboveContour);
 }
 
 double intensityOfSinusoid(double amplitudeMps2, double frequencyHz) noexcept {

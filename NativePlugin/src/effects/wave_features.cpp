@@ -175,8 +175,7 @@ WaveFrame WaveFeatures::finishFrame() noexcept {
         centroidHz_ = spectrum.centroidHz;
     }
     const double ratio = std::sqrt(2.0 * meanSquare(start, end, centroidHz_));
-    const double intensity =
-        spectrum.energy > imperceptible ? intensityOfRatio(ratio, spectrum.exponent) : 0.0;
+    const double intensity = spectrum.energy > imperceptible ? intensityOfRatio(ratio, spectrum.exponent) : 0.0;
     const double frequencyHz = clampedToDevice(centroidHz_);
     return {.firstSample = start,
             .sampleCount = static_cast<std::uint32_t>(end - start),
@@ -217,8 +216,8 @@ WaveFeatures::Spectrum WaveFeatures::spectrumOfHistory() const noexcept {
 double WaveFeatures::meanSquare(std::uint64_t start, std::uint64_t end, double centroidHz) const noexcept {
     const double halfPeriod = 0.5 * sampleRateHz / centroidHz;
     const auto frameLength = static_cast<double>(end - start);
-    const double length = std::min(std::ceil(frameLength / halfPeriod - 1e-9) * halfPeriod,
-                                   static_cast<double>(historySamples) - 2.0);
+    const double length =
+        std::min(std::ceil(frameLength / halfPeriod - 1e-9) * halfPeriod, static_cast<double>(historySamples) - 2.0);
     const double wantedEnd = static_cast<double>(end) + filter_.delaySamples() + 0.5 * (length - frameLength);
     const std::uint64_t heldEnd = hasOnset_ && onset_ >= end ? onset_ : taken_;
     const double last = std::min(wantedEnd, static_cast<double>(heldEnd));

@@ -91,7 +91,7 @@ private:
 };
 
 // As loud as the shipped strokes on the loudest labels with 3 N: root mean square and weighted level.
-const std::vector<Tone> wholeSet{{160.0, 43.6}, {25.0, 12.0}};      // 32 m/s^2, weighted 6.3
+const std::vector<Tone> wholeSet{{160.0, 43.6}, {25.0, 12.0}};       // 32 m/s^2, weighted 6.3
 const std::vector<Tone> loudestStroke{{160.0, 70.7}, {25.0, 22.6}};  // 52.5 m/s^2, weighted 11.5
 const std::vector<Tone> fullScale{{160.0, 200.0}};
 
@@ -140,6 +140,31 @@ TEST(ExposureGuardTest, AWeightedLevelThatUsesUpTheDayIsBroughtDownAndItSaysWhy)
     EXPECT_FALSE(session.untouched);
     EXPECT_EQ(guard.report().reason, ExposureReason::dose);
     EXPECT_LE(session.steepestDbPerSecond, 1.21);
+}
+
+TEST(ExposureGuardTest, ALevelThatWouldUseUpTheDayInMinutesIsLoweredWithinSecondsButNotAfterOneBlow) {
+    ExposureGuard guard(voiceRateHz);
+    Session session(guard);
+    // Weighted 40 m/s^2: a hundred seconds of it are a day's dose.
+    session.play(1.0, {{16.0, 63.0}});
+    EXPECT_TRUE(session.untouched);
+    session.play(4.0, {{16.0, 63.0}});
+    EXPECT_LT(guard.report().gain, 0.9);
+    EXPECT_EQ(guard.report().reason, ExposureReason::dose);
+}
+
+TEST(ExposureGuardTest, TheGainMovesInAStraightLineWithinEachHundredth) {
+    ExposureLaw law;
+    law.shortTermSeconds = 0.2;
+    ExposureGuard guard(voiceRateHz, law);
+    std::vector<float> samples(16000, 150.0F);
+    guard.process(samples);
+    const double perSample = std::pow(10.0, law.slewDbPerSecond / voiceRateHz / 20.0) - 1.0;
+    for (std::size_t i = 1; i < samples.size(); ++i) {
+        const double change = static_cast<double>(samples[i] / samples[i - 1]) - 1.0;
+        ASSERT_LE(std::abs(change), 1.5 * perSample + 2e-7) << i;
+    }
+    EXPECT_LT(samples.back(), 140.0F);
 }
 
 TEST(ExposureGuardTest, TheDailyExposureApproachesItsLimitAndDoesNotPassIt) {
@@ -195,11 +220,17 @@ TEST(ExposureGuardTest, ItRecoversAsSlowlyAsItLowers) {
 
 TEST(ExposureGuardTest, NothingIsLoweredBeyondTheLowestGain) {
     ExposureLaw law = shortDay();
+    law.shortTermSeconds = 2.0;
     law.actuatorGain = 1000.0;
     ExposureGuard guard(voiceRateHz, law);
     Session session(guard);
     session.play(120.0, fullScale);
-    EXPECT_DOUBLE_EQ(guard.report().gain, law.lowestGain);
+    EXPECT_NEAR(guard.report().gain, law.lowestGain, 1e-9);
+    // From there, not from below it, the level comes back, once the gain was corrected: 40 dB in 40 s.
+    guard.setActuatorGain(1.0);
+    guard.passSilence(static_cast<std::uint64_t>(480.0 * voiceRateHz));
+    guard.passSilence(static_cast<std::uint64_t>(46.0 * voiceRateHz));
+    EXPECT_EQ(guard.report().gain, 1.0);
 }
 
 TEST(ExposureGuardTest, TheActuatorsGainScalesWhatIsCounted) {
@@ -340,14 +371,24 @@ TEST(ExposureGuardTest, TenMinutesOfRandomLevelsGainsAndPausesStayWithinTheLaw) 
         const double length = 0.05 + 3.0 * unit(random);
         seconds += length;
         switch (random() % 6) {
-            case 0: session.play(length, {}); break;
-            case 1: guard.passSilence(static_cast<std::uint64_t>(length * voiceRateHz)); break;
-            case 2: guard.setActuatorGain(0.2 + unit(random)); [[fallthrough]];
-            case 3: guard.reset(); [[fallthrough]];
-            default: session.play(length, {{30.0 + 400.0 * unit(random), 100.0 * unit(random)}}); break;
+            case 0:
+                session.play(length, {});
+                break;
+            case 1:
+                guard.passSilence(static_cast<std::uint64_t>(length * voiceRateHz));
+                break;
+            case 2:
+                guard.setActuatorGain(0.2 + unit(random));
+                [[fallthrough]];
+            case 3:
+                guard.reset();
+                [[fallthrough]];
+            default:
+                session.play(length, {{30.0 + 400.0 * unit(random), 100.0 * unit(random)}});
+                break;
         }
         const ExposureReport report = guard.report();
-        ASSERT_GE(report.gain, law.lowestGain);
+        ASSERT_GE(report.gain, law.lowestGain * (1.0 - 1e-9));
         ASSERT_LE(report.gain, 1.0);
         ASSERT_TRUE(std::isfinite(report.dailyMps2));
         ASSERT_EQ(report.reason == ExposureReason::none, report.gain == 1.0);
