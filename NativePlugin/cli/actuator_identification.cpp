@@ -27,14 +27,14 @@ constexpr double smoothingOctaves = 1.0 / 12.0;
 constexpr double edgeOctaves = 1.0 / 6.0;
 // Longer than any actuator of this kind rings.
 constexpr double ringingSeconds = 0.4;
-constexpr double leadSeconds = 0.05;
+constexpr double leadSeconds = 0.1;
 constexpr double shortestRingingSeconds = 0.05;
 constexpr int highestHarmonic = 5;
 constexpr double leastSignalToNoiseDecibels = 6.0;
 constexpr std::size_t fewestPoints = 24;
 
-double rounded(double value, double step) {
-    return std::round(value / step) * step;
+double rounded(double value, double perUnit) {
+    return std::round(value * perUnit) / perUnit;
 }
 
 double powerDecibels(double power) {
@@ -378,7 +378,7 @@ std::vector<double> findResonances(const std::vector<double>& hz, const std::vec
         if (decibels[i] - std::max(lowestLeft, lowestRight) >= prominence) {
             const double curve = decibels[i - 1] - 2.0 * decibels[i] + decibels[i + 1];
             const double shift = curve < 0.0 ? 0.5 * (decibels[i - 1] - decibels[i + 1]) / curve : 0.0;
-            found.push_back(rounded(hz[i] * std::exp2(shift / pointsPerOctave), 0.1));
+            found.push_back(rounded(hz[i] * std::exp2(shift / pointsPerOctave), 10.0));
         }
     }
     constexpr std::size_t most = 16;
@@ -441,9 +441,9 @@ Identification identifyActuator(const Recording& recording, const ExponentialSwe
     std::vector<double> signalToNoise;
     for (const Reading& reading : readings) {
         const double phase = reading.phaseRadians + twoPi * reading.hz * excessSeconds;
-        profile.frequencyHz.push_back(rounded(reading.hz, 0.01));
-        profile.magnitudeDecibels.push_back(rounded(powerDecibels(reading.power / largest), 0.01));
-        profile.phaseDegrees.push_back(rounded(std::remainder(phase, twoPi) * 360.0 / twoPi, 0.1));
+        profile.frequencyHz.push_back(rounded(reading.hz, 100.0));
+        profile.magnitudeDecibels.push_back(rounded(powerDecibels(reading.power / largest), 100.0));
+        profile.phaseDegrees.push_back(rounded(std::remainder(phase, twoPi) * 360.0 / twoPi, 10.0));
         found.noiseDecibels.push_back(powerDecibels(reading.noise / largest));
         found.distortionDecibels.push_back(std::isfinite(reading.distortion) && reading.distortion > 0.0
                                                ? powerDecibels(reading.distortion / largest)
@@ -453,9 +453,9 @@ Identification identifyActuator(const Recording& recording, const ExponentialSwe
     profile.resonancesHz = findResonances(profile.frequencyHz, profile.magnitudeDecibels);
     profile.measurement =
         effects::ActuatorMeasurement{.sampleRateHz = recording.rateHz,
-                                     .delaySeconds = rounded(arrival.lag / recording.rateHz + excessSeconds, 1e-7),
-                                     .distortionPercent = rounded(distortionPercent(readings), 0.01),
-                                     .signalToNoiseDecibels = rounded(median(signalToNoise), 0.1)};
+                                     .delaySeconds = rounded(arrival.lag / recording.rateHz + excessSeconds, 1e7),
+                                     .distortionPercent = rounded(distortionPercent(readings), 100.0),
+                                     .signalToNoiseDecibels = rounded(median(signalToNoise), 10.0)};
     return found;
 }
 
