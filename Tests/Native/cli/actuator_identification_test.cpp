@@ -135,10 +135,8 @@ void expectMagnitude(const Identification& found, const Simulated& simulated, do
     EXPECT_GT(found.profile.frequencyHz.back(), 900.0) << about;
     for (std::size_t i = 0; i < found.profile.frequencyHz.size(); ++i) {
         const double hz = found.profile.frequencyHz[i];
-        if (hz > 25.0) {
-            const double expected = 20.0 * std::log10(std::abs(simulated.response(hz))) - peak;
-            EXPECT_NEAR(found.profile.magnitudeDecibels[i], expected, tolerance) << about << ", at " << hz << " Hz";
-        }
+        const double expected = 20.0 * std::log10(std::abs(simulated.response(hz))) - peak;
+        EXPECT_NEAR(found.profile.magnitudeDecibels[i], expected, tolerance) << about << ", at " << hz << " Hz";
     }
 }
 
@@ -200,7 +198,7 @@ TEST(ActuatorIdentificationTest, HarmonicDistortionIsMeasuredAndKeptOutOfTheMagn
     // Of a sine, x^2 gives half as its second harmonic, x^3 a quarter as its third and three quarters as itself.
     for (const auto& [second, third] : {std::pair{0.1, 0.0}, {0.0, 0.1}, {0.2, 0.1}, {0.01, 0.0}}) {
         const Simulated simulated{.secondOrder = second, .thirdOrder = third, .isFlat = true};
-        const Identification found = identify({}, simulated);
+        const Identification found = identify({.seconds = 5.0}, simulated);
         const double fundamental = 1.0 + 0.75 * third;
         const double expected = 100.0 * std::hypot(0.5 * second, 0.25 * third) / fundamental;
         // The third harmonic is in the sweep's range for fewer fundamentals than the second.
@@ -308,7 +306,7 @@ TEST(ActuatorIdentificationTest, WhatIsNotTheSweepIsRefused) {
     EXPECT_NE(refusalOf(recording, sweep), "not refused") << "a tone";
     Recording slow = record({.seconds = 4.0}, {.rateHz = 48000.0});
     slow.rateHz = 44100.0;
-    EXPECT_NE(refusalOf(slow, sweep), "not refused") << "a wrong rate";
+    EXPECT_THAT(refusalOf(slow, sweep), HasSubstr("at the rate that it states"));
 }
 
 TEST(ActuatorIdentificationTest, ARecordingWithTooMuchNoiseIsRefused) {

@@ -138,8 +138,8 @@ TEST_F(DocumentationExamplesTest, EveryExampleOfTheHelpRuns) {
     makeFilesOf(repository / "Documentation~/scene-and-stroke.md",
                 textOf(repository / "Documentation~/scene-and-stroke.md"));
     std::size_t examples = 0;
-    for (const char* command : {"", "render ", "contact ", "inspect ", "actuator ", "actuator sweep ", "actuator identify ",
-                                "actuator show ", "bench "}) {
+    for (const char* command : {"", "render ", "contact ", "inspect ", "actuator ", "actuator sweep ",
+                                "actuator identify ", "actuator show ", "bench "}) {
         const std::string help = run(std::string(command) + "--help").output;
         for (const std::string& line : examplesOf(std::regex_replace(help, std::regex("\n +"), "\n"))) {
             ++examples;
