@@ -209,7 +209,7 @@ TEST(ActuatorProfileDocumentationTest, TheSchemaKnowsTheSameKeysAsTheReader) {
               keysIn(complaintAbout("measurement", {{"unheard-of", 1}})));
     const nlohmann::json& points = schema.at("properties").at("frequency_hz");
     EXPECT_EQ(points.at("maxItems"), effects::ActuatorProfile::mostPoints);
-    for (const std::string& key : schema.at("required")) {
+    for (const std::string key : schema.at("required")) {
         nlohmann::json profile = nlohmann::json::parse(effects::ActuatorProfile::builtIn("flat")->toJson());
         profile.erase(key);
         EXPECT_THROW((void)effects::ActuatorProfile::parse(profile.dump()), effects::ProfileError) << key;
