@@ -25,16 +25,18 @@ constexpr double pointsPerOctave = 24.0;
 constexpr double smoothingOctaves = 1.0 / 12.0;
 // Of the sweep's range at either end, where the deconvolution is faded in: left out of the profile.
 constexpr double edgeOctaves = 1.0 / 6.0;
+// And this much at the lower end, about the resolution of the window over the response.
+constexpr double edgeHz = 4.0;
 // Longer than any actuator of this kind rings.
 constexpr double ringingSeconds = 0.4;
-constexpr double leadSeconds = 0.05;
+constexpr double leadSeconds = 0.1;
 constexpr double shortestRingingSeconds = 0.05;
 constexpr int highestHarmonic = 5;
 constexpr double leastSignalToNoiseDecibels = 6.0;
 constexpr std::size_t fewestPoints = 24;
 
-double rounded(double value, double step) {
-    return std::round(value / step) * step;
+double rounded(double value, double perUnit) {
+    return std::round(value * perUnit) / perUnit;
 }
 
 double powerDecibels(double power) {
@@ -189,6 +191,13 @@ struct Arrival {
     double ringingSeconds = 0.0;
 };
 
+[[noreturn]] void refuseOtherSignal(const std::string& name) {
+    throw InputError(
+        name +
+        ": does not hold the sweep; expected a recording of the file that --sweep names, played once at the "
+        "rate that it states, louder than the noise");
+}
+
 Arrival findArrival(const ImpulseResponse& response, const Recording& recording, const ExponentialSweep& sweep,
                     const std::string& name) {
     const std::int64_t recorded = std::ssize(recording.samples);
@@ -202,13 +211,8 @@ Arrival findArrival(const ImpulseResponse& response, const Recording& recording,
     const auto middle = powers.begin() + std::ssize(powers) / 2;
     std::ranges::nth_element(powers, middle);
     constexpr double leastPeakToMedian = 100.0;
-    const auto refuse = [&name] {
-        throw InputError(name +
-                         ": does not hold the sweep; expected a recording of the file that --sweep names, played "
-                         "once, louder than the noise");
-    };
     if (!(std::norm(response.at(peak)) > leastPeakToMedian * *middle)) {
-        refuse();
+        refuseOtherSignal(name);
     }
     const double octave = std::numbers::ln2 * sweep.secondsPerNeper();
     const double tail = static_cast<double>(recorded - played - peak) / recording.rateHz;
@@ -232,7 +236,7 @@ Arrival findArrival(const ImpulseResponse& response, const Recording& recording,
     constexpr double leastOverAfter = 10.0;
     if (inside < leastOverBefore * response.energy(peak - lead - length, peak - lead) ||
         inside < leastOverAfter * response.energy(peak - lead + length, peak - lead + 2 * length)) {
-        refuse();
+        refuseOtherSignal(name);
     }
     return arrival;
 }
@@ -256,7 +260,7 @@ std::vector<Reading> readSpectra(const ImpulseResponse& response, const Arrival&
     const WindowedSpectrum linear(response, arrival.lag, arrival.leadSeconds, arrival.ringingSeconds);
     const WindowedSpectrum noise(response, arrival.lag + (arrival.ringingSeconds + arrival.leadSeconds) * rateHz,
                                  arrival.leadSeconds, arrival.ringingSeconds);
-    const double lowestHz = sweep.fromHz * std::exp2(edgeOctaves);
+    const double lowestHz = sweep.fromHz * std::exp2(edgeOctaves) + edgeHz;
     const double highestHz = sweep.toHz / std::exp2(edgeOctaves);
     std::vector<Reading> readings;
     for (int point = 0; lowestHz * std::exp2(point / pointsPerOctave) <= highestHz * (1.0 + 1e-9); ++point) {
@@ -322,8 +326,9 @@ std::vector<double> minimumPhaseOf(const std::vector<Reading>& readings) {
     return {phase.begin() + beyond, phase.end() - beyond};
 }
 
-/// The delay behind the arrival's lag that makes the response as nearly minimum-phase as a delay can.
-double excessDelaySeconds(const std::vector<Reading>& readings) {
+/// The delay behind the arrival's lag that makes the response as nearly minimum-phase as a delay can. Throws InputError
+/// where it stays far from that: then what was recorded is not the sweep at the rate that the file states.
+double excessDelaySeconds(const std::vector<Reading>& readings, const std::string& name) {
     const std::vector<double> minimum = minimumPhaseOf(readings);
     std::vector<double> excess;
     for (std::size_t i = 0; i < readings.size(); ++i) {
@@ -356,7 +361,16 @@ double excessDelaySeconds(const std::vector<Reading>& readings) {
         slope += readings[i].power * readings[i].hz * (excess[i] - offset);
         squares += readings[i].power * readings[i].hz * readings[i].hz;
     }
-    return -slope / squares / twoPi;
+    slope /= squares;
+    double rest = 0.0;
+    for (std::size_t i = 0; i < readings.size(); ++i) {
+        rest += readings[i].power * std::pow(excess[i] - offset - slope * readings[i].hz, 2.0);
+    }
+    constexpr double largestRestRadians = 4.0;
+    if (std::sqrt(rest / weights) > largestRestRadians) {
+        refuseOtherSignal(name);
+    }
+    return -slope / twoPi;
 }
 
 /// The peaks that stand 3 dB above what lies between them and a higher one, or the end of the range.
@@ -378,7 +392,7 @@ std::vector<double> findResonances(const std::vector<double>& hz, const std::vec
         if (decibels[i] - std::max(lowestLeft, lowestRight) >= prominence) {
             const double curve = decibels[i - 1] - 2.0 * decibels[i] + decibels[i + 1];
             const double shift = curve < 0.0 ? 0.5 * (decibels[i - 1] - decibels[i + 1]) / curve : 0.0;
-            found.push_back(rounded(hz[i] * std::exp2(shift / pointsPerOctave), 0.1));
+            found.push_back(rounded(hz[i] * std::exp2(shift / pointsPerOctave), 10.0));
         }
     }
     constexpr std::size_t most = 16;
@@ -428,7 +442,7 @@ Identification identifyActuator(const Recording& recording, const ExponentialSwe
     const Arrival arrival = findArrival(response, recording, sweep, settings.recordingName);
     std::vector<Reading> readings = readSpectra(response, arrival, sweep);
     trim(readings, settings.recordingName);
-    const double excessSeconds = excessDelaySeconds(readings);
+    const double excessSeconds = excessDelaySeconds(readings, settings.recordingName);
 
     Identification found;
     const double largest = std::ranges::max(readings, {}, &Reading::power).power;
@@ -441,9 +455,9 @@ Identification identifyActuator(const Recording& recording, const ExponentialSwe
     std::vector<double> signalToNoise;
     for (const Reading& reading : readings) {
         const double phase = reading.phaseRadians + twoPi * reading.hz * excessSeconds;
-        profile.frequencyHz.push_back(rounded(reading.hz, 0.01));
-        profile.magnitudeDecibels.push_back(rounded(powerDecibels(reading.power / largest), 0.01));
-        profile.phaseDegrees.push_back(rounded(std::remainder(phase, twoPi) * 360.0 / twoPi, 0.1));
+        profile.frequencyHz.push_back(rounded(reading.hz, 100.0));
+        profile.magnitudeDecibels.push_back(rounded(powerDecibels(reading.power / largest), 100.0));
+        profile.phaseDegrees.push_back(rounded(std::remainder(phase, twoPi) * 360.0 / twoPi, 10.0));
         found.noiseDecibels.push_back(powerDecibels(reading.noise / largest));
         found.distortionDecibels.push_back(std::isfinite(reading.distortion) && reading.distortion > 0.0
                                                ? powerDecibels(reading.distortion / largest)
@@ -453,9 +467,9 @@ Identification identifyActuator(const Recording& recording, const ExponentialSwe
     profile.resonancesHz = findResonances(profile.frequencyHz, profile.magnitudeDecibels);
     profile.measurement =
         effects::ActuatorMeasurement{.sampleRateHz = recording.rateHz,
-                                     .delaySeconds = rounded(arrival.lag / recording.rateHz + excessSeconds, 1e-7),
-                                     .distortionPercent = rounded(distortionPercent(readings), 0.01),
-                                     .signalToNoiseDecibels = rounded(median(signalToNoise), 0.1)};
+                                     .delaySeconds = rounded(arrival.lag / recording.rateHz + excessSeconds, 1e7),
+                                     .distortionPercent = rounded(distortionPercent(readings), 100.0),
+                                     .signalToNoiseDecibels = rounded(median(signalToNoise), 10.0)};
     return found;
 }
 

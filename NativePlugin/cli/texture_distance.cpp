@@ -18,7 +18,7 @@ constexpr double rateHz = 8000.0;
 constexpr std::size_t window = 1024;
 constexpr double lowestHz = 20.0;
 constexpr double highestHz = 1000.0;
-constexpr double dynamicDecibels = 60.0;
+constexpr double dynamicDecibels = 30.0;
 
 /// Mean power at each bin, of windows that overlap by half.
 using Spectrum = std::vector<double>;

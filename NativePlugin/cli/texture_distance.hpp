@@ -18,7 +18,7 @@ struct TextureDistance {
 };
 
 /// For every label of a model, by its recorded seeds. One strength, the best for all labels together, is set with and
-/// one without compensation, as by an amplifier's knob. Bins more than 60 dB below a label's loudest are left out. The
+/// one without compensation, as by an amplifier's knob. Bins more than 30 dB below a label's loudest are left out. The
 /// actuator is its profile's magnitude.
 [[nodiscard]] std::vector<TextureDistance> textureDistances(const model::ModelFile& model,
                                                             const effects::ActuatorProfile& profile,

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <initializer_list>
 #include <limits>
 #include <locale>
@@ -257,7 +258,12 @@ std::string ActuatorProfile::toJson() const {
                                    {"distortion_percent", measurement->distortionPercent},
                                    {"signal_to_noise_db", measurement->signalToNoiseDecibels}};
     }
-    return document.dump(2) + '\n';
+    // A key a line: long rows of numbers stay rows.
+    std::string text;
+    for (const auto& [key, value] : document.items()) {
+        text += (text.empty() ? "{\n  " : ",\n  ") + json(key).dump() + ": " + value.dump();
+    }
+    return text + "\n}\n";
 }
 
 std::optional<ActuatorProfile> ActuatorProfile::builtIn(std::string_view name) {

@@ -22,10 +22,11 @@ double poleHz(std::size_t section) {
            std::pow(ParallelFilter::highestPoleHz / ParallelFilter::lowestPoleHz, static_cast<double>(section) / last);
 }
 
-/// Half way to the poles on either side.
+/// Half way to the poles on either side, and some more: neighbours that overlap leave less ripple between them.
 double poleBandwidthHz(std::size_t section) {
+    constexpr double overlap = 1.4;
     static const double half = std::sqrt(poleHz(1) / poleHz(0));
-    return poleHz(section) * (half - 1.0 / half);
+    return overlap * poleHz(section) * (half - 1.0 / half);
 }
 
 using Vector = std::array<double, unknowns>;

@@ -41,7 +41,7 @@ std::vector<std::string> blocksOf(const std::string& page, const std::string& la
     return blocks;
 }
 
-const std::regex example(R"((^|\n|`)((?:\S*/)?haptoflow (?:render|contact|inspect|bench)(?: [^`\n#]+)))");
+const std::regex example(R"((^|\n|`)((?:\S*/)?haptoflow (?:render|contact|inspect|actuator|bench)(?: [^`\n#]+)))");
 
 /// Command lines of a text: in blocks, and between backquotes where they have words beside the command.
 std::vector<std::string> examplesOf(const std::string& text) {
@@ -95,6 +95,11 @@ protected:
                       fs::copy_options::overwrite_existing);
         fs::copy_file(repository / "Samples~/HeadlessScenes/tracing.stroke.csv", at("desk.stroke.csv"),
                       fs::copy_options::overwrite_existing);
+        // Actuator profiles: by the sweep that the page writes, recorded over a wire, and what comes of it.
+        ASSERT_EQ(run("actuator sweep -o sweep.wav").exitCode, 0);
+        fs::copy_file(at("sweep.wav"), at("recording.wav"), fs::copy_options::overwrite_existing);
+        fs::copy_file(repository / "NativePlugin/profiles/voice-coil.json", at("pen.json"),
+                      fs::copy_options::overwrite_existing);
         for (const char* model : {"cluster.haptoflow", "paper.haptoflow"}) {
             fs::copy_file(HAPTOFLOW_TEST_DEFAULT_MODEL, at(model), fs::copy_options::overwrite_existing);
         }
@@ -103,6 +108,7 @@ protected:
     void expectToRun(std::string command, const std::string& place) const {
         command = std::regex_replace(command, std::regex("^\\S*haptoflow "), "");
         command = std::regex_replace(command, std::regex(" MODEL\\b"), " default.haptoflow");
+        command = std::regex_replace(command, std::regex(" PROFILE\\b"), " voice-coil");
         if (command.starts_with("bench") && command.find("--help") == std::string::npos) {
             // What it measures is measured elsewhere: here, that the words are understood and lead to an end.
             command += " --events 1 --quiet --quick";
@@ -132,7 +138,8 @@ TEST_F(DocumentationExamplesTest, EveryExampleOfTheHelpRuns) {
     makeFilesOf(repository / "Documentation~/scene-and-stroke.md",
                 textOf(repository / "Documentation~/scene-and-stroke.md"));
     std::size_t examples = 0;
-    for (const char* command : {"", "render ", "contact ", "inspect ", "bench "}) {
+    for (const char* command : {"", "render ", "contact ", "inspect ", "actuator ", "actuator sweep ",
+                                "actuator identify ", "actuator show ", "bench "}) {
         const std::string help = run(std::string(command) + "--help").output;
         for (const std::string& line : examplesOf(std::regex_replace(help, std::regex("\n +"), "\n"))) {
             ++examples;
