@@ -21,6 +21,7 @@ namespace HaptoFlow.RepositoryTests
         [TestCase(typeof(EngineOptions), 88)]
         [TestCase(typeof(NativeContactState), 76)]
         [TestCase(typeof(EffectStatistics), 48)]
+        [TestCase(typeof(HapticExposure), 40)]
         [TestCase(typeof(VoiceStatistics), 176)]
         [TestCase(typeof(EngineStatistics), 88)]
         [TestCase(typeof(TierTimes), 32)]

@@ -1,5 +1,6 @@
 #nullable enable
 using System;
+using System.Text;
 using System.Threading;
 using HaptoFlow.Native;
 
@@ -111,6 +112,42 @@ namespace HaptoFlow
             var statistics = new VoiceStatistics { StructSize = (uint)sizeof(VoiceStatistics) };
             NativeCall.Check(NativeMethods.VoiceGetStatistics(Id, &statistics));
             return statistics;
+        }
+
+        /// <summary>Everything comes this much later, for studies and slow displays. Lift-off closes the texture before
+        /// the delay; mute, pause and panic act behind it, at once.</summary>
+        /// <param name="seconds">0 to 0.5; 0 for no delay. A change fades within 20 ms.</param>
+        public void SetDelay(double seconds) => NativeCall.Check(NativeMethods.VoiceSetDelay(Id, seconds));
+
+        /// <summary>What plays the voice, so that its resonances and weak bands are evened out.</summary>
+        /// <param name="profile">An actuator profile as JSON, or the name of one that the library brings along:
+        /// "flat", "voice-coil"; null for no compensation.</param>
+        /// <exception cref="HaptoFlowException">The profile is none; the message names the key.</exception>
+        public void SetActuator(string? profile)
+        {
+            if (profile == null)
+            {
+                NativeCall.Check(NativeMethods.VoiceSetActuator(Id, null, 0));
+                return;
+            }
+            byte[] text = Encoding.UTF8.GetBytes(profile + "\0");
+            fixed (byte* bytes = text)
+            {
+                NativeCall.Check(NativeMethods.VoiceSetActuator(Id, bytes, (ulong)(text.Length - 1)));
+            }
+        }
+
+        /// <summary>Brings down what is strong for too long, slowly and never to silence. No medical device.</summary>
+        /// <param name="actuatorGain">Acceleration at the hand for each m/s^2 of the voice, above 0 to 1000.</param>
+        public void SetExposureGuard(bool isOn, float actuatorGain = 1f) =>
+            NativeCall.Check(NativeMethods.VoiceSetExposureGuard(Id, isOn ? 1u : 0u, actuatorGain));
+
+        /// <summary>What the exposure guard has measured; a gain of 1 without one.</summary>
+        public HapticExposure Exposure()
+        {
+            var exposure = new HapticExposure { StructSize = (uint)sizeof(HapticExposure) };
+            NativeCall.Check(NativeMethods.VoiceExposure(Id, &exposure));
+            return exposure;
         }
 
         /// <summary>What one stage of the voice did so far; all zero for one that nobody asked for.</summary>

@@ -142,6 +142,18 @@ namespace HaptoFlow.Native
         [DllImport(Library, EntryPoint = "haptoflow_voice_get_statistics")]
         public static extern int VoiceGetStatistics(ulong voice, VoiceStatistics* statistics);
 
+        [DllImport(Library, EntryPoint = "haptoflow_voice_set_delay")]
+        public static extern int VoiceSetDelay(ulong voice, double seconds);
+
+        [DllImport(Library, EntryPoint = "haptoflow_voice_set_actuator")]
+        public static extern int VoiceSetActuator(ulong voice, byte* profile, ulong length);
+
+        [DllImport(Library, EntryPoint = "haptoflow_voice_set_exposure_guard")]
+        public static extern int VoiceSetExposureGuard(ulong voice, uint isOn, float actuatorGain);
+
+        [DllImport(Library, EntryPoint = "haptoflow_voice_exposure")]
+        public static extern int VoiceExposure(ulong voice, HapticExposure* exposure);
+
         [DllImport(Library, EntryPoint = "haptoflow_voice_effect_statistics")]
         public static extern int VoiceEffectStatistics(ulong voice, int effect, EffectStatistics* statistics);
 

@@ -84,6 +84,41 @@ namespace HaptoFlow
         public bool IsRateSupported => isRateSupported != 0;
     }
 
+    /// <summary>Why the exposure guard lowers a voice.</summary>
+    public enum HapticExposureReason
+    {
+        /// <summary>It does not.</summary>
+        None = 0,
+
+        /// <summary>Minutes at a high level.</summary>
+        ShortTerm = 1,
+
+        /// <summary>The day's dose, weighted as ISO 5349-1 does.</summary>
+        Dose = 2,
+    }
+
+    /// <summary>What a voice's exposure guard has measured, as the newest block left it.</summary>
+    [Preserve, StructLayout(LayoutKind.Sequential)]
+    public struct HapticExposure
+    {
+        internal uint StructSize;
+
+        /// <summary>Why the level is lowered at present.</summary>
+        public HapticExposureReason Reason;
+
+        /// <summary>What the voice is multiplied by; 1 while nothing is lowered.</summary>
+        public double Gain;
+
+        /// <summary>Equivalent level of the last minutes as it would be without the guard, in m/s^2.</summary>
+        public double ShortTermMps2;
+
+        /// <summary>Daily exposure A(8) of what has reached the hand, in m/s^2.</summary>
+        public double DailyMps2;
+
+        /// <summary>For how long the level has been lowered, in seconds.</summary>
+        public double LoweredSeconds;
+    }
+
     /// <summary>What one stage of a voice did since the voice was opened; all zero for one that nobody asked for.
     /// </summary>
     [Preserve, StructLayout(LayoutKind.Sequential)]
