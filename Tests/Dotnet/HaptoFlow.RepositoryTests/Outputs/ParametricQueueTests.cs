@@ -68,7 +68,7 @@ namespace HaptoFlow.RepositoryTests.Outputs
             Play(device, QueueFor(device, new SimulatedWave(seconds => seconds % 0.5 < 0.25
                 ? 0.02 * Math.Sin(1000.0 * seconds) : 0.6 * Math.Sin(1000.0 * seconds))), 0.0, 2.0);
             Assert.That(device.Knocks.Count, Is.InRange(3, 8));
-            Assert.That(device.Knocks.Select(knock => knock.Amplitude), Is.All.GreaterThan(0.2f));
+            Assert.That(device.Knocks.Count(knock => knock.Amplitude > 0.35f), Is.InRange(3, 4), "one for each onset");
         }
 
         [Test]
@@ -131,7 +131,7 @@ namespace HaptoFlow.RepositoryTests.Outputs
                 queue.Update(now);
                 Assert.That(device.AmplitudeAt(now + 0.2), Is.Zero);
             }
-            Assert.That(device.Streams, Is.GreaterThan(50));
+            Assert.That(device.Streams, Is.GreaterThan(30));
         }
 
         [Test]

@@ -41,6 +41,9 @@ namespace HaptoFlow.Outputs
         private bool hasDevice;
         private double beganSeconds = double.NaN;
         private float ceiling = 1f;
+
+        // What is left of the last frame's length: less than one sample of the wave.
+        private double unheard;
         private protected HapticQueueStatistics statistics;
 
         protected HapticQueue(IHapticSink sink, IWaveSource source)
@@ -137,8 +140,10 @@ namespace HaptoFlow.Outputs
         protected long Listen(double elapsedSeconds)
         {
             long from = Wave.End;
-            double seconds = Math.Min(elapsedSeconds, FramePace.HitchSeconds);
-            Wave.RenderTo(from + (long)Math.Ceiling(seconds * WaveHistory.RateHz), Source);
+            unheard += Math.Min(elapsedSeconds, FramePace.HitchSeconds) * WaveHistory.RateHz;
+            long whole = (long)unheard;
+            unheard -= whole;
+            Wave.RenderTo(from + whole, Source);
             for (long position = from; position < Wave.End; ++position)
             {
                 if (Math.Abs(Wave[position]) > Inaudible)

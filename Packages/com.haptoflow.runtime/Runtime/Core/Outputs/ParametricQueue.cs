@@ -12,7 +12,6 @@ namespace HaptoFlow.Outputs
 
         private const double WorstDrift = 0.006;
         private const double MostDoubtSeconds = 0.003;
-        private const double MarginSeconds = 0.006;
         private const int PointSamples = (int)(PointSeconds * WaveHistory.RateHz);
 
         // Of one submission; twice as many are remembered, for a stream that begins anew.
@@ -102,7 +101,7 @@ namespace HaptoFlow.Outputs
         private void Send(double nowSeconds, bool starts, float entry)
         {
             double since = nowSeconds - anchorSeconds;
-            double ahead = Math.Max(Pace.DepthSeconds, IntervalSeconds + MarginSeconds);
+            double ahead = Pace.DepthSeconds + IntervalSeconds;
             if (starts)
             {
                 ahead = Math.Max(ahead, Capabilities.LeastDepthSeconds);
