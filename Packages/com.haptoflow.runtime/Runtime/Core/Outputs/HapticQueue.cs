@@ -95,6 +95,11 @@ namespace HaptoFlow.Outputs
                 return;
             }
             Advance(nowSeconds, elapsed);
+            // What was stopped since the last frame shows in what was rendered now.
+            if (Source.IsStopped)
+            {
+                Flush();
+            }
         }
 
         /// <summary>Calls back what is on its way: reaches the device with this call.</summary>
