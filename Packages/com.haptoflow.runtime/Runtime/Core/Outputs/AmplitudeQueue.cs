@@ -34,7 +34,7 @@ namespace HaptoFlow.Outputs
             analysed = Wave.End;
         }
 
-        protected override void CallBack() => sink.Stop();
+        protected override void CallBack(double nowSeconds) => sink.Stop();
 
         protected override void Advance(double nowSeconds, double elapsedSeconds)
         {

@@ -89,7 +89,7 @@ namespace HaptoFlow.Outputs
             }
             if (Source.IsStopped)
             {
-                Flush();
+                Flush(nowSeconds);
                 // The voice closes what it silences while it is rendered; nobody feels it.
                 Listen(elapsed);
                 return;
@@ -98,17 +98,18 @@ namespace HaptoFlow.Outputs
             // What was stopped since the last frame shows in what was rendered now.
             if (Source.IsStopped)
             {
-                Flush();
+                Flush(nowSeconds);
             }
         }
 
         /// <summary>Calls back what is on its way: reaches the device with this call.</summary>
-        public void Flush()
+        /// <param name="nowSeconds">Of the same clock as <see cref="Update"/>'s.</param>
+        public void Flush(double nowSeconds)
         {
             if (IsPlaying)
             {
                 ++statistics.Stops;
-                CallBack();
+                CallBack(nowSeconds);
                 Rest();
             }
         }
@@ -117,7 +118,7 @@ namespace HaptoFlow.Outputs
         protected abstract void Advance(double nowSeconds, double elapsedSeconds);
 
         /// <summary>Something plays and must end now.</summary>
-        protected abstract void CallBack();
+        protected abstract void CallBack(double nowSeconds);
 
         /// <summary>The device is a new one, or changed.</summary>
         protected abstract void Prepare();

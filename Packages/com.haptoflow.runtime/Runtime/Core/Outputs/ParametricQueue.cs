@@ -44,7 +44,7 @@ namespace HaptoFlow.Outputs
         {
         }
 
-        protected override void CallBack() => sink.Stop();
+        protected override void CallBack(double nowSeconds) => sink.Stop();
 
         protected override void Advance(double nowSeconds, double elapsedSeconds)
         {

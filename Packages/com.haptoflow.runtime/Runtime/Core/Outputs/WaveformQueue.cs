@@ -71,11 +71,15 @@ namespace HaptoFlow.Outputs
             }
         }
 
-        protected override void CallBack()
+        protected override void CallBack(double nowSeconds)
         {
             if (!replaces)
             {
                 sink.Stop();
+                return;
+            }
+            if (MoveTo(nowSeconds))
+            {
                 return;
             }
             int fade = Math.Min(buffer.Length, FadeSamples + 1);
@@ -112,17 +116,10 @@ namespace HaptoFlow.Outputs
 
         private void Replace(double nowSeconds)
         {
-            double since = nowSeconds - anchorSeconds;
             if (stretchSeconds > 0.0)
             {
-                double left = stretchSeconds - since;
-                bool ranDry = left <= 0.0;
-                statistics.Gaps += ranDry ? 1 : 0;
+                statistics.Gaps += MoveTo(nowSeconds) ? 1 : 0;
                 ++statistics.Alignments;
-                double gain = Math.Min(entryGain + since / EntrySeconds, left / FadeSeconds);
-                entryGain = (float)Math.Max(0.0, Math.Min(1.0, gain));
-                SetAnchor(nowSeconds,
-                    ranDry ? Wave.End - decimator.LookAhead : position + since * WaveHistory.RateHz);
             }
             int count = Math.Min(buffer.Length, (int)Math.Ceiling(Pace.DepthSeconds * RateHz) + 1);
             RenderFor(count);
@@ -137,6 +134,19 @@ namespace HaptoFlow.Outputs
                 stretchSeconds = count / RateHz;
                 NoteLatency(stretchSeconds);
             }
+        }
+
+        /// <summary>Goes on with what is felt now, at the gain that it has now.</summary>
+        /// <returns>True where the device has played everything.</returns>
+        private bool MoveTo(double nowSeconds)
+        {
+            double since = nowSeconds - anchorSeconds;
+            double left = stretchSeconds - since;
+            double gain = Math.Min(entryGain + since / EntrySeconds, left / FadeSeconds);
+            entryGain = (float)Math.Max(0.0, Math.Min(1.0, gain));
+            bool ranDry = left <= 0.0;
+            SetAnchor(nowSeconds, ranDry ? Wave.End - decimator.LookAhead : position + since * WaveHistory.RateHz);
+            return ranDry;
         }
 
         private void Append(double nowSeconds)

@@ -79,7 +79,7 @@ namespace HaptoFlow
                 source.ForEach((voice, on) => voice.SetMuted(on), muted);
                 if (muted)
                 {
-                    queue?.Flush();
+                    CallBack();
                 }
             }
         }
@@ -106,7 +106,7 @@ namespace HaptoFlow
         public void Panic()
         {
             source.ForEach((voice, _) => voice.Panic(), 0);
-            queue?.Flush();
+            CallBack();
         }
 
         void IVoiceTarget.Add(HapticVoice voice)
@@ -167,7 +167,7 @@ namespace HaptoFlow
 
         private void OnDisable()
         {
-            queue?.Flush();
+            queue?.Flush(Time.realtimeSinceStartupAsDouble);
             Detach();
         }
 
@@ -182,7 +182,7 @@ namespace HaptoFlow
             source.ForEach((voice, on) => voice.SetPaused(on), paused);
             if (paused)
             {
-                queue?.Flush();
+                CallBack();
             }
         }
 
@@ -203,6 +203,13 @@ namespace HaptoFlow
                 queue.Ceiling = settings.Ceiling;
                 queue.Update(now);
             }
+        }
+
+        /// <summary>What is on its way is not felt any more, nor what the voices close with.</summary>
+        private void CallBack()
+        {
+            source.Discard();
+            queue?.Flush(Time.realtimeSinceStartupAsDouble);
         }
 
         private HapticStylus? Wanted()
@@ -264,7 +271,7 @@ namespace HaptoFlow
             {
                 return;
             }
-            queue?.Flush();
+            queue?.Flush(Time.realtimeSinceStartupAsDouble);
             device = chosen.Sink;
             queue = chosen.Sink switch
             {
@@ -278,7 +285,7 @@ namespace HaptoFlow
 
         private void Close()
         {
-            queue?.Flush();
+            queue?.Flush(Time.realtimeSinceStartupAsDouble);
             queue = null;
             device = null;
             foreach (HapticSinks.OpenSink each in sinks)
