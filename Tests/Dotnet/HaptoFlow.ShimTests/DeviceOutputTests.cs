@@ -83,6 +83,17 @@ namespace HaptoFlow.ShimTests
         }
 
         [Test]
+        public void SubmissionsQueueWhereTheAuthorSaysSo()
+        {
+            OVRInput.Connected = OVRInput.Controller.RTouch;
+            Add<ControllerWaveformOutput>(output => output.QueueSubmissions = true);
+            World.Frames(145);
+            // Aligning with the clock sends the depth once more, about twice a second.
+            Assert.That(OVRInput.Waves.Count(wave => !wave.Append), Is.InRange(2, 8));
+            Assert.That(OVRInput.Waves.Sum(wave => wave.Samples.Length), Is.EqualTo(4000).Within(330));
+        }
+
+        [Test]
         public void AnAuthorsAudioOutputIsPreferredToTheDeviceInTheHand()
         {
             OVRInput.Connected = OVRInput.Controller.RTouch;

@@ -38,11 +38,12 @@ namespace HaptoFlow.Outputs
         // Queuing: device samples since the anchor.
         private long sent;
 
-        public WaveformQueue(IWaveformSink sink, IWaveSource source, bool? replaceAlways = null)
+        /// <param name="mayReplace">False for submissions that queue, also where the device could replace.</param>
+        public WaveformQueue(IWaveformSink sink, IWaveSource source, bool mayReplace = true)
             : base(sink, source)
         {
             this.sink = sink;
-            replaces = replaceAlways ?? sink.ReplacesWithoutGap;
+            replaces = mayReplace && sink.ReplacesWithoutGap;
         }
 
         private double RateHz => Capabilities.RateHz;

@@ -13,6 +13,20 @@ namespace HaptoFlow
     [HelpURL(HelpPages.Home + "effects-and-outputs.html#controller-waveform")]
     public sealed class ControllerWaveformOutput : DeviceOutput
     {
+        [SerializeField, Tooltip("Each submission queues behind the last one, instead of replacing what plays. Switch it " +
+            "on for a controller that buzzes at the frame rate; a hitch then ends without a fade.")]
+        private bool queueSubmissions;
+
+        /// <summary>Each submission queues behind the last one, instead of replacing what plays. To be set before the
+        /// output wakes.</summary>
+        public bool QueueSubmissions
+        {
+            get => queueSubmissions;
+            set => queueSubmissions = value;
+        }
+
+        private protected override bool MayReplace => !queueSubmissions;
+
         private protected override void OpenSinks(HapticHand wanted, List<HapticSinks.OpenSink> into) =>
             HapticSinks.Open(HapticForm.Waveform, wanted, into);
     }

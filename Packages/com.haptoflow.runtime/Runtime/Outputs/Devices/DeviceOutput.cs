@@ -120,6 +120,9 @@ namespace HaptoFlow
         /// <summary>Made by <see cref="SceneOutputs"/> for a stylus without output.</summary>
         internal virtual bool IsMade => false;
 
+        /// <summary>False for submissions that queue behind each other.</summary>
+        private protected virtual bool MayReplace => true;
+
         /// <summary>The sinks that may be used, the best first.</summary>
         private protected abstract void OpenSinks(HapticHand wanted, List<HapticSinks.OpenSink> into);
 
@@ -275,7 +278,7 @@ namespace HaptoFlow
             device = chosen.Sink;
             queue = chosen.Sink switch
             {
-                IWaveformSink waveform => new WaveformQueue(waveform, source),
+                IWaveformSink waveform => new WaveformQueue(waveform, source, MayReplace),
                 IParametricSink parametric => new ParametricQueue(parametric, source, new RmsWaveFeatures()),
                 IAmplitudeSink amplitude => new AmplitudeQueue(amplitude, source, new RmsWaveFeatures()),
                 _ => null,
