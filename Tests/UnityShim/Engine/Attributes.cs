@@ -115,4 +115,9 @@ namespace UnityEngine.Scripting
     public class PreserveAttribute : Attribute
     {
     }
+
+    [AttributeUsage(AttributeTargets.Assembly)]
+    public class AlwaysLinkAssemblyAttribute : Attribute
+    {
+    }
 }

@@ -8,6 +8,7 @@ namespace UnityEngine
         public static double timeAsDouble => Clock.Seconds;
         public static float deltaTime => (float)(Clock.InFixedStep ? Clock.FixedStepSeconds : Clock.DeltaSeconds);
         public static double unscaledTimeAsDouble => Clock.UnscaledSeconds;
+        public static double realtimeSinceStartupAsDouble => Clock.UnscaledSeconds;
         public static float unscaledDeltaTime => (float)Clock.UnscaledDeltaSeconds;
         public static double fixedTimeAsDouble => Clock.FixedSeconds;
         public static double fixedUnscaledTimeAsDouble => Clock.FixedUnscaledSeconds;

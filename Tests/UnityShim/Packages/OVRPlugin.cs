@@ -1,7 +1,7 @@
 using UnityEngine;
 
 /// <summary>Of Meta's SDK, as programs for MX Ink call it.</summary>
-public static class OVRPlugin
+public static partial class OVRPlugin
 {
     internal static float? Tip;
     internal static string BoundAction = "tip";
@@ -40,5 +40,6 @@ public static class OVRPlugin
         Connected = Controller.RTouch;
         hasInputFocus = true;
         Calls = 0;
+        ResetHaptics();
     }
 }

@@ -38,6 +38,11 @@ namespace UnityEngine.InputSystem
 
     public class InputControl
     {
+        public string displayName { get; protected set; } = "";
+    }
+
+    public class InputDevice : InputControl
+    {
     }
 
     public sealed class Mouse

@@ -6,7 +6,11 @@ const testConstraint = 'UNITY_INCLUDE_TESTS';
 const testAssemblies = ['UnityEngine.TestRunner', 'UnityEditor.TestRunner'];
 
 /** Assemblies of packages that a project may lack, and the package whose version define must stand beside them. */
-const optionalAssemblies = { 'Unity.InputSystem': 'com.unity.inputsystem', 'Oculus.VR': 'com.meta.xr.sdk.core' };
+const optionalAssemblies = {
+  'Unity.InputSystem': 'com.unity.inputsystem',
+  'Unity.XR.OpenXR': 'com.unity.xr.openxr',
+  'Oculus.VR': 'com.meta.xr.sdk.core',
+};
 
 /** The assembly definitions of a package: {file, folder, definition}; those that are no JSON are left to the rules. */
 export function assembliesOf(files) {

@@ -46,6 +46,10 @@ namespace HaptoFlow
         [SerializeField, Tooltip("Where the wave goes; empty for the scene's output, or one that is made.")]
         private HapticOutput? output;
 
+        [SerializeField, Tooltip("The hand that holds the stylus. Outputs that vibrate in a hand need it; an XR Pen " +
+            "sets it.")]
+        private HapticHand hand = HapticHand.None;
+
         [SerializeField, Range(0f, 1f)]
         private float strength = 1f;
 
@@ -53,7 +57,7 @@ namespace HaptoFlow
         private HapticStylusEvents events = new HapticStylusEvents();
 
         private TipContacts? contacts;
-        private StylusVoice? voice;
+        private StylusVoices? voices;
         private bool following;
         private bool touching;
         private HapticContact contact;
@@ -126,11 +130,19 @@ namespace HaptoFlow
         /// <summary>The events for wiring in the Inspector.</summary>
         public HapticStylusEvents Events => events;
 
-        /// <summary>Where the wave goes.</summary>
+        /// <summary>The audio output where the wave goes; null for the scene's. Outputs that vibrate in a hand
+        /// (<see cref="DeviceOutput"/>) name their stylus instead, so that one stylus may have several.</summary>
         public HapticOutput? Output
         {
             get => output;
             set => output = value;
+        }
+
+        /// <summary>The hand that holds the stylus, for outputs that vibrate in it.</summary>
+        public HapticHand Hand
+        {
+            get => hand;
+            set => hand = value;
         }
 
         /// <summary>Gain, 0 to 1, on top of the surface's and the output's.</summary>
@@ -153,7 +165,7 @@ namespace HaptoFlow
         public bool TryGetStatistics(out VoiceStatistics statistics)
         {
             statistics = default;
-            return voice != null && voice.TryGetStatistics(out statistics);
+            return voices != null && voices.TryGetStatistics(out statistics);
         }
 
         /// <summary>What one stage of the stylus's voice did. False while the stylus has no voice.</summary>
@@ -164,7 +176,7 @@ namespace HaptoFlow
         }
 
         /// <summary>Silence at once; sounds again with the next touch-down.</summary>
-        public void Panic() => voice?.Panic();
+        public void Panic() => voices?.Panic();
 
         /// <summary>The tip was carried elsewhere, by a teleport or a hand-over: what it touched and its speed are
         /// forgotten. Jumps faster than 20 m/s are noticed without this.</summary>
@@ -177,11 +189,13 @@ namespace HaptoFlow
         /// <summary>Centre of the tip, in world space.</summary>
         internal Vector3 TipPosition => tip != null ? tip.position : transform.position;
 
+        /// <summary>The voices of this stylus, one for each of its outputs.</summary>
+        internal StylusVoices Voices => voices ??= new StylusVoices(this);
+
         private void OnEnable()
         {
             contacts ??= new TipContacts(new ContactSettings(), tipRadiusMetres);
             contacts.Tracker.TipRadiusMetres = tipRadiusMetres;
-            voice ??= new StylusVoice(this);
             following = true;
             HapticSession.Current.Poll();
         }
@@ -190,7 +204,7 @@ namespace HaptoFlow
         {
             following = false;
             ForgetMotion();
-            voice?.Close();
+            voices?.Close();
         }
 
         private void OnValidate()
@@ -235,7 +249,7 @@ namespace HaptoFlow
             }
             using (Markers.Publish.Auto())
             {
-                voice!.Publish(reading, contacts.Touched?.Surface, session);
+                Voices.Publish(reading, contacts.Touched?.Surface, session);
             }
         }
 

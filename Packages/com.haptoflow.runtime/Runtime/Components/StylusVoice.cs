@@ -4,15 +4,15 @@ using UnityEngine;
 
 namespace HaptoFlow
 {
-    /// <summary>The voice of one stylus: opened where engine and output are there, moved where either changed, fed with
-    /// contact states. Main thread, no garbage while nothing changes.</summary>
+    /// <summary>The voice of one stylus on one output: opened where engine and output are there, moved where either
+    /// changed, fed with contact states. Main thread, no garbage while nothing changes.</summary>
     internal sealed class StylusVoice
     {
         private readonly HapticStylus stylus;
         private HapticVoice? voice;
         private HapticEngine? engine;
         private HapticEngine? refusedBy;
-        private HapticOutput? output;
+        private IVoiceTarget? output;
         private float publishedStrength;
 
         public StylusVoice(HapticStylus stylus) => this.stylus = stylus;
@@ -42,9 +42,11 @@ namespace HaptoFlow
 
         /// <summary>Tells the engine what the tip does; opens the voice first where it can.</summary>
         /// <param name="surface">What is touched; null where nothing is.</param>
-        public void Publish(in ContactReading reading, HapticSurface? surface, HapticSession session)
+        /// <param name="wanted">Where it plays; null for silence.</param>
+        public void Publish(
+            in ContactReading reading, HapticSurface? surface, HapticSession session, IVoiceTarget? wanted)
         {
-            if (!MakeReady(session))
+            if (!MakeReady(session, wanted))
             {
                 return;
             }
@@ -89,14 +91,13 @@ namespace HaptoFlow
             }
         }
 
-        private bool MakeReady(HapticSession session)
+        private bool MakeReady(HapticSession session, IVoiceTarget? wanted)
         {
             if (session.Engine == null)
             {
                 Close();
                 return false;
             }
-            HapticOutput? wanted = WantedOutput();
             if (wanted == null)
             {
                 Close();
@@ -110,18 +111,7 @@ namespace HaptoFlow
             return !ReferenceEquals(refusedBy, session.Engine) && Open(session, wanted);
         }
 
-        /// <summary>Null for silence: an output that is switched off is not replaced by another.</summary>
-        private HapticOutput? WantedOutput()
-        {
-            HapticOutput? chosen = stylus.Output;
-            if (chosen == null)
-            {
-                return SceneOutputs.For(stylus);
-            }
-            return chosen.isActiveAndEnabled ? chosen : null;
-        }
-
-        private bool Open(HapticSession session, HapticOutput wanted)
+        private bool Open(HapticSession session, IVoiceTarget wanted)
         {
             try
             {

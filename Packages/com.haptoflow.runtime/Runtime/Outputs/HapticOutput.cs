@@ -25,7 +25,7 @@ namespace HaptoFlow
     [AddComponentMenu("HaptoFlow/Haptic Output")]
     [DisallowMultipleComponent]
     [HelpURL(HelpPages.Components + "haptic-output")]
-    public sealed class HapticOutput : MonoBehaviour
+    public sealed class HapticOutput : MonoBehaviour, IVoiceTarget
     {
         [SerializeField]
         private OutputRoute route = OutputRoute.AudioSource;
@@ -150,7 +150,7 @@ namespace HaptoFlow
             return made;
         }
 
-        internal void Add(HapticVoice voice)
+        void IVoiceTarget.Add(HapticVoice voice)
         {
             voice.SetMuted(muted);
             mixer.Add(voice);
@@ -160,7 +160,7 @@ namespace HaptoFlow
             }
         }
 
-        internal void Remove(HapticVoice voice) => mixer.Remove(voice);
+        void IVoiceTarget.Remove(HapticVoice voice) => mixer.Remove(voice);
 
         /// <summary>Does something with every voice that sounds here. Main thread.</summary>
         internal void ForEachVoice<T>(Action<HapticVoice, T> act, T argument) => mixer.ForEach(act, argument);

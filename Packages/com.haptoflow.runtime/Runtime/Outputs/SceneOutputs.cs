@@ -4,9 +4,10 @@ using UnityEngine;
 
 namespace HaptoFlow
 {
-    /// <summary>Which output a stylus without one of its own plays on. An author's enabled output always wins; an
-    /// author's disabled one means silence; where the scene has neither, one is made, and it goes when an author's
-    /// appears. Main thread; no garbage while nothing changes.</summary>
+    /// <summary>Which audio output a stylus without one of its own plays on. An author's enabled output always wins; an
+    /// author's disabled one means silence; where the scene has neither, a stylus plays on what its hand holds, if that
+    /// can be felt (<see cref="AutoOutput"/>), else an audio output is made, and it goes when an author's appears. Main
+    /// thread; no garbage while nothing changes.</summary>
     internal static class SceneOutputs
     {
         private static readonly List<HapticOutput> Authors = new List<HapticOutput>();
@@ -14,6 +15,7 @@ namespace HaptoFlow
 
         // Switched off by its author: found by a search that makes garbage, and kept until it is gone.
         private static HapticOutput? dormant;
+        private static bool hasSearched;
 
         /// <summary>A stylus that asked got none, since the author's are switched off.</summary>
         public static bool AreSwitchedOff => Authors.Count == 0 && dormant != null;
@@ -22,19 +24,21 @@ namespace HaptoFlow
         /// <param name="asker">Named in the message about an output that had to be made.</param>
         public static HapticOutput? For(HapticStylus asker)
         {
-            if (Authors.Count > 0)
+            FindWhatIsSwitchedOff();
+            if (Authors.Count > 0 || dormant != null || asker.Voices.HasNamedDevices)
             {
-                return Authors[0];
+                AutoOutput.Retire(asker);
+                return Authors.Count > 0 ? Authors[0] : null;
+            }
+            if (AutoOutput.Serves(asker))
+            {
+                return null;
             }
             if (made != null)
             {
                 return made.isActiveAndEnabled ? made : null;
             }
-            if (dormant == null)
-            {
-                dormant = FindAuthors();
-            }
-            return dormant != null ? null : Make(asker);
+            return Make(asker);
         }
 
         /// <summary>Also called for a disabled component, once its object is active.</summary>
@@ -55,7 +59,27 @@ namespace HaptoFlow
             }
         }
 
-        public static void Remove(HapticOutput output) => Authors.Remove(output);
+        public static void Remove(HapticOutput output)
+        {
+            Authors.Remove(output);
+            hasSearched = false;
+        }
+
+        private static void FindWhatIsSwitchedOff()
+        {
+            // Comparing with null asks Unity: what was destroyed has to be looked for again.
+            if ((made is not null && made == null) || (dormant is not null && dormant == null))
+            {
+                made = null;
+                dormant = null;
+                hasSearched = false;
+            }
+            if (Authors.Count == 0 && !hasSearched)
+            {
+                hasSearched = true;
+                dormant = FindAuthors();
+            }
+        }
 
         private static HapticOutput? FindAuthors()
         {
@@ -80,6 +104,7 @@ namespace HaptoFlow
                 Object.Destroy(made.gameObject);
             }
             made = null;
+            hasSearched = false;
         }
 
         [RuntimeInitializeOnLoadMethod(RuntimeInitializeLoadType.SubsystemRegistration)]
@@ -88,6 +113,7 @@ namespace HaptoFlow
             Authors.Clear();
             made = null;
             dormant = null;
+            hasSearched = false;
         }
     }
 }

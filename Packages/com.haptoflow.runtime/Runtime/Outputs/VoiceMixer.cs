@@ -48,6 +48,20 @@ namespace HaptoFlow
             }
         }
 
+        /// <summary>None of the voices may be felt any more: each is muted, paused, silenced by a panic, or closing.
+        /// Main thread.</summary>
+        public bool AllAreStopped()
+        {
+            foreach (HapticVoice voice in voices)
+            {
+                if (!IsStopped(voice))
+                {
+                    return false;
+                }
+            }
+            return true;
+        }
+
         /// <summary>Overwrites the channel with the sum of the voices, held within +-1. Audio thread.</summary>
         public void Render(Span<float> interleaved, int channels, int channel, int sampleRateHz)
         {
@@ -64,6 +78,20 @@ namespace HaptoFlow
                 Span<float> samples = room.AsSpan(0, Math.Min(room.Length, interleaved.Length / channels));
                 sounding[index].Render(samples, 1, 0, sampleRateHz);
                 AddTo(interleaved, channels, channel, samples);
+            }
+        }
+
+        private static bool IsStopped(HapticVoice voice)
+        {
+            try
+            {
+                HapticSilence silence = voice.Statistics().Silence;
+                return silence == HapticSilence.Muted || silence == HapticSilence.Paused ||
+                    silence == HapticSilence.Panic || silence == HapticSilence.Closing;
+            }
+            catch (HaptoFlowException closed) when (closed.Status == HaptoFlowStatus.InvalidArgument)
+            {
+                return true;
             }
         }
 

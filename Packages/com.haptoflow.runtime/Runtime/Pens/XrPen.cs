@@ -133,6 +133,10 @@ namespace HaptoFlow
         private void Open()
         {
             isOpen = true;
+            if (stylus != null)
+            {
+                stylus.Hand = hand == PenHand.Left ? HapticHand.Left : HapticHand.Right;
+            }
             isTracked = Enabled("isTracked");
             pressure = Enabled("tip");
             positions = Array.ConvertAll(Poses, pose => Enabled(pose.Position));

@@ -1,0 +1,193 @@
+#nullable enable
+using System;
+
+namespace HaptoFlow.Outputs
+{
+    /// <summary>Streams amplitude, frequency and transients ahead of a device that plays them. The stream begins anew
+    /// before the device's clock can have drifted by more than the margin, and after a hitch from silence.</summary>
+    internal sealed class ParametricQueue : HapticQueue
+    {
+        /// <summary>From point to point, in s.</summary>
+        public const double PointSeconds = 0.005;
+
+        private const double WorstDrift = 0.006;
+        private const double MostDoubtSeconds = 0.003;
+        private const int PointSamples = (int)(PointSeconds * WaveHistory.RateHz);
+
+        // Of one submission; twice as many are remembered, for a stream that begins anew.
+        private const int MostPoints = 64;
+
+        private readonly IParametricSink sink;
+        private readonly IWaveFeatures features;
+        private readonly float[] stretch = new float[PointSamples];
+        private readonly ParametricPoint[] amplitudes = new ParametricPoint[MostPoints + 1];
+        private readonly ParametricPoint[] frequencies = new ParametricPoint[MostPoints + 1];
+        private readonly ParametricTransient[] transients = new ParametricTransient[MostPoints + 1];
+        private readonly WaveFrame[] frames = new WaveFrame[2 * MostPoints];
+
+        // Point n stands at the end of stretch n - 1 of the wave, counted from its origin.
+        private long origin;
+        private long made;
+        private long anchorPoint;
+        private double anchorSeconds;
+        private long sentPoint;
+        private double dueSeconds;
+
+        public ParametricQueue(IParametricSink sink, IWaveSource source, IWaveFeatures features)
+            : base(sink, source)
+        {
+            this.sink = sink;
+            this.features = features;
+        }
+
+        protected override void Prepare()
+        {
+        }
+
+        protected override void CallBack(double nowSeconds) => sink.Stop();
+
+        protected override void Advance(double nowSeconds, double elapsedSeconds)
+        {
+            if (!IsPlaying)
+            {
+                BeginWhereSomethingIsFelt(nowSeconds, elapsedSeconds);
+                return;
+            }
+            double since = nowSeconds - anchorSeconds;
+            if ((sentPoint - anchorPoint) * PointSeconds <= since)
+            {
+                ++statistics.Gaps;
+                Begin(nowSeconds, sentPoint);
+                Send(nowSeconds, true, 0f);
+            }
+            else if (WorstDrift * since > MostDoubtSeconds)
+            {
+                ++statistics.Alignments;
+                Begin(nowSeconds, anchorPoint + (long)Math.Round(since / PointSeconds));
+                Send(nowSeconds, true, Value(anchorPoint));
+            }
+            else if (nowSeconds >= dueSeconds)
+            {
+                Send(nowSeconds, false, 0f);
+            }
+        }
+
+        private double IntervalSeconds => Capabilities.RateHz > 0.0 ? 1.0 / Capabilities.RateHz : 0.0;
+
+        private void BeginWhereSomethingIsFelt(double nowSeconds, double elapsedSeconds)
+        {
+            long first = Listen(elapsedSeconds);
+            if (first < 0)
+            {
+                return;
+            }
+            features.Reset();
+            origin = first;
+            made = 0L;
+            sentPoint = 0L;
+            frames[0] = default;
+            IsPlaying = true;
+            Begin(nowSeconds, 0L);
+            Send(nowSeconds, true, 0f);
+        }
+
+        private void Begin(double nowSeconds, long point)
+        {
+            anchorSeconds = nowSeconds;
+            anchorPoint = point;
+            dueSeconds = nowSeconds;
+        }
+
+        private void Send(double nowSeconds, bool starts, float entry)
+        {
+            double since = nowSeconds - anchorSeconds;
+            double ahead = Pace.DepthSeconds + IntervalSeconds;
+            if (starts)
+            {
+                ahead = Math.Max(ahead, Capabilities.LeastDepthSeconds);
+                sentPoint = anchorPoint;
+            }
+            long last = Math.Min(sentPoint + MostPoints,
+                anchorPoint + (long)Math.Ceiling((since + ahead) / PointSeconds));
+            if (last <= sentPoint)
+            {
+                return;
+            }
+            Make(last);
+            bool ends = !IsFelt(sentPoint, last);
+            int count = 0;
+            if (starts)
+            {
+                Set(count++, anchorPoint, entry);
+            }
+            int knocks = 0;
+            for (long point = sentPoint + 1L; point <= last; ++point)
+            {
+                Set(count++, point, ends ? 0f : Value(point));
+                float knock = frames[point % frames.Length].Transient;
+                if (knock > 0f)
+                {
+                    transients[knocks++] = new ParametricTransient((point - 1L - anchorPoint) * PointSeconds,
+                        Limited(knock), Share(frames[point % frames.Length].FrequencyHz));
+                }
+            }
+            StreamPart part = starts ? StreamPart.First : ends ? StreamPart.Last : StreamPart.Intermediate;
+            if (!sink.Submit(amplitudes.AsSpan(0, count), frequencies.AsSpan(0, count),
+                transients.AsSpan(0, knocks), part))
+            {
+                LoseDevice();
+                return;
+            }
+            ++statistics.Submissions;
+            sentPoint = last;
+            dueSeconds = Math.Max(dueSeconds + IntervalSeconds, nowSeconds + 0.5 * IntervalSeconds);
+            statistics.LatencyMilliseconds =
+                1000.0 * ((last - anchorPoint) * PointSeconds - (nowSeconds - anchorSeconds));
+            if (part == StreamPart.Last)
+            {
+                Rest();
+            }
+        }
+
+        private void Make(long last)
+        {
+            for (; made < last; ++made)
+            {
+                Wave.RenderTo(Math.Max(Wave.End, origin + (made + 1L) * PointSamples), Source);
+                for (int index = 0; index < PointSamples; ++index)
+                {
+                    stretch[index] = Wave[origin + made * PointSamples + index];
+                }
+                frames[(made + 1L) % frames.Length] = features.Analyse(stretch);
+            }
+        }
+
+        private bool IsFelt(long behind, long last)
+        {
+            for (long point = behind; point <= last; ++point)
+            {
+                if (frames[point % frames.Length].Amplitude > Inaudible)
+                {
+                    return true;
+                }
+            }
+            return false;
+        }
+
+        private void Set(int place, long point, float amplitude)
+        {
+            double seconds = (point - anchorPoint) * PointSeconds;
+            amplitudes[place] = new ParametricPoint(seconds, amplitude);
+            frequencies[place] = new ParametricPoint(seconds, Share(frames[point % frames.Length].FrequencyHz));
+        }
+
+        private float Value(long point) => Limited(frames[point % frames.Length].Amplitude);
+
+        private float Share(float frequencyHz)
+        {
+            double range = Capabilities.MaxFrequencyHz - Capabilities.MinFrequencyHz;
+            double share = range > 0.0 ? (frequencyHz - Capabilities.MinFrequencyHz) / range : 0.5;
+            return (float)Math.Max(0.0, Math.Min(1.0, share));
+        }
+    }
+}

@@ -1,0 +1,92 @@
+#nullable enable
+using System;
+
+namespace HaptoFlow.Outputs
+{
+    /// <summary>Reads a wave at a device's rate, at any position between samples: a linear-phase low-pass (sinc under a
+    /// Kaiser window) that keeps what lies below 0.4 of that rate and holds back what would fold.</summary>
+    internal sealed class WaveDecimator
+    {
+        // 60 dB with a transition from 0.4 to 0.6 of the device's rate take this many of its samples on each side.
+        private const double FullHalfWidthSamples = 9.0;
+        private const double LeastHalfWidthSamples = 1.5;
+
+        // A low rate pays with a wider transition rather than with more delay.
+        private const double LongestDelaySeconds = 0.012;
+        private const double KaiserBeta = 5.65;
+        private const int PhasesPerSample = 64;
+
+        private readonly float[] kernel;
+        private readonly int halfWidth;
+
+        /// <param name="rateHz">Of the device, above 0.</param>
+        public WaveDecimator(double rateHz)
+        {
+            Step = WaveHistory.RateHz / rateHz;
+            // Above the wave's own rate nothing folds: there it only reads between samples.
+            double widest = Math.Max(1.0, Step);
+            double halfSamples = Math.Min(FullHalfWidthSamples,
+                Math.Max(LeastHalfWidthSamples, LongestDelaySeconds * WaveHistory.RateHz / widest));
+            halfWidth = (int)Math.Ceiling(halfSamples * widest);
+            kernel = new float[halfWidth * PhasesPerSample + 2];
+            double cutoff = 1.0 / widest;
+            double sum = 0.0;
+            for (int index = 0; index < kernel.Length; ++index)
+            {
+                double distance = (double)index / PhasesPerSample;
+                double value = Sinc(distance * cutoff) * Kaiser(distance / halfWidth);
+                kernel[index] = (float)value;
+                sum += index == 0 ? value : 2.0 * value;
+            }
+            float unity = (float)(PhasesPerSample / sum);
+            for (int index = 0; index < kernel.Length; ++index)
+            {
+                kernel[index] *= unity;
+            }
+        }
+
+        /// <summary>Wave samples in one of the device's.</summary>
+        public double Step { get; }
+
+        /// <summary>Wave samples behind a position that reading it takes.</summary>
+        public int LookAhead => halfWidth;
+
+        /// <summary>What the filter delays, in s.</summary>
+        public double DelaySeconds => halfWidth / WaveHistory.RateHz;
+
+        /// <summary>The wave at a position, in wave samples.</summary>
+        public float SampleAt(WaveHistory wave, double position)
+        {
+            long first = (long)Math.Ceiling(position - halfWidth);
+            long last = (long)Math.Floor(position + halfWidth);
+            double sum = 0.0;
+            for (long place = first; place <= last; ++place)
+            {
+                double phase = Math.Abs(place - position) * PhasesPerSample;
+                int index = (int)phase;
+                double between = phase - index;
+                sum += wave[place] * (kernel[index] + between * (kernel[index + 1] - kernel[index]));
+            }
+            return (float)sum;
+        }
+
+        private static double Sinc(double turns) =>
+            turns == 0.0 ? 1.0 : Math.Sin(Math.PI * turns) / (Math.PI * turns);
+
+        private static double Kaiser(double share) =>
+            share >= 1.0 ? 0.0 : Bessel(KaiserBeta * Math.Sqrt(1.0 - share * share)) / Bessel(KaiserBeta);
+
+        /// <summary>The modified Bessel function of the first kind and order 0, by its series.</summary>
+        private static double Bessel(double x)
+        {
+            double sum = 1.0;
+            double term = 1.0;
+            for (int index = 1; index < 32; ++index)
+            {
+                term *= x / (2.0 * index) * (x / (2.0 * index));
+                sum += term;
+            }
+            return sum;
+        }
+    }
+}

@@ -1,0 +1,262 @@
+#nullable enable
+using System;
+
+namespace HaptoFlow.Outputs
+{
+    /// <summary>Keeps a device that plays the wave itself supplied.</summary>
+    /// <remarks>A device does not say how much it has left, and its clock is not ours. Where a submission replaces what
+    /// plays without a gap, every frame sends the stretch from what is felt now to the depth, with a fade at its end: the
+    /// device's clock is set anew each time, and a hitch is a fade. Where submissions queue, each frame appends what the
+    /// clock says was played, and the device is set to the clock before its drift can have used up the margin, in a quiet
+    /// moment where there is one; submissions end where the wave is small, since a hitch ends there.</remarks>
+    internal sealed class WaveformQueue : HapticQueue
+    {
+        /// <summary>The fade at the end of a stretch that nothing may follow, in s.</summary>
+        public const double FadeSeconds = 0.003;
+
+        private const double EntrySeconds = 0.002;
+
+        // No clock in a controller is further off than this.
+        private const double WorstDrift = 0.006;
+        private const double LeastDoubtSeconds = 0.001;
+        private const double MostDoubtSeconds = 0.003;
+        private const double QuietSeconds = 0.004;
+        private const float QuietShare = 0.2f;
+        private const double SearchForSmallSeconds = 0.0025;
+
+        private readonly IWaveformSink sink;
+        private readonly bool replaces;
+        private WaveDecimator decimator = new WaveDecimator(2000.0);
+        private float[] buffer = Array.Empty<float>();
+
+        // What is felt at the beginning of the newest stretch, in wave samples; when that began; what it lasts.
+        private double position;
+        private double anchorSeconds;
+        private double stretchSeconds;
+        private float entryGain;
+
+        // Queuing: device samples since the anchor.
+        private long sent;
+
+        /// <param name="mayReplace">False for submissions that queue, also where the device could replace.</param>
+        public WaveformQueue(IWaveformSink sink, IWaveSource source, bool mayReplace = true)
+            : base(sink, source)
+        {
+            this.sink = sink;
+            replaces = mayReplace && sink.ReplacesWithoutGap;
+        }
+
+        private double RateHz => Capabilities.RateHz;
+
+        protected override void Prepare()
+        {
+            decimator = new WaveDecimator(RateHz);
+            double longest = FramePace.MaximumDepthSeconds + FadeSeconds;
+            int samples = (int)Math.Ceiling(longest * RateHz) + 3;
+            buffer = new float[Math.Max(1, Math.Min(samples, Capabilities.MaximumSamples))];
+        }
+
+        protected override void Advance(double nowSeconds, double elapsedSeconds)
+        {
+            if (!IsPlaying && !Begin(nowSeconds, elapsedSeconds))
+            {
+                return;
+            }
+            if (replaces)
+            {
+                Replace(nowSeconds);
+            }
+            else
+            {
+                Append(nowSeconds);
+            }
+        }
+
+        protected override void CallBack(double nowSeconds)
+        {
+            if (!replaces)
+            {
+                sink.Stop();
+                return;
+            }
+            if (MoveTo(nowSeconds))
+            {
+                return;
+            }
+            int fade = Math.Min(buffer.Length, FadeSamples + 1);
+            Fill(fade, fade, 0L);
+            if (sink.Submit(buffer.AsSpan(0, fade), true) < 0)
+            {
+                LoseDevice();
+            }
+        }
+
+        private int FadeSamples => Math.Max(1, (int)Math.Round(FadeSeconds * RateHz));
+
+        private bool Begin(double nowSeconds, double elapsedSeconds)
+        {
+            long first = Listen(elapsedSeconds);
+            if (first < 0)
+            {
+                return false;
+            }
+            // What the filter needs before the first sample is silence: it costs no delay.
+            SetAnchor(nowSeconds, first);
+            entryGain = 1f;
+            stretchSeconds = 0.0;
+            IsPlaying = true;
+            return true;
+        }
+
+        private void SetAnchor(double nowSeconds, double felt)
+        {
+            anchorSeconds = nowSeconds;
+            position = felt;
+            sent = 0L;
+        }
+
+        private void Replace(double nowSeconds)
+        {
+            if (stretchSeconds > 0.0)
+            {
+                statistics.Gaps += MoveTo(nowSeconds) ? 1 : 0;
+                ++statistics.Alignments;
+            }
+            int count = Math.Min(buffer.Length, (int)Math.Ceiling(Pace.DepthSeconds * RateHz) + 1);
+            RenderFor(count);
+            if (Wave.Peak((long)position - decimator.LookAhead, Wave.End) <= Inaudible)
+            {
+                Rest();
+                return;
+            }
+            Fill(count, FadeSamples, 0L);
+            if (Submit(count, true))
+            {
+                stretchSeconds = count / RateHz;
+                NoteLatency(stretchSeconds);
+            }
+        }
+
+        /// <summary>Goes on with what is felt now, at the gain that it has now.</summary>
+        /// <returns>True where the device has played everything.</returns>
+        private bool MoveTo(double nowSeconds)
+        {
+            double since = nowSeconds - anchorSeconds;
+            double left = stretchSeconds - since;
+            double gain = Math.Min(entryGain + since / EntrySeconds, left / FadeSeconds);
+            entryGain = (float)Math.Max(0.0, Math.Min(1.0, gain));
+            bool ranDry = left <= 0.0;
+            SetAnchor(nowSeconds, ranDry ? Wave.End - decimator.LookAhead : position + since * WaveHistory.RateHz);
+            return ranDry;
+        }
+
+        private void Append(double nowSeconds)
+        {
+            double since = nowSeconds - anchorSeconds;
+            double depth = sent / RateHz - since;
+            bool replace = sent == 0L;
+            if (!replace && depth <= 0.0)
+            {
+                ++statistics.Gaps;
+                entryGain = 0f;
+                SetAnchor(nowSeconds, Wave.End - decimator.LookAhead);
+                replace = true;
+            }
+            else if (!replace && MustAlign(since))
+            {
+                ++statistics.Alignments;
+                entryGain = 1f;
+                SetAnchor(nowSeconds, position + since * WaveHistory.RateHz);
+                replace = true;
+            }
+            double have = replace ? 0.0 : depth;
+            int count = Math.Min(buffer.Length, (int)Math.Ceiling((Pace.DepthSeconds - have) * RateHz));
+            if (count <= 0)
+            {
+                return;
+            }
+            RenderFor(sent + count);
+            if (Wave.Peak((long)(position + (sent - 1) * decimator.Step) - decimator.LookAhead, Wave.End) <= Inaudible)
+            {
+                // What is on its way ends in silence.
+                Rest();
+                return;
+            }
+            Fill(count, 0, sent);
+            count = SmallEnd(count);
+            if (Submit(count, replace))
+            {
+                NoteLatency(sent / RateHz - (nowSeconds - anchorSeconds));
+            }
+        }
+
+        private bool MustAlign(double sinceSeconds)
+        {
+            double doubt = WorstDrift * sinceSeconds;
+            if (doubt < LeastDoubtSeconds)
+            {
+                return false;
+            }
+            if (doubt >= MostDoubtSeconds)
+            {
+                return true;
+            }
+            long felt = (long)(position + sinceSeconds * WaveHistory.RateHz);
+            long around = (long)(QuietSeconds * WaveHistory.RateHz);
+            float recent = Wave.Peak(felt - 50L * around, Wave.End);
+            return Wave.Peak(felt - around, felt + around) <= QuietShare * recent;
+        }
+
+        /// <summary>The wave as far as so many device samples from the anchor read it.</summary>
+        private void RenderFor(long deviceSamples) => Wave.RenderTo(
+            (long)Math.Ceiling(position + deviceSamples * decimator.Step) + decimator.LookAhead + 1L, Source);
+
+        private void Fill(int count, int fade, long first)
+        {
+            double entry = Math.Max(1.0, EntrySeconds * RateHz);
+            for (int index = 0; index < count; ++index)
+            {
+                long place = first + index;
+                double gain = Math.Min(1.0, entryGain + place / entry);
+                int toEnd = count - 1 - index;
+                if (toEnd < fade)
+                {
+                    gain *= (double)toEnd / fade;
+                }
+                float sample = decimator.SampleAt(Wave, position + place * decimator.Step);
+                buffer[index] = (float)gain * Limited(sample);
+            }
+        }
+
+        /// <summary>How many samples of a submission to send, so that it ends where the wave is small.</summary>
+        private int SmallEnd(int count)
+        {
+            int end = count;
+            int search = Math.Min(count - 1, (int)(SearchForSmallSeconds * RateHz));
+            for (int candidate = count; candidate > count - search; --candidate)
+            {
+                if (Math.Abs(buffer[candidate - 1]) < Math.Abs(buffer[end - 1]))
+                {
+                    end = candidate;
+                }
+            }
+            return end;
+        }
+
+        private bool Submit(int count, bool replace)
+        {
+            int taken = sink.Submit(buffer.AsSpan(0, count), replace);
+            if (taken < 0)
+            {
+                LoseDevice();
+                return false;
+            }
+            ++statistics.Submissions;
+            sent += Math.Min(taken, count);
+            return true;
+        }
+
+        private void NoteLatency(double depthSeconds) =>
+            statistics.LatencyMilliseconds = 1000.0 * (depthSeconds + decimator.DelaySeconds);
+    }
+}

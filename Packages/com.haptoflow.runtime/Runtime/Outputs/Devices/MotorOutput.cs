@@ -1,0 +1,19 @@
+#nullable enable
+using System.Collections.Generic;
+using HaptoFlow.Outputs;
+using UnityEngine;
+
+namespace HaptoFlow
+{
+    /// <summary>Drives the motor of an MX Ink or of any XR controller with the wave's envelope: one amplitude at a
+    /// time.</summary>
+    [DisallowMultipleComponent]
+    [DefaultExecutionOrder(1100)]
+    [AddComponentMenu("HaptoFlow/Motor Output")]
+    [HelpURL(HelpPages.Home + "effects-and-outputs.html#motor")]
+    public sealed class MotorOutput : DeviceOutput
+    {
+        private protected override void OpenSinks(HapticHand wanted, List<HapticSinks.OpenSink> into) =>
+            HapticSinks.Open(HapticForm.Amplitude, wanted, into);
+    }
+}

@@ -1,0 +1,52 @@
+#nullable enable
+using System;
+using HaptoFlow.Outputs;
+
+namespace HaptoFlow
+{
+    /// <summary>The voices that play on a device output, as its queue sees them. Main thread.</summary>
+    internal sealed class VoiceSource : IWaveSource
+    {
+        // A voice closes within 5 ms.
+        private const double ClosingSeconds = 0.01;
+
+        private readonly VoiceMixer mixer = new VoiceMixer();
+        private readonly float[] closing = new float[(int)(ClosingSeconds * WaveHistory.RateHz)];
+
+        public VoiceSource() => mixer.Prepare((int)(WaveHistory.CapacitySeconds * WaveHistory.RateHz));
+
+        /// <inheritdoc/>
+        public bool IsStopped => mixer.AllAreStopped();
+
+        public void Add(HapticVoice voice) => mixer.Add(voice);
+
+        /// <summary>Closes the voice's sound first: otherwise its end would wait for a block that nobody renders.
+        /// </summary>
+        public void Remove(HapticVoice voice)
+        {
+            ForEach((each, leaving) =>
+            {
+                if (ReferenceEquals(each, leaving))
+                {
+                    each.SetMuted(true);
+                }
+            }, voice);
+            Discard();
+            mixer.Remove(voice);
+        }
+
+        public void ForEach<T>(Action<HapticVoice, T> act, T argument) => mixer.ForEach(act, argument);
+
+        /// <summary>Renders what nobody feels, for as long as a voice takes to close.</summary>
+        public void Discard() => Render(closing);
+
+        /// <inheritdoc/>
+        public void Render(Span<float> samples)
+        {
+            using (Markers.Render.Auto())
+            {
+                mixer.Render(samples, 1, 0, (int)WaveHistory.RateHz);
+            }
+        }
+    }
+}

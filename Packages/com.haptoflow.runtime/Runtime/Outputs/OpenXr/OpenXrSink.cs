@@ -1,0 +1,57 @@
+#nullable enable
+using System;
+using HaptoFlow.Outputs;
+using UnityEngine;
+using UnityEngine.InputSystem;
+using UnityEngine.XR.OpenXR.Input;
+
+namespace HaptoFlow
+{
+    /// <summary>The motor of whatever OpenXR has in a hand, MX Ink among it: OpenXRInput.SendHapticImpulse on an action
+    /// that is bound to the device's haptic output.</summary>
+    internal sealed class OpenXrSink : IAmplitudeSink, IDisposable
+    {
+        private const double AskSeconds = 0.5;
+
+        private readonly InputAction action;
+        private readonly string name;
+        private bool isBound;
+        private double askAtSeconds = double.NegativeInfinity;
+
+        public OpenXrSink(HapticHand hand)
+        {
+            name = $"the OpenXR device in the {hand} hand";
+            action = new InputAction(type: InputActionType.PassThrough,
+                binding: "<XRController>{" + hand + "Hand}/haptic");
+            action.Enable();
+        }
+
+        public string Name => name;
+
+        public bool TryGetCapabilities(out HapticSinkCapabilities capabilities)
+        {
+            capabilities = new HapticSinkCapabilities(0.0);
+            double seconds = Time.realtimeSinceStartupAsDouble;
+            if (seconds >= askAtSeconds)
+            {
+                askAtSeconds = seconds + AskSeconds;
+                isBound = action.controls.Count > 0 && OpenXRInput.GetActionHandle(action) != 0uL;
+            }
+            return isBound;
+        }
+
+        public bool Submit(float amplitude, float frequencyHz, float durationSeconds)
+        {
+            OpenXRInput.SendHapticImpulse(action, amplitude, frequencyHz, durationSeconds);
+            return true;
+        }
+
+        public void Stop() => OpenXRInput.StopHaptics(action);
+
+        public void Dispose() => action.Dispose();
+
+        [RuntimeInitializeOnLoadMethod(RuntimeInitializeLoadType.SubsystemRegistration)]
+        private static void Register() => HapticSinks.Register(
+            "OpenXR impulse", HapticForm.Amplitude, 10, hand => new OpenXrSink(hand));
+    }
+}

@@ -1,0 +1,141 @@
+#nullable enable
+using System;
+using System.Linq;
+using HaptoFlow.Outputs;
+using NUnit.Framework;
+
+namespace HaptoFlow.RepositoryTests.Outputs
+{
+    /// <summary>What a simulated motor is told.</summary>
+    public sealed class AmplitudeQueueTests
+    {
+        private const double FrameSeconds = 1.0 / 72.0;
+
+        [Test]
+        public void TenMinutesKeepTheMotorGoingWithoutEverBeingFasterThanIt([Values(45.0, 72.0, 500.0)] double rateHz)
+        {
+            var motor = new SimulatedMotor { RateHz = rateHz };
+            AmplitudeQueue queue = QueueFor(motor, SimulatedWave.Sine(120.0));
+            double now = 0.0;
+            int silent = 0;
+            var random = new Random(3);
+            while (now < 600.0)
+            {
+                now += FrameSeconds * (0.85 + 0.3 * random.NextDouble());
+                silent += now > 1.0 && motor.AmplitudeAt(now) <= 0f ? 1 : 0;
+                motor.Now = now;
+                queue.Update(now);
+                Assert.That(queue.Statistics.LatencyMilliseconds, Is.LessThan(1000.0 * (1.3 / rateHz + 2.0 * FrameSeconds)));
+            }
+            Assert.That(silent, Is.Zero);
+            Assert.That(queue.Statistics.Gaps, Is.Zero);
+            Assert.That(motor.Told.Count, Is.LessThanOrEqualTo(600.0 * Math.Min(rateHz, 85.0) + 2.0));
+            Assert.That(motor.Told.Count, Is.GreaterThan(600.0 * Math.Min(0.9 * rateHz, 70.0)));
+        }
+
+        [Test]
+        public void EachAmplitudeIsThatOfTheSineThatIsAsStrong([Values(0.05, 0.2, 0.6)] double amplitude)
+        {
+            var motor = new SimulatedMotor();
+            Play(motor, QueueFor(motor, SimulatedWave.Sine(216.0, amplitude)), 0.0, 1.0);
+            Assert.That(motor.Told.Skip(3).Select(each => (double)each.Amplitude),
+                Is.All.EqualTo(amplitude).Within(0.03 * amplitude));
+            Assert.That(motor.Told.Skip(3).Select(each => (double)each.Hertz), Is.All.EqualTo(216.0).Within(10.0));
+        }
+
+        [Test]
+        public void TheEnvelopeIsFollowedWithinAFrame()
+        {
+            // 3 Hz of amplitude modulation.
+            static double Envelope(double seconds) => 0.4 + 0.3 * Math.Sin(2.0 * Math.PI * 3.0 * seconds);
+            var motor = new SimulatedMotor();
+            Play(motor, QueueFor(motor, new SimulatedWave(seconds =>
+                Envelope(seconds) * Math.Sin(2.0 * Math.PI * 216.0 * seconds))), 0.0, 3.0);
+            foreach ((double seconds, float amplitude, _, _) in motor.Told.Skip(5))
+            {
+                Assert.That(amplitude, Is.EqualTo(Envelope(seconds - 0.5 * FrameSeconds)).Within(0.05));
+            }
+        }
+
+        [Test]
+        public void AHitchIsAGapAndNeverAStuckVibration()
+        {
+            var motor = new SimulatedMotor();
+            AmplitudeQueue queue = QueueFor(motor, SimulatedWave.Sine(120.0));
+            double now = Play(motor, queue, 0.0, 1.0);
+            Assert.That(motor.AmplitudeAt(now + AmplitudeQueue.LongestSeconds), Is.Zero);
+            Play(motor, queue, now + 0.2, 0.5);
+            Assert.That(queue.Statistics.Gaps, Is.EqualTo(1));
+            Assert.That(motor.Told.Last().Amplitude, Is.EqualTo(0.3f).Within(0.05f));
+        }
+
+        [Test]
+        public void AStopAndASilentWaveReachTheMotorWithTheSameFrame([Values] bool stop)
+        {
+            var motor = new SimulatedMotor();
+            SimulatedWave wave = SimulatedWave.Sine(120.0);
+            AmplitudeQueue queue = QueueFor(motor, wave);
+            double now = Play(motor, queue, 0.0, 1.0);
+            wave.IsStopped = stop;
+            wave.IsSilent = !stop;
+            int told = motor.Told.Count;
+            now = Play(motor, queue, now, 0.5 * FrameSeconds);
+            Assert.That(motor.AmplitudeAt(now), Is.Zero);
+            Play(motor, queue, now, 1.0);
+            Assert.That(motor.Told.Count, Is.EqualTo(told), "a motor at rest is not told so again and again");
+        }
+
+        [Test]
+        public void RandomStrokesHitchesStopsAndLossesNeverLeaveAVibrationBehind([Range(1, 12)] int seed)
+        {
+            var random = new Random(seed);
+            var motor = new SimulatedMotor();
+            SimulatedWave wave = SimulatedWave.Sine(90.0, 0.9);
+            AmplitudeQueue queue = QueueFor(motor, wave);
+            queue.Gain = 5f;
+            queue.Ceiling = 0.7f;
+            double now = 0.0;
+            for (int frame = 0; frame < 4000; ++frame)
+            {
+                now += random.Next(40) == 0 ? 0.3 * random.NextDouble() : FrameSeconds * (0.7 + 0.6 * random.NextDouble());
+                motor.Now = now;
+                wave.IsSilent ^= random.Next(20) == 0;
+                wave.IsStopped ^= random.Next(30) == 0;
+                motor.IsThere ^= random.Next(60) == 0;
+                motor.RateHz = random.Next(100) == 0 ? 40.0 + 200.0 * random.NextDouble() : motor.RateHz;
+                queue.Update(now);
+                Assert.That(motor.AmplitudeAt(now + AmplitudeQueue.LongestSeconds), Is.Zero);
+                if (wave.IsStopped && motor.IsThere)
+                {
+                    Assert.That(motor.AmplitudeAt(now), Is.Zero);
+                }
+            }
+            Assert.That(motor.Told.Max(each => each.Amplitude), Is.LessThanOrEqualTo(0.7f));
+        }
+
+        [Test]
+        public void FramesMakeNoGarbage()
+        {
+            var motor = new SimulatedMotor { Records = false };
+            AmplitudeQueue queue = QueueFor(motor, SimulatedWave.Sine(100.0));
+            double now = Play(motor, queue, 0.0, 2.0);
+            long before = GC.GetAllocatedBytesForCurrentThread();
+            Play(motor, queue, now, 10.0);
+            Assert.That(GC.GetAllocatedBytesForCurrentThread() - before, Is.Zero);
+        }
+
+        private static AmplitudeQueue QueueFor(SimulatedMotor motor, SimulatedWave wave) =>
+            new AmplitudeQueue(motor, wave, new RmsWaveFeatures());
+
+        private static double Play(SimulatedMotor motor, AmplitudeQueue queue, double from, double seconds)
+        {
+            double now = from;
+            for (; now < from + seconds; now += FrameSeconds)
+            {
+                motor.Now = now;
+                queue.Update(now);
+            }
+            return now;
+        }
+    }
+}

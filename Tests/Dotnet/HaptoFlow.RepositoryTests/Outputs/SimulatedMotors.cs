@@ -1,0 +1,185 @@
+#nullable enable
+using System;
+using System.Collections.Generic;
+using HaptoFlow.Outputs;
+
+namespace HaptoFlow.RepositoryTests.Outputs
+{
+    /// <summary>A motor that keeps what it was told for as long as it was told.</summary>
+    internal sealed class SimulatedMotor : IAmplitudeSink
+    {
+        private double endsSeconds;
+        private float amplitude;
+
+        public string Name => "simulated";
+
+        public double RateHz { get; set; }
+
+        public bool IsThere { get; set; } = true;
+
+        public double Now { get; set; }
+
+        public List<(double Seconds, float Amplitude, float Hertz, float Duration)> Told { get; } =
+            new List<(double, float, float, float)>();
+
+        public int Stops { get; private set; }
+
+        public bool Records { get; set; } = true;
+
+        public float AmplitudeAt(double seconds) => seconds < endsSeconds ? amplitude : 0f;
+
+        public bool TryGetCapabilities(out HapticSinkCapabilities capabilities)
+        {
+            capabilities = new HapticSinkCapabilities(RateHz);
+            return IsThere;
+        }
+
+        public bool Submit(float wanted, float frequencyHz, float durationSeconds)
+        {
+            if (!IsThere)
+            {
+                return false;
+            }
+            amplitude = wanted;
+            endsSeconds = Now + durationSeconds;
+            if (Records)
+            {
+                Told.Add((Now, wanted, frequencyHz, durationSeconds));
+            }
+            return true;
+        }
+
+        public void Stop()
+        {
+            ++Stops;
+            endsSeconds = Now;
+        }
+    }
+
+    /// <summary>A device that plays streams of points on a clock of its own, and checks the rules of its makers: a stream
+    /// that gets nothing more goes on for 50 ms.</summary>
+    internal sealed class SimulatedParametricDevice : IParametricSink
+    {
+        private const double ExtensionSeconds = 0.05;
+
+        private readonly List<ParametricPoint> points = new List<ParametricPoint>();
+        private double beganSeconds;
+        private bool hasEnded = true;
+
+        public string Name => "simulated";
+
+        public double Drift { get; set; }
+
+        public double RateHz { get; set; }
+
+        public double LeastFirstSeconds { get; set; } = 0.02;
+
+        public bool IsThere { get; set; } = true;
+
+        public double Now { get; set; }
+
+        public int Streams { get; private set; }
+
+        public int Submissions { get; private set; }
+
+        public List<ParametricTransient> Knocks { get; } = new List<ParametricTransient>();
+
+        public float LastFrequency { get; private set; }
+
+        /// <summary>Of the stream, what is not yet played.</summary>
+        public double DepthSeconds => points.Count == 0 || hasEnded ? 0.0 : points[^1].Seconds - StreamTime(Now);
+
+        /// <summary>Nothing was left though the stream had not ended.</summary>
+        public bool IsStarved => points.Count > 0 && !hasEnded && StreamTime(Now) > points[^1].Seconds;
+
+        public float AmplitudeAt(double seconds)
+        {
+            double time = StreamTime(seconds);
+            if (points.Count == 0 || time < 0.0)
+            {
+                return 0f;
+            }
+            for (int index = 1; index < points.Count; ++index)
+            {
+                if (time <= points[index].Seconds)
+                {
+                    double share = (time - points[index - 1].Seconds) /
+                        (points[index].Seconds - points[index - 1].Seconds);
+                    return (float)(points[index - 1].Value + share * (points[index].Value - points[index - 1].Value));
+                }
+            }
+            return !hasEnded && time < points[^1].Seconds + ExtensionSeconds ? points[^1].Value : 0f;
+        }
+
+        public bool TryGetCapabilities(out HapticSinkCapabilities capabilities)
+        {
+            capabilities = new HapticSinkCapabilities(RateHz, 500, 50.0, 450.0, LeastFirstSeconds);
+            return IsThere;
+        }
+
+        public bool Submit(ReadOnlySpan<ParametricPoint> amplitudes, ReadOnlySpan<ParametricPoint> frequencies,
+            ReadOnlySpan<ParametricTransient> transients, StreamPart part)
+        {
+            if (!IsThere)
+            {
+                return false;
+            }
+            ++Submissions;
+            bool first = part == StreamPart.First;
+            Require(amplitudes.Length >= (first ? 2 : 1), "too few amplitudes");
+            Require(amplitudes.Length <= 500 && frequencies.Length <= 500 && transients.Length <= 500, "too many points");
+            if (first)
+            {
+                ++Streams;
+                points.Clear();
+                beganSeconds = Now;
+                hasEnded = false;
+                Require(amplitudes[0].Seconds == 0.0 && frequencies[0].Seconds == 0.0, "a stream begins at 0");
+                Require(amplitudes[^1].Seconds >= LeastFirstSeconds - 1e-9, "the first frame is too short");
+            }
+            else
+            {
+                Require(!hasEnded, "there is no stream to go on with");
+            }
+            foreach (ParametricPoint point in amplitudes)
+            {
+                Require(points.Count == 0 || point.Seconds > points[^1].Seconds, "times must rise");
+                Require(point.Value >= 0f && point.Value <= 1f, "an amplitude is out of range");
+                points.Add(point);
+            }
+            foreach (ParametricPoint point in frequencies)
+            {
+                Require(point.Value >= 0f && point.Value <= 1f, "a frequency is out of range");
+                LastFrequency = point.Value;
+            }
+            Require(frequencies[^1].Seconds <= amplitudes[^1].Seconds, "a frequency behind the last amplitude");
+            foreach (ParametricTransient knock in transients)
+            {
+                Require(knock.Seconds >= 0.0 && knock.Seconds <= amplitudes[^1].Seconds, "a transient is out of range");
+                Knocks.Add(knock);
+            }
+            hasEnded = part == StreamPart.Last;
+            if (points.Count > 4000)
+            {
+                points.RemoveRange(0, 2000);
+            }
+            return true;
+        }
+
+        public void Stop()
+        {
+            points.Clear();
+            hasEnded = true;
+        }
+
+        private double StreamTime(double seconds) => (seconds - beganSeconds) * (1.0 + Drift);
+
+        private static void Require(bool holds, string rule)
+        {
+            if (!holds)
+            {
+                throw new InvalidOperationException(rule);
+            }
+        }
+    }
+}

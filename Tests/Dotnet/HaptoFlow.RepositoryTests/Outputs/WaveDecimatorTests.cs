@@ -1,0 +1,53 @@
+#nullable enable
+using System;
+using HaptoFlow.Outputs;
+using NUnit.Framework;
+
+namespace HaptoFlow.RepositoryTests.Outputs
+{
+    /// <summary>The spectrum that remains of a wave at a device's rate.</summary>
+    public sealed class WaveDecimatorTests
+    {
+        [Test]
+        public void WhatADeviceCanPlayKeepsItsLevel(
+            [Values(1000.0, 2000.0, 8000.0, 24000.0)] double rateHz, [Values(0.02, 0.1, 0.25, 0.39)] double share)
+        {
+            double hertz = share * Math.Min(rateHz, WaveHistory.RateHz);
+            Assert.That(LevelDb(rateHz, hertz), Is.EqualTo(0.0).Within(0.1));
+        }
+
+        [Test]
+        public void WhatWouldFoldIsHeldBack(
+            [Values(1000.0, 2000.0)] double rateHz, [Values(0.61, 0.75, 1.0, 1.4)] double share) =>
+            Assert.That(LevelDb(rateHz, share * rateHz), Is.LessThan(-50.0));
+
+        [Test]
+        public void ALowRatePaysWithAWiderTransitionRatherThanWithDelay([Values(45.0, 150.0, 320.0)] double rateHz)
+        {
+            Assert.That(new WaveDecimator(rateHz).DelaySeconds, Is.LessThanOrEqualTo(Math.Max(0.0121, 1.6 / rateHz)));
+            Assert.That(LevelDb(rateHz, 0.05 * rateHz), Is.EqualTo(0.0).Within(0.6));
+            Assert.That(LevelDb(rateHz, 1.5 * rateHz), Is.LessThan(-20.0));
+        }
+
+        private static double LevelDb(double rateHz, double hertz) => 10.0 * Math.Log10(
+            Energy(rateHz, seconds => Math.Sin(2.0 * Math.PI * hertz * seconds)) +
+            Energy(rateHz, seconds => Math.Cos(2.0 * Math.PI * hertz * seconds)));
+
+        private static double Energy(double rateHz, Func<double, double> sound)
+        {
+            var wave = new WaveHistory();
+            wave.RenderTo(4000L, new SimulatedWave(sound));
+            var decimator = new WaveDecimator(rateHz);
+            double energy = 0.0;
+            int count = 0;
+            // A step that no wave repeats with: every phase of the filter is asked.
+            for (double position = 1400.0; position < 2600.0; position += 3.0307)
+            {
+                double sample = decimator.SampleAt(wave, position);
+                energy += sample * sample;
+                ++count;
+            }
+            return energy / count;
+        }
+    }
+}

@@ -1,0 +1,481 @@
+using System;
+using System.Linq;
+using System.Runtime.CompilerServices;
+using HaptoFlow.Tests;
+using NUnit.Framework;
+using UnityEngine;
+using UnityEngine.InputSystem.XR;
+using UnityEngine.XR.OpenXR.Input;
+using UnityShim;
+using Object = UnityEngine.Object;
+
+namespace HaptoFlow.ShimTests
+{
+    /// <summary>What devices in a hand are sent while a stylus slides over a board.</summary>
+    public sealed class DeviceOutputTests : SceneTest
+    {
+        private HapticStylus stylus = null!;
+
+        /// <summary>Unity loads every assembly of a player; here one is loaded when it is first used.</summary>
+        [OneTimeSetUp]
+        public void LoadTheRoutesOfOptionalPackages() =>
+            RuntimeHelpers.RunModuleConstructor(typeof(MetaActionTipForce).Module.ModuleHandle);
+
+        [SetUp]
+        public void PutAStylusIntoTheRightHand()
+        {
+            ForgetDevices();
+            SetFrameRate(72.0);
+            FinishLoading();
+            Board();
+            stylus = Circling();
+            stylus.Hand = HapticHand.Right;
+        }
+
+        [TearDown]
+        public void ForgetDevices()
+        {
+            OVRPlugin.Reset();
+            OVRInput.Reset();
+            OpenXRInput.Reset();
+            XrHand.Reset();
+            XRControllerWithRumble.Drop();
+            SimulatedInput.Reset();
+        }
+
+        [Test]
+        public void ASceneWithoutOutputIsFeltThroughATouchControllersWaveform()
+        {
+            OVRInput.Connected = OVRInput.Controller.RTouch;
+            World.Frames(72);
+            Assert.That(OVRInput.Waves.Count, Is.GreaterThan(60));
+            Assert.That(OVRInput.Waves.All(wave => wave.Mask == OVRInput.Controller.RTouch && wave.RateHz == 2000f));
+            Assert.That(OVRInput.Waves.Max(wave => wave.Samples.Max(Math.Abs)), Is.GreaterThan(0.01f));
+            Assert.That(All<HapticOutput>(), Is.Empty, "no audio output is made");
+            Assert.That(Said(LogType.Log, "the scene names no output, and Auto Output plays the wave"), Is.EqualTo(1));
+            Assert.That(OVRInput.FailedCalls, Is.Zero);
+        }
+
+        [Test]
+        public void AControllerWithoutWaveformIsDrivenAsAMotor()
+        {
+            XrHand.Right.Take("Some controller", true);
+            World.Frames(72);
+            Assert.That(XrHand.Right.Impulses.Count, Is.InRange(60, 73));
+            Assert.That(XrHand.Right.Impulses.Max(each => each.Amplitude), Is.GreaterThan(0.01f));
+            Assert.That(XrHand.Right.Impulses.Max(each => each.Duration), Is.LessThanOrEqualTo(0.1f));
+            Assert.That(XrHand.Left.Impulses, Is.Empty);
+            Assert.That(Said(LogType.Log, "Some controller (Right hand)"), Is.EqualTo(1));
+        }
+
+        [Test]
+        public void AControllerThatReportsBuffersGetsTheWaveAtItsOwnRate()
+        {
+            XrHand.Right.Take("A controller with buffers", true, 500u);
+            World.Frames(145);
+            double first = XrHand.Right.Buffers[0].Seconds;
+            double last = XrHand.Right.Buffers[^1].Seconds;
+            int samples = XrHand.Right.Buffers.Sum(each => each.Bytes.Length);
+            // Aligning with the clock sends the depth once more, about twice a second.
+            Assert.That(samples, Is.EqualTo(500.0 * (last - first)).Within(80.0));
+            Assert.That(XrHand.Right.Buffers.Max(each => each.Bytes.Max()), Is.GreaterThan(2));
+            Assert.That(XrHand.Right.Impulses, Is.Empty);
+        }
+
+        [Test]
+        public void SubmissionsQueueWhereTheAuthorSaysSo()
+        {
+            OVRInput.Connected = OVRInput.Controller.RTouch;
+            Add<ControllerWaveformOutput>(output => output.QueueSubmissions = true);
+            World.Frames(145);
+            // Aligning with the clock sends the depth once more, about twice a second.
+            Assert.That(OVRInput.Waves.Count(wave => !wave.Append), Is.InRange(2, 8));
+            Assert.That(OVRInput.Waves.Sum(wave => wave.Samples.Length), Is.EqualTo(4000).Within(330));
+        }
+
+        [Test]
+        public void AnAuthorsAudioOutputIsPreferredToTheDeviceInTheHand()
+        {
+            OVRInput.Connected = OVRInput.Controller.RTouch;
+            AudioTap tap = Output(out _);
+            World.Frames(40);
+            Assert.That(tap.Peak(), Is.GreaterThan(0.001f));
+            Assert.That(OVRInput.Waves, Is.Empty);
+        }
+
+        [Test]
+        public void AnAuthorsAudioOutputThatAppearsTakesOverFromTheOneThatWasChosen()
+        {
+            OVRInput.Connected = OVRInput.Controller.RTouch;
+            World.Frames(40);
+            AudioTap tap = Output(out _);
+            World.Frames(2);
+            int before = OVRInput.Waves.Count;
+            World.Frames(40);
+            Assert.That(OVRInput.Waves.Count, Is.EqualTo(before));
+            Assert.That(tap.Peak(), Is.GreaterThan(0.001f));
+            Assert.That(All<AutoOutput>(), Is.Empty);
+        }
+
+        [Test]
+        public void AStylusInNoHandIsHeardAsEver()
+        {
+            OVRInput.Connected = OVRInput.Controller.RTouch;
+            stylus.Hand = HapticHand.None;
+            World.Frames(40);
+            Assert.That(OVRInput.Waves, Is.Empty);
+            Assert.That(All<HapticOutput>(), Has.Length.EqualTo(1));
+        }
+
+        [Test]
+        public void AHandInWhichNoDeviceIsReportedForThreeSecondsGetsAnAudioOutput()
+        {
+            World.Frames(100);
+            Assert.That(All<HapticOutput>(), Is.Empty, "devices are reported some frames after a scene has begun");
+            World.Frames(150);
+            Assert.That(All<HapticOutput>(), Has.Length.EqualTo(1));
+            OVRInput.Connected = OVRInput.Controller.RTouch;
+            World.Frames(80);
+            Assert.That(OVRInput.Waves, Is.Not.Empty, "a device that comes later is taken all the same");
+        }
+
+        [Test]
+        public void OneStylusMayUseSeveralOutputs()
+        {
+            OVRInput.Connected = OVRInput.Controller.RTouch;
+            XrHand.Right.Take("The same controller", true);
+            AudioTap tap = Output(out _);
+            Add<ControllerWaveformOutput>();
+            Add<MotorOutput>().Strength = 0.5f;
+            World.Frames(72);
+            Assert.That(tap.Peak(), Is.GreaterThan(0.001f));
+            Assert.That(OVRInput.Waves, Is.Not.Empty);
+            Assert.That(XrHand.Right.Impulses, Is.Not.Empty);
+        }
+
+        [Test]
+        public void AnOutputThatNamesAStylusKeepsOthersFromBeingMadeAlsoWhileItIsSwitchedOff()
+        {
+            OVRInput.Connected = OVRInput.Controller.RTouch;
+            MotorOutput motor = Add<MotorOutput>();
+            World.Frames(10);
+            motor.enabled = false;
+            World.Frames(300);
+            Assert.That(All<HapticOutput>(), Is.Empty);
+            Assert.That(All<AutoOutput>(), Is.Empty);
+            Assert.That(stylus.TryGetStatistics(out _), Is.False, "a stylus that cannot be felt has no voice");
+        }
+
+        [Test]
+        public void AnMxInkIsDrivenThroughItsAction()
+        {
+            OVRInput.Connected = OVRInput.Controller.RTouch;
+            OVRPlugin.Profile = OVRPlugin.MxInkProfile;
+            World.Frames(72);
+            Assert.That(OVRPlugin.Pulses.Count, Is.GreaterThan(60));
+            Assert.That(OVRPlugin.Pulses.All(each => each.Hand == OVRPlugin.Hand.HandRight));
+            Assert.That(OVRInput.Waves, Is.Empty, "nothing says that an MX Ink plays waves");
+        }
+
+        [Test]
+        public void AnActionThatIsNotBoundIsTriedOnceAndNamedOnce()
+        {
+            OVRPlugin.Profile = OVRPlugin.MxInkProfile;
+            OVRPlugin.BoundHaptic = null;
+            World.Frames(200);
+            Assert.That(OVRPlugin.FailedPulses, Is.EqualTo(1));
+            Assert.That(Said(LogType.Warning, "\"haptic_pulse\""), Is.EqualTo(1));
+            OVRPlugin.BoundHaptic = "haptic_pulse";
+            OVRPlugin.hasInputFocus = false;
+            World.Frames(5);
+            OVRPlugin.hasInputFocus = true;
+            World.Frames(72);
+            Assert.That(OVRPlugin.Pulses, Is.Not.Empty, "the session came back");
+        }
+
+        [Test]
+        public void AControllerThatDoesNotSayItsRateIsAskedOnce()
+        {
+            OVRInput.Connected = OVRInput.Controller.RTouch;
+            OVRInput.SampleRateHz = 0f;
+            XrHand.Right.Take("The same controller", true);
+            World.Frames(200);
+            Assert.That(OVRInput.FailedCalls, Is.EqualTo(1));
+            Assert.That(XrHand.Right.Impulses, Is.Not.Empty);
+        }
+
+        [Test]
+        public void OpenXrsActionIsPreferredToTheImpulse()
+        {
+            XrHand.Right.Take("A controller", true);
+            SimulatedInput.SetControl("<XRController>{RightHand}/haptic", 0f);
+            OpenXRInput.Handle = 7uL;
+            World.Frames(72);
+            Assert.That(OpenXRInput.Impulses.Count, Is.GreaterThan(60));
+            Assert.That(OpenXRInput.Impulses.Select(each => each.FrequencyHz), Is.All.InRange(1f, 1500f));
+            Assert.That(XrHand.Right.Impulses, Is.Empty);
+        }
+
+        [Test]
+        public void AControllerThatOnlyRumblesIsFelt()
+        {
+            XRControllerWithRumble controller = XRControllerWithRumble.Take("Rumbling controller");
+            World.Frames(72);
+            Assert.That(controller.Impulses.Count, Is.GreaterThan(60));
+            Assert.That(Said(LogType.Log, "Rumbling controller"), Is.EqualTo(1));
+        }
+
+        [Test]
+        public void ParametricHapticsNeverHappenUnlessTheAuthorAsksForThem()
+        {
+            OVRInput.Connected = OVRInput.Controller.RTouch;
+            Add<ControllerParametricOutput>();
+            World.Frames(72);
+            Assert.That(OVRInput.Parametric, Is.Empty);
+            Assert.That(Said(LogType.Warning, "experimental"), Is.EqualTo(1));
+        }
+
+        [Test]
+        public void ParametricFramesFollowTheRulesOfStreams()
+        {
+            OVRInput.Connected = OVRInput.Controller.RTouch;
+            OVRInput.Properties = new OVRInput.HapticsParametricProperties
+            {
+                IdealFrameSubmissionRate = 20000000L,
+                MinimumFirstFrameDuration = 40000000L,
+                MinFrequencyHz = 60f,
+                MaxFrequencyHz = 400f,
+            };
+            Add<ControllerParametricOutput>(output => output.UseExperimentalFeature = true);
+            World.Frames(144);
+            Assert.That(OVRInput.Parametric.Count, Is.InRange(60, 110));
+            Assert.That((int)OVRInput.Parametric[0].Sent.StreamFrameType, Is.EqualTo(1));
+            Assert.That(OVRInput.Parametric[0].Sent.AmplitudePoints[^1].Time, Is.GreaterThanOrEqualTo(40000000L));
+            long end = 0L;
+            foreach ((_, OVRInput.HapticsParametricVibration sent) in OVRInput.Parametric)
+            {
+                bool first = (int)sent.StreamFrameType == 1;
+                end = first ? -1L : end;
+                Assert.That(sent.AmplitudePoints.Length, Is.GreaterThanOrEqualTo(first ? 2 : 1));
+                foreach (OVRInput.HapticsParametricPoint point in sent.AmplitudePoints)
+                {
+                    Assert.That(point.Time, Is.GreaterThan(end));
+                    Assert.That(point.Value, Is.InRange(0f, 1f));
+                    end = point.Time;
+                }
+                Assert.That(sent.FrequencyPoints.All(point => point.Value >= 0f && point.Value <= 1f && point.Time <= end));
+                Assert.That(sent.MinFrequencyHz, Is.EqualTo(60f));
+                Assert.That(sent.MaxFrequencyHz, Is.EqualTo(400f));
+            }
+        }
+
+        [Test]
+        public void WhatStopsReachesTheDeviceWithinAFrame(
+            [Values("panic", "panic of all", "mute", "switched off", "pause", "stylus off")] string how)
+        {
+            OVRInput.Connected = OVRInput.Controller.RTouch;
+            ControllerWaveformOutput output = Add<ControllerWaveformOutput>();
+            World.Frames(72);
+            Assert.That(OVRInput.Waves[^1].Samples.Length, Is.GreaterThan(20), "it plays");
+            switch (how)
+            {
+                case "panic":
+                    output.Panic();
+                    break;
+                case "panic of all":
+                    Haptics.Panic();
+                    break;
+                case "mute":
+                    output.Muted = true;
+                    break;
+                case "switched off":
+                    output.enabled = false;
+                    break;
+                case "pause":
+                    Pause(output);
+                    break;
+                default:
+                    stylus.enabled = false;
+                    break;
+            }
+            World.Frames(1);
+            int length = OVRInput.Waves[^1].Samples.Length;
+            Assert.That(length, Is.InRange(1, 7), "a fade of 3 ms replaces what was on its way");
+            Assert.That(OVRInput.Waves[^1].Append, Is.False);
+            Assert.That(OVRInput.Waves[^1].Samples[^1], Is.Zero);
+            int before = OVRInput.Waves.Count;
+            World.Frames(72);
+            Assert.That(OVRInput.Waves.Count, Is.EqualTo(before), "and nothing follows");
+        }
+
+        [Test]
+        public void AControllerThatSleepsAndOneThatReplacesItAreNoticed()
+        {
+            OVRInput.Connected = OVRInput.Controller.RTouch;
+            AutoOutput output = Add<AutoOutput>();
+            World.Frames(72);
+            Assert.That(output.Statistics.RateHz, Is.EqualTo(2000.0));
+            OVRInput.Connected = OVRInput.Controller.None;
+            World.Frames(5);
+            int before = OVRInput.Waves.Count;
+            World.Frames(72);
+            Assert.That(OVRInput.Waves.Count, Is.EqualTo(before));
+            Assert.That(output.HasDevice, Is.False);
+            XrHand.Right.Take("Another controller", true);
+            World.Frames(72);
+            Assert.That(XrHand.Right.Impulses, Is.Not.Empty);
+            Assert.That(output.DeviceName, Is.EqualTo("Another controller"));
+            OVRInput.SampleRateHz = 500f;
+            OVRInput.Connected = OVRInput.Controller.RTouch;
+            World.Frames(72);
+            Assert.That(OVRInput.Waves[^1].RateHz, Is.EqualTo(500f));
+            Assert.That(OVRInput.FailedCalls, Is.Zero);
+        }
+
+        [Test]
+        public void AFrameOf200MillisecondsIsAGap()
+        {
+            OVRInput.Connected = OVRInput.Controller.RTouch;
+            ControllerWaveformOutput output = Add<ControllerWaveformOutput>();
+            World.Frames(72);
+            float[] last = OVRInput.Waves[^1].Samples;
+            Assert.That(last.Length / 2000.0, Is.LessThan(0.03));
+            Assert.That(last[^1], Is.Zero, "every stretch ends with a fade");
+            World.Frame(0.2);
+            World.Frames(10);
+            Assert.That(output.Statistics.Gaps, Is.EqualTo(1));
+            Assert.That(output.Statistics.LatencyMilliseconds, Is.LessThan(40.0));
+        }
+
+        [Test]
+        public void ALiftedStylusKeepsTheDeviceIdleAndInfersNothing()
+        {
+            OVRInput.Connected = OVRInput.Controller.RTouch;
+            Add<ControllerWaveformOutput>();
+            stylus.GetComponent<PathMover>().Path = _ => new Vector3(0f, 0.3f, 0f);
+            World.Frames(72);
+            Assert.That(OVRInput.Waves, Is.Empty);
+            Assert.That(stylus.TryGetStatistics(out VoiceStatistics statistics), Is.True);
+            Assert.That(statistics.Inferences, Is.Zero);
+            Assert.That(statistics.RenderedFrames, Is.GreaterThan(6000UL), "8000 a second");
+        }
+
+        [Test]
+        public void WhatAControllerPlaysHasTheLevelAndTheSpectrumOfWhatAnAudioOutputPlays()
+        {
+            OVRInput.Connected = OVRInput.Controller.RTouch;
+            Output(out _);
+            Add<ControllerWaveformOutput>().FullScaleMps2 = HaptoFlowSettings.Active.FullScaleMps2;
+            World.Frames(72);
+            AudioDevice.Forget();
+            OVRInput.Waves.Clear();
+            World.Frames(6 * 72);
+            double[] controller = Bands(Felt(), 2000.0);
+            double[] audio = Bands(Enumerable.Range(0, AudioDevice.RecordedFrames)
+                .Select(frame => AudioDevice.Sample(frame, 0)).ToArray(), 48000.0);
+            for (int band = 0; band < audio.Length; ++band)
+            {
+                TestContext.WriteLine($"band {band}: audio {audio[band]:0.0} dB, controller {controller[band]:0.0} dB");
+                Assert.That(controller[band], Is.EqualTo(audio[band]).Within(2.5));
+            }
+        }
+
+        [Test]
+        public void TheMotorsAmplitudeIsTheWavesLevel()
+        {
+            XrHand.Right.Take("A controller", true);
+            Output(out _);
+            Add<MotorOutput>().FullScaleMps2 = HaptoFlowSettings.Active.FullScaleMps2;
+            World.Frames(72);
+            AudioDevice.Forget();
+            XrHand.Right.Impulses.Clear();
+            World.Frames(6 * 72);
+            double audio = Math.Sqrt(Enumerable.Range(0, AudioDevice.RecordedFrames)
+                .Average(frame => Math.Pow(AudioDevice.Sample(frame, 0), 2.0)));
+            double motor = Math.Sqrt(XrHand.Right.Impulses.Average(each => Math.Pow(each.Amplitude, 2.0)) / 2.0);
+            Assert.That(20.0 * Math.Log10(motor / audio), Is.EqualTo(0.0).Within(1.5));
+        }
+
+        [Test]
+        public void DeviceOutputsMakeNoGarbage([Values] bool waveform)
+        {
+            OVRInput.Records = false;
+            OVRInput.Connected = waveform ? OVRInput.Controller.RTouch : OVRInput.Controller.None;
+            XrHand.Right.Take("A controller", true);
+            XrHand.Right.Impulses.Capacity = 1000;
+            World.Frames(150);
+            long bytes = BytesOf(180);
+            Assert.That(bytes, Is.Zero);
+            Assert.That(waveform ? OVRInput.Submissions : XrHand.Right.Impulses.Count, Is.GreaterThan(200));
+        }
+
+        [MethodImpl(MethodImplOptions.NoInlining)]
+        private static long BytesOf(int frames)
+        {
+            long before = GC.GetAllocatedBytesForCurrentThread();
+            World.Frames(frames);
+            return GC.GetAllocatedBytesForCurrentThread() - before;
+        }
+
+        /// <summary>What a controller plays whose clock is right: each submission until the next replaces it.</summary>
+        private static float[] Felt() => Enumerable.Range(0, OVRInput.Waves.Count - 1).SelectMany(index =>
+        {
+            Assert.That(OVRInput.Waves[index].Append, Is.False);
+            double seconds = OVRInput.Waves[index + 1].Seconds - OVRInput.Waves[index].Seconds;
+            return OVRInput.Waves[index].Samples.Take((int)Math.Round(2000.0 * seconds));
+        }).ToArray();
+
+        /// <summary>Level in octaves around 62, 125, 250 and 500 Hz, in dB.</summary>
+        private static double[] Bands(float[] samples, double rateHz)
+        {
+            double[] energies = new double[4];
+            int window = (int)(0.128 * rateHz);
+            for (int begin = 0; begin + window <= samples.Length; begin += window)
+            {
+                for (int bin = 6; bin < 92; ++bin)
+                {
+                    double hertz = bin / 0.128;
+                    double cosine = 0.0;
+                    double sine = 0.0;
+                    for (int index = 0; index < window; ++index)
+                    {
+                        double weighted = samples[begin + index] * (0.5 - 0.5 * Math.Cos(2.0 * Math.PI * index / window));
+                        cosine += weighted * Math.Cos(2.0 * Math.PI * bin * index / window);
+                        sine += weighted * Math.Sin(2.0 * Math.PI * bin * index / window);
+                    }
+                    int band = (int)Math.Floor(Math.Log(hertz / 44.0, 2.0));
+                    if (band >= 0 && band < energies.Length)
+                    {
+                        energies[band] += (cosine * cosine + sine * sine) / ((double)window * window);
+                    }
+                }
+            }
+            int windows = samples.Length / window;
+            return Array.ConvertAll(energies, energy => 10.0 * Math.Log10(energy / windows + 1e-12));
+        }
+
+        private TOutput Add<TOutput>(Action<TOutput>? prepare = null)
+            where TOutput : DeviceOutput
+        {
+            GameObject owner = Make(typeof(TOutput).Name);
+            owner.SetActive(false);
+            var output = owner.AddComponent<TOutput>();
+            output.Stylus = stylus;
+            prepare?.Invoke(output);
+            owner.SetActive(true);
+            return output;
+        }
+
+        private static void Pause(MonoBehaviour script) => typeof(DeviceOutput)
+            .GetMethod("OnApplicationPause", System.Reflection.BindingFlags.Instance |
+                System.Reflection.BindingFlags.NonPublic)!
+            .Invoke(script, new object[] { true });
+
+        private static TComponent[] All<TComponent>()
+            where TComponent : Object => Object.FindObjectsByType<TComponent>(
+            FindObjectsInactive.Include, FindObjectsSortMode.None);
+
+        private static int Said(LogType type, string text) =>
+            Log.Lines.Count(line => line.Type == type && line.Text.Contains(text));
+    }
+}

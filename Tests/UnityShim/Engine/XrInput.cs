@@ -1,0 +1,97 @@
+using System;
+using UnityShim;
+
+namespace UnityEngine.XR
+{
+    public enum XRNode
+    {
+        LeftEye = 0,
+        RightEye = 1,
+        CenterEye = 2,
+        Head = 3,
+        LeftHand = 4,
+        RightHand = 5,
+        GameController = 6,
+        TrackingReference = 7,
+        HardwareTracker = 8,
+    }
+
+    public struct HapticCapabilities : IEquatable<HapticCapabilities>
+    {
+        public uint numChannels { get; internal set; }
+        public bool supportsImpulse { get; internal set; }
+        public bool supportsBuffer { get; internal set; }
+        public uint bufferFrequencyHz { get; internal set; }
+        public uint bufferMaxSize { get; internal set; }
+        public uint bufferOptimalSize { get; internal set; }
+
+        public override bool Equals(object? obj) => obj is HapticCapabilities other && Equals(other);
+
+        public bool Equals(HapticCapabilities other) =>
+            numChannels == other.numChannels && supportsImpulse == other.supportsImpulse &&
+            supportsBuffer == other.supportsBuffer && bufferFrequencyHz == other.bufferFrequencyHz &&
+            bufferMaxSize == other.bufferMaxSize && bufferOptimalSize == other.bufferOptimalSize;
+
+        public override int GetHashCode() => numChannels.GetHashCode();
+
+        public static bool operator ==(HapticCapabilities a, HapticCapabilities b) => a.Equals(b);
+
+        public static bool operator !=(HapticCapabilities a, HapticCapabilities b) => !a.Equals(b);
+    }
+
+    public struct InputDevice : IEquatable<InputDevice>
+    {
+        private readonly XrHand? hand;
+        private readonly int visit;
+
+        internal InputDevice(XrHand hand)
+        {
+            this.hand = hand;
+            visit = hand.Visit;
+        }
+
+        public bool isValid => hand is { IsThere: true } && hand.Visit == visit;
+        public string name => hand?.Name ?? "";
+
+        public bool TryGetHapticCapabilities(out HapticCapabilities capabilities)
+        {
+            capabilities = isValid ? hand!.Capabilities : default;
+            return isValid;
+        }
+
+        public bool SendHapticImpulse(uint channel, float amplitude, float duration = 1f)
+        {
+            if (amplitude < 0f || duration < 0f)
+            {
+                throw new ArgumentException("amplitude and duration of SendHapticImpulse cannot be negative");
+            }
+            return isValid && hand!.Impulse(amplitude, duration);
+        }
+
+        public bool SendHapticBuffer(uint channel, byte[] buffer) => isValid && hand!.Buffer(buffer);
+
+        public void StopHaptics()
+        {
+            if (isValid)
+            {
+                hand!.Stop();
+            }
+        }
+
+        public override bool Equals(object? obj) => obj is InputDevice other && Equals(other);
+
+        public bool Equals(InputDevice other) => ReferenceEquals(hand, other.hand) && visit == other.visit;
+
+        public override int GetHashCode() => visit;
+
+        public static bool operator ==(InputDevice a, InputDevice b) => a.Equals(b);
+
+        public static bool operator !=(InputDevice a, InputDevice b) => !a.Equals(b);
+    }
+
+    public partial class InputDevices
+    {
+        public static InputDevice GetDeviceAtXRNode(XRNode node) => new InputDevice(
+            node == XRNode.LeftHand ? XrHand.Left : XrHand.Right);
+    }
+}
