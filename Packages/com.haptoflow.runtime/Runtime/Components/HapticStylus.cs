@@ -172,7 +172,7 @@ namespace HaptoFlow
         public bool TryGetEffectStatistics(HapticEffect effect, out EffectStatistics statistics)
         {
             statistics = default;
-            return voice != null && voice.TryGetEffectStatistics(effect, out statistics);
+            return voices != null && voices.TryGetEffectStatistics(effect, out statistics);
         }
 
         /// <summary>Silence at once; sounds again with the next touch-down.</summary>

@@ -69,6 +69,23 @@ namespace HaptoFlow
             return false;
         }
 
+        /// <summary>Of the audio output's voice, else of the first that there is.</summary>
+        public bool TryGetEffectStatistics(HapticEffect effect, out EffectStatistics statistics)
+        {
+            if (audio.TryGetEffectStatistics(effect, out statistics))
+            {
+                return true;
+            }
+            foreach (Device each in devices)
+            {
+                if (each.Voice.TryGetEffectStatistics(effect, out statistics))
+                {
+                    return true;
+                }
+            }
+            return false;
+        }
+
         public void Panic()
         {
             audio.Panic();
