@@ -49,7 +49,8 @@ test("people's strokes were measured with the default full scale, and on every l
   assert.ok(now, `Training/results/default/full-scale.json does not report ${fullScaleMps2} m/s^2: run haptoflow-training measure-full-scale`);
   const shares = Object.entries(now.share_in_knee_by_label);
   assert.ok(shares.length > 0);
-  // Chosen with a model that did not strike; a full scale that followed every model would change every rig's gain.
+  // The full scale was chosen with an earlier model, whose peaks were lower, and it stays: a new value would change the
+  // volume of every set-up. Twice the allowed share is therefore tolerated.
   for (const [label, share] of shares) assert.ok(share < 2 * measured.allowed_share, `${label}: ${share}`);
   assert.ok(measured.smallest_full_scale_of_loudest_label_mps2 <= 1.1 * fullScaleMps2);
 });

@@ -223,6 +223,15 @@ def test_spsi_is_finite_for_silent_and_for_loud_spectra(magnitude: float) -> Non
     assert torch.isfinite(wave).all()
 
 
+def test_spsi_has_a_gradient_where_a_valley_is_as_deep_as_its_floor_and_one_high() -> None:
+    # below - 2 floor + above = floor + 1: what once was divided by, and then left out.
+    magnitudes = torch.full((1, 101), 2.0)
+    magnitudes[0, 49:52] = torch.tensor([4.0, 1.0, 0.0])
+    magnitudes.requires_grad_()
+    SinglePassInversion()(magnitudes, torch.zeros(1, 101)).square().sum().backward()
+    assert torch.isfinite(magnitudes.grad).all()
+
+
 def test_the_block_filter_agrees_with_a_sample_by_sample_filter() -> None:
     generator = torch.Generator().manual_seed(7)
     coefficients = step_up(0.8 * torch.tanh(torch.randn(5, ORDER, generator=generator)))

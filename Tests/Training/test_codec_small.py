@@ -35,6 +35,10 @@ class Store:
     waveform: NDArray[np.float32]
     recordings: tuple[Span, ...]
 
+    @property
+    def motion(self) -> NDArray[np.float32]:
+        return np.zeros((len(self.waveform), 3), dtype=np.float32)
+
 
 @dataclass
 class StoppingStore:
@@ -46,6 +50,10 @@ class StoppingStore:
 
     def __post_init__(self) -> None:
         self.recordings = self.store.recordings
+
+    @property
+    def motion(self) -> NDArray[np.float32]:
+        return self.store.motion
 
     @property
     def waveform(self) -> NDArray[np.float32]:

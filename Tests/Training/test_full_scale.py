@@ -1,4 +1,4 @@
-"""The default full scale: people's strokes stay below the limiter's knee, but for a sample or two in a thousand."""
+"""The default full scale: at most two samples in a thousand of people's strokes lie above the limiter's knee."""
 
 from __future__ import annotations
 

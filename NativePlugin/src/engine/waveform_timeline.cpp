@@ -56,7 +56,8 @@ Continuation WaveformTimeline::continuationFrom(std::int64_t start) const noexce
 }
 
 void WaveformTimeline::overwrite(std::int64_t start, std::span<const float> samples) noexcept {
-    // A splice of a splice would raise the seam again and again: its gains hold the level of what they join, once.
+    // A new splice starts from the wave before the first one. Splicing spliced samples again would apply the gains
+    // twice and raise the level of the seam.
     if (start != beforeLastSegment_.start) {
         beforeLastSegment_ = continuationFrom(start);
     }

@@ -10,7 +10,8 @@
 
 namespace haptoflow::engine {
 
-/// What ran on from `start` before a segment took over there, as far as a splice looks at it.
+/// The first samples of the wave that would have gone on from `start` if no segment had taken over there: what a splice
+/// fades out of.
 struct Continuation {
     /// -1: no segment has taken over anywhere.
     std::int64_t start = -1;
@@ -45,10 +46,11 @@ public:
     /// Touch-down: 200 samples of `seed` (400, m/s^2) become the past unplayed, 200 follow from the head on. Where an
     /// earlier touch still has samples there, a splice hands over.
     void open(std::span<const float, seedSamples> seedMps2) noexcept;
-    /// `segment` (200, m/s^2) takes over at `start`, spliced with what ran there before; where another segment took over at
-    /// the same sample and nothing of it was read, that one leaves no trace. One that comes late loses what the head has passed; one that is
-    /// past altogether, or that would leave a hole or reach further than a view, changes nothing. Returns the sample at
-    /// which it took over, or -1.
+    /// `segment` (200, m/s^2) takes over at `start` and is spliced with the wave that ran there before. It replaces a
+    /// segment that took over at the same sample if nothing of that one has been read: the splice is then made with the
+    /// wave before both. A segment that comes late loses the samples that the head has passed. One that lies wholly in the
+    /// past, would leave a hole, or reaches further than a view changes nothing. Returns the sample at which the segment
+    /// took over, or -1.
     std::int64_t commit(std::int64_t start, std::span<const float, inference::segmentSamples> segment) noexcept;
     /// The 200 committed samples before `start`; zeros where none were committed. `start` within 200 of the head.
     void history(std::int64_t start, std::span<float, inference::segmentSamples> out) const noexcept;

@@ -125,7 +125,7 @@ TEST_F(GeneratorApiTest, AStructSizeThatEndsWithinAPointerLeavesThePointerOut) {
     std::array<float, 3 * HAPTOFLOW_RIB_COUNT> phases{};
     for (std::uint32_t bytes = 1; bytes < sizeof(void*); ++bytes) {
         haptoflow_batch batch = golden.batch();
-        // The pointer's first bytes alone would be an address that nobody gave.
+        // Copying only the pointer's first bytes would make an invalid address.
         batch.rib_phases = phases.data();
         batch.struct_size = static_cast<std::uint32_t>(offsetof(haptoflow_batch, rib_phases)) + bytes;
         ASSERT_EQ(haptoflow_generator_generate(generator_, &batch, segments.data()), HAPTOFLOW_OK) << bytes;

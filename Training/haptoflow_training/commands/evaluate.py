@@ -17,14 +17,13 @@ from haptoflow_training.evaluation.accuracy import Yardstick
 from haptoflow_training.evaluation.accuracy_time import machine_words, table, timed_rows, with_times
 from haptoflow_training.evaluation.accuracy_time_chart import draw_chart
 from haptoflow_training.evaluation.accuracy_time_report import write_document
-from haptoflow_training.evaluation.engine_library import EngineGenerator, EngineLibrary, default_engine
 from haptoflow_training.evaluation.label_spectra import draw_spectra
 from haptoflow_training.evaluation.model_stamp import SHIPPED_MODEL, graphs_sha256, sha256_of
 from haptoflow_training.evaluation.reference_conditions import conditions
 from haptoflow_training.evaluation.reference_set import ReferencePair, reference_set
 from haptoflow_training.evaluation.reference_rows import CODEC_ROW
 from haptoflow_training.evaluation.row_plan import PlannedRow, load_plan
-from haptoflow_training.evaluation.row_runner import UPDATE_RATE_HZ, made_from, measure_rows
+from haptoflow_training.evaluation.row_runner import UPDATE_RATE_HZ, generator_of, made_from, measure_rows
 from haptoflow_training.evaluation.row_store import stored_row
 from haptoflow_training.evaluation.row_training import train_models
 from haptoflow_training.evaluation.timing import TimedSource, time_sources
@@ -87,16 +86,15 @@ def run(options: argparse.Namespace) -> int:
         wanted = [(row, seed) for row in chosen for seed in place.seeds_of(row)]
         train_models(place, [entry for entry in wanted if not _is_stored(place, yardstick, *entry)], options.lanes)
     measured = _measured(place, yardstick, chosen, options.workers)
-    engine = default_engine(_ROOT)
     timed = [row for row in chosen if not row.is_reference and _is_there(place.model_file(row, row.seeds[0]), row.tier)]
-    run = _time_rows(place, engine, timed, options.quick, is_complete=not (options.rows or options.quick))
+    run = _time_rows(place, timed, options.quick, is_complete=not (options.rows or options.quick))
     if options.quick:
         _print(with_times(table(plan, measured), run))
         return 0
     for row in plan:
         if row.name not in measured and (kept := _stored(place, yardstick, row)):
             measured[row.name] = kept
-    _write(options, place, engine, yardstick.pairs, plan, table(plan, measured), run)
+    _write(options, place, yardstick.pairs, plan, table(plan, measured), run)
     return 0
 
 
@@ -149,15 +147,10 @@ def _pairs(options: argparse.Namespace) -> list[ReferencePair]:
         return reference_set(options.work / "reference.npz", options.workers, bar.update)
 
 
-def _time_rows(
-    place: Workplace, engine: EngineLibrary, rows: list[PlannedRow], quick: bool, is_complete: bool
-) -> dict[str, Any]:
+def _time_rows(place: Workplace, rows: list[PlannedRow], quick: bool, is_complete: bool) -> dict[str, Any]:
     """A run of the timing history."""
     before = os.getloadavg()
-    generators = [
-        EngineGenerator(engine, place.model_file(row, row.seeds[0]), row.tier or None, row.solver, row.steps)
-        for row in rows
-    ]
+    generators = [generator_of(place, row, row.seeds[0]) for row in rows]
     sources = [TimedSource(row.name, generator) for row, generator in zip(rows, generators, strict=True)]
     blocks = 4 if quick else 10
     with tqdm(total=2 * blocks * len(rows), desc="times", unit="block") as bar:
@@ -203,7 +196,6 @@ def _shown(value: float | None, width: int, digits: int) -> str:
 def _write(
     options: argparse.Namespace,
     place: Workplace,
-    engine: EngineLibrary,
     pairs: list[ReferencePair],
     plan: list[PlannedRow],
     result: dict[str, Any],
@@ -226,7 +218,7 @@ def _write(
     if standard is not None:
         model = place.model_file(standard, standard.seeds[0])
         steady = [pair for pair in pairs if pair.condition.is_steady]
-        with EngineGenerator(engine, model, standard.tier or None) as generator:
+        with generator_of(place, standard, standard.seeds[0]) as generator:
             made = accuracy.generate_set(
                 generator, generator.embeddings, steady, update_rate_hz=UPDATE_RATE_HZ, seed=31, open_loop=False
             )

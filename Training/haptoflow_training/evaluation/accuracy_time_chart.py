@@ -194,7 +194,7 @@ def _draw_point(axis: Any, panel: Panel, point: ChartPoint) -> None:
 
 # Ours lie close together at the good end: their names fan out, above the points or below.
 _NAME_SIDES = {"draft": "right", "standard": "left"}
-_NAME_ASIDE = {"draft": 2.0, "standard": -4.0, "fine": 2.0}
+_NAME_ASIDE = {"draft": 2.0, "standard": -4.0}
 
 
 def _name_offset(panel: Panel, point: ChartPoint) -> tuple[float, float]:

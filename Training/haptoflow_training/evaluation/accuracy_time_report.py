@@ -185,7 +185,7 @@ def _label_table(rows: Sequence[_Row]) -> list[str]:
     row = next((row for row in rows if row.get("by_label")), None)
     if row is None:
         return []
-    lines = [f"## By label: {row['name']}", "", "What nine cells in ten of the label keep; logarithms as they are.", ""]
+    lines = [f"## By label: {row['name']}", "", "The 90th percentile over the label's cells; logarithms are shown as they are.", ""]
     lines += ["| label | " + " | ".join(figure.words for figure in JUDGED) + " |", "|---|" + "---|" * len(JUDGED)]
     for label, figures in row["by_label"].items():
         cells = [_cell(figures.get(figure.key), 0 if figure.over_labels else 2) for figure in JUDGED]
@@ -198,7 +198,11 @@ def _worst_table(rows: Sequence[_Row]) -> list[str]:
     if not shown:
         return []
     lines = ["## The worst cells", ""]
-    lines += ["Of each row, the three that are furthest beyond what nine cells in ten should keep.", ""]
+    lines += [
+        "For each row, the three cells whose error is largest relative to its limit. Nine cells in ten should keep within "
+        "it.",
+        "",
+    ]
     lines += ["| row | label | motion | m/s | N | degrees | figure | error | times the limit |"]
     lines += ["|---|---|---|---|---|---|---|---|---|"]
     for row in shown:

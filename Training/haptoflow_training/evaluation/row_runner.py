@@ -38,7 +38,7 @@ _SWEEP_SPEEDS = 25
 _SWEEP_SECONDS = 4.0
 
 
-# Of a worker process: where, and with what every row is measured.
+# Set in each worker process: the workplace and the yardstick of all rows.
 _worker: list[tuple[Workplace, Yardstick]] = []
 
 
@@ -49,8 +49,9 @@ def measure_rows(
     workers: int,
     advance: Callable[[int], object] = lambda count: None,
 ) -> dict[tuple[str, int], dict[str, Any]]:
-    """Figures of rows and seeds by name and seed, `workers` at a time; `advance` is told of each that is done."""
-    # Forked, so that recordings and classifier need not be copied; each worker opens an engine of its own.
+    """Measure rows and seeds in `workers` processes; returns their figures by name and seed. `advance` is called with 1
+    after each."""
+    # Forked processes share recordings and classifier without copying them. Each opens its own engine.
     with ProcessPoolExecutor(workers, get_context("fork"), _prepare_worker, (place, yardstick)) as pool:
         jobs = {pool.submit(_measure_in_worker, row, seed): (row.name, seed) for row, seed in wanted}
         figures = {}
@@ -77,7 +78,7 @@ def measure_row(place: Workplace, yardstick: Yardstick, row: PlannedRow, seed: i
     if row.is_reference:
         figures = _reference_figures(place, yardstick, row, seed)
     elif row.time_only:
-        with _generator(place, row, seed) as generator:
+        with generator_of(place, row, seed) as generator:
             figures = {"discrimination": None, "drift_db_per_min": None, **_sizes(generator, row)}
     else:
         figures = _engine_figures(place, yardstick, row, seed)
@@ -141,7 +142,8 @@ def _engine(root: Path) -> EngineLibrary:
     return default_engine(root)
 
 
-def _generator(place: Workplace, row: PlannedRow, seed: int) -> EngineGenerator:
+def generator_of(place: Workplace, row: PlannedRow, seed: int) -> EngineGenerator:
+    """The row's model in this process's engine; close it after use."""
     model = place.model_file(row, seed)
     return EngineGenerator(_engine(place.root), model, row.tier or None, row.solver, row.steps)
 
@@ -150,7 +152,7 @@ def _engine_figures(place: Workplace, yardstick: Yardstick, row: PlannedRow, see
     pairs = _pairs(place, yardstick, row, seed)
     extended = row.extended and not place.quick
     drift_seconds = _LONG_DRIFT_SECONDS if extended else _SHORT_DRIFT_SECONDS
-    with _generator(place, row, seed) as generator:
+    with generator_of(place, row, seed) as generator:
         made = accuracy.generate_set(
             generator, generator.embeddings, pairs, update_rate_hz=UPDATE_RATE_HZ, seed=_SEED
         )

@@ -64,9 +64,10 @@ class Ribs(NamedTuple):
 
 
 def spread_gains() -> Tensor:
-    """Which of the 172 gains of a `RibComb` stand where in the 228 that it takes: those of the past stand for cosine and
-    sine, those of profiles lie side by side. Networks apply it to the weights of the layer that makes their gains, which
-    a graph has as constants."""
+    """Indices [228] into the 172 gains of a `RibComb`, in the order in which it takes them. Each gain of the past is
+    repeated, for the partial's cosine and its sine; the two gains of a profile's partial are placed side by side. A network
+    indexes the weights of the layer that makes its gains: an exported graph then holds the result as a constant, and the
+    reordering costs no time."""
     past, profiles, families = torch.arange(GAINS).split([2 * PARTIALS, 4 * PARTIALS, 2 * WAVE_VECTORS])
     pairs = profiles.reshape(2, 2, PARTIALS).transpose(1, 2)
     return torch.cat([past.repeat_interleave(2), pairs.flatten(), families])
@@ -101,8 +102,7 @@ class RibComb(nn.Module):
         # Two for each place, twice, two for each sample after a place, and six of the surface.
         self.sines = PARTIALS * (4 * self.strides + 2 * _STRIDE + 6)
         order = torch.arange(1, HARMONICS + 1, dtype=torch.float64)
-        weight, bias, signs = _angles_and_limits(order, self.strides)
-        self.register_buffer("signs", signs.float(), persistent=False)
+        weight, bias = _angles_and_limits(order, self.strides)
         self.register_buffer("weight", weight.float(), persistent=False)
         self.register_buffer("bias", bias.float(), persistent=False)
         # The newest past counts most: a hand that speeds up has left the older pitch behind.
@@ -111,6 +111,8 @@ class RibComb(nn.Module):
         self.register_buffer("even", torch.full((1, 1, samples), 2.0 / samples), persistent=False)
         mirror = torch.tensor([1.0, -1.0]).repeat(HARMONICS)
         self.register_buffer("mirror", mirror.reshape(1, 1, 1, _PAIRS), persistent=False)
+        signs = torch.cat([mirror.repeat(WAVE_VECTORS), torch.ones(2 * PARTIALS)])
+        self.register_buffer("signs", signs, persistent=False)
         family = torch.eye(WAVE_VECTORS)
         rows = torch.cat([family, _PULSE_SCALE * family, torch.ones(1, WAVE_VECTORS)]).unsqueeze(2)
         self.register_buffer("families", rows.repeat(1, 1, _PAIRS).unsqueeze(0), persistent=False)
@@ -169,7 +171,8 @@ class RibComb(nn.Module):
         carried = projected.reshape(-1, 1, WAVE_VECTORS, _PAIRS) * ribs.told
         by_partial, by_family = gains.split([8 * PARTIALS, 2 * WAVE_VECTORS], dim=1)
         kept, held, profiles = by_partial.reshape(-1, 4, WAVE_VECTORS, _PAIRS).split([1, 1, 2], dim=1)
-        # A norm over pairs would have to lay them out anew. The small square keeps the root's gradient finite at zero.
+        # A matrix sums the squares of each pair without reshaping. The small square keeps the root's gradient finite at
+        # zero.
         size = torch.sqrt((carried * carried) @ self.pairs + _SMALL**2)
         from_past = carried * ((kept * size.clamp(max=_LARGEST_AMPLITUDE) + held) / size)
 
@@ -208,10 +211,10 @@ class RibComb(nn.Module):
         return rows.reshape(-1, COMB_CHANNELS, 2 * PARTIALS) @ ribs.waves
 
 
-def _angles_and_limits(order: Tensor, strides: int) -> tuple[Tensor, Tensor, Tensor]:
+def _angles_and_limits(order: Tensor, strides: int) -> tuple[Tensor, Tensor]:
     """What size and phase of both fundamentals, [B, 4], are multiplied by, and what is added: for the angles whose sines
-    are waves and surface, and for what lies between -1 and 1 where the past can hold a partial, then where the surface
-    has it, twice each; and what these count there.
+    are waves and surface, and for two limits of each partial. The first lies between -1 and 1 where the past can hold the
+    partial, the second where the surface has it; each stands twice, for cosine and sine.
 
     Sines of sums come from products of sines: 10 places and 20 samples after each stand for all 200. For each partial
     stand (cos, -sin) of the places for its cosine and (sin, cos) for its sine; then cos and sin of the samples, counted
@@ -246,8 +249,7 @@ def _angles_and_limits(order: Tensor, strides: int) -> tuple[Tensor, Tensor, Ten
         centre, reach = 0.5 * (highest + lowest), 0.5 * (highest - lowest)
         by_size.append((family / reach).repeat_interleave(2, dim=1))
         added.append((-centre / reach).repeat_interleave(2))
-    signs = torch.cat([torch.tensor([1.0, -1.0]).repeat(PARTIALS), torch.ones(2 * PARTIALS)])
-    return torch.cat([torch.cat(by_size, dim=1), torch.cat(by_phase, dim=1)]), torch.cat(added), signs
+    return torch.cat([torch.cat(by_size, dim=1), torch.cat(by_phase, dim=1)]), torch.cat(added)
 
 
 def _thin_product(left: Tensor, right: Tensor) -> Tensor:

@@ -22,6 +22,8 @@ ATOMS = 1 + 2 * len(_RINGS_HZ)
 GAINS = len(RUNGS) * ATOMS
 # Convolution as products of matrices, a window of the segment at a time.
 _WINDOW = 25
+# A kernel of 64 taps reaches into three windows before a window.
+_WINDOWS_BEFORE = 3
 
 
 def _excess_deviation(rung: float) -> float:
@@ -60,9 +62,8 @@ class RungImpulses(nn.Module):
         scales = torch.tensor([1.0 / _excess_deviation(rung) for rung in RUNGS])
         self.register_buffer("scales", scales.reshape(1, -1, 1), persistent=False)
         self.register_buffer("atoms", _atoms(), persistent=False)
-        # A window's samples are made from its own and those of three windows before it.
-        reach = 3 * _WINDOW
-        windows_read = torch.arange(self.windows).unsqueeze(1) + torch.arange(4)
+        reach = _WINDOWS_BEFORE * _WINDOW
+        windows_read = torch.arange(self.windows).unsqueeze(1) + torch.arange(_WINDOWS_BEFORE + 1)
         self.register_buffer("read", windows_read, persistent=False)
         source = torch.arange(reach + _WINDOW)
         # How much of each atom every sample of a window has from every sample that it is made from, [13, 100 * 25].
@@ -72,8 +73,9 @@ class RungImpulses(nn.Module):
         self.reach, self.sources = reach, len(source)
 
     def forward(self, noise: Tensor, gains: Tensor) -> Tensor:
-        # Windows are picked as whole blocks, before rungs multiply them: a single sample costs as much as a block.
-        padded = nn.functional.pad(noise, (self.reach, 0)).reshape(-1, self.windows + 3, _WINDOW)
+        # Gather whole windows, and gather them before the rungs make four signals of one: ONNX Runtime takes as long to
+        # copy a single sample as a window.
+        padded = nn.functional.pad(noise, (self.reach, 0)).reshape(-1, self.windows + _WINDOWS_BEFORE, _WINDOW)
         heard = padded[:, self.read].reshape(-1, self.windows, 1, self.sources)
         excess = heard - torch.maximum(torch.minimum(heard, self.rungs), -self.rungs)
         struck = (excess * self.scales).reshape(-1, self.windows, len(RUNGS) * self.sources)

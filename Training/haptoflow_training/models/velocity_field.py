@@ -205,15 +205,13 @@ class VelocityField(nn.Module):
         # On the weights, which a graph has as constants, and not on what they make.
         factors = self.film_factors
         weights, biases = [self.film.weight * factors.unsqueeze(1)], [self.film.bias * factors]
-        sizes = [len(factors), 0, 0]
-        if self.line_gains is not None:
-            weights.append(self.line_gains.weight[self.line_spread])
-            biases.append(self.line_gains.bias[self.line_spread])
-            sizes[1] = len(self.line_spread)
-        if self.impulse_gains is not None:
-            weights.append(self.impulse_gains.weight)
-            biases.append(self.impulse_gains.bias)
-            sizes[2] = self.impulse_gains.out_features
+        sizes = [len(factors)]
+        for layer, places in ((self.line_gains, self.line_spread), (self.impulse_gains, None)):
+            sizes.append(0)
+            if layer is not None:
+                weights.append(layer.weight if places is None else layer.weight[places])
+                biases.append(layer.bias if places is None else layer.bias[places])
+                sizes[-1] = len(biases[-1])
         made = nn.functional.linear(condition, torch.cat(weights), torch.cat(biases))
         if sizes[1:] == [0, 0]:
             return made, made[:, :0], made[:, :0]

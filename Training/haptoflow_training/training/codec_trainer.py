@@ -75,17 +75,15 @@ class SegmentSampler:
         spans = [span for span in store.recordings if span.split == split]
         starts = np.array([span.start for span in spans], dtype=np.int64)
         lengths = np.array([span.length for span in spans], dtype=np.int64)
-        if held_out != HeldOut():
-            clear = clear_spans(store.motion, starts, lengths, held_out)
-            starts, lengths = clear.starts, clear.lengths
-        long_enough = lengths >= SEGMENT_SAMPLES
+        clear = clear_spans(store.motion, starts, lengths, held_out)
+        long_enough = clear.lengths >= SEGMENT_SAMPLES
         if not long_enough.any():
             raise InputError(
                 f"the prepared recordings have no segment of split '{split}', expected one; prepare more"
             )
         self._store = store
-        self._starts = starts[long_enough]
-        self._ends = np.cumsum(lengths[long_enough] - SEGMENT_SAMPLES + 1)
+        self._starts = clear.starts[long_enough]
+        self._ends = np.cumsum(clear.lengths[long_enough] - SEGMENT_SAMPLES + 1)
         self._offsets = np.arange(SEGMENT_SAMPLES, dtype=np.int64)
         probe = self._cut(np.random.default_rng(0), 1024)
         self._quiet_rms = _QUIET_RELATIVE_RMS * float(np.sqrt(np.mean(np.square(probe))))
@@ -119,18 +117,20 @@ def _held_out(config: SmallCodecConfig) -> HeldOut:
     return HeldOut() if config.held_out_as is None else HeldOut.of(load_config(config.held_out_as).batch)
 
 
-def _comparable(config: SmallCodecConfig) -> dict[str, Any]:
+def _comparable(config: SmallCodecConfig, held_out: HeldOut) -> dict[str, Any]:
+    """What a resumed run must share with the one that wrote the checkpoint, as JSON would give it back. The held-out bands
+    are compared, not the file that names them."""
     named = {key: value for key, value in asdict(config).items() if key not in _NOT_COMPARED_ON_RESUME}
-    # The bands, not the file that names them.
-    described: dict[str, Any] = json.loads(json.dumps({**named, **asdict(_held_out(config))}))
+    described: dict[str, Any] = json.loads(json.dumps({**named, **asdict(held_out)}))
     return described
 
 
 class _Run:
     """What a checkpoint holds: codec, optimiser, the steps done, the seconds spent."""
 
-    def __init__(self, config: SmallCodecConfig) -> None:
+    def __init__(self, config: SmallCodecConfig, held_out: HeldOut) -> None:
         self.config = config
+        self.comparable = _comparable(config, held_out)
         self.path = config.output_folder / CHECKPOINT_NAME
         with torch.random.fork_rng(devices=[]):
             torch.manual_seed(config.seed)
@@ -144,7 +144,7 @@ class _Run:
         # PyTorch 1.13 reads no bare float from a file it does not trust: those go as text and as a tensor.
         torch.save(
             {
-                "config": json.dumps(_comparable(self.config)),
+                "config": json.dumps(self.comparable),
                 "step": self.step,
                 "elapsed_seconds": torch.tensor(self.elapsed_seconds, dtype=torch.float64),
                 "codec": self.codec.state_dict(),
@@ -163,7 +163,7 @@ class _Run:
             raise InputError(
                 f"{self.path}: not a checkpoint of the small codec; choose another output_folder or delete it"
             )
-        wanted, found = _comparable(self.config), json.loads(begun)
+        wanted, found = self.comparable, json.loads(begun)
         changed = sorted(key for key in wanted.keys() | found.keys() if wanted.get(key) != found.get(key))
         if changed:
             raise InputError(
@@ -206,7 +206,7 @@ def train_small_codec(store: WaveformStore, config: SmallCodecConfig) -> SmallCo
     held_out = _held_out(config)
     training, validation = (SegmentSampler(store, split, held_out) for split in ("train", "validation"))
     unseen = validation.draw(np.random.default_rng([config.seed, 0]), config.validation_segments)
-    run = _Run(config)
+    run = _Run(config, held_out)
     run.resume()
 
     log = MetricsLog(config.output_folder / LOG_NAME, _LOG_COLUMNS, run.step)

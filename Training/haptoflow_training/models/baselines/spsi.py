@@ -84,9 +84,10 @@ class SinglePassInversion(nn.Module):
         above = torch.cat([magnitudes[:, 1:], magnitudes[:, -1:]], dim=1)
         curvature = below - 2.0 * magnitudes + above
         # A flat top has no curvature and lies where it is; the first and last bin have one neighbour only.
-        flat = (curvature >= -1e-6 * magnitudes).to(magnitudes.dtype)
-        offset = 0.5 * (below - above) / (curvature - flat * (magnitudes + 1.0))
-        return (offset * (1.0 - flat) * self.interior).clamp(-0.5, 0.5)
+        # Divided by 1 there, not by what may be nothing: zero times an infinite gradient is none.
+        is_peaked = curvature < -1e-6 * magnitudes
+        offset = 0.5 * (below - above) / torch.where(is_peaked, curvature, torch.ones_like(curvature))
+        return (offset * is_peaked.to(magnitudes.dtype) * self.interior).clamp(-0.5, 0.5)
 
     def forward(self, magnitudes: Tensor, turns: Tensor) -> Tensor:
         peak = self.peak_bins(magnitudes)
