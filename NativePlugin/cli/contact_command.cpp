@@ -92,7 +92,8 @@ void runContact(const ContactOptions& options) {
 void writeContactStates(std::ostream& output, const contact::Scene& scene, const Stroke& stroke,
                         const std::string& strokeName, const contact::ContactSettings& settings) {
     StrokePlayer player(scene, stroke, strokeName, settings);
-    output << "t,surface,touching,touch_counter,px,py,pz,nx,ny,nz,penetration_m,vx_mps,vy_mps,approach_mps,force_n\n";
+    output << "t,surface,touching,touch_counter,px,py,pz,nx,ny,nz,penetration_m,vx_mps,vy_mps,approach_mps,force_n,"
+              "landing_counter,edge_counter,edge_height_m\n";
     while (const std::optional<contact::ContactReading> played = player.next()) {
         const contact::ContactReading& reading = *played;
         writeNumber(output, reading.timeSeconds);
@@ -108,6 +109,8 @@ void writeContactStates(std::ostream& output, const contact::Scene& scene, const
             output << ',';
             writeNumber(output, value);
         }
+        output << ',' << reading.landingCounter << ',' << reading.edgeCounter << ',';
+        writeNumber(output, reading.edgeHeightMetres);
         output << '\n';
     }
 }
@@ -141,9 +144,10 @@ void addContactCommand(CLI::App& app, CommandOutcome& outcome) {
     command->footer(
         "One line per frame of the scene's update_rate (90 Hz where it gives none): time, the surface touched\n"
         "(empty without touch), touch-downs so far, the contact point and the normal out of the surface, how deep\n"
-        "the tip sits in it, the tip's speed along the surface's two tangent axes, the speed with which this touch\n"
-        "began, and the force: the stroke's own where it has one, else depth times the stiffness of the surface or of\n"
-        "its labels.\n"
+        "the tip sits in it, the tip's speed along the surface's two tangent axes, the speed of this touch's newest\n"
+        "landing, the force (the stroke's own where it has one, else depth times the stiffness of the surface or of its\n"
+        "labels), landings on another surface or face within touches so far, and edges crossed so far with the height of\n"
+        "the newest.\n"
         "Metres, seconds, newtons; Unity's left-handed frame with y up.\n"
         "Example:\n"
         "  haptoflow contact scene.json --stroke stroke.csv -o states.csv\n"

@@ -136,6 +136,9 @@ engine::ContactState stateOf(const contact::ContactReading& reading, std::span<c
                          static_cast<float>(reading.tangentialVelocityMps.y)};
     state.forceNewtons = static_cast<float>(reading.forceNewtons);
     state.approachSpeedMps = static_cast<float>(reading.approachSpeedMps);
+    state.landingCounter = reading.landingCounter;
+    state.edgeCounter = reading.edgeCounter;
+    state.edgeHeightMetres = static_cast<float>(reading.edgeHeightMetres);
     if (reading.surfaceIndex >= 0) {
         state.material = blends[static_cast<std::size_t>(reading.surfaceIndex)];
     }

@@ -540,14 +540,17 @@ typedef struct haptoflow_contact_state {
     float velocity_mps[2];
     /* Along the surface's normal, 0 to 1000 N. */
     float force_newtons;
-    /* Into the surface, at touch-down. */
+    /* Into the surface, at the newest landing. */
     float approach_speed_mps;
     /* What the surface asks for: HAPTOFLOW_ASKS_FOR_TEXTURE, _IMPACT and _EDGE together; 0 for the texture alone. */
     uint32_t effects;
-    /* One more at each rim that the tip crosses while it touches, and how high the newest one is, 0 to 1 m. A change of
-     * label needs no count: the voice sees it. */
+    /* One more at each rim that the tip crosses or slides off, and how high the newest one is, 0 to 1 m. A change of label
+     * needs no count: the voice sees it. */
     uint32_t edge_counter;
     float edge_height_metres;
+    /* One more at each landing on another surface, or on another face of the same, while the tip goes on touching. A
+     * touch-down is a landing that needs no count. */
+    uint32_t landing_counter;
 } haptoflow_contact_state;
 
 /* What one effect has done for a voice. Of an effect that nobody asks for, everything is 0. */

@@ -48,6 +48,7 @@ engine::ContactState contactState(const haptoflow_contact_state& given) {
     state.effects = given.effects == 0 ? HAPTOFLOW_ASKS_FOR_TEXTURE : given.effects;
     state.edgeCounter = given.edge_counter;
     state.edgeHeightMetres = given.edge_height_metres;
+    state.landingCounter = given.landing_counter;
     state.material.count = given.label_count;
     for (std::size_t i = 0; i < engine::MaterialBlend::capacity; ++i) {
         state.material.entries[i] = {given.labels[i], given.weights[i]};

@@ -95,7 +95,8 @@ ContactTracker::ContactTracker(Scene scene, ContactSettings settings)
     : scene_(checked(std::move(scene), settings)),
       settings_(std::move(settings)),
       broadPhase_(scene_.surfaces, scene_.tipRadiusMetres + settings_.releaseDistanceMetres),
-      history_(settings_.velocity) {
+      history_(settings_.velocity),
+      transitions_(scene_.tipRadiusMetres) {
     for (const Surface& surface : scene_.surfaces) {
         stiffnessNewtonsPerMetre_.push_back(stiffnessOf(surface, settings_));
         frames_.emplace_back(surface.grain);
@@ -107,11 +108,13 @@ ContactReading ContactTracker::update(const TipSample& sample) {
     if (!acceptSample(sample)) {
         touched_.reset();
         forgetContinuity();
+        transitions_.forget();
         return idle();
     }
     const bool wasTouching = touched_.has_value();
     const std::optional<Candidate> contact = chooseContact();
     if (!contact) {
+        noteSlideOff();
         touched_.reset();
         forgetContinuity();
         return idle();
@@ -154,6 +157,7 @@ bool ContactTracker::acceptSample(const TipSample& sample) {
     statistics_.clockRestarts += step == TipStep::clockRestarted ? 1 : 0;
     if (step != TipStep::continued) {
         forgetContinuity();
+        transitions_.forget();
     }
     return true;
 }
@@ -173,15 +177,19 @@ std::optional<ContactTracker::Candidate> ContactTracker::query(std::size_t surfa
         return std::nullopt;
     }
     ++statistics_.surfaceQueries;
-    QueryOptions options{std::nullopt, settings_.switchMarginMetres, settings_.openMeshDepthMetres};
-    if (touched_ == surface) {
-        options.previousNormal = localNormal_;
-    }
-    const std::optional<SurfacePoint> local = closestSurfacePoint(scene_.surfaces[surface].shape, tip, options);
+    const std::optional<SurfacePoint> local = closestPoint(surface, tip);
     if (!local) {
         return std::nullopt;
     }
     return Candidate{surface, *local, pose, scene_.tipRadiusMetres - local->signedDistanceMetres};
+}
+
+std::optional<SurfacePoint> ContactTracker::closestPoint(std::size_t surface, const glm::dvec3& localTip) const {
+    QueryOptions options{std::nullopt, settings_.switchMarginMetres, settings_.openMeshDepthMetres};
+    if (touched_ == surface) {
+        options.previousNormal = localNormal_;
+    }
+    return closestSurfacePoint(scene_.surfaces[surface].shape, localTip, options);
 }
 
 ContactTracker::Nearby ContactTracker::findNearby() {
@@ -212,16 +220,49 @@ std::optional<ContactTracker::Candidate> ContactTracker::chooseContact() {
     return kept && lead <= settings_.switchMarginMetres ? nearby.current : nearby.deepest;
 }
 
+void ContactTracker::noteTransition(const PosedPlace& place, double approachSpeedMps) noexcept {
+    const std::optional<std::size_t> reference = transitions_.referenceSurface();
+    const Pose referencePose = reference ? scene_.surfaces[*reference].poseAt(nowSeconds_) : place.pose;
+    const ContactEvent event = transitions_.advance(place, referencePose, approachSpeedMps);
+    if (event.landed) {
+        ++landingCounter_;
+        approachSpeedMps_ = approachSpeedMps;
+    }
+    countEdge(event.edgeHeightMetres);
+}
+
+/// After a touch, while what was touched is still known.
+void ContactTracker::noteSlideOff() {
+    if (touched_) {
+        const Pose pose = scene_.surfaces[*touched_].poseAt(nowSeconds_);
+        if (const auto nearest = closestPoint(*touched_, pose.pointToLocal(*tipMetres_))) {
+            const PosedPlace place{*touched_, {nearest->pointMetres, nearest->normal}, pose};
+            countEdge(transitions_.slideOff(place, pose, *tipMetres_, settings_.releaseDistanceMetres));
+        }
+    }
+    transitions_.forget();
+}
+
+void ContactTracker::countEdge(double heightMetres) noexcept {
+    if (heightMetres > 0.0) {
+        ++edgeCounter_;
+        edgeHeightMetres_ = heightMetres;
+    }
+}
+
 ContactReading ContactTracker::describe(const Candidate& contact, bool touchDown, const TipSample& sample) {
     const glm::dvec3 normal = unitOr(contact.pose.directionToWorld(contact.local.normal), {0.0, 1.0, 0.0});
     const glm::dvec3 velocity = relativeVelocity(history_, scene_.surfaces[contact.surface], contact.local.pointMetres);
     const TangentAxes& axes = frames_[contact.surface].update(contact.local.normal, stepSeconds_);
     localNormal_ = contact.local.normal;
+    const double approachSpeedMps = std::max(0.0, -glm::dot(velocity, normal));
     if (touchDown) {
         ++touchCounter_;
         ++statistics_.touchDowns;
-        approachSpeedMps_ = std::max(0.0, -glm::dot(velocity, normal));
+        approachSpeedMps_ = approachSpeedMps;
+        transitions_.forget();
     }
+    noteTransition({contact.surface, {contact.local.pointMetres, contact.local.normal}, contact.pose}, approachSpeedMps);
 
     ContactReading reading = idle();
     reading.touching = true;
@@ -242,6 +283,9 @@ ContactReading ContactTracker::idle() const noexcept {
     ContactReading reading;
     reading.timeSeconds = nowSeconds_;
     reading.touchCounter = touchCounter_;
+    reading.landingCounter = landingCounter_;
+    reading.edgeCounter = edgeCounter_;
+    reading.edgeHeightMetres = edgeHeightMetres_;
     reading.pointMetres = tipMetres_.value_or(glm::dvec3(0.0));
     return reading;
 }

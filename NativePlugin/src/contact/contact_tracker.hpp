@@ -1,6 +1,7 @@
 #pragma once
 
 #include "contact/broad_phase.hpp"
+#include "contact/contact_transitions.hpp"
 #include "contact/contact_types.hpp"
 #include "contact/scene.hpp"
 #include "contact/tangent_frame.hpp"
@@ -55,8 +56,12 @@ private:
     [[nodiscard]] bool acceptSample(const TipSample& sample);
     void forgetContinuity() noexcept;
     [[nodiscard]] std::optional<Candidate> query(std::size_t surface);
+    [[nodiscard]] std::optional<SurfacePoint> closestPoint(std::size_t surface, const glm::dvec3& localTip) const;
     [[nodiscard]] Nearby findNearby();
     [[nodiscard]] std::optional<Candidate> chooseContact();
+    void noteTransition(const PosedPlace& place, double approachSpeedMps) noexcept;
+    void noteSlideOff();
+    void countEdge(double heightMetres) noexcept;
     [[nodiscard]] ContactReading describe(const Candidate& contact, bool touchDown, const TipSample& sample);
     [[nodiscard]] ContactReading idle() const noexcept;
 
@@ -78,6 +83,10 @@ private:
     std::optional<glm::dvec3> localNormal_;
     std::uint32_t touchCounter_ = 0;
     double approachSpeedMps_ = 0.0;
+    ContactTransitions transitions_;
+    std::uint32_t landingCounter_ = 0;
+    std::uint32_t edgeCounter_ = 0;
+    double edgeHeightMetres_ = 0.0;
 };
 
 }  // namespace haptoflow::contact

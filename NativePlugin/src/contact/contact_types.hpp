@@ -38,9 +38,15 @@ struct ContactReading {
     double penetrationMetres = 0.0;
     /// Of the tip relative to the surface, along the surface's two tangent axes.
     glm::dvec2 tangentialVelocityMps{0.0};
-    /// Into the surface at this touch's first frame, not below 0; 0 without touch.
+    /// Into the surface at this touch's newest landing, not below 0; 0 without touch.
     double approachSpeedMps = 0.0;
     double forceNewtons = 0.0;
+    /// Counts landings within touches: on another surface, or on another face of the same.
+    std::uint32_t landingCounter = 0;
+    /// Counts edges: rims that the tip crosses or slides off, and steps from one surface to the next.
+    std::uint32_t edgeCounter = 0;
+    /// Of the newest edge; 0 before the first.
+    double edgeHeightMetres = 0.0;
 };
 
 /// How a velocity is made from tracked positions. See TipHistory.

@@ -45,13 +45,10 @@ ContactAction ContactPublisher::publish(ContactState state) noexcept {
     counters.askedFor.store(state.touching ? state.effects & surfaceEffects : 0, std::memory_order_relaxed);
     if (follower_.touches() != touchesBefore) {
         noteImpact(state);
-    } else if (state.touching && wasTouching_) {
-        noteEdge(state, material.dominantLabel, ranged.motion);
+    } else if (wasTouching_) {
+        noteTransition(state, material.dominantLabel, ranged.motion);
     }
-    wasTouching_ = state.touching;
-    lastLabel_ = material.dominantLabel;
-    lastMaterial_ = state.material;
-    lastEdgeCounter_ = state.edgeCounter;
+    remember(state, material.dominantLabel);
     if (action == ContactAction::rest && state.touching) {
         counters.skipped.fetch_add(1, std::memory_order_relaxed);
     }
@@ -81,6 +78,16 @@ ContactAction ContactPublisher::publish(ContactState state) noexcept {
     return action;
 }
 
+void ContactPublisher::remember(const ContactState& state, std::size_t dominantLabel) noexcept {
+    wasTouching_ = state.touching;
+    lastEdgeCounter_ = state.edgeCounter;
+    lastLandingCounter_ = state.landingCounter;
+    if (state.touching) {
+        last_ = state;
+        lastLabel_ = dominantLabel;
+    }
+}
+
 void ContactPublisher::noteImpact(const ContactState& state) noexcept {
     if (!state.asksFor(EffectKind::impact) || !(state.approachSpeedMps > 0.0F)) {
         return;
@@ -90,23 +97,38 @@ void ContactPublisher::noteImpact(const ContactState& state) noexcept {
     impact_.response = impactResponse(model_, state.material);
 }
 
-void ContactPublisher::noteEdge(const ContactState& state, std::size_t dominantLabel,
-                                const std::array<float, 3>& motion) noexcept {
-    if (!state.asksFor(EffectKind::edge)) {
+void ContactPublisher::noteTransition(const ContactState& state, std::size_t dominantLabel,
+                                      const std::array<float, 3>& motion) noexcept {
+    if (!state.touching) {
+        // The tip has slid off what it touched: that surface's edge, at the speed that the tip had there.
+        strikeEdge(last_, heightShare(state));
         return;
     }
-    double change = 0.0;
-    if (dominantLabel != lastLabel_) {
-        const auto before = static_cast<double>(levels_.at(lastMaterial_, motion));
-        const auto after = static_cast<double>(levels_.at(state.material, motion));
-        change = std::abs(20.0 * std::log10(std::max(after, 1e-6) / std::max(before, 1e-6))) / fullEdgeDb;
+    if (state.landingCounter != lastLandingCounter_) {
+        noteImpact(state);
+        return;
     }
-    if (state.edgeCounter != lastEdgeCounter_) {
-        change = std::max(change, static_cast<double>(state.edgeHeightMetres) / fullEdgeMetres);
+    strikeEdge(state, std::max(heightShare(state), levelShare(state, dominantLabel, motion)));
+}
+
+double ContactPublisher::heightShare(const ContactState& state) const noexcept {
+    return state.edgeCounter == lastEdgeCounter_ ? 0.0 : static_cast<double>(state.edgeHeightMetres) / fullEdgeMetres;
+}
+
+double ContactPublisher::levelShare(const ContactState& state, std::size_t dominantLabel,
+                                    const std::array<float, 3>& motion) const noexcept {
+    if (dominantLabel == lastLabel_) {
+        return 0.0;
     }
+    const auto before = static_cast<double>(levels_.at(last_.material, motion));
+    const auto after = static_cast<double>(levels_.at(state.material, motion));
+    return std::abs(20.0 * std::log10(std::max(after, 1e-6) / std::max(before, 1e-6))) / fullEdgeDb;
+}
+
+void ContactPublisher::strikeEdge(const ContactState& state, double share) noexcept {
     const double speedMps = std::hypot(state.velocityMps[0], state.velocityMps[1]);
-    const double blowMps = edgeShareOfSpeed * speedMps * std::min(change, 1.0);
-    if (!(blowMps > 0.0)) {
+    const double blowMps = edgeShareOfSpeed * speedMps * std::min(share, 1.0);
+    if (!state.asksFor(EffectKind::edge) || !(blowMps > 0.0)) {
         return;
     }
     ++edge_.counter;

@@ -22,7 +22,15 @@ public:
 
 private:
     void noteImpact(const ContactState& state) noexcept;
-    void noteEdge(const ContactState& state, std::size_t dominantLabel, const std::array<float, 3>& motion) noexcept;
+    void noteTransition(const ContactState& state, std::size_t dominantLabel,
+                        const std::array<float, 3>& motion) noexcept;
+    void strikeEdge(const ContactState& state, double share) noexcept;
+    void remember(const ContactState& state, std::size_t dominantLabel) noexcept;
+    /// How much of a full edge the newest one is, by its height or by the change of level from the label before; may be
+    /// above 1.
+    [[nodiscard]] double heightShare(const ContactState& state) const noexcept;
+    [[nodiscard]] double levelShare(const ContactState& state, std::size_t dominantLabel,
+                                    const std::array<float, 3>& motion) const noexcept;
     void retrieve(const ContactState& state, std::size_t label, const std::array<float, 3>& motion) noexcept;
 
     const model::ModelFile& model_;
@@ -35,11 +43,12 @@ private:
     SeedRibs seedRibs_{};
     BlowMessage impact_;
     BlowMessage edge_;
-    // Of the last state that touched; of no touch before the first.
     bool wasTouching_ = false;
-    std::size_t lastLabel_ = 0;
-    MaterialBlend lastMaterial_{};
     std::uint32_t lastEdgeCounter_ = 0;
+    std::uint32_t lastLandingCounter_ = 0;
+    // The last state that touched.
+    ContactState last_;
+    std::size_t lastLabel_ = 0;
 };
 
 }  // namespace haptoflow::engine

@@ -30,14 +30,16 @@ struct ContactState {
     /// Tangential velocity in the surface's own two axes.
     std::array<float, 2> velocityMps{};
     float forceNewtons = 0.0F;
-    /// Speed into the surface, latched at touch-down.
+    /// Speed into the surface, latched at the newest landing.
     float approachSpeedMps = 0.0F;
     MaterialBlend material{};
     /// What the surface asks for: texture, impact, edge. Other bits count for nothing.
     effects::EffectMask effects = effects::maskOf(effects::EffectKind::texture);
-    /// One more at each edge that the tip crosses while it touches, and how high the newest is.
+    /// One more at each edge that the tip crosses or slides off, and how high the newest is.
     std::uint32_t edgeCounter = 0;
     float edgeHeightMetres = 0.0F;
+    /// One more at each landing on another surface or face within a touch.
+    std::uint32_t landingCounter = 0;
 
     [[nodiscard]] bool asksFor(effects::EffectKind kind) const noexcept {
         return (effects & effects::maskOf(kind)) != 0;

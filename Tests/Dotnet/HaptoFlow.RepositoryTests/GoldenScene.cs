@@ -66,6 +66,9 @@ namespace HaptoFlow.RepositoryTests
                 "vy_mps" => reading.SecondVelocityMps,
                 "approach_mps" => reading.ApproachSpeedMps,
                 "force_n" => reading.ForceNewtons,
+                "landing_counter" => reading.LandingCounter,
+                "edge_counter" => reading.EdgeCounter,
+                "edge_height_m" => reading.EdgeHeightMetres,
                 _ => throw new KeyNotFoundException($"the golden file has a column \"{column}\" that this test does not know"),
             };
         }
@@ -123,7 +126,7 @@ namespace HaptoFlow.RepositoryTests
             Tracked.Track.Record(tracker.NowSeconds, pose);
             Double3 tip = pose.PointToLocal(tracker.TipMetres);
             SurfacePoint? local = Closest(tip, tracker.PreviousLocalNormal(Tracked), tracker.Settings);
-            if (local.HasValue && local.Value.SignedDistanceMetres <= tracker.ReachMetres)
+            if (local.HasValue && local.Value.SignedDistanceMetres <= tracker.ReachMetresOf(Tracked))
             {
                 tracker.Consider(new ContactCandidate(Tracked, pose, local.Value));
             }

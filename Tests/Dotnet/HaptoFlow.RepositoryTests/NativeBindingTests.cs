@@ -19,7 +19,7 @@ namespace HaptoFlow.RepositoryTests
         [TestCase(typeof(GeneratorOptions), 56)]
         [TestCase(typeof(Batch), 40)]
         [TestCase(typeof(EngineOptions), 88)]
-        [TestCase(typeof(NativeContactState), 76)]
+        [TestCase(typeof(NativeContactState), 80)]
         [TestCase(typeof(EffectStatistics), 48)]
         [TestCase(typeof(HapticExposure), 40)]
         [TestCase(typeof(VoiceStatistics), 176)]

@@ -22,7 +22,8 @@ namespace {
 using ::testing::HasSubstr;
 
 constexpr const char* header =
-    "t,surface,touching,touch_counter,px,py,pz,nx,ny,nz,penetration_m,vx_mps,vy_mps,approach_mps,force_n";
+    "t,surface,touching,touch_counter,px,py,pz,nx,ny,nz,penetration_m,vx_mps,vy_mps,approach_mps,force_n,"
+    "landing_counter,edge_counter,edge_height_m";
 
 std::vector<std::string> linesOf(const std::string& text) {
     std::vector<std::string> lines;
@@ -50,12 +51,12 @@ TEST(ContactCommandTest, OneLinePerFrameInTheOrderOfTheHeader) {
     const auto lines = linesOf(statesOf(tableScene("table"), "t,x,y,z\n0,0,0.0005,0\n0.1,0.02,0.0005,0\n"));
     ASSERT_EQ(lines.size(), 12U);
     EXPECT_EQ(lines[0], header);
-    EXPECT_EQ(lines[1], "0,table,1,1,0,0,0,0,1,0,0.0005,0,0,0,0.5");
+    EXPECT_EQ(lines[1], "0,table,1,1,0,0,0,0,1,0,0.0005,0,0,0,0.5,0,0,0");
     EXPECT_THAT(lines[11], HasSubstr("0.1,table,1,1,0.02,0,0,0,1,0,0.0005,0.2"));
 }
 
 TEST(ContactCommandTest, WithoutTouchTheSurfaceIsEmptyAndNamesWithCommasAreQuoted) {
-    EXPECT_EQ(linesOf(statesOf(tableScene("table"), "t,x,y,z\n0,0,1,0\n"))[1], "0,,0,0,0,1,0,0,1,0,0,0,0,0,0");
+    EXPECT_EQ(linesOf(statesOf(tableScene("table"), "t,x,y,z\n0,0,1,0\n"))[1], "0,,0,0,0,1,0,0,1,0,0,0,0,0,0,0,0,0");
     EXPECT_THAT(linesOf(statesOf(tableScene("a, \"b\""), "t,x,y,z\n0,0,0,0\n"))[1],
                 HasSubstr("0,\"a, \"\"b\"\"\",1,1,"));
 }

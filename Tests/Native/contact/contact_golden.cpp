@@ -129,7 +129,8 @@ Outcome play(const Case& testCase) {
 const std::vector<std::string>& readingColumns() {
     static const std::vector<std::string> columns{
         "t",  "surface_index", "touching", "touch_counter", "px",           "py",     "pz", "nx", "ny",
-        "nz", "penetration_m", "vx_mps",   "vy_mps",        "approach_mps", "force_n"};
+        "nz", "penetration_m", "vx_mps",   "vy_mps",        "approach_mps", "force_n", "landing_counter",
+        "edge_counter", "edge_height_m"};
     return columns;
 }
 
@@ -148,7 +149,10 @@ std::vector<double> rowOf(const ContactReading& reading) {
             reading.tangentialVelocityMps.x,
             reading.tangentialVelocityMps.y,
             reading.approachSpeedMps,
-            reading.forceNewtons};
+            reading.forceNewtons,
+            static_cast<double>(reading.landingCounter),
+            static_cast<double>(reading.edgeCounter),
+            reading.edgeHeightMetres};
 }
 
 json statisticsToJson(const ContactStatistics& statistics) {

@@ -141,11 +141,27 @@ Case seamAndTaps() {
                   }));
 }
 
+Case stepsAndWall() {
+    json low = surfaceWith("low", {{"box", {{"size", {0.1, 0.02, 0.1}}}}}, "wood");
+    low["position"] = {-0.05, -0.01, 0.0};
+    json high = surfaceWith("high", {{"box", {{"size", {0.1, 0.02, 0.1}}}}}, "metal");
+    high["position"] = {0.05, -0.0097, 0.0};
+    json wall = surfaceWith("wall", {{"box", {{"size", {0.02, 0.1, 0.1}}}}}, "stone");
+    wall["position"] = {0.09, 0.04, 0.0};
+    // To and fro over the step, against the wall, and at last off the low plate's rim.
+    return caseOf("over a step, against a wall, back and off the rim", sceneWith({low, high, wall}, 0.001),
+                  sampledPath(2.4, frameRateHz, [](double time) {
+                      const double x = time < 1.0 ? -0.04 + 0.13 * time : 0.09 - 0.17 * (time - 1.0);
+                      return glm::dvec3(x, 0.0002 + 0.0002 * std::sin(31.0 * time), 0.01 * time);
+                  }));
+}
+
 }  // namespace
 
 std::vector<Case> goldenCases() {
     return {boxEdge(),      deepInsideBox(), spherePole(),     movingPlate(),
-            meshAndBlend(), trackerHold(),   brokenTracking(), seamAndTaps()};
+            meshAndBlend(), trackerHold(),   brokenTracking(), seamAndTaps(),
+            stepsAndWall()};
 }
 
 }  // namespace haptoflow::contact::golden

@@ -287,6 +287,56 @@ TEST_F(VoiceEffectsTest, ARimIsFeltByItsHeightUpToTheTipsOwn) {
     EXPECT_EQ(peakAt(std::numeric_limits<float>::quiet_NaN()), 0.0);
 }
 
+TEST_F(VoiceEffectsTest, ALandingWithinATouchIsABlowAndTheTextureGoesOn) {
+    SimulatedDevice device(model_, tone_);
+    std::uint32_t landings = 0;
+    const auto slide = [&landings](double) {
+        ContactState state = testing::sliding(0.2F);
+        state.effects = texture | impact;
+        state.approachSpeedMps = 0.3F;
+        state.landingCounter = landings;
+        return state;
+    };
+    device.run(0.3, slide);
+    // The touch-down itself is the first blow.
+    EXPECT_EQ(of(device, EffectKind::impact).events, 1U);
+    landings = 1;
+    device.run(0.3, slide);
+    EXPECT_EQ(of(device, EffectKind::impact).events, 2U);
+    EXPECT_EQ(device.counters().onsets, 1U);
+}
+
+TEST_F(VoiceEffectsTest, ATouchDownWithALandingCountedBesideItIsOneBlow) {
+    SimulatedDevice device(model_, tone_);
+    device.run(0.1, [](double) { return testing::lifted(0); });
+    ContactState state = landing(0.3F, impact);
+    state.landingCounter = 4;
+    device.run(0.3, [&state](double) { return state; });
+    EXPECT_EQ(of(device, EffectKind::impact).events, 1U);
+}
+
+TEST_F(VoiceEffectsTest, ATipThatSlidesOffARimIsFeltWithTheSpeedThatItHadThere) {
+    const auto peakAt = [this](float speedMps, std::uint32_t edgesAfter) {
+        SimulatedDevice device(model_, tone_);
+        device.run(0.2, [speedMps](double) {
+            ContactState state = testing::sliding(speedMps);
+            state.effects = edge;
+            return state;
+        });
+        const std::size_t off = device.output.size();
+        device.run(0.3, [edgesAfter](double) {
+            ContactState state = testing::lifted(1);
+            state.edgeCounter = edgesAfter;
+            state.edgeHeightMetres = 0.001F;
+            return state;
+        });
+        return static_cast<double>(testing::peak(from(device, off)));
+    };
+    EXPECT_GT(peakAt(0.2F, 1), 0.0);
+    EXPECT_NEAR(peakAt(0.4F, 1) / peakAt(0.2F, 1), 2.0, 0.05);
+    EXPECT_EQ(peakAt(0.2F, 0), 0.0);
+}
+
 TEST_F(VoiceEffectsTest, AnApproachThatIsNoNumberIsNoLanding) {
     SimulatedDevice device(model_, tone_);
     std::uint32_t touch = 0;

@@ -57,6 +57,9 @@ namespace HaptoFlow
                 SecondVelocityMps = (float)reading.SecondVelocityMps,
                 ForceNewtons = (float)reading.ForceNewtons,
                 ApproachSpeedMps = (float)reading.ApproachSpeedMps,
+                LandingCounter = reading.LandingCounter,
+                EdgeCounter = reading.EdgeCounter,
+                EdgeHeightMetres = (float)reading.EdgeHeightMetres,
             };
             if (surface != null)
             {

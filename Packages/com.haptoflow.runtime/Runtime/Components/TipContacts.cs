@@ -95,7 +95,7 @@ namespace HaptoFlow
             RigidPose pose = ColliderProbe.PoseOf(collider);
             place.Record(Tracker.NowSeconds, stepSeconds, pose);
             var question = new ProbeQuestion(
-                Tracker.TipMetres, Tracker.ReachMetres, Tracker.PreviousLocalNormal(place.Tracked),
+                Tracker.TipMetres, Tracker.ReachMetresOf(place.Tracked), Tracker.PreviousLocalNormal(place.Tracked),
                 hasPreviousTip ? previousTipMetres : Tracker.TipMetres, Tracker.Settings.SwitchMarginMetres);
             if (ColliderProbe.TryClosest(collider, pose, question, out SurfacePoint local))
             {

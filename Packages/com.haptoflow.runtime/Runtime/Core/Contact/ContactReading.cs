@@ -36,10 +36,20 @@ namespace HaptoFlow.Contact
         /// <summary>The surface's tangent axes in world space; zero without touch.</summary>
         public Double3 SecondAxis;
 
-        /// <summary>Into the surface at this touch's first frame, not below 0; 0 without touch.</summary>
+        /// <summary>Into the surface at this touch's newest landing, not below 0; 0 without touch.</summary>
         public double ApproachSpeedMps;
 
         public double ForceNewtons;
+
+        /// <summary>Counts landings within touches: on another surface, or on another face of the same.</summary>
+        public uint LandingCounter;
+
+        /// <summary>Counts edges: rims that the tip crosses or slides off, and steps from one surface to the next.
+        /// </summary>
+        public uint EdgeCounter;
+
+        /// <summary>Of the newest edge; 0 before the first.</summary>
+        public double EdgeHeightMetres;
     }
 
     /// <summary>What had to be put right. Counts since construction.</summary>

@@ -23,6 +23,7 @@ namespace HaptoFlow.Contact
 
         private readonly RelativeVelocity relativeVelocity = new RelativeVelocity();
         private readonly TipHistory history;
+        private readonly ContactTransitions transitions = new ContactTransitions();
 
         private double tipRadiusMetres;
         private TipSample sample;
@@ -36,6 +37,9 @@ namespace HaptoFlow.Contact
         private Double3? localNormal;
         private uint touchCounter;
         private double approachSpeedMps;
+        private uint landingCounter;
+        private uint edgeCounter;
+        private double edgeHeightMetres;
 
         private ContactCandidate current;
         private ContactCandidate deepest;
@@ -78,6 +82,12 @@ namespace HaptoFlow.Contact
         public double ReachMetres => TipRadiusMetres + (verdict == ForceVerdict.Pressed
             ? Force!.Settings.NearMetres + Force.Settings.NearMarginMetres
             : Settings.ReleaseDistanceMetres);
+
+        /// <summary>The same for one surface: what was touched is followed further, to tell a tip that slid off from one
+        /// that was lifted.</summary>
+        public double ReachMetresOf(TrackedSurface surface) => ReferenceEquals(surface, touched)
+            ? Math.Max(ReachMetres, TipRadiusMetres + ContactTransitions.SlideOffReachMetres)
+            : ReachMetres;
 
         /// <summary>Time of this frame, on the samples' clock.</summary>
         public double NowSeconds => nowSeconds;
@@ -165,6 +175,7 @@ namespace HaptoFlow.Contact
             bool wasTouching = touched != null;
             if (!tipMetres.HasValue || !ChooseContact(out ContactCandidate contact))
             {
+                NoteSlideOff();
                 touched = null;
                 localNormal = null;
                 return Idle();
@@ -185,6 +196,7 @@ namespace HaptoFlow.Contact
             localNormal = null;
             tipMetres = null;
             history.Clear();
+            transitions.Forget();
             Force?.Forget();
             verdict = ForceVerdict.Unknown;
         }
@@ -192,6 +204,7 @@ namespace HaptoFlow.Contact
         /// <summary>A surface is gone: destroyed, switched off, or its place is used for another.</summary>
         public void Release(TrackedSurface surface)
         {
+            transitions.Release(surface);
             if (ReferenceEquals(touched, surface))
             {
                 touched = null;
@@ -207,6 +220,7 @@ namespace HaptoFlow.Contact
             if (step != TipStep.Continued)
             {
                 ForgetContinuity();
+                transitions.Forget();
             }
         }
 
@@ -259,6 +273,40 @@ namespace HaptoFlow.Contact
             return true;
         }
 
+        private void NoteTransition(in ContactCandidate contact, double approach)
+        {
+            ContactEvent met = transitions.Advance(contact, TipRadiusMetres, nowSeconds, approach);
+            if (met.Landed)
+            {
+                ++landingCounter;
+                approachSpeedMps = approach;
+            }
+            CountEdge(met.EdgeHeightMetres);
+        }
+
+        /// <summary>After a touch, while what was touched is still known. A force that says that the pen was lifted
+        /// knows better than geometry.</summary>
+        private void NoteSlideOff()
+        {
+            if (hasCurrent && tipMetres.HasValue && verdict != ForceVerdict.Lifted)
+            {
+                double height = verdict == ForceVerdict.Pressed
+                    ? Force!.Settings.NearMetres + Force.Settings.NearMarginMetres
+                    : Settings.ReleaseDistanceMetres;
+                CountEdge(transitions.SlideOff(current, tipMetres.Value, TipRadiusMetres, nowSeconds, height));
+            }
+            transitions.Forget();
+        }
+
+        private void CountEdge(double heightMetres)
+        {
+            if (heightMetres > 0.0)
+            {
+                ++edgeCounter;
+                edgeHeightMetres = heightMetres;
+            }
+        }
+
         private ContactReading Describe(in ContactCandidate contact, bool touchDown)
         {
             TrackedSurface surface = contact.Surface;
@@ -266,12 +314,15 @@ namespace HaptoFlow.Contact
             Double3 velocity = relativeVelocity.Of(history, surface.Track, contact.Local.PointMetres);
             surface.Frame.Update(contact.Local.Normal, stepSeconds);
             localNormal = contact.Local.Normal;
+            double approach = Math.Max(0.0, -Double3.Dot(velocity, normal));
             if (touchDown)
             {
                 ++touchCounter;
                 ++statistics.TouchDowns;
-                approachSpeedMps = Math.Max(0.0, -Double3.Dot(velocity, normal));
+                approachSpeedMps = approach;
+                transitions.Forget();
             }
+            NoteTransition(contact, approach);
 
             ContactReading reading = Idle();
             reading.Touching = true;
@@ -307,6 +358,9 @@ namespace HaptoFlow.Contact
             {
                 TimeSeconds = nowSeconds,
                 TouchCounter = touchCounter,
+                LandingCounter = landingCounter,
+                EdgeCounter = edgeCounter,
+                EdgeHeightMetres = edgeHeightMetres,
                 PointMetres = TipMetres,
                 Normal = Double3.Up,
             };

@@ -25,17 +25,21 @@ namespace HaptoFlow
         /// <summary>Along the surface's normal, 0 to 1000 N.</summary>
         public float ForceNewtons;
 
-        /// <summary>Into the surface, at touch-down, in m/s.</summary>
+        /// <summary>Into the surface, at the newest landing, in m/s.</summary>
         public float ApproachSpeedMps;
 
         /// <summary>What the surface asks for; the texture alone where nothing is said.</summary>
         public HapticEffects Effects;
 
-        /// <summary>One more at each rim that the tip crosses while it touches. A change of label needs no count: the
-        /// voice sees it.</summary>
+        /// <summary>One more at each rim that the tip crosses or slides off. A change of label needs no count: the voice
+        /// sees it.</summary>
         public uint EdgeCounter;
 
         /// <summary>How high the newest rim is, 0 to 1 m.</summary>
         public float EdgeHeightMetres;
+
+        /// <summary>One more at each landing on another surface, or on another face of the same, while the tip goes on
+        /// touching. A touch-down is a landing that needs no count.</summary>
+        public uint LandingCounter;
     }
 }

@@ -40,6 +40,7 @@ namespace HaptoFlow
                 Effects = (uint)state.Effects,
                 EdgeCounter = state.EdgeCounter,
                 EdgeHeightMetres = state.EdgeHeightMetres,
+                LandingCounter = state.LandingCounter,
             };
             for (int index = 0; index < state.Material.Count; ++index)
             {

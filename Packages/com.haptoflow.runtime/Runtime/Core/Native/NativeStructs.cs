@@ -116,5 +116,6 @@ namespace HaptoFlow.Native
         public uint Effects;
         public uint EdgeCounter;
         public float EdgeHeightMetres;
+        public uint LandingCounter;
     }
 }
