@@ -716,6 +716,70 @@ HAPTOFLOW_API haptoflow_status haptoflow_voice_exposure(haptoflow_voice voice, h
  * Unity's mixer effect names. Places are used again. Errors: INVALID_ARGUMENT. [publisher] */
 HAPTOFLOW_API haptoflow_status haptoflow_voice_place(haptoflow_voice voice, uint32_t* place);
 
+/* ------------------------------------------------------------------------------------------------ wave features */
+
+/* What a motor or a device with one carrier has to do to feel like a wave, frame by frame, after Intensity Segment
+ * Modulation: each frame is as intense to the hand as the wave was. */
+typedef struct haptoflow_wave_features haptoflow_wave_features;
+
+typedef struct haptoflow_wave_features_options {
+    uint32_t struct_size;
+    /* Of the wave: a multiple of 2000 up to 16000; 0 for 2000. Above 2000 a low-pass delays all by 1.5 ms. */
+    uint32_t sample_rate_hz;
+    /* 0.002 to 0.032; 0 for 0.005. Need not be a whole number of samples. */
+    double frame_seconds;
+    /* What the device can play, above 0 to 1000; 0 for 60 and 400. Both the same for a motor of one frequency. */
+    double minimum_frequency_hz;
+    double maximum_frequency_hz;
+} haptoflow_wave_features_options;
+
+/* One frame. This struct has no struct_size and will not change. */
+typedef struct haptoflow_wave_frame {
+    /* In samples of 2000 a second since the features were made or reset, the low-pass's delay included. */
+    uint64_t first_sample;
+    uint32_t sample_count;
+    /* How strong it feels: 1 is just felt. */
+    float intensity;
+    /* Where its energy is, as the hand weighs it; the last place that was felt while the wave is silent. */
+    float centroid_hz;
+    /* The carrier: the centroid within the device's range, and the amplitude (peak, m/s^2) that feels as strong there. */
+    float frequency_hz;
+    float amplitude_mps2;
+    /* The onset of a tap or an edge: seconds from the start of the frame, and the carrier as intense as its peak;
+     * amplitude 0 for none. */
+    float transient_offset_seconds;
+    float transient_amplitude_mps2;
+    float transient_frequency_hz;
+} haptoflow_wave_frame;
+
+/* Close it with haptoflow_wave_features_close. Errors: INVALID_ARGUMENT, OUT_OF_MEMORY.
+ * [any-thread] Blocks for as long as another thread opens or closes a handle; allocates. */
+HAPTOFLOW_API haptoflow_status haptoflow_wave_features_create(const haptoflow_wave_features_options* options,
+                                                              haptoflow_wave_features** features);
+
+/* Closes *features and sets it to null; a null handle is fine. Errors: INVALID_ARGUMENT.
+ * [any-thread] Blocks for as long as another thread opens or closes a handle. */
+HAPTOFLOW_API haptoflow_status haptoflow_wave_features_close(haptoflow_wave_features** features);
+
+/* Forgets the wave; the next sample is the first. Errors: INVALID_ARGUMENT.
+ * [any-thread] Blocks while another thread uses these features. */
+HAPTOFLOW_API haptoflow_status haptoflow_wave_features_reset(haptoflow_wave_features* features);
+
+/* What the device can play from the next frame on, above 0 to 1000 Hz each. Errors: INVALID_ARGUMENT.
+ * [any-thread] Blocks while another thread uses these features. */
+HAPTOFLOW_API haptoflow_status haptoflow_wave_features_set_range(haptoflow_wave_features* features,
+                                                                 double minimum_frequency_hz,
+                                                                 double maximum_frequency_hz);
+
+/* Takes the next sample_count samples of the wave in m/s^2 and writes the frames that they complete; *frame_count becomes
+ * how many. A frame is complete 4 ms after its end. Room for sample_count / (rate * frame_seconds) + 1 frames is always
+ * enough; frames beyond capacity are lost. Samples that are not finite count as 0. Errors: INVALID_ARGUMENT.
+ * [any-thread] Blocks while another thread uses these features; takes about 2 us for each ms of wave. */
+HAPTOFLOW_API haptoflow_status haptoflow_wave_features_process(haptoflow_wave_features* features,
+                                                               const float* wave_mps2, uint64_t sample_count,
+                                                               haptoflow_wave_frame* frames, uint64_t capacity,
+                                                               uint64_t* frame_count);
+
 /* -------------------------------------------------------------------------------------------------------- noise */
 
 /* Fills noise with count standard normal numbers that depend on seed, voice and segment alone and are the same bytes on

@@ -31,6 +31,11 @@ EngineTable& engines() {
     return table;
 }
 
+WaveFeaturesTable& waveFeatures() {
+    static auto& table = *new WaveFeaturesTable("wave features");
+    return table;
+}
+
 inference::LoadLimits loadLimits(const haptoflow_cancellation* cancellation, double probeLimitMs) {
     inference::LoadLimits limits;
     if (probeLimitMs != 0.0) {

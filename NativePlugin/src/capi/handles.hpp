@@ -60,6 +60,8 @@ using CancellationTable = HandleTable<haptoflow_cancellation, inference::Cancell
 using ModelTable = HandleTable<haptoflow_model, const OpenModel>;
 using GeneratorTable = HandleTable<haptoflow_generator, OpenGenerator>;
 using EngineTable = HandleTable<haptoflow_engine, OpenEngine>;
+struct OpenWaveFeatures;
+using WaveFeaturesTable = HandleTable<haptoflow_wave_features, OpenWaveFeatures>;
 
 // The tables are never destroyed: ONNX Runtime may be gone by the time that static objects are.
 [[nodiscard]] RuntimeTable& runtimes();
@@ -67,6 +69,7 @@ using EngineTable = HandleTable<haptoflow_engine, OpenEngine>;
 [[nodiscard]] ModelTable& models();
 [[nodiscard]] GeneratorTable& generators();
 [[nodiscard]] EngineTable& engines();
+[[nodiscard]] WaveFeaturesTable& waveFeatures();
 
 /// The limits of a load as options give them: a null cancellation is none, a limit of 0 is the usual one. Throws
 /// std::invalid_argument.

@@ -25,6 +25,8 @@ namespace HaptoFlow.RepositoryTests
         [TestCase(typeof(VoiceStatistics), 176)]
         [TestCase(typeof(EngineStatistics), 88)]
         [TestCase(typeof(TierTimes), 32)]
+        [TestCase(typeof(WaveFeaturesOptions), 32)]
+        [TestCase(typeof(NativeWaveFrame), 40)]
         public void EveryStructHasTheSizeThatItsCDeclarationHas(Type type, int expectedBytes) =>
             Assert.That(Marshal.SizeOf(type), Is.EqualTo(expectedBytes));
 

@@ -97,6 +97,11 @@ TEST(ArgumentTest, NullPointersAreRefusedByEveryFunction) {
     haptoflow_model* noModel = nullptr;
     haptoflow_generator* noGenerator = nullptr;
     haptoflow_engine* noEngine = nullptr;
+    haptoflow_wave_features* noFeatures = nullptr;
+    const haptoflow_wave_features_options featureOptions{sizeof(featureOptions), 0, 0.0, 0.0, 0.0};
+    haptoflow_wave_features* features = nullptr;
+    ASSERT_EQ(haptoflow_wave_features_create(&featureOptions, &features), HAPTOFLOW_OK) << message();
+    haptoflow_wave_frame frame{};
     haptoflow_voice noVoice = 0;
     uint32_t count = 0;
     const char* text = nullptr;
@@ -184,6 +189,18 @@ TEST(ArgumentTest, NullPointersAreRefusedByEveryFunction) {
         {"haptoflow_voice_effect_statistics",
          {[&] { return haptoflow_voice_effect_statistics(open.voice, HAPTOFLOW_EFFECT_TEXTURE, nullptr); }}},
         {"haptoflow_voice_place", {[&] { return haptoflow_voice_place(open.voice, nullptr); }}},
+        {"haptoflow_wave_features_create",
+         {[&] { return haptoflow_wave_features_create(nullptr, &noFeatures); },
+          [&] { return haptoflow_wave_features_create(&featureOptions, nullptr); }}},
+        {"haptoflow_wave_features_close", {[&] { return haptoflow_wave_features_close(nullptr); }}},
+        {"haptoflow_wave_features_reset", {[&] { return haptoflow_wave_features_reset(nullptr); }}},
+        {"haptoflow_wave_features_set_range",
+         {[&] { return haptoflow_wave_features_set_range(nullptr, 100.0, 200.0); }}},
+        {"haptoflow_wave_features_process",
+         {[&] { return haptoflow_wave_features_process(nullptr, numbers.data(), 1, &frame, 1, &length); },
+          [&] { return haptoflow_wave_features_process(features, nullptr, 1, &frame, 1, &length); },
+          [&] { return haptoflow_wave_features_process(features, numbers.data(), 1, nullptr, 1, &length); },
+          [&] { return haptoflow_wave_features_process(features, numbers.data(), 1, &frame, 1, nullptr); }}},
         {"haptoflow_noise_fill", {[&] { return haptoflow_noise_fill(0, 0, 0, nullptr, 1); }}},
     };
     std::map<std::string, std::size_t> called;

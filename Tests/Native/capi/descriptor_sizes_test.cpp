@@ -136,6 +136,11 @@ protected:
             input<haptoflow_engine_options>("haptoflow_engine_options", "haptoflow_engine_create",
                                             offsetof(haptoflow_engine_options, update_rate_hz), engineOptions_,
                                             opening(haptoflow_engine_create, haptoflow_engine_close)),
+            input<haptoflow_wave_features_options>(
+                "haptoflow_wave_features_options", "haptoflow_wave_features_create",
+                sizeof(haptoflow_wave_features_options),
+                {0, 8000, 0.005, 60.0, 400.0},
+                opening(haptoflow_wave_features_create, haptoflow_wave_features_close)),
             input<haptoflow_contact_state>(
                 "haptoflow_contact_state", "haptoflow_voice_publish",
                 offsetof(haptoflow_contact_state, approach_speed_mps), slidingState(),

@@ -20,6 +20,7 @@ using testing::sampledPath;
 using testing::sceneOf;
 using testing::surfaceOf;
 using testing::turned;
+using testing::turned;
 
 constexpr double pi = std::numbers::pi;
 constexpr double tipRadius = 0.001;

@@ -12,6 +12,7 @@
 namespace haptoflow::contact {
 namespace {
 
+using testing::nan;
 using testing::turned;
 
 const glm::dquat upright(1.0, 0.0, 0.0, 0.0);
@@ -53,7 +54,6 @@ TEST(MotionTest, LoopRepeatsForeverInBothDirections) {
 }
 
 TEST(MotionTest, DamagedTimesAreRefusedAndDamagedRotationsBecomeTheIdentity) {
-    const double nan = std::numeric_limits<double>::quiet_NaN();
     EXPECT_THROW(Motion({{0.0, {}}}, false), std::invalid_argument);
     EXPECT_THROW(Motion({{0.0, {}}, {0.0, {}}}, false), std::invalid_argument);
     EXPECT_THROW(Motion({{0.0, {}}, {nan, {}}}, false), std::invalid_argument);

@@ -11,6 +11,8 @@ namespace haptoflow::contact {
 namespace {
 
 using testing::degreesBetween;
+using testing::infinity;
+using testing::nan;
 
 constexpr double frameSeconds = 1.0 / 90.0;
 
@@ -116,8 +118,6 @@ TEST(TangentFrameTest, AxesOverABoxEdgeRollWithTheNormal) {
 }
 
 TEST(TangentFrameTest, FlippedZeroLongAndDamagedNormalsGiveOrthonormalAxes) {
-    const double nan = std::numeric_limits<double>::quiet_NaN();
-    const double infinity = std::numeric_limits<double>::infinity();
     for (const glm::dvec3& grain :
          {glm::dvec3(1.0, 0.0, 0.0), glm::dvec3(0.0), glm::dvec3(nan, 0.0, 0.0), glm::dvec3(0.0, 1e-200, 0.0)}) {
         TangentFrame frame(grain);

@@ -12,6 +12,7 @@
 namespace haptoflow::contact {
 namespace {
 
+using testing::nan;
 using testing::RawMesh;
 
 TEST(TriangleMeshTest, TreeFindsExactlyWhatASearchThroughAllTrianglesFinds) {
@@ -124,7 +125,6 @@ TEST(TriangleMeshTest, TrianglesWithoutAreaChangeNothing) {
 
 TEST(TriangleMeshTest, RefusesDamagedInput) {
     const std::vector<glm::dvec3> corners{{0.0, 0.0, 0.0}, {1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}};
-    const double nan = std::numeric_limits<double>::quiet_NaN();
     EXPECT_THROW(TriangleMesh(corners, {{0, 1, 3}}), std::invalid_argument);
     EXPECT_THROW(TriangleMesh(corners, {}), std::invalid_argument);
     EXPECT_THROW(TriangleMesh(corners, {{0, 1, 1}}), std::invalid_argument);

@@ -25,7 +25,7 @@ namespace HaptoFlow.RepositoryTests.Outputs
                 silent += now > 1.0 && motor.AmplitudeAt(now) <= 0f ? 1 : 0;
                 motor.Now = now;
                 queue.Update(now);
-                Assert.That(queue.Statistics.LatencyMilliseconds, Is.LessThan(1000.0 * (1.3 / rateHz + 2.0 * FrameSeconds)));
+                Assert.That(queue.Statistics.LatencyMilliseconds, Is.LessThan(1000.0 * (0.0135 + 1.3 / rateHz + 2.0 * FrameSeconds)));
             }
             Assert.That(silent, Is.Zero);
             Assert.That(queue.Statistics.Gaps, Is.Zero);
@@ -34,13 +34,25 @@ namespace HaptoFlow.RepositoryTests.Outputs
         }
 
         [Test]
-        public void EachAmplitudeIsThatOfTheSineThatIsAsStrong([Values(0.05, 0.2, 0.6)] double amplitude)
+        public void AToneThatTheMotorCanPlayKeepsItsAmplitudeAndFrequency([Values(0.05, 0.2, 0.6)] double amplitude)
+        {
+            var motor = new SimulatedMotor { MinFrequencyHz = 60.0, MaxFrequencyHz = 400.0 };
+            Play(motor, QueueFor(motor, SimulatedWave.Sine(216.0, amplitude)), 0.0, 1.0);
+            Assert.That(motor.Told.Skip(8).Select(each => (double)each.Amplitude),
+                Is.All.EqualTo(amplitude).Within(0.08 * amplitude));
+            Assert.That(motor.Told.Skip(8).Select(each => (double)each.Hertz), Is.All.EqualTo(216.0).Within(12.0));
+        }
+
+        [Test]
+        public void AMotorOfWhichNothingIsKnownPlaysAToneOf160HertzThatIsAsIntense()
         {
             var motor = new SimulatedMotor();
-            Play(motor, QueueFor(motor, SimulatedWave.Sine(216.0, amplitude)), 0.0, 1.0);
-            Assert.That(motor.Told.Skip(3).Select(each => (double)each.Amplitude),
-                Is.All.EqualTo(amplitude).Within(0.03 * amplitude));
-            Assert.That(motor.Told.Skip(3).Select(each => (double)each.Hertz), Is.All.EqualTo(216.0).Within(10.0));
+            AmplitudeQueue queue = QueueFor(motor, SimulatedWave.Sine(400.0, 0.2));
+            queue.FullScaleMps2 = 60f;
+            Play(motor, queue, 0.0, 1.0);
+            // At 400 Hz the threshold is 0.56 m/s^2 and at 160 Hz 0.03: 12 m/s^2 feel as strong as much less there.
+            Assert.That(motor.Told.Skip(8).Select(each => (double)each.Amplitude), Is.All.InRange(0.002, 0.1));
+            Assert.That(motor.Told.Skip(8).Select(each => each.Hertz), Is.All.EqualTo(160f));
         }
 
         [Test]
@@ -48,12 +60,13 @@ namespace HaptoFlow.RepositoryTests.Outputs
         {
             // 3 Hz of amplitude modulation.
             static double Envelope(double seconds) => 0.4 + 0.3 * Math.Sin(2.0 * Math.PI * 3.0 * seconds);
-            var motor = new SimulatedMotor();
+            var motor = new SimulatedMotor { MinFrequencyHz = 60.0, MaxFrequencyHz = 400.0 };
             Play(motor, QueueFor(motor, new SimulatedWave(seconds =>
                 Envelope(seconds) * Math.Sin(2.0 * Math.PI * 216.0 * seconds))), 0.0, 3.0);
             foreach ((double seconds, float amplitude, _, _) in motor.Told.Skip(5))
             {
-                Assert.That(amplitude, Is.EqualTo(Envelope(seconds - 0.5 * FrameSeconds)).Within(0.05));
+                double heard = seconds - 0.5 * FrameSeconds - WaveFeatures.LatencySeconds - 0.004;
+                Assert.That(amplitude, Is.EqualTo(Envelope(heard)).Within(0.06));
             }
         }
 
@@ -125,7 +138,7 @@ namespace HaptoFlow.RepositoryTests.Outputs
         }
 
         private static AmplitudeQueue QueueFor(SimulatedMotor motor, SimulatedWave wave) =>
-            new AmplitudeQueue(motor, wave, new RmsWaveFeatures());
+            new AmplitudeQueue(motor, wave);
 
         private static double Play(SimulatedMotor motor, AmplitudeQueue queue, double from, double seconds)
         {

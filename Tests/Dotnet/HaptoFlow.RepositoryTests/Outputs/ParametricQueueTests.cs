@@ -51,8 +51,9 @@ namespace HaptoFlow.RepositoryTests.Outputs
                 began = double.IsNaN(began) && queue.IsPlaying ? now - FrameSeconds : began;
                 for (double at = now; at < now + FrameSeconds && now > 0.2; at += 0.008)
                 {
-                    // The wave began a frame before its stream did, and an amplitude is that of the 5 ms before it.
-                    double expected = Envelope(at - now + now - began - FrameSeconds - 0.5 * ParametricQueue.PointSeconds);
+                    // The wave began a frame before its stream did, an amplitude is that of the 5 ms before it, and the
+                    // features' low-pass delays by 1.5 ms.
+                    double expected = Envelope(at - began - FrameSeconds - 0.5 * ParametricQueue.PointSeconds - 0.0015);
                     worst = Math.Max(worst, Math.Abs(device.AmplitudeAt(at) - expected));
                 }
             }
@@ -138,7 +139,7 @@ namespace HaptoFlow.RepositoryTests.Outputs
         public void FramesMakeNoGarbage()
         {
             var motor = new Silent();
-            var queue = new ParametricQueue(motor, SimulatedWave.Sine(100.0), new RmsWaveFeatures());
+            var queue = new ParametricQueue(motor, SimulatedWave.Sine(100.0));
             double now = 0.0;
             long before = 0L;
             for (int frame = 0; frame < 1000; ++frame, now += FrameSeconds)
@@ -150,7 +151,7 @@ namespace HaptoFlow.RepositoryTests.Outputs
         }
 
         private static ParametricQueue QueueFor(SimulatedParametricDevice device, SimulatedWave wave) =>
-            new ParametricQueue(device, wave, new RmsWaveFeatures());
+            new ParametricQueue(device, wave);
 
         private static double Play(SimulatedParametricDevice device, ParametricQueue queue, double from, double seconds)
         {

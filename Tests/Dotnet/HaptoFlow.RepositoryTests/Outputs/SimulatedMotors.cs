@@ -15,6 +15,10 @@ namespace HaptoFlow.RepositoryTests.Outputs
 
         public double RateHz { get; set; }
 
+        public double MinFrequencyHz { get; set; }
+
+        public double MaxFrequencyHz { get; set; }
+
         public bool IsThere { get; set; } = true;
 
         public double Now { get; set; }
@@ -30,7 +34,7 @@ namespace HaptoFlow.RepositoryTests.Outputs
 
         public bool TryGetCapabilities(out HapticSinkCapabilities capabilities)
         {
-            capabilities = new HapticSinkCapabilities(RateHz);
+            capabilities = new HapticSinkCapabilities(RateHz, int.MaxValue, MinFrequencyHz, MaxFrequencyHz);
             return IsThere;
         }
 

@@ -66,6 +66,16 @@ namespace HaptoFlow.Native
         protected override int Close(IntPtr* closing) => NativeMethods.EngineClose(closing);
     }
 
+    internal sealed unsafe class WaveFeaturesHandle : NativeHandle
+    {
+        public WaveFeaturesHandle(IntPtr opened)
+            : base(opened)
+        {
+        }
+
+        protected override int Close(IntPtr* closing) => NativeMethods.WaveFeaturesClose(closing);
+    }
+
     internal sealed unsafe class CancellationHandle : NativeHandle
     {
         public CancellationHandle(IntPtr opened)

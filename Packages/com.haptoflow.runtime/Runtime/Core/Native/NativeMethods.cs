@@ -160,6 +160,24 @@ namespace HaptoFlow.Native
         [DllImport(Library, EntryPoint = "haptoflow_voice_place")]
         public static extern int VoicePlace(ulong voice, uint* place);
 
+        [DllImport(Library, EntryPoint = "haptoflow_wave_features_create")]
+        public static extern int WaveFeaturesCreate(WaveFeaturesOptions* options, IntPtr* features);
+
+        [DllImport(Library, EntryPoint = "haptoflow_wave_features_close")]
+        public static extern int WaveFeaturesClose(IntPtr* features);
+
+        [DllImport(Library, EntryPoint = "haptoflow_wave_features_reset")]
+        public static extern int WaveFeaturesReset(IntPtr features);
+
+        [DllImport(Library, EntryPoint = "haptoflow_wave_features_set_range")]
+        public static extern int WaveFeaturesSetRange(
+            IntPtr features, double minimumFrequencyHz, double maximumFrequencyHz);
+
+        [DllImport(Library, EntryPoint = "haptoflow_wave_features_process")]
+        public static extern int WaveFeaturesProcess(
+            IntPtr features, float* waveMps2, ulong sampleCount, NativeWaveFrame* frames, ulong capacity,
+            ulong* frameCount);
+
         [DllImport(Library, EntryPoint = "haptoflow_noise_fill")]
         public static extern int NoiseFill(ulong seed, uint voice, ulong segment, float* noise, ulong count);
     }

@@ -118,4 +118,28 @@ namespace HaptoFlow.Native
         public float EdgeHeightMetres;
         public uint LandingCounter;
     }
+
+    [Preserve, StructLayout(LayoutKind.Sequential)]
+    internal struct WaveFeaturesOptions
+    {
+        public uint StructSize;
+        public uint SampleRateHz;
+        public double FrameSeconds;
+        public double MinimumFrequencyHz;
+        public double MaximumFrequencyHz;
+    }
+
+    [Preserve, StructLayout(LayoutKind.Sequential)]
+    internal struct NativeWaveFrame
+    {
+        public ulong FirstSample;
+        public uint SampleCount;
+        public float Intensity;
+        public float CentroidHz;
+        public float FrequencyHz;
+        public float AmplitudeMps2;
+        public float TransientOffsetSeconds;
+        public float TransientAmplitudeMps2;
+        public float TransientFrequencyHz;
+    }
 }

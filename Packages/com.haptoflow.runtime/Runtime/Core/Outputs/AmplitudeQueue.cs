@@ -10,26 +10,35 @@ namespace HaptoFlow.Outputs
         /// <summary>The longest that a motor runs on by itself, in s.</summary>
         public const double LongestSeconds = 0.1;
 
+        private const double FrameSeconds = 0.008;
+        private const int MostSamples = (int)(LongestSeconds * WaveHistory.RateHz);
         private const double DurationShare = 1.5;
         private const double DurationMarginSeconds = 0.01;
 
         private readonly IAmplitudeSink sink;
-        private readonly IWaveFeatures features;
-        private readonly float[] window = new float[(int)(LongestSeconds * WaveHistory.RateHz)];
+        private readonly WaveFeatures features = new WaveFeatures(FrameSeconds, MostSamples);
+        private readonly WaveFrame[] frames;
+        private readonly float[] window = new float[MostSamples];
         private double dueSeconds = double.NegativeInfinity;
         private double saidSeconds;
         private long analysed;
+        private float amplitude;
+        private float frequencyHz;
 
-        public AmplitudeQueue(IAmplitudeSink sink, IWaveSource source, IWaveFeatures features)
+        public AmplitudeQueue(IAmplitudeSink sink, IWaveSource source)
             : base(sink, source)
         {
             this.sink = sink;
-            this.features = features;
+            frames = new WaveFrame[features.MostFrames];
         }
+
+        public override void Dispose() => features.Dispose();
 
         protected override void Prepare()
         {
             features.Reset();
+            SetRangeOf(features);
+            amplitude = 0f;
             dueSeconds = double.NegativeInfinity;
             analysed = Wave.End;
         }
@@ -59,16 +68,16 @@ namespace HaptoFlow.Outputs
             }
             Span<float> newest = window.AsSpan(0, count);
             Wave.CopyNewest(newest);
-            WaveFrame frame = features.Analyse(newest);
-            float amplitude = Limited(Math.Max(frame.Amplitude, frame.Transient));
-            if (amplitude <= Inaudible)
+            Analyse(newest);
+            float sent = Limited(amplitude);
+            if (sent <= Inaudible)
             {
                 End();
                 return;
             }
             double duration = Math.Min(LongestSeconds, DurationShare * expectedSeconds + DurationMarginSeconds);
             statistics.Gaps += IsPlaying && nowSeconds > saidSeconds ? 1 : 0;
-            if (!sink.Submit(amplitude, frame.FrequencyHz, (float)duration))
+            if (!sink.Submit(sent, frequencyHz, (float)duration))
             {
                 LoseDevice();
                 return;
@@ -76,7 +85,28 @@ namespace HaptoFlow.Outputs
             ++statistics.Submissions;
             saidSeconds = nowSeconds + duration;
             IsPlaying = true;
-            statistics.LatencyMilliseconds = 1000.0 * count / WaveHistory.RateHz;
+            statistics.LatencyMilliseconds =
+                1000.0 * (count / WaveHistory.RateHz + FrameSeconds + WaveFeatures.LatencySeconds);
+        }
+
+        /// <summary>The mean of the frames that are new, or the knock in one of them; what holds where none is.</summary>
+        private void Analyse(ReadOnlySpan<float> newest)
+        {
+            features.FullScaleMps2 = FullScaleMps2;
+            int count = features.Process(newest, frames);
+            if (count == 0)
+            {
+                return;
+            }
+            float sum = 0f;
+            float knock = 0f;
+            for (int index = 0; index < count; ++index)
+            {
+                sum += frames[index].Amplitude;
+                knock = Math.Max(knock, frames[index].Transient);
+            }
+            amplitude = Math.Max(sum / count, knock);
+            frequencyHz = frames[count - 1].FrequencyHz;
         }
 
         private void End()

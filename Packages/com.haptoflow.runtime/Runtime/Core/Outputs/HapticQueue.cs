@@ -32,8 +32,11 @@ namespace HaptoFlow.Outputs
 
     /// <summary>Brings a wave to a device: renders as much of it as the device's clock asks for, once a frame. Main
     /// thread; no garbage but where the device changes.</summary>
-    internal abstract class HapticQueue
+    internal abstract class HapticQueue : IDisposable
     {
+        // Of a motor of which nothing is known: most eccentric masses and resonant actuators run near it.
+        private const double UsualMotorHz = 160.0;
+
         private const float LimiterKnee = 0.7f;
 
         private readonly IHapticSink sink;
@@ -62,6 +65,9 @@ namespace HaptoFlow.Outputs
             get => ceiling;
             set => ceiling = Math.Max(0f, Math.Min(1f, value));
         }
+
+        /// <summary>The acceleration that a sample of 1 stands for, in m/s^2.</summary>
+        public float FullScaleMps2 { get; set; } = (float)HapticEngineOptions.DefaultFullScaleMps2;
 
         /// <summary>Something is on its way to the device, or plays there.</summary>
         public bool IsPlaying { get; private protected set; }
@@ -122,6 +128,20 @@ namespace HaptoFlow.Outputs
 
         /// <summary>The device is a new one, or changed.</summary>
         protected abstract void Prepare();
+
+        /// <inheritdoc/>
+        public virtual void Dispose()
+        {
+        }
+
+        /// <summary>What the device can play, as far as it says so.</summary>
+        protected void SetRangeOf(WaveFeatures features)
+        {
+            bool isKnown = Capabilities.MinFrequencyHz > 0.0 &&
+                Capabilities.MaxFrequencyHz >= Capabilities.MinFrequencyHz;
+            features.SetRange(isKnown ? Capabilities.MinFrequencyHz : UsualMotorHz,
+                isKnown ? Math.Min(Capabilities.MaxFrequencyHz, 1000.0) : UsualMotorHz);
+        }
 
         protected void Rest()
         {

@@ -41,10 +41,11 @@ namespace HaptoFlow.Outputs
         /// <summary>Waveform: the most samples in one submission.</summary>
         public int MaximumSamples { get; }
 
-        /// <summary>Parametric: the frequency that 0 stands for, in Hz; 0 where the device does not say it.</summary>
+        /// <summary>Parametric: the frequency that 0 stands for. Amplitude: the lowest that the motor plays. In Hz; 0
+        /// where the device does not say it, and a motor then counts as one of 160 Hz.</summary>
         public double MinFrequencyHz { get; }
 
-        /// <summary>Parametric: the frequency that 1 stands for, in Hz; 0 where the device does not say it.</summary>
+        /// <summary>The same for 1, and for the highest.</summary>
         public double MaxFrequencyHz { get; }
 
         /// <summary>What the first submission has to last at least, in s.</summary>

@@ -18,31 +18,33 @@ namespace HaptoFlow.Outputs
         private const int MostPoints = 64;
 
         private readonly IParametricSink sink;
-        private readonly IWaveFeatures features;
+        private readonly WaveFeatures features = new WaveFeatures(PointSeconds, PointSamples);
         private readonly float[] stretch = new float[PointSamples];
         private readonly ParametricPoint[] amplitudes = new ParametricPoint[MostPoints + 1];
         private readonly ParametricPoint[] frequencies = new ParametricPoint[MostPoints + 1];
         private readonly ParametricTransient[] transients = new ParametricTransient[MostPoints + 1];
         private readonly WaveFrame[] frames = new WaveFrame[2 * MostPoints];
+        private readonly WaveFrame[] completed;
 
         // Point n stands at the end of stretch n - 1 of the wave, counted from its origin.
         private long origin;
         private long made;
+        private long heard;
         private long anchorPoint;
         private double anchorSeconds;
         private long sentPoint;
         private double dueSeconds;
 
-        public ParametricQueue(IParametricSink sink, IWaveSource source, IWaveFeatures features)
+        public ParametricQueue(IParametricSink sink, IWaveSource source)
             : base(sink, source)
         {
             this.sink = sink;
-            this.features = features;
+            completed = new WaveFrame[features.MostFrames];
         }
 
-        protected override void Prepare()
-        {
-        }
+        public override void Dispose() => features.Dispose();
+
+        protected override void Prepare() => SetRangeOf(features);
 
         protected override void CallBack(double nowSeconds) => sink.Stop();
 
@@ -84,6 +86,7 @@ namespace HaptoFlow.Outputs
             features.Reset();
             origin = first;
             made = 0L;
+            heard = 0L;
             sentPoint = 0L;
             frames[0] = default;
             IsPlaying = true;
@@ -141,8 +144,8 @@ namespace HaptoFlow.Outputs
             ++statistics.Submissions;
             sentPoint = last;
             dueSeconds = Math.Max(dueSeconds + IntervalSeconds, nowSeconds + 0.5 * IntervalSeconds);
-            statistics.LatencyMilliseconds =
-                1000.0 * ((last - anchorPoint) * PointSeconds - (nowSeconds - anchorSeconds));
+            statistics.LatencyMilliseconds = 1000.0 *
+                (WaveFeatures.LatencySeconds + (last - anchorPoint) * PointSeconds - (nowSeconds - anchorSeconds));
             if (part == StreamPart.Last)
             {
                 Rest();
@@ -151,14 +154,20 @@ namespace HaptoFlow.Outputs
 
         private void Make(long last)
         {
-            for (; made < last; ++made)
+            features.FullScaleMps2 = FullScaleMps2;
+            while (made < last)
             {
-                Wave.RenderTo(Math.Max(Wave.End, origin + (made + 1L) * PointSamples), Source);
+                Wave.RenderTo(Math.Max(Wave.End, origin + heard + PointSamples), Source);
                 for (int index = 0; index < PointSamples; ++index)
                 {
-                    stretch[index] = Wave[origin + made * PointSamples + index];
+                    stretch[index] = Wave[origin + heard + index];
                 }
-                frames[(made + 1L) % frames.Length] = features.Analyse(stretch);
+                heard += PointSamples;
+                int count = features.Process(stretch, completed);
+                for (int index = 0; index < count; ++index)
+                {
+                    frames[++made % frames.Length] = completed[index];
+                }
             }
         }
 

@@ -13,12 +13,8 @@ namespace HaptoFlow
     [HelpURL(HelpPages.Home + "effects-and-outputs.html#auto")]
     public sealed class AutoOutput : DeviceOutput
     {
-        // Devices are reported some frames after a scene has begun.
-        private const double GraceSeconds = 3.0;
-
         private bool isMade;
         private bool hadDevice;
-        private double madeAtSeconds;
 
         /// <inheritdoc/>
         internal override bool IsMade => isMade;
@@ -54,8 +50,8 @@ namespace HaptoFlow
         }
 
         // A device that is asleep is waited for: what was felt in a hand is not heard from a speaker instead.
-        private bool Keeps =>
-            hadDevice || Time.realtimeSinceStartupAsDouble < madeAtSeconds + GraceSeconds;
+        // One that was never there yet, as in the first frames of a scene, leaves the stylus to an audio output.
+        private bool Keeps => hadDevice;
 
         private static AutoOutput Make(HapticStylus asker)
         {
@@ -64,7 +60,6 @@ namespace HaptoFlow
             owner.transform.SetParent(asker.transform, false);
             var made = owner.AddComponent<AutoOutput>();
             made.isMade = true;
-            made.madeAtSeconds = Time.realtimeSinceStartupAsDouble;
             owner.SetActive(true);
             made.Look();
             return made;

@@ -204,6 +204,7 @@ namespace HaptoFlow
                 HaptoFlowSettings settings = HaptoFlowSettings.Active;
                 queue.Gain = settings.FullScaleMps2 / fullScaleMps2;
                 queue.Ceiling = settings.Ceiling;
+                queue.FullScaleMps2 = settings.FullScaleMps2;
                 queue.Update(now);
             }
         }
@@ -275,12 +276,13 @@ namespace HaptoFlow
                 return;
             }
             queue?.Flush(Time.realtimeSinceStartupAsDouble);
+            queue?.Dispose();
             device = chosen.Sink;
             queue = chosen.Sink switch
             {
                 IWaveformSink waveform => new WaveformQueue(waveform, source, MayReplace),
-                IParametricSink parametric => new ParametricQueue(parametric, source, new RmsWaveFeatures()),
-                IAmplitudeSink amplitude => new AmplitudeQueue(amplitude, source, new RmsWaveFeatures()),
+                IParametricSink parametric => new ParametricQueue(parametric, source),
+                IAmplitudeSink amplitude => new AmplitudeQueue(amplitude, source),
                 _ => null,
             };
             OnDevice(chosen.Form, chosen.Sink, held);
@@ -289,6 +291,7 @@ namespace HaptoFlow
         private void Close()
         {
             queue?.Flush(Time.realtimeSinceStartupAsDouble);
+            queue?.Dispose();
             queue = null;
             device = null;
             foreach (HapticSinks.OpenSink each in sinks)

@@ -13,6 +13,10 @@ namespace HaptoFlow
     {
         private const double AskSeconds = 0.5;
 
+        // OpenXR takes any frequency, and the runtime plays the nearest that the device can.
+        private const double LowestHz = 60.0;
+        private const double HighestHz = 400.0;
+
         private readonly InputAction action;
         private readonly string name;
         private bool isBound;
@@ -30,7 +34,7 @@ namespace HaptoFlow
 
         public bool TryGetCapabilities(out HapticSinkCapabilities capabilities)
         {
-            capabilities = new HapticSinkCapabilities(0.0);
+            capabilities = new HapticSinkCapabilities(0.0, minFrequencyHz: LowestHz, maxFrequencyHz: HighestHz);
             double seconds = Time.realtimeSinceStartupAsDouble;
             if (seconds >= askAtSeconds)
             {

@@ -1,0 +1,131 @@
+#include "capi/handles.hpp"
+#include "effects/wave_decimation.hpp"
+#include "effects/wave_features.hpp"
+
+#include <cmath>
+#include <cstddef>
+#include <memory>
+#include <mutex>
+#include <span>
+#include <stdexcept>
+#include <string>
+
+using namespace haptoflow;
+using namespace haptoflow::capi;
+
+namespace haptoflow::capi {
+
+struct OpenWaveFeatures {
+    OpenWaveFeatures(const effects::WaveFeatureOptions& options, std::size_t factor)
+        : features(options), decimation(factor) {}
+
+    std::mutex mutex;
+    effects::WaveFeatures features;
+    effects::WaveDecimation decimation;
+};
+
+}  // namespace haptoflow::capi
+
+namespace {
+
+constexpr std::size_t mandatoryOptions = sizeof(haptoflow_wave_features_options);
+
+effects::WaveFeatureOptions featureOptions(const haptoflow_wave_features_options& given) {
+    effects::WaveFeatureOptions options;
+    const auto take = [](double& target, double value) { target = value != 0.0 ? value : target; };
+    take(options.frameSeconds, given.frame_seconds);
+    take(options.minFrequencyHz, given.minimum_frequency_hz);
+    take(options.maxFrequencyHz, given.maximum_frequency_hz);
+    return options;
+}
+
+std::size_t decimationOf(double sampleRateHz) {
+    const double rateHz = sampleRateHz != 0.0 ? sampleRateHz : effects::WaveFeatures::sampleRateHz;
+    const double factor = rateHz / effects::WaveFeatures::sampleRateHz;
+    if (!(factor >= 1.0 && factor <= effects::WaveDecimation::largestFactor && factor == std::floor(factor))) {
+        throw std::invalid_argument("options: sample_rate_hz is " + std::to_string(sampleRateHz) +
+                                    "; expected a multiple of 2000 up to 16000, or 0 for 2000");
+    }
+    return static_cast<std::size_t>(factor);
+}
+
+haptoflow_wave_frame frameOf(const effects::WaveFrame& frame) {
+    return {.first_sample = frame.firstSample,
+            .sample_count = frame.sampleCount,
+            .intensity = frame.intensity,
+            .centroid_hz = frame.centroidHz,
+            .frequency_hz = frame.frequencyHz,
+            .amplitude_mps2 = frame.amplitudeMps2,
+            .transient_offset_seconds = frame.transient.offsetSeconds,
+            .transient_amplitude_mps2 = frame.transient.amplitudeMps2,
+            .transient_frequency_hz = frame.transient.frequencyHz};
+}
+
+}  // namespace
+
+haptoflow_status haptoflow_wave_features_create(const haptoflow_wave_features_options* options,
+                                                haptoflow_wave_features** features) {
+    return guarded([&] {
+        const auto given = readDescriptor(options, mandatoryOptions, "options");
+        (void)require(features, "features");
+        *features = waveFeatures().open(
+            std::make_shared<OpenWaveFeatures>(featureOptions(given), decimationOf(given.sample_rate_hz)));
+    });
+}
+
+haptoflow_status haptoflow_wave_features_close(haptoflow_wave_features** features) {
+    return guarded([&] { closeHandle(waveFeatures(), features, "features"); });
+}
+
+haptoflow_status haptoflow_wave_features_reset(haptoflow_wave_features* features) {
+    return guarded([&] {
+        const auto open = waveFeatures().get(features);
+        const std::lock_guard lock(open->mutex);
+        open->features.reset();
+        open->decimation.reset();
+    });
+}
+
+haptoflow_status haptoflow_wave_features_set_range(haptoflow_wave_features* features, double minimum_frequency_hz,
+                                                   double maximum_frequency_hz) {
+    return guarded([&] {
+        if (!(minimum_frequency_hz > 0.0 && minimum_frequency_hz <= maximum_frequency_hz &&
+              maximum_frequency_hz <= 1000.0)) {
+            throw std::invalid_argument("the range is " + std::to_string(minimum_frequency_hz) + " to " +
+                                        std::to_string(maximum_frequency_hz) + " Hz; expected above 0 to 1000");
+        }
+        const auto open = waveFeatures().get(features);
+        const std::lock_guard lock(open->mutex);
+        open->features.setDeviceRange(minimum_frequency_hz, maximum_frequency_hz);
+    });
+}
+
+haptoflow_status haptoflow_wave_features_process(haptoflow_wave_features* features, const float* wave_mps2,
+                                                 uint64_t sample_count, haptoflow_wave_frame* frames,
+                                                 uint64_t capacity, uint64_t* frame_count) {
+    return guarded([&] {
+        (void)require(frame_count, "frame_count");
+        if (sample_count > 0) {
+            (void)require(wave_mps2, "wave_mps2");
+        }
+        if (capacity > 0) {
+            (void)require(frames, "frames");
+        }
+        const auto open = waveFeatures().get(features);
+        const std::lock_guard lock(open->mutex);
+        uint64_t written = 0;
+        for (uint64_t i = 0; i < sample_count; ++i) {
+            float decimated = 0.0F;
+            if (!open->decimation.take(wave_mps2[i], decimated)) {
+                continue;
+            }
+            // A frame is longer than a sample: at most one is completed.
+            effects::WaveFrame frame;
+            const auto progress = open->features.process(std::span(&decimated, 1), std::span(&frame, 1));
+            if (progress.frames > 0 && written < capacity) {
+                frames[written++] = frameOf(frame);
+            }
+        }
+        *frame_count = written;
+    });
+}

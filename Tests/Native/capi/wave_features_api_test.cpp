@@ -1,0 +1,147 @@
+#include "effects/wave_features.hpp"
+
+#include "open_engine.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <numbers>
+#include <vector>
+
+namespace haptoflow::capi::testing {
+namespace {
+
+/// 150 Hz that swells twice a second.
+std::vector<float> swellingTone(double rateHz, double seconds) {
+    std::vector<float> wave(static_cast<std::size_t>(rateHz * seconds));
+    for (std::size_t i = 0; i < wave.size(); ++i) {
+        const double time = static_cast<double>(i) / rateHz;
+        const double envelope = 3.0 + 2.0 * std::sin(2.0 * std::numbers::pi * 2.0 * time);
+        wave[i] = static_cast<float>(envelope * std::sin(2.0 * std::numbers::pi * 150.0 * time));
+    }
+    return wave;
+}
+
+class WaveFeaturesApiTest : public ::testing::Test {
+protected:
+    void TearDown() override { EXPECT_EQ(haptoflow_wave_features_close(&features_), HAPTOFLOW_OK); }
+
+    static haptoflow_wave_features_options options(uint32_t sampleRateHz = 0, double frameSeconds = 0.0) {
+        return {sizeof(haptoflow_wave_features_options), sampleRateHz, frameSeconds, 0.0, 0.0};
+    }
+
+    void create(const haptoflow_wave_features_options& options) {
+        ASSERT_EQ(haptoflow_wave_features_create(&options, &features_), HAPTOFLOW_OK) << message();
+    }
+
+    std::vector<haptoflow_wave_frame> process(const std::vector<float>& wave, std::size_t block, uint64_t room = 32) {
+        std::vector<haptoflow_wave_frame> all;
+        std::vector<haptoflow_wave_frame> frames(room);
+        for (std::size_t i = 0; i < wave.size(); i += block) {
+            uint64_t count = 0;
+            EXPECT_EQ(haptoflow_wave_features_process(features_, wave.data() + i, std::min(block, wave.size() - i),
+                                                      frames.data(), frames.size(), &count),
+                      HAPTOFLOW_OK)
+                << message();
+            all.insert(all.end(), frames.begin(), frames.begin() + static_cast<std::ptrdiff_t>(count));
+        }
+        return all;
+    }
+
+    haptoflow_wave_features* features_ = nullptr;
+};
+
+TEST_F(WaveFeaturesApiTest, FramesAreThoseOfTheLibrarysOwnFeatures) {
+    const std::vector<float> wave = swellingTone(2000.0, 1.0);
+    create(options(0, 0.005));
+    const auto frames = process(wave, 37);
+    effects::WaveFeatures own;
+    std::vector<effects::WaveFrame> expected(own.framesWithin(wave.size()));
+    expected.resize(own.process(wave, expected).frames);
+    ASSERT_EQ(frames.size(), expected.size());
+    ASSERT_GE(frames.size(), 195U);
+    for (std::size_t i = 0; i < frames.size(); ++i) {
+        EXPECT_EQ(frames[i].first_sample, expected[i].firstSample);
+        EXPECT_EQ(frames[i].sample_count, expected[i].sampleCount);
+        EXPECT_EQ(frames[i].intensity, expected[i].intensity);
+        EXPECT_EQ(frames[i].frequency_hz, expected[i].frequencyHz);
+        EXPECT_EQ(frames[i].amplitude_mps2, expected[i].amplitudeMps2);
+        EXPECT_EQ(frames[i].transient_amplitude_mps2, expected[i].transient.amplitudeMps2);
+    }
+}
+
+TEST_F(WaveFeaturesApiTest, AWaveOf8KilohertzHasTheFramesOfTheSameWaveAt2ThreeSamplesLater) {
+    create(options(8000, 0.005));
+    const auto frames = process(swellingTone(8000.0, 1.0), 111);
+    ASSERT_GE(frames.size(), 195U);
+    for (std::size_t i = 20; i < frames.size(); ++i) {
+        const double time = (static_cast<double>(frames[i].first_sample) + 5.0 - 3.0) / 2000.0;
+        const double envelope = 3.0 + 2.0 * std::sin(2.0 * std::numbers::pi * 2.0 * time);
+        EXPECT_NEAR(static_cast<double>(frames[i].amplitude_mps2), envelope, 0.12 * envelope) << i;
+        EXPECT_NEAR(static_cast<double>(frames[i].centroid_hz), 150.0, 12.0);
+    }
+}
+
+TEST_F(WaveFeaturesApiTest, ADeviceOfOneFrequencyGetsThatOneFromTheNextFrameOn) {
+    create(options());
+    (void)process(swellingTone(2000.0, 0.2), 400);
+    ASSERT_EQ(haptoflow_wave_features_set_range(features_, 216.0, 216.0), HAPTOFLOW_OK);
+    for (const haptoflow_wave_frame& frame : process(swellingTone(2000.0, 0.2), 400, 100)) {
+        EXPECT_EQ(frame.frequency_hz, 216.0F);
+    }
+}
+
+TEST_F(WaveFeaturesApiTest, AResetBeginsAnew) {
+    create(options(4000));
+    const auto first = process(swellingTone(4000.0, 0.3), 100);
+    ASSERT_EQ(haptoflow_wave_features_reset(features_), HAPTOFLOW_OK);
+    const auto second = process(swellingTone(4000.0, 0.3), 100);
+    ASSERT_EQ(first.size(), second.size());
+    for (std::size_t i = 0; i < first.size(); ++i) {
+        EXPECT_EQ(first[i].amplitude_mps2, second[i].amplitude_mps2);
+    }
+}
+
+TEST_F(WaveFeaturesApiTest, FramesWithoutRoomAreLostAndTheWaveGoesOn) {
+    create(options());
+    EXPECT_TRUE(process(swellingTone(2000.0, 0.2), 400, 0).empty());
+    const auto frames = process(swellingTone(2000.0, 0.2), 10);
+    ASSERT_FALSE(frames.empty());
+    EXPECT_GE(frames.front().first_sample, 380U);
+}
+
+TEST_F(WaveFeaturesApiTest, NumbersThatAreNotFiniteCountAsSilence) {
+    create(options(8000));
+    std::vector<float> wave(8000, std::numeric_limits<float>::quiet_NaN());
+    wave[4000] = std::numeric_limits<float>::infinity();
+    for (const haptoflow_wave_frame& frame : process(wave, 64)) {
+        EXPECT_EQ(frame.amplitude_mps2, 0.0F);
+        EXPECT_TRUE(std::isfinite(frame.centroid_hz));
+    }
+}
+
+TEST_F(WaveFeaturesApiTest, OptionsOutOfRangeAreRefusedByName) {
+    for (const uint32_t rate : {1999U, 3000U, 18000U, 48000U}) {
+        const auto wrong = options(rate);
+        EXPECT_EQ(haptoflow_wave_features_create(&wrong, &features_), HAPTOFLOW_INVALID_ARGUMENT);
+        EXPECT_THAT(message(), ::testing::HasSubstr("sample_rate_hz"));
+    }
+    const auto shortFrames = options(0, 0.001);
+    EXPECT_EQ(haptoflow_wave_features_create(&shortFrames, &features_), HAPTOFLOW_INVALID_ARGUMENT);
+    auto range = options();
+    range.minimum_frequency_hz = 300.0;
+    range.maximum_frequency_hz = 200.0;
+    EXPECT_EQ(haptoflow_wave_features_create(&range, &features_), HAPTOFLOW_INVALID_ARGUMENT);
+    EXPECT_EQ(features_, nullptr);
+    create(options());
+    EXPECT_EQ(haptoflow_wave_features_set_range(features_, 0.0, 100.0), HAPTOFLOW_INVALID_ARGUMENT);
+    EXPECT_EQ(haptoflow_wave_features_set_range(features_, std::numeric_limits<double>::quiet_NaN(), 100.0),
+              HAPTOFLOW_INVALID_ARGUMENT);
+    uint64_t count = 0;
+    EXPECT_EQ(haptoflow_wave_features_process(features_, nullptr, 1, nullptr, 0, &count), HAPTOFLOW_INVALID_ARGUMENT);
+}
+
+}  // namespace
+}  // namespace haptoflow::capi::testing
