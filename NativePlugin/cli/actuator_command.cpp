@@ -1,4 +1,5 @@
 #include "actuator_identification.hpp"
+#include "actuator_profile_file.hpp"
 #include "commands.hpp"
 #include "decimal_number.hpp"
 #include "effects/actuator_profile.hpp"
@@ -60,28 +61,6 @@ struct ShowOptions {
     bool labels = false;
     effects::CompensationSettings compensation;
 };
-
-void writeText(const OutputFile& file, const std::string& text) {
-    std::ofstream stream(file.partial(), std::ios::binary);
-    stream << text;
-    if (!stream.flush()) {
-        throw InputError(file.path().string() + ": could not be written to its end; is the disk full?");
-    }
-}
-
-/// A built-in profile by its name, else a file.
-ActuatorProfile readProfile(const std::string& nameOrPath) {
-    if (std::optional<ActuatorProfile> builtIn = ActuatorProfile::builtIn(nameOrPath)) {
-        return *std::move(builtIn);
-    }
-    const std::string text =
-        readInputFile(nameOrPath, "an actuator profile (JSON), or the name of a built-in one: flat, voice-coil");
-    try {
-        return ActuatorProfile::parse(text);
-    } catch (const effects::ProfileError& error) {
-        throw InputError(nameOrPath + ": " + error.what());
-    }
-}
 
 void runSweep(const SweepOptions& options) {
     requireWavName({"-o", options.outputPath});
@@ -293,7 +272,7 @@ void runShow(const ShowOptions& options) {
     }
     requireApart(std::array{NamedPath{"--plot", options.plotPath}},
                  std::array{NamedPath{"the profile", options.profile}, NamedPath{"the model", options.modelPath}});
-    const ActuatorProfile profile = readProfile(options.profile);
+    const ActuatorProfile profile = readActuatorProfile(options.profile);
     constexpr double shownRateHz = 48000.0;
     effects::Compensation compensation(profile, shownRateHz, options.compensation);
     describe(profile);

@@ -167,6 +167,14 @@ void OutputFile::commit() {
     }
 }
 
+void writeText(const OutputFile& file, const std::string& text) {
+    std::ofstream stream(file.partial(), std::ios::binary);
+    stream << text;
+    if (!stream.flush()) {
+        throw InputError(file.path().string() + ": could not be written to its end; is the disk full?");
+    }
+}
+
 void requireApart(std::span<const NamedPath> outputs, std::span<const NamedPath> inputs) {
     for (std::size_t index = 0; index < outputs.size(); ++index) {
         const NamedPath& output = outputs[index];

@@ -33,6 +33,9 @@ private:
     bool isWrittenInPlace_ = false;
 };
 
+/// Writes the whole text to the file's partial; does not commit. Throws InputError naming the path.
+void writeText(const OutputFile& file, const std::string& text);
+
 /// A path of the command line and what it is for: "the scene", "--report".
 struct NamedPath {
     std::string role;

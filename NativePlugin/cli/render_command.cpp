@@ -1,4 +1,7 @@
+#include "actuator_profile_file.hpp"
 #include "commands.hpp"
+#include "effects/actuator_profile.hpp"
+#include "effects/effect.hpp"
 #include "engine/offline_renderer.hpp"
 #include "exit_codes.hpp"
 #include "inference/onnx_segment_generator.hpp"
@@ -7,6 +10,7 @@
 #include "near_words.hpp"
 #include "option_values.hpp"
 #include "output_file.hpp"
+#include "parametric_frames.hpp"
 #include "progress_bar.hpp"
 #include "render_report.hpp"
 #include "scene_file.hpp"
@@ -36,16 +40,38 @@ namespace {
 struct RenderOptions {
     std::string scenePath;
     std::string strokePath;
+    std::vector<std::string> outputs;
+    /// Of the outputs; empty where there is none of the kind.
     std::string outputPath;
+    std::string parametricPath;
     std::string modelPath;
     std::string quality;
     std::string solver;
     std::optional<int> steps;
     std::string reportPath;
     std::string waveformPath;
+    std::vector<std::string> effects;
+    std::string actuator;
+    double delayMs = 0.0;
     engine::OfflineSettings engine;
     bool quiet = false;
 };
+
+const std::map<std::string, effects::EffectKind>& effectNames() {
+    static const std::map<std::string, effects::EffectKind> names{{"texture", effects::EffectKind::texture},
+                                                                  {"impact", effects::EffectKind::impact},
+                                                                  {"edge", effects::EffectKind::edge}};
+    return names;
+}
+
+/// What every surface of the scene asks for: the texture where nothing is said.
+effects::EffectMask askedEffects(const std::vector<std::string>& names) {
+    effects::EffectMask mask = names.empty() ? effects::maskOf(effects::EffectKind::texture) : 0U;
+    for (const std::string& name : names) {
+        mask |= effects::maskOf(effectNames().at(name));
+    }
+    return mask;
+}
 
 const std::map<std::string, inference::SolverKind>& solverNames() {
     static const std::map<std::string, inference::SolverKind> names{{"euler", inference::SolverKind::euler},
@@ -127,8 +153,10 @@ std::vector<engine::MaterialBlend> blendsOf(const contact::Scene& scene, const m
     return blends;
 }
 
-engine::ContactState stateOf(const contact::ContactReading& reading, std::span<const engine::MaterialBlend> blends) {
+engine::ContactState stateOf(const contact::ContactReading& reading, std::span<const engine::MaterialBlend> blends,
+                             effects::EffectMask effects) {
     engine::ContactState state;
+    state.effects = effects;
     state.timeSeconds = reading.timeSeconds;
     state.touching = reading.touching;
     state.touchCounter = reading.touchCounter;
@@ -160,10 +188,11 @@ std::vector<std::string> labelsIn(const contact::Scene& scene) {
 /// The files of a render: they grow while it runs and appear when all of them are whole.
 class RenderFiles final : public engine::OfflineSink {
 public:
-    explicit RenderFiles(const RenderOptions& options)
-        : wav_(options.outputPath),
-          wavWriter_(wav_.partial(), static_cast<int>(options.engine.outputRateHz), options.outputPath),
-          fullScaleMps2_(options.engine.fullScaleMps2) {
+    explicit RenderFiles(const RenderOptions& options) : fullScaleMps2_(options.engine.fullScaleMps2) {
+        if (!options.outputPath.empty()) {
+            wav_.emplace(options.outputPath);
+            wavWriter_.emplace(wav_->partial(), static_cast<int>(options.engine.outputRateHz), options.outputPath);
+        }
         if (!options.waveformPath.empty()) {
             waveform_.emplace(options.waveformPath);
             waveformWriter_.emplace(waveform_->partial(), static_cast<int>(inference::waveformRateHz),
@@ -172,9 +201,20 @@ public:
         if (!options.reportPath.empty()) {
             report_.emplace(options.reportPath);
         }
+        if (!options.parametricPath.empty()) {
+            parametric_.emplace(options.parametricPath);
+            frames_.emplace(options.engine.outputRateHz);
+        }
     }
 
-    void output(std::span<const float> samples) override { wavWriter_.write(samples); }
+    void output(std::span<const float> samples) override {
+        if (wavWriter_) {
+            wavWriter_->write(samples);
+        }
+        if (frames_) {
+            frames_->take(samples, fullScaleMps2_);
+        }
+    }
 
     void waveform(std::span<const float> samplesMps2) override {
         if (waveformWriter_) {
@@ -185,35 +225,47 @@ public:
     }
 
     void complete(const std::string& report) {
-        wavWriter_.close();
+        if (wavWriter_) {
+            wavWriter_->close();
+        }
         if (waveformWriter_) {
             waveformWriter_->close();
         }
         if (report_) {
-            std::ofstream file(report_->partial(), std::ios::binary);
-            file << report;
-            if (!file.flush()) {
-                throw InputError(report_->path().string() + ": could not be written to its end; is the disk full?");
+            writeText(*report_, report);
+        }
+        if (parametric_) {
+            writeText(*parametric_, frames_->toJson());
+        }
+        for (std::optional<OutputFile>* file : {&wav_, &waveform_, &report_, &parametric_}) {
+            if (*file) {
+                (*file)->commit();
             }
-        }
-        wav_.commit();
-        if (waveform_) {
-            waveform_->commit();
-        }
-        if (report_) {
-            report_->commit();
         }
     }
 
 private:
-    OutputFile wav_;
-    WavWriter wavWriter_;
+    std::optional<OutputFile> wav_;
+    std::optional<WavWriter> wavWriter_;
     std::optional<OutputFile> waveform_;
     std::optional<WavWriter> waveformWriter_;
     std::optional<OutputFile> report_;
+    std::optional<OutputFile> parametric_;
+    std::optional<ParametricFrames> frames_;
     float fullScaleMps2_;
     std::vector<float> scaled_;
 };
+
+/// One WAV and one JSON file at most.
+void sortOutputs(RenderOptions& options) {
+    for (const std::string& output : options.outputs) {
+        std::string& path = output.ends_with(".json") ? options.parametricPath : options.outputPath;
+        if (!path.empty()) {
+            throw UsageError("-o " + output + ": -o " + path + " is of the same kind; give one .wav and one .json at most");
+        }
+        path = output;
+    }
+}
 
 void requireSoundOptions(const RenderOptions& options) {
     if (options.solver.empty() != !options.steps.has_value()) {
@@ -225,7 +277,11 @@ void requireSoundOptions(const RenderOptions& options) {
     }
     const NamedPath wav{"-o", options.outputPath};
     const NamedPath waveform{"--waveform", options.waveformPath};
-    requireApart(std::array{wav, waveform, NamedPath{"--report", options.reportPath}},
+    if (!options.parametricPath.empty() && std::fmod(options.engine.outputRateHz, 2000.0) != 0.0) {
+        throw UsageError("-o " + options.parametricPath + " needs a --rate that is a multiple of 2000 Hz, such as 48000");
+    }
+    requireApart(std::array{wav, waveform, NamedPath{"--report", options.reportPath},
+                            NamedPath{"-o", options.parametricPath}},
                  std::array{NamedPath{"the scene", options.scenePath}, NamedPath{"the stroke", options.strokePath},
                             NamedPath{"the model", options.modelPath}});
     requireWavName(wav);
@@ -276,6 +332,12 @@ void runRender(const RenderOptions& options) {
     useStiffnessOfLabels(settings, model);
     StrokePlayer player(scene, stroke, options.strokePath, settings);
     requireRoom(scene, player, options);
+    engine::OfflineSettings engineSettings = options.engine;
+    engineSettings.delaySeconds = 1e-3 * options.delayMs;
+    if (!options.actuator.empty()) {
+        engineSettings.actuator = std::make_shared<const effects::ActuatorProfile>(readActuatorProfile(options.actuator));
+    }
+    const effects::EffectMask effects = askedEffects(options.effects);
     RenderFiles files(options);
     inference::OnnxSegmentGenerator generator(openRuntime(), model, tier.name, solver, 1);
 
@@ -283,13 +345,13 @@ void runRender(const RenderOptions& options) {
     const engine::ContactStateSource next = [&]() -> std::optional<engine::ContactState> {
         const std::optional<contact::ContactReading> reading = player.next();
         bar(static_cast<double>(player.played()) / static_cast<double>(player.frames()), {});
-        return reading ? std::optional(stateOf(*reading, blends)) : std::nullopt;
+        return reading ? std::optional(stateOf(*reading, blends, effects)) : std::nullopt;
     };
-    const engine::OfflineFigures figures = engine::renderOffline(model, generator, next, options.engine, files);
+    const engine::OfflineFigures figures = engine::renderOffline(model, generator, next, engineSettings, files);
 
     const std::uint64_t allTouches = touchesOfEverySample(scene, stroke, options.strokePath, settings);
     const std::uint64_t missedTouches = allTouches - std::min(allTouches, figures.touches);
-    const std::filesystem::path wav(options.outputPath);
+    const std::filesystem::path wav(options.outputPath.empty() ? options.parametricPath : options.outputPath);
     const bool isSolved = tier.kind != model::TierKind::direct;
     const bool isEuler = tier.kind == model::TierKind::averageVelocity;
     files.complete(renderReport({.name = wav.stem().string(),
@@ -318,9 +380,14 @@ void addRenderCommand(CLI::App& app, CommandOutcome& outcome) {
     command->add_option("--stroke", options->strokePath, "Where the tip goes: t,x,y,z[,force]")
         ->required()
         ->type_name("STROKE.csv");
-    command->add_option("-o,--output", options->outputPath, "The WAV file, one channel of 32-bit float")
+    command
+        ->add_option("-o,--output", options->outputs,
+                     "OUT.wav: one channel of 32-bit float. OUT.json: what a device gets that plays one carrier, "
+                     "amplitude, frequency and transients every 5 ms, each as intense to the hand as the wave. May be "
+                     "given once for each")
         ->required()
-        ->type_name("OUT.wav");
+        ->allow_extra_args(false)
+        ->type_name("FILE");
     command->add_option("--model", options->modelPath, "Model file (default: the one shipped)")->type_name("FILE");
     command->add_option("--quality", options->quality,
                         "A tier of the model, such as draft; `haptoflow inspect` lists them");
@@ -341,6 +408,19 @@ void addRenderCommand(CLI::App& app, CommandOutcome& outcome) {
         ->capture_default_str();
     command->add_option("--report", options->reportPath, "Write figures of the render as JSON")->type_name("R.json");
     command
+        ->add_option("--effects", options->effects,
+                     "What every surface asks for, one or more of texture, impact and edge (default: texture)")
+        ->delimiter(',')
+        ->check(CLI::IsMember({"texture", "impact", "edge"}))
+        ->type_name("LIST");
+    command
+        ->add_option("--actuator", options->actuator,
+                     "Compensate for what plays the output: an actuator profile, or flat or voice-coil")
+        ->type_name("PROFILE");
+    command->add_option("--delay-ms", options->delayMs, "Everything comes this much later")
+        ->check(decimalBetween(0.0, 500.0, "ms"))
+        ->capture_default_str();
+    command
         ->add_option("--waveform", options->waveformPath,
                      "Also write the 2 kHz waveform as generated, before level law, resampling and limiter")
         ->type_name("W.wav");
@@ -349,8 +429,10 @@ void addRenderCommand(CLI::App& app, CommandOutcome& outcome) {
         "Examples:\n"
         "  haptoflow render scene.json --stroke stroke.csv -o felt.wav --report felt.json\n"
         "  haptoflow render scene.json --stroke stroke.csv -o draft.wav --quality draft\n"
+        "  haptoflow render scene.json --stroke taps.csv -o taps.wav --effects texture,impact,edge --actuator voice-coil\n"
         "+-1 in the WAV is 200 m/s^2 (see --full-scale); most textures are quiet there, and true to each other.");
     command->callback([options, &outcome] {
+        sortOutputs(*options);
         runRender(*options);
         outcome.exitCode = exitDone;
     });

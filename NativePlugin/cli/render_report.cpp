@@ -1,8 +1,27 @@
 #include "render_report.hpp"
 
+#include <array>
+#include <cstddef>
 #include <nlohmann/json.hpp>
 
 namespace haptoflow::cli {
+
+namespace {
+
+/// Of the effects that ran: their blows, and the samples that they worked on.
+nlohmann::ordered_json effectsOf(const engine::OfflineFigures& figures) {
+    constexpr std::array<const char*, effects::effectKinds> names{"texture",      "impact",       "edge", "delay",
+                                                                  "compensation", "exposure guard"};
+    nlohmann::ordered_json effects = nlohmann::ordered_json::object();
+    for (std::size_t kind = 0; kind < names.size(); ++kind) {
+        if (figures.effectSamples[kind] > 0 || figures.effectEvents[kind] > 0) {
+            effects[names[kind]] = {{"events", figures.effectEvents[kind]}, {"samples", figures.effectSamples[kind]}};
+        }
+    }
+    return effects;
+}
+
+}  // namespace
 
 std::string renderReport(const RenderIdentity& identity, const engine::OfflineFigures& figures) {
     const bool isSolved = !identity.solver.empty();
@@ -29,6 +48,7 @@ std::string renderReport(const RenderIdentity& identity, const engine::OfflineFi
         {"failures", figures.failures},
         {"sanitised", figures.sanitised},
         {"limited_samples", figures.limited},
+        {"effects", effectsOf(figures)},
         {"seams",
          {{"count", figures.seamStatistics.seams},
           {"outlier_share", figures.seamStatistics.outlierShare},

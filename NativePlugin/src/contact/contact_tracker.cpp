@@ -220,9 +220,35 @@ std::optional<ContactTracker::Candidate> ContactTracker::chooseContact() {
     return kept && lead <= settings_.switchMarginMetres ? nearby.current : nearby.deepest;
 }
 
-void ContactTracker::noteTransition(const PosedPlace& place, double approachSpeedMps) noexcept {
+bool ContactTracker::isCaught(std::size_t reference, const Pose& referencePose, const glm::dvec3& restingTip) const {
+    bool caught = false;
+    broadPhase_.visitNear(*tipMetres_, [&](std::size_t surface) {
+        if (surface == reference || caught) {
+            return;
+        }
+        const Pose pose = scene_.surfaces[surface].poseAt(nowSeconds_);
+        const auto atTip = closestPoint(surface, pose.pointToLocal(*tipMetres_));
+        const auto atRest = closestPoint(surface, pose.pointToLocal(restingTip));
+        caught = atTip && atRest &&
+                 atTip->signedDistanceMetres <= scene_.tipRadiusMetres + settings_.releaseDistanceMetres &&
+                 transitions_.isCaughtBy({surface, {atRest->pointMetres, atRest->normal}, pose}, referencePose, restingTip);
+    });
+    return caught;
+}
+
+void ContactTracker::noteTransition(PosedPlace place, const glm::dvec3& velocityMps) {
     const std::optional<std::size_t> reference = transitions_.referenceSurface();
     const Pose referencePose = reference ? scene_.surfaces[*reference].poseAt(nowSeconds_) : place.pose;
+    if (transitions_.isElsewhere(place, referencePose)) {
+        const glm::dvec3 tip = transitions_.restingTip(*tipMetres_, referencePose);
+        if (const auto resting = closestPoint(place.surface, place.pose.pointToLocal(tip))) {
+            place.local = {resting->pointMetres, resting->normal};
+        }
+        if (place.surface == *reference && isCaught(*reference, referencePose, tip)) {
+            return;
+        }
+    }
+    const double approachSpeedMps = std::max(0.0, -glm::dot(velocityMps, place.pose.directionToWorld(place.local.normal)));
     const ContactEvent event = transitions_.advance(place, referencePose, approachSpeedMps);
     if (event.landed) {
         ++landingCounter_;
@@ -255,14 +281,13 @@ ContactReading ContactTracker::describe(const Candidate& contact, bool touchDown
     const glm::dvec3 velocity = relativeVelocity(history_, scene_.surfaces[contact.surface], contact.local.pointMetres);
     const TangentAxes& axes = frames_[contact.surface].update(contact.local.normal, stepSeconds_);
     localNormal_ = contact.local.normal;
-    const double approachSpeedMps = std::max(0.0, -glm::dot(velocity, normal));
     if (touchDown) {
         ++touchCounter_;
         ++statistics_.touchDowns;
-        approachSpeedMps_ = approachSpeedMps;
+        approachSpeedMps_ = std::max(0.0, -glm::dot(velocity, normal));
         transitions_.forget();
     }
-    noteTransition({contact.surface, {contact.local.pointMetres, contact.local.normal}, contact.pose}, approachSpeedMps);
+    noteTransition({contact.surface, {contact.local.pointMetres, contact.local.normal}, contact.pose}, velocity);
 
     ContactReading reading = idle();
     reading.touching = true;

@@ -59,7 +59,8 @@ private:
     [[nodiscard]] std::optional<SurfacePoint> closestPoint(std::size_t surface, const glm::dvec3& localTip) const;
     [[nodiscard]] Nearby findNearby();
     [[nodiscard]] std::optional<Candidate> chooseContact();
-    void noteTransition(const PosedPlace& place, double approachSpeedMps) noexcept;
+    [[nodiscard]] bool isCaught(std::size_t reference, const Pose& referencePose, const glm::dvec3& restingTip) const;
+    void noteTransition(PosedPlace place, const glm::dvec3& velocityMps);
     void noteSlideOff();
     void countEdge(double heightMetres) noexcept;
     [[nodiscard]] ContactReading describe(const Candidate& contact, bool touchDown, const TipSample& sample);

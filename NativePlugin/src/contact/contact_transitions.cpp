@@ -44,10 +44,33 @@ std::optional<std::size_t> ContactTransitions::referenceSurface() const noexcept
     return reference_ ? std::optional(reference_->surface) : std::nullopt;
 }
 
+bool ContactTransitions::isElsewhere(const PosedPlace& now, const Pose& referencePose) const noexcept {
+    return reference_ && (now.surface != reference_->surface ||
+                          isTurned(inWorld(reference_->local, referencePose), inWorld(now.local, now.pose)));
+}
+
+glm::dvec3 ContactTransitions::restingTip(const glm::dvec3& tipMetres, const Pose& referencePose) const noexcept {
+    if (!reference_) {
+        return tipMetres;
+    }
+    const ContactPlace before = inWorld(reference_->local, referencePose);
+    return tipMetres + std::max(0.0, tipRadiusMetres_ - heightAbove(before, tipMetres)) * before.normal;
+}
+
+bool ContactTransitions::isCaughtBy(const PosedPlace& other, const Pose& referencePose,
+                                    const glm::dvec3& restingTipMetres) const noexcept {
+    if (!reference_) {
+        return false;
+    }
+    const ContactPlace there = inWorld(other.local, other.pose);
+    return heightAbove(there, restingTipMetres) <= 2.0 * tipRadiusMetres_ &&
+           !isTurned(inWorld(reference_->local, referencePose), there);
+}
+
 ContactEvent ContactTransitions::advance(const PosedPlace& now, const Pose& referencePose,
                                          double approachSpeedMps) noexcept {
     if (!reference_) {
-        reference_ = Reference{now.surface, now.local};
+        moveReference(now, true);
         return {};
     }
     const ContactPlace before = inWorld(reference_->local, referencePose);
@@ -65,7 +88,10 @@ ContactEvent ContactTransitions::advance(const PosedPlace& now, const Pose& refe
             event.edgeHeightMetres = rimHeightMetres();
         }
     }
-    moveReference(now, before, here, event.landed || event.edgeHeightMetres > 0.0);
+    const bool isEvent = event.landed || event.edgeHeightMetres > 0.0;
+    if (isEvent || isFarEnough(now, glm::dot(before.normal, here.normal) > steadyCosine)) {
+        moveReference(now, !isEvent);
+    }
     return event;
 }
 
@@ -76,7 +102,12 @@ double ContactTransitions::slideOff(const PosedPlace& nearest, const Pose& refer
     }
     const ContactPlace before = inWorld(reference_->local, referencePose);
     const ContactPlace here = inWorld(nearest.local, nearest.pose);
-    const bool isLow = heightAbove(before, tipMetres) - tipRadiusMetres_ <= heightMetres;
+    double aboveMetres = heightAbove(before, tipMetres);
+    if (reference_->earlier) {
+        // A fast tip may have been seen on the rim itself, where the normal leans outwards.
+        aboveMetres = std::min(aboveMetres, heightAbove(inWorld(*reference_->earlier, referencePose), tipMetres));
+    }
+    const bool isLow = aboveMetres - tipRadiusMetres_ <= heightMetres;
     const bool isNear = glm::distance(tipMetres, here.pointMetres) - tipRadiusMetres_ <= slideOffReachMetres;
     return isLow && isNear && isTurned(before, here) ? rimHeightMetres() : 0.0;
 }
@@ -85,17 +116,18 @@ double ContactTransitions::rimHeightMetres() const noexcept {
     return std::max(tipRadiusMetres_, lowestRimMetres);
 }
 
-void ContactTransitions::moveReference(const PosedPlace& now, const ContactPlace& before, const ContactPlace& here,
-                                       bool isEvent) noexcept {
-    const bool isOther = now.surface != reference_->surface;
-    // On one surface the way is that over it, whatever its own motion.
-    const double way = isOther ? longWayMetres : glm::distance(now.local.pointMetres, reference_->local.pointMetres);
-    const bool isSteady = glm::dot(before.normal, here.normal) > steadyCosine;
-    if (isEvent) {
-        reference_ = Reference{now.surface, now.local, false};
-    } else if (way >= longWayMetres || (way > shortWayMetres && isSteady)) {
-        reference_ = Reference{now.surface, now.local};
+bool ContactTransitions::isFarEnough(const PosedPlace& now, bool isSteady) const noexcept {
+    if (now.surface != reference_->surface) {
+        return true;
     }
+    // On one surface the way is that over it, whatever its own motion.
+    const double way = glm::distance(now.local.pointMetres, reference_->local.pointMetres);
+    return way > longWayMetres || (way > shortWayMetres && (isSteady || !reference_->isArmed));
+}
+
+void ContactTransitions::moveReference(const PosedPlace& now, bool isArmed) noexcept {
+    const bool isSame = reference_ && reference_->surface == now.surface;
+    reference_ = Reference{now.surface, now.local, isSame ? std::optional(reference_->local) : std::nullopt, isArmed};
 }
 
 }  // namespace haptoflow::contact

@@ -36,6 +36,9 @@ struct ContactEvent {
 /// ball in the hand. A tip that moves into the new face lands on it; one that does not has crossed an edge: a rim, which
 /// is as high as the tip's radius since that far the tip can fall, or the step between two surfaces that lie one beside
 /// the other. Surfaces that are flush have neither.
+///
+/// A hand that nothing holds presses deep into things, and deep inside two blocks side by side their inner faces are the
+/// nearest. So a change is judged where the tip would rest on the face that it was on: see `restingTip`.
 class ContactTransitions {
 public:
     /// A tip that moves more slowly into a face slides over to it.
@@ -56,7 +59,15 @@ public:
     /// The surface whose pose now `advance` and `slideOff` want as `referencePose`; empty where they need none.
     [[nodiscard]] std::optional<std::size_t> referenceSurface() const noexcept;
 
-    /// The tip touches `now`, moving into it at `approachSpeedMps`.
+    /// `now` is on another face than the reference, or on another surface.
+    [[nodiscard]] bool isElsewhere(const PosedPlace& now, const Pose& referencePose) const noexcept;
+    /// The tip's centre, raised out of the face of the reference until it just touches that.
+    [[nodiscard]] glm::dvec3 restingTip(const glm::dvec3& tipMetres, const Pose& referencePose) const noexcept;
+    /// A resting tip that goes over a rim falls onto `other`, a place of another surface: then the rim is none, and what
+    /// there is to feel is the step, once the tip is on that surface.
+    [[nodiscard]] bool isCaughtBy(const PosedPlace& other, const Pose& referencePose,
+                                  const glm::dvec3& restingTipMetres) const noexcept;
+    /// The tip touches `now`, moving into it at `approachSpeedMps`. Where it is elsewhere: as a resting tip would.
     ContactEvent advance(const PosedPlace& now, const Pose& referencePose, double approachSpeedMps) noexcept;
     /// The touch has ended with `nearest` the place of the touched surface nearest to the tip. A tip that is still no
     /// higher than `heightMetres` above the face that it was on has slid off it: returns the height of that edge, and 0
@@ -68,12 +79,15 @@ private:
     struct Reference {
         std::size_t surface = 0;
         ContactPlace local;
+        /// Where it was before, on the same surface.
+        std::optional<ContactPlace> earlier;
         /// One rim is one edge, however slowly the tip rolls over it.
         bool isArmed = true;
     };
 
     [[nodiscard]] double rimHeightMetres() const noexcept;
-    void moveReference(const PosedPlace& now, const ContactPlace& before, const ContactPlace& here, bool isEvent) noexcept;
+    [[nodiscard]] bool isFarEnough(const PosedPlace& now, bool isSteady) const noexcept;
+    void moveReference(const PosedPlace& now, bool isArmed) noexcept;
 
     double tipRadiusMetres_;
     std::optional<Reference> reference_;

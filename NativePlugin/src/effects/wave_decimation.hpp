@@ -9,7 +9,7 @@ namespace haptoflow::effects {
 /// flat to a quarter of it and 50 dB down from three quarters on. Any one thread; allocates in its constructor only.
 class WaveDecimation {
 public:
-    static constexpr std::size_t largestFactor = 8;
+    static constexpr std::size_t largestFactor = 96;
     /// The delay of the filter, in samples of the new rate.
     static constexpr std::size_t delaySamples = 3;
 

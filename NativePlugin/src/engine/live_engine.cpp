@@ -131,16 +131,9 @@ ContactAction LiveEngine::publish(LiveVoice& voice, const ContactState& state) n
 }
 
 void LiveEngine::changeProcessors(LiveVoice& voice, const std::function<bool(ProcessorSettings&)>& change) {
-    VoiceChannels& channels = voice.channels;
-    {
-        const std::lock_guard lock(channels.processorMutex);
-        if (!change(channels.processorSettings)) {
-            return;
-        }
-        channels.wantedProcessors.store(++channels.processorSettings.version, std::memory_order_release);
-        channels.lacksProcessors.store(true, std::memory_order_release);
+    if (voice.channels.changeProcessors(change)) {
+        signal_.post();
     }
-    signal_.post();
 }
 
 RoundResult LiveEngine::step() {

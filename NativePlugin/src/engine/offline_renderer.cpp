@@ -14,6 +14,8 @@
 namespace haptoflow::engine {
 namespace {
 
+constexpr double longestTailSeconds = 3.0;
+
 /// Keeps what the voice plays until it is taken. Told by the voice's callback, whose buffers here are kept and reused.
 class Recorder final : public WaveformSink {
 public:
@@ -110,6 +112,7 @@ public:
           levels_(model, generator),
           voice_(model, levels_, workerAlive_, voiceSettings(settings)) {
         voice_.renderer.setSink(&recorder_);
+        addProcessors();
     }
 
     OfflineFigures run(const ContactStateSource& next) {
@@ -128,7 +131,9 @@ public:
             liftedOff.touchCounter = state->touchCounter;
         }
         publish(liftedOff);
-        renderUntil(nowSeconds - startSeconds.value_or(nowSeconds) + settings_.tailSeconds);
+        const double endSeconds = nowSeconds - startSeconds.value_or(nowSeconds) + settings_.tailSeconds;
+        renderUntil(endSeconds);
+        renderTail(endSeconds, liftedOff);
         touches_.end();
         finish();
         return figures_;
@@ -146,6 +151,35 @@ private:
         measure();
         sink_.output(block_);
         recorder_.hand(sink_, seams_);
+    }
+
+    /// What rings on: the blow of a last landing, an actuator's compensation, a delay. The tip stays lifted: a voice
+    /// without news would be silenced.
+    void renderTail(double seconds, const ContactState& liftedOff) {
+        constexpr double stepSeconds = 0.05;
+        const double longestSeconds = seconds + longestTailSeconds;
+        while (seconds < longestSeconds && voice_.channels.audible.load(std::memory_order_relaxed)) {
+            publish(liftedOff);
+            seconds += stepSeconds;
+            renderUntil(seconds);
+        }
+    }
+
+    void addProcessors() {
+        if (settings_.actuator == nullptr && !(settings_.delaySeconds > 0.0)) {
+            return;
+        }
+        voice_.channels.controls.delaySeconds = settings_.delaySeconds;
+        voice_.channels.changeProcessors([this](ProcessorSettings& asked) {
+            asked.actuator = settings_.actuator;
+            asked.hasDelay = settings_.delaySeconds > 0.0;
+            return true;
+        });
+        // The callback's end says at which rate, the worker's end makes them, and the callback's end takes them.
+        voice_.renderer.render({}, settings_.outputRateHz);
+        LiveVoice* const voices[] = {&voice_};
+        (void)round_.run(voices, generator_);
+        voice_.renderer.render({}, settings_.outputRateHz);
     }
 
     void measure() {
@@ -184,6 +218,10 @@ private:
         figures_.underruns = counters.underruns;
         figures_.nonFinite = counters.nonFiniteSamples;
         figures_.limited = counters.limitedSamples;
+        for (std::size_t kind = 0; kind < effects::effectKinds; ++kind) {
+            figures_.effectEvents[kind] = counters.effects[kind].events;
+            figures_.effectSamples[kind] = counters.effects[kind].samples;
+        }
         if (sounding_ > 0) {
             figures_.rmsMps2 =
                 std::sqrt(squares_ / static_cast<double>(sounding_)) * static_cast<double>(settings_.fullScaleMps2);
@@ -216,6 +254,9 @@ OfflineFigures renderOffline(const model::ModelFile& model, inference::SegmentGe
     }
     if (!(settings.tailSeconds >= 0.0 && settings.tailSeconds <= 10.0)) {
         throw std::invalid_argument("the tail must be 0 to 10 s");
+    }
+    if (!(settings.delaySeconds >= 0.0 && settings.delaySeconds <= effects::Delay::highestSeconds)) {
+        throw std::invalid_argument("the delay must be 0 to 0.5 s");
     }
     return OfflineRenderer(model, generator, settings, sink).run(next);
 }

@@ -1,14 +1,18 @@
 #pragma once
 
 #include "dsp/limiter.hpp"
+#include "effects/actuator_profile.hpp"
+#include "effects/effect.hpp"
 #include "engine/contact_state.hpp"
 #include "engine/seam_statistics.hpp"
 #include "inference/segment_generator.hpp"
 #include "model/model_file.hpp"
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
@@ -22,8 +26,12 @@ struct OfflineSettings {
     /// Key of all noise: same model, states and seed give the same samples.
     std::uint64_t seed = 1;
     float fullScaleMps2 = dsp::SoftLimiter::defaultFullScaleMps2;
-    /// Rendered after the last state, for what still has to fade.
+    /// Rendered after the last state, for what still has to fade; longer where effects ring on.
     double tailSeconds = 0.1;
+    /// What the render is compensated for; null for nothing.
+    std::shared_ptr<const effects::ActuatorProfile> actuator;
+    /// 0 to 0.5.
+    double delaySeconds = 0.0;
 };
 
 /// What a render's own engine counted and measured. Fixed in size, however long the render.
@@ -45,6 +53,10 @@ struct OfflineFigures {
     std::uint64_t sanitised = 0;
     std::uint64_t nonFinite = 0;
     std::uint64_t limited = 0;
+    /// By effects::EffectKind: landings and edges that sounded, and samples that each effect worked on. Of the texture
+    /// there is nothing here.
+    std::array<std::uint64_t, effects::effectKinds> effectEvents{};
+    std::array<std::uint64_t, effects::effectKinds> effectSamples{};
     /// RMS in m/s^2 while the voice sounds, as it leaves the limiter.
     double rmsMps2 = 0.0;
     /// Largest magnitude of the output, +-1.

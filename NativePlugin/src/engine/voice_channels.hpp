@@ -12,6 +12,7 @@
 #include <array>
 #include <atomic>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <mutex>
 
@@ -160,6 +161,9 @@ struct VoiceChannels {
     std::atomic<std::uint64_t> publishedTouch{0};
     /// Silences what has been published so far, and nothing that is published later. Any thread but the callback's.
     void panic() noexcept;
+    /// Changes what the voice asks for, where `change` says that it has; the worker then makes it. Any thread but the
+    /// callback's. Returns whether there is something to make.
+    bool changeProcessors(const std::function<bool(ProcessorSettings&)>& change);
 
     /// The callback asks for an output stage of this rate; 0 when it has what it needs.
     std::atomic<double> wantedRateHz{0.0};
@@ -195,6 +199,16 @@ struct VoiceChannels {
         delete usedProcessors.load();
     }
 };
+
+inline bool VoiceChannels::changeProcessors(const std::function<bool(ProcessorSettings&)>& change) {
+    const std::lock_guard lock(processorMutex);
+    if (!change(processorSettings)) {
+        return false;
+    }
+    wantedProcessors.store(++processorSettings.version, std::memory_order_release);
+    lacksProcessors.store(true, std::memory_order_release);
+    return true;
+}
 
 inline void VoiceChannels::panic() noexcept {
     const std::uint64_t touch = publishedTouch.load(std::memory_order_acquire);

@@ -7,18 +7,19 @@ using HaptoFlow.Numerics;
 namespace HaptoFlow.RepositoryTests
 {
     /// <summary>One case of the golden file, played through the tracker frame by frame.</summary>
-    internal sealed class GoldenScene
+    internal sealed class GoldenScene : ISurfaceGeometry
     {
         private readonly JsonValue testCase;
         private readonly List<GoldenSurface> surfaces = new List<GoldenSurface>();
         private readonly ContactSettings settings;
+        private int played;
 
         public GoldenScene(JsonValue testCase)
         {
             this.testCase = testCase;
             settings = SettingsOf(testCase["settings"]);
             JsonValue scene = testCase["scene"];
-            Tracker = new ContactTracker(settings, scene["stylus"]["tip_radius"].AsNumber());
+            Tracker = new ContactTracker(settings, scene["stylus"]["tip_radius"].AsNumber()) { Geometry = this };
             foreach (JsonValue surface in scene["surfaces"].AsArray())
             {
                 surfaces.Add(new GoldenSurface(surface, testCase["label_stiffness"]));
@@ -31,8 +32,16 @@ namespace HaptoFlow.RepositoryTests
 
         public ContactTracker Tracker { get; }
 
+        public bool TryClosest(TrackedSurface surface, Double3 tipMetres, out SurfacePoint found)
+        {
+            SurfacePoint? closest = surfaces.Find(each => each.Tracked == surface)!.Closest(Tracker, played, tipMetres);
+            found = closest ?? default;
+            return closest.HasValue;
+        }
+
         public ContactReading Play(int frame)
         {
+            played = frame;
             JsonValue row = testCase["stroke"]["samples"][frame];
             var position = new Double3(NumberOrNaN(row[1]), NumberOrNaN(row[2]), NumberOrNaN(row[3]));
             double? force = row[4].IsNull ? (double?)null : row[4].AsNumber();
@@ -122,15 +131,21 @@ namespace HaptoFlow.RepositoryTests
 
         public void Offer(ContactTracker tracker, int frame)
         {
-            RigidPose pose = Poses == null ? restingPose : new RigidPose(VectorAt(Poses[frame], 0), RotationOf(Poses[frame], 3));
+            RigidPose pose = PoseAt(frame);
             Tracked.Track.Record(tracker.NowSeconds, pose);
-            Double3 tip = pose.PointToLocal(tracker.TipMetres);
-            SurfacePoint? local = Closest(tip, tracker.PreviousLocalNormal(Tracked), tracker.Settings);
+            SurfacePoint? local = Closest(tracker, frame, tracker.TipMetres);
             if (local.HasValue && local.Value.SignedDistanceMetres <= tracker.ReachMetresOf(Tracked))
             {
                 tracker.Consider(new ContactCandidate(Tracked, pose, local.Value));
             }
         }
+
+        public SurfacePoint? Closest(ContactTracker tracker, int frame, Double3 tipMetres) => Closest(
+            PoseAt(frame).PointToLocal(tipMetres), tracker.PreviousLocalNormal(Tracked), tracker.Settings);
+
+        private RigidPose PoseAt(int frame) => Poses == null
+            ? restingPose
+            : new RigidPose(VectorAt(Poses[frame], 0), RotationOf(Poses[frame], 3));
 
         private SurfacePoint? Closest(Double3 tip, Double3? previous, ContactSettings settings)
         {

@@ -102,12 +102,15 @@ TEST(ContactTransitionsTest, AWallOfTheSameMeshIsLandedOnAsAnotherSurfaceIs) {
 
 TEST(ContactTransitionsTest, FlushPlatesHaveNeitherEdgeNorLandingHoweverTheHandPresses) {
     forEachStroke([&](double speed, double rateHz, double offset) {
-        for (const double press : {0.0, 0.0008}) {
-            const Events events = eventsOf(sceneOf(plates(0.0)), 0.2 / speed, rateHz, [&](double time) {
-                return glm::dvec3(-0.1 + offset + speed * time, -0.0002 + press * std::sin(2.0 * pi * 9.0 * time), 0.0);
-            });
-            EXPECT_EQ(events.landings, 0U);
-            EXPECT_EQ(events.edges, 0U);
+        for (const double depth : {0.0002, 0.0008, 0.0015, 0.004, 0.012}) {
+            for (const double press : {0.0, 0.7}) {
+                const Events events = eventsOf(sceneOf(plates(0.0)), 0.2 / speed, rateHz, [&](double time) {
+                    const double height = tipRadius - depth * (1.0 + press * std::sin(2.0 * pi * 9.0 * time));
+                    return glm::dvec3(-0.1 + offset + speed * time, height, 0.0);
+                });
+                EXPECT_EQ(events.landings, 0U) << depth;
+                EXPECT_EQ(events.edges, 0U) << depth;
+            }
         }
     });
 }
@@ -119,7 +122,7 @@ TEST(ContactTransitionsTest, AStepBetweenPlatesIsOneEdgeAsHighAsTheStepWhichever
                 return glm::dvec3(-0.1 + offset + speed * time, -0.001, 0.0);
             });
             EXPECT_EQ(events.edges, 1U) << step;
-            EXPECT_NEAR(events.height, std::abs(step), 1e-9);
+            EXPECT_NEAR(events.height, std::abs(step), 0.1 * std::abs(step) + 0.00002);
             EXPECT_EQ(events.landings, 0U);
         });
     }
@@ -191,6 +194,10 @@ TEST(ContactTransitionsTest, ALiftIsNoEdgeWhateverItsAngleAndHoweverNearTheRim) 
     for (const double up : {0.02, 0.2, 1.0}) {
         for (const double along : {0.0, 0.1, 0.5, -0.5}) {
             for (const double from : {0.0, 0.03, 0.0485}) {
+                // What is over the rim before it is up has slid off.
+                if (from + along * 0.0009 / up > 0.049) {
+                    continue;
+                }
                 for (const double rateHz : {72.0, 120.0}) {
                     const Events events = eventsOf(scene, 0.3, rateHz, [&](double time) {
                         const double moving = std::clamp(time - 0.1, 0.0, 0.0014 / std::max(0.02, up));
@@ -243,8 +250,8 @@ TEST(ContactTransitionsTest, TheRimsOfAHexagonalPencilAreFelt) {
     }
     const auto mesh = testing::meshOf(pencil);
     const Events events = eventsOf(sceneOf({surfaceOf(mesh)}), 2.0, 90.0, [&](double time) {
-        // Round the pencil once, half a millimetre in its faces.
-        const double angle = 0.1 + 2.0 * pi * std::min(time, 1.8) / 1.8;
+        // Over six rims, half a millimetre in the faces.
+        const double angle = 0.1 + (2.0 * pi + 0.5) * std::min(time, 1.8) / 1.8;
         const double within = std::remainder(angle - pi / 6.0, pi / 3.0);
         const double out = 0.004 * std::cos(pi / 6.0) / std::cos(within) + 0.0004;
         return glm::dvec3(out * std::cos(angle), out * std::sin(angle), 0.0);
@@ -296,18 +303,21 @@ TEST(ContactTransitionsTest, ATipOfNoRadiusHasRimsOfTheLowestHeight) {
 TEST(ContactTransitionsTest, ATurnedSceneCountsTheSame) {
     const glm::dquat turn = turned(73.0, {1.0, -2.0, 0.5});
     const glm::dvec3 shift(3.0, -1.0, 7.0);
-    std::vector<Surface> surfaces{blockAt({-0.1, -0.05, 0.0}), blockAt({0.3, 0.3, 0.0}, {0.6, 1.0, 1.0})};
+    std::vector<Surface> surfaces{blockAt({-0.1, -0.05, 0.0}, {0.2, 0.1, 0.1}), blockAt({0.3, 0.3, 0.0}, {0.6, 1.0, 1.0})};
     for (Surface& surface : surfaces) {
         surface.pose.positionMetres = shift + turn * surface.pose.positionMetres;
         surface.pose.rotation = turn;
     }
-    // Over the block's top, off it onto nothing, and at last against the wall.
-    const Events events = eventsOf(sceneOf(surfaces), 0.6, 90.0, [&](double time) {
-        return shift + turn * glm::dvec3(-0.14 + 0.3 * time, 0.0004, 0.0);
-    });
-    EXPECT_EQ(events.edges, 0U);
-    EXPECT_EQ(events.landings, 1U);
-    EXPECT_NEAR(events.approach, 0.3, 0.003);
+    for (const double depth : {0.0006, 0.005}) {
+        // Along the block's top against the wall behind it, back, and off the block's other end.
+        const Events events = eventsOf(sceneOf(surfaces), 2.0, 90.0, [&](double time) {
+            const double x = time < 0.6 ? -0.14 + 0.3 * time : 0.04 - 0.3 * (time - 0.6);
+            return shift + turn * glm::dvec3(x, tipRadius - depth, 0.0);
+        });
+        EXPECT_EQ(events.landings, 1U) << depth;
+        EXPECT_NEAR(events.approach, 0.3, 0.003);
+        EXPECT_EQ(events.edges, 1U) << depth;
+    }
 }
 
 }  // namespace

@@ -34,7 +34,7 @@ double amplitudeOf(const std::vector<float>& wave) {
 }
 
 TEST(WaveDecimationTest, WhatIsFeltPassesAndWhatWouldFoldIsHeldBack) {
-    for (const std::size_t factor : {2U, 3U, 4U, 8U}) {
+    for (const std::size_t factor : {2U, 3U, 4U, 24U}) {
         WaveDecimation decimation(factor);
         for (const double frequencyHz : {10.0, 60.0, 250.0, 500.0}) {
             EXPECT_NEAR(amplitudeOf(decimated(decimation, factor, frequencyHz)), 1.0, 0.01) << frequencyHz;
@@ -73,7 +73,7 @@ TEST(WaveDecimationTest, AnImpulseComesThreeSamplesOfTheNewRateLater) {
 
 TEST(WaveDecimationTest, FactorsOutOfRangeAreRefusedAndSamplesAllocateNothing) {
     EXPECT_THROW(WaveDecimation(0), std::invalid_argument);
-    EXPECT_THROW(WaveDecimation(9), std::invalid_argument);
+    EXPECT_THROW(WaveDecimation(97), std::invalid_argument);
     WaveDecimation decimation(8);
     const std::size_t before = haptoflow::testing::allocationCount();
     float sample = 0.0F;

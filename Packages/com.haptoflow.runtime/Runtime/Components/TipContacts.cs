@@ -7,7 +7,7 @@ namespace HaptoFlow
 {
     /// <summary>The surfaces around one tip, frame by frame: asks the physics engine, keeps what is near, and lets the
     /// contact model decide. Main thread, no garbage after construction.</summary>
-    internal sealed class TipContacts
+    internal sealed class TipContacts : ISurfaceGeometry
     {
         private const int MostColliders = 128;
         private const int MostSurfaces = 32;
@@ -24,7 +24,7 @@ namespace HaptoFlow
 
         public TipContacts(ContactSettings settings, double tipRadiusMetres)
         {
-            Tracker = new ContactTracker(settings, tipRadiusMetres);
+            Tracker = new ContactTracker(settings, tipRadiusMetres) { Geometry = this };
             for (int index = 0; index < near.Length; ++index)
             {
                 near[index] = new NearbySurface();
@@ -62,6 +62,21 @@ namespace HaptoFlow
             {
                 surface.End();
             }
+        }
+
+        bool ISurfaceGeometry.TryClosest(TrackedSurface surface, Double3 tipMetres, out SurfacePoint found)
+        {
+            found = default;
+            NearbySurface? place = Find(surface);
+            if (place == null || place.Collider == null)
+            {
+                return false;
+            }
+            using FrontFacesOnly fronts = FrontFacesOnly.Begin();
+            var question = new ProbeQuestion(
+                tipMetres, Tracker.TipRadiusMetres + ContactTransitions.SlideOffReachMetres,
+                Tracker.PreviousLocalNormal(surface), tipMetres, Tracker.Settings.SwitchMarginMetres);
+            return ColliderProbe.TryClosest(place.Collider, ColliderProbe.PoseOf(place.Collider), question, out found);
         }
 
         private void Consider(double stepSeconds, int layers, HapticSession session, Object context)

@@ -83,7 +83,7 @@ namespace HaptoFlow.RepositoryTests.Outputs
         }
 
         [Test]
-        public void AStopAndASilentWaveReachTheMotorWithTheSameFrame([Values] bool stop)
+        public void AStopReachesTheMotorWithTheSameFrameAndSilenceWithTheNext([Values] bool stop)
         {
             var motor = new SimulatedMotor();
             SimulatedWave wave = SimulatedWave.Sine(120.0);
@@ -91,8 +91,8 @@ namespace HaptoFlow.RepositoryTests.Outputs
             double now = Play(motor, queue, 0.0, 1.0);
             wave.IsStopped = stop;
             wave.IsSilent = !stop;
+            now = Play(motor, queue, now, stop ? 0.5 * FrameSeconds : 2.5 * FrameSeconds);
             int told = motor.Told.Count;
-            now = Play(motor, queue, now, 0.5 * FrameSeconds);
             Assert.That(motor.AmplitudeAt(now), Is.Zero);
             Play(motor, queue, now, 1.0);
             Assert.That(motor.Told.Count, Is.EqualTo(told), "a motor at rest is not told so again and again");

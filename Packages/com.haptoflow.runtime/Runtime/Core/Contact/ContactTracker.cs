@@ -41,6 +41,9 @@ namespace HaptoFlow.Contact
         private uint edgeCounter;
         private double edgeHeightMetres;
 
+        // Of this frame, as far as there is room: only surfaces that lie side by side need them.
+        private readonly ContactCandidate[] considered = new ContactCandidate[8];
+        private int consideredCount;
         private ContactCandidate current;
         private ContactCandidate deepest;
         private ContactCandidate nearest;
@@ -69,6 +72,10 @@ namespace HaptoFlow.Contact
                 ? value
                 : throw new ArgumentOutOfRangeException(nameof(value), "contact: TipRadiusMetres must be 0 or more");
         }
+
+        /// <summary>Answers where a surface is nearest to a tip that is not where this frame's is; null where nobody
+        /// can, and landings and edges are then judged by this frame's places alone.</summary>
+        public ISurfaceGeometry? Geometry { get; set; }
 
         /// <summary>Lets a measured tip force decide; null where geometry does.</summary>
         public ForceTouch? Force { get; set; }
@@ -106,6 +113,7 @@ namespace HaptoFlow.Contact
             hasCurrent = false;
             hasDeepest = false;
             hasNearest = false;
+            consideredCount = 0;
             ++statistics.Samples;
             bool timeUsable = Vectors.IsUsable(sample.TimeSeconds);
             bool positionUsable = Vectors.IsUsable(sample.PositionMetres);
@@ -151,6 +159,11 @@ namespace HaptoFlow.Contact
         /// <summary>A surface near the tip. Order matters only between equal depths: the first wins.</summary>
         public void Consider(in ContactCandidate candidate)
         {
+            if (consideredCount < considered.Length &&
+                candidate.Local.SignedDistanceMetres <= TipRadiusMetres + Settings.ReleaseDistanceMetres)
+            {
+                considered[consideredCount++] = candidate;
+            }
             if (ReferenceEquals(candidate.Surface, touched))
             {
                 current = candidate;
@@ -273,9 +286,39 @@ namespace HaptoFlow.Contact
             return true;
         }
 
-        private void NoteTransition(in ContactCandidate contact, double approach)
+        private bool IsCaught(in ContactCandidate contact, Double3 restingTip)
         {
-            ContactEvent met = transitions.Advance(contact, TipRadiusMetres, nowSeconds, approach);
+            for (int index = 0; index < consideredCount; ++index)
+            {
+                ContactCandidate other = considered[index];
+                if (!ReferenceEquals(other.Surface, contact.Surface) &&
+                    Geometry!.TryClosest(other.Surface, restingTip, out SurfacePoint atRest) &&
+                    transitions.IsCaughtBy(new ContactCandidate(other.Surface, other.Pose, atRest), contact, restingTip,
+                        TipRadiusMetres, nowSeconds))
+                {
+                    return true;
+                }
+            }
+            return false;
+        }
+
+        private void NoteTransition(in ContactCandidate contact, Double3 velocity)
+        {
+            ContactCandidate place = contact;
+            if (Geometry != null && transitions.IsElsewhere(contact, nowSeconds))
+            {
+                Double3 tip = transitions.RestingTip(contact, TipMetres, TipRadiusMetres, nowSeconds);
+                if (Geometry.TryClosest(contact.Surface, tip, out SurfacePoint resting))
+                {
+                    place = new ContactCandidate(contact.Surface, contact.Pose, resting);
+                }
+                if (transitions.IsOn(contact.Surface) && IsCaught(contact, tip))
+                {
+                    return;
+                }
+            }
+            double approach = Math.Max(0.0, -Double3.Dot(velocity, place.Pose.DirectionToWorld(place.Local.Normal)));
+            ContactEvent met = transitions.Advance(place, TipRadiusMetres, nowSeconds, approach);
             if (met.Landed)
             {
                 ++landingCounter;
@@ -314,15 +357,14 @@ namespace HaptoFlow.Contact
             Double3 velocity = relativeVelocity.Of(history, surface.Track, contact.Local.PointMetres);
             surface.Frame.Update(contact.Local.Normal, stepSeconds);
             localNormal = contact.Local.Normal;
-            double approach = Math.Max(0.0, -Double3.Dot(velocity, normal));
             if (touchDown)
             {
                 ++touchCounter;
                 ++statistics.TouchDowns;
-                approachSpeedMps = approach;
+                approachSpeedMps = Math.Max(0.0, -Double3.Dot(velocity, normal));
                 transitions.Forget();
             }
-            NoteTransition(contact, approach);
+            NoteTransition(contact, velocity);
 
             ContactReading reading = Idle();
             reading.Touching = true;

@@ -24,7 +24,9 @@ namespace HaptoFlow.Contact
     /// <remarks>A face changes where the normal turns by 40 degrees over a short way, as it does over the rim of a box
     /// and not over a ball in the hand. A tip that moves into the new face lands on it; one that does not has crossed
     /// an edge: a rim, which is as high as the tip's radius since that far the tip can fall, or the step between two
-    /// surfaces that lie one beside the other. Surfaces that are flush have neither.</remarks>
+    /// surfaces that lie one beside the other. Surfaces that are flush have neither. A hand that nothing holds presses deep
+    /// into things, and deep inside two blocks side by side their inner faces are the nearest: so a change is judged where
+    /// the tip would rest on the face that it was on (<see cref="RestingTip"/>).</remarks>
     internal sealed class ContactTransitions
     {
         /// <summary>A tip that moves more slowly into a face slides over to it.</summary>
@@ -57,6 +59,11 @@ namespace HaptoFlow.Contact
         private Double3 referencePoint;
         private Double3 referenceNormal;
 
+        // Where the reference was before, on the same surface.
+        private bool hasEarlier;
+        private Double3 earlierPoint;
+        private Double3 earlierNormal;
+
         // One rim is one edge, however slowly the tip rolls over it.
         private bool isArmed;
 
@@ -72,7 +79,37 @@ namespace HaptoFlow.Contact
             }
         }
 
-        /// <summary>The tip touches a place, moving into it at a speed.</summary>
+        /// <summary>The reference is on this surface.</summary>
+        public bool IsOn(TrackedSurface surface) => ReferenceEquals(referenceSurface, surface);
+
+        /// <summary>A place is on another face than the reference, or on another surface.</summary>
+        public bool IsElsewhere(in ContactCandidate now, double nowSeconds) => referenceSurface != null &&
+            (!ReferenceEquals(referenceSurface, now.Surface) ||
+             IsTurned(ReferencePlace(now, nowSeconds), new Place(now)));
+
+        /// <summary>The tip's centre, raised out of the face of the reference until it just touches that.</summary>
+        public Double3 RestingTip(in ContactCandidate now, Double3 tipMetres, double tipRadiusMetres, double nowSeconds)
+        {
+            if (referenceSurface == null)
+            {
+                return tipMetres;
+            }
+            Place before = ReferencePlace(now, nowSeconds);
+            return tipMetres + Math.Max(0.0, tipRadiusMetres - before.HeightOf(tipMetres)) * before.Normal;
+        }
+
+        /// <summary>A resting tip that goes over a rim falls onto a place of another surface: then the rim is none, and
+        /// what there is to feel is the step, once the tip is on that surface.</summary>
+        public bool IsCaughtBy(in ContactCandidate other, in ContactCandidate now, Double3 restingTipMetres,
+            double tipRadiusMetres, double nowSeconds)
+        {
+            var there = new Place(other);
+            return referenceSurface != null && there.HeightOf(restingTipMetres) <= 2.0 * tipRadiusMetres &&
+                !IsTurned(ReferencePlace(now, nowSeconds), there);
+        }
+
+        /// <summary>The tip touches a place, moving into it at a speed; where it is elsewhere, as a resting tip would.
+        /// </summary>
         public ContactEvent Advance(
             in ContactCandidate now, double tipRadiusMetres, double nowSeconds, double approachSpeedMps)
         {
@@ -82,7 +119,7 @@ namespace HaptoFlow.Contact
                 return default;
             }
             Place before = ReferencePlace(now, nowSeconds);
-            var here = new Place(now.Pose, now.Local.PointMetres, now.Local.Normal);
+            var here = new Place(now);
             bool turned = IsTurned(before, here);
             bool isOther = !ReferenceEquals(referenceSurface, now.Surface);
             double step = StepBetween(before, here);
@@ -103,13 +140,10 @@ namespace HaptoFlow.Contact
                     height = RimHeightMetres(tipRadiusMetres);
                 }
             }
-            if (landed || height > 0.0)
+            bool isEvent = landed || height > 0.0;
+            if (isEvent || IsFarEnough(now, isOther, Double3.Dot(before.Normal, here.Normal) > SteadyCosine))
             {
-                MoveReference(now, false);
-            }
-            else if (IsFarEnough(now, isOther, Double3.Dot(before.Normal, here.Normal) > SteadyCosine))
-            {
-                MoveReference(now, true);
+                MoveReference(now, !isEvent);
             }
             return new ContactEvent(landed, height);
         }
@@ -126,8 +160,15 @@ namespace HaptoFlow.Contact
                 return 0.0;
             }
             Place before = ReferencePlace(nearest, nowSeconds);
-            var here = new Place(nearest.Pose, nearest.Local.PointMetres, nearest.Local.Normal);
-            bool isLow = before.HeightOf(tipMetres) - tipRadiusMetres <= heightMetres;
+            var here = new Place(nearest);
+            double above = before.HeightOf(tipMetres);
+            if (hasEarlier)
+            {
+                // A fast tip may have been seen on the rim itself, where the normal leans outwards.
+                var earlier = new Place(nearest.Pose, earlierPoint, earlierNormal);
+                above = Math.Min(above, earlier.HeightOf(tipMetres));
+            }
+            bool isLow = above - tipRadiusMetres <= heightMetres;
             bool isNear = Double3.Distance(tipMetres, here.Point) - tipRadiusMetres <= SlideOffReachMetres;
             return isLow && isNear && IsTurned(before, here) ? RimHeightMetres(tipRadiusMetres) : 0.0;
         }
@@ -154,13 +195,20 @@ namespace HaptoFlow.Contact
 
         private bool IsFarEnough(in ContactCandidate now, bool isOther, bool isSteady)
         {
+            if (isOther)
+            {
+                return true;
+            }
             // On one surface the way is that over it, whatever its own motion.
-            double way = isOther ? LongWayMetres : Double3.Distance(now.Local.PointMetres, referencePoint);
-            return way >= LongWayMetres || (way > ShortWayMetres && isSteady);
+            double way = Double3.Distance(now.Local.PointMetres, referencePoint);
+            return way > LongWayMetres || (way > ShortWayMetres && (isSteady || !isArmed));
         }
 
         private void MoveReference(in ContactCandidate now, bool armed)
         {
+            hasEarlier = ReferenceEquals(referenceSurface, now.Surface);
+            earlierPoint = referencePoint;
+            earlierNormal = referenceNormal;
             referenceSurface = now.Surface;
             referencePoint = now.Local.PointMetres;
             referenceNormal = now.Local.Normal;
@@ -172,6 +220,11 @@ namespace HaptoFlow.Contact
         {
             public readonly Double3 Point;
             public readonly Double3 Normal;
+
+            public Place(in ContactCandidate candidate)
+                : this(candidate.Pose, candidate.Local.PointMetres, candidate.Local.Normal)
+            {
+            }
 
             public Place(in RigidPose pose, Double3 localPoint, Double3 localNormal)
             {

@@ -48,4 +48,13 @@ namespace HaptoFlow.Contact
             Local = local;
         }
     }
+
+    /// <summary>Does the geometry for a tracker. Main thread, no garbage.</summary>
+    internal interface ISurfaceGeometry
+    {
+        /// <summary>The place of a surface nearest to a tip, in the surface's local frame.</summary>
+        /// <param name="surface">One that was considered in this frame.</param>
+        /// <returns>False where there is none.</returns>
+        bool TryClosest(TrackedSurface surface, Double3 tipMetres, out SurfacePoint found);
+    }
 }
