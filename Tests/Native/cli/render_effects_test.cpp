@@ -38,7 +38,7 @@ protected:
         EXPECT_EQ(rendered.exitCode, 0) << rendered.errors;
         return rendered.exitCode == 0 ? nlohmann::json::parse(read("felt.json")) : nlohmann::json::object();
     }
-    [[nodiscard]] std::vector<float> wave(const std::string& name) const { return readWav(at(name).string()).samples; }
+    [[nodiscard]] std::vector<float> wave(const std::string& name) const { return readRecording(at(name).string()).samples; }
 };
 
 TEST_F(RenderEffectsTest, ATapIsSilentUnlessItsImpactIsAskedFor) {
