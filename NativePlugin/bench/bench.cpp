@@ -3,6 +3,7 @@
 #include "bench/callback_bench.hpp"
 #include "bench/contact_bench.hpp"
 #include "bench/distribution.hpp"
+#include "bench/effect_bench.hpp"
 #include "bench/event_bench.hpp"
 #include "bench/idle_bench.hpp"
 #include "bench/inference_bench.hpp"
@@ -40,6 +41,7 @@ nlohmann::ordered_json identity(const std::filesystem::path& path, const model::
 nlohmann::ordered_json goals() {
     return {{"callback_us", "below 1 % of the block at p99, one voice"},
             {"callback_events_us", "at most twice an ordinary block of the same row, p50 to p50"},
+            {"effects", "no run where nobody asks for it"},
             {"onset_ms", "one block; in bursts, one burst"},
             {"contact_to_sound_ms", "the voice's lead, one block and 1 ms; the output's filters come on top"},
             {"stop_ms", "one block and 5 ms"},
@@ -50,6 +52,7 @@ nlohmann::ordered_json goals() {
 nlohmann::ordered_json references() {
     return {{"callback_us", "as many voices that write silence: p50 to p50"},
             {"callback_events_us", "ordinary blocks of the same row: p50 to p50"},
+            {"effects", "the same voice without the effect: p50 to p50"},
             {"onset_ms", "the goal: p99 to goal"},
             {"contact_to_sound_ms", "the goal: p99 to goal"},
             {"stop_ms", "the goal: p99 to goal"},
@@ -86,6 +89,7 @@ nlohmann::ordered_json runBench(const BenchOptions& options, const BenchProgress
     const std::vector<Measurement> all{
         {"callback", 14.0, [&](const Advance& advance) { return measureCallback(subjects, plan, advance); }},
         {"events", 8.0, [&](const Advance& advance) { return measureEventBlocks(subjects, plan, advance); }},
+        {"effects", 8.0, [&](const Advance& advance) { return measureEffects(subjects, plan, advance); }},
         {"latency", 130.0, [&](const Advance& advance) { return measureLatency(subjects, plan, advance); }},
         {"inference", 35.0, [&](const Advance& advance) { return measureInference(subjects, plan, advance); }},
         {"voices", 10.0, [&](const Advance& advance) { return measureVoices(subjects, plan, advance); }},

@@ -94,6 +94,20 @@ void printEvents(std::ostream& stream, const Json& rows) {
     printTable(stream, "callback, the block in which something happens, us", table);
 }
 
+void printEffects(std::ostream& stream, const Json& rows) {
+    std::vector<Row> table{{"effect", "off: runs", "on: us a block", "% of block", "events", "callback p50", "p99", "worst",
+                            "x without"}};
+    for (const Json& entry : rows) {
+        const Json& on = entry["on"];
+        Row row{text(entry["name"]), figure(entry["off"]["runs"]), figure(on["us_per_block"]),
+                percent(on["share_of_block"]), figure(on["events"])};
+        appendRanks(row, on["callback_us"]);
+        row.push_back(figure(on["ratio"]));
+        table.push_back(row);
+    }
+    printTable(stream, "effects, 256 frames at 48 kHz, us", table);
+}
+
 std::string deviceOf(const Json& entry) {
     const std::string frames = figure(entry["block_frames"]);
     return entry["burst_blocks"] == 1 ? frames : figure(entry["burst_blocks"]) + " x " + frames;
@@ -213,6 +227,7 @@ void printTables(std::ostream& stream, const Json& report) {
     };
     print("callback_us", [&](const Json& section) { printCallback(stream, section); });
     print("callback_events_us", [&](const Json& section) { printEvents(stream, section); });
+    print("effects", [&](const Json& section) { printEffects(stream, section); });
     print("onset_ms", [&](const Json& section) { printLatency(stream, "onset, ms", section); });
     print("contact_to_sound_ms", [&](const Json& section) { printLatency(stream, "contact to sound, ms", section); });
     print("stop_ms", [&](const Json& section) { printLatency(stream, "stop, ms", section); });

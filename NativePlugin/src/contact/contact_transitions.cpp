@@ -7,10 +7,11 @@
 namespace haptoflow::contact {
 namespace {
 
-// The reference stays behind by this way, and by the longer one while the normal turns: a slow tip that rolls over a rim
-// turns by little from frame to frame.
+// The reference stays behind by this way, and by the longer one, for a few frames, while the normal turns: a slow tip
+// that rolls over a rim turns by little from frame to frame, and a fast one may be seen in the middle of it.
 constexpr double shortWayMetres = 0.002;
 constexpr double longWayMetres = 0.006;
+constexpr int mostFramesBehind = 2;
 // The cosine of 5 degrees.
 constexpr double steadyCosine = 0.9962;
 // Places on the two faces of a rim lie below each other's planes but for rounding and a mesh's unevenness.
@@ -31,6 +32,13 @@ bool isTurned(const ContactPlace& before, const ContactPlace& here) {
 /// Where a surface curves, each of two places lies as far below the other's plane; over a step one lies above.
 double stepBetween(const ContactPlace& before, const ContactPlace& here) {
     return 0.5 * std::abs(heightAbove(before, here.pointMetres) - heightAbove(here, before.pointMetres));
+}
+
+/// Two faces that look at each other across less than the tip's width: no tip comes from one to the other.
+bool isFacing(const ContactPlace& before, const ContactPlace& here, double tipRadiusMetres) {
+    const double gapMetres = heightAbove(before, here.pointMetres);
+    return glm::dot(before.normal, here.normal) < -ContactTransitions::faceCosine && gapMetres >= -flatnessMetres &&
+           gapMetres <= std::max(2.0 * tipRadiusMetres, ContactTransitions::lowestRimMetres);
 }
 
 bool isConvex(const ContactPlace& before, const ContactPlace& here) {
@@ -75,6 +83,9 @@ ContactEvent ContactTransitions::advance(const PosedPlace& now, const Pose& refe
     }
     const ContactPlace before = inWorld(reference_->local, referencePose);
     const ContactPlace here = inWorld(now.local, now.pose);
+    if (isFacing(before, here, tipRadiusMetres_)) {
+        return {};
+    }
     const bool turned = isTurned(before, here);
     const bool isOther = now.surface != reference_->surface;
     const double stepMetres = stepBetween(before, here);
@@ -89,7 +100,7 @@ ContactEvent ContactTransitions::advance(const PosedPlace& now, const Pose& refe
         }
     }
     const bool isEvent = event.landed || event.edgeHeightMetres > 0.0;
-    if (isEvent || isFarEnough(now, glm::dot(before.normal, here.normal) > steadyCosine)) {
+    if (isEvent || isToBeMoved(now, before, here)) {
         moveReference(now, !isEvent);
     }
     return event;
@@ -116,13 +127,20 @@ double ContactTransitions::rimHeightMetres() const noexcept {
     return std::max(tipRadiusMetres_, lowestRimMetres);
 }
 
-bool ContactTransitions::isFarEnough(const PosedPlace& now, bool isSteady) const noexcept {
+bool ContactTransitions::isToBeMoved(const PosedPlace& now, const ContactPlace& before,
+                                     const ContactPlace& here) noexcept {
     if (now.surface != reference_->surface) {
         return true;
     }
     // On one surface the way is that over it, whatever its own motion.
     const double way = glm::distance(now.local.pointMetres, reference_->local.pointMetres);
-    return way > longWayMetres || (way > shortWayMetres && (isSteady || !reference_->isArmed));
+    const bool isSteady = glm::dot(before.normal, here.normal) > steadyCosine;
+    if (way > shortWayMetres && (isSteady || !reference_->isArmed)) {
+        return true;
+    }
+    // On a round surface each of two places lies as far below the other's plane, in the middle of a rim it does not.
+    const bool isRound = stepBetween(before, here) < lowestStepMetres;
+    return way > longWayMetres && (isRound || ++reference_->framesBehind > mostFramesBehind);
 }
 
 void ContactTransitions::moveReference(const PosedPlace& now, bool isArmed) noexcept {

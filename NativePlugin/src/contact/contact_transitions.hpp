@@ -83,10 +83,12 @@ private:
         std::optional<ContactPlace> earlier;
         /// One rim is one edge, however slowly the tip rolls over it.
         bool isArmed = true;
+        /// Frames that it has stayed behind by the long way.
+        int framesBehind = 0;
     };
 
     [[nodiscard]] double rimHeightMetres() const noexcept;
-    [[nodiscard]] bool isFarEnough(const PosedPlace& now, bool isSteady) const noexcept;
+    [[nodiscard]] bool isToBeMoved(const PosedPlace& now, const ContactPlace& before, const ContactPlace& here) noexcept;
     void moveReference(const PosedPlace& now, bool isArmed) noexcept;
 
     double tipRadiusMetres_;

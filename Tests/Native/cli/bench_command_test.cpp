@@ -66,14 +66,13 @@ void expectRatio(const Json& ratio, const Json& numerator, const Json& denominat
     EXPECT_NEAR(ratio.get<double>(), expected, 1e-5 * expected) << where;
 }
 
-TEST(BenchCommandTest, TheReportHasEveryKeyOfTheContractAndNoneForWhatDoesNotExist) {
+TEST(BenchCommandTest, TheReportHasEveryKeyOfTheContract) {
     const Json report = reportOf("all");
     for (const char* key :
          {"callback_us", "callback_events_us", "onset_ms", "contact_to_sound_ms", "stop_ms", "inference_ms",
-          "speedup_vs_paper_architecture", "voices", "idle", "memory_mib", "load_ms", "contact"}) {
+          "speedup_vs_paper_architecture", "voices", "idle", "memory_mib", "load_ms", "contact", "effects"}) {
         EXPECT_TRUE(report.contains(key)) << key;
     }
-    EXPECT_FALSE(report.contains("effects"));
     EXPECT_TRUE(report["notes"].empty()) << report["notes"];
 }
 
@@ -92,6 +91,22 @@ TEST(BenchCommandTest, TheReportSaysOfWhatAndWhereItIsAndNotOnWhichHost) {
         EXPECT_THAT(report.dump(), Not(HasSubstr(host.data())));
     }
     EXPECT_THAT(report.dump(), Not(HasSubstr(HAPTOFLOW_TEST_GOLDEN_DIR)));
+}
+
+TEST(BenchCommandTest, EachEffectCostsWhatItTakesWhereItIsAskedForAndNeverRunsWhereItIsNot) {
+    const Json rows = reportOf("effects")["effects"];
+    std::vector<std::string> names;
+    for (const Json& row : rows) {
+        names.push_back(row["name"]);
+        EXPECT_EQ(row["off"]["runs"], 0) << row["name"];
+        EXPECT_GT(row["on"]["runs"], 0) << row["name"];
+        EXPECT_GT(row["on"]["us_per_block"].get<double>(), 0.0);
+        expectRatio(row["on"]["share_of_block"], row["on"]["us_per_block"], 256.0 / 48000.0 * 1e6, "share of the block");
+        expectRanked(row["on"]["callback_us"], "with the effect");
+        expectRanked(row["off"]["callback_us"], "without the effect");
+        expectRatio(row["on"]["ratio"], row["on"]["callback_us"]["p50"], row["off"]["callback_us"]["p50"], "with to without");
+    }
+    EXPECT_THAT(names, ::testing::ElementsAre("impact", "edge", "delay", "compensation", "exposure guard"));
 }
 
 TEST(BenchCommandTest, CallbackRowsAreOfOneTwoAndEightVoicesWithTheirShareOfTheBlock) {

@@ -44,10 +44,12 @@ namespace HaptoFlow.Contact
         // Of the rim under a tip of any radius.
         private const double LowestRimMetres = 0.0005;
 
-        // The reference stays behind by this way, and by the longer one while the normal turns: a slow tip that rolls
-        // over a rim turns by little from frame to frame.
+        // The reference stays behind by this way, and by the longer one, for a few frames, while the normal turns: a
+        // slow tip that rolls over a rim turns by little from frame to frame, and a fast one may be seen in the middle
+        // of it.
         private const double ShortWayMetres = 0.002;
         private const double LongWayMetres = 0.006;
+        private const int MostFramesBehind = 2;
 
         // The cosine of 5 degrees.
         private const double SteadyCosine = 0.9962;
@@ -66,6 +68,9 @@ namespace HaptoFlow.Contact
 
         // One rim is one edge, however slowly the tip rolls over it.
         private bool isArmed;
+
+        // Frames that the reference has stayed behind by the long way.
+        private int framesBehind;
 
         /// <summary>The next place compares with nothing.</summary>
         public void Forget() => referenceSurface = null;
@@ -120,6 +125,10 @@ namespace HaptoFlow.Contact
             }
             Place before = ReferencePlace(now, nowSeconds);
             var here = new Place(now);
+            if (IsFacing(before, here, tipRadiusMetres))
+            {
+                return default;
+            }
             bool turned = IsTurned(before, here);
             bool isOther = !ReferenceEquals(referenceSurface, now.Surface);
             double step = StepBetween(before, here);
@@ -141,7 +150,7 @@ namespace HaptoFlow.Contact
                 }
             }
             bool isEvent = landed || height > 0.0;
-            if (isEvent || IsFarEnough(now, isOther, Double3.Dot(before.Normal, here.Normal) > SteadyCosine))
+            if (isEvent || isOther || IsToBeMoved(now, before, here))
             {
                 MoveReference(now, !isEvent);
             }
@@ -176,6 +185,15 @@ namespace HaptoFlow.Contact
         private static bool IsTurned(in Place before, in Place here) =>
             Double3.Dot(before.Normal, here.Normal) < FaceCosine;
 
+        /// <summary>Two faces that look at each other across less than the tip's width: no tip comes from one to the
+        /// other.</summary>
+        private static bool IsFacing(in Place before, in Place here, double tipRadiusMetres)
+        {
+            double gap = before.HeightOf(here.Point);
+            return Double3.Dot(before.Normal, here.Normal) < -FaceCosine && gap >= -FlatnessMetres &&
+                gap <= Math.Max(2.0 * tipRadiusMetres, LowestRimMetres);
+        }
+
         private static bool IsConvex(in Place before, in Place here) =>
             before.HeightOf(here.Point) <= FlatnessMetres && here.HeightOf(before.Point) <= FlatnessMetres;
 
@@ -193,15 +211,19 @@ namespace HaptoFlow.Contact
             return new Place(pose, referencePoint, referenceNormal);
         }
 
-        private bool IsFarEnough(in ContactCandidate now, bool isOther, bool isSteady)
+        private bool IsToBeMoved(in ContactCandidate now, in Place before, in Place here)
         {
-            if (isOther)
+            // On one surface the way is that over it, whatever its own motion.
+            double way = Double3.Distance(now.Local.PointMetres, referencePoint);
+            bool isSteady = Double3.Dot(before.Normal, here.Normal) > SteadyCosine;
+            if (way > ShortWayMetres && (isSteady || !isArmed))
             {
                 return true;
             }
-            // On one surface the way is that over it, whatever its own motion.
-            double way = Double3.Distance(now.Local.PointMetres, referencePoint);
-            return way > LongWayMetres || (way > ShortWayMetres && (isSteady || !isArmed));
+            // On a round surface each of two places lies as far below the other's plane, in the middle of a rim it does
+            // not.
+            bool isRound = StepBetween(before, here) < LowestStepMetres;
+            return way > LongWayMetres && (isRound || ++framesBehind > MostFramesBehind);
         }
 
         private void MoveReference(in ContactCandidate now, bool armed)
@@ -209,6 +231,7 @@ namespace HaptoFlow.Contact
             hasEarlier = ReferenceEquals(referenceSurface, now.Surface);
             earlierPoint = referencePoint;
             earlierNormal = referenceNormal;
+            framesBehind = 0;
             referenceSurface = now.Surface;
             referencePoint = now.Local.PointMetres;
             referenceNormal = now.Local.Normal;

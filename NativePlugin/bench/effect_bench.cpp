@@ -1,0 +1,144 @@
+#include "bench/effect_bench.hpp"
+
+#include "bench/distribution.hpp"
+#include "effects/actuator_profile.hpp"
+#include "effects/effect.hpp"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <random>
+#include <span>
+#include <utility>
+#include <vector>
+
+namespace haptoflow::bench {
+namespace {
+
+using effects::EffectKind;
+using effects::maskOf;
+
+constexpr double landingsPerSecond = 5.0;
+constexpr double crossingsPerSecond = 10.0;
+constexpr float approachSpeedMps = 0.3F;
+constexpr double delaySeconds = 0.1;
+
+struct NamedEffect {
+    const char* name;
+    EffectKind kind;
+};
+
+constexpr std::array<NamedEffect, 5> measuredEffects{{{"impact", EffectKind::impact},
+                                                      {"edge", EffectKind::edge},
+                                                      {"delay", EffectKind::delay},
+                                                      {"compensation", EffectKind::compensation},
+                                                      {"exposure guard", EffectKind::exposureGuard}}};
+
+/// Two voices that do the same, with and without the effect, rendered and timed apart.
+class WithAndWithout {
+public:
+    WithAndWithout(const Subjects& subjects, EffectKind kind)
+        : kind_(kind),
+          hand_(*subjects.model),
+          engine_(subjects.standardEngine(false)),
+          with_(engine_->addVoice(outputRateHz)),
+          without_(engine_->addVoice(outputRateHz)),
+          order_(subjects.seed) {
+        with_->channels.controls.delaySeconds = delaySeconds;
+        engine_->changeProcessors(*with_, [kind](engine::ProcessorSettings& settings) {
+            settings.hasDelay = kind == EffectKind::delay;
+            settings.hasExposureGuard = kind == EffectKind::exposureGuard;
+            if (kind == EffectKind::compensation) {
+                settings.actuator = std::make_shared<const effects::ActuatorProfile>(
+                    effects::ActuatorProfile::builtIn("voice-coil").value());
+            }
+            return kind == EffectKind::delay || kind == EffectKind::exposureGuard || kind == EffectKind::compensation;
+        });
+    }
+
+    void publish(double seconds) {
+        const auto touch = 1U + static_cast<std::uint32_t>(seconds * landingsPerSecond);
+        const auto place = static_cast<std::size_t>(seconds * crossingsPerSecond) % hand_.labelCount();
+        engine::ContactState state = hand_.sliding(touch, place);
+        state.approachSpeedMps = approachSpeedMps;
+        engine_->publish(*without_, state);
+        const bool isOfSurface = kind_ == EffectKind::impact || kind_ == EffectKind::edge;
+        state.effects |= isOfSurface ? maskOf(kind_) : 0U;
+        engine_->publish(*with_, state);
+        engine_->step();
+    }
+
+    /// One block of each voice, in random order.
+    void render(std::span<float> block) {
+        const bool isFirst = order_() % 2 == 0;
+        for (const bool isWith : {isFirst, !isFirst}) {
+            engine::LiveVoice& voice = isWith ? *with_ : *without_;
+            const double seconds = secondsOf([&] { voice.renderer.render(block, outputRateHz); });
+            (isWith ? withSeconds_ : withoutSeconds_).push_back(seconds);
+        }
+    }
+
+    [[nodiscard]] nlohmann::ordered_json figures() const {
+        const engine::EffectCounters& with = counters(*with_);
+        const engine::EffectCounters& without = counters(*without_);
+        if (with.runs == 0) {
+            throw MeasurementError("an effect that was asked for did not run: it was not measured");
+        }
+        const double blocks = static_cast<double>(withSeconds_.size());
+        const double ownMicroseconds = 1e-3 * static_cast<double>(with.nanoseconds) / blocks;
+        const nlohmann::ordered_json callbackWith = toJson(distributionOf(withSeconds_), microseconds);
+        const nlohmann::ordered_json callbackWithout = toJson(distributionOf(withoutSeconds_), microseconds);
+        return {{"off", {{"runs", without.runs.load()}, {"callback_us", callbackWithout}}},
+                {"on",
+                 {{"runs", with.runs.load()},
+                  {"events", with.events.load()},
+                  {"us_per_block", rounded(ownMicroseconds)},
+                  {"share_of_block", rounded(ownMicroseconds / (DeviceShape{}.blockSeconds() * microseconds))},
+                  {"callback_us", callbackWith},
+                  {"ratio", ratioOf(callbackWith["p50"].get<double>(), callbackWithout["p50"].get<double>())}}}};
+    }
+
+private:
+    [[nodiscard]] const engine::EffectCounters& counters(const engine::LiveVoice& voice) const {
+        return voice.channels.counters.effects.at(static_cast<std::size_t>(kind_));
+    }
+
+    EffectKind kind_;
+    Hand hand_;
+    std::unique_ptr<engine::LiveEngine> engine_;
+    std::shared_ptr<engine::LiveVoice> with_;
+    std::shared_ptr<engine::LiveVoice> without_;
+    std::minstd_rand order_;
+    std::vector<double> withSeconds_;
+    std::vector<double> withoutSeconds_;
+};
+
+nlohmann::ordered_json measure(const Subjects& subjects, EffectKind kind, std::size_t blocks) {
+    WithAndWithout voices(subjects, kind);
+    std::vector<float> block(usualBlockFrames);
+    double nextUpdate = 0.0;
+    for (std::size_t index = 0; index < blocks; ++index) {
+        const double now = static_cast<double>(index) * DeviceShape{}.blockSeconds();
+        if (now >= nextUpdate) {
+            nextUpdate += 1.0 / updateRateHz;
+            voices.publish(now);
+        }
+        voices.render(block);
+    }
+    return voices.figures();
+}
+
+}  // namespace
+
+nlohmann::ordered_json measureEffects(const Subjects& subjects, const BenchPlan& plan, const Advance& advance) {
+    nlohmann::ordered_json rows = nlohmann::ordered_json::array();
+    for (const auto& [name, kind] : measuredEffects) {
+        nlohmann::ordered_json row{{"name", name}};
+        row.update(measure(subjects, kind, plan.callbackBlocks()));
+        rows.push_back(std::move(row));
+        advance(static_cast<double>(rows.size()) / static_cast<double>(measuredEffects.size()));
+    }
+    return {{"effects", rows}};
+}
+
+}  // namespace haptoflow::bench
