@@ -21,6 +21,7 @@ using effects::maskOf;
 constexpr double landingsPerSecond = 5.0;
 constexpr double crossingsPerSecond = 10.0;
 constexpr float approachSpeedMps = 0.3F;
+constexpr float edgeHeightMetres = 0.001F;
 constexpr double delaySeconds = 0.1;
 
 struct NamedEffect {
@@ -61,6 +62,8 @@ public:
         const auto place = static_cast<std::size_t>(seconds * crossingsPerSecond) % hand_.labelCount();
         engine::ContactState state = hand_.sliding(touch, place);
         state.approachSpeedMps = approachSpeedMps;
+        state.edgeCounter = static_cast<std::uint32_t>(seconds * crossingsPerSecond);
+        state.edgeHeightMetres = edgeHeightMetres;
         engine_->publish(*without_, state);
         const bool isOfSurface = kind_ == EffectKind::impact || kind_ == EffectKind::edge;
         state.effects |= isOfSurface ? maskOf(kind_) : 0U;
