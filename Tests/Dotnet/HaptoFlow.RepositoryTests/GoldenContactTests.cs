@@ -23,7 +23,7 @@ namespace HaptoFlow.RepositoryTests
         public void TheGoldenFileIsThereAndHoldsCases()
         {
             Assert.That(File.Value["format"].AsText(), Is.EqualTo("haptoflow contact states"));
-            Assert.That(File.Value["version"].AsInteger(), Is.EqualTo(1));
+            Assert.That(File.Value["version"].AsInteger(), Is.EqualTo(2));
             Assert.That(CaseNames().Count(), Is.GreaterThanOrEqualTo(8));
         }
 

@@ -9,7 +9,7 @@
 namespace haptoflow::contact::golden {
 
 inline constexpr const char* fileFormat = "haptoflow contact states";
-inline constexpr int fileVersion = 1;
+inline constexpr int fileVersion = 2;
 
 /// One scene with the stroke played over it, one update per sample. The layout of the file is described in
 /// Tests/Golden/contact/README.md.

@@ -146,5 +146,41 @@ TEST(RealStrokesTest, SpeedsOfRealStrokesAreWithinTenPercentOfAReferenceThatKnow
     }
 }
 
+TEST(RealStrokesTest, AStrokeOverFlushTilesLandsOnNoneOfThemAndCrossesNoEdge) {
+    if (!std::filesystem::exists(strokesPath())) {
+        GTEST_SKIP() << strokesPath() << " is not there: real strokes are no part of the repository";
+    }
+    for (const auto& [name, samples] : readStrokes()) {
+        const glm::dvec3 plane = fitTable(samples);
+        const glm::dvec3 normal = glm::normalize(glm::dvec3(-plane.y, -plane.z, 1.0));
+        const glm::dquat turn = turnedFromUp(normal);
+        glm::dvec3 middle(0.0);
+        for (const TipSample& sample : samples) {
+            middle += sample.positionMetres / static_cast<double>(samples.size());
+        }
+        middle.z = plane.x + plane.y * middle.x + plane.z * middle.y;
+        for (const double tileMetres : {0.03, 0.007}) {
+            std::vector<Surface> tiles;
+            const int half = static_cast<int>(0.3 / tileMetres);
+            for (int row = -half; row <= half; ++row) {
+                for (int column = -half; column <= half; ++column) {
+                    Surface tile = testing::surfaceOf(Box{{tileMetres, 0.05, tileMetres}});
+                    tile.pose = {middle + turn * glm::dvec3(row * tileMetres, -0.025, column * tileMetres), turn};
+                    tiles.push_back(std::move(tile));
+                }
+            }
+            for (const double tipRadius : {0.001, 0.005}) {
+                ContactTracker tracker(testing::sceneOf(tiles, tipRadius));
+                ContactReading last;
+                for (const TipSample& sample : samples) {
+                    last = tracker.update(sample);
+                }
+                EXPECT_EQ(last.landingCounter, 0U) << name << ", tiles of " << tileMetres << ", tip of " << tipRadius;
+                EXPECT_EQ(last.edgeCounter, 0U) << name << ", tiles of " << tileMetres << ", tip of " << tipRadius;
+            }
+        }
+    }
+}
+
 }  // namespace
 }  // namespace haptoflow::contact
