@@ -31,6 +31,12 @@ namespace HaptoFlow.Editor
                 {
                     yield return finding;
                 }
+                if (output.Processing.LacksProfile)
+                {
+                    yield return new Finding(MessageType.Warning,
+                        $"{output.name} is to be compensated by an actuator profile and names none: it plays " +
+                        "uncompensated.", new[] { output });
+                }
             }
             foreach (Finding finding in CheckDevice(device))
             {

@@ -18,6 +18,7 @@ namespace HaptoFlow.Editor
                 .Concat(OutputRules.Check(scene))
                 .Concat(SilentOutputRules.Check(scene))
                 .Concat(RealObjectRules.Check(scene))
+                .Concat(EffectRules.Check(scene))
                 .OrderByDescending(finding => finding.Severity)
                 .ToArray();
         }

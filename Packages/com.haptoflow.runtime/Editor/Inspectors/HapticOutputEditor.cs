@@ -26,6 +26,14 @@ namespace HaptoFlow.Editor
             "The mixer that holds the effect HaptoFlow Voice.");
         private static readonly GUIContent Parameter = new GUIContent("Voice Parameter",
             "The name under which the effect's parameter Voice is exposed in that mixer.");
+        private static readonly GUIContent Actuator = new GUIContent("Actuator",
+            "What plays the channel: its resonances and weak bands are evened out. Uncompensated costs nothing.");
+        private static readonly GUIContent Profile = new GUIContent("Actuator Profile",
+            "A measured profile (JSON), as haptoflow actuator identify writes it.");
+        private static readonly GUIContent Guard = new GUIContent("Exposure Guard",
+            "Lowers slowly what has been strong for too long. It is no medical device.");
+        private static readonly GUIContent Delay = new GUIContent("Delay (ms)",
+            "Everything comes this much later: for studies, and displays that lag.");
         private static readonly GUIContent Panic = new GUIContent("Panic",
             "Silence at once; each stylus sounds again with its next touch-down.");
 
@@ -37,6 +45,10 @@ namespace HaptoFlow.Editor
         private SerializedProperty obey = null!;
         private SerializedProperty mixer = null!;
         private SerializedProperty parameter = null!;
+        private SerializedProperty actuator = null!;
+        private SerializedProperty profile = null!;
+        private SerializedProperty guard = null!;
+        private SerializedProperty delay = null!;
 
         private void OnEnable()
         {
@@ -47,6 +59,10 @@ namespace HaptoFlow.Editor
             obey = serializedObject.FindProperty("obeyListener");
             mixer = serializedObject.FindProperty("audioMixer");
             parameter = serializedObject.FindProperty("voiceParameter");
+            actuator = serializedObject.FindProperty("processing.actuator");
+            profile = serializedObject.FindProperty("processing.profile");
+            guard = serializedObject.FindProperty("processing.exposureGuard");
+            delay = serializedObject.FindProperty("processing.delayMilliseconds");
         }
 
         public override bool RequiresConstantRepaint() => Application.isPlaying;
@@ -59,6 +75,7 @@ namespace HaptoFlow.Editor
             bool bySource = route.enumValueIndex == (int)OutputRoute.AudioSource;
             bool lacksChannel = route.enumValueIndex == (int)OutputRoute.ListenerChannel && channel.intValue < 0;
             bool several = route.hasMultipleDifferentValues;
+            bool byProfile = actuator.enumValueIndex == (int)OutputActuator.Profile;
             using (new EditorGUI.DisabledScope(Application.isPlaying))
             {
                 EditorGUILayout.PropertyField(route, Route);
@@ -75,6 +92,13 @@ namespace HaptoFlow.Editor
             }
             EditorGUILayout.PropertyField(strength, Strength);
             EditorGUILayout.PropertyField(muted, Muted);
+            EditorGUILayout.PropertyField(actuator, Actuator);
+            if (byProfile || actuator.hasMultipleDifferentValues)
+            {
+                EditorGUILayout.PropertyField(profile, Profile);
+            }
+            EditorGUILayout.PropertyField(guard, Guard);
+            EditorGUILayout.PropertyField(delay, Delay);
             if (serializedObject.ApplyModifiedProperties())
             {
                 TakeOver();
@@ -107,6 +131,7 @@ namespace HaptoFlow.Editor
                 {
                     var output = (HapticOutput)each;
                     output.Muted = output.Muted;
+                    output.ApplyProcessing();
                 }
             }
         }

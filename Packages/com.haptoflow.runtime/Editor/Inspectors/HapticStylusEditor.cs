@@ -34,6 +34,9 @@ namespace HaptoFlow.Editor
                 "are off.")),
             ("output", new GUIContent("Output",
                 "Where the wave goes; empty for the scene's output, or one that is made.")),
+            ("hand", new GUIContent("Hand",
+                "The hand that holds this. In a scene that names no output it is felt through what that hand holds; an " +
+                "XR Pen sets it.")),
             ("strength", new GUIContent("Strength", "Gain, 0 to 1, on top of the surface's and the output's.")),
             ("events.touchBegan", new GUIContent("Touch Began", "The tip touched a surface.")),
             ("events.touchMoved", new GUIContent("Touch Moved", "The touch goes on: once an update.")),

@@ -48,6 +48,9 @@ namespace HaptoFlow
         [SerializeField, Tooltip("Mixer effect: the name under which the effect's parameter Voice is exposed.")]
         private string voiceParameter = "HaptoFlowVoice";
 
+        [SerializeField]
+        private OutputProcessing processing = new OutputProcessing();
+
         private readonly VoiceMixer mixer = new VoiceMixer();
         private readonly OutputMeter meter = new OutputMeter();
         private AudioSource? source;
@@ -121,6 +124,15 @@ namespace HaptoFlow
             }
         }
 
+        /// <summary>What the voices go through on their way to the device. Call <see cref="ApplyProcessing"/> after a
+        /// change.</summary>
+        public OutputProcessing Processing => processing;
+
+        /// <summary>Hands a change of <see cref="Processing"/> to the voices that sound here; new ones have it by
+        /// themselves.</summary>
+        public void ApplyProcessing() =>
+            mixer.ForEach((voice, output) => output.processing.Apply(voice, output), this);
+
         /// <summary>Of the device, in Hz.</summary>
         public int SampleRateHz => sampleRateHz;
 
@@ -153,6 +165,7 @@ namespace HaptoFlow
         void IVoiceTarget.Add(HapticVoice voice)
         {
             voice.SetMuted(muted);
+            processing.Apply(voice, this);
             mixer.Add(voice);
             if (route == OutputRoute.MixerEffect)
             {

@@ -1,0 +1,70 @@
+#nullable enable
+using System.Collections.Generic;
+using System.Linq;
+using UnityEditor;
+
+namespace HaptoFlow.Editor
+{
+    /// <summary>Says which effects the scene calls for, and what they have cost since play began: an effect that nothing
+    /// calls for does not run.</summary>
+    internal static class EffectRules
+    {
+        private static readonly (HapticEffects Asked, HapticEffect Effect, string Name)[] OfSurfaces =
+        {
+            (HapticEffects.Texture, HapticEffect.Texture, "texture"),
+            (HapticEffects.Impact, HapticEffect.Impact, "impact"),
+            (HapticEffects.Edge, HapticEffect.Edge, "edge"),
+        };
+
+        public static IEnumerable<Finding> Check(SceneContents scene)
+        {
+            if (scene.Surfaces.Count == 0)
+            {
+                yield break;
+            }
+            var called = new List<string>();
+            foreach ((HapticEffects asked, HapticEffect effect, string name) in OfSurfaces)
+            {
+                int count = scene.Surfaces.Count(surface => (surface.SharedDescription.Effects & asked) != 0);
+                Add(called, name, count, "surface", Cost(scene, effect));
+            }
+            Add(called, "compensation", scene.Outputs.Count(output => output.Processing.Actuator != OutputActuator.Uncompensated),
+                "output", Cost(scene, HapticEffect.Compensation));
+            Add(called, "exposure guard", scene.Outputs.Count(output => output.Processing.ExposureGuard),
+                "output", Cost(scene, HapticEffect.ExposureGuard));
+            Add(called, "delay", scene.Outputs.Count(output => output.Processing.DelayMilliseconds > 0f),
+                "output", Cost(scene, HapticEffect.Delay));
+            yield return new Finding(MessageType.Info, called.Count == 0
+                ? "No surface calls for an effect: nothing is felt. Switch on Texture, Impact or Edge on a surface."
+                : $"The scene calls for {string.Join(", ", called)}. Nothing else runs.");
+        }
+
+        private static void Add(List<string> called, string name, int count, string noun, double? microseconds)
+        {
+            if (count > 0)
+            {
+                string cost = microseconds.HasValue ? FormattableCost(microseconds.Value) : "";
+                called.Add($"{name} ({count} {noun}{(count == 1 ? "" : "s")}{cost})");
+            }
+        }
+
+        private static string FormattableCost(double microseconds) =>
+            System.FormattableString.Invariant($", {microseconds:0.0} us a run");
+
+        /// <summary>Of all styluses together, for each run on this machine; null before anything ran.</summary>
+        private static double? Cost(SceneContents scene, HapticEffect effect)
+        {
+            double microseconds = 0.0;
+            ulong runs = 0;
+            foreach (HapticStylus stylus in scene.Styluses)
+            {
+                if (stylus.TryGetEffectStatistics(effect, out EffectStatistics statistics))
+                {
+                    microseconds += statistics.Microseconds;
+                    runs += statistics.Runs;
+                }
+            }
+            return runs > 0 ? microseconds / runs : (double?)null;
+        }
+    }
+}
