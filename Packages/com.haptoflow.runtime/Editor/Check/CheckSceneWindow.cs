@@ -113,9 +113,10 @@ namespace HaptoFlow.Editor
             findings = SceneCheck.Run();
             int errors = findings.Count(finding => finding.Severity == MessageType.Error);
             int warnings = findings.Count(finding => finding.Severity == MessageType.Warning);
-            summary = findings.Count == 0
+            int remarks = findings.Count(finding => finding.Severity == MessageType.Info);
+            summary = errors + warnings + remarks == 0
                 ? "Nothing to remark"
-                : $"{errors} errors, {warnings} warnings, {findings.Count - errors - warnings} remarks";
+                : $"{errors} errors, {warnings} warnings, {remarks} remarks";
         }
 
         private void OnChanges(ref ObjectChangeEventStream stream) => Forget();

@@ -34,9 +34,11 @@ namespace HaptoFlow.Editor
                 "output", Cost(scene, HapticEffect.ExposureGuard));
             Add(called, "delay", scene.Outputs.Count(output => output.Processing.DelayMilliseconds > 0f),
                 "output", Cost(scene, HapticEffect.Delay));
-            yield return new Finding(MessageType.Info, called.Count == 0
-                ? "No surface calls for an effect: nothing is felt. Switch on Texture, Impact or Edge on a surface."
-                : $"The scene calls for {string.Join(", ", called)}. Nothing else runs.");
+            yield return called.Count == 0
+                ? new Finding(MessageType.Warning,
+                    "No surface calls for an effect: nothing is felt. Switch on Texture, Impact or Edge on a surface.")
+                : new Finding(MessageType.None,
+                    $"The scene calls for {string.Join(", ", called)}. Nothing else runs.");
         }
 
         private static void Add(List<string> called, string name, int count, string noun, double? microseconds)

@@ -34,7 +34,8 @@ namespace HaptoFlow.Editor
             Repairs = repairs;
         }
 
-        /// <summary>Error: nothing is felt. Warning: something is not. Info: worth knowing.</summary>
+        /// <summary>Error: nothing is felt. Warning: something is not. Info: worth knowing. None: no remark, what the
+        /// scene is.</summary>
         public MessageType Severity { get; }
 
         public string Text { get; }
