@@ -220,18 +220,42 @@ std::optional<ContactTracker::Candidate> ContactTracker::chooseContact() {
     return kept && lead <= settings_.switchMarginMetres ? nearby.current : nearby.deepest;
 }
 
-bool ContactTracker::isCaught(std::size_t reference, const Pose& referencePose, const glm::dvec3& restingTip) const {
-    bool caught = false;
+/// Every surface that the tip, where it is, could touch.
+template <typename Visit>
+void ContactTracker::visitWithinReach(Visit&& visit) const {
+    const double reachMetres = scene_.tipRadiusMetres + settings_.releaseDistanceMetres;
     broadPhase_.visitNear(*tipMetres_, [&](std::size_t surface) {
-        if (surface == reference || caught) {
-            return;
-        }
         const Pose pose = scene_.surfaces[surface].poseAt(nowSeconds_);
         const auto atTip = closestPoint(surface, pose.pointToLocal(*tipMetres_));
-        const auto atRest = closestPoint(surface, pose.pointToLocal(restingTip));
-        caught = atTip && atRest &&
-                 atTip->signedDistanceMetres <= scene_.tipRadiusMetres + settings_.releaseDistanceMetres &&
-                 transitions_.isCaughtBy({surface, {atRest->pointMetres, atRest->normal}, pose}, referencePose, restingTip);
+        if (atTip && atTip->signedDistanceMetres <= reachMetres) {
+            visit(surface, pose);
+        }
+    });
+}
+
+/// Where a resting tip would touch deepest.
+PosedPlace ContactTracker::restingPlace(const PosedPlace& place, const glm::dvec3& restingTip) const {
+    std::optional<Candidate> deepest;
+    visitWithinReach([&](std::size_t surface, const Pose& pose) {
+        if (const auto local = closestPoint(surface, pose.pointToLocal(restingTip))) {
+            const Candidate candidate{surface, *local, pose, -local->signedDistanceMetres};
+            if (!deepest || candidate.isDeeperThan(*deepest)) {
+                deepest = candidate;
+            }
+        }
+    });
+    return deepest ? PosedPlace{deepest->surface, {deepest->local.pointMetres, deepest->local.normal}, deepest->pose}
+                   : place;
+}
+
+bool ContactTracker::isCaught(std::size_t reference, const Pose& referencePose, const glm::dvec3& restingTip) const {
+    bool caught = false;
+    visitWithinReach([&](std::size_t surface, const Pose& pose) {
+        if (surface != reference && !caught) {
+            const auto local = closestPoint(surface, pose.pointToLocal(restingTip));
+            caught = local && transitions_.isCaughtBy({surface, {local->pointMetres, local->normal}, pose},
+                                                      referencePose, restingTip);
+        }
     });
     return caught;
 }
@@ -241,14 +265,17 @@ void ContactTracker::noteTransition(PosedPlace place, const glm::dvec3& velocity
     const Pose referencePose = reference ? scene_.surfaces[*reference].poseAt(nowSeconds_) : place.pose;
     if (transitions_.isElsewhere(place, referencePose)) {
         const glm::dvec3 tip = transitions_.restingTip(*tipMetres_, referencePose);
-        if (const auto resting = closestPoint(place.surface, place.pose.pointToLocal(tip))) {
-            place.local = {resting->pointMetres, resting->normal};
-        }
-        if (place.surface == *reference && isCaught(*reference, referencePose, tip)) {
+        const bool wasElsewhere = place.surface != *reference;
+        place = restingPlace(place, tip);
+        const bool isElsewhere = place.surface != *reference;
+        // Still on the one, though it would rest on the other: the change comes with the contact's own.
+        const bool isEarly = isElsewhere && !wasElsewhere;
+        if (isEarly || (!isElsewhere && isCaught(*reference, referencePose, tip))) {
             return;
         }
     }
-    const double approachSpeedMps = std::max(0.0, -glm::dot(velocityMps, place.pose.directionToWorld(place.local.normal)));
+    const double approachSpeedMps =
+        std::max(0.0, -glm::dot(velocityMps, place.pose.directionToWorld(place.local.normal)));
     const ContactEvent event = transitions_.advance(place, referencePose, approachSpeedMps);
     if (event.landed) {
         ++landingCounter_;
@@ -259,9 +286,11 @@ void ContactTracker::noteTransition(PosedPlace place, const glm::dvec3& velocity
 
 /// After a touch, while what was touched is still known.
 void ContactTracker::noteSlideOff() {
-    if (touched_) {
+    const std::optional<std::size_t> reference = transitions_.referenceSurface();
+    if (touched_ && reference == touched_) {
         const Pose pose = scene_.surfaces[*touched_].poseAt(nowSeconds_);
-        if (const auto nearest = closestPoint(*touched_, pose.pointToLocal(*tipMetres_))) {
+        const auto nearest = closestPoint(*touched_, pose.pointToLocal(*tipMetres_));
+        if (nearest && !isCaught(*touched_, pose, transitions_.restingTip(*tipMetres_, pose))) {
             const PosedPlace place{*touched_, {nearest->pointMetres, nearest->normal}, pose};
             countEdge(transitions_.slideOff(place, pose, *tipMetres_, settings_.releaseDistanceMetres));
         }

@@ -59,6 +59,9 @@ private:
     [[nodiscard]] std::optional<SurfacePoint> closestPoint(std::size_t surface, const glm::dvec3& localTip) const;
     [[nodiscard]] Nearby findNearby();
     [[nodiscard]] std::optional<Candidate> chooseContact();
+    template <typename Visit>
+    void visitWithinReach(Visit&& visit) const;
+    [[nodiscard]] PosedPlace restingPlace(const PosedPlace& place, const glm::dvec3& restingTip) const;
     [[nodiscard]] bool isCaught(std::size_t reference, const Pose& referencePose, const glm::dvec3& restingTip) const;
     void noteTransition(PosedPlace place, const glm::dvec3& velocityMps);
     void noteSlideOff();

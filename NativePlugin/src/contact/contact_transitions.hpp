@@ -59,7 +59,7 @@ public:
     /// The surface whose pose now `advance` and `slideOff` want as `referencePose`; empty where they need none.
     [[nodiscard]] std::optional<std::size_t> referenceSurface() const noexcept;
 
-    /// `now` is on another face than the reference, or on another surface.
+    /// `now` is on another surface than the reference, or its normal leans away from that of the reference.
     [[nodiscard]] bool isElsewhere(const PosedPlace& now, const Pose& referencePose) const noexcept;
     /// The tip's centre, raised out of the face of the reference until it just touches that.
     [[nodiscard]] glm::dvec3 restingTip(const glm::dvec3& tipMetres, const Pose& referencePose) const noexcept;

@@ -159,9 +159,18 @@ TEST(RealStrokesTest, AStrokeOverFlushTilesLandsOnNoneOfThemAndCrossesNoEdge) {
             middle += sample.positionMetres / static_cast<double>(samples.size());
         }
         middle.z = plane.x + plane.y * middle.x + plane.z * middle.y;
-        for (const double tileMetres : {0.03, 0.007}) {
+        // The recordings begin pressed: the tip comes from above first, so that it enters a tile by its top.
+        std::vector<TipSample> stroke;
+        for (int frame = 0; frame < 30; ++frame) {
+            TipSample sample = samples.front();
+            sample.timeSeconds -= (30 - frame) / 90.0;
+            sample.positionMetres += normal * (0.001 * (30 - frame));
+            stroke.push_back(sample);
+        }
+        stroke.insert(stroke.end(), samples.begin(), samples.end());
+        for (const double tileMetres : {0.03, 0.015}) {
             std::vector<Surface> tiles;
-            const int half = static_cast<int>(0.3 / tileMetres);
+            const int half = static_cast<int>(0.5 / tileMetres);
             for (int row = -half; row <= half; ++row) {
                 for (int column = -half; column <= half; ++column) {
                     Surface tile = testing::surfaceOf(Box{{tileMetres, 0.05, tileMetres}});
@@ -172,7 +181,7 @@ TEST(RealStrokesTest, AStrokeOverFlushTilesLandsOnNoneOfThemAndCrossesNoEdge) {
             for (const double tipRadius : {0.001, 0.005}) {
                 ContactTracker tracker(testing::sceneOf(tiles, tipRadius));
                 ContactReading last;
-                for (const TipSample& sample : samples) {
+                for (const TipSample& sample : stroke) {
                     last = tracker.update(sample);
                 }
                 EXPECT_EQ(last.landingCounter, 0U) << name << ", tiles of " << tileMetres << ", tip of " << tipRadius;

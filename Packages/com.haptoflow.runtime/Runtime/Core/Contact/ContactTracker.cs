@@ -42,7 +42,7 @@ namespace HaptoFlow.Contact
         private double edgeHeightMetres;
 
         // Of this frame, as far as there is room: only surfaces that lie side by side need them.
-        private readonly ContactCandidate[] considered = new ContactCandidate[8];
+        private readonly ContactCandidate[] considered = new ContactCandidate[16];
         private int consideredCount;
         private ContactCandidate current;
         private ContactCandidate deepest;
@@ -286,6 +286,24 @@ namespace HaptoFlow.Contact
             return true;
         }
 
+        /// <summary>Where a resting tip would touch deepest.</summary>
+        private ContactCandidate RestingPlace(in ContactCandidate contact, Double3 restingTip)
+        {
+            ContactCandidate deepest = contact;
+            bool hasOne = false;
+            for (int index = 0; index < consideredCount; ++index)
+            {
+                ContactCandidate each = considered[index];
+                if (Geometry!.TryClosest(each.Surface, restingTip, out SurfacePoint local) &&
+                    (!hasOne || local.SignedDistanceMetres < deepest.Local.SignedDistanceMetres))
+                {
+                    deepest = new ContactCandidate(each.Surface, each.Pose, local);
+                    hasOne = true;
+                }
+            }
+            return deepest;
+        }
+
         private bool IsCaught(in ContactCandidate contact, Double3 restingTip)
         {
             for (int index = 0; index < consideredCount; ++index)
@@ -308,11 +326,11 @@ namespace HaptoFlow.Contact
             if (Geometry != null && transitions.IsElsewhere(contact, nowSeconds))
             {
                 Double3 tip = transitions.RestingTip(contact, TipMetres, TipRadiusMetres, nowSeconds);
-                if (Geometry.TryClosest(contact.Surface, tip, out SurfacePoint resting))
-                {
-                    place = new ContactCandidate(contact.Surface, contact.Pose, resting);
-                }
-                if (transitions.IsOn(contact.Surface) && IsCaught(contact, tip))
+                place = RestingPlace(contact, tip);
+                bool isElsewhere = !transitions.IsOn(place.Surface);
+                // Still on the one, though it would rest on the other: the change comes with the contact's own.
+                bool isEarly = isElsewhere && transitions.IsOn(contact.Surface);
+                if (isEarly || (!isElsewhere && IsCaught(place, tip)))
                 {
                     return;
                 }
@@ -331,12 +349,15 @@ namespace HaptoFlow.Contact
         /// knows better than geometry.</summary>
         private void NoteSlideOff()
         {
-            if (hasCurrent && tipMetres.HasValue && verdict != ForceVerdict.Lifted)
+            bool isOff = hasCurrent && tipMetres.HasValue && verdict != ForceVerdict.Lifted &&
+                transitions.IsOn(current.Surface);
+            if (isOff && (Geometry == null || !IsCaught(
+                current, transitions.RestingTip(current, TipMetres, TipRadiusMetres, nowSeconds))))
             {
                 double height = verdict == ForceVerdict.Pressed
                     ? Force!.Settings.NearMetres + Force.Settings.NearMarginMetres
                     : Settings.ReleaseDistanceMetres;
-                CountEdge(transitions.SlideOff(current, tipMetres.Value, TipRadiusMetres, nowSeconds, height));
+                CountEdge(transitions.SlideOff(current, TipMetres, TipRadiusMetres, nowSeconds, height));
             }
             transitions.Forget();
         }

@@ -87,10 +87,11 @@ namespace HaptoFlow.Contact
         /// <summary>The reference is on this surface.</summary>
         public bool IsOn(TrackedSurface surface) => ReferenceEquals(referenceSurface, surface);
 
-        /// <summary>A place is on another face than the reference, or on another surface.</summary>
+        /// <summary>A place is on another surface than the reference, or its normal leans away from that of the
+        /// reference.</summary>
         public bool IsElsewhere(in ContactCandidate now, double nowSeconds) => referenceSurface != null &&
             (!ReferenceEquals(referenceSurface, now.Surface) ||
-             IsTurned(ReferencePlace(now, nowSeconds), new Place(now)));
+             Double3.Dot(ReferencePlace(now, nowSeconds).Normal, new Place(now).Normal) < SteadyCosine);
 
         /// <summary>The tip's centre, raised out of the face of the reference until it just touches that.</summary>
         public Double3 RestingTip(in ContactCandidate now, Double3 tipMetres, double tipRadiusMetres, double nowSeconds)
