@@ -1,0 +1,111 @@
+"""The first thing that anybody tries: a tap. Rendered by the shipped model through the command line."""
+
+from __future__ import annotations
+
+import subprocess
+from pathlib import Path
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+from scipy.signal import welch
+
+from haptoflow_training.evaluation.engine_render import FULL_SCALE_MPS2, read_wav, write_scene
+
+ROOT = Path(__file__).parents[2]
+ENGINE = ROOT / "build" / "native" / "haptoflow"
+LABELS = ("rubber", "wood", "stone")
+RATE_HZ = 8000
+GRAVITY_MPS2 = 9.81
+PERIOD_SECONDS = 0.7
+TAP_SECONDS = 0.25
+# What a finger is high, give or take.
+HEIGHTS_METRES = np.linspace(0.02, 0.09, 16)
+
+
+def _drops(path: Path) -> NDArray[np.float64]:
+    """Strokes that fall freely from each height onto the plane y = 0, rest and are lifted; returns the landing times."""
+    rows, landings = [], []
+    for number, height in enumerate(HEIGHTS_METRES):
+        # At another phase of the frames each time.
+        begin = number * PERIOD_SECONDS + 0.0013 * number
+        fall = np.sqrt(2.0 * height / GRAVITY_MPS2)
+        for time in np.arange(0.0, PERIOD_SECONDS, 0.002):
+            falling = 0.002 + height - 0.5 * GRAVITY_MPS2 * time**2
+            lifted = 0.002 + height * np.clip((time - 0.45) / 0.2, 0.0, 1.0)
+            y = max(0.0005, falling) if time < 0.45 else max(0.0005, lifted)
+            rows.append((begin + time, 0.0, y, 0.0, 0.5))
+        landings.append(begin + fall)
+    np.savetxt(path, np.array(rows), fmt="%.6f", delimiter=",", header="t,x,y,z,force", comments="")
+    return np.array(landings)
+
+
+def _render(folder: Path, label: str, stroke: Path, effects: str) -> NDArray[np.float64]:
+    scene, wav = folder / "scene.json", folder / "out.wav"
+    write_scene(scene, label, 90.0, tip_radius_metres=0.002)
+    command = [str(ENGINE), "render", str(scene), "--stroke", str(stroke), "-o", str(wav), "--quiet"]
+    done = subprocess.run(
+        [*command, "--rate", str(RATE_HZ), "--effects", effects], capture_output=True, text=True, check=False
+    )
+    assert done.returncode == 0, done.stderr
+    wave: NDArray[np.float64] = read_wav(wav).astype(np.float64) * FULL_SCALE_MPS2
+    return wave
+
+
+@pytest.fixture(scope="module")
+def taps(tmp_path_factory: pytest.TempPathFactory) -> dict[str, NDArray[np.float64]]:
+    """Each label's taps [heights, samples] in m/s^2, from the landing on."""
+    folder = tmp_path_factory.mktemp("taps")
+    landings = _drops(folder / "drops.csv")
+    count = int(TAP_SECONDS * RATE_HZ)
+    cut = {}
+    for label in LABELS:
+        wave = _render(folder, label, folder / "drops.csv", "texture,impact,edge")
+        starts = [int(round(landing * RATE_HZ)) for landing in landings]
+        cut[label] = np.stack([wave[start : start + count] for start in starts])
+    return cut
+
+
+def _spectrum(tap: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Level of third octaves from 22 Hz to 900 Hz in dB, over their mean: what kind of a tap, not how strong."""
+    frequency, power = welch(tap, RATE_HZ, nperseg=1024, noverlap=768)
+    bands = np.digitize(frequency, 22.4 * 2.0 ** (np.arange(17) / 3.0))
+    levels = 10.0 * np.log10(np.array([power[bands == band].sum() for band in range(1, 17)]) + 1e-10)
+    spectrum: NDArray[np.float64] = levels - levels.mean()
+    return spectrum
+
+
+def test_every_drop_is_felt_once_and_the_harder_the_higher(taps: dict[str, NDArray[np.float64]]) -> None:
+    for label, waves in taps.items():
+        peaks = np.abs(waves).max(axis=1)
+        assert peaks.min() > 1.0, label
+        assert np.corrcoef(peaks, np.sqrt(HEIGHTS_METRES))[0, 1] > 0.9, label
+
+
+def test_a_classifier_tells_rubber_wood_and_stone_apart_by_the_spectrum_of_taps_it_never_heard(
+    taps: dict[str, NDArray[np.float64]]
+) -> None:
+    spectra = {label: np.stack([_spectrum(tap) for tap in waves]) for label, waves in taps.items()}
+    centres = {label: known[::2].mean(axis=0) for label, known in spectra.items()}
+    named = [
+        (label, min(LABELS, key=lambda other: float(np.square(asked - centres[other]).sum())))
+        for label, known in spectra.items()
+        for asked in known[1::2]
+    ]
+    right = sum(label == guess for label, guess in named)
+    assert right >= 0.95 * len(named), named
+
+
+def test_a_tap_is_clearly_above_the_texture_of_a_slow_stroke(
+    taps: dict[str, NDArray[np.float64]], tmp_path: Path
+) -> None:
+    stroke = tmp_path / "slide.csv"
+    time = np.arange(0.0, 2.0, 0.008)
+    slide = np.stack([time, 0.1 * time, np.full(len(time), 0.0015), np.zeros(len(time)), np.ones(len(time))], axis=1)
+    np.savetxt(stroke, slide, fmt="%.6f", delimiter=",", header="t,x,y,z,force", comments="")
+    window = int(0.03 * RATE_HZ)
+    for label, waves in taps.items():
+        texture = _render(tmp_path, label, stroke, "texture")[RATE_HZ // 2 :]
+        struck = np.sqrt(np.square(waves[:, :window]).mean(axis=1))
+        above = 20.0 * np.log10(struck / np.sqrt(np.square(texture).mean()))
+        assert np.median(above) > 6.0, (label, above)
