@@ -724,7 +724,7 @@ typedef struct haptoflow_wave_features haptoflow_wave_features;
 
 typedef struct haptoflow_wave_features_options {
     uint32_t struct_size;
-    /* Of the wave: a multiple of 2000 up to 16000; 0 for 2000. Above 2000 a low-pass delays all by 1.5 ms. */
+    /* Of the wave: a multiple of 2000 up to 192000; 0 for 2000. Above 2000 a low-pass delays all by 1.5 ms. */
     uint32_t sample_rate_hz;
     /* 0.002 to 0.032; 0 for 0.005. Need not be a whole number of samples. */
     double frame_seconds;

@@ -30,8 +30,6 @@ namespace {
 
 constexpr std::size_t mandatoryOptions = sizeof(haptoflow_wave_features_options);
 
-constexpr double largestFactor = 8.0;
-
 effects::WaveFeatureOptions featureOptions(const haptoflow_wave_features_options& given) {
     effects::WaveFeatureOptions options;
     const auto take = [](double& target, double value) { target = value != 0.0 ? value : target; };
@@ -44,9 +42,9 @@ effects::WaveFeatureOptions featureOptions(const haptoflow_wave_features_options
 std::size_t decimationOf(double sampleRateHz) {
     const double rateHz = sampleRateHz != 0.0 ? sampleRateHz : effects::WaveFeatures::sampleRateHz;
     const double factor = rateHz / effects::WaveFeatures::sampleRateHz;
-    if (!(factor >= 1.0 && factor <= largestFactor && factor == std::floor(factor))) {
+    if (!(factor >= 1.0 && factor <= effects::WaveDecimation::largestFactor && factor == std::floor(factor))) {
         throw std::invalid_argument("options: sample_rate_hz is " + std::to_string(sampleRateHz) +
-                                    "; expected a multiple of 2000 up to 16000, or 0 for 2000");
+                                    "; expected a multiple of 2000 up to 192000, or 0 for 2000");
     }
     return static_cast<std::size_t>(factor);
 }

@@ -15,8 +15,22 @@ namespace HaptoFlow.Editor
 
         private static readonly string[] StrokeNames =
         {
-            "Slide", "Back and Forth", "Spiral", "Accelerating", "Pressing", "Taps", "Drawn",
+            "Slide", "Back and Forth", "Spiral", "Accelerating", "Pressing", "Taps", "Drawn", "Rims",
         };
+
+        private static readonly string[] DeviceNames =
+        {
+            "Actuator (the wave)", "Controller (frames)", "Motor (160 Hz)",
+        };
+
+        private static readonly string[] EffectNames = { "Texture", "Impact", "Edge" };
+        private static readonly GUIContent Effects = new GUIContent("Effects",
+            "What the surface asks for. Impact is the blow of a landing, edge the tick of a rim.");
+        private static readonly GUIContent Device = new GUIContent("Felt Through",
+            "What plays the wave. A controller or a motor is shown beside the wave that was wanted: switch between A " +
+            "and B to hear both.");
+        private static readonly GUIContent Landing = new GUIContent("Landing [m/s]",
+            "Into the surface, at each touch-down: a finger-high drop lands with 1 m/s.");
 
         private static readonly GUIContent Model =
             new GUIContent("Model", "The .haptoflow model to preview; none for the project's.");
@@ -55,7 +69,7 @@ namespace HaptoFlow.Editor
         {
             if (Event.current.type == EventType.Layout)
             {
-                compares = state.Compares;
+                compares = state.ShowsSecond;
                 blends[0] = state.First.SecondLabel.Length > 0;
                 blends[1] = state.Second.SecondLabel.Length > 0;
             }
@@ -68,14 +82,19 @@ namespace HaptoFlow.Editor
                 state.Change("Model", changed => changed.Model = chosen);
             }
             DrawMaterial(First, state.First, model, 0);
-            DrawToggle(Compare, state.Compares, (changed, value) => changed.Compares = value);
+            using (new EditorGUI.DisabledScope(state.ShowsDevice))
+            {
+                DrawToggle(Compare, state.Compares, (changed, value) => changed.Compares = value);
+            }
             if (compares)
             {
                 DrawMaterial(Second, state.Second, model, 1);
             }
             EditorGUILayout.Space(4f);
             DrawStroke();
+            DrawEffects();
             EditorGUILayout.Space(4f);
+            DrawDevice();
             DrawQuality(model);
             EditorGUIUtility.labelWidth = before;
         }
@@ -107,6 +126,37 @@ namespace HaptoFlow.Editor
                 (changed, value) => changed.DirectionDegrees = value);
             DrawSlider(Contact, state.ContactSeconds, 0.2f, TexturePreviewState.LongestSeconds,
                 (changed, value) => changed.ContactSeconds = value);
+        }
+
+        private void DrawEffects()
+        {
+            DrawSlider(Landing, state.LandingMps, TexturePreviewState.SoftestLandingMps,
+                TexturePreviewState.HardestLandingMps, (changed, value) => changed.LandingMps = value);
+            Rect rest = EditorGUI.PrefixLabel(EditorGUILayout.GetControlRect(), Effects);
+            rest.width /= EffectNames.Length;
+            DrawEffect(rest, 0, state.HasTexture, (changed, value) => changed.HasTexture = value);
+            rest.x += rest.width;
+            DrawEffect(rest, 1, state.HasImpact, (changed, value) => changed.HasImpact = value);
+            rest.x += rest.width;
+            DrawEffect(rest, 2, state.HasEdge, (changed, value) => changed.HasEdge = value);
+        }
+
+        private void DrawEffect(Rect place, int index, bool value, Action<TexturePreviewState, bool> change)
+        {
+            bool entered = EditorGUI.ToggleLeft(place, EffectNames[index], value);
+            if (entered != value)
+            {
+                state.Change(EffectNames[index], changed => change(changed, entered));
+            }
+        }
+
+        private void DrawDevice()
+        {
+            int device = EditorGUILayout.Popup(Device, (int)state.Device, DeviceNames);
+            if (device != (int)state.Device)
+            {
+                state.Change("Felt Through", changed => changed.Device = (PreviewDevice)device);
+            }
         }
 
         private void DrawQuality(PreviewModel model)

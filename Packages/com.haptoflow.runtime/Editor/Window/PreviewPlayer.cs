@@ -127,7 +127,7 @@ namespace HaptoFlow.Editor
                 {
                     Toggle();
                 }
-                using (new EditorGUI.DisabledScope(!state.Compares))
+                using (new EditorGUI.DisabledScope(!state.Compares && !state.ShowsDevice))
                 {
                     int side = GUILayout.Toolbar(state.Heard, Sides, GUILayout.Width(64f));
                     if (side != state.Heard)

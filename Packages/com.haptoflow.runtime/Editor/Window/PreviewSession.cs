@@ -130,6 +130,8 @@ namespace HaptoFlow.Editor
                 Active = state.Heard,
                 Tier = Model.TierOrDefault(state.Tier),
                 Seed = unchecked((ulong)state.Seed),
+                Effects = state.Effects,
+                Device = state.Device,
                 IsSketch = askedSketch,
                 Measurement = measurement,
                 Palette = view.Palette,

@@ -35,7 +35,7 @@ namespace HaptoFlow.Editor
                 }
                 if (GUILayout.Button(Apply))
                 {
-                    said = SceneMaterial.Apply(state.Mixes(model.Labels)[state.Heard], Selection.objects);
+                    said = SceneMaterial.Apply(state.Mixes(model.Labels)[state.ShowsDevice ? 0 : state.Heard], Selection.objects);
                 }
             }
             return said;

@@ -15,6 +15,8 @@ namespace HaptoFlow.Editor
         public const float WeakestNewtons = 0.05f;
         public const float StrongestNewtons = 5f;
         public const float LongestSeconds = 8f;
+        public const float SoftestLandingMps = 0.01f;
+        public const float HardestLandingMps = 2f;
 
         /// <summary>Null for the project's.</summary>
         [field: SerializeField]
@@ -49,6 +51,22 @@ namespace HaptoFlow.Editor
         [field: SerializeField]
         public float ContactSeconds { get; set; } = 2.5f;
 
+        [field: SerializeField]
+        public float LandingMps { get; set; } = 0.3f;
+
+        [field: SerializeField]
+        public bool HasTexture { get; set; } = true;
+
+        [field: SerializeField]
+        public bool HasImpact { get; set; } = true;
+
+        [field: SerializeField]
+        public bool HasEdge { get; set; } = true;
+
+        /// <summary>What the wave is felt through.</summary>
+        [field: SerializeField]
+        public PreviewDevice Device { get; set; }
+
         /// <summary>Not to be changed: set another array.</summary>
         [field: SerializeField]
         public DrawnPoint[] Drawn { get; set; } = Array.Empty<DrawnPoint>();
@@ -71,21 +89,34 @@ namespace HaptoFlow.Editor
         /// <summary>Another number whenever something may be different.</summary>
         public int Version { get; private set; }
 
-        /// <summary>How many materials are shown.</summary>
-        public int MaterialCount => Compares ? 2 : 1;
+        /// <summary>A device's rendering takes the second material's place.</summary>
+        public bool ShowsDevice => Device != PreviewDevice.Actuator;
+
+        /// <summary>The second material is shown.</summary>
+        public bool ShowsSecond => Compares && !ShowsDevice;
 
         /// <summary>The active one among those that are shown.</summary>
-        public int Heard => Compares ? Active : 0;
+        public int Heard => Compares || ShowsDevice ? Active : 0;
 
         public StrokeSettings Settings =>
-            new StrokeSettings(SpeedMps, ForceNewtons, DirectionDegrees, ContactSeconds);
+            new StrokeSettings(SpeedMps, ForceNewtons, DirectionDegrees, ContactSeconds, LandingMps);
 
-        public MaterialChoice Material(int index) => index == 0 ? First : Second;
+        public HapticEffects Effects
+        {
+            get
+            {
+                HapticEffects asked = (HasTexture ? HapticEffects.Texture : 0) |
+                    (HasImpact ? HapticEffects.Impact : 0) | (HasEdge ? HapticEffects.Edge : 0);
+                return asked == HapticEffects.Unspecified ? HapticEffects.Nothing : asked;
+            }
+        }
+
+        public MaterialChoice Material(int index) => index == 0 || ShowsDevice ? First : Second;
 
         public IReadOnlyList<LabelMix> Mixes(IReadOnlyList<string> labels)
         {
             LabelMix first = First.Mix(labels, 0);
-            return Compares ? new[] { first, Second.Mix(labels, 1) } : new[] { first };
+            return ShowsSecond ? new[] { first, Second.Mix(labels, 1) } : new[] { first };
         }
 
         /// <summary>Makes a change that can be undone.</summary>

@@ -92,8 +92,8 @@ namespace HaptoFlow.Preview
                 left += 26.0;
             }
             double room = column.Right - left - 12.0;
-            string figures = Figures(sound, room - StrokeFont.Width(sound.Material.Title, 13.0));
-            string title = StrokeFont.Fitted(sound.Material.Title, 13.0, room - StrokeFont.Width(figures, 11.0));
+            string figures = Figures(sound, room - StrokeFont.Width(sound.Title, 13.0));
+            string title = StrokeFont.Fitted(sound.Title, 13.0, room - StrokeFont.Width(figures, 11.0));
             canvas.Text(title, left, y, 13.0, palette.Ink, bold: true);
             canvas.Text(figures, column.Right, y, 11.0, palette.Soft, TextAlign.Right);
             if (heard)

@@ -13,8 +13,11 @@ namespace HaptoFlow.Preview
         public const float FullScaleMps2 = (float)HapticEngineOptions.DefaultFullScaleMps2;
 
         /// <param name="samples">+-1.</param>
-        public PreviewSound(LabelMix material, Stroke stroke, float[] samples)
+        /// <param name="device">What plays it.</param>
+        public PreviewSound(
+            LabelMix material, Stroke stroke, float[] samples, PreviewDevice device = PreviewDevice.Actuator)
         {
+            Title = device == PreviewDevice.Actuator ? material.Title : DeviceRendering.NameOf(device);
             Material = material;
             Stroke = stroke;
             Samples = samples;
@@ -32,6 +35,9 @@ namespace HaptoFlow.Preview
             }
             RmsMps2 = FullScaleMps2 * Math.Sqrt(squares / Math.Max(1, touched));
         }
+
+        /// <summary>For people: the material, or the device that plays it.</summary>
+        public string Title { get; }
 
         public LabelMix Material { get; }
 

@@ -13,7 +13,9 @@ namespace HaptoFlow.Preview
         /// samples from the same stroke and seed every time.</param>
         /// <returns>Samples of +-1 at <see cref="PreviewSound.RateHz"/>, as long as the stroke.</returns>
         /// <exception cref="OperationCanceledException">The token was cancelled.</exception>
-        public static float[] Render(HapticEngine engine, Stroke stroke, LabelBlend material, CancellationToken token)
+        /// <param name="effects">What the surface asks for.</param>
+        public static float[] Render(HapticEngine engine, Stroke stroke, LabelBlend material, HapticEffects effects,
+            CancellationToken token)
         {
             using HapticVoice voice = engine.OpenVoice(PreviewSound.RateHz);
             var samples = new float[Frames(stroke.DurationSeconds)];
@@ -23,7 +25,7 @@ namespace HaptoFlow.Preview
                 int begin = Frames(index / Stroke.UpdateRateHz);
                 int end = Frames((index + 1) / Stroke.UpdateRateHz);
                 Span<float> block = samples.AsSpan(begin, end - begin);
-                voice.Publish(stroke.States[index].ContactOn(material));
+                voice.Publish(stroke.States[index].ContactOn(material, effects));
                 voice.Render(block.Slice(0, 1), 1, 0, PreviewSound.RateHz);
                 engine.Step();
                 voice.Render(block.Slice(1), 1, 0, PreviewSound.RateHz);

@@ -12,6 +12,10 @@ namespace HaptoFlow.Preview
         /// <summary>After the last lift-off: the fade is heard and seen.</summary>
         public const double TailSeconds = 0.2;
 
+        /// <summary>Of the rims of <see cref="StrokePreset.Rims"/>: a pen's tip.</summary>
+        public const float RimHeightMetres = 0.001f;
+
+        private const double RimPeriodSeconds = 0.25;
         private const double LandingSeconds = 0.02;
         private const double TapSeconds = 0.08;
         private const double TapPeriodSeconds = 0.32;
@@ -30,6 +34,7 @@ namespace HaptoFlow.Preview
                 StrokePreset.Accelerating => Accelerating(settings),
                 StrokePreset.Pressing => Pressing(settings),
                 StrokePreset.Taps => Taps(settings),
+                StrokePreset.Rims => Rims(settings),
                 _ => throw new ArgumentException($"{preset} is no preset", nameof(preset)),
             };
             return new Stroke(Touching(motion, settings), LeadSeconds + settings.ContactSeconds + TailSeconds,
@@ -72,6 +77,7 @@ namespace HaptoFlow.Preview
                 point.Touching &= since >= 0.0 && since < settings.ContactSeconds;
                 double landing = Math.Min(since, settings.ContactSeconds - since) / LandingSeconds;
                 point.ForceNewtons *= Math.Max(0.25, Math.Min(1.0, landing));
+                point.LandingSpeedMps = settings.LandingSpeedMps;
                 return point;
             };
 
@@ -95,6 +101,13 @@ namespace HaptoFlow.Preview
         {
             PathPoint point = Along(settings, settings.SpeedMps * seconds, settings.SpeedMps);
             point.ForceNewtons *= seconds / settings.ContactSeconds;
+            return point;
+        };
+
+        private static Func<double, PathPoint> Rims(StrokeSettings settings) => seconds =>
+        {
+            PathPoint point = Along(settings, settings.SpeedMps * seconds, settings.SpeedMps);
+            point.EdgeCounter = (uint)(seconds / RimPeriodSeconds);
             return point;
         };
 

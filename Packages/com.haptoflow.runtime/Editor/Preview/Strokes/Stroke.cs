@@ -15,9 +15,6 @@ namespace HaptoFlow.Preview
         /// <summary>Contact states a second.</summary>
         public const double UpdateRateHz = 72.0;
 
-        /// <summary>Into the surface, at every touch-down, in m/s: a hand that lands gently.</summary>
-        public const double LandingSpeedMps = 0.05;
-
         private readonly StrokeState[] states;
 
         /// <param name="path">Point at a time in seconds; asked once for each update, in order.</param>

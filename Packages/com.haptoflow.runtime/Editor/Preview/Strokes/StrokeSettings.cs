@@ -25,17 +25,25 @@ namespace HaptoFlow.Preview
 
         /// <summary>What was drawn on the patch.</summary>
         Drawn = 6,
+
+        /// <summary>One speed over a row of blocks: a rim every 250 ms.</summary>
+        Rims = 7,
     }
 
     /// <summary>What a preset is made from.</summary>
     internal readonly struct StrokeSettings
     {
-        public StrokeSettings(double speedMps, double forceNewtons, double directionDegrees, double contactSeconds)
+        /// <summary>A hand that lands gently, in m/s.</summary>
+        public const double UsualLandingSpeedMps = 0.05;
+
+        public StrokeSettings(double speedMps, double forceNewtons, double directionDegrees, double contactSeconds,
+            double landingSpeedMps = UsualLandingSpeedMps)
         {
             SpeedMps = speedMps;
             ForceNewtons = forceNewtons;
             DirectionDegrees = directionDegrees;
             ContactSeconds = contactSeconds;
+            LandingSpeedMps = landingSpeedMps;
         }
 
         /// <summary>Along the surface, above 0.</summary>
@@ -48,5 +56,8 @@ namespace HaptoFlow.Preview
 
         /// <summary>From the first touch-down to the last lift-off.</summary>
         public double ContactSeconds { get; }
+
+        /// <summary>Into the surface, at every touch-down.</summary>
+        public double LandingSpeedMps { get; }
     }
 }

@@ -17,6 +17,8 @@ namespace HaptoFlow.Preview
             Touching = point.Touching;
             TouchCounter = touchCounter;
             Continues = continues;
+            LandingSpeedMps = point.LandingSpeedMps;
+            EdgeCounter = point.EdgeCounter;
         }
 
         /// <summary>Since the stroke began.</summary>
@@ -41,18 +43,28 @@ namespace HaptoFlow.Preview
         /// </summary>
         public bool Continues { get; }
 
+        /// <summary>Into the surface, at the touch-down.</summary>
+        public double LandingSpeedMps { get; }
+
+        /// <summary>One more at each rim.</summary>
+        public uint EdgeCounter { get; }
+
         public double SpeedMps => System.Math.Sqrt(VelocityXMps * VelocityXMps + VelocityYMps * VelocityYMps);
 
         /// <summary>What a stylus would publish on such a surface.</summary>
-        public ContactState ContactOn(LabelBlend material) => new ContactState
+        /// <param name="effects">What the surface asks for.</param>
+        public ContactState ContactOn(LabelBlend material, HapticEffects effects) => new ContactState
         {
+            Effects = effects,
             Touching = Touching,
             TouchCounter = TouchCounter,
             Material = material,
             FirstVelocityMps = Touching ? (float)VelocityXMps : 0f,
             SecondVelocityMps = Touching ? (float)VelocityYMps : 0f,
             ForceNewtons = Touching ? (float)ForceNewtons : 0f,
-            ApproachSpeedMps = (float)Stroke.LandingSpeedMps,
+            ApproachSpeedMps = (float)LandingSpeedMps,
+            EdgeCounter = EdgeCounter,
+            EdgeHeightMetres = PresetStrokes.RimHeightMetres,
         };
     }
 
@@ -65,5 +77,7 @@ namespace HaptoFlow.Preview
         public double VelocityYMps;
         public double ForceNewtons;
         public bool Touching;
+        public double LandingSpeedMps;
+        public uint EdgeCounter;
     }
 }

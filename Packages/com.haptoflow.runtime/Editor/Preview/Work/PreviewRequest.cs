@@ -28,6 +28,13 @@ namespace HaptoFlow.Preview
         /// <summary>Name of a tier of the model: "draft", "standard" or "fine".</summary>
         public string Tier { get; set; } = "standard";
 
+        /// <summary>What the surface asks for.</summary>
+        public HapticEffects Effects { get; set; } = HapticEffects.Texture;
+
+        /// <summary>What the wave is felt through: anything but an actuator is shown beside the active material's wave.
+        /// </summary>
+        public PreviewDevice Device { get; set; }
+
         /// <summary>Key of all noise.</summary>
         public ulong Seed { get; set; } = 1;
 

@@ -34,6 +34,7 @@ namespace HaptoFlow.Preview
                 var names = new LabelNames(header.Labels.Select(label => label.Name));
                 sounds = request.Materials.Select(material => Sound(request, material, names, token)).ToArray();
                 Forget(request, sounds);
+                sounds = Through(request.Device, sounds, token);
                 Measure(request, header, token);
                 qualities = QualityRow.Of(header, timings);
             }
@@ -69,10 +70,22 @@ namespace HaptoFlow.Preview
             }
             HapticEngine engine = engines.Engine(
                 request.ModelFile, QualityOf(request.Tier), request.Seed, !request.IsSketch);
-            float[] samples = StrokeRenderer.Render(engine, request.Stroke, material.In(names), token);
+            float[] samples = StrokeRenderer.Render(engine, request.Stroke, material.In(names), request.Effects, token);
             AnalysedSound made = AnalysedSound.Of(new PreviewSound(material, request.Stroke, samples), token);
             kept.Add((key, made));
             return made;
+        }
+
+        /// <summary>The first material's wave, and behind it what a device makes of that.</summary>
+        private static IReadOnlyList<AnalysedSound> Through(
+            PreviewDevice device, IReadOnlyList<AnalysedSound> sounds, CancellationToken token)
+        {
+            if (device == PreviewDevice.Actuator || sounds.Count == 0)
+            {
+                return sounds;
+            }
+            PreviewSound played = DeviceRendering.Played(sounds[0].Sound, device, token);
+            return new[] { sounds[0], AnalysedSound.Of(played, token) };
         }
 
         /// <summary>Only what is shown stays.</summary>
@@ -120,6 +133,7 @@ namespace HaptoFlow.Preview
             private readonly string tier;
             private readonly ulong seed;
             private readonly bool isSketch;
+            private readonly HapticEffects effects;
 
             public SoundKey(PreviewRequest request, LabelMix material)
             {
@@ -129,12 +143,14 @@ namespace HaptoFlow.Preview
                 tier = request.Tier;
                 seed = request.Seed;
                 isSketch = request.IsSketch;
+                effects = request.Effects;
             }
 
             /// <summary>A sketch does where a sketch is wanted; the real thing always does.</summary>
             public bool Serves(in SoundKey wanted) =>
                 ReferenceEquals(modelFile, wanted.modelFile) && ReferenceEquals(stroke, wanted.stroke) &&
                 material.Equals(wanted.material) && tier == wanted.tier && seed == wanted.seed &&
+                effects == wanted.effects &&
                 (!isSketch || wanted.isSketch);
         }
     }

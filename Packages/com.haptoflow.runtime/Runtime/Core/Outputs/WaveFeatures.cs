@@ -28,8 +28,8 @@ namespace HaptoFlow.Outputs
         public float Transient { get; }
     }
 
-    /// <summary>Makes frames of amplitude, frequency and transients from a wave at <see cref="WaveHistory.RateHz"/>, each
-    /// as intense to the hand as the wave was. Any one thread; no garbage after construction.</summary>
+    /// <summary>Makes frames of amplitude, frequency and transients from a wave, each as intense to the hand as the wave
+    /// was. Any one thread; no garbage after construction.</summary>
     public sealed unsafe class WaveFeatures : IDisposable
     {
         /// <summary>From the end of a frame until it is known, in s, with what the low-pass before it delays.</summary>
@@ -41,15 +41,16 @@ namespace HaptoFlow.Outputs
 
         /// <param name="frameSeconds">Length of a frame, 0.002 to 0.032 s.</param>
         /// <param name="maximumSamples">Of one call of <see cref="Process"/>.</param>
-        /// <exception cref="HaptoFlowException">The length is out of range, or the library is missing.</exception>
-        public WaveFeatures(double frameSeconds, int maximumSamples)
+        /// <param name="rateHz">Of the wave: a multiple of 2000 up to 192000.</param>
+        /// <exception cref="HaptoFlowException">Length or rate is out of range, or the library is missing.</exception>
+        public WaveFeatures(double frameSeconds, int maximumSamples, int rateHz = (int)WaveHistory.RateHz)
         {
-            frames = new NativeWaveFrame[(int)(maximumSamples / (WaveHistory.RateHz * frameSeconds)) + 2];
+            frames = new NativeWaveFrame[(int)(maximumSamples / (rateHz * frameSeconds)) + 2];
             scaled = new float[maximumSamples];
             var options = new WaveFeaturesOptions
             {
                 StructSize = (uint)sizeof(WaveFeaturesOptions),
-                SampleRateHz = (uint)WaveHistory.RateHz,
+                SampleRateHz = (uint)rateHz,
                 FrameSeconds = frameSeconds,
             };
             IntPtr opened;
