@@ -59,6 +59,41 @@ namespace HaptoFlow.PreviewTests
             Assert.That(20.0 * Math.Log10(heard / level[0]), Is.EqualTo(0.0).Within(2.5));
         }
 
+        [TestCase(StrokePreset.Taps, HapticEffects.Impact)]
+        [TestCase(StrokePreset.Rims, HapticEffects.Edge)]
+        public void AnEffectIsHeardWhereItIsAskedForAndNowhereElse(StrokePreset preset, HapticEffects effect)
+        {
+            Stroke stroke = PresetStrokes.Make(preset, new StrokeSettings(0.2, 1.0, 0.0, 1.0, 0.5));
+            PreviewRequest With(HapticEffects effects) =>
+                new PreviewRequest(ModelFiles.Default, stroke, new[] { new LabelMix("wood") })
+                {
+                    Tier = "draft",
+                    Effects = effects,
+                    StrokePanel = new Box(0.0, 0.0, 312.0, 340.0),
+                    Charts = new Box(0.0, 0.0, 600.0, 500.0),
+                };
+            Assert.That(Samples(With(HapticEffects.Nothing)), Is.All.Zero);
+            Assert.That(Do(With(effect)).Sounds[0].Sound.PeakMps2, Is.GreaterThan(0.5));
+        }
+
+        [Test]
+        public void AMotorIsShownBesideTheWaveAndPlaysItsOwnFrequencyWhereTheWaveIsFelt()
+        {
+            PreviewRequest request = Request(new LabelMix("sandpaper"));
+            request.Device = PreviewDevice.Motor;
+            PreviewResult result = Do(request);
+            Assert.That(result.Sounds, Has.Count.EqualTo(2));
+            PreviewSound motor = result.Sounds[1].Sound;
+            Assert.That(motor.Title, Does.Contain("motor"));
+            Assert.That(motor.Samples.Length, Is.EqualTo(result.Sounds[0].Sound.Samples.Length));
+            float[] middle = motor.Samples.Skip(12000).Take(19200).ToArray();
+            Assert.That(middle.Max(), Is.GreaterThan(0.0005f));
+            int rises = Enumerable.Range(1, middle.Length - 1)
+                .Count(index => middle[index - 1] <= 0f && middle[index] > 0f);
+            Assert.That(rises, Is.EqualTo(64).Within(1), "160 Hz for 0.4 s");
+            Assert.That(motor.Samples.Take(4700), Is.All.Zero, "0.1 s in the air");
+        }
+
         [Test]
         public void TheSameSeedMakesTheSameSamplesAndAnotherSeedOthers()
         {

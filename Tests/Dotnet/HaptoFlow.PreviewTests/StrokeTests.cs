@@ -133,13 +133,31 @@ namespace HaptoFlow.PreviewTests
         }
 
         [Test]
+        public void RimsComeEvery250MillisecondsAndNoOtherStrokeHasAny()
+        {
+            Stroke stroke = PresetStrokes.Make(StrokePreset.Rims, Usual);
+            Assert.That(stroke.States[stroke.States.Count - 1].EdgeCounter, Is.EqualTo(8u), "2 s of contact");
+            Stroke slide = PresetStrokes.Make(StrokePreset.Slide, Usual);
+            Assert.That(slide.States, Has.All.Matches<StrokeState>(state => state.EdgeCounter == 0u));
+        }
+
+        [Test]
+        public void ALandingHasTheSpeedThatIsSet()
+        {
+            Stroke stroke = PresetStrokes.Make(StrokePreset.Taps, new StrokeSettings(0.1, 1.0, 0.0, 1.0, 0.7));
+            Assert.That(stroke.States[20].ContactOn(LabelBlend.Of(3), HapticEffects.Impact).ApproachSpeedMps,
+                Is.EqualTo(0.7f));
+        }
+
+        [Test]
         public void AStrokeThatIsDrawnCannotBeMadeFromSettings() => Assert.That(
             () => PresetStrokes.Make(StrokePreset.Drawn, Usual), Throws.ArgumentException);
 
         [Test]
         public void WhatIsPublishedInTheAirHasNeitherSpeedNorForce()
         {
-            ContactState air = PresetStrokes.Make(StrokePreset.Slide, Usual).States[0].ContactOn(LabelBlend.Of(3));
+            ContactState air = PresetStrokes.Make(StrokePreset.Slide, Usual).States[0]
+                .ContactOn(LabelBlend.Of(3), HapticEffects.Texture);
             Assert.That(air.Touching, Is.False);
             Assert.That((air.FirstVelocityMps, air.SecondVelocityMps, air.ForceNewtons), Is.EqualTo((0f, 0f, 0f)));
         }

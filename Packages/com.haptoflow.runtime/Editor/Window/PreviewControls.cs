@@ -23,7 +23,13 @@ namespace HaptoFlow.Editor
             "Actuator (the wave)", "Controller (frames)", "Motor (160 Hz)",
         };
 
-        private static readonly string[] EffectNames = { "Texture", "Impact", "Edge" };
+        private static readonly GUIContent[] EffectTitles =
+        {
+            new GUIContent("Texture", "The tip feels the material's texture while it slides."),
+            new GUIContent("Impact", "The tip feels a landing, as hard as it was fast."),
+            new GUIContent("Edge", "The tip feels rims."),
+        };
+
         private static readonly GUIContent Effects = new GUIContent("Effects",
             "What the surface asks for. Impact is the blow of a landing, edge the tick of a rim.");
         private static readonly GUIContent Device = new GUIContent("Felt Through",
@@ -133,7 +139,7 @@ namespace HaptoFlow.Editor
             DrawSlider(Landing, state.LandingMps, TexturePreviewState.SoftestLandingMps,
                 TexturePreviewState.HardestLandingMps, (changed, value) => changed.LandingMps = value);
             Rect rest = EditorGUI.PrefixLabel(EditorGUILayout.GetControlRect(), Effects);
-            rest.width /= EffectNames.Length;
+            rest.width /= EffectTitles.Length;
             DrawEffect(rest, 0, state.HasTexture, (changed, value) => changed.HasTexture = value);
             rest.x += rest.width;
             DrawEffect(rest, 1, state.HasImpact, (changed, value) => changed.HasImpact = value);
@@ -143,10 +149,10 @@ namespace HaptoFlow.Editor
 
         private void DrawEffect(Rect place, int index, bool value, Action<TexturePreviewState, bool> change)
         {
-            bool entered = EditorGUI.ToggleLeft(place, EffectNames[index], value);
+            bool entered = EditorGUI.ToggleLeft(place, EffectTitles[index], value);
             if (entered != value)
             {
-                state.Change(EffectNames[index], changed => change(changed, entered));
+                state.Change(EffectTitles[index].text, changed => change(changed, entered));
             }
         }
 

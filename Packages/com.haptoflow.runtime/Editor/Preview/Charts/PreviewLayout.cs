@@ -11,7 +11,7 @@ namespace HaptoFlow.Preview
         public const double LeastWidth = 1080.0;
 
         /// <summary>Below this nothing is legible.</summary>
-        public const double LeastHeight = 804.0;
+        public const double LeastHeight = 868.0;
 
         private const double Margin = 8.0;
         private const double LeftWidth = 312.0;

@@ -101,6 +101,7 @@ namespace HaptoFlow.Preview
                 VelocityYMps = (after.YMetres - before.YMetres) / window,
                 ForceNewtons = now.ForceNewtons,
                 Touching = true,
+                LandingSpeedMps = StrokeSettings.UsualLandingSpeedMps,
             };
         }
 
