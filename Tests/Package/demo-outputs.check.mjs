@@ -4,7 +4,7 @@ import { existsSync, readFileSync } from 'node:fs';
 import path from 'node:path';
 import test from 'node:test';
 import { fullScaleMps2 } from '../../scripts/demo/full_scale.mjs';
-import { tracedLabels } from '../../scripts/demo/renders.mjs';
+import { tapsName, tracedLabels } from '../../scripts/demo/renders.mjs';
 import { readFloatWav } from '../../scripts/demo/wav.mjs';
 import { inRepository } from '../../scripts/lib/repository.mjs';
 
@@ -24,8 +24,8 @@ function soundingLevel(samples) {
   return count > 0 ? fullScaleMps2 * Math.sqrt(energy / count) : 0;
 }
 
-test('the report lists the crossing scene and every traced label', () => {
-  assert.deepEqual(report.renders.map(({ name }) => name), ['crossing', ...tracedLabels]);
+test('the report lists the crossing scene, every traced label and the taps', () => {
+  assert.deepEqual(report.renders.map(({ name }) => name), ['crossing', ...tracedLabels, tapsName]);
   assert.equal(typeof report.model, 'string');
 });
 
@@ -39,7 +39,7 @@ test('every object of the report has exactly the keys that are promised', () => 
 });
 
 test('every traced render names the label it was asked for', () => {
-  for (const render of report.renders.slice(1)) assert.deepEqual(render.labels, [render.name]);
+  for (const render of report.renders.slice(1, -1)) assert.deepEqual(render.labels, [render.name]);
 });
 
 test('every file is as long, as strong and as loud as its report says', () => {
@@ -79,6 +79,17 @@ test('the crossing is silent before the first touch', () => {
 test('labels differ in level: stone is stronger than glass', () => {
   const level = (name) => report.renders.find((render) => render.name === name).rms_mps2;
   assert.ok(level('stone') > 1.5 * level('glass'), `stone ${level('stone')}, glass ${level('glass')} m/s^2`);
+});
+
+test('each of the nine taps is felt, and the harder the higher it came from', () => {
+  const { samples, rateHz } = waveOf(report.renders.at(-1));
+  const { samples: quiet } = waveOf(report.renders[0]);
+  assert.ok(quiet.length > 0);
+  const blocks = Array.from({ length: Math.floor(samples.length / (0.02 * rateHz)) }, (_, block) =>
+    samples.subarray(block * 0.02 * rateHz, (block + 1) * 0.02 * rateHz).reduce((most, value) => Math.max(most, Math.abs(value)), 0));
+  const onsets = blocks.flatMap((peak, block) => (block > 0 && peak > 4 * blocks[block - 1] && peak > 0.01 ? [block] : []));
+  const taps = onsets.filter((block) => block * 0.02 < 4.8);
+  assert.equal(taps.length, 9, `${taps.map((block) => (block * 0.02).toFixed(2))} s`);
 });
 
 test('the page is one file that asks nothing of the network', () => {

@@ -28,26 +28,26 @@ const peakOf = (wav) => {
 };
 
 test('the players share one gain: the loudest reaches -1 dBFS, a signal ten times weaker stays so', () => {
-  const [loud, quiet] = audioOf(pageOf([renderOf('crossing', 0.2), renderOf('wood', 0.02)])).map(peakOf);
+  const [loud, quiet] = audioOf(pageOf([renderOf('crossing', 0.2), renderOf('wood', 0.02), renderOf('taps and rims', 0.01)])).map(peakOf);
   assert.ok(Math.abs(20 * Math.log10(loud) + 1) < 0.01, `${loud}`);
   assert.ok(Math.abs(loud / quiet - 10) < 0.02, `${loud / quiet}`);
 });
 
 test('the page states the gain, the model, its origin and the measured figures', () => {
-  const page = pageOf([renderOf('crossing', 0.2), renderOf('wood', 0.02)]);
+  const page = pageOf([renderOf('crossing', 0.2), renderOf('wood', 0.02), renderOf('taps and rims', 0.01)]);
   assert.ok(page.includes('+13.0 dB'));
   assert.ok(page.includes('default.haptoflow') && page.includes('trained on synthetic recordings'));
   for (const figure of [(fullScaleMps2 * 0.2 / Math.SQRT2).toFixed(2), (fullScaleMps2 * 0.2).toFixed(1), '0.41', '0.73']) assert.ok(page.includes(`>${figure}<`), figure);
 });
 
 test('the page asks nothing of the network and has no hole in it', () => {
-  const page = pageOf([renderOf('crossing', 0.2), renderOf('wood', 0.02)]);
+  const page = pageOf([renderOf('crossing', 0.2), renderOf('wood', 0.02), renderOf('taps and rims', 0.01)]);
   assert.ok(!/(?:src|href)="(?!data:|#)/.test(page));
   assert.ok(!/\{\{|undefined|NaN/.test(page.replace(/data:[^"]*/g, '')));
 });
 
 test('names with markup in them are shown, not obeyed', () => {
-  const page = pageOf([renderOf('crossing', 0.2, '<u>model'), renderOf('<script>boom', 0.02, '<u>model')]);
+  const page = pageOf([renderOf('crossing', 0.2, '<u>model'), renderOf('<script>boom', 0.02, '<u>model'), renderOf('taps and rims', 0.01, '<u>model')]);
   assert.ok(!page.includes('<script>boom') && !page.includes('<u>model'));
 });
 
@@ -79,5 +79,5 @@ test('all waveforms have one scale, which the page states, and a weaker render i
 });
 
 test('each label says its level in figures beside its name', () => {
-  assert.match(pageOf([renderOf('crossing', 0.2), renderOf('wood', 0.02)]), /<span>wood <em>2\.8 m\/s² RMS<\/em><\/span>/);
+  assert.match(pageOf([renderOf('crossing', 0.2), renderOf('wood', 0.02), renderOf('taps and rims', 0.01)]), /<span>wood <em>2\.8 m\/s² RMS<\/em><\/span>/);
 });

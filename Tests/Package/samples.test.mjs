@@ -13,13 +13,13 @@ const rowsOf = (name) => parseCsv(read(`${name}.stroke.csv`), name, ['t', 'x', '
 test('every scene has a stroke, and every stroke the script it was made from', () => {
   const files = readdirSync(folder);
   const named = (ending) => files.filter((name) => name.endsWith(ending)).map((name) => name.replace(ending, ''));
-  assert.deepEqual(named('.scene.json'), ['crossing', 'tracing']);
+  assert.deepEqual(named('.scene.json'), ['crossing', 'taps', 'tracing']);
   assert.deepEqual(named('.stroke.csv'), named('.scene.json'));
   assert.deepEqual(named('.stroke.toml'), named('.scene.json'));
 });
 
 test('strokes run forward in time at hand speed', () => {
-  for (const name of ['crossing', 'tracing']) {
+  for (const name of ['crossing', 'taps', 'tracing']) {
     const rows = rowsOf(name).map((row) => [row.t, row.x, row.y, row.z].map(Number));
     const speeds = rows.slice(1).map((row, index) => {
       const [before, elapsed] = [rows[index], row[0] - rows[index][0]];
@@ -37,7 +37,7 @@ test('the crossing stroke lasts 8 to 10 seconds and the tracing stroke about 6',
 });
 
 test('a stroke begins where the first way-point of its script is', () => {
-  for (const name of ['crossing', 'tracing']) {
+  for (const name of ['crossing', 'taps', 'tracing']) {
     const [, waypoint] = read(`${name}.stroke.toml`).match(/waypoints_metres = \[\s*\[([^\]]+)\]/);
     const { x, y, z } = rowsOf(name)[0];
     waypoint.split(',').map(Number).forEach((value, axis) => assert.ok(Math.abs(value - Number([x, y, z][axis])) < 0.001, `${name}: axis ${axis}`));
@@ -51,8 +51,9 @@ test('the crossing scene shows a moving object, a curved one and a blend', () =>
   assert.ok(surfaces.some((surface) => labelsOf(surface.material).length > 1));
 });
 
-test('the demo renders the crossing and the same plate once for each of eight labels', () => {
+test('the demo renders the crossing, the same plate once for each of eight labels, and the taps with all effects', () => {
   const [crossing, ...traced] = plannedRenders();
+  assert.equal(traced.pop().effects, 'texture,impact,edge');
   assert.equal(crossing.name, 'crossing');
   assert.deepEqual(traced.map(({ scene }) => scene.surfaces.map(({ material }) => material)), tracedLabels.map((label) => [label]));
   assert.equal(tracedLabels.length, 8);

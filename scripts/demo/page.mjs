@@ -15,7 +15,8 @@ const asset = (name) => readFileSync(new URL(name, import.meta.url), 'utf8');
 /**
  * The demo's page: one self-contained HTML file.
  * @param {{model: string, renders: object[]}} report as of assembleReport
- * @param {{name, scene, contacts, samples: Float32Array, rateHz: number}[]} renders in the report's order, the crossing first
+ * @param {{name, scene, contacts, samples: Float32Array, rateHz: number}[]} renders in the report's order: the crossing first,
+ *   the taps last
  */
 export function demoPage(report, renders) {
   const gain = commonGain(renders.map(({ samples }) => samples));
@@ -25,9 +26,11 @@ export function demoPage(report, renders) {
   const range = { bottomDb: topDb - dynamicRangeDb, topDb };
   // One scale for all: what is drawn lower is weaker.
   const topMps2 = niceCeiling(fullScaleMps2 * Math.max(...renders.map(({ samples }) => peakOf(samples))));
-  const figures = renders.map((render, index) => figureOf(render, pictures[index], { ...range, topMps2, gain }, index === 0));
+  const isWhole = (index) => index === 0 || index === renders.length - 1;
+  const figures = renders.map((render, index) => figureOf(render, pictures[index], { ...range, topMps2, gain }, isWhole(index)));
   const [fromAbove, fromFront] = drawScene(renders[0].scene, renders[0].contacts);
   const [crossing, ...traced] = figures;
+  const taps = traced.pop();
   const content = {
     style: asset('./page.css'),
     script: asset('./player.js'),
@@ -39,6 +42,7 @@ export function demoPage(report, renders) {
     crossing,
     traced: traced.join('\n'),
     tracedCount: String(traced.length),
+    taps,
     contact: contactLanes(renders[1], 'plate'),
     table: table(report),
     legend: legend(range),
@@ -67,17 +71,17 @@ function contactLanes(render, touchText) {
   ].join('\n');
 }
 
-function figureOf(render, picture, { bottomDb, topDb, topMps2, gain }, isCrossing) {
+function figureOf(render, picture, { bottomDb, topDb, topMps2, gain }, isWhole) {
   const { name, samples, rateHz, report } = render;
   const seconds = secondsOf(render);
   const inMps2 = { ...picture, amplitudes: picture.amplitudes.map((amplitude) => amplitude * fullScaleMps2) };
   const lanes = [
     waveformLane(samples, fullScaleMps2, topMps2, `Waveform of ${name}`),
     spectrogramLane(spectrogramPng(inMps2, bottomDb, topDb), topHz, `Spectrogram of ${name}, 0 to ${topHz} Hz`),
-    isCrossing ? contactLanes(render) : timeAxis(seconds),
+    isWhole ? contactLanes(render) : timeAxis(seconds),
   ];
   const audio = `data:audio/wav;base64,${writePcm16Wav(samples, rateHz, gain).toString('base64')}`;
-  const title = isCrossing
+  const title = isWhole
     ? '<span>The whole stroke</span>'
     : `<i style="background:${colourOfLabel(name)}"></i><span>${escapeMarkup(name)} <em>${report.rms_mps2.toFixed(1)} m/s² RMS</em></span>`;
   return `<article class="render" id="${slug(name)}"><h3><button type="button" data-name="${escapeMarkup(name)}"></button>${title}

@@ -9,7 +9,9 @@ const samples = inRepository('Samples~', 'HeadlessScenes');
 
 export const tracedLabels = ['wood', 'metal mesh', 'corduroy', 'sandpaper', 'glass', 'rubber', 'jute', 'stone'];
 
-/** What the demo renders: the crossing scene, then the traced plate once for each label. */
+export const tapsName = 'taps and rims';
+
+/** What the demo renders: the crossing scene, the traced plate once for each label, and last the taps with all effects. */
 export function plannedRenders() {
   const crossing = { name: 'crossing', scene: readScene('crossing'), stroke: path.join(samples, 'crossing.stroke.csv') };
   const plate = readScene('tracing');
@@ -18,7 +20,10 @@ export function plannedRenders() {
     scene: withMaterial(plate, label),
     stroke: path.join(samples, 'tracing.stroke.csv'),
   }));
-  return [crossing, ...traced];
+  const taps = {
+    name: tapsName, scene: readScene('taps'), stroke: path.join(samples, 'taps.stroke.csv'), effects: 'texture,impact,edge',
+  };
+  return [crossing, ...traced, taps];
 }
 
 /** The same scene with every surface of one label. */
@@ -33,7 +38,7 @@ const readScene = (name) => JSON.parse(readFileSync(path.join(samples, `${name}.
  * Renders one stroke with the command line program; its files go to `folder`.
  * @returns {Promise<{name, scene, report, wavPath, contacts}>}
  */
-export async function render({ name, scene, stroke }, folder) {
+export async function render({ name, scene, stroke, effects }, folder) {
   mkdirSync(path.join(folder, 'scenes'), { recursive: true });
   const file = slug(name);
   const scenePath = path.join(folder, 'scenes', `${file}.scene.json`);
@@ -41,7 +46,8 @@ export async function render({ name, scene, stroke }, folder) {
   const reportPath = path.join(folder, `${file}.report.json`);
   writeFileSync(scenePath, `${JSON.stringify(scene, null, 2)}\n`);
   const program = commandLinePath();
-  await runOrFail(program, ['render', scenePath, '--stroke', stroke, '-o', wavPath, '--report', reportPath, '--seed', '1'], { quiet: true });
+  const asked = effects ? ['--effects', effects] : [];
+  await runOrFail(program, ['render', scenePath, '--stroke', stroke, '-o', wavPath, '--report', reportPath, '--seed', '1', ...asked], { quiet: true });
   const contactCsv = await runOrFail(program, ['contact', scenePath, '--stroke', stroke], { quiet: true });
   const report = { ...JSON.parse(readFileSync(reportPath, 'utf8')), wav: path.basename(wavPath) };
   return { name, scene, report, wavPath, contacts: readContacts(contactCsv, readFileSync(stroke, 'utf8'), scene) };
