@@ -65,6 +65,66 @@ namespace HaptoFlow.Tests
         }
 
         [UnityTest]
+        public IEnumerator WhatAnOutputProcessesRunsAndNothingElse()
+        {
+            FinishLoading();
+            Board();
+            AudioTap tap = Output(out HapticOutput output);
+            output.Processing.Actuator = OutputActuator.VoiceCoil;
+            HapticStylus stylus = Circling();
+            for (int frame = 0; frame < 45; ++frame)
+            {
+                yield return null;
+            }
+            Assert.That(tap.Peak(), Is.GreaterThan(Audible));
+            Assert.That(RunsOf(stylus, HapticEffect.Compensation), Is.GreaterThan(10UL));
+            Assert.That(RunsOf(stylus, HapticEffect.Delay) + RunsOf(stylus, HapticEffect.ExposureGuard), Is.Zero);
+            output.Processing.Actuator = OutputActuator.Uncompensated;
+            output.Processing.ExposureGuard = true;
+            output.Processing.DelayMilliseconds = 50f;
+            output.ApplyProcessing();
+            for (int frame = 0; frame < 10; ++frame)
+            {
+                yield return null;
+            }
+            ulong compensated = RunsOf(stylus, HapticEffect.Compensation);
+            for (int frame = 0; frame < 20; ++frame)
+            {
+                yield return null;
+            }
+            Assert.That(RunsOf(stylus, HapticEffect.Compensation), Is.EqualTo(compensated));
+            Assert.That(RunsOf(stylus, HapticEffect.Delay), Is.GreaterThan(10UL));
+            Assert.That(RunsOf(stylus, HapticEffect.ExposureGuard), Is.GreaterThan(10UL));
+            Assert.That(tap.BrokenSamples, Is.Zero);
+        }
+
+        [UnityTest]
+        public IEnumerator AProfileThatIsNoneIsLeftOutWithAnError()
+        {
+            FinishLoading();
+            Board();
+            AudioTap tap = Output(out HapticOutput output);
+            var asset = new TextAsset("{\"name\": 7}") { name = "Broken" };
+            output.Processing.Actuator = OutputActuator.Profile;
+            output.Processing.Profile = asset;
+            LogAssert.Expect(LogType.Error, new Regex("Output plays uncompensated: Broken is no actuator profile"));
+            HapticStylus stylus = Circling();
+            for (int frame = 0; frame < 45; ++frame)
+            {
+                yield return null;
+            }
+            Assert.That(tap.Peak(), Is.GreaterThan(Audible));
+            Assert.That(RunsOf(stylus, HapticEffect.Compensation), Is.Zero);
+            Object.DestroyImmediate(asset);
+        }
+
+        private static ulong RunsOf(HapticStylus stylus, HapticEffect effect)
+        {
+            Assert.That(stylus.TryGetEffectStatistics(effect, out EffectStatistics statistics), Is.True);
+            return statistics.Runs;
+        }
+
+        [UnityTest]
         public IEnumerator MutedIsSilentAndCostsNoInference()
         {
             FinishLoading();

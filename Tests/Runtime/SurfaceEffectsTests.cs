@@ -34,6 +34,65 @@ namespace HaptoFlow.Tests
             Assert.That(edge.Runs + edge.Prepared + edge.Events, Is.Zero);
         }
 
+        [UnityTest]
+        public IEnumerator ATipThatSlidesOffTheRimOfABoardIsFeltOnce()
+        {
+            FinishLoading();
+            Board();
+            AudioTap tap = Output(out _);
+            HapticStylus stylus = StylusAlong(seconds => new Vector3(0.15f + 0.2f * (float)seconds, 0.001f, 0f));
+            for (int frame = 0; frame < 40; ++frame)
+            {
+                yield return null;
+            }
+            Assert.That(stylus.IsTouching, Is.False);
+            Assert.That(stylus.TryGetEffectStatistics(HapticEffect.Edge, out EffectStatistics edge), Is.True);
+            Assert.That(edge.Events, Is.EqualTo(1UL));
+            Assert.That(edge.Runs, Is.GreaterThan(0UL));
+            Assert.That(tap.BrokenSamples, Is.Zero);
+        }
+
+        [UnityTest]
+        public IEnumerator ALiftIsNoEdge()
+        {
+            FinishLoading();
+            Board();
+            Output(out _);
+            HapticStylus stylus = StylusAlong(seconds =>
+                new Vector3(0.1f * (float)seconds, seconds < 0.3 ? 0.001f : 0.001f + 0.5f * (float)(seconds - 0.3), 0f));
+            for (int frame = 0; frame < 40; ++frame)
+            {
+                yield return null;
+            }
+            Assert.That(stylus.IsTouching, Is.False);
+            Assert.That(stylus.TryGetEffectStatistics(HapticEffect.Edge, out EffectStatistics edge), Is.True);
+            Assert.That(edge.Events, Is.Zero);
+        }
+
+        [UnityTest]
+        public IEnumerator ASlideAgainstAWallLandsWithinTheTouch()
+        {
+            FinishLoading();
+            Board();
+            HapticSurface wall = Tagged<BoxCollider>("stone", box =>
+            {
+                box.size = new Vector3(0.1f, 0.2f, 0.4f);
+                box.center = new Vector3(0.1f, 0.1f, 0f);
+            });
+            wall.Material.Effects = HapticEffects.Impact;
+            Output(out _);
+            HapticStylus stylus = StylusAlong(seconds => new Vector3(0.01f + 0.2f * (float)seconds, 0.001f, 0f));
+            for (int frame = 0; frame < 40; ++frame)
+            {
+                yield return null;
+            }
+            Assert.That(stylus.Contact.Surface, Is.SameAs(wall));
+            Assert.That(stylus.Contact.TouchCounter, Is.EqualTo(1u));
+            Assert.That(stylus.Contact.ApproachSpeedMps, Is.EqualTo(0.2f).Within(0.02f));
+            Assert.That(stylus.TryGetEffectStatistics(HapticEffect.Impact, out EffectStatistics impact), Is.True);
+            Assert.That(impact.Events, Is.EqualTo(1UL), "the board was entered without speed");
+        }
+
         [Test]
         public void AMaterialHasAllEffectsOfItsSurfaceUntilItIsToldOtherwise()
         {
