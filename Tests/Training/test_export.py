@@ -20,11 +20,15 @@ from haptoflow_training.export.label_info import LabelInfo
 from haptoflow_training.export.model_file import ModelFile, read_model_file
 from haptoflow_training.export.seed_bank import build_seed_bank
 from haptoflow_training.models.codec.small_codec import SmallCodec, SmallCodecShape
+from haptoflow_training.recordings.landing import Landing, LandingMode
 from haptoflow_training.training.config import ModelConfig
 from haptoflow_training.training.held_out import HeldOut
 from haptoflow_training.training.trainer import Trainer
 
-INFOS = [LabelInfo("tone", "metal", 900.0, 0.3, 0.002), LabelInfo("noise", "stone", 1500.0, 0.6)]
+LANDING = Landing((LandingMode(180.0, 75.5, 170.0), LandingMode(640.0, 700.0, 40.0)), 0.25)
+INFOS = [
+    LabelInfo("tone", "metal", 900.0, 0.3, 0.002, landing=LANDING), LabelInfo("noise", "stone", 1500.0, 0.6),
+]  # fmt: skip
 PROVENANCE = Provenance("trained on nothing real", "a test", "MIT", "")
 
 
@@ -46,6 +50,20 @@ def test_the_header_says_origin_labels_range_and_tier(exported: tuple[Path, Mode
     assert 0.55 < header["range"]["speed_mps"][1] <= 0.61
     assert header["tiers"][0]["kind"] == "flow"
     assert header["measurements"]["steps"] == 60
+
+
+def test_a_label_s_answer_to_a_landing_is_in_the_header_where_one_is_known(
+    exported: tuple[Path, ModelFile, FakeStore]
+) -> None:
+    known, unknown = exported[1].header["labels"]
+    assert known["impact"] == {
+        "modes": [
+            {"frequency_hz": 180.0, "decay_per_second": 75.5, "gain_per_second": 170.0},
+            {"frequency_hz": 640.0, "decay_per_second": 700.0, "gain_per_second": 40.0},
+        ],
+        "restitution": 0.25,
+    }
+    assert "impact" not in unknown
 
 
 def test_graphs_are_opset_16_with_named_inputs_and_a_dynamic_batch(

@@ -6,6 +6,22 @@
 
 namespace haptoflow::model {
 
+namespace {
+
+Impact readImpact(const HeaderNode& node) {
+    Impact impact;
+    const std::vector<HeaderNode> modes = node.at("modes").elements(1, Impact::maximumModes);
+    for (std::size_t i = 0; i < modes.size(); ++i) {
+        impact.modes[i] = {.frequencyHz = modes[i].at("frequency_hz").number(1.0, 1000.0),
+                           .decayPerSecond = modes[i].at("decay_per_second").number(10.0, 10000.0),
+                           .gainPerSecond = modes[i].at("gain_per_second").number(0.0, 10000.0)};
+    }
+    impact.restitution = node.at("restitution").number(0.0, 0.9);
+    return impact;
+}
+
+}  // namespace
+
 Label readLabel(const HeaderNode& node, std::size_t embeddingRows) {
     Label label;
     const HeaderNode name = node.at("name");
@@ -26,6 +42,9 @@ Label readLabel(const HeaderNode& node, std::size_t embeddingRows) {
     }
     label.stiffnessNewtonsPerMetre = node.at("stiffness_newtons_per_metre").number(1e-3, 1e6);
     label.frictionCoefficient = node.at("friction_coefficient").number(0.0, 10.0);
+    if (const auto impact = node.find("impact")) {
+        label.impact = readImpact(*impact);
+    }
     label.category = node.at("category").name(nameBytes);
     return label;
 }

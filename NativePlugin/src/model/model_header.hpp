@@ -36,6 +36,22 @@ struct TrainedInterval {
     std::array<double, 5> percentiles{};
 };
 
+struct ImpactMode {
+    /// 0 for none.
+    double frequencyHz = 0.0;
+    double decayPerSecond = 0.0;
+    /// m/s^2 for each m/s of the blow.
+    double gainPerSecond = 0.0;
+};
+
+/// How a material answers a blow.
+struct Impact {
+    static constexpr std::size_t maximumModes = 2;
+    std::array<ImpactMode, maximumModes> modes{};
+    /// Share of the speed that a rebound keeps, 0 to 0.9.
+    double restitution = 0.0;
+};
+
 struct Label {
     std::string name;
     std::size_t embeddingRow = 0;
@@ -46,6 +62,7 @@ struct Label {
     std::optional<double> wavelengthMetres;
     double stiffnessNewtonsPerMetre = 0.0;
     double frictionCoefficient = 0.0;
+    std::optional<Impact> impact;
     std::string category;
 };
 

@@ -71,6 +71,53 @@ TEST(LabelTest, RefusesStiffnessAndFrictionOutOfRange) {
     expectLabelRefusal("friction_coefficient", -0.1, "friction_coefficient");
 }
 
+Json oneMode() {
+    return {{"frequency_hz", 180.0}, {"decay_per_second", 75.0}, {"gain_per_second", 170.0}};
+}
+
+TEST(LabelTest, ReadsHowALabelAnswersALandingAndNothingWhereTheFileSaysNothing) {
+    ModelBuilder builder;
+    Json second = oneMode();
+    second["frequency_hz"] = 640.0;
+    builder.header["labels"][0]["impact"] = {{"modes", {oneMode(), second}}, {"restitution", 0.25}};
+    const ModelFile model = ModelFile::parse(builder.build());
+    const std::optional<Impact>& impact = model.header().labels[0].impact;
+    ASSERT_TRUE(impact);
+    EXPECT_EQ(impact->modes[0].frequencyHz, 180.0);
+    EXPECT_EQ(impact->modes[0].decayPerSecond, 75.0);
+    EXPECT_EQ(impact->modes[0].gainPerSecond, 170.0);
+    EXPECT_EQ(impact->modes[1].frequencyHz, 640.0);
+    EXPECT_EQ(impact->restitution, 0.25);
+    EXPECT_FALSE(model.header().labels[1].impact);
+}
+
+TEST(LabelTest, RefusesALandingOutOfRange) {
+    const auto refused = [](const char* key, const Json& value, const char* named) {
+        Json impact = {{"modes", Json::array({oneMode()})}, {"restitution", 0.2}};
+        if (impact.contains(key)) {
+            impact[key] = value;
+        } else {
+            impact["modes"][0][key] = value;
+        }
+        expectLabelRefusal("impact", impact, named);
+    };
+    refused("modes", Json::array(), "impact.modes");
+    expectHeaderRefusal(
+        [](Json& header) {
+            const Json modes = Json::array({oneMode(), oneMode(), oneMode()});
+            header["labels"][0]["impact"] = {{"modes", modes}, {"restitution", 0.2}};
+        },
+        "impact.modes", ModelStatus::oversized);
+    refused("restitution", 0.95, "impact.restitution");
+    refused("restitution", -0.1, "impact.restitution");
+    refused("frequency_hz", 0.0, "frequency_hz");
+    refused("frequency_hz", 1e9, "frequency_hz");
+    refused("decay_per_second", 0.0, "decay_per_second");
+    refused("gain_per_second", 1e30, "gain_per_second");
+    expectLabelRefusal("impact", "hard", "impact");
+    expectLabelRefusal("impact", Json::object(), "modes");
+}
+
 TEST(LabelTest, RefusesAnEmptyCategory) {
     expectLabelRefusal("category", "", "labels[0].category");
 }

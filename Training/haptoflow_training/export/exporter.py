@@ -6,7 +6,7 @@ import json
 import math
 import tempfile
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
 
@@ -25,6 +25,7 @@ from haptoflow_training.models.conditioning import EMBEDDING_SIZE
 from haptoflow_training.models.level_model import LevelModel, shift_level
 from haptoflow_training.models.representation import CodecRepresentation
 from haptoflow_training.models.velocity_field import parameter_count
+from haptoflow_training.recordings.landing import Landing
 from haptoflow_training.training.batches import SEGMENT_SAMPLES, SegmentBatches, Store
 from haptoflow_training.training.config import TrainingConfig
 from haptoflow_training.training.held_out import HeldOut
@@ -73,7 +74,13 @@ def _label_entry(store: Store, row: int, info: LabelInfo, seed: int, held_out: H
         "wavelength_metres": info.wavelength_metres,
         "stiffness_newtons_per_metre": info.stiffness_newtons_per_metre,
         "friction_coefficient": info.friction_coefficient,
+        **({} if info.landing is None else {"impact": _impact_entry(info.landing)}),
     }
+
+
+def _impact_entry(landing: Landing) -> dict[str, Any]:
+    modes = [{key: round(value, 2) for key, value in asdict(mode).items()} for mode in landing.modes]
+    return {"modes": modes, "restitution": round(landing.restitution, 3)}
 
 
 def _tier_entry(tier: TrainedTier) -> dict[str, Any]:

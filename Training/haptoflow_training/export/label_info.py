@@ -4,12 +4,15 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from haptoflow_training.recordings.landing import Landing
+
 
 @dataclass(frozen=True)
 class LabelInfo:
     """Defaults of a material: spring stiffness, kinetic friction, and the wavelength of a ruled or woven surface.
 
-    wave_vectors_per_mm: (x, y) of each family of ribs in cycles per millimetre, across the ribs.
+    wave_vectors_per_mm: (x, y) of each family of ribs in cycles per millimetre, across the ribs. landing: how it answers a
+    tip that lands; None leaves that to the engine's law for the stiffness.
     """
 
     name: str
@@ -18,6 +21,7 @@ class LabelInfo:
     friction_coefficient: float
     wavelength_metres: float | None = None
     wave_vectors_per_mm: tuple[tuple[float, float], ...] = ()
+    landing: Landing | None = None
 
     @property
     def known_wave_vectors(self) -> tuple[tuple[float, float], ...]:

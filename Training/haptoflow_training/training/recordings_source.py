@@ -26,6 +26,7 @@ from haptoflow_training.recordings.synthetic import (
     record_hand_condition,
     record_machine_condition,
 )
+from haptoflow_training.recordings.landing import landing_of
 from haptoflow_training.recordings.synthetic.materials import select_materials
 from haptoflow_training.training.config import DataConfig
 
@@ -135,6 +136,7 @@ def synthetic_label_infos(data: DataConfig) -> list[LabelInfo]:
                 )
                 for ruling in material.rulings
             ),
+            landing=landing_of(material),
         )
         for material in _materials(data)
     ]

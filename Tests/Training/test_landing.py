@@ -1,0 +1,46 @@
+"""What a landing on each material sounds like: harder is higher and springs back more, and files can hold it."""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+
+import pytest
+
+from haptoflow_training.recordings.synthetic import Material, load_materials
+from haptoflow_training.recordings.landing import landing_of
+
+MATERIALS = {material.label: material for material in load_materials()}
+
+
+def test_rubber_wood_and_stone_ring_in_the_order_of_their_stiffness() -> None:
+    landings = [landing_of(MATERIALS[label]) for label in ("rubber", "wood", "stone")]
+    frequencies = [landing.modes[0].frequency_hz for landing in landings]
+    assert frequencies == sorted(frequencies) and frequencies[2] > 3.0 * frequencies[0]
+    restitutions = [landing.restitution for landing in landings]
+    assert restitutions == sorted(restitutions) and restitutions[2] > restitutions[0]
+
+
+@pytest.mark.parametrize("material", load_materials(), ids=lambda material: material.label)
+def test_every_landing_is_within_what_a_model_file_may_say(material: Material) -> None:
+    landing = landing_of(material)
+    assert 1 <= len(landing.modes) <= 2 and 0.0 <= landing.restitution <= 0.9
+    for mode in landing.modes:
+        assert 1.0 <= mode.frequency_hz <= 1000.0
+        assert 10.0 <= mode.decay_per_second <= 10000.0
+        assert 0.0 < mode.gain_per_second <= 10000.0
+
+
+def test_a_tip_on_an_undamped_spring_would_start_with_its_speed_times_the_angular_frequency() -> None:
+    # The hand leaves 15 percent of v sqrt(k / m).
+    landing = landing_of(dataclasses.replace(MATERIALS["wood"], stiffness_newtons_per_metre=2500.0))
+    mode = landing.modes[0]
+    assert mode.gain_per_second == pytest.approx(0.15 * 2.0 * math.pi * mode.frequency_hz)
+    assert mode.frequency_hz == pytest.approx(250.0)
+
+
+def test_a_damped_contact_dies_sooner_and_a_specimen_that_swallows_a_band_rings_with_one_mode() -> None:
+    wood = MATERIALS["wood"]
+    damped = landing_of(dataclasses.replace(wood, contact_damping=2.0 * wood.contact_damping))
+    assert damped.modes[0].decay_per_second == pytest.approx(2.0 * landing_of(wood).modes[0].decay_per_second)
+    assert len(landing_of(dataclasses.replace(wood, tool_modes=((300.0, -6.0, 2.0),))).modes) == 1
