@@ -96,7 +96,8 @@ def _factor(values: Mapping[str, float] | None) -> str:
 
 
 def _name(row: _Row) -> str:
-    return f"**{row['name']}**" if row["block"] == OURS else str(row["name"])
+    quarter = " ¼" if row.get("every_fourth") else ""
+    return f"**{row['name']}**{quarter}" if row["block"] == OURS else f"{row['name']}{quarter}"
 
 
 def _block_tables(rows: Sequence[_Row], block: str) -> list[str]:
@@ -110,6 +111,8 @@ def _block_tables(rows: Sequence[_Row], block: str) -> list[str]:
     ]
     lines += ["| " + " | ".join(_accuracy_cells(row)) + " |" for row in rows]
     lines += ["", "In brackets: what nine cells in ten keep, or what is named there.", ""]
+    if any(row.get("every_fourth") for row in rows):
+        lines += ["¼: measured on every fourth recording, of each label another quarter of its conditions.", ""]
     lines += [
         "| row | evaluations | f0 % | harmonics | bands dB | envelope kurtosis, factor | envelope variation, factor "
         "| seams | drift dB/min | segment GFC | RMSE | named right | parameters |",
