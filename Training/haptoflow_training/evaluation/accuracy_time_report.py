@@ -112,7 +112,11 @@ def _block_tables(rows: Sequence[_Row], block: str) -> list[str]:
     lines += ["| " + " | ".join(_accuracy_cells(row)) + " |" for row in rows]
     lines += ["", "In brackets: what nine cells in ten keep, or what is named there.", ""]
     if any(row.get("every_fourth") for row in rows):
-        lines += ["¼: measured on every fourth recording, of each label another quarter of its conditions.", ""]
+        lines += [
+            "¼: measured on every fourth recording, of each label another quarter of its conditions. A classifier that learns "
+            "from so few tells less apart: compare these rows with each other.",
+            "",
+        ]
     lines += [
         "| row | evaluations | f0 % | harmonics | bands dB | envelope kurtosis, factor | envelope variation, factor "
         "| seams | drift dB/min | segment GFC | RMSE | named right | parameters |",
