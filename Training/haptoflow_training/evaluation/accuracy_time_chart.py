@@ -73,11 +73,13 @@ def panel_value(row: Mapping[str, Any], key: str) -> float | None:
 
 
 def chart_points(rows: Sequence[dict[str, Any]], key: str) -> list[ChartPoint]:
-    """Every row that is drawn and was both timed and measured."""
+    """Every row that is drawn, was both timed and measured, and can be compared with the others: not ours on a quarter, which
+    is there already, and what is told apart on a quarter of the recordings not beside what is told apart on all."""
     points = []
     for row in rows:
         value = panel_value(row, key)
-        if _is_timed(row) and value is not None:
+        is_comparable = not row.get("every_fourth") or (key != "told_apart_percent" and row["block"] != OURS)
+        if _is_timed(row) and value is not None and is_comparable:
             low, high = row.get(f"{key}_interval", (value, value))
             name = _NAMED.get(row["name"], "")
             milliseconds = row["ms_per_segment"]["p50"]

@@ -56,7 +56,8 @@ def _outcome(table: Mapping[str, Any]) -> list[str]:
             continue
         counts = {outcome: sum(len(rival.figures(outcome)) for rival in found) for outcome in (AHEAD, EVEN, BEHIND)}
         many = f"{len(found)} rival{'s' if len(found) > 1 else ''}, {sum(counts.values())} comparisons"
-        ours = " or ".join(sorted({f"`{row['against']}`" for row in table["rows"] if row["block"] == block and "against" in row}))
+        own = [row for row in table["rows"] if row["block"] == block and "against" in row and not row.get("every_fourth")]
+        ours = " or ".join(sorted({f"`{row['against']}`" for row in own}))
         words = f"ahead in {counts[AHEAD]}, even in {counts[EVEN]}, behind in {counts[BEHIND]}"
         lines += [f"**{title}**, {many}: {ours} is {words}. {_wins(found)}", ""]
     return lines
