@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
@@ -60,7 +61,24 @@ def _outcome(table: Mapping[str, Any]) -> list[str]:
         ours = " or ".join(sorted({f"`{row['against']}`" for row in own}))
         words = f"ahead in {counts[AHEAD]}, even in {counts[EVEN]}, behind in {counts[BEHIND]}"
         lines += [f"**{title}**, {many}: {ours} is {words}. {_wins(found)}", ""]
-    return lines
+    return _explained(lines)
+
+
+_MEANINGS = {
+    "AR": "autoregressive filters",
+    "GFC": "goodness of fit of the spectra",
+    "LSD": "log-spectral distance",
+    "SPSI": "single-pass spectrogram inversion",
+    "DSTN": "deep spatial-temporal network",
+}
+
+
+def _explained(lines: Sequence[str]) -> list[str]:
+    """The lines with each short word's meaning where it stands first: they come before the page's list of short words."""
+    text = "\n".join(lines)
+    for word, meaning in _MEANINGS.items():
+        text = re.sub(rf"\b{word}\b", f"{word} ({meaning})", text, count=1)
+    return text.split("\n")
 
 
 def _wins(found: Sequence[RivalVerdict]) -> str:
