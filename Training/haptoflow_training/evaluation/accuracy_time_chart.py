@@ -37,7 +37,7 @@ _NAMED = {
 
 @dataclass(frozen=True)
 class Panel:
-    """A figure of the table over time. limits: in `unit`, linear."""
+    """One plot of the chart: the figure `key` of each row over milliseconds. limits: ends of the linear axis, in `unit`."""
 
     key: str
     title: str
@@ -72,8 +72,9 @@ def panel_value(row: Mapping[str, Any], key: str) -> float | None:
 
 
 def chart_points(rows: Sequence[dict[str, Any]], key: str) -> list[ChartPoint]:
-    """Every row that is drawn, was both timed and measured, and can be compared with the others: not ours on a quarter, which
-    is there already, and what is told apart on a quarter of the recordings not beside what is told apart on all."""
+    """Every row that is drawn, timed and measured. Rows on every fourth recording are left out of what is told apart: a
+    classifier that learns from fewer recordings tells less apart. Ours on a quarter is left out everywhere: it is drawn
+    with all recordings already."""
     points = []
     for row in rows:
         value = panel_value(row, key)
@@ -194,7 +195,8 @@ def _draw_point(axis: Any, panel: Panel, point: ChartPoint) -> None:
         )  # fmt: skip
 
 
-# Where points lie close together, their names fan out: points to the right and up, and the side that the name ends at.
+# Places of names that would cover each other, by panel and row: points right of the marker, points above it, and the
+# horizontal alignment of the text there.
 _NAME_PLACES = {
     ("told_apart_percent", "draft"): (2.0, -14.0, "right"),
     ("told_apart_percent", "standard"): (-4.0, -14.0, "left"),

@@ -187,7 +187,7 @@ def _verdict_table(rows: Sequence[_Row]) -> list[str]:
     for rival in found:
         if len(names := set(rival.variants.values())) > 1:
             stands = "; ".join(f"`{name}` in {', '.join(_figures_of(rival, name))}" for name in sorted(names))
-            lines += [f"{rival.rival} stands by its best row in each figure: {stands}.", ""]
+            lines += [f"The figures of {rival.rival} are each compared by the best of its rows: {stands}.", ""]
     return lines
 
 

@@ -96,7 +96,8 @@ def _check_against(row: PlannedRow, rows: Sequence[PlannedRow], where: str) -> N
         return
     is_judged = row.block in (*RIVAL_BLOCKS, ABLATION) and not row.time_only
     if is_judged and row.every_fourth != reference.every_fourth:
-        # A classifier that learns from fewer recordings tells less apart.
+        # What is told apart depends on how many recordings the classifier learns from, so that a difference between such
+        # rows would not be theirs alone.
         raise InputError(
             f"{where}: key 'against' names '{row.against}', which is measured on other recordings; "
             "give both every_fourth or neither"
