@@ -224,7 +224,8 @@ def test_spsi_is_finite_for_silent_and_for_loud_spectra(magnitude: float) -> Non
 
 
 def test_spsi_has_a_gradient_where_a_valley_is_as_deep_as_its_floor_and_one_high() -> None:
-    # below - 2 floor + above = floor + 1: what once was divided by, and then left out.
+    # The bin of magnitude 1 has a curvature of 4 - 2 + 0 = 2 = 1 + 1, which an earlier form subtracted from itself and
+    # divided by. The result was masked, but its infinite gradient became NaN.
     magnitudes = torch.full((1, 101), 2.0)
     magnitudes[0, 49:52] = torch.tensor([4.0, 1.0, 0.0])
     magnitudes.requires_grad_()

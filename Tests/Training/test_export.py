@@ -20,7 +20,7 @@ from haptoflow_training.export.label_info import LabelInfo
 from haptoflow_training.export.model_file import ModelFile, read_model_file
 from haptoflow_training.export.seed_bank import build_seed_bank
 from haptoflow_training.models.codec.small_codec import SmallCodec, SmallCodecShape
-from haptoflow_training.recordings.synthetic.landing import Landing, LandingMode
+from haptoflow_training.recordings.landing import Landing, LandingMode
 from haptoflow_training.training.config import ModelConfig
 from haptoflow_training.training.held_out import HeldOut
 from haptoflow_training.training.trainer import Trainer

@@ -7,8 +7,8 @@ import math
 
 import pytest
 
+from haptoflow_training.recordings.landing import landing_of
 from haptoflow_training.recordings.synthetic import Material, load_materials
-from haptoflow_training.recordings.synthetic.landing import landing_of
 
 MATERIALS = {material.label: material for material in load_materials()}
 

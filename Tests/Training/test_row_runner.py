@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 from pathlib import Path
 
 import numpy as np
@@ -47,6 +48,17 @@ def test_two_processes_find_what_one_does_and_leave_every_row_s_file(tmp_path: P
     for row in _ROWS:
         place = _place(tmp_path / "two")
         assert stored_row(place, row, 1, made_from(place, yardstick, row, 1)) == together[row.name, 1]
+
+
+def test_a_row_on_every_fourth_recording_has_a_quarter_of_the_cells_and_another_origin(
+    tmp_path: Path, yardstick: Yardstick
+) -> None:
+    place = _place(tmp_path)
+    whole = next(row for row in _ROWS if row.name == "white-noise")
+    quarter = dataclasses.replace(whole, every_fourth=True)
+    assert len(measure_rows(place, yardstick, [(whole, 1)], 1)["white-noise", 1]["conditions"]) == 12
+    # What was measured on all is not taken for it.
+    assert len(measure_rows(place, yardstick, [(quarter, 1)], 1)["white-noise", 1]["conditions"]) == 3
 
 
 def test_what_one_row_cannot_be_measured_with_is_told_and_the_others_are_kept(

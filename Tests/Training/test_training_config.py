@@ -61,6 +61,11 @@ def test_every_row_of_the_evaluation_names_a_model_or_a_training_that_is_there()
         ('[[row]]\nname = "a"\nblok = "b"', "unknown key 'blok'"),
         ('[[row]]\nname = "a"\nblock = "ours"\nmodel = "b"\nseeds = []', "'seeds' is empty"),
         ('[[row]]\nname = "a"\nblock = "ours"\nmodel = "b"\nagainst = "c"', "names no row of the plan: 'c'"),
+        (
+            '[[row]]\nname = "a"\nblock = "ours"\nmodel = "m"\n'
+            '[[row]]\nname = "b"\nblock = "ablation"\nmodel = "m"\nagainst = "a"\nevery_fourth = true',
+            "row 'b': key 'against' names 'a', which is measured on other recordings",
+        ),
         ('[[row]]\nname = "silence"\nblock = "reference"\n' * 2, "stands there twice"),
         ("", "no \\[\\[row"),
     ],

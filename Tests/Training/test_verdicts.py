@@ -70,6 +70,15 @@ def test_solver_variants_of_one_network_are_one_rival_by_its_best_row_in_each_fi
     assert ar.figures("behind") == ["lsd_db"] and rivals(rows, ("given-the-same",)) == []
 
 
+def test_a_variant_measured_on_easier_recordings_is_no_better_for_it() -> None:
+    full, quarter = _row("ours", "", 1.0, 1.0, "", ""), _row("ours-quarter", "", 0.2, 1.0, "", "")
+    # Half as much again as ours on the same recordings, and three times as much.
+    one = {**_row("one", "plain", 1.5, 2.0, "behind", "ahead"), "against": "ours"}
+    two = {**_row("two", "plain", 0.9, 2.5, "ahead", "ahead"), "against": "ours-quarter"}
+    found = rivals([{**full, "block": "ours"}, {**quarter, "block": "ours"}, one, two], ("as-published",))
+    assert [(entry.rival, entry.variants["level_error_db"]) for entry in found] == [("plain", "one")]
+
+
 def test_a_spread_is_of_sizes_and_of_a_share_its_bad_side() -> None:
     values = {-4.0: 1.0, 1.0: 0.9, 2.0: 0.8, -3.0: 0.7, 0.0: 0.6}
     cells = [{"label": "a", "crest_error_db": crest, "rib_coherence": share} for crest, share in values.items()]

@@ -47,8 +47,9 @@ inline void checkStructSize(std::size_t found, std::size_t minimum, const char* 
 }
 
 /// A copy of a caller's descriptor of any version; what the caller's version lacks is zero. `minimum` is the size of
-/// the first version's mandatory fields. A size that ends within a field belongs to no version. It is rounded down, so that
-/// no part of a pointer is copied without the rest: that would make an invalid address. Throws std::invalid_argument.
+/// the first version's mandatory fields. A size that ends within a field belongs to no version. It is rounded down, so
+/// that no part of a pointer is copied without the rest: that would make an invalid address. Throws
+/// std::invalid_argument.
 template <typename Descriptor>
 [[nodiscard]] Descriptor readDescriptor(const Descriptor* descriptor, std::size_t minimum, const char* name) {
     const std::size_t size = require(descriptor, name)->struct_size;

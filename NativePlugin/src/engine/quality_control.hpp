@@ -32,11 +32,12 @@ struct QualitySettings {
     double budgetMs = 3.47;
 };
 
-/// Decides which tier of the model generates the next segments. Automatic quality first measures every tier. A tier fits
-/// the budget if its 99th-percentile time, multiplied by the number of touching voices, does not exceed it. Automatic
-/// quality takes the most accurate tier that fits, or the fastest one if none fits. When rounds overrun the budget, it steps down to the next less accurate tier that is
-/// faster. It steps up again only after a long time without overruns, and only if the better tier fits with room to
-/// spare. One thread at a time calls it; any thread may read the times.
+/// Decides which tier of the model generates the next segments. Automatic quality first measures every tier. A tier
+/// fits the budget if its 99th-percentile time, multiplied by the number of touching voices, does not exceed it.
+/// Automatic quality takes the most accurate tier that fits, or the fastest one if none fits. When rounds overrun the
+/// budget, it steps down to the next less accurate tier that is faster. It steps up again only after a long time
+/// without overruns, and only if the better tier fits with room to spare. One thread at a time calls it; any thread may
+/// read the times.
 class QualityControl {
 public:
     /// How often each tier is run before automatic quality decides.

@@ -48,9 +48,9 @@ public:
     void open(std::span<const float, seedSamples> seedMps2) noexcept;
     /// `segment` (200, m/s^2) takes over at `start` and is spliced with the wave that ran there before. It replaces a
     /// segment that took over at the same sample if nothing of that one has been read: the splice is then made with the
-    /// wave before both. A segment that comes late loses the samples that the head has passed. One that lies wholly in the
-    /// past, would leave a hole, or reaches further than a view changes nothing. Returns the sample at which the segment
-    /// took over, or -1.
+    /// wave before both. A segment that comes late loses the samples that the head has passed. One that lies wholly in
+    /// the past, would leave a hole, or reaches further than a view changes nothing. Returns the sample at which the
+    /// segment took over, or -1.
     std::int64_t commit(std::int64_t start, std::span<const float, inference::segmentSamples> segment) noexcept;
     /// The 200 committed samples before `start`; zeros where none were committed. `start` within 200 of the head.
     void history(std::int64_t start, std::span<float, inference::segmentSamples> out) const noexcept;

@@ -19,8 +19,8 @@ from haptoflow_training.evaluation.reference_set import ReferencePair, rib_phase
 from haptoflow_training.evaluation.told_apart import told_apart_percent
 
 _Floats = NDArray[np.float32]
-# Every recording of a batch is padded to the length of the longest. Small batches of similar lengths waste few segments on
-# padding, and a large batch is no faster per segment.
+# Largest number of recordings in a batch. All are padded to the longest, so that large batches generate many segments
+# which nobody uses; they are no faster per segment.
 _MAXIMUM_ROWS = 32
 
 

@@ -83,6 +83,7 @@ def _row(
         "label_discrimination": _rounded(first["discrimination"]),
         **{key: _rounded(first[key]) for key in _KEPT if key in first},
         "recordings": len(cells),
+        "every_fourth": row.every_fourth,
         "seeds": len(results),
     }
     if row.block == OURS and cells:

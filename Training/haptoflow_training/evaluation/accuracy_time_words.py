@@ -52,7 +52,9 @@ JSON are 95 % bootstrap intervals over recordings, drawn within labels.
 their own time of one core, 500 seconds; the shipped `standard` was trained longer, and is judged beside our own rows. Two
 rows are compared on the same recordings: the size of the rival's error less that of ours, the mean over labels of each
 label's mean. Ahead means that its 95 % bootstrap interval lies above zero, behind that it lies below, even that it holds
-zero. Rows of one network at several numbers of steps are one rival, which stands by its best row in each figure.
+zero. Rows of one network at several numbers of steps are one rival; each figure is compared by the best of them. Rows of
+more than one evaluation a segment are measured on every fourth recording (¼), and judged against ours on the same ones,
+`standard-same-time-quarter`.
 
 | figure | definition |
 |---|---|

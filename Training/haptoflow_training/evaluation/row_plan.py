@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import tomllib
+from collections.abc import Sequence
 from dataclasses import dataclass, fields
 from pathlib import Path
 from typing import Any
@@ -29,7 +30,8 @@ class PlannedRow:
     TOML file without the ending); empty for a reference row. seeds: of the training; those after the first are measured
     on every fourth recording, to tell how much of a row is chance. seeds_model: the training that further seeds are of,
     where `model` is a file. quick: measured by --quick too. extended: the long measurements too (ten minutes of drift,
-    speeds by update rates, level across speed). time_only: random weights of a true size, no accuracy is measured."""
+    speeds by update rates, level across speed). every_fourth: measured on every fourth recording, as further seeds are,
+    and judged against a row that is too. time_only: random weights of a true size, no accuracy is measured."""
 
     name: str
     block: str
@@ -45,6 +47,7 @@ class PlannedRow:
     against: str = DEFAULT_AGAINST
     quick: bool = False
     extended: bool = False
+    every_fourth: bool = False
     time_only: bool = False
 
     @property
@@ -81,9 +84,24 @@ def load_plan(path: Path) -> list[PlannedRow]:
     if not rows:
         raise InputError(f"{path}: no [[row]] in it")
     for row in rows:
-        if row.against != DEFAULT_AGAINST and row.against not in names:
-            raise InputError(f"{path}: row '{row.name}': key 'against' names no row of the plan: '{row.against}'")
+        _check_against(row, rows, f"{path}: row '{row.name}'")
     return rows
+
+
+def _check_against(row: PlannedRow, rows: Sequence[PlannedRow], where: str) -> None:
+    reference = next((other for other in rows if other.name == row.against), None)
+    if reference is None:
+        if row.against != DEFAULT_AGAINST:
+            raise InputError(f"{where}: key 'against' names no row of the plan: '{row.against}'")
+        return
+    is_judged = row.block in (*RIVAL_BLOCKS, ABLATION) and not row.time_only
+    if is_judged and row.every_fourth != reference.every_fourth:
+        # What is told apart depends on how many recordings the classifier learns from, so that a difference between such
+        # rows would not be theirs alone.
+        raise InputError(
+            f"{where}: key 'against' names '{row.against}', which is measured on other recordings; "
+            "give both every_fourth or neither"
+        )
 
 
 def _row(entry: dict[str, Any], where: str) -> PlannedRow:

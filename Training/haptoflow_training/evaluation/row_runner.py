@@ -112,7 +112,7 @@ def _graphs_crc32(place: Workplace, row: PlannedRow, seed: int) -> str | None:
 
 
 def _is_reduced(place: Workplace, row: PlannedRow, seed: int) -> bool:
-    return place.quick or seed != row.seeds[0]
+    return place.quick or row.every_fourth or seed != row.seeds[0]
 
 
 def _pairs(place: Workplace, yardstick: Yardstick, row: PlannedRow, seed: int) -> list[ReferencePair]:

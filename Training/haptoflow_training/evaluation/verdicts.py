@@ -62,20 +62,29 @@ class RivalVerdict:
 
 def rivals(rows: Sequence[Mapping[str, Any]], blocks: Sequence[str]) -> list[RivalVerdict]:
     """Every rival of the blocks: rows of one network at several numbers of steps are one, and stand by the best of
-    them, figure by figure."""
+    them, figure by figure: by the median that is furthest ahead of the row that it is judged against, since not all are
+    measured on the same recordings."""
+    by_name = {row["name"]: row for row in rows}
     grouped: dict[tuple[str, str], list[Mapping[str, Any]]] = {}
     for row in rows:
         if row["block"] in blocks and row.get("verdict"):
             grouped.setdefault((row["block"], row["rival"]), []).append(row)
-    return [_joined(rival, block, variants) for (block, rival), variants in grouped.items()]
+    return [_joined(rival, block, variants, by_name) for (block, rival), variants in grouped.items()]
 
 
-def _joined(rival: str, block: str, variants: Sequence[Mapping[str, Any]]) -> RivalVerdict:
+def _joined(
+    rival: str, block: str, variants: Sequence[Mapping[str, Any]], by_name: Mapping[str, Mapping[str, Any]]
+) -> RivalVerdict:
+    def lag(row: Mapping[str, Any], figure: JudgedFigure) -> float:
+        reference = by_name.get(row.get("against", ""))
+        ours = 0.0 if reference is None else figure.size(median_of(reference, figure.key))
+        return figure.size(median_of(row, figure.key)) - ours
+
     by_figure, best = {}, {}
     for key, figure in BY_KEY.items():
         having = [row for row in variants if key in row["verdict"]]
         if having:
-            chosen = min(having, key=lambda row: figure.size(median_of(row, key)))
+            chosen = min(having, key=lambda row: lag(row, figure))
             by_figure[key], best[key] = chosen["verdict"][key], chosen["name"]
     return RivalVerdict(rival, block, by_figure, best)
 

@@ -25,7 +25,7 @@ from haptoflow_training.models.conditioning import EMBEDDING_SIZE
 from haptoflow_training.models.level_model import LevelModel, shift_level
 from haptoflow_training.models.representation import CodecRepresentation
 from haptoflow_training.models.velocity_field import parameter_count
-from haptoflow_training.recordings.synthetic.landing import Landing
+from haptoflow_training.recordings.landing import Landing
 from haptoflow_training.training.batches import SEGMENT_SAMPLES, SegmentBatches, Store
 from haptoflow_training.training.config import TrainingConfig
 from haptoflow_training.training.held_out import HeldOut

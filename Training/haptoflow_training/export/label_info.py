@@ -4,15 +4,15 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from haptoflow_training.recordings.synthetic.landing import Landing
+from haptoflow_training.recordings.landing import Landing
 
 
 @dataclass(frozen=True)
 class LabelInfo:
     """Defaults of a material: spring stiffness, kinetic friction, and the wavelength of a ruled or woven surface.
 
-    wave_vectors_per_mm: (x, y) of each family of ribs in cycles per millimetre, across the ribs. landing: how it answers a
-    tip that lands; None leaves that to the engine's law for the stiffness.
+    wave_vectors_per_mm: (x, y) of each family of ribs in cycles per millimetre, across the ribs. landing: the
+    vibration of a tip that lands; None leaves it out of the model file, and the engine answers by the stiffness.
     """
 
     name: str

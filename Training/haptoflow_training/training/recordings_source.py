@@ -17,6 +17,7 @@ from haptoflow_training.preprocessing.preparation import prepare_store
 from haptoflow_training.preprocessing.store import SegmentStore
 from haptoflow_training.recordings.cluster_dataset import open_dataset
 from haptoflow_training.recordings.labels import LabelDefinition, load_labels
+from haptoflow_training.recordings.landing import landing_of
 from haptoflow_training.recordings.recording import Recording, RecordingIdentity
 from haptoflow_training.recordings.synthetic import (
     Material,
@@ -26,7 +27,6 @@ from haptoflow_training.recordings.synthetic import (
     record_hand_condition,
     record_machine_condition,
 )
-from haptoflow_training.recordings.synthetic.landing import landing_of
 from haptoflow_training.recordings.synthetic.materials import select_materials
 from haptoflow_training.training.config import DataConfig
 

@@ -84,7 +84,8 @@ class SinglePassInversion(nn.Module):
         above = torch.cat([magnitudes[:, 1:], magnitudes[:, -1:]], dim=1)
         curvature = below - 2.0 * magnitudes + above
         # A flat top has no curvature and lies where it is; the first and last bin have one neighbour only.
-        # Divided by 1 there, not by what may be nothing: zero times an infinite gradient is none.
+        # The division there is by 1 and not by a curvature that may be zero: masked afterwards, its infinite gradient
+        # would still become NaN.
         is_peaked = curvature < -1e-6 * magnitudes
         offset = 0.5 * (below - above) / torch.where(is_peaked, curvature, torch.ones_like(curvature))
         return (offset * is_peaked.to(magnitudes.dtype) * self.interior).clamp(-0.5, 0.5)

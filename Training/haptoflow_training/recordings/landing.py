@@ -1,4 +1,5 @@
-"""How a material answers a landing tip: decaying sinusoids, from the physics that the recorder has of it.
+"""The vibration of a tip that lands on a material: decaying sinusoids, from the material's stiffness, damping and
+resonances in the recorder.
 
 A tip of mass m that lands with speed v on a spring k answers with v sqrt(k/m) e^(-Bt) sin(sqrt(k/m) t) (Okamura,
 Cutkosky, Dennerlein 2001, fit the same form to taps on real materials). The spring is that of the virtual surface, so
@@ -35,8 +36,8 @@ class LandingMode:
 
 @dataclass(frozen=True)
 class Landing:
-    """modes: the contact's own, then the specimen's strongest resonance where it has one below 1 kHz. restitution: share
-    of the speed that a rebound keeps."""
+    """modes: first the tip on the contact's spring, then the specimen's strongest resonance if it has one below 950 Hz.
+    restitution: the share of its speed that the tip keeps when it springs back, 0 to 0.35."""
 
     modes: tuple[LandingMode, ...]
     restitution: float
