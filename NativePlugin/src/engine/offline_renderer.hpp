@@ -29,7 +29,7 @@ struct OfflineSettings {
     /// Rendered after the last state, for what still has to fade; longer where effects ring on.
     double tailSeconds = 0.1;
     /// What the render is compensated for; null for nothing.
-    std::shared_ptr<const effects::ActuatorProfile> actuator;
+    std::shared_ptr<const effects::ActuatorProfile> actuator = nullptr;
     /// 0 to 0.5.
     double delaySeconds = 0.0;
 };

@@ -38,14 +38,14 @@ protected:
 
     std::vector<haptoflow_wave_frame> process(const std::vector<float>& wave, std::size_t block, uint64_t room = 32) {
         std::vector<haptoflow_wave_frame> all;
-        std::vector<haptoflow_wave_frame> frames(room);
+        std::vector<haptoflow_wave_frame> taken(room);
         for (std::size_t i = 0; i < wave.size(); i += block) {
             uint64_t count = 0;
             EXPECT_EQ(haptoflow_wave_features_process(features_, wave.data() + i, std::min(block, wave.size() - i),
-                                                      frames.data(), frames.size(), &count),
+                                                      taken.data(), taken.size(), &count),
                       HAPTOFLOW_OK)
                 << message();
-            all.insert(all.end(), frames.begin(), frames.begin() + static_cast<std::ptrdiff_t>(count));
+            all.insert(all.end(), taken.begin(), taken.begin() + static_cast<std::ptrdiff_t>(count));
         }
         return all;
     }
@@ -56,31 +56,31 @@ protected:
 TEST_F(WaveFeaturesApiTest, FramesAreThoseOfTheLibrarysOwnFeatures) {
     const std::vector<float> wave = swellingTone(2000.0, 1.0);
     create(options(0, 0.005));
-    const auto frames = process(wave, 37);
+    const auto taken = process(wave, 37);
     effects::WaveFeatures own;
     std::vector<effects::WaveFrame> expected(own.framesWithin(wave.size()));
     expected.resize(own.process(wave, expected).frames);
-    ASSERT_EQ(frames.size(), expected.size());
-    ASSERT_GE(frames.size(), 195U);
-    for (std::size_t i = 0; i < frames.size(); ++i) {
-        EXPECT_EQ(frames[i].first_sample, expected[i].firstSample);
-        EXPECT_EQ(frames[i].sample_count, expected[i].sampleCount);
-        EXPECT_EQ(frames[i].intensity, expected[i].intensity);
-        EXPECT_EQ(frames[i].frequency_hz, expected[i].frequencyHz);
-        EXPECT_EQ(frames[i].amplitude_mps2, expected[i].amplitudeMps2);
-        EXPECT_EQ(frames[i].transient_amplitude_mps2, expected[i].transient.amplitudeMps2);
+    ASSERT_EQ(taken.size(), expected.size());
+    ASSERT_GE(taken.size(), 195U);
+    for (std::size_t i = 0; i < taken.size(); ++i) {
+        EXPECT_EQ(taken[i].first_sample, expected[i].firstSample);
+        EXPECT_EQ(taken[i].sample_count, expected[i].sampleCount);
+        EXPECT_EQ(taken[i].intensity, expected[i].intensity);
+        EXPECT_EQ(taken[i].frequency_hz, expected[i].frequencyHz);
+        EXPECT_EQ(taken[i].amplitude_mps2, expected[i].amplitudeMps2);
+        EXPECT_EQ(taken[i].transient_amplitude_mps2, expected[i].transient.amplitudeMps2);
     }
 }
 
 TEST_F(WaveFeaturesApiTest, AWaveOf8KilohertzHasTheFramesOfTheSameWaveAt2ThreeSamplesLater) {
     create(options(8000, 0.005));
-    const auto frames = process(swellingTone(8000.0, 1.0), 111);
-    ASSERT_GE(frames.size(), 195U);
-    for (std::size_t i = 20; i < frames.size(); ++i) {
-        const double time = (static_cast<double>(frames[i].first_sample) + 5.0 - 3.0) / 2000.0;
+    const auto taken = process(swellingTone(8000.0, 1.0), 111);
+    ASSERT_GE(taken.size(), 195U);
+    for (std::size_t i = 20; i < taken.size(); ++i) {
+        const double time = (static_cast<double>(taken[i].first_sample) + 5.0 - 3.0) / 2000.0;
         const double envelope = 3.0 + 2.0 * std::sin(2.0 * std::numbers::pi * 2.0 * time);
-        EXPECT_NEAR(static_cast<double>(frames[i].amplitude_mps2), envelope, 0.12 * envelope) << i;
-        EXPECT_NEAR(static_cast<double>(frames[i].centroid_hz), 150.0, 12.0);
+        EXPECT_NEAR(static_cast<double>(taken[i].amplitude_mps2), envelope, 0.12 * envelope) << i;
+        EXPECT_NEAR(static_cast<double>(taken[i].centroid_hz), 150.0, 12.0);
     }
 }
 
@@ -107,9 +107,9 @@ TEST_F(WaveFeaturesApiTest, AResetBeginsAnew) {
 TEST_F(WaveFeaturesApiTest, FramesWithoutRoomAreLostAndTheWaveGoesOn) {
     create(options());
     EXPECT_TRUE(process(swellingTone(2000.0, 0.2), 400, 0).empty());
-    const auto frames = process(swellingTone(2000.0, 0.2), 10);
-    ASSERT_FALSE(frames.empty());
-    EXPECT_GE(frames.front().first_sample, 380U);
+    const auto taken = process(swellingTone(2000.0, 0.2), 10);
+    ASSERT_FALSE(taken.empty());
+    EXPECT_GE(taken.front().first_sample, 380U);
 }
 
 TEST_F(WaveFeaturesApiTest, NumbersThatAreNotFiniteCountAsSilence) {

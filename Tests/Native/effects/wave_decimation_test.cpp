@@ -14,10 +14,10 @@ namespace {
 
 std::vector<float> decimated(WaveDecimation& decimation, std::size_t factor, double frequencyHz) {
     std::vector<float> result;
-    const double rateHz = 2000.0 * static_cast<double>(factor);
+    const double inputRateHz = 2000.0 * static_cast<double>(factor);
     for (std::size_t i = 0; i < 4000 * factor; ++i) {
         float sample = 0.0F;
-        const double phase = 2.0 * std::numbers::pi * frequencyHz * static_cast<double>(i) / rateHz;
+        const double phase = 2.0 * std::numbers::pi * frequencyHz * static_cast<double>(i) / inputRateHz;
         if (decimation.take(static_cast<float>(std::sin(phase)), sample)) {
             result.push_back(sample);
         }
