@@ -429,7 +429,7 @@ void addRenderCommand(CLI::App& app, CommandOutcome& outcome) {
         "Examples:\n"
         "  haptoflow render scene.json --stroke stroke.csv -o felt.wav --report felt.json\n"
         "  haptoflow render scene.json --stroke stroke.csv -o draft.wav --quality draft\n"
-        "  haptoflow render scene.json --stroke taps.csv -o taps.wav --effects texture,impact,edge --actuator voice-coil\n"
+        "  haptoflow render scene.json --stroke stroke.csv -o taps.wav --effects texture,impact,edge --actuator voice-coil\n"
         "+-1 in the WAV is 200 m/s^2 (see --full-scale); most textures are quiet there, and true to each other.");
     command->callback([options, &outcome] {
         sortOutputs(*options);

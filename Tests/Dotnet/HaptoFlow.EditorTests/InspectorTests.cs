@@ -179,7 +179,7 @@ namespace HaptoFlow.EditorTests
             Drawn[] fields = Draw(Stylus()).Where(item => item.Kind == DrawnKind.Field).ToArray();
             Assert.That(fields.Select(item => item.Label), Is.EqualTo(new[]
             {
-                "Tip", "Tip Radius (m)", "Layers", "Update", "Tip Force", "Touch By", "Output", "Strength",
+                "Tip", "Tip Radius (m)", "Layers", "Update", "Tip Force", "Touch By", "Output", "Hand", "Strength",
                 "Touch Began", "Touch Moved", "Surface Changed", "Touch Ended",
             }));
             Assert.That(fields.Select(item => item.Tooltip), Has.None.Empty);
@@ -189,12 +189,19 @@ namespace HaptoFlow.EditorTests
         public void AnOutputShowsWhatItsRouteNeeds()
         {
             HapticOutput output = Output();
-            Assert.That(Fields(output), Is.EqualTo(new[] { "Route", "Channel", "Obey Listener", "Strength", "Muted" }));
+            Assert.That(Fields(output), Is.EqualTo(new[]
+            {
+                "Route", "Channel", "Obey Listener", "Strength", "Muted", "Actuator", "Exposure Guard", "Delay (ms)",
+            }));
             EditorScreen.Enter("Route", OutputRoute.MixerEffect);
             Draw(output);
             Assert.That(output.Route, Is.EqualTo(OutputRoute.MixerEffect));
             Assert.That(Fields(output),
-                Is.EqualTo(new[] { "Route", "Audio Mixer", "Voice Parameter", "Strength", "Muted" }));
+                Is.EqualTo(new[]
+                {
+                    "Route", "Audio Mixer", "Voice Parameter", "Strength", "Muted", "Actuator", "Exposure Guard",
+                    "Delay (ms)",
+                }));
         }
 
         [TestCase(true)]
@@ -202,7 +209,7 @@ namespace HaptoFlow.EditorTests
         public void NothingDependsOnTheSkin(bool dark)
         {
             EditorSession.DarkSkin = dark;
-            Assert.That(Fields(Output()), Has.Length.EqualTo(5));
+            Assert.That(Fields(Output()), Has.Length.EqualTo(8));
             Assert.That(Draw(Tagged("Table", "wood")), Is.Not.Empty);
         }
 

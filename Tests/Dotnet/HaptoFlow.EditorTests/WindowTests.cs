@@ -90,6 +90,32 @@ namespace HaptoFlow.EditorTests
         }
 
         [Test]
+        public void TheCheckSaysWhichEffectsTheSceneCallsForAndWhatEachCostOnceItHasPlayed()
+        {
+            Settings();
+            HapticStylus stylus = Stylus();
+            HapticOutput output = Output();
+            output.Processing.ExposureGuard = true;
+            HapticSurface table = Tagged("Table", "wood");
+            table.Material.Effects = HapticEffects.Texture;
+            HapticSurface shelf = Tagged("Shelf", "wood");
+            shelf.Material.Effects = HapticEffects.Texture | HapticEffects.Impact;
+            CheckSceneWindow.Open();
+            var window = EditorWindow.GetWindow<CheckSceneWindow>();
+            Assert.That(EditorScreen.Draw(window.OnGUI).Select(item => item.Label), Has.Member(
+                "The scene calls for texture (2 surfaces), impact (1 surface), exposure guard (1 output). Nothing else runs."
+                + " Play the scene once to see what each costs on this machine."));
+            table.Material.Effects = HapticEffects.Nothing;
+            Object.DestroyImmediate(shelf.gameObject);
+            output.Processing.ExposureGuard = false;
+            EditorSession.ChangeHierarchy();
+            IReadOnlyList<Drawn> drawn = EditorScreen.Draw(window.OnGUI);
+            Assert.That(Helps(drawn).Single(), Does.Contain("No surface calls for an effect"));
+            Assert.That(drawn.Select(item => item.Label), Has.None.Contain("calls for texture"));
+            window.Close();
+        }
+
+        [Test]
         public void TheCheckSelectsWhatAFindingIsAbout()
         {
             Settings();

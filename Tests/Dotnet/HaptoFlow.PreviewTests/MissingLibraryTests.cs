@@ -21,7 +21,7 @@ namespace HaptoFlow.PreviewTests
             Assembly copy = context.LoadFromAssemblyPath(typeof(PreviewWorker).Assembly.Location);
             Type Twin(Type type) => copy.GetType(type.FullName!, true)!;
 
-            object settings = Activator.CreateInstance(Twin(typeof(StrokeSettings)), 0.1, 1.0, 0.0, 0.3)!;
+            object settings = Activator.CreateInstance(Twin(typeof(StrokeSettings)), 0.1, 1.0, 0.0, 0.3, 0.3)!;
             object stroke = Twin(typeof(PresetStrokes)).GetMethod("Make")!.Invoke(null, new[] { 0, settings })!;
             Array materials = Array.CreateInstance(Twin(typeof(LabelMix)), 1);
             materials.SetValue(Activator.CreateInstance(Twin(typeof(LabelMix)), "wood", "", 0f), 0);

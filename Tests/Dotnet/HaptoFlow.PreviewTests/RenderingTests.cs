@@ -59,10 +59,11 @@ namespace HaptoFlow.PreviewTests
             Assert.That(20.0 * Math.Log10(heard / level[0]), Is.EqualTo(0.0).Within(2.5));
         }
 
-        [TestCase(StrokePreset.Taps, HapticEffects.Impact)]
-        [TestCase(StrokePreset.Rims, HapticEffects.Edge)]
-        public void AnEffectIsHeardWhereItIsAskedForAndNowhereElse(StrokePreset preset, HapticEffects effect)
+        [TestCase(nameof(StrokePreset.Taps), HapticEffects.Impact)]
+        [TestCase(nameof(StrokePreset.Rims), HapticEffects.Edge)]
+        public void AnEffectIsHeardWhereItIsAskedForAndNowhereElse(string name, HapticEffects effect)
         {
+            StrokePreset preset = Enum.Parse<StrokePreset>(name);
             Stroke stroke = PresetStrokes.Make(preset, new StrokeSettings(0.2, 1.0, 0.0, 1.0, 0.5));
             PreviewRequest With(HapticEffects effects) =>
                 new PreviewRequest(ModelFiles.Default, stroke, new[] { new LabelMix("wood") })

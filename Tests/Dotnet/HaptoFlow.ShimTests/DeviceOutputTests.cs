@@ -1,6 +1,7 @@
 using System;
 using System.Linq;
 using System.Runtime.CompilerServices;
+using HaptoFlow.Outputs;
 using HaptoFlow.Tests;
 using NUnit.Framework;
 using UnityEngine;
@@ -381,19 +382,24 @@ namespace HaptoFlow.ShimTests
         }
 
         [Test]
-        public void TheMotorsAmplitudeIsTheWavesLevel()
+        public void AMotorOf160HertzIsAsIntenseAsWhatAnAudioOutputPlays()
         {
             XrHand.Right.Take("A controller", true);
             Output(out _);
-            Add<MotorOutput>().FullScaleMps2 = HaptoFlowSettings.Active.FullScaleMps2;
+            float fullScaleMps2 = HaptoFlowSettings.Active.FullScaleMps2;
+            Add<MotorOutput>().FullScaleMps2 = fullScaleMps2;
             World.Frames(72);
             AudioDevice.Forget();
             XrHand.Right.Impulses.Clear();
             World.Frames(6 * 72);
-            double audio = Math.Sqrt(Enumerable.Range(0, AudioDevice.RecordedFrames)
-                .Average(frame => Math.Pow(AudioDevice.Sample(frame, 0), 2.0)));
-            double motor = Math.Sqrt(XrHand.Right.Impulses.Average(each => Math.Pow(each.Amplitude, 2.0)) / 2.0);
-            Assert.That(20.0 * Math.Log10(motor / audio), Is.EqualTo(0.0).Within(1.5));
+            float[] audio = Enumerable.Range(0, AudioDevice.RecordedFrames)
+                .Select(frame => AudioDevice.Sample(frame, 0)).ToArray();
+            using var features = new WaveFeatures(0.008, audio.Length, 48000) { FullScaleMps2 = fullScaleMps2 };
+            features.SetRange(160.0, 160.0);
+            var frames = new WaveFrame[features.MostFrames];
+            double expected = frames.Take(features.Process(audio, frames)).Average(frame => frame.Amplitude);
+            Assert.That(expected, Is.GreaterThan(1e-3));
+            Assert.That(XrHand.Right.Impulses.Average(each => each.Amplitude), Is.EqualTo(expected).Within(0.1 * expected));
         }
 
         [Test]

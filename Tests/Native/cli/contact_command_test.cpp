@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <fstream>
 #include <sstream>
+#include <stdexcept>
 #include <string>
 #include <utility>
 
@@ -32,6 +33,20 @@ std::vector<std::string> linesOf(const std::string& text) {
         lines.push_back(line);
     }
     return lines;
+}
+
+/// The number of a line in the column that the header gives this name.
+double numberOf(const std::string& names, const std::string& line, const std::string& name) {
+    std::istringstream columns(names);
+    std::istringstream cells(line);
+    std::string column;
+    std::string cell;
+    while (std::getline(columns, column, ',') && std::getline(cells, cell, ',')) {
+        if (column == name) {
+            return std::stod(cell);
+        }
+    }
+    throw std::out_of_range(name);
 }
 
 contact::Scene tableScene(const std::string& name) {
@@ -130,12 +145,8 @@ TEST_F(ContactProgramTest, ASurfaceWithoutStiffnessPressesBackWithItsLabelsAsInR
         write("scene.json",
               R"({"surfaces": [{"name": "table", "shape": {"plane": {}}, "material": )" + material + "}]}");
         EXPECT_EQ(run("contact " + at("scene.json") + " --stroke " + at("stroke.csv")), exitDone) << read("err.txt");
-        std::string line = linesOf(read("out.txt")).at(1);
-        const double force = std::stod(line.substr(line.rfind(',') + 1));
-        for (int column = 0; column < 10; ++column) {
-            line.erase(0, line.find(',') + 1);
-        }
-        return Spring{force, std::stod(line)};
+        const std::vector<std::string> lines = linesOf(read("out.txt"));
+        return Spring{numberOf(lines.at(0), lines.at(1), "force_n"), numberOf(lines.at(0), lines.at(1), "penetration_m")};
     };
     for (const auto& [material, stiffness] :
          {std::pair{"\"stone\"", 4000.0}, {"\"cotton\"", 250.0}, {R"({"wood": 1, "cotton": 3})", 487.5}}) {

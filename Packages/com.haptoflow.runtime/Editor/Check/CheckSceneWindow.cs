@@ -18,6 +18,7 @@ namespace HaptoFlow.Editor
         private IReadOnlyList<Finding> findings = Array.Empty<Finding>();
         private bool isStale = true;
         private string summary = "";
+        private string effects = "";
         private Vector2 scroll;
 
         [MenuItem("Window/HaptoFlow/Check Scene", false, 2101)]
@@ -50,6 +51,10 @@ namespace HaptoFlow.Editor
             using (var view = new EditorGUILayout.ScrollViewScope(scroll))
             {
                 scroll = view.scrollPosition;
+                if (effects.Length > 0)
+                {
+                    GUILayout.Label(effects, EditorStyles.wordWrappedMiniLabel);
+                }
                 foreach (Finding finding in findings)
                 {
                     chosen = Draw(finding) ?? chosen;
@@ -111,12 +116,12 @@ namespace HaptoFlow.Editor
         {
             isStale = false;
             findings = SceneCheck.Run();
+            effects = EffectRules.Summary(new SceneContents());
             int errors = findings.Count(finding => finding.Severity == MessageType.Error);
             int warnings = findings.Count(finding => finding.Severity == MessageType.Warning);
-            int remarks = findings.Count(finding => finding.Severity == MessageType.Info);
-            summary = errors + warnings + remarks == 0
+            summary = findings.Count == 0
                 ? "Nothing to remark"
-                : $"{errors} errors, {warnings} warnings, {remarks} remarks";
+                : $"{errors} errors, {warnings} warnings, {findings.Count - errors - warnings} remarks";
         }
 
         private void OnChanges(ref ObjectChangeEventStream stream) => Forget();

@@ -5,8 +5,8 @@ using UnityEditor;
 
 namespace HaptoFlow.Editor
 {
-    /// <summary>Says which effects the scene calls for, and what they have cost since play began: an effect that nothing
-    /// calls for does not run.</summary>
+    /// <summary>Says which effects the scene calls for, and what they have cost on this machine since play began: an
+    /// effect that nothing calls for does not run.</summary>
     internal static class EffectRules
     {
         private static readonly (HapticEffects Asked, HapticEffect Effect, string Name)[] OfSurfaces =
@@ -18,10 +18,27 @@ namespace HaptoFlow.Editor
 
         public static IEnumerable<Finding> Check(SceneContents scene)
         {
-            if (scene.Surfaces.Count == 0)
+            if (scene.Surfaces.Count > 0 && Called(scene).Count == 0)
             {
-                yield break;
+                yield return new Finding(MessageType.Warning,
+                    "No surface calls for an effect: nothing is felt. Switch on Texture, Impact or Edge on a surface.");
             }
+        }
+
+        /// <summary>One sentence for a person; empty for a scene without surfaces.</summary>
+        public static string Summary(SceneContents scene)
+        {
+            List<string> called = Called(scene);
+            if (called.Count == 0)
+            {
+                return "";
+            }
+            string cost = HasRun(scene) ? "" : " Play the scene once to see what each costs on this machine.";
+            return $"The scene calls for {string.Join(", ", called)}. Nothing else runs.{cost}";
+        }
+
+        private static List<string> Called(SceneContents scene)
+        {
             var called = new List<string>();
             foreach ((HapticEffects asked, HapticEffect effect, string name) in OfSurfaces)
             {
@@ -34,12 +51,11 @@ namespace HaptoFlow.Editor
                 "output", Cost(scene, HapticEffect.ExposureGuard));
             Add(called, "delay", scene.Outputs.Count(output => output.Processing.DelayMilliseconds > 0f),
                 "output", Cost(scene, HapticEffect.Delay));
-            yield return called.Count == 0
-                ? new Finding(MessageType.Warning,
-                    "No surface calls for an effect: nothing is felt. Switch on Texture, Impact or Edge on a surface.")
-                : new Finding(MessageType.None,
-                    $"The scene calls for {string.Join(", ", called)}. Nothing else runs.");
+            return called;
         }
+
+        private static bool HasRun(SceneContents scene) =>
+            OfSurfaces.Any(each => Cost(scene, each.Effect).HasValue);
 
         private static void Add(List<string> called, string name, int count, string noun, double? microseconds)
         {

@@ -34,8 +34,7 @@ namespace HaptoFlow.Editor
             Repairs = repairs;
         }
 
-        /// <summary>Error: nothing is felt. Warning: something is not. Info: worth knowing. None: no remark, what the
-        /// scene is.</summary>
+        /// <summary>Error: nothing is felt. Warning: something is not. Info: worth knowing.</summary>
         public MessageType Severity { get; }
 
         public string Text { get; }

@@ -74,7 +74,7 @@ namespace HaptoFlow.RepositoryTests.Outputs
         public void AHitchIsAGapAndNeverAStuckVibration()
         {
             var motor = new SimulatedMotor();
-            AmplitudeQueue queue = QueueFor(motor, SimulatedWave.Sine(120.0));
+            AmplitudeQueue queue = QueueFor(motor, SimulatedWave.Sine(160.0));
             double now = Play(motor, queue, 0.0, 1.0);
             Assert.That(motor.AmplitudeAt(now + AmplitudeQueue.LongestSeconds), Is.Zero);
             Play(motor, queue, now + 0.2, 0.5);
@@ -83,17 +83,34 @@ namespace HaptoFlow.RepositoryTests.Outputs
         }
 
         [Test]
-        public void AStopReachesTheMotorWithTheSameFrameAndSilenceWithTheNext([Values] bool stop)
+        public void AStopReachesTheMotorWithTheSameFrame()
         {
             var motor = new SimulatedMotor();
             SimulatedWave wave = SimulatedWave.Sine(120.0);
             AmplitudeQueue queue = QueueFor(motor, wave);
             double now = Play(motor, queue, 0.0, 1.0);
-            wave.IsStopped = stop;
-            wave.IsSilent = !stop;
-            now = Play(motor, queue, now, stop ? 0.5 * FrameSeconds : 2.5 * FrameSeconds);
+            wave.IsStopped = true;
+            now = Play(motor, queue, now, 0.5 * FrameSeconds);
             int told = motor.Told.Count;
             Assert.That(motor.AmplitudeAt(now), Is.Zero);
+            Play(motor, queue, now, 1.0);
+            Assert.That(motor.Told.Count, Is.EqualTo(told), "a motor at rest is not told so again and again");
+        }
+
+        [Test]
+        public void SilenceReachesTheMotorWithTheFilterOfTheFeatures()
+        {
+            var motor = new SimulatedMotor();
+            SimulatedWave wave = SimulatedWave.Sine(120.0);
+            AmplitudeQueue queue = QueueFor(motor, wave);
+            double now = Play(motor, queue, 0.0, 1.0);
+            float before = motor.AmplitudeAt(now);
+            wave.IsSilent = true;
+            now = Play(motor, queue, now, 2.5 * FrameSeconds);
+            Assert.That(motor.AmplitudeAt(now), Is.LessThan(0.04f * before), "-28 dB after 35 ms");
+            now = Play(motor, queue, now, 4.0 * FrameSeconds);
+            Assert.That(motor.AmplitudeAt(now), Is.Zero, "nothing is left after 90 ms");
+            int told = motor.Told.Count;
             Play(motor, queue, now, 1.0);
             Assert.That(motor.Told.Count, Is.EqualTo(told), "a motor at rest is not told so again and again");
         }
