@@ -95,8 +95,8 @@ void printEvents(std::ostream& stream, const Json& rows) {
 }
 
 void printEffects(std::ostream& stream, const Json& rows) {
-    std::vector<Row> table{{"effect", "off: runs", "on: us a block", "% of block", "events", "callback p50", "p99", "worst",
-                            "x without"}};
+    std::vector<Row> table{
+        {"effect", "off: runs", "on: us a block", "% of block", "events", "callback p50", "p99", "worst", "x without"}};
     for (const Json& entry : rows) {
         const Json& on = entry["on"];
         Row row{text(entry["name"]), figure(entry["off"]["runs"]), figure(on["us_per_block"]),

@@ -8,8 +8,8 @@
 
 namespace haptoflow::bench {
 
-/// "effects": what each effect costs a block of the callback where it is asked for, and that it does not run where it is
-/// not. A hand slides, lands five times a second and crosses from label to label ten times a second.
+/// "effects": what each effect costs a block of the callback where it is asked for, and that it does not run where it
+/// is not. A hand slides, lands five times a second and crosses from label to label ten times a second.
 [[nodiscard]] nlohmann::ordered_json measureEffects(const Subjects& subjects, const BenchPlan& plan,
                                                     const Advance& advance);
 

@@ -261,7 +261,8 @@ void sortOutputs(RenderOptions& options) {
     for (const std::string& output : options.outputs) {
         std::string& path = output.ends_with(".json") ? options.parametricPath : options.outputPath;
         if (!path.empty()) {
-            throw UsageError("-o " + output + ": -o " + path + " is of the same kind; give one .wav and one .json at most");
+            throw UsageError("-o " + output + ": -o " + path +
+                             " is of the same kind; give one .wav and one .json at most");
         }
         path = output;
     }
@@ -278,12 +279,13 @@ void requireSoundOptions(const RenderOptions& options) {
     const NamedPath wav{"-o", options.outputPath};
     const NamedPath waveform{"--waveform", options.waveformPath};
     if (!options.parametricPath.empty() && std::fmod(options.engine.outputRateHz, 2000.0) != 0.0) {
-        throw UsageError("-o " + options.parametricPath + " needs a --rate that is a multiple of 2000 Hz, such as 48000");
+        throw UsageError("-o " + options.parametricPath +
+                         " needs a --rate that is a multiple of 2000 Hz, such as 48000");
     }
-    requireApart(std::array{wav, waveform, NamedPath{"--report", options.reportPath},
-                            NamedPath{"-o", options.parametricPath}},
-                 std::array{NamedPath{"the scene", options.scenePath}, NamedPath{"the stroke", options.strokePath},
-                            NamedPath{"the model", options.modelPath}});
+    requireApart(
+        std::array{wav, waveform, NamedPath{"--report", options.reportPath}, NamedPath{"-o", options.parametricPath}},
+        std::array{NamedPath{"the scene", options.scenePath}, NamedPath{"the stroke", options.strokePath},
+                   NamedPath{"the model", options.modelPath}});
     requireWavName(wav);
     requireWavName(waveform);
 }
@@ -335,7 +337,8 @@ void runRender(const RenderOptions& options) {
     engine::OfflineSettings engineSettings = options.engine;
     engineSettings.delaySeconds = 1e-3 * options.delayMs;
     if (!options.actuator.empty()) {
-        engineSettings.actuator = std::make_shared<const effects::ActuatorProfile>(readActuatorProfile(options.actuator));
+        engineSettings.actuator =
+            std::make_shared<const effects::ActuatorProfile>(readActuatorProfile(options.actuator));
     }
     const effects::EffectMask effects = askedEffects(options.effects);
     RenderFiles files(options);
@@ -429,7 +432,8 @@ void addRenderCommand(CLI::App& app, CommandOutcome& outcome) {
         "Examples:\n"
         "  haptoflow render scene.json --stroke stroke.csv -o felt.wav --report felt.json\n"
         "  haptoflow render scene.json --stroke stroke.csv -o draft.wav --quality draft\n"
-        "  haptoflow render scene.json --stroke stroke.csv -o taps.wav --effects texture,impact,edge --actuator voice-coil\n"
+        "  haptoflow render scene.json --stroke stroke.csv -o taps.wav --effects texture,impact,edge --actuator "
+        "voice-coil\n"
         "+-1 in the WAV is 200 m/s^2 (see --full-scale); most textures are quiet there, and true to each other.");
     command->callback([options, &outcome] {
         sortOutputs(*options);

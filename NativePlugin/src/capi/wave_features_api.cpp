@@ -101,8 +101,8 @@ haptoflow_status haptoflow_wave_features_set_range(haptoflow_wave_features* feat
 }
 
 haptoflow_status haptoflow_wave_features_process(haptoflow_wave_features* features, const float* wave_mps2,
-                                                 uint64_t sample_count, haptoflow_wave_frame* frames,
-                                                 uint64_t capacity, uint64_t* frame_count) {
+                                                 uint64_t sample_count, haptoflow_wave_frame* frames, uint64_t capacity,
+                                                 uint64_t* frame_count) {
     return guarded([&] {
         (void)require(frame_count, "frame_count");
         if (sample_count > 0) {

@@ -53,9 +53,9 @@ std::optional<std::size_t> ContactTransitions::referenceSurface() const noexcept
 }
 
 bool ContactTransitions::isElsewhere(const PosedPlace& now, const Pose& referencePose) const noexcept {
-    return reference_ && (now.surface != reference_->surface ||
-                          glm::dot(referencePose.directionToWorld(reference_->local.normal),
-                                   now.pose.directionToWorld(now.local.normal)) < steadyCosine);
+    return reference_ &&
+           (now.surface != reference_->surface || glm::dot(referencePose.directionToWorld(reference_->local.normal),
+                                                           now.pose.directionToWorld(now.local.normal)) < steadyCosine);
 }
 
 glm::dvec3 ContactTransitions::restingTip(const glm::dvec3& tipMetres, const Pose& referencePose) const noexcept {

@@ -32,13 +32,13 @@ struct ContactEvent {
 
 /// Tells landings and edges from smooth sliding while a tip goes on touching.
 ///
-/// A face changes where the normal turns by 40 degrees over a short way, as it does over the rim of a box and not over a
-/// ball in the hand. A tip that moves into the new face lands on it; one that does not has crossed an edge: a rim, which
-/// is as high as the tip's radius since that far the tip can fall, or the step between two surfaces that lie one beside
-/// the other. Surfaces that are flush have neither.
+/// A face changes where the normal turns by 40 degrees over a short way, as it does over the rim of a box and not over
+/// a ball in the hand. A tip that moves into the new face lands on it; one that does not has crossed an edge: a rim,
+/// which is as high as the tip's radius since that far the tip can fall, or the step between two surfaces that lie one
+/// beside the other. Surfaces that are flush have neither.
 ///
-/// A hand that nothing holds presses deep into things, and deep inside two blocks side by side their inner faces are the
-/// nearest. So a change is judged where the tip would rest on the face that it was on: see `restingTip`.
+/// A hand that nothing holds presses deep into things, and deep inside two blocks side by side their inner faces are
+/// the nearest. So a change is judged where the tip would rest on the face that it was on: see `restingTip`.
 class ContactTransitions {
 public:
     /// A tip that moves more slowly into a face slides over to it.
@@ -63,8 +63,8 @@ public:
     [[nodiscard]] bool isElsewhere(const PosedPlace& now, const Pose& referencePose) const noexcept;
     /// The tip's centre, raised out of the face of the reference until it just touches that.
     [[nodiscard]] glm::dvec3 restingTip(const glm::dvec3& tipMetres, const Pose& referencePose) const noexcept;
-    /// A resting tip that goes over a rim falls onto `other`, a place of another surface: then the rim is none, and what
-    /// there is to feel is the step, once the tip is on that surface.
+    /// A resting tip that goes over a rim falls onto `other`, a place of another surface: then the rim is none, and
+    /// what there is to feel is the step, once the tip is on that surface.
     [[nodiscard]] bool isCaughtBy(const PosedPlace& other, const Pose& referencePose,
                                   const glm::dvec3& restingTipMetres) const noexcept;
     /// The tip touches `now`, moving into it at `approachSpeedMps`. Where it is elsewhere: as a resting tip would.
@@ -88,7 +88,8 @@ private:
     };
 
     [[nodiscard]] double rimHeightMetres() const noexcept;
-    [[nodiscard]] bool isToBeMoved(const PosedPlace& now, const ContactPlace& before, const ContactPlace& here) noexcept;
+    [[nodiscard]] bool isToBeMoved(const PosedPlace& now, const ContactPlace& before,
+                                   const ContactPlace& here) noexcept;
     void moveReference(const PosedPlace& now, bool isArmed) noexcept;
 
     double tipRadiusMetres_;

@@ -20,8 +20,8 @@ enum class ContactAction {
     release,
 };
 
-/// Follows one stylus's contact states. A tip that touches but does not slide is silent: texture comes from sliding, and
-/// only on surfaces that ask for it.
+/// Follows one stylus's contact states. A tip that touches but does not slide is silent: texture comes from sliding,
+/// and only on surfaces that ask for it.
 class ContactFollower {
 public:
     /// Sliding begins at 4 mm/s and ends below 2 mm/s.

@@ -22,8 +22,7 @@ void run(effects::Effect& effect, EffectKind kind, std::span<float> samplesMps2,
     EffectFigures::OfKind& own = figures.of(kind);
     ++own.runs;
     own.samples += samplesMps2.size();
-    own.nanoseconds +=
-        static_cast<std::uint64_t>(std::chrono::duration_cast<std::chrono::nanoseconds>(spent).count());
+    own.nanoseconds += static_cast<std::uint64_t>(std::chrono::duration_cast<std::chrono::nanoseconds>(spent).count());
 }
 
 template <typename Visit>

@@ -44,8 +44,8 @@ struct Processors {
 /// What stands behind the texture of a voice, for one output rate: blows are added, then the whole goes through the
 /// processors that the voice asks for, then through a gate that silences everything at once.
 ///
-/// A stage without anything to do is not run: a voice that asks for no effect is rendered as if there were none, bit for
-/// bit. Audio thread but for construction.
+/// A stage without anything to do is not run: a voice that asks for no effect is rendered as if there were none, bit
+/// for bit. Audio thread but for construction.
 class EffectStage {
 public:
     /// Throws std::invalid_argument for a rate that Gate refuses.

@@ -14,6 +14,7 @@ namespace haptoflow::engine {
 
 /// Of a blend: the weighted mean, of frequencies and decays as logarithms. Labels that the model does not have are left
 /// out; a blend without any weight is the first label.
-[[nodiscard]] effects::ImpactResponse impactResponse(const model::ModelFile& model, const MaterialBlend& blend) noexcept;
+[[nodiscard]] effects::ImpactResponse impactResponse(const model::ModelFile& model,
+                                                     const MaterialBlend& blend) noexcept;
 
 }  // namespace haptoflow::engine

@@ -19,7 +19,11 @@ struct OutputStage {
 
     /// Throws std::invalid_argument for a rate outside 8-192 kHz.
     explicit OutputStage(double outputRateHz)
-        : rateHz(outputRateHz), resampler(outputRateHz), gate(outputRateHz), effects(outputRateHz), strength(outputRateHz) {}
+        : rateHz(outputRateHz),
+          resampler(outputRateHz),
+          gate(outputRateHz),
+          effects(outputRateHz),
+          strength(outputRateHz) {}
 
     double rateHz;
     dsp::WaveformResampler resampler;

@@ -138,8 +138,7 @@ protected:
                                             opening(haptoflow_engine_create, haptoflow_engine_close)),
             input<haptoflow_wave_features_options>(
                 "haptoflow_wave_features_options", "haptoflow_wave_features_create",
-                sizeof(haptoflow_wave_features_options),
-                {0, 8000, 0.005, 60.0, 400.0},
+                sizeof(haptoflow_wave_features_options), {0, 8000, 0.005, 60.0, 400.0},
                 opening(haptoflow_wave_features_create, haptoflow_wave_features_close)),
             input<haptoflow_contact_state>(
                 "haptoflow_contact_state", "haptoflow_voice_publish",
@@ -167,15 +166,14 @@ protected:
                                                [this](haptoflow_voice_statistics* statistics) {
                                                    return haptoflow_voice_get_statistics(open_.voice, statistics);
                                                }),
-            output<haptoflow_exposure>("haptoflow_exposure",
-                                       [this](haptoflow_exposure* exposure) {
-                                           return haptoflow_voice_exposure(open_.voice, exposure);
-                                       }),
-            output<haptoflow_effect_statistics>(
-                "haptoflow_effect_statistics",
-                [this](haptoflow_effect_statistics* statistics) {
-                    return haptoflow_voice_effect_statistics(open_.voice, HAPTOFLOW_EFFECT_TEXTURE, statistics);
-                }),
+            output<haptoflow_exposure>(
+                "haptoflow_exposure",
+                [this](haptoflow_exposure* exposure) { return haptoflow_voice_exposure(open_.voice, exposure); }),
+            output<haptoflow_effect_statistics>("haptoflow_effect_statistics",
+                                                [this](haptoflow_effect_statistics* statistics) {
+                                                    return haptoflow_voice_effect_statistics(
+                                                        open_.voice, HAPTOFLOW_EFFECT_TEXTURE, statistics);
+                                                }),
         };
     }
 

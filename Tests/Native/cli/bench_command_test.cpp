@@ -101,10 +101,12 @@ TEST(BenchCommandTest, EachEffectCostsWhatItTakesWhereItIsAskedForAndNeverRunsWh
         EXPECT_EQ(row["off"]["runs"], 0) << row["name"];
         EXPECT_GT(row["on"]["runs"], 0) << row["name"];
         EXPECT_GT(row["on"]["us_per_block"].get<double>(), 0.0);
-        expectRatio(row["on"]["share_of_block"], row["on"]["us_per_block"], 256.0 / 48000.0 * 1e6, "share of the block");
+        expectRatio(row["on"]["share_of_block"], row["on"]["us_per_block"], 256.0 / 48000.0 * 1e6,
+                    "share of the block");
         expectRanked(row["on"]["callback_us"], "with the effect");
         expectRanked(row["off"]["callback_us"], "without the effect");
-        expectRatio(row["on"]["ratio"], row["on"]["callback_us"]["p50"], row["off"]["callback_us"]["p50"], "with to without");
+        expectRatio(row["on"]["ratio"], row["on"]["callback_us"]["p50"], row["off"]["callback_us"]["p50"],
+                    "with to without");
     }
     EXPECT_THAT(names, ::testing::ElementsAre("impact", "edge", "delay", "compensation", "exposure guard"));
 }

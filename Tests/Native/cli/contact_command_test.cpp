@@ -146,7 +146,8 @@ TEST_F(ContactProgramTest, ASurfaceWithoutStiffnessPressesBackWithItsLabelsAsInR
               R"({"surfaces": [{"name": "table", "shape": {"plane": {}}, "material": )" + material + "}]}");
         EXPECT_EQ(run("contact " + at("scene.json") + " --stroke " + at("stroke.csv")), exitDone) << read("err.txt");
         const std::vector<std::string> lines = linesOf(read("out.txt"));
-        return Spring{numberOf(lines.at(0), lines.at(1), "force_n"), numberOf(lines.at(0), lines.at(1), "penetration_m")};
+        return Spring{numberOf(lines.at(0), lines.at(1), "force_n"),
+                      numberOf(lines.at(0), lines.at(1), "penetration_m")};
     };
     for (const auto& [material, stiffness] :
          {std::pair{"\"stone\"", 4000.0}, {"\"cotton\"", 250.0}, {R"({"wood": 1, "cotton": 3})", 487.5}}) {

@@ -15,8 +15,8 @@
 namespace haptoflow::cli {
 namespace {
 
-using ::testing::HasSubstr;
 using testing::Finished;
+using ::testing::HasSubstr;
 
 class RenderEffectsTest : public testing::CommandLineTest {
 protected:
@@ -38,7 +38,9 @@ protected:
         EXPECT_EQ(rendered.exitCode, 0) << rendered.errors;
         return rendered.exitCode == 0 ? nlohmann::json::parse(read("felt.json")) : nlohmann::json::object();
     }
-    [[nodiscard]] std::vector<float> wave(const std::string& name) const { return readRecording(at(name).string()).samples; }
+    [[nodiscard]] std::vector<float> wave(const std::string& name) const {
+        return readRecording(at(name).string()).samples;
+    }
 };
 
 TEST_F(RenderEffectsTest, ATapIsSilentUnlessItsImpactIsAskedFor) {

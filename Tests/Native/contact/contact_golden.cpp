@@ -127,10 +127,24 @@ Outcome play(const Case& testCase) {
 }
 
 const std::vector<std::string>& readingColumns() {
-    static const std::vector<std::string> columns{
-        "t",  "surface_index", "touching", "touch_counter", "px",           "py",     "pz", "nx", "ny",
-        "nz", "penetration_m", "vx_mps",   "vy_mps",        "approach_mps", "force_n", "landing_counter",
-        "edge_counter", "edge_height_m"};
+    static const std::vector<std::string> columns{"t",
+                                                  "surface_index",
+                                                  "touching",
+                                                  "touch_counter",
+                                                  "px",
+                                                  "py",
+                                                  "pz",
+                                                  "nx",
+                                                  "ny",
+                                                  "nz",
+                                                  "penetration_m",
+                                                  "vx_mps",
+                                                  "vy_mps",
+                                                  "approach_mps",
+                                                  "force_n",
+                                                  "landing_counter",
+                                                  "edge_counter",
+                                                  "edge_height_m"};
     return columns;
 }
 

@@ -159,9 +159,8 @@ Case stepsAndWall() {
 }  // namespace
 
 std::vector<Case> goldenCases() {
-    return {boxEdge(),      deepInsideBox(), spherePole(),     movingPlate(),
-            meshAndBlend(), trackerHold(),   brokenTracking(), seamAndTaps(),
-            stepsAndWall()};
+    return {boxEdge(),     deepInsideBox(),  spherePole(),  movingPlate(), meshAndBlend(),
+            trackerHold(), brokenTracking(), seamAndTaps(), stepsAndWall()};
 }
 
 }  // namespace haptoflow::contact::golden

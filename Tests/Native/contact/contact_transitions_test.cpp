@@ -20,7 +20,6 @@ using testing::sampledPath;
 using testing::sceneOf;
 using testing::surfaceOf;
 using testing::turned;
-using testing::turned;
 
 constexpr double pi = std::numbers::pi;
 constexpr double tipRadius = 0.001;
@@ -88,13 +87,12 @@ TEST(ContactTransitionsTest, ASlideAgainstAWallLandsOnceWithTheSpeedOfTheSlide) 
 TEST(ContactTransitionsTest, AWallOfTheSameMeshIsLandedOnAsAnotherSurfaceIs) {
     // A floor and a wall of one open mesh, its front towards the tip.
     testing::RawMesh corner;
-    corner.vertices = {{-1.0, 0.0, -1.0}, {-1.0, 0.0, 1.0}, {0.2, 0.0, 1.0}, {0.2, 0.0, -1.0}, {0.2, 1.0, 1.0},
-                       {0.2, 1.0, -1.0}};
+    corner.vertices = {{-1.0, 0.0, -1.0}, {-1.0, 0.0, 1.0}, {0.2, 0.0, 1.0},
+                       {0.2, 0.0, -1.0},  {0.2, 1.0, 1.0},  {0.2, 1.0, -1.0}};
     corner.triangles = {{0, 1, 2}, {0, 2, 3}, {3, 2, 4}, {3, 4, 5}};
     const Scene scene = sceneOf({surfaceOf(testing::meshOf(corner))});
-    const Events events = eventsOf(scene, 0.6, 90.0, [](double time) {
-        return glm::dvec3(0.1 + 0.2 * time, 0.0004, 0.0);
-    });
+    const Events events =
+        eventsOf(scene, 0.6, 90.0, [](double time) { return glm::dvec3(0.1 + 0.2 * time, 0.0004, 0.0); });
     EXPECT_EQ(events.landings, 1U);
     EXPECT_NEAR(events.approach, 0.2, 0.005);
     EXPECT_EQ(events.edges, 0U);
@@ -151,9 +149,8 @@ TEST(ContactTransitionsTest, ATipThatSlidesOffABoxCrossesOneRim) {
     const Scene scene = sceneOf({blockAt({0.0, -0.05, 0.0})});
     forEachStroke([&](double speed, double rateHz, double offset) {
         for (const double height : {0.0008, 0.0, -0.003}) {
-            const Events events = eventsOf(scene, 0.1 / speed, rateHz, [&](double time) {
-                return glm::dvec3(offset + speed * time, height, 0.0);
-            });
+            const Events events = eventsOf(scene, 0.1 / speed, rateHz,
+                                           [&](double time) { return glm::dvec3(offset + speed * time, height, 0.0); });
             EXPECT_EQ(events.edges, 1U) << height;
             EXPECT_DOUBLE_EQ(events.height, tipRadius);
             EXPECT_EQ(events.landings, 0U);
@@ -165,13 +162,14 @@ TEST(ContactTransitionsTest, ATipThatRollsOverTheRimOfABoxCrossesItOnceHoweverSl
     for (const double speed : {0.005, 0.04, 0.3}) {
         const double depth = 0.0005;
         const double around = 0.004 - depth;
-        const Events events = eventsOf(sceneOf({blockAt({0.0, 0.0, 0.0})}, 0.004), 0.04 / speed, 240.0, [&](double time) {
-            const double path = speed * time - 0.02;
-            const double arc = around * pi / 2.0;
-            const double angle = std::clamp(path / around, 0.0, pi / 2.0);
-            return glm::dvec3(0.05 + std::min(0.0, path) + around * std::sin(angle),
-                              0.05 + around * std::cos(angle) - std::max(0.0, path - arc), 0.0);
-        });
+        const Events events =
+            eventsOf(sceneOf({blockAt({0.0, 0.0, 0.0})}, 0.004), 0.04 / speed, 240.0, [&](double time) {
+                const double path = speed * time - 0.02;
+                const double arc = around * pi / 2.0;
+                const double angle = std::clamp(path / around, 0.0, pi / 2.0);
+                return glm::dvec3(0.05 + std::min(0.0, path) + around * std::sin(angle),
+                                  0.05 + around * std::cos(angle) - std::max(0.0, path - arc), 0.0);
+            });
         EXPECT_EQ(events.edges, 1U) << speed;
         EXPECT_DOUBLE_EQ(events.height, 0.004);
         EXPECT_EQ(events.touches, 1U);
@@ -273,7 +271,8 @@ TEST(ContactTransitionsTest, ATipAtRestInACornerCountsNothingThoughItsTrackingTr
 }
 
 TEST(ContactTransitionsTest, NothingIsCrossedByATeleportALostTrackerOrAClockThatRestarts) {
-    const Scene scene = sceneOf({blockAt({-0.5, -0.05, 0.0}, {1.0, 0.1, 1.0}), blockAt({0.5, 0.0, 0.0}, {0.6, 1.0, 1.0})});
+    const Scene scene =
+        sceneOf({blockAt({-0.5, -0.05, 0.0}, {1.0, 0.1, 1.0}), blockAt({0.5, 0.0, 0.0}, {0.6, 1.0, 1.0})});
     for (int kind = 0; kind < 3; ++kind) {
         ContactTracker tracker(scene);
         std::vector<TipSample> samples = sampledPath(0.5, 90.0, [](double time) {
@@ -295,9 +294,8 @@ TEST(ContactTransitionsTest, NothingIsCrossedByATeleportALostTrackerOrAClockThat
 }
 
 TEST(ContactTransitionsTest, ATipOfNoRadiusHasRimsOfTheLowestHeight) {
-    const Events events = eventsOf(sceneOf({blockAt({0.0, -0.05, 0.0})}, 0.0), 0.5, 90.0, [](double time) {
-        return glm::dvec3(0.2 * time, -0.0004, 0.0);
-    });
+    const Events events = eventsOf(sceneOf({blockAt({0.0, -0.05, 0.0})}, 0.0), 0.5, 90.0,
+                                   [](double time) { return glm::dvec3(0.2 * time, -0.0004, 0.0); });
     EXPECT_EQ(events.edges, 1U);
     EXPECT_DOUBLE_EQ(events.height, ContactTransitions::lowestRimMetres);
 }
@@ -305,7 +303,8 @@ TEST(ContactTransitionsTest, ATipOfNoRadiusHasRimsOfTheLowestHeight) {
 TEST(ContactTransitionsTest, ATurnedSceneCountsTheSame) {
     const glm::dquat turn = turned(73.0, {1.0, -2.0, 0.5});
     const glm::dvec3 shift(3.0, -1.0, 7.0);
-    std::vector<Surface> surfaces{blockAt({-0.1, -0.05, 0.0}, {0.2, 0.1, 0.1}), blockAt({0.3, 0.3, 0.0}, {0.6, 1.0, 1.0})};
+    std::vector<Surface> surfaces{blockAt({-0.1, -0.05, 0.0}, {0.2, 0.1, 0.1}),
+                                  blockAt({0.3, 0.3, 0.0}, {0.6, 1.0, 1.0})};
     for (Surface& surface : surfaces) {
         surface.pose.positionMetres = shift + turn * surface.pose.positionMetres;
         surface.pose.rotation = turn;

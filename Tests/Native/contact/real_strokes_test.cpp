@@ -196,7 +196,8 @@ TEST(RealStrokesTest, AStrokeOverFlushTilesOf30MmHasNoEventAndOverThoseOf15MmHar
             }
         }
     }
-    // Where a fast pen jumps over a tile of 15 mm and dips as deep as a quarter of it, its sides are as near as its top.
+    // Where a fast pen jumps over a tile of 15 mm and dips as deep as a quarter of it, its sides are as near as its
+    // top.
     EXPECT_GT(crossings, 3000U);
     EXPECT_LE(events, crossings / 1000);
 }

@@ -6,8 +6,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <random>
 #include <vector>
@@ -152,7 +152,8 @@ TEST_F(VoiceEffectsTest, ALandingOnAnotherSurfaceWhileSlidingAddsToTheTexture) {
     std::ranges::transform(with, without, blow.begin(), std::minus<>());
     EXPECT_EQ(testing::peak(std::span<const float>(blow).first(9000)), 0.0F);
     const double peak = 60.0 * static_cast<double>(testing::peak(blow));
-    const double expected = 0.05 * static_cast<double>(impactResponse(model_.header().labels[0]).modes[0].gainPerSecond);
+    const double expected =
+        0.05 * static_cast<double>(impactResponse(model_.header().labels[0]).modes[0].gainPerSecond);
     EXPECT_GT(peak, 0.6 * expected);
     EXPECT_LT(peak, 1.01 * expected);
 }
@@ -509,8 +510,8 @@ TEST_F(ProcessorsTest, LiftOffClosesTheTextureBeforeTheDelayAndPanicActsBehindIt
 TEST_F(ProcessorsTest, SettingsThatChangeAtAnyMomentWhileSlidingNeverClick) {
     std::mt19937 random(11);
     SimulatedDevice device(model_, tone_);
-    const auto profile = std::make_shared<const effects::ActuatorProfile>(
-        *effects::ActuatorProfile::builtIn("voice-coil"));
+    const auto profile =
+        std::make_shared<const effects::ActuatorProfile>(*effects::ActuatorProfile::builtIn("voice-coil"));
     const auto slide = [](double) { return testing::sliding(); };
     device.run(0.5, slide);
     const float tone = testing::largestStep(device.output);
