@@ -108,6 +108,18 @@ void printEffects(std::ostream& stream, const Json& rows) {
     printTable(stream, "effects, 256 frames at 48 kHz, us", table);
 }
 
+void printOutputs(std::ostream& stream, const Json& rows) {
+    std::vector<Row> table{{"output", "voice at Hz", "p50", "p99", "worst", "p50 % of frame", "x audio"}};
+    for (const Json& entry : rows) {
+        Row row{text(entry["name"]), figure(entry["rate_hz"])};
+        appendRanks(row, entry["us_per_frame"]);
+        row.push_back(percent(entry["share_of_frame"]));
+        row.push_back(figure(entry["ratio"]));
+        table.push_back(row);
+    }
+    printTable(stream, "outputs, one frame of 13.9 ms, us", table);
+}
+
 std::string deviceOf(const Json& entry) {
     const std::string frames = figure(entry["block_frames"]);
     return entry["burst_blocks"] == 1 ? frames : figure(entry["burst_blocks"]) + " x " + frames;
@@ -228,6 +240,7 @@ void printTables(std::ostream& stream, const Json& report) {
     print("callback_us", [&](const Json& section) { printCallback(stream, section); });
     print("callback_events_us", [&](const Json& section) { printEvents(stream, section); });
     print("effects", [&](const Json& section) { printEffects(stream, section); });
+    print("outputs", [&](const Json& section) { printOutputs(stream, section); });
     print("onset_ms", [&](const Json& section) { printLatency(stream, "onset, ms", section); });
     print("contact_to_sound_ms", [&](const Json& section) { printLatency(stream, "contact to sound, ms", section); });
     print("stop_ms", [&](const Json& section) { printLatency(stream, "stop, ms", section); });

@@ -29,7 +29,8 @@ struct NamedEffect {
     EffectKind kind;
 };
 
-constexpr std::array<NamedEffect, 5> measuredEffects{{{"impact", EffectKind::impact},
+constexpr std::array<NamedEffect, 6> measuredEffects{{{"texture", EffectKind::texture},
+                                                      {"impact", EffectKind::impact},
                                                       {"edge", EffectKind::edge},
                                                       {"delay", EffectKind::delay},
                                                       {"compensation", EffectKind::compensation},
@@ -64,8 +65,10 @@ public:
         state.approachSpeedMps = approachSpeedMps;
         state.edgeCounter = static_cast<std::uint32_t>(seconds * crossingsPerSecond);
         state.edgeHeightMetres = edgeHeightMetres;
+        const bool isOfSurface = kind_ <= EffectKind::edge;
+        // What a landing or an edge costs shows best where it is all that sounds beside the texture.
+        state.effects = kind_ == EffectKind::texture ? 0U : maskOf(EffectKind::texture);
         engine_->publish(*without_, state);
-        const bool isOfSurface = kind_ == EffectKind::impact || kind_ == EffectKind::edge;
         state.effects |= isOfSurface ? maskOf(kind_) : 0U;
         engine_->publish(*with_, state);
         engine_->step();
@@ -82,8 +85,8 @@ public:
     }
 
     [[nodiscard]] nlohmann::ordered_json figures() const {
-        const engine::EffectCounters& with = counters(*with_);
-        const engine::EffectCounters& without = counters(*without_);
+        const Runs with = runsOf(*with_);
+        const Runs without = runsOf(*without_);
         if (with.runs == 0) {
             throw MeasurementError("an effect that was asked for did not run: it was not measured");
         }
@@ -91,10 +94,10 @@ public:
         const double ownMicroseconds = 1e-3 * static_cast<double>(with.nanoseconds) / blocks;
         const nlohmann::ordered_json callbackWith = toJson(distributionOf(withSeconds_), microseconds);
         const nlohmann::ordered_json callbackWithout = toJson(distributionOf(withoutSeconds_), microseconds);
-        return {{"off", {{"runs", without.runs.load()}, {"callback_us", callbackWithout}}},
+        return {{"off", {{"runs", without.runs}, {"callback_us", callbackWithout}}},
                 {"on",
-                 {{"runs", with.runs.load()},
-                  {"events", with.events.load()},
+                 {{"runs", with.runs},
+                  {"events", with.events},
                   {"us_per_block", rounded(ownMicroseconds)},
                   {"share_of_block", rounded(ownMicroseconds / (DeviceShape{}.blockSeconds() * microseconds))},
                   {"callback_us", callbackWith},
@@ -102,8 +105,20 @@ public:
     }
 
 private:
-    [[nodiscard]] const engine::EffectCounters& counters(const engine::LiveVoice& voice) const {
-        return voice.channels.counters.effects.at(static_cast<std::size_t>(kind_));
+    struct Runs {
+        std::uint64_t runs = 0;
+        std::uint64_t events = 0;
+        std::uint64_t nanoseconds = 0;
+    };
+
+    /// Of the texture: the network's runs and their time, which is the worker's and not the callback's.
+    [[nodiscard]] Runs runsOf(const engine::LiveVoice& voice) const {
+        const engine::VoiceCounters& all = voice.channels.counters;
+        if (kind_ == EffectKind::texture) {
+            return {all.inferences, all.onsets, all.inferenceNanoseconds};
+        }
+        const engine::EffectCounters& own = all.effects.at(static_cast<std::size_t>(kind_));
+        return {own.runs, own.events, own.nanoseconds};
     }
 
     EffectKind kind_;

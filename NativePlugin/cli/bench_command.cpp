@@ -94,7 +94,7 @@ void addBenchCommand(CLI::App& app, CommandOutcome& outcome) {
     command->add_flag("--quick", options->quick, "Fewer events and devices: half a minute for a first look");
     command
         ->add_option("--only", options->only,
-                     "Some measurements: callback, events, effects, latency, inference, voices, idle, contact")
+                     "Some measurements: callback, events, effects, outputs, latency, inference, voices, idle, contact")
         ->delimiter(',')
         ->check(
             CLI::IsMember(std::vector<std::string>(bench::measurementNames.begin(), bench::measurementNames.end())));

@@ -68,9 +68,9 @@ void expectRatio(const Json& ratio, const Json& numerator, const Json& denominat
 
 TEST(BenchCommandTest, TheReportHasEveryKeyOfTheContract) {
     const Json report = reportOf("all");
-    for (const char* key :
-         {"callback_us", "callback_events_us", "onset_ms", "contact_to_sound_ms", "stop_ms", "inference_ms",
-          "speedup_vs_paper_architecture", "voices", "idle", "memory_mib", "load_ms", "contact", "effects"}) {
+    for (const char* key : {"callback_us", "callback_events_us", "onset_ms", "contact_to_sound_ms", "stop_ms",
+                            "inference_ms", "speedup_vs_paper_architecture", "voices", "idle", "memory_mib", "load_ms",
+                            "contact", "effects", "outputs"}) {
         EXPECT_TRUE(report.contains(key)) << key;
     }
     EXPECT_TRUE(report["notes"].empty()) << report["notes"];
@@ -108,7 +108,24 @@ TEST(BenchCommandTest, EachEffectCostsWhatItTakesWhereItIsAskedForAndNeverRunsWh
         expectRatio(row["on"]["ratio"], row["on"]["callback_us"]["p50"], row["off"]["callback_us"]["p50"],
                     "with to without");
     }
-    EXPECT_THAT(names, ::testing::ElementsAre("impact", "edge", "delay", "compensation", "exposure guard"));
+    EXPECT_THAT(names, ::testing::ElementsAre("texture", "impact", "edge", "delay", "compensation", "exposure guard"));
+}
+
+TEST(BenchCommandTest, EachOutputIsMeasuredBesideTheVoiceOfAnAudioOutput) {
+    const Json rows = reportOf("outputs")["outputs"];
+    std::vector<std::string> names;
+    for (const Json& row : rows) {
+        names.push_back(row["name"]);
+        expectRanked(row["us_per_frame"], "a frame");
+        expectRatio(row["share_of_frame"], row["us_per_frame"]["p50"], 1e6 / 72.0, "share of the frame");
+        if (row["name"] == "audio") {
+            EXPECT_TRUE(row["ratio"].is_null());
+        } else {
+            expectRatio(row["ratio"], row["us_per_frame"]["p50"], rows[0]["us_per_frame"]["p50"],
+                        "to the audio output");
+        }
+    }
+    EXPECT_THAT(names, ::testing::ElementsAre("audio", "controller waveform", "controller parametric", "motor"));
 }
 
 TEST(BenchCommandTest, CallbackRowsAreOfOneTwoAndEightVoicesWithTheirShareOfTheBlock) {
