@@ -55,6 +55,7 @@ namespace HaptoFlow.Samples.StylusTracing
 #if HAPTOFLOW_INPUT_SYSTEM && ENABLE_INPUT_SYSTEM
             XrRig.Create(view!);
             AlignmentStep.Create(exhibits, SaveName, facing);
+            OutputStep.Create(facing);
 #endif
         }
 

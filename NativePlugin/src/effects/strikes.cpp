@@ -35,6 +35,7 @@ void Strikes::ring(double speedMps, const ImpactResponse& response) noexcept {
         const auto quietest = std::ranges::min_element(ringing_, {}, &DecayingSinusoid::envelopeMps2);
         if (amplitude > quietest->envelopeMps2()) {
             quietest->start(mode.frequencyHz, decay, amplitude, sampleRateHz_);
+            isIdle_ = false;
         }
     }
 }
@@ -51,6 +52,7 @@ void Strikes::planRebound(double speedMps, const ImpactResponse& response) noexc
     rebound_.response = response;
     const double flightSeconds = 2.0 * rebound_.speedMps / returnAccelerationMps2;
     rebound_.samplesLeft = 1 + static_cast<std::uint64_t>(flightSeconds * sampleRateHz_);
+    isIdle_ = false;
 }
 
 EffectDeclaration Strikes::declaration() const noexcept {
@@ -82,6 +84,7 @@ void Strikes::process(std::span<float> samplesMps2) noexcept {
             planRebound(landed.speedMps, landed.response);
         }
     }
+    isIdle_ = rebound_.samplesLeft == 0 && std::ranges::all_of(ringing_, &DecayingSinusoid::isIdle);
 }
 
 void Strikes::reset() noexcept {
@@ -90,10 +93,7 @@ void Strikes::reset() noexcept {
     }
     rebound_ = {};
     reboundsLeft_ = 0;
-}
-
-bool Strikes::isIdle() const noexcept {
-    return rebound_.samplesLeft == 0 && std::ranges::all_of(ringing_, &DecayingSinusoid::isIdle);
+    isIdle_ = true;
 }
 
 }  // namespace haptoflow::effects

@@ -44,7 +44,7 @@ public:
     [[nodiscard]] EffectDeclaration declaration() const noexcept override;
     void process(std::span<float> samplesMps2) noexcept override;
     void reset() noexcept override;
-    [[nodiscard]] bool isIdle() const noexcept override;
+    [[nodiscard]] bool isIdle() const noexcept override { return isIdle_; }
     /// Blows so far, rebounds included.
     [[nodiscard]] std::uint64_t struck() const noexcept { return struck_; }
 
@@ -64,6 +64,8 @@ private:
     std::array<DecayingSinusoid, capacity> ringing_{};
     Rebound rebound_{};
     std::size_t reboundsLeft_ = 0;
+    // Asked for several times a block, also by voices that never strike anything.
+    bool isIdle_ = true;
     std::uint64_t struck_ = 0;
 };
 

@@ -27,8 +27,14 @@ struct EffectFigures {
         std::uint64_t events = 0;
     };
     std::array<OfKind, effects::effectKinds> kinds{};
+    /// One more whenever a number may have grown.
+    std::uint64_t changes = 0;
 
-    [[nodiscard]] OfKind& of(effects::EffectKind kind) noexcept { return kinds[static_cast<std::size_t>(kind)]; }
+    /// To count on.
+    [[nodiscard]] OfKind& of(effects::EffectKind kind) noexcept {
+        ++changes;
+        return kinds[static_cast<std::size_t>(kind)];
+    }
 };
 
 /// Stages that change the whole signal, made together for one output rate; null where a voice does not ask for one.

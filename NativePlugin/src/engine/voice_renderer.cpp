@@ -204,8 +204,14 @@ void VoiceRenderer::readBlows() noexcept {
 
 void VoiceRenderer::takeProcessors() noexcept {
     const std::uint64_t wanted = channels_.wantedProcessors.load(std::memory_order_acquire);
-    channels_.stageRateHz.store(voice_.outputRateHz(), std::memory_order_release);
-    channels_.lacksProcessors.store(wanted != voice_.effects().version(), std::memory_order_release);
+    const bool lacks = wanted != voice_.effects().version();
+    // Written only where they change: the worker reads what lies beside them.
+    if (channels_.stageRateHz.load(std::memory_order_relaxed) != voice_.outputRateHz()) {
+        channels_.stageRateHz.store(voice_.outputRateHz(), std::memory_order_release);
+    }
+    if (channels_.lacksProcessors.load(std::memory_order_relaxed) != lacks) {
+        channels_.lacksProcessors.store(lacks, std::memory_order_release);
+    }
     // The worker deletes one used set at a time.
     if (channels_.usedProcessors.load(std::memory_order_acquire) != nullptr) {
         return;
@@ -216,6 +222,9 @@ void VoiceRenderer::takeProcessors() noexcept {
     }
     std::unique_ptr<Processors> used = stage.takeUsed();
     if (used == nullptr && !stage.isHandingOver()) {
+        if (channels_.freshProcessors.load(std::memory_order_relaxed) == nullptr) {
+            return;
+        }
         std::unique_ptr<Processors> fresh(channels_.freshProcessors.exchange(nullptr, std::memory_order_acq_rel));
         if (fresh == nullptr) {
             return;
@@ -295,6 +304,11 @@ void VoiceRenderer::sound(std::span<float> out) noexcept {
 }
 
 void VoiceRenderer::reportEffects() noexcept {
+    // A voice without effects has nothing to say, and thirty stores a block are felt in small ones.
+    if (voice_.effectFigures().changes == reportedEffectChanges_) {
+        return;
+    }
+    reportedEffectChanges_ = voice_.effectFigures().changes;
     for (std::size_t kind = 0; kind < effects::effectKinds; ++kind) {
         const EffectFigures::OfKind& figures = voice_.effectFigures().kinds[kind];
         EffectCounters& counters = channels_.counters.effects[kind];
@@ -304,6 +318,9 @@ void VoiceRenderer::reportEffects() noexcept {
         counters.nanoseconds.store(figures.nanoseconds, std::memory_order_relaxed);
         counters.events.store(figures.events, std::memory_order_relaxed);
     }
+}
+
+void VoiceRenderer::reportExposure() noexcept {
     if (const effects::ExposureGuard* guard = voice_.effects().exposureGuard()) {
         const effects::ExposureReport report = guard->report();
         channels_.exposureReason.store(report.reason, std::memory_order_relaxed);
@@ -323,6 +340,7 @@ void VoiceRenderer::report(std::uint64_t uncoveredBefore, bool sounded) noexcept
     counters.nonFiniteSamples.store(voice_.limiter().nonFiniteCount(), std::memory_order_relaxed);
     counters.limitedSamples.store(voice_.limiter().limitedCount(), std::memory_order_relaxed);
     reportEffects();
+    reportExposure();
 
     const bool running = isSounding();
     if (!running && !reportedRunning_) {

@@ -50,6 +50,7 @@ private:
     void readBlows() noexcept;
     void takeProcessors() noexcept;
     void reportEffects() noexcept;
+    void reportExposure() noexcept;
     void fallSilent(Silence reason) noexcept;
     void takeSegments() noexcept;
     void requestOutput(double rateHz) noexcept;
@@ -87,6 +88,7 @@ private:
     std::array<std::int64_t, 2> longestBlock_{};
     int blocksNoted_ = 0;
     bool reportedRunning_ = false;
+    std::uint64_t reportedEffectChanges_ = 0;
 };
 
 }  // namespace haptoflow::engine

@@ -1,0 +1,205 @@
+"""Draws the plots of Documentation~/effects-and-outputs.md: what each effect does, through the shipped engine and model.
+
+Run from the repository's root, after `npm run build`:
+
+    /usr/bin/python3 scripts/pack/effect_pictures.py
+
+It writes effect-impact.png, effect-edge.png, effect-delay.png, effect-exposure-guard.png and features-of-the-wave.png
+into Documentation~/images. Renders come from the command line, the exposure guard's hour and the features of the wave
+from the C interface.
+"""
+
+from __future__ import annotations
+
+import json
+import subprocess
+import tempfile
+from pathlib import Path
+
+import matplotlib
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt
+import numpy as np
+from native_engine import NativeEngine, wave_frames
+from sample_pictures import ROOT, save
+from scipy.io import wavfile
+
+ENGINE = ROOT / "build/native/haptoflow"
+IMAGES = ROOT / "Documentation~/images"
+# Far above every blow that is drawn: nothing was bent by the limiter.
+FULL_SCALE_MPS2 = 2000.0
+RATE_HZ = 48000
+DEEP_METRES = 0.0005
+COLOURS = {"rubber": "#5d5566", "wood": "#b9793f", "stone": "#7d8590"}
+
+
+class Folder:
+    """Scenes and strokes become vibrations in m/s^2."""
+
+    def __init__(self, path: Path) -> None:
+        self._path = path
+
+    def render(self, surfaces: list[dict], stroke: np.ndarray, *words: str) -> np.ndarray:
+        scene, table, wav = (self._path / name for name in ("scene.json", "stroke.csv", "out.wav"))
+        scene.write_text(json.dumps({"surfaces": surfaces}), encoding="utf-8")
+        np.savetxt(table, stroke, fmt="%.7f", delimiter=",", header="t,x,y,z,force", comments="")
+        command = [ENGINE, "render", scene, "--stroke", table, "-o", wav, "--quiet", "--full-scale", FULL_SCALE_MPS2]
+        done = subprocess.run([*map(str, command), *words], capture_output=True, text=True, check=False)
+        if done.returncode != 0:
+            raise SystemExit(done.stderr)
+        return wavfile.read(wav)[1].astype(np.float64) * FULL_SCALE_MPS2
+
+
+def plane(label: str) -> dict:
+    return {"name": "plane", "shape": {"plane": {}}, "material": label}
+
+
+def box(name: str, label: str, left: float, top: float) -> dict:
+    """Half a metre long, its left end and its top where they are said to be."""
+    return {"name": name, "shape": {"box": {"size": [0.5, 0.1, 0.5]}}, "position": [left + 0.25, top - 0.05, 0.0],
+            "material": label}
+
+
+def drop(speed_mps: float) -> np.ndarray:
+    """Straight down onto y = 0, landing after 0.1 s, then at rest."""
+    times = np.arange(0.0, 0.4, 0.002)
+    height = np.maximum(speed_mps * (0.1 - times), -DEEP_METRES)
+    return np.column_stack([times, 0 * times, height, 0 * times, 0 * times + 1.0])
+
+
+def slide(speed_mps: float, height_of: np.ndarray | float = 0.0) -> np.ndarray:
+    """Along x over 0 at 0.5 s; the height falls by `height_of` where x passes 0."""
+    times = np.arange(0.0, 1.0, 0.002)
+    x = speed_mps * (times - 0.5)
+    return np.column_stack([times, x, np.where(x < 0.0, 0.0, -height_of) - DEEP_METRES, 0 * times, 0 * times + 1.0])
+
+
+def first_sound(wave: np.ndarray) -> int:
+    return int(np.argmax(np.abs(wave) > 1e-6))
+
+
+def impact_picture(folder: Folder) -> plt.Figure:
+    figure, (waves, law) = plt.subplots(1, 2, figsize=(10.0, 3.6), layout="constrained")
+    for place, (label, colour) in enumerate(COLOURS.items()):
+        wave = folder.render([plane(label)], drop(0.6), "--effects", "impact")
+        begin = first_sound(wave)
+        seconds = np.arange(int(0.06 * RATE_HZ)) / RATE_HZ
+        waves.plot(1000.0 * seconds, wave[begin : begin + len(seconds)] - 500.0 * place, color=colour, label=label)
+        speeds = np.geomspace(0.01, 2.0, 9)
+        peaks = [np.abs(folder.render([plane(label)], drop(speed), "--effects", "impact")).max() for speed in speeds]
+        law.loglog(speeds, peaks, "o-", color=colour, label=label, markersize=4)
+    waves.set(xlabel="ms after the landing", ylabel="m/s², one below the other", title="A landing at 0.6 m/s")
+    waves.set_yticks([0, -500, -1000], ["0", "0", "0"])
+    law.set(xlabel="approach, m/s", ylabel="peak, m/s²", title="The amplitude is proportional to the approach")
+    law.grid(alpha=0.3, which="both")
+    for axes in (waves, law):
+        axes.legend(frameon=False)
+    return figure
+
+
+def edge_picture(folder: Folder) -> plt.Figure:
+    figure, (waves, law) = plt.subplots(1, 2, figsize=(10.0, 3.6), layout="constrained")
+    pairs = {
+        "a step down of 2 mm, wood": ("wood", "wood", 0.002),
+        "a step down of 0.5 mm, wood": ("wood", "wood", 0.0005),
+        "glass to sandpaper, flush": ("glass", "sandpaper", 0.0),
+        "wood to wood, flush": ("wood", "wood", 0.0),
+    }
+    for place, (name, (before, after, height)) in enumerate(pairs.items()):
+        scene = [box("before", before, -0.5, 0.0), box("after", after, 0.0, -height)]
+        energies = []
+        speeds = [0.02, 0.05, 0.1, 0.2, 0.3, 0.5]
+        for speed in speeds:
+            wave = folder.render(scene, slide(speed, height), "--effects", "edge")
+            energies.append(np.sum(wave**2) / RATE_HZ)
+            if speed == 0.2:
+                begin = int(0.49 * RATE_HZ)
+                seconds = np.arange(int(0.06 * RATE_HZ)) / RATE_HZ
+                waves.plot(1000.0 * (seconds - 0.01), wave[begin : begin + len(seconds)] - 20.0 * place, label=name)
+        law.plot(speeds, np.sqrt(energies), "o-", markersize=4, label=name)
+    waves.set(xlabel="ms after the edge", ylabel="m/s², one below the other", title="At 0.2 m/s")
+    waves.set_yticks([-20.0 * place for place in range(len(pairs))], ["0"] * len(pairs))
+    law.set(xlabel="speed, m/s", ylabel="root of the energy, m/s² √s", title="It follows speed and height or level")
+    law.grid(alpha=0.3)
+    law.legend(frameon=False)
+    return figure
+
+
+def delay_picture(folder: Folder) -> plt.Figure:
+    figure, axes = plt.subplots(figsize=(10.0, 2.6), layout="constrained")
+    times = np.arange(0.0, 0.8, 0.002)
+    x = 0.2 * np.clip(times - 0.15, 0.0, 0.3)
+    height = np.where(times < 0.45, np.maximum(0.6 * (0.1 - times), -DEEP_METRES), 0.01)
+    stroke = np.column_stack([times, x, height, 0 * times, 0 * times + 1.0])
+    for place, milliseconds in enumerate((0, 100)):
+        wave = folder.render([plane("wood")], stroke, "--effects", "texture,impact", "--delay-ms", str(milliseconds))
+        axes.plot(np.arange(len(wave)) / RATE_HZ, wave - 150.0 * place, linewidth=0.6, label=f"delay {milliseconds} ms")
+    axes.set(xlabel="s", ylabel="m/s², one below the other", title="A landing and a stroke of 0.3 s")
+    axes.set_yticks([0, -150], ["0", "0"])
+    axes.legend(frameon=False, loc="upper right")
+    return figure
+
+
+def guard_picture(_: Folder) -> plt.Figure:
+    figure, (levels, gains) = plt.subplots(2, 1, figsize=(10.0, 4.4), sharex=True, layout="constrained")
+    minutes = 40.0
+    with NativeEngine() as engine:
+        for actuator_gain, colour in ((4.0, "#3465a4"), (16.0, "#cc4c02")):
+            rows = engine.exposure(label="sandpaper", force_newtons=3.0, speed_mps=0.2, actuator_gain=actuator_gain,
+                                   seconds=60.0 * minutes)
+            time = rows["seconds"] / 60.0
+            name = f"actuator gain {actuator_gain:g}"
+            levels.plot(time, rows["short_term_mps2"], color=colour, label=f"mean of 5 minutes, {name}")
+            gains.plot(time, 20.0 * np.log10(rows["gain"]), color=colour, label=name)
+    levels.axhline(60.0, color="#888", linewidth=0.8, linestyle="--")
+    levels.set(ylabel="m/s²", title="Sandpaper, 3 N, 0.2 m/s, without a pause")
+    gains.set(xlabel="minutes", ylabel="gain of the guard, dB")
+    for axes in (levels, gains):
+        axes.legend(frameon=False, loc="upper right")
+        axes.grid(alpha=0.3)
+    return figure
+
+
+def features_picture(folder: Folder) -> plt.Figure:
+    figure, (wave_axes, controller, motor) = plt.subplots(3, 1, figsize=(10.0, 6.0), sharex=True, layout="constrained")
+    times = np.arange(0.0, 1.0, 0.002)
+    x = 0.2 * np.clip(times - 0.2, 0.0, 0.5)
+    height = np.where(times < 0.8, np.maximum(0.6 * (0.1 - times), -DEEP_METRES), 0.01)
+    stroke = np.column_stack([times, x, height, 0 * times, 0 * times + 1.0])
+    wave = folder.render([plane("concrete")], stroke, "--effects", "texture,impact")
+    wave_axes.plot(np.arange(len(wave)) / RATE_HZ, wave, linewidth=0.6, color="#444")
+    wave_axes.set(ylabel="m/s²", title="Wanted: a landing and a stroke on concrete")
+    frames = wave_frames(wave, RATE_HZ, 0.005, 40.0, 400.0)
+    controller.step(frames["seconds"], frames["amplitude_mps2"], where="post", color="#3465a4", label="amplitude, m/s²")
+    onsets = frames[frames["transient_mps2"] > 0.0]
+    controller.plot(onsets["seconds"] + onsets["transient_offset_seconds"], onsets["transient_mps2"], "v", color="#cc4c02",
+                    label="transient")
+    controller.set(ylabel="m/s²", title="Sent to a controller of 40 to 400 Hz, every 5 ms")
+    hertz = controller.twinx()
+    hertz.step(frames["seconds"], frames["frequency_hz"], where="post", color="#999", linewidth=0.8)
+    hertz.set_ylabel("Hz (grey)")
+    controller.legend(frameon=False, loc="upper right")
+    frames = wave_frames(wave, RATE_HZ, 0.008, 160.0, 160.0)
+    motor.step(frames["seconds"], frames["amplitude_mps2"], where="post", color="#3465a4")
+    motor.set(xlabel="s", ylabel="m/s²", title="Sent to a motor of 160 Hz, every 8 ms: each frame feels as strong as the wave")
+    return figure
+
+
+def main() -> None:
+    pictures = {
+        "effect-impact": impact_picture,
+        "effect-edge": edge_picture,
+        "effect-delay": delay_picture,
+        "effect-exposure-guard": guard_picture,
+        "features-of-the-wave": features_picture,
+    }
+    with tempfile.TemporaryDirectory() as folder:
+        for name, draw in pictures.items():
+            file = IMAGES / f"{name}.png"
+            save(draw(Folder(Path(folder))), file)
+            print(file.relative_to(ROOT))
+
+
+if __name__ == "__main__":
+    main()
