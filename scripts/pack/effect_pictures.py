@@ -14,6 +14,7 @@ from __future__ import annotations
 import json
 import subprocess
 import tempfile
+import warnings
 from pathlib import Path
 
 import matplotlib
@@ -28,9 +29,11 @@ from scipy.io import wavfile
 ENGINE = ROOT / "build/native/haptoflow"
 IMAGES = ROOT / "Documentation~/images"
 # Far above every blow that is drawn: nothing was bent by the limiter.
-FULL_SCALE_MPS2 = 2000.0
+FULL_SCALE_MPS2 = 1000.0
 RATE_HZ = 48000
 DEEP_METRES = 0.0005
+# Slower than what counts as a landing, 30 mm/s.
+SINKING_MPS = 0.02
 COLOURS = {"rubber": "#5d5566", "wood": "#b9793f", "stone": "#7d8590"}
 
 
@@ -48,7 +51,9 @@ class Folder:
         done = subprocess.run([*map(str, command), *words], capture_output=True, text=True, check=False)
         if done.returncode != 0:
             raise SystemExit(done.stderr)
-        return wavfile.read(wav)[1].astype(np.float64) * FULL_SCALE_MPS2
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", wavfile.WavFileWarning)
+            return wavfile.read(wav)[1].astype(np.float64) * FULL_SCALE_MPS2
 
 
 def plane(label: str) -> dict:
@@ -68,11 +73,12 @@ def drop(speed_mps: float) -> np.ndarray:
     return np.column_stack([times, 0 * times, height, 0 * times, 0 * times + 1.0])
 
 
-def slide(speed_mps: float, height_of: np.ndarray | float = 0.0) -> np.ndarray:
-    """Along x over 0 at 0.5 s; the height falls by `height_of` where x passes 0."""
+def slide(speed_mps: float, step_metres: float) -> np.ndarray:
+    """Along x, over 0 at 0.5 s; from there on the tip sinks by the step, as slowly as a hand follows."""
     times = np.arange(0.0, 1.0, 0.002)
     x = speed_mps * (times - 0.5)
-    return np.column_stack([times, x, np.where(x < 0.0, 0.0, -height_of) - DEEP_METRES, 0 * times, 0 * times + 1.0])
+    sunk = np.clip(SINKING_MPS * (times - 0.5), 0.0, step_metres)
+    return np.column_stack([times, x, -sunk - DEEP_METRES, 0 * times, 0 * times + 1.0])
 
 
 def first_sound(wave: np.ndarray) -> int:
@@ -85,7 +91,8 @@ def impact_picture(folder: Folder) -> plt.Figure:
         wave = folder.render([plane(label)], drop(0.6), "--effects", "impact")
         begin = first_sound(wave)
         seconds = np.arange(int(0.06 * RATE_HZ)) / RATE_HZ
-        waves.plot(1000.0 * seconds, wave[begin : begin + len(seconds)] - 500.0 * place, color=colour, label=label)
+        waves.plot(1000.0 * seconds, wave[begin : begin + len(seconds)] - 500.0 * place, color=colour)
+        waves.annotate(label, (58.0, 40.0 - 500.0 * place), color=colour, ha="right")
         speeds = np.geomspace(0.01, 2.0, 9)
         peaks = [np.abs(folder.render([plane(label)], drop(speed), "--effects", "impact")).max() for speed in speeds]
         law.loglog(speeds, peaks, "o-", color=colour, label=label, markersize=4)
@@ -93,8 +100,7 @@ def impact_picture(folder: Folder) -> plt.Figure:
     waves.set_yticks([0, -500, -1000], ["0", "0", "0"])
     law.set(xlabel="approach, m/s", ylabel="peak, m/s²", title="The amplitude is proportional to the approach")
     law.grid(alpha=0.3, which="both")
-    for axes in (waves, law):
-        axes.legend(frameon=False)
+    law.legend(frameon=False)
     return figure
 
 
@@ -152,7 +158,7 @@ def guard_picture(_: Folder) -> plt.Figure:
             name = f"actuator gain {actuator_gain:g}"
             levels.plot(time, rows["short_term_mps2"], color=colour, label=f"mean of 5 minutes, {name}")
             gains.plot(time, 20.0 * np.log10(rows["gain"]), color=colour, label=name)
-    levels.axhline(60.0, color="#888", linewidth=0.8, linestyle="--")
+    levels.axhline(60.0, color="#888", linewidth=0.8, linestyle="--", label="60 m/s²")
     levels.set(ylabel="m/s²", title="Sandpaper, 3 N, 0.2 m/s, without a pause")
     gains.set(xlabel="minutes", ylabel="gain of the guard, dB")
     for axes in (levels, gains):
@@ -187,6 +193,7 @@ def features_picture(folder: Folder) -> plt.Figure:
 
 
 def main() -> None:
+    """Draws every picture."""
     pictures = {
         "effect-impact": impact_picture,
         "effect-edge": edge_picture,

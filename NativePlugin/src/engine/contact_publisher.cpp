@@ -43,7 +43,9 @@ ContactAction ContactPublisher::publish(ContactState state) noexcept {
         retrieve(state, material.dominantLabel, ranged.motion);
     }
     counters.askedFor.store(state.touching ? state.effects & surfaceEffects : 0, std::memory_order_relaxed);
-    if (follower_.touches() != touchesBefore) {
+    const bool isNewTouch = follower_.touches() != touchesBefore;
+    noteSpeed(state, isNewTouch);
+    if (isNewTouch) {
         noteImpact(state);
     } else if (wasTouching_) {
         noteTransition(state, material.dominantLabel, ranged.motion);
@@ -76,6 +78,16 @@ ContactAction ContactPublisher::publish(ContactState state) noexcept {
     worker.readingRate = ranged.readingRate;
     channels_.toWorker.post();
     return action;
+}
+
+void ContactPublisher::noteSpeed(const ContactState& state, bool isNewTouch) noexcept {
+    if (isNewTouch) {
+        newestSpeedsMps_.fill(0.0);
+    }
+    if (state.touching) {
+        std::ranges::rotate(newestSpeedsMps_, newestSpeedsMps_.begin() + 1);
+        newestSpeedsMps_.back() = std::hypot(state.velocityMps[0], state.velocityMps[1]);
+    }
 }
 
 void ContactPublisher::remember(const ContactState& state, std::size_t dominantLabel) noexcept {
@@ -126,7 +138,7 @@ double ContactPublisher::levelShare(const ContactState& state, std::size_t domin
 }
 
 void ContactPublisher::strikeEdge(const ContactState& state, double share) noexcept {
-    const double speedMps = std::hypot(state.velocityMps[0], state.velocityMps[1]);
+    const double speedMps = std::ranges::max(newestSpeedsMps_);
     const double blowMps = edgeShareOfSpeed * speedMps * std::min(share, 1.0);
     if (!state.asksFor(EffectKind::edge) || !(blowMps > 0.0)) {
         return;

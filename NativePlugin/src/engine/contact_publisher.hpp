@@ -24,6 +24,8 @@ private:
     void noteImpact(const ContactState& state) noexcept;
     void noteTransition(const ContactState& state, std::size_t dominantLabel,
                         const std::array<float, 3>& motion) noexcept;
+    void noteSpeed(const ContactState& state, bool isNewTouch) noexcept;
+    /// Of the surface of `state`, with the largest of the newest speeds.
     void strikeEdge(const ContactState& state, double share) noexcept;
     void remember(const ContactState& state, std::size_t dominantLabel) noexcept;
     /// How much of a full edge the newest one is, by its height or by the change of level from the label before; may be
@@ -46,6 +48,9 @@ private:
     bool wasTouching_ = false;
     std::uint32_t lastEdgeCounter_ = 0;
     std::uint32_t lastLandingCounter_ = 0;
+    // Of this touch's newest states. On the round of a rim the normal points ahead for a few of them, and nothing of
+    // the tip's motion lies along the surface.
+    std::array<double, 4> newestSpeedsMps_{};
     // The last state that touched.
     ContactState last_;
     std::size_t lastLabel_ = 0;

@@ -262,7 +262,8 @@ TEST_F(VoiceEffectsTest, WithoutAChangeOfLevelHeightOrSpeedThereIsNoEdge) {
     // At rest nothing is crossed, whatever the label becomes.
     device.run(0.5, [](double seconds) {
         ContactState state = crossing(seconds, 0.0F, edge);
-        state.edgeCounter = static_cast<std::uint32_t>(seconds / 0.05);
+        // The newest speeds are those of some states more.
+        state.edgeCounter = seconds < 0.58 ? 0U : static_cast<std::uint32_t>(seconds / 0.05);
         state.edgeHeightMetres = 0.01F;
         return state;
     });
@@ -336,6 +337,38 @@ TEST_F(VoiceEffectsTest, ATipThatSlidesOffARimIsFeltWithTheSpeedThatItHadThere) 
     EXPECT_GT(peakAt(0.2F, 1), 0.0);
     EXPECT_NEAR(peakAt(0.4F, 1) / peakAt(0.2F, 1), 2.0, 0.05);
     EXPECT_EQ(peakAt(0.2F, 0), 0.0);
+}
+
+TEST_F(VoiceEffectsTest, OverTheRoundOfARimTheSpeedIsThatBeforeIt) {
+    // For a few states the normal points ahead there, and nothing of the tip's motion lies along the surface.
+    const auto peakAt = [this](float speedMps, bool leaves) {
+        SimulatedDevice device(model_, tone_);
+        device.run(0.2, [speedMps](double) {
+            ContactState state = testing::sliding(speedMps);
+            state.effects = edge;
+            return state;
+        });
+        ContactState onTheRim = testing::sliding(0.0F);
+        onTheRim.effects = edge;
+        onTheRim.edgeHeightMetres = 0.001F;
+        for (int frame = 0; frame < 3; ++frame) {
+            onTheRim.edgeCounter = leaves || frame < 2 ? 0 : 1;
+            device.publish(onTheRim);
+        }
+        const std::size_t off = device.output.size();
+        device.run(0.3, [&](double) {
+            ContactState state = leaves ? testing::lifted(1) : onTheRim;
+            state.edgeCounter = 1;
+            state.edgeHeightMetres = 0.001F;
+            return state;
+        });
+        return static_cast<double>(testing::peak(from(device, off)));
+    };
+    for (const bool leaves : {false, true}) {
+        EXPECT_GT(peakAt(0.2F, leaves), 0.0) << leaves;
+        EXPECT_NEAR(peakAt(0.4F, leaves) / peakAt(0.2F, leaves), 2.0, 0.05) << leaves;
+        EXPECT_EQ(peakAt(0.0F, leaves), 0.0) << leaves;
+    }
 }
 
 TEST_F(VoiceEffectsTest, AnApproachThatIsNoNumberIsNoLanding) {
