@@ -55,15 +55,18 @@ namespace HaptoFlow.PreviewTests
 
         private void Controls(PreviewResult result, StrokeSettings settings, string preset)
         {
-            LabelMix first = result.Request.Materials[0];
-            LabelMix second = result.Request.Materials[1];
+            PreviewRequest request = result.Request;
             Choice("Model", "None (Haptic Model Asset)");
-            Choice("Material A", first.First);
+            Choice("Material A", request.Materials[0].First);
             Choice("Blend with", "none");
-            Tick(Begin("Compare"), true);
-            Choice("Material B", second.First);
-            Choice("Blend with", second.Second);
-            Slider("Share", second.Share, Number(second.Share));
+            Tick(Begin("Compare"), request.Materials.Count > 1);
+            if (request.Materials.Count > 1)
+            {
+                LabelMix second = request.Materials[1];
+                Choice("Material B", second.First);
+                Choice("Blend with", second.Second);
+                Slider("Share", second.Share, Number(second.Share));
+            }
             y += 6.0;
             Choice("Stroke", preset);
             Slider("Speed [m/s]", settings.SpeedMps / TexturePreviewState.FastestMps, Number(settings.SpeedMps));
@@ -72,11 +75,20 @@ namespace HaptoFlow.PreviewTests
             Slider("Direction [\u00b0]", settings.DirectionDegrees / 360.0, Number(settings.DirectionDegrees));
             Slider("Contact [s]", settings.ContactSeconds / TexturePreviewState.LongestSeconds,
                 Number(settings.ContactSeconds));
+            Slider("Landing [m/s]", settings.LandingSpeedMps / TexturePreviewState.HardestLandingMps,
+                Number(settings.LandingSpeedMps));
+            Effects(request.Effects);
             y += 6.0;
-            Choice("Quality", result.Request.Tier);
+            Choice("Felt Through", request.Device switch
+            {
+                PreviewDevice.Controller => "Controller (frames)",
+                PreviewDevice.Motor => "Motor (160 Hz)",
+                _ => "Actuator (the wave)",
+            });
+            Choice("Quality", request.Tier);
             Box seed = Begin("Seed");
             canvas.FillRound(seed, Field, 3.0);
-            canvas.Text(Number(result.Request.Seed), seed.Left + 6.0, seed.MiddleY, TextSize, Label);
+            canvas.Text(Number(request.Seed), seed.Left + 6.0, seed.MiddleY, TextSize, Label);
             Choice("Take from", "None (Haptic Material)");
             Buttons(new[] { "Take from Selection", "Apply to Selection" }, new[] { 154.0, 154.0 }, -1);
             y += 6.0;
@@ -150,6 +162,24 @@ namespace HaptoFlow.PreviewTests
                 {
                     (box.Left + 3.0, box.MiddleY), (box.Left + 6.0, box.Bottom - 3.5), (box.Right - 3.0, box.Top + 3.5),
                 }, 1.8, Label);
+            }
+        }
+
+        private void Effects(HapticEffects asked)
+        {
+            Box row = Begin("Effects");
+            double width = row.Width / 3.0;
+            double left = row.Left;
+            foreach ((HapticEffects effect, string name) in new[]
+                     {
+                         (HapticEffects.Texture, "Texture"), (HapticEffects.Impact, "Impact"),
+                         (HapticEffects.Edge, "Edge"),
+                     })
+            {
+                var box = new Box(left, row.Top, width, row.Height);
+                Tick(box, (asked & effect) != 0);
+                canvas.Text(name, box.Left + 20.0, box.MiddleY, TextSize, Label);
+                left += width;
             }
         }
 
