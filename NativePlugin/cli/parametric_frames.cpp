@@ -1,5 +1,7 @@
 #include "parametric_frames.hpp"
 
+#include "effects/carrier_rendering.hpp"
+
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
@@ -22,6 +24,26 @@ double secondsAt(std::uint64_t sample) {
     return std::max(0.0, (static_cast<double>(sample) - delay) / WaveFeatures::sampleRateHz);
 }
 
+nlohmann::ordered_json errorOf(std::span<const float> wave, std::span<const effects::WaveFrame> frames,
+                               const effects::WaveFeatureOptions& cut, effects::CarrierShape shape) {
+    const std::vector<float> played = effects::renderCarrier(frames, {.shape = shape});
+    const auto summary = effects::summarise(effects::intensityErrors(wave, played, cut));
+    return {{"felt_frames", summary.feltFrames},
+            {"mean", summary.meanDb},
+            {"mean_magnitude", summary.meanMagnitudeDb},
+            {"p95", summary.percentile95Db}};
+}
+
+/// How far the intensity that is played is from the wanted one.
+nlohmann::ordered_json intensityErrors(std::span<const float> wave, std::span<const effects::WaveFrame> frames) {
+    effects::WaveFeatureOptions motor;
+    motor.frameSeconds = 0.008;
+    motor.minFrequencyHz = 160.0;
+    motor.maxFrequencyHz = 160.0;
+    return {{"frames", errorOf(wave, frames, options(), effects::CarrierShape::linear)},
+            {"motor_160_hz", errorOf(wave, effects::framesOf(wave, motor), motor, effects::CarrierShape::held)}};
+}
+
 }  // namespace
 
 ParametricFrames::ParametricFrames(double outputRateHz)
@@ -37,6 +59,7 @@ void ParametricFrames::take(std::span<const float> samples, float fullScaleMps2)
 }
 
 void ParametricFrames::feed(float sampleMps2) {
+    wave_.push_back(sampleMps2);
     effects::WaveFrame frame;
     const auto progress = features_.process(std::span(&sampleMps2, 1), std::span(&frame, 1));
     if (progress.frames > 0) {
@@ -68,6 +91,7 @@ std::string ParametricFrames::toJson() {
         {"frames", std::move(frames)},
         {"transient_columns", {"seconds", "amplitude_mps2", "frequency_hz"}},
         {"transients", std::move(transients)},
+        {"intensity_error_db", intensityErrors(wave_, frames_)},
     };
     return document.dump() + '\n';
 }

@@ -26,6 +26,8 @@ private:
     effects::WaveDecimation decimation_;
     effects::WaveFeatures features_;
     std::vector<effects::WaveFrame> frames_;
+    // At 2 kHz: what was wanted, for the error of what is played.
+    std::vector<float> wave_;
 };
 
 }  // namespace haptoflow::cli

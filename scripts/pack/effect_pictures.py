@@ -4,14 +4,19 @@ Run from the repository's root, after `npm run build`:
 
     /usr/bin/python3 scripts/pack/effect_pictures.py
 
-It writes effect-impact.png, effect-edge.png, effect-delay.png, effect-exposure-guard.png and features-of-the-wave.png
-into Documentation~/images. Renders come from the command line, the exposure guard's hour and the features of the wave
-from the C interface.
+It writes the table of the labels into the page, and effect-impact.png, effect-edge.png, effect-delay.png,
+effect-exposure-guard.png, features-of-the-wave.png and output-controller-waveform.png into Documentation~/images.
+Renders come from the command line, the exposure guard's minutes and the features of the wave from the C interface, the
+controller's wave from a test that plays the C# components; run that first:
+
+    dotnet test Tests/Dotnet/HaptoFlow.ShimTests --filter TestCategory=DocumentationPicture
 """
 
 from __future__ import annotations
 
+import hashlib
 import json
+import re
 import subprocess
 import tempfile
 import warnings
@@ -22,12 +27,18 @@ import matplotlib
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
-from native_engine import NativeEngine, wave_frames
+from native_engine import MODEL, NativeEngine, wave_frames
 from sample_pictures import ROOT, save
 from scipy.io import wavfile
+from scipy.signal import welch
 
 ENGINE = ROOT / "build/native/haptoflow"
 IMAGES = ROOT / "Documentation~/images"
+PAGE = ROOT / "Documentation~/effects-and-outputs.md"
+BEGIN = "<!-- measured: begin (/usr/bin/python3 scripts/pack/effect_pictures.py) -->"
+END = "<!-- measured: end -->"
+# Of the intensity's error, and how each is printed.
+FIGURES = (("mean", "+"), ("mean_magnitude", ""), ("p95", ""))
 # Far above every blow that is drawn: nothing was bent by the limiter.
 FULL_SCALE_MPS2 = 1000.0
 RATE_HZ = 48000
@@ -44,16 +55,27 @@ class Folder:
         self._path = path
 
     def render(self, surfaces: list[dict], stroke: np.ndarray, *words: str) -> np.ndarray:
-        scene, table, wav = (self._path / name for name in ("scene.json", "stroke.csv", "out.wav"))
-        scene.write_text(json.dumps({"surfaces": surfaces}), encoding="utf-8")
-        np.savetxt(table, stroke, fmt="%.7f", delimiter=",", header="t,x,y,z,force", comments="")
-        command = [ENGINE, "render", scene, "--stroke", table, "-o", wav, "--quiet", "--full-scale", FULL_SCALE_MPS2]
-        done = subprocess.run([*map(str, command), *words], capture_output=True, text=True, check=False)
-        if done.returncode != 0:
-            raise SystemExit(done.stderr)
+        """[N] at RATE_HZ."""
+        wav = self._path / "out.wav"
+        self._run(surfaces, stroke, wav, *words)
         with warnings.catch_warnings():
             warnings.simplefilter("ignore", wavfile.WavFileWarning)
             return wavfile.read(wav)[1].astype(np.float64) * FULL_SCALE_MPS2
+
+    def intensity_errors(self, surfaces: list[dict], stroke: np.ndarray) -> dict[str, dict[str, float]]:
+        """Of the frames and of a motor, in dB: see `haptoflow render -o x.json`."""
+        frames = self._path / "out.json"
+        self._run(surfaces, stroke, frames)
+        return json.loads(frames.read_text(encoding="utf-8"))["intensity_error_db"]
+
+    def _run(self, surfaces: list[dict], stroke: np.ndarray, output: Path, *words: str) -> None:
+        scene, table = self._path / "scene.json", self._path / "stroke.csv"
+        scene.write_text(json.dumps({"surfaces": surfaces}), encoding="utf-8")
+        np.savetxt(table, stroke, fmt="%.7f", delimiter=",", header="t,x,y,z,force", comments="")
+        command = [ENGINE, "render", scene, "--stroke", table, "-o", output, "--quiet", "--full-scale", FULL_SCALE_MPS2]
+        done = subprocess.run([*map(str, command), *words], capture_output=True, text=True, check=False)
+        if done.returncode != 0:
+            raise SystemExit(done.stderr)
 
 
 def plane(label: str) -> dict:
@@ -79,6 +101,14 @@ def slide(speed_mps: float, step_metres: float) -> np.ndarray:
     x = speed_mps * (times - 0.5)
     sunk = np.clip(SINKING_MPS * (times - 0.5), 0.0, step_metres)
     return np.column_stack([times, x, -sunk - DEEP_METRES, 0 * times, 0 * times + 1.0])
+
+
+def accelerating() -> np.ndarray:
+    """Four seconds along x, from 0.05 to 0.35 m/s, with 0.5 to 1.5 N."""
+    times = np.arange(0.0, 4.0, 0.002)
+    speed = 0.05 + 0.3 * times / 4.0
+    force = 1.0 + 0.5 * np.sin(2.0 * np.pi * 0.5 * times)
+    return np.column_stack([times, np.cumsum(speed) * 0.002, 0 * times - DEEP_METRES, 0 * times, force])
 
 
 def first_sound(wave: np.ndarray) -> int:
@@ -192,6 +222,47 @@ def features_picture(folder: Folder) -> plt.Figure:
     return figure
 
 
+def controller_picture(_: Folder) -> plt.Figure:
+    figure, axes = plt.subplots(figsize=(10.0, 3.4), layout="constrained")
+    for name, rate_hz, colour, title in (("audio", 48000, "#444", "wanted: an audio output at 48 kHz"),
+                                         ("controller", 2000, "#3465a4", "sent to a controller at 2 kHz")):
+        file = ROOT / f"out/pictures/{name}.txt"
+        if not file.exists():
+            raise SystemExit(f"{file.relative_to(ROOT)} is missing: dotnet test Tests/Dotnet/HaptoFlow.ShimTests --filter "
+                             "TestCategory=DocumentationPicture writes it")
+        frequency, density = welch(np.loadtxt(file), rate_hz, nperseg=rate_hz // 8)
+        heard = (frequency >= 16.0) & (frequency <= 1000.0)
+        axes.semilogx(frequency[heard], 10.0 * np.log10(density[heard]), color=colour, label=title)
+    axes.set(xlabel="Hz", ylabel="dB re 1 (m/s²)²/Hz", title="Six seconds of circles on wood, in the stand-in for Unity")
+    axes.grid(alpha=0.3, which="both")
+    axes.legend(frameon=False)
+    return figure
+
+
+def label_table(folder: Folder) -> str:
+    """What is lost on each label: the actuator's spectrum, with and without compensation, and the intensity of frames."""
+    shown = subprocess.run([ENGINE, "actuator", "show", "voice-coil", "--labels"], capture_output=True, text=True, check=True)
+    rows = re.findall(r"^  ([a-z ]+?) +([0-9.]+) +([0-9.]+)$", shown.stdout.split("Log-spectral distance")[1], re.MULTILINE)
+    lines = [
+        f"Model: SHA-256 `{hashlib.sha256(MODEL.read_bytes()).hexdigest()}`.",
+        "",
+        "| label | LSD, uncompensated | compensated | frames of 60-400 Hz | motor of 160 Hz |",
+        "|---|---|---|---|---|",
+    ]
+    for label, plain, compensated in rows:
+        errors = folder.intensity_errors([plane(label)], accelerating())
+        cells = [" / ".join(f"{errors[kind][name]:{sign}.1f}" for name, sign in FIGURES) for kind in errors]
+        lines.append(f"| {label} | {float(plain):.1f} | {float(compensated):.1f} | {' | '.join(cells)} |")
+    return "\n".join(lines)
+
+
+def publish(table: str) -> None:
+    """Between the page's markers."""
+    text = PAGE.read_text(encoding="utf-8")
+    before, rest = text.split(BEGIN)
+    PAGE.write_text(f"{before}{BEGIN}\n\n{table}\n\n{END}{rest.split(END, 1)[1]}", encoding="utf-8")
+
+
 def main() -> None:
     """Draws every picture."""
     pictures = {
@@ -200,8 +271,11 @@ def main() -> None:
         "effect-delay": delay_picture,
         "effect-exposure-guard": guard_picture,
         "features-of-the-wave": features_picture,
+        "output-controller-waveform": controller_picture,
     }
     with tempfile.TemporaryDirectory() as folder:
+        publish(label_table(Folder(Path(folder))))
+        print(PAGE.relative_to(ROOT))
         for name, draw in pictures.items():
             file = IMAGES / f"{name}.png"
             save(draw(Folder(Path(folder))), file)

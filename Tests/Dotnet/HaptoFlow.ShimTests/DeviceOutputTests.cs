@@ -1,8 +1,11 @@
 using System;
+using System.Globalization;
+using System.IO;
 using System.Linq;
 using System.Runtime.CompilerServices;
 using HaptoFlow.Outputs;
 using HaptoFlow.Tests;
+using HaptoFlow.Tests.Support;
 using NUnit.Framework;
 using UnityEngine;
 using UnityEngine.InputSystem.XR;
@@ -359,6 +362,30 @@ namespace HaptoFlow.ShimTests
             Assert.That(stylus.TryGetStatistics(out VoiceStatistics statistics), Is.True);
             Assert.That(statistics.Inferences, Is.Zero);
             Assert.That(statistics.RenderedFrames, Is.GreaterThan(6000UL), "8000 a second");
+        }
+
+        /// <summary>Only by name: <c>dotnet test Tests/Dotnet/HaptoFlow.ShimTests --filter TestCategory=DocumentationPicture</c>
+        /// leaves the two waves for <c>scripts/pack/effect_pictures.py</c>.</summary>
+        [Test, Explicit, Category("DocumentationPicture")]
+        public void TheWavesOfAnAudioOutputAndOfAControllerAreWrittenForTheDocumentation()
+        {
+            OVRInput.Connected = OVRInput.Controller.RTouch;
+            Output(out _);
+            float fullScaleMps2 = HaptoFlowSettings.Active.FullScaleMps2;
+            Add<ControllerWaveformOutput>().FullScaleMps2 = fullScaleMps2;
+            World.Frames(72);
+            AudioDevice.Forget();
+            OVRInput.Waves.Clear();
+            World.Frames(6 * 72);
+            float[] audio = Enumerable.Range(0, AudioDevice.RecordedFrames)
+                .Select(frame => AudioDevice.Sample(frame, 0)).ToArray();
+            Directory.CreateDirectory(RepositoryFiles.In("out", "pictures"));
+            foreach ((string name, float[] wave) in new[] { ("audio", audio), ("controller", Felt()) })
+            {
+                File.WriteAllLines(RepositoryFiles.In("out", "pictures", $"{name}.txt"), wave.Select(sample =>
+                    (sample * fullScaleMps2).ToString("R", CultureInfo.InvariantCulture)));
+            }
+            Assert.That(audio.Length, Is.GreaterThan(250000));
         }
 
         [Test]

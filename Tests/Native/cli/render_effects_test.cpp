@@ -112,6 +112,19 @@ TEST_F(RenderEffectsTest, AJsonOutputHoldsAFrameEveryFiveMillisecondsAndNeedsNoW
     }
 }
 
+TEST_F(RenderEffectsTest, TheFramesSayHowFarTheirIntensityIsFromTheWaves) {
+    ASSERT_EQ(run("render scene.json --stroke stroke.csv -o motor.json").exitCode, 0);
+    const nlohmann::json errors = nlohmann::json::parse(read("motor.json")).at("intensity_error_db");
+    for (const char* played : {"frames", "motor_160_hz"}) {
+        const nlohmann::json& error = errors.at(played);
+        EXPECT_GT(error.at("felt_frames"), 20) << played;
+        EXPECT_LT(std::abs(error.at("mean").get<double>()), 3.0) << played;
+        EXPECT_LE(std::abs(error.at("mean").get<double>()), error.at("mean_magnitude").get<double>()) << played;
+        EXPECT_LE(error.at("mean_magnitude").get<double>(), error.at("p95").get<double>()) << played;
+        EXPECT_LT(error.at("p95").get<double>(), 8.0) << played;
+    }
+}
+
 TEST_F(RenderEffectsTest, BothKindsOfOutputAreWrittenByOneRender) {
     ASSERT_EQ(run("render scene.json --stroke taps.csv -o felt.wav -o motor.json --effects impact").exitCode, 0);
     EXPECT_TRUE(exists("felt.wav"));
