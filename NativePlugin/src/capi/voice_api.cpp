@@ -228,9 +228,10 @@ haptoflow_status haptoflow_voice_set_actuator(haptoflow_voice voice, const char*
             actuator = std::make_shared<const effects::ActuatorProfile>(readActuator({profile, length}));
         }
         use->engine->changeProcessors(*use->voice, [&actuator](engine::ProcessorSettings& settings) {
-            const bool changes = settings.actuator != nullptr || actuator != nullptr;
+            const bool isSame = settings.actuator == actuator || (settings.actuator != nullptr && actuator != nullptr &&
+                                                                  *settings.actuator == *actuator);
             settings.actuator = std::move(actuator);
-            return changes;
+            return !isSame;
         });
     });
 }

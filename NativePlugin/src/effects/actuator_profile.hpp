@@ -25,6 +25,8 @@ struct ActuatorMeasurement {
     double distortionPercent = 0.0;
     /// Median over the measured band.
     double signalToNoiseDecibels = 0.0;
+
+    [[nodiscard]] bool operator==(const ActuatorMeasurement&) const = default;
 };
 
 /// What an actuator makes of a signal: magnitude and, where known, phase over frequency. Documentation~ specifies the
@@ -61,6 +63,8 @@ struct ActuatorProfile {
     /// A profile that HaptoFlow brings along; none where the name is not one of `builtInNames`.
     [[nodiscard]] static std::optional<ActuatorProfile> builtIn(std::string_view name);
     [[nodiscard]] static std::span<const std::string_view> builtInNames() noexcept;
+
+    [[nodiscard]] bool operator==(const ActuatorProfile&) const = default;
 
     /// On straight lines over the logarithm of frequency; beyond the ends, the end's value.
     [[nodiscard]] double magnitudeDecibelsAt(double hz) const noexcept;

@@ -46,7 +46,10 @@ ContactAction ContactPublisher::publish(ContactState state) noexcept {
     const bool isNewTouch = follower_.touches() != touchesBefore;
     noteSpeed(state, isNewTouch);
     if (isNewTouch) {
-        noteImpact(state);
+        // A touch that was interrupted, as by a surface without label, has landed before.
+        if (state.touchCounter != lastTouchCounter_) {
+            noteImpact(state);
+        }
     } else if (wasTouching_) {
         noteTransition(state, material.dominantLabel, ranged.motion);
     }
@@ -92,6 +95,7 @@ void ContactPublisher::noteSpeed(const ContactState& state, bool isNewTouch) noe
 
 void ContactPublisher::remember(const ContactState& state, std::size_t dominantLabel) noexcept {
     wasTouching_ = state.touching;
+    lastTouchCounter_ = state.touchCounter;
     lastEdgeCounter_ = state.edgeCounter;
     lastLandingCounter_ = state.landingCounter;
     if (state.touching) {

@@ -46,6 +46,7 @@ private:
     BlowMessage impact_;
     BlowMessage edge_;
     bool wasTouching_ = false;
+    std::uint32_t lastTouchCounter_ = 0;
     std::uint32_t lastEdgeCounter_ = 0;
     std::uint32_t lastLandingCounter_ = 0;
     // Of this touch's newest states. On the round of a rim the normal points ahead for a few of them, and nothing of

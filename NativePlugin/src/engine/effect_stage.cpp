@@ -72,11 +72,27 @@ void EffectStage::strikeEdge(double speedMps, const effects::ImpactResponse& res
 }
 
 void EffectStage::exchange(std::unique_ptr<Processors> fresh) noexcept {
+    settleDelay();
     if (fresh->exposureGuard == nullptr || guard_ == nullptr) {
+        if (guard_ != nullptr) {
+            leftGain_ = static_cast<float>(guard_->report().gain);
+            leftGainSamples_ = fadeSamples_;
+        }
         std::swap(guard_, fresh->exposureGuard);
     }
     leaving_ = std::exchange(processors_, std::move(fresh));
+    if (delay_ != nullptr && processors_->delay != nullptr) {
+        processors_->spareDelay = std::move(processors_->delay);
+    } else if (delay_ != nullptr) {
+        leaving_->delay = std::move(delay_);
+    }
     fadeLeft_ = fadeSamples_;
+}
+
+void EffectStage::settleDelay() noexcept {
+    if (fadeLeft_ == 0 && delay_ == nullptr && processors_ != nullptr) {
+        delay_ = std::move(processors_->delay);
+    }
 }
 
 std::unique_ptr<Processors> EffectStage::takeUsed() noexcept {
@@ -100,8 +116,8 @@ void EffectStage::close() noexcept {
 }
 
 bool EffectStage::isIdle() const noexcept {
-    return impact_.isIdle() && edge_.isIdle() && allIdle(processors_.get()) &&
-           (fadeLeft_ == 0 || allIdle(leaving_.get()));
+    return (delay_ == nullptr || delay_->isIdle()) && impact_.isIdle() && edge_.isIdle() &&
+           allIdle(processors_.get()) && (fadeLeft_ == 0 || allIdle(leaving_.get()));
 }
 
 void EffectStage::adoptExposure(const EffectStage& before) noexcept {
@@ -111,6 +127,9 @@ void EffectStage::adoptExposure(const EffectStage& before) noexcept {
 }
 
 void EffectStage::setDelaySeconds(double seconds) noexcept {
+    if (delay_ != nullptr) {
+        delay_->setDelaySeconds(seconds);
+    }
     if (processors_ != nullptr && processors_->delay != nullptr) {
         processors_->delay->setDelaySeconds(seconds);
     }
@@ -138,24 +157,30 @@ void EffectStage::reset() noexcept {
     if (guard_ != nullptr) {
         guard_->reset();
     }
+    if (delay_ != nullptr) {
+        delay_->reset();
+    }
     resetAll(processors_.get());
     resetAll(leaving_.get());
     fadeLeft_ = 0;
+    leftGainSamples_ = 0;
     gate_.reset();
 }
 
 void EffectStage::process(std::span<float> samplesMps2, EffectFigures& figures) noexcept {
-    runSources(samplesMps2, figures);
-    if (hasProcessors()) {
-        runProcessors(samplesMps2, figures);
-        if (guard_ != nullptr) {
-            run(*guard_, EffectKind::exposureGuard, samplesMps2, figures);
-        }
-        passGate(samplesMps2);
+    if (!hasProcessors()) {
+        return;
     }
+    settleDelay();
+    if (delay_ != nullptr) {
+        run(*delay_, EffectKind::delay, samplesMps2, figures);
+    }
+    runProcessors(samplesMps2, figures);
+    runGuard(samplesMps2, figures);
+    passGate(samplesMps2);
 }
 
-void EffectStage::runSources(std::span<float> samplesMps2, EffectFigures& figures) noexcept {
+void EffectStage::addBlows(std::span<float> samplesMps2, EffectFigures& figures) noexcept {
     // Without processors the texture has its own gate already: only blows are silenced here.
     if (impact_.isIdle() && edge_.isIdle()) {
         return;
@@ -175,7 +200,7 @@ void EffectStage::runSources(std::span<float> samplesMps2, EffectFigures& figure
 }
 
 bool EffectStage::hasProcessors() const noexcept {
-    bool has = fadeLeft_ > 0 || guard_ != nullptr;
+    bool has = fadeLeft_ > 0 || guard_ != nullptr || delay_ != nullptr || leftGainSamples_ > 0;
     forEach(processors_.get(), [&has](const effects::Effect&, EffectKind) { has = true; });
     return has;
 }
@@ -189,11 +214,33 @@ void EffectStage::runProcessors(std::span<float> samplesMps2, EffectFigures& fig
     const std::span<float> old = std::span(before).first(samplesMps2.size());
     std::ranges::copy(samplesMps2, old.begin());
     runAll(leaving_.get(), old, figures);
+    const auto shareAt = [this](std::size_t sample) {
+        return static_cast<float>(fadeLeft_ - std::min(fadeLeft_, sample)) / static_cast<float>(fadeSamples_);
+    };
+    if (processors_->delay != nullptr) {
+        // What a new delay lets out later must not begin in the middle of a vibration.
+        for (std::size_t i = 0; i < samplesMps2.size(); ++i) {
+            samplesMps2[i] *= 1.0F - shareAt(i);
+        }
+    }
     runAll(processors_.get(), samplesMps2, figures);
     for (std::size_t i = 0; i < samplesMps2.size(); ++i) {
-        const float share = static_cast<float>(fadeLeft_) / static_cast<float>(fadeSamples_);
-        samplesMps2[i] += share * (old[i] - samplesMps2[i]);
-        fadeLeft_ -= fadeLeft_ > 0 ? 1 : 0;
+        samplesMps2[i] += shareAt(i) * (old[i] - samplesMps2[i]);
+    }
+    fadeLeft_ -= std::min(fadeLeft_, samplesMps2.size());
+}
+
+void EffectStage::runGuard(std::span<float> samplesMps2, EffectFigures& figures) noexcept {
+    if (guard_ != nullptr) {
+        run(*guard_, EffectKind::exposureGuard, samplesMps2, figures);
+    }
+    for (float& sample : samplesMps2) {
+        if (leftGainSamples_ == 0) {
+            return;
+        }
+        const float share = static_cast<float>(leftGainSamples_) / static_cast<float>(fadeSamples_);
+        sample *= 1.0F + share * (leftGain_ - 1.0F);
+        --leftGainSamples_;
     }
 }
 

@@ -45,6 +45,8 @@ struct Processors {
     std::unique_ptr<effects::Delay> delay;
     std::unique_ptr<effects::Effect> compensation;
     std::unique_ptr<effects::ExposureGuard> exposureGuard;
+    /// Made for a voice that has one already, whose signal goes on.
+    std::unique_ptr<effects::Delay> spareDelay;
 };
 
 /// What stands behind the texture of a voice, for one output rate: blows are added, then the whole goes through the
@@ -81,6 +83,8 @@ public:
     void open() noexcept;
     void close() noexcept;
 
+    /// Adds blows to the next samples, m/s^2: at most 64. Then `process` with the same samples.
+    void addBlows(std::span<float> samplesMps2, EffectFigures& figures) noexcept;
     /// Works on the next samples in place, m/s^2: at most 64.
     void process(std::span<float> samplesMps2, EffectFigures& figures) noexcept;
     /// Silent at once, without a ramp.
@@ -94,9 +98,10 @@ public:
     static constexpr std::size_t blockSamples = 64;
 
 private:
-    void runSources(std::span<float> samplesMps2, EffectFigures& figures) noexcept;
     void runProcessors(std::span<float> samplesMps2, EffectFigures& figures) noexcept;
+    void runGuard(std::span<float> samplesMps2, EffectFigures& figures) noexcept;
     void passGate(std::span<float> samplesMps2) noexcept;
+    void settleDelay() noexcept;
     [[nodiscard]] bool hasProcessors() const noexcept;
 
     effects::Strikes impact_;
@@ -104,10 +109,15 @@ private:
     dsp::Gate gate_;
     std::unique_ptr<Processors> processors_;
     std::unique_ptr<Processors> leaving_;
-    // Not handed over: what it has measured would be lost.
+    // Not handed over: what is on its way in the delay would be lost, and what the guard has measured. A delay that
+    // comes or goes is faded with its Processors and stands in them until then.
+    std::unique_ptr<effects::Delay> delay_;
     std::unique_ptr<effects::ExposureGuard> guard_;
     std::size_t fadeSamples_;
     std::size_t fadeLeft_ = 0;
+    // What a guard that was switched off leaves behind rises to 1.
+    float leftGain_ = 1.0F;
+    std::size_t leftGainSamples_ = 0;
 };
 
 }  // namespace haptoflow::engine

@@ -139,8 +139,10 @@ void Voice::render(std::span<float> out) noexcept {
             produce(block);
             output_->gate.process(block);
         }
-        output_->effects.process(block, figures_);
+        output_->effects.addBlows(block, figures_);
+        // A delay or a guard behind the strength hears what is played, and at the strength of its own time.
         output_->strength.process(block);
+        output_->effects.process(block, figures_);
         limiter_.process(block);
     }
 }

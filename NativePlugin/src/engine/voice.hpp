@@ -25,8 +25,8 @@ public:
     virtual void tookOver(std::int64_t sample) noexcept = 0;
 };
 
-/// One stylus tip's signal: timeline, level, reading rate, output rate, gate, effects, strength, limiter, in this
-/// order.
+/// One stylus tip's signal: timeline, level, reading rate, output rate, gate, blows, strength, processors, limiter, in
+/// this order.
 ///
 /// While the texture's gate is closed nothing is read: the waveform clock stands still. Where no effect sounds either,
 /// `render` writes zeros.

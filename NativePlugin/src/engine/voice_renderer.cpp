@@ -217,7 +217,8 @@ void VoiceRenderer::takeProcessors() noexcept {
         return;
     }
     EffectStage& stage = voice_.effects();
-    if (voice_.isSilent()) {
+    const bool isSilent = voice_.isSilent();
+    if (isSilent) {
         stage.finishHandOver();
     }
     std::unique_ptr<Processors> used = stage.takeUsed();
@@ -231,6 +232,10 @@ void VoiceRenderer::takeProcessors() noexcept {
         }
         if (fresh->rateHz == voice_.outputRateHz()) {
             voice_.exchangeProcessors(std::move(fresh));
+            if (isSilent) {
+                // What begins in this block is not faded.
+                stage.finishHandOver();
+            }
         } else {
             used = std::move(fresh);
         }
@@ -321,14 +326,17 @@ void VoiceRenderer::reportEffects() noexcept {
 }
 
 void VoiceRenderer::reportExposure() noexcept {
-    if (const effects::ExposureGuard* guard = voice_.effects().exposureGuard()) {
-        const effects::ExposureReport report = guard->report();
-        channels_.exposureReason.store(report.reason, std::memory_order_relaxed);
-        channels_.exposureGain.store(report.gain, std::memory_order_relaxed);
-        channels_.exposureShortTermMps2.store(report.shortTermMps2, std::memory_order_relaxed);
-        channels_.exposureDailyMps2.store(report.dailyMps2, std::memory_order_relaxed);
-        channels_.exposureLoweredSeconds.store(report.loweredSeconds, std::memory_order_relaxed);
+    const effects::ExposureGuard* guard = voice_.effects().exposureGuard();
+    if (guard == nullptr && !reportedGuard_) {
+        return;
     }
+    reportedGuard_ = guard != nullptr;
+    const effects::ExposureReport report = guard != nullptr ? guard->report() : effects::ExposureReport{};
+    channels_.exposureReason.store(report.reason, std::memory_order_relaxed);
+    channels_.exposureGain.store(report.gain, std::memory_order_relaxed);
+    channels_.exposureShortTermMps2.store(report.shortTermMps2, std::memory_order_relaxed);
+    channels_.exposureDailyMps2.store(report.dailyMps2, std::memory_order_relaxed);
+    channels_.exposureLoweredSeconds.store(report.loweredSeconds, std::memory_order_relaxed);
 }
 
 void VoiceRenderer::report(std::uint64_t uncoveredBefore, bool sounded) noexcept {

@@ -88,6 +88,7 @@ private:
     std::array<std::int64_t, 2> longestBlock_{};
     int blocksNoted_ = 0;
     bool reportedRunning_ = false;
+    bool reportedGuard_ = false;
     std::uint64_t reportedEffectChanges_ = 0;
 };
 

@@ -565,6 +565,81 @@ TEST_F(ProcessorsTest, SettingsThatChangeAtAnyMomentWhileSlidingNeverClick) {
     }
 }
 
+TEST_F(ProcessorsTest, WhatIsInTheDelaySurvivesAChangeOfTheOthers) {
+    SimulatedDevice device(model_, tone_);
+    const auto profile =
+        std::make_shared<const effects::ActuatorProfile>(*effects::ActuatorProfile::builtIn("voice-coil"));
+    device.controls().delaySeconds = 0.2;
+    ask(device, [](ProcessorSettings& settings) { settings.hasDelay = true; });
+    const auto slide = [](double) { return testing::sliding(); };
+    device.run(0.5, slide);
+    for (const bool isCompensated : {true, false}) {
+        ask(device, [&](ProcessorSettings& settings) { settings.actuator = isCompensated ? profile : nullptr; });
+        const std::size_t changed = device.output.size();
+        device.run(0.19, slide);
+        for (std::size_t window = changed; window + 480 < device.output.size(); window += 480) {
+            const std::span<const float> heard(device.output.data() + window, 480);
+            EXPECT_GT(testing::peak(heard), 0.05F / 60.0F) << isCompensated << ", " << window - changed;
+        }
+    }
+}
+
+TEST_F(ProcessorsTest, ADelayHoldsWhatWasPlayedAtTheStrengthThatItWasPlayedWith) {
+    SimulatedDevice device(model_, tone_);
+    device.controls().delaySeconds = 0.2;
+    ask(device, [](ProcessorSettings& settings) { settings.hasDelay = true; });
+    const auto slide = [](double) { return testing::sliding(); };
+    device.run(0.6, slide);
+    device.controls().strength = 0.1F;
+    const std::size_t weaker = device.output.size();
+    device.run(0.4, slide);
+    const float before = testing::peak(std::span<const float>(device.output.data() + weaker, 9000));
+    const float after = testing::peak(from(device, weaker + 10500));
+    EXPECT_NEAR(after / before, 0.1F, 0.01F);
+}
+
+TEST_F(ProcessorsTest, TheGuardCountsWhatTheStrengthLeaves) {
+    const auto shortTermAt = [this](float strength) {
+        SimulatedDevice device(model_, tone_);
+        device.controls().strength = strength;
+        ask(device, [](ProcessorSettings& settings) { settings.hasExposureGuard = true; });
+        device.run(0.5, [](double) { return testing::sliding(); });
+        return device.voice().channels.exposureShortTermMps2.load();
+    };
+    EXPECT_GT(shortTermAt(1.0F), 0.0);
+    EXPECT_NEAR(shortTermAt(0.25F) / shortTermAt(1.0F), 0.25, 0.01);
+    EXPECT_EQ(shortTermAt(0.0F), 0.0);
+}
+
+TEST_F(ProcessorsTest, AGuardThatIsSwitchedOffRisesWithoutAStepAndLeavesNoReport) {
+    SimulatedDevice device(model_, tone_);
+    device.controls().actuatorGain = 1000.0;
+    ask(device, [](ProcessorSettings& settings) { settings.hasExposureGuard = true; });
+    const auto slide = [](double) { return testing::sliding(); };
+    device.run(30.0, slide);
+    const engine::VoiceChannels& channels = device.voice().channels;
+    ASSERT_LT(channels.exposureGain, 0.2);
+    device.output.clear();
+    ask(device, [](ProcessorSettings& settings) { settings.hasExposureGuard = false; });
+    device.run(0.5, slide);
+    EXPECT_EQ(channels.exposureGain, 1.0);
+    EXPECT_EQ(channels.exposureReason, effects::ExposureReason::none);
+    EXPECT_EQ(channels.exposureDailyMps2, 0.0);
+    const float tone = testing::largestStep(from(device, device.output.size() - 4800));
+    EXPECT_LT(testing::largestStep(device.output), 1.2F * tone);
+}
+
+TEST_F(VoiceEffectsTest, ATouchThatASurfaceWithoutLabelInterruptedLandsOnce) {
+    SimulatedDevice device(model_, tone_);
+    const ContactState touching = landing(0.3F, impact);
+    ContactState unfelt = touching;
+    unfelt.touching = false;
+    device.run(0.1, [&](double) { return touching; });
+    device.run(0.1, [&](double) { return unfelt; });
+    device.run(0.1, [&](double) { return touching; });
+    EXPECT_EQ(of(device, EffectKind::impact).events, 1U);
+}
+
 TEST_F(ProcessorsTest, AtAnotherRateTheVoiceHasWhatItAskedForWithItsFirstSound) {
     SimulatedDevice device(model_, tone_);
     ask(device, [](ProcessorSettings& settings) { settings.hasExposureGuard = true; });
