@@ -409,6 +409,58 @@ namespace HaptoFlow.ShimTests
         }
 
         [Test]
+        public void ALandingThatNoDeviceCouldPlayIsNotFeltWhenOneComes()
+        {
+            var output = Add<MotorOutput>();
+            XrHand.Right.Take("A controller", true);
+            stylus.GetComponent<PathMover>().Path = _ => new Vector3(0f, 0.3f, 0f);
+            World.Frames(72);
+            XrHand.Right.IsThere = false;
+            World.Frames(72);
+            Func<double, Vector3> circle = seconds => new Vector3(
+                0.05f * (float)Math.Cos(4.0 * seconds), 0.001f, 0.05f * (float)Math.Sin(4.0 * seconds));
+            stylus.GetComponent<PathMover>().Path = circle;
+            World.Frames(36);
+            stylus.GetComponent<PathMover>().Path = _ => new Vector3(0f, 0.3f, 0f);
+            World.Frames(72);
+            XrHand.Right.Impulses.Clear();
+            XrHand.Right.Take("A controller", true);
+            World.Frames(72);
+            Assert.That(output.HasDevice, Is.True);
+            Assert.That(XrHand.Right.Impulses, Is.Empty, "the pen is in the air");
+        }
+
+        [Test]
+        public void AnOutputThatIsSwitchedOnDuringATouchDoesNotStrikeItsLandingAgain()
+        {
+            XrHand.Right.Take("A controller", true);
+            Add<MotorOutput>().FullScaleMps2 = HaptoFlowSettings.Active.FullScaleMps2;
+            All<HapticSurface>().Single().Material.Effects = HapticEffects.Impact;
+            // Down fast, then at rest on the board.
+            double start = Clock.Seconds;
+            stylus.GetComponent<PathMover>().Path = _ =>
+                new Vector3(0f, Math.Max(0.001f, 0.3f - (float)Math.Max(0.0, Clock.Seconds - start - 0.5)), 0f);
+            World.Frames(144);
+            Assert.That(XrHand.Right.Impulses, Is.Not.Empty, "the landing itself");
+            All<MotorOutput>().Single().enabled = false;
+            World.Frames(36);
+            XrHand.Right.Impulses.Clear();
+            All<MotorOutput>().Single().enabled = true;
+            World.Frames(72);
+            Assert.That(stylus.IsTouching, Is.True);
+            Assert.That(XrHand.Right.Impulses, Is.Empty, "the landing was two seconds ago");
+        }
+
+        [Test]
+        public void ADeviceThatRefusesTheBuffersItReportsIsDrivenAsAMotorInstead()
+        {
+            XrHand.Right.Take("A controller", true, 320u);
+            XrHand.Right.RefusesBuffers = true;
+            World.Frames(288);
+            Assert.That(XrHand.Right.Impulses.Count, Is.GreaterThan(60), "Auto falls back to the motor");
+        }
+
+        [Test]
         public void AMotorOf160HertzIsAsIntenseAsWhatAnAudioOutputPlays()
         {
             XrHand.Right.Take("A controller", true);

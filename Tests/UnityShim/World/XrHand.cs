@@ -40,11 +40,15 @@ namespace UnityShim
 
         public List<double> Stops { get; } = new List<double>();
 
+        /// <summary>It says that it takes buffers and takes none.</summary>
+        public bool RefusesBuffers { get; set; }
+
         public static void Reset()
         {
             foreach (XrHand hand in new[] { Left, Right })
             {
                 hand.IsThere = false;
+                hand.RefusesBuffers = false;
                 hand.Capabilities = default;
                 hand.Impulses.Clear();
                 hand.Buffers.Clear();
@@ -76,7 +80,7 @@ namespace UnityShim
         internal bool Buffer(byte[] bytes)
         {
             Buffers.Add((Clock.UnscaledSeconds, (byte[])bytes.Clone()));
-            return bytes.Length <= Capabilities.bufferMaxSize;
+            return !RefusesBuffers && bytes.Length <= Capabilities.bufferMaxSize;
         }
 
         internal void Stop() => Stops.Add(Clock.UnscaledSeconds);

@@ -15,6 +15,13 @@ namespace HaptoFlow
         private IVoiceTarget? output;
         private float publishedStrength;
 
+        // The touch that was under way when the voice opened, and its landings by then: they are over.
+        private bool hasSeenTouch;
+        private uint seenTouch;
+        private bool hasMissedLanding;
+        private uint missedTouch;
+        private uint missedLandings;
+
         public StylusVoice(HapticStylus stylus) => this.stylus = stylus;
 
         // A restart closes the engine with its voices; the stylus notices in its next update.
@@ -46,17 +53,21 @@ namespace HaptoFlow
         public void Publish(
             in ContactReading reading, HapticSurface? surface, HapticSession session, IVoiceTarget? wanted)
         {
-            if (!MakeReady(session, wanted))
+            bool isReady = MakeReady(session, wanted, reading);
+            hasSeenTouch = true;
+            seenTouch = reading.TouchCounter;
+            if (!isReady)
             {
                 return;
             }
+            hasMissedLanding &= reading.TouchCounter == missedTouch && reading.LandingCounter == missedLandings;
             var state = new ContactState
             {
                 TouchCounter = reading.TouchCounter,
                 FirstVelocityMps = (float)reading.FirstVelocityMps,
                 SecondVelocityMps = (float)reading.SecondVelocityMps,
                 ForceNewtons = (float)reading.ForceNewtons,
-                ApproachSpeedMps = (float)reading.ApproachSpeedMps,
+                ApproachSpeedMps = hasMissedLanding ? 0f : (float)reading.ApproachSpeedMps,
                 LandingCounter = reading.LandingCounter,
                 EdgeCounter = reading.EdgeCounter,
                 EdgeHeightMetres = (float)reading.EdgeHeightMetres,
@@ -94,7 +105,7 @@ namespace HaptoFlow
             }
         }
 
-        private bool MakeReady(HapticSession session, IVoiceTarget? wanted)
+        private bool MakeReady(HapticSession session, IVoiceTarget? wanted, in ContactReading reading)
         {
             if (session.Engine == null)
             {
@@ -111,7 +122,14 @@ namespace HaptoFlow
                 return true;
             }
             Close();
-            return !ReferenceEquals(refusedBy, session.Engine) && Open(session, wanted);
+            if (ReferenceEquals(refusedBy, session.Engine) || !Open(session, wanted))
+            {
+                return false;
+            }
+            hasMissedLanding = reading.Touching && (!hasSeenTouch || reading.TouchCounter == seenTouch);
+            missedTouch = reading.TouchCounter;
+            missedLandings = reading.LandingCounter;
+            return true;
         }
 
         private bool Open(HapticSession session, IVoiceTarget wanted)

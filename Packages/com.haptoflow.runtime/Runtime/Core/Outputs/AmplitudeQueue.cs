@@ -99,14 +99,15 @@ namespace HaptoFlow.Outputs
                 return;
             }
             float sum = 0f;
-            float knock = 0f;
+            WaveFrame knock = default;
             for (int index = 0; index < count; ++index)
             {
                 sum += frames[index].Amplitude;
-                knock = Math.Max(knock, frames[index].Transient);
+                knock = frames[index].Transient > knock.Transient ? frames[index] : knock;
             }
-            amplitude = Math.Max(sum / count, knock);
-            frequencyHz = frames[count - 1].FrequencyHz;
+            bool isKnock = knock.Transient > sum / count;
+            amplitude = isKnock ? knock.Transient : sum / count;
+            frequencyHz = isKnock ? knock.TransientFrequencyHz : frames[count - 1].FrequencyHz;
         }
 
         private void End()

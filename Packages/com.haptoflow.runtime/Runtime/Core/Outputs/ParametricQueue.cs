@@ -127,11 +127,12 @@ namespace HaptoFlow.Outputs
             for (long point = sentPoint + 1L; point <= last; ++point)
             {
                 Set(count++, point, ends ? 0f : Value(point));
-                float knock = frames[point % frames.Length].Transient;
-                if (knock > 0f)
+                WaveFrame frame = frames[point % frames.Length];
+                if (frame.Transient > 0f)
                 {
-                    transients[knocks++] = new ParametricTransient((point - 1L - anchorPoint) * PointSeconds,
-                        Limited(knock), Share(frames[point % frames.Length].FrequencyHz));
+                    transients[knocks++] = new ParametricTransient(
+                        (point - 1L - anchorPoint) * PointSeconds + frame.TransientOffsetSeconds,
+                        Limited(frame.Transient), Share(frame.TransientFrequencyHz));
                 }
             }
             StreamPart part = starts ? StreamPart.First : ends ? StreamPart.Last : StreamPart.Intermediate;

@@ -10,11 +10,16 @@ namespace HaptoFlow.Outputs
         /// <param name="amplitude">See <see cref="Amplitude"/>.</param>
         /// <param name="frequencyHz">See <see cref="FrequencyHz"/>.</param>
         /// <param name="transient">See <see cref="Transient"/>.</param>
-        public WaveFrame(float amplitude, float frequencyHz, float transient)
+        /// <param name="transientFrequencyHz">See <see cref="TransientFrequencyHz"/>.</param>
+        /// <param name="transientOffsetSeconds">See <see cref="TransientOffsetSeconds"/>.</param>
+        public WaveFrame(float amplitude, float frequencyHz, float transient, float transientFrequencyHz,
+            float transientOffsetSeconds)
         {
             Amplitude = amplitude;
             FrequencyHz = frequencyHz;
             Transient = transient;
+            TransientFrequencyHz = transientFrequencyHz;
+            TransientOffsetSeconds = transientOffsetSeconds;
         }
 
         /// <summary>Of the vibration at <see cref="FrequencyHz"/> that feels as strong, in full scales of the wave.
@@ -24,8 +29,15 @@ namespace HaptoFlow.Outputs
         /// <summary>Where the energy is as the hand weighs it, within the device's range, in Hz.</summary>
         public float FrequencyHz { get; }
 
-        /// <summary>Amplitude of a knock within the stretch, in full scales of the wave; 0 for none.</summary>
+        /// <summary>Of a knock within the stretch: amplitude of the vibration at <see cref="TransientFrequencyHz"/> that
+        /// feels as strong, in full scales of the wave; 0 for none.</summary>
         public float Transient { get; }
+
+        /// <summary>The knock's own frequency, within the device's range, in Hz.</summary>
+        public float TransientFrequencyHz { get; }
+
+        /// <summary>From the beginning of the stretch to the knock, in s.</summary>
+        public float TransientOffsetSeconds { get; }
     }
 
     /// <summary>Makes frames of amplitude, frequency and transients from a wave, each as intense to the hand as the wave
@@ -100,7 +112,8 @@ namespace HaptoFlow.Outputs
             {
                 NativeWaveFrame frame = frames[index];
                 into[index] = new WaveFrame(frame.AmplitudeMps2 / FullScaleMps2, frame.FrequencyHz,
-                    frame.TransientAmplitudeMps2 / FullScaleMps2);
+                    frame.TransientAmplitudeMps2 / FullScaleMps2, frame.TransientFrequencyHz,
+                    frame.TransientOffsetSeconds);
             }
             return (int)count;
         }

@@ -27,6 +27,7 @@ namespace HaptoFlow.Outputs
         private readonly IWaveformSink sink;
         private readonly bool replaces;
         private WaveDecimator decimator = new WaveDecimator(2000.0);
+        private double preparedRateHz = 2000.0;
         private float[] buffer = Array.Empty<float>();
 
         // What is felt at the beginning of the newest stretch, in wave samples; when that began; what it lasts.
@@ -50,10 +51,19 @@ namespace HaptoFlow.Outputs
 
         protected override void Prepare()
         {
-            decimator = new WaveDecimator(RateHz);
             double longest = FramePace.MaximumDepthSeconds + FadeSeconds;
             int samples = (int)Math.Ceiling(longest * RateHz) + 3;
-            buffer = new float[Math.Max(1, Math.Min(samples, Capabilities.MaximumSamples))];
+            samples = Math.Max(1, Math.Min(samples, Capabilities.MaximumSamples));
+            // A device that comes and goes, or refuses now and then, makes no garbage.
+            if (preparedRateHz != RateHz)
+            {
+                preparedRateHz = RateHz;
+                decimator = new WaveDecimator(RateHz);
+            }
+            if (buffer.Length != samples)
+            {
+                buffer = new float[samples];
+            }
         }
 
         protected override void Advance(double nowSeconds, double elapsedSeconds)

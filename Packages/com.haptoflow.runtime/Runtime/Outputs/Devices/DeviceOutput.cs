@@ -1,4 +1,5 @@
 #nullable enable
+using System;
 using System.Collections.Generic;
 using HaptoFlow.Outputs;
 using UnityEngine;
@@ -34,12 +35,17 @@ namespace HaptoFlow
 
         private readonly VoiceSource source = new VoiceSource();
         private readonly List<HapticSinks.OpenSink> sinks = new List<HapticSinks.OpenSink>();
+        // A recompilation while playing keeps fields that can be serialised, and these would say what holds no longer.
+        [NonSerialized]
         private HapticStylus? attached;
+        [NonSerialized]
         private HapticStylus? namedIn;
+        [NonSerialized]
         private HapticHand openedFor;
         private IHapticSink? device;
         private HapticQueue? queue;
         private double lookAtSeconds;
+        private bool wasThere;
 
         /// <summary>The stylus that is felt; null for the one on this object or above it.</summary>
         public HapticStylus? Stylus
@@ -205,6 +211,12 @@ namespace HaptoFlow
                 queue.Gain = settings.FullScaleMps2 / fullScaleMps2;
                 queue.Ceiling = settings.Ceiling;
                 queue.FullScaleMps2 = settings.FullScaleMps2;
+                bool isThere = device!.TryGetCapabilities(out _);
+                if (isThere && !wasThere)
+                {
+                    source.Forget();
+                }
+                wasThere = isThere;
                 queue.Update(now);
             }
         }
@@ -278,6 +290,7 @@ namespace HaptoFlow
             queue?.Flush(Time.realtimeSinceStartupAsDouble);
             queue?.Dispose();
             device = chosen.Sink;
+            wasThere = false;
             queue = chosen.Sink switch
             {
                 IWaveformSink waveform => new WaveformQueue(waveform, source, MayReplace),
@@ -296,7 +309,7 @@ namespace HaptoFlow
             device = null;
             foreach (HapticSinks.OpenSink each in sinks)
             {
-                (each.Sink as System.IDisposable)?.Dispose();
+                (each.Sink as IDisposable)?.Dispose();
             }
             sinks.Clear();
         }

@@ -40,6 +40,14 @@ namespace HaptoFlow
         /// <summary>Renders what nobody feels, for as long as a voice takes to close.</summary>
         public void Discard() => Render(closing);
 
+        /// <summary>Landings and edges that nobody could feel, since no device was there, are over.</summary>
+        public void Forget()
+        {
+            ForEach((voice, _) => voice.SetPaused(true), 0);
+            Discard();
+            ForEach((voice, _) => voice.SetPaused(false), 0);
+        }
+
         /// <inheritdoc/>
         public void Render(Span<float> samples)
         {

@@ -37,8 +37,13 @@ namespace HaptoFlow
     /// are magnitudes, 0 to 255, as Oculus defined them.</summary>
     internal sealed class XrBufferSink : IWaveformSink
     {
+        // A device that says it takes buffers and refuses so many in a row does not take them.
+        private const int MostRefusals = 3;
+
         private readonly XrDevice device;
         private readonly ArraysByLength<byte> buffers = new ArraysByLength<byte>();
+        private InputDevice refusing;
+        private int refusals;
 
         public XrBufferSink(HapticHand hand) => device = new XrDevice(hand);
 
@@ -52,7 +57,12 @@ namespace HaptoFlow
                 reported.bufferFrequencyHz > 0u && reported.bufferMaxSize > 0u && reported.numChannels > 0u;
             capabilities = new HapticSinkCapabilities(reported.bufferFrequencyHz,
                 (int)Math.Min(reported.bufferMaxSize, 4000u));
-            return takes;
+            if (device.Device != refusing)
+            {
+                refusing = device.Device;
+                refusals = 0;
+            }
+            return takes && refusals < MostRefusals;
         }
 
         public int Submit(ReadOnlySpan<float> samples, bool replace)
@@ -66,7 +76,9 @@ namespace HaptoFlow
             {
                 bytes[index] = (byte)(255f * Math.Min(1f, Math.Abs(samples[index])) + 0.5f);
             }
-            return device.Device.SendHapticBuffer(0u, bytes) ? bytes.Length : -1;
+            bool isTaken = device.Device.SendHapticBuffer(0u, bytes);
+            refusals = isTaken ? 0 : refusals + 1;
+            return isTaken ? bytes.Length : -1;
         }
 
         public void Stop() => device.Device.StopHaptics();
