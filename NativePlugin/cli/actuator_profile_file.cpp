@@ -1,5 +1,6 @@
 #include "actuator_profile_file.hpp"
 
+#include "exit_codes.hpp"
 #include "input_file.hpp"
 
 #include <optional>

@@ -24,7 +24,7 @@ namespace {
 using haptoflow::testing::peak;
 using ::testing::Each;
 
-constexpr std::uint32_t frames = 256;
+constexpr std::uint32_t blockFrames = 256;
 
 /// Holds the first who plays samples until it is told to let go.
 class HoldingSink final : public engine::WaveformSink {
@@ -68,8 +68,8 @@ protected:
 
     /// A block in the second of two channels, out of a buffer that holds nines.
     haptoflow_status render(std::vector<float>& interleaved) {
-        interleaved.assign(std::size_t{frames} * 2, 9.0F);
-        return renderInto(table_.use(handle_), {interleaved.data(), frames, 2, 1}, 48000.0);
+        interleaved.assign(std::size_t{blockFrames} * 2, 9.0F);
+        return renderInto(table_.use(handle_), {interleaved.data(), blockFrames, 2, 1}, 48000.0);
     }
 
     static std::vector<float> channel(const std::vector<float>& interleaved, std::size_t index) {
@@ -86,10 +86,10 @@ protected:
         std::atomic<bool> hasRendered{false};
         std::atomic<bool> hasClosed{false};
         bool closedAfterTheRender = false;
-        std::vector<float> heard(frames);
+        std::vector<float> heard(blockFrames);
         std::thread renderer([&] {
             const VoiceTable::Use use = table_.use(handle_);
-            status = renderInto(use, {heard.data(), frames, 1, 0}, 48000.0);
+            status = renderInto(use, {heard.data(), blockFrames, 1, 0}, 48000.0);
             hasRendered = true;
         });
         sink_.waitUntilHeld();
@@ -139,7 +139,7 @@ TEST_F(VoiceTableTest, OfTwoThreadsRenderingOneVoiceTheSecondIsBusyWritesSilence
     other.join();
     EXPECT_EQ(firstStatus, HAPTOFLOW_OK);
     EXPECT_GT(peak(channel(first, 1)), 0.001F);
-    EXPECT_EQ(table_.use(handle_)->voice->channels.counters.renderedFrames, frames);
+    EXPECT_EQ(table_.use(handle_)->voice->channels.counters.renderedFrames, blockFrames);
 
     EXPECT_EQ(render(second), HAPTOFLOW_OK) << "the voice is free again";
     EXPECT_GT(peak(channel(second, 1)), 0.001F);
@@ -170,7 +170,7 @@ TEST_F(VoiceTableTest, OfTwoThreadsThatRenderOneVoiceAtTheirOwnPaceEachBlockIsRe
     EXPECT_EQ(rendered + refused, 1000U);
     EXPECT_GT(rendered, 0U);
     EXPECT_EQ(table_.use(handle_)->refusedCalls, refused);
-    EXPECT_EQ(table_.use(handle_)->voice->channels.counters.renderedFrames, rendered * frames);
+    EXPECT_EQ(table_.use(handle_)->voice->channels.counters.renderedFrames, rendered * blockFrames);
     EXPECT_TRUE(table_.close(handle_));
 }
 
