@@ -48,6 +48,9 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser], su
     parser.add_argument(
         "--recordings", type=Path, nargs="+", metavar="DIR", help="data set folders, in place of the configuration's"
     )
+    parser.add_argument(
+        "--labels", type=Path, metavar="FILE", help="TOML file of labels and their textures (as configs/labels-cluster.toml)"
+    )
     parser.add_argument("--seed", type=int, help="in place of the configuration's seed")
     parser.add_argument(
         "--base", type=Path, metavar="FOLDER", help="finished run whose embedding and level a further tier keeps"
@@ -63,12 +66,15 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser], su
 
 
 def configuration(options: argparse.Namespace) -> TrainingConfig:
-    """The configuration file with the command line's --recordings put in."""
+    """The configuration file with the command line's --recordings, --labels and --seed put in."""
     config = load_config(options.config)
     if options.recordings:
         data = dataclasses.replace(
             config.data, source="folders", folders=tuple(str(folder) for folder in options.recordings)
         )
+        config = dataclasses.replace(config, data=data)
+    if options.labels:
+        data = dataclasses.replace(config.data, labels_file=str(options.labels))
         config = dataclasses.replace(config, data=data)
     if options.seed is not None:
         config = dataclasses.replace(config, seed=options.seed)
