@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 import os
+import re
 from pathlib import Path
 
 import pytest
 from dataset_samples import small_recording
 
+from haptoflow_training.cli import main
+from haptoflow_training.commands.train import report_left_out
 from haptoflow_training.errors import InputError
 from haptoflow_training.recordings.dataset_writer import (
     TextureEntry,
@@ -58,6 +61,21 @@ def test_a_labels_file_names_them_and_the_model_says_that_their_origin_is_unknow
     assert source.provenance.statement == "trained on recordings of unknown origin"
     assert source.provenance.licence == "unknown"
     assert "Cluster" not in source.provenance.recordings
+
+
+def test_recordings_that_are_left_out_are_listed_with_the_reason(
+    folder: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    path = folder / "sensor_data" / "force" / "0_45_30_500_1.csv"
+    lines = path.read_text().splitlines()
+    rows = [f"{time},{1000.0 * float(force)}" for time, force in (line.split(",") for line in lines[1:])]
+    path.write_text("\n".join([lines[0], *rows]) + "\n")
+    report_left_out(opened(folder, labels_file(tmp_path / "labels.toml", "denim"), tmp_path / "store"))
+    printed = capsys.readouterr().err
+    assert "skipped: 0_45_30_500_1: " in printed and "expected newtons" in printed
+    assert "1 recordings are left out: no label names their textures (felt)" in printed
+    assert main(["inspect", str(folder)]) == 0
+    assert re.search(r"force/0_45_30_500_1\.csv: force is 500.*expected newtons", capsys.readouterr().out)
 
 
 def test_what_provenance_json_says_stands_in_the_model(folder: Path, tmp_path: Path) -> None:

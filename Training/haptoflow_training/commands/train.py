@@ -12,7 +12,7 @@ from haptoflow_training.commands.level_offsets import by_label, measured_offsets
 from haptoflow_training.export.exporter import export_run
 from haptoflow_training.training.config import TrainingConfig, load_config
 from haptoflow_training.training.processes import join_processes
-from haptoflow_training.training.recordings_source import open_source
+from haptoflow_training.training.recordings_source import Source, open_source
 from haptoflow_training.training.run_log import write_json
 from haptoflow_training.training.trainer import Trainer, TrainingStopped
 
@@ -81,12 +81,20 @@ def configuration(options: argparse.Namespace) -> TrainingConfig:
     return config
 
 
+def report_left_out(source: Source) -> None:
+    """Say which recordings are not learnt from, and why."""
+    for skipped in source.store.skipped:
+        print(f"skipped: {skipped.name}: {skipped.reason}", file=sys.stderr)
+    for line in source.unlabelled:
+        print(line, file=sys.stderr)
+
+
 def run(options: argparse.Namespace) -> int:
     config = configuration(options)
     store_folder = options.store or options.out.parent / "store"
     with join_processes() as processes:
         if processes.is_first:
-            open_source(config.data, store_folder, options.workers)
+            report_left_out(open_source(config.data, store_folder, options.workers))
         processes.wait()
         source = open_source(config.data, store_folder, options.workers)
         trainer = Trainer(

@@ -62,11 +62,13 @@ class SyntheticRecording:
 
 @dataclass(frozen=True)
 class Source:
-    """A store with what the model file has to say of its labels and origin."""
+    """A store with what the model file has to say of its labels and origin. unlabelled: a line for each folder with
+    recordings whose texture no label names."""
 
     store: SegmentStore
     labels: list[LabelInfo]
     provenance: Provenance
+    unlabelled: tuple[str, ...] = ()
 
     @property
     def wave_vectors(self) -> list[tuple[tuple[float, float], ...]]:
@@ -209,6 +211,15 @@ def _open_folders(data: DataConfig, store_folder: Path, workers: int) -> Source:
             licence=_joined(root.provenance.get("licence") for root in roots),
             created="",
         ),
+        tuple(_unlabelled(root) for root in roots if root.unlabelled),
+    )
+
+
+def _unlabelled(root: ClusterDataset) -> str:
+    textures = dict.fromkeys(root.textures[entry.identity.texture_id] for entry in root.unlabelled)
+    return (
+        f"{root.root}: {len(root.unlabelled)} recordings are left out: no label names their textures "
+        f"({', '.join(textures)})"
     )
 
 
