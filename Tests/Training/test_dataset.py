@@ -269,18 +269,29 @@ def test_a_texture_list_is_understood_with_other_headings(
     assert list(found[48].friction_coefficients.values()) == [0.5]
 
 
-def test_without_a_texture_list_the_published_names_serve(file_release: Path) -> None:
-    assert open_dataset(file_release).textures == {0: "Nyatoh", 66: "Steel"}
+def test_the_published_names_serve_where_the_texture_list_shows_that_it_is_the_published_one(file_release: Path) -> None:
+    write_texture_list(file_release, [TextureEntry(0, "nyatoh", {})])
+    assert open_dataset(file_release).textures == {0: "nyatoh", 66: "Steel"}
     known = {38: "Granite", 48: "Concrete", 49: "HDPE", 64: "Carbon fiber", 73: "Titanium", 81: "Sandpaper"}
     known |= {82: "Alumina", 86: "Earth style porcelain", 87: "Jute", 101: "Seal skin", 104: "cloth 104"}
     assert {texture_id: published_name(texture_id) for texture_id in known} == known
+
+
+def test_ids_of_other_recordings_are_not_the_published_ones(file_release: Path) -> None:
+    assert open_dataset(file_release).textures == {0: "texture 0", 66: "texture 66"}
+    write_texture_list(file_release, [TextureEntry(0, "denim", {}), TextureEntry(66, "felt", {})])
+    dataset = open_dataset(file_release)
+    assert dataset.textures == {0: "denim", 66: "felt"}
+    assert not dataset.published
+    assert (dataset.provenance["source"], dataset.provenance["licence"]) == ("unknown", "unknown")
 
 
 def test_a_damaged_texture_list_is_a_problem_and_not_the_end(file_release: Path) -> None:
     (file_release / "texture_list.xlsx").write_bytes(b"not a workbook")
     dataset = open_dataset(file_release)
     assert [problem.path.name for problem in dataset.problems] == ["texture_list.xlsx"]
-    assert dataset.textures[66] == "Steel"
+    assert dataset.textures[66] == "texture 66"
+    assert dataset.provenance["licence"] == "unknown"
 
 
 def test_labels_are_found_by_id_and_by_the_name_in_the_texture_list(tmp_path: Path) -> None:
@@ -312,8 +323,10 @@ def test_a_synthetic_folder_finds_its_labels_by_name_because_its_ids_are_its_own
     assert json.loads((tmp_path / "provenance.json").read_text())["seed"] == 3
 
 
-def test_a_folder_without_provenance_is_the_published_data_set_with_its_licence(file_release: Path) -> None:
+def test_a_folder_with_the_published_texture_list_has_the_published_licence(file_release: Path) -> None:
+    write_texture_list(file_release, [TextureEntry(0, "Nyatoh", {}), TextureEntry(66, "Steel", {})])
     dataset = open_dataset(file_release)
+    assert dataset.published
     assert not dataset.synthetic
     assert dataset.provenance["licence"] == "CC BY 4.0"
 

@@ -18,6 +18,15 @@ from haptoflow_training.recordings.dataset_writer import (
 def published(root: Path) -> Path:
     for name in ("0_0_20_500_0", "0_90_40_1000_0", "66_0_20_500_0", "5_0_20_500_0"):
         write_recording(root, small_recording(name, seconds=1.2))
+    entries = [TextureEntry(0, "Nyatoh", {}), TextureEntry(5, "Oak", {}), TextureEntry(66, "Steel", {})]
+    write_texture_list(root, entries)
+    return root
+
+
+def own(root: Path) -> Path:
+    for name in ("0_0_20_500_0", "66_0_20_500_0"):
+        write_recording(root, small_recording(name, seconds=1.2))
+    write_texture_list(root, [TextureEntry(0, "denim", {}), TextureEntry(66, "felt", {})])
     return root
 
 
@@ -44,6 +53,14 @@ def test_prepare_takes_a_published_folder_with_the_default_labels(
     assert store.provenance["recordings"][0]["licence"] == "CC BY 4.0"
     printed = capsys.readouterr().out
     assert "3 recordings" in printed and "1 recordings are left out: no label names their texture" in printed
+
+
+def test_prepare_takes_other_recordings_with_their_own_names_and_claims_no_licence(tmp_path: Path) -> None:
+    out = tmp_path / "store"
+    assert main(["prepare", "--recordings", str(own(tmp_path / "data")), "--out", str(out)]) == 0
+    store = SegmentStore.open(out)
+    assert store.labels == ["denim", "felt"]
+    assert store.provenance["recordings"] == [{"source": "unknown", "licence": "unknown", "synthetic": False}]
 
 
 def test_prepare_takes_synthetic_recordings_with_their_own_names(tmp_path: Path) -> None:
@@ -76,6 +93,7 @@ def test_prepare_exits_3_where_no_recording_has_a_label(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     write_recording(tmp_path / "data", small_recording("5_0_20_500_0", seconds=1.2))
+    write_texture_list(tmp_path / "data", [TextureEntry(0, "Nyatoh", {}), TextureEntry(5, "Oak", {})])
     assert main(["prepare", "--recordings", str(tmp_path / "data"), "--out", str(tmp_path / "store")]) == 3
     assert "no recording with a label" in capsys.readouterr().err
 

@@ -83,6 +83,9 @@ def test_a_stopped_run_goes_on_to_the_weights_of_one_that_was_never_stopped(tmp_
     ask_to_stop_after(interrupted, 33)
     with pytest.raises(TrainingStopped, match="step 33 of 60"):
         interrupted.run()
+    # Half of its phases are missing: it would be exported as if it were whole.
+    with pytest.raises(InputError, match="interrupted at step 33 of 60; go on with"):
+        load_trained(tmp_path / "halves")
     Trainer(_config(), store, tmp_path / "halves", ALONE).run()
 
     whole, halves = (load_trained(tmp_path / name)[2].state_dict() for name in ("whole", "halves"))

@@ -19,8 +19,9 @@ Turn recordings into what training reads: one axis of vibration (DFT321) at 2 kH
 of every sample, split 70:10:20 by recording, silence put at some ends. The store is a folder of three files;
 it appears when it is complete, and an older one at the same place is replaced only then.
 
-Broken recordings are skipped and listed. Without --labels, a published data set takes the labels of
-configs/labels-cluster.toml, and synthetic recordings take their textures' names."""
+Broken recordings are skipped and listed. Without --labels, the Cluster Haptic Texture Dataset (known by its
+texture_list.xlsx or provenance.json) takes the labels of configs/labels-cluster.toml; all others take their textures'
+names."""
 
 _EXAMPLES = """\
 examples:
@@ -83,7 +84,7 @@ def run(options: argparse.Namespace) -> int:
 
 def _open(folder: Path, labels_path: Path | None) -> ClusterDataset:
     dataset = open_dataset(folder, load_labels(labels_path) if labels_path else None)
-    if labels_path is None and not dataset.synthetic:
+    if labels_path is None and dataset.published:
         return open_dataset(folder, load_labels())
     return dataset
 
@@ -91,7 +92,7 @@ def _open(folder: Path, labels_path: Path | None) -> ClusterDataset:
 def _labels(datasets: list[ClusterDataset], labels_path: Path | None) -> list[str]:
     """In the order of the labels file; labels without a recording get no index."""
     present = list(dict.fromkeys(label for dataset in datasets for label in dataset.labels))
-    if labels_path is None and any(dataset.synthetic for dataset in datasets):
+    if labels_path is None and not all(dataset.published for dataset in datasets):
         return present
     order: LabelMap = load_labels(labels_path)
     return [name for name in order.names if name in present]

@@ -12,7 +12,7 @@ from haptoflow_training.commands.level_offsets import by_label, measured_offsets
 from haptoflow_training.export.exporter import export_run
 from haptoflow_training.training.config import TrainingConfig, load_config
 from haptoflow_training.training.processes import join_processes
-from haptoflow_training.training.recordings_source import open_source
+from haptoflow_training.training.recordings_source import Source, open_source
 from haptoflow_training.training.run_log import write_json
 from haptoflow_training.training.trainer import Trainer, TrainingStopped
 
@@ -48,6 +48,9 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser], su
     parser.add_argument(
         "--recordings", type=Path, nargs="+", metavar="DIR", help="data set folders, in place of the configuration's"
     )
+    parser.add_argument(
+        "--labels", type=Path, metavar="FILE", help="TOML file of labels and their textures (as configs/labels-cluster.toml)"
+    )
     parser.add_argument("--seed", type=int, help="in place of the configuration's seed")
     parser.add_argument(
         "--base", type=Path, metavar="FOLDER", help="finished run whose embedding and level a further tier keeps"
@@ -63,16 +66,27 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser], su
 
 
 def configuration(options: argparse.Namespace) -> TrainingConfig:
-    """The configuration file with the command line's --recordings put in."""
+    """The configuration file with the command line's --recordings, --labels and --seed put in."""
     config = load_config(options.config)
     if options.recordings:
         data = dataclasses.replace(
             config.data, source="folders", folders=tuple(str(folder) for folder in options.recordings)
         )
         config = dataclasses.replace(config, data=data)
+    if options.labels:
+        data = dataclasses.replace(config.data, labels_file=str(options.labels))
+        config = dataclasses.replace(config, data=data)
     if options.seed is not None:
         config = dataclasses.replace(config, seed=options.seed)
     return config
+
+
+def report_left_out(source: Source) -> None:
+    """Say which recordings are not learnt from, and why."""
+    for skipped in source.store.skipped:
+        print(f"skipped: {skipped.name}: {skipped.reason}", file=sys.stderr)
+    for line in source.unlabelled:
+        print(line, file=sys.stderr)
 
 
 def run(options: argparse.Namespace) -> int:
@@ -80,7 +94,7 @@ def run(options: argparse.Namespace) -> int:
     store_folder = options.store or options.out.parent / "store"
     with join_processes() as processes:
         if processes.is_first:
-            open_source(config.data, store_folder, options.workers)
+            report_left_out(open_source(config.data, store_folder, options.workers))
         processes.wait()
         source = open_source(config.data, store_folder, options.workers)
         trainer = Trainer(

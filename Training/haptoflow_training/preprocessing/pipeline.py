@@ -11,6 +11,7 @@ from scipy.interpolate import CubicSpline
 from haptoflow_training.errors import InputError
 from haptoflow_training.preprocessing import filters, motion
 from haptoflow_training.preprocessing.dft321 import dft321
+from haptoflow_training.preprocessing.plausibility import implausible
 from haptoflow_training.preprocessing.settings import PreprocessingSettings
 from haptoflow_training.recordings.recording import STANDARD_GRAVITY_MPS2, Recording
 
@@ -31,6 +32,8 @@ class PreparedRecording:
 def preprocess_recording(recording: Recording, settings: PreprocessingSettings) -> PreparedRecording:
     """InputError names the recording and the sensor where it cannot be prepared."""
     _require_usable(recording, settings)
+    for problem in implausible(recording):
+        raise InputError(f"recording {recording.identity.name}: {problem}")
     start, stop = _common_span(recording)
     # Filters see a little of what the trim takes away, so that no filter rings where the cut is.
     context = min(_CONTEXT_SECONDS, settings.trim_seconds)

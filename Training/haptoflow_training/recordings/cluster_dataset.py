@@ -27,10 +27,12 @@ from haptoflow_training.recordings.dataset_layout import (
     PUBLISHED_SOURCE,
     SENSOR_FOLDER,
     SENSOR_KINDS,
+    is_published_list,
 )
 from haptoflow_training.recordings.labels import LabelMap
 from haptoflow_training.recordings.recording import Recording, RecordingIdentity
 
+UNKNOWN = "unknown"
 _ENDINGS = (".csv", ".parquet")
 
 
@@ -85,6 +87,11 @@ class ClusterDataset:
         return bool(self.provenance.get("synthetic"))
 
     @property
+    def published(self) -> bool:
+        """These are recordings of the Cluster Haptic Texture Dataset: its ids mean what its labels file says."""
+        return self.provenance.get("source") == PUBLISHED_SOURCE
+
+    @property
     def labels(self) -> list[str]:
         """The labels that occur, by their lowest texture id."""
         return list(dict.fromkeys(entry.label for entry in self.recordings))
@@ -103,6 +110,7 @@ def open_dataset(
 
     Without `labels` every texture's name is its label. With it, textures that no label lists are
     `unlabelled`; a synthetic root numbers its textures on its own, so there a label is found by its name.
+    Without provenance.json a folder is the published data set only where its texture list says so.
     InputError where the folder does not hold `sensor_data/accel`.
     """
     root = Path(root)
@@ -114,15 +122,16 @@ def open_dataset(
         )
     problems: list[DatasetProblem] = []
     found = {kind.folder: _list_sensor(sensors / kind.folder, problems) for kind in SENSOR_KINDS}
-    provenance = _provenance(root, problems)
-    synthetic = bool(provenance.get("synthetic"))
     identities = sorted(set().union(*(set(files) for files in found.values())), key=_sort_key)
     try:
         listed = read_texture_list(root)
     except DatasetFileError as error:
         problems.append(DatasetProblem(error.path, error.found, error.expected))
         listed = {}
-    textures = texture_names({identity.texture_id for identity in identities}, listed, synthetic=synthetic)
+    provenance = _provenance(root, {number: entry.name for number, entry in listed.items()}, problems)
+    synthetic = bool(provenance.get("synthetic"))
+    published = provenance.get("source") == PUBLISHED_SOURCE
+    textures = texture_names({identity.texture_id for identity in identities}, listed, published=published)
     complete: list[RecordingFiles] = []
     unlabelled: list[RecordingFiles] = []
     for identity in identities:
@@ -185,11 +194,12 @@ def _missing(sensors: Path, present: Path, folder: str) -> DatasetProblem:
     )
 
 
-def _provenance(root: Path, problems: list[DatasetProblem]) -> dict[str, Any]:
-    published = {"source": PUBLISHED_SOURCE, "licence": PUBLISHED_LICENCE, "synthetic": False}
+def _provenance(root: Path, listed: dict[int, str], problems: list[DatasetProblem]) -> dict[str, Any]:
     path = root / PROVENANCE_FILE
     if not path.is_file():
-        return published
+        if is_published_list(listed):
+            return {"source": PUBLISHED_SOURCE, "licence": PUBLISHED_LICENCE, "synthetic": False}
+        return {"source": UNKNOWN, "licence": UNKNOWN, "synthetic": False}
     try:
         document = json.loads(path.read_text(encoding="utf-8"))
     except (OSError, ValueError) as error:
@@ -198,7 +208,7 @@ def _provenance(root: Path, problems: list[DatasetProblem]) -> dict[str, Any]:
         return document
     expected = "a JSON object with source, licence and synthetic"
     problems.append(DatasetProblem(path, "not a JSON object", expected))
-    return {"source": f"unknown ({PROVENANCE_FILE} is damaged)", "licence": "unknown", "synthetic": False}
+    return {"source": f"{UNKNOWN} ({PROVENANCE_FILE} is damaged)", "licence": UNKNOWN, "synthetic": False}
 
 
 def _count_audio(sensors: Path) -> int:

@@ -64,12 +64,12 @@ def read_texture_list(root: Path) -> dict[int, TextureEntry]:
 
 
 def texture_names(
-    texture_ids: set[int], listed: dict[int, TextureEntry], *, synthetic: bool
+    texture_ids: set[int], listed: dict[int, TextureEntry], *, published: bool
 ) -> dict[int, str]:
-    """A name for every id: the list's, else the published one, else (synthetic) a name made of the id."""
+    """A name for every id: the list's, else the published one (of the published data set), else one made of the id."""
     return {
         texture_id: listed[texture_id].name
         if texture_id in listed
-        else (f"texture {texture_id}" if synthetic else published_name(texture_id))
+        else (published_name(texture_id) if published else f"texture {texture_id}")
         for texture_id in sorted(texture_ids)
     }

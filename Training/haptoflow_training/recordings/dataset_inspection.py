@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from haptoflow_training.preprocessing.plausibility import implausible
 from haptoflow_training.recordings.cluster_dataset import ClusterDataset, DatasetProblem, RecordingFiles
 from haptoflow_training.recordings.cluster_dataset_files import DatasetFileError
 from haptoflow_training.recordings.recording import Recording, RecordingIdentity
@@ -103,7 +104,7 @@ def inspect_dataset(
 ) -> Inspection:
     """Read every recording once, one at a time; `recordings` may wrap `dataset` to show progress.
 
-    A broken file is a problem; InputError is raised only where no Parquet engine is installed.
+    A broken file is a problem, and so is what looks like a wrong unit or a glitch; InputError is raised only where no Parquet engine is installed.
     """
     readable: list[RecordingFiles] = []
     durations: list[float] = []
@@ -115,6 +116,7 @@ def inspect_dataset(
         except DatasetFileError as error:
             problems.append(DatasetProblem(error.path, error.found, error.expected))
             continue
+        problems.extend(_implausible(entry, recording))
         readable.append(entry)
         durations.append(recording.duration_seconds)
         for sensor, time in _clocks(recording):
@@ -126,6 +128,13 @@ def inspect_dataset(
     }
     problems.sort(key=lambda problem: str(problem.path))
     return Inspection(dataset, tuple(readable), tuple(durations), summaries, tuple(problems))
+
+
+def _implausible(entry: RecordingFiles, recording: Recording) -> Iterable[DatasetProblem]:
+    paths = {"acceleration": entry.acceleration_path, "force": entry.force_path, "position": entry.position_path}
+    for problem in implausible(recording):
+        found, expected = problem.split("; expected ", 1)
+        yield DatasetProblem(paths[found.split(" ", 1)[0]], found, expected)
 
 
 def _clocks(recording: Recording) -> Iterable[tuple[str, NDArray[np.float64]]]:

@@ -6,6 +6,7 @@ The columns are the same.
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 SENSOR_FOLDER = "sensor_data"
@@ -83,3 +84,13 @@ def published_group(texture_id: int) -> str | None:
 def published_name(texture_id: int) -> str:
     """The published name where it is known, else the group and the id (`cloth 104`)."""
     return _NAMES.get(texture_id) or f"{published_group(texture_id) or 'texture'} {texture_id}"
+
+
+def is_published_list(names: Mapping[int, str]) -> bool:
+    """Whether a texture list is the published one: an id has a published name that is known, and all such agree."""
+    known = {texture_id: name for texture_id, name in _NAMES.items() if texture_id in names}
+    return bool(known) and all(_plain(names[texture_id]) == _plain(name) for texture_id, name in known.items())
+
+
+def _plain(name: str) -> str:
+    return "".join(letter for letter in name.casefold() if letter.isalnum())

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import dataclasses
+import hashlib
 import json
 import math
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -15,8 +16,8 @@ from haptoflow_training.export.exporter import Provenance
 from haptoflow_training.export.label_info import LabelInfo
 from haptoflow_training.preprocessing.preparation import prepare_store
 from haptoflow_training.preprocessing.store import SegmentStore
-from haptoflow_training.recordings.cluster_dataset import open_dataset
-from haptoflow_training.recordings.labels import LabelDefinition, load_labels
+from haptoflow_training.recordings.cluster_dataset import UNKNOWN, ClusterDataset, RecordingFiles, open_dataset
+from haptoflow_training.recordings.labels import LabelDefinition, LabelMap, load_labels
 from haptoflow_training.recordings.landing import landing_of
 from haptoflow_training.recordings.recording import Recording, RecordingIdentity
 from haptoflow_training.recordings.synthetic import (
@@ -61,11 +62,13 @@ class SyntheticRecording:
 
 @dataclass(frozen=True)
 class Source:
-    """A store with what the model file has to say of its labels and origin."""
+    """A store with what the model file has to say of its labels and origin. unlabelled: a line for each folder with
+    recordings whose texture no label names."""
 
     store: SegmentStore
     labels: list[LabelInfo]
     provenance: Provenance
+    unlabelled: tuple[str, ...] = ()
 
     @property
     def wave_vectors(self) -> list[tuple[tuple[float, float], ...]]:
@@ -102,8 +105,15 @@ def _fingerprint(data: DataConfig) -> dict[str, Any]:
     return result
 
 
-def _open_or_prepare(data: DataConfig, out: Path, recordings: Any, labels: list[str], workers: int) -> SegmentStore:
-    fingerprint = _fingerprint(data)
+def _open_or_prepare(
+    data: DataConfig,
+    out: Path,
+    recordings: Any,
+    labels: list[str],
+    workers: int,
+    made_from: dict[str, Any] | None = None,
+) -> SegmentStore:
+    fingerprint = json.loads(json.dumps({**_fingerprint(data), **(made_from or {})}))
     if (out / "store.json").exists():
         store = SegmentStore.open(out)
         if store.provenance.get("made_from") == fingerprint:
@@ -172,10 +182,12 @@ def _open_folders(data: DataConfig, store_folder: Path, workers: int) -> Source:
     synthetic = all(root.synthetic for root in roots)
     if synthetic:
         known = {info.name: info for info in synthetic_label_infos(DataConfig())}
+        labels_made_from = None
     else:
-        label_map = load_labels(Path(data.labels_file) if data.labels_file else None)
+        label_map = _label_map(data, roots)
         roots = [open_dataset(Path(folder), label_map) for folder in data.folders]
         known = {definition.name: _label_info(definition) for definition in label_map.definitions}
+        labels_made_from = [dataclasses.asdict(definition) for definition in label_map.definitions]
     entries = [entry for root in roots for entry in root if not data.labels or entry.label in data.labels]
     if not entries:
         raise InputError(
@@ -184,20 +196,57 @@ def _open_folders(data: DataConfig, store_folder: Path, workers: int) -> Source:
         )
     found = {entry.label for entry in entries}
     infos = [info for name, info in known.items() if name in found]
-    store = _open_or_prepare(data, store_folder, entries, [info.name for info in infos], workers)
+    made_from = {"files": _files_of(entries), "labels": labels_made_from}
+    store = _open_or_prepare(data, store_folder, entries, [info.name for info in infos], workers, made_from)
     counted = f"{len(store.recordings)} recordings of {len(infos)} labels"
     if synthetic:
         return Source(store, infos, Provenance(SYNTHETIC_STATEMENT, f"synthetic recorder: {counted}", "MIT", ""))
+    sources = _joined(root.provenance.get("source") for root in roots)
     return Source(
         store,
         infos,
         Provenance(
-            statement="trained on the Cluster Haptic Texture Dataset",
-            recordings=f"Cluster Haptic Texture Dataset (DOI 10.6084/m9.figshare.29438288): {counted}",
-            licence="CC BY 4.0",
+            statement="trained on recordings of unknown origin" if sources == UNKNOWN else f"trained on {sources}",
+            recordings=f"{sources}: {counted}",
+            licence=_joined(root.provenance.get("licence") for root in roots),
             created="",
         ),
+        tuple(_unlabelled(root) for root in roots if root.unlabelled),
     )
+
+
+def _unlabelled(root: ClusterDataset) -> str:
+    textures = dict.fromkeys(root.textures[entry.identity.texture_id] for entry in root.unlabelled)
+    return (
+        f"{root.root}: {len(root.unlabelled)} recordings are left out: no label names their textures "
+        f"({', '.join(textures)})"
+    )
+
+
+def _label_map(data: DataConfig, roots: list[ClusterDataset]) -> LabelMap:
+    if not data.labels_file:
+        foreign = [str(root.root) for root in roots if not root.published and not root.synthetic]
+        if foreign:
+            raise InputError(
+                f"{', '.join(foreign)}: not the Cluster Haptic Texture Dataset, whose ids the default labels are of; "
+                "name textures and labels in a file of your own (--labels FILE, or data.labels_file) like Training/configs/labels-cluster.toml"
+            )
+    return load_labels(Path(data.labels_file) if data.labels_file else None)
+
+
+def _joined(words: Iterable[object]) -> str:
+    """Each once; what does not say is unknown."""
+    return ", ".join(dict.fromkeys(str(word) if word else UNKNOWN for word in words))
+
+
+def _files_of(entries: list[RecordingFiles]) -> str:
+    """A digest of the recordings' names, sizes and times of change: another file is another store."""
+    digest = hashlib.sha256()
+    for entry in entries:
+        for path in (entry.acceleration_path, entry.force_path, entry.position_path):
+            described = path.stat()
+            digest.update(f"{entry.label}:{path.name}:{described.st_size}:{described.st_mtime_ns}\n".encode())
+    return digest.hexdigest()
 
 
 def _label_info(definition: LabelDefinition) -> LabelInfo:

@@ -492,6 +492,12 @@ def _checkpoint(folder: Path) -> dict[str, Any]:
 def load_trained(folder: Path) -> tuple[TrainingConfig, list[str], HaptoFlowModel]:
     """Rebuild the averaged model of a finished run from the configuration saved with it."""
     content = _checkpoint(folder)
+    planned = sum(content["steps"])
+    if content["step"] < planned:
+        raise InputError(
+            f"{folder}: interrupted at step {content['step']} of {planned}; go on with `haptoflow-training train --out "
+            f"{folder}` and its configuration first"
+        )
     config = config_from_dict(content["config"], folder / "checkpoint.pt")
     model = build_model(config, [()] * len(content["labels"]))
     model.load_state_dict(content["average"]["module"])

@@ -1,0 +1,118 @@
+"""Recordings that are nobody's published data set: nothing is claimed of them, and no label is guessed."""
+
+from __future__ import annotations
+
+import os
+import re
+from pathlib import Path
+
+import pytest
+from dataset_samples import small_recording
+
+from haptoflow_training.cli import main
+from haptoflow_training.commands.train import report_left_out
+from haptoflow_training.errors import InputError
+from haptoflow_training.recordings.dataset_writer import (
+    TextureEntry,
+    write_provenance,
+    write_recording,
+    write_texture_list,
+)
+from haptoflow_training.training.config import DataConfig
+from haptoflow_training.training.recordings_source import Source, open_source
+
+LABEL = (
+    '[[label]]\nname = "{name}"\ncategory = "cloth"\ntextures = ["{texture}"]\n'
+    "stiffness_newtons_per_metre = 250.0\nfriction_coefficient = 0.4\n"
+)
+NAMES = ("0_0_20_500_0", "0_90_40_1000_0", "0_45_30_500_1", "66_0_20_500_0")
+
+
+@pytest.fixture
+def folder(tmp_path: Path) -> Path:
+    """Denim and felt, under the ids that wood and steel have in the Cluster's data set."""
+    root = tmp_path / "recordings"
+    for name in NAMES:
+        write_recording(root, small_recording(name, seconds=1.2))
+    write_texture_list(root, [TextureEntry(0, "denim", {}), TextureEntry(66, "felt", {})])
+    return root
+
+
+def labels_file(path: Path, *labels: str) -> Path:
+    path.write_text("".join(LABEL.format(name=label, texture=label) for label in labels), encoding="utf-8")
+    return path
+
+
+def opened(folder: Path, labels: Path | None, store: Path) -> Source:
+    return open_source(
+        DataConfig(source="folders", folders=(str(folder),), labels_file=str(labels) if labels else ""), store, 1
+    )
+
+
+def test_the_ids_of_other_recordings_are_not_matched_against_the_cluster_s_labels(folder: Path, tmp_path: Path) -> None:
+    with pytest.raises(InputError, match="not the Cluster Haptic Texture Dataset.*--labels FILE"):
+        opened(folder, None, tmp_path / "store")
+    assert not (tmp_path / "store").exists()
+
+
+def test_a_labels_file_names_them_and_the_model_says_that_their_origin_is_unknown(folder: Path, tmp_path: Path) -> None:
+    source = opened(folder, labels_file(tmp_path / "labels.toml", "denim", "felt"), tmp_path / "store")
+    assert [info.name for info in source.labels] == ["denim", "felt"]
+    assert source.provenance.statement == "trained on recordings of unknown origin"
+    assert source.provenance.licence == "unknown"
+    assert "Cluster" not in source.provenance.recordings
+
+
+def test_recordings_that_are_left_out_are_listed_with_the_reason(
+    folder: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    path = folder / "sensor_data" / "force" / "0_45_30_500_1.csv"
+    lines = path.read_text().splitlines()
+    rows = [f"{time},{1000.0 * float(force)}" for time, force in (line.split(",") for line in lines[1:])]
+    path.write_text("\n".join([lines[0], *rows]) + "\n")
+    report_left_out(opened(folder, labels_file(tmp_path / "labels.toml", "denim"), tmp_path / "store"))
+    printed = capsys.readouterr().err
+    assert "skipped: 0_45_30_500_1: " in printed and "expected newtons" in printed
+    assert "1 recordings are left out: no label names their textures (felt)" in printed
+    assert main(["inspect", str(folder)]) == 0
+    assert re.search(r"force/0_45_30_500_1\.csv: force is 500.*expected newtons", capsys.readouterr().out)
+
+
+def test_what_provenance_json_says_stands_in_the_model(folder: Path, tmp_path: Path) -> None:
+    write_provenance(folder, source="the tailor's shop", licence="CC0 1.0", synthetic=False)
+    source = opened(folder, labels_file(tmp_path / "labels.toml", "denim", "felt"), tmp_path / "store")
+    assert source.provenance.statement == "trained on the tailor's shop"
+    assert source.provenance.licence == "CC0 1.0"
+
+
+def test_the_published_data_set_keeps_its_name_licence_and_labels(folder: Path, tmp_path: Path) -> None:
+    write_texture_list(folder, [TextureEntry(0, "Nyatoh", {}), TextureEntry(66, "Steel", {})])
+    source = opened(folder, None, tmp_path / "store")
+    assert [info.name for info in source.labels] == ["wood", "metal"]
+    assert source.provenance.statement.startswith("trained on Cluster Haptic Texture Dataset")
+    assert source.provenance.licence == "CC BY 4.0"
+
+
+def test_a_store_is_made_anew_where_recordings_or_labels_have_changed_and_only_there(
+    folder: Path, tmp_path: Path
+) -> None:
+    labels = labels_file(tmp_path / "labels.toml", "denim", "felt")
+    store = tmp_path / "store"
+    header = store / "store.json"
+
+    def made() -> int:
+        opened(folder, labels, store)
+        return header.stat().st_mtime_ns
+
+    first = made()
+    assert made() == first, "nothing has changed"
+    path = folder / "sensor_data" / "accel" / "66_0_20_500_0.csv"
+    text = path.read_text()
+    path.write_text(text.replace("0.01", "0.02", 1))
+    os.utime(path, ns=(1, 1))
+    second = made()
+    assert second != first, "a recording has changed"
+    labels.write_text(labels.read_text().replace("250.0", "300.0"))
+    assert made() != second, "the labels have changed"
+    labels_file(labels, "denim")
+    assert opened(folder, labels, store).store.labels == ["denim"]
