@@ -25,14 +25,18 @@ LABEL = (
     '[[label]]\nname = "{name}"\ncategory = "cloth"\ntextures = ["{texture}"]\n'
     "stiffness_newtons_per_metre = 250.0\nfriction_coefficient = 0.4\n"
 )
-NAMES = ("0_0_20_500_0", "0_90_40_1000_0", "0_45_30_500_1", "66_0_20_500_0")
+FEW = ("0_0_20_500_0", "0_90_40_1000_0", "66_0_20_500_0")
+NAMES = (*FEW, "0_45_30_500_1", *(f"{texture}_{direction}_50_500_0" for texture in (0, 66) for direction in range(0, 360, 45)))
 
 
 @pytest.fixture
 def folder(tmp_path: Path) -> Path:
     """Denim and felt, under the ids that wood and steel have in the Cluster's data set."""
-    root = tmp_path / "recordings"
-    for name in NAMES:
+    return recorded(tmp_path / "recordings", NAMES)
+
+
+def recorded(root: Path, names: tuple[str, ...]) -> Path:
+    for name in names:
         write_recording(root, small_recording(name, seconds=1.2))
     write_texture_list(root, [TextureEntry(0, "denim", {}), TextureEntry(66, "felt", {})])
     return root
@@ -63,6 +67,25 @@ def test_a_labels_file_names_them_and_the_model_says_that_their_origin_is_unknow
     assert "Cluster" not in source.provenance.recordings
 
 
+def test_a_label_with_nothing_to_train_with_is_named_before_training(tmp_path: Path) -> None:
+    folder = recorded(tmp_path / "recordings", FEW)
+    labels = labels_file(tmp_path / "labels.toml", "denim", "felt")
+    outcomes = set()
+    for seed in range(6):
+        data = DataConfig(source="folders", folders=(str(folder),), labels_file=str(labels), recordings_seed=seed)
+        try:
+            source = open_source(data, tmp_path / "store", 1)
+        except InputError as error:
+            assert re.search(r"nothing to train with for .*\(0 train, \d validation, \d test\)|left for validation", str(error))
+            assert "data.recordings_seed" in str(error)
+            outcomes.add("refused")
+        else:
+            trained = {one.label for one in source.store.recordings if one.split == "train"}
+            assert trained == {"denim", "felt"}
+            outcomes.add("opened")
+    assert "refused" in outcomes
+
+
 def test_recordings_that_are_left_out_are_listed_with_the_reason(
     folder: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
@@ -73,7 +96,7 @@ def test_recordings_that_are_left_out_are_listed_with_the_reason(
     report_left_out(opened(folder, labels_file(tmp_path / "labels.toml", "denim"), tmp_path / "store"))
     printed = capsys.readouterr().err
     assert "skipped: 0_45_30_500_1: " in printed and "expected newtons" in printed
-    assert "1 recordings are left out: no label names their textures (felt)" in printed
+    assert "9 recordings are left out: no label names their textures (felt)" in printed
     assert main(["inspect", str(folder)]) == 0
     assert re.search(r"force/0_45_30_500_1\.csv: force is 500.*expected newtons", capsys.readouterr().out)
 

@@ -14,7 +14,9 @@ from typing import Any
 from haptoflow_training.errors import InputError
 from haptoflow_training.export.exporter import Provenance
 from haptoflow_training.export.label_info import LabelInfo
+from haptoflow_training.export.seed_bank import SEED_SAMPLES
 from haptoflow_training.preprocessing.preparation import prepare_store
+from haptoflow_training.preprocessing.split import SPLITS
 from haptoflow_training.preprocessing.store import SegmentStore
 from haptoflow_training.recordings.cluster_dataset import UNKNOWN, ClusterDataset, RecordingFiles, open_dataset
 from haptoflow_training.recordings.labels import LabelDefinition, LabelMap, load_labels
@@ -198,6 +200,7 @@ def _open_folders(data: DataConfig, store_folder: Path, workers: int) -> Source:
     infos = [info for name, info in known.items() if name in found]
     made_from = {"files": _files_of(entries), "labels": labels_made_from}
     store = _open_or_prepare(data, store_folder, entries, [info.name for info in infos], workers, made_from)
+    _require_splits(store)
     counted = f"{len(store.recordings)} recordings of {len(infos)} labels"
     if synthetic:
         return Source(store, infos, Provenance(SYNTHETIC_STATEMENT, f"synthetic recorder: {counted}", "MIT", ""))
@@ -213,6 +216,30 @@ def _open_folders(data: DataConfig, store_folder: Path, workers: int) -> Source:
         ),
         tuple(_unlabelled(root) for root in roots if root.unlabelled),
     )
+
+
+def _require_splits(store: SegmentStore) -> None:
+    """InputError where a label has nothing to learn from, or nothing is left to validate with: said before training."""
+    counts = {label: dict.fromkeys(SPLITS, 0) for label in store.labels}
+    for recording in store.recordings:
+        # Shorter ones have no window for the seed bank.
+        if recording.split != "train" or recording.length > SEED_SAMPLES:
+            counts[store.labels[recording.label_index]][recording.split] += 1
+    lacking = [
+        f"{label} ({', '.join(f'{number} {split}' for split, number in of_label.items())})"
+        for label, of_label in counts.items()
+        if of_label["train"] == 0
+    ]
+    if lacking:
+        raise InputError(
+            f"nothing to train with for {'; '.join(lacking)}: recordings are split 70:10:20 by their names; record more "
+            "conditions of these labels, leave the labels out (data.labels), or draw another split (data.recordings_seed)"
+        )
+    if not any(of_label["validation"] for of_label in counts.values()):
+        raise InputError(
+            "no recording is left for validation: recordings are split 70:10:20 by their names; record more conditions, "
+            "or draw another split (data.recordings_seed)"
+        )
 
 
 def _unlabelled(root: ClusterDataset) -> str:
