@@ -56,7 +56,7 @@ BAD = {
     "mg": (MACHINE, {"acceleration_g": lambda g: 1000.0 * g}, "looks like mg"),
     "frozen accelerometer": (HAND, {"acceleration_g": frozen}, "stays the same for 0.3"),
     "clipped accelerometer": (HAND, {"acceleration_g": clipped}, "is clipped"),
-    "millinewtons": (MACHINE, {"force_newtons": lambda newtons: 1000.0 * newtons}, "force is 500 where the name says 0.5"),
+    "millinewtons": (MACHINE, {"force_newtons": lambda newtons: 1000.0 * newtons}, "500 where the name says 0.5"),
     "millinewtons of a hand": (HAND, {"force_newtons": lambda newtons: 1000.0 * newtons}, "expected newtons"),
     "grams": (MACHINE, {"force_newtons": lambda newtons: newtons / 0.00981}, "expected newtons"),
     "kilonewtons": (HAND, {"force_newtons": lambda newtons: 0.001 * newtons}, "kN"),

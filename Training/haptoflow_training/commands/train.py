@@ -49,8 +49,9 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser], su
         "--recordings", type=Path, nargs="+", metavar="DIR", help="data set folders, in place of the configuration's"
     )
     parser.add_argument(
-        "--labels", type=Path, metavar="FILE", help="TOML file of labels and their textures (as configs/labels-cluster.toml)"
-    )
+        "--labels", type=Path, metavar="FILE",
+        help="TOML file of labels and their textures (as configs/labels-cluster.toml)",
+    )  # fmt: skip
     parser.add_argument("--seed", type=int, help="in place of the configuration's seed")
     parser.add_argument(
         "--base", type=Path, metavar="FOLDER", help="finished run whose embedding and level a further tier keeps"

@@ -232,13 +232,14 @@ def _require_splits(store: SegmentStore) -> None:
     ]
     if lacking:
         raise InputError(
-            f"nothing to train with for {'; '.join(lacking)}: recordings are split 70:10:20 by their names; record more "
-            "conditions of these labels, leave the labels out (data.labels), or draw another split (data.recordings_seed)"
+            f"nothing to train with for {'; '.join(lacking)}: recordings are split 70:10:20 by their names; record "
+            "more conditions of these labels, leave the labels out (data.labels), or draw another split "
+            "(data.recordings_seed)"
         )
     if not any(of_label["validation"] for of_label in counts.values()):
         raise InputError(
-            "no recording is left for validation: recordings are split 70:10:20 by their names; record more conditions, "
-            "or draw another split (data.recordings_seed)"
+            "no recording is left for validation: recordings are split 70:10:20 by their names; record more "
+            "conditions, or draw another split (data.recordings_seed)"
         )
 
 
@@ -256,7 +257,8 @@ def _label_map(data: DataConfig, roots: list[ClusterDataset]) -> LabelMap:
         if foreign:
             raise InputError(
                 f"{', '.join(foreign)}: not the Cluster Haptic Texture Dataset, whose ids the default labels are of; "
-                "name textures and labels in a file of your own (--labels FILE, or data.labels_file) like Training/configs/labels-cluster.toml"
+                "name textures and labels in a file of your own (--labels FILE, or data.labels_file) like "
+                "Training/configs/labels-cluster.toml"
             )
     return load_labels(Path(data.labels_file) if data.labels_file else None)
 
