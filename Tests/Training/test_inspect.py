@@ -45,6 +45,19 @@ def test_inspect_finds_rates_and_irregularity_from_the_time_stamps(root: Path) -
     assert clocks["position"].irregularity == pytest.approx(0.0, abs=1e-6)
 
 
+def test_inspect_prints_ranges_in_which_a_wrong_unit_shows(root: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    ranges = inspect_dataset(open_dataset(root)).ranges
+    assert (ranges["force"].low, ranges["force"].high) == pytest.approx((0.49, 1.51), abs=0.02)
+    # At rest before and after, then as fast as the names say, the hand's 400 mm/s included.
+    assert ranges["speed"].low == pytest.approx(0.0, abs=1.0)
+    assert ranges["speed"].high == pytest.approx(400.0, rel=0.02)
+    assert 0.01 < ranges["vibration"].middle < 0.2
+    assert main(["inspect", str(root)]) == 0
+    printed = capsys.readouterr().out
+    assert "force         0.49 to 1.51 N, median 0.5 N" in printed
+    assert "speed         0 to 400 mm/s" in printed
+
+
 def test_inspect_lists_coverage_against_the_grid_of_the_folder(root: Path) -> None:
     assert inspect_dataset(open_dataset(root)).coverage() == [
         {"material": "Nyatoh", "machine": 3, "machine_grid": 16, "hand": 0},

@@ -82,6 +82,11 @@ def _lines(inspection: Inspection) -> Iterator[str]:
     )
     for sensor, clock in report["clocks"].items():
         yield f"  {sensor:<14}{clock['rate_hz']:.1f} Hz, irregularity {100 * clock['irregularity']:.0f} %"
+    for quantity, found in report["ranges"].items():
+        yield (
+            f"  {quantity:<14}{found['low']:.3g} to {found['high']:.3g} {found['unit']}, "
+            f"median {found['middle']:.3g} {found['unit']}"
+        )
     yield f"  audio         {report['audio_files']} files (not used)"
     if report["unlabelled"]:
         yield f"  unlabelled    {report['unlabelled']} recordings of textures that no label names"

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 from collections import Counter, defaultdict
 from collections.abc import Iterable
 from dataclasses import dataclass
@@ -16,6 +17,8 @@ from haptoflow_training.recordings.cluster_dataset_files import DatasetFileError
 from haptoflow_training.recordings.recording import Recording, RecordingIdentity
 
 SENSORS = ("acceleration", "force", "position")
+_UNITS = {"vibration": "g", "force": "N", "speed": "mm/s"}
+_QUANTILES = (0.01, 0.5, 0.99)
 _REPORT_VERSION = 1
 
 
@@ -30,6 +33,16 @@ class ClockSummary:
 
 
 @dataclass(frozen=True)
+class RangeSummary:
+    """Of one quantity: the lowest 1st percentile, the median of medians and the highest 99th percentile of recordings."""
+
+    unit: str
+    low: float
+    middle: float
+    high: float
+
+
+@dataclass(frozen=True)
 class Inspection:
     """Counts are of readable recordings; problems are in the order of the files."""
 
@@ -37,6 +50,7 @@ class Inspection:
     readable: tuple[RecordingFiles, ...]
     durations_seconds: tuple[float, ...]
     clocks: dict[str, ClockSummary]
+    ranges: dict[str, RangeSummary]
     problems: tuple[DatasetProblem, ...]
 
     def counts(self) -> dict[str, dict[str, int]]:
@@ -85,6 +99,7 @@ class Inspection:
                 sensor: {"rate_hz": clock.rate_hz, "irregularity": clock.irregularity}
                 for sensor, clock in self.clocks.items()
             },
+            "ranges": {quantity: dataclasses.asdict(found) for quantity, found in self.ranges.items()},
             "duration_seconds": {
                 "total": float(durations.sum()),
                 "shortest": float(durations.min()) if len(durations) else 0.0,
@@ -109,6 +124,7 @@ def inspect_dataset(
     readable: list[RecordingFiles] = []
     durations: list[float] = []
     clocks: dict[str, list[tuple[float, float]]] = {sensor: [] for sensor in SENSORS}
+    quantiles: dict[str, list[NDArray[np.float64]]] = {quantity: [] for quantity in _UNITS}
     problems = list(dataset.problems)
     for entry in dataset if recordings is None else recordings:
         try:
@@ -121,13 +137,30 @@ def inspect_dataset(
         durations.append(recording.duration_seconds)
         for sensor, time in _clocks(recording):
             clocks[sensor].append(_clock(time))
+        for quantity, values in _quantities(recording):
+            quantiles[quantity].append(np.quantile(values, _QUANTILES))
     summaries = {
         sensor: ClockSummary(*(float(value) for value in np.median(np.array(found), axis=0)))
         for sensor, found in clocks.items()
         if found
     }
     problems.sort(key=lambda problem: str(problem.path))
-    return Inspection(dataset, tuple(readable), tuple(durations), summaries, tuple(problems))
+    ranges = {quantity: _range(quantity, np.array(found)) for quantity, found in quantiles.items() if found}
+    return Inspection(dataset, tuple(readable), tuple(durations), summaries, ranges, tuple(problems))
+
+
+def _quantities(recording: Recording) -> Iterable[tuple[str, NDArray[np.float64]]]:
+    acceleration = np.asarray(recording.acceleration_g, dtype=np.float64)
+    steps_mm = np.linalg.norm(np.diff(np.asarray(recording.position_mm, dtype=np.float64), axis=0), axis=1)
+    yield "vibration", np.linalg.norm(acceleration - acceleration.mean(axis=0), axis=1)
+    yield "force", np.asarray(recording.force_newtons, dtype=np.float64)
+    yield "speed", steps_mm / np.maximum(np.diff(recording.position_time_seconds), 1e-6)
+
+
+def _range(quantity: str, found: NDArray[np.float64]) -> RangeSummary:
+    """The least, the median and the largest of the recordings' own."""
+    low, middle, high = float(found[:, 0].min()), float(np.median(found[:, 1])), float(found[:, 2].max())
+    return RangeSummary(_UNITS[quantity], low, middle, high)
 
 
 def _implausible(entry: RecordingFiles, recording: Recording) -> Iterable[DatasetProblem]:
