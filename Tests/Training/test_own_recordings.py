@@ -12,6 +12,8 @@ from dataset_samples import small_recording
 from haptoflow_training.cli import main
 from haptoflow_training.commands.train import report_left_out
 from haptoflow_training.errors import InputError
+from haptoflow_training.preprocessing.preparation import prepare_store
+from haptoflow_training.recordings.cluster_dataset import open_dataset
 from haptoflow_training.recordings.dataset_writer import (
     TextureEntry,
     write_provenance,
@@ -21,6 +23,7 @@ from haptoflow_training.recordings.dataset_writer import (
 from haptoflow_training.training.config import DataConfig
 from haptoflow_training.training.recordings_source import Source, open_source
 
+HAND = "3_hand_400_1500_0"
 LABEL = (
     '[[label]]\nname = "{name}"\ncategory = "cloth"\ntextures = ["{texture}"]\n'
     "stiffness_newtons_per_metre = 250.0\nfriction_coefficient = 0.4\n"
@@ -101,6 +104,27 @@ def test_recordings_that_are_left_out_are_listed_with_the_reason(
     assert "9 recordings are left out: no label names their textures (felt)" in printed
     assert main(["inspect", str(folder)]) == 0
     assert re.search(r"force/0_45_30_500_1\.csv: force is 500.*expected newtons", capsys.readouterr().out)
+
+
+def test_a_row_without_a_number_costs_itself_and_a_lost_stretch_its_neighbourhood(tmp_path: Path) -> None:
+    recording = small_recording(HAND, label="denim", seconds=4.0)
+    whole = prepare_store([recording], ["denim"], tmp_path / "whole", progress=False)
+    write_recording(tmp_path / "data", recording)
+    write_texture_list(tmp_path / "data", [TextureEntry(3, "denim", {})])
+    path = tmp_path / "data" / "sensor_data" / "accel" / f"{HAND}.csv"
+    rows = path.read_text().splitlines()
+    time, *_ = rows[9000].split(",")
+    rows[9000] = f"{time},nan,,0.1"
+    middle = float(rows[len(rows) // 2].split(",")[0])
+    lost = [row for row in rows[1:] if not middle < float(row.split(",")[0]) < middle + 0.007]
+    path.write_text("\n".join([rows[0], *lost]) + "\n")
+    dataset = open_dataset(tmp_path / "data")
+    store = prepare_store(dataset, ["denim"], tmp_path / "store", progress=False)
+    assert [one.name for one in store.recordings] == [HAND, f"{HAND} part 2"]
+    assert store.skipped == []
+    # 0.3 s are trimmed at each end of each part, which the padding may lengthen again.
+    assert len(store.waveform) > len(whole.waveform) - 2 * 2000 * 0.75
+    assert len({one.split for one in store.recordings}) == 1
 
 
 def test_what_provenance_json_says_stands_in_the_model(folder: Path, tmp_path: Path) -> None:

@@ -11,6 +11,7 @@ from scipy.interpolate import CubicSpline
 from haptoflow_training.errors import InputError
 from haptoflow_training.preprocessing import filters, motion
 from haptoflow_training.preprocessing.dft321 import dft321
+from haptoflow_training.preprocessing.gaps import parts_between_gaps
 from haptoflow_training.preprocessing.plausibility import implausible
 from haptoflow_training.preprocessing.settings import PreprocessingSettings
 from haptoflow_training.recordings.recording import STANDARD_GRAVITY_MPS2, Recording
@@ -31,9 +32,32 @@ class PreparedRecording:
 
 def preprocess_recording(recording: Recording, settings: PreprocessingSettings) -> PreparedRecording:
     """InputError names the recording and the sensor where it cannot be prepared."""
-    _require_usable(recording, settings)
-    for problem in implausible(recording):
-        raise InputError(f"recording {recording.identity.name}: {problem}")
+    _require_usable(recording)
+    _require_plausible(recording)
+    _require_no_gap(recording, settings)
+    return _prepared(recording, settings)
+
+
+def preprocess_parts(recording: Recording, settings: PreprocessingSettings) -> list[PreparedRecording]:
+    """The same, of each stretch between gaps of the accelerometer: a gap costs its neighbourhood and not the recording.
+    Stretches that are too short are left out; InputError where none is long enough."""
+    _require_usable(recording)
+    _require_plausible(recording)
+    prepared: list[PreparedRecording] = []
+    problems: list[InputError] = []
+    for part in parts_between_gaps(recording, settings.longest_gap_seconds):
+        try:
+            prepared.append(_prepared(part, settings))
+        except InputError as problem:
+            problems.append(problem)
+    if not prepared:
+        # Without any part the gaps are the reason.
+        _require_no_gap(recording, settings)
+        raise problems[0]
+    return prepared
+
+
+def _prepared(recording: Recording, settings: PreprocessingSettings) -> PreparedRecording:
     start, stop = _common_span(recording)
     # Filters see a little of what the trim takes away, so that no filter rings where the cut is.
     context = min(_CONTEXT_SECONDS, settings.trim_seconds)
@@ -104,7 +128,22 @@ def _common_span(recording: Recording) -> tuple[float, float]:
     return start, stop
 
 
-def _require_usable(recording: Recording, settings: PreprocessingSettings) -> None:
+def _require_plausible(recording: Recording) -> None:
+    for problem in implausible(recording):
+        raise InputError(f"recording {recording.identity.name}: {problem}")
+
+
+def _require_no_gap(recording: Recording, settings: PreprocessingSettings) -> None:
+    time = recording.acceleration_time_seconds
+    steps = np.diff(time)
+    if float(steps.max()) > settings.longest_gap_seconds:
+        raise InputError(
+            f"recording {recording.identity.name}: acceleration misses {steps.max():.3f} s after "
+            f"{time[int(steps.argmax())]:.3f} s; expected no gap above {settings.longest_gap_seconds} s"
+        )
+
+
+def _require_usable(recording: Recording) -> None:
     name = recording.identity.name
     sensors = (
         ("acceleration", recording.acceleration_time_seconds, recording.acceleration_g, (3,)),
@@ -127,9 +166,4 @@ def _require_usable(recording: Recording, settings: PreprocessingSettings) -> No
             raise InputError(
                 f"recording {name}: {sensor} time stops rising after sample {int(np.argmin(steps > 0))}; "
                 "expected every time stamp to be later than the one before"
-            )
-        if sensor == "acceleration" and float(steps.max()) > settings.longest_gap_seconds:
-            raise InputError(
-                f"recording {name}: {sensor} misses {steps.max():.3f} s after "
-                f"{time[int(steps.argmax())]:.3f} s; expected no gap above {settings.longest_gap_seconds} s"
             )

@@ -103,8 +103,10 @@ def _longest_run(holds: NDArray[np.bool_], time: NDArray[np.floating]) -> float:
 
 
 def _clipped_share(values: NDArray[np.float64]) -> float:
-    """The share of samples that stand at an end of the range in runs of several."""
+    """The share of samples that stand at an end of the range in runs of several; 0 for an axis that nobody recorded."""
     share = 0.0
+    if float(np.ptp(values)) == 0.0:
+        return share
     for end in (values.min(), values.max()):
         at_end = np.concatenate([[False], values == end, [False]]).astype(np.int8)
         edges = np.flatnonzero(np.diff(at_end))

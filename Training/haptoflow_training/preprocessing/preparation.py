@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import os
 import shutil
 from collections import deque
@@ -18,7 +19,7 @@ from tqdm import tqdm
 from haptoflow_training.errors import InputError
 from haptoflow_training.preprocessing import store as store_module
 from haptoflow_training.preprocessing.padding import PaddedRecording, pad_recording
-from haptoflow_training.preprocessing.pipeline import preprocess_recording
+from haptoflow_training.preprocessing.pipeline import PreparedRecording, preprocess_parts
 from haptoflow_training.preprocessing.settings import PreprocessingSettings
 from haptoflow_training.preprocessing.split import split_of
 from haptoflow_training.preprocessing.store import SegmentStore, SkippedRecording, StoredRecording
@@ -47,6 +48,12 @@ class _Prepared:
     padded: PaddedRecording | None
     problem: str | None
     peak_mps2: float = 0.0
+    # Of a recording with gaps: which stretch of it.
+    part: int = 0
+
+    @property
+    def name(self) -> str:
+        return self.identity.name if self.part == 0 else f"{self.identity.name} part {self.part + 1}"
 
 
 def prepare_store(
@@ -62,7 +69,8 @@ def prepare_store(
 ) -> SegmentStore:
     """Prepare every recording, in order, into the folder `out`; an older store there gives way at the end.
 
-    A recording that cannot be prepared is skipped and listed in the store. InputError: none was usable, a
+    A recording that cannot be prepared is skipped and listed in the store; one with gaps becomes one for each stretch
+    between them. InputError: none was usable, a
     name came twice, a label is not in `labels`, or the disk is full; `out` is then as it was before. The
     result is the same for any number of `workers`.
     """
@@ -106,12 +114,12 @@ def _prepare_each(
     settings: PreprocessingSettings,
     seed: int,
     workers: int,
-) -> Iterator[_Prepared]:
+) -> Iterator[list[_Prepared]]:
     checked = _checked(recordings, labels)
     if workers <= 1:
         yield from (_prepare_one(item, settings, seed) for item in checked)
         return
-    pending: deque[Future[_Prepared]] = deque()
+    pending: deque[Future[list[_Prepared]]] = deque()
     with ProcessPoolExecutor(workers) as pool:
         try:
             for item in checked:
@@ -144,30 +152,42 @@ def _checked(
 
 def _prepare_one(
     item: Recording | LoadableRecording, settings: PreprocessingSettings, seed: int
-) -> _Prepared:
+) -> list[_Prepared]:
+    """One for each stretch between gaps, or the one reason why there is none."""
     try:
         recording = item if isinstance(item, Recording) else item.load()
-        prepared = preprocess_recording(recording, settings)
+        parts = preprocess_parts(recording, settings)
     except InputError as error:
-        return _Prepared(item.identity, item.label, None, str(error))
-    peak_mps2 = float(np.abs(prepared.waveform_mps2).max())
+        return [_Prepared(item.identity, item.label, None, str(error))]
+    return [_prepare_part(item, number, part, settings, seed) for number, part in enumerate(parts)]
+
+
+def _prepare_part(
+    item: Recording | LoadableRecording,
+    number: int,
+    part: PreparedRecording,
+    settings: PreprocessingSettings,
+    seed: int,
+) -> _Prepared:
+    peak_mps2 = float(np.abs(part.waveform_mps2).max())
     if peak_mps2 == 0.0:
-        return _Prepared(item.identity, item.label, None, "acceleration never changes; expected a vibration")
-    padded = pad_recording(prepared, item.identity.name, settings, seed)
-    return _Prepared(item.identity, item.label, padded, None, peak_mps2)
+        problem = "acceleration never changes; expected a vibration"
+        return _Prepared(item.identity, item.label, None, problem, part=number)
+    prepared = _Prepared(item.identity, item.label, None, None, peak_mps2, number)
+    return dataclasses.replace(prepared, padded=pad_recording(part, prepared.name, settings, seed))
 
 
 def _append_all(
-    prepared: Iterable[_Prepared], labels: list[str], folder: Path, settings: PreprocessingSettings, seed: int
+    prepared: Iterable[list[_Prepared]], labels: list[str], folder: Path, settings: PreprocessingSettings, seed: int
 ) -> tuple[list[StoredRecording], list[SkippedRecording]]:
     stored: list[StoredRecording] = []
     skipped: list[SkippedRecording] = []
     start = 0
     with ExitStack() as opened:
         files = [opened.enter_context((folder / name).open("wb")) for name in store_module.ARRAY_FILES]
-        for item in prepared:
+        for item in (part for parts in prepared for part in parts):
             if item.padded is None:
-                skipped.append(SkippedRecording(item.identity.name, item.problem or ""))
+                skipped.append(SkippedRecording(item.name, item.problem or ""))
                 continue
             whole = item.padded.prepared
             length = len(whole.waveform_mps2)
@@ -176,7 +196,7 @@ def _append_all(
             identity = item.identity
             stored.append(
                 StoredRecording(
-                    name=identity.name,
+                    name=item.name,
                     label=item.label,
                     label_index=labels.index(item.label),
                     texture_id=identity.texture_id,

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 TableReader = Callable[[Path], "pandas.DataFrame"]
 
-_TOLERATED_REPEATS = 0.01
+_TOLERATED_SHARE = 0.01
 
 
 class DatasetFileError(InputError):
@@ -53,8 +53,8 @@ def read_sensor(
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """(time [n] in seconds, strictly rising; values [n] or [n, columns - 1]), all finite.
 
-    DatasetFileError where the file is empty, has other columns, holds text or gaps, or its clock runs back. A
-    time stamp that repeats the one before is dropped, up to 1 % of the rows.
+    DatasetFileError where the file is empty, has other columns, holds text, or its clock runs back. Rows without a
+    number are dropped, up to 1 % of them, and so are time stamps that repeat the one before.
     """
     header = f"columns {','.join(kind.columns)}"
     try:
@@ -78,11 +78,11 @@ def read_sensor(
     if len(numbers) < 2:
         raise DatasetFileError(path, f"{len(numbers)} rows", "2 rows at least")
     broken = ~np.isfinite(numbers).all(axis=1)
-    if broken.any():
+    if broken.mean() > _TOLERATED_SHARE:
         row = int(broken.argmax())
         column = kind.columns[int((~np.isfinite(numbers[row])).argmax())]
         raise DatasetFileError(path, f"no number in row {row + 2}, column {column}", "finite numbers only")
-    numbers = _rising(path, numbers)
+    numbers = _rising(path, numbers[~broken] if broken.any() else numbers)
     values = numbers[:, 1:]
     return numbers[:, 0].copy(), (values[:, 0] if values.shape[1] == 1 else values).copy()
 
@@ -93,7 +93,7 @@ def _rising(path: Path, numbers: NDArray[np.float64]) -> NDArray[np.float64]:
         row = int((steps < 0).argmax()) + 3
         raise DatasetFileError(path, f"time runs back at row {row}", "rising time stamps")
     repeated = np.concatenate([[False], steps == 0])
-    if repeated.mean() > _TOLERATED_REPEATS or repeated.sum() > len(numbers) - 2:
+    if repeated.mean() > _TOLERATED_SHARE or repeated.sum() > len(numbers) - 2:
         raise DatasetFileError(
             path, f"{int(repeated.sum())} of {len(numbers)} time stamps repeat", "rising time stamps"
         )

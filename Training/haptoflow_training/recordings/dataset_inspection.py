@@ -34,7 +34,7 @@ class ClockSummary:
 
 @dataclass(frozen=True)
 class RangeSummary:
-    """Of one quantity: the lowest 1st percentile, the median of medians and the highest 99th percentile of recordings."""
+    """Of one quantity over recordings: the lowest 1st percentile, the median of medians, the highest 99th percentile."""
 
     unit: str
     low: float

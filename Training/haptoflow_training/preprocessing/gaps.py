@@ -1,0 +1,50 @@
+"""A recording with gaps as the recordings between them."""
+
+from __future__ import annotations
+
+import dataclasses
+
+import numpy as np
+from numpy.typing import NDArray
+
+from haptoflow_training.recordings.recording import Recording
+
+# What a spline through a sensor's samples needs.
+_FEWEST_SAMPLES = 4
+
+
+def parts_between_gaps(recording: Recording, longest_gap_seconds: float) -> list[Recording]:
+    """Stretches in which the accelerometer never misses more than that, in order; those too short for any reader are
+    left out. A recording without a gap is its own only part."""
+    time = np.asarray(recording.acceleration_time_seconds)
+    gaps = np.flatnonzero(np.diff(time) > longest_gap_seconds) + 1
+    if len(gaps) == 0:
+        return [recording]
+    parts = (_cut(recording, first, last) for first, last in zip([0, *gaps], [*gaps, len(time)], strict=True))
+    return [part for part in parts if part is not None]
+
+
+def _cut(recording: Recording, first: int, last: int) -> Recording | None:
+    if last - first < _FEWEST_SAMPLES:
+        return None
+    time = recording.acceleration_time_seconds[first:last]
+    force = _around(recording.force_time_seconds, float(time[0]), float(time[-1]))
+    position = _around(recording.position_time_seconds, float(time[0]), float(time[-1]))
+    if min(force.stop - force.start, position.stop - position.start) < _FEWEST_SAMPLES:
+        return None
+    return dataclasses.replace(
+        recording,
+        acceleration_time_seconds=time,
+        acceleration_g=recording.acceleration_g[first:last],
+        force_time_seconds=recording.force_time_seconds[force],
+        force_newtons=recording.force_newtons[force],
+        position_time_seconds=recording.position_time_seconds[position],
+        position_mm=recording.position_mm[position],
+    )
+
+
+def _around(time: NDArray[np.float64], start: float, stop: float) -> slice:
+    """The samples of another clock from the last one before `start` to the first one after `stop`."""
+    first = max(0, int(np.searchsorted(time, start, side="right")) - 1)
+    last = min(len(time), int(np.searchsorted(time, stop, side="left")) + 1)
+    return slice(first, last)
