@@ -27,6 +27,7 @@ class FakeStore:
     peak_mps2: float
     labels: list[str]
     recordings: list[FakeRecording]
+    skipped: tuple[object, ...] = ()
 
 
 def travelled_mm(motion: NDArray[np.floating]) -> NDArray[np.float32]:
