@@ -111,6 +111,36 @@ namespace HaptoFlow.EditorTests
         }
 
         [Test]
+        public void AStylusShowsTheChainThatRunsAndTheCheckWhatItCosts()
+        {
+            HapticStylus stylus = PlayTouching(out HapticOutput output);
+            string[] asked = InspectorTests.Draw(stylus).Select(item => item.Label).ToArray();
+            Assert.That(asked, Has.Member("Impact").And.Member("Edge"), "the surface asks for all of its effects");
+            Assert.That(asked, Has.None.EqualTo("Delay").And.None.EqualTo("Exposure Guard"));
+            output.Processing.ExposureGuard = true;
+            output.ApplyProcessing();
+            // Down onto the table, at 0.3 m/s.
+            for (int frame = 0; frame < 90; ++frame)
+            {
+                float height = Mathf.Max(0.001f, 0.1f - 0.3f / 90f * frame);
+                stylus.transform.position = new Vector3(0f, height, 0f);
+                World.Frame();
+                HapticSession.Current.Engine!.Step();
+            }
+            Drawn[] drawn = InspectorTests.Draw(stylus).ToArray();
+            Assert.That(Value(drawn, "Impact"), Does.Match("^1 blows, [0-9]+[.][0-9] us a block$"));
+            Assert.That(Value(drawn, "Exposure Guard"), Does.Match("^[0-9]+[.][0-9] us a block$"));
+            CheckSceneWindow.Open();
+            var window = EditorWindow.GetWindow<CheckSceneWindow>();
+            string summary = EditorScreen.Draw(window.OnGUI).Select(item => item.Label)
+                .Single(label => label != null && label.StartsWith("The scene calls for"));
+            Assert.That(summary, Does.Match("impact [(]1 surface, [0-9.]+ us a run[)]"));
+            Assert.That(summary, Does.Match("exposure guard [(]1 output, [0-9.]+ us a run[)]"));
+            Assert.That(summary, Does.Not.Contain("Play the scene once"));
+            window.Close();
+        }
+
+        [Test]
         public void AnOutputShowsLevelUnderrunsAndMilliseconds()
         {
             PlayTouching(out HapticOutput output);
