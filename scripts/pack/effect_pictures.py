@@ -14,7 +14,6 @@ controller's wave from a test that plays the C# components; run that first:
 
 from __future__ import annotations
 
-import hashlib
 import json
 import re
 import subprocess
@@ -27,16 +26,17 @@ import matplotlib
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
-from native_engine import MODEL, NativeEngine, wave_frames
-from sample_pictures import ROOT, save
+from native_engine import exposure, wave_frames
+from sample_pictures import MODEL, ROOT, save
 from scipy.io import wavfile
 from scipy.signal import welch
+
+from haptoflow_training.evaluation.engine_library import default_engine
+from haptoflow_training.evaluation.model_stamp import model_line, sha256_of, with_measured_words
 
 ENGINE = ROOT / "build/native/haptoflow"
 IMAGES = ROOT / "Documentation~/images"
 PAGE = ROOT / "Documentation~/effects-and-outputs.md"
-BEGIN = "<!-- measured: begin (/usr/bin/python3 scripts/pack/effect_pictures.py) -->"
-END = "<!-- measured: end -->"
 # Of the intensity's error, and how each is printed.
 FIGURES = (("mean", "+"), ("mean_magnitude", ""), ("p95", ""))
 # Far above every blow that is drawn: nothing was bent by the limiter.
@@ -88,11 +88,18 @@ def box(name: str, label: str, left: float, top: float) -> dict:
             "material": label}
 
 
+def stroke_of(
+    times: np.ndarray, x: np.ndarray | float, y: np.ndarray | float, force: np.ndarray | float = 1.0
+) -> np.ndarray:
+    """Rows of a stroke file [n, 5]: seconds, metres (z is 0), newtons."""
+    return np.column_stack(np.broadcast_arrays(times, x, y, 0.0, force))
+
+
 def drop(speed_mps: float) -> np.ndarray:
     """Straight down onto y = 0, landing after 0.1 s, then at rest."""
     times = np.arange(0.0, 0.4, 0.002)
     height = np.maximum(speed_mps * (0.1 - times), -DEEP_METRES)
-    return np.column_stack([times, 0 * times, height, 0 * times, 0 * times + 1.0])
+    return stroke_of(times, 0.0, height)
 
 
 def slide(speed_mps: float, step_metres: float) -> np.ndarray:
@@ -100,7 +107,7 @@ def slide(speed_mps: float, step_metres: float) -> np.ndarray:
     times = np.arange(0.0, 1.0, 0.002)
     x = speed_mps * (times - 0.5)
     sunk = np.clip(SINKING_MPS * (times - 0.5), 0.0, step_metres)
-    return np.column_stack([times, x, -sunk - DEEP_METRES, 0 * times, 0 * times + 1.0])
+    return stroke_of(times, x, -sunk - DEEP_METRES)
 
 
 def accelerating() -> np.ndarray:
@@ -108,7 +115,7 @@ def accelerating() -> np.ndarray:
     times = np.arange(0.0, 4.0, 0.002)
     speed = 0.05 + 0.3 * times / 4.0
     force = 1.0 + 0.5 * np.sin(2.0 * np.pi * 0.5 * times)
-    return np.column_stack([times, np.cumsum(speed) * 0.002, 0 * times - DEEP_METRES, 0 * times, force])
+    return stroke_of(times, np.cumsum(speed) * 0.002, -DEEP_METRES, force)
 
 
 def first_sound(wave: np.ndarray) -> int:
@@ -167,7 +174,7 @@ def delay_picture(folder: Folder) -> plt.Figure:
     times = np.arange(0.0, 0.8, 0.002)
     x = 0.2 * np.clip(times - 0.15, 0.0, 0.3)
     height = np.where(times < 0.45, np.maximum(0.6 * (0.1 - times), -DEEP_METRES), 0.01)
-    stroke = np.column_stack([times, x, height, 0 * times, 0 * times + 1.0])
+    stroke = stroke_of(times, x, height)
     for place, milliseconds in enumerate((0, 100)):
         wave = folder.render([plane("wood")], stroke, "--effects", "texture,impact", "--delay-ms", str(milliseconds))
         axes.plot(np.arange(len(wave)) / RATE_HZ, wave - 150.0 * place, linewidth=0.6, label=f"delay {milliseconds} ms")
@@ -180,14 +187,14 @@ def delay_picture(folder: Folder) -> plt.Figure:
 def guard_picture(_: Folder) -> plt.Figure:
     figure, (levels, gains) = plt.subplots(2, 1, figsize=(10.0, 4.4), sharex=True, layout="constrained")
     minutes = 40.0
-    with NativeEngine() as engine:
-        for actuator_gain, colour in ((4.0, "#3465a4"), (16.0, "#cc4c02")):
-            rows = engine.exposure(label="sandpaper", force_newtons=3.0, speed_mps=0.2, actuator_gain=actuator_gain,
-                                   seconds=60.0 * minutes)
-            time = rows["seconds"] / 60.0
-            name = f"actuator gain {actuator_gain:g}"
-            levels.plot(time, rows["short_term_mps2"], color=colour, label=f"mean of 5 minutes, {name}")
-            gains.plot(time, 20.0 * np.log10(rows["gain"]), color=colour, label=name)
+    engine = default_engine(ROOT)
+    for actuator_gain, colour in ((4.0, "#3465a4"), (16.0, "#cc4c02")):
+        rows = exposure(engine, MODEL, label="sandpaper", force_newtons=3.0, speed_mps=0.2, actuator_gain=actuator_gain,
+                        seconds=60.0 * minutes)
+        time = rows["seconds"] / 60.0
+        name = f"actuator gain {actuator_gain:g}"
+        levels.plot(time, rows["short_term_mps2"], color=colour, label=f"mean of 5 minutes, {name}")
+        gains.plot(time, 20.0 * np.log10(rows["gain"]), color=colour, label=name)
     levels.axhline(60.0, color="#888", linewidth=0.8, linestyle="--", label="60 m/s²")
     levels.set(ylabel="m/s²", title="Sandpaper, 3 N, 0.2 m/s, without a pause")
     gains.set(xlabel="minutes", ylabel="gain of the guard, dB")
@@ -202,11 +209,12 @@ def features_picture(folder: Folder) -> plt.Figure:
     times = np.arange(0.0, 1.0, 0.002)
     x = 0.2 * np.clip(times - 0.2, 0.0, 0.5)
     height = np.where(times < 0.8, np.maximum(0.6 * (0.1 - times), -DEEP_METRES), 0.01)
-    stroke = np.column_stack([times, x, height, 0 * times, 0 * times + 1.0])
+    stroke = stroke_of(times, x, height)
     wave = folder.render([plane("concrete")], stroke, "--effects", "texture,impact")
     wave_axes.plot(np.arange(len(wave)) / RATE_HZ, wave, linewidth=0.6, color="#444")
     wave_axes.set(ylabel="m/s²", title="Wanted: a landing and a stroke on concrete")
-    frames = wave_frames(wave, RATE_HZ, 0.005, 40.0, 400.0)
+    engine = default_engine(ROOT)
+    frames = wave_frames(engine, wave, RATE_HZ, 0.005, 40.0, 400.0)
     controller.step(frames["seconds"], frames["amplitude_mps2"], where="post", color="#3465a4", label="amplitude, m/s²")
     onsets = frames[frames["transient_mps2"] > 0.0]
     controller.plot(onsets["seconds"] + onsets["transient_offset_seconds"], onsets["transient_mps2"], "v", color="#cc4c02",
@@ -216,7 +224,7 @@ def features_picture(folder: Folder) -> plt.Figure:
     hertz.step(frames["seconds"], frames["frequency_hz"], where="post", color="#999", linewidth=0.8)
     hertz.set_ylabel("Hz (grey)")
     controller.legend(frameon=False, loc="upper right")
-    frames = wave_frames(wave, RATE_HZ, 0.008, 160.0, 160.0)
+    frames = wave_frames(engine, wave, RATE_HZ, 0.008, 160.0, 160.0)
     motor.step(frames["seconds"], frames["amplitude_mps2"], where="post", color="#3465a4")
     motor.set(xlabel="s", ylabel="m/s²", title="Sent to a motor of 160 Hz, every 8 ms: each frame feels as strong as the wave")
     return figure
@@ -244,7 +252,7 @@ def label_table(folder: Folder) -> str:
     shown = subprocess.run([ENGINE, "actuator", "show", "voice-coil", "--labels"], capture_output=True, text=True, check=True)
     rows = re.findall(r"^  ([a-z ]+?) +([0-9.]+) +([0-9.]+)$", shown.stdout.split("Log-spectral distance")[1], re.MULTILINE)
     lines = [
-        f"Model: SHA-256 `{hashlib.sha256(MODEL.read_bytes()).hexdigest()}`.",
+        model_line(sha256_of(MODEL)),
         "",
         "| label | LSD, uncompensated | compensated | frames of 60-400 Hz | motor of 160 Hz |",
         "|---|---|---|---|---|",
@@ -254,13 +262,6 @@ def label_table(folder: Folder) -> str:
         cells = [" / ".join(f"{errors[kind][name]:{sign}.1f}" for name, sign in FIGURES) for kind in errors]
         lines.append(f"| {label} | {float(plain):.1f} | {float(compensated):.1f} | {' | '.join(cells)} |")
     return "\n".join(lines)
-
-
-def publish(table: str) -> None:
-    """Between the page's markers."""
-    text = PAGE.read_text(encoding="utf-8")
-    before, rest = text.split(BEGIN)
-    PAGE.write_text(f"{before}{BEGIN}\n\n{table}\n\n{END}{rest.split(END, 1)[1]}", encoding="utf-8")
 
 
 def main() -> None:
@@ -274,7 +275,8 @@ def main() -> None:
         "output-controller-waveform": controller_picture,
     }
     with tempfile.TemporaryDirectory() as folder:
-        publish(label_table(Folder(Path(folder))))
+        table = label_table(Folder(Path(folder)))
+        PAGE.write_text(with_measured_words(PAGE.read_text(encoding="utf-8"), table), encoding="utf-8")
         print(PAGE.relative_to(ROOT))
         for name, draw in pictures.items():
             file = IMAGES / f"{name}.png"

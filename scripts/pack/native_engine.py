@@ -1,30 +1,22 @@
-"""The C interface of the built library, as far as the pictures need it: a voice that slides, and features of a wave."""
+"""What the pictures need of the built library beyond the training package's `EngineLibrary`: a voice that slides through
+the exposure guard, and the features of a wave."""
 
 from __future__ import annotations
 
-import ctypes
-import json
-from ctypes import Structure, byref, c_char_p, c_double, c_float, c_int32, c_uint32, c_uint64, c_void_p, sizeof
+import sys
+from ctypes import Structure, byref, c_double, c_float, c_int32, c_uint32, c_uint64, c_void_p
 from pathlib import Path
-from types import TracebackType
 
 import numpy as np
 
 ROOT = Path(__file__).resolve().parents[2]
-LIBRARY = ROOT / "build/native/libaudioplugin_haptoflow.so"
-MODEL = ROOT / "Packages/com.haptoflow.runtime/Runtime/Models/default.haptoflow"
-ONNX_RUNTIME = ROOT / "node_modules/com.github.asus4.onnxruntime/Plugins/Linux/x64/libonnxruntime.so"
+sys.path.insert(0, str(ROOT / "Training"))
+
+from haptoflow_training.evaluation.engine_library import EngineLibrary, options_of  # noqa: E402
+
 RATE_HZ = 8000
 BLOCK_FRAMES = 111
-
-
-class _RuntimeOptions(Structure):
-    _fields_ = [("struct_size", c_uint32), ("ort_api_base", c_void_p), ("library_path", c_char_p), ("log", c_void_p),
-                ("log_context", c_void_p)]
-
-
-class _ModelOptions(Structure):
-    _fields_ = [("struct_size", c_uint32), ("bytes", c_void_p), ("byte_count", c_uint64), ("path", c_char_p)]
+_QUALITY_STANDARD = 2
 
 
 class _EngineOptions(Structure):
@@ -56,86 +48,69 @@ _FRAME = np.dtype([("first_sample", "u8"), ("sample_count", "u4"), ("intensity",
                    ("transient_mps2", "f4"), ("transient_hz", "f4")], align=True)
 
 
-def _call(name: str, *arguments: object) -> None:
-    library = ctypes.CDLL(str(LIBRARY))
-    library.haptoflow_last_message.restype = c_char_p
-    if getattr(library, f"haptoflow_{name}")(*arguments) != 0:
-        raise SystemExit(f"haptoflow_{name}: {library.haptoflow_last_message().decode()}")
-
-
-def _made(structure: Structure) -> Structure:
-    structure.struct_size = sizeof(structure)
-    return structure
-
-
 def wave_frames(
-    wave_mps2: np.ndarray, rate_hz: int, frame_seconds: float, minimum_hz: float, maximum_hz: float
+    engine: EngineLibrary,
+    wave_mps2: np.ndarray,
+    rate_hz: int,
+    frame_seconds: float,
+    minimum_hz: float,
+    maximum_hz: float,
 ) -> np.ndarray:
     """Frames of a wave [N] in m/s^2, with a column of seconds at which each begins; rate_hz: a multiple of 2000."""
-    options = _made(_FeatureOptions(0, rate_hz, frame_seconds, minimum_hz, maximum_hz))
+    options = options_of(
+        _FeatureOptions, sample_rate_hz=rate_hz, frame_seconds=frame_seconds, minimum_frequency_hz=minimum_hz,
+        maximum_frequency_hz=maximum_hz,
+    )  # fmt: skip
     features, count = c_void_p(), c_uint64()
-    _call("wave_features_create", byref(options), byref(features))
+    engine.call("haptoflow_wave_features_create", byref(options), byref(features))
     wave = np.ascontiguousarray(wave_mps2, dtype=np.float32)
     frames = np.zeros(int(len(wave) / (rate_hz * frame_seconds)) + 1, dtype=_FRAME)
-    _call("wave_features_process", features, wave.ctypes.data_as(c_void_p), c_uint64(len(wave)),
-          frames.ctypes.data_as(c_void_p), c_uint64(len(frames)), byref(count))
-    _call("wave_features_close", byref(features))
+    engine.call("haptoflow_wave_features_process", features, wave.ctypes.data_as(c_void_p), c_uint64(len(wave)),
+                frames.ctypes.data_as(c_void_p), c_uint64(len(frames)), byref(count))
+    engine.call("haptoflow_wave_features_close", byref(features))
     frames = frames[: count.value]
-    # The low-pass in front of the features delays by 1.5 ms.
-    seconds = frames["first_sample"] / 2000.0 - 0.0015
-    result = np.zeros(len(frames), dtype=[*[(name, "f8") for name in _FRAME.names], ("seconds", "f8")])
+    result = np.zeros(len(frames), dtype=[*((name, "f8") for name in _FRAME.names), ("seconds", "f8")])
     for name in _FRAME.names:
         result[name] = frames[name]
-    result["seconds"] = seconds
+    # The low-pass in front of the features delays by 1.5 ms.
+    result["seconds"] = frames["first_sample"] / 2000.0 - 0.0015
     return result
 
 
-class NativeEngine:
-    """An engine without worker, so that an hour passes in a minute."""
-
-    def __init__(self) -> None:
-        self._runtime, self._model, self._engine = c_void_p(), c_void_p(), c_void_p()
-
-    def __enter__(self) -> NativeEngine:
-        runtime = _RuntimeOptions(library_path=str(ONNX_RUNTIME).encode())
-        _call("runtime_open", byref(_made(runtime)), byref(self._runtime))
-        _call("model_open", byref(_made(_ModelOptions(path=str(MODEL).encode()))), byref(self._model))
-        options = _EngineOptions(quality=2, runtime=self._runtime, model=self._model, without_worker=1,
-                                 fixed_lead_ms=8.0, update_rate_hz=RATE_HZ / BLOCK_FRAMES)
-        _call("engine_create", byref(_made(options)), byref(self._engine))
-        return self
-
-    def __exit__(self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None) -> None:
-        for name, handle in (("engine", self._engine), ("model", self._model), ("runtime", self._runtime)):
-            _call(f"{name}_close", byref(handle))
-
-    def exposure(
-        self, label: str, force_newtons: float, speed_mps: float, actuator_gain: float, seconds: float
-    ) -> np.ndarray:
-        """A stroke without end through the exposure guard, ten rows a second."""
-        voice = c_uint64()
-        _call("voice_create", self._engine, c_double(RATE_HZ), byref(voice))
-        _call("voice_set_exposure_guard", voice, c_uint32(1), c_float(actuator_gain))
-        state = _made(_ContactState(touching=1, touch_counter=1, label_count=1))
-        state.labels[0] = self._label(label)
-        state.weights[0], state.velocity_mps[0], state.force_newtons = 1.0, speed_mps, force_newtons
-        block = (c_float * BLOCK_FRAMES)()
-        rows = []
-        for index in range(int(seconds * RATE_HZ / BLOCK_FRAMES)):
-            _call("voice_publish", voice, byref(state))
-            _call("engine_step", self._engine)
-            _call("voice_render", voice, block, c_uint32(BLOCK_FRAMES), c_uint32(1), c_int32(0), c_double(RATE_HZ))
-            if index % 7 == 0:
-                exposure = _made(_Exposure())
-                _call("voice_exposure", voice, byref(exposure))
-                rows.append((index * BLOCK_FRAMES / RATE_HZ, exposure.gain, exposure.short_term_mps2,
-                             exposure.daily_mps2, exposure.reason))
-        _call("voice_destroy", byref(voice))
-        names = ("seconds", "gain", "short_term_mps2", "daily_mps2", "reason")
-        return np.array(rows, dtype=[(name, "f8") for name in names])
-
-    def _label(self, name: str) -> int:
-        header = c_char_p()
-        _call("model_header", self._model, byref(header))
-        labels = [label["name"] for label in json.loads(header.value or b"{}")["labels"]]
-        return labels.index(name)
+def exposure(
+    engine: EngineLibrary,
+    model_file: Path,
+    *,
+    label: str,
+    force_newtons: float,
+    speed_mps: float,
+    actuator_gain: float,
+    seconds: float,
+) -> np.ndarray:
+    """What the exposure guard reports during a stroke without end, ten rows a second. The engine has no thread of its own:
+    this function steps it, faster than real time."""
+    model, handle, voice = engine.open_model(model_file), c_void_p(), c_uint64()
+    options = options_of(
+        _EngineOptions, quality=_QUALITY_STANDARD, runtime=engine.runtime, model=model, without_worker=1,
+        fixed_lead_ms=8.0, update_rate_hz=RATE_HZ / BLOCK_FRAMES,
+    )  # fmt: skip
+    engine.call("haptoflow_engine_create", byref(options), byref(handle))
+    engine.call("haptoflow_voice_create", handle, c_double(RATE_HZ), byref(voice))
+    engine.call("haptoflow_voice_set_exposure_guard", voice, c_uint32(1), c_float(actuator_gain))
+    state = options_of(_ContactState, touching=1, touch_counter=1, label_count=1, force_newtons=force_newtons)
+    state.labels[0] = [each["name"] for each in engine.header(model)["labels"]].index(label)
+    state.weights[0], state.velocity_mps[0] = 1.0, speed_mps
+    block = (c_float * BLOCK_FRAMES)()
+    rows = []
+    for index in range(int(seconds * RATE_HZ / BLOCK_FRAMES)):
+        engine.call("haptoflow_voice_publish", voice, byref(state))
+        engine.call("haptoflow_engine_step", handle)
+        engine.call("haptoflow_voice_render", voice, block, c_uint32(BLOCK_FRAMES), c_uint32(1), c_int32(0), c_double(RATE_HZ))
+        if index % 7 == 0:
+            now = options_of(_Exposure)
+            engine.call("haptoflow_voice_exposure", voice, byref(now))
+            rows.append((index * BLOCK_FRAMES / RATE_HZ, now.gain, now.short_term_mps2))
+    engine.call("haptoflow_voice_destroy", byref(voice))
+    engine.call("haptoflow_engine_close", byref(handle))
+    engine.call("haptoflow_model_close", byref(model))
+    return np.array(rows, dtype=[(name, "f8") for name in ("seconds", "gain", "short_term_mps2")])

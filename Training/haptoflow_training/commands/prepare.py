@@ -61,9 +61,8 @@ def run(options: argparse.Namespace) -> int:
     for dataset in datasets:
         for problem in dataset.problems:
             print(f"skipped: {problem}")
-        if dataset.unlabelled:
-            count = len(dataset.unlabelled)
-            print(f"{dataset.root}: {count} recordings are left out: no label names their texture")
+        if dataset.left_out:
+            print(dataset.left_out)
     settings = PreprocessingSettings(
         held_out_directions=tuple(options.hold_out_direction),
         held_out_speeds_mmps=tuple(options.hold_out_speed),
@@ -107,4 +106,4 @@ def _report(store: SegmentStore, elapsed_seconds: float) -> None:
         f"{seconds / max(elapsed_seconds, 1e-9):.0f} x real time"
     )
     for skipped in store.skipped:
-        print(f"skipped: {skipped.name}: {skipped.reason}")
+        print(f"skipped: {skipped}")

@@ -67,7 +67,7 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser], su
 
 
 def configuration(options: argparse.Namespace) -> TrainingConfig:
-    """The configuration file with the command line's --recordings, --labels and --seed put in."""
+    """The configuration file, overridden by the command line's --recordings, --labels and --seed."""
     config = load_config(options.config)
     if options.recordings:
         data = dataclasses.replace(
@@ -85,8 +85,8 @@ def configuration(options: argparse.Namespace) -> TrainingConfig:
 def report_left_out(source: Source) -> None:
     """Say which recordings are not learnt from, and why."""
     for skipped in source.store.skipped:
-        print(f"skipped: {skipped.name}: {skipped.reason}", file=sys.stderr)
-    for line in source.unlabelled:
+        print(f"skipped: {skipped}", file=sys.stderr)
+    for line in source.left_out:
         print(line, file=sys.stderr)
 
 

@@ -129,7 +129,7 @@ def _block_tables(rows: Sequence[_Row], block: str) -> list[str]:
         "|---|---|---|---|---|---|---|---|---|---|---|---|",
     ]
     lines += ["| " + " | ".join(_accuracy_cells(row)) + " |" for row in rows]
-    lines += ["", "In brackets: what nine cells in ten keep, or what is named there.", ""]
+    lines += ["", "A value in brackets is the one that 90 % of the cells reach, unless its column's heading says otherwise.", ""]
     if any(row.get("every_fourth") for row in rows):
         lines += [
             "¼: measured on every fourth recording, of each label another quarter of its conditions. A classifier that learns "

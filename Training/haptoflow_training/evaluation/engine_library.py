@@ -64,7 +64,8 @@ class _Batch(ctypes.Structure):
     ]
 
 
-def _options(structure: type[ctypes.Structure], **values: Any) -> ctypes.Structure:
+def options_of(structure: type[ctypes.Structure], **values: Any) -> ctypes.Structure:
+    """A descriptor of the C interface, its size filled in."""
     return structure(struct_size=ctypes.sizeof(structure), **values)
 
 
@@ -78,7 +79,7 @@ class EngineLibrary:
         self._library = ctypes.CDLL(str(library))
         self._library.haptoflow_last_message.restype = ctypes.c_char_p
         self._runtime = ctypes.c_void_p()
-        options = _options(_RuntimeOptions, library_path=str(onnx_runtime).encode())
+        options = options_of(_RuntimeOptions, library_path=str(onnx_runtime).encode())
         self.call("haptoflow_runtime_open", ctypes.byref(options), ctypes.byref(self._runtime))
 
     @property
@@ -90,6 +91,13 @@ class EngineLibrary:
         status = getattr(self._library, name)(*arguments)
         if status != 0:
             raise InputError(f"{name}: {self._library.haptoflow_last_message().decode()}")
+
+    def open_model(self, path: Path) -> ctypes.c_void_p:
+        """A handle, to be closed with haptoflow_model_close."""
+        model = ctypes.c_void_p()
+        options = options_of(_ModelOptions, path=str(path).encode())
+        self.call("haptoflow_model_open", ctypes.byref(options), ctypes.byref(model))
+        return model
 
     def header(self, model: ctypes.c_void_p) -> dict[str, Any]:
         text = ctypes.c_char_p()
@@ -105,15 +113,11 @@ class EngineGenerator:
         self, engine: EngineLibrary, model: Path, tier: str | None = None, solver: str = "tier", steps: int = 0
     ) -> None:
         self._engine = engine
-        self._model, self._handle = ctypes.c_void_p(), ctypes.c_void_p()
-        engine.call(
-            "haptoflow_model_open",
-            ctypes.byref(_options(_ModelOptions, path=str(model).encode())),
-            ctypes.byref(self._model),
-        )
+        self._handle = ctypes.c_void_p()
+        self._model = engine.open_model(model)
         self.header = engine.header(self._model)
         self.embeddings = self._read_embeddings()
-        options = _options(
+        options = options_of(
             _GeneratorOptions,
             solver=SOLVERS[solver],
             runtime=engine.runtime,

@@ -1,4 +1,4 @@
-"""A recording with gaps as the recordings between them."""
+"""Splits a recording at the gaps of its accelerometer."""
 
 from __future__ import annotations
 
@@ -9,13 +9,13 @@ from numpy.typing import NDArray
 
 from haptoflow_training.recordings.recording import Recording
 
-# What a spline through a sensor's samples needs.
+# A cubic spline through the samples needs this many.
 _FEWEST_SAMPLES = 4
 
 
 def parts_between_gaps(recording: Recording, longest_gap_seconds: float) -> list[Recording]:
-    """Stretches in which the accelerometer never misses more than that, in order; those too short for any reader are
-    left out. A recording without a gap is its own only part."""
+    """The stretches between gaps longer than `longest_gap_seconds`, in order; a stretch with too few samples to
+    interpolate is left out. A recording without such a gap is returned as it is."""
     time = np.asarray(recording.acceleration_time_seconds)
     gaps = np.flatnonzero(np.diff(time) > longest_gap_seconds) + 1
     if len(gaps) == 0:

@@ -39,8 +39,8 @@ def preprocess_recording(recording: Recording, settings: PreprocessingSettings) 
 
 
 def preprocess_parts(recording: Recording, settings: PreprocessingSettings) -> list[PreparedRecording]:
-    """The same, of each stretch between gaps of the accelerometer: a gap costs its neighbourhood and not the recording.
-    Stretches that are too short are left out; InputError where none is long enough."""
+    """As `preprocess_recording`, for each stretch between gaps of the accelerometer, so that a gap costs only its
+    neighbourhood. Stretches that are too short are left out; InputError where none is long enough."""
     _require_usable(recording)
     _require_plausible(recording)
     prepared: list[PreparedRecording] = []
@@ -51,7 +51,7 @@ def preprocess_parts(recording: Recording, settings: PreprocessingSettings) -> l
         except InputError as problem:
             problems.append(problem)
     if not prepared:
-        # Without any part the gaps are the reason.
+        # Where there are gaps, they are the reason why every part is too short.
         _require_no_gap(recording, settings)
         raise problems[0]
     return prepared

@@ -66,6 +66,9 @@ class SkippedRecording:
     name: str
     reason: str
 
+    def __str__(self) -> str:
+        return f"{self.name}: {self.reason}"
+
 
 @dataclass(frozen=True)
 class SegmentStore:

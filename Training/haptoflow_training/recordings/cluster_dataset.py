@@ -89,7 +89,18 @@ class ClusterDataset:
     @property
     def published(self) -> bool:
         """These are recordings of the Cluster Haptic Texture Dataset: its ids mean what its labels file says."""
-        return self.provenance.get("source") == PUBLISHED_SOURCE
+        return _is_published(self.provenance)
+
+    @property
+    def left_out(self) -> str:
+        """One line about the recordings whose texture no label names, for people; empty where there are none."""
+        if not self.unlabelled:
+            return ""
+        textures = dict.fromkeys(self.textures[entry.identity.texture_id] for entry in self.unlabelled)
+        return (
+            f"{self.root}: {len(self.unlabelled)} recordings are left out: no label names their textures "
+            f"({', '.join(textures)})"
+        )
 
     @property
     def labels(self) -> list[str]:
@@ -130,8 +141,8 @@ def open_dataset(
         listed = {}
     provenance = _provenance(root, {number: entry.name for number, entry in listed.items()}, problems)
     synthetic = bool(provenance.get("synthetic"))
-    published = provenance.get("source") == PUBLISHED_SOURCE
-    textures = texture_names({identity.texture_id for identity in identities}, listed, published=published)
+    texture_ids = {identity.texture_id for identity in identities}
+    textures = texture_names(texture_ids, listed, published=_is_published(provenance))
     complete: list[RecordingFiles] = []
     unlabelled: list[RecordingFiles] = []
     for identity in identities:
@@ -192,6 +203,10 @@ def _missing(sensors: Path, present: Path, folder: str) -> DatasetProblem:
     return DatasetProblem(
         sensors.joinpath(folder, *inside.parts[1:]), "missing file", f"the sibling of {inside.as_posix()}"
     )
+
+
+def _is_published(provenance: dict[str, Any]) -> bool:
+    return bool(provenance.get("source") == PUBLISHED_SOURCE)
 
 
 def _provenance(root: Path, listed: dict[int, str], problems: list[DatasetProblem]) -> dict[str, Any]:

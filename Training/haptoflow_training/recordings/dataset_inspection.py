@@ -150,15 +150,12 @@ def inspect_dataset(
 
 
 def _quantities(recording: Recording) -> Iterable[tuple[str, NDArray[np.float64]]]:
-    acceleration = np.asarray(recording.acceleration_g, dtype=np.float64)
-    steps_mm = np.linalg.norm(np.diff(np.asarray(recording.position_mm, dtype=np.float64), axis=0), axis=1)
-    yield "vibration", np.linalg.norm(acceleration - acceleration.mean(axis=0), axis=1)
+    yield "vibration", np.linalg.norm(recording.vibration_g, axis=1)
     yield "force", np.asarray(recording.force_newtons, dtype=np.float64)
-    yield "speed", steps_mm / np.maximum(np.diff(recording.position_time_seconds), 1e-6)
+    yield "speed", recording.speeds_mmps
 
 
 def _range(quantity: str, found: NDArray[np.float64]) -> RangeSummary:
-    """The least, the median and the largest of the recordings' own."""
     low, middle, high = float(found[:, 0].min()), float(np.median(found[:, 1])), float(found[:, 2].max())
     return RangeSummary(_UNITS[quantity], low, middle, high)
 
@@ -166,8 +163,7 @@ def _range(quantity: str, found: NDArray[np.float64]) -> RangeSummary:
 def _implausible(entry: RecordingFiles, recording: Recording) -> Iterable[DatasetProblem]:
     paths = {"acceleration": entry.acceleration_path, "force": entry.force_path, "position": entry.position_path}
     for problem in implausible(recording):
-        found, expected = problem.split("; expected ", 1)
-        yield DatasetProblem(paths[found.split(" ", 1)[0]], found, expected)
+        yield DatasetProblem(paths[problem.sensor], f"{problem.sensor} {problem.found}", problem.expected)
 
 
 def _clocks(recording: Recording) -> Iterable[tuple[str, NDArray[np.float64]]]:

@@ -9,6 +9,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 
+from haptoflow_training.recordings.labels import plain_name
+
 SENSOR_FOLDER = "sensor_data"
 TEXTURE_LIST_FILE = "texture_list.xlsx"
 PROVENANCE_FILE = "provenance.json"
@@ -87,10 +89,7 @@ def published_name(texture_id: int) -> str:
 
 
 def is_published_list(names: Mapping[int, str]) -> bool:
-    """Whether a texture list is the published one: an id has a published name that is known, and all such agree."""
+    """Whether a texture list is that of the published data set: it names at least one texture whose published name is
+    known, and agrees with all of those."""
     known = {texture_id: name for texture_id, name in _NAMES.items() if texture_id in names}
-    return bool(known) and all(_plain(names[texture_id]) == _plain(name) for texture_id, name in known.items())
-
-
-def _plain(name: str) -> str:
-    return "".join(letter for letter in name.casefold() if letter.isalnum())
+    return bool(known) and all(plain_name(names[texture_id]) == plain_name(name) for texture_id, name in known.items())

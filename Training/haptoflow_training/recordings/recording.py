@@ -74,5 +74,18 @@ class Recording:
     specimen: int | None = None
 
     @property
+    def vibration_g(self) -> NDArray[np.float64]:
+        """[n, 3]: the acceleration without its mean, and so without gravity."""
+        acceleration = np.asarray(self.acceleration_g, dtype=np.float64)
+        return acceleration - acceleration.mean(axis=0)
+
+    @property
+    def speeds_mmps(self) -> NDArray[np.float64]:
+        """[k - 1]: from each position to the next, not smoothed."""
+        steps_mm = np.linalg.norm(np.diff(np.asarray(self.position_mm, dtype=np.float64), axis=0), axis=1)
+        speeds: NDArray[np.float64] = steps_mm / np.maximum(np.diff(self.position_time_seconds), 1e-6)
+        return speeds
+
+    @property
     def duration_seconds(self) -> float:
         return float(self.acceleration_time_seconds[-1] - self.acceleration_time_seconds[0])

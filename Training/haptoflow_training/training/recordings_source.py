@@ -64,13 +64,13 @@ class SyntheticRecording:
 
 @dataclass(frozen=True)
 class Source:
-    """A store with what the model file has to say of its labels and origin. unlabelled: a line for each folder with
+    """A store with what the model file has to say of its labels and origin. left_out: a line for each folder that has
     recordings whose texture no label names."""
 
     store: SegmentStore
     labels: list[LabelInfo]
     provenance: Provenance
-    unlabelled: tuple[str, ...] = ()
+    left_out: tuple[str, ...] = ()
 
     @property
     def wave_vectors(self) -> list[tuple[tuple[float, float], ...]]:
@@ -98,9 +98,9 @@ def _materials(data: DataConfig) -> tuple[Material, ...]:
     return select_materials(load_materials(), data.labels or None)
 
 
-def _fingerprint(data: DataConfig) -> dict[str, Any]:
+def _fingerprint(data: DataConfig, further: dict[str, Any]) -> dict[str, Any]:
     """What the store was made from, as JSON gives it back: a store made from something else is made anew."""
-    made_from: dict[str, Any] = {"data": dataclasses.asdict(data)}
+    made_from: dict[str, Any] = {"data": dataclasses.asdict(data), **further}
     if data.source == "synthetic":
         made_from["materials"] = [dataclasses.asdict(material) for material in _materials(data)]
     result: dict[str, Any] = json.loads(json.dumps(made_from))
@@ -113,9 +113,9 @@ def _open_or_prepare(
     recordings: Any,
     labels: list[str],
     workers: int,
-    made_from: dict[str, Any] | None = None,
+    further: dict[str, Any] | None = None,
 ) -> SegmentStore:
-    fingerprint = json.loads(json.dumps({**_fingerprint(data), **(made_from or {})}))
+    fingerprint = _fingerprint(data, further or {})
     if (out / "store.json").exists():
         store = SegmentStore.open(out)
         if store.provenance.get("made_from") == fingerprint:
@@ -198,8 +198,8 @@ def _open_folders(data: DataConfig, store_folder: Path, workers: int) -> Source:
         )
     found = {entry.label for entry in entries}
     infos = [info for name, info in known.items() if name in found]
-    made_from = {"files": _files_of(entries), "labels": labels_made_from}
-    store = _open_or_prepare(data, store_folder, entries, [info.name for info in infos], workers, made_from)
+    further = {"files": _files_of(entries), "labels": labels_made_from}
+    store = _open_or_prepare(data, store_folder, entries, [info.name for info in infos], workers, further)
     _require_splits(store)
     counted = f"{len(store.recordings)} recordings of {len(infos)} labels"
     if synthetic:
@@ -214,7 +214,7 @@ def _open_folders(data: DataConfig, store_folder: Path, workers: int) -> Source:
             licence=_joined(root.provenance.get("licence") for root in roots),
             created="",
         ),
-        tuple(_unlabelled(root) for root in roots if root.unlabelled),
+        tuple(root.left_out for root in roots if root.left_out),
     )
 
 
@@ -241,14 +241,6 @@ def _require_splits(store: SegmentStore) -> None:
             "no recording is left for validation: recordings are split 70:10:20 by their names; record more "
             "conditions, or draw another split (data.recordings_seed)"
         )
-
-
-def _unlabelled(root: ClusterDataset) -> str:
-    textures = dict.fromkeys(root.textures[entry.identity.texture_id] for entry in root.unlabelled)
-    return (
-        f"{root.root}: {len(root.unlabelled)} recordings are left out: no label names their textures "
-        f"({', '.join(textures)})"
-    )
 
 
 def _label_map(data: DataConfig, roots: list[ClusterDataset]) -> LabelMap:
