@@ -66,7 +66,7 @@ public:
         state.edgeCounter = static_cast<std::uint32_t>(seconds * crossingsPerSecond);
         state.edgeHeightMetres = edgeHeightMetres;
         const bool isOfSurface = kind_ <= EffectKind::edge;
-        // What a landing or an edge costs shows best where it is all that sounds beside the texture.
+        // Both voices ask for the texture, except where the texture itself is measured.
         state.effects = kind_ == EffectKind::texture ? 0U : maskOf(EffectKind::texture);
         engine_->publish(*without_, state);
         state.effects |= isOfSurface ? maskOf(kind_) : 0U;

@@ -10,22 +10,26 @@ namespace HaptoFlow.Samples.StylusTracing
     /// audio output does to the wave.</summary>
     public sealed class OutputStep : MonoBehaviour
     {
-        private const float StudyDelayMilliseconds = 100f;
+        // Without any output in the scene, each pen is felt through what its hand holds.
+        private const int Auto = 0;
+        private const int Audio = 1;
 
-        private static readonly Choice[] Choices =
+        private static readonly (string Name, Action<GameObject> AddTo)[] Outputs =
         {
-            // Without any output in the scene, each pen is felt through what its hand holds.
-            new Choice("Auto Output", _ => { }),
-            new Choice("Haptic Output: the audio device", owner => owner.AddComponent<HapticOutput>()),
-            new Choice("Controller Waveform Output", owner => owner.AddComponent<ControllerWaveformOutput>()),
-            new Choice("Controller Parametric Output, experimental at Meta", owner =>
+            ("Auto Output", _ => { }),
+            ("Haptic Output: the audio device", owner => owner.AddComponent<HapticOutput>()),
+            ("Controller Waveform Output", owner => owner.AddComponent<ControllerWaveformOutput>()),
+            ("Controller Parametric Output, experimental at Meta", owner =>
                 owner.AddComponent<ControllerParametricOutput>().UseExperimentalFeature = true),
-            new Choice("Motor Output", owner => owner.AddComponent<MotorOutput>()),
+            ("Motor Output", owner => owner.AddComponent<MotorOutput>()),
         };
 
-        private static readonly string[] Treatments =
+        private static readonly (string Name, Action<OutputProcessing> Apply)[] Treatments =
         {
-            "as it is", "compensated for a voice coil", "100 ms later", "with the exposure guard",
+            ("as it is", _ => { }),
+            ("compensated for a voice coil", processing => processing.Actuator = OutputActuator.VoiceCoil),
+            ("100 ms later", processing => processing.DelayMilliseconds = 100f),
+            ("with the exposure guard", processing => processing.ExposureGuard = true),
         };
 
         private readonly List<GameObject> made = new List<GameObject>();
@@ -54,7 +58,7 @@ namespace HaptoFlow.Samples.StylusTracing
         {
             if (next.IsNew())
             {
-                choice = (choice + 1) % Choices.Length;
+                choice = (choice + 1) % Outputs.Length;
                 Rebuild();
                 Say();
             }
@@ -76,15 +80,14 @@ namespace HaptoFlow.Samples.StylusTracing
         {
             made.ForEach(Destroy);
             made.Clear();
-            if (choice == 1)
+            if (choice == Audio)
             {
                 Add(transform);
-                return;
             }
-            foreach (HapticStylus pen in FindObjectsByType<HapticStylus>(
-                FindObjectsInactive.Include, FindObjectsSortMode.None))
+            else if (choice != Auto)
             {
-                if (choice > 0)
+                foreach (HapticStylus pen in FindObjectsByType<HapticStylus>(
+                    FindObjectsInactive.Include, FindObjectsSortMode.None))
                 {
                     Add(pen.transform);
                 }
@@ -93,9 +96,9 @@ namespace HaptoFlow.Samples.StylusTracing
 
         private void Add(Transform parent)
         {
-            var owner = new GameObject(Choices[choice].Name);
+            var owner = new GameObject(Outputs[choice].Name);
             owner.transform.SetParent(parent, false);
-            Choices[choice].AddTo(owner);
+            Outputs[choice].AddTo(owner);
             made.Add(owner);
             Treat(owner);
         }
@@ -107,29 +110,17 @@ namespace HaptoFlow.Samples.StylusTracing
             {
                 return;
             }
-            output.Processing.Actuator = treatment == 1 ? OutputActuator.VoiceCoil : OutputActuator.Uncompensated;
-            output.Processing.DelayMilliseconds = treatment == 2 ? StudyDelayMilliseconds : 0f;
-            output.Processing.ExposureGuard = treatment == 3;
+            output.Processing.Actuator = OutputActuator.Uncompensated;
+            output.Processing.DelayMilliseconds = 0f;
+            output.Processing.ExposureGuard = false;
+            Treatments[treatment].Apply(output.Processing);
             output.ApplyProcessing();
         }
 
         private void Say()
         {
-            string treated = choice == 1 ? $", {Treatments[treatment]} (P: next)" : "";
-            text.text = $"{Choices[choice].Name}{treated} (O: next output)";
-        }
-
-        private readonly struct Choice
-        {
-            public Choice(string name, Action<GameObject> addTo)
-            {
-                Name = name;
-                AddTo = addTo;
-            }
-
-            public string Name { get; }
-
-            public Action<GameObject> AddTo { get; }
+            string treated = choice == Audio ? $", {Treatments[treatment].Name} (P: next)" : "";
+            text.text = $"{Outputs[choice].Name}{treated} (O: next output)";
         }
     }
 }

@@ -680,10 +680,10 @@ HAPTOFLOW_API haptoflow_status haptoflow_voice_set_delay(haptoflow_voice voice, 
 HAPTOFLOW_API haptoflow_status haptoflow_voice_set_actuator(haptoflow_voice voice, const char* profile,
                                                             uint64_t length);
 
-/* 1 brings down what is strong for too long, slowly and never to silence; 0 leaves it. actuator_gain: acceleration at
- * the hand for each m/s^2 of the voice, above 0 to 1000; 0 for 1. The law stands in
- * Documentation~/effects-and-outputs.md; it is no medical device. Errors: INVALID_ARGUMENT, OUT_OF_MEMORY. [publisher]
- */
+/* is_on: 1 switches the exposure guard on, which slowly lowers a level that stays high for too long, but never to
+ * silence; 0 switches it off. actuator_gain: acceleration at the hand for each m/s^2 of the voice, above 0 to 1000; 0
+ * for 1. Documentation~/effects-and-outputs.md gives the law. The guard is no medical device.
+ * Errors: INVALID_ARGUMENT, OUT_OF_MEMORY. [publisher] */
 HAPTOFLOW_API haptoflow_status haptoflow_voice_set_exposure_guard(haptoflow_voice voice, uint32_t is_on,
                                                                   float actuator_gain);
 
@@ -743,8 +743,8 @@ typedef struct haptoflow_wave_frame {
     float intensity;
     /* Where its energy is, as the hand weighs it; the last place that was felt while the wave is silent. */
     float centroid_hz;
-    /* The carrier: the centroid within the device's range, and the amplitude (peak, m/s^2) that feels as strong there.
-     */
+    /* The carrier: the centroid, limited to the device's range, and the amplitude (peak, m/s^2) that feels as strong
+     * at that frequency. */
     float frequency_hz;
     float amplitude_mps2;
     /* The onset of a tap or an edge: seconds from the start of the frame, and the carrier as intense as its peak;
@@ -773,9 +773,10 @@ HAPTOFLOW_API haptoflow_status haptoflow_wave_features_set_range(haptoflow_wave_
                                                                  double minimum_frequency_hz,
                                                                  double maximum_frequency_hz);
 
-/* Takes the next sample_count samples of the wave in m/s^2 and writes the frames that they complete; *frame_count
- * becomes how many. A frame is complete 4 ms after its end. Room for sample_count / (rate * frame_seconds) + 1 frames
- * is always enough; frames beyond capacity are lost. Samples that are not finite count as 0. Errors: INVALID_ARGUMENT.
+/* Takes the next sample_count samples of the wave, in m/s^2, and writes the frames that they complete; *frame_count
+ * receives the number of frames. A frame is complete 4 ms after its end. A capacity of
+ * sample_count / (rate * frame_seconds) + 1 frames is always enough; frames beyond capacity are lost. Samples that are
+ * not finite count as 0. Errors: INVALID_ARGUMENT.
  * [any-thread] Blocks while another thread uses these features; takes about 2 us for each ms of wave. */
 HAPTOFLOW_API haptoflow_status haptoflow_wave_features_process(haptoflow_wave_features* features,
                                                                const float* wave_mps2, uint64_t sample_count,

@@ -64,7 +64,7 @@ private:
     std::array<DecayingSinusoid, capacity> ringing_{};
     Rebound rebound_{};
     std::size_t reboundsLeft_ = 0;
-    // Asked for several times a block, also by voices that never strike anything.
+    // Cached, since it is read several times in every block, also by voices without landings and edges.
     bool isIdle_ = true;
     std::uint64_t struck_ = 0;
 };

@@ -46,7 +46,7 @@ ContactAction ContactPublisher::publish(ContactState state) noexcept {
     const bool isNewTouch = follower_.touches() != touchesBefore;
     noteSpeed(state, isNewTouch);
     if (isNewTouch) {
-        // A touch that was interrupted, as by a surface without label, has landed before.
+        // The counter stays the same where a surface without label interrupts a touch: that touch has landed already.
         if (state.touchCounter != lastTouchCounter_) {
             noteImpact(state);
         }

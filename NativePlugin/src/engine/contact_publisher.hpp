@@ -49,8 +49,8 @@ private:
     std::uint32_t lastTouchCounter_ = 0;
     std::uint32_t lastEdgeCounter_ = 0;
     std::uint32_t lastLandingCounter_ = 0;
-    // Of this touch's newest states. On the round of a rim the normal points ahead for a few of them, and nothing of
-    // the tip's motion lies along the surface.
+    // The speeds of this touch's newest states. Where the tip rounds a rim, the surface's normal points along the
+    // motion for a few states, and the speed along the surface is near 0.
     std::array<double, 4> newestSpeedsMps_{};
     // The last state that touched.
     ContactState last_;

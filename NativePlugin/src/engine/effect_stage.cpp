@@ -218,7 +218,7 @@ void EffectStage::runProcessors(std::span<float> samplesMps2, EffectFigures& fig
         return static_cast<float>(fadeLeft_ - std::min(fadeLeft_, sample)) / static_cast<float>(fadeSamples_);
     };
     if (processors_->delay != nullptr) {
-        // What a new delay lets out later must not begin in the middle of a vibration.
+        // Fade the input in: a new delay would otherwise play an abrupt beginning when its time has passed.
         for (std::size_t i = 0; i < samplesMps2.size(); ++i) {
             samplesMps2[i] *= 1.0F - shareAt(i);
         }

@@ -27,10 +27,10 @@ struct EffectFigures {
         std::uint64_t events = 0;
     };
     std::array<OfKind, effects::effectKinds> kinds{};
-    /// One more whenever a number may have grown.
+    /// Increases whenever one of the numbers may have increased, so that a reader can skip figures without a change.
     std::uint64_t changes = 0;
 
-    /// To count on.
+    /// The numbers of one kind, for the caller to increase.
     [[nodiscard]] OfKind& of(effects::EffectKind kind) noexcept {
         ++changes;
         return kinds[static_cast<std::size_t>(kind)];
@@ -45,7 +45,7 @@ struct Processors {
     std::unique_ptr<effects::Delay> delay;
     std::unique_ptr<effects::Effect> compensation;
     std::unique_ptr<effects::ExposureGuard> exposureGuard;
-    /// Made for a voice that has one already, whose signal goes on.
+    /// Unused: the voice had a delay already, and keeps that one with the signal in it.
     std::unique_ptr<effects::Delay> spareDelay;
 };
 
@@ -83,7 +83,8 @@ public:
     void open() noexcept;
     void close() noexcept;
 
-    /// Adds blows to the next samples, m/s^2: at most 64. Then `process` with the same samples.
+    /// Adds the landings and edges that still ring to the next samples, at most 64, in m/s^2. Call `process` with the
+    /// same samples afterwards.
     void addBlows(std::span<float> samplesMps2, EffectFigures& figures) noexcept;
     /// Works on the next samples in place, m/s^2: at most 64.
     void process(std::span<float> samplesMps2, EffectFigures& figures) noexcept;
@@ -109,13 +110,14 @@ private:
     dsp::Gate gate_;
     std::unique_ptr<Processors> processors_;
     std::unique_ptr<Processors> leaving_;
-    // Not handed over: what is on its way in the delay would be lost, and what the guard has measured. A delay that
-    // comes or goes is faded with its Processors and stands in them until then.
+    // These two stay in use when processors are exchanged: a new delay would lose the signal in the old one, and a new
+    // guard what the old one has measured. While a delay is being switched on or off, it is faded as a member of its
+    // Processors.
     std::unique_ptr<effects::Delay> delay_;
     std::unique_ptr<effects::ExposureGuard> guard_;
     std::size_t fadeSamples_;
     std::size_t fadeLeft_ = 0;
-    // What a guard that was switched off leaves behind rises to 1.
+    // The gain of a guard that was switched off, which glides to 1 over this many more samples.
     float leftGain_ = 1.0F;
     std::size_t leftGainSamples_ = 0;
 };

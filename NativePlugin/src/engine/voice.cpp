@@ -140,7 +140,8 @@ void Voice::render(std::span<float> out) noexcept {
             output_->gate.process(block);
         }
         output_->effects.addBlows(block, figures_);
-        // A delay or a guard behind the strength hears what is played, and at the strength of its own time.
+        // Strength comes before the processors: the guard has to measure what is played, and a delayed sound keeps the
+        // strength that it was made with.
         output_->strength.process(block);
         output_->effects.process(block, figures_);
         limiter_.process(block);

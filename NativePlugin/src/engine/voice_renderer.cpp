@@ -205,7 +205,7 @@ void VoiceRenderer::readBlows() noexcept {
 void VoiceRenderer::takeProcessors() noexcept {
     const std::uint64_t wanted = channels_.wantedProcessors.load(std::memory_order_acquire);
     const bool lacks = wanted != voice_.effects().version();
-    // Written only where they change: the worker reads what lies beside them.
+    // Store only changes: the worker reads other data on the same cache line.
     if (channels_.stageRateHz.load(std::memory_order_relaxed) != voice_.outputRateHz()) {
         channels_.stageRateHz.store(voice_.outputRateHz(), std::memory_order_release);
     }
@@ -223,17 +223,15 @@ void VoiceRenderer::takeProcessors() noexcept {
     }
     std::unique_ptr<Processors> used = stage.takeUsed();
     if (used == nullptr && !stage.isHandingOver()) {
+        // Only this thread takes what the worker has put there, so the costly exchange needs no second check.
         if (channels_.freshProcessors.load(std::memory_order_relaxed) == nullptr) {
             return;
         }
         std::unique_ptr<Processors> fresh(channels_.freshProcessors.exchange(nullptr, std::memory_order_acq_rel));
-        if (fresh == nullptr) {
-            return;
-        }
         if (fresh->rateHz == voice_.outputRateHz()) {
             voice_.exchangeProcessors(std::move(fresh));
             if (isSilent) {
-                // What begins in this block is not faded.
+                // A silent voice has nothing to fade from, and a landing in this block must keep its attack.
                 stage.finishHandOver();
             }
         } else {
@@ -309,7 +307,7 @@ void VoiceRenderer::sound(std::span<float> out) noexcept {
 }
 
 void VoiceRenderer::reportEffects() noexcept {
-    // A voice without effects has nothing to say, and thirty stores a block are felt in small ones.
+    // Without effects nothing has changed, and thirty stores in every block would cost measurable time.
     if (voice_.effectFigures().changes == reportedEffectChanges_) {
         return;
     }

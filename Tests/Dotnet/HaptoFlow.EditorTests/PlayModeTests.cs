@@ -119,7 +119,7 @@ namespace HaptoFlow.EditorTests
             Assert.That(asked, Has.None.EqualTo("Delay").And.None.EqualTo("Exposure Guard"));
             output.Processing.ExposureGuard = true;
             output.ApplyProcessing();
-            // Down onto the table, at 0.3 m/s.
+            // The tip descends onto the table at 0.3 m/s.
             for (int frame = 0; frame < 90; ++frame)
             {
                 float height = Mathf.Max(0.001f, 0.1f - 0.3f / 90f * frame);

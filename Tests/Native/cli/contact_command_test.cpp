@@ -35,9 +35,9 @@ std::vector<std::string> linesOf(const std::string& text) {
     return lines;
 }
 
-/// The number of a line in the column that the header gives this name.
-double numberOf(const std::string& names, const std::string& line, const std::string& name) {
-    std::istringstream columns(names);
+/// The number in the column `name` of a CSV line, whose columns are named by `headerLine`.
+double numberOf(const std::string& headerLine, const std::string& line, const std::string& name) {
+    std::istringstream columns(headerLine);
     std::istringstream cells(line);
     std::string column;
     std::string cell;

@@ -115,8 +115,9 @@ namespace HaptoFlow.Editor
         private void Run()
         {
             isStale = false;
-            findings = SceneCheck.Run();
-            effects = EffectRules.Summary(new SceneContents());
+            var scene = new SceneContents();
+            findings = SceneCheck.Run(scene);
+            effects = EffectRules.Summary(scene);
             int errors = findings.Count(finding => finding.Severity == MessageType.Error);
             int warnings = findings.Count(finding => finding.Severity == MessageType.Warning);
             summary = findings.Count == 0

@@ -5,8 +5,8 @@ using UnityEditor;
 
 namespace HaptoFlow.Editor
 {
-    /// <summary>Says which effects the scene calls for, and what they have cost on this machine since play began: an
-    /// effect that nothing calls for does not run.</summary>
+    /// <summary>Says which effects the scene calls for and what each has cost on this machine since play began. An effect
+    /// that nothing calls for does not run.</summary>
     internal static class EffectRules
     {
         private static readonly (HapticEffects Asked, HapticEffect Effect, string Name)[] OfSurfaces =
@@ -25,7 +25,7 @@ namespace HaptoFlow.Editor
             }
         }
 
-        /// <summary>One sentence for a person; empty for a scene without surfaces.</summary>
+        /// <summary>The effects and their cost, for people; empty where nothing calls for an effect.</summary>
         public static string Summary(SceneContents scene)
         {
             List<string> called = Called(scene);

@@ -8,9 +8,11 @@ namespace HaptoFlow.Editor
     internal static class SceneCheck
     {
         /// <summary>The worst first.</summary>
-        public static IReadOnlyList<Finding> Run()
+        public static IReadOnlyList<Finding> Run() => Run(new SceneContents());
+
+        /// <summary>The worst first, of a scene that was searched already.</summary>
+        public static IReadOnlyList<Finding> Run(SceneContents scene)
         {
-            var scene = new SceneContents();
             return SettingsRules.Check()
                 .Concat(StylusRules.Check(scene))
                 .Concat(SurfaceRules.Check(scene))

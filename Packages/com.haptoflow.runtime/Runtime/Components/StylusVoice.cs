@@ -15,12 +15,11 @@ namespace HaptoFlow
         private IVoiceTarget? output;
         private float publishedStrength;
 
-        // The touch that was under way when the voice opened, and its landings by then: they are over.
-        private bool hasSeenTouch;
-        private uint seenTouch;
-        private bool hasMissedLanding;
-        private uint missedTouch;
-        private uint missedLandings;
+        // The touch of the newest reading, also of one that no voice has played.
+        private uint? newestTouch;
+
+        // The landing that was over when the voice opened; null where none was.
+        private (uint Touch, uint Landings)? missedLanding;
 
         public StylusVoice(HapticStylus stylus) => this.stylus = stylus;
 
@@ -54,20 +53,19 @@ namespace HaptoFlow
             in ContactReading reading, HapticSurface? surface, HapticSession session, IVoiceTarget? wanted)
         {
             bool isReady = MakeReady(session, wanted, reading);
-            hasSeenTouch = true;
-            seenTouch = reading.TouchCounter;
+            newestTouch = reading.TouchCounter;
             if (!isReady)
             {
                 return;
             }
-            hasMissedLanding &= reading.TouchCounter == missedTouch && reading.LandingCounter == missedLandings;
+            bool isMissed = missedLanding == (reading.TouchCounter, reading.LandingCounter);
             var state = new ContactState
             {
                 TouchCounter = reading.TouchCounter,
                 FirstVelocityMps = (float)reading.FirstVelocityMps,
                 SecondVelocityMps = (float)reading.SecondVelocityMps,
                 ForceNewtons = (float)reading.ForceNewtons,
-                ApproachSpeedMps = hasMissedLanding ? 0f : (float)reading.ApproachSpeedMps,
+                ApproachSpeedMps = isMissed ? 0f : (float)reading.ApproachSpeedMps,
                 LandingCounter = reading.LandingCounter,
                 EdgeCounter = reading.EdgeCounter,
                 EdgeHeightMetres = (float)reading.EdgeHeightMetres,
@@ -126,9 +124,8 @@ namespace HaptoFlow
             {
                 return false;
             }
-            hasMissedLanding = reading.Touching && (!hasSeenTouch || reading.TouchCounter == seenTouch);
-            missedTouch = reading.TouchCounter;
-            missedLandings = reading.LandingCounter;
+            bool isUnderWay = reading.Touching && (newestTouch ?? reading.TouchCounter) == reading.TouchCounter;
+            missedLanding = isUnderWay ? (reading.TouchCounter, reading.LandingCounter) : ((uint, uint)?)null;
             return true;
         }
 

@@ -35,7 +35,7 @@ namespace HaptoFlow
 
         private readonly VoiceSource source = new VoiceSource();
         private readonly List<HapticSinks.OpenSink> sinks = new List<HapticSinks.OpenSink>();
-        // A recompilation while playing keeps fields that can be serialised, and these would say what holds no longer.
+        // Recompiling while playing keeps the values of fields that can be serialised. These would be out of date then.
         [NonSerialized]
         private HapticStylus? attached;
         [NonSerialized]
@@ -211,7 +211,7 @@ namespace HaptoFlow
                 queue.Gain = settings.FullScaleMps2 / fullScaleMps2;
                 queue.Ceiling = settings.Ceiling;
                 queue.FullScaleMps2 = settings.FullScaleMps2;
-                bool isThere = device!.TryGetCapabilities(out _);
+                bool isThere = HasDevice;
                 if (isThere && !wasThere)
                 {
                     source.Forget();

@@ -40,7 +40,7 @@ namespace HaptoFlow
         /// <summary>Renders what nobody feels, for as long as a voice takes to close.</summary>
         public void Discard() => Render(closing);
 
-        /// <summary>Landings and edges that nobody could feel, since no device was there, are over.</summary>
+        /// <summary>Drops landings and edges that came while no device could play them.</summary>
         public void Forget()
         {
             ForEach((voice, _) => voice.SetPaused(true), 0);

@@ -37,7 +37,7 @@ namespace HaptoFlow
     /// are magnitudes, 0 to 255, as Oculus defined them.</summary>
     internal sealed class XrBufferSink : IWaveformSink
     {
-        // A device that says it takes buffers and refuses so many in a row does not take them.
+        // After this many refusals in a row, a device that reports buffers counts as one that takes none.
         private const int MostRefusals = 3;
 
         private readonly XrDevice device;
