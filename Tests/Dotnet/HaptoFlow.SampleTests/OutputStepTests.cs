@@ -4,7 +4,6 @@ using System.Runtime.CompilerServices;
 using HaptoFlow.Samples.StylusTracing;
 using NUnit.Framework;
 using UnityEngine;
-using UnityEngine.XR.OpenXR.Input;
 using UnityShim;
 
 namespace HaptoFlow.SampleTests
@@ -31,23 +30,13 @@ namespace HaptoFlow.SampleTests
         [TearDown]
         public void ForgetDevices()
         {
-            OVRPlugin.Reset();
-            OVRInput.Reset();
-            OpenXRInput.Reset();
-            XrHand.Reset();
+            HeldDevices.Reset();
         }
 
         [Test]
         public void EachPressOfTheButtonIsFeltThroughTheNextOutputAndNoOther()
         {
-            OVRInput.Connected = OVRInput.Controller.RTouch;
-            OVRInput.Properties = new OVRInput.HapticsParametricProperties
-            {
-                IdealFrameSubmissionRate = 20000000L,
-                MinimumFirstFrameDuration = 40000000L,
-                MinFrequencyHz = 60f,
-                MaxFrequencyHz = 400f,
-            };
+            HeldDevices.TakeTouchController();
             XrHand.Right.Take("A controller", true);
             Assert.That(Step().Text, Does.StartWith("Auto Output (O:"));
             Slide();

@@ -39,11 +39,7 @@ namespace HaptoFlow.ShimTests
         [TearDown]
         public void ForgetDevices()
         {
-            OVRPlugin.Reset();
-            OVRInput.Reset();
-            OpenXRInput.Reset();
-            XrHand.Reset();
-            XRControllerWithRumble.Drop();
+            HeldDevices.Reset();
             SimulatedInput.Reset();
         }
 
@@ -242,14 +238,7 @@ namespace HaptoFlow.ShimTests
         [Test]
         public void ParametricFramesFollowTheRulesOfStreams()
         {
-            OVRInput.Connected = OVRInput.Controller.RTouch;
-            OVRInput.Properties = new OVRInput.HapticsParametricProperties
-            {
-                IdealFrameSubmissionRate = 20000000L,
-                MinimumFirstFrameDuration = 40000000L,
-                MinFrequencyHz = 60f,
-                MaxFrequencyHz = 400f,
-            };
+            HeldDevices.TakeTouchController();
             Add<ControllerParametricOutput>(output => output.UseExperimentalFeature = true);
             World.Frames(144);
             Assert.That(OVRInput.Parametric.Count, Is.InRange(60, 110));

@@ -104,10 +104,7 @@ namespace HaptoFlow.RepositoryTests.Outputs
             double now = Play(motor, queue, 0.0, 1.0);
             wave.IsStopped = true;
             now = Play(motor, queue, now, 0.5 * FrameSeconds);
-            int told = motor.Told.Count;
-            Assert.That(motor.AmplitudeAt(now), Is.Zero);
-            Play(motor, queue, now, 1.0);
-            Assert.That(motor.Told.Count, Is.EqualTo(told), "a motor at rest is not told so again and again");
+            AssertRestsUntold(motor, queue, now);
         }
 
         [Test]
@@ -122,10 +119,16 @@ namespace HaptoFlow.RepositoryTests.Outputs
             now = Play(motor, queue, now, 2.5 * FrameSeconds);
             Assert.That(motor.AmplitudeAt(now), Is.LessThan(0.04f * before), "-28 dB after 35 ms");
             now = Play(motor, queue, now, 4.0 * FrameSeconds);
-            Assert.That(motor.AmplitudeAt(now), Is.Zero, "nothing is left after 90 ms");
+            AssertRestsUntold(motor, queue, now);
+        }
+
+        /// <summary>The motor stands still, and is not told so again and again.</summary>
+        private static void AssertRestsUntold(SimulatedMotor motor, AmplitudeQueue queue, double now)
+        {
             int told = motor.Told.Count;
+            Assert.That(motor.AmplitudeAt(now), Is.Zero);
             Play(motor, queue, now, 1.0);
-            Assert.That(motor.Told.Count, Is.EqualTo(told), "a motor at rest is not told so again and again");
+            Assert.That(motor.Told.Count, Is.EqualTo(told));
         }
 
         [Test]
