@@ -25,10 +25,8 @@ model::ModelFile withDenim(const model::ModelFile& shipped) {
     builder.blobs.clear();
     for (const model::Blob& blob : shipped.header().blobs) {
         const auto bytes = shipped.blob(blob.name);
-        model::testing::BlobContent content{blob.name,
-                                            blob.type == model::BlobType::onnx ? "onnx" : "float32",
-                                            blob.shape,
-                                            model::testing::Bytes(bytes.begin(), bytes.end())};
+        model::testing::BlobContent content{blob.name, blob.type == model::BlobType::onnx ? "onnx" : "float32",
+                                            blob.shape, model::testing::Bytes(bytes.begin(), bytes.end())};
         if (blob.name == "embedding") {
             std::vector<float> row(shipped.embedding(0).begin(), shipped.embedding(0).end());
             row[0] += 0.1F;
