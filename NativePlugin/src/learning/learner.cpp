@@ -11,11 +11,11 @@
 #include "learning/seed_choice.hpp"
 #include "learning/sliding.hpp"
 #include "learning/texture_fit.hpp"
+#include "learning/thread_clock.hpp"
 #include "learning/tone_fit.hpp"
 #include "learning/wave_vectors.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <numeric>
 
@@ -38,7 +38,7 @@ class Learner {
 public:
     Learner(const Recording& recording, const model::ModelFile& model, inference::SegmentGenerator& generator,
             const LearningSettings& settings)
-        : model_(model), generator_(generator), settings_(settings), began_(std::chrono::steady_clock::now()) {
+        : model_(model), generator_(generator), settings_(settings), began_(threadSeconds()) {
         say(0.0, "reading");
         checkRecording(recording);
         recording_ = prepareRecording(recording);
@@ -57,12 +57,12 @@ public:
         findRibs();
         const EmbeddingSpace space(model_, waveVectors_);
         ClosedLoop loop(generator_, model_.header(), recording_, unitWave_);
-        TextureFit fit(loop, recording_, sliding_, unitWave_, settings_.seed);
+        TextureFit fit(loop, recording_, sliding_, unitWave_, waveVectors_, settings_.seed);
         say(0.1, "nearest label");
         const std::size_t nearest = nearestLabel(fit, space);
         const model::Label& label = model_.header().labels[nearest];
         report_.nearestLabel = label.name;
-        Embedding embedding = fitEmbedding(fit, space, space.ofLabel(nearest), loop);
+        Embedding embedding = fitEmbedding(fit, space, space.ofLabel(nearest));
         say(0.9, "tone");
         ToneFit tone = fitTones(fit, embedding);
         const std::vector<LearntSeed> seeds = chooseSeeds(recording_, sliding_, unitWave_, tone.tone);
@@ -88,9 +88,8 @@ public:
     }
 
 private:
-    [[nodiscard]] double elapsedSeconds() const {
-        return std::chrono::duration<double>(std::chrono::steady_clock::now() - began_).count();
-    }
+    /// Of this thread's work: other programs' do not count.
+    [[nodiscard]] double elapsedSeconds() const { return threadSeconds() - began_; }
 
     void say(double share, const char* doing) const {
         if (settings_.cancellation != nullptr && settings_.cancellation->isCancelled()) {
@@ -156,6 +155,8 @@ private:
                                               {static_cast<float>(speed), 0.0F, static_cast<float>(force)},
                                               silence_,
                                               silence_,
+                                              {},
+                                              {},
                                               {}};
             std::ranges::copy(model_.embedding(label), request.embedding.begin());
             requests.push_back(request);
@@ -230,10 +231,23 @@ private:
             const std::vector<double> part = fit.distances(embeddings, chains, 0);
             distances.insert(distances.end(), part.begin(), part.end());
         }
-        return static_cast<std::size_t>(std::ranges::min_element(distances) - distances.begin());
+        // Only labels with ribs have learnt what to do with a wave vector.
+        const auto& all = model_.header().labels;
+        const auto hasRibs = [&](std::size_t label) { return all[label].wavelengthMetres.has_value(); };
+        std::vector<std::size_t> eligible;
+        for (std::size_t label = 0; label < labels; ++label) {
+            if (report_.waveVectors.empty() || hasRibs(label)) {
+                eligible.push_back(label);
+            }
+        }
+        if (eligible.empty()) {
+            eligible.resize(labels);
+            std::iota(eligible.begin(), eligible.end(), std::size_t{0});
+        }
+        return *std::ranges::min_element(eligible, {}, [&](std::size_t label) { return distances[label]; });
     }
 
-    Embedding fitEmbedding(TextureFit& fit, const EmbeddingSpace& space, const Embedding& start, ClosedLoop& loop) {
+    Embedding fitEmbedding(TextureFit& fit, const EmbeddingSpace& space, const Embedding& start) {
         const std::size_t chains = std::max<std::size_t>(12, 3 * fit.bins().count());
         Embedding fitted = start;
         const std::uint64_t perGeneration = population * chains * segmentsPerChain;
@@ -271,7 +285,6 @@ private:
         const std::vector<double> distances = fit.distances(both, manyChains, 1'000'000 / manyChains);
         report_.nearestDistanceDb = std::sqrt(distances[0]);
         report_.fittedDistanceDb = std::sqrt(std::min(distances[0], distances[1]));
-        (void)loop;
         return distances[1] < distances[0] ? fitted : start;
     }
 
@@ -373,7 +386,7 @@ private:
     const model::ModelFile& model_;
     inference::SegmentGenerator& generator_;
     const LearningSettings& settings_;
-    std::chrono::steady_clock::time_point began_;
+    double began_;
     std::array<float, inference::segmentSamples> silence_{};
     PreparedRecording recording_;
     Sliding sliding_;

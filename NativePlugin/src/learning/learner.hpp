@@ -32,7 +32,8 @@ struct LearningSettings {
     /// YYYY-MM-DD, or empty.
     std::string created;
     std::uint64_t seed = 1;
-    /// The fit stops there with what it has, and the result is then no longer the same on every machine.
+    /// Seconds of the calling thread's work. The fit stops there with what it has, and the result is then no longer the
+    /// same on every machine.
     double secondsLimit = usualSecondsLimit;
     std::uint64_t segmentBudget = usualSegmentBudget;
     /// k1x, k1y, k2x, k2y in cycles per millimetre, zero for none; estimated where empty.
@@ -69,6 +70,7 @@ struct LearningReport {
     std::size_t toneSpeeds = 0;
     std::uint64_t segments = 0;
     std::uint64_t generations = 0;
+    /// Of the calling thread's work.
     double seconds = 0.0;
     bool stoppedEarly = false;
     std::vector<std::string> warnings;
