@@ -18,6 +18,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <stdexcept>
 
 namespace haptoflow::learning {
 namespace {
@@ -40,6 +41,7 @@ public:
             const LearningSettings& settings)
         : model_(model), generator_(generator), settings_(settings), began_(threadSeconds()) {
         say(0.0, "reading");
+        checkSettings(settings);
         checkRecording(recording);
         recording_ = prepareRecording(recording);
         sliding_ = findSliding(recording_, model.header());
@@ -396,7 +398,38 @@ private:
     LearningReport report_;
 };
 
+void requireText(const std::string& text, std::size_t longest, const char* what) {
+    if (text.size() > longest || !isUtf8(text)) {
+        throw std::invalid_argument(std::string(what) + ": expected text in UTF-8 of " + std::to_string(longest) +
+                                    " bytes at most");
+    }
+}
+
 }  // namespace
+
+void checkSettings(const LearningSettings& settings) {
+    constexpr std::size_t longestName = 128;
+    constexpr std::size_t longestText = 4096;
+    constexpr double finestCyclesPerMillimetre = 20.0;
+    const bool hasCapitals = std::ranges::any_of(settings.name, [](char each) { return each >= 'A' && each <= 'Z'; });
+    if (settings.name.empty() || hasCapitals) {
+        throw std::invalid_argument("name is \"" + settings.name.substr(0, longestName) +
+                                    "\"; expected text that is not empty and has no capital letters, as labels have");
+    }
+    requireText(settings.name, longestName, "name");
+    requireText(settings.category, longestName, "category");
+    requireText(settings.description, longestText, "description");
+    requireText(settings.licence, longestText, "licence");
+    requireText(settings.recordings, longestText, "recordings");
+    if (settings.waveVectors) {
+        for (const double number : *settings.waveVectors) {
+            if (!(std::abs(number) <= finestCyclesPerMillimetre)) {
+                throw std::invalid_argument("wave_vectors: " + plainNumber(number) +
+                                            " cycles per millimetre; expected -20 to 20");
+            }
+        }
+    }
+}
 
 LearntMaterial learnMaterial(const Recording& recording, const model::ModelFile& model,
                              inference::SegmentGenerator& generator, const LearningSettings& settings) {

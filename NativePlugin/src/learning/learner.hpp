@@ -20,7 +20,7 @@ inline constexpr std::uint64_t usualSegmentBudget = 42'000;
 inline constexpr double usualSecondsLimit = 20.0;
 
 struct LearningSettings {
-    /// Lower case, as a label's.
+    /// Lower case, as a label's, 1 to 128 bytes.
     std::string name;
     /// Empty for the nearest label's.
     std::string category;
@@ -81,6 +81,10 @@ struct LearntMaterial {
     std::string materialJson;
     LearningReport report;
 };
+
+/// Throws std::invalid_argument for a name or another text that a material file would refuse, and for wave vectors that
+/// no ribs have.
+void checkSettings(const LearningSettings& settings);
 
 /// Makes a material of a recording: level law, wave vectors, embedding, tone and seeds. `generator` is the model's, of
 /// any tier. Equal arguments give equal bytes. Throws RecordingUnusable, std::invalid_argument, inference::LoadCancelled

@@ -214,6 +214,19 @@ private:
     ExponentPrior prior_;
 };
 
+/// From one end of the table to the other, as far as its width tells that from what other materials have.
+double overallSlope(const std::vector<double>& knots, const std::vector<double>& logLevels, const ExponentPrior& prior) {
+    constexpr double endSpread = 0.15;
+    const double width = knots.back() - knots.front();
+    if (width <= 0.0) {
+        return prior.speedMean;
+    }
+    const double slope = (logLevels[knots.size() - 1] - logLevels[0]) / width;
+    const double trust = width * width / (endSpread * endSpread);
+    const double priorTrust = 1.0 / (prior.speedSpread * prior.speedSpread);
+    return (trust * slope + priorTrust * prior.speedMean) / (trust + priorTrust);
+}
+
 }  // namespace
 
 double LevelLaw::logLevel(double speedMps, double force) const {
@@ -248,7 +261,7 @@ LevelLaw fitLevelLaw(const PreparedRecording& recording, const Sliding& sliding,
     const std::vector<double> knots = knotsOf(frames);
     std::vector<double> unknown = Fit(frames, knots, std::log(law.forceNewtons), prior).solve();
     law.forceExponent = std::clamp(unknown[knots.size() + 1], -4.0, 4.0);
-    law.speedExponent = std::clamp(unknown[knots.size()], -4.0, 4.0);
+    law.speedExponent = std::clamp(overallSlope(knots, unknown, prior), -4.0, 4.0);
     for (std::size_t i = 0; i < knots.size(); ++i) {
         law.speedsMps.push_back(std::exp(knots[i]) - speedOffsetMps);
         law.logLevels.push_back(unknown[i]);
