@@ -157,8 +157,7 @@ private:
 
     [[nodiscard]] std::optional<std::size_t> place(std::string_view name) const {
         const auto found = std::ranges::find(names_, name);
-        return found == names_.end() ? std::nullopt
-                                     : std::optional(static_cast<std::size_t>(found - names_.begin()));
+        return found == names_.end() ? std::nullopt : std::optional(static_cast<std::size_t>(found - names_.begin()));
     }
 
     [[nodiscard]] std::vector<std::size_t> placesOf(const ColumnForm& form) const {
@@ -169,7 +168,8 @@ private:
         return places;
     }
 
-    [[nodiscard]] std::optional<ColumnForm> formIn(const std::vector<ColumnForm>& forms, const std::string& what) const {
+    [[nodiscard]] std::optional<ColumnForm> formIn(const std::vector<ColumnForm>& forms,
+                                                   const std::string& what) const {
         const auto isThere = [&](const std::string& name) { return place(name).has_value(); };
         std::optional<ColumnForm> found;
         for (const ColumnForm& form : forms) {

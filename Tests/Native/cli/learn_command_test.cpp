@@ -10,8 +10,8 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
 #include <sndfile.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -35,8 +35,9 @@ constexpr double rateHz = 4000.0;
 class LearnCommandTest : public testing::CommandLineTest {
 protected:
     /// time_s, acceleration_mps2, velocity and force of a made recording.
-    [[nodiscard]] static std::string csvOf(const MadeRecording& made, const std::string& columns =
-                                               "time_s,acceleration_mps2,velocity_x_mps,velocity_y_mps,force_newtons") {
+    [[nodiscard]] static std::string csvOf(
+        const MadeRecording& made,
+        const std::string& columns = "time_s,acceleration_mps2,velocity_x_mps,velocity_y_mps,force_newtons") {
         std::ostringstream text;
         text << columns << '\n';
         for (std::size_t i = 0; i < made.acceleration.size(); ++i) {
@@ -115,7 +116,8 @@ TEST_F(LearnCommandTest, DefaultsOfTheFolderHoldWhereTheSidecarSaysNothingAndThe
 
 TEST_F(LearnCommandTest, PositionsOfASlowTrackerGiveTheSpeedAndUnevenTimesAreMadeEven) {
     std::ostringstream text;
-    text << "time_s,acceleration_x_g,acceleration_y_g,acceleration_z_g,position_x_mm,position_y_mm,force_millinewtons\n";
+    text
+        << "time_s,acceleration_x_g,acceleration_y_g,acceleration_z_g,position_x_mm,position_y_mm,force_millinewtons\n";
     double time = 0.0;
     for (int i = 0; i < 24'000; ++i) {
         time += 0.00045 + 0.0001 * ((i * 7919) % 1000) / 1000.0;
@@ -174,9 +176,11 @@ TEST_F(LearnCommandTest, WhatIsWrongIsNamedWithFileColumnOrKeyAndARemedy) {
     write("table.parquet", "PAR1");
     expectRefused("table.parquet", "expected a recording that ends with .csv or .wav");
     write("a.csv", "time_s,speed_mps,force_newtons\n0,1,1\n");
-    expectRefused("a.csv", "a.csv: columns time_s, speed_mps, force_newtons; expected acceleration: acceleration_mps2 | ");
+    expectRefused("a.csv",
+                  "a.csv: columns time_s, speed_mps, force_newtons; expected acceleration: acceleration_mps2 | ");
     write("b.csv", csvOf(made_, "time_s,acceleration_mps2,a,b,force_newtons"));
-    expectRefused("b.csv", "b.csv: no motion in it or beside it; expected columns velocity_x_mps, velocity_y_mps | speed_mps");
+    expectRefused("b.csv",
+                  "b.csv: no motion in it or beside it; expected columns velocity_x_mps, velocity_y_mps | speed_mps");
     write("c.csv", csvOf(made_, "time_s,acceleration_mps2,velocity_x_mps,velocity_y_mps,c"));
     expectRefused("c.csv", "or --force-newtons");
     write("d.csv", csvOf(made_, "t,acceleration_mps2,velocity_x_mps,velocity_y_mps,force_newtons"));
@@ -223,7 +227,7 @@ TEST_F(LearnCommandTest, WordsThatContradictTheFileAreWrongUsage) {
     expectRefused("denim.csv --speed-mps 0.1", "--speed-mps: denim.csv has a motion of its own", 2);
     expectRefused("denim.csv --force-newtons 1", "--force-newtons: denim.csv has a force of its own", 2);
     expectRefused("denim.csv --full-scale-mps2 10", "--full-scale-mps2 is for WAV", 2);
-    expectRefused("denim.csv --name Denim", "--name 'Denim': expected 1 to 64 characters without capital letters", 2);
+    expectRefused("denim.csv --name Denim", "--name 'Denim': expected 1 to 128 characters without capital letters", 2);
     EXPECT_EQ(learn("denim.csv -o denim.csv").exitCode, 2);
     EXPECT_EQ(read("denim.csv"), csv_);
 }
@@ -272,8 +276,9 @@ TEST_F(LearnCommandTest, WhatIsLearntSoundsAsItWasRecordedAtASpeedThatIsAskedFor
 
     write("scene.json", R"({"surfaces": [{"name": "floor", "shape": {"plane": {}}, "material": "tile"}]})");
     write("stroke.csv", "t,x,y,z,force\n0,0,0.0005,0,0.8\n6,0.54,0.0005,0,0.8\n");
-    const Finished rendered = run("render scene.json --stroke stroke.csv --material tile.haptomaterial -o tile.wav "
-                                  "--rate 8000 --quiet");
+    const Finished rendered =
+        run("render scene.json --stroke stroke.csv --material tile.haptomaterial -o tile.wav "
+            "--rate 8000 --quiet");
     ASSERT_EQ(rendered.exitCode, 0) << rendered.errors;
 
     // The truth: the same surface at 90 mm/s, but for its force, which swings there by half.
