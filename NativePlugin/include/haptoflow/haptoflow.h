@@ -908,7 +908,8 @@ HAPTOFLOW_API haptoflow_status haptoflow_learning_material(const haptoflow_learn
 
 /* *json becomes a JSON object with what was learnt in figures: nearest_label, nearest_distance_db, fitted_distance_db,
  * spectral_distance_db, level_error_db, sliding_seconds, speed_mps, force_newtons, level_exponents, wave_vectors,
- * seeds, segments, seconds, stopped_early, warnings and more. Lives until the learning is closed. Errors: INVALID_ARGUMENT.
+ * seeds, segments, seconds, stopped_early, warnings and more. Lives until the learning is closed. Errors:
+ * INVALID_ARGUMENT.
  * [any-thread] Blocks for as long as another thread opens or closes a handle. */
 HAPTOFLOW_API haptoflow_status haptoflow_learning_report(const haptoflow_learning* learning, const char** json);
 
