@@ -34,6 +34,9 @@ constexpr double firstStep = 0.45;
 constexpr double shrinkage = 0.06;
 /// Segments of one chain of the fit; see TextureFit::distances.
 constexpr std::uint64_t segmentsPerChain = 8;
+/// Of the limit of seconds: when the search among the labels ends, and the fit.
+constexpr double labelShare = 0.4;
+constexpr double fitShare = 0.9;
 
 class Learner {
 public:
@@ -92,6 +95,19 @@ public:
 private:
     /// Of this thread's work: other programs' do not count.
     [[nodiscard]] double elapsedSeconds() const { return threadSeconds() - began_; }
+
+    /// Whether a share of the limit is spent; says so the first time.
+    bool isOutOfTime(double share) {
+        if (elapsedSeconds() <= share * settings_.secondsLimit) {
+            return false;
+        }
+        if (!report_.stoppedEarly) {
+            report_.stoppedEarly = true;
+            report_.warnings.push_back("the fit was stopped by the limit of " + plainNumber(settings_.secondsLimit) +
+                                       " s: another run may learn another material");
+        }
+        return true;
+    }
 
     void say(double share, const char* doing) const {
         if (settings_.cancellation != nullptr && settings_.cancellation->isCancelled()) {
@@ -227,6 +243,9 @@ private:
                 embeddings.push_back(space.ofLabel(label));
             }
             say(0.1 + 0.1 * static_cast<double>(first) / static_cast<double>(labels), "nearest label");
+            if (first > 0 && isOutOfTime(labelShare)) {
+                break;
+            }
             const std::vector<double> part = fit.distances(embeddings, chains, 0);
             distances.insert(distances.end(), part.begin(), part.end());
         }
@@ -234,13 +253,13 @@ private:
         const auto& all = model_.header().labels;
         const auto hasRibs = [&](std::size_t label) { return all[label].wavelengthMetres.has_value(); };
         std::vector<std::size_t> eligible;
-        for (std::size_t label = 0; label < labels; ++label) {
+        for (std::size_t label = 0; label < distances.size(); ++label) {
             if (report_.waveVectors.empty() || hasRibs(label)) {
                 eligible.push_back(label);
             }
         }
         if (eligible.empty()) {
-            eligible.resize(labels);
+            eligible.resize(distances.size());
             std::iota(eligible.begin(), eligible.end(), std::size_t{0});
         }
         return *std::ranges::min_element(eligible, {}, [&](std::size_t label) { return distances[label]; });
@@ -255,11 +274,7 @@ private:
             EvolutionStrategy strategy(space.coordinatesOf(start), firstStep, population, settings_.seed + 1);
             for (std::uint64_t generation = 0; generation < generations; ++generation) {
                 say(0.2 + 0.7 * static_cast<double>(generation) / static_cast<double>(generations), "embedding");
-                if (elapsedSeconds() > 0.9 * settings_.secondsLimit) {
-                    report_.stoppedEarly = true;
-                    report_.warnings.push_back("the fit was stopped by the limit of " +
-                                               plainNumber(settings_.secondsLimit) +
-                                               " s: another run may learn another material");
+                if (isOutOfTime(fitShare)) {
                     break;
                 }
                 const std::vector<std::vector<double>>& points = strategy.ask();
