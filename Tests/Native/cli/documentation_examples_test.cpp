@@ -130,8 +130,7 @@ protected:
         std::ranges::transform(samples, samples.begin(), [](float value) { return 0.01F * value; });
         wav.write(samples);
         wav.close();
-        write("scene.json", R"({"surfaces": [{"name": "floor", "shape": {"plane": {}}, "material": "denim"}]})");
-        write("stroke.csv", "t,x,y,z\n0,0,0.0005,0\n0.3,0.03,0.0005,0\n");
+        write("denim-floor.json", R"({"surfaces": [{"name": "floor", "shape": {"plane": {}}, "material": "denim"}]})");
     }
 
     void expectToRun(std::string command, const std::string& place) const {
