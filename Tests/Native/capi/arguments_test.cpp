@@ -1,4 +1,5 @@
 #include "open_engine.hpp"
+#include "learning_options.hpp"
 #include "public_header.hpp"
 
 #include <array>
@@ -101,6 +102,11 @@ TEST(ArgumentTest, NullPointersAreRefusedByEveryFunction) {
     const haptoflow_wave_features_options featureOptions{sizeof(featureOptions), 0, 0.0, 0.0, 0.0};
     haptoflow_wave_features* features = nullptr;
     ASSERT_EQ(haptoflow_wave_features_create(&featureOptions, &features), HAPTOFLOW_OK) << message();
+    const learning::testing::MadeRecording made({}, {.seconds = 4.0});
+    const haptoflow_learning_options learningOptions = optionsOf(made, open.runtime, open.model);
+    haptoflow_learning* noLearning = nullptr;
+    haptoflow_learning* learning = nullptr;
+    ASSERT_EQ(haptoflow_learn_material(&learningOptions, &learning), HAPTOFLOW_OK) << message();
     haptoflow_wave_frame frame{};
     haptoflow_voice noVoice = 0;
     uint32_t count = 0;
@@ -217,6 +223,16 @@ TEST(ArgumentTest, NullPointersAreRefusedByEveryFunction) {
           [&] { return haptoflow_wave_features_process(features, nullptr, 1, &frame, 1, &length); },
           [&] { return haptoflow_wave_features_process(features, numbers.data(), 1, nullptr, 1, &length); },
           [&] { return haptoflow_wave_features_process(features, numbers.data(), 1, &frame, 1, nullptr); }}},
+        {"haptoflow_learn_material",
+         {[&] { return haptoflow_learn_material(nullptr, &noLearning); },
+          [&] { return haptoflow_learn_material(&learningOptions, nullptr); }}},
+        {"haptoflow_learning_material",
+         {[&] { return haptoflow_learning_material(nullptr, &text); },
+          [&] { return haptoflow_learning_material(learning, nullptr); }}},
+        {"haptoflow_learning_report",
+         {[&] { return haptoflow_learning_report(nullptr, &text); },
+          [&] { return haptoflow_learning_report(learning, nullptr); }}},
+        {"haptoflow_learning_close", {[&] { return haptoflow_learning_close(nullptr); }}},
         {"haptoflow_noise_fill", {[&] { return haptoflow_noise_fill(0, 0, 0, nullptr, 1); }}},
     };
     std::map<std::string, std::size_t> called;
@@ -238,6 +254,8 @@ TEST(ArgumentTest, NullPointersAreRefusedByEveryFunction) {
     EXPECT_EQ(noGenerator, nullptr);
     EXPECT_EQ(noEngine, nullptr);
     EXPECT_EQ(noVoice, 0U);
+    EXPECT_EQ(noLearning, nullptr);
+    EXPECT_EQ(haptoflow_learning_close(&learning), HAPTOFLOW_OK);
     EXPECT_EQ(haptoflow_generator_close(&generator), HAPTOFLOW_OK);
 }
 
