@@ -45,11 +45,12 @@ _CHECKPOINT_EVERY = 1000
 _VALIDATION_BATCH = 512
 # Of each phase, to see what its steps cost before a budget is shared out; the first ones warm up.
 _REHEARSED_STEPS, _WARM_UP_STEPS = 12, 2
-# Of a run that somebody waits for: fewer where there is little time.
-_SECONDS_OF_A_REHEARSED_STEP = 10.0
+# Of a run that somebody waits for, at most; fewer steps are tried where there is little time.
+_REHEARSED_SHARE = 0.08
 _SHORTEST_TRAINING_SECONDS = 1.0
 # The unit is where the time left is shown: what the bar itself would guess takes all steps for equally long.
-_LIMITED_BAR = "{desc}: {percentage:3.0f}%|{bar}| {n_fmt}/{total_fmt} steps, {unit} [{elapsed}{postfix}]"
+_LIMITED_BAR = "{desc}: {percentage:3.0f}%|{bar}| {unit} [{elapsed}{postfix}]"
+_SECONDS_BETWEEN_BARS = 0.5
 _REHEARSED_PAIRS = 500
 
 
@@ -160,6 +161,7 @@ class Trainer:
         self._config, self._store, self._folder, self._processes = config, store, folder, processes
         self._limit: TimeLimit | None = None
         self._clock: Callable[[], float] = time.process_time
+        self._bar_shown = 0.0
         self._start, self._base, self._wave_vectors = start, base, wave_vectors
         optimiser = config.optimiser
         self._phases = list(_phases(config))
@@ -263,9 +265,7 @@ class Trainer:
             while self._step < phase.end:
                 level, field = self._train_step(losses, phase)
                 phase = self._paced(index)
-                bar.total = self._total
-                self._show_time_left(bar)
-                bar.update()
+                self._show_progress(bar)
                 if self._step % _LOG_EVERY == 0 or self._step == phase.end:
                     self._seconds += time.monotonic() - clock
                     clock = time.monotonic()
@@ -276,11 +276,20 @@ class Trainer:
                     raise TrainingStopped(f"stopped at step {self._step} of {self._total}; start again to go on")
         bar.close()
 
-    def _show_time_left(self, bar: tqdm) -> None:
-        """What the run still takes: the phases' time as it was measured, and what comes after training."""
-        if self._limit is not None and self._budget is not None:
-            minutes, seconds = divmod(round(self._budget.left_seconds + self._limit.seconds_after), 60)
-            bar.unit = f"{minutes}:{seconds:02d} left"
+    def _show_progress(self, bar: tqdm) -> None:
+        """Steps; of a run with a limit, its time: that of the phases as it was measured, and what comes after training."""
+        if self._limit is None or self._budget is None:
+            bar.total = self._total
+            bar.update()
+            return
+        left = self._budget.left_seconds + self._limit.seconds_after
+        bar.n = sum(self._budget.used_seconds)
+        bar.total = bar.n + left
+        minutes, seconds = divmod(round(left), 60)
+        bar.unit = f"step {self._step}, {minutes}:{seconds:02d} left"
+        if time.monotonic() - self._bar_shown > _SECONDS_BETWEEN_BARS:
+            self._bar_shown = time.monotonic()
+            bar.refresh()
 
     def _paced(self, index: int) -> _Phase:
         """The phase that runs, as long as its share of the budget lets it be by now."""
@@ -314,10 +323,8 @@ class Trainer:
             self._store, self._folder, self._processes, self._base, self._wave_vectors, self._start,
         )  # fmt: skip
         tried._clock = self._clock
-        rehearsed = _REHEARSED_STEPS
-        if self._limit is not None:
-            rehearsed = min(_REHEARSED_STEPS, max(2, int(self._limit.training_seconds / _SECONDS_OF_A_REHEARSED_STEP)))
-        seconds_per_step = [tried._seconds_per_step(phase, rehearsed) for phase in tried._phases]
+        longest = math.inf if self._limit is None else _REHEARSED_SHARE * self._limit.training_seconds
+        seconds_per_step = [tried._seconds_per_step(phase, longest / len(tried._phases)) for phase in tried._phases]
         if self._limit is not None:
             seconds = max(self._limit.training_seconds - (self._clock() - begun), _SHORTEST_TRAINING_SECONDS)
         budget = Budget.shared_out(
@@ -330,15 +337,20 @@ class Trainer:
         budget.start()
         return budget
 
-    def _seconds_per_step(self, phase: _Phase, steps: int) -> float:
+    def _seconds_per_step(self, phase: _Phase, longest_seconds: float) -> float:
         self._step = phase.first_step
         self._enter(phase)
+        entered = self._clock()
         for _ in range(_WARM_UP_STEPS):
             self._train_step(self._losses, phase)
+            if self._clock() - entered > 0.5 * longest_seconds:
+                break
         begun = self._clock()
-        for _ in range(steps):
+        for step in range(1, _REHEARSED_STEPS + 1):
             self._train_step(self._losses, phase)
-        return (self._clock() - begun) / steps
+            if self._clock() - entered > longest_seconds:
+                break
+        return (self._clock() - begun) / step
 
     def _enter(self, phase: _Phase) -> None:
         if self._step == phase.first_step and phase.name in ("reflow", "energy", "polish"):
