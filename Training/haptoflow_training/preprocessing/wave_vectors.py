@@ -34,7 +34,8 @@ _SLOWEST_MMPS, _LARGEST_SPEED_RATIO, _LEAST_STRAIGHT = 12.0, 2.5, 0.9
 _LOWEST_HZ, _HIGHEST_HZ = 28.0, 800.0
 _FEWEST_TURNS = 4.0
 _STEP_PER_MM = 1.0 / 70.0
-_LARGEST_POWER = 20.0
+_LARGEST_POWER, _LARGEST_ROOT = 20.0, 8.0
+_LINE_RADIUS_PER_MM = 0.045
 # A line's main lobe along a stretch of path reaches two of its bins to each side.
 _LOBE_PER_MM = 2.2 / _PATH_MM
 # The harmonics of a vector that is slightly off, or of ribs that are not quite even, lie further from where they should.
@@ -43,9 +44,10 @@ _NEIGHBOURHOOD_PER_MM = 0.3
 # In standard deviations of an average over noise, and times its mean; noise alone stays below 8 and 1.7.
 _SURE, _STRONG = 9.0, 1.9
 # Where the harmonics of a known vector are left out, there is less to hear a second one in.
-_SURE_BESIDE_KNOWN, _FEWEST_BESIDE_KNOWN = 5.5, 20
-# Of each quarter of the frequencies, and of all but one.
-_EVERYWHERE, _NEARLY_EVERYWHERE = 1.25, 1.5
+_SURE_BESIDE_KNOWN, _FEWEST_BESIDE_KNOWN = 6.0, 20
+# Times the mean of noise, of all groups of frequencies and of directions but one; and of a fundamental over its harmonic.
+_EVERYWHERE, _SHARE_OF_HARMONIC = 1.3, 0.4
+_CANDIDATES = 12
 _LEAST_SPREAD = 0.12
 _HARMONICS = 8
 _MOST_WAVE_VECTORS = 2
@@ -138,28 +140,36 @@ class _Plane:
             for order in range(1, _HARMONICS + 1):
                 near = np.linalg.norm(self._vectors - order * np.array(vector), axis=-1) < 1.5 * _LOBE_PER_MM
                 sureness[near] = 0.0
-        while True:
+        for _ in range(_CANDIDATES):
             place = np.unravel_index(int(sureness.argmax()), sureness.shape)
             if sureness[place] < _SURE:
-                return None
+                break
             vector = self._vectors[place]
-            if ratio[place] >= _STRONG and self._holds_everywhere(vector, known):
+            if ratio[place] >= _STRONG and min(self._support(vector, known), self._support(vector, ())) > _EVERYWHERE:
                 return float(vector[0]), float(vector[1])
             sureness[np.linalg.norm(self._vectors - vector, axis=-1) < _LOBE_PER_MM] = 0.0
+        return None
 
-    def _holds_everywhere(self, vector: NDArray[np.floating], known: Sequence[WaveVector]) -> bool:
-        """Whether its line is there in each half of the frequencies at which it was passed, and these differ."""
+    def _support(self, vector: NDArray[np.floating], known: Sequence[WaveVector]) -> float:
+        """Mean power of its line where that is weakest but one: of four groups of the frequencies at which it was passed,
+        and of five groups of directions. What only seems to be a wave vector is where harmonics of another one are in
+        some directions. 0 where the frequencies hardly differ."""
         rows = []
         for stretch in self._stretches:
             if stretch.heard(vector) and not _explained(stretch, vector, known):
-                hertz = abs(float(vector @ stretch.chord_mm)) / float(np.linalg.norm(stretch.chord_mm)) * stretch.speed_mmps
-                rows.append((hertz, min(_power_at(stretch, vector), _LARGEST_POWER)))
-        by_frequency = np.array(sorted(rows))
-        if float(np.log(by_frequency[:, 0]).std()) < _LEAST_SPREAD:
-            return False
-        quarters = [float(part.mean()) for part in np.array_split(by_frequency[:, 1], 4)]
-        lowest, second, *_ = sorted(quarters)
-        return lowest > _EVERYWHERE and second > _NEARLY_EVERYWHERE
+                chord = stretch.chord_mm
+                hertz = abs(float(vector @ chord)) / float(np.linalg.norm(chord)) * stretch.speed_mmps
+                angle = float(np.arctan2(vector[0] * chord[1] - vector[1] * chord[0], vector @ chord)) % np.pi
+                rows.append((hertz, angle, min(_power_at(stretch, vector), _LARGEST_POWER)))
+        passed = np.array(rows)
+        if len(passed) < _FEWEST_STRETCHES or float(np.log(passed[:, 0]).std()) < _LEAST_SPREAD:
+            return 0.0
+        weakest = []
+        # Beside a known vector, few directions are left to compare.
+        for column, groups in ((0, 4),) if known else ((0, 4), (1, 5)):
+            powers = passed[np.argsort(passed[:, column], kind="stable"), 2]
+            weakest.append(sorted(float(part.mean()) for part in np.array_split(powers, groups))[1])
+        return min(weakest)
 
     def fundamental(self, vector: WaveVector) -> WaveVector:
         """The lowest fraction of a clear line that is a clear line as well: a rib's harmonics may be stronger than it."""
@@ -170,28 +180,52 @@ class _Plane:
             clear = near & (sureness >= _SURE) & (ratio >= _STRONG)
             if clear.any():
                 place = np.unravel_index(int(np.where(clear, sureness, 0.0).argmax()), sureness.shape)
-                if self._holds_everywhere(self._vectors[place], ()):
+                lower = self._support(self._vectors[place], ())
+                if lower > max(_EVERYWHERE, _SHARE_OF_HARMONIC * self._support(np.array(vector), ())):
                     return float(self._vectors[place][0]), float(self._vectors[place][1])
         return vector
 
     def refined(self, vector: WaveVector) -> WaveVector:
-        """The same between the points of the plane."""
+        """The same between the points of the plane: where line and octave together are strongest, or the centre of a line
+        that has no octave, as uneven threads have."""
         best = np.array(vector)
-        for reach in (2.0 * _STEP_PER_MM, _STEP_PER_MM / 2.0, _STEP_PER_MM / 8.0):
-            offsets = np.stack(np.meshgrid(*[np.linspace(-reach, reach, 5)] * 2, indexing="ij"), axis=-1).reshape(-1, 2)
-            best = max((best + offset for offset in offsets), key=self._sharpness)
+        if self._has_octave(best):
+            for reach in (2.0 * _STEP_PER_MM, _STEP_PER_MM / 2.0, _STEP_PER_MM / 8.0):
+                best = max(best + _offsets(reach, 5), key=lambda place: self._strengths(place[None], (1, 2))[0])
+        else:
+            for _ in range(3):
+                offsets = _offsets(_LINE_RADIUS_PER_MM, 9)
+                offsets = offsets[np.linalg.norm(offsets, axis=1) <= 1.001 * _LINE_RADIUS_PER_MM]
+                strengths = self._strengths(best + offsets, (1,))
+                weights = np.maximum(strengths - np.quantile(strengths, 0.4), 0.0)
+                best = best + weights @ offsets / (weights.sum() + 1e-12)
         # The opposite vector is the same ribs.
         sign = 1.0 if best[np.abs(best).argmax()] > 0.0 else -1.0
         return round(sign * float(best[0]), 5), round(sign * float(best[1]), 5)
 
-    def _sharpness(self, vector: _Doubles) -> float:
-        """Of its line and the octave above, which halves what is left of an error."""
-        return sum(
-            float(np.sqrt(_power_at(one, order * vector)))
-            for order in (1, 2)
-            for one in self._stretches
-            if one.heard(order * vector)
-        )
+    def _has_octave(self, vector: _Doubles) -> bool:
+        ratio, sureness = self._evidence(())
+        near = np.linalg.norm(self._vectors - 2.0 * vector, axis=-1) < 2.0 * _STEP_PER_MM
+        return bool((near & (sureness >= _SURE) & (ratio >= _STRONG)).any())
+
+    def _strengths(self, vectors: _Doubles, orders: Sequence[int]) -> _Doubles:
+        """Of each vector [n, 2]: the mean root of its line's power, summed over these multiples."""
+        total = np.zeros(len(vectors))
+        for order in orders:
+            roots, count = np.zeros(len(vectors)), np.zeros(len(vectors))
+            for stretch in self._stretches:
+                heard = stretch.heard(order * vectors)
+                waves = np.exp(-2j * np.pi * order * (vectors @ stretch.place_mm.T)) @ stretch.values
+                roots += np.where(heard, np.minimum(np.abs(waves), _LARGEST_ROOT), 0.0)
+                count += heard
+            total += roots / np.maximum(count, 1.0)
+        return total
+
+
+def _offsets(reach: float, points: int) -> _Doubles:
+    """[points^2, 2]: a square grid about 0."""
+    steps = np.linspace(-reach, reach, points)
+    return np.stack(np.meshgrid(steps, steps, indexing="ij"), axis=-1).reshape(-1, 2)
 
 
 def _power_at(stretch: _Stretch, vector: NDArray[np.floating]) -> float:

@@ -252,13 +252,13 @@ def _require_splits(store: SegmentStore) -> None:
     if lacking:
         raise InputError(
             f"nothing to train with for {'; '.join(lacking)}: recordings are split 70:10:20 by their names, or by time "
-            "where there are few and they last 1.5 s at least; record more of these labels, leave the labels out "
+            "where there are few and they last 2 s at least; record more of these labels, leave the labels out "
             "(data.labels), or draw another split (data.recordings_seed)"
         )
     if not any(of_label["validation"] for of_label in counts.values()):
         raise InputError(
             "no recording is left for validation: recordings are split 70:10:20 by their names, or by time where there "
-            "are few and they last 1.5 s at least; record more, or draw another split (data.recordings_seed)"
+            "are few and they last 2 s at least; record more, or draw another split (data.recordings_seed)"
         )
 
 
