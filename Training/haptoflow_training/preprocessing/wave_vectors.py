@@ -47,7 +47,7 @@ _SURE, _STRONG = 9.0, 1.9
 _SURE_BESIDE_KNOWN, _FEWEST_BESIDE_KNOWN = 6.0, 20
 # Times the mean of noise, of all groups of frequencies and of directions but one; and of a fundamental over its harmonic.
 _EVERYWHERE, _SHARE_OF_HARMONIC = 1.3, 0.4
-_CANDIDATES = 12
+_CANDIDATES, _LARGEST_SUPPORT = 12, 6.0
 _LEAST_SPREAD = 0.12
 _HARMONICS = 8
 _MOST_WAVE_VECTORS = 2
@@ -140,15 +140,18 @@ class _Plane:
             for order in range(1, _HARMONICS + 1):
                 near = np.linalg.norm(self._vectors - order * np.array(vector), axis=-1) < 1.5 * _LOBE_PER_MM
                 sureness[near] = 0.0
+        best: tuple[float, WaveVector | None] = (0.0, None)
         for _ in range(_CANDIDATES):
             place = np.unravel_index(int(sureness.argmax()), sureness.shape)
             if sureness[place] < _SURE:
                 break
             vector = self._vectors[place]
             if ratio[place] >= _STRONG and min(self._support(vector, known), self._support(vector, ())) > _EVERYWHERE:
-                return float(vector[0]), float(vector[1])
+                # Beside a known vector, its harmonics lend support to what is not one.
+                weight = 1.0 if known else min(self._support(vector, ()), _LARGEST_SUPPORT)
+                best = max(best, (float(sureness[place]) * weight, (float(vector[0]), float(vector[1]))))
             sureness[np.linalg.norm(self._vectors - vector, axis=-1) < _LOBE_PER_MM] = 0.0
-        return None
+        return best[1]
 
     def _support(self, vector: NDArray[np.floating], known: Sequence[WaveVector]) -> float:
         """Mean power of its line where that is weakest but one: of four groups of the frequencies at which it was passed,

@@ -11,7 +11,7 @@ from typing import Any
 from haptoflow_training.recordings.cluster_dataset_files import DatasetFileError
 
 DEFAULTS_FILE = "recordings.json"
-_KEYS = (
+KEYS = (
     "label", "full_scale_mps2", "speed_mps", "velocity_mps", "force_newtons", "motion", "rate_hz", "licence", "source",
 )  # fmt: skip
 _FASTEST_MPS = 10.0
@@ -75,7 +75,7 @@ def read_sidecar(recording: Path) -> Sidecar:
 def _document(path: Path) -> dict[str, Any]:
     if not path.is_file():
         return {}
-    expected = f"a JSON object with keys of {', '.join(_KEYS)}"
+    expected = f"a JSON object with keys of {', '.join(KEYS)}"
     try:
         document = json.loads(path.read_text(encoding="utf-8-sig"))
     except (OSError, ValueError) as error:
@@ -83,8 +83,8 @@ def _document(path: Path) -> dict[str, Any]:
     if not isinstance(document, dict):
         raise DatasetFileError(path, f"JSON of another kind ({type(document).__name__})", expected)
     for key in document:
-        if key not in _KEYS:
-            raise DatasetFileError(path, f"unknown key '{key}'", f"keys of {', '.join(_KEYS)}")
+        if key not in KEYS:
+            raise DatasetFileError(path, f"unknown key '{key}'", f"keys of {', '.join(KEYS)}")
     return document
 
 
