@@ -11,6 +11,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -35,7 +36,7 @@ _LOWEST_HZ, _HIGHEST_HZ = 28.0, 800.0
 _FEWEST_TURNS = 4.0
 _STEP_PER_MM = 1.0 / 70.0
 _LARGEST_POWER, _LARGEST_ROOT = 20.0, 8.0
-_LINE_RADIUS_PER_MM = 0.045
+_LINE_RADIUS_PER_MM, _OCTAVE_RADIUS_PER_MM = 0.045, 0.03
 # A line's main lobe along a stretch of path reaches two of its bins to each side.
 _LOBE_PER_MM = 2.2 / _PATH_MM
 # The harmonics of a vector that is slightly off, or of ribs that are not quite even, lie further from where they should.
@@ -129,12 +130,17 @@ class _Plane:
         ratio[~(enough & self._allowed)] = 0.0
         return ratio, (ratio - 1.0) * np.sqrt(count)
 
+    @cached_property
+    def _unaided(self) -> tuple[_Doubles, _Doubles]:
+        return self._evidence(())
+
     def clearest(self, known: Sequence[WaveVector]) -> WaveVector | None:
         """The vector with the clearest line that holds at low frequencies as at high ones; None without one."""
-        ratio, sureness = self._evidence(known)
+        ratio, sureness = self._evidence(known) if known else self._unaided
+        sureness = sureness.copy()
         if known:
             # As clear as a first one in all stretches, and still there in those that cannot be misled.
-            _, unaided = self._evidence(())
+            _, unaided = self._unaided
             sureness = np.minimum(unaided, sureness * (_SURE / _SURE_BESIDE_KNOWN))
         for vector in known:
             for order in range(1, _HARMONICS + 1):
@@ -176,7 +182,7 @@ class _Plane:
 
     def fundamental(self, vector: WaveVector) -> WaveVector:
         """The lowest fraction of a clear line that is a clear line as well: a rib's harmonics may be stronger than it."""
-        ratio, sureness = self._evidence(())
+        ratio, sureness = self._unaided
         for order in (4, 3, 2):
             wanted = np.array(vector) / order
             near = np.linalg.norm(self._vectors - wanted, axis=-1) < 1.5 * _STEP_PER_MM
@@ -196,18 +202,22 @@ class _Plane:
             for reach in (2.0 * _STEP_PER_MM, _STEP_PER_MM / 2.0, _STEP_PER_MM / 8.0):
                 best = max(best + _offsets(reach, 5), key=lambda place: self._strengths(place[None], (1, 2))[0])
         else:
-            for _ in range(3):
-                offsets = _offsets(_LINE_RADIUS_PER_MM, 9)
-                offsets = offsets[np.linalg.norm(offsets, axis=1) <= 1.001 * _LINE_RADIUS_PER_MM]
-                strengths = self._strengths(best + offsets, (1,))
-                weights = np.maximum(strengths - np.quantile(strengths, 0.4), 0.0)
-                best = best + weights @ offsets / (weights.sum() + 1e-12)
+            best = 0.5 * (self._centre(best, _LINE_RADIUS_PER_MM, (1,)) + self._centre(best, _OCTAVE_RADIUS_PER_MM, (1, 2)))
         # The opposite vector is the same ribs.
         sign = 1.0 if best[np.abs(best).argmax()] > 0.0 else -1.0
         return round(sign * float(best[0]), 5), round(sign * float(best[1]), 5)
 
+    def _centre(self, vector: _Doubles, radius_per_mm: float, orders: Sequence[int]) -> _Doubles:
+        for _ in range(3):
+            offsets = _offsets(radius_per_mm, 9)
+            offsets = offsets[np.linalg.norm(offsets, axis=1) <= 1.001 * radius_per_mm]
+            strengths = self._strengths(vector + offsets, orders)
+            weights = np.maximum(strengths - np.quantile(strengths, 0.4), 0.0)
+            vector = vector + weights @ offsets / (weights.sum() + 1e-12)
+        return vector
+
     def _has_octave(self, vector: _Doubles) -> bool:
-        ratio, sureness = self._evidence(())
+        ratio, sureness = self._unaided
         near = np.linalg.norm(self._vectors - 2.0 * vector, axis=-1) < 2.0 * _STEP_PER_MM
         return bool((near & (sureness >= _SURE) & (ratio >= _STRONG)).any())
 
