@@ -8,11 +8,16 @@ import numpy as np
 import pytest
 from training_fixtures import RATE_HZ, FakeRecording, FakeStore, travelled_mm
 
-from haptoflow_training.evaluation.level_calibration import ClosedLoopLevels, closed_loop_levels
+from haptoflow_training.evaluation.level_calibration import ClosedLoopLevels, TierSource, closed_loop_levels
 from haptoflow_training.evaluation.level_following import level_tables
 from haptoflow_training.export.exponents import LabelExponents, fit_exponents
+from haptoflow_training.export.exporter import _label_entry
+from haptoflow_training.export.label_info import LabelInfo
 from haptoflow_training.export.level_table import LevelTable, table_through
+from haptoflow_training.export.trained_tier import TrainedTier
+from haptoflow_training.training.config import ModelConfig, TrainingConfig
 from haptoflow_training.training.held_out import HeldOut
+from haptoflow_training.training.trainer import build_model
 
 RISE_DB = 14.0
 SECONDS = 40.0
@@ -109,6 +114,35 @@ def test_what_is_written_keeps_the_bounds_of_the_model_format(
     assert 2 <= len(written["speeds_mps"]) == len(written["log_levels"]) <= 16
     assert np.all(np.diff(written["speeds_mps"]) > 0.0)
     assert 0.01 <= written["force_newtons"] <= 100.0 and -4.0 <= written["force_exponent"] <= 4.0
+
+
+def test_the_table_stands_in_its_label_and_in_no_other(followed: tuple[dict[int, LevelTable], FakeStore]) -> None:
+    tables, store = followed
+    brick, wood = (
+        _label_entry(store, row, LabelInfo(name, "stone", 900.0, 0.5), 1, HeldOut(), tables.get(row))
+        for row, name in enumerate(store.labels)
+    )
+    assert brick["level"] == tables[0].to_json()
+    assert "level" not in wood
+
+
+def test_a_tier_that_is_measured_with_a_table_scales_that_label_by_it_and_no_other() -> None:
+    config = TrainingConfig(model=ModelConfig(width=16, previous_width=8))
+    tier = TrainedTier(config, ["brick", "wood"], build_model(config, [(), ()]).eval().requires_grad_(False))
+    table = LevelTable((0.05, 0.5), (1.0, 2.0), 1.0, 0.5, 1.0)
+    embeddings = TierSource(tier).embeddings
+    motions = np.array([[0.2, 0.0, 2.0], [0.2, 0.0, 2.0]], dtype=np.float32)
+    nothing = np.zeros((2, 200), dtype=np.float32)
+    noise = np.random.default_rng(1).standard_normal((2, 200)).astype(np.float32)
+    phase = np.zeros((2, 2), dtype=np.float32)
+    plain = TierSource(tier).generate(embeddings, motions, nothing, noise, phase)
+    tabled = TierSource(tier, {0: table}).generate(embeddings, motions, nothing, noise, phase)
+    again = TierSource(tier, {0: LevelTable((0.05,), (0.0,), 1.0, 0.0, 0.0)}).generate(
+        embeddings, motions, nothing, noise, phase
+    )
+    np.testing.assert_array_equal(tabled[1], plain[1])
+    ratio = np.sqrt(np.square(tabled[0]).mean() / np.square(again[0]).mean())
+    assert np.log(ratio) == pytest.approx(float(table.log_level(0.2, 2.0)), abs=1e-3)
 
 
 def test_a_smooth_curve_takes_few_speeds_and_a_kinked_one_sixteen_at_most() -> None:
