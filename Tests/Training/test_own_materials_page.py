@@ -137,7 +137,7 @@ def test_every_column_and_key_of_the_page_is_one_that_is_read_and_none_is_missin
         (["evaluate", "--model", "own.haptoflow"], "--recordings is missing"),
         (["evaluate", "--recordings", "gone"], "gone: does not exist"),
         (["evaluate", "--recordings", "recordings"], "no recording of a label of default.haptoflow; found denim"),
-        (["train", "--recordings", "recordings", "--out", "out/x"], "recordings of your own; name their labels.*--labels FILE"),
+        (["train", "--recordings", "recordings", "--out", "out/x"], "of your own; name their labels.*--labels FILE"),
         (["evaluate", "--recordings", "recordings", "--engine", "gone"], "run `npm run build`"),
     ],
 )

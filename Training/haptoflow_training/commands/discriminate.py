@@ -38,7 +38,9 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser], su
         "  haptoflow-training discriminate --model own.haptoflow --recordings recordings --out out/own/discrimination",
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
-    parser.add_argument("--engine", type=Path, default=ENGINE, help="the built command line (default: build/native/haptoflow)")
+    parser.add_argument(
+        "--engine", type=Path, default=ENGINE, help="the built command line (default: build/native/haptoflow)"
+    )
     add_options(parser)
     parser.add_argument("--model", type=Path, default=_ROOT / SHIPPED_MODEL, help="default: the one shipped")
     parser.add_argument("--recordings-per-label", type=int, default=16, help="of the classifier (default: 16)")

@@ -32,8 +32,9 @@ class OwnParts:
 def add_options(parser: argparse.ArgumentParser) -> None:
     """--recordings, --labels and --all, which mean the same in both commands."""
     parser.add_argument(
-        "--recordings", type=Path, nargs="+", metavar="PATH", help="folders of recordings, or files, to compare a model with"
-    )
+        "--recordings", type=Path, nargs="+", metavar="PATH",
+        help="folders of recordings, or files, to compare a model with",
+    )  # fmt: skip
     parser.add_argument(
         "--labels", type=Path, metavar="FILE", help="TOML file of labels and their textures, as for `train`"
     )
@@ -73,8 +74,8 @@ def own_parts(options: argparse.Namespace, model: Path, folder: Path) -> OwnPart
     held_out = _parts(store, "test")
     if not held_out:
         raise InputError(
-            f"{', '.join(map(str, options.recordings))}: nothing is held out of these recordings: they are too short to be "
-            "split by time; record 5 s at least, or compare with all of them (--all) if the model never saw them"
+            f"{', '.join(map(str, options.recordings))}: nothing is held out of these recordings: they are too short to "
+            "be split by time; record 5 s at least, or compare with all of them (--all) if the model never saw them"
         )
     return OwnParts(held_out, [*_parts(store, "train"), *_parts(store, "validation")])
 

@@ -16,7 +16,8 @@ from haptoflow_training.recordings.open_recordings import Dataset, open_recordin
 
 _DESCRIPTION = """\
 Turn recordings into what training reads: one axis of vibration (DFT321) at 2 kHz with the velocity and force
-of every sample, split 70:10:20 by recording (by time where a label has too few), silence put at some ends. The store is a folder of three files;
+of every sample, split 70:10:20 by recording (by time where a label has too few), silence put at some ends. The
+store is a folder of three files;
 it appears when it is complete, and an older one at the same place is replaced only then.
 
 Broken recordings are skipped and listed. Without --labels, the Cluster Haptic Texture Dataset (known by its

@@ -82,4 +82,5 @@ def labels_to_cut(
     identities: Iterable[tuple[str, RecordingIdentity]], settings: PreprocessingSettings, seed: int
 ) -> Collection[str]:
     """Labels whose recordings' names alone leave a split empty."""
-    return labels_without_a_split(((label, split_of(identity, settings, seed)) for label, identity in identities), settings)
+    splits = ((label, split_of(identity, settings, seed)) for label, identity in identities)
+    return labels_without_a_split(splits, settings)

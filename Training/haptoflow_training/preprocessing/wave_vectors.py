@@ -283,7 +283,8 @@ def _stretches(recordings: Sequence[MaterialRecording]) -> list[_Stretch]:
                 continue
             if np.linalg.norm(place[last - 1] - place[first]) < _LEAST_STRAIGHT * _PATH_MM:
                 continue
-            stretch = _stretch(flat[part], place[part] - place[first], path[part] - path[first], float(speed[part].mean()))
+            mean_speed = float(speed[part].mean())
+            stretch = _stretch(flat[part], place[part] - place[first], path[part] - path[first], mean_speed)
             if stretch is not None:
                 found.append(stretch)
     if len(found) > _MOST_STRETCHES:

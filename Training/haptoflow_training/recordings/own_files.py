@@ -117,7 +117,7 @@ def _one(path: Path, found: Iterable[Series | None], what: str) -> Series | None
 def _require_rate(path: Path, acceleration: Series) -> None:
     rate_hz = 1.0 / float(np.median(np.diff(acceleration.time_seconds)))
     if not 0.99 * LOWEST_RATE_HZ <= rate_hz <= 1.01 * HIGHEST_RATE_HZ:
-        expected = "1000 to 192000; time_s is in seconds, of which its last row and its first are as many apart as the recording lasts"
+        expected = "1000 to 192000 (time_s is in seconds)"
         raise DatasetFileError(path, f"{rate_hz:.4g} samples a second by time_s", expected)
 
 

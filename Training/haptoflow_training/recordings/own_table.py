@@ -179,7 +179,8 @@ def _series(
     broken = ~np.isfinite(rows).all(axis=1)
     if what == "acceleration" and broken.mean() > TOLERATED_SHARE:
         row = int(broken.argmax()) + 2
-        raise DatasetFileError(path, f"no number in row {row}, column {form.columns[0]} or {TIME_COLUMN}", "finite numbers")
+        found = f"no number in row {row}, column {form.columns[0]} or {TIME_COLUMN}"
+        raise DatasetFileError(path, found, "finite numbers")
     rows = rows[~broken]
     if len(rows) < 4:
         raise DatasetFileError(path, f"{len(rows)} rows with numbers in {', '.join(form.columns)}", "4 rows at least")

@@ -49,7 +49,8 @@ class Budget:
     @property
     def left_seconds(self) -> float:
         """Of all phases."""
-        return sum(max(0.0, all_of_it - used) for all_of_it, used in zip(self.allotted_seconds, self.used_seconds, strict=True))
+        phases = zip(self.allotted_seconds, self.used_seconds, strict=True)
+        return sum(max(0.0, allotted - used) for allotted, used in phases)
 
     def start(self) -> None:
         """Leave out of account what the process has done until now."""

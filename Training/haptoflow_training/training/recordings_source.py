@@ -196,7 +196,11 @@ def _open_folders(data: DataConfig, store_folder: Path, workers: int) -> Source:
         label_map = _label_map(data, roots)
         roots = [open_recordings(Path(folder), label_map) for folder in data.folders]
         known = {definition.name: _label_info(definition) for definition in label_map.definitions}
-        asked = {one.name for one in label_map.definitions if one.wave_vectors_per_mm is None and one.wavelength_metres is None}
+        asked = {
+            one.name
+            for one in label_map.definitions
+            if one.wave_vectors_per_mm is None and one.wavelength_metres is None
+        }
         labels_made_from = [dataclasses.asdict(definition) for definition in label_map.definitions]
     entries = [entry for root in roots for entry in root if not data.labels or entry.label in data.labels]
     left_out = _left_out(roots)
