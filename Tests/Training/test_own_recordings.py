@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import argparse
 import os
 import re
 from pathlib import Path
@@ -10,7 +11,8 @@ import pytest
 from dataset_samples import small_recording
 
 from haptoflow_training.cli import main
-from haptoflow_training.commands.train import report_left_out
+from haptoflow_training.commands import train
+from haptoflow_training.commands.train import configuration, report_left_out
 from haptoflow_training.errors import InputError
 from haptoflow_training.preprocessing.preparation import prepare_store
 from haptoflow_training.recordings.cluster_dataset import open_dataset
@@ -165,3 +167,26 @@ def test_a_store_is_made_anew_where_recordings_or_labels_have_changed_and_only_t
     assert made() != second, "the labels have changed"
     labels_file(labels, "denim")
     assert opened(folder, labels, store).store.labels == ["denim"]
+
+
+def test_paths_are_relative_to_where_one_stands_and_those_of_a_configuration_to_its_file(
+    folder: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    labels_file(tmp_path / "labels.toml", "denim", "felt")
+    (tmp_path / "run.toml").write_text('[data]\nsource = "folders"\nfolders = ["recordings"]\nlabels_file = "labels.toml"\n')
+    elsewhere = tmp_path / "elsewhere" / "deep"
+    elsewhere.mkdir(parents=True)
+    monkeypatch.chdir(elsewhere)
+    words = ["train", "--config", "../../run.toml", "--out", "out"]
+    data = configuration(parsed(words)).data
+    assert [Path(path) for path in data.folders] == [folder] and Path(data.labels_file) == tmp_path / "labels.toml"
+    assert len(open_source(data, tmp_path / "store", 1).labels) == 2
+    (elsewhere / "mine").mkdir()
+    data = configuration(parsed([*words, "--recordings", "mine", "--labels", "mine.toml"])).data
+    assert data.folders == (str(elsewhere / "mine"),) and data.labels_file == str(elsewhere / "mine.toml")
+
+
+def parsed(words: list[str]) -> argparse.Namespace:
+    parser = argparse.ArgumentParser()
+    train.register(parser.add_subparsers(), "")
+    return parser.parse_args(words)

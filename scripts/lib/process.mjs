@@ -14,18 +14,18 @@ export class CommandError extends Error {
 /**
  * Runs a child to its end with this process's output and no input.
  * @param {string} command @param {string[]} args
- * @param {{env?: Record<string, string>, quiet?: boolean, shell?: boolean, limitSeconds?: number}} options
- *   quiet: collect output instead of showing it; limitSeconds: a child that takes longer is killed and has failed
+ * @param {{env?: Record<string, string>, cwd?: string, quiet?: boolean, shell?: boolean, limitSeconds?: number}} options
+ *   cwd: where the child stands, by default the repository's root; quiet: collect output instead of showing it; limitSeconds: a child that takes longer is killed and has failed
  * @returns {Promise<{exitCode: number, output: string}>} output is empty unless quiet
  */
 export function run(command, args, options = {}) {
-  const unknown = Object.keys(options).filter((name) => !['env', 'quiet', 'shell', 'limitSeconds'].includes(name));
+  const unknown = Object.keys(options).filter((name) => !['env', 'cwd', 'quiet', 'shell', 'limitSeconds'].includes(name));
   if (unknown.length > 0) throw new TypeError(`run: unknown options ${unknown.join(', ')}`);
   return new Promise((resolve, reject) => {
     // Before the child, whose limit begins with it; and a timer may be a millisecond early.
     const begin = performance.now();
     const child = spawn(command, args, {
-      cwd: repositoryRoot,
+      cwd: options.cwd ?? repositoryRoot,
       env: { ...process.env, ...options.env },
       stdio: ['ignore', options.quiet ? 'pipe' : 'inherit', options.quiet ? 'pipe' : 'inherit'],
       shell: options.shell ?? false,

@@ -9,3 +9,6 @@ export const inRepository = (...parts) => path.join(repositoryRoot, ...parts);
 
 /** Where the command line program lies after a release build. */
 export const commandLinePath = () => inRepository('build', 'native', process.platform === 'win32' ? 'haptoflow.exe' : 'haptoflow');
+
+/** Where the person stands who ran npm or ./run: paths in arguments are relative to it. npm runs its scripts elsewhere. */
+export const standingIn = () => path.resolve(process.env.INIT_CWD || process.cwd());

@@ -8,9 +8,11 @@ from pathlib import Path
 
 from tqdm import tqdm
 
+from haptoflow_training.commands.own_parts import ENGINE, add_options, own_parts, require_engine
 from haptoflow_training.evaluation.label_discrimination import (
     DiscriminationReport,
     discriminate,
+    discriminate_parts,
     train_classifier,
     write_report,
 )
@@ -28,13 +30,18 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser], su
             "Trains a simple classifier (third-octave spectrum and level, judged at the stroke's speed and force) on "
             "synthetic hand recordings, renders strokes that no training saw through the engine's command line, and "
             "counts how often the classifier names the label. Recordings of the same strokes are judged beside them: "
-            "no render can be told apart better than those."
+            "no render can be told apart better than those. With --recordings, the classifier learns from what the model "
+            "may have seen of these, and the parts that it did not see are rendered and named."
         ),
         epilog="example:\n  haptoflow-training discriminate --engine build/native/haptoflow"
-        " --out Training/results/default",
+        " --out Training/results/default\n"
+        "  haptoflow-training discriminate --model own.haptoflow --recordings recordings --out out/own/discrimination",
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
-    parser.add_argument("--engine", type=Path, required=True, help="the built command line, build/native/haptoflow")
+    parser.add_argument(
+        "--engine", type=Path, default=ENGINE, help="the built command line (default: build/native/haptoflow)"
+    )
+    add_options(parser)
     parser.add_argument("--model", type=Path, default=_ROOT / SHIPPED_MODEL, help="default: the one shipped")
     parser.add_argument("--recordings-per-label", type=int, default=16, help="of the classifier (default: 16)")
     parser.add_argument("--strokes-per-label", type=int, default=4, help="rendered and named (default: 4)")
@@ -45,6 +52,9 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser], su
 
 
 def run(options: argparse.Namespace) -> int:
+    require_engine(options.engine)
+    if options.recordings:
+        return _run_own(options)
     materials = load_materials()
     bar = tqdm(total=len(materials) * (options.recordings_per_label + options.strokes_per_label), unit="recording")
     classifier = train_classifier(materials, options.recordings_per_label, options.seed, bar.update, options.workers)
@@ -60,6 +70,22 @@ def run(options: argparse.Namespace) -> int:
             advance=bar.update,
         )
     bar.close()
+    return _report(options, report)
+
+
+def _run_own(options: argparse.Namespace) -> int:
+    with tempfile.TemporaryDirectory() as temporary:
+        folder = Path(temporary)
+        parts = own_parts(options, options.model, folder)
+        with tqdm(total=len(parts.held_out), unit="part", desc="render") as bar:
+            report = discriminate_parts(
+                parts.seen, parts.held_out, engine=options.engine, model=options.model, seed=options.seed, folder=folder,
+                advance=bar.update,
+            )  # fmt: skip
+    return _report(options, report)
+
+
+def _report(options: argparse.Namespace, report: DiscriminationReport) -> int:
     write_report(report, options.out, sha256_of(options.model))
     print(
         f"named right: {report.render_accuracy:.1%} of {len(report.outcomes)} renders, "

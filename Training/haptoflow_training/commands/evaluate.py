@@ -11,6 +11,8 @@ from typing import Any
 
 from tqdm import tqdm
 
+from haptoflow_training.commands import evaluate_own
+from haptoflow_training.commands.own_parts import ENGINE, add_options
 from haptoflow_training.errors import InputError
 from haptoflow_training.evaluation import accuracy
 from haptoflow_training.evaluation.accuracy import Yardstick
@@ -46,12 +48,15 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser], su
             "milliseconds per segment through the engine. Trains the models that rows need (about eight minutes of one "
             "core each), keeps what is measured beside the results, and goes on where it was stopped. A row whose figures "
             "are kept is measured again only when its configuration or its model has changed. Every timing run is added "
-            "to timing-history.json; the first complete one of the shipped model is the one that is published."
+            "to timing-history.json; the first complete one of the shipped model is the one that is published.\n\n"
+            "With --recordings, one model beside recordings of your own instead: the parts that no training saw are rendered "
+            "by the engine, and level, GFC and LSD of each label are printed; --out writes them down with a picture."
         ),
         epilog=(
             "examples:\n"
             "  haptoflow-training evaluate --quick        what is there, on a quarter of the recordings\n"
             "  haptoflow-training evaluate --rows plain-euler-1 standard\n"
+            "  haptoflow-training evaluate --model own.haptoflow --recordings recordings --out out/own/accuracy\n"
         ),
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
@@ -64,8 +69,14 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser], su
         "--store", type=Path, default=_ROOT / "out" / "train" / "default" / "store", help="prepared recordings"
     )
     parser.add_argument(
-        "--out", type=Path, default=_ROOT / "Training" / "results", help="for accuracy-time.json and the measured rows"
+        "--out", type=Path, help="for accuracy-time.json and the measured rows (default: Training/results); with "
+        "--recordings, for own-accuracy.json, .md and .png (default: printed only)",
+    )  # fmt: skip
+    parser.add_argument(
+        "--model", type=Path, metavar="FILE", help="with --recordings: the model file (default: the one shipped)"
     )
+    parser.add_argument("--engine", type=Path, default=ENGINE, help="with --recordings: the built command line")
+    add_options(parser)
     parser.add_argument("--document", type=Path, default=_ROOT / "Documentation~" / "accuracy-and-time.md")
     parser.add_argument("--lanes", type=int, default=os.cpu_count() or 1, help="trainings at a time (default: cores)")
     parser.add_argument("--workers", type=int, default=os.cpu_count() or 1, help="processes that record and measure (default: cores)")
@@ -73,6 +84,10 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser], su
 
 
 def run(options: argparse.Namespace) -> int:
+    if options.recordings or options.model or options.labels:
+        options.own_out = options.out
+        return evaluate_own.run(options)
+    options.out = options.out or _ROOT / "Training" / "results"
     plan = load_plan(options.plan)
     chosen = [row for row in plan if not options.rows or row.name in options.rows]
     if options.rows and len(chosen) != len(set(options.rows)):

@@ -27,13 +27,16 @@ class WindowFeatures:
         return len(self.spectra)
 
 
-def window_features(waveform_mps2: NDArray[np.floating], motion: NDArray[np.floating]) -> WindowFeatures:
-    """Features of every whole second of sliding (mean speed above 10 mm/s, force above 0.05 N).
+def window_features(
+    waveform_mps2: NDArray[np.floating], motion: NDArray[np.floating], step_samples: int = _WINDOW // 2
+) -> WindowFeatures:
+    """Features of every whole second of sliding (mean speed above 10 mm/s, force above 0.05 N), a window every
+    `step_samples`.
 
     waveform_mps2: [n] at 2 kHz. motion: [n, 3] vx, vy (m/s), force (N).
     """
     spectra, conditions = [], []
-    for start in range(0, len(waveform_mps2) - _WINDOW + 1, _WINDOW // 2):
+    for start in range(0, len(waveform_mps2) - _WINDOW + 1, step_samples):
         part = motion[start : start + _WINDOW]
         velocity, force = part[:, :2], part[:, 2].mean()
         speed = np.hypot(velocity[:, 0], velocity[:, 1])
@@ -65,12 +68,14 @@ class LabelClassifier:
     Gaussian discriminant analysis with the condition as covariate; covariances are drawn a fifth towards their mean.
     """
 
-    def __init__(self, training: dict[str, WindowFeatures]) -> None:
+    def __init__(self, training: dict[str, WindowFeatures], fewest_windows: int = 30) -> None:
         self.labels = list(training)
         self._coefficients, covariances = [], []
         for label, features in training.items():
-            if len(features) < 30:
-                raise ValueError(f"label '{label}' has {len(features)} windows of sliding, expected 30 or more")
+            if len(features) < fewest_windows:
+                raise ValueError(
+                    f"label '{label}' has {len(features)} windows of sliding, expected {fewest_windows} or more"
+                )
             coefficients, *_ = np.linalg.lstsq(features.conditions, features.spectra, rcond=None)
             self._coefficients.append(coefficients)
             covariances.append(np.cov((features.spectra - features.conditions @ coefficients).T))

@@ -13,9 +13,11 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.stats import spearmanr
 
-from haptoflow_training.evaluation.engine_render import render_motion
+from haptoflow_training.errors import InputError
+from haptoflow_training.evaluation.engine_render import EngineRender, render_motion
 from haptoflow_training.evaluation.label_classifier import LabelClassifier, WindowFeatures, concatenate, window_features
 from haptoflow_training.evaluation.model_stamp import model_line, picture_metadata
+from haptoflow_training.evaluation.own_accuracy import HeldOutPart
 from haptoflow_training.preprocessing.pipeline import PreparedRecording, preprocess_recording
 from haptoflow_training.preprocessing.settings import PreprocessingSettings
 from haptoflow_training.recordings.synthetic import (
@@ -26,6 +28,8 @@ from haptoflow_training.recordings.synthetic import (
 )
 
 _SLIDING_MPS = 0.01
+# Of recordings of one's own, which are short: windows of a second overlap more, and fewer are enough.
+_OWN_STEP_SAMPLES, _FEWEST_OWN_WINDOWS = 250, 12
 
 
 @dataclass(frozen=True)
@@ -86,7 +90,8 @@ class DiscriminationReport:
         """[true label, named label] counts of the renders."""
         matrix = np.zeros((len(self.labels), len(self.labels)), dtype=np.int64)
         for outcome in self.outcomes:
-            matrix[self.labels.index(outcome.label), self.labels.index(outcome.named_render)] += 1
+            if outcome.named_render in self.labels:
+                matrix[self.labels.index(outcome.label), self.labels.index(outcome.named_render)] += 1
         return matrix
 
 
@@ -151,20 +156,68 @@ def discriminate(
                 continue
             render = render_motion(engine, material.label, truth.motion, folder, model=model, seed=seed + number)
             rendered = window_features(render.waveform_mps2, truth.motion[: len(render.waveform_mps2)])
-            outcomes.append(
-                StrokeOutcome(
-                    label=material.label,
-                    stroke=name,
-                    named_render=classifier.name(rendered),
-                    named_recording=classifier.name(features),
-                    render_rms_mps2=_sliding_rms(render.waveform_mps2, truth.motion),
-                    recording_rms_mps2=_sliding_rms(truth.waveform_mps2, truth.motion),
-                    seam_jump_ratio=render.report["seams"]["jump_ratio"],
-                    seam_outlier_share=render.report["seams"]["outlier_share"],
-                )
-            )
+            part = HeldOutPart(name, material.label, truth.waveform_mps2, truth.motion)
+            outcomes.append(_outcome(classifier, part, render, rendered, features))
         advance(strokes_per_label)
     return DiscriminationReport([material.label for material in materials], outcomes)
+
+
+def _outcome(
+    classifier: LabelClassifier,
+    part: HeldOutPart,
+    render: EngineRender,
+    rendered: WindowFeatures,
+    recorded: WindowFeatures,
+) -> StrokeOutcome:
+    return StrokeOutcome(
+        label=part.label,
+        stroke=part.name,
+        named_render=classifier.name(rendered),
+        named_recording=classifier.name(recorded),
+        render_rms_mps2=_sliding_rms(render.waveform_mps2, part.motion),
+        recording_rms_mps2=_sliding_rms(part.recorded, part.motion),
+        seam_jump_ratio=render.report["seams"]["jump_ratio"],
+        seam_outlier_share=render.report["seams"]["outlier_share"],
+    )
+
+
+def discriminate_parts(
+    seen: Sequence[HeldOutPart],
+    held_out: Sequence[HeldOutPart],
+    *,
+    engine: Path,
+    model: Path,
+    seed: int,
+    folder: Path,
+    advance: Callable[[int], object],
+) -> DiscriminationReport:
+    """As `discriminate`, of recordings of one's own: a classifier of what was seen names what was held out. InputError
+    where a label has too little of either, or where there is only one label."""
+    training: dict[str, list[WindowFeatures]] = {}
+    for part in seen:
+        training.setdefault(part.label, []).append(window_features(part.recorded, part.motion, _OWN_STEP_SAMPLES))
+    together = {label: concatenate(found) for label, found in training.items()}
+    if len(together) < 2:
+        raise InputError(f"only {', '.join(together) or 'nothing'} to tell apart: --recordings needs two labels at least")
+    for label, features in together.items():
+        if len(features) < _FEWEST_OWN_WINDOWS:
+            raise InputError(
+                f"label '{label}' has {len(features)} windows of a second of sliding to learn from, expected "
+                f"{_FEWEST_OWN_WINDOWS}: record 10 s at least, above 10 mm/s and 0.05 N"
+            )
+    classifier = LabelClassifier(together, _FEWEST_OWN_WINDOWS)
+    outcomes: list[StrokeOutcome] = []
+    for number, part in enumerate(held_out):
+        features = window_features(part.recorded, part.motion, _OWN_STEP_SAMPLES)
+        if len(features) > 0 and part.label in together:
+            render = render_motion(engine, part.label, part.motion, folder, model=model, seed=seed + number)
+            rendered = window_features(render.waveform_mps2, part.motion[: len(render.waveform_mps2)], _OWN_STEP_SAMPLES)
+            if len(rendered) > 0:
+                outcomes.append(_outcome(classifier, part, render, rendered, features))
+        advance(1)
+    if not outcomes:
+        raise InputError("no held-out part holds a second of sliding: record 10 s of each label at least")
+    return DiscriminationReport([label for label in together if any(o.label == label for o in outcomes)], outcomes)
 
 
 def write_report(report: DiscriminationReport, out: Path, model_sha256: str) -> None:

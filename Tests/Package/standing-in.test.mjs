@@ -1,0 +1,48 @@
+import assert from 'node:assert/strict';
+import { spawnSync } from 'node:child_process';
+import { mkdtempSync, realpathSync, rmSync } from 'node:fs';
+import os from 'node:os';
+import path from 'node:path';
+import test from 'node:test';
+import { run } from '../../scripts/lib/process.mjs';
+import { inRepository, repositoryRoot, standingIn } from '../../scripts/lib/repository.mjs';
+
+const posixOnly = process.platform === 'win32' ? 'run is a POSIX script' : false;
+
+/** Calls body in a folder of its own, which is not the repository. */
+async function elsewhere(body) {
+  const folder = realpathSync(mkdtempSync(path.join(os.tmpdir(), 'haptoflow-standing-')));
+  try {
+    return await body(folder);
+  } finally {
+    rmSync(folder, { recursive: true, force: true });
+  }
+}
+
+test('a child stands where the person does if that is asked for, and in the repository otherwise', () =>
+  elsewhere(async (folder) => {
+    const words = ['-e', 'console.log(process.cwd())'];
+    assert.equal((await run(process.execPath, words, { cwd: folder, quiet: true })).output.trim(), folder);
+    assert.equal((await run(process.execPath, words, { quiet: true })).output.trim(), realpathSync(repositoryRoot));
+  }));
+
+test('npm tells its scripts where the person stands, and without npm that is the current folder', () => {
+  const before = process.env.INIT_CWD;
+  try {
+    process.env.INIT_CWD = os.tmpdir();
+    assert.equal(standingIn(), path.resolve(os.tmpdir()));
+    delete process.env.INIT_CWD;
+    assert.equal(standingIn(), process.cwd());
+  } finally {
+    if (before === undefined) delete process.env.INIT_CWD;
+    else process.env.INIT_CWD = before;
+  }
+});
+
+test('paths of ./run train are relative to where the person stands', { skip: posixOnly }, () =>
+  elsewhere((folder) => {
+    const words = ['train', '--recordings', 'gone', '--labels', 'labels.toml', '--out', 'out'];
+    const asked = spawnSync(inRepository('run'), words, { cwd: folder, encoding: 'utf8' });
+    assert.equal(asked.status, 3, asked.stderr);
+    assert.ok(asked.stderr.includes(`${path.join(folder, 'gone')}: does not exist`), asked.stderr);
+  }));

@@ -1,0 +1,95 @@
+"""`train --minutes`: the time is shared out by what steps were measured to take, and a whole model comes out."""
+
+from __future__ import annotations
+
+import dataclasses
+import io
+import re
+from pathlib import Path
+
+import pytest
+from test_trainer import ALONE, _config
+from training_fixtures import make_store
+
+from haptoflow_training.training import trainer as trainer_module
+from haptoflow_training.training.budget import Budget
+from haptoflow_training.training.trainer import TimeLimit, Trainer, load_trained
+
+SECONDS_PER_STEP = {"level": 1.0, "field": 4.0, "polish": 1.0}
+
+
+@pytest.fixture
+def wall(monkeypatch: pytest.MonkeyPatch) -> list[float]:
+    """A clock on the wall that moves with training steps alone."""
+    now = [0.0]
+    monkeypatch.setattr(trainer_module.time, "monotonic", lambda: now[0])
+    train_step = Trainer._train_step
+
+    def step(trainer: Trainer, losses: object, phase: object) -> object:
+        now[0] += SECONDS_PER_STEP[phase.name]  # type: ignore[attr-defined]
+        return train_step(trainer, losses, phase)  # type: ignore[arg-type]
+
+    monkeypatch.setattr(Trainer, "_train_step", step)
+    return now
+
+
+def limited(folder: Path, limit: TimeLimit) -> Trainer:
+    trainer = Trainer(_config(), make_store(), folder, ALONE)
+    trainer.limit_time(limit)
+    return trainer
+
+
+@pytest.mark.parametrize("seconds", [200.0, 400.0])
+def test_trying_steps_and_training_together_take_the_time_that_was_given_and_end_whole(
+    tmp_path: Path, wall: list[float], seconds: float
+) -> None:
+    limited(tmp_path, TimeLimit(seconds)).run()
+    assert wall[0] == pytest.approx(seconds, abs=10.0)
+    _, labels, _ = load_trained(tmp_path)
+    assert labels == ["tone", "noise"]
+
+
+def test_the_level_comes_first_where_the_time_is_short(tmp_path: Path, wall: list[float]) -> None:
+    trainer = limited(tmp_path, TimeLimit(60.0))
+    trainer.run()
+    steps = {phase.name: phase.steps for phase in trainer._phases}
+    assert steps["level"] + steps["polish"] > steps["field"]
+    assert all(count >= 1 for count in steps.values())
+
+
+def test_the_bar_shows_what_is_left_of_training_and_of_what_comes_after_it(
+    tmp_path: Path, wall: list[float], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    shown = io.StringIO()
+    original = trainer_module.tqdm
+    monkeypatch.setattr(trainer_module, "tqdm", lambda **words: original(**{**words, "file": shown}))
+    limited(tmp_path, TimeLimit(300.0, seconds_after=40.0)).run()
+    left = [60 * int(minutes) + int(seconds) for minutes, seconds in re.findall(r"(\d+):(\d\d) left", shown.getvalue())]
+    assert 200 < left[0] <= 340 and left[-1] == pytest.approx(40, abs=6)
+    assert left == sorted(left, reverse=True)
+
+
+def test_an_interrupted_run_goes_on_with_what_is_left_of_its_time(tmp_path: Path, wall: list[float]) -> None:
+    first = limited(tmp_path, TimeLimit(300.0))
+    first._stop = True
+    with pytest.raises(trainer_module.TrainingStopped):
+        first.run()
+    used = wall[0]
+    wall[0] += 5000.0
+    limited(tmp_path, TimeLimit(123.0)).run()
+    assert wall[0] - 5000.0 == pytest.approx(300.0, abs=10.0) and used < 100.0
+
+
+def test_a_budget_counts_by_the_clock_that_it_is_given() -> None:
+    now = [10.0]
+    budget = Budget([30.0, 50.0], clock=lambda: now[0])
+    now[0] = 22.0
+    budget.spend(0)
+    assert budget.used_seconds == [12.0, 0.0]
+    assert budget.left_seconds == 68.0
+
+
+def test_the_configuration_of_a_limited_run_is_that_of_any_other(tmp_path: Path, wall: list[float]) -> None:
+    limited(tmp_path, TimeLimit(200.0)).run()
+    config, _, _ = load_trained(tmp_path)
+    assert dataclasses.asdict(config) == dataclasses.asdict(_config())

@@ -1,0 +1,157 @@
+"""The commands of two headings of own-materials.md, as they stand there, on recordings of every form."""
+
+from __future__ import annotations
+
+import json
+import re
+import shlex
+import shutil
+from pathlib import Path
+
+import numpy as np
+import pytest
+from own_samples import csv_one_axis, csv_three_axes, stroke, wav_with_motion
+
+from haptoflow_training.cli import main
+from haptoflow_training.commands import train
+from haptoflow_training.export.model_file import read_model_file
+
+ROOT = Path(__file__).parents[2]
+PAGE = ROOT / "Documentation~" / "own-materials.md"
+TEMPLATE = ROOT / "Training" / "templates" / "own-recordings"
+HEADINGS = ("Recordings: forms, units, labels, licence", "Training a model on your recordings")
+LABELS = (
+    '[[label]]\nname = "{name}"\ncategory = "own"\nstiffness_newtons_per_metre = 400.0\nfriction_coefficient = 0.4\n'
+    "wave_vectors_per_mm = []\n"
+)
+# In place of Training/configs/own.toml: the same phases in miniature.
+SMALL = """
+name = "own"
+threads = 1
+[data]
+source = "folders"
+[model]
+width = 16
+previous_width = 8
+levels = 1
+ribs = true
+[optimiser]
+batch_size = 8
+level_steps = 60
+steps = 10
+level_polish_steps = 5
+[recipe]
+energy_steps = 4
+energy_batch_size = 8
+self_forcing_steps = 2
+calibrate_level = true
+"""
+
+
+def commands(heading: str) -> list[list[str]]:
+    """The words of each command of haptoflow-training in the blocks without a language below a heading."""
+    section = PAGE.read_text(encoding="utf-8").split(f"\n## {heading}\n")[1].split("\n## ")[0]
+    # Every second part lies inside a block; one with a language begins with its name.
+    blocks = [part for part in section.split("\n```")[1::2] if part.startswith("\n")]
+    lines = [line for block in blocks for line in block.strip().splitlines()]
+    found = []
+    for line in lines:
+        python = re.fullmatch(r"PYTHONPATH=Training python3 -m haptoflow_training (.*)", line)
+        npm = re.fullmatch(r"npm run (train|evaluate) -- (.*)", line)
+        assert python or npm, f"not a command of this page: {line}"
+        found.append(shlex.split(python[1]) if python else [npm[1], *shlex.split(npm[2])])  # type: ignore[index]
+    return found
+
+
+@pytest.fixture(scope="module")
+def standing(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A folder with recordings of every form, a label each, one recording a label."""
+    folder = tmp_path_factory.mktemp("own")
+    made = folder / "recordings"
+    csv_one_axis(made, "denim", "denim", stroke(11.0, hertz=90, seed=1), licence="CC0 1.0", source="a jacket")
+    csv_three_axes(made / "tiles", "tile", "tile", stroke(11.0, hertz=320, exponent=1.3, seed=2))
+    wav_with_motion(made, "felt", "felt", stroke(11.0, hertz=180, exponent=0.6, seed=3), licence="CC BY 4.0")
+    (folder / "labels.toml").write_text("".join(LABELS.format(name=name) for name in ("denim", "tile", "felt")))
+    (folder / "small.toml").write_text(SMALL)
+    return folder
+
+
+def test_every_command_of_the_page_runs_where_the_recordings_are(
+    standing: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.chdir(standing)
+    monkeypatch.setattr(train, "OWN_CONFIGURATION", standing / "small.toml")
+    ran = []
+    for heading in HEADINGS:
+        for words in commands(heading):
+            shortened = ["0.1" if before == "--minutes" else word for before, word in zip(["", *words], words)]
+            assert main(shortened) == 0, (words, capsys.readouterr().err)
+            ran.append(words[0])
+    assert ran == ["inspect", "inspect", "train", "evaluate", "discriminate"]
+    header = read_model_file(standing / "own.haptoflow").header
+    assert [label["name"] for label in header["labels"]] == ["denim", "tile", "felt"]
+    assert set(header["provenance"]["licence"].split(", ")) == {"CC0 1.0", "CC BY 4.0", "unknown"}
+    assert str(standing) not in json.dumps(header)
+    assert len(header["measurements"]["level_offsets_db"]) == 3
+    accuracy = json.loads((standing / "out" / "own" / "accuracy" / "own-accuracy.json").read_text())
+    assert {one["label"] for one in accuracy["labels"]} == {"denim", "tile", "felt"}
+    for one in accuracy["labels"]:
+        assert one["seconds"] >= 1.0 and np.isfinite(one["level_error_median_db"]) and 0.0 <= one["gfc"] <= 1.0
+        # What is left of a wrong level after it was taken back, even of a network that has hardly been trained.
+        assert abs(one["level_error_median_db"]) < 12.0
+    assert (standing / "out" / "own" / "accuracy" / "own-accuracy.png").stat().st_size > 5000
+    discrimination = json.loads((standing / "out" / "own" / "discrimination" / "label-discrimination.json").read_text())
+    assert discrimination["recording_accuracy"] == 1.0
+
+
+def test_the_template_can_be_inspected_and_prepared_as_it_is(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    shutil.copytree(TEMPLATE, tmp_path / "own")
+    monkeypatch.chdir(tmp_path / "own")
+    assert main(["inspect", "recordings", "--labels", "labels.toml", "--json"]) == 0
+    report = json.loads(capsys.readouterr().out)
+    assert report["counts"]["material"] == {"denim": 1, "felt": 1}
+    assert report["problems"] == [] and report["notes"] == []
+    assert report["provenance"]["licence"] == "MIT"
+    assert main(["prepare", "--recordings", "recordings", "--labels", "labels.toml", "--out", "store"]) == 0
+
+
+def test_every_column_and_key_of_the_page_is_one_that_is_read_and_none_is_missing() -> None:
+    from haptoflow_training.recordings import own_sidecar, own_table
+
+    section = PAGE.read_text(encoding="utf-8").split(f"\n## {HEADINGS[0]}\n")[1].split("\n## ")[0]
+    forms = (
+        *own_table.ACCELERATION_FORMS, *own_table.VELOCITY_FORMS, *own_table.POSITION_FORMS, *own_table.FORCE_FORMS,
+    )  # fmt: skip
+    named = {word for code in re.findall(r"`([^`\n]+)`", section) for word in re.findall(r"[a-z0-9_]+", code)}
+    for column in (own_table.TIME_COLUMN, *(column for form in forms for column in form.columns)):
+        assert column in named, column
+    for key in own_sidecar.KEYS:
+        assert key in named, key
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        (["evaluate", "--model", "own.haptoflow"], "--recordings is missing"),
+        (["evaluate", "--recordings", "gone"], "gone: does not exist"),
+        (["evaluate", "--recordings", "recordings"], "no recording of a label of default.haptoflow; found denim"),
+        (["train", "--recordings", "recordings", "--out", "out/x"], "of your own; name their labels.*--labels FILE"),
+        (["evaluate", "--recordings", "recordings", "--engine", "gone"], "run `npm run build`"),
+    ],
+)
+def test_what_is_missing_is_said_in_one_line(
+    standing: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], words: list[str], said: str
+) -> None:
+    monkeypatch.chdir(standing)
+    assert main(words) == 3
+    error = capsys.readouterr().err.strip().splitlines()[-1]
+    assert re.search(said, error), error
+
+
+def test_minutes_that_are_no_minutes_are_refused(capsys: pytest.CaptureFixture[str]) -> None:
+    for wrong in ("0", "ten", "nan"):
+        with pytest.raises(SystemExit):
+            main(["train", "--recordings", "r", "--out", "o", "--minutes", wrong])
+        assert "expected minutes, 0.1 at least" in capsys.readouterr().err
