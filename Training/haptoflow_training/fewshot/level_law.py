@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from haptoflow_training.export.material_sound import MAXIMUM_LEVEL_SPEEDS, LevelTable
 from haptoflow_training.fewshot.label_prior import LabelPrior
-from haptoflow_training.fewshot.material_recording import Windows
+from haptoflow_training.fewshot.stroke_recording import Windows
 from haptoflow_training.models.conditioning import REST_FORCE_NEWTONS, REST_SPEED_MPS
 from haptoflow_training.models.level_model import LEVEL_FLOOR_MPS2
 

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from haptoflow_training.export.material_sound import LevelTable, ToneTable
 from haptoflow_training.fewshot.label_prior import LabelPrior
 from haptoflow_training.fewshot.level_law import SLOWEST_MPS, LevelLaw, fit_level
-from haptoflow_training.fewshot.material_recording import MaterialRecording, Windows, windows_of
+from haptoflow_training.fewshot.stroke_recording import StrokeRecording, Windows, windows_of
 from haptoflow_training.fewshot.tone_fit import (
     WINDOW_SAMPLES,
     ToneOptions,
@@ -30,6 +30,7 @@ CHUNK_SAMPLES = 4000
 SETTLING_SAMPLES = 400
 _RENDERED_CHUNKS, _DRAWS = 24, 3
 _ROUNDS = 2
+_SLOWEST_MPS, _UNSTEADIEST, _FEWEST_WINDOWS = 0.01, 0.5, 6
 LEVEL_WINDOW_SAMPLES, LEVEL_HOP_SAMPLES = 200, 100
 
 _Floats = NDArray[np.float32]
@@ -39,11 +40,11 @@ _Floats = NDArray[np.float32]
 class Rendered:
     """chunks [n] of the recording and what the voice makes of each, without tone: draws [draws][n]."""
 
-    chunks: tuple[MaterialRecording, ...]
-    draws: tuple[tuple[MaterialRecording, ...], ...]
+    chunks: tuple[StrokeRecording, ...]
+    draws: tuple[tuple[StrokeRecording, ...], ...]
 
 
-def chunks_of(recordings: Sequence[MaterialRecording], most: int, seed: int) -> tuple[MaterialRecording, ...]:
+def chunks_of(recordings: Sequence[StrokeRecording], most: int, seed: int) -> tuple[StrokeRecording, ...]:
     """At most `most` stretches of 2 s (all of a shorter recording), spread over the recordings."""
     found = []
     for recording in recordings:
@@ -54,7 +55,7 @@ def chunks_of(recordings: Sequence[MaterialRecording], most: int, seed: int) -> 
         for start in np.linspace(0, len(recording) - length, count).astype(int):
             part = slice(int(start), int(start) + length)
             found.append(
-                MaterialRecording(recording.wave_mps2[part], recording.motion[part], recording.position_mm[part])
+                StrokeRecording(recording.wave_mps2[part], recording.motion[part], recording.position_mm[part])
             )
     if len(found) > most:
         chosen = np.random.default_rng(seed).permutation(len(found))[:most]
@@ -62,7 +63,7 @@ def chunks_of(recordings: Sequence[MaterialRecording], most: int, seed: int) -> 
     return tuple(found)
 
 
-def render_chunks(tier: FileTier, voice: Voice, chunks: tuple[MaterialRecording, ...], seed: int) -> Rendered:
+def render_chunks(tier: FileTier, voice: Voice, chunks: tuple[StrokeRecording, ...], seed: int) -> Rendered:
     length = max(len(chunk) for chunk in chunks)
     motions = np.stack([_padded(chunk.motion, length) for chunk in chunks])
     rows = np.concatenate([motions] * _DRAWS)
@@ -79,7 +80,7 @@ def render_chunks(tier: FileTier, voice: Voice, chunks: tuple[MaterialRecording,
 
 def fit_sound(
     rendered: Rendered,
-    recordings: Sequence[MaterialRecording],
+    recordings: Sequence[StrokeRecording],
     level: LevelLaw,
     prior: LabelPrior,
     seconds: float,
@@ -89,7 +90,9 @@ def fit_sound(
     recorded = _settled(rendered.chunks, WINDOW_SAMPLES)
     speed = recorded.speed_mps
     # A tone is heard while the tip moves; at rest there is none to be known.
-    moving = speed > SLOWEST_MPS
+    moving = (speed > _SLOWEST_MPS) & (recorded.unsteadiness < _UNSTEADIEST)
+    if moving.sum() < _FEWEST_WINDOWS:
+        moving = speed > SLOWEST_MPS
     knots = speed_knots(speed[moving], seconds)
     powers, centres, counts = band_powers(recorded.waves[moving])
     tone: ToneTable | None = None
@@ -110,7 +113,7 @@ def fit_sound(
 
 def calibrated(
     rendered: Rendered,
-    recordings: Sequence[MaterialRecording],
+    recordings: Sequence[StrokeRecording],
     level: LevelLaw,
     prior: LabelPrior,
     tone: ToneTable | None,
@@ -139,14 +142,29 @@ def calibrated(
     )
 
 
+def band_distance_db(rendered: Rendered, tone: ToneTable | None) -> float:
+    """RMS over narrow bands and speeds of the difference in dB between what was recorded and what is made, the level left
+    out: mean spectra of a third of the recorded speeds each."""
+    recorded = _settled(rendered.chunks, WINDOW_SAMPLES)
+    order = np.argsort(recorded.speed_mps)
+    powers = band_powers(recorded.waves)[0]
+    made = np.mean([band_powers(_settled(_toned(draw, tone), WINDOW_SAMPLES).waves)[0] for draw in rendered.draws], axis=0)
+    errors = []
+    for part in np.array_split(order, 3):
+        if len(part):
+            difference = 10.0 * np.log10((made[part].mean(axis=0) + 1e-9) / (powers[part].mean(axis=0) + 1e-9))
+            errors.append(np.square(difference - difference.mean()).mean())
+    return float(np.sqrt(np.mean(errors)))
+
+
 def _padded(motion: _Floats, length: int) -> _Floats:
     return np.concatenate([motion, np.repeat(motion[-1:], length - len(motion), axis=0)])
 
 
-def _settled(chunks: Sequence[MaterialRecording], samples: int) -> Windows:
+def _settled(chunks: Sequence[StrokeRecording], samples: int) -> Windows:
     """Windows that begin after the loop has swung in."""
     later = [
-        MaterialRecording(
+        StrokeRecording(
             chunk.wave_mps2[SETTLING_SAMPLES:], chunk.motion[SETTLING_SAMPLES:], chunk.position_mm[SETTLING_SAMPLES:]
         )
         for chunk in chunks
@@ -154,7 +172,7 @@ def _settled(chunks: Sequence[MaterialRecording], samples: int) -> Windows:
     return windows_of(later, samples, samples // 2)
 
 
-def _toned(chunks: Sequence[MaterialRecording], tone: ToneTable | None) -> list[MaterialRecording]:
+def _toned(chunks: Sequence[StrokeRecording], tone: ToneTable | None) -> list[StrokeRecording]:
     return [
         replace(chunk, wave_mps2=apply_tone(chunk.wave_mps2, np.hypot(*chunk.motion[:, :2].T), tone)) for chunk in chunks
     ]

@@ -16,13 +16,13 @@ from haptoflow_training.training.flow_matching import solve
 class FileTier:
     """One raw tier: its field graph with its solver. All waves in unit scale."""
 
-    def __init__(self, model: ModelFile, entry: dict[str, Any]) -> None:
+    def __init__(self, model: ModelFile, entry: dict[str, Any], *, trainable: bool = False) -> None:
         if entry["representation"] != "raw":
             raise InputError(f"tier '{entry['name']}' is latent; a material is fitted to a raw tier")
         self.name: str = entry["name"]
         self.kind: str = entry["kind"]
         self._solver, self._steps = entry["solver"], int(entry["steps"])
-        self.field = GraphModule(model.graphs[entry["field"]], f"tier '{self.name}'")
+        self.field = GraphModule(model.graphs[entry["field"]], f"tier '{self.name}'", trainable=trainable)
 
     def segment(self, noise: Tensor, previous: Tensor, embedding: Tensor, motion: Tensor, rib_phase: Tensor) -> Tensor:
         """[B, 1, 200] of noise and previous [B, 1, 200], embedding [B, 64], motion [B, 3] and rib phase [B, 2]."""
@@ -71,6 +71,10 @@ class FileModel:
         if wanted not in self._opened:
             self._opened[wanted] = FileTier(self.file, self._tiers[wanted])
         return self._opened[wanted]
+
+    def trainable_tier(self, name: str | None = None) -> FileTier:
+        """A copy of the tier whose weights may move; the model's own stays as it is."""
+        return FileTier(self.file, self._tiers[self.file.header["default_tier"] if name is None else name], trainable=True)
 
     def log_level(self, embedding: Tensor, motion: Tensor, tier: str | None = None) -> Tensor:
         """[B, 1]: what the tier's level graph says, natural logarithm of the RMS in m/s^2."""

@@ -245,6 +245,14 @@ def _tensor(value: onnx.TensorProto) -> Tensor:
     return torch.from_numpy(np.array(numpy_helper.to_array(value)))
 
 
+def _is_learnt(name: str, values: Tensor) -> bool:
+    """By the exporter's names: layers keep theirs, folded ones are called after the operator that reads them. The comb's
+    matrices are no weights, whatever they are called."""
+    if not values.is_floating_point() or ".comb." in name:
+        return False
+    return name.endswith((".weight", ".bias")) or (name.startswith("onnx::") and values.dim() >= 2)
+
+
 class _Node:
     """An operator with the names of what it reads and makes."""
 
@@ -266,23 +274,32 @@ class _Node:
 
 
 class GraphModule:
-    """One graph. `inputs` and `output` are the names that the file gives them. Weights take no gradient."""
+    """One graph. `inputs` and `output` are the names that the file gives them. trainable: its layers' weights take
+    gradients, as `weights`; otherwise none does."""
 
-    def __init__(self, graph: bytes, where: str = "graph") -> None:
+    def __init__(self, graph: bytes, where: str = "graph", *, trainable: bool = False) -> None:
         document = onnx.load_from_string(graph).graph
         known: dict[str, Any] = {entry.name: _tensor(entry) for entry in document.initializer}
         self.inputs = [entry.name for entry in document.input if entry.name not in known]
+        self.weights: dict[str, Tensor] = {}
+        if trainable:
+            self.weights = {name: known[name].requires_grad_() for name in known if _is_learnt(name, known[name])}
         self.output = document.output[0].name
         self._nodes: list[_Node] = []
         self._sized: list[_Node] = []
         by_size: set[str] = set()
+        by_weights: set[str] = set()
         for node in document.node:
             if node.op_type == "Constant":
                 known[node.output[0]] = _tensor(helper.get_attribute_value(node.attribute[0]))
                 continue
             compiled = _Node(node, where)
             read = [name for name in compiled.inputs if name]
-            if all(name in known for name in read):
+            moving = any(name in self.weights or name in by_weights for name in read)
+            if moving:
+                by_weights.update(compiled.outputs)
+                self._nodes.append(compiled)
+            elif all(name in known for name in read):
                 compiled.apply(known)
             elif all(name in known or name in by_size for name in read) or (
                 compiled.kind == "Shape" and read[0] in self.inputs
