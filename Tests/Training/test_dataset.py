@@ -351,7 +351,7 @@ GOOD_LABEL = (
     [
         ("", r"no \[\[label\]\] entries"),
         ("[[label", "not valid TOML"),
-        (GOOD_LABEL.replace("textures = [0]\n", ""), "label 1: key 'textures' is missing"),
+        (GOOD_LABEL.replace('category = "wood"\n', ""), "label 1: key 'category' is missing"),
         (GOOD_LABEL.replace("[0]", "[true]"), "label 1: key 'textures'"),
         (GOOD_LABEL.replace("1200.0", "-1"), "label 1: key 'stiffness_newtons_per_metre' is -1"),
         (GOOD_LABEL + "colour = 3\n", "label 1: unknown key 'colour'"),

@@ -19,6 +19,7 @@ from torch import Tensor
 from training_fixtures import make_store
 
 from haptoflow_training.commands import train
+from haptoflow_training.commands.level_offsets import MeasuredLevels
 from haptoflow_training.errors import InputError
 from haptoflow_training.evaluation.row_plan import PlannedRow, load_plan
 from haptoflow_training.export.exporter import export_run
@@ -265,11 +266,11 @@ def test_the_level_that_a_trained_row_makes_too_loud_is_taken_back_at_its_export
     monkeypatch.setattr(train, "open_source", lambda *_: source)
     measured: list[Path] = []
 
-    def offsets(folder: Path, given: Source) -> list[float]:
+    def levels_of(folder: Path, given: Source, extent: object) -> MeasuredLevels:
         measured.append(folder)
-        return [2.0, -1.0]
+        return MeasuredLevels([2.0, -1.0])
 
-    monkeypatch.setattr(train, "measured_offsets_db", offsets)
+    monkeypatch.setattr(train, "measured_levels", levels_of)
     text = (
         '[model]\nwidth = 16\nprevious_width = 8\n[optimiser]\nbatch_size = 8\nlevel_steps = 4\nsteps = 4\n'
         "level_polish_steps = 0\n[recipe]\ncalibrate_level = {}\n"

@@ -10,18 +10,18 @@ from pathlib import Path
 from tqdm import tqdm
 
 from haptoflow_training.errors import InputError
-from haptoflow_training.recordings.cluster_dataset import open_dataset
 from haptoflow_training.recordings.dataset_inspection import Inspection, inspect_dataset
 from haptoflow_training.recordings.labels import load_labels
+from haptoflow_training.recordings.open_recordings import open_recordings
 
 _DESCRIPTION = """\
 Read every recording of a data set folder once and report what it holds: recordings by material, speed,
 direction, force, repeat and protocol; the sample rates found, from the time stamps; durations; coverage of
 the grid; and every missing or broken file with what was expected of it.
 
-DIR is the folder that holds sensor_data/, in the file release's layout
-(sensor_data/accel/0_135_40_500_0.csv), the hub release's
-(sensor_data/accel/0/0_135_40_500_0.parquet; needs `pip install pyarrow`), or written by `record`."""
+DIR is a folder of recordings of your own, CSV, Parquet or WAV with their sidecars (or one such file), or the
+folder that holds sensor_data/, in the file release's layout (sensor_data/accel/0_135_40_500_0.csv), the hub
+release's (sensor_data/accel/0/0_135_40_500_0.parquet; needs `pip install pyarrow`), or written by `record`."""
 
 _EXAMPLES = """\
 examples:
@@ -40,7 +40,7 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser], su
         epilog=_EXAMPLES,
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
-    parser.add_argument("folder", metavar="DIR", type=Path, help="the folder that holds sensor_data/")
+    parser.add_argument("folder", metavar="DIR", type=Path, help="a folder of recordings, or one file")
     parser.add_argument(
         "--labels", metavar="FILE", type=Path, help="count by the labels of this TOML file, not by texture"
     )
@@ -50,7 +50,7 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser], su
 
 def run(options: argparse.Namespace) -> int:
     labels = load_labels(options.labels) if options.labels else None
-    dataset = open_dataset(options.folder, labels)
+    dataset = open_recordings(options.folder, labels)
     bar = tqdm(dataset.recordings, unit=" recordings", desc="inspect", disable=None)
     inspection = inspect_dataset(dataset, bar)
     if options.json:
@@ -89,11 +89,12 @@ def _lines(inspection: Inspection) -> Iterator[str]:
         )
     yield f"  audio         {report['audio_files']} files (not used)"
     if report["unlabelled"]:
-        yield f"  unlabelled    {report['unlabelled']} recordings of textures that no label names"
+        yield f"  unlabelled    {report['unlabelled']} recordings that no label names"
     for axis, counts in report["counts"].items():
         if axis != "material" and counts:
             yield f"  {axis:<20}" + ", ".join(f"{value}: {count}" for value, count in counts.items())
     yield from _coverage_table(report["coverage"])
+    yield from (f"  note: {note}" for note in report["notes"])
     if report["problems"]:
         yield f"{len(report['problems'])} problems:"
         yield from (f"  {problem}" for problem in inspection.problems)

@@ -7,16 +7,16 @@ import time
 from pathlib import Path
 
 from haptoflow_training.errors import InputError
-from haptoflow_training.preprocessing.preparation import prepare_store
+from haptoflow_training.preprocessing.preparation import prepare_cut_where_needed, prepare_store
 from haptoflow_training.preprocessing.settings import PreprocessingSettings
 from haptoflow_training.preprocessing.split import SPLITS
 from haptoflow_training.preprocessing.store import SegmentStore
-from haptoflow_training.recordings.cluster_dataset import ClusterDataset, open_dataset
 from haptoflow_training.recordings.labels import LabelMap, load_labels
+from haptoflow_training.recordings.open_recordings import Dataset, open_recordings
 
 _DESCRIPTION = """\
 Turn recordings into what training reads: one axis of vibration (DFT321) at 2 kHz with the velocity and force
-of every sample, split 70:10:20 by recording, silence put at some ends. The store is a folder of three files;
+of every sample, split 70:10:20 by recording (by time where a label has too few), silence put at some ends. The store is a folder of three files;
 it appears when it is complete, and an older one at the same place is replaced only then.
 
 Broken recordings are skipped and listed. Without --labels, the Cluster Haptic Texture Dataset (known by its
@@ -39,7 +39,7 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser], su
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
     add = parser.add_argument
-    add("--recordings", metavar="DIR", type=Path, nargs="+", required=True, help="folders with sensor_data/")
+    add("--recordings", metavar="DIR", type=Path, nargs="+", required=True, help="folders, or files")
     add("--labels", metavar="FILE", type=Path, help="TOML file: labels and their textures")
     add("--out", metavar="STORE", type=Path, required=True, help="folder of the store")
     add("--seed", metavar="N", type=int, default=0, help="draws the split and the silence (default 0)")
@@ -61,6 +61,8 @@ def run(options: argparse.Namespace) -> int:
     for dataset in datasets:
         for problem in dataset.problems:
             print(f"skipped: {problem}")
+        for note in dataset.notes:
+            print(note)
         if dataset.left_out:
             print(dataset.left_out)
     settings = PreprocessingSettings(
@@ -68,7 +70,9 @@ def run(options: argparse.Namespace) -> int:
         held_out_speeds_mmps=tuple(options.hold_out_speed),
     )
     begun = time.perf_counter()
-    store = prepare_store(
+    # What the recorder made is split by its names alone.
+    prepare = prepare_store if all(dataset.synthetic for dataset in datasets) else prepare_cut_where_needed
+    store = prepare(
         entries,
         _labels(datasets, options.labels),
         options.out,
@@ -81,14 +85,14 @@ def run(options: argparse.Namespace) -> int:
     return 0
 
 
-def _open(folder: Path, labels_path: Path | None) -> ClusterDataset:
-    dataset = open_dataset(folder, load_labels(labels_path) if labels_path else None)
+def _open(folder: Path, labels_path: Path | None) -> Dataset:
+    dataset = open_recordings(folder, load_labels(labels_path) if labels_path else None)
     if labels_path is None and dataset.published:
-        return open_dataset(folder, load_labels())
+        return open_recordings(folder, load_labels())
     return dataset
 
 
-def _labels(datasets: list[ClusterDataset], labels_path: Path | None) -> list[str]:
+def _labels(datasets: list[Dataset], labels_path: Path | None) -> list[str]:
     """In the order of the labels file; labels without a recording get no index."""
     present = list(dict.fromkeys(label for dataset in datasets for label in dataset.labels))
     if labels_path is None and not all(dataset.published for dataset in datasets):

@@ -4,17 +4,24 @@ from __future__ import annotations
 
 import argparse
 import dataclasses
+import math
 import sys
+import time
 from pathlib import Path
 
 from haptoflow_training.commands.export import announce
-from haptoflow_training.commands.level_offsets import by_label, measured_offsets_db
+from haptoflow_training.commands.level_offsets import MeasuredLevels, by_label, calibrates, measured_levels
+from haptoflow_training.commands.minutes import SHORTEST_MINUTES, Minutes, share_out
+from haptoflow_training.errors import InputError
+from haptoflow_training.evaluation.level_calibration import Extent
 from haptoflow_training.export.exporter import export_run
 from haptoflow_training.training.config import TrainingConfig, load_config
 from haptoflow_training.training.processes import join_processes
 from haptoflow_training.training.recordings_source import Source, open_source
 from haptoflow_training.training.run_log import write_json
 from haptoflow_training.training.trainer import Trainer, TrainingStopped
+
+OWN_CONFIGURATION = Path(__file__).resolve().parents[2] / "configs" / "own.toml"
 
 
 def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser], summary: str) -> None:
@@ -24,10 +31,13 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser], su
         description=(
             "Prepares the recordings that the configuration names (once), trains the level model and the velocity "
             "field, and writes checkpoint.pt, metrics.csv, metrics.png and run.json into --out. Run it again to go on "
-            "after an interruption: the result is the same."
+            "after an interruption: the result is the same. Paths are relative to where you stand; those in a configuration "
+            "file are relative to that file."
         ),
         epilog=(
             "examples:\n"
+            "  haptoflow-training train --recordings recordings --labels labels.toml --minutes 10 --out out/own "
+            "--export own.haptoflow\n"
             "  haptoflow-training train --config cluster.toml --recordings ~/cluster-haptic --out out/train/real\n"
             "  haptoflow-training train --config Training/configs/evaluation/plain.toml --out out/train/plain\n"
             "  torchrun --redirects 1 --tee 1 --nproc_per_node 2 -m haptoflow_training train --config … --out …\n"
@@ -38,19 +48,24 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser], su
     parser.add_argument(
         "--config",
         type=Path,
-        required=True,
-        help="the run's TOML file, for example Training/configs/cluster.toml",
+        default=OWN_CONFIGURATION,
+        help="the run's TOML file, for example Training/configs/cluster.toml (default: Training/configs/own.toml)",
     )
     parser.add_argument("--out", type=Path, required=True, help="folder of the run; made, or gone on with")
     parser.add_argument(
         "--store", type=Path, help="folder of the prepared recordings (default: `store` beside the run's folder)"
     )
     parser.add_argument(
-        "--recordings", type=Path, nargs="+", metavar="DIR", help="data set folders, in place of the configuration's"
-    )
+        "--recordings", type=Path, nargs="+", metavar="PATH",
+        help="folders of recordings, or files, in place of the configuration's",
+    )  # fmt: skip
     parser.add_argument(
         "--labels", type=Path, metavar="FILE",
         help="TOML file of labels and their textures (as configs/labels-cluster.toml)",
+    )  # fmt: skip
+    parser.add_argument(
+        "--minutes", type=_minutes, metavar="N",
+        help="end with a whole, exported model after about N minutes: preparing, training and measuring levels share them",
     )  # fmt: skip
     parser.add_argument("--seed", type=int, help="in place of the configuration's seed")
     parser.add_argument(
@@ -66,17 +81,30 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser], su
     parser.set_defaults(run=run)
 
 
+def _minutes(text: str) -> float:
+    try:
+        minutes = float(text)
+    except ValueError:
+        minutes = math.nan
+    if not SHORTEST_MINUTES <= minutes <= 1e5:
+        raise argparse.ArgumentTypeError(f"'{text}'; expected minutes, {SHORTEST_MINUTES} at least")
+    return minutes
+
+
 def configuration(options: argparse.Namespace) -> TrainingConfig:
-    """The configuration file, overridden by the command line's --recordings, --labels and --seed."""
+    """The configuration file, overridden by the command line's --recordings, --labels, --minutes and --seed."""
     config = load_config(options.config)
     if options.recordings:
         data = dataclasses.replace(
-            config.data, source="folders", folders=tuple(str(folder) for folder in options.recordings)
+            config.data, source="folders", folders=tuple(str(folder.resolve()) for folder in options.recordings)
         )
         config = dataclasses.replace(config, data=data)
     if options.labels:
-        data = dataclasses.replace(config.data, labels_file=str(options.labels))
+        data = dataclasses.replace(config.data, labels_file=str(options.labels.resolve()))
         config = dataclasses.replace(config, data=data)
+    if options.minutes is not None:
+        optimiser = dataclasses.replace(config.optimiser, budget_seconds=0.0)
+        config = dataclasses.replace(config, optimiser=optimiser)
     if options.seed is not None:
         config = dataclasses.replace(config, seed=options.seed)
     return config
@@ -88,9 +116,14 @@ def report_left_out(source: Source) -> None:
         print(f"skipped: {skipped}", file=sys.stderr)
     for line in source.left_out:
         print(line, file=sys.stderr)
+    for info in source.labels:
+        if info.name in source.found:
+            vectors = ", ".join(f"({x:g}, {y:g})" for x, y in info.wave_vectors_per_mm)
+            print(f"{info.name}: ribs found, wave vectors {vectors} per mm", file=sys.stderr)
 
 
 def run(options: argparse.Namespace) -> int:
+    begun = time.monotonic()
     config = configuration(options)
     store_folder = options.store or options.out.parent / "store"
     with join_processes() as processes:
@@ -98,21 +131,30 @@ def run(options: argparse.Namespace) -> int:
             report_left_out(open_source(config.data, store_folder, options.workers))
         processes.wait()
         source = open_source(config.data, store_folder, options.workers)
+        if options.minutes is not None and processes.count > 1:
+            raise InputError("--minutes is of one process; leave it out under torchrun")
         trainer = Trainer(
             config, source.store, options.out, processes, options.base, source.wave_vectors, options.start
         )
+        extent = Extent()
+        if options.minutes is not None:
+            shares: Minutes = share_out(
+                options.minutes, begun, config, source, trainer.averaged_model, exports=options.export is not None
+            )
+            trainer.limit_time(shares.limit)
+            extent = shares.extent
         try:
             trainer.run()
         except TrainingStopped as stop:
             print(f"haptoflow-training: {stop}", file=sys.stderr)
             return 0
         if processes.is_first and options.export is not None:
-            offsets = measured_offsets_db(options.out, source) if config.recipe.calibrate_level else None
+            measured = measured_levels(options.out, source, extent) if calibrates(config) else MeasuredLevels()
             checksum = export_run(
                 options.out, source.store, source.labels, source.provenance, options.export, options.parity,
-                level_offsets_db=offsets,
+                level_offsets_db=measured.offsets_db, level_tables=measured.tables,
             )  # fmt: skip
             described = {"file": options.export.name, "crc32": f"{checksum:08x}"}
-            write_json(options.out / "export.json", {**described, **by_label(offsets, source)})
+            write_json(options.out / "export.json", {**described, **by_label(measured, source)})
             announce(options.export, checksum)
     return 0

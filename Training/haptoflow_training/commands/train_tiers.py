@@ -9,7 +9,7 @@ from pathlib import Path
 from tqdm import tqdm
 
 from haptoflow_training.commands.export import announce
-from haptoflow_training.commands.level_offsets import by_label, measured_offsets_db
+from haptoflow_training.commands.level_offsets import MeasuredLevels, by_label, measured_offsets_db
 from haptoflow_training.errors import InputError
 from haptoflow_training.export.exporter import export_run
 from haptoflow_training.training.config import load_config
@@ -78,7 +78,7 @@ def run(options: argparse.Namespace) -> int:
         offsets,
     )
     described = {"file": options.export.name, "crc32": f"{checksum:08x}"}
-    write_json(options.out / "export.json", {**described, **by_label(offsets, source)})
+    write_json(options.out / "export.json", {**described, **by_label(MeasuredLevels(offsets), source)})
     announce(options.export, checksum)
     return 0
 

@@ -7,13 +7,15 @@ take it back: a shift of the level scales the closed loop's output and nothing e
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
 
 import numpy as np
 import torch
 from numpy.typing import NDArray
 
 from haptoflow_training.evaluation.closed_loop import SegmentSource, hop_positions, run_closed_loop
+from haptoflow_training.export.level_table import LevelTable
 from haptoflow_training.export.trained_tier import TrainedTier
 from haptoflow_training.models.unit_scale import scaled_previous
 from haptoflow_training.training.batches import Store, StoredRecording
@@ -31,9 +33,28 @@ _SPEED_BORDERS_MPS = (0.02, 0.05, 0.1, 0.2, 0.4, 0.8, 1.6)
 _FEWEST_WINDOWS = 10
 
 
-def hops(store: Store) -> int:
+@dataclass(frozen=True)
+class Extent:
+    """How much is compared: recordings of each label, and the samples of each from its beginning (None for all)."""
+
+    recordings_per_label: int = _RECORDINGS_PER_LABEL
+    longest_samples: int | None = None
+
+
+@dataclass(frozen=True)
+class ClosedLoopLevels:
+    """Windows of 0.1 s. powers [n, 2]: generated and recorded mean square, (m/s^2)^2; speeds_mps, forces_newtons [n];
+    owners [n]: labels."""
+
+    powers: NDArray[np.float64]
+    speeds_mps: NDArray[np.float64]
+    forces_newtons: NDArray[np.float64]
+    owners: NDArray[np.int64]
+
+
+def hops(store: Store, extent: Extent = Extent()) -> int:
     """Hops that `level_offsets_db` makes: what its progress counts."""
-    longest = max(recording.length for recording in _chosen(store))
+    longest = max(_length(recording, extent) for recording in _chosen(store, extent))
     return len(hop_positions(longest, _UPDATE_RATE_HZ))
 
 
@@ -50,18 +71,38 @@ def level_offsets_db(
     embeddings [labels, 64]. Recordings that the test split keeps are left alone, and windows of which a sample lies in a
     held-out band are not compared.
     """
-    chosen = _chosen(store)
-    longest = max(recording.length for recording in chosen)
-    motions = np.stack([_padded(store.motion[_span(recording)], longest) for recording in chosen])
+    return offsets_db(closed_loop_levels(source, embeddings, store, held_out, advance), len(store.labels))
+
+
+def offsets_db(levels: ClosedLoopLevels, labels: int) -> list[float]:
+    """See `level_offsets_db`."""
+    classes = np.digitize(levels.speeds_mps, _SPEED_BORDERS_MPS)
+    owned = [levels.owners == label for label in range(labels)]
+    return [_offset_db(levels.powers[own], classes[own]) for own in owned]
+
+
+def closed_loop_levels(
+    source: SegmentSource,
+    embeddings: _Floats,
+    store: Store,
+    held_out: HeldOut,
+    advance: Callable[[int], None] = lambda count: None,
+    extent: Extent = Extent(),
+    labels_wanted: frozenset[int] | None = None,
+) -> ClosedLoopLevels:
+    """What `source` makes of the recordings that train, beside them. labels_wanted: only these; None for all."""
+    chosen = [one for one in _chosen(store, extent) if labels_wanted is None or one.label_index in labels_wanted]
+    longest = max(_length(recording, extent) for recording in chosen)
+    motions = np.stack([_padded(store.motion[_span(recording, extent)], longest) for recording in chosen])
     labels = np.array([recording.label_index for recording in chosen])
     run = run_closed_loop(
         source, embeddings[labels], motions, update_rate_hz=_UPDATE_RATE_HZ, seed=_SEED, advance=advance
     )
-    made, heard, speeds, owners = [], [], [], []
+    made, heard, speeds, forces, owners = [], [], [], [], []
     for recording, wave in zip(chosen, run.waves, strict=True):
-        recorded = store.waveform[_span(recording)] * store.peak_mps2
-        motion = store.motion[_span(recording)]
-        count = recording.length // _WINDOW_SAMPLES
+        recorded = store.waveform[_span(recording, extent)] * store.peak_mps2
+        motion = store.motion[_span(recording, extent)]
+        count = len(motion) // _WINDOW_SAMPLES
         held = held_out.holds(motion[: count * _WINDOW_SAMPLES]).reshape(count, _WINDOW_SAMPLES).any(axis=1)
         compared = np.flatnonzero(~held[_SETTLING_WINDOWS:]) + _SETTLING_WINDOWS
         for values, into in ((wave, made), (recorded, heard)):
@@ -69,11 +110,14 @@ def level_offsets_db(
             into.append(np.square(windows, dtype=np.float64).mean(axis=1)[compared])
         speed = np.hypot(motion[:, 0], motion[:, 1])[: count * _WINDOW_SAMPLES].reshape(count, _WINDOW_SAMPLES)
         speeds.append(speed.mean(axis=1)[compared])
+        forces.append(motion[: count * _WINDOW_SAMPLES, 2].reshape(count, _WINDOW_SAMPLES).mean(axis=1)[compared])
         owners.append(np.full(len(speeds[-1]), recording.label_index))
-    powers = np.stack([np.concatenate(made), np.concatenate(heard)], axis=1)
-    classes = np.digitize(np.concatenate(speeds), _SPEED_BORDERS_MPS)
-    owner = np.concatenate(owners)
-    return [_offset_db(powers[owner == label], classes[owner == label]) for label in range(len(store.labels))]
+    return ClosedLoopLevels(
+        np.stack([np.concatenate(made), np.concatenate(heard)], axis=1),
+        np.concatenate(speeds),
+        np.concatenate(forces),
+        np.concatenate(owners),
+    )
 
 
 def _offset_db(powers: NDArray[np.float64], classes: NDArray[np.int64]) -> float:
@@ -87,18 +131,22 @@ def _offset_db(powers: NDArray[np.float64], classes: NDArray[np.int64]) -> float
     return float(np.mean(ratios)) if ratios else 0.0
 
 
-def _chosen(store: Store) -> list[StoredRecording]:
+def _chosen(store: Store, extent: Extent) -> list[StoredRecording]:
     """Of each label the same number, spread evenly over what there is."""
     chosen = []
     for label in range(len(store.labels)):
         own = [entry for entry in store.recordings if entry.label_index == label and entry.split != "test"]
-        places = np.linspace(0, len(own) - 1, min(len(own), _RECORDINGS_PER_LABEL)).round().astype(int)
+        places = np.linspace(0, len(own) - 1, min(len(own), extent.recordings_per_label)).round().astype(int)
         chosen += [own[place] for place in places]
     return chosen
 
 
-def _span(recording: StoredRecording) -> slice:
-    return slice(recording.start, recording.start + recording.length)
+def _length(recording: StoredRecording, extent: Extent) -> int:
+    return recording.length if extent.longest_samples is None else min(recording.length, extent.longest_samples)
+
+
+def _span(recording: StoredRecording, extent: Extent) -> slice:
+    return slice(recording.start, recording.start + _length(recording, extent))
 
 
 def _padded(motion: _Floats, samples: int) -> _Floats:
@@ -106,11 +154,13 @@ def _padded(motion: _Floats, samples: int) -> _Floats:
 
 
 class TierSource:
-    """A trained tier as a source of segments, without the engine: what is calibrated is not a file yet."""
+    """A trained tier as a source of segments, without the engine: what is calibrated is not a file yet. tables: the
+    level of labels that have one of their own, by index."""
 
-    def __init__(self, tier: TrainedTier) -> None:
+    def __init__(self, tier: TrainedTier, tables: Mapping[int, LevelTable] | None = None) -> None:
         self._tier = tier
         self.embeddings: _Floats = tier.model.embedding.weight.detach().numpy()
+        self._tables = {self.embeddings[label].tobytes(): table for label, table in (tables or {}).items()}
 
     @torch.no_grad()
     def generate(
@@ -120,6 +170,11 @@ class TierSource:
         model, tier = self._tier.model, self._tier
         embedding, motion = torch.from_numpy(embeddings), torch.from_numpy(motions)
         log_level = model.level(embedding, motion)
+        for row, own in enumerate(embeddings if self._tables else ()):
+            table = self._tables.get(np.ascontiguousarray(own).tobytes())
+            if table is not None:
+                speed = float(np.hypot(motions[row, 0], motions[row, 1]))
+                log_level[row, 0] = float(table.log_level(speed, motions[row, 2]))
         previous = model.representation.encode(scaled_previous(torch.from_numpy(previous_mps2).unsqueeze(1), log_level))
         # A latent's noise has a shape of its own.
         drawn = torch.randn(previous.shape) if model.representation.is_latent else torch.from_numpy(noise).unsqueeze(1)

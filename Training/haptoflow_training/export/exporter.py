@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import math
 import tempfile
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
@@ -16,6 +16,7 @@ import torch
 from haptoflow_training.errors import InputError
 from haptoflow_training.export.exponents import fit_exponents
 from haptoflow_training.export.label_info import LabelInfo
+from haptoflow_training.export.level_table import LevelTable
 from haptoflow_training.export.model_file import ModelFile, write_model_file
 from haptoflow_training.export.onnx_graphs import export_level_model, export_network
 from haptoflow_training.export.parity import write_parity
@@ -62,7 +63,9 @@ def _range(store: Store) -> dict[str, Any]:
     }
 
 
-def _label_entry(store: Store, row: int, info: LabelInfo, seed: int, held_out: HeldOut) -> dict[str, Any]:
+def _label_entry(
+    store: Store, row: int, info: LabelInfo, seed: int, held_out: HeldOut, table: LevelTable | None
+) -> dict[str, Any]:
     exponents = fit_exponents(store, row, periodic=info.periodic, seed=seed, held_out=held_out)
     return {
         "name": info.name,
@@ -75,6 +78,7 @@ def _label_entry(store: Store, row: int, info: LabelInfo, seed: int, held_out: H
         "stiffness_newtons_per_metre": info.stiffness_newtons_per_metre,
         "friction_coefficient": info.friction_coefficient,
         **({} if info.landing is None else {"impact": _impact_entry(info.landing)}),
+        **({} if table is None else {"level": table.to_json()}),
     }
 
 
@@ -111,6 +115,7 @@ def _header(
     provenance: Provenance,
     seed_entries: list[dict[str, object]],
     measurements: dict[str, Any],
+    level_tables: Mapping[int, LevelTable],
 ) -> dict[str, Any]:
     return {
         "format": "haptoflow",
@@ -122,7 +127,7 @@ def _header(
             "licence": provenance.licence,
             "seed": config.seed,
             "commit": measurements.get("commit", source_commit(Path(__file__).parent)),
-            "configuration": config.to_dict(),
+            "configuration": _described(config),
             "created": provenance.created,
         },
         "sample_rate_hz": 2000,
@@ -131,13 +136,23 @@ def _header(
         "range": _range(store),
         "embedding_size": EMBEDDING_SIZE,
         "labels": [
-            _label_entry(store, row, info, config.seed, HeldOut.of(config.batch)) for row, info in enumerate(infos)
+            _label_entry(store, row, info, config.seed, HeldOut.of(config.batch), level_tables.get(row))
+            for row, info in enumerate(infos)
         ],
         "tiers": [_tier_entry(tier) for tier in tiers],
         "default_tier": config.tier,
         "seed_bank": {"samples": SEED_SAMPLES, "tensor": "seeds", "entries": seed_entries},
         "measurements": measurements,
     }
+
+
+def _described(config: TrainingConfig) -> dict[str, Any]:
+    """The configuration with the last part of each path: where somebody's recordings lie is nobody's business."""
+    described = config.to_dict()
+    data = described["data"]
+    data["folders"] = [Path(folder).name for folder in data["folders"]]
+    data["labels_file"] = Path(data["labels_file"]).name if data["labels_file"] else ""
+    return described
 
 
 def _graphs(tier: TrainedTier) -> dict[str, bytes]:
@@ -168,12 +183,14 @@ def export_run(
     parity: Path | None = None,
     further_tiers: Sequence[Path] = (),
     level_offsets_db: Sequence[float] | None = None,
+    level_tables: Mapping[int, LevelTable] | None = None,
 ) -> int:
     """Write the finished run in `folder` to `out`, and golden vectors to `parity`; returns the file's CRC-32.
 
     Golden vectors are of the raw tiers: a latent one starts from noise that only the engine extends. further_tiers:
     folders of runs trained with `--base folder`, each one more tier of the same file. level_offsets_db: what the level
-    gives too much of each label (evaluation/level_calibration.py), to be taken back.
+    gives too much of each label (evaluation/level_calibration.py), to be taken back. level_tables: by index, of labels
+    whose level has a table of its own.
     """
     tiers = load_tiers([folder, *further_tiers])
     if level_offsets_db is not None:
@@ -190,7 +207,7 @@ def export_run(
     measurements.pop("configuration", None)
     if level_offsets_db is not None:
         measurements["level_offsets_db"] = [round(offset, 3) for offset in level_offsets_db]
-    header = _header(config, tiers, store, infos, provenance, bank.entries, measurements)
+    header = _header(config, tiers, store, infos, provenance, bank.entries, measurements, level_tables or {})
     graphs = {name: graph for tier in tiers for name, graph in _graphs(tier).items()}
     file = ModelFile(
         header=header,

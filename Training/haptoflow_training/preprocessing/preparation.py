@@ -6,7 +6,7 @@ import dataclasses
 import os
 import shutil
 from collections import deque
-from collections.abc import Iterable, Iterator
+from collections.abc import Collection, Iterable, Iterator, Sequence
 from concurrent.futures import Future, ProcessPoolExecutor
 from contextlib import ExitStack
 from dataclasses import dataclass
@@ -21,8 +21,9 @@ from haptoflow_training.preprocessing import store as store_module
 from haptoflow_training.preprocessing.padding import PaddedRecording, pad_recording
 from haptoflow_training.preprocessing.pipeline import PreparedRecording, preprocess_parts
 from haptoflow_training.preprocessing.settings import PreprocessingSettings
-from haptoflow_training.preprocessing.split import split_of
+from haptoflow_training.preprocessing.split import SPLITS, Split, split_of
 from haptoflow_training.preprocessing.store import SegmentStore, SkippedRecording, StoredRecording
+from haptoflow_training.preprocessing.time_split import cut, labels_to_cut, labels_without_a_split, time_parts
 from haptoflow_training.recordings.recording import Recording, RecordingIdentity
 
 _PEAK_PERCENTILE = 80.0
@@ -48,12 +49,15 @@ class _Prepared:
     padded: PaddedRecording | None
     problem: str | None
     peak_mps2: float = 0.0
-    # Of a recording with gaps: which stretch of it.
+    # Of a recording with gaps: which stretch of it. Of one that is cut by time: the split and which of its parts.
     part: int = 0
+    split: Split | None = None
+    piece: int = 0
 
     @property
     def name(self) -> str:
-        return self.identity.name if self.part == 0 else f"{self.identity.name} part {self.part + 1}"
+        name = self.identity.name if self.part == 0 else f"{self.identity.name} part {self.part + 1}"
+        return name if self.split is None else f"{name} {self.split} {self.piece + 1}"
 
 
 def prepare_store(
@@ -66,8 +70,12 @@ def prepare_store(
     *,
     provenance: dict[str, Any] | None = None,
     workers: int = 1,
+    cut_labels: Collection[str] = (),
 ) -> SegmentStore:
     """Prepare every recording, in order, into the folder `out`; an older store there gives way at the end.
+
+    cut_labels: labels whose recordings are cut by time into training, validation and test (time_split.py); one that is
+    too short for that stays whole, in the split that its name gives it.
 
     A recording that cannot be prepared is skipped and listed in the store; one with gaps becomes one for each stretch
     between them. InputError: none was usable, a
@@ -82,7 +90,7 @@ def prepare_store(
     try:
         shutil.rmtree(unfinished, ignore_errors=True)
         unfinished.mkdir(parents=True)
-        prepared = _prepare_each(recordings, labels, settings, seed, workers)
+        prepared = _prepare_each(recordings, labels, settings, seed, workers, cut_labels)
         bar = tqdm(prepared, disable=not progress, unit=" recordings", desc="prepare")
         stored, skipped = _append_all(bar, labels, unfinished, settings, seed)
         peak_mps2 = _peak(stored, skipped)
@@ -108,22 +116,48 @@ def prepare_store(
     return SegmentStore.open(out)
 
 
+def prepare_cut_where_needed(
+    recordings: Sequence[LoadableRecording],
+    labels: list[str],
+    out: Path,
+    settings: PreprocessingSettings | None = None,
+    seed: int = 0,
+    *,
+    provenance: dict[str, Any] | None = None,
+    workers: int = 1,
+) -> SegmentStore:
+    """As `prepare_store`; recordings of a label of which there are too few for every split are cut by time, also where
+    too few are left because others could not be prepared."""
+    chosen = settings or PreprocessingSettings()
+    cut_labels = labels_to_cut(((item.label, item.identity) for item in recordings), chosen, seed)
+    while True:
+        store = prepare_store(
+            recordings, labels, out, chosen, seed, provenance=provenance, workers=workers, cut_labels=cut_labels
+        )
+        lacking = labels_without_a_split(((one.label, one.split) for one in store.recordings), chosen)
+        further = [label for label in lacking if label not in cut_labels]
+        if not further:
+            return store
+        cut_labels = [*cut_labels, *further]
+
+
 def _prepare_each(
     recordings: Iterable[Recording | LoadableRecording],
     labels: list[str],
     settings: PreprocessingSettings,
     seed: int,
     workers: int,
+    cut_labels: Collection[str],
 ) -> Iterator[list[_Prepared]]:
     checked = _checked(recordings, labels)
     if workers <= 1:
-        yield from (_prepare_one(item, settings, seed) for item in checked)
+        yield from (_prepare_one(item, settings, seed, item.label in cut_labels) for item in checked)
         return
     pending: deque[Future[list[_Prepared]]] = deque()
     with ProcessPoolExecutor(workers) as pool:
         try:
             for item in checked:
-                pending.append(pool.submit(_prepare_one, item, settings, seed))
+                pending.append(pool.submit(_prepare_one, item, settings, seed, item.label in cut_labels))
                 if len(pending) > 2 * workers:
                     yield pending.popleft().result()
             while pending:
@@ -151,15 +185,25 @@ def _checked(
 
 
 def _prepare_one(
-    item: Recording | LoadableRecording, settings: PreprocessingSettings, seed: int
+    item: Recording | LoadableRecording, settings: PreprocessingSettings, seed: int, is_cut: bool
 ) -> list[_Prepared]:
-    """One for each stretch between gaps, or the one reason why there is none."""
+    """One for each stretch between gaps, or for each of its parts, or the one reason why there is none."""
     try:
         recording = item if isinstance(item, Recording) else item.load()
         parts = preprocess_parts(recording, settings)
     except InputError as error:
         return [_Prepared(item.identity, item.label, None, str(error))]
-    return [_prepare_part(item, number, part, settings, seed) for number, part in enumerate(parts)]
+    prepared: list[_Prepared] = []
+    pieces = dict.fromkeys(SPLITS, 0)
+    for number, part in enumerate(parts):
+        times = time_parts(len(part.waveform_mps2), settings) if is_cut else []
+        if not times:
+            prepared.append(_prepare_part(item, number, part, settings, seed))
+        for time in times:
+            piece = _prepare_part(item, number, cut(part, time), settings, seed, time.split, pieces[time.split])
+            pieces[time.split] += 1
+            prepared.append(piece)
+    return prepared
 
 
 def _prepare_part(
@@ -168,12 +212,14 @@ def _prepare_part(
     part: PreparedRecording,
     settings: PreprocessingSettings,
     seed: int,
+    split: Split | None = None,
+    piece: int = 0,
 ) -> _Prepared:
     peak_mps2 = float(np.abs(part.waveform_mps2).max())
     if peak_mps2 == 0.0:
         problem = "acceleration never changes; expected a vibration"
-        return _Prepared(item.identity, item.label, None, problem, part=number)
-    prepared = _Prepared(item.identity, item.label, None, None, peak_mps2, number)
+        return _Prepared(item.identity, item.label, None, problem, part=number, split=split, piece=piece)
+    prepared = _Prepared(item.identity, item.label, None, None, peak_mps2, number, split, piece)
     return dataclasses.replace(prepared, padded=pad_recording(part, prepared.name, settings, seed))
 
 
@@ -205,7 +251,7 @@ def _append_all(
                     speed_mmps=identity.speed_mmps,
                     force_millinewtons=identity.force_millinewtons,
                     repeat=identity.repeat,
-                    split=split_of(identity, settings, seed),
+                    split=item.split or split_of(identity, settings, seed),
                     start=start,
                     length=length,
                     padding_before=item.padded.padding_before,

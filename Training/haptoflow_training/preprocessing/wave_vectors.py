@@ -42,7 +42,10 @@ _WIDER_BY_ORDER = 0.12
 _NEIGHBOURHOOD_PER_MM = 0.3
 # In standard deviations of an average over noise, and times its mean; noise alone stays below 8 and 1.7.
 _SURE, _STRONG = 9.0, 1.9
-_EVERYWHERE = 1.5
+# Where the harmonics of a known vector are left out, there is less to hear a second one in.
+_SURE_BESIDE_KNOWN, _FEWEST_BESIDE_KNOWN = 5.5, 20
+# Of each quarter of the frequencies, and of all but one.
+_EVERYWHERE, _NEARLY_EVERYWHERE = 1.25, 1.5
 _LEAST_SPREAD = 0.12
 _HARMONICS = 8
 _MOST_WAVE_VECTORS = 2
@@ -84,7 +87,7 @@ def estimate_wave_vectors(recordings: Sequence[MaterialRecording]) -> tuple[Wave
         candidate = plane.clearest(found)
         if candidate is None:
             break
-        found.append(plane.refined(plane.fundamental(candidate, found)))
+        found.append(plane.refined(plane.fundamental(candidate)))
     return tuple(found)
 
 
@@ -119,7 +122,7 @@ class _Plane:
             total += np.where(counted, power, 0.0)
             count += counted
         mean = total / np.maximum(count, 1.0)
-        enough = count >= _FEWEST_STRETCHES
+        enough = count >= (_FEWEST_BESIDE_KNOWN if known else _FEWEST_STRETCHES)
         ratio = mean / np.maximum(_neighbourhood(np.where(enough, mean, 1.0)), 1.0)
         ratio[~(enough & self._allowed)] = 0.0
         return ratio, (ratio - 1.0) * np.sqrt(count)
@@ -127,6 +130,10 @@ class _Plane:
     def clearest(self, known: Sequence[WaveVector]) -> WaveVector | None:
         """The vector with the clearest line that holds at low frequencies as at high ones; None without one."""
         ratio, sureness = self._evidence(known)
+        if known:
+            # As clear as a first one in all stretches, and still there in those that cannot be misled.
+            _, unaided = self._evidence(())
+            sureness = np.minimum(unaided, sureness * (_SURE / _SURE_BESIDE_KNOWN))
         for vector in known:
             for order in range(1, _HARMONICS + 1):
                 near = np.linalg.norm(self._vectors - order * np.array(vector), axis=-1) < 1.5 * _LOBE_PER_MM
@@ -151,25 +158,26 @@ class _Plane:
         if float(np.log(by_frequency[:, 0]).std()) < _LEAST_SPREAD:
             return False
         quarters = [float(part.mean()) for part in np.array_split(by_frequency[:, 1], 4)]
-        return sorted(quarters)[1] > _EVERYWHERE
+        lowest, second, *_ = sorted(quarters)
+        return lowest > _EVERYWHERE and second > _NEARLY_EVERYWHERE
 
-    def fundamental(self, vector: WaveVector, known: Sequence[WaveVector]) -> WaveVector:
+    def fundamental(self, vector: WaveVector) -> WaveVector:
         """The lowest fraction of a clear line that is a clear line as well: a rib's harmonics may be stronger than it."""
-        ratio, sureness = self._evidence(known)
+        ratio, sureness = self._evidence(())
         for order in (4, 3, 2):
             wanted = np.array(vector) / order
             near = np.linalg.norm(self._vectors - wanted, axis=-1) < 1.5 * _STEP_PER_MM
             clear = near & (sureness >= _SURE) & (ratio >= _STRONG)
             if clear.any():
                 place = np.unravel_index(int(np.where(clear, sureness, 0.0).argmax()), sureness.shape)
-                if self._holds_everywhere(self._vectors[place], known):
+                if self._holds_everywhere(self._vectors[place], ()):
                     return float(self._vectors[place][0]), float(self._vectors[place][1])
         return vector
 
     def refined(self, vector: WaveVector) -> WaveVector:
         """The same between the points of the plane."""
         best = np.array(vector)
-        for reach in (_STEP_PER_MM, _STEP_PER_MM / 4.0, _STEP_PER_MM / 16.0):
+        for reach in (2.0 * _STEP_PER_MM, _STEP_PER_MM / 2.0, _STEP_PER_MM / 8.0):
             offsets = np.stack(np.meshgrid(*[np.linspace(-reach, reach, 5)] * 2, indexing="ij"), axis=-1).reshape(-1, 2)
             best = max((best + offset for offset in offsets), key=self._sharpness)
         # The opposite vector is the same ribs.

@@ -12,8 +12,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from haptoflow_training.preprocessing.plausibility import implausible
-from haptoflow_training.recordings.cluster_dataset import ClusterDataset, DatasetProblem, RecordingFiles
+from haptoflow_training.recordings.cluster_dataset import DatasetProblem
 from haptoflow_training.recordings.cluster_dataset_files import DatasetFileError
+from haptoflow_training.recordings.open_recordings import Dataset, RecordingFile
 from haptoflow_training.recordings.recording import Recording, RecordingIdentity
 
 SENSORS = ("acceleration", "force", "position")
@@ -46,8 +47,8 @@ class RangeSummary:
 class Inspection:
     """Counts are of readable recordings; problems are in the order of the files."""
 
-    dataset: ClusterDataset
-    readable: tuple[RecordingFiles, ...]
+    dataset: Dataset
+    readable: tuple[RecordingFile, ...]
     durations_seconds: tuple[float, ...]
     clocks: dict[str, ClockSummary]
     ranges: dict[str, RangeSummary]
@@ -107,6 +108,7 @@ class Inspection:
                 "longest": float(durations.max()) if len(durations) else 0.0,
             },
             "coverage": self.coverage(),
+            "notes": list(self.dataset.notes),
             "problems": [
                 {"file": str(problem.path), "found": problem.found, "expected": problem.expected}
                 for problem in self.problems
@@ -115,13 +117,13 @@ class Inspection:
 
 
 def inspect_dataset(
-    dataset: ClusterDataset, recordings: Iterable[RecordingFiles] | None = None
+    dataset: Dataset, recordings: Iterable[RecordingFile] | None = None
 ) -> Inspection:
     """Read every recording once, one at a time; `recordings` may wrap `dataset` to show progress.
 
     A broken file is a problem, and so is what looks like a wrong unit or a glitch; InputError is raised only where no Parquet engine is installed.
     """
-    readable: list[RecordingFiles] = []
+    readable: list[RecordingFile] = []
     durations: list[float] = []
     clocks: dict[str, list[tuple[float, float]]] = {sensor: [] for sensor in SENSORS}
     quantiles: dict[str, list[NDArray[np.float64]]] = {quantity: [] for quantity in _UNITS}
@@ -160,10 +162,9 @@ def _range(quantity: str, found: NDArray[np.float64]) -> RangeSummary:
     return RangeSummary(_UNITS[quantity], low, middle, high)
 
 
-def _implausible(entry: RecordingFiles, recording: Recording) -> Iterable[DatasetProblem]:
-    paths = {"acceleration": entry.acceleration_path, "force": entry.force_path, "position": entry.position_path}
+def _implausible(entry: RecordingFile, recording: Recording) -> Iterable[DatasetProblem]:
     for problem in implausible(recording):
-        yield DatasetProblem(paths[problem.sensor], f"{problem.sensor} {problem.found}", problem.expected)
+        yield DatasetProblem(entry.path_of(problem.sensor), f"{problem.sensor} {problem.found}", problem.expected)
 
 
 def _clocks(recording: Recording) -> Iterable[tuple[str, NDArray[np.float64]]]:

@@ -13,14 +13,16 @@ from haptoflow_training.errors import InputError
 
 DEFAULT_LABELS_PATH = Path(__file__).resolve().parents[2] / "configs" / "labels-cluster.toml"
 
-_REQUIRED = ("name", "category", "textures", "stiffness_newtons_per_metre", "friction_coefficient")
-_OPTIONAL = ("wavelength_metres",)
+_REQUIRED = ("name", "category", "stiffness_newtons_per_metre", "friction_coefficient")
+_OPTIONAL = ("textures", "wavelength_metres", "wave_vectors_per_mm")
 
 
 @dataclass(frozen=True)
 class LabelDefinition:
-    """One label. textures: ids, or names as texture_list.xlsx has them. stiffness: default spring, N/m.
-    friction_coefficient: kinetic. wavelength_metres: of a ruled or woven surface, else None."""
+    """One label. textures: ids, or names as texture_list.xlsx or the recordings' sidecars have them. stiffness: default
+    spring, N/m. friction_coefficient: kinetic. wavelength_metres: of a ruled or woven surface, else None.
+    wave_vectors_per_mm: (x, y) across its ribs in cycles per millimetre; empty for a surface that has none, None where
+    nobody said."""
 
     name: str
     category: str
@@ -28,6 +30,7 @@ class LabelDefinition:
     stiffness_newtons_per_metre: float
     friction_coefficient: float
     wavelength_metres: float | None = None
+    wave_vectors_per_mm: tuple[tuple[float, float], ...] | None = None
 
 
 @dataclass(frozen=True)
@@ -97,7 +100,7 @@ def _definition(where: str, entry: Any) -> LabelDefinition:
     for key in ("name", "category"):
         if not isinstance(entry[key], str) or not entry[key].strip():
             raise InputError(f"{where}: key '{key}' is {entry[key]!r}; expected a name")
-    textures = entry["textures"]
+    textures = entry.get("textures", [entry["name"]])
     if not isinstance(textures, list) or not textures or not all(
         _is_texture(texture) for texture in textures
     ):
@@ -109,7 +112,22 @@ def _definition(where: str, entry: Any) -> LabelDefinition:
         _positive(where, entry, "stiffness_newtons_per_metre"),
         _positive(where, entry, "friction_coefficient"),
         _positive(where, entry, "wavelength_metres") if "wavelength_metres" in entry else None,
+        _wave_vectors(where, entry["wave_vectors_per_mm"]) if "wave_vectors_per_mm" in entry else None,
     )
+
+
+def _wave_vectors(where: str, value: Any) -> tuple[tuple[float, float], ...]:
+    """Up to two [x, y]; InputError for anything else."""
+    expected = "up to two [x, y] in cycles per millimetre, or [] for a surface without ribs"
+    good = isinstance(value, list) and len(value) <= 2 and all(
+        isinstance(vector, list)
+        and len(vector) == 2
+        and all(isinstance(part, (int, float)) and not isinstance(part, bool) and abs(part) < 100.0 for part in vector)
+        for vector in value
+    )
+    if not good:
+        raise InputError(f"{where}: key 'wave_vectors_per_mm' is {value!r}; expected {expected}")
+    return tuple((float(x), float(y)) for x, y in value)
 
 
 def _is_texture(value: Any) -> bool:

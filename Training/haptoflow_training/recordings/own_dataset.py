@@ -104,7 +104,7 @@ def _files(root: Path) -> list[Path]:
             raise InputError(f"{root}: expected a recording that ends with {', '.join(OWN_ENDINGS)}")
         return [root]
     if not root.is_dir():
-        raise InputError(f"{root}: does not exist; expected a recording or a folder of recordings")
+        raise InputError(f"{root}: does not exist; expected the folder that holds sensor_data, a folder of recordings, or one file")
     found = [path for path in root.rglob("*") if path.suffix in OWN_ENDINGS and path.is_file()]
     visible = [path for path in found if not any(part.startswith(".") for part in path.relative_to(root).parts)]
     if not visible:

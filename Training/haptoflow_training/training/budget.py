@@ -3,23 +3,36 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 
 
 class Budget:
-    """What each phase may take of this process's computing time, in seconds, and what it has taken.
+    """What each phase may take of a clock's time, in seconds, and what it has taken.
 
-    Computing time, not the clock on the wall: what other programs take of the machine is not this run's.
+    clock: by default this process's computing time, so that what other programs take of the machine is not this run's;
+    time.monotonic for a run that somebody waits for.
     """
 
-    def __init__(self, allotted_seconds: Sequence[float], used_seconds: Sequence[float] = ()) -> None:
+    def __init__(
+        self,
+        allotted_seconds: Sequence[float],
+        used_seconds: Sequence[float] = (),
+        clock: Callable[[], float] = time.process_time,
+    ) -> None:
+        self._clock = clock
         self.allotted_seconds = list(allotted_seconds)
         self.used_seconds = list(used_seconds) or [0.0] * len(self.allotted_seconds)
-        self._last = time.process_time()
+        self._last = clock()
 
     @classmethod
     def shared_out(
-        cls, seconds: float, steps: Sequence[int], seconds_per_step: Sequence[float], *, kept: Sequence[bool]
+        cls,
+        seconds: float,
+        steps: Sequence[int],
+        seconds_per_step: Sequence[float],
+        *,
+        kept: Sequence[bool],
+        clock: Callable[[], float] = time.process_time,
     ) -> Budget:
         """`seconds` for phases of these steps. Those that are `kept` get the time that their steps take, as long as that
         is half of all at most; the others share what is left, each lengthened or shortened by the same factor."""
@@ -27,18 +40,24 @@ class Budget:
         fixed = sum(part for part, is_kept in zip(wanted, kept, strict=True) if is_kept)
         scaled = sum(wanted) - fixed
         if not scaled:
-            return cls([seconds * part / fixed for part in wanted])
+            return cls([seconds * part / fixed for part in wanted], clock=clock)
         share = min(1.0, 0.5 * seconds / fixed) if fixed else 1.0
         rest = (seconds - share * fixed) / scaled
-        return cls([part * (share if is_kept else rest) for part, is_kept in zip(wanted, kept, strict=True)])
+        allotted = [part * (share if is_kept else rest) for part, is_kept in zip(wanted, kept, strict=True)]
+        return cls(allotted, clock=clock)
+
+    @property
+    def left_seconds(self) -> float:
+        """Of all phases."""
+        return sum(max(0.0, all_of_it - used) for all_of_it, used in zip(self.allotted_seconds, self.used_seconds, strict=True))
 
     def start(self) -> None:
         """Leave out of account what the process has done until now."""
-        self._last = time.process_time()
+        self._last = self._clock()
 
     def spend(self, phase: int) -> None:
         """Put to the account of `phase` what the process has done since the last call."""
-        now = time.process_time()
+        now = self._clock()
         self.used_seconds[phase] += now - self._last
         self._last = now
 

@@ -14,7 +14,7 @@ from haptoflow_training.models.baselines import ARCHITECTURES, REGRESSING
 
 @dataclass(frozen=True)
 class DataConfig:
-    """Where the recordings come from.
+    """Where the recordings come from. In a TOML file, `folders` and `labels_file` are relative to that file.
 
     source: `synthetic` (the recorder makes them) or `folders` (`folders` lists data set roots).
     labels_file: which textures teach which label, for `folders`; empty for configs/labels-cluster.toml.
@@ -221,12 +221,28 @@ def _read_table(path: Path, extended_by: tuple[Path, ...]) -> dict[str, Any]:
         raise InputError(f"{path}: cannot be read ({error.strerror}); name a run's TOML file") from error
     except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
         raise InputError(f"{path}: is not TOML ({error})") from error
+    _from_the_file(table, path)
     parent = table.pop("extends", None)
     if parent is None:
         return table
     if not isinstance(parent, str):
         raise InputError(f"{path}: key 'extends' is {parent!r}, expected the name of a TOML file beside it")
     return _merged(_read_table(path.parent / parent, (*extended_by, path)), table)
+
+
+def _from_the_file(table: dict[str, Any], path: Path) -> None:
+    """Paths of recordings and labels are relative to the file that names them."""
+    data = table.get("data")
+    if not isinstance(data, dict):
+        return
+
+    def located(value: Any) -> Any:
+        return str((path.parent / Path(value).expanduser()).resolve()) if isinstance(value, str) and value else value
+
+    if isinstance(data.get("folders"), list):
+        data["folders"] = [located(folder) for folder in data["folders"]]
+    if "labels_file" in data:
+        data["labels_file"] = located(data["labels_file"])
 
 
 def _merged(below: dict[str, Any], above: dict[str, Any]) -> dict[str, Any]:

@@ -15,12 +15,14 @@ from haptoflow_training.errors import InputError
 from haptoflow_training.export.exporter import Provenance
 from haptoflow_training.export.label_info import LabelInfo
 from haptoflow_training.export.seed_bank import SEED_SAMPLES
-from haptoflow_training.preprocessing.preparation import prepare_store
+from haptoflow_training.preprocessing.preparation import prepare_cut_where_needed, prepare_store
 from haptoflow_training.preprocessing.split import SPLITS
 from haptoflow_training.preprocessing.store import SegmentStore
-from haptoflow_training.recordings.cluster_dataset import UNKNOWN, ClusterDataset, RecordingFiles, open_dataset
+from haptoflow_training.recordings.cluster_dataset import UNKNOWN
 from haptoflow_training.recordings.labels import LabelDefinition, LabelMap, load_labels
 from haptoflow_training.recordings.landing import landing_of
+from haptoflow_training.recordings.open_recordings import Dataset, RecordingFile, open_recordings
+from haptoflow_training.recordings.own_dataset import OwnDataset
 from haptoflow_training.recordings.recording import Recording, RecordingIdentity
 from haptoflow_training.recordings.synthetic import (
     Material,
@@ -32,6 +34,7 @@ from haptoflow_training.recordings.synthetic import (
 )
 from haptoflow_training.recordings.synthetic.materials import select_materials
 from haptoflow_training.training.config import DataConfig
+from haptoflow_training.training.found_wave_vectors import with_found_wave_vectors
 
 SYNTHETIC_STATEMENT = "trained on synthetic recordings"
 
@@ -64,13 +67,15 @@ class SyntheticRecording:
 
 @dataclass(frozen=True)
 class Source:
-    """A store with what the model file has to say of its labels and origin. left_out: a line for each folder that has
-    recordings whose texture no label names."""
+    """A store with what the model file has to say of its labels and origin. left_out: a line for each file that cannot be
+    used, and for each folder that has recordings which no label names. found: labels whose wave vectors were estimated
+    from the recordings."""
 
     store: SegmentStore
     labels: list[LabelInfo]
     provenance: Provenance
     left_out: tuple[str, ...] = ()
+    found: tuple[str, ...] = ()
 
     @property
     def wave_vectors(self) -> list[tuple[tuple[float, float], ...]]:
@@ -120,7 +125,9 @@ def _open_or_prepare(
         store = SegmentStore.open(out)
         if store.provenance.get("made_from") == fingerprint:
             return store
-    return prepare_store(
+    # What the recorder makes is split by its names alone: stores that exist stay as they are.
+    prepare = prepare_store if data.source == "synthetic" else prepare_cut_where_needed
+    return prepare(
         recordings,
         labels,
         out,
@@ -180,31 +187,35 @@ def open_source(data: DataConfig, store_folder: Path, workers: int) -> Source:
 def _open_folders(data: DataConfig, store_folder: Path, workers: int) -> Source:
     if not data.folders:
         raise InputError("data.folders is empty: name the data set's folder there, or pass --recordings DIR")
-    roots = [open_dataset(Path(folder), None) for folder in data.folders]
+    roots = [open_recordings(Path(folder)) for folder in data.folders]
     synthetic = all(root.synthetic for root in roots)
     if synthetic:
         known = {info.name: info for info in synthetic_label_infos(DataConfig())}
         labels_made_from = None
     else:
         label_map = _label_map(data, roots)
-        roots = [open_dataset(Path(folder), label_map) for folder in data.folders]
+        roots = [open_recordings(Path(folder), label_map) for folder in data.folders]
         known = {definition.name: _label_info(definition) for definition in label_map.definitions}
+        asked = {one.name for one in label_map.definitions if one.wave_vectors_per_mm is None and one.wavelength_metres is None}
         labels_made_from = [dataclasses.asdict(definition) for definition in label_map.definitions]
     entries = [entry for root in roots for entry in root if not data.labels or entry.label in data.labels]
+    left_out = _left_out(roots)
     if not entries:
+        first = f" ({left_out[0]})" if left_out else ""
         raise InputError(
-            f"{', '.join(data.folders)}: no recording whose texture a label names; "
+            f"{', '.join(data.folders)}: no recording whose texture a label names{first}; "
             "look with `haptoflow-training inspect`"
         )
     found = {entry.label for entry in entries}
     infos = [info for name, info in known.items() if name in found]
-    further = {"files": _files_of(entries), "labels": labels_made_from}
+    further = {"files": _files_of(entries), "labels": labels_made_from, "split_by_time": True}
     store = _open_or_prepare(data, store_folder, entries, [info.name for info in infos], workers, further)
     _require_splits(store)
     counted = f"{len(store.recordings)} recordings of {len(infos)} labels"
     if synthetic:
         return Source(store, infos, Provenance(SYNTHETIC_STATEMENT, f"synthetic recorder: {counted}", "MIT", ""))
     sources = _joined(root.provenance.get("source") for root in roots)
+    infos, found_vectors = with_found_wave_vectors(store, infos, asked)
     return Source(
         store,
         infos,
@@ -214,8 +225,16 @@ def _open_folders(data: DataConfig, store_folder: Path, workers: int) -> Source:
             licence=_joined(root.provenance.get("licence") for root in roots),
             created="",
         ),
-        tuple(root.left_out for root in roots if root.left_out),
+        left_out,
+        found_vectors,
     )
+
+
+def _left_out(roots: list[Dataset]) -> tuple[str, ...]:
+    """Everything that is not learnt from before it is prepared, a line each."""
+    lines = [f"skipped: {problem}" for root in roots for problem in root.problems]
+    lines += [note for root in roots for note in root.notes]
+    return tuple(lines + [root.left_out for root in roots if root.left_out])
 
 
 def _require_splits(store: SegmentStore) -> None:
@@ -232,19 +251,25 @@ def _require_splits(store: SegmentStore) -> None:
     ]
     if lacking:
         raise InputError(
-            f"nothing to train with for {'; '.join(lacking)}: recordings are split 70:10:20 by their names; record "
-            "more conditions of these labels, leave the labels out (data.labels), or draw another split "
-            "(data.recordings_seed)"
+            f"nothing to train with for {'; '.join(lacking)}: recordings are split 70:10:20 by their names, or by time "
+            "where there are few and they last 1.5 s at least; record more of these labels, leave the labels out "
+            "(data.labels), or draw another split (data.recordings_seed)"
         )
     if not any(of_label["validation"] for of_label in counts.values()):
         raise InputError(
-            "no recording is left for validation: recordings are split 70:10:20 by their names; record more "
-            "conditions, or draw another split (data.recordings_seed)"
+            "no recording is left for validation: recordings are split 70:10:20 by their names, or by time where there "
+            "are few and they last 1.5 s at least; record more, or draw another split (data.recordings_seed)"
         )
 
 
-def _label_map(data: DataConfig, roots: list[ClusterDataset]) -> LabelMap:
+def _label_map(data: DataConfig, roots: list[Dataset]) -> LabelMap:
     if not data.labels_file:
+        own = [str(root.root) for root in roots if isinstance(root, OwnDataset)]
+        if own:
+            raise InputError(
+                f"{', '.join(own)}: recordings of your own; name their labels, with stiffness and friction, in a file like "
+                "Training/templates/own-recordings/labels.toml (--labels FILE, or data.labels_file)"
+            )
         foreign = [str(root.root) for root in roots if not root.published and not root.synthetic]
         if foreign:
             raise InputError(
@@ -260,11 +285,11 @@ def _joined(words: Iterable[object]) -> str:
     return ", ".join(dict.fromkeys(str(word) if word else UNKNOWN for word in words))
 
 
-def _files_of(entries: list[RecordingFiles]) -> str:
+def _files_of(entries: list[RecordingFile]) -> str:
     """A digest of the recordings' names, sizes and times of change: another file is another store."""
     digest = hashlib.sha256()
     for entry in entries:
-        for path in (entry.acceleration_path, entry.force_path, entry.position_path):
+        for path in entry.paths:
             described = path.stat()
             digest.update(f"{entry.label}:{path.name}:{described.st_size}:{described.st_mtime_ns}\n".encode())
     return digest.hexdigest()
@@ -277,4 +302,5 @@ def _label_info(definition: LabelDefinition) -> LabelInfo:
         definition.stiffness_newtons_per_metre,
         definition.friction_coefficient,
         definition.wavelength_metres,
+        definition.wave_vectors_per_mm or (),
     )

@@ -12,7 +12,7 @@ import math
 import os
 import signal
 import time
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from types import FrameType
@@ -45,11 +45,24 @@ _CHECKPOINT_EVERY = 1000
 _VALIDATION_BATCH = 512
 # Of each phase, to see what its steps cost before a budget is shared out; the first ones warm up.
 _REHEARSED_STEPS, _WARM_UP_STEPS = 12, 2
+# Of a run that somebody waits for: fewer where there is little time.
+_SECONDS_OF_A_REHEARSED_STEP = 10.0
+_SHORTEST_TRAINING_SECONDS = 1.0
+# The unit is where the time left is shown: what the bar itself would guess takes all steps for equally long.
+_LIMITED_BAR = "{desc}: {percentage:3.0f}%|{bar}| {n_fmt}/{total_fmt} steps, {unit} [{elapsed}{postfix}]"
 _REHEARSED_PAIRS = 500
 
 
 class TrainingStopped(Exception):
     """The run was asked to stop; its checkpoint is written."""
+
+
+@dataclass(frozen=True)
+class TimeLimit:
+    """What a run may take by the clock on the wall. seconds_after: what follows training and is shown as left too."""
+
+    training_seconds: float
+    seconds_after: float = 0.0
 
 
 WaveVectors = Sequence[Sequence[tuple[float, float]]]
@@ -145,6 +158,8 @@ class Trainer:
         start: Path | None = None,
     ) -> None:
         self._config, self._store, self._folder, self._processes = config, store, folder, processes
+        self._limit: TimeLimit | None = None
+        self._clock: Callable[[], float] = time.process_time
         self._start, self._base, self._wave_vectors = start, base, wave_vectors
         optimiser = config.optimiser
         self._phases = list(_phases(config))
@@ -179,6 +194,11 @@ class Trainer:
         self._step = 0
         self._seconds = 0.0
         self._stop = False
+
+    def limit_time(self, limit: TimeLimit) -> None:
+        """Before `run`, for somebody who waits: in place of the configuration's budget and steps. One process only."""
+        self._limit = limit
+        self._clock = time.monotonic
 
     @property
     def averaged_model(self) -> HaptoFlowModel:
@@ -230,9 +250,12 @@ class Trainer:
         losses: nn.Module = self._losses
         if self._processes.count > 1:
             losses = DistributedDataParallel(self._losses, find_unused_parameters=True)
-        bar = tqdm(total=self._total, initial=self._step, unit="step", disable=log is None, desc=self._config.name)
-        if self._config.optimiser.budget_seconds and self._budget is None:
+        if (self._config.optimiser.budget_seconds or self._limit is not None) and self._budget is None:
             self._budget = self._shared_out_budget()
+        bar = tqdm(
+            total=self._total, initial=self._step, unit="step", disable=log is None, desc=self._config.name,
+            bar_format=None if self._limit is None else _LIMITED_BAR,
+        )  # fmt: skip
         for index, phase in enumerate(self._phases):
             if self._step >= phase.end:
                 continue
@@ -241,6 +264,7 @@ class Trainer:
                 level, field = self._train_step(losses, phase)
                 phase = self._paced(index)
                 bar.total = self._total
+                self._show_time_left(bar)
                 bar.update()
                 if self._step % _LOG_EVERY == 0 or self._step == phase.end:
                     self._seconds += time.monotonic() - clock
@@ -251,6 +275,12 @@ class Trainer:
                 if self._stop:
                     raise TrainingStopped(f"stopped at step {self._step} of {self._total}; start again to go on")
         bar.close()
+
+    def _show_time_left(self, bar: tqdm) -> None:
+        """What the run still takes: the phases' time as it was measured, and what comes after training."""
+        if self._limit is not None and self._budget is not None:
+            minutes, seconds = divmod(round(self._budget.left_seconds + self._limit.seconds_after), 60)
+            bar.unit = f"{minutes}:{seconds:02d} left"
 
     def _paced(self, index: int) -> _Phase:
         """The phase that runs, as long as its share of the budget lets it be by now."""
@@ -273,6 +303,8 @@ class Trainer:
     def _shared_out_budget(self) -> Budget:
         """Of a run that is about to begin: what steps cost is tried on a network that is thrown away."""
         config = self._config
+        seconds = config.optimiser.budget_seconds
+        begun = self._clock()
         tried = Trainer(
             dataclasses.replace(
                 config,
@@ -281,24 +313,32 @@ class Trainer:
             ),
             self._store, self._folder, self._processes, self._base, self._wave_vectors, self._start,
         )  # fmt: skip
+        tried._clock = self._clock
+        rehearsed = _REHEARSED_STEPS
+        if self._limit is not None:
+            rehearsed = min(_REHEARSED_STEPS, max(2, int(self._limit.training_seconds / _SECONDS_OF_A_REHEARSED_STEP)))
+        seconds_per_step = [tried._seconds_per_step(phase, rehearsed) for phase in tried._phases]
+        if self._limit is not None:
+            seconds = max(self._limit.training_seconds - (self._clock() - begun), _SHORTEST_TRAINING_SECONDS)
         budget = Budget.shared_out(
-            config.optimiser.budget_seconds,
+            seconds,
             self._planned_steps,
-            [tried._seconds_per_step(phase) for phase in tried._phases],
+            seconds_per_step,
             kept=[phase.objective == "level" for phase in self._phases],
+            clock=self._clock,
         )
         budget.start()
         return budget
 
-    def _seconds_per_step(self, phase: _Phase) -> float:
+    def _seconds_per_step(self, phase: _Phase, steps: int) -> float:
         self._step = phase.first_step
         self._enter(phase)
         for _ in range(_WARM_UP_STEPS):
             self._train_step(self._losses, phase)
-        begun = time.process_time()
-        for _ in range(_REHEARSED_STEPS):
+        begun = self._clock()
+        for _ in range(steps):
             self._train_step(self._losses, phase)
-        return (time.process_time() - begun) / _REHEARSED_STEPS
+        return (self._clock() - begun) / steps
 
     def _enter(self, phase: _Phase) -> None:
         if self._step == phase.first_step and phase.name in ("reflow", "energy", "polish"):
@@ -413,7 +453,7 @@ class Trainer:
         self._optimiser.load_state_dict(content["optimiser"])
         self._step, self._seconds = content["step"], content["seconds"]
         self._plan(content["steps"])
-        self._budget = Budget(*content["budget"]) if content["budget"] else None
+        self._budget = Budget(*content["budget"], clock=self._clock) if content["budget"] else None
         self._noise.set_state(own["noise"])
         self._batches.restore(own["batches"])
         self._balance.restore(own["balance"])

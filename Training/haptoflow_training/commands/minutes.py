@@ -1,0 +1,61 @@
+"""`train --minutes N`: what of N minutes is left for training once all else has its share."""
+
+from __future__ import annotations
+
+import copy
+import time
+from dataclasses import dataclass
+
+from haptoflow_training.commands.level_offsets import calibrates, seconds_of_a_measurement
+from haptoflow_training.evaluation.level_calibration import Extent
+from haptoflow_training.export.onnx_graphs import export_level_model, export_network
+from haptoflow_training.export.trained_tier import TrainedTier
+from haptoflow_training.models.haptoflow_model import HaptoFlowModel
+from haptoflow_training.training.config import TrainingConfig
+from haptoflow_training.training.recordings_source import Source
+from haptoflow_training.training.trainer import TimeLimit
+
+SHORTEST_MINUTES = 0.1
+# Levels are measured once without tables and up to twice with them.
+_ROUNDS = 3.0
+_LARGEST_SHARE_AFTER = 0.25
+_LEAST_SHARE_OF_TRAINING = 0.3
+_LONGEST_COMPARED_SAMPLES = 16000
+_FEWEST_RECORDINGS = 2
+
+
+@dataclass(frozen=True)
+class Minutes:
+    """limit: of training. extent: of the levels that are measured afterwards."""
+
+    limit: TimeLimit
+    extent: Extent
+
+
+def share_out(
+    minutes: float, begun: float, config: TrainingConfig, source: Source, untrained: HaptoFlowModel, *, exports: bool
+) -> Minutes:
+    """From what measuring levels and writing graphs takes with the network as it is, which training does not change.
+
+    begun: time.monotonic() when the command began. Where recordings took most of the time, training still gets three
+    tenths of the minutes.
+    """
+    whole = 60.0 * minutes
+    extent = Extent(longest_samples=_LONGEST_COMPARED_SAMPLES)
+    after = 0.0
+    if exports:
+        model = copy.deepcopy(untrained).eval().requires_grad_(False)
+        tier = TrainedTier(config, list(source.store.labels), model)
+        started = time.monotonic()
+        export_network(model, tier.kind)
+        export_level_model(model.level)
+        after = 1.5 * (time.monotonic() - started) + 1.0
+        if calibrates(config):
+            one = Extent(_FEWEST_RECORDINGS, extent.longest_samples)
+            seconds = _ROUNDS * seconds_of_a_measurement(tier, source, one) / one.recordings_per_label
+            affordable = int(max(0.0, _LARGEST_SHARE_AFTER * whole - after) / max(seconds, 1e-6))
+            count = min(extent.recordings_per_label, max(_FEWEST_RECORDINGS, affordable))
+            extent = Extent(count, extent.longest_samples)
+            after += seconds * count
+    training = whole - (time.monotonic() - begun) - after
+    return Minutes(TimeLimit(max(training, _LEAST_SHARE_OF_TRAINING * whole), after), extent)

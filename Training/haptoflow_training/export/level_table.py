@@ -1,0 +1,85 @@
+"""A label's level that no power law follows: a table over speed, for the `level` key of a label in a model file.
+
+The level model is a power law with a bounded correction. What a recording does beyond that (a published brick rises by
+14 dB between 60 and 80 mm/s) is told by a table of at most 16 speeds; below and above it, the law goes on.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+_Doubles = NDArray[np.float64]
+
+MOST_SPEEDS = 16
+# As the engine reads it: speeds are compared as log(v + this), forces are at least that.
+SPEED_OFFSET_MPS, LEAST_FORCE_NEWTONS = 0.0005, 0.02
+BINS_PER_OCTAVE = 6.0
+_CLOSE_ENOUGH = 0.25 * math.log(10.0) / 20.0
+
+
+@dataclass(frozen=True)
+class LevelTable:
+    """speeds_mps: [1 to 16], rising. log_levels: natural logarithms of the RMS in m/s^2 at force_newtons. speed_exponent:
+    of the law beyond the table's ends, which is the label's level exponent."""
+
+    speeds_mps: tuple[float, ...]
+    log_levels: tuple[float, ...]
+    force_newtons: float
+    force_exponent: float
+    speed_exponent: float
+
+    def log_level(self, speed_mps: ArrayLike, force_newtons: ArrayLike) -> _Doubles:
+        """As the engine computes it."""
+        speed = np.log(np.asarray(speed_mps, dtype=np.float64) + SPEED_OFFSET_MPS)
+        knots = np.log(np.array(self.speeds_mps) + SPEED_OFFSET_MPS)
+        beyond = np.minimum(speed - knots[0], 0.0) + np.maximum(speed - knots[-1], 0.0)
+        force = np.log(np.maximum(np.asarray(force_newtons, dtype=np.float64), LEAST_FORCE_NEWTONS) / self.force_newtons)
+        return np.asarray(
+            np.interp(speed, knots, self.log_levels) + self.speed_exponent * beyond + self.force_exponent * force
+        )
+
+    def to_json(self) -> dict[str, Any]:
+        return {
+            "speeds_mps": [round(speed, 5) for speed in self.speeds_mps],
+            "log_levels": [round(level, 4) for level in self.log_levels],
+            "force_newtons": round(self.force_newtons, 4),
+            "force_exponent": round(self.force_exponent, 4),
+        }
+
+
+def speed_bins(speeds_mps: _Doubles) -> NDArray[np.int64]:
+    """Of each speed: six bins an octave, counted from 1 m/s; neighbours differ by 12 %."""
+    bins: NDArray[np.int64] = np.floor(BINS_PER_OCTAVE * np.log2(np.maximum(speeds_mps, 1e-4)) + 0.5).astype(np.int64)
+    return bins
+
+
+def bin_speed_mps(number: int) -> float:
+    """The middle of a bin."""
+    return float(2.0 ** (number / BINS_PER_OCTAVE))
+
+
+def table_through(
+    speeds_mps: _Doubles, log_levels: _Doubles, *, force_newtons: float, force_exponent: float, speed_exponent: float
+) -> LevelTable:
+    """The table that follows a curve of speeds [n], rising, with the fewest of its points: within a quarter of a decibel,
+    or 16 of them."""
+    place = np.log(speeds_mps + SPEED_OFFSET_MPS)
+    kept = sorted({0, len(place) - 1})
+    while len(kept) < min(MOST_SPEEDS, len(place)):
+        misses = np.abs(np.interp(place, place[kept], log_levels[kept]) - log_levels)
+        worst = int(misses.argmax())
+        if misses[worst] < _CLOSE_ENOUGH:
+            break
+        kept = sorted({*kept, worst})
+    return LevelTable(
+        tuple(float(speed) for speed in speeds_mps[kept]),
+        tuple(float(level) for level in log_levels[kept]),
+        force_newtons,
+        force_exponent,
+        speed_exponent,
+    )

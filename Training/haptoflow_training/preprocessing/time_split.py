@@ -1,0 +1,85 @@
+"""One recording for training, validation and test: cut by time, with gaps between the parts.
+
+For labels of which there are too few recordings to leave whole ones out. A recording is cut into rounds of about 10 s,
+each of a part for training, one for validation and one for test, so that every split hears the whole of a long recording.
+Between two parts lie as many samples as a training pair's past is long: no sample belongs to two splits.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterable
+from dataclasses import dataclass
+
+from haptoflow_training.preprocessing.pipeline import PreparedRecording
+from haptoflow_training.preprocessing.settings import PreprocessingSettings
+from haptoflow_training.preprocessing.split import SPLITS, Split, split_of
+from haptoflow_training.recordings.recording import RecordingIdentity
+
+_ROUND_SECONDS = 10.0
+# A training pair is two segments; less is of no use to a split.
+_FEWEST_SEGMENTS = {"train": 4, "validation": 2, "test": 2}
+
+
+@dataclass(frozen=True)
+class TimePart:
+    """Samples [start, stop) of a prepared recording."""
+
+    split: Split
+    start: int
+    stop: int
+
+
+def time_parts(samples: int, settings: PreprocessingSettings) -> list[TimePart]:
+    """The parts of a recording of so many samples; empty where it is too short to be cut."""
+    guard = settings.segment_samples
+    rounds = max(1, round(samples / (_ROUND_SECONDS * settings.sample_rate_hz)))
+    shares = (settings.train_share, settings.validation_share, 1.0 - settings.train_share - settings.validation_share)
+    parts: list[TimePart] = []
+    for number in range(rounds):
+        first, last = number * samples // rounds, (number + 1) * samples // rounds
+        wanted = dict(zip(SPLITS, (max(0.0, share) * (last - first) for share in shares), strict=True))
+        wanted = {split: length for split, length in wanted.items() if length > 0.0}
+        for split, length in wanted.items():
+            # What validation and test need at least is taken from training.
+            wanted[split] = max(length, _fewest(split, settings) + guard)
+        wanted["train"] = last - first - sum(length for split, length in wanted.items() if split != "train")
+        start = float(first)
+        for split, length in wanted.items():
+            stop = int(start + length) - guard
+            if stop - int(start) < _fewest(split, settings):
+                return []
+            parts.append(TimePart(split, int(start), stop))
+            start += length
+    return parts
+
+
+def _fewest(split: Split, settings: PreprocessingSettings) -> int:
+    return _FEWEST_SEGMENTS[split] * settings.segment_samples + 1
+
+
+def cut(prepared: PreparedRecording, part: TimePart) -> PreparedRecording:
+    """The part's samples."""
+    samples = slice(part.start, part.stop)
+    return PreparedRecording(prepared.waveform_mps2[samples], prepared.motion[samples], prepared.position_mm[samples])
+
+
+def labels_without_a_split(
+    recordings: Iterable[tuple[str, Split]], settings: PreprocessingSettings
+) -> list[str]:
+    """Of (label, split) of every recording: the labels that lack a split that the shares ask for, in order."""
+    wanted = {"train"}
+    if settings.validation_share > 0.0:
+        wanted.add("validation")
+    if settings.train_share + settings.validation_share < 1.0 - 1e-9:
+        wanted.add("test")
+    found: dict[str, set[str]] = {}
+    for label, split in recordings:
+        found.setdefault(label, set()).add(split)
+    return [label for label, splits in found.items() if wanted - splits]
+
+
+def labels_to_cut(
+    identities: Iterable[tuple[str, RecordingIdentity]], settings: PreprocessingSettings, seed: int
+) -> Collection[str]:
+    """Labels whose recordings' names alone leave a split empty."""
+    return labels_without_a_split(((label, split_of(identity, settings, seed)) for label, identity in identities), settings)
