@@ -21,6 +21,7 @@ _COMMANDS: dict[str, str] = {
     "train-tiers": "train a model file with several tiers over one embedding and level",
     "train-codec": "train the small codec behind latent tiers",
     "export": "write a trained run into a .haptoflow model file",
+    "add-material": "add a material to a model, or write a material file, from ten seconds of recording",
     "few-shot": "measure what ten seconds of a material give, beside rivals",
     "sliders": "find a designer's sliders in a model's embedding space",
     "stroke": "write a hand-like stroke as CSV for `haptoflow render`",
