@@ -158,5 +158,6 @@ def _report(out: Path, model: FileModel, material: Material, fitted: FittedMater
     print(f"  distance of the spectra on the recording: {distances}")
     for tier in fitted.far_tiers:
         print(f"  tier {tier} is further off by more than 0.3 dB: the tone was fitted for {next(iter(fitted.distances_db))}")
-    if fitted.seconds < RECOMMENDED_SECONDS - 0.5:
+    # The ends of a recording are trimmed.
+    if fitted.seconds < RECOMMENDED_SECONDS - 1.0:
         print(f"  {fitted.seconds:.1f} s is little; {RECOMMENDED_SECONDS:g} s with slow and fast slides are recommended")

@@ -9,7 +9,15 @@ import torch
 from tqdm import tqdm
 
 from haptoflow_training.evaluation.few_shot_cases import SECONDS, study_materials
-from haptoflow_training.evaluation.few_shot_report import assembled, curve_table, table, write_chart, write_results
+from haptoflow_training.evaluation.few_shot_engine import engine_cells
+from haptoflow_training.evaluation.few_shot_report import (
+    ENGINE,
+    assembled,
+    curve_table,
+    table,
+    write_chart,
+    write_results,
+)
 from haptoflow_training.evaluation.few_shot_study import (
     NETWORK_LEARNING_RATE,
     StudyPlan,
@@ -20,6 +28,7 @@ from haptoflow_training.models.file_model import FileModel
 
 _EXAMPLES = """examples:
   haptoflow-training few-shot --model default.haptoflow --results few-shot.json --chart few-shot.png
+  haptoflow-training few-shot --model default.haptoflow --engine build/native/haptoflow --results few-shot.json
   haptoflow-training few-shot --model mine.haptoflow --materials 4 --results mine.json
 
 A study that is stopped goes on where it was when it is started again with the same --work folder. About a minute of one
@@ -40,9 +49,10 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser], su
     parser.add_argument("--results", required=True, type=Path, help="JSON file to write")
     parser.add_argument("--chart", type=Path, help="PNG file to write")
     parser.add_argument("--work", type=Path, default=Path("build/few-shot"), help="folder of what is done already")
-    parser.add_argument("--materials", type=int, default=12, help="how many held-out materials (default 12)")
+    parser.add_argument("--materials", type=int, default=10, help="how many held-out materials (default 10)")
     parser.add_argument("--seed", type=int, default=2026, help="of materials, recordings and fits (default 2026)")
 
+    parser.add_argument("--engine", type=Path, help="built command line (build/native/haptoflow): 10 s through it, too")
     parser.set_defaults(run=_run)
 
 
@@ -54,6 +64,9 @@ def _run(options: argparse.Namespace) -> int:
     materials = study_materials(options.materials, options.seed)
     with tqdm(total=len(materials), unit="material") as progress:
         cells = [cells_of(plan, model, material, lambda: progress.update(1) and None) for material in materials]
+    if options.engine is not None:
+        for cell, material in zip(cells, materials, strict=True):
+            cell["rows"][ENGINE] = engine_cells(plan, options.engine, material)
     header = {
         "model": model.file.header["name"],
         "seed": options.seed,

@@ -58,7 +58,7 @@ class EmbeddingFit:
 class FitOptions:
     """steps: of the optimiser; rows: segments a step, each drawn twice; pull: weight of the labels' spread."""
 
-    steps: int = 120
+    steps: int = 80
     rows: int = 24
     learning_rate: float = 0.06
     pull: float = 0.002

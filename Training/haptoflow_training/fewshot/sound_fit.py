@@ -30,6 +30,7 @@ CHUNK_SAMPLES = 4000
 SETTLING_SAMPLES = 400
 _RENDERED_CHUNKS, _DRAWS = 24, 3
 _ROUNDS = 2
+_AUDIBLE_SHARE = 1e-3
 _SLOWEST_MPS, _UNSTEADIEST, _FEWEST_WINDOWS = 0.01, 0.5, 6
 LEVEL_WINDOW_SAMPLES, LEVEL_HOP_SAMPLES = 200, 100
 
@@ -144,7 +145,7 @@ def calibrated(
 
 def band_distance_db(rendered: Rendered, tone: ToneTable | None) -> float:
     """RMS over narrow bands and speeds of the difference in dB between what was recorded and what is made, the level left
-    out: mean spectra of a third of the recorded speeds each."""
+    out: mean spectra of a third of the recorded speeds each. Below a thousandth of the mean power nothing is compared."""
     recorded = _settled(rendered.chunks, WINDOW_SAMPLES)
     order = np.argsort(recorded.speed_mps)
     powers = band_powers(recorded.waves)[0]
@@ -152,7 +153,9 @@ def band_distance_db(rendered: Rendered, tone: ToneTable | None) -> float:
     errors = []
     for part in np.array_split(order, 3):
         if len(part):
-            difference = 10.0 * np.log10((made[part].mean(axis=0) + 1e-9) / (powers[part].mean(axis=0) + 1e-9))
+            means = [values[part].mean(axis=0) for values in (made, powers)]
+            floored = [values / values.mean() + _AUDIBLE_SHARE for values in means]
+            difference = 10.0 * np.log10(floored[0] / floored[1])
             errors.append(np.square(difference - difference.mean()).mean())
     return float(np.sqrt(np.mean(errors)))
 
