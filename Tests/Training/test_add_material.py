@@ -28,7 +28,8 @@ QUICK = ["--steps", "6"]
 
 @pytest.fixture(scope="module")
 def recording(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    return csv_one_axis(tmp_path_factory.mktemp("recording"), "mat", "doormat", stroke(6.0, hertz=90.0), licence="CC BY 4.0")
+    folder = tmp_path_factory.mktemp("recording")
+    return csv_one_axis(folder, "mat", "doormat", stroke(6.0, hertz=90.0), licence="CC BY 4.0")
 
 
 def add(*words: str | Path) -> int:
@@ -103,7 +104,9 @@ def test_both_homes_hold_the_same_material(recording: Path, extended: Path, tmp_
     assert np.array_equal(read_model_file(extended).tensors["embedding"][-1], material.embedding)
 
 
-def test_a_material_can_be_added_to_a_model_that_has_one_already(recording: Path, extended: Path, tmp_path: Path) -> None:
+def test_a_material_can_be_added_to_a_model_that_has_one_already(
+    recording: Path, extended: Path, tmp_path: Path
+) -> None:
     out = tmp_path / "two.haptoflow"
     words = ["add-material", "--model", str(extended), *QUICK, "--recording", str(recording), "-o", str(out)]
     assert main([*words, "--name", "rug"]) == 0
@@ -157,7 +160,9 @@ def test_too_little_and_too_slow_a_recording_is_refused(tmp_path: Path, capsys: 
     assert not (tmp_path / "x.haptomaterial").exists()
 
 
-def test_wave_vectors_that_are_given_are_used(recording: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_wave_vectors_that_are_given_are_used(
+    recording: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
     out = tmp_path / "rack.haptomaterial"
     assert add("--recording", recording, "--name", "rack", "--wave-vector", "0", "0.8", "-o", out) == 0
     assert "ribs every 1.25 mm" in capsys.readouterr().out
@@ -169,7 +174,9 @@ def test_wave_vectors_that_are_given_are_used(recording: Path, tmp_path: Path, c
     assert all(seed.rib_phase is not None for seed in material.seeds)
 
 
-def test_a_damaged_model_is_refused_by_name(recording: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_damaged_model_is_refused_by_name(
+    recording: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
     broken = tmp_path / "broken.haptoflow"
     broken.write_bytes(DEFAULT.read_bytes()[:5000])
     words = ["--recording", str(recording), "-o", str(tmp_path / "x.haptomaterial")]

@@ -106,9 +106,11 @@ def toned_bands(wave: np.ndarray, motion: np.ndarray) -> tuple[np.ndarray, np.nd
 
 def test_a_tone_that_was_put_on_is_found_again_at_every_speed() -> None:
     speed, rng = swept(40.0, period=8.0), np.random.default_rng(5)
-    true = ToneTable((0.03, 0.15), (20.0, 80.0, 200.0, 500.0, 900.0), ((8.0, 2.0, -6.0, 0.0, 4.0), (-6.0, 4.0, 0.0, 6.0, -4.0)))
+    gains = (8.0, 2.0, -6.0, 0.0, 4.0), (-6.0, 4.0, 0.0, 6.0, -4.0)
+    true = ToneTable((0.03, 0.15), (20.0, 80.0, 200.0, 500.0, 900.0), gains)
     motion = motion_of(speed)
-    recorded, centres, counts, heard = toned_bands(apply_tone(rng.standard_normal(len(speed)).astype(np.float32), speed, true), motion)
+    noise = rng.standard_normal(len(speed)).astype(np.float32)
+    recorded, centres, counts, heard = toned_bands(apply_tone(noise, speed, true), motion)
     made = np.mean([toned_bands(rng.standard_normal(len(speed)), motion)[0] for _ in range(3)], axis=0)
     found = fit_tone(recorded, made, centres, counts, heard, speed_knots(heard, 40.0))
     for at in (0.03, 0.07, 0.14):
@@ -172,7 +174,8 @@ def test_a_label_that_is_recorded_from_the_model_is_found_and_fitted(model: File
     assert len(counted) == steps_of(model, options)
     assert fitted.seconds == pytest.approx(10.0)
     wanted, found = (
-        render(model.tier(), [voice], motion_of(np.full(8000, 0.08))[None], 10).waves[0, 400:] for voice in (true, fitted.voice)
+        render(model.tier(), [voice], motion_of(np.full(8000, 0.08))[None], 10).waves[0, 400:]
+        for voice in (true, fitted.voice)
     )
     assert 20.0 * abs(math.log10(np.sqrt(np.mean(found**2) / np.mean(wanted**2)))) < 1.0
     ratio = 10.0 * np.log10(power_spectrum(found, 256)[3:58] / power_spectrum(wanted, 256)[3:58])
@@ -186,7 +189,8 @@ def test_the_same_seed_gives_the_same_material_and_another_a_different_one(model
     motion = motion_of(speed)
     recording = MaterialRecording("r", "", wave, motion[:, :2].copy(), motion[:, 2].copy(), "", "")
     fits = [
-        fit_material(model, [recording], seed=seed, options=FitOptions(steps=6), compare_tiers=False).voice for seed in (1, 1, 2)
+        fit_material(model, [recording], seed=seed, options=FitOptions(steps=6), compare_tiers=False).voice
+        for seed in (1, 1, 2)
     ]
     assert np.array_equal(fits[0].embedding, fits[1].embedding)
     assert fits[0].tone == fits[1].tone

@@ -113,7 +113,8 @@ def stored(material: str, ruled: bool) -> dict[str, object]:
     rows = {f"{row} {seconds:g}": [cell(1.0), cell(2.0)] for row in ROWS for seconds in SECONDS}
     rows |= {"draft 10": [cell(1.5)], OTHER_DRAW: [cell(0.1)]}
     return {
-        "material": material, "ruled": ruled, "impacts": False, "rows": rows, "core_seconds": {"fit 10": 8.0}, "notes": {},
+        "material": material, "ruled": ruled, "impacts": False, "rows": rows,
+        "core_seconds": {"fit 10": 8.0}, "notes": {},
     }  # fmt: skip
 
 

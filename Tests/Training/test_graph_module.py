@@ -1,4 +1,5 @@
-"""A model file's graphs in PyTorch answer as the golden vectors say, and their gradients are those of what they answer."""
+"""A model file's graphs in PyTorch answer as the golden vectors say, and their gradients are those of what they
+answer."""
 
 from __future__ import annotations
 

@@ -82,7 +82,8 @@ def test_no_combination_of_sliders_leaves_the_spread_of_the_labels(file: ModelFi
     rng = np.random.default_rng(1)
     for label in ("wood", "carpet", "metal mesh"):
         for _ in range(50):
-            values = dict(zip(sliders.directions, rng.choice([-1.0, 1.0, 5.0, -5.0], len(sliders.directions)), strict=True))
+            far = rng.choice([-1.0, 1.0, 5.0, -5.0], len(sliders.directions))
+            values = dict(zip(sliders.directions, far, strict=True))
             along = sliders.axes @ (sliders.slid(learnt(file, label)[:60], values) - sliders.mean)
             assert (along >= sliders.lowest - 1e-4).all()
             assert (along <= sliders.highest + 1e-4).all()

@@ -35,13 +35,13 @@ from haptoflow_training.recordings.material_recording import MaterialRecording, 
 _EXAMPLES = """examples:
   haptoflow-training add-material --model default.haptoflow --recording doormat.csv
       writes doormat.haptomaterial: scenes, the command line and Unity take it beside default.haptoflow
-  haptoflow-training add-material --model default.haptoflow --recording slow.wav fast.wav --name doormat -o mine.haptoflow
+  haptoflow-training add-material --model default.haptoflow --recording slow.wav fast.wav --name mat -o mine.haptoflow
       writes a model file with a further label
   haptoflow-training add-material --model default.haptoflow --recording rack.csv --wave-vector 0.8 0 --name rack
       ribs 1.25 mm apart, across the recording's first axis
 
-At least 10 s are recommended: slow and fast slides, 20 to 200 mm/s, light and firm. Ribs are found by themselves; a ruled
-material's first axis is put across its clearest ribs. About half a minute of one core.
+At least 10 s are recommended: slow and fast slides, 20 to 200 mm/s, light and firm. Ribs are found by themselves; a
+ruled material's first axis is put across its clearest ribs. About half a minute of one core.
 """
 
 
@@ -49,14 +49,15 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser], su
     parser = subparsers.add_parser(
         "add-material",
         help=summary,
-        description="Fit the embedding, level, tone and seeds of one material to its recordings. The networks of the model "
-        "and all of its labels stay as they are.",
+        description="Fit the embedding, level, tone and seeds of one material to its recordings. The networks of the "
+        "model and all of its labels stay as they are.",
         epilog=_EXAMPLES,
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
     parser.add_argument("--model", required=True, type=Path, help=".haptoflow file")
     parser.add_argument(
-        "--recording", required=True, nargs="+", type=Path, metavar="FILE", help="recordings of one material, or a folder"
+        "--recording", required=True, nargs="+", type=Path, metavar="FILE",
+        help="recordings of one material, or a folder",
     )
     parser.add_argument("--name", help="of the material (default: the recordings' label, or the first file's name)")
     parser.add_argument(
@@ -66,9 +67,9 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser], su
     parser.add_argument("--description", default="", help="one or two sentences")
     parser.add_argument(
         "--wave-vector", nargs=2, type=float, action="append", metavar=("X", "Y"),
-        help="ribs in cycles per millimetre along the recording's axes, at most twice (default: estimated); 0 0 for none",
+        help="ribs in cycles per millimetre along the recording's axes, at most twice (default: estimated); 0 0: none",
     )  # fmt: skip
-    parser.add_argument("--seed", type=int, default=1, help="of the fit: the same seed gives the same material (default 1)")
+    parser.add_argument("--seed", type=int, default=1, help="the same seed gives the same material (default 1)")
     parser.add_argument("--steps", type=int, default=FitOptions.steps, help=f"of the fit (default {FitOptions.steps})")
     parser.set_defaults(run=_run)
 
@@ -117,8 +118,8 @@ def _name(options: argparse.Namespace, recordings: Sequence[MaterialRecording]) 
     labels = sorted({recording.label for recording in recordings if recording.label})
     if len(labels) > 1:
         raise InputError(
-            f"the recordings are of {len(labels)} labels ({', '.join(labels)}); a material is fitted to one: give its files "
-            "alone, or --name if they are the same material"
+            f"the recordings are of {len(labels)} labels ({', '.join(labels)}); a material is fitted to one: give its "
+            "files alone, or --name if they are the same material"
         )
     return labels[0] if labels else options.recording[0].stem
 
@@ -144,20 +145,23 @@ def _provenance(recordings: Sequence[MaterialRecording], fitted: FittedMaterial)
 
 
 def _report(out: Path, model: FileModel, material: Material, fitted: FittedMaterial) -> None:
-    print(f"{out}: '{material.name}' from {fitted.seconds:.1f} s, nearest label {model.labels[fitted.fit.nearest]['name']}")
+    nearest = model.labels[fitted.fit.nearest]["name"]
+    print(f"{out}: '{material.name}' from {fitted.seconds:.1f} s, nearest label {nearest}")
     slow, fast = (1000.0 * speed for speed in material.speed_range_mps)
     light, firm = material.force_range_newtons
-    print(f"  recorded {slow:.0f}-{fast:.0f} mm/s, {light:.2f}-{firm:.2f} N; level grows as speed^{material.speed_exponent:.2f}"
-          f" force^{material.force_exponent:.2f}")  # fmt: skip
+    law = f"speed^{material.speed_exponent:.2f} force^{material.force_exponent:.2f}"
+    print(f"  recorded {slow:.0f}-{fast:.0f} mm/s, {light:.2f}-{firm:.2f} N; level grows as {law}")
     if fitted.frame.is_ruled:
         numbers = fitted.frame.wave_numbers.reshape(2, 2)
         found = ", ".join(f"{1.0 / float((row[0] ** 2 + row[1] ** 2) ** 0.5):.2f} mm" for row in numbers if row.any())
         turn = math.degrees(fitted.frame.turn_radians)
-        print(f"  ribs every {found}; the material's first axis lies across them, {turn:.0f} degrees from the recording's")
+        where = f"{turn:.0f} degrees from the recording's"
+        print(f"  ribs every {found}; the material's first axis lies across them, {where}")
     distances = ", ".join(f"{name} {distance:.1f} dB" for name, distance in fitted.distances_db.items())
     print(f"  distance of the spectra on the recording: {distances}")
     for tier in fitted.far_tiers:
-        print(f"  tier {tier} is further off by more than 0.3 dB: the tone was fitted for {next(iter(fitted.distances_db))}")
+        fitted_for = next(iter(fitted.distances_db))
+        print(f"  tier {tier} is further off by more than 0.3 dB: the tone was fitted for {fitted_for}")
     # The ends of a recording are trimmed.
     if fitted.seconds < RECOMMENDED_SECONDS - 1.0:
-        print(f"  {fitted.seconds:.1f} s is little; {RECOMMENDED_SECONDS:g} s with slow and fast slides are recommended")
+        print(f"  {fitted.seconds:.1f} s is little; {RECOMMENDED_SECONDS:g} s of slow and fast slides are recommended")

@@ -40,8 +40,8 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser], su
     parser = subparsers.add_parser(
         "few-shot",
         help=summary,
-        description="Fit materials that the model never saw from 3, 10, 30 and 120 s, beside autoregressive models, the "
-        "nearest label and the network moved too, and write figures with intervals.",
+        description="Fit materials that the model never saw from 3, 10, 30 and 120 s, beside autoregressive models, "
+        "the nearest label and the network moved too, and write figures with intervals.",
         epilog=_EXAMPLES,
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )

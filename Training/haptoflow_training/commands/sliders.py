@@ -19,8 +19,8 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser], su
     parser = subparsers.add_parser(
         "sliders",
         help=summary,
-        description="Find what coarseness, hardness, regularity, stickiness and level are in a model's embedding space, from "
-        "the parameters that the synthetic recorder has of the model's labels.",
+        description="Find what coarseness, hardness, regularity, stickiness and level are in a model's embedding "
+        "space, from the parameters that the synthetic recorder has of the model's labels.",
         epilog=_EXAMPLES,
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )

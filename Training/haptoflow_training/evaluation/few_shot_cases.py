@@ -31,8 +31,8 @@ _RULED_STEP_DEGREES = 35.0
 
 @dataclass(frozen=True)
 class FewShotCondition:
-    """motion [n, 3] in the recorder's frame; recorded and other_draw [n] in m/s^2: the held-out piece of the material and
-    one of those that were learnt from."""
+    """motion [n, 3] in the recorder's frame; recorded and other_draw [n] in m/s^2: the held-out piece of the material
+    and one of those that were learnt from."""
 
     speed_mps: float
     force_newtons: float

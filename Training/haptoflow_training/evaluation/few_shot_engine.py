@@ -17,8 +17,8 @@ from haptoflow_training.recordings.synthetic.materials import Material
 
 
 def engine_cells(plan: StudyPlan, engine: Path, surface: Material) -> list[dict[str, float]]:
-    """Figures of every condition, made now or read from the plan's folder; InputError where the study has not fitted the
-    material yet, or the engine refuses it."""
+    """Figures of every condition, made now or read from the plan's folder; InputError where the study has not fitted
+    the material yet, or the engine refuses it."""
     path = plan.work / f"{surface.label}.engine.json"
     if path.exists():
         stored: list[dict[str, float]] = json.loads(path.read_text(encoding="utf-8"))

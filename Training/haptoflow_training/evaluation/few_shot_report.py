@@ -35,12 +35,14 @@ def assembled(cells: Sequence[Mapping[str, Any]], header: Mapping[str, Any]) -> 
         if members
     }
     spent = {
-        name: round(sum(cell["core_seconds"][name] for cell in cells) / len(cells), 2) for name in cells[0]["core_seconds"]
+        name: round(sum(cell["core_seconds"][name] for cell in cells) / len(cells), 2)
+        for name in cells[0]["core_seconds"]
     }
     return {
         **header,
         "materials": [
-            {"name": cell["material"], "ruled": cell["ruled"], "impacts": cell["impacts"], **cell["notes"]} for cell in cells
+            {"name": cell["material"], "ruled": cell["ruled"], "impacts": cell["impacts"], **cell["notes"]}
+            for cell in cells
         ],
         "core_seconds_per_material": spent,
         "results": results,
@@ -55,9 +57,8 @@ def write_results(path: Path, results: Mapping[str, Any]) -> None:
 def table(results: Mapping[str, Any], seconds: float, group: str = "all") -> str:
     """Markdown: the rows of one length of recording."""
     lines = [
-        "| from {:g} s | level dB, p90 | GFC, min | LSD dB, p90 | ln kurtosis | ln crest | rib f0 % | rib modulation dB | seam |".format(
-            seconds
-        ),
+        f"| from {seconds:g} s | level dB, p90 | GFC, min | LSD dB, p90 | ln kurtosis | ln crest | rib f0 % | "
+        "rib modulation dB | seam |",
         "|---|---|---|---|---|---|---|---|---|",
     ]
     rows = results["results"][group]

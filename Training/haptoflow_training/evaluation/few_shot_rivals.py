@@ -1,8 +1,9 @@
-"""What a material from seconds is compared with: autoregressive models fitted to the same recording, with the same level.
+"""What a material from seconds is compared with: autoregressive models fitted to the same recording, with the same
+level.
 
 Order 20, by the autocorrelation of the recording in unit scale (Levinson's recursion), driven by Gaussian noise: the
-published form for textures, of which Culbertson et al. fit one a speed and force. Ten seconds leave room for three bins of
-speed, or for one model of all speeds.
+published form for textures, of which Culbertson et al. fit one a speed and force. Ten seconds leave room for three bins
+of speed, or for one model of all speeds.
 """
 
 from __future__ import annotations

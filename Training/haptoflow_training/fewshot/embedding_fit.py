@@ -123,8 +123,8 @@ class _Corpus:
 def _aligned_turns(
     recordings: Sequence[StrokeRecording], unit: NDArray[np.float32], wave_numbers: NDArray[np.float32]
 ) -> NDArray[np.float32]:
-    """[n, 2]: rib phase of every sample in turns. Where a recording began on the surface nobody knows: each is shifted so
-    that the fundamental of its ribs begins about as in all others."""
+    """[n, 2]: rib phase of every sample in turns. Where a recording began on the surface nobody knows: each is shifted
+    so that the fundamental of its ribs begins about as in all others."""
     vectors = np.asarray(wave_numbers, dtype=np.float64).reshape(WAVE_VECTORS, 2)
     found, begin = [], 0
     for recording in recordings:
@@ -311,7 +311,8 @@ class EmbeddingFitter:
                 chain.advance(drawn[rows - own : rows] * torch.exp(log_level[-own:]))
         first, second = drawn.chunk(2)
         heard = [spectra(recorded, segment), *halves_of(spectra(torch.cat([past, past]), drawn))]
-        shapes = [envelopes(recorded, segment), *zip(*(part.chunk(2) for part in envelopes(torch.cat([past, past]), drawn)))]
+        own_shapes = [part.chunk(2) for part in envelopes(torch.cat([past, past]), drawn)]
+        shapes = [envelopes(recorded, segment), *zip(*own_shapes, strict=True)]
         loss = energy_score(heard[0], (heard[1], heard[2]), spectral_distance)
         loss = loss + energy_score(shapes[0], (list(shapes[1]), list(shapes[2])), envelope_distance)
         followed = energy_score(segment, (first, second), sample_distance)

@@ -14,8 +14,8 @@ _EXPECTED, _CERTAINTY = 0.1, 4.0
 
 
 def frequency_exponent(windows: Windows) -> float:
-    """Slope of the log spectral centroid over log speed in the faster half, 0 to 1, from windows [n, 400] of a surface without
-    ribs: drawn towards 0.1 where there is little to tell from."""
+    """Slope of the log spectral centroid over log speed in the faster half, 0 to 1, from windows [n, 400] of a surface
+    without ribs: drawn towards 0.1 where there is little to tell from."""
     speed = windows.speed_mps
     sliding = (speed > max(SLOWEST_MPS, float(np.median(speed)))) & (windows.unsteadiness < 0.5)
     if sliding.sum() < _FEWEST_WINDOWS:

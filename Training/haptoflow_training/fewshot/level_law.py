@@ -1,7 +1,8 @@
 """The level of a material from its recording: a table over speed that follows what was recorded, a force exponent.
 
-Penalised least squares of the log level, solved as a generalised linear model of the mean square (Gamma with logarithmic
-link): so the table meets the power that was recorded, and not the mean of its logarithm, which blows pull apart.
+Penalised least squares of the log level, solved as a generalised linear model of the mean square (Gamma with
+logarithmic link): so the table meets the power that was recorded, and not the mean of its logarithm, which blows pull
+apart.
 """
 
 from __future__ import annotations

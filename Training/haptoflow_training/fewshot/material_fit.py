@@ -43,8 +43,9 @@ TIER_TOLERANCE_DB = 0.3
 
 @dataclass(frozen=True)
 class FittedMaterial:
-    """frame: how the material lies to its recording. plain: the voice without tone. nearest: index of the label it began
-    from. distances_db: of the spectra of recording and closed-loop output in narrow bands, by tier, on the recording."""
+    """frame: how the material lies to its recording. plain: the voice without tone. nearest: index of the label it
+    began from. distances_db: of the spectra of recording and closed-loop output in narrow bands, by tier, on the
+    recording."""
 
     voice: Voice
     plain: Voice
@@ -73,8 +74,8 @@ def prepared(
     seconds = sum(len(each.vibration_mps2) for each in usable) / 2000.0
     if seconds < LEAST_SECONDS:
         raise InputError(
-            f"{seconds:.1f} s of recording are left in stretches of {_LONG_ENOUGH_SAMPLES / 2000.0:g} s or more; a material "
-            f"needs {LEAST_SECONDS:g} s at least, {RECOMMENDED_SECONDS:g} s are recommended"
+            f"{seconds:.1f} s of recording are left in stretches of {_LONG_ENOUGH_SAMPLES / 2000.0:g} s or more; a "
+            f"material needs {LEAST_SECONDS:g} s at least, {RECOMMENDED_SECONDS:g} s are recommended"
         )
     turned = tuple(StrokeRecording.of(each, frame) for each in usable)
     if max(float(np.hypot(*each.motion[:, :2].T).max()) for each in turned) < SLOWEST_MPS:
@@ -132,10 +133,16 @@ def fit_material(
 
 
 def as_material(
-    model: FileModel, fitted: FittedMaterial, *, name: str, category: str, description: str, provenance: MaterialProvenance
+    model: FileModel,
+    fitted: FittedMaterial,
+    *,
+    name: str,
+    category: str,
+    description: str,
+    provenance: MaterialProvenance,
 ) -> Material:
-    """The fitted material as a file states it; what no recording of a slide tells (stiffness, friction, how it answers a
-    landing) is the nearest label's."""
+    """The fitted material as a file states it; what no recording of a slide tells (stiffness, friction, how it answers
+    a landing) is the nearest label's."""
     nearest = model.labels[fitted.fit.nearest]
     windows = windows_of(fitted.recordings, 400, 200)
     speed, force = windows.speed_mps, windows.force_newtons

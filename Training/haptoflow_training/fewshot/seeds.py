@@ -26,7 +26,9 @@ def choose_seeds(
 ) -> tuple[MaterialSeed, ...]:
     """At most eight, spread evenly over the log of the recorded speeds, the steadiest of each neighbourhood. turns: rib
     phase [n, 2] of each recording's samples."""
-    undone = None if tone is None else replace(tone, gains_db=tuple(tuple(-gain for gain in row) for row in tone.gains_db))
+    undone = tone
+    if tone is not None:
+        undone = replace(tone, gains_db=tuple(tuple(-gain for gain in row) for row in tone.gains_db))
     # The tone's memory is taken from what was recorded before, and cut off again.
     windows = windows_of(recordings, SEED_SAMPLES + KERNEL_SAMPLES, _HOP_SAMPLES)
     phases = [

@@ -1,8 +1,8 @@
 """Sliders for designers: directions in the space of embeddings, found from what the recorder knows of its labels.
 
-Ridge regression from standardised parameters of the recorder's materials to the labels' embeddings: each slider moves what
-its own parameter explains beside the others. A slid embedding stays inside the spread of the labels, along their principal
-axes, because nothing is known of the network beyond it.
+Ridge regression from standardised parameters of the recorder's materials to the labels' embeddings: each slider moves
+what its own parameter explains beside the others. A slid embedding stays inside the spread of the labels, along their
+principal axes, because nothing is known of the network beyond it.
 """
 
 from __future__ import annotations
@@ -98,8 +98,8 @@ def find_sliders(model: ModelFile, materials: Sequence[Material]) -> Sliders:
     shared = [label for label in model.header["labels"] if label["name"] in known]
     if len(shared) < _FEWEST_LABELS:
         raise InputError(
-            f"the model shares {len(shared)} labels with the recorder's materials; sliders need {_FEWEST_LABELS} at least, "
-            "because they are found from the recorder's parameters"
+            f"the model shares {len(shared)} labels with the recorder's materials; sliders need {_FEWEST_LABELS} at "
+            "least, because they are found from the recorder's parameters"
         )
     table = model.tensors["embedding"].astype(np.float64)[:, :-WAVE_NUMBERS]
     every = table[[label["embedding_row"] for label in model.header["labels"]]]

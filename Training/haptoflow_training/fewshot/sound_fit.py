@@ -1,7 +1,7 @@
 """Tone and level of a fitted embedding, from its own closed-loop output along the recording's motion.
 
-Neither is heard by the network: the level is divided out of its past and the tone comes after it. So one rendering serves
-all rounds, and both are fitted to it without rendering again.
+Neither is heard by the network: the level is divided out of its past and the tone comes after it. So one rendering
+serves all rounds, and both are fitted to it without rendering again.
 """
 
 from __future__ import annotations
@@ -144,12 +144,14 @@ def calibrated(
 
 
 def band_distance_db(rendered: Rendered, tone: ToneTable | None) -> float:
-    """RMS over narrow bands and speeds of the difference in dB between what was recorded and what is made, the level left
-    out: mean spectra of a third of the recorded speeds each. Below a thousandth of the mean power nothing is compared."""
+    """RMS over narrow bands and speeds of the difference in dB between what was recorded and what is made, the level
+    left out: mean spectra of a third of the recorded speeds each. Below a thousandth of the mean power nothing is
+    compared."""
     recorded = _settled(rendered.chunks, WINDOW_SAMPLES)
     order = np.argsort(recorded.speed_mps)
     powers = band_powers(recorded.waves)[0]
-    made = np.mean([band_powers(_settled(_toned(draw, tone), WINDOW_SAMPLES).waves)[0] for draw in rendered.draws], axis=0)
+    heard = [_settled(_toned(draw, tone), WINDOW_SAMPLES) for draw in rendered.draws]
+    made = np.mean([band_powers(windows.waves)[0] for windows in heard], axis=0)
     errors = []
     for part in np.array_split(order, 3):
         if len(part):
@@ -177,7 +179,8 @@ def _settled(chunks: Sequence[StrokeRecording], samples: int) -> Windows:
 
 def _toned(chunks: Sequence[StrokeRecording], tone: ToneTable | None) -> list[StrokeRecording]:
     return [
-        replace(chunk, wave_mps2=apply_tone(chunk.wave_mps2, np.hypot(*chunk.motion[:, :2].T), tone)) for chunk in chunks
+        replace(chunk, wave_mps2=apply_tone(chunk.wave_mps2, np.hypot(*chunk.motion[:, :2].T), tone))
+        for chunk in chunks
     ]
 
 

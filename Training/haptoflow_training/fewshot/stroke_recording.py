@@ -1,8 +1,8 @@
-"""A recording of one material as it is fitted to: one axis at 2 kHz with the motion and the place of every sample, in the
-material's own frame.
+"""A recording of one material as it is fitted to: one axis at 2 kHz with the motion and the place of every sample, in
+the material's own frame.
 
-A surface may lie under its recorder at any angle. A ruled material's first axis is put across its clearest ribs, as in the
-labels that the networks know; where there are no ribs, the frame is that of the recording.
+A surface may lie under its recorder at any angle. A ruled material's first axis is put across its clearest ribs, as in
+the labels that the networks know; where there are no ribs, the frame is that of the recording.
 """
 
 from __future__ import annotations
@@ -24,8 +24,8 @@ _Floats = NDArray[np.float32]
 
 @dataclass(frozen=True)
 class Frame:
-    """turn_radians: from the recording's first axis to the material's. wave_numbers [4]: k1x, k1y, k2x, k2y in cycles per
-    millimetre in the material's frame, 0 for none."""
+    """turn_radians: from the recording's first axis to the material's. wave_numbers [4]: k1x, k1y, k2x, k2y in cycles
+    per millimetre in the material's frame, 0 for none."""
 
     turn_radians: float
     wave_numbers: _Floats
@@ -63,8 +63,8 @@ def _turned(vectors: NDArray[np.floating], radians: float) -> NDArray[np.float64
 
 @dataclass(frozen=True)
 class StrokeRecording:
-    """wave_mps2 [n]; motion [n, 3]: vx, vy in m/s and force in N; position_mm [n, 2], from the recording's own beginning
-    on. All finite."""
+    """wave_mps2 [n]; motion [n, 3]: vx, vy in m/s and force in N; position_mm [n, 2], from the recording's own
+    beginning on. All finite."""
 
     wave_mps2: _Floats
     motion: _Floats

@@ -1,7 +1,7 @@
 """The tone of a material: what its recording has more or less of than the network's own output, by speed and frequency.
 
-Recording and closed-loop output of the same motion are compared window by window. Gains at the knots of a table over log
-speed and log frequency are fitted to the powers of narrow bands as a penalised generalised linear model (Gamma,
+Recording and closed-loop output of the same motion are compared window by window. Gains at the knots of a table over
+log speed and log frequency are fitted to the powers of narrow bands as a penalised generalised linear model (Gamma,
 logarithmic link): where data is thin, neighbours and 0 dB decide.
 """
 

@@ -41,7 +41,8 @@ class VoiceSource:
     def generate(
         self, embeddings: _Floats, motions: _Floats, previous_mps2: _Floats, noise: _Floats, rib_phase: _Floats
     ) -> _Floats:
-        log_level = np.array([voice.level.log_level(motion) for voice, motion in zip(self.voices, motions, strict=True)])
+        asked = zip(self.voices, motions, strict=True)
+        log_level = np.array([voice.level.log_level(motion) for voice, motion in asked])
         gain = np.exp(log_level).astype(np.float32)[:, None]
         previous = np.clip(previous_mps2 / gain, -_PREVIOUS_LIMIT, _PREVIOUS_LIMIT)
         made = self.tier.segment(

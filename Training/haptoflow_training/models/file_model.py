@@ -74,7 +74,8 @@ class FileModel:
 
     def trainable_tier(self, name: str | None = None) -> FileTier:
         """A copy of the tier whose weights may move; the model's own stays as it is."""
-        return FileTier(self.file, self._tiers[self.file.header["default_tier"] if name is None else name], trainable=True)
+        wanted = self.file.header["default_tier"] if name is None else name
+        return FileTier(self.file, self._tiers[wanted], trainable=True)
 
     def log_level(self, embedding: Tensor, motion: Tensor, tier: str | None = None) -> Tensor:
         """[B, 1]: what the tier's level graph says, natural logarithm of the RMS in m/s^2."""

@@ -89,7 +89,9 @@ def _transposed_convolution(attributes: _Attributes) -> _Operation:
 
 
 def _slice(attributes: _Attributes) -> _Operation:
-    def run(values: Tensor, starts: Tensor, ends: Tensor, axes: Tensor | None = None, steps: Tensor | None = None) -> Tensor:
+    def run(
+        values: Tensor, starts: Tensor, ends: Tensor, axes: Tensor | None = None, steps: Tensor | None = None
+    ) -> Tensor:
         first, last = _integers(starts), _integers(ends)
         chosen = list(range(len(first))) if axes is None else _integers(axes)
         strides = [1] * len(first) if steps is None else _integers(steps)
@@ -246,8 +248,8 @@ def _tensor(value: onnx.TensorProto) -> Tensor:
 
 
 def _is_learnt(name: str, values: Tensor) -> bool:
-    """By the exporter's names: layers keep theirs, folded ones are called after the operator that reads them. The comb's
-    matrices are no weights, whatever they are called."""
+    """By the exporter's names: layers keep theirs, folded ones are called after the operator that reads them. The
+    comb's matrices are no weights, whatever they are called."""
     if not values.is_floating_point() or ".comb." in name:
         return False
     return name.endswith((".weight", ".bias")) or (name.startswith("onnx::") and values.dim() >= 2)
@@ -259,8 +261,8 @@ class _Node:
     def __init__(self, node: onnx.NodeProto, where: str) -> None:
         if node.op_type not in _OPERATIONS:
             raise InputError(
-                f"{where}: operator {node.op_type} has no gradient here; materials are fitted to flow, average-velocity "
-                "and direct tiers that haptoflow-training exported"
+                f"{where}: operator {node.op_type} has no gradient here; materials are fitted to flow, "
+                "average-velocity and direct tiers that haptoflow-training exported"
             )
         attributes = {entry.name: helper.get_attribute_value(entry) for entry in node.attribute}
         self.run = _OPERATIONS[node.op_type](attributes)

@@ -1,7 +1,8 @@
-"""Materials that no training protocol records: between two labels of the recorder, with tool modes and ribs of their own.
+"""Materials that no training protocol records: between two labels of the recorder, with tool modes and ribs of their
+own.
 
-Drawn once from a seed and used as drawn. What sorts of surface there are (ribs, impacts, stick-slip, a nap) goes round, so
-that a dozen of them holds each.
+Drawn once from a seed and used as drawn. What sorts of surface there are (ribs, impacts, stick-slip, a nap) goes round,
+so that a dozen of them holds each.
 """
 
 from __future__ import annotations
@@ -12,7 +13,7 @@ from dataclasses import fields, replace
 
 import numpy as np
 
-from haptoflow_training.recordings.synthetic.materials import Calibrated, Material, Ruling
+from haptoflow_training.recordings.synthetic.materials import Calibrated, Material
 
 # One of the labels a material lies between; the other is drawn.
 _SORTS = (
@@ -55,7 +56,11 @@ def _between(rng: np.random.Generator, number: int, first: Material, other: Mate
     )
     turned, stretched = float(rng.uniform(0.0, 180.0)), float(np.exp(rng.uniform(-0.4, 0.4)))
     rulings = tuple(
-        Ruling((each.direction_degrees + turned) % 180.0, each.wavelength_mm * stretched, each.relative_height, each.jitter)
+        replace(
+            each,
+            direction_degrees=(each.direction_degrees + turned) % 180.0,
+            wavelength_mm=each.wavelength_mm * stretched,
+        )
         for each in first.rulings
     )
     return replace(
