@@ -174,6 +174,17 @@ def test_wave_vectors_that_are_given_are_used(
     assert all(seed.rib_phase is not None for seed in material.seeds)
 
 
+def test_a_label_that_is_no_file_name_does_not_lead_out_of_the_folder(
+    recording: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    inner = tmp_path / "inner"
+    inner.mkdir()
+    monkeypatch.chdir(inner)
+    assert add("--recording", recording, "--name", "../grey mat/2") == 0
+    assert [path.name for path in inner.iterdir()] == ["grey-mat-2.haptomaterial"]
+    assert read_material(inner / "grey-mat-2.haptomaterial").name == "../grey mat/2"
+
+
 def test_a_damaged_model_is_refused_by_name(
     recording: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

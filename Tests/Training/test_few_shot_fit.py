@@ -9,10 +9,11 @@ import numpy as np
 import pytest
 from scipy.signal import lfilter
 
+from haptoflow_training.errors import InputError
 from haptoflow_training.evaluation.few_shot_rivals import fit_autoregressive
 from haptoflow_training.evaluation.metrics import power_spectrum
 from haptoflow_training.export.material_sound import LevelTable, ToneTable
-from haptoflow_training.export.model_file import read_model_file
+from haptoflow_training.export.model_file import ModelFile, read_model_file
 from haptoflow_training.fewshot.embedding_fit import FitOptions
 from haptoflow_training.fewshot.exponents import frequency_exponent
 from haptoflow_training.fewshot.label_prior import LabelPrior
@@ -95,7 +96,7 @@ def test_blows_count_by_their_power(prior: LabelPrior) -> None:
 
 def test_a_recording_at_rest_has_no_level(prior: LabelPrior) -> None:
     still = stroke(np.ones(4000), motion_of(np.full(4000, 1e-4)))
-    with pytest.raises(ValueError, match="moves faster than"):
+    with pytest.raises(InputError, match="moves faster than"):
         fit_level(windows_of([still], 200, 100), prior)
 
 
@@ -196,6 +197,19 @@ def test_the_same_seed_gives_the_same_material_and_another_a_different_one(model
     assert fits[0].tone == fits[1].tone
     assert fits[0].level == fits[1].level
     assert not np.array_equal(fits[0].embedding, fits[2].embedding)
+
+
+def test_a_model_of_one_label_and_another_solver_is_fitted_to_as_well() -> None:
+    tiny = read_model_file(ROOT / "Tests" / "Golden" / "model" / "tiny.haptoflow")
+    header = {**tiny.header, "labels": tiny.header["labels"][:1], "tiers": [tiny.header["tiers"][1]]}
+    alone = FileModel(ModelFile(header, tiny.tensors, tiny.graphs))
+    speed = swept(3.0)
+    motion = motion_of(speed)
+    wave = np.random.default_rng(14).standard_normal(len(speed)).astype(np.float32)
+    recording = MaterialRecording("r", "", wave, motion[:, :2].copy(), motion[:, 2].copy(), "", "")
+    fitted = fit_material(alone, [recording], options=FitOptions(steps=3))
+    assert np.isfinite(fitted.voice.embedding).all()
+    assert fitted.fit.nearest == 0
 
 
 def test_the_autoregressive_rival_has_the_spectrum_of_an_autoregressive_truth() -> None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import math
+import re
 from collections.abc import Sequence
 from datetime import date
 from pathlib import Path
@@ -79,7 +80,7 @@ def _run(options: argparse.Namespace) -> int:
         raise InputError(f"--steps {options.steps}: expected 1 or more")
     recordings = read_material_recordings(options.recording)
     name = _name(options, recordings)
-    out = Path(f"{name.replace(' ', '-')}{SUFFIX}") if options.out is None else options.out
+    out = Path(f"{_file_name(name)}{SUFFIX}") if options.out is None else options.out
     if out.suffix not in (SUFFIX, ".haptoflow"):
         raise InputError(f"{out}: expected a name that ends in {SUFFIX} or .haptoflow")
     model = FileModel(read_model_file(options.model))
@@ -122,6 +123,11 @@ def _name(options: argparse.Namespace, recordings: Sequence[MaterialRecording]) 
             "files alone, or --name if they are the same material"
         )
     return labels[0] if labels else options.recording[0].stem
+
+
+def _file_name(name: str) -> str:
+    """Letters and digits of any script, dots and dashes: a label may say anything, a file in this folder may not."""
+    return re.sub(r"[^\w.-]+", "-", name).strip("-.") or "material"
 
 
 def _wave_vectors(given: list[list[float]] | None) -> tuple[tuple[float, float], ...] | None:

@@ -237,6 +237,9 @@ class EmbeddingFitter:
         offset = learnt - self._mean
         along = self._axes @ offset
         rest = offset - self._axes.t() @ along
+        if not len(self._spreads):
+            # Of one label alone nobody knows a spread.
+            return rest.square().sum()
         return (along / self._spreads).square().sum() + (rest / self._spreads[-1]).square().sum()
 
     def _nearest(self) -> tuple[int, Tensor, float]:

@@ -13,6 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from haptoflow_training.errors import InputError
 from haptoflow_training.export.material_sound import MAXIMUM_LEVEL_SPEEDS, LevelTable
 from haptoflow_training.fewshot.label_prior import LabelPrior
 from haptoflow_training.fewshot.stroke_recording import Windows
@@ -54,13 +55,16 @@ class LevelLaw:
 
 
 def fit_level(windows: Windows, prior: LabelPrior) -> LevelLaw:
-    """From windows of about 100 ms, half overlapped. ValueError where no window moves."""
+    """From windows of about 100 ms, half overlapped. InputError where no window moves."""
     speed, force = windows.speed_mps.astype(np.float64), windows.force_newtons.astype(np.float64)
     moving = (speed > SLOWEST_MPS) & (windows.unsteadiness < 0.6)
     if moving.sum() < 8:
         moving = speed > SLOWEST_MPS
     if not moving.any():
-        raise ValueError(f"no part of the recording moves faster than {1000.0 * SLOWEST_MPS:g} mm/s")
+        raise InputError(
+            f"no tenth of a second of the recording moves faster than {1000.0 * SLOWEST_MPS:g} mm/s; a texture is felt "
+            "while the tip slides: check the unit of the speed"
+        )
     power = np.square(windows.waves[moving], dtype=np.float64).mean(axis=1) + LEVEL_FLOOR_MPS2**2
     speed, force = speed[moving], np.maximum(force[moving], REST_FORCE_NEWTONS)
     place = np.log(speed + REST_SPEED_MPS)

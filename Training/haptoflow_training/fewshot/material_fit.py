@@ -78,11 +78,6 @@ def prepared(
             f"material needs {LEAST_SECONDS:g} s at least, {RECOMMENDED_SECONDS:g} s are recommended"
         )
     turned = tuple(StrokeRecording.of(each, frame) for each in usable)
-    if max(float(np.hypot(*each.motion[:, :2].T).max()) for each in turned) < SLOWEST_MPS:
-        raise InputError(
-            f"no recording moves faster than {1000.0 * SLOWEST_MPS:g} mm/s; a texture is felt while the tip slides: "
-            "check the unit of the speed"
-        )
     return frame, turned
 
 
@@ -147,6 +142,8 @@ def as_material(
     windows = windows_of(fitted.recordings, 400, 200)
     speed, force = windows.speed_mps, windows.force_newtons
     moving = speed > SLOWEST_MPS
+    if not moving.any():
+        moving = np.ones_like(moving)
     ruled = fitted.frame.is_ruled
     law: LevelLaw = fitted.voice.level
     tone = fitted.voice.tone

@@ -94,6 +94,8 @@ def fit_sound(
     moving = (speed > _SLOWEST_MPS) & (recorded.unsteadiness < _UNSTEADIEST)
     if moving.sum() < _FEWEST_WINDOWS:
         moving = speed > SLOWEST_MPS
+    if not moving.any():
+        moving = np.ones_like(moving)
     knots = speed_knots(speed[moving], seconds)
     powers, centres, counts = band_powers(recorded.waves[moving])
     tone: ToneTable | None = None
