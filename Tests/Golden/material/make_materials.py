@@ -83,8 +83,8 @@ def materials(tiny: ModelFile, default: ModelFile) -> dict[str, Material]:
 
 
 def expected(material: Material) -> dict[str, Any]:
-    """Levels (natural logarithm of the RMS in m/s^2, `level_offset_db` included) where the material has its own, and the
-    kernels of its tone."""
+    """Levels (natural logarithm of the RMS in m/s^2, `level_offset_db` included) where the material has its own, and
+    the kernels of its tone."""
     answer: dict[str, Any] = {"name": material.name, "space": material.space}
     if material.level is not None:
         offset = material.level_offset_db * np.log(10.0) / 20.0
@@ -132,7 +132,13 @@ INVALID = [
     patch("a periodic material without a wavelength", "periodic", "/wavelength_metres", None),
     patch("no stiffness at all", "stiffness_newtons_per_metre", "/stiffness_newtons_per_metre", 0.0),
     patch("an impact of three modes", "impact.modes", "/impact/modes", [{}, {}, {}]),
-    patch("a mode without a decay", "impact.modes[0].decay_per_second", "/impact/modes/0/decay_per_second", None, "remove"),
+    patch(
+        "a mode without a decay",
+        "impact.modes[0].decay_per_second",
+        "/impact/modes/0/decay_per_second",
+        None,
+        "remove",
+    ),
     patch("speeds of the level that repeat", "level.speeds_mps", "/level/speeds_mps/1", 0.02),
     patch("a level for three of four speeds", "level.log_levels", "/level/log_levels/3", None, "remove"),
     patch("a level at no force", "level.force_newtons", "/level/force_newtons", 0.0),

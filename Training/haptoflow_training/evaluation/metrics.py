@@ -68,11 +68,13 @@ def level_error_db(generated: _Wave, recorded: _Wave) -> float:
     return 20.0 * float(np.log10((rms(generated) + _FLOOR) / (rms(recorded) + _FLOOR)))
 
 
-def log_spectral_distance_db(generated: _Wave, recorded: _Wave) -> float:
-    """RMS over 20-1000 Hz of the difference of mean power spectra in dB, 128 ms windows (7.8 Hz)."""
+def log_spectral_distance_db(
+    generated: _Wave, recorded: _Wave, band_hz: tuple[float, float] = (20.0, 1000.0)
+) -> float:
+    """RMS over band_hz of the difference of mean power spectra in dB, 128 ms windows (7.8 Hz)."""
     window = 256
     frequency = np.fft.rfftfreq(window, 1.0 / SAMPLE_RATE_HZ)
-    band = (frequency >= 20.0) & (frequency <= 1000.0)
+    band = (frequency >= band_hz[0]) & (frequency <= band_hz[1])
     difference = 10.0 * np.log10(
         (power_spectrum(generated, window)[band] + _FLOOR) / (power_spectrum(recorded, window)[band] + _FLOOR)
     )

@@ -1,0 +1,238 @@
+"""`haptoflow-training add-material`: a material from recordings, beside a model file or inside, and what is refused."""
+
+from __future__ import annotations
+
+import math
+import os
+from pathlib import Path
+
+import numpy as np
+import pytest
+from own_samples import csv_one_axis, stroke
+
+from haptoflow_training.cli import main
+from haptoflow_training.errors import InputError
+from haptoflow_training.evaluation.engine_render import read_wav, render_motion
+from haptoflow_training.export.material_file import model_space, read_material
+from haptoflow_training.export.model_file import ModelFile, read_model_file
+from haptoflow_training.fewshot.add_label import with_label
+from haptoflow_training.fewshot.level_law import LevelLaw
+from haptoflow_training.fewshot.voice import Voice, render
+from haptoflow_training.models.file_model import FileModel
+
+ROOT = Path(__file__).parents[2]
+DEFAULT = ROOT / "Packages" / "com.haptoflow.runtime" / "Runtime" / "Models" / "default.haptoflow"
+ENGINE = Path(os.environ.get("HAPTOFLOW_ENGINE", ROOT / "build" / "native" / "haptoflow"))
+QUICK = ["--steps", "6"]
+
+
+@pytest.fixture(scope="module")
+def recording(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    folder = tmp_path_factory.mktemp("recording")
+    return csv_one_axis(folder, "mat", "doormat", stroke(6.0, hertz=90.0), licence="CC BY 4.0")
+
+
+def add(*words: str | Path) -> int:
+    return main(["add-material", "--model", str(DEFAULT), *QUICK, *map(str, words)])
+
+
+@pytest.fixture(scope="module")
+def extended(recording: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    out = tmp_path_factory.mktemp("extended") / "mine.haptoflow"
+    assert add("--recording", recording, "-o", out) == 0
+    return out
+
+
+def test_a_material_file_says_what_was_recorded(
+    recording: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    assert add("--recording", recording) == 0
+    said = capsys.readouterr().out
+    assert "doormat.haptomaterial" in said
+    assert "5.4 s is little" in said
+    material = read_material(tmp_path / "doormat.haptomaterial", space=model_space(read_model_file(DEFAULT)))
+    assert material.name == "doormat"
+    assert material.provenance.licence == "CC BY 4.0"
+    assert material.provenance.seconds == pytest.approx(5.4, abs=0.1)
+    # own_samples.stroke: 20 v m/s^2 at 1 N between 50 and 200 mm/s.
+    assert material.level is not None
+    voice = Voice(material.embedding, LevelLaw(material.level, material.speed_exponent), material.tone)
+    speeds = (0.07, 0.16)
+    motions = np.stack([np.tile(np.array([speed, 0.0, 1.0], dtype=np.float32), (4000, 1)) for speed in speeds])
+    made = render(FileModel(read_model_file(DEFAULT)).tier(), [voice, voice], motions, 1).waves[:, 400:]
+    for speed, wave in zip(speeds, made, strict=True):
+        assert math.log(float(np.sqrt(np.square(wave).mean()))) == pytest.approx(math.log(20.0 * speed), abs=0.35)
+    assert material.speed_range_mps == pytest.approx((0.05, 0.2), rel=0.1)
+    assert not material.periodic
+    assert 1 <= len(material.seeds) <= 8
+
+
+def test_a_further_label_leaves_every_other_as_it_was(extended: Path) -> None:
+    before, after = read_model_file(DEFAULT), read_model_file(extended)
+    count = len(before.header["labels"])
+    assert after.header["labels"][:count] == before.header["labels"]
+    assert [label["name"] for label in after.header["labels"][count:]] == ["doormat"]
+    assert np.array_equal(after.tensors["embedding"][: len(before.tensors["embedding"])], before.tensors["embedding"])
+    assert np.array_equal(after.tensors["seeds"][: len(before.tensors["seeds"])], before.tensors["seeds"])
+    entries = before.header["seed_bank"]["entries"]
+    assert after.header["seed_bank"]["entries"][: len(entries)] == entries
+    assert after.graphs == before.graphs
+    untouched = set(before.header) - {"labels", "seed_bank"}
+    assert {key: after.header[key] for key in untouched} == {key: before.header[key] for key in untouched}
+    assert model_space(after) == model_space(before)
+
+
+def test_a_further_label_has_its_level_tone_seeds_and_licence(extended: Path) -> None:
+    model = read_model_file(extended)
+    label = model.header["labels"][-1]
+    assert len(label["level"]["speeds_mps"]) == len(label["level"]["log_levels"])
+    assert len(label["tone"]["gains_db"]) == len(label["tone"]["speeds_mps"])
+    assert label["provenance"]["licence"] == "CC BY 4.0"
+    assert label["embedding_row"] == len(model.tensors["embedding"]) - 1
+    own = [index for index, entry in enumerate(model.header["seed_bank"]["entries"]) if entry["label"] == "doormat"]
+    assert own
+    assert np.sqrt(np.square(model.tensors["seeds"][own]).mean(axis=1)) == pytest.approx(np.ones(len(own)), abs=1e-3)
+
+
+def test_both_homes_hold_the_same_material(recording: Path, extended: Path, tmp_path: Path) -> None:
+    out = tmp_path / "doormat.haptomaterial"
+    assert add("--recording", recording, "-o", out) == 0
+    material, label = read_material(out), read_model_file(extended).header["labels"][-1]
+    assert label["level"] == material.level.to_json()
+    assert label["tone"] == material.tone.to_json()
+    assert np.array_equal(read_model_file(extended).tensors["embedding"][-1], material.embedding)
+
+
+def test_a_material_can_be_added_to_a_model_that_has_one_already(
+    recording: Path, extended: Path, tmp_path: Path
+) -> None:
+    out = tmp_path / "two.haptoflow"
+    words = ["add-material", "--model", str(extended), *QUICK, "--recording", str(recording), "-o", str(out)]
+    assert main([*words, "--name", "rug"]) == 0
+    assert [label["name"] for label in read_model_file(out).header["labels"][-2:]] == ["doormat", "rug"]
+
+
+def test_a_name_that_the_model_has_is_refused_and_nothing_is_written(
+    recording: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    out = tmp_path / "x.haptoflow"
+    assert add("--recording", recording, "--name", "Wood", "-o", out) == 3
+    assert "'wood' already; choose another --name" in capsys.readouterr().err
+    assert not out.exists()
+
+
+def test_recordings_of_two_labels_are_refused_unless_a_name_is_given(
+    recording: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    other = csv_one_axis(tmp_path, "felt", "felt", stroke(3.0, seed=2))
+    assert add("--recording", recording, other, "-o", tmp_path / "x.haptomaterial") == 3
+    assert "2 labels (doormat, felt)" in capsys.readouterr().err
+    assert add("--recording", recording, other, "--name", "both", "-o", tmp_path / "x.haptomaterial") == 0
+
+
+@pytest.mark.parametrize(
+    ("words", "message"),
+    [
+        (["-o", "x.txt"], "x.txt: expected a name that ends in .haptomaterial or .haptoflow"),
+        (["--steps", "0"], "--steps 0: expected 1 or more"),
+        (["--name", " "], "--name is empty"),
+        (["--wave-vector", "1", "0", "--wave-vector", "0", "1", "--wave-vector", "1", "1"], "two at most"),
+    ],
+)
+def test_what_cannot_be_meant_is_refused(
+    words: list[str], message: str, recording: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+) -> None:  # fmt: skip
+    monkeypatch.chdir(tmp_path)
+    assert add("--recording", recording, *words) == 3
+    assert message in capsys.readouterr().err
+    assert not list(tmp_path.iterdir())
+
+
+def test_too_little_and_too_slow_a_recording_is_refused(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    short = csv_one_axis(tmp_path / "short", "a", "a", stroke(2.0))
+    assert add("--recording", short, "-o", tmp_path / "x.haptomaterial") == 3
+    assert "2 s at least, 10 s are recommended" in capsys.readouterr().err
+    slow = csv_one_axis(tmp_path / "slow", "b", "b", stroke(5.0, speeds_mps=(0.0015, 0.003)))
+    assert add("--recording", slow, "-o", tmp_path / "x.haptomaterial") == 3
+    assert "check the unit of the speed" in capsys.readouterr().err
+    assert not (tmp_path / "x.haptomaterial").exists()
+
+
+def test_wave_vectors_that_are_given_are_used(
+    recording: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    out = tmp_path / "rack.haptomaterial"
+    assert add("--recording", recording, "--name", "rack", "--wave-vector", "0", "0.8", "-o", out) == 0
+    assert "ribs every 1.25 mm" in capsys.readouterr().out
+    material = read_material(out)
+    assert material.periodic
+    assert material.wavelength_metres == pytest.approx(0.00125)
+    assert material.embedding[-4:] == pytest.approx([0.8, 0.0, 0.0, 0.0], abs=1e-6)
+    assert material.frequency_exponent == 1.0
+    assert all(seed.rib_phase is not None for seed in material.seeds)
+
+
+def test_a_label_that_is_no_file_name_does_not_lead_out_of_the_folder(
+    recording: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    inner = tmp_path / "inner"
+    inner.mkdir()
+    monkeypatch.chdir(inner)
+    assert add("--recording", recording, "--name", "../grey mat/2") == 0
+    assert [path.name for path in inner.iterdir()] == ["grey-mat-2.haptomaterial"]
+    assert read_material(inner / "grey-mat-2.haptomaterial").name == "../grey mat/2"
+
+
+def test_a_damaged_model_is_refused_by_name(
+    recording: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    broken = tmp_path / "broken.haptoflow"
+    broken.write_bytes(DEFAULT.read_bytes()[:5000])
+    words = ["--recording", str(recording), "-o", str(tmp_path / "x.haptomaterial")]
+    assert main(["add-material", "--model", str(broken), *words]) == 3
+    assert "truncated or damaged" in capsys.readouterr().err
+
+
+def test_a_material_of_another_space_does_not_become_a_label() -> None:
+    material = read_material(ROOT / "Tests" / "Golden" / "material" / "ribbed.haptomaterial")
+    model: ModelFile = read_model_file(DEFAULT)
+    with pytest.raises(InputError, match="another model"):
+        with_label(model, material)
+
+
+def render_wav(folder: Path, label: str, *options: str | Path) -> bytes:
+    """Bytes of a WAV of half a second on a plane of the label."""
+    folder.mkdir()
+    motion = np.tile(np.array([0.08, 0.02, 1.0]), (1000, 1))
+    made = render_motion(ENGINE, label, motion, folder, options=("--quiet", *map(str, options)))
+    assert float(np.sqrt(np.square(made.waveform_mps2).mean())) > 0.0
+    return (folder / "out.wav").read_bytes()
+
+
+def test_the_engine_plays_the_other_labels_byte_for_byte_as_before(extended: Path, tmp_path: Path) -> None:
+    for label in ("wood", "corduroy"):
+        before = render_wav(tmp_path / f"{label}-before", label, "--model", DEFAULT)
+        assert render_wav(tmp_path / f"{label}-after", label, "--model", extended) == before
+
+
+def test_the_engine_plays_the_further_label_and_the_material_file_alike(
+    recording: Path, extended: Path, tmp_path: Path
+) -> None:
+    material = tmp_path / "doormat.haptomaterial"
+    assert add("--recording", recording, "-o", material) == 0
+    folders = tmp_path / "label", tmp_path / "file"
+    render_wav(folders[0], "doormat", "--model", extended)
+    render_wav(folders[1], "doormat", "--model", DEFAULT, "--material", material)
+    waves = [read_wav(folder / "out.wav") for folder in folders]
+    levels = [20.0 * math.log10(float(np.sqrt(np.square(wave, dtype=np.float64).mean()))) for wave in waves]
+    assert levels[0] == pytest.approx(levels[1], abs=1.5)
+
+
+def test_the_help_has_examples(capsys: pytest.CaptureFixture[str]) -> None:
+    for command in ("add-material", "sliders", "few-shot"):
+        with pytest.raises(SystemExit):
+            main([command, "--help"])
+        said = capsys.readouterr().out
+        assert f"haptoflow-training {command} --model" in said

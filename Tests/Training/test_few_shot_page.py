@@ -1,0 +1,53 @@
+"""The commands of "A new material from ten seconds, in Python" run as they stand there."""
+
+from __future__ import annotations
+
+import json
+import re
+from pathlib import Path
+
+import pytest
+from own_samples import csv_one_axis, stroke
+from test_few_shot_study import cell, stored
+
+from haptoflow_training.cli import main
+
+ROOT = Path(__file__).parents[2]
+DEFAULT = ROOT / "Packages" / "com.haptoflow.runtime" / "Runtime" / "Models" / "default.haptoflow"
+PAGE = ROOT / "Documentation~" / "own-materials.md"
+HEADING = "## A new material from ten seconds, in Python"
+
+
+def commands() -> list[list[str]]:
+    section = PAGE.read_text(encoding="utf-8").split(HEADING, 1)[1].split("\n## ", 1)[0]
+    blocks = re.findall(r"^```\n(.*?)^```", section, re.DOTALL | re.MULTILINE)
+    lines = [line.split() for block in blocks for line in block.splitlines()]
+    return [words[1:] for words in lines if words[:1] == ["haptoflow-training"]]
+
+
+def test_every_command_of_the_page_runs_and_writes_what_it_names(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    csv_one_axis(tmp_path, "doormat", "doormat", stroke(4.0))
+    (tmp_path / "default.haptoflow").symlink_to(DEFAULT)
+    work = tmp_path / "work"
+    work.mkdir()
+    (work / "unseen-01.json").write_text(json.dumps(stored("unseen-01", False)), encoding="utf-8")
+    (work / "unseen-01.engine.json").write_text(json.dumps([cell(1.0)]), encoding="utf-8")
+    ran = set()
+    for words in commands():
+        quick = {
+            "add-material": ["--steps", "2"],
+            "sliders": [],
+            # What takes minutes is stored already.
+            "few-shot": ["--materials", "1", "--work", str(work)],
+        }[words[0]]
+        assert main([*words, *quick]) == 0, words
+        ran.add(words[0])
+        for before, named in zip(words[:-1], words[1:], strict=True):
+            if before in ("-o", "--results", "--chart"):
+                assert (tmp_path / named).stat().st_size > 0
+    assert ran == {"add-material", "sliders", "few-shot"}
+    assert (tmp_path / "doormat.haptomaterial").exists()
+    assert "fit, in the engine" in (tmp_path / "few-shot.json").read_text(encoding="utf-8")

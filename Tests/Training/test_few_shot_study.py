@@ -1,0 +1,164 @@
+"""The few-shot study: its materials are unseen, its figures mean what they say, and it goes on where it was stopped."""
+
+from __future__ import annotations
+
+import dataclasses
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from haptoflow_training.evaluation.few_shot_cases import SECONDS, FewShotCase, make_case, study_materials
+from haptoflow_training.evaluation.few_shot_figures import condition_figures, summarised
+from haptoflow_training.evaluation.few_shot_report import (
+    OTHER_DRAW,
+    ROWS,
+    assembled,
+    curve_table,
+    table,
+    write_chart,
+    write_results,
+)
+from haptoflow_training.evaluation.few_shot_study import StudyPlan, cells_of
+from haptoflow_training.export.model_file import read_model_file
+from haptoflow_training.models.file_model import FileModel
+from haptoflow_training.recordings.synthetic import load_materials
+
+ROOT = Path(__file__).parents[2]
+DEFAULT = ROOT / "Packages" / "com.haptoflow.runtime" / "Runtime" / "Models" / "default.haptoflow"
+RESULTS = ROOT / "Training" / "results" / "few-shot.json"
+PAGE = ROOT / "Documentation~" / "own-materials.md"
+FITTED_SPEEDS_MPS = (0.02, 0.2)
+
+
+@pytest.fixture(scope="module")
+def case() -> FewShotCase:
+    return make_case(study_materials(3, 2026)[2], 2026, 10.0)
+
+
+def test_unseen_materials_are_between_labels_and_like_none() -> None:
+    known = load_materials()
+    unseen = study_materials(12, 2026)
+    assert len({material.label for material in unseen}) == 12
+    for material in unseen:
+        assert all(material.calibrated != other.calibrated for other in known)
+        assert all(material.tool_modes != other.tool_modes for other in known)
+        assert all(material.surface_seed != other.surface_seed for other in known)
+    assert sum(bool(material.rulings) for material in unseen) >= 3
+    assert sum(material.impact_strength > 0.0 for material in unseen) >= 2
+    assert sum(material.stick_slip_strength > 0.0 for material in unseen) >= 2
+    assert unseen == study_materials(12, 2026)
+    assert unseen[0] != study_materials(12, 2027)[0]
+
+
+def test_shorter_recordings_are_the_beginnings_of_longer_ones_and_as_long_as_they_say(case: FewShotCase) -> None:
+    lengths = {seconds: case.recordings(seconds) for seconds in (3.0, 10.0)}
+    for seconds, recordings in lengths.items():
+        assert sum(recording.seconds for recording in recordings) == pytest.approx(seconds, abs=0.05)
+    for short, long in zip(lengths[3.0], lengths[10.0], strict=True):
+        assert np.array_equal(short.vibration_mps2, long.vibration_mps2[: len(short.vibration_mps2)])
+    assert SECONDS == (3.0, 10.0, 30.0, 120.0)
+
+
+def test_what_is_measured_is_another_piece_than_what_is_learnt_from(case: FewShotCase) -> None:
+    for condition in case.conditions:
+        speed = np.hypot(*condition.motion[:, :2].T)
+        assert speed.mean() == pytest.approx(condition.speed_mps, rel=0.1)
+        assert FITTED_SPEEDS_MPS[0] <= condition.speed_mps <= FITTED_SPEEDS_MPS[1]
+        correlation = np.corrcoef(condition.recorded[:8000], condition.other_draw[:8000])[0, 1]
+        assert abs(correlation) < 0.9
+    assert any(condition.rib_rates_hz for condition in case.conditions)
+
+
+def test_the_recording_itself_has_no_error_and_twice_of_it_has_six_decibels(case: FewShotCase) -> None:
+    condition = case.conditions[3]
+    same = condition_figures(condition, condition.recorded, np.array([0, 500, 1000]))
+    assert same["level_error_db"] == pytest.approx(0.0, abs=1e-6)
+    assert same["gfc"] == pytest.approx(1.0)
+    assert same["lsd_db"] == pytest.approx(0.0, abs=1e-6)
+    assert same["rib_fundamental_error_percent"] == 0.0
+    twice = condition_figures(condition, 2.0 * condition.recorded, None)
+    assert twice["level_error_db"] == pytest.approx(6.02, abs=0.01)
+    assert twice["lsd_db"] == pytest.approx(6.02, abs=0.1)
+    assert "seam_jump" not in twice
+
+
+def test_the_distance_of_spectra_is_deaf_beyond_450_hz(case: FewShotCase) -> None:
+    condition = case.conditions[3]
+    loud = 3.0 * float(np.std(condition.recorded))
+    beyond = condition.recorded + loud * np.sin(2.0 * np.pi * 800.0 * np.arange(len(condition.recorded)) / 2000.0)
+    assert condition_figures(condition, beyond, None)["lsd_db"] < 0.5
+
+
+def cell(level: float, gfc: float = 0.99, lsd: float = 1.0) -> dict[str, float]:
+    return {
+        "level_error_db": level, "gfc": gfc, "lsd_db": lsd, "kurtosis_log_ratio": -0.2, "crest_log_ratio": 0.1,
+        "modulation_error_db": 1.0,
+    }  # fmt: skip
+
+
+def test_levels_count_by_size_and_intervals_come_from_materials() -> None:
+    summary = summarised([[cell(-2.0), cell(2.0)], [cell(1.0), cell(-1.0)], [cell(3.0), cell(-3.0)]])
+    assert summary["level_error_median_db"]["value"] == 2.0
+    low, high = summary["level_error_median_db"]["interval"]
+    assert 1.0 <= low < 2.0 < high <= 3.0
+    assert summary["kurtosis_log_ratio"]["value"] == 0.2
+    assert "rib_fundamental_error_percent" not in summary
+    alike = summarised([[cell(1.0)], [cell(1.0)]])
+    assert alike["level_error_p90_db"]["interval"] == [1.0, 1.0]
+
+
+def stored(material: str, ruled: bool) -> dict[str, object]:
+    rows = {f"{row} {seconds:g}": [cell(1.0), cell(2.0)] for row in ROWS for seconds in SECONDS}
+    rows |= {"draft 10": [cell(1.5)], OTHER_DRAW: [cell(0.1)]}
+    return {
+        "material": material, "ruled": ruled, "impacts": False, "rows": rows,
+        "core_seconds": {"fit 10": 8.0}, "notes": {},
+    }  # fmt: skip
+
+
+def test_a_study_goes_on_with_what_is_stored(tmp_path: Path) -> None:
+    plan = StudyPlan(DEFAULT, tmp_path, 1)
+    material = study_materials(1, 1)[0]
+    (tmp_path / f"{material.label}.json").write_text(json.dumps(stored(material.label, False)), encoding="utf-8")
+    counted: list[int] = []
+    found = cells_of(plan, FileModel(read_model_file(DEFAULT)), material, lambda: counted.append(1))
+    assert found == stored(material.label, False)
+    assert counted == [1]
+
+
+def test_the_report_has_every_row_tables_and_a_chart(tmp_path: Path) -> None:
+    cells = [stored("a", False), stored("b", True)]
+    results = assembled(cells, {"seconds": list(SECONDS)})
+    assert set(results["results"]) == {"all", "with ribs", "without ribs"}
+    made = table(results, 10.0)
+    for words in (*ROWS.values(), "tier `draft`", "another draw"):
+        assert words in made
+    assert made.count("\n") == 1 + len(ROWS) + 2
+    curve = curve_table(results, "lsd_median_db")
+    assert "| 3 s | 10 s | 30 s | 120 s |" in curve
+    write_results(tmp_path / "few-shot.json", results)
+    assert json.loads((tmp_path / "few-shot.json").read_text(encoding="utf-8")) == results
+    write_chart(tmp_path / "few-shot.png", results)
+    assert (tmp_path / "few-shot.png").read_bytes()[:8] == b"\x89PNG\r\n\x1a\n"
+
+
+def test_a_whole_study_of_one_material_measures_every_row(tmp_path: Path) -> None:
+    plan = StudyPlan(DEFAULT, tmp_path, 3, seconds=(3.0, 10.0), network_steps=2)
+    plan = dataclasses.replace(plan, options=dataclasses.replace(plan.options, steps=2))
+    model = FileModel(read_model_file(DEFAULT))
+    made = cells_of(plan, model, study_materials(1, 3)[0], lambda: None)
+    wanted = {f"{row} {seconds:g}" for row in ROWS for seconds in (3.0, 10.0)} - {"network 3"}
+    assert set(made["rows"]) == wanted | {"draft 10", OTHER_DRAW}
+    assert all(len(cells) == 6 for cells in made["rows"].values())
+    assert all(np.isfinite(value) for cells in made["rows"].values() for each in cells for value in each.values())
+    assert (tmp_path / "unseen-01.haptomaterial").exists()
+
+
+def test_the_published_table_is_that_of_the_published_results() -> None:
+    results = json.loads(RESULTS.read_text(encoding="utf-8"))
+    page = PAGE.read_text(encoding="utf-8")
+    assert len(results["materials"]) >= 10
+    assert table(results, 10.0) in page
+    assert curve_table(results, "lsd_median_db") in page
