@@ -6,8 +6,8 @@ using System.Text;
 
 namespace HaptoFlow.Model
 {
-    /// <summary>A learnt material: a label with its embedding, in a text of its own (a .haptomaterial file). The native
-    /// library checks the rest when it takes the text. Any thread.</summary>
+    /// <summary>A learnt material: a label with its embedding, in a text of its own (a .haptomaterial file). Read and
+    /// checked without the native library. Any thread.</summary>
     public sealed class MaterialFile
     {
         /// <summary>Numbers of an embedding that are the texture; the last four are wave vectors.</summary>
@@ -16,29 +16,36 @@ namespace HaptoFlow.Model
         /// <summary>Of the whole text, in UTF-8.</summary>
         public const int MaximumBytes = 1024 * 1024;
 
-        private const int MostSeeds = 16;
+        private const string FormatName = "haptoflow-material";
 
         private MaterialFile(JsonValue json)
         {
             Json = json;
-            Space = TextOf(json, "space");
-            Name = TextOf(json, "name");
-            Category = TextOf(json, "category");
-            Description = TextOf(json, "description");
-            JsonValue provenance = Of(json, "provenance");
-            Statement = OptionalText(provenance, "statement");
-            Recordings = OptionalText(provenance, "recordings");
-            Licence = OptionalText(provenance, "licence");
-            Licence = Licence.Length > 0 ? Licence : "unknown";
-            Created = OptionalText(provenance, "created");
-            Seconds = provenance.Find("seconds")?.AsNumber() ?? 0.0;
-            Embedding = EmbeddingOf(json);
-            StiffnessNewtonsPerMetre = Of(json, "stiffness_newtons_per_metre").AsNumber();
-            LevelOffsetDecibels = json.Find("level_offset_db")?.AsNumber() ?? 0.0;
-            if (json.Find("seeds")?.AsArray().Count > MostSeeds)
+            var root = new CheckedTable(json);
+            CheckFormat(root);
+            Space = root.Text("space");
+            if (Space.Length != 8 || Space.Any(letter => "0123456789abcdef".IndexOf(letter) < 0))
             {
-                throw json["seeds"].Expected("a list of at most 16");
+                throw root.Failure("space", "eight lower-case hexadecimal digits");
             }
+            Name = root.Text("name");
+            if (Name.Trim().Length == 0)
+            {
+                throw root.Failure("name", "a name that is not empty");
+            }
+            Category = root.Text("category", "");
+            Description = root.Text("description", "");
+            CheckedTable? provenance = root.OptionalTable("provenance");
+            Statement = provenance?.Text("statement", "") ?? "";
+            Recordings = provenance?.Text("recordings", "") ?? "";
+            Licence = provenance?.Text("licence", "unknown") ?? "unknown";
+            Created = provenance?.Text("created", "") ?? "";
+            Seconds = provenance?.OptionalNumber("seconds", 0.0, 1e9) ?? 0.0;
+            Embedding = root.Numbers("embedding", HapticModel.EmbeddingSize, HapticModel.EmbeddingSize);
+            StiffnessNewtonsPerMetre = root.Number("stiffness_newtons_per_metre", 1e-3, 1e6);
+            LevelOffsetDecibels = root.OptionalNumber("level_offset_db", -MaterialRules.MostOffsetDecibels,
+                MaterialRules.MostOffsetDecibels) ?? 0.0;
+            MaterialRules.Check(root);
         }
 
         /// <summary>Eight hexadecimal digits: the <see cref="ModelSpace.Id"/> of the model that it was learnt for.
@@ -86,14 +93,12 @@ namespace HaptoFlow.Model
         {
             if (text.Length > MaximumBytes || Encoding.UTF8.GetByteCount(text) > MaximumBytes)
             {
-                throw new HaptoFlowException(
-                    HaptoFlowStatus.MaterialInvalid, "the text is larger than 1 MiB: this is no material file");
+                throw new HaptoFlowException(HaptoFlowStatus.MaterialInvalid,
+                    "the file is longer than 1048576 bytes; a material file has at most that many");
             }
             try
             {
-                JsonValue json = JsonValue.Parse(text);
-                CheckFormat(json);
-                return new MaterialFile(json);
+                return new MaterialFile(JsonValue.Parse(text));
             }
             catch (FormatException error)
             {
@@ -101,31 +106,17 @@ namespace HaptoFlow.Model
             }
         }
 
-        private static void CheckFormat(JsonValue json)
+        private static void CheckFormat(CheckedTable root)
         {
-            JsonValue? format = json.Find("format");
-            if (format == null || format.AsText() != "haptoflow-material")
+            if (!root.Has("format") || root.Text("format") != FormatName)
             {
-                throw new FormatException("format is not \"haptoflow-material\": this is no material file");
+                throw root.Failure("format", $"\"{FormatName}\"", "this is not a material file");
             }
-            if (Of(json, "version").AsInteger() != 1)
+            int version = root.Integer("version");
+            if (version != 1)
             {
-                throw new FormatException("version is not 1: update HaptoFlow");
+                throw root.Failure("version", "1", $"this reader does not know version {version}; update HaptoFlow");
             }
-        }
-
-        private static JsonValue Of(JsonValue json, string key) =>
-            json.Find(key) ?? throw new FormatException($"the key \"{key}\" is missing");
-
-        private static string TextOf(JsonValue json, string key) => Of(json, key).AsText();
-
-        private static string OptionalText(JsonValue json, string key) => json.Find(key)?.AsText() ?? "";
-
-        private static double[] EmbeddingOf(JsonValue json)
-        {
-            JsonValue embedding = Of(json, "embedding");
-            double[] numbers = embedding.AsArray().Select(number => number.AsNumber()).ToArray();
-            return numbers.Length == HapticModel.EmbeddingSize ? numbers : throw embedding.Expected("64 numbers");
         }
     }
 }
