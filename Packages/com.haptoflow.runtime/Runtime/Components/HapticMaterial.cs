@@ -1,6 +1,7 @@
 #nullable enable
 using System;
 using UnityEngine;
+using Object = UnityEngine.Object;
 
 namespace HaptoFlow
 {
@@ -160,8 +161,14 @@ namespace HaptoFlow
         [SerializeField]
         private MaterialDescription description = new MaterialDescription();
 
+        private readonly MaterialLookUp lookUp = new MaterialLookUp();
+
         /// <summary>What the surfaces that share this are made of.</summary>
         public MaterialDescription Description => description;
+
+        /// <summary>The labels as the engine takes them, looked up again only when something changed.</summary>
+        /// <param name="user">Who is named where the model does not know a label.</param>
+        internal MaterialLookUp LookUp(HapticSession session, Object user) => lookUp.Of(description, session, user);
 
         private void OnValidate() => description.Touch();
     }
