@@ -96,6 +96,21 @@ namespace HaptoFlow.EditorTests
         }
 
         [Test]
+        public void FeatureScaleAndToneAreEnteredAndTakenBackByUndo()
+        {
+            HapticSurface table = Tagged("Table", "wood");
+            Undo.IncrementCurrentGroup();
+            EditorScreen.Enter("Feature Scale", 2f);
+            EditorScreen.Enter("Tone (dB/octave)", -3f);
+            Draw(table);
+            Assert.That(table.Material.FeatureScale, Is.EqualTo(2f));
+            Assert.That(table.Material.ToneDbPerOctave, Is.EqualTo(-3f));
+            Undo.PerformUndo();
+            Assert.That(table.Material.FeatureScale, Is.EqualTo(1f));
+            Assert.That(table.Material.ToneDbPerOctave, Is.Zero);
+        }
+
+        [Test]
         public void ASurfacesInspectorOpensThePreviewOnIt()
         {
             HapticSurface surface = Tagged("Table", "glass");

@@ -9,7 +9,7 @@ namespace HaptoFlow.Editor
     [CustomPropertyDrawer(typeof(MaterialDescription))]
     internal sealed class MaterialDescriptionDrawer : PropertyDrawer
     {
-        private const int FieldRows = 6;
+        private const int FieldRows = 8;
         private const float RemarkWidth = 110f;
 
         private static readonly GUIContent Label = new GUIContent("Label",
@@ -31,6 +31,12 @@ namespace HaptoFlow.Editor
         };
         private static readonly GUIContent Strength = new GUIContent("Strength",
             "Gain of the output while this is touched, 0 to 1.");
+
+        private static readonly GUIContent FeatureScale = new GUIContent("Feature Scale",
+            "The material's features, its ribs included, are this many times as large, 0.25 to 4. The level stays as " +
+            "it is.");
+        private static readonly GUIContent Tone = new GUIContent("Tone (dB/octave)",
+            "The spectrum is tilted about 150 Hz, -12 to 12: above 0 is brighter, below 0 darker.");
 
         private static float RowHeight =>
             EditorGUIUtility.singleLineHeight + EditorGUIUtility.standardVerticalSpacing;
@@ -61,6 +67,10 @@ namespace HaptoFlow.Editor
             DrawStiffness(row, property.FindPropertyRelative("stiffnessNewtonsPerMetre"), first);
             row.y += RowHeight;
             EditorGUI.PropertyField(row, property.FindPropertyRelative("strength"), Strength);
+            row.y += RowHeight;
+            EditorGUI.PropertyField(row, property.FindPropertyRelative("featureScale"), FeatureScale);
+            row.y += RowHeight;
+            EditorGUI.PropertyField(row, property.FindPropertyRelative("toneDbPerOctave"), Tone);
             row.y += RowHeight;
             DrawEffects(row, property);
         }

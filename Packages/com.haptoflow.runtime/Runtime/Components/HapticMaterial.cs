@@ -1,6 +1,7 @@
 #nullable enable
 using System;
 using UnityEngine;
+using Object = UnityEngine.Object;
 
 namespace HaptoFlow
 {
@@ -9,6 +10,10 @@ namespace HaptoFlow
     [Serializable]
     public sealed class MaterialDescription
     {
+        internal const float SmallestFeatureScale = 0.25f;
+        internal const float LargestFeatureScale = 4f;
+        internal const float MostToneDbPerOctave = 12f;
+
         [SerializeField, Tooltip("A label of the model.")]
         private string label = "wood";
 
@@ -23,6 +28,14 @@ namespace HaptoFlow
 
         [SerializeField, Range(0f, 1f), Tooltip("Gain of the output while this is touched.")]
         private float strength = 1f;
+
+        [SerializeField, Range(SmallestFeatureScale, LargestFeatureScale)]
+        [Tooltip("The material's features, its ribs included, are this many times as large. 1 leaves them as they are.")]
+        private float featureScale = 1f;
+
+        [SerializeField, Range(-MostToneDbPerOctave, MostToneDbPerOctave)]
+        [Tooltip("The spectrum is tilted about 150 Hz by this many dB an octave: above 0 is brighter, below 0 darker.")]
+        private float toneDbPerOctave;
 
         [SerializeField, Tooltip("The tip feels the material's texture while it slides.")]
         private bool texture = true;
@@ -76,6 +89,22 @@ namespace HaptoFlow
             set => strength = Mathf.Clamp01(value);
         }
 
+        /// <summary>How many times as large the material's features are, ribs included: 0.25 to 4. The level stays that
+        /// of the tip's speed.</summary>
+        public float FeatureScale
+        {
+            get => featureScale;
+            set => featureScale = Mathf.Clamp(value, SmallestFeatureScale, LargestFeatureScale);
+        }
+
+        /// <summary>Tilt of the spectrum about 150 Hz, in dB an octave, -12 to 12: above 0 is brighter, below 0 darker.
+        /// </summary>
+        public float ToneDbPerOctave
+        {
+            get => toneDbPerOctave;
+            set => toneDbPerOctave = Mathf.Clamp(value, -MostToneDbPerOctave, MostToneDbPerOctave);
+        }
+
         /// <summary>Which effects this has: any of <see cref="HapticEffects.Texture"/>,
         /// <see cref="HapticEffects.Impact"/> and <see cref="HapticEffects.Edge"/>;
         /// <see cref="HapticEffects.Nothing"/> for none of them. An effect that no surface asks for costs
@@ -109,6 +138,8 @@ namespace HaptoFlow
             blend = other.blend;
             stiffnessNewtonsPerMetre = other.stiffnessNewtonsPerMetre;
             strength = other.strength;
+            featureScale = other.featureScale;
+            toneDbPerOctave = other.toneDbPerOctave;
             texture = other.texture;
             impact = other.impact;
             edge = other.edge;
@@ -130,8 +161,14 @@ namespace HaptoFlow
         [SerializeField]
         private MaterialDescription description = new MaterialDescription();
 
+        private readonly MaterialLookUp lookUp = new MaterialLookUp();
+
         /// <summary>What the surfaces that share this are made of.</summary>
         public MaterialDescription Description => description;
+
+        /// <summary>The labels as the engine takes them, looked up again only when something changed.</summary>
+        /// <param name="user">Who is named where the model does not know a label.</param>
+        internal MaterialLookUp LookUp(HapticSession session, Object user) => lookUp.Of(description, session, user);
 
         private void OnValidate() => description.Touch();
     }

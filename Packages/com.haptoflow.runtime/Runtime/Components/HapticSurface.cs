@@ -31,11 +31,7 @@ namespace HaptoFlow
 
         private readonly List<Collider> registered = new List<Collider>();
         private bool isStale;
-        private LabelBlend blend;
-        private double labelStiffness;
-        private int lookedUpVersion = -1;
-        private MaterialDescription? lookedUpIn;
-        private int lookedUpLabels = -1;
+        private readonly MaterialLookUp ownLookUp = new MaterialLookUp();
 
         /// <summary>The shared material asset; null where the surface describes its own. Changing the asset changes
         /// every surface that shares it, as Renderer.sharedMaterial does.</summary>
@@ -139,34 +135,14 @@ namespace HaptoFlow
         }
 
         /// <summary>The labels as the engine takes them, looked up again only when something changed.</summary>
-        internal LabelBlend BlendFor(HapticSession session)
-        {
-            LookUp(session);
-            return blend;
-        }
+        internal LabelBlend BlendFor(HapticSession session) => LookUp(session).Labels;
 
         /// <summary>In N/m; 0 for the contact model's default.</summary>
-        internal double StiffnessFor(HapticSession session)
-        {
-            LookUp(session);
-            float described = SharedDescription.StiffnessNewtonsPerMetre;
-            return described > 0f ? described : labelStiffness;
-        }
+        internal double StiffnessFor(HapticSession session) => LookUp(session).StiffnessNewtonsPerMetre;
 
-        private void LookUp(HapticSession session)
-        {
-            MaterialDescription material = SharedDescription;
-            bool known = ReferenceEquals(material, lookedUpIn) && material.Version == lookedUpVersion &&
-                session.LabelsVersion == lookedUpLabels;
-            if (known)
-            {
-                return;
-            }
-            lookedUpIn = material;
-            lookedUpVersion = material.Version;
-            lookedUpLabels = session.LabelsVersion;
-            blend = session.Labels.Blend(material, this, out labelStiffness);
-        }
+        private MaterialLookUp LookUp(HapticSession session) => sharedMaterial != null
+            ? sharedMaterial.LookUp(session, this)
+            : ownLookUp.Of(own, session, this);
 
         private void OnEnable()
         {

@@ -4,6 +4,7 @@ using System.Collections.Generic;
 using System.Linq;
 using HaptoFlow.Model;
 using UnityEngine;
+using Object = UnityEngine.Object;
 
 namespace HaptoFlow
 {
@@ -27,9 +28,9 @@ namespace HaptoFlow
         /// <summary>The labels of a description with their weights; unknown ones are left out. The stiffness is the
         /// weighted mean of the labels', 0 where none is known.</summary>
         public LabelBlend Blend(
-            MaterialDescription material, HapticSurface surface, out double stiffnessNewtonsPerMetre)
+            MaterialDescription material, Object user, out double stiffnessNewtonsPerMetre)
         {
-            LabelBlend blend = Named(material, surface);
+            LabelBlend blend = Named(material, user);
             stiffnessNewtonsPerMetre = 0.0;
             for (int entry = 0; entry < blend.Count; ++entry)
             {
@@ -38,11 +39,11 @@ namespace HaptoFlow
             return blend;
         }
 
-        private LabelBlend Named(MaterialDescription material, HapticSurface surface)
+        private LabelBlend Named(MaterialDescription material, Object user)
         {
             int second = 0;
-            bool knowsFirst = TryFind(material.Label, surface, out int first);
-            bool knowsSecond = material.SecondLabel.Length > 0 && TryFind(material.SecondLabel, surface, out second);
+            bool knowsFirst = TryFind(material.Label, user, out int first);
+            bool knowsSecond = material.SecondLabel.Length > 0 && TryFind(material.SecondLabel, user, out second);
             if (knowsFirst && knowsSecond)
             {
                 return LabelBlend.Of(first, second, material.Blend);
@@ -50,7 +51,7 @@ namespace HaptoFlow
             return knowsFirst ? LabelBlend.Of(first) : knowsSecond ? LabelBlend.Of(second) : default;
         }
 
-        private bool TryFind(string name, HapticSurface surface, out int index)
+        private bool TryFind(string name, Object user, out int index)
         {
             if (names.TryFind(name, out index))
             {
@@ -63,7 +64,7 @@ namespace HaptoFlow
                     ? "near matches: " + string.Join(", ", near)
                     : "labels are: " + string.Join(", ", All);
                 Debug.LogWarning(
-                    $"HaptoFlow: the model has no label \"{name}\" (first met on {surface.name}); {remedy}.", surface);
+                    $"HaptoFlow: the model has no label \"{name}\" (first met on {user.name}); {remedy}.", user);
             }
             return false;
         }
