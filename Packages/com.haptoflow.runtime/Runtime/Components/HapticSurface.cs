@@ -38,7 +38,11 @@ namespace HaptoFlow
         public HapticMaterial? SharedMaterial
         {
             get => sharedMaterial;
-            set => sharedMaterial = value;
+            set
+            {
+                sharedMaterial = value;
+                HapticSession.Existing?.Prepare(SharedDescription);
+            }
         }
 
         /// <summary>What this surface is made of, to be changed: changes reach no other surface and no asset. As with
@@ -148,6 +152,7 @@ namespace HaptoFlow
         {
             Register();
             TellSurfaceAbove();
+            HapticSession.Existing?.Prepare(SharedDescription);
         }
 
         private void OnDisable() => Unregister();
