@@ -115,11 +115,17 @@ namespace HaptoFlow.Recordings
 
         private static double RateOf(string file, Series acceleration)
         {
-            double rateHz = 1.0 / acceleration.StepSeconds;
-            // Times are often written with few digits: over the whole recording they are right.
-            double mean = (acceleration.Count - 1) /
-                (acceleration.Seconds[acceleration.Count - 1] - acceleration.Seconds[0]);
-            rateHz = Math.Abs(mean / rateHz - 1.0) < 0.02 ? mean : rateHz;
+            // Times are often written with few digits, so their mean counts; lost samples do not.
+            double longest = 1.5 * acceleration.StepSeconds;
+            double seconds = 0.0;
+            int steps = 0;
+            for (int row = 1; row < acceleration.Count; ++row)
+            {
+                double step = acceleration.Seconds[row] - acceleration.Seconds[row - 1];
+                seconds += step <= longest ? step : 0.0;
+                steps += step <= longest ? 1 : 0;
+            }
+            double rateHz = steps / seconds;
             return rateHz >= RecordingSidecar.LowestRateHz - 1.0 && rateHz <= RecordingSidecar.HighestRateHz + 1.0
                 ? rateHz
                 : throw RecordingError.Of(
