@@ -107,6 +107,41 @@ namespace HaptoFlow
             GC.KeepAlive(this);
         }
 
+        /// <summary>Registers a learnt material beside the model's labels. Takes milliseconds; publishers and callbacks
+        /// never wait for it.</summary>
+        /// <param name="material">The text of a material file.</param>
+        /// <returns>Its index, for contact states; it stays until the engine is closed.</returns>
+        /// <exception cref="HaptoFlowException">The text is no material file, it was learnt for another model, or the
+        /// engine holds as many as it can.</exception>
+        public int RegisterMaterial(string material)
+        {
+            byte[] text = Encoding.UTF8.GetBytes(material);
+            uint index;
+            fixed (byte* json = text)
+            {
+                NativeCall.Check(
+                    NativeMethods.EngineRegisterMaterial(handle.Value, json, (ulong)text.Length, &index));
+            }
+            GC.KeepAlive(this);
+            return (int)index;
+        }
+
+        /// <summary>Puts another learnt material in the place of a registered one: the next state that is published
+        /// sounds like it.</summary>
+        /// <param name="index">As <see cref="RegisterMaterial"/> gave it.</param>
+        /// <param name="material">The text of a material file.</param>
+        /// <exception cref="HaptoFlowException">As of <see cref="RegisterMaterial"/>; what was there stays.</exception>
+        public void ReplaceMaterial(int index, string material)
+        {
+            byte[] text = Encoding.UTF8.GetBytes(material);
+            fixed (byte* json = text)
+            {
+                NativeCall.Check(NativeMethods.EngineReplaceMaterial(
+                    handle.Value, checked((uint)index), json, (ulong)text.Length));
+            }
+            GC.KeepAlive(this);
+        }
+
         /// <summary>One round of inference for all voices that want one. Engines without worker only; any thread that
         /// can wait for a network.</summary>
         public void Step()

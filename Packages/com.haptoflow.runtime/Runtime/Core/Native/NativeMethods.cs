@@ -96,6 +96,12 @@ namespace HaptoFlow.Native
         [DllImport(Library, EntryPoint = "haptoflow_engine_set_quality")]
         public static extern int EngineSetQuality(IntPtr engine, int quality);
 
+        [DllImport(Library, EntryPoint = "haptoflow_engine_register_material")]
+        public static extern int EngineRegisterMaterial(IntPtr engine, byte* json, ulong length, uint* index);
+
+        [DllImport(Library, EntryPoint = "haptoflow_engine_replace_material")]
+        public static extern int EngineReplaceMaterial(IntPtr engine, uint index, byte* json, ulong length);
+
         [DllImport(Library, EntryPoint = "haptoflow_engine_step")]
         public static extern int EngineStep(IntPtr engine);
 
