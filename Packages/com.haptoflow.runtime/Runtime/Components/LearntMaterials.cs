@@ -11,13 +11,10 @@ namespace HaptoFlow
     /// garbage while nothing changes.</summary>
     internal sealed class LearntMaterials
     {
-        /// <summary>Of one engine (HAPTOFLOW_MAXIMUM_MATERIALS).</summary>
-        public const int Maximum = 64;
-
         private readonly HapticEngine engine;
         private readonly string space;
         private readonly Dictionary<HapticMaterial, Known> known = new Dictionary<HapticMaterial, Known>();
-        private readonly double[] stiffness = new double[Maximum];
+        private readonly double[] stiffness = new double[HapticEngine.MaximumMaterials];
         private readonly Stack<int> free = new Stack<int>();
         private readonly List<Known> waiting = new List<Known>();
         private readonly int labelCount;
@@ -141,9 +138,9 @@ namespace HaptoFlow
             foreach (Known each in waiting)
             {
                 each.Text = each.Material.Learnt;
-                if (each.Index < 0 && free.Count == 0 && taken == Maximum)
+                if (each.Index < 0 && free.Count == 0 && taken == HapticEngine.MaximumMaterials)
                 {
-                    Refuse(each, $"{Maximum} learnt materials are in use, which is the most that an engine takes. Use " +
+                    Refuse(each, $"{HapticEngine.MaximumMaterials} learnt materials are in use, which is the most that an engine takes. Use " +
                         "fewer of them in what is loaded at one time.");
                     continue;
                 }

@@ -42,13 +42,13 @@ namespace HaptoFlow
         /// <summary>The file is intact and breaks a rule of its format, or one of its graphs does.</summary>
         ModelInconsistent = 16,
 
-        /// <summary>A learnt material belongs to another model: learn it again from its recording.</summary>
+        /// <summary>The material was learnt for another model: learn it again with this one.</summary>
         MaterialMismatch = 17,
 
         /// <summary>The text is not a material file; the message names the key.</summary>
         MaterialInvalid = 18,
 
-        /// <summary>No material can be learnt from a recording; the message says why.</summary>
+        /// <summary>Nothing can be learnt from the recording; the message says why.</summary>
         RecordingUnusable = 19,
 
         /// <summary>No ONNX Runtime of version 1.16 or newer at the given place.</summary>
