@@ -240,6 +240,8 @@ namespace HaptoFlow
             ShutDown();
             Application.quitting -= ShutDown;
             Application.quitting += ShutDown;
+            Application.quitting -= HapticLearning.EndAll;
+            Application.quitting += HapticLearning.EndAll;
         }
 
         private sealed class Loaded
