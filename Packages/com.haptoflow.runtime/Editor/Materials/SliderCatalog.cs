@@ -55,8 +55,8 @@ namespace HaptoFlow.Editor
                 return sliders.Space == space
                     ? new SliderCatalog(model.File, sliders, null)
                     : new SliderCatalog(model.File, null, $"This model has no sliders: those of {path} are for the " +
-                        $"space {sliders.Space}, and the model's is {space}. A file beside the model with the ending " +
-                        ".sliders.json brings its own.");
+                        $"space {sliders.Space}, and the model's is {space}. `haptoflow-training sliders` " +
+                        "makes its own, which belong beside the model with the ending .sliders.json.");
             }
             catch (Exception error) when (error is HaptoFlowException || error is IOException)
             {
