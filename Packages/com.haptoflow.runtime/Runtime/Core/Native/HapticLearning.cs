@@ -3,6 +3,7 @@ using System;
 using System.Collections.Generic;
 using System.Runtime.InteropServices;
 using System.Threading.Tasks;
+using HaptoFlow.Model;
 using HaptoFlow.Native;
 using HaptoFlow.Recordings;
 
@@ -41,7 +42,7 @@ namespace HaptoFlow
 
         private readonly LearningProgress progress = new LearningProgress();
         private readonly HapticCancellation cancellation;
-        private readonly Task<(string Material, string Report)> work;
+        private readonly Task<Learnt> work;
         private bool isDisposed;
 
         private HapticLearning(byte[] modelFile, Recording recording, LearningOptions options)
@@ -62,6 +63,10 @@ namespace HaptoFlow
 
         /// <summary>The text of the material file; null before the end, and where there is none.</summary>
         public string? Material => work.Status == TaskStatus.RanToCompletion ? work.Result.Material : null;
+
+        /// <summary>The label of the model that is nearest to the material, to be felt where the material cannot be; empty
+        /// where there is no material.</summary>
+        public string NearestLabel => work.Status == TaskStatus.RanToCompletion ? work.Result.NearestLabel : "";
 
         /// <summary>What the fit achieved, as a JSON object; null where there is no material.</summary>
         public string? Report => work.Status == TaskStatus.RanToCompletion ? work.Result.Report : null;
@@ -147,19 +152,38 @@ namespace HaptoFlow
             }
         }
 
-        private (string Material, string Report) Learn(byte[] modelFile, Recording recording, LearningOptions options)
+        private Learnt Learn(byte[] modelFile, Recording recording, LearningOptions options)
         {
             using OnnxRuntime runtime = OnnxRuntime.Open();
             using HapticModel model = HapticModel.Open(modelFile);
             GCHandle context = GCHandle.Alloc(progress);
             try
             {
-                return NativeLearning.Run(runtime, model, recording, options, cancellation, GCHandle.ToIntPtr(context));
+                (string material, string report) = NativeLearning.Run(
+                    runtime, model, recording, options, cancellation, GCHandle.ToIntPtr(context));
+                string nearest = ModelSpace.Of(modelFile).NearestLabel(MaterialFile.Read(material).Embedding);
+                return new Learnt(material, report, nearest);
             }
             finally
             {
                 context.Free();
             }
+        }
+
+        private sealed class Learnt
+        {
+            public Learnt(string material, string report, string nearestLabel)
+            {
+                Material = material;
+                Report = report;
+                NearestLabel = nearestLabel;
+            }
+
+            public string Material { get; }
+
+            public string Report { get; }
+
+            public string NearestLabel { get; }
         }
     }
 }
