@@ -32,6 +32,7 @@ namespace HaptoFlow.Samples.Workshop
         private Task<HapticLearning>? starting;
         private HapticLearning? learning;
         private HapticStylus? heard;
+        private bool isCancelled;
         private double nextSeconds;
 
         /// <summary>What the panel says.</summary>
@@ -58,9 +59,11 @@ namespace HaptoFlow.Samples.Workshop
         {
             if (IsLearning)
             {
+                isCancelled = true;
                 learning?.Cancel();
                 return;
             }
+            isCancelled = false;
             HapticModelAsset? model = HaptoFlowSettings.Active.Model;
             if (recording == null || model == null)
             {
@@ -143,6 +146,10 @@ namespace HaptoFlow.Samples.Workshop
                 if (ended.Status == TaskStatus.RanToCompletion)
                 {
                     learning = ended.Result;
+                    if (isCancelled)
+                    {
+                        learning.Cancel();
+                    }
                 }
                 else
                 {

@@ -79,8 +79,10 @@ namespace HaptoFlow.Preview
             double slow = begin;
             for (int index = first; index >= 0 && index < samples.Length; index += step)
             {
-                slow += share * (samples[index] - slow);
-                samples[index] -= (float)slow;
+                double fast = samples[index] - slow;
+                slow += share * fast;
+                // At half the rate this passes everything.
+                samples[index] = (float)((1.0 - 0.5 * share) * fast);
             }
         }
     }

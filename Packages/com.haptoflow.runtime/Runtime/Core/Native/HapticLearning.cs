@@ -164,6 +164,10 @@ namespace HaptoFlow
                 string nearest = ModelSpace.Of(modelFile).NearestLabel(MaterialFile.Read(material).Embedding);
                 return new Learnt(material, report, nearest);
             }
+            catch (Exception error) when (NativeCall.IsMissing(error))
+            {
+                throw NativeCall.Missing(error);
+            }
             finally
             {
                 context.Free();
