@@ -89,7 +89,7 @@ namespace HaptoFlow.Samples.Workshop
             }
             return HapticLearning.Start(modelFile, read, new LearningOptions
             {
-                Name = read.Label.Length > 0 ? read.Label : read.Name,
+                Name = (read.Label.Length > 0 ? read.Label : read.Name).ToLowerInvariant(),
                 Licence = read.Licence,
             });
         });

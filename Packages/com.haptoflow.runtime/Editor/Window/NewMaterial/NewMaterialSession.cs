@@ -102,7 +102,7 @@ namespace HaptoFlow.Editor
             {
                 learning = HapticLearning.Start(model.File, Recording!, new LearningOptions
                 {
-                    Name = state.Name.Trim(),
+                    Name = state.Name.Trim().ToLowerInvariant(),
                     Category = state.Category.Trim(),
                     Description = state.Description.Trim(),
                     Licence = state.Licence.Trim(),

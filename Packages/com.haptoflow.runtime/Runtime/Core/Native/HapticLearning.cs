@@ -12,7 +12,7 @@ namespace HaptoFlow
     /// <summary>What a material that is learnt is called, and how it is learnt.</summary>
     public sealed class LearningOptions
     {
-        /// <summary>Of the material; not empty.</summary>
+        /// <summary>Of the material, as a label's: lower case, 1 to 128 bytes.</summary>
         public string Name { get; set; } = "";
 
         /// <summary>For example "cloth"; may be empty.</summary>
@@ -29,6 +29,10 @@ namespace HaptoFlow
 
         /// <summary>Key of all noise.</summary>
         public ulong Seed { get; set; } = 1;
+
+        /// <summary>Of a ruled surface: k1x, k1y, k2x, k2y in cycles a millimetre, zeros for a surface without ribs; null
+        /// to find them in the recording.</summary>
+        public float[]? WaveVectorsPerMillimetre { get; set; }
 
         /// <summary>Longest time that the fit may take on one core, in seconds; 0 for 20.</summary>
         public double SecondsLimit { get; set; }
@@ -82,7 +86,7 @@ namespace HaptoFlow
         /// <summary>Begins; returns at once.</summary>
         /// <param name="modelFile">The bytes of the .haptoflow file under which the material shall sound. Not to be
         /// changed meanwhile.</param>
-        /// <param name="recording">At least 3 s, of known speed and force; 10 s are better.</param>
+        /// <param name="recording">Of known speed and force; 10 s of sliding or more.</param>
         /// <exception cref="HaptoFlowException">The native library is not there.</exception>
         /// <exception cref="ArgumentException">The material has no name, or the recording's speed or force is not
         /// known.</exception>
@@ -91,6 +95,11 @@ namespace HaptoFlow
             if (options.Name.Trim().Length == 0)
             {
                 throw new ArgumentException("the material has no name; expected one", nameof(options));
+            }
+            if (options.WaveVectorsPerMillimetre is { } vectors && vectors.Length != 4)
+            {
+                throw new ArgumentException(
+                    $"{vectors.Length} numbers of wave vectors; expected 4, or none at all", nameof(options));
             }
             if (!recording.KnowsMotion)
             {

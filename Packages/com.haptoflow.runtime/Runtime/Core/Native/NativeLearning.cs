@@ -20,7 +20,7 @@ namespace HaptoFlow.Native
             fixed (byte* description = NativeCall.Utf8(options.Description))
             fixed (byte* licence = NativeCall.Utf8(options.Licence))
             fixed (float* acceleration = recording.AccelerationMps2, velocity = recording.VelocityMps)
-            fixed (float* force = recording.ForceNewtons)
+            fixed (float* force = recording.ForceNewtons, waveVectors = options.WaveVectorsPerMillimetre)
             {
                 var native = new NativeLearningOptions
                 {
@@ -44,6 +44,7 @@ namespace HaptoFlow.Native
                     Progress = LearningProgress.Function,
                     ProgressContext = context,
                     Cancellation = cancellation.Handle.Value,
+                    WaveVectors = waveVectors,
                 };
                 native.ConstantVelocityMps[0] = x;
                 native.ConstantVelocityMps[1] = y;

@@ -171,5 +171,6 @@ namespace HaptoFlow.Native
         public IntPtr Progress;
         public IntPtr ProgressContext;
         public IntPtr Cancellation;
+        public float* WaveVectors;
     }
 }
