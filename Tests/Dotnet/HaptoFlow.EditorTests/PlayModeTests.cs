@@ -181,7 +181,7 @@ namespace HaptoFlow.EditorTests
         public void ALabelThatIsChosenWhilePlayingIsFelt()
         {
             HapticStylus stylus = PlayTouching(out _);
-            HapticSurface surface = stylus.Contact.Surface;
+            HapticSurface surface = stylus.Contact.Surface!;
             LabelBlend before = surface.BlendFor(HapticSession.Current);
             EditorScreen.Press("wood");
             InspectorTests.Draw(surface);

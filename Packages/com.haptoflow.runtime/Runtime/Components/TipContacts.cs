@@ -15,6 +15,7 @@ namespace HaptoFlow
         // Surfaces are followed before they are touched, so that a velocity relative to them is there at touch-down.
         private const double FollowedWithinMetres = 0.05;
 
+        private readonly Transform stylus;
         private readonly Collider[] colliders = new Collider[MostColliders];
         private readonly NearbySurface[] near = new NearbySurface[MostSurfaces];
         private Double3 previousTipMetres;
@@ -22,8 +23,10 @@ namespace HaptoFlow
         private bool warnedOfCrowd;
         private long update;
 
-        public TipContacts(ContactSettings settings, double tipRadiusMetres)
+        /// <param name="stylus">Its own colliders are not felt by rules.</param>
+        public TipContacts(ContactSettings settings, double tipRadiusMetres, Transform stylus)
         {
+            this.stylus = stylus;
             Tracker = new ContactTracker(settings, tipRadiusMetres) { Geometry = this };
             for (int index = 0; index < near.Length; ++index)
             {
@@ -87,33 +90,39 @@ namespace HaptoFlow
                 Tracker.TipMetres.ToVector(), radius, colliders, layers, QueryTriggerInteraction.Ignore);
             for (int index = 0; index < count; ++index)
             {
-                HapticSurface? surface = SurfaceOf(colliders[index]);
-                if (surface is object)
+                Collider collider = colliders[index];
+                HapticSurface? surface = SurfaceOf(collider);
+                FeltCollider? byRules = surface is object || IsOfStylus(collider)
+                    ? null
+                    : FeltColliders.Resolve(collider);
+                if (surface is object || byRules is object)
                 {
-                    Consider(colliders[index], surface, stepSeconds, session, context);
+                    Consider(collider, surface, byRules, stepSeconds, session, context);
                 }
                 colliders[index] = null!;
             }
         }
 
         private void Consider(
-            Collider collider, HapticSurface surface, double stepSeconds, HapticSession session, Object context)
+            Collider collider, HapticSurface? surface, FeltCollider? byRules, double stepSeconds, HapticSession session,
+            Object context)
         {
-            NearbySurface? place = PlaceFor(collider, surface);
+            NearbySurface? place = PlaceFor(collider, surface, byRules);
             if (place == null)
             {
                 WarnOfCrowd(context);
                 return;
             }
             place.LastMet = update;
-            place.Tracked.StiffnessNewtonsPerMetre = surface.StiffnessFor(session);
             RigidPose pose = ColliderProbe.PoseOf(collider);
             place.Record(Tracker.NowSeconds, stepSeconds, pose);
             var question = new ProbeQuestion(
                 Tracker.TipMetres, Tracker.ReachMetresOf(place.Tracked), Tracker.PreviousLocalNormal(place.Tracked),
                 hasPreviousTip ? previousTipMetres : Tracker.TipMetres, Tracker.Settings.SwitchMarginMetres);
-            if (ColliderProbe.TryClosest(collider, pose, question, out SurfacePoint local))
+            if (ColliderProbe.TryClosest(collider, pose, question, out SurfacePoint local, out RaycastHit? hit))
             {
+                place.Place = new TouchedPlace(collider, local.PointMetres, hit);
+                place.Tracked.StiffnessNewtonsPerMetre = place.Feel(session).StiffnessNewtonsPerMetre;
                 Tracker.Consider(new ContactCandidate(place.Tracked, pose, local));
             }
         }
@@ -124,7 +133,8 @@ namespace HaptoFlow
         {
             foreach (NearbySurface each in near)
             {
-                if (ReferenceEquals(each.Collider, collider) && SurfaceRegistry.Holds(collider, each.Surface))
+                if (ReferenceEquals(each.Collider, collider) && each.Surface is object &&
+                    SurfaceRegistry.Holds(collider, each.Surface))
                 {
                     return each.Surface;
                 }
@@ -132,18 +142,33 @@ namespace HaptoFlow
             return SurfaceRegistry.Resolve(collider);
         }
 
-        private NearbySurface? PlaceFor(Collider collider, HapticSurface surface)
+        /// <summary>A pen must not feel itself, nor the body of who holds it, where a rule is wide enough to match
+        /// them.</summary>
+        private bool IsOfStylus(Collider collider)
+        {
+            if (!MaterialMaps.Any)
+            {
+                return false;
+            }
+            Rigidbody body = collider.attachedRigidbody!;
+            return collider.transform.IsChildOf(stylus) ||
+                (collider is CharacterController && stylus.IsChildOf(collider.transform)) ||
+                (body != null && stylus.IsChildOf(body.transform));
+        }
+
+        private NearbySurface? PlaceFor(Collider collider, HapticSurface? surface, FeltCollider? byRules)
         {
             NearbySurface? free = null;
             foreach (NearbySurface each in near)
             {
-                if (ReferenceEquals(each.Collider, collider) && ReferenceEquals(each.Surface, surface))
+                if (ReferenceEquals(each.Collider, collider) && ReferenceEquals(each.Surface, surface) &&
+                    ReferenceEquals(each.ByRules, byRules))
                 {
                     return each;
                 }
                 free = each.Collider is null ? each : free;
             }
-            free?.Begin(collider, surface);
+            free?.Begin(collider, surface, byRules);
             return free;
         }
 
@@ -179,7 +204,7 @@ namespace HaptoFlow
             if (!warnedOfCrowd)
             {
                 warnedOfCrowd = true;
-                Debug.LogWarning($"HaptoFlow: more than {MostSurfaces} tagged colliders within " +
+                Debug.LogWarning($"HaptoFlow: more than {MostSurfaces} colliders that can be felt within " +
                     $"{FollowedWithinMetres * 100.0:0} cm of a tip; some are not felt. " +
                     "Narrow the stylus's layer mask.", context);
             }
