@@ -2,6 +2,7 @@
 using HaptoFlow.Contact;
 using HaptoFlow.Numerics;
 using UnityEngine;
+using Object = UnityEngine.Object;
 
 namespace HaptoFlow
 {
@@ -15,11 +16,15 @@ namespace HaptoFlow
         // Surfaces are followed before they are touched, so that a velocity relative to them is there at touch-down.
         private const double FollowedWithinMetres = 0.05;
 
+        // In a crowd: what is nearer than this gets a place before all else.
+        private const double TouchableWithinMetres = 0.003;
+
         private readonly Transform stylus;
         private readonly Collider[] colliders = new Collider[MostColliders];
         private readonly NearbySurface[] near = new NearbySurface[MostSurfaces];
         private Double3 previousTipMetres;
         private bool hasPreviousTip;
+        private bool isCrowded;
         private bool warnedOfCrowd;
         private long update;
 
@@ -85,9 +90,28 @@ namespace HaptoFlow
         private void Consider(double stepSeconds, int layers, HapticSession session, Object context)
         {
             using FrontFacesOnly fronts = FrontFacesOnly.Begin();
-            float radius = (float)(Tracker.ReachMetres + FollowedWithinMetres);
+            if (isCrowded)
+            {
+                // What the tip may touch comes before what is only followed.
+                ConsiderWithin(Tracker.ReachMetres + TouchableWithinMetres, stepSeconds, layers, session, true);
+            }
+            bool hasAll = ConsiderWithin(
+                Tracker.ReachMetres + FollowedWithinMetres, stepSeconds, layers, session, false);
+            isCrowded = !hasAll;
+            if (isCrowded)
+            {
+                WarnOfCrowd(context);
+            }
+        }
+
+        /// <param name="takesPlaces">Places of surfaces that were not met in this update are taken from them.</param>
+        /// <returns>False where there was no room for some.</returns>
+        private bool ConsiderWithin(
+            double metres, double stepSeconds, int layers, HapticSession session, bool takesPlaces)
+        {
             int count = Physics.OverlapSphereNonAlloc(
-                Tracker.TipMetres.ToVector(), radius, colliders, layers, QueryTriggerInteraction.Ignore);
+                Tracker.TipMetres.ToVector(), (float)metres, colliders, layers, QueryTriggerInteraction.Ignore);
+            bool hasAll = count < colliders.Length;
             for (int index = 0; index < count; ++index)
             {
                 Collider collider = colliders[index];
@@ -97,22 +121,20 @@ namespace HaptoFlow
                     : FeltColliders.Resolve(collider);
                 if (surface is object || byRules is object)
                 {
-                    Consider(collider, surface, byRules, stepSeconds, session, context);
+                    NearbySurface? place = PlaceFor(collider, surface, byRules, takesPlaces);
+                    hasAll &= place != null;
+                    if (place != null && place.LastMet != update)
+                    {
+                        Consider(place, collider, stepSeconds, session);
+                    }
                 }
                 colliders[index] = null!;
             }
+            return hasAll;
         }
 
-        private void Consider(
-            Collider collider, HapticSurface? surface, FeltCollider? byRules, double stepSeconds, HapticSession session,
-            Object context)
+        private void Consider(NearbySurface place, Collider collider, double stepSeconds, HapticSession session)
         {
-            NearbySurface? place = PlaceFor(collider, surface, byRules);
-            if (place == null)
-            {
-                WarnOfCrowd(context);
-                return;
-            }
             place.LastMet = update;
             RigidPose pose = ColliderProbe.PoseOf(collider);
             place.Record(Tracker.NowSeconds, stepSeconds, pose);
@@ -142,6 +164,21 @@ namespace HaptoFlow
             return SurfaceRegistry.Resolve(collider);
         }
 
+        /// <summary>A place whose surface the tip did not touch and that this update has not met.</summary>
+        private NearbySurface? NotMetYet()
+        {
+            foreach (NearbySurface each in near)
+            {
+                if (each.LastMet != update && !ReferenceEquals(each.Tracked, Tracker.Touched))
+                {
+                    Tracker.Release(each.Tracked);
+                    each.End();
+                    return each;
+                }
+            }
+            return null;
+        }
+
         /// <summary>A pen must not feel itself, nor the body of who holds it, where a rule is wide enough to match
         /// them.</summary>
         private bool IsOfStylus(Collider collider)
@@ -156,7 +193,8 @@ namespace HaptoFlow
                 (body != null && stylus.IsChildOf(body.transform));
         }
 
-        private NearbySurface? PlaceFor(Collider collider, HapticSurface? surface, FeltCollider? byRules)
+        private NearbySurface? PlaceFor(
+            Collider collider, HapticSurface? surface, FeltCollider? byRules, bool takesPlaces)
         {
             NearbySurface? free = null;
             foreach (NearbySurface each in near)
@@ -167,6 +205,10 @@ namespace HaptoFlow
                     return each;
                 }
                 free = each.Collider is null ? each : free;
+            }
+            if (free == null && takesPlaces)
+            {
+                free = NotMetYet();
             }
             free?.Begin(collider, surface, byRules);
             return free;
@@ -205,8 +247,8 @@ namespace HaptoFlow
             {
                 warnedOfCrowd = true;
                 Debug.LogWarning($"HaptoFlow: more than {MostSurfaces} colliders that can be felt within " +
-                    $"{FollowedWithinMetres * 100.0:0} cm of a tip; some are not felt. " +
-                    "Narrow the stylus's layer mask.", context);
+                    $"{FollowedWithinMetres * 100.0:0} cm of a tip: those it touches are felt, but the motion of one " +
+                    "that moves is felt late. Narrow the stylus's layer mask.", context);
             }
         }
     }

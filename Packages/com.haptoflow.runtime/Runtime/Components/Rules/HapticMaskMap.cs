@@ -242,10 +242,15 @@ namespace HaptoFlow
             Add(mix, blue, sample.Blue, session, user);
             Add(mix, alpha, sample.Alpha, session, user);
             felt = mix.Finish();
-            felt.Strength = Mathf.Clamp01(felt.Strength * Factor(MaskChannelUse.Strength, sample));
-            felt.FeatureScale *= Factor(MaskChannelUse.FeatureScale, sample);
+            felt.Strength = Limited(felt.Strength * Factor(MaskChannelUse.Strength, sample), 0f, 1f);
+            felt.FeatureScale = Limited(felt.FeatureScale * Factor(MaskChannelUse.FeatureScale, sample),
+                MaterialDescription.SmallestFeatureScale, MaterialDescription.LargestFeatureScale);
             return true;
         }
+
+        /// <summary>1 for what is no number.</summary>
+        private static float Limited(float value, float lowest, float highest) =>
+            float.IsNaN(value) ? 1f : Mathf.Clamp(value, lowest, highest);
 
         private static bool Names(MaskChannel channel) =>
             channel.Use == MaskChannelUse.Material && channel.Material != null;

@@ -9,6 +9,9 @@ namespace HaptoFlow
     {
         private const int MostLabels = 32;
 
+        // Nobody feels less: -54 dB. Rounding at the middle of a texel would otherwise bring a second label in.
+        private const float LeastShare = 0.002f;
+
         private readonly int[] labels = new int[MostLabels];
         private readonly float[] weights = new float[MostLabels];
         private int count;
@@ -116,8 +119,6 @@ namespace HaptoFlow
 
         private LabelBlend HeaviestLabels()
         {
-            var blend = default(LabelBlend);
-            float sum = 0f;
             int most = Math.Min(count, LabelBlend.Maximum);
             for (int place = 0; place < most; ++place)
             {
@@ -128,9 +129,15 @@ namespace HaptoFlow
                 }
                 (labels[place], labels[best]) = (labels[best], labels[place]);
                 (weights[place], weights[best]) = (weights[best], weights[place]);
-                sum += weights[place];
             }
-            for (int place = 0; place < most && weights[place] > 0f; ++place)
+            int kept = 0;
+            float sum = 0f;
+            for (; kept < most && weights[kept] >= LeastShare * felt; ++kept)
+            {
+                sum += weights[kept];
+            }
+            var blend = default(LabelBlend);
+            for (int place = 0; place < kept; ++place)
             {
                 blend.Add(labels[place], weights[place] / sum);
             }
