@@ -91,6 +91,12 @@ enum {
     HAPTOFLOW_MODEL_DAMAGED = 15,
     /* The file is intact and breaks a rule of its format, or one of its graphs does. */
     HAPTOFLOW_MODEL_INCONSISTENT = 16,
+    /* The material was learnt for another model: its space is not this model's. */
+    HAPTOFLOW_MATERIAL_MISMATCH = 17,
+    /* The text is not a material file; the message names the key. */
+    HAPTOFLOW_MATERIAL_INVALID = 18,
+    /* Nothing can be learnt from the recording; the message says why. */
+    HAPTOFLOW_RECORDING_UNUSABLE = 19,
     /* No ONNX Runtime of version 1.16 or newer at the given place. */
     HAPTOFLOW_RUNTIME_UNAVAILABLE = 20,
     /* A graph failed while running, or returned numbers that are not finite. */
@@ -224,7 +230,7 @@ typedef struct haptoflow_label_info {
     uint32_t struct_size;
     /* 1 for a woven or ruled surface, which has a wavelength; 0 otherwise. */
     uint32_t is_periodic;
-    /* Lives until the model is closed. */
+    /* Lives until the model is closed; of a registered material, until that is replaced or the engine closed. */
     const char* name;
     const char* category;
     double stiffness_newtons_per_metre;
@@ -286,6 +292,12 @@ HAPTOFLOW_API haptoflow_status haptoflow_model_label(const haptoflow_model* mode
 HAPTOFLOW_API haptoflow_status haptoflow_model_embedding(const haptoflow_model* model, uint32_t index,
                                                          float* embedding);
 
+/* *space becomes 8 hexadecimal digits that say which embeddings the model's networks understand: a material file of the
+ * same space sounds under this model (Documentation~/own-materials.md). Lives until the model is closed.
+ * Errors: INVALID_ARGUMENT.
+ * [any-thread] Blocks for as long as another thread opens or closes a handle. */
+HAPTOFLOW_API haptoflow_status haptoflow_model_space(const haptoflow_model* model, const char** space);
+
 /* Errors: INVALID_ARGUMENT.
  * [any-thread] Blocks for as long as another thread opens or closes a handle. */
 HAPTOFLOW_API haptoflow_status haptoflow_model_tier_count(const haptoflow_model* model, uint32_t* count);
@@ -335,6 +347,8 @@ typedef struct haptoflow_batch {
      * segment's first sample, in turns from 0 to below 1; null for zeros. Not needed for levels. Only graphs with the
      * input "rib_phase" read it. */
     const float* rib_phases;
+    /* count levels, RMS in m/s^2 above 0, used instead of the level graph's; null for the graph's. */
+    const float* own_levels_mps2;
 } haptoflow_batch;
 
 /* Loads the tier's graphs into ONNX Runtime, checks and runs them. Close it with haptoflow_generator_close.
@@ -471,6 +485,36 @@ HAPTOFLOW_API haptoflow_status haptoflow_engine_close(haptoflow_engine** engine)
  * ONNX Runtime optimises the graphs of such a tier; takes microseconds where all are loaded. */
 HAPTOFLOW_API haptoflow_status haptoflow_engine_set_quality(haptoflow_engine* engine, haptoflow_quality quality);
 
+/* Materials that one engine can hold beside its model's labels. */
+#define HAPTOFLOW_MAXIMUM_MATERIALS 64
+
+/* Registers a material: json is the text of a material file (Documentation~/own-materials.md), length bytes of it. From
+ * then on contact states may name it by *index, which is the number of the model's labels and of the materials registered
+ * before. It stays until the engine is closed. No other label sounds different for it.
+ * Errors: INVALID_ARGUMENT (also where HAPTOFLOW_MAXIMUM_MATERIALS are registered), MATERIAL_INVALID (the message names
+ * the key), MATERIAL_MISMATCH, OUT_OF_MEMORY; MODEL_INCONSISTENT, INFERENCE_FAILED and TIER_TOO_SLOW where the material
+ * has no level of its own and the model's level graph fails.
+ * [loader-thread] Publishers, worker and callbacks never wait for it. Takes milliseconds; the first material without a
+ * level of its own also loads the model's level graph. */
+HAPTOFLOW_API haptoflow_status haptoflow_engine_register_material(haptoflow_engine* engine, const char* json,
+                                                                  uint64_t length, uint32_t* index);
+
+/* Puts another material in the place of the registered one at index: the next state that is published sounds like it.
+ * What was there before is freed. Where this fails, it stays as it was. Errors: as above.
+ * [loader-thread] Publishers, worker and callbacks never wait for it; it waits the microseconds that publishers who are
+ * at work still take. */
+HAPTOFLOW_API haptoflow_status haptoflow_engine_replace_material(haptoflow_engine* engine, uint32_t index,
+                                                                 const char* json, uint64_t length);
+
+/* How many materials are registered, the model's labels not counted. Errors: INVALID_ARGUMENT.
+ * [any-thread] Blocks for as long as another thread opens or closes a handle. */
+HAPTOFLOW_API haptoflow_status haptoflow_engine_material_count(const haptoflow_engine* engine, uint32_t* count);
+
+/* Fills info for the registered material at index, by which contact states name it. Errors: INVALID_ARGUMENT.
+ * [any-thread] Blocks for as long as another thread opens or closes a handle, or registers a material. */
+HAPTOFLOW_API haptoflow_status haptoflow_engine_material(const haptoflow_engine* engine, uint32_t index,
+                                                         haptoflow_label_info* info);
+
 /* One round of inference for all voices that want one. Engines without worker only. Errors: INVALID_ARGUMENT.
  * [worker-thread] */
 HAPTOFLOW_API haptoflow_status haptoflow_engine_step(haptoflow_engine* engine);
@@ -503,7 +547,7 @@ typedef uint64_t haptoflow_voice;
 /* As a channel: all of them. */
 #define HAPTOFLOW_ALL_CHANNELS (-1)
 
-/* What a voice's signal can go through, in this order. A scene pays only for what it asks for. */
+/* What a voice's signal can go through, in this order but for the last. A scene pays only for what it asks for. */
 typedef int32_t haptoflow_effect;
 enum {
     /* What the network generates while the tip slides. */
@@ -514,10 +558,12 @@ enum {
     HAPTOFLOW_EFFECT_EDGE = 2,
     HAPTOFLOW_EFFECT_DELAY = 3,
     HAPTOFLOW_EFFECT_COMPENSATION = 4,
-    HAPTOFLOW_EFFECT_EXPOSURE_GUARD = 5
+    HAPTOFLOW_EFFECT_EXPOSURE_GUARD = 5,
+    /* What a material, or a surface's tone_db_per_octave, does to the texture's spectrum; right behind the texture. */
+    HAPTOFLOW_EFFECT_TONE = 6
 };
 
-#define HAPTOFLOW_EFFECT_COUNT 6
+#define HAPTOFLOW_EFFECT_COUNT 7
 /* Sets of effects: one bit each, and one for none of them. */
 #define HAPTOFLOW_ASKS_FOR_TEXTURE 0x1u
 #define HAPTOFLOW_ASKS_FOR_IMPACT 0x2u
@@ -532,7 +578,8 @@ typedef struct haptoflow_contact_state {
     uint32_t touch_counter;
     /* Entries used of labels and weights, 0 to HAPTOFLOW_MAXIMUM_BLEND. */
     uint32_t label_count;
-    /* Indices into the model's labels; unknown ones are left out. A blend of none is the model's first label. */
+    /* Indices into the model's labels, and of registered materials; unknown ones are left out. A blend of none is the
+     * model's first label. */
     uint32_t labels[HAPTOFLOW_MAXIMUM_BLEND];
     /* 0 to 1 each; they need not sum to one. */
     float weights[HAPTOFLOW_MAXIMUM_BLEND];
@@ -551,15 +598,21 @@ typedef struct haptoflow_contact_state {
     /* One more at each landing on another surface, or on another face of the same, while the tip goes on touching. A
      * touch-down is a landing that needs no count. */
     uint32_t landing_counter;
+    /* How many times as large the surface's features are as the material's: at 2, ribs are twice as far apart, and all
+     * frequencies are those of half the speed; the level stays. 0 for 1; else limited to 0.25 to 4. */
+    float spatial_scale;
+    /* Brighter above 0, darker below: a tilt of the spectrum about 150 Hz, -12 to 12 dB an octave; 0 for none. Comes on
+     * top of the material's own tone. */
+    float tone_db_per_octave;
 } haptoflow_contact_state;
 
 /* What one effect has done for a voice. Of an effect that nobody asks for, everything is 0. */
 typedef struct haptoflow_effect_statistics {
     uint32_t struct_size;
-    /* 1 while the voice asks for it: of impact and edge, its newest contact state. */
+    /* 1 while the voice asks for it: of impact, edge and tone, its newest contact state. */
     uint32_t is_asked_for;
-    /* How often it was made ready, blocks that it ran for, samples in them (of the texture at 2 kHz, of the others at
-     * the output's rate), and what they took in all. */
+    /* How often it was made ready, blocks that it ran for, samples in them (of texture and tone at 2 kHz, of the others
+     * at the output's rate), and what they took in all. */
     uint64_t prepared;
     uint64_t runs;
     uint64_t samples;

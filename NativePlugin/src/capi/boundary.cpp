@@ -1,6 +1,7 @@
 #include "capi/boundary.hpp"
 
 #include "inference/inference_error.hpp"
+#include "model/material_file.hpp"
 #include "model/model_error.hpp"
 
 #include <array>
@@ -46,6 +47,10 @@ haptoflow_status reportCurrentException() noexcept {
         throw;
     } catch (const model::ModelError& error) {
         return report(statusOf(error.status()), error.what());
+    } catch (const model::MaterialError& error) {
+        return report(HAPTOFLOW_MATERIAL_INVALID, error.what());
+    } catch (const model::MaterialMismatch& error) {
+        return report(HAPTOFLOW_MATERIAL_MISMATCH, error.what());
     } catch (const inference::RuntimeUnavailable& error) {
         return report(HAPTOFLOW_RUNTIME_UNAVAILABLE, error.what());
     } catch (const inference::InferenceError& error) {

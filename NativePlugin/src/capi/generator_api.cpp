@@ -24,6 +24,14 @@ constexpr std::size_t mandatoryOptions = offsetof(haptoflow_generator_options, s
 constexpr std::size_t mandatoryForLevels = offsetof(haptoflow_batch, previous_mps2);
 constexpr std::size_t mandatoryForSegments = offsetof(haptoflow_batch, rib_phases);
 
+float requireLevel(float levelMps2) {
+    if (!(levelMps2 > 0.0F && levelMps2 <= 1e6F)) {
+        throw std::invalid_argument("batch: own_levels_mps2 holds " + std::to_string(levelMps2) +
+                                    "; expected above 0 to 1000000");
+    }
+    return levelMps2;
+}
+
 inference::SolverSettings solverSettings(haptoflow_solver solver, int32_t steps,
                                          const inference::SolverSettings& tierSolver) {
     switch (solver) {
@@ -85,6 +93,9 @@ std::vector<inference::SegmentRequest> requestsOf(const haptoflow_batch* batch, 
         std::copy_n(given.motions + index * motionSize, motionSize, request.motion.begin());
         if (withWaveforms && given.rib_phases != nullptr) {
             std::copy_n(given.rib_phases + index * inference::ribCount, inference::ribCount, request.ribPhase.begin());
+        }
+        if (given.own_levels_mps2 != nullptr) {
+            request.levelMps2 = requireLevel(given.own_levels_mps2[index]);
         }
         requests.push_back(request);
     }

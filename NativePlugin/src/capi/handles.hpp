@@ -5,6 +5,7 @@
 #include "engine/live_engine.hpp"
 #include "haptoflow/haptoflow.h"
 #include "inference/load_limits.hpp"
+#include "inference/onnx_level_estimator.hpp"
 #include "inference/onnx_segment_generator.hpp"
 #include "model/model_file.hpp"
 
@@ -17,11 +18,13 @@
 namespace haptoflow::capi {
 
 struct OpenModel {
-    explicit OpenModel(model::ModelFile file) : model(std::move(file)), headerText(model.headerText()) {}
+    explicit OpenModel(model::ModelFile file)
+        : model(std::move(file)), headerText(model.headerText()), space(model::spaceOf(model.header())) {}
 
     model::ModelFile model;
     /// With the zero byte at its end that the file's own copy lacks.
     std::string headerText;
+    std::string space;
 };
 
 struct OpenGenerator {
@@ -39,6 +42,9 @@ struct TierLoader {
     /// Throws what OnnxSegmentGenerator's constructor throws.
     [[nodiscard]] std::unique_ptr<inference::SegmentGenerator> load(std::size_t tier,
                                                                     const inference::LoadLimits& limits) const;
+    /// The tier's level graph alone, for a user of its own. Throws what OnnxLevelEstimator's constructor throws.
+    [[nodiscard]] std::unique_ptr<inference::LevelEstimator> loadLevels(std::size_t tier,
+                                                                        const inference::LoadLimits& limits) const;
 };
 
 struct OpenEngine {
@@ -53,7 +59,13 @@ struct OpenEngine {
     std::mutex loading;
     const TierLoader loader;
     const double probeLimitMs;
+    /// Registrations queue up, too: they share a level graph, loaded when the first of them needs it.
+    std::mutex registering;
+    std::unique_ptr<inference::LevelEstimator> levels;
 };
+
+/// What C callers see of a label; its texts live as long as the label.
+[[nodiscard]] haptoflow_label_info describe(const model::Label& label);
 
 using RuntimeTable = HandleTable<haptoflow_runtime, const inference::Runtime>;
 using CancellationTable = HandleTable<haptoflow_cancellation, inference::Cancellation>;

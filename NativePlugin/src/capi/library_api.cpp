@@ -40,6 +40,12 @@ const char* haptoflow_status_name(haptoflow_status status) {
             return "HAPTOFLOW_MODEL_DAMAGED";
         case HAPTOFLOW_MODEL_INCONSISTENT:
             return "HAPTOFLOW_MODEL_INCONSISTENT";
+        case HAPTOFLOW_MATERIAL_MISMATCH:
+            return "HAPTOFLOW_MATERIAL_MISMATCH";
+        case HAPTOFLOW_MATERIAL_INVALID:
+            return "HAPTOFLOW_MATERIAL_INVALID";
+        case HAPTOFLOW_RECORDING_UNUSABLE:
+            return "HAPTOFLOW_RECORDING_UNUSABLE";
         case HAPTOFLOW_RUNTIME_UNAVAILABLE:
             return "HAPTOFLOW_RUNTIME_UNAVAILABLE";
         case HAPTOFLOW_INFERENCE_FAILED:

@@ -36,20 +36,6 @@ const Element& elementAt(const std::vector<Element>& elements, uint32_t index, c
     return elements[index];
 }
 
-haptoflow_label_info describe(const model::Label& label) {
-    haptoflow_label_info info{};
-    info.is_periodic = label.wavelengthMetres ? 1 : 0;
-    info.name = label.name.c_str();
-    info.category = label.category.c_str();
-    info.stiffness_newtons_per_metre = label.stiffnessNewtonsPerMetre;
-    info.friction_coefficient = label.frictionCoefficient;
-    info.wavelength_metres = label.wavelengthMetres.value_or(0.0);
-    info.speed_level_exponent = label.speedLevelExponent;
-    info.force_level_exponent = label.forceLevelExponent;
-    info.frequency_exponent = label.frequencyExponent;
-    return info;
-}
-
 haptoflow_solver solverOf(model::TierSolver solver) {
     switch (solver) {
         case model::TierSolver::euler:
@@ -116,6 +102,13 @@ haptoflow_status haptoflow_model_embedding(const haptoflow_model* model, uint32_
         const auto open = models().get(model);
         (void)elementAt(open->model.header().labels, index, "labels");
         std::ranges::copy(open->model.embedding(index), require(embedding, "embedding"));
+    });
+}
+
+haptoflow_status haptoflow_model_space(const haptoflow_model* model, const char** space) {
+    return guarded([&] {
+        const auto open = models().get(model);
+        *require(space, "space") = open->space.c_str();
     });
 }
 

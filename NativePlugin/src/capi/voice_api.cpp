@@ -19,6 +19,7 @@ static_assert(engine::MaterialBlend::capacity == HAPTOFLOW_MAXIMUM_BLEND);
 static_assert(effects::effectKinds == HAPTOFLOW_EFFECT_COUNT);
 static_assert(static_cast<int>(effects::ExposureReason::dose) == HAPTOFLOW_EXPOSURE_DOSE);
 static_assert(static_cast<int>(EffectKind::exposureGuard) == HAPTOFLOW_EFFECT_EXPOSURE_GUARD);
+static_assert(static_cast<int>(EffectKind::tone) == HAPTOFLOW_EFFECT_TONE);
 static_assert(effects::maskOf(EffectKind::texture) == HAPTOFLOW_ASKS_FOR_TEXTURE);
 static_assert(effects::maskOf(EffectKind::impact) == HAPTOFLOW_ASKS_FOR_IMPACT);
 static_assert(effects::maskOf(EffectKind::edge) == HAPTOFLOW_ASKS_FOR_EDGE);
@@ -49,6 +50,8 @@ engine::ContactState contactState(const haptoflow_contact_state& given) {
     state.edgeCounter = given.edge_counter;
     state.edgeHeightMetres = given.edge_height_metres;
     state.landingCounter = given.landing_counter;
+    state.spatialScale = given.spatial_scale;
+    state.toneDbPerOctave = given.tone_db_per_octave;
     state.material.count = given.label_count;
     for (std::size_t i = 0; i < engine::MaterialBlend::capacity; ++i) {
         state.material.entries[i] = {given.labels[i], given.weights[i]};
@@ -269,7 +272,7 @@ haptoflow_status haptoflow_voice_effect_statistics(haptoflow_voice voice, haptof
                                                    haptoflow_effect_statistics* statistics) {
     return guarded([&] {
         if (effect < 0 || effect >= HAPTOFLOW_EFFECT_COUNT) {
-            throw std::invalid_argument("effect is " + std::to_string(effect) + "; expected 0 to 5");
+            throw std::invalid_argument("effect is " + std::to_string(effect) + "; expected 0 to 6");
         }
         const VoiceTable::Use use = requireVoice(voice);
         const engine::VoiceCounters& counters = use->voice->channels.counters;

@@ -6,9 +6,10 @@
 
 namespace haptoflow::effects {
 
-/// What a voice's signal can go through, in this order. `texture` is what the network generates; the engine makes it.
-enum class EffectKind : std::uint8_t { texture, impact, edge, delay, compensation, exposureGuard };
-inline constexpr std::size_t effectKinds = 6;
+/// What a voice's signal can go through, in this order, but for the last. `texture` is what the network generates, and
+/// `tone` what a material or surface does to its spectrum, before anything else; the engine makes both.
+enum class EffectKind : std::uint8_t { texture, impact, edge, delay, compensation, exposureGuard, tone };
+inline constexpr std::size_t effectKinds = 7;
 
 /// A set of effects, one bit for each kind.
 using EffectMask = std::uint32_t;

@@ -1,8 +1,7 @@
 #include "engine/contact_publisher.hpp"
 
 #include "engine/impact_responses.hpp"
-#include "engine/material.hpp"
-#include "engine/range_law.hpp"
+#include "engine/level_request.hpp"
 #include "engine/seed_retrieval.hpp"
 
 #include <algorithm>
@@ -24,9 +23,8 @@ constexpr double fullEdgeDb = 20.0;
 
 }  // namespace
 
-ContactPublisher::ContactPublisher(const model::ModelFile& model, const OnsetLevels& levels,
-                                   VoiceChannels& channels) noexcept
-    : model_(model), levels_(levels), channels_(channels) {}
+ContactPublisher::ContactPublisher(const MaterialLibrary& library, VoiceChannels& channels)
+    : library_(library), channels_(channels) {}
 
 ContactAction ContactPublisher::publish(ContactState state) noexcept {
     VoiceCounters& counters = channels_.counters;
@@ -35,52 +33,78 @@ ContactAction ContactPublisher::publish(ContactState state) noexcept {
 
     const std::uint64_t touchesBefore = follower_.touches();
     const ContactAction action = follower_.update(state);
-    const Material material = resolveMaterial(model_, state.material);
-    const RangedMotion ranged = applyRangeLaw(model_.header(), material, state.velocityMps, state.forceNewtons);
+    const bool isNewTouch = follower_.touches() != touchesBefore;
+    const MaterialLibrary::Reading reading(library_);
+    Contact contact{.state = state,
+                    .ingredients = reading.ingredients(state.material),
+                    .before = reading.ingredients(last_.material),
+                    .ranged = {}};
+    const Material material = resolveMaterial(contact.ingredients, isNewTouch ? WaveVectors{} : ribs_);
+    contact.ranged = applyRangeLaw(library_.model().header(), material, state.velocityMps, state.forceNewtons,
+                                   state.spatialScale);
+    if (state.touching) {
+        ribs_ = waveVectorsOf(material.embedding);
+    }
     onsets_ += action == ContactAction::onset || action == ContactAction::tap ? 1 : 0;
     // With every state that slides, not only at touch-down: the callback may have to resume with any of them.
     if (follower_.sliding() || action == ContactAction::tap) {
-        retrieve(state, material.dominantLabel, ranged.motion);
+        retrieve(contact, material);
     }
-    counters.askedFor.store(state.touching ? state.effects & surfaceEffects : 0, std::memory_order_relaxed);
-    const bool isNewTouch = follower_.touches() != touchesBefore;
     noteSpeed(state, isNewTouch);
     if (isNewTouch) {
         // The counter stays the same where a surface without label interrupts a touch: that touch has landed already.
         if (state.touchCounter != lastTouchCounter_) {
-            noteImpact(state);
+            noteImpact(contact);
         }
     } else if (wasTouching_) {
-        noteTransition(state, material.dominantLabel, ranged.motion);
+        noteTransition(contact);
     }
-    remember(state, material.dominantLabel);
+    remember(contact);
     if (action == ContactAction::rest && state.touching) {
         counters.skipped.fetch_add(1, std::memory_order_relaxed);
     }
 
     channels_.publishedTouch.store(follower_.touches(), std::memory_order_release);
+    postToAudio(contact);
+    postToWorker(contact, material);
+    return action;
+}
+
+void ContactPublisher::postToAudio(const Contact& contact) noexcept {
+    const auto& motion = contact.ranged.motion;
+    const std::optional<dsp::ToneCepstrum> tone =
+        resolveTone(contact.ingredients, std::hypot(motion[0], motion[1]),
+                    static_cast<double>(contact.state.toneDbPerOctave), tiltOfOne_);
+    const effects::EffectMask asked = (contact.state.effects & surfaceEffects) |
+                                      (tone ? effects::maskOf(EffectKind::tone) : effects::EffectMask{0});
+    channels_.counters.askedFor.store(contact.state.touching ? asked : 0, std::memory_order_relaxed);
+
     AudioMessage& audio = channels_.toAudio.draft();
     audio.onset = onsets_;
     audio.touch = follower_.touches();
     audio.sliding = follower_.sliding();
-    audio.levelGain = static_cast<float>(ranged.levelGain);
-    audio.readingRate = ranged.readingRate;
+    audio.levelGain = static_cast<float>(contact.ranged.levelGain);
+    audio.readingRate = contact.ranged.readingRate;
     audio.seedMps2 = seedMps2_;
     audio.seedRibs = seedRibs_;
     audio.impact = impact_;
     audio.edge = edge_;
+    audio.hasTone = tone.has_value();
+    audio.tone = tone ? dsp::toneKernel(*tone) : dsp::ToneKernel{};
     channels_.toAudio.post();
+}
 
+void ContactPublisher::postToWorker(const Contact& contact, const Material& material) noexcept {
     slides_ += follower_.sliding() ? 1 : 0;
     WorkerMessage& worker = channels_.toWorker.draft();
     worker.onset = onsets_;
     worker.sliding = follower_.sliding();
     worker.slides = slides_;
     worker.embedding = material.embedding;
-    worker.motion = ranged.motion;
-    worker.readingRate = ranged.readingRate;
+    worker.motion = contact.ranged.motion;
+    worker.readingRate = contact.ranged.readingRate;
+    worker.level = requestLevel(contact.ingredients, contact.ranged);
     channels_.toWorker.post();
-    return action;
 }
 
 void ContactPublisher::noteSpeed(const ContactState& state, bool isNewTouch) noexcept {
@@ -93,55 +117,57 @@ void ContactPublisher::noteSpeed(const ContactState& state, bool isNewTouch) noe
     }
 }
 
-void ContactPublisher::remember(const ContactState& state, std::size_t dominantLabel) noexcept {
+void ContactPublisher::remember(const Contact& contact) noexcept {
+    const ContactState& state = contact.state;
     wasTouching_ = state.touching;
     lastTouchCounter_ = state.touchCounter;
     lastEdgeCounter_ = state.edgeCounter;
     lastLandingCounter_ = state.landingCounter;
     if (state.touching) {
         last_ = state;
-        lastLabel_ = dominantLabel;
+        lastLabel_ = contact.ingredients.heaviest().index;
     }
 }
 
-void ContactPublisher::noteImpact(const ContactState& state) noexcept {
+void ContactPublisher::noteImpact(const Contact& contact) noexcept {
+    const ContactState& state = contact.state;
     if (!state.asksFor(EffectKind::impact) || !(state.approachSpeedMps > 0.0F)) {
         return;
     }
     ++impact_.counter;
     impact_.speedMps = state.approachSpeedMps;
-    impact_.response = impactResponse(model_, state.material);
+    impact_.response = impactResponse(contact.ingredients);
 }
 
-void ContactPublisher::noteTransition(const ContactState& state, std::size_t dominantLabel,
-                                      const std::array<float, 3>& motion) noexcept {
+void ContactPublisher::noteTransition(const Contact& contact) noexcept {
+    const ContactState& state = contact.state;
     if (!state.touching) {
         // The tip has slid off what it touched: that surface's edge, at the speed that the tip had there.
-        strikeEdge(last_, heightShare(state));
+        strikeEdge(last_, contact.before, heightShare(state));
         return;
     }
     if (state.landingCounter != lastLandingCounter_) {
-        noteImpact(state);
+        noteImpact(contact);
         return;
     }
-    strikeEdge(state, std::max(heightShare(state), levelShare(state, dominantLabel, motion)));
+    strikeEdge(state, contact.ingredients, std::max(heightShare(state), levelShare(contact)));
 }
 
 double ContactPublisher::heightShare(const ContactState& state) const noexcept {
     return state.edgeCounter == lastEdgeCounter_ ? 0.0 : static_cast<double>(state.edgeHeightMetres) / fullEdgeMetres;
 }
 
-double ContactPublisher::levelShare(const ContactState& state, std::size_t dominantLabel,
-                                    const std::array<float, 3>& motion) const noexcept {
-    if (dominantLabel == lastLabel_) {
+double ContactPublisher::levelShare(const Contact& contact) const noexcept {
+    if (contact.ingredients.heaviest().index == lastLabel_) {
         return 0.0;
     }
-    const auto before = static_cast<double>(levels_.at(last_.material, motion));
-    const auto after = static_cast<double>(levels_.at(state.material, motion));
+    const auto& motion = contact.ranged.levelMotion;
+    const auto before = static_cast<double>(contact.before.levelMps2(motion));
+    const auto after = static_cast<double>(contact.ingredients.levelMps2(motion));
     return std::abs(20.0 * std::log10(std::max(after, 1e-6) / std::max(before, 1e-6))) / fullEdgeDb;
 }
 
-void ContactPublisher::strikeEdge(const ContactState& state, double share) noexcept {
+void ContactPublisher::strikeEdge(const ContactState& state, const Ingredients& ingredients, double share) noexcept {
     const double speedMps = std::ranges::max(newestSpeedsMps_);
     const double blowMps = edgeShareOfSpeed * speedMps * std::min(share, 1.0);
     if (!state.asksFor(EffectKind::edge) || !(blowMps > 0.0)) {
@@ -149,24 +175,22 @@ void ContactPublisher::strikeEdge(const ContactState& state, double share) noexc
     }
     ++edge_.counter;
     edge_.speedMps = static_cast<float>(blowMps);
-    edge_.response = impactResponse(model_, state.material);
+    edge_.response = impactResponse(ingredients);
 }
 
-void ContactPublisher::retrieve(const ContactState& state, std::size_t label,
-                                const std::array<float, 3>& motion) noexcept {
+void ContactPublisher::retrieve(const Contact& contact, const Material& material) noexcept {
     seedMps2_.fill(0.0F);
     seedRibs_ = {};
-    const std::optional<std::size_t> chosen = retrieveSeed(model_, label, motion);
-    if (!chosen) {
+    const Seed* seed = retrieveSeed(contact.ingredients.heaviest().material->seeds, contact.ranged.motion);
+    if (seed == nullptr) {
         return;
     }
-    const float levelMps2 = levels_.at(state.material, motion);
-    std::ranges::transform(model_.seed(*chosen), seedMps2_.begin(),
-                           [levelMps2](float sample) { return sample * levelMps2; });
+    const float levelMps2 = contact.ingredients.levelMps2(contact.ranged.levelMotion);
+    std::ranges::transform(seed->samples, seedMps2_.begin(), [levelMps2](float sample) { return sample * levelMps2; });
     // The seed sounds as recorded: it goes on over its ribs by its own velocity, whatever the hand's is.
-    const model::SeedEntry& seed = model_.header().seeds[*chosen];
-    seedRibs_.phase = seed.ribPhase;
-    seedRibs_.turnsPerSample = ribTurnsPerSample(model_.embedding(label), seed.velocityMps[0], seed.velocityMps[1]);
+    seedRibs_.vectors = waveVectorsOf(material.embedding);
+    seedRibs_.phase = phasesFor(seedRibs_.vectors, waveVectorsOf(seed->embedding), seed->ribPhase);
+    seedRibs_.turnsPerSample = ribTurnsPerSample(material.embedding, seed->velocityMps[0], seed->velocityMps[1]);
 }
 
 }  // namespace haptoflow::engine

@@ -2,9 +2,10 @@
 
 #include "engine/contact_follower.hpp"
 #include "engine/contact_state.hpp"
-#include "engine/onset_levels.hpp"
+#include "engine/material.hpp"
+#include "engine/material_library.hpp"
+#include "engine/range_law.hpp"
 #include "engine/voice_channels.hpp"
-#include "model/model_file.hpp"
 
 #include <array>
 #include <cstdint>
@@ -12,32 +13,40 @@
 namespace haptoflow::engine {
 
 /// The main thread's end of a voice: turns contact states into messages to callback and worker. Wait-free, allocates
-/// nothing; one thread at a time. Model and levels must outlive it.
+/// nothing; one thread at a time. The library must outlive it.
 class ContactPublisher {
 public:
-    ContactPublisher(const model::ModelFile& model, const OnsetLevels& levels, VoiceChannels& channels) noexcept;
+    ContactPublisher(const MaterialLibrary& library, VoiceChannels& channels);
 
     /// Returns what the state means for the voice. The state is sanitised first, and what had to be changed counted.
     ContactAction publish(ContactState state) noexcept;
 
 private:
-    void noteImpact(const ContactState& state) noexcept;
-    void noteTransition(const ContactState& state, std::size_t dominantLabel,
-                        const std::array<float, 3>& motion) noexcept;
+    /// A state with what its materials, and those of the last state that touched, are.
+    struct Contact {
+        const ContactState& state;
+        Ingredients ingredients;
+        Ingredients before;
+        RangedMotion ranged;
+    };
+
+    void noteImpact(const Contact& contact) noexcept;
+    void noteTransition(const Contact& contact) noexcept;
     void noteSpeed(const ContactState& state, bool isNewTouch) noexcept;
     /// Of the surface of `state`, with the largest of the newest speeds.
-    void strikeEdge(const ContactState& state, double share) noexcept;
-    void remember(const ContactState& state, std::size_t dominantLabel) noexcept;
+    void strikeEdge(const ContactState& state, const Ingredients& ingredients, double share) noexcept;
+    void remember(const Contact& contact) noexcept;
     /// How much of a full edge the newest one is, by its height or by the change of level from the label before; may be
     /// above 1.
     [[nodiscard]] double heightShare(const ContactState& state) const noexcept;
-    [[nodiscard]] double levelShare(const ContactState& state, std::size_t dominantLabel,
-                                    const std::array<float, 3>& motion) const noexcept;
-    void retrieve(const ContactState& state, std::size_t label, const std::array<float, 3>& motion) noexcept;
+    [[nodiscard]] double levelShare(const Contact& contact) const noexcept;
+    void retrieve(const Contact& contact, const Material& material) noexcept;
+    void postToAudio(const Contact& contact) noexcept;
+    void postToWorker(const Contact& contact, const Material& material) noexcept;
 
-    const model::ModelFile& model_;
-    const OnsetLevels& levels_;
+    const MaterialLibrary& library_;
     VoiceChannels& channels_;
+    const dsp::ToneCepstrum tiltOfOne_ = designTilt();
     ContactFollower follower_;
     std::uint32_t onsets_ = 0;
     std::uint64_t slides_ = 0;
@@ -54,7 +63,9 @@ private:
     std::array<double, 4> newestSpeedsMps_{};
     // The last state that touched.
     ContactState last_;
-    std::size_t lastLabel_ = 0;
+    std::uint32_t lastLabel_ = 0;
+    // Of this touch's newest state.
+    WaveVectors ribs_{};
 };
 
 }  // namespace haptoflow::engine

@@ -8,7 +8,7 @@
 
 namespace haptoflow::engine {
 
-/// A label of the model and its share of a blend.
+/// A label of the model, or a registered material behind the labels, and its share of a blend.
 struct LabelWeight {
     std::uint32_t label = 0;
     float weight = 0.0F;
@@ -40,14 +40,19 @@ struct ContactState {
     float edgeHeightMetres = 0.0F;
     /// One more at each landing on another surface or face within a touch.
     std::uint32_t landingCounter = 0;
+    /// How much larger the surface's features are than the material's; 0 for 1. Ribs are that much further apart, and
+    /// whatever else the network makes of a speed is that of a speed so much lower; the level stays.
+    float spatialScale = 1.0F;
+    /// Brighter above 0, darker below: a tilt of the spectrum about 150 Hz.
+    float toneDbPerOctave = 0.0F;
 
     [[nodiscard]] bool asksFor(effects::EffectKind kind) const noexcept {
         return (effects & effects::maskOf(kind)) != 0;
     }
 };
 
-/// Makes every field finite and physical: speed to 20 m/s, force to 0-1,000 N, weights to 0-1, an edge to 0-1 m.
-/// Returns how many fields had to be changed.
+/// Makes every field finite and physical: speed to 20 m/s, force to 0-1,000 N, weights to 0-1, an edge to 0-1 m, a
+/// scale to 0.25-4, a tilt to 12 dB an octave. Returns how many fields had to be changed.
 std::uint32_t sanitise(ContactState& state) noexcept;
 
 }  // namespace haptoflow::engine

@@ -59,26 +59,16 @@ ImpactResponse impactResponse(const model::Label& label) noexcept {
     return response;
 }
 
-ImpactResponse impactResponse(const model::ModelFile& model, const MaterialBlend& blend) noexcept {
-    const auto& labels = model.header().labels;
+ImpactResponse impactResponse(const Ingredients& ingredients) noexcept {
     std::array<MeanMode, ImpactResponse::modeCount> means{};
-    double total = 0.0;
+    const double total = ingredients.totalWeight();
     double restitution = 0.0;
-    for (std::size_t i = 0; i < std::min(blend.count, MaterialBlend::capacity); ++i) {
-        const LabelWeight entry = blend.entries[i];
-        if (entry.label >= labels.size() || !(entry.weight > 0.0F)) {
-            continue;
-        }
-        const double weight = entry.weight;
-        const ImpactResponse own = impactResponse(labels[entry.label]);
+    for (const Ingredient& each : ingredients.all()) {
+        const ImpactResponse own = impactResponse(*each.material->label);
         for (std::size_t mode = 0; mode < means.size(); ++mode) {
-            means[mode].add(weight, own.modes[mode]);
+            means[mode].add(each.weight, own.modes[mode]);
         }
-        restitution += weight * static_cast<double>(own.restitution);
-        total += weight;
-    }
-    if (!(total > 0.0)) {
-        return labels.empty() ? ImpactResponse{} : impactResponse(labels.front());
+        restitution += each.weight * static_cast<double>(own.restitution);
     }
     ImpactResponse response;
     for (std::size_t mode = 0; mode < means.size(); ++mode) {

@@ -1,8 +1,8 @@
 #pragma once
 
 #include "effects/strikes.hpp"
-#include "engine/contact_state.hpp"
-#include "model/model_file.hpp"
+#include "engine/material_library.hpp"
+#include "model/model_header.hpp"
 
 namespace haptoflow::engine {
 
@@ -12,9 +12,7 @@ namespace haptoflow::engine {
 /// wood and stone at about 90, 170 and 320 Hz, and leave to the hand what it damps.
 [[nodiscard]] effects::ImpactResponse impactResponse(const model::Label& label) noexcept;
 
-/// Of a blend: the weighted mean, of frequencies and decays as logarithms. Labels that the model does not have are left
-/// out; a blend without any weight is the first label.
-[[nodiscard]] effects::ImpactResponse impactResponse(const model::ModelFile& model,
-                                                     const MaterialBlend& blend) noexcept;
+/// Of a blend: the weighted mean, of frequencies and decays as logarithms.
+[[nodiscard]] effects::ImpactResponse impactResponse(const Ingredients& ingredients) noexcept;
 
 }  // namespace haptoflow::engine

@@ -62,7 +62,7 @@ LiveEngine::LiveEngine(std::shared_ptr<const model::ModelFile> model, EngineTier
     : model_(checked(std::move(model), tiers)),
       tiers_(std::move(tiers)),
       settings_(checked(settings)),
-      levels_(std::make_unique<OnsetLevels>(*model_, firstLoaded(tiers_), limits)),
+      library_(std::make_unique<MaterialLibrary>(*model_, firstLoaded(tiers_), limits)),
       quality_(tiers_.size(), settings.quality, startTier, settings.tiersByAccuracy) {
     if (!isLoaded(settings_.quality)) {
         throw std::invalid_argument("quality: a tier that is not loaded");
@@ -96,7 +96,7 @@ std::shared_ptr<LiveVoice> LiveEngine::addVoice(double outputRateHz) {
     }
     settings.outputRateHz = outputRateHz;
     settings.fullScaleMps2 = settings_.fullScaleMps2;
-    auto voice = std::make_shared<LiveVoice>(*model_, *levels_, alive_, settings);
+    auto voice = std::make_shared<LiveVoice>(*library_, alive_, settings);
     const std::lock_guard lock(voicesMutex_);
     voices_.push_back(voice);
     figures_.voices = voices_.size();

@@ -4,7 +4,7 @@
 #include "engine/inference_round.hpp"
 #include "engine/live_voice.hpp"
 #include "engine/mailbox.hpp"
-#include "engine/onset_levels.hpp"
+#include "engine/material_library.hpp"
 #include "engine/quality_control.hpp"
 #include "engine/wake_signal.hpp"
 #include "inference/segment_generator.hpp"
@@ -70,7 +70,7 @@ struct EngineStatistics {
 class LiveEngine {
 public:
     /// `tiers` in the model's order; at least one. Those that `settings` want must be loaded: all for
-    /// automatic quality, else the one. Runs the level graph of the first loaded for OnsetLevels. Throws
+    /// automatic quality, else the one. Runs the level graph of the first loaded for MaterialLibrary. Throws
     /// std::invalid_argument for settings out of range or a tier that is not loaded, inference::InferenceError,
     /// inference::LoadCancelled, std::system_error.
     LiveEngine(std::shared_ptr<const model::ModelFile> model, EngineTiers tiers, std::size_t startTier,
@@ -114,6 +114,8 @@ public:
     /// The newest failure of a round or of the worker; empty before the first. Any thread.
     [[nodiscard]] std::string lastFailure() const;
     [[nodiscard]] const model::ModelFile& model() const noexcept { return *model_; }
+    /// Registering there waits for nobody's inference.
+    [[nodiscard]] MaterialLibrary& materials() noexcept { return *library_; }
 
 private:
     /// What the worker shows of its quality control.
@@ -145,7 +147,7 @@ private:
     // Places are filled under qualityMutex_, before the worker is told of them; what was filled stays.
     EngineTiers tiers_;
     LiveEngineSettings settings_;
-    std::unique_ptr<OnsetLevels> levels_;
+    std::unique_ptr<MaterialLibrary> library_;
 
     // Held to change or copy the list, never during a round.
     std::mutex voicesMutex_;

@@ -14,13 +14,12 @@ struct LiveVoiceSettings {
     float fullScaleMps2 = dsp::SoftLimiter::defaultFullScaleMps2;
 };
 
-/// One stylus tip's voice: three ends for three threads, and what they share. What `model` and `levels` and
-/// `workerAlive` name must outlive it.
+/// One stylus tip's voice: three ends for three threads, and what they share. What `library` and `workerAlive` name must
+/// outlive it.
 struct LiveVoice {
     /// Throws std::invalid_argument for settings out of range.
-    LiveVoice(const model::ModelFile& model, const OnsetLevels& levels, const std::atomic<bool>& workerAlive,
-              const LiveVoiceSettings& settings)
-        : publisher(model, levels, channels),
+    LiveVoice(const MaterialLibrary& library, const std::atomic<bool>& workerAlive, const LiveVoiceSettings& settings)
+        : publisher(library, channels),
           renderer(channels, workerAlive, settings.outputRateHz, settings.fullScaleMps2),
           planner(channels, settings.planner) {}
 

@@ -2,12 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 namespace haptoflow::engine {
 
 std::uint32_t sanitise(ContactState& state) noexcept {
     constexpr float fastestMps = 20.0F;
     constexpr float strongestNewtons = 1000.0F;
+    constexpr float smallestScale = 0.25F;
+    constexpr float largestScale = 4.0F;
+    constexpr float steepestTilt = 12.0F;
     std::uint32_t changes = 0;
     const auto limit = [&changes](float& value, float lowest, float highest) {
         const float inRange = std::isfinite(value) ? std::clamp(value, lowest, highest) : 0.0F;
@@ -29,6 +33,14 @@ std::uint32_t sanitise(ContactState& state) noexcept {
     for (std::size_t i = 0; i < state.material.count; ++i) {
         limit(state.material.entries[i].weight, 0.0F, 1.0F);
     }
+    if (state.spatialScale == 0.0F) {
+        state.spatialScale = 1.0F;
+    } else if (!std::isfinite(state.spatialScale)) {
+        state.spatialScale = 1.0F;
+        ++changes;
+    }
+    limit(state.spatialScale, smallestScale, largestScale);
+    limit(state.toneDbPerOctave, -steepestTilt, steepestTilt);
     if (!std::isfinite(state.timeSeconds)) {
         state.timeSeconds = 0.0;
         ++changes;
@@ -36,45 +48,80 @@ std::uint32_t sanitise(ContactState& state) noexcept {
     return changes;
 }
 
-Material resolveMaterial(const model::ModelFile& model, const MaterialBlend& blend) noexcept {
-    const auto& labels = model.header().labels;
+Material resolveMaterial(const Ingredients& ingredients, const WaveVectors& before) noexcept {
     Material material;
-    double total = 0.0;
-    float largest = 0.0F;
     std::array<double, model::embeddingSize> embedding{};
-    for (std::size_t i = 0; i < std::min(blend.count, MaterialBlend::capacity); ++i) {
-        const LabelWeight entry = blend.entries[i];
-        if (entry.label >= labels.size() || !(entry.weight > 0.0F)) {
-            continue;
-        }
-        const model::Label& label = labels[entry.label];
-        const double weight = entry.weight;
-        const auto row = model.embedding(entry.label);
+    for (const Ingredient& each : ingredients.all()) {
+        const model::Label& label = *each.material->label;
         for (std::size_t j = 0; j < embedding.size(); ++j) {
-            embedding[j] += weight * row[j];
+            embedding[j] += each.weight * static_cast<double>(each.material->embedding[j]);
         }
-        material.speedLevelExponent += weight * label.speedLevelExponent;
-        material.forceLevelExponent += weight * label.forceLevelExponent;
-        material.frequencyExponent += weight * label.frequencyExponent;
-        total += weight;
-        if (entry.weight > largest) {
-            largest = entry.weight;
-            material.dominantLabel = entry.label;
-        }
+        material.speedLevelExponent += each.weight * label.speedLevelExponent;
+        material.forceLevelExponent += each.weight * each.material->forceExponent();
+        material.frequencyExponent += each.weight * label.frequencyExponent;
     }
-    if (!(total > 0.0)) {
-        MaterialBlend first;
-        first.entries[0] = {.label = 0, .weight = 1.0F};
-        first.count = 1;
-        return labels.empty() ? material : resolveMaterial(model, first);
-    }
+    const double total = ingredients.totalWeight();
     for (std::size_t j = 0; j < embedding.size(); ++j) {
         material.embedding[j] = static_cast<float>(embedding[j] / total);
     }
+    setWaveVectors(material.embedding, assignRibs(ingredients, before));
     material.speedLevelExponent /= total;
     material.forceLevelExponent /= total;
     material.frequencyExponent /= total;
     return material;
+}
+
+WaveVectors assignRibs(const Ingredients& ingredients, const WaveVectors& before) noexcept {
+    if (!ingredients.isBlend()) {
+        return waveVectorsOf(ingredients.entries[0].material->embedding);
+    }
+    WaveVectors chosen{};
+    std::size_t count = 0;
+    Ingredients left = ingredients;
+    for (std::size_t round = 0; round < ingredients.count; ++round) {
+        Ingredient& heaviest = *std::ranges::max_element(std::span(left.entries).first(left.count), {},
+                                                         &Ingredient::weight);
+        const Ingredient each = heaviest;
+        heaviest.weight = -1.0;
+        for (const WaveVector& candidate : waveVectorsOf(each.material->embedding)) {
+            const auto known = std::span(chosen).first(count);
+            if (count < chosen.size() && !candidate.isNone() &&
+                std::ranges::find(known, candidate) == known.end()) {
+                chosen[count] = candidate;
+                ++count;
+            }
+        }
+    }
+    return keepingSlots(chosen, before);
+}
+
+std::optional<dsp::ToneCepstrum> resolveTone(const Ingredients& ingredients, double speedMps, double tiltDbPerOctave,
+                                             const dsp::ToneCepstrum& tiltOfOne) noexcept {
+    const bool hasTone =
+        std::ranges::any_of(ingredients.all(), [](const Ingredient& each) { return each.material->tone.has_value(); });
+    if (!hasTone && tiltDbPerOctave == 0.0) {
+        return std::nullopt;
+    }
+    dsp::ToneCepstrum tone{};
+    const auto add = [&tone](const dsp::ToneCepstrum& cepstrum, double share) {
+        std::ranges::transform(tone, cepstrum, tone.begin(),
+                               [share](double sum, double value) { return sum + share * value; });
+    };
+    const double total = ingredients.totalWeight();
+    for (const Ingredient& each : ingredients.all()) {
+        if (each.material->tone) {
+            add(each.material->tone->at(speedMps), each.weight / total);
+        }
+    }
+    add(tiltOfOne, tiltDbPerOctave);
+    return tone;
+}
+
+dsp::ToneCepstrum designTilt() {
+    constexpr double pivotHz = 150.0;
+    constexpr double lowestHz = 10.0;
+    return dsp::toneCepstrum(
+        [=](double frequencyHz) { return std::log2(std::max(frequencyHz, lowestHz) / pivotHz); });
 }
 
 }  // namespace haptoflow::engine

@@ -2,7 +2,7 @@
 
 #include "engine/inference_round.hpp"
 #include "engine/live_voice.hpp"
-#include "engine/onset_levels.hpp"
+#include "engine/material_library.hpp"
 
 #include <algorithm>
 #include <atomic>
@@ -109,8 +109,11 @@ public:
         : generator_(generator),
           settings_(settings),
           sink_(sink),
-          levels_(model, generator),
-          voice_(model, levels_, workerAlive_, voiceSettings(settings)) {
+          library_(model, generator),
+          voice_(library_, workerAlive_, voiceSettings(settings)) {
+        for (const model::MaterialFile& material : settings.materials) {
+            (void)library_.add(material, [&generator]() -> inference::LevelEstimator& { return generator; });
+        }
         voice_.renderer.setSink(&recorder_);
         addProcessors();
     }
@@ -232,7 +235,7 @@ private:
     OfflineSettings settings_;
     OfflineSink& sink_;
     std::atomic<bool> workerAlive_{true};
-    OnsetLevels levels_;
+    MaterialLibrary library_;
     LiveVoice voice_;
     Recorder recorder_;
     InferenceRound round_;

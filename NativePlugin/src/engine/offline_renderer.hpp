@@ -6,6 +6,7 @@
 #include "engine/contact_state.hpp"
 #include "engine/seam_statistics.hpp"
 #include "inference/segment_generator.hpp"
+#include "model/material_file.hpp"
 #include "model/model_file.hpp"
 
 #include <array>
@@ -32,6 +33,8 @@ struct OfflineSettings {
     std::shared_ptr<const effects::ActuatorProfile> actuator = nullptr;
     /// 0 to 0.5.
     double delaySeconds = 0.0;
+    /// Registered in this order, behind the model's labels.
+    std::vector<model::MaterialFile> materials{};
 };
 
 /// What a render's own engine counted and measured. Fixed in size, however long the render.
@@ -81,7 +84,7 @@ using ContactStateSource = std::function<std::optional<ContactState>()>;
 
 /// Renders contact states (the first is time 0 of the output) without threads, by the same voice, timeline and
 /// generator as live, in memory that does not grow with the length. Throws std::invalid_argument for settings out of
-/// range, and what `next` and `sink` throw.
+/// range, model::MaterialMismatch, and what `next` and `sink` throw.
 OfflineFigures renderOffline(const model::ModelFile& model, inference::SegmentGenerator& generator,
                              const ContactStateSource& next, const OfflineSettings& settings, OfflineSink& sink);
 

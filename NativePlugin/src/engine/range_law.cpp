@@ -17,19 +17,27 @@ double excess(double value, double edge) {
 }  // namespace
 
 RangedMotion applyRangeLaw(const model::ModelHeader& header, const Material& material,
-                           const std::array<float, 2>& velocityMps, float forceNewtons) noexcept {
+                           const std::array<float, 2>& velocityMps, float forceNewtons, float spatialScale) noexcept {
+    const double fastest = header.speedMps.maximum;
+    const double force = forceNewtons;
+    const double forceExcess = excess(force, header.forceNewtons.maximum);
+    const auto clampedForce = static_cast<float>(std::max(force, header.forceNewtons.minimum) / forceExcess);
+    const auto clamped = [&](double vx, double vy) -> std::array<float, 3> {
+        const double speedExcess = excess(std::hypot(vx, vy), fastest);
+        return {static_cast<float>(vx / speedExcess), static_cast<float>(vy / speedExcess), clampedForce};
+    };
+    const double scale = spatialScale;
     const double vx = velocityMps[0];
     const double vy = velocityMps[1];
-    const double force = forceNewtons;
-    const double speedExcess = excess(std::hypot(vx, vy), header.speedMps.maximum);
-    const double forceExcess = excess(force, header.forceNewtons.maximum);
+    const double speedExcess = excess(std::hypot(vx, vy), fastest);
+    const double featureExcess = excess(std::hypot(vx, vy) / scale, fastest);
 
     RangedMotion ranged;
-    ranged.motion = {static_cast<float>(vx / speedExcess), static_cast<float>(vy / speedExcess),
-                     static_cast<float>(std::max(force, header.forceNewtons.minimum) / forceExcess)};
+    ranged.motion = clamped(vx / scale, vy / scale);
+    ranged.levelMotion = clamped(vx, vy);
     ranged.levelGain = std::min(largestGain, std::pow(speedExcess, material.speedLevelExponent) *
                                                  std::pow(forceExcess, material.forceLevelExponent));
-    ranged.readingRate = std::clamp(std::pow(speedExcess, material.frequencyExponent), 1.0, largestReadingRate);
+    ranged.readingRate = std::clamp(std::pow(featureExcess, material.frequencyExponent), 1.0, largestReadingRate);
     return ranged;
 }
 

@@ -2,34 +2,92 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace haptoflow::engine {
 namespace {
 
 constexpr double millimetresPerMetre = 1000.0;
 
+/// The slot of `vectors` that holds `wanted`, the slot `own` before others; empty for none.
+std::optional<std::size_t> slotOf(const WaveVectors& vectors, const WaveVector& wanted, std::size_t own) noexcept {
+    if (vectors[own] == wanted) {
+        return own;
+    }
+    const auto found = std::ranges::find(vectors, wanted);
+    return found == vectors.end() ? std::nullopt : std::optional(static_cast<std::size_t>(found - vectors.begin()));
+}
+
 }  // namespace
+
+WaveVectors waveVectorsOf(std::span<const float, inference::embeddingSize> embedding) noexcept {
+    const auto numbers = embedding.last<2 * inference::ribCount>();
+    WaveVectors vectors;
+    for (std::size_t slot = 0; slot < vectors.size(); ++slot) {
+        vectors[slot] = {.x = numbers[2 * slot], .y = numbers[2 * slot + 1]};
+    }
+    return vectors;
+}
+
+void setWaveVectors(std::span<float, inference::embeddingSize> embedding, const WaveVectors& vectors) noexcept {
+    const auto numbers = embedding.last<2 * inference::ribCount>();
+    for (std::size_t slot = 0; slot < vectors.size(); ++slot) {
+        numbers[2 * slot] = vectors[slot].x;
+        numbers[2 * slot + 1] = vectors[slot].y;
+    }
+}
+
+WaveVectors keepingSlots(const WaveVectors& vectors, const WaveVectors& before) noexcept {
+    WaveVectors kept{};
+    std::array<bool, inference::ribCount> isTaken{};
+    std::array<bool, inference::ribCount> isPlaced{};
+    for (std::size_t slot = 0; slot < vectors.size(); ++slot) {
+        const auto found = std::ranges::find(before, vectors[slot]);
+        if (!vectors[slot].isNone() && found != before.end()) {
+            const auto place = static_cast<std::size_t>(found - before.begin());
+            kept[place] = vectors[slot];
+            isTaken[place] = true;
+            isPlaced[slot] = true;
+        }
+    }
+    for (std::size_t slot = 0; slot < vectors.size(); ++slot) {
+        if (!isPlaced[slot]) {
+            const auto free = static_cast<std::size_t>(std::ranges::find(isTaken, false) - isTaken.begin());
+            kept[free] = vectors[slot];
+            isTaken[free] = true;
+        }
+    }
+    return kept;
+}
+
+RibTurns phasesFor(const WaveVectors& vectors, const WaveVectors& from, const RibTurns& phases) noexcept {
+    RibTurns result = phases;
+    for (std::size_t slot = 0; slot < vectors.size(); ++slot) {
+        result[slot] = phases[slotOf(from, vectors[slot], slot).value_or(slot)];
+    }
+    return result;
+}
 
 RibTurns ribTurnsPerSample(std::span<const float, inference::embeddingSize> embedding, double vxMps,
                            double vyMps) noexcept {
-    const auto waveVectors = embedding.last<2 * inference::ribCount>();
-    RibTurns turns;
+    const WaveVectors vectors = waveVectorsOf(embedding);
+    RibTurns turns{};
     for (std::size_t rib = 0; rib < turns.size(); ++rib) {
-        const double cyclesPerSecond = (static_cast<double>(waveVectors[2 * rib]) * vxMps +
-                                        static_cast<double>(waveVectors[2 * rib + 1]) * vyMps) *
-                                       millimetresPerMetre;
+        const double cyclesPerSecond =
+            (static_cast<double>(vectors[rib].x) * vxMps + static_cast<double>(vectors[rib].y) * vyMps) *
+            millimetresPerMetre;
         turns[rib] = cyclesPerSecond / inference::waveformRateHz;
     }
     return turns;
 }
 
 void RibTrack::begin(std::int64_t start, const SeedRibs& seed) noexcept {
-    pieces_[0] = {.start = start, .phase = seed.phase, .turnsPerSample = seed.turnsPerSample};
+    pieces_[0] = {.start = start, .phase = seed.phase, .turnsPerSample = seed.turnsPerSample, .vectors = seed.vectors};
     count_ = 1;
 }
 
-std::array<float, inference::ribCount> RibTrack::at(std::int64_t sample) const noexcept {
-    const RibTurns turns = turnsAt(sample);
+std::array<float, inference::ribCount> RibTrack::at(std::int64_t sample, const WaveVectors& vectors) const noexcept {
+    const RibTurns turns = turnsAt(sample, vectors);
     std::array<float, inference::ribCount> phase{};
     std::ranges::transform(turns, phase.begin(), [](double each) {
         const auto rounded = static_cast<float>(each);
@@ -38,8 +96,9 @@ std::array<float, inference::ribCount> RibTrack::at(std::int64_t sample) const n
     return phase;
 }
 
-void RibTrack::add(std::int64_t start, const RibTurns& turnsPerSample) noexcept {
-    const Piece piece{.start = start, .phase = turnsAt(start), .turnsPerSample = turnsPerSample};
+void RibTrack::add(std::int64_t start, const WaveVectors& vectors, const RibTurns& turnsPerSample) noexcept {
+    const Piece piece{
+        .start = start, .phase = turnsAt(start, vectors), .turnsPerSample = turnsPerSample, .vectors = vectors};
     while (count_ > 0 && pieces_[count_ - 1].start >= start) {
         --count_;
     }
@@ -51,19 +110,19 @@ void RibTrack::add(std::int64_t start, const RibTurns& turnsPerSample) noexcept 
     ++count_;
 }
 
-RibTurns RibTrack::turnsAt(std::int64_t sample) const noexcept {
+RibTurns RibTrack::turnsAt(std::int64_t sample, const WaveVectors& vectors) const noexcept {
     std::size_t newest = count_ - 1;
     while (newest > 0 && pieces_[newest].start > sample) {
         --newest;
     }
     const Piece& piece = pieces_[newest];
-    RibTurns turns;
+    RibTurns turns{};
     for (std::size_t rib = 0; rib < turns.size(); ++rib) {
         const double travelled =
             piece.phase[rib] + piece.turnsPerSample[rib] * static_cast<double>(sample - piece.start);
         turns[rib] = travelled - std::floor(travelled);
     }
-    return turns;
+    return phasesFor(vectors, piece.vectors, turns);
 }
 
 }  // namespace haptoflow::engine

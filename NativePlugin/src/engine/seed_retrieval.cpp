@@ -12,7 +12,7 @@ constexpr double restNewtons = 0.05;
 constexpr double forceShare = 0.5;
 constexpr double directionShare = 0.1;
 
-double distance(const model::SeedEntry& seed, const std::array<float, 3>& motion) {
+double distance(const Seed& seed, const std::array<float, 3>& motion) {
     const double speed = std::hypot(motion[0], motion[1]);
     const double seedSpeed = std::hypot(seed.velocityMps[0], seed.velocityMps[1]);
     const double speedGap = std::log((speed + restMps) / (seedSpeed + restMps));
@@ -24,19 +24,14 @@ double distance(const model::SeedEntry& seed, const std::array<float, 3>& motion
 
 }  // namespace
 
-std::optional<std::size_t> retrieveSeed(const model::ModelFile& model, std::size_t label,
-                                        const std::array<float, 3>& motion) noexcept {
-    const auto& seeds = model.header().seeds;
+const Seed* retrieveSeed(std::span<const Seed> seeds, const std::array<float, 3>& motion) noexcept {
     double nearest = std::numeric_limits<double>::infinity();
-    std::optional<std::size_t> chosen;
-    for (std::size_t i = 0; i < seeds.size(); ++i) {
-        if (seeds[i].label != label) {
-            continue;
-        }
-        const double gap = distance(seeds[i], motion);
+    const Seed* chosen = nullptr;
+    for (const Seed& seed : seeds) {
+        const double gap = distance(seed, motion);
         if (gap < nearest) {
             nearest = gap;
-            chosen = i;
+            chosen = &seed;
         }
     }
     return chosen;

@@ -70,6 +70,9 @@ bool SegmentPlanner::wake() noexcept {
     channels_.counters.leadSamples.store(static_cast<std::uint32_t>(lead), std::memory_order_relaxed);
     request_.embedding = contact.embedding;
     request_.motion = contact.motion;
+    request_.levelMps2 = contact.level.levelMps2;
+    request_.levelMotion = contact.level.motion;
+    request_.levelGain = contact.level.gain;
     prepare(start);
     return true;
 }
@@ -138,7 +141,7 @@ std::int64_t SegmentPlanner::leadSamples(std::int64_t blockAdvance, double readi
 void SegmentPlanner::prepare(std::int64_t start) noexcept {
     plannedStart_ = start;
     mirror_.history(start, history_);
-    request_.ribPhase = ribs_.at(start);
+    request_.ribPhase = ribs_.at(start, waveVectorsOf(request_.embedding));
     inference::fillStandardNormal({.seed = settings_.seed, .voice = settings_.voice, .segment = segments_}, noise_);
     ++segments_;
 }
@@ -161,7 +164,8 @@ bool SegmentPlanner::deliver(std::span<const float, inference::segmentSamples> s
         return false;
     }
     mirror_.commit(plannedStart_, sent.segment.samplesMps2);
-    ribs_.add(plannedStart_, ribTurnsPerSample(request_.embedding, static_cast<double>(request_.motion[0]),
+    ribs_.add(plannedStart_, waveVectorsOf(request_.embedding),
+              ribTurnsPerSample(request_.embedding, static_cast<double>(request_.motion[0]),
                                                static_cast<double>(request_.motion[1])));
 
     const std::int64_t head = playhead.timeline.head;

@@ -1,6 +1,7 @@
 #include "engine/voice.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 
 namespace haptoflow::engine {
@@ -72,6 +73,7 @@ void Voice::prime() noexcept {
     level_.reset(level_.target());
     std::array<float, inference::segmentSamples> waveform{};
     timeline_.history(timeline_.head(), waveform);
+    applyTone(waveform);
     level_.process(waveform);
     // What the resampler delays is read ahead now, so that the seed's first sample is the next one to sound.
     const std::size_t ahead = output_->resampler.latencyInputSamples();
@@ -102,9 +104,38 @@ void Voice::setRangeLaw(double levelGain, double readingRate) noexcept {
     warp_.setTargetRatio(readingRate);
 }
 
+void Voice::setTone(const dsp::ToneKernel* kernel) noexcept {
+    const bool isRunning = tone_.isActive();
+    if (isTextureSilent()) {
+        tone_.reset(kernel);
+    } else if (!tone_.isHeadingFor(kernel)) {
+        std::array<float, inference::segmentSamples> past{};
+        timeline_.history(timeline_.head(), past);
+        tone_.setTone(kernel, std::span(past).last<dsp::ToneFilter::memorySamples>());
+    }
+    if (tone_.isActive() && !isRunning) {
+        ++figures_.of(effects::EffectKind::tone).prepared;
+    }
+}
+
+void Voice::applyTone(std::span<float> samplesMps2) noexcept {
+    if (!tone_.isActive() || samplesMps2.empty()) {
+        return;
+    }
+    const auto began = std::chrono::steady_clock::now();
+    tone_.process(samplesMps2);
+    const auto spent = std::chrono::steady_clock::now() - began;
+    EffectFigures::OfKind& figures = figures_.of(effects::EffectKind::tone);
+    ++figures.runs;
+    figures.samples += samplesMps2.size();
+    figures.nanoseconds +=
+        static_cast<std::uint64_t>(std::chrono::duration_cast<std::chrono::nanoseconds>(spent).count());
+}
+
 void Voice::readWaveform(std::span<float> out) noexcept {
     const std::int64_t start = timeline_.head();
     timeline_.read(out);
+    applyTone(out);
     if (sink_ != nullptr && !out.empty()) {
         sink_->played(start, out);
     }

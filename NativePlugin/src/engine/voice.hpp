@@ -3,6 +3,7 @@
 #include "dsp/level_smoother.hpp"
 #include "dsp/limiter.hpp"
 #include "dsp/rate_warp.hpp"
+#include "dsp/tone_filter.hpp"
 #include "engine/output_stage.hpp"
 #include "engine/waveform_timeline.hpp"
 
@@ -13,7 +14,7 @@
 
 namespace haptoflow::engine {
 
-/// Sees what a voice plays, in waveform time and before any gain. Called from `Voice::render`: it must not block.
+/// Sees what a voice plays, in waveform time, after tone and before any gain. Called from `Voice::render`: it must not block.
 class WaveformSink {
 public:
     WaveformSink() = default;
@@ -25,7 +26,7 @@ public:
     virtual void tookOver(std::int64_t sample) noexcept = 0;
 };
 
-/// One stylus tip's signal: timeline, level, reading rate, output rate, gate, blows, strength, processors, limiter, in
+/// One stylus tip's signal: timeline, tone, level, reading rate, output rate, gate, blows, strength, processors, limiter, in
 /// this order.
 ///
 /// While the texture's gate is closed nothing is read: the waveform clock stands still. Where no effect sounds either,
@@ -60,6 +61,9 @@ public:
     /// What the range law asks for; both glide.
     void setRangeLaw(double levelGain, double readingRate) noexcept;
 
+    /// Null for none. Another tone takes over within 10 ms; what sounds next out of silence has it at once.
+    void setTone(const dsp::ToneKernel* kernel) noexcept;
+
     /// Gain of the output before the limiter, 0 to 1; glides while the voice sounds. Set while it is silent, it holds
     /// from the first sample that sounds.
     void setStrength(float strength) noexcept;
@@ -88,10 +92,12 @@ private:
     [[nodiscard]] bool isTextureSilent() const noexcept { return output_->gate.isClosed(); }
     void produce(std::span<float> out) noexcept;
     void readWaveform(std::span<float> out) noexcept;
+    void applyTone(std::span<float> samplesMps2) noexcept;
     void prime() noexcept;
 
     std::unique_ptr<OutputStage> output_;
     WaveformTimeline timeline_;
+    dsp::ToneFilter tone_;
     dsp::LevelSmoother level_;
     dsp::RateWarp warp_;
     dsp::SoftLimiter limiter_;

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "dsp/tone_cepstrum.hpp"
+#include "engine/level_request.hpp"
 #include "engine/mailbox.hpp"
 #include "engine/output_stage.hpp"
 #include "engine/processor_settings.hpp"
@@ -42,6 +44,8 @@ struct AudioMessage {
     /// In every message: a landing between two frames survives being overwritten.
     BlowMessage impact;
     BlowMessage edge;
+    bool hasTone = false;
+    dsp::ToneKernel tone{};
 };
 
 /// What the worker has to know of a contact.
@@ -54,6 +58,7 @@ struct WorkerMessage {
     /// vx, vy in m/s and force in N, inside the trained range.
     std::array<float, 3> motion{};
     double readingRate = 1.0;
+    LevelRequest level;
 };
 
 /// Where a voice's playback stands, as the callback left it at the end of a block.

@@ -72,6 +72,7 @@ void VoiceRenderer::readContact() noexcept {
         contactAgeFrames_ = 0;
         const AudioMessage& contact = channels_.toAudio.current();
         voice_.setRangeLaw(contact.levelGain, contact.readingRate);
+        voice_.setTone(contact.hasTone ? &contact.tone : nullptr);
     }
 }
 
@@ -177,6 +178,7 @@ void VoiceRenderer::begin() noexcept {
         count(channels_.counters.taps);
     }
     voice_.setRangeLaw(contact.levelGain, contact.readingRate);
+    voice_.setTone(contact.hasTone ? &contact.tone : nullptr);
     voice_.onset(contact.seedMps2);
 }
 

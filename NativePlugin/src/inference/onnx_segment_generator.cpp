@@ -14,8 +14,6 @@ namespace haptoflow::inference {
 namespace {
 
 constexpr float previousLimit = 16.0F;
-constexpr float quietestLogLevel = -20.0F;
-constexpr float loudestLogLevel = 20.0F;
 
 const model::Tier& requireTier(const model::ModelFile& model, std::string_view name) {
     const model::Tier* tier = model.findTier(name);
@@ -65,8 +63,6 @@ void inBatches(std::size_t total, std::size_t maximum, Action action) {
     }
 }
 
-static_assert(levelBatch >= largestBatch);
-
 }  // namespace
 
 OnnxSegmentGenerator::OnnxSegmentGenerator(std::shared_ptr<const Runtime> runtime, const model::ModelFile& model,
@@ -75,9 +71,9 @@ OnnxSegmentGenerator::OnnxSegmentGenerator(std::shared_ptr<const Runtime> runtim
     : kind_(requireTier(model, tier).kind),
       maximumBatch_(requireBatch(maximumBatch)),
       pointSize_(pointSize(requireTier(model, tier))),
-      level_(loadLevel(runtime, model, requireTier(model, tier), levelBatch, limits)),
+      level_(runtime, model, requireTier(model, tier), limits),
       field_(runtime, model, requireTier(model, tier), maximumBatch, limits),
-      levelsMps2_(levelBatch),
+      levelsMps2_(maximumBatch),
       previous_(maximumBatch * segmentSamples),
       points_(maximumBatch * pointSize_),
       result_(maximumBatch * pointSize_) {
@@ -101,11 +97,7 @@ void OnnxSegmentGenerator::generate(std::span<const SegmentRequest> requests, st
 }
 
 void OnnxSegmentGenerator::levels(std::span<const SegmentRequest> requests, std::span<float> levelsMps2) {
-    requireSize(levelsMps2.size(), requests.size(), "levels need room");
-    inBatches(requests.size(), levelBatch, [&](std::size_t first, std::size_t count) {
-        runLevel(requests.subspan(first, count));
-        std::copy_n(levelsMps2_.begin(), count, levelsMps2.subspan(first).begin());
-    });
+    level_.levels(requests, levelsMps2);
 }
 
 void OnnxSegmentGenerator::evaluateField(std::span<const SegmentRequest> requests, float time, float interval,
@@ -148,31 +140,15 @@ void OnnxSegmentGenerator::generateBatch(std::span<const SegmentRequest> request
     }
 }
 
-void OnnxSegmentGenerator::runLevel(std::span<const SegmentRequest> requests) {
-    level_.setBatch(requests.size());
-    const auto embeddings = level_.input(level_input::embedding);
-    const auto motions = level_.input(level_input::motion);
+void OnnxSegmentGenerator::prepare(std::span<const SegmentRequest> requests) {
+    level_.levels(requests, std::span(levelsMps2_).first(requests.size()));
+    field_.setBatch(requests.size());
+    const auto embeddings = field_.embeddings();
+    const auto motions = field_.motions();
     for (std::size_t index = 0; index < requests.size(); ++index) {
         std::ranges::copy(requests[index].embedding, embeddings.subspan(index * embeddingSize).begin());
         std::ranges::copy(requests[index].motion, motions.subspan(index * 3).begin());
     }
-    level_.run();
-    for (std::size_t index = 0; index < requests.size(); ++index) {
-        const float logLevel = level_.output()[index];
-        if (!std::isfinite(logLevel) || logLevel > loudestLogLevel) {
-            throw InferenceError("the level graph returned a logarithm of " + std::to_string(logLevel) +
-                                 "; expected a number up to 20");
-        }
-        // Below, the segment is silent for any hand, and dividing by the level would overflow.
-        levelsMps2_[index] = std::exp(std::max(logLevel, quietestLogLevel));
-    }
-}
-
-void OnnxSegmentGenerator::prepare(std::span<const SegmentRequest> requests) {
-    runLevel(requests);
-    field_.setBatch(requests.size());
-    std::ranges::copy(level_.input(level_input::embedding), field_.embeddings().begin());
-    std::ranges::copy(level_.input(level_input::motion), field_.motions().begin());
 
     const auto previous = std::span(previous_).first(requests.size() * segmentSamples);
     for (std::size_t index = 0; index < previous.size(); ++index) {

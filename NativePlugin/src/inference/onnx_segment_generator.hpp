@@ -2,6 +2,7 @@
 
 #include "inference/inference_error.hpp"
 #include "inference/load_limits.hpp"
+#include "inference/onnx_level_estimator.hpp"
 #include "inference/onnx_runtime.hpp"
 #include "inference/onnx_velocity_field.hpp"
 #include "inference/segment_generator.hpp"
@@ -19,8 +20,6 @@
 namespace haptoflow::inference {
 
 inline constexpr std::size_t largestBatch = 256;
-/// Levels that one run of the level graph gives, whatever the batch of the segments: tables ask for thousands.
-inline constexpr std::size_t levelBatch = 256;
 
 /// How often each graph has run; what proves that nothing is computed that nobody asked for.
 struct RunCounts {
@@ -57,14 +56,13 @@ public:
 
 private:
     void generateBatch(std::span<const SegmentRequest> requests, std::span<float> segments);
-    void runLevel(std::span<const SegmentRequest> requests);
     void prepare(std::span<const SegmentRequest> requests);
 
     model::TierKind kind_;
     SolverSettings settings_;
     std::size_t maximumBatch_;
     std::size_t pointSize_;
-    OnnxGraph level_;
+    OnnxLevelEstimator level_;
     OnnxVelocityField field_;
     std::optional<OnnxGraph> decoder_;
     Solver solver_;

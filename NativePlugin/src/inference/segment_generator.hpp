@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstddef>
+#include <optional>
 #include <span>
 
 namespace haptoflow::inference {
@@ -32,22 +33,33 @@ struct SegmentRequest {
     /// For each of the embedding's wave vectors, how far the tip has travelled along it at the segment's first sample:
     /// turns in [0, 1). Read by graphs that have the input `rib_phase`.
     std::array<float, ribCount> ribPhase{};
+    /// RMS in m/s^2 to be used instead of what the level graph says; empty for the graph's.
+    std::optional<float> levelMps2{};
+    /// What the level graph is asked for where that is not `motion`, and the gain on its answer.
+    std::optional<std::array<float, 3>> levelMotion{};
+    float levelGain = 1.0F;
+};
+
+/// Says how loud a material is. One user at a time; may allocate.
+class LevelEstimator {
+public:
+    LevelEstimator() = default;
+    LevelEstimator(const LevelEstimator&) = delete;
+    LevelEstimator& operator=(const LevelEstimator&) = delete;
+    virtual ~LevelEstimator() = default;
+
+    /// RMS in m/s^2 that the model expects for each (embedding, motion) of `requests`, or the request's own level;
+    /// writes one float each.
+    virtual void levels(std::span<const SegmentRequest> requests, std::span<float> levelsMps2) = 0;
 };
 
 /// Turns contact states into segments. Worker thread; one user at a time; may allocate.
-class SegmentGenerator {
+class SegmentGenerator : public LevelEstimator {
 public:
-    SegmentGenerator() = default;
-    SegmentGenerator(const SegmentGenerator&) = delete;
-    SegmentGenerator& operator=(const SegmentGenerator&) = delete;
-    virtual ~SegmentGenerator() = default;
 
     /// Writes requests.size() segments of 200 samples in m/s^2, one after the other, into `segments`
     /// (requests.size() * 200 floats). Throws InferenceError when a graph fails; `segments` is then unspecified.
     virtual void generate(std::span<const SegmentRequest> requests, std::span<float> segments) = 0;
-
-    /// RMS in m/s^2 that the model expects for each (embedding, motion) of `requests`; writes one float each.
-    virtual void levels(std::span<const SegmentRequest> requests, std::span<float> levelsMps2) = 0;
 };
 
 }  // namespace haptoflow::inference

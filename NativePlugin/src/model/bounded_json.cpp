@@ -12,6 +12,8 @@ namespace {
 /// Walks the text without building values, so that a hostile nesting costs nothing.
 class LimitChecker : public nlohmann::json_sax<nlohmann::json> {
 public:
+    explicit LimitChecker(std::string_view document) : document_(document) {}
+
     bool null() override { return true; }
     bool boolean(bool /*value*/) override { return true; }
     bool number_integer(number_integer_t /*value*/) override { return true; }
@@ -38,32 +40,33 @@ public:
     bool key(string_t& name) override {
         if (!keys_.back().insert(name).second) {
             throw ModelError(ModelStatus::inconsistent,
-                             "the JSON header names the key \"" + name.substr(0, 64) + "\" twice in one object");
+                             document_ + " names the key \"" + name.substr(0, 64) + "\" twice in one object");
         }
         return true;
     }
     bool parse_error(std::size_t position, const std::string& /*token*/,
                      const nlohmann::detail::exception& /*error*/) override {
         throw ModelError(ModelStatus::damaged,
-                         "the JSON header is not valid JSON at its byte " + std::to_string(position));
+                         document_ + " is not valid JSON at its byte " + std::to_string(position));
     }
 
 private:
     void enter() {
         if (keys_.size() >= static_cast<std::size_t>(maximumJsonDepth)) {
             throw ModelError(ModelStatus::oversized,
-                             "the JSON header nests deeper than " + std::to_string(maximumJsonDepth) + " levels");
+                             document_ + " nests deeper than " + std::to_string(maximumJsonDepth) + " levels");
         }
         keys_.emplace_back();
     }
 
+    std::string document_;
     std::vector<std::unordered_set<std::string>> keys_;
 };
 
 }  // namespace
 
-nlohmann::json parseBoundedJson(std::string_view text) {
-    LimitChecker checker;
+nlohmann::json parseBoundedJson(std::string_view text, std::string_view document) {
+    LimitChecker checker(document);
     nlohmann::json::sax_parse(text, &checker);
     return nlohmann::json::parse(text);
 }

@@ -25,10 +25,17 @@ bool isControl(char character) {
 
 }  // namespace
 
-HeaderNode::HeaderNode(const nlohmann::json& value, std::string path) : value_(&value), path_(std::move(path)) {}
+HeaderNode::HeaderNode(const nlohmann::json& value, std::string path, const char* document)
+    : value_(&value), path_(std::move(path)), document_(document) {}
 
 void HeaderNode::refuse(const std::string& expectation) const {
-    throw ModelError(ModelStatus::inconsistent, "header key \"" + path_ + "\": expected " + expectation);
+    const std::string place = path_.empty() ? std::string(document_) : std::string(document_) + " key \"" + path_ + '"';
+    throw ModelError(ModelStatus::inconsistent, place + ": expected " + expectation);
+}
+
+void HeaderNode::refuseSize(const std::string& found, std::size_t limit) const {
+    throw ModelError(ModelStatus::oversized, std::string(document_) + " key \"" + path_ + "\": " + found +
+                                                 "; the limit is " + std::to_string(limit));
 }
 
 std::optional<HeaderNode> HeaderNode::find(std::string_view key) const {
@@ -40,7 +47,7 @@ std::optional<HeaderNode> HeaderNode::find(std::string_view key) const {
         return std::nullopt;
     }
     std::string path = path_.empty() ? std::string(key) : path_ + '.' + std::string(key);
-    return HeaderNode(*member, std::move(path));
+    return HeaderNode(*member, std::move(path), document_);
 }
 
 HeaderNode HeaderNode::at(std::string_view key) const {
@@ -56,8 +63,7 @@ std::vector<HeaderNode> HeaderNode::elements(std::size_t minimum, std::size_t ma
         refuse("an array");
     }
     if (value_->size() > maximum) {
-        throw ModelError(ModelStatus::oversized, "header key \"" + path_ + "\": " + std::to_string(value_->size()) +
-                                                     " elements; the limit is " + std::to_string(maximum));
+        refuseSize(std::to_string(value_->size()) + " elements", maximum);
     }
     if (value_->size() < minimum) {
         refuse("at least " + std::to_string(minimum) + " elements");
@@ -65,7 +71,7 @@ std::vector<HeaderNode> HeaderNode::elements(std::size_t minimum, std::size_t ma
     std::vector<HeaderNode> nodes;
     nodes.reserve(value_->size());
     for (std::size_t index = 0; index < value_->size(); ++index) {
-        nodes.emplace_back((*value_)[index], path_ + '[' + std::to_string(index) + ']');
+        nodes.emplace_back((*value_)[index], path_ + '[' + std::to_string(index) + ']', document_);
     }
     return nodes;
 }
@@ -78,6 +84,19 @@ std::vector<double> HeaderNode::numbers(std::size_t count, double minimum, doubl
     result.reserve(count);
     for (const HeaderNode& node : elements(count, count)) {
         result.push_back(node.number(minimum, maximum));
+    }
+    return result;
+}
+
+std::vector<double> HeaderNode::risingNumbers(std::size_t fewest, std::size_t most, double minimum,
+                                              double maximum) const {
+    std::vector<double> result;
+    for (const HeaderNode& node : elements(fewest, most)) {
+        const double value = node.number(minimum, maximum);
+        if (!result.empty() && value <= result.back()) {
+            node.refuse("a number above the one before");
+        }
+        result.push_back(value);
     }
     return result;
 }
@@ -119,8 +138,7 @@ std::string HeaderNode::text(std::size_t maximumBytes) const {
     }
     const auto& content = value_->get_ref<const std::string&>();
     if (content.size() > maximumBytes) {
-        throw ModelError(ModelStatus::oversized, "header key \"" + path_ + "\": " + std::to_string(content.size()) +
-                                                     " bytes of text; the limit is " + std::to_string(maximumBytes));
+        refuseSize(std::to_string(content.size()) + " bytes of text", maximumBytes);
     }
     if (std::any_of(content.begin(), content.end(), isControl)) {
         refuse("text without control characters");

@@ -11,11 +11,13 @@
 
 namespace haptoflow::model {
 
-/// A value of the JSON header together with its path, so that every refusal can name the key. Views the JSON value.
+/// A value of a JSON document (a model's header, a material file) together with its path, so that every refusal can name
+/// the key. Views the JSON value.
 /// Each reader throws ModelError: oversized where a count or length is above its limit, inconsistent otherwise.
 class HeaderNode {
 public:
-    HeaderNode(const nlohmann::json& value, std::string path);
+    /// `document` is what refusals call the document; it must outlive the node.
+    HeaderNode(const nlohmann::json& value, std::string path, const char* document = "header");
 
     /// The member `key`, which must exist; this node must be an object.
     [[nodiscard]] HeaderNode at(std::string_view key) const;
@@ -26,6 +28,9 @@ public:
     [[nodiscard]] std::vector<HeaderNode> elements(std::size_t minimum, std::size_t maximum) const;
     /// An array of exactly `count` numbers, each in [minimum, maximum].
     [[nodiscard]] std::vector<double> numbers(std::size_t count, double minimum, double maximum) const;
+    /// An array of `fewest` to `most` numbers, each in [minimum, maximum] and above the one before.
+    [[nodiscard]] std::vector<double> risingNumbers(std::size_t fewest, std::size_t most, double minimum,
+                                                    double maximum) const;
 
     [[nodiscard]] double number(double minimum, double maximum) const;
     [[nodiscard]] std::int64_t integer(std::int64_t minimum, std::int64_t maximum) const;
@@ -43,8 +48,11 @@ public:
     [[noreturn]] void refuse(const std::string& expectation) const;
 
 private:
+    [[noreturn]] void refuseSize(const std::string& found, std::size_t limit) const;
+
     const nlohmann::json* value_;
     std::string path_;
+    const char* document_;
 };
 
 }  // namespace haptoflow::model

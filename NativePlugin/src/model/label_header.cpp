@@ -3,10 +3,13 @@
 #include "model/name_index.hpp"
 
 #include <algorithm>
+#include <string>
 
 namespace haptoflow::model {
 
 namespace {
+
+constexpr double maximumSpeedMps = 100.0;
 
 Impact readImpact(const HeaderNode& node) {
     Impact impact;
@@ -20,17 +23,34 @@ Impact readImpact(const HeaderNode& node) {
     return impact;
 }
 
+LevelTable readLevel(const HeaderNode& node) {
+    LevelTable level;
+    level.speedsMps = node.at("speeds_mps").risingNumbers(1, LevelTable::maximumSpeeds, 0.0, maximumSpeedMps);
+    level.logLevels = node.at("log_levels").numbers(level.speedsMps.size(), -20.0, 20.0);
+    level.forceNewtons = node.at("force_newtons").number(0.01, 100.0);
+    level.forceExponent = node.at("force_exponent").number(-4.0, 4.0);
+    return level;
+}
+
+ToneTable readTone(const HeaderNode& node) {
+    ToneTable tone;
+    // Above 0, because rows are interpolated in the logarithm of speed.
+    tone.speedsMps = node.at("speeds_mps").risingNumbers(1, ToneTable::maximumSpeeds, 1e-6, maximumSpeedMps);
+    tone.frequenciesHz = node.at("frequencies_hz")
+                             .risingNumbers(ToneTable::minimumFrequencies, ToneTable::maximumFrequencies, 10.0, 1000.0);
+    const HeaderNode gains = node.at("gains_db");
+    for (const HeaderNode& row : gains.elements(0, ToneTable::maximumSpeeds)) {
+        tone.gainsDb.push_back(row.numbers(tone.frequenciesHz.size(), -30.0, 30.0));
+    }
+    if (tone.gainsDb.size() != tone.speedsMps.size()) {
+        gains.refuse("one row for each of the " + std::to_string(tone.speedsMps.size()) + " speeds");
+    }
+    return tone;
+}
+
 }  // namespace
 
-Label readLabel(const HeaderNode& node, std::size_t embeddingRows) {
-    Label label;
-    const HeaderNode name = node.at("name");
-    label.name = name.name(nameBytes);
-    if (std::any_of(label.name.begin(), label.name.end(), [](char letter) { return letter >= 'A' && letter <= 'Z'; })) {
-        name.refuse("lower case");
-    }
-    label.embeddingRow =
-        static_cast<std::size_t>(node.at("embedding_row").integer(0, static_cast<std::int64_t>(embeddingRows) - 1));
+void readLabelTraits(const HeaderNode& node, Label& label) {
     label.speedLevelExponent = node.at("level_exponents").at("speed").number(-4.0, 4.0);
     label.forceLevelExponent = node.at("level_exponents").at("force").number(-4.0, 4.0);
     label.frequencyExponent = node.at("frequency_exponent").number(0.0, 4.0);
@@ -46,6 +66,27 @@ Label readLabel(const HeaderNode& node, std::size_t embeddingRows) {
         label.impact = readImpact(*impact);
     }
     label.category = node.at("category").name(nameBytes);
+    if (const auto level = node.find("level")) {
+        label.level = readLevel(*level);
+    }
+    if (const auto tone = node.find("tone")) {
+        label.tone = readTone(*tone);
+    }
+    if (const auto offset = node.find("level_offset_db")) {
+        label.levelOffsetDb = offset->number(-24.0, 24.0);
+    }
+}
+
+Label readLabel(const HeaderNode& node, std::size_t embeddingRows) {
+    Label label;
+    const HeaderNode name = node.at("name");
+    label.name = name.name(nameBytes);
+    if (std::any_of(label.name.begin(), label.name.end(), [](char letter) { return letter >= 'A' && letter <= 'Z'; })) {
+        name.refuse("lower case");
+    }
+    label.embeddingRow =
+        static_cast<std::size_t>(node.at("embedding_row").integer(0, static_cast<std::int64_t>(embeddingRows) - 1));
+    readLabelTraits(node, label);
     return label;
 }
 

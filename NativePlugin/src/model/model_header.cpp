@@ -1,6 +1,8 @@
 #include "model/model_header.hpp"
 
 #include "model/bounded_json.hpp"
+#include "model/calendar_date.hpp"
+#include "model/crc32.hpp"
 #include "model/header_node.hpp"
 #include "model/label_header.hpp"
 #include "model/model_blobs.hpp"
@@ -8,6 +10,10 @@
 #include "model/tier_header.hpp"
 
 #include <algorithm>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
 
 namespace haptoflow::model {
 namespace {
@@ -15,22 +21,6 @@ namespace {
 constexpr std::size_t textBytes = 4096;
 constexpr double maximumSpeedMps = 100.0;
 constexpr double maximumForceNewtons = 1000.0;
-
-bool isDate(const std::string& text) {
-    const std::string_view pattern = "0000-00-00";
-    if (text.size() != pattern.size()) {
-        return false;
-    }
-    for (std::size_t index = 0; index < text.size(); ++index) {
-        const bool digit = text[index] >= '0' && text[index] <= '9';
-        if (pattern[index] == '0' ? !digit : text[index] != '-') {
-            return false;
-        }
-    }
-    const int month = std::stoi(text.substr(5, 2));
-    const int day = std::stoi(text.substr(8, 2));
-    return month >= 1 && month <= 12 && day >= 1 && day <= 31;
-}
 
 Provenance readProvenance(const HeaderNode& node) {
     Provenance provenance;
@@ -42,7 +32,7 @@ Provenance readProvenance(const HeaderNode& node) {
     provenance.configurationJson = node.at("configuration").anyText();
     const HeaderNode created = node.at("created");
     provenance.created = created.text(nameBytes);
-    if (!provenance.created.empty() && !isDate(provenance.created)) {
+    if (!provenance.created.empty() && !isCalendarDate(provenance.created)) {
         created.refuse("a date as YYYY-MM-DD, or an empty string");
     }
     return provenance;
@@ -98,7 +88,25 @@ const Blob& requireMatrix(const HeaderNode& node, const std::string& name, const
     return *blob;
 }
 
+std::string hexadecimal(std::uint32_t value) {
+    constexpr std::string_view digits = "0123456789abcdef";
+    std::string text;
+    for (int shift = 28; shift >= 0; shift -= 4) {
+        text += digits[(value >> static_cast<unsigned>(shift)) & 0xFU];
+    }
+    return text;
+}
+
 }  // namespace
+
+std::string spaceOf(const ModelHeader& header) {
+    std::string text;
+    for (const Tier& tier : header.tiers) {
+        const auto field = std::ranges::find(header.blobs, tier.field, &Blob::name);
+        text += tier.name + ':' + hexadecimal(field->crc32) + ';';
+    }
+    return hexadecimal(crc32(std::as_bytes(std::span(text))));
+}
 
 ModelHeader readHeader(std::string_view text) {
     const nlohmann::json json = parseBoundedJson(text);

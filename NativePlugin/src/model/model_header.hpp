@@ -52,6 +52,30 @@ struct Impact {
     double restitution = 0.0;
 };
 
+/// A label's own level, used instead of the level graph's.
+struct LevelTable {
+    static constexpr std::size_t maximumSpeeds = 16;
+    /// Rising; at least one.
+    std::vector<double> speedsMps;
+    /// Natural logarithm of the RMS in m/s^2 before tone at each speed, at `forceNewtons`.
+    std::vector<double> logLevels;
+    double forceNewtons = 1.0;
+    double forceExponent = 0.0;
+};
+
+/// What is done to a label's spectrum after it was generated.
+struct ToneTable {
+    static constexpr std::size_t maximumSpeeds = 8;
+    static constexpr std::size_t minimumFrequencies = 2;
+    static constexpr std::size_t maximumFrequencies = 32;
+    /// Rising; at least one.
+    std::vector<double> speedsMps;
+    /// Rising.
+    std::vector<double> frequenciesHz;
+    /// For each speed the gain at each frequency.
+    std::vector<std::vector<double>> gainsDb;
+};
+
 struct Label {
     std::string name;
     std::size_t embeddingRow = 0;
@@ -64,6 +88,10 @@ struct Label {
     double frictionCoefficient = 0.0;
     std::optional<Impact> impact;
     std::string category;
+    std::optional<LevelTable> level;
+    std::optional<ToneTable> tone;
+    /// Added to the level, whoever gives it.
+    double levelOffsetDb = 0.0;
 };
 
 enum class TierKind { flow, averageVelocity, direct };
@@ -132,6 +160,10 @@ struct ModelHeader {
     std::vector<SeedEntry> seeds;
     std::vector<Blob> blobs;
 };
+
+/// Which embeddings the model's networks understand: 8 hexadecimal digits, the CRC-32 over "name:crc;" of each tier in
+/// the file's order, where crc is its field graph's, in lower case.
+[[nodiscard]] std::string spaceOf(const ModelHeader& header);
 
 /// Reads the header's text. Throws ModelError naming the key.
 [[nodiscard]] ModelHeader readHeader(std::string_view text);

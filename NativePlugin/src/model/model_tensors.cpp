@@ -20,6 +20,14 @@ float readFloat(std::span<const std::byte> bytes) {
     return std::bit_cast<float>(bits);
 }
 
+double rmsOf(std::span<const float> samples) {
+    double sumOfSquares = 0.0;
+    for (const float value : samples) {
+        sumOfSquares += static_cast<double>(value) * static_cast<double>(value);
+    }
+    return std::sqrt(sumOfSquares / static_cast<double>(samples.size()));
+}
+
 }  // namespace
 
 std::vector<float> readTensor(std::span<const std::byte> file, const Blob& blob) {
@@ -37,16 +45,16 @@ std::vector<float> readTensor(std::span<const std::byte> file, const Blob& blob)
     return values;
 }
 
+bool isUnitRms(std::span<const float> samples) {
+    return std::fabs(rmsOf(samples) - 1.0) <= seedRmsTolerance;
+}
+
 void checkSeedRows(std::span<const float> seeds) {
     for (std::size_t row = 0; row < seeds.size() / seedSamples; ++row) {
-        double sumOfSquares = 0.0;
-        for (const float value : seeds.subspan(row * seedSamples, seedSamples)) {
-            sumOfSquares += static_cast<double>(value) * static_cast<double>(value);
-        }
-        const double rms = std::sqrt(sumOfSquares / static_cast<double>(seedSamples));
-        if (std::fabs(rms - 1.0) > seedRmsTolerance) {
+        const auto seed = seeds.subspan(row * seedSamples, seedSamples);
+        if (!isUnitRms(seed)) {
             throw ModelError(ModelStatus::inconsistent, "seed " + std::to_string(row) + " has an RMS of " +
-                                                            std::to_string(rms) + "; expected 1 within 1 %");
+                                                            std::to_string(rmsOf(seed)) + "; expected 1 within 1 %");
         }
     }
 }

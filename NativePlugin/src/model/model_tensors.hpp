@@ -12,6 +12,9 @@ namespace haptoflow::model {
 /// magnitude is above 1e6.
 [[nodiscard]] std::vector<float> readTensor(std::span<const std::byte> file, const Blob& blob);
 
+/// Whether the RMS of `samples` is 1 within 1 %.
+[[nodiscard]] bool isUnitRms(std::span<const float> samples);
+
 /// Checks that every row of seedSamples numbers has an RMS of 1 within 1 %. Throws ModelError (inconsistent).
 void checkSeedRows(std::span<const float> seeds);
 

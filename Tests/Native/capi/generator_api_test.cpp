@@ -50,7 +50,7 @@ struct Golden {
     }
 
     [[nodiscard]] haptoflow_batch batch() const {
-        return {sizeof(haptoflow_batch), 3, embeddings.data(), motions.data(), previous.data(), noise.data(), nullptr};
+        return {sizeof(haptoflow_batch), 3, embeddings.data(), motions.data(), previous.data(), noise.data(), nullptr, nullptr};
     }
 
     std::vector<float> embeddings;

@@ -1,6 +1,6 @@
 #include "engine/impact_responses.hpp"
 
-#include "test_model.hpp"
+#include "small_library.hpp"
 
 #include <gtest/gtest.h>
 
@@ -38,27 +38,19 @@ TEST(ImpactResponsesTest, WhatTheModelSaysHolds) {
     EXPECT_FLOAT_EQ(response.restitution, 0.1F);
 }
 
-MaterialBlend blendOf(std::uint32_t first, float weight, std::uint32_t second, float otherWeight) {
-    MaterialBlend blend;
-    blend.entries[0] = {first, weight};
-    blend.entries[1] = {second, otherWeight};
-    blend.count = 2;
-    return blend;
-}
-
 TEST(ImpactResponsesTest, ABlendLiesBetweenItsLabelsAndWhatTheModelDoesNotHaveIsLeftOut) {
     model::testing::ModelBuilder builder;
     builder.header["labels"][0]["stiffness_newtons_per_metre"] = 400.0;
     builder.header["labels"][1]["stiffness_newtons_per_metre"] = 6400.0;
-    const model::ModelFile model = model::ModelFile::parse(builder.build());
-    const auto frequencyOf = [&model](const MaterialBlend& blend) {
-        return impactResponse(model, blend).modes[0].frequencyHz;
+    const testing::SmallLibrary small(model::ModelFile::parse(builder.build()));
+    const auto frequencyOf = [&small](std::initializer_list<LabelWeight> entries) {
+        return impactResponse(small.ingredients(entries)).modes[0].frequencyHz;
     };
-    EXPECT_FLOAT_EQ(frequencyOf(blendOf(0, 1.0F, 1, 0.0F)), 100.0F);
-    EXPECT_FLOAT_EQ(frequencyOf(blendOf(0, 0.0F, 1, 0.7F)), 400.0F);
-    EXPECT_NEAR(frequencyOf(blendOf(0, 0.5F, 1, 0.5F)), 200.0F, 1e-3F);
-    EXPECT_FLOAT_EQ(frequencyOf(blendOf(0, 0.5F, 99, 0.5F)), 100.0F);
-    EXPECT_FLOAT_EQ(frequencyOf(MaterialBlend{}), 100.0F) << "none is the first label";
+    EXPECT_FLOAT_EQ(frequencyOf({{0, 1.0F}, {1, 0.0F}}), 100.0F);
+    EXPECT_FLOAT_EQ(frequencyOf({{0, 0.0F}, {1, 0.7F}}), 400.0F);
+    EXPECT_NEAR(frequencyOf({{0, 0.5F}, {1, 0.5F}}), 200.0F, 1e-3F);
+    EXPECT_FLOAT_EQ(frequencyOf({{0, 0.5F}, {99, 0.5F}}), 100.0F);
+    EXPECT_FLOAT_EQ(frequencyOf({}), 100.0F) << "none is the first label";
 }
 
 TEST(ImpactResponsesTest, AModeThatOneLabelOfABlendLacksIsSofter) {
@@ -67,8 +59,8 @@ TEST(ImpactResponsesTest, AModeThatOneLabelOfABlendLacksIsSofter) {
     const nlohmann::json ring = {{"frequency_hz", 600.0}, {"decay_per_second", 500.0}, {"gain_per_second", 40.0}};
     builder.header["labels"][0]["impact"] = {{"modes", {mode, ring}}, {"restitution", 0.2}};
     builder.header["labels"][1]["impact"] = {{"modes", nlohmann::json::array({mode})}, {"restitution", 0.0}};
-    const model::ModelFile model = model::ModelFile::parse(builder.build());
-    const effects::ImpactResponse response = impactResponse(model, blendOf(0, 0.25F, 1, 0.75F));
+    const testing::SmallLibrary small(model::ModelFile::parse(builder.build()));
+    const effects::ImpactResponse response = impactResponse(small.ingredients({{0, 0.25F}, {1, 0.75F}}));
     EXPECT_FLOAT_EQ(response.modes[0].gainPerSecond, 100.0F);
     EXPECT_FLOAT_EQ(response.modes[1].frequencyHz, 600.0F);
     EXPECT_FLOAT_EQ(response.modes[1].gainPerSecond, 10.0F);

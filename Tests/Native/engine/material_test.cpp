@@ -1,46 +1,51 @@
 #include "engine/material.hpp"
 
 #include "engine/seed_retrieval.hpp"
-#include "engine/test_model.hpp"
+#include "small_library.hpp"
 
 #include <gtest/gtest.h>
 
-#include <cmath>
+#include <algorithm>
 #include <limits>
+#include <vector>
 
 namespace haptoflow::engine {
 namespace {
 
-MaterialBlend blend(std::initializer_list<LabelWeight> entries) {
-    MaterialBlend result;
-    for (const LabelWeight entry : entries) {
-        result.entries.at(result.count++) = entry;
-    }
-    return result;
-}
-
-TEST(MaterialTest, ABlendIsTheWeightedMeanOfItsLabels) {
-    const model::ModelFile model = testing::smallModel();
-    const Material mixed = resolveMaterial(model, blend({{0, 3.0F}, {1, 1.0F}}));
-    const auto oak = model.embedding(0);
-    const auto mesh = model.embedding(1);
-    for (std::size_t i = 0; i < mixed.embedding.size(); ++i) {
+TEST(MaterialTest, ABlendIsTheWeightedMeanOfItsLabelsButForTheWaveVectors) {
+    const testing::SmallLibrary small;
+    const Material mixed = resolveMaterial(small.ingredients({{0, 3.0F}, {1, 1.0F}}));
+    const auto oak = small.model.embedding(0);
+    const auto mesh = small.model.embedding(1);
+    for (std::size_t i = 0; i < 60; ++i) {
         ASSERT_NEAR(mixed.embedding[i], 0.75F * oak[i] + 0.25F * mesh[i], 1e-6F);
     }
-    EXPECT_EQ(mixed.dominantLabel, 0U);
+    EXPECT_EQ(small.ingredients({{0, 3.0F}, {1, 1.0F}}).heaviest().index, 0U);
+}
+
+TEST(MaterialTest, ALabelAloneIsItsEmbeddingBitForBitHoweverOftenAndWithWhateverWeightItIsNamed) {
+    const testing::SmallLibrary small;
+    for (const float weight : {1.0F, 0.3F, 0.07F}) {
+        const Ingredients alone = small.ingredients({{1, weight}, {1, weight / 3.0F}});
+        EXPECT_FALSE(alone.isBlend());
+        const Material material = resolveMaterial(alone);
+        EXPECT_TRUE(std::ranges::equal(material.embedding, small.model.embedding(1))) << weight;
+    }
 }
 
 TEST(MaterialTest, UnknownLabelsAndNegativeWeightsAreLeftOut) {
-    const model::ModelFile model = testing::smallModel();
-    const Material result = resolveMaterial(model, blend({{99, 5.0F}, {0, -1.0F}, {1, 0.5F}}));
-    EXPECT_EQ(result.dominantLabel, 1U);
-    EXPECT_EQ(result.embedding[3], model.embedding(1)[3]);
+    const testing::SmallLibrary small;
+    const Ingredients left = small.ingredients({{99, 5.0F}, {0, -1.0F}, {1, 0.5F}});
+    EXPECT_EQ(left.count, 1U);
+    EXPECT_EQ(left.heaviest().index, 1U);
+    EXPECT_EQ(resolveMaterial(left).embedding[3], small.model.embedding(1)[3]);
 }
 
 TEST(MaterialTest, ABlendWithoutAnyWeightIsTheFirstLabel) {
-    const model::ModelFile model = testing::smallModel();
-    for (const MaterialBlend& empty : {MaterialBlend{}, blend({{0, 0.0F}, {1, 0.0F}}), blend({{7, 1.0F}})}) {
-        EXPECT_EQ(resolveMaterial(model, empty).embedding[5], model.embedding(0)[5]);
+    const testing::SmallLibrary small;
+    for (const MaterialBlend& empty : {MaterialBlend{}, testing::blendOf({{0, 0.0F}, {1, 0.0F}}),
+                                       testing::blendOf({{7, 1.0F}})}) {
+        EXPECT_EQ(resolveMaterial(small.ingredients(empty)).embedding[5], small.model.embedding(0)[5]);
     }
 }
 
@@ -64,15 +69,15 @@ TEST(ContactStateTest, EveryFieldOfARuinedStateBecomesFiniteAndIsCounted) {
 }
 
 TEST(SeedRetrievalTest, TheSeedRecordedNearestToTheMotionIsTaken) {
-    const model::ModelFile model = testing::smallModel();
+    const testing::SmallLibrary small;
+    const std::vector<Seed>& seeds = small.ingredients({{0, 1.0F}}).heaviest().material->seeds;
     // "oak" has seeds at (0.1, -0.05) m/s and 1 N, and at (0.2, -0.05) m/s and 2 N.
-    EXPECT_EQ(retrieveSeed(model, 0, {0.09F, -0.04F, 1.0F}), 0U);
-    EXPECT_EQ(retrieveSeed(model, 0, {0.3F, -0.05F, 2.5F}), 1U);
+    EXPECT_EQ(retrieveSeed(seeds, {0.09F, -0.04F, 1.0F}), &seeds[0]);
+    EXPECT_EQ(retrieveSeed(seeds, {0.3F, -0.05F, 2.5F}), &seeds[1]);
 }
 
-TEST(SeedRetrievalTest, ALabelWithoutSeedsGivesNone) {
-    const model::ModelFile model = testing::smallModel();
-    EXPECT_EQ(retrieveSeed(model, 5, {0.1F, 0.0F, 1.0F}), std::nullopt);
+TEST(SeedRetrievalTest, AMaterialWithoutSeedsGivesNone) {
+    EXPECT_EQ(retrieveSeed({}, {0.1F, 0.0F, 1.0F}), nullptr);
 }
 
 }  // namespace

@@ -1,6 +1,6 @@
-#include "engine/onset_levels.hpp"
+#include "engine/material_library.hpp"
 
-#include "test_model.hpp"
+#include "small_library.hpp"
 
 #include <gtest/gtest.h>
 
@@ -74,14 +74,6 @@ double decibels(double ratio) {
     return std::abs(20.0 * std::log10(ratio));
 }
 
-MaterialBlend blendOf(std::initializer_list<LabelWeight> entries) {
-    MaterialBlend blend;
-    for (const LabelWeight& entry : entries) {
-        blend.entries[blend.count++] = entry;
-    }
-    return blend;
-}
-
 class OnsetLevelsTest : public ::testing::Test {
 protected:
     [[nodiscard]] double expected(std::size_t label, double vx, double vy, double newtons) const {
@@ -90,7 +82,11 @@ protected:
 
     model::ModelFile model_ = testing::smallModel();
     PowerLaw graph_;
-    OnsetLevels levels_{model_, graph_};
+    /// Level of a blend at a motion.
+    [[nodiscard]] float levelOf(std::initializer_list<LabelWeight> entries, const std::array<float, 3>& motion) const {
+        return MaterialLibrary::Reading(library_).ingredients(testing::blendOf(entries)).levelMps2(motion);
+    }
+    MaterialLibrary library_{model_, graph_};
 };
 
 TEST_F(OnsetLevelsTest, EverywhereInTheRangeTheTableIsWithinHalfADecibelOfTheGraph) {
@@ -102,32 +98,34 @@ TEST_F(OnsetLevelsTest, EverywhereInTheRangeTheTableIsWithinHalfADecibelOfTheGra
         const double newtons = 0.1 * std::pow(40.0, share(random));
         const double vx = speed * std::cos(angle);
         const double vy = speed * std::sin(angle);
-        const float found = levels_.at(blendOf({{.label = 1, .weight = 1.0F}}),
-                                       {static_cast<float>(vx), static_cast<float>(vy), static_cast<float>(newtons)});
+        const float found = levelOf({{.label = 1, .weight = 1.0F}},
+                                    {static_cast<float>(vx), static_cast<float>(vy), static_cast<float>(newtons)});
         ASSERT_LT(decibels(static_cast<double>(found) / expected(1, vx, vy, newtons)), 0.5);
     }
 }
 
 TEST_F(OnsetLevelsTest, ABlendLiesBetweenItsLabelsInDecibels) {
     const std::array<float, 3> motion{0.1F, 0.0F, 1.0F};
-    const float first = levels_.at(blendOf({{.label = 0, .weight = 1.0F}}), motion);
-    const float second = levels_.at(blendOf({{.label = 1, .weight = 1.0F}}), motion);
-    const float mixed = levels_.at(blendOf({{.label = 0, .weight = 0.25F}, {.label = 1, .weight = 0.25F}}), motion);
+    const float first = levelOf({{.label = 0, .weight = 1.0F}}, motion);
+    const float second = levelOf({{.label = 1, .weight = 1.0F}}, motion);
+    const float mixed = levelOf({{.label = 0, .weight = 0.25F}, {.label = 1, .weight = 0.25F}}, motion);
     EXPECT_NEAR(mixed, std::sqrt(first * second), 1e-4F);
 }
 
 TEST_F(OnsetLevelsTest, BeyondTheRangeAndAtRestItStaysAtTheEdge) {
-    const MaterialBlend oak = blendOf({{.label = 0, .weight = 1.0F}});
-    EXPECT_EQ(levels_.at(oak, {0.4F, 0.0F, 4.0F}), levels_.at(oak, {4.0F, 0.0F, 400.0F}));
-    EXPECT_EQ(levels_.at(oak, {0.01F, 0.0F, 0.1F}), levels_.at(oak, {0.0F, 0.0F, 0.0F}));
+    const auto oak = [this](const std::array<float, 3>& motion) {
+        return levelOf({{.label = 0, .weight = 1.0F}}, motion);
+    };
+    EXPECT_EQ(oak({0.4F, 0.0F, 4.0F}), oak({4.0F, 0.0F, 400.0F}));
+    EXPECT_EQ(oak({0.01F, 0.0F, 0.1F}), oak({0.0F, 0.0F, 0.0F}));
 }
 
 TEST_F(OnsetLevelsTest, UnknownLabelsAreLeftOutAndABlendOfNoneIsTheFirst) {
     const std::array<float, 3> motion{0.1F, 0.0F, 1.0F};
-    const float first = levels_.at(blendOf({{.label = 0, .weight = 1.0F}}), motion);
-    EXPECT_EQ(levels_.at(MaterialBlend{}, motion), first);
-    EXPECT_EQ(levels_.at(blendOf({{.label = 900, .weight = 1.0F}, {.label = 0, .weight = 0.1F}}), motion), first);
-    EXPECT_EQ(levels_.at(blendOf({{.label = 1, .weight = 0.0F}}), motion), first);
+    const float first = levelOf({{.label = 0, .weight = 1.0F}}, motion);
+    EXPECT_EQ(levelOf({}, motion), first);
+    EXPECT_EQ(levelOf({{.label = 900, .weight = 1.0F}, {.label = 0, .weight = 0.1F}}, motion), first);
+    EXPECT_EQ(levelOf({{.label = 1, .weight = 0.0F}}, motion), first);
 }
 
 TEST(OnsetLevelsCostTest, TheGraphIsAsked640TimesForEachEmbeddingHoweverManyThereAre) {
@@ -144,12 +142,14 @@ TEST(OnsetLevelsCostTest, LabelsOfTheSameEmbeddingHaveTheSameLevelAndOthersTheir
     PowerLaw graph;
     const model::ModelFile model = modelWithLabels(40, 8);
     const OnsetLevels levels(model, graph);
-    const std::array<float, 3> motion{0.1F, 0.0F, 1.0F};
+    const auto levelOf = [&levels](std::uint32_t label) {
+        return std::exp(levels.grid().at(levels.table(label), {0.1F, 0.0F, 1.0F}));
+    };
     for (std::uint32_t label = 2; label < 40; ++label) {
-        const float found = levels.at(blendOf({{.label = label, .weight = 1.0F}}), motion);
+        const double found = levelOf(label);
         const double truth = level(0.1, 0.0, 1.0, static_cast<double>(model.embedding(label)[3]));
-        EXPECT_LT(decibels(static_cast<double>(found) / truth), 0.01) << label;
-        EXPECT_EQ(found, levels.at(blendOf({{.label = label % 8, .weight = 1.0F}}), motion)) << label;
+        EXPECT_LT(decibels(found / truth), 0.01) << label;
+        EXPECT_EQ(found, levelOf(label % 8)) << label;
     }
 }
 

@@ -51,10 +51,10 @@ public:
 
     SimulatedDevice(const model::ModelFile& model, inference::SegmentGenerator& generator,
                     const DeviceSettings& settings = {})
-        : settings_(settings),
+        : library(model, generator),
+          settings_(settings),
           generator_(generator),
-          levels_(model, generator),
-          voice_(model, levels_, workerAlive, voiceSettings(settings)) {
+          voice_(library, workerAlive, voiceSettings(settings)) {
         voice_.renderer.setSink(&waveform);
     }
 
@@ -108,6 +108,7 @@ public:
     [[nodiscard]] double now() const { return now_; }
 
     std::atomic<bool> workerAlive{true};
+    MaterialLibrary library;
     std::vector<float> output;
     WaveformRecorder waveform;
 
@@ -155,7 +156,6 @@ private:
 
     DeviceSettings settings_;
     inference::SegmentGenerator& generator_;
-    OnsetLevels levels_;
     LiveVoice voice_;
     double now_ = 0.0;
     double nextUpdate_ = 0.0;

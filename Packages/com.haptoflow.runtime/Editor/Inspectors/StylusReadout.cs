@@ -8,7 +8,7 @@ namespace HaptoFlow.Editor
 
         private static readonly string[] Names =
         {
-            "Texture", "Impact", "Edge", "Delay", "Compensation", "Exposure Guard",
+            "Texture", "Impact", "Edge", "Delay", "Compensation", "Exposure Guard", "Tone",
         };
 
         protected override void Read(HapticStylus stylus)
@@ -54,7 +54,7 @@ namespace HaptoFlow.Editor
         /// <summary>The stages that run, or have run; those that nobody asked for do not show.</summary>
         private void ReadChain(HapticStylus stylus)
         {
-            for (HapticEffect effect = HapticEffect.Impact; effect <= HapticEffect.ExposureGuard; ++effect)
+            for (HapticEffect effect = HapticEffect.Impact; effect <= HapticEffect.Tone; ++effect)
             {
                 if (!stylus.TryGetEffectStatistics(effect, out EffectStatistics stage) ||
                     (stage.Prepared == 0 && !stage.IsAskedFor))

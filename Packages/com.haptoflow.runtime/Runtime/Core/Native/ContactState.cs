@@ -41,5 +41,14 @@ namespace HaptoFlow
         /// <summary>One more at each landing on another surface, or on another face of the same, while the tip goes on
         /// touching. A touch-down is a landing that needs no count.</summary>
         public uint LandingCounter;
+
+        /// <summary>How many times as large the surface's features are as the material's: at 2, ribs are twice as far
+        /// apart, and all frequencies are those of half the speed; the level stays. 0 for 1; else limited to 0.25 to 4.
+        /// </summary>
+        public float SpatialScale;
+
+        /// <summary>Brighter above 0, darker below: a tilt of the spectrum about 150 Hz, -12 to 12 dB an octave; 0 for
+        /// none. Comes on top of the material's own tone.</summary>
+        public float ToneDbPerOctave;
     }
 }

@@ -23,7 +23,7 @@ namespace HaptoFlow
         Nothing = 0x80000000,
     }
 
-    /// <summary>The stages of a voice, in the order in which its signal goes through them.</summary>
+    /// <summary>The stages of a voice, in the order in which its signal goes through them, but for the last.</summary>
     public enum HapticEffect
     {
         /// <summary>What the network generates while the tip slides.</summary>
@@ -43,5 +43,9 @@ namespace HaptoFlow
 
         /// <summary>Brings down what has been strong for too long.</summary>
         ExposureGuard = 5,
+
+        /// <summary>What a material, or a surface's tone, does to the texture's spectrum; right behind the texture.
+        /// </summary>
+        Tone = 6,
     }
 }

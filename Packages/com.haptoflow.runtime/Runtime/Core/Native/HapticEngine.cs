@@ -67,6 +67,9 @@ namespace HaptoFlow
     /// slides. Methods may be called from any thread that is not an audio callback.</summary>
     public sealed unsafe class HapticEngine : IDisposable
     {
+        /// <summary>Materials that one engine can hold beside its model's labels.</summary>
+        public const int MaximumMaterials = 64;
+
         private readonly EngineHandle handle;
 
         /// <summary>Loads the tiers that the quality asks for, all of them for automatic quality, and starts the
@@ -105,6 +108,64 @@ namespace HaptoFlow
         {
             NativeCall.Check(NativeMethods.EngineSetQuality(handle.Value, (int)quality));
             GC.KeepAlive(this);
+        }
+
+        /// <summary>Registers a material beside the model's labels, which sound as before; it stays until the engine is
+        /// disposed. Takes milliseconds; voices never wait for it. Any thread but an audio callback's.</summary>
+        /// <param name="json">The text of a material file.</param>
+        /// <returns>What a <see cref="LabelBlend"/> names it by: an index behind those of the model's labels.</returns>
+        /// <exception cref="HaptoFlowException">The text is no material file, the material was learnt for another model,
+        /// or <see cref="MaximumMaterials"/> are registered.</exception>
+        public int RegisterMaterial(string json)
+        {
+            uint index;
+            byte[] text = NativeCall.Utf8(json);
+            fixed (byte* bytes = text)
+            {
+                NativeCall.Check(
+                    NativeMethods.EngineRegisterMaterial(handle.Value, bytes, (ulong)text.Length - 1, &index));
+            }
+            GC.KeepAlive(this);
+            return (int)index;
+        }
+
+        /// <summary>Puts another material in the place of a registered one: the next state that is published sounds like
+        /// it. Where this fails, the old one stays. Takes milliseconds; voices never wait for it. Any thread but an audio
+        /// callback's.</summary>
+        /// <param name="index">What <see cref="RegisterMaterial"/> returned.</param>
+        /// <param name="json">The text of a material file.</param>
+        /// <exception cref="HaptoFlowException">As of <see cref="RegisterMaterial"/>, and where no material is registered
+        /// at the index.</exception>
+        public void ReplaceMaterial(int index, string json)
+        {
+            byte[] text = NativeCall.Utf8(json);
+            fixed (byte* bytes = text)
+            {
+                NativeCall.Check(NativeMethods.EngineReplaceMaterial(
+                    handle.Value, checked((uint)index), bytes, (ulong)text.Length - 1));
+            }
+            GC.KeepAlive(this);
+        }
+
+        /// <summary>How many materials are registered.</summary>
+        public int MaterialCount()
+        {
+            uint count;
+            NativeCall.Check(NativeMethods.EngineMaterialCount(handle.Value, &count));
+            GC.KeepAlive(this);
+            return (int)count;
+        }
+
+        /// <summary>What a registered material says of itself. Makes garbage.</summary>
+        /// <param name="index">What <see cref="RegisterMaterial"/> returned.</param>
+        /// <exception cref="HaptoFlowException">No material is registered at the index.</exception>
+        public HapticLabel Material(int index)
+        {
+            var info = new LabelInfo { StructSize = (uint)sizeof(LabelInfo) };
+            NativeCall.Check(NativeMethods.EngineMaterial(handle.Value, checked((uint)index), &info));
+            var material = new HapticLabel(info, index);
+            GC.KeepAlive(this);
+            return material;
         }
 
         /// <summary>One round of inference for all voices that want one. Engines without worker only; any thread that

@@ -21,7 +21,7 @@ namespace HaptoFlow
         Heun = 3,
     }
 
-    /// <summary>A label of a model.</summary>
+    /// <summary>A label of a model, or a material registered beside them.</summary>
     public sealed class HapticLabel
     {
         internal HapticLabel(in LabelInfo info, int index)
@@ -34,10 +34,11 @@ namespace HaptoFlow
             WavelengthMetres = info.IsPeriodic != 0 ? info.WavelengthMetres : (double?)null;
         }
 
-        /// <summary>Place among the model's labels.</summary>
+        /// <summary>What a <see cref="LabelBlend"/> names it by: the place among the model's labels, or behind them.
+        /// </summary>
         public int Index { get; }
 
-        /// <summary>Lower case, unique in the model, for example "metal mesh".</summary>
+        /// <summary>Of a label lower case, unique in the model, for example "metal mesh".</summary>
         public string Name { get; }
 
         /// <summary>For example "wood" or "cloth".</summary>
@@ -112,6 +113,7 @@ namespace HaptoFlow
             Handle = new ModelHandle(opened);
             labels = ReadLabels(opened);
             tiers = ReadTiers(opened);
+            Space = ReadSpace(opened);
         }
 
         /// <summary>In the model's order, which is the order of label indices.</summary>
@@ -163,6 +165,10 @@ namespace HaptoFlow
             }
         }
 
+        /// <summary>Which embeddings the model's networks understand, as 8 hexadecimal digits: a material file of the same
+        /// space sounds under this model.</summary>
+        public string Space { get; }
+
         /// <summary>The JSON header as the file has it.</summary>
         public string HeaderJson()
         {
@@ -193,6 +199,13 @@ namespace HaptoFlow
             IntPtr opened;
             NativeCall.Check(NativeMethods.ModelOpen(options, &opened));
             return new HapticModel(opened);
+        }
+
+        private static string ReadSpace(IntPtr model)
+        {
+            IntPtr space;
+            NativeCall.Check(NativeMethods.ModelSpace(model, &space));
+            return NativeCall.Text(space);
         }
 
         private static HapticLabel[] ReadLabels(IntPtr model)

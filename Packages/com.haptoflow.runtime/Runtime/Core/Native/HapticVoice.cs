@@ -41,6 +41,8 @@ namespace HaptoFlow
                 EdgeCounter = state.EdgeCounter,
                 EdgeHeightMetres = state.EdgeHeightMetres,
                 LandingCounter = state.LandingCounter,
+                SpatialScale = state.SpatialScale,
+                ToneDbPerOctave = state.ToneDbPerOctave,
             };
             for (int index = 0; index < state.Material.Count; ++index)
             {

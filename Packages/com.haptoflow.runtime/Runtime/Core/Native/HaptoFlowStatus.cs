@@ -42,6 +42,15 @@ namespace HaptoFlow
         /// <summary>The file is intact and breaks a rule of its format, or one of its graphs does.</summary>
         ModelInconsistent = 16,
 
+        /// <summary>The material was learnt for another model: learn it again with this one.</summary>
+        MaterialMismatch = 17,
+
+        /// <summary>The text is not a material file; the message names the key.</summary>
+        MaterialInvalid = 18,
+
+        /// <summary>Nothing can be learnt from the recording; the message says why.</summary>
+        RecordingUnusable = 19,
+
         /// <summary>No ONNX Runtime of version 1.16 or newer at the given place.</summary>
         RuntimeUnavailable = 20,
 

@@ -66,6 +66,9 @@ namespace HaptoFlow.Native
         [DllImport(Library, EntryPoint = "haptoflow_model_embedding")]
         public static extern int ModelEmbedding(IntPtr model, uint index, float* embedding);
 
+        [DllImport(Library, EntryPoint = "haptoflow_model_space")]
+        public static extern int ModelSpace(IntPtr model, IntPtr* space);
+
         [DllImport(Library, EntryPoint = "haptoflow_model_tier_count")]
         public static extern int ModelTierCount(IntPtr model, uint* count);
 
@@ -95,6 +98,18 @@ namespace HaptoFlow.Native
 
         [DllImport(Library, EntryPoint = "haptoflow_engine_set_quality")]
         public static extern int EngineSetQuality(IntPtr engine, int quality);
+
+        [DllImport(Library, EntryPoint = "haptoflow_engine_register_material")]
+        public static extern int EngineRegisterMaterial(IntPtr engine, byte* json, ulong length, uint* index);
+
+        [DllImport(Library, EntryPoint = "haptoflow_engine_replace_material")]
+        public static extern int EngineReplaceMaterial(IntPtr engine, uint index, byte* json, ulong length);
+
+        [DllImport(Library, EntryPoint = "haptoflow_engine_material_count")]
+        public static extern int EngineMaterialCount(IntPtr engine, uint* count);
+
+        [DllImport(Library, EntryPoint = "haptoflow_engine_material")]
+        public static extern int EngineMaterial(IntPtr engine, uint index, LabelInfo* info);
 
         [DllImport(Library, EntryPoint = "haptoflow_engine_step")]
         public static extern int EngineStep(IntPtr engine);

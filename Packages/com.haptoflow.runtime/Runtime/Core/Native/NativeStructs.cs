@@ -81,6 +81,8 @@ namespace HaptoFlow.Native
         public float* Motions;
         public float* PreviousMps2;
         public float* Noise;
+        public float* RibPhases;
+        public float* OwnLevelsMps2;
     }
 
     [Preserve, StructLayout(LayoutKind.Sequential)]
@@ -117,6 +119,8 @@ namespace HaptoFlow.Native
         public uint EdgeCounter;
         public float EdgeHeightMetres;
         public uint LandingCounter;
+        public float SpatialScale;
+        public float ToneDbPerOctave;
     }
 
     [Preserve, StructLayout(LayoutKind.Sequential)]

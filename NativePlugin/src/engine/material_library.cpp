@@ -1,0 +1,206 @@
+#include "engine/material_library.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <string>
+#include <thread>
+#include <utility>
+
+namespace haptoflow::engine {
+namespace {
+
+// The numbers behind these are wave vectors, which say nothing about how a material sounds.
+constexpr std::size_t learntNumbers = model::embeddingSize - 2 * inference::ribCount;
+
+double distance(std::span<const float, model::embeddingSize> first,
+                std::span<const float, model::embeddingSize> second) {
+    double squares = 0.0;
+    for (std::size_t i = 0; i < learntNumbers; ++i) {
+        const double gap = static_cast<double>(first[i]) - static_cast<double>(second[i]);
+        squares += gap * gap;
+    }
+    return squares;
+}
+
+}  // namespace
+
+const Ingredient& Ingredients::heaviest() const noexcept {
+    return *std::ranges::max_element(all(), {}, &Ingredient::weight);
+}
+
+double Ingredients::totalWeight() const noexcept {
+    double total = 0.0;
+    for (const Ingredient& each : all()) {
+        total += each.weight;
+    }
+    return total;
+}
+
+float Ingredients::levelMps2(const std::array<float, 3>& motion) const noexcept {
+    double sum = 0.0;
+    for (const Ingredient& each : all()) {
+        sum += each.weight * each.material->logLevel(motion);
+    }
+    return static_cast<float>(std::exp(sum / totalWeight()));
+}
+
+MaterialLibrary::MaterialLibrary(const model::ModelFile& model, inference::LevelEstimator& levels,
+                                 const inference::LoadLimits& limits)
+    : model_(model), levels_(model, levels, limits) {
+    for (std::size_t label = 0; label < model.header().labels.size(); ++label) {
+        labels_.push_back(knownLabel(label));
+    }
+    const auto& seeds = model.header().seeds;
+    for (std::size_t seed = 0; seed < seeds.size(); ++seed) {
+        const model::SeedEntry& entry = seeds[seed];
+        labels_[entry.label].seeds.push_back({.velocityMps = entry.velocityMps,
+                                              .forceNewtons = entry.forceNewtons,
+                                              .ribPhase = entry.ribPhase,
+                                              .samples = model.seed(seed),
+                                              .embedding = model.embedding(entry.label)});
+    }
+}
+
+KnownMaterial MaterialLibrary::knownLabel(std::size_t label) const {
+    const model::Label& said = model_.header().labels[label];
+    KnownMaterial known{.label = &said,
+                        .embedding = model_.embedding(label),
+                        .grid = &levels_.grid(),
+                        .graphLevels = levels_.table(label),
+                        .tone = {},
+                        .seeds = {}};
+    if (said.tone) {
+        known.tone.emplace(*said.tone);
+    }
+    return known;
+}
+
+const KnownMaterial& MaterialLibrary::nearestLabel(std::span<const float, model::embeddingSize> embedding) const {
+    return *std::ranges::min_element(
+        labels_, {}, [embedding](const KnownMaterial& label) { return distance(label.embedding, embedding); });
+}
+
+std::unique_ptr<const MaterialLibrary::Registered> MaterialLibrary::prepare(model::MaterialFile material,
+                                                                            const LevelSource& levels) const {
+    model::requireSpace(material, model_.header());
+    auto made = std::make_unique<Registered>();
+    made->file = std::move(material);
+    KnownMaterial& known = made->known;
+    known.label = &made->file.label;
+    known.embedding = made->file.embedding;
+    known.grid = &levels_.grid();
+    if (!made->file.label.level) {
+        const std::span<const float, model::embeddingSize> embeddings[] = {known.embedding};
+        made->graphLevels = tabulateLevels(levels_.grid(), embeddings, levels());
+        known.graphLevels = std::span(std::as_const(made->graphLevels)).first<LevelGrid::points>();
+    }
+    if (made->file.label.tone) {
+        known.tone.emplace(*made->file.label.tone);
+    }
+    for (const model::MaterialSeed& seed : made->file.seeds) {
+        known.seeds.push_back({.velocityMps = seed.velocityMps,
+                               .forceNewtons = seed.forceNewtons,
+                               .ribPhase = seed.ribPhase,
+                               .samples = seed.samples,
+                               .embedding = known.embedding});
+    }
+    if (known.seeds.empty()) {
+        known.seeds = nearestLabel(known.embedding).seeds;
+    }
+    return made;
+}
+
+std::size_t MaterialLibrary::add(model::MaterialFile material, const LevelSource& levels) {
+    const std::lock_guard lock(mutex_);
+    const std::size_t place = count_.load(std::memory_order_relaxed);
+    if (place == maximumRegistered) {
+        throw std::invalid_argument("all " + std::to_string(maximumRegistered) +
+                                    " materials are registered: replace one of them");
+    }
+    owned_[place] = prepare(std::move(material), levels);
+    visible_[place].store(owned_[place].get(), std::memory_order_release);
+    count_.store(place + 1, std::memory_order_release);
+    return labels_.size() + place;
+}
+
+void MaterialLibrary::replace(std::size_t index, model::MaterialFile material, const LevelSource& levels) {
+    const std::lock_guard lock(mutex_);
+    const std::size_t place = placeOf(index);
+    std::unique_ptr<const Registered> fresh = prepare(std::move(material), levels);
+    visible_[place].store(fresh.get());
+    waitForReaders();
+    owned_[place] = std::move(fresh);
+}
+
+const model::Label& MaterialLibrary::registeredLabel(std::size_t index) const {
+    const std::lock_guard lock(mutex_);
+    return owned_[placeOf(index)]->file.label;
+}
+
+std::size_t MaterialLibrary::placeOf(std::size_t index) const {
+    const std::size_t count = registeredCount();
+    if (index < labels_.size() || index - labels_.size() >= count) {
+        throw std::invalid_argument("index " + std::to_string(index) + ": the model has " +
+                                    std::to_string(labels_.size()) + " labels, and " + std::to_string(count) +
+                                    " materials are registered behind them");
+    }
+    return index - labels_.size();
+}
+
+const KnownMaterial* MaterialLibrary::find(std::uint32_t index) const noexcept {
+    if (index < labels_.size()) {
+        return &labels_[index];
+    }
+    const std::size_t place = index - labels_.size();
+    // Sequentially consistent, like entering: a replacement that saw nobody inside is seen here.
+    const Registered* registered = place < maximumRegistered ? visible_[place].load() : nullptr;
+    return registered == nullptr ? nullptr : &registered->known;
+}
+
+void MaterialLibrary::waitForReaders() noexcept {
+    // Twice, because a reader may have learnt the open phase and not have entered it yet.
+    for (int times = 0; times < 2; ++times) {
+        const std::uint32_t closed = openPhase_.fetch_xor(1U);
+        while (readers_[closed].load() != 0) {
+            std::this_thread::sleep_for(std::chrono::microseconds(20));
+        }
+    }
+}
+
+MaterialLibrary::Reading::Reading(const MaterialLibrary& library) noexcept
+    : library_(library), readers_(library.readers_[library.openPhase_.load()]) {
+    readers_.fetch_add(1);
+}
+
+MaterialLibrary::Reading::~Reading() {
+    readers_.fetch_sub(1);
+}
+
+Ingredients MaterialLibrary::Reading::ingredients(const MaterialBlend& blend) const noexcept {
+    Ingredients found;
+    for (std::size_t i = 0; i < std::min(blend.count, MaterialBlend::capacity); ++i) {
+        const LabelWeight entry = blend.entries[i];
+        const KnownMaterial* material = library_.find(entry.label);
+        if (material == nullptr || !(entry.weight > 0.0F)) {
+            continue;
+        }
+        const auto known = std::span(found.entries).first(found.count);
+        const auto same = std::ranges::find(known, entry.label, &Ingredient::index);
+        if (same != known.end()) {
+            same->weight += static_cast<double>(entry.weight);
+            continue;
+        }
+        found.entries[found.count] = {.material = material, .index = entry.label, .weight = entry.weight};
+        ++found.count;
+    }
+    if (found.count == 0) {
+        found.entries[0] = {.material = &library_.labels_.front(), .index = 0, .weight = 1.0};
+        found.count = 1;
+    }
+    return found;
+}
+
+}  // namespace haptoflow::engine

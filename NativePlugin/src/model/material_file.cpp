@@ -1,0 +1,161 @@
+#include "model/material_file.hpp"
+
+#include "model/bounded_json.hpp"
+#include "model/calendar_date.hpp"
+#include "model/header_node.hpp"
+#include "model/label_header.hpp"
+#include "model/model_error.hpp"
+#include "model/model_tensors.hpp"
+#include "model/name_index.hpp"
+
+#include <algorithm>
+#include <cstdint>
+#include <fstream>
+#include <system_error>
+
+namespace haptoflow::model {
+namespace {
+
+constexpr std::size_t textBytes = 4096;
+constexpr std::size_t spaceDigits = 8;
+constexpr double maximumSpeedMps = 100.0;
+constexpr double maximumForceNewtons = 1000.0;
+constexpr double largestMagnitude = 1e6;
+constexpr std::int64_t newestVersion = 1;
+
+void checkFormat(const HeaderNode& root) {
+    const HeaderNode format = root.at("format");
+    if (format.text(nameBytes) != "haptoflow-material") {
+        format.refuse("\"haptoflow-material\"");
+    }
+    const HeaderNode version = root.at("version");
+    if (version.integer(1, INT64_MAX) > newestVersion) {
+        version.refuse("version 1; update HaptoFlow to read a newer one");
+    }
+}
+
+std::string readSpace(const HeaderNode& node) {
+    std::string space = node.text(nameBytes);
+    const auto isDigit = [](char each) { return (each >= '0' && each <= '9') || (each >= 'a' && each <= 'f'); };
+    if (space.size() != spaceDigits || !std::ranges::all_of(space, isDigit)) {
+        node.refuse("8 hexadecimal digits in lower case");
+    }
+    return space;
+}
+
+MaterialProvenance readProvenance(const HeaderNode& node) {
+    MaterialProvenance provenance;
+    provenance.statement = node.at("statement").text(textBytes);
+    provenance.recordings = node.at("recordings").text(textBytes);
+    provenance.licence = node.at("licence").name(textBytes);
+    provenance.seconds = node.at("seconds").number(0.0, 1e9);
+    const HeaderNode created = node.at("created");
+    provenance.created = created.text(nameBytes);
+    if (!provenance.created.empty() && !isCalendarDate(provenance.created)) {
+        created.refuse("a date as YYYY-MM-DD, or an empty string");
+    }
+    return provenance;
+}
+
+std::array<double, 2> readRange(const HeaderNode& node, double limit) {
+    const auto edges = node.numbers(2, 0.0, limit);
+    if (edges[0] > edges[1]) {
+        node.refuse("[lowest, highest]");
+    }
+    return {edges[0], edges[1]};
+}
+
+MaterialSeed readSeed(const HeaderNode& node) {
+    MaterialSeed seed;
+    const auto velocity = node.at("velocity_mps").numbers(2, -maximumSpeedMps, maximumSpeedMps);
+    std::ranges::copy(velocity, seed.velocityMps.begin());
+    seed.forceNewtons = node.at("force_newtons").number(0.0, maximumForceNewtons);
+    if (const auto phase = node.find("rib_phase")) {
+        std::ranges::copy(phase->numbers(seed.ribPhase.size(), 0.0, 1.0), seed.ribPhase.begin());
+    }
+    const HeaderNode samples = node.at("samples");
+    std::ranges::transform(samples.numbers(seedSamples, -largestMagnitude, largestMagnitude), seed.samples.begin(),
+                           [](double sample) { return static_cast<float>(sample); });
+    if (!isUnitRms(seed.samples)) {
+        samples.refuse("an RMS of 1 within 1 %");
+    }
+    return seed;
+}
+
+MaterialFile readRoot(const HeaderNode& root) {
+    checkFormat(root);
+    MaterialFile material;
+    material.space = readSpace(root.at("space"));
+    material.label.name = root.at("name").name(nameBytes);
+    if (const auto description = root.find("description")) {
+        material.description = description->text(textBytes);
+    }
+    material.provenance = readProvenance(root.at("provenance"));
+    std::ranges::transform(root.at("embedding").numbers(embeddingSize, -largestMagnitude, largestMagnitude),
+                           material.embedding.begin(), [](double value) { return static_cast<float>(value); });
+    material.speedMps = readRange(root.at("range").at("speed_mps"), maximumSpeedMps);
+    material.forceNewtons = readRange(root.at("range").at("force_newtons"), maximumForceNewtons);
+    readLabelTraits(root, material.label);
+    if (const auto seeds = root.find("seeds")) {
+        for (const HeaderNode& node : seeds->elements(0, maximumMaterialSeeds)) {
+            material.seeds.push_back(readSeed(node));
+        }
+    }
+    return material;
+}
+
+std::string readText(const std::filesystem::path& path) {
+    std::error_code failure;
+    if (!std::filesystem::is_regular_file(path, failure)) {
+        throw MaterialError("there is no such file");
+    }
+    const std::uintmax_t size = std::filesystem::file_size(path, failure);
+    if (failure) {
+        throw MaterialError("cannot be read: " + failure.message());
+    }
+    if (size > maximumMaterialBytes) {
+        throw MaterialError("the file has " + std::to_string(size) + " bytes; the limit is " +
+                            std::to_string(maximumMaterialBytes));
+    }
+    std::ifstream stream(path, std::ios::binary);
+    std::string text(static_cast<std::size_t>(size), '\0');
+    if (!stream || !stream.read(text.data(), static_cast<std::streamsize>(size))) {
+        throw MaterialError("cannot be opened or read to its end");
+    }
+    return text;
+}
+
+}  // namespace
+
+MaterialFile parseMaterial(std::string_view json) {
+    if (json.size() > maximumMaterialBytes) {
+        throw MaterialError("the material has " + std::to_string(json.size()) + " bytes; the limit is " +
+                            std::to_string(maximumMaterialBytes));
+    }
+    try {
+        const nlohmann::json value = parseBoundedJson(json, "the material");
+        return readRoot(HeaderNode(value, "", "material"));
+    } catch (const ModelError& error) {
+        throw MaterialError(error.what());
+    }
+}
+
+MaterialFile readMaterial(const std::filesystem::path& path) {
+    try {
+        return parseMaterial(readText(path));
+    } catch (const MaterialError& error) {
+        const std::u8string name = path.u8string();
+        throw MaterialError(std::string(name.begin(), name.end()) + ": " + error.what());
+    }
+}
+
+void requireSpace(const MaterialFile& material, const ModelHeader& header) {
+    const std::string space = spaceOf(header);
+    if (material.space != space) {
+        throw MaterialMismatch("material \"" + material.label.name + "\" was learnt for the space " + material.space +
+                               "; the model \"" + header.name + "\" has the space " + space +
+                               ": learn the material again with this model");
+    }
+}
+
+}  // namespace haptoflow::model

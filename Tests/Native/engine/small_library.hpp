@@ -1,0 +1,40 @@
+#pragma once
+
+#include "engine/material_library.hpp"
+#include "fake_generators.hpp"
+#include "test_model.hpp"
+
+#include <initializer_list>
+#include <utility>
+
+namespace haptoflow::engine::testing {
+
+inline MaterialBlend blendOf(std::initializer_list<LabelWeight> entries) {
+    MaterialBlend blend;
+    for (const LabelWeight entry : entries) {
+        blend.entries.at(blend.count++) = entry;
+    }
+    return blend;
+}
+
+/// A model with a library whose levels a generator gives.
+struct SmallLibrary {
+    explicit SmallLibrary(model::ModelFile file = smallModel()) : model(std::move(file)) {}
+
+    /// What a blend is made of; valid while nothing is replaced.
+    [[nodiscard]] Ingredients ingredients(const MaterialBlend& blend) const {
+        return MaterialLibrary::Reading(library).ingredients(blend);
+    }
+    [[nodiscard]] Ingredients ingredients(std::initializer_list<LabelWeight> entries) const {
+        return ingredients(blendOf(entries));
+    }
+    [[nodiscard]] MaterialLibrary::LevelSource levels() {
+        return [this]() -> inference::LevelEstimator& { return generator; };
+    }
+
+    model::ModelFile model;
+    MotionGenerator generator;
+    MaterialLibrary library{model, generator};
+};
+
+}  // namespace haptoflow::engine::testing
