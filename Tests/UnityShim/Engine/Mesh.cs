@@ -22,6 +22,8 @@ namespace UnityEngine
         /// <summary>Empty where there are none.</summary>
         public Vector2[] uv { get; set; } = Array.Empty<Vector2>();
 
+        public Vector2[] uv2 { get; set; } = Array.Empty<Vector2>();
+
         public bool isReadable { get; private set; } = true;
 
         /// <summary>Of all submeshes, one after the other.</summary>

@@ -17,6 +17,7 @@ namespace HaptoFlow.Editor
                 .Concat(StylusRules.Check(scene))
                 .Concat(SurfaceRules.Check(scene))
                 .Concat(ColliderRules.Check(scene))
+                .Concat(MapRules.Check(scene))
                 .Concat(OutputRules.Check(scene))
                 .Concat(SilentOutputRules.Check(scene))
                 .Concat(RealObjectRules.Check(scene))

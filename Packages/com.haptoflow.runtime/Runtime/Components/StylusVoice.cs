@@ -76,6 +76,8 @@ namespace HaptoFlow
                 state.Touching = true;
                 state.Material = felt.Labels;
                 state.Effects = felt.Effects;
+                state.SpatialScale = felt.FeatureScale;
+                state.ToneDbPerOctave = felt.ToneDbPerOctave;
                 SetStrength(felt.Strength * stylus.Strength * output!.Strength);
             }
             voice!.Publish(state);

@@ -179,7 +179,11 @@ namespace HaptoFlow
         public int Height => height;
 
         /// <summary>What the editor says of the texture's contents when it was baked.</summary>
-        internal string BakedContents => bakedContents;
+        internal string BakedContents
+        {
+            get => bakedContents;
+            set => bakedContents = value;
+        }
 
         /// <summary>Some channel is a material.</summary>
         internal bool NamesMaterials => Names(red) || Names(green) || Names(blue) || Names(alpha);
