@@ -141,6 +141,32 @@ namespace HaptoFlow.Tests
         }
 
         [UnityTest]
+        public IEnumerator ALargeTerrainIsKeptSmallerAndFeelsTheSame()
+        {
+            FinishLoading();
+            Terrain("a", "b", "c", "d", "e");
+            terrain.terrainData!.alphamapResolution = 2048;
+            AddRule(0, "wood");
+            AddRule(1, "stone");
+            // 21 MB at a byte a layer and texel; a fine chessboard of the first two layers on the right half.
+            var map = new float[2048, 2048, layers.Length];
+            for (int z = 0; z < 2048; ++z)
+            {
+                for (int x = 0; x < 2048; ++x)
+                {
+                    map[z, x, x < 1024 ? 0 : (x + z) % 2] = 1f;
+                }
+            }
+            terrain.terrainData.SetAlphamaps(0, 0, map);
+            HapticStylus left = Resting(-0.3f);
+            HapticStylus right = Resting(0.3f);
+            yield return null;
+            yield return null;
+            Assert.That(FeltAlone(left), Is.EqualTo("wood"));
+            Assert.That(WeightOf(right, "stone"), Is.EqualTo(0.5f).Within(0.01f));
+        }
+
+        [UnityTest]
         public IEnumerator ATerrainWithoutLayersFeelsByTheRulesForItsObject()
         {
             FinishLoading();

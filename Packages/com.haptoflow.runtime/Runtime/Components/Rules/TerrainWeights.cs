@@ -8,17 +8,20 @@ using Object = UnityEngine.Object;
 namespace HaptoFlow
 {
     /// <summary>How much of each layer a terrain has at each place: read once, a byte a layer and texel, since Unity's own
-    /// reading makes garbage. Main thread.</summary>
+    /// reading makes garbage. Of a large terrain several texels become one. Main thread.</summary>
     internal sealed class TerrainWeights
     {
         // Rows that are read at once: a strip of a large terrain is a few megabytes of garbage, not hundreds.
         private const int RowsAtOnce = 64;
+        private const long MostBytes = 16L << 20;
         private static readonly Dictionary<TerrainData, TerrainWeights> Known =
             new Dictionary<TerrainData, TerrainWeights>();
 
         private readonly TerrainData terrain;
         private byte[] texels = Array.Empty<byte>();
         private float[] found = Array.Empty<float>();
+        private int sourceResolution;
+        private int texelsInOne = 1;
         private int resolution;
         private int layers;
         private bool isStale = true;
@@ -88,24 +91,52 @@ namespace HaptoFlow
                 return;
             }
             isStale = false;
-            resolution = terrain.alphamapResolution;
+            sourceResolution = terrain.alphamapResolution;
             layers = terrain.alphamapLayers;
+            texelsInOne = 1;
+            resolution = sourceResolution;
+            while ((long)resolution * resolution * layers > MostBytes && texelsInOne < RowsAtOnce)
+            {
+                texelsInOne *= 2;
+                resolution = Math.Max(1, sourceResolution / texelsInOne);
+            }
             Array.Resize(ref texels, resolution * resolution * layers);
             Array.Resize(ref found, layers);
-            int next = 0;
-            for (int row = 0; layers > 0 && row < resolution; row += RowsAtOnce)
+            int rowsOfStrip = RowsAtOnce / texelsInOne;
+            for (int row = 0; layers > 0 && row < resolution; row += rowsOfStrip)
             {
-                int rows = Math.Min(RowsAtOnce, resolution - row);
-                foreach (float weight in terrain.GetAlphamaps(0, row, resolution, rows))
+                ReadStrip(row, Math.Min(rowsOfStrip, resolution - row));
+            }
+        }
+
+        private void ReadStrip(int firstRow, int rows)
+        {
+            float[,,] source = terrain.GetAlphamaps(
+                0, firstRow * texelsInOne, resolution * texelsInOne, rows * texelsInOne);
+            float inOne = texelsInOne * texelsInOne;
+            for (int row = 0; row < rows; ++row)
+            {
+                for (int column = 0; column < resolution; ++column)
                 {
-                    texels[next++] = (byte)(Mathf.Clamp01(weight) * byte.MaxValue + 0.5f);
+                    for (int layer = 0; layer < layers; ++layer)
+                    {
+                        float sum = 0f;
+                        for (int part = 0; part < texelsInOne * texelsInOne; ++part)
+                        {
+                            sum += source[row * texelsInOne + part / texelsInOne,
+                                column * texelsInOne + part % texelsInOne, layer];
+                        }
+                        texels[((firstRow + row) * resolution + column) * layers + layer] =
+                            (byte)(Mathf.Clamp01(sum / inOne) * byte.MaxValue + 0.5f);
+                    }
                 }
             }
         }
 
         private (int Texel, float ShareOfNext) Texel(double metres, double sizeMetres)
         {
-            double place = sizeMetres > 0.0 ? metres / sizeMetres * (resolution - 1) : 0.0;
+            double source = sizeMetres > 0.0 ? metres / sizeMetres * (sourceResolution - 1) : 0.0;
+            double place = (source - 0.5 * (texelsInOne - 1)) / texelsInOne;
             place = Vectors.Clamp(place, 0.0, resolution - 1);
             int texel = (int)place;
             return (texel, (float)(place - texel));
