@@ -41,6 +41,15 @@ namespace UnityEngine
         public byte a;
 
         public Color32(byte r, byte g, byte b, byte a) => (this.r, this.g, this.b, this.a) = (r, g, b, a);
+
+        public static implicit operator Color32(Color c) => new Color32(
+            Byte(255f * c.r), Byte(255f * c.g), Byte(255f * c.b), Byte(255f * c.a));
+
+        public static Color32 Lerp(Color32 a, Color32 b, float t) => new Color32(
+            Byte(a.r + Mathf.Clamp01(t) * (b.r - a.r)), Byte(a.g + Mathf.Clamp01(t) * (b.g - a.g)),
+            Byte(a.b + Mathf.Clamp01(t) * (b.b - a.b)), Byte(a.a + Mathf.Clamp01(t) * (b.a - a.a)));
+
+        private static byte Byte(float value) => (byte)Math.Round(Mathf.Clamp(value, 0f, 255f));
     }
 
     public sealed partial class Texture2D : Texture

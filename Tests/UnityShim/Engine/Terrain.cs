@@ -109,7 +109,7 @@ namespace UnityEngine
     {
         public TerrainData? terrainData { get; set; }
 
-        public Material? materialTemplate { get; set; }
+        public bool drawHeightmap { get; set; } = true;
 
         public static GameObject CreateTerrainGameObject(TerrainData assignTerrain)
         {

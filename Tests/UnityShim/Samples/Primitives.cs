@@ -88,6 +88,8 @@ namespace UnityEngine
         }
 
         public Color color { get; set; } = Color.white;
+
+        public Texture? mainTexture { get; set; }
     }
 
     public sealed partial class GameObject
