@@ -18,6 +18,7 @@ namespace HaptoFlow.Editor
                 .Concat(SurfaceRules.Check(scene))
                 .Concat(LearntMaterialRules.Check(scene))
                 .Concat(ColliderRules.Check(scene))
+                .Concat(MapRules.Check(scene))
                 .Concat(OutputRules.Check(scene))
                 .Concat(SilentOutputRules.Check(scene))
                 .Concat(RealObjectRules.Check(scene))

@@ -21,6 +21,8 @@ namespace HaptoFlow.Editor
             EditorApplication.quitting += HapticLearning.EndAll;
             EditorApplication.playModeStateChanged += OnPlayModeChanged;
             EditorApplication.projectChanged += ProjectSettingsAsset.Forget;
+            // A running scene does not look for new names by itself: reading them makes garbage.
+            EditorApplication.hierarchyChanged += MaterialMaps.Change;
         }
 
         private static void OnPlayModeChanged(PlayModeStateChange change)

@@ -29,6 +29,9 @@ namespace HaptoFlow
         [SerializeField, Tooltip("Direction of the first tangent axis, in the object's local space: along the grain.")]
         private Vector3 grain = new Vector3(1f, 0f, 0f);
 
+        [SerializeField, Tooltip("Further materials by a texture, at the place that is touched; empty for none.")]
+        private HapticMaskMap? mask;
+
         private readonly List<Collider> registered = new List<Collider>();
         private bool isStale;
         private readonly MaterialLookUp ownLookUp = new MaterialLookUp();
@@ -91,6 +94,13 @@ namespace HaptoFlow
             set => grain = value;
         }
 
+        /// <summary>Further materials by a texture, at the place that is touched; null for none.</summary>
+        public HapticMaskMap? Mask
+        {
+            get => mask;
+            set => mask = value;
+        }
+
         /// <summary>Colliders that lead to this surface. A child that comes or goes, and a collider added deeper below,
         /// are noticed without help.</summary>
         public IReadOnlyList<Collider> Colliders
@@ -143,6 +153,13 @@ namespace HaptoFlow
 
         /// <summary>In N/m; 0 for the contact model's default.</summary>
         internal double StiffnessFor(HapticSession session) => LookUp(session).StiffnessNewtonsPerMetre;
+
+        /// <summary>What a place on one of the colliders feels like; labels of none where it is nothing.</summary>
+        internal FeltMaterial At(in TouchedPlace place, HapticSession session)
+        {
+            FeltMaterial whole = FeltMaterial.Of(SharedDescription, LookUp(session));
+            return mask != null && mask.TryFeel(place, whole, session, this, out FeltMaterial felt) ? felt : whole;
+        }
 
         private MaterialLookUp LookUp(HapticSession session) => sharedMaterial != null
             ? sharedMaterial.LookUp(session, this)
