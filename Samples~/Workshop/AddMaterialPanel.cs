@@ -18,7 +18,7 @@ namespace HaptoFlow.Samples.Workshop
         // New text makes garbage; hands are not faster to read.
         private const double SecondsBetween = 0.25;
         private static readonly Vector3 ButtonSize = new Vector3(0.08f, 0.012f, 0.03f);
-        private static readonly Vector3 TextAbove = new Vector3(0f, 0.03f, 0f);
+        private static readonly Vector3 TextAbove = new Vector3(0f, 0.025f, 0f);
 
         [SerializeField, Tooltip("A CSV table, or a WAV file whose name ends in .wav.bytes.")]
         private TextAsset? recording;
@@ -28,7 +28,8 @@ namespace HaptoFlow.Samples.Workshop
 
         private HapticMaterial? target;
         private TextMesh? board;
-        private HapticSurface? button;
+        private Collider? button;
+        private HapticMaterial? feel;
         private Task<HapticLearning>? starting;
         private HapticLearning? learning;
         private HapticStylus? heard;
@@ -41,8 +42,8 @@ namespace HaptoFlow.Samples.Workshop
         /// <summary>A material is being learnt.</summary>
         public bool IsLearning => starting != null || learning != null;
 
-        /// <summary>What the panel's button is; null before the scene is built.</summary>
-        public HapticSurface? Button => button;
+        /// <summary>What a stylus touches to begin; null before the scene is built.</summary>
+        public Collider? Button => button;
 
         /// <summary>Takes another recording. To be called before the panel is pressed.</summary>
         /// <param name="file">A CSV table, or a WAV file whose name ends in .wav.bytes.</param>
@@ -113,7 +114,11 @@ namespace HaptoFlow.Samples.Workshop
             Transform place = scene.PanelPlace;
             GameObject solid = Build.Solid("Add Material", PrimitiveType.Cube, place.position, ButtonSize,
                 new Color(0.2f, 0.5f, 0.35f));
-            button = Build.Tag(solid, "plastic");
+            button = solid.GetComponent<Collider>();
+            feel = ScriptableObject.CreateInstance<HapticMaterial>();
+            feel.name = "plastic";
+            feel.Description.Label = "plastic";
+            scene.Map.Insert(0, HapticMaterialRule.ForName(solid.name, feel));
             board = Build.Text("", place.position + TextAbove, place.rotation);
             target = scene.SpecimenMaterial;
             heard = scene.Pen.Stylus;
@@ -134,6 +139,10 @@ namespace HaptoFlow.Samples.Workshop
             if (heard is { } listened)
             {
                 listened.TouchBegan -= OnTouchBegan;
+            }
+            if (feel != null)
+            {
+                Destroy(feel);
             }
         }
 
@@ -191,7 +200,7 @@ namespace HaptoFlow.Samples.Workshop
 
         private void OnTouchBegan(HapticStylus who, in HapticContact contact)
         {
-            if (contact.Surface == button)
+            if (contact.Collider == button)
             {
                 Press();
             }

@@ -12,7 +12,10 @@ namespace HaptoFlow.Editor
     {
         public static IEnumerable<Finding> Check(SceneContents scene)
         {
+            IEnumerable<HapticMaterial?> ofMaps = scene.Maps.All.SelectMany(map =>
+                map.Rules.Select(rule => rule.Material).Append(map.DefaultMaterial));
             HapticMaterial[] materials = scene.Surfaces.Select(surface => surface.SharedDescription.Learnt)
+                .Concat(ofMaps.Select(material => material != null ? material.Description.Learnt : null))
                 .OfType<HapticMaterial>().Distinct().ToArray();
             ModelSpace? model = materials.Length > 0 ? MaterialSummary.SpaceOf(LabelCatalog.ModelInUse()) : null;
             foreach (HapticMaterial material in materials)
@@ -26,7 +29,7 @@ namespace HaptoFlow.Editor
             }
             if (materials.Length > HapticEngine.MaximumMaterials)
             {
-                yield return new Finding(MessageType.Warning, $"The scene's surfaces use {materials.Length} learnt " +
+                yield return new Finding(MessageType.Warning, $"Surfaces and maps use {materials.Length} learnt " +
                     $"materials; an engine takes {HapticEngine.MaximumMaterials}, and the others are felt as their " +
                     "labels. Use fewer of them at one time.", materials);
             }

@@ -27,7 +27,7 @@ namespace HaptoFlow.Editor
         public static string Of(MaterialDescription material)
         {
             LabelCatalog catalog = LabelCatalog.Current;
-            string first = catalog.TextOf(material.Label);
+            string first = material.Learnt != null ? material.Learnt.name : catalog.TextOf(material.Label);
             return material.SecondLabel.Length == 0 ? first : first + " and " + catalog.TextOf(material.SecondLabel);
         }
 

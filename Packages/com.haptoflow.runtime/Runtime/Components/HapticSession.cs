@@ -85,6 +85,7 @@ namespace HaptoFlow
                 Labels.Learnt = new LearntMaterials(Engine, loading.Result.Space, Labels.All.Count);
                 LabelsVersion = ++versions;
                 SurfaceRegistry.PrepareAll(this);
+                MaterialMaps.PrepareAll(this);
                 return;
             }
             Exception cause = loading.Exception!.GetBaseException();

@@ -79,6 +79,38 @@ namespace HaptoFlow
             }
         }
 
+        /// <summary>Has what the rules lead to registered before it is touched.</summary>
+        public static void PrepareAll(HapticSession session)
+        {
+            Poll();
+            Prepare(session, project);
+            foreach (HapticMaterialMapScope scope in Scopes)
+            {
+                Prepare(session, scope.Map);
+            }
+        }
+
+        private static void Prepare(HapticSession session, HapticMaterialMap? map)
+        {
+            if (map == null)
+            {
+                return;
+            }
+            foreach (HapticMaterialRule rule in map.Rules)
+            {
+                Prepare(session, rule.Material);
+            }
+            Prepare(session, map.DefaultMaterial);
+        }
+
+        private static void Prepare(HapticSession session, HapticMaterial? material)
+        {
+            if (material != null)
+            {
+                session.Prepare(material.Description);
+            }
+        }
+
         [RuntimeInitializeOnLoadMethod(RuntimeInitializeLoadType.SubsystemRegistration)]
         private static void Forget()
         {
