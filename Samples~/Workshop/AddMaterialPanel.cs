@@ -68,7 +68,9 @@ namespace HaptoFlow.Samples.Workshop
             HapticModelAsset? model = HaptoFlowSettings.Active.Model;
             if (recording == null || model == null)
             {
-                Say(recording == null ? "No recording is chosen" : "No model is chosen in Project Settings > HaptoFlow");
+                Say(recording == null
+                    ? "No recording is chosen"
+                    : "No model is chosen in Project Settings > HaptoFlow");
                 return;
             }
             Say("Reading " + NameOf(recording));
@@ -81,8 +83,9 @@ namespace HaptoFlow.Samples.Workshop
         private static Task<HapticLearning> Begin(
             byte[] modelFile, string name, byte[] file, Dictionary<string, byte[]> beside) => Task.Run(() =>
         {
-            Recording read = RecordingReader.Read(name, file,
-                sibling => beside.TryGetValue(Path.GetFileNameWithoutExtension(sibling), out byte[] bytes) ? bytes : null);
+            byte[]? Sibling(string wanted) =>
+                beside.TryGetValue(Path.GetFileNameWithoutExtension(wanted), out byte[] bytes) ? bytes : null;
+            Recording read = RecordingReader.Read(name, file, Sibling);
             if (!read.KnowsMotion)
             {
                 throw new HaptoFlowException(HaptoFlowStatus.RecordingUnusable,

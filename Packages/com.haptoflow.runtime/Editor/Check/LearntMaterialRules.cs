@@ -40,11 +40,7 @@ namespace HaptoFlow.Editor
             try
             {
                 MaterialFile file = MaterialFile.Read(material.Learnt);
-                return file.Space == model.Id
-                    ? null
-                    : $"it was learnt for another model (its space is {file.Space}, the model's {model.Id}). Learn it " +
-                        "again from its recording with this model, or choose the model that it was learnt for in " +
-                        "Project Settings > HaptoFlow.";
+                return file.Space == model.Id ? null : MaterialRegistration.ForeignSpace(file.Space, model.Id);
             }
             catch (HaptoFlowException refusal)
             {

@@ -8,9 +8,9 @@ using UnityEngine;
 
 namespace HaptoFlow.Editor
 {
-    /// <summary>Makes a <see cref="HapticMaterial"/> that carries its embedding of a .haptomaterial file. A damaged file
-    /// becomes a material too, so that surfaces go on referring to it when the file is replaced; what is wrong stands in
-    /// the console and in its Inspector.</summary>
+    /// <summary>Makes a <see cref="HapticMaterial"/> that carries its embedding of a .haptomaterial file. A damaged
+    /// file becomes a material too, so that surfaces go on referring to it when the file is replaced; what is wrong
+    /// stands in the console and in its Inspector.</summary>
     [ScriptedImporter(1, "haptomaterial")]
     public sealed class HapticMaterialImporter : ScriptedImporter
     {
@@ -41,8 +41,8 @@ namespace HaptoFlow.Editor
 
         internal static string ReadText(string path) => new UTF8Encoding(false).GetString(File.ReadAllBytes(path));
 
-        /// <summary>Felt where the material cannot be. Only the package's own model is sure to be there while assets are
-        /// imported; for any other, the first label of descriptions stays.</summary>
+        /// <summary>Felt where the material cannot be. Only the package's own model is sure to be there while assets
+        /// are imported; for any other, the first label of descriptions stays.</summary>
         private static string NearestLabel(MaterialFile material)
         {
             const string unknown = "wood";

@@ -7,8 +7,8 @@ using HaptoFlow.Model;
 
 namespace HaptoFlow.Editor
 {
-    /// <summary>What an Inspector says of a learnt material: what it is nearest to, what it was learnt from, and whether
-    /// it can be felt under the project's model.</summary>
+    /// <summary>What an Inspector says of a learnt material: what it is nearest to, what it was learnt from, and
+    /// whether it can be felt under the project's model.</summary>
     internal sealed class MaterialSummary
     {
         private MaterialSummary(string problem) => Problem = problem;
@@ -23,9 +23,7 @@ namespace HaptoFlow.Editor
                 ? null
                 : model == null
                     ? "The project has no usable model, so nothing is felt."
-                    : $"It was learnt for another model (its space is {material.Space}, the model's {model.Id}), so its " +
-                        "label is felt instead. Learn it again from its recording with this model, or choose the model " +
-                        "that it was learnt for in Project Settings > HaptoFlow.";
+                    : "Its label is felt instead: " + MaterialRegistration.ForeignSpace(material.Space, model.Id);
         }
 
         /// <summary>What is wrong with the file; null where nothing is. Then everything else is empty.</summary>

@@ -7,8 +7,8 @@ using UnityEditor;
 
 namespace HaptoFlow.Editor
 {
-    /// <summary>The sliders of a model: a file beside it, or the package's own for the package's model. Main thread; read
-    /// anew only when the model is another.</summary>
+    /// <summary>The sliders of a model: a file beside it, or the package's own for the package's model. Main thread;
+    /// read anew only when the model is another.</summary>
     internal sealed class SliderCatalog
     {
         public const string DefaultPath = "Packages/com.haptoflow.runtime/Editor/Sliders/default.sliders.json";

@@ -18,8 +18,8 @@ namespace HaptoFlow
         [SerializeField, Tooltip("A label of the model.")]
         private string label = "wood";
 
-        [SerializeField, Tooltip("A Haptic Material that was learnt from a recording, in the place of the label; none " +
-            "for the label.")]
+        [SerializeField]
+        [Tooltip("A Haptic Material that was learnt from a recording, in the place of the label; none for the label.")]
         private HapticMaterial? learnt;
 
         // The asset that this describes, where there is one.
@@ -62,8 +62,8 @@ namespace HaptoFlow
             set => Change(ref label, value);
         }
 
-        /// <summary>A Haptic Material that carries its embedding, felt in the place of <see cref="Label"/>; null for the
-        /// label. The description of such an asset is made of the asset itself.</summary>
+        /// <summary>A Haptic Material that carries its embedding, felt in the place of <see cref="Label"/>; null for
+        /// the label. The description of such an asset is made of the asset itself.</summary>
         public HapticMaterial? Learnt
         {
             get => owner != null && owner.IsLearnt ? owner : learnt != null && learnt.IsLearnt ? learnt : null;

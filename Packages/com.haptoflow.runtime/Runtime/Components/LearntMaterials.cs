@@ -6,9 +6,9 @@ using UnityEngine;
 
 namespace HaptoFlow
 {
-    /// <summary>The learnt materials of one engine: each is registered once, by another thread, when a surface that uses
-    /// it wakes or is first touched. Until then, and where the engine refuses it, its label is felt. Main thread; no
-    /// garbage while nothing changes.</summary>
+    /// <summary>The learnt materials of one engine: each is registered once, by another thread, when a surface that
+    /// uses it wakes or is first touched. Until then, and where the engine refuses it, its label is felt. Main thread;
+    /// no garbage while nothing changes.</summary>
     internal sealed class LearntMaterials
     {
         private readonly HapticEngine engine;
@@ -140,8 +140,8 @@ namespace HaptoFlow
                 each.Text = each.Material.Learnt;
                 if (each.Index < 0 && free.Count == 0 && taken == HapticEngine.MaximumMaterials)
                 {
-                    Refuse(each, $"{HapticEngine.MaximumMaterials} learnt materials are in use, which is the most that an engine takes. Use " +
-                        "fewer of them in what is loaded at one time.");
+                    Refuse(each, $"{HapticEngine.MaximumMaterials} learnt materials are in use, which is the most that " +
+                        "an engine takes. Use fewer of them in what is loaded at one time.");
                     continue;
                 }
                 int place = each.Index >= 0 ? each.Index : free.Count > 0 ? free.Pop() : MaterialRegistration.NewPlace;
@@ -196,8 +196,9 @@ namespace HaptoFlow
         private void Refuse(Known material, string why)
         {
             SetRefused(material, true);
-            Debug.LogWarning($"HaptoFlow: {material.Material.name} is felt as its label " +
-                $"\"{material.Material.Description.Label}\": {why}", material.Material);
+            HapticMaterial asset = material.Material;
+            string label = asset.Description.Label;
+            Debug.LogWarning($"HaptoFlow: {asset.name} is felt as its label \"{label}\": {why}", asset);
         }
 
         private void SetRefused(Known material, bool isRefused)

@@ -30,6 +30,11 @@ namespace HaptoFlow
         /// <summary>Why it is not felt; null where it is.</summary>
         public string? Refusal { get; private set; }
 
+        /// <summary>Why a material is not felt under a model of another space, and what to do.</summary>
+        public static string ForeignSpace(string own, string models) =>
+            $"it was learnt for another model (its space is {own}, the model's {models}). Learn it again from its " +
+            "recording with this model, or choose the model that it was learnt for in Project Settings > HaptoFlow.";
+
         public void Do(HapticEngine engine, string space)
         {
             try
@@ -37,9 +42,7 @@ namespace HaptoFlow
                 MaterialFile file = MaterialFile.Read(text);
                 if (file.Space != space)
                 {
-                    Refusal = $"it was learnt for another model (its space is {file.Space}, the model's {space}). Learn " +
-                        "it again from its recording with this model, or choose the model that it was learnt for in " +
-                        "Project Settings > HaptoFlow.";
+                    Refusal = ForeignSpace(file.Space, space);
                     return;
                 }
                 StiffnessNewtonsPerMetre = file.StiffnessNewtonsPerMetre;

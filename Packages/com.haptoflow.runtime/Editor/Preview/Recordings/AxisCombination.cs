@@ -3,8 +3,8 @@ using System;
 
 namespace HaptoFlow.Preview
 {
-    /// <summary>Three axes of vibration into one (DFT321, Landin et al. 2010), as learning does it: each frame keeps the
-    /// energy of all axes and takes the phase of their sum. Root-Hann windows before and after, half overlapping.
+    /// <summary>Three axes of vibration into one (DFT321, Landin et al. 2010), as learning does it: each frame keeps
+    /// the energy of all axes and takes the phase of their sum. Root-Hann windows before and after, half overlapping.
     /// </summary>
     internal static class AxisCombination
     {

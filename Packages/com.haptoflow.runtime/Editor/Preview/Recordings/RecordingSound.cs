@@ -4,8 +4,8 @@ using HaptoFlow.Recordings;
 
 namespace HaptoFlow.Preview
 {
-    /// <summary>A recording as the preview shows and plays it beside the material that was learnt from it: one axis, 10 to
-    /// 1000 Hz, at the preview's rate; and the stroke that it was made with.</summary>
+    /// <summary>A recording as the preview shows and plays it beside the material that was learnt from it: one axis, 10
+    /// to 1000 Hz, at the preview's rate; and the stroke that it was made with.</summary>
     internal static class RecordingSound
     {
         /// <summary>What is shown and played of a longer recording.</summary>

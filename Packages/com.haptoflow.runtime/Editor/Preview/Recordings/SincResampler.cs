@@ -3,8 +3,8 @@ using System;
 
 namespace HaptoFlow.Preview
 {
-    /// <summary>Resamples by a Hann-windowed sinc (Smith and Gossett 1984), band-limited to the lower of the two Nyquist
-    /// rates.</summary>
+    /// <summary>Resamples by a Hann-windowed sinc (Smith and Gossett 1984), band-limited to the lower of the two
+    /// Nyquist rates.</summary>
     internal static class SincResampler
     {
         // Zero crossings of the sinc on either side.

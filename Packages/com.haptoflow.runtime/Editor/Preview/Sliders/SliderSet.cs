@@ -61,7 +61,8 @@ namespace HaptoFlow.Preview
             mean = root.Numbers("mean", size, size);
             int count = json.Find("axes")?.Content is List<JsonValue> rows ? rows.Count : 0;
             root.CheckRows("axes", count, size, -1.0, 1.0);
-            axes = json["axes"].AsArray().Select(axis => axis.AsArray().Select(each => each.AsNumber()).ToArray()).ToArray();
+            axes = json["axes"].AsArray()
+                .Select(axis => axis.AsArray().Select(each => each.AsNumber()).ToArray()).ToArray();
             lowest = root.Numbers("lowest", count, count);
             highest = root.Numbers("highest", count, count);
         }

@@ -50,8 +50,8 @@ namespace HaptoFlow.Preview
             return engine;
         }
 
-        /// <summary>Where the engine that was made last knows a learnt material, which is registered there first, or put
-        /// in the place of one that nobody hears any more.</summary>
+        /// <summary>Where the engine that was made last knows a learnt material, which is registered there first, or
+        /// put in the place of one that nobody hears any more.</summary>
         /// <param name="text">Of a material file.</param>
         /// <exception cref="HaptoFlowException">It is none, or was learnt for another model.</exception>
         public int MaterialIndex(string text)

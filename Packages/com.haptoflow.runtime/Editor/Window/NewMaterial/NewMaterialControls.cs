@@ -17,7 +17,8 @@ namespace HaptoFlow.Editor
         private static readonly GUIContent Model =
             new GUIContent("Model", "The model under which the material shall be felt; none for the project's.");
         private static readonly GUIContent Choose = new GUIContent("Choose Recording\u2026",
-            "A CSV table or a WAV file of one material, ten seconds or more. What stands beside it (NAME.json) is read too.");
+            "A CSV table or a WAV file of one material, ten seconds or more. What stands beside it (NAME.json) is read, " +
+            "too.");
         private static readonly GUIContent Speed = new GUIContent("Speed [m/s]",
             "At which it was recorded, where the file does not say it. 0: not known.");
         private static readonly GUIContent Force = new GUIContent("Force [N]",
@@ -29,7 +30,8 @@ namespace HaptoFlow.Editor
             new GUIContent("Category", "For example cloth or wood; empty for that of the nearest label.");
         private static readonly GUIContent Licence = new GUIContent("Licence",
             "Of the recording; the material carries it. Empty for unknown.");
-        private static readonly GUIContent Description = new GUIContent("Description", "One or two sentences, or none.");
+        private static readonly GUIContent Description =
+            new GUIContent("Description", "One or two sentences, or none.");
         private static readonly GUIContent LearnButton = new GUIContent("Learn",
             "Takes ten to twenty seconds in the background; the editor goes on meanwhile.");
         private static readonly GUIContent CancelButton =
@@ -124,7 +126,8 @@ namespace HaptoFlow.Editor
                     ? Text("speed {0:0.###} m/s", Math.Sqrt(velocity.X * velocity.X + velocity.Y * velocity.Y))
                     : "speed not known";
             string force = recording.ForceNewtons != null ? "force from the file"
-                : recording.ConstantForceNewtons is { } newtons ? Text("force {0:0.###} N", newtons) : "force not known";
+                : recording.ConstantForceNewtons is { } newtons ? Text("force {0:0.###} N", newtons)
+                : "force not known";
             string words = Text("{0}: {1:0.0} s, {2} at {3:0} Hz, {4}, {5}.", recording.Name, recording.Seconds,
                 recording.AxisCount == 1 ? "one axis" : "three axes", recording.SampleRateHz, motion, force);
             return string.Join(" ", new[] { words }.Concat(recording.Remarks));

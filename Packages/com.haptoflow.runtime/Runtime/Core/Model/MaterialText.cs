@@ -50,9 +50,13 @@ namespace HaptoFlow.Model
                     ["force_newtons"] = header["range"]["force_newtons"],
                 },
             };
-            foreach (string key in LabelKeys.Where(key => labels[index].Find(key) is { IsNull: false } || key == "wavelength_metres"))
+            foreach (string key in LabelKeys)
             {
-                members[key] = labels[index].Find(key);
+                JsonValue? value = labels[index].Find(key);
+                if (value is { IsNull: false } || key == "wavelength_metres")
+                {
+                    members[key] = value;
+                }
             }
             members["seeds"] = new object?[0];
             return JsonText.Of(members);

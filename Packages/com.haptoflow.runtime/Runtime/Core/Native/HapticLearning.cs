@@ -30,8 +30,8 @@ namespace HaptoFlow
         /// <summary>Key of all noise.</summary>
         public ulong Seed { get; set; } = 1;
 
-        /// <summary>Of a ruled surface: k1x, k1y, k2x, k2y in cycles a millimetre, zeros for a surface without ribs; null
-        /// to find them in the recording.</summary>
+        /// <summary>Of a ruled surface: k1x, k1y, k2x, k2y in cycles a millimetre, zeros for a surface without ribs;
+        /// null to find them in the recording.</summary>
         public float[]? WaveVectorsPerMillimetre { get; set; }
 
         /// <summary>Longest time that the fit may take on one core, in seconds; 0 for 20.</summary>
@@ -68,8 +68,8 @@ namespace HaptoFlow
         /// <summary>The text of the material file; null before the end, and where there is none.</summary>
         public string? Material => work.Status == TaskStatus.RanToCompletion ? work.Result.Material : null;
 
-        /// <summary>The label of the model that is nearest to the material, to be felt where the material cannot be; empty
-        /// where there is no material.</summary>
+        /// <summary>The label of the model that is nearest to the material, to be felt where the material cannot be;
+        /// empty where there is no material.</summary>
         public string NearestLabel => work.Status == TaskStatus.RanToCompletion ? work.Result.NearestLabel : "";
 
         /// <summary>What the fit achieved, as a JSON object; null where there is no material.</summary>

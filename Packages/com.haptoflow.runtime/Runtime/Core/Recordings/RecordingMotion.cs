@@ -35,7 +35,8 @@ namespace HaptoFlow.Recordings
         public static float[] Force(string file, Series force, double firstSeconds, double rateHz, int count)
         {
             RecordingChecks.CheckForce(file, force);
-            return Array.ConvertAll(force.At(0, firstSeconds, 1.0 / rateHz, count), value => (float)Math.Max(0.0, value));
+            double[] newtons = force.At(0, firstSeconds, 1.0 / rateHz, count);
+            return Array.ConvertAll(newtons, value => (float)Math.Max(0.0, value));
         }
 
         /// <summary>By a straight line fitted to the readings around each (Savitzky and Golay 1964, first order).

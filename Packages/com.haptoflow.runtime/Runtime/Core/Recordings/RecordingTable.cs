@@ -143,7 +143,8 @@ namespace HaptoFlow.Recordings
                 return null;
             }
             List<double>[] columns = form.Columns.Select(name => numbers[Array.IndexOf(names, name)]).ToArray();
-            List<double>? clock = names.Contains(ColumnForms.Time) ? numbers[Array.IndexOf(names, ColumnForms.Time)] : null;
+            int time = Array.IndexOf(names, ColumnForms.Time);
+            List<double>? clock = time >= 0 ? numbers[time] : null;
             int rows = columns[0].Count;
             var kept = new List<int>(rows);
             int firstBroken = -1;
@@ -169,7 +170,8 @@ namespace HaptoFlow.Recordings
             }
             double[] seconds = kept.Select(row => clock != null ? clock[row] : row / rateHz!.Value).ToArray();
             CheckRises(seconds, kept);
-            double[][] values = columns.Select(column => kept.Select(row => form.Factor * column[row]).ToArray()).ToArray();
+            double[][] values = columns
+                .Select(column => kept.Select(row => form.Factor * column[row]).ToArray()).ToArray();
             return new Series(seconds, values, form.Columns);
         }
 

@@ -104,7 +104,8 @@ namespace HaptoFlow.Recordings
             }
         }
 
-        /// <summary>Where a chunk's content begins; -1 where there is none. A file that ends early ends there.</summary>
+        /// <summary>Where a chunk's content begins; -1 where there is none. A file that ends early ends
+        /// there.</summary>
         private static int Chunk(byte[] bytes, string name, out int length)
         {
             long place = 12;
