@@ -5,7 +5,7 @@
 #include "option_values.hpp"
 #include "output_file.hpp"
 #include "scene_file.hpp"
-#include "scene_labels.hpp"
+#include "scene_materials.hpp"
 #include "stroke_file.hpp"
 #include "stroke_player.hpp"
 
@@ -17,6 +17,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace haptoflow::cli {
 namespace {
@@ -28,6 +29,7 @@ struct ContactOptions {
     std::string strokePath;
     std::string outputPath;
     std::string modelPath;
+    std::vector<std::string> materials;
     std::optional<double> defaultStiffnessNewtonsPerMetre;
     contact::ContactSettings settings;
 };
@@ -65,13 +67,16 @@ void runContact(const ContactOptions& options) {
     const Stroke stroke = readStrokeFile(options.strokePath);
     contact::ContactSettings settings = options.settings;
     std::optional<model::ModelFile> model;
+    std::optional<SceneMaterials> materials;
     if (options.defaultStiffnessNewtonsPerMetre) {
         settings.defaultStiffnessNewtonsPerMetre = *options.defaultStiffnessNewtonsPerMetre;
-    } else if (asksForStiffness(scene) || !options.modelPath.empty()) {
+    } else if (asksForStiffness(scene) || !options.modelPath.empty() || !options.materials.empty()) {
         const std::filesystem::path modelPath = findModel(options.modelPath);
         model = readModel(modelPath);
-        requireKnownLabels(scene, *model, modelPath, options.scenePath);
-        useStiffnessOfLabels(settings, *model);
+        materials.emplace(*model, modelPath, options.scenePath);
+        std::ranges::for_each(options.materials, [&materials](const std::string& path) { materials->add(path); });
+        materials->require(scene);
+        useStiffnessOfMaterials(settings, *materials);
     }
     if (options.outputPath.empty()) {
         writeContactStates(std::cout, scene, stroke, options.strokePath, settings);
@@ -131,11 +136,18 @@ void addContactCommand(CLI::App& app, CommandOutcome& outcome) {
                                           "Model file whose labels give the stiffness that a surface leaves out "
                                           "(default: the one shipped)")
                              ->type_name("FILE");
+    CLI::Option* material = command
+                                ->add_option("--material", options->materials,
+                                             "A .haptomaterial file whose name the scene then uses like a label; may "
+                                             "be given several times")
+                                ->allow_extra_args(false)
+                                ->type_name("FILE");
     command
         ->add_option("--default-stiffness", options->defaultStiffnessNewtonsPerMetre,
                      "N/m of surfaces that give no stiffness of their own, in place of their labels'; no model is read")
         ->check(decimalBetween(1e-3, 1e7, "N/m"))
-        ->excludes(model);
+        ->excludes(model)
+        ->excludes(material);
     command
         ->add_option("--maximum-force", options->settings.maximumForceNewtons,
                      "Newtons at which spring and measured force saturate")

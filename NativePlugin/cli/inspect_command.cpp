@@ -1,13 +1,17 @@
 #include "commands.hpp"
 #include "exit_codes.hpp"
+#include "input_file.hpp"
+#include "model/material_file.hpp"
 #include "model_location.hpp"
 
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <array>
 #include <iomanip>
 #include <iostream>
 #include <memory>
+#include <span>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -89,7 +93,8 @@ void printGeneral(std::ostream& stream, const std::string& path, const model::Mo
                         {"trained speed", interval(header.speedMps) + " m/s"},
                         {"trained force", interval(header.forceNewtons) + " N"},
                         {"peak", inWords(header.peakMps2) + " m/s^2"},
-                        {"seeds", std::to_string(header.seeds.size())}});
+                        {"seeds", std::to_string(header.seeds.size())},
+                        {"space", model::spaceOf(header) + ": material files of this space sound under the model"}});
 }
 
 void printLabels(std::ostream& stream, const model::ModelHeader& header) {
@@ -131,7 +136,82 @@ void printJson(std::ostream& stream, const std::string& path, const model::Model
     stream << report.dump(2) << '\n';
 }
 
+std::string between(const std::array<double, 2>& range) {
+    return inWords(range[0]) + " to " + inWords(range[1]);
+}
+
+/// What is said of a material's wave vectors: ribs or threads a millimetre, by direction.
+std::string ribsOf(const model::MaterialFile& material) {
+    std::string text;
+    const auto vectors = std::span(material.embedding).last(4);
+    for (std::size_t first = 0; first < vectors.size(); first += 2) {
+        if (vectors[first] != 0.0F || vectors[first + 1] != 0.0F) {
+            text += (text.empty() ? "" : "; ") + inWords(vectors[first]) + ", " + inWords(vectors[first + 1]);
+        }
+    }
+    return text.empty() ? "none" : text + " cycles/mm along the two axes";
+}
+
+std::string levelOf(const model::Label& label) {
+    const std::string offset =
+        label.levelOffsetDb != 0.0 ? ", " + inWords(label.levelOffsetDb) + " dB added" : std::string();
+    if (!label.level) {
+        return "the model's" + offset;
+    }
+    return "its own, at " + std::to_string(label.level->speedsMps.size()) + " speeds from " +
+           inWords(label.level->speedsMps.front()) + " to " + inWords(label.level->speedsMps.back()) + " m/s" + offset;
+}
+
+std::string toneOf(const model::Label& label) {
+    return label.tone ? std::to_string(label.tone->frequenciesHz.size()) + " frequencies at " +
+                            std::to_string(label.tone->speedsMps.size()) + " speeds"
+                      : "none";
+}
+
+void printMaterial(std::ostream& stream, const std::string& path, const model::MaterialFile& material) {
+    const model::Label& label = material.label;
+    const model::MaterialProvenance& provenance = material.provenance;
+    stream << label.name << '\n' << orDash(material.description) << "\n\n";
+    printTable(stream, {{"file", path},
+                        {"space", material.space + ": sounds under the models of this space"},
+                        {"category", label.category},
+                        {"provenance", orDash(provenance.statement)},
+                        {"recordings", orDash(provenance.recordings)},
+                        {"licence", provenance.licence},
+                        {"learnt from", inWords(provenance.seconds) + " s"},
+                        {"created", orDash(provenance.created)},
+                        {"speed", between(material.speedMps) + " m/s"},
+                        {"force", between(material.forceNewtons) + " N"},
+                        {"level", levelOf(label)},
+                        {"tone", toneOf(label)},
+                        {"wave vectors", ribsOf(material)},
+                        {"wavelength", label.wavelengthMetres ? inWords(*label.wavelengthMetres * 1000.0) + " mm" : "-"},
+                        {"stiffness", inWords(label.stiffnessNewtonsPerMetre) + " N/m"},
+                        {"friction", inWords(label.frictionCoefficient)},
+                        {"seeds", std::to_string(material.seeds.size())}});
+}
+
+void inspectMaterial(const InspectOptions& options) {
+    const std::string text = readInputFile(options.modelPath, "a material file");
+    try {
+        const model::MaterialFile material = model::parseMaterial(text);
+        if (options.json) {
+            const nlohmann::json report = {{"file", {{"path", options.modelPath}, {"bytes", text.size()}}},
+                                           {"material", nlohmann::json::parse(text)}};
+            std::cout << report.dump(2) << '\n';
+            return;
+        }
+        printMaterial(std::cout, options.modelPath, material);
+    } catch (const model::MaterialError& error) {
+        throw InputError(options.modelPath + ": " + error.what());
+    }
+}
+
 void runInspect(const InspectOptions& options) {
+    if (options.modelPath.ends_with(".haptomaterial")) {
+        inspectMaterial(options);
+        return;
+    }
     // Reading verifies every checksum; a file that gets past it has none left to doubt.
     const model::ModelFile file = readModel(options.modelPath);
     if (options.json) {
@@ -146,9 +226,11 @@ void runInspect(const InspectOptions& options) {
 }  // namespace
 
 void addInspectCommand(CLI::App& app, CommandOutcome& outcome) {
-    CLI::App* command = app.add_subcommand("inspect", "Verify a model file and show what it says about itself");
+    CLI::App* command = app.add_subcommand("inspect", "Verify a model or material file and show what it says about itself");
     const auto options = std::make_shared<InspectOptions>();
-    command->add_option("model", options->modelPath, "The .haptoflow file")->required()->type_name("MODEL");
+    command->add_option("model", options->modelPath, "The .haptoflow or .haptomaterial file")
+        ->required()
+        ->type_name("FILE");
     command->add_flag("--json", options->json, "Print the file's header, size and checksum as JSON");
     command->footer(
         "Example:\n"

@@ -14,7 +14,7 @@
 #include "progress_bar.hpp"
 #include "render_report.hpp"
 #include "scene_file.hpp"
-#include "scene_labels.hpp"
+#include "scene_materials.hpp"
 #include "stroke_file.hpp"
 #include "stroke_player.hpp"
 #include "wav_file.hpp"
@@ -45,6 +45,7 @@ struct RenderOptions {
     std::string outputPath;
     std::string parametricPath;
     std::string modelPath;
+    std::vector<std::string> materials;
     std::string quality;
     std::string solver;
     std::optional<int> steps;
@@ -55,6 +56,13 @@ struct RenderOptions {
     double delayMs = 0.0;
     engine::OfflineSettings engine;
     bool quiet = false;
+};
+
+/// What a surface gives to a contact state.
+struct SurfaceFeel {
+    engine::MaterialBlend blend;
+    float spatialScale = 1.0F;
+    float toneDbPerOctave = 0.0F;
 };
 
 const std::map<std::string, effects::EffectKind>& effectNames() {
@@ -131,29 +139,30 @@ inference::SolverSettings chooseSolver(const model::Tier& tier, const std::strin
     return {.kind = solverNames().at(solver), .steps = *steps};
 }
 
-/// The engine's blend of each surface, in the scene's order.
-std::vector<engine::MaterialBlend> blendsOf(const contact::Scene& scene, const model::ModelFile& model,
-                                            const std::filesystem::path& modelPath, const std::string& scenePath) {
-    std::vector<engine::MaterialBlend> blends;
+/// What each surface feels like, in the scene's order.
+std::vector<SurfaceFeel> feelsOf(const contact::Scene& scene, const SceneMaterials& materials,
+                                 const std::string& scenePath) {
+    std::vector<SurfaceFeel> feels;
     for (const contact::Surface& surface : scene.surfaces) {
         if (surface.material.size() > engine::MaterialBlend::capacity) {
             throw InputError(scenePath + ": surface '" + surface.name + "' blends " +
                              std::to_string(surface.material.size()) + " labels; expected at most " +
                              std::to_string(engine::MaterialBlend::capacity));
         }
-        engine::MaterialBlend blend;
+        SurfaceFeel feel{.blend = {},
+                         .spatialScale = static_cast<float>(surface.spatialScale),
+                         .toneDbPerOctave = static_cast<float>(surface.toneDbPerOctave)};
         for (const auto& [name, weight] : surface.material) {
-            const model::Label& label = labelOf(model, modelPath, name, surface.name, scenePath);
-            blend.entries.at(blend.count) = {.label = static_cast<std::uint32_t>(&label - model.header().labels.data()),
-                                             .weight = static_cast<float>(weight)};
-            ++blend.count;
+            feel.blend.entries.at(feel.blend.count) = {.label = materials.indexOf(name),
+                                                       .weight = static_cast<float>(weight)};
+            ++feel.blend.count;
         }
-        blends.push_back(blend);
+        feels.push_back(feel);
     }
-    return blends;
+    return feels;
 }
 
-engine::ContactState stateOf(const contact::ContactReading& reading, std::span<const engine::MaterialBlend> blends,
+engine::ContactState stateOf(const contact::ContactReading& reading, std::span<const SurfaceFeel> feels,
                              effects::EffectMask effects) {
     engine::ContactState state;
     state.effects = effects;
@@ -168,7 +177,10 @@ engine::ContactState stateOf(const contact::ContactReading& reading, std::span<c
     state.edgeCounter = reading.edgeCounter;
     state.edgeHeightMetres = static_cast<float>(reading.edgeHeightMetres);
     if (reading.surfaceIndex >= 0) {
-        state.material = blends[static_cast<std::size_t>(reading.surfaceIndex)];
+        const SurfaceFeel& feel = feels[static_cast<std::size_t>(reading.surfaceIndex)];
+        state.material = feel.blend;
+        state.spatialScale = feel.spatialScale;
+        state.toneDbPerOctave = feel.toneDbPerOctave;
     }
     return state;
 }
@@ -329,13 +341,17 @@ void runRender(const RenderOptions& options) {
     const model::ModelFile model = readModel(modelPath);
     const model::Tier& tier = chooseTier(model, options.quality);
     const inference::SolverSettings solver = chooseSolver(tier, options.solver, options.steps);
-    const std::vector<engine::MaterialBlend> blends = blendsOf(scene, model, modelPath, options.scenePath);
+    SceneMaterials materials(model, modelPath, options.scenePath);
+    std::ranges::for_each(options.materials, [&materials](const std::string& path) { materials.add(path); });
+    materials.require(scene);
+    const std::vector<SurfaceFeel> feels = feelsOf(scene, materials, options.scenePath);
     contact::ContactSettings settings;
-    useStiffnessOfLabels(settings, model);
+    useStiffnessOfMaterials(settings, materials);
     StrokePlayer player(scene, stroke, options.strokePath, settings);
     requireRoom(scene, player, options);
     engine::OfflineSettings engineSettings = options.engine;
     engineSettings.delaySeconds = 1e-3 * options.delayMs;
+    engineSettings.materials = materials.files();
     if (!options.actuator.empty()) {
         engineSettings.actuator =
             std::make_shared<const effects::ActuatorProfile>(readActuatorProfile(options.actuator));
@@ -348,7 +364,7 @@ void runRender(const RenderOptions& options) {
     const engine::ContactStateSource next = [&]() -> std::optional<engine::ContactState> {
         const std::optional<contact::ContactReading> reading = player.next();
         bar(static_cast<double>(player.played()) / static_cast<double>(player.frames()), {});
-        return reading ? std::optional(stateOf(*reading, blends, effects)) : std::nullopt;
+        return reading ? std::optional(stateOf(*reading, feels, effects)) : std::nullopt;
     };
     const engine::OfflineFigures figures = engine::renderOffline(model, generator, next, engineSettings, files);
 
@@ -392,6 +408,11 @@ void addRenderCommand(CLI::App& app, CommandOutcome& outcome) {
         ->allow_extra_args(false)
         ->type_name("FILE");
     command->add_option("--model", options->modelPath, "Model file (default: the one shipped)")->type_name("FILE");
+    command
+        ->add_option("--material", options->materials,
+                     "A .haptomaterial file whose name the scene then uses like a label; may be given several times")
+        ->allow_extra_args(false)
+        ->type_name("FILE");
     command->add_option("--quality", options->quality,
                         "A tier of the model, such as draft; `haptoflow inspect` lists them");
     command->add_option("--solver", options->solver, "ODE solver in place of the tier's own; not for kind `direct`")

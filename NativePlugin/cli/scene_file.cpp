@@ -233,7 +233,8 @@ contact::Shape readShape(const Node& node) {
 }
 
 std::vector<std::pair<std::string, double>> readMaterial(const Node& node) {
-    const std::string expected = "a label like \"wood\", or an object of labels and weights like {\"wood\": 1}";
+    const std::string expected = "a label like \"wood\", a material file like \"denim.haptomaterial\", or an object of them and weights like "
+        "{\"wood\": 1}";
     if (!node.raw().is_object()) {
         return {{node.text(expected), 1.0}};
     }
@@ -257,7 +258,8 @@ std::vector<std::pair<std::string, double>> readMaterial(const Node& node) {
 }
 
 contact::Surface readSurface(const Node& node) {
-    node.requireObject({"name", "shape", "position", "rotation", "motion", "material", "stiffness", "grain"});
+    node.requireObject({"name", "shape", "position", "rotation", "motion", "material", "stiffness", "grain",
+                        "spatial_scale", "tone_db_per_octave"});
     contact::Surface surface;
     surface.name = node.at("name").text("a name");
     surface.shape = readShape(node.at("shape"));
@@ -272,6 +274,12 @@ contact::Surface readSurface(const Node& node) {
     }
     if (node.has("stiffness")) {
         surface.stiffnessNewtonsPerMetre = node.at("stiffness").number(1e-3, 1e7, "N/m from 0.001 to 1e7");
+    }
+    if (node.has("spatial_scale")) {
+        surface.spatialScale = node.at("spatial_scale").number(0.25, 4.0, "a factor from 0.25 to 4");
+    }
+    if (node.has("tone_db_per_octave")) {
+        surface.toneDbPerOctave = node.at("tone_db_per_octave").number(-12.0, 12.0, "dB from -12 to 12");
     }
     if (node.has("grain")) {
         surface.grain = node.at("grain").vector("a direction [x, y, z] in the object's own axes");

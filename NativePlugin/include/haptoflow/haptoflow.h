@@ -844,6 +844,77 @@ HAPTOFLOW_API haptoflow_status haptoflow_wave_features_process(haptoflow_wave_fe
 HAPTOFLOW_API haptoflow_status haptoflow_noise_fill(uint64_t seed, uint32_t voice, uint64_t segment, float* noise,
                                                     uint64_t count);
 
+/* ----------------------------------------------------------------------------------------------------- learning */
+
+/* Makes a material of a recording of one surface: at least 10 s of sliding, from slow to fast, in the directions that
+ * matter. What comes of it is the text of a material file for haptoflow_engine_register_material. */
+typedef struct haptoflow_learning haptoflow_learning;
+
+/* Told the share that is done, 0 to 1, and what is being done; the text lives during the call. Called on the thread that
+ * learns, some times a second; it must return. */
+typedef void (*haptoflow_progress_callback)(void* context, double share, const char* doing);
+
+typedef struct haptoflow_learning_options {
+    uint32_t struct_size;
+    /* Of the acceleration: 1 or 3, interleaved. */
+    uint32_t axis_count;
+    const haptoflow_runtime* runtime;
+    /* The material will sound under this model and others of its space. */
+    const haptoflow_model* model;
+    /* Null for the model's default. */
+    const char* tier;
+    /* The material's name, as a label's: lower case, 1 to 128 bytes. */
+    const char* name;
+    /* Null or empty: category, that of the nearest label; description, none; licence, "unknown". */
+    const char* category;
+    const char* description;
+    const char* licence;
+    /* sample_count * axis_count numbers in m/s^2, with gravity or without. A sample that is not finite costs its
+     * neighbourhood. The first 300 s are read. */
+    const float* acceleration_mps2;
+    uint64_t sample_count;
+    /* 1000 to 192000. */
+    double sample_rate_hz;
+    /* vx, vy for each sample, or null for constant_velocity_mps. */
+    const float* velocity_mps;
+    double constant_velocity_mps[2];
+    /* One for each sample, or null for constant_force_newtons. */
+    const float* force_newtons;
+    double constant_force_newtons;
+    /* Equal options give equal bytes, unless seconds_limit ends the fit. */
+    uint64_t seed;
+    /* Seconds of the calling thread's work after which the fit ends with what it has; 0 for 20. A fit takes about 8. */
+    double seconds_limit;
+    /* Null for nobody. */
+    haptoflow_progress_callback progress;
+    void* progress_context;
+    /* Null for one that nobody cancels. */
+    const haptoflow_cancellation* cancellation;
+    /* k1x, k1y, k2x, k2y in cycles per millimetre, zeros for a surface without ribs; null to find them in the recording. */
+    const float* wave_vectors;
+} haptoflow_learning_options;
+
+/* Learns, and returns when it is done; *learning is closed with haptoflow_learning_close. Errors: INVALID_ARGUMENT,
+ * RECORDING_UNUSABLE (too short, silent, clipped, not finite, no motion, a speed, force or level that no hand makes; the
+ * message says which), CANCELLED, MODEL_INCONSISTENT, INFERENCE_FAILED, TIER_TOO_SLOW, OUT_OF_MEMORY.
+ * [loader-thread] Blocks for seconds; allocates. */
+HAPTOFLOW_API haptoflow_status haptoflow_learn_material(const haptoflow_learning_options* options,
+                                                        haptoflow_learning** learning);
+
+/* *json becomes the text of the material file. Lives until the learning is closed. Errors: INVALID_ARGUMENT.
+ * [any-thread] Blocks for as long as another thread opens or closes a handle. */
+HAPTOFLOW_API haptoflow_status haptoflow_learning_material(const haptoflow_learning* learning, const char** json);
+
+/* *json becomes a JSON object with what was learnt in figures: nearest_label, nearest_distance_db, fitted_distance_db,
+ * spectral_distance_db, level_error_db, sliding_seconds, speed_mps, force_newtons, level_exponents, wave_vectors, seeds,
+ * segments, seconds, stopped_early, warnings and more. Lives until the learning is closed. Errors: INVALID_ARGUMENT.
+ * [any-thread] Blocks for as long as another thread opens or closes a handle. */
+HAPTOFLOW_API haptoflow_status haptoflow_learning_report(const haptoflow_learning* learning, const char** json);
+
+/* Closes *learning and sets it to null; a null handle is fine. Errors: INVALID_ARGUMENT.
+ * [any-thread] Blocks for as long as another thread opens or closes a handle. */
+HAPTOFLOW_API haptoflow_status haptoflow_learning_close(haptoflow_learning** learning);
+
 #ifdef __cplusplus
 }
 #endif

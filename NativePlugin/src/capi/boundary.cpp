@@ -1,6 +1,7 @@
 #include "capi/boundary.hpp"
 
 #include "inference/inference_error.hpp"
+#include "learning/recording.hpp"
 #include "model/material_file.hpp"
 #include "model/model_error.hpp"
 
@@ -51,6 +52,8 @@ haptoflow_status reportCurrentException() noexcept {
         return report(HAPTOFLOW_MATERIAL_INVALID, error.what());
     } catch (const model::MaterialMismatch& error) {
         return report(HAPTOFLOW_MATERIAL_MISMATCH, error.what());
+    } catch (const learning::RecordingUnusable& error) {
+        return report(HAPTOFLOW_RECORDING_UNUSABLE, error.what());
     } catch (const inference::RuntimeUnavailable& error) {
         return report(HAPTOFLOW_RUNTIME_UNAVAILABLE, error.what());
     } catch (const inference::InferenceError& error) {

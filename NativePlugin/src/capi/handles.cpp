@@ -36,6 +36,11 @@ WaveFeaturesTable& waveFeatures() {
     return table;
 }
 
+LearningTable& learnings() {
+    static auto& table = *new LearningTable("learning");
+    return table;
+}
+
 inference::LoadLimits loadLimits(const haptoflow_cancellation* cancellation, double probeLimitMs) {
     inference::LoadLimits limits;
     if (probeLimitMs != 0.0) {

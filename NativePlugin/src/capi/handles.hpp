@@ -74,6 +74,8 @@ using GeneratorTable = HandleTable<haptoflow_generator, OpenGenerator>;
 using EngineTable = HandleTable<haptoflow_engine, OpenEngine>;
 struct OpenWaveFeatures;
 using WaveFeaturesTable = HandleTable<haptoflow_wave_features, OpenWaveFeatures>;
+struct OpenLearning;
+using LearningTable = HandleTable<haptoflow_learning, const OpenLearning>;
 
 // The tables are never destroyed: ONNX Runtime may be gone by the time that static objects are.
 [[nodiscard]] RuntimeTable& runtimes();
@@ -82,6 +84,7 @@ using WaveFeaturesTable = HandleTable<haptoflow_wave_features, OpenWaveFeatures>
 [[nodiscard]] GeneratorTable& generators();
 [[nodiscard]] EngineTable& engines();
 [[nodiscard]] WaveFeaturesTable& waveFeatures();
+[[nodiscard]] LearningTable& learnings();
 
 /// The limits of a load as options give them: a null cancellation is none, a limit of 0 is the usual one. Throws
 /// std::invalid_argument.

@@ -24,6 +24,9 @@ struct Surface {
     std::optional<double> stiffnessNewtonsPerMetre;
     /// Direction of the first tangent axis, in the object's local frame.
     glm::dvec3 grain{1.0, 0.0, 0.0};
+    /// How much larger its features are than the material's, and how much brighter or darker it is.
+    double spatialScale = 1.0;
+    double toneDbPerOctave = 0.0;
 
     [[nodiscard]] Pose poseAt(double timeSeconds) const noexcept {
         return motion ? motion->poseAt(timeSeconds) : sanitised(pose);

@@ -104,6 +104,16 @@ void ContactPublisher::postToWorker(const Contact& contact, const Material& mate
     worker.motion = contact.ranged.motion;
     worker.readingRate = contact.ranged.readingRate;
     worker.level = requestLevel(contact.ingredients, contact.ranged);
+    worker.blend.count = 0;
+    if (contact.ingredients.isBlend()) {
+        const double total = contact.ingredients.totalWeight();
+        for (const Ingredient& each : contact.ingredients.all()) {
+            BlendParts::Part& part = worker.blend.parts[worker.blend.count];
+            part.share = static_cast<float>(each.weight / total);
+            std::ranges::copy(each.material->embedding, part.embedding.begin());
+            ++worker.blend.count;
+        }
+    }
     channels_.toWorker.post();
 }
 

@@ -38,12 +38,38 @@ RoundResult InferenceRound::run(std::span<LiveVoice* const> voices, inference::S
     }
     result.voices = wanting_.size();
     const auto began = std::chrono::steady_clock::now();
+    balancing_.assign(wanting_.begin(), wanting_.end());
     while (!wanting_.empty()) {
         generate(generator, result);
     }
+    balanceBlends(generator);
     const std::chrono::duration<double, std::milli> spent = std::chrono::steady_clock::now() - began;
     result.milliseconds = result.voices > 0 ? spent.count() : 0.0;
     return result;
+}
+
+void InferenceRound::balanceBlends(inference::SegmentGenerator& generator) {
+    requests_.clear();
+    std::erase_if(balancing_, [this](LiveVoice* voice) {
+        voice->planner.balance().request(requests_);
+        return voice->planner.balance().requested() == 0;
+    });
+    if (requests_.empty()) {
+        return;
+    }
+    segments_.resize(requests_.size() * inference::segmentSamples);
+    std::string failure;
+    if (!nanosecondsOf(generator, requests_, segments_, failure)) {
+        // Nothing of it is heard: the blends keep the gains that they have.
+        return;
+    }
+    std::span<const float> segments = segments_;
+    for (LiveVoice* voice : balancing_) {
+        BlendBalance& balance = voice->planner.balance();
+        const std::size_t taken = balance.requested() * inference::segmentSamples;
+        balance.take(segments.first(taken));
+        segments = segments.subspan(taken);
+    }
 }
 
 void InferenceRound::generate(inference::SegmentGenerator& generator, RoundResult& result) {

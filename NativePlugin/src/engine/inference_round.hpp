@@ -33,8 +33,10 @@ public:
 
 private:
     void generate(inference::SegmentGenerator& generator, RoundResult& result);
+    void balanceBlends(inference::SegmentGenerator& generator);
 
     std::vector<LiveVoice*> wanting_;
+    std::vector<LiveVoice*> balancing_;
     std::vector<inference::SegmentRequest> requests_;
     std::vector<float> segments_;
 };

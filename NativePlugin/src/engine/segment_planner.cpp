@@ -24,7 +24,7 @@ std::int64_t scaled(std::int64_t samples, double readingRate) noexcept {
 }  // namespace
 
 SegmentPlanner::SegmentPlanner(VoiceChannels& channels, const PlannerSettings& settings) noexcept
-    : channels_(channels), settings_(settings) {}
+    : channels_(channels), settings_(settings), balance_(settings.seed, settings.voice) {}
 
 bool SegmentPlanner::wake() noexcept {
     channels_.toWorker.fetch();
@@ -140,13 +140,15 @@ std::int64_t SegmentPlanner::leadSamples(std::int64_t blockAdvance, double readi
 
 void SegmentPlanner::prepare(std::int64_t start) noexcept {
     plannedStart_ = start;
+    balance_.follow(channels_.toWorker.current().blend, request_.motion, start);
     mirror_.history(start, history_);
     request_.ribPhase = ribs_.at(start, waveVectorsOf(request_.embedding));
     inference::fillStandardNormal({.seed = settings_.seed, .voice = settings_.voice, .segment = segments_}, noise_);
     ++segments_;
 }
 
-bool SegmentPlanner::deliver(std::span<const float, inference::segmentSamples> segmentMps2) noexcept {
+bool SegmentPlanner::deliver(std::span<float, inference::segmentSamples> segmentMps2) noexcept {
+    balance_.level(segmentMps2, request_.levelMps2.value_or(0.0F));
     channels_.counters.inferences.fetch_add(1, std::memory_order_relaxed);
     const WorkerMessage& contact = channels_.toWorker.current();
     const Playhead& playhead = channels_.playhead.current();

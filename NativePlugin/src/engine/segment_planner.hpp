@@ -1,5 +1,6 @@
 #pragma once
 
+#include "engine/blend_balance.hpp"
 #include "engine/lead_estimator.hpp"
 #include "engine/rib_phase.hpp"
 #include "engine/voice_channels.hpp"
@@ -38,9 +39,11 @@ public:
     [[nodiscard]] bool looksAgain() noexcept;
     /// Valid until `deliver` or the next `wake`.
     [[nodiscard]] const inference::SegmentRequest& request() const noexcept { return request_; }
-    /// The segment that was asked for, on its way to the callback. True where the same contact needs another behind
+    /// The segment that was asked for, on its way to the callback; that of a blend is levelled here. True where the same contact needs another behind
     /// it: read faster, or updated rarely, one segment does not last until the next.
-    [[nodiscard]] bool deliver(std::span<const float, inference::segmentSamples> segmentMps2) noexcept;
+    [[nodiscard]] bool deliver(std::span<float, inference::segmentSamples> segmentMps2) noexcept;
+    /// Of a voice that plays a blend: what has to be generated beside its segments.
+    [[nodiscard]] BlendBalance& balance() noexcept { return balance_; }
     /// The run failed: nothing goes out.
     void fail() noexcept;
 
@@ -67,6 +70,7 @@ private:
     WaveformTimeline mirror_;
     // Of the present stream.
     RibTrack ribs_;
+    BlendBalance balance_;
 
     struct Sent {
         QueuedSegment segment;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "dsp/tone_cepstrum.hpp"
+#include "engine/blend_balance.hpp"
 #include "engine/level_request.hpp"
 #include "engine/mailbox.hpp"
 #include "engine/output_stage.hpp"
@@ -59,6 +60,7 @@ struct WorkerMessage {
     std::array<float, 3> motion{};
     double readingRate = 1.0;
     LevelRequest level;
+    BlendParts blend;
 };
 
 /// Where a voice's playback stands, as the callback left it at the end of a block.

@@ -55,10 +55,9 @@ ClosedLoop::ClosedLoop(inference::SegmentGenerator& generator, const model::Mode
                        const PreparedRecording& recording, std::span<const float> unitWave)
     : generator_(generator), model_(model), recording_(recording), unitWave_(unitWave) {}
 
-std::array<float, 3> ClosedLoop::motionBefore(std::size_t sample, std::size_t count) const {
+std::array<float, 3> ClosedLoop::motionFrom(std::size_t first, std::size_t count) const {
     std::array<double, 3> mean{};
-    const std::size_t first = sample > count ? sample - count : 0;
-    const std::size_t last = std::min(std::max(sample, first + 1), recording_.motion.size());
+    const std::size_t last = std::min(first + count, recording_.motion.size());
     for (std::size_t i = first; i < last; ++i) {
         for (std::size_t component = 0; component < mean.size(); ++component) {
             mean[component] += recording_.motion[i][component] / static_cast<double>(last - first);
@@ -84,19 +83,18 @@ std::vector<float> ClosedLoop::run(std::span<const Embedding> embeddings, std::s
     std::vector<float> previous(chains.size() * segment);
     std::vector<float> noise(chains.size() * segment);
     std::vector<float> made(chains.size() * segment);
-    std::vector<float> levels(chains.size());
     const auto at = [](std::vector<float>& values, std::size_t chain) {
         return std::span<float, segment>(values.data() + chain * segment, segment);
     };
     std::vector<inference::SegmentRequest> requests;
     requests.reserve(chains.size());
     for (std::size_t c = 0; c < chains.size(); ++c) {
-        requests.push_back({embeddings[chains[c].embedding], {}, at(previous, c), at(noise, c), {}});
+        requests.push_back({embeddings[chains[c].embedding], {}, at(previous, c), at(noise, c), {}, 1.0F, {}});
     }
     std::uint64_t hop = 0;
     for (std::size_t start = 0; start < whole; start += settings.hopSamples, ++hop) {
         for (std::size_t c = 0; c < chains.size(); ++c) {
-            requests[c].motion = motionBefore(chains[c].start + start, settings.hopSamples);
+            requests[c].motion = motionFrom(chains[c].start + start, settings.hopSamples);
             for (std::size_t rib = 0; rib < inference::ribCount; ++rib) {
                 const auto phase = static_cast<float>(phases[c][rib]);
                 requests[c].ribPhase[rib] = phase < 1.0F ? phase : 0.0F;
@@ -104,19 +102,14 @@ std::vector<float> ClosedLoop::run(std::span<const Embedding> embeddings, std::s
             inference::fillStandardNormal(
                 {.seed = settings.seed, .voice = chains[c].noise, .segment = settings.round * 4096 + hop}, at(noise, c));
         }
-        generator_.levels(requests, levels);
         for (std::size_t c = 0; c < chains.size(); ++c) {
-            for (std::size_t i = 0; i < segment; ++i) {
-                previous[c * segment + i] = waves[c * stride + start + i] * levels[c];
-            }
+            std::copy_n(waves.begin() + static_cast<std::ptrdiff_t>(c * stride + start), segment,
+                        previous.begin() + static_cast<std::ptrdiff_t>(c * segment));
         }
         generator_.generate(requests, made);
         segments_ += chains.size();
         for (std::size_t c = 0; c < chains.size(); ++c) {
             const auto successor = at(made, c);
-            for (float& value : successor) {
-                value /= levels[c];
-            }
             const std::span<float, segment> running(waves.data() + c * stride + segment + start, segment);
             if (start == 0) {
                 std::ranges::copy(successor, running.begin());

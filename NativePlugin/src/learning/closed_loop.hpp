@@ -39,8 +39,9 @@ public:
     ClosedLoop(inference::SegmentGenerator& generator, const model::ModelHeader& model,
                const PreparedRecording& recording, std::span<const float> unitWave);
 
-    /// `settings.samples` of unit level for each chain, one after the other. Each segment is told the mean motion of the
-    /// hop before it, which is all that a tracker can know. Throws inference::InferenceError.
+    /// `settings.samples` of unit level for each chain, one after the other. Each segment is told the mean motion of its
+    /// own hop: the recording's ribs are to be met where they are, not where a tracker would see them. Throws
+    /// inference::InferenceError.
     [[nodiscard]] std::vector<float> run(std::span<const Embedding> embeddings, std::span<const Chain> chains,
                                          const LoopSettings& settings);
 
@@ -48,7 +49,7 @@ public:
     [[nodiscard]] std::uint64_t segments() const noexcept { return segments_; }
 
 private:
-    [[nodiscard]] std::array<float, 3> motionBefore(std::size_t sample, std::size_t count) const;
+    [[nodiscard]] std::array<float, 3> motionFrom(std::size_t first, std::size_t count) const;
 
     inference::SegmentGenerator& generator_;
     const model::ModelHeader& model_;

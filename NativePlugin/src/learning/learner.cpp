@@ -11,13 +11,14 @@
 #include "learning/seed_choice.hpp"
 #include "learning/sliding.hpp"
 #include "learning/texture_fit.hpp"
+#include "learning/thread_clock.hpp"
 #include "learning/tone_fit.hpp"
 #include "learning/wave_vectors.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <numeric>
+#include <stdexcept>
 
 namespace haptoflow::learning {
 namespace {
@@ -38,8 +39,9 @@ class Learner {
 public:
     Learner(const Recording& recording, const model::ModelFile& model, inference::SegmentGenerator& generator,
             const LearningSettings& settings)
-        : model_(model), generator_(generator), settings_(settings), began_(std::chrono::steady_clock::now()) {
+        : model_(model), generator_(generator), settings_(settings), began_(threadSeconds()) {
         say(0.0, "reading");
+        checkSettings(settings);
         checkRecording(recording);
         recording_ = prepareRecording(recording);
         sliding_ = findSliding(recording_, model.header());
@@ -57,12 +59,12 @@ public:
         findRibs();
         const EmbeddingSpace space(model_, waveVectors_);
         ClosedLoop loop(generator_, model_.header(), recording_, unitWave_);
-        TextureFit fit(loop, recording_, sliding_, unitWave_, settings_.seed);
+        TextureFit fit(loop, recording_, sliding_, unitWave_, waveVectors_, settings_.seed);
         say(0.1, "nearest label");
         const std::size_t nearest = nearestLabel(fit, space);
         const model::Label& label = model_.header().labels[nearest];
         report_.nearestLabel = label.name;
-        Embedding embedding = fitEmbedding(fit, space, space.ofLabel(nearest), loop);
+        Embedding embedding = fitEmbedding(fit, space, space.ofLabel(nearest));
         say(0.9, "tone");
         ToneFit tone = fitTones(fit, embedding);
         const std::vector<LearntSeed> seeds = chooseSeeds(recording_, sliding_, unitWave_, tone.tone);
@@ -88,9 +90,8 @@ public:
     }
 
 private:
-    [[nodiscard]] double elapsedSeconds() const {
-        return std::chrono::duration<double>(std::chrono::steady_clock::now() - began_).count();
-    }
+    /// Of this thread's work: other programs' do not count.
+    [[nodiscard]] double elapsedSeconds() const { return threadSeconds() - began_; }
 
     void say(double share, const char* doing) const {
         if (settings_.cancellation != nullptr && settings_.cancellation->isCancelled()) {
@@ -156,6 +157,8 @@ private:
                                               {static_cast<float>(speed), 0.0F, static_cast<float>(force)},
                                               silence_,
                                               silence_,
+                                              {},
+                                              {},
                                               {}};
             std::ranges::copy(model_.embedding(label), request.embedding.begin());
             requests.push_back(request);
@@ -230,10 +233,23 @@ private:
             const std::vector<double> part = fit.distances(embeddings, chains, 0);
             distances.insert(distances.end(), part.begin(), part.end());
         }
-        return static_cast<std::size_t>(std::ranges::min_element(distances) - distances.begin());
+        // Only labels with ribs have learnt what to do with a wave vector.
+        const auto& all = model_.header().labels;
+        const auto hasRibs = [&](std::size_t label) { return all[label].wavelengthMetres.has_value(); };
+        std::vector<std::size_t> eligible;
+        for (std::size_t label = 0; label < labels; ++label) {
+            if (report_.waveVectors.empty() || hasRibs(label)) {
+                eligible.push_back(label);
+            }
+        }
+        if (eligible.empty()) {
+            eligible.resize(labels);
+            std::iota(eligible.begin(), eligible.end(), std::size_t{0});
+        }
+        return *std::ranges::min_element(eligible, {}, [&](std::size_t label) { return distances[label]; });
     }
 
-    Embedding fitEmbedding(TextureFit& fit, const EmbeddingSpace& space, const Embedding& start, ClosedLoop& loop) {
+    Embedding fitEmbedding(TextureFit& fit, const EmbeddingSpace& space, const Embedding& start) {
         const std::size_t chains = std::max<std::size_t>(12, 3 * fit.bins().count());
         Embedding fitted = start;
         const std::uint64_t perGeneration = population * chains * segmentsPerChain;
@@ -271,7 +287,6 @@ private:
         const std::vector<double> distances = fit.distances(both, manyChains, 1'000'000 / manyChains);
         report_.nearestDistanceDb = std::sqrt(distances[0]);
         report_.fittedDistanceDb = std::sqrt(std::min(distances[0], distances[1]));
-        (void)loop;
         return distances[1] < distances[0] ? fitted : start;
     }
 
@@ -373,7 +388,7 @@ private:
     const model::ModelFile& model_;
     inference::SegmentGenerator& generator_;
     const LearningSettings& settings_;
-    std::chrono::steady_clock::time_point began_;
+    double began_;
     std::array<float, inference::segmentSamples> silence_{};
     PreparedRecording recording_;
     Sliding sliding_;
@@ -383,7 +398,38 @@ private:
     LearningReport report_;
 };
 
+void requireText(const std::string& text, std::size_t longest, const char* what) {
+    if (text.size() > longest || !isUtf8(text)) {
+        throw std::invalid_argument(std::string(what) + ": expected text in UTF-8 of " + std::to_string(longest) +
+                                    " bytes at most");
+    }
+}
+
 }  // namespace
+
+void checkSettings(const LearningSettings& settings) {
+    constexpr std::size_t longestName = 128;
+    constexpr std::size_t longestText = 4096;
+    constexpr double finestCyclesPerMillimetre = 20.0;
+    const bool hasCapitals = std::ranges::any_of(settings.name, [](char each) { return each >= 'A' && each <= 'Z'; });
+    if (settings.name.empty() || hasCapitals) {
+        throw std::invalid_argument("name is \"" + settings.name.substr(0, longestName) +
+                                    "\"; expected text that is not empty and has no capital letters, as labels have");
+    }
+    requireText(settings.name, longestName, "name");
+    requireText(settings.category, longestName, "category");
+    requireText(settings.description, longestText, "description");
+    requireText(settings.licence, longestText, "licence");
+    requireText(settings.recordings, longestText, "recordings");
+    if (settings.waveVectors) {
+        for (const double number : *settings.waveVectors) {
+            if (!(std::abs(number) <= finestCyclesPerMillimetre)) {
+                throw std::invalid_argument("wave_vectors: " + plainNumber(number) +
+                                            " cycles per millimetre; expected -20 to 20");
+            }
+        }
+    }
+}
 
 LearntMaterial learnMaterial(const Recording& recording, const model::ModelFile& model,
                              inference::SegmentGenerator& generator, const LearningSettings& settings) {

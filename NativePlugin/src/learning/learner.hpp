@@ -20,7 +20,7 @@ inline constexpr std::uint64_t usualSegmentBudget = 42'000;
 inline constexpr double usualSecondsLimit = 20.0;
 
 struct LearningSettings {
-    /// Lower case, as a label's.
+    /// Lower case, as a label's, 1 to 128 bytes.
     std::string name;
     /// Empty for the nearest label's.
     std::string category;
@@ -32,7 +32,8 @@ struct LearningSettings {
     /// YYYY-MM-DD, or empty.
     std::string created;
     std::uint64_t seed = 1;
-    /// The fit stops there with what it has, and the result is then no longer the same on every machine.
+    /// Seconds of the calling thread's work. The fit stops there with what it has, and the result is then no longer the
+    /// same on every machine.
     double secondsLimit = usualSecondsLimit;
     std::uint64_t segmentBudget = usualSegmentBudget;
     /// k1x, k1y, k2x, k2y in cycles per millimetre, zero for none; estimated where empty.
@@ -69,6 +70,7 @@ struct LearningReport {
     std::size_t toneSpeeds = 0;
     std::uint64_t segments = 0;
     std::uint64_t generations = 0;
+    /// Of the calling thread's work.
     double seconds = 0.0;
     bool stoppedEarly = false;
     std::vector<std::string> warnings;
@@ -79,6 +81,10 @@ struct LearntMaterial {
     std::string materialJson;
     LearningReport report;
 };
+
+/// Throws std::invalid_argument for a name or another text that a material file would refuse, and for wave vectors that
+/// no ribs have.
+void checkSettings(const LearningSettings& settings);
 
 /// Makes a material of a recording: level law, wave vectors, embedding, tone and seeds. `generator` is the model's, of
 /// any tier. Equal arguments give equal bytes. Throws RecordingUnusable, std::invalid_argument, inference::LoadCancelled

@@ -14,11 +14,14 @@ constexpr double speedOffsetMps = 0.0005;
 constexpr double smallestForceNewtons = 0.02;
 /// How far one frame's log RMS strays from the law, and how far a slope between knots strays from the common one.
 constexpr double frameSpread = 0.35;
-constexpr double slopeSpread = 0.5;
+constexpr double slopeSpread = 0.9;
 constexpr double framesPerKnot = 14.0;
 constexpr double knotDistance = 0.22;
 constexpr std::size_t mostKnots = 14;
 constexpr int newtonRounds = 30;
+constexpr std::size_t steadyMargin = 80;
+constexpr double largestChange = 2.0;
+constexpr double leastSteadyShare = 0.25;
 
 double logSpeed(double speedMps) {
     return std::log(speedMps + speedOffsetMps);
@@ -30,26 +33,48 @@ struct Frame {
     double power = 0.0;
 };
 
+/// Where the speed changes fast, a tracker's smoothed speed says little about the wave's.
+bool isSteady(const PreparedRecording& recording, std::size_t start) {
+    double lowest = recording.speedMps(start);
+    double highest = lowest;
+    const std::size_t first = start > steadyMargin ? start - steadyMargin : 0;
+    const std::size_t end = std::min(start + frameSamples + steadyMargin, recording.motion.size());
+    for (std::size_t i = first; i < end; i += 4) {
+        const double speed = recording.speedMps(i);
+        lowest = std::min(lowest, speed);
+        highest = std::max(highest, speed);
+    }
+    return highest <= largestChange * lowest;
+}
+
 std::vector<Frame> framesOf(const PreparedRecording& recording, const Sliding& sliding) {
     std::vector<Frame> frames;
+    std::vector<Frame> steady;
     for (std::size_t start = 0; start + frameSamples <= recording.wave.size(); start += frameHop) {
         if (!sliding.holds(start, frameSamples)) {
             continue;
         }
         Frame frame;
+        double squaredSpeed = 0.0;
         for (std::size_t i = start; i < start + frameSamples; ++i) {
             const double value = recording.wave[i];
+            const double speed = recording.speedMps(i) + speedOffsetMps;
             frame.power += value * value / static_cast<double>(frameSamples);
-            frame.logSpeed += logSpeed(recording.speedMps(i)) / static_cast<double>(frameSamples);
+            squaredSpeed += speed * speed / static_cast<double>(frameSamples);
             frame.logForce +=
                 std::log(std::max(static_cast<double>(recording.motion[i][2]), smallestForceNewtons)) /
                 static_cast<double>(frameSamples);
         }
+        // Levels grow about as the speed: what a frame's power is the mean of goes with the mean of the square.
+        frame.logSpeed = 0.5 * std::log(squaredSpeed);
         // Digital silence has no logarithm; a hundredth of what can be felt has.
         frame.power = std::max(frame.power, 1e-10);
         frames.push_back(frame);
+        if (isSteady(recording, start)) {
+            steady.push_back(frame);
+        }
     }
-    return frames;
+    return static_cast<double>(steady.size()) >= leastSteadyShare * static_cast<double>(frames.size()) ? steady : frames;
 }
 
 /// Log speeds of the knots: evenly spread quantiles, no two nearer than they can be told apart.
@@ -189,6 +214,19 @@ private:
     ExponentPrior prior_;
 };
 
+/// From one end of the table to the other, as far as its width tells that from what other materials have.
+double overallSlope(const std::vector<double>& knots, const std::vector<double>& logLevels, const ExponentPrior& prior) {
+    constexpr double endSpread = 0.15;
+    const double width = knots.back() - knots.front();
+    if (width <= 0.0) {
+        return prior.speedMean;
+    }
+    const double slope = (logLevels[knots.size() - 1] - logLevels[0]) / width;
+    const double trust = width * width / (endSpread * endSpread);
+    const double priorTrust = 1.0 / (prior.speedSpread * prior.speedSpread);
+    return (trust * slope + priorTrust * prior.speedMean) / (trust + priorTrust);
+}
+
 }  // namespace
 
 double LevelLaw::logLevel(double speedMps, double force) const {
@@ -223,7 +261,7 @@ LevelLaw fitLevelLaw(const PreparedRecording& recording, const Sliding& sliding,
     const std::vector<double> knots = knotsOf(frames);
     std::vector<double> unknown = Fit(frames, knots, std::log(law.forceNewtons), prior).solve();
     law.forceExponent = std::clamp(unknown[knots.size() + 1], -4.0, 4.0);
-    law.speedExponent = std::clamp(unknown[knots.size()], -4.0, 4.0);
+    law.speedExponent = std::clamp(overallSlope(knots, unknown, prior), -4.0, 4.0);
     for (std::size_t i = 0; i < knots.size(); ++i) {
         law.speedsMps.push_back(std::exp(knots[i]) - speedOffsetMps);
         law.logLevels.push_back(unknown[i]);

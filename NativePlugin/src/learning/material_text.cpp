@@ -1,13 +1,8 @@
 #include "learning/material_text.hpp"
 
-#include "model/crc32.hpp"
-
 #include <nlohmann/json.hpp>
 
-#include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
 
 namespace haptoflow::learning {
 namespace {
@@ -26,21 +21,6 @@ Json roundedNumbers(const Range& values, double perUnit) {
         result.push_back(rounded(static_cast<double>(value), perUnit));
     }
     return result;
-}
-
-std::string hexadecimal(std::uint32_t value) {
-    std::array<char, 9> text{};
-    (void)std::snprintf(text.data(), text.size(), "%08x", static_cast<unsigned>(value));
-    return text.data();
-}
-
-std::string spaceOf(const model::ModelFile& model) {
-    std::string text;
-    for (const model::Tier& tier : model.header().tiers) {
-        const auto blob = std::ranges::find(model.header().blobs, tier.field, &model::Blob::name);
-        text += tier.name + ':' + hexadecimal(blob->crc32) + ';';
-    }
-    return hexadecimal(model::crc32(std::as_bytes(std::span(text))));
 }
 
 Json impactJson(const model::Impact& impact) {
@@ -77,13 +57,22 @@ Json seedsJson(std::span<const LearntSeed> seeds) {
 
 }  // namespace
 
+bool isUtf8(const std::string& text) {
+    try {
+        (void)Json(text).dump();
+        return true;
+    } catch (const Json::exception&) {
+        return false;
+    }
+}
+
 std::string materialText(const model::ModelFile& model, const MaterialContent& content) {
     const LearningSettings& settings = content.settings;
     const LearningReport& report = content.report;
     Json json;
     json["format"] = "haptoflow-material";
     json["version"] = 1;
-    json["space"] = spaceOf(model);
+    json["space"] = model::spaceOf(model.header());
     json["name"] = settings.name;
     json["category"] = settings.category.empty() ? content.nearest.category : settings.category;
     json["description"] = settings.description;

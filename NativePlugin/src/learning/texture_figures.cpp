@@ -70,9 +70,43 @@ void TextureMeter::addSpectrum(Sums& sums, std::span<const float, spectrumSample
     }
 }
 
-void TextureMeter::add(std::size_t bin, std::span<const float, spectrumSamples> wave) {
+void TextureMeter::addLines(Sums& sums, std::span<const float, spectrumSamples> wave,
+                            std::span<const RibWay> ways) const {
+    constexpr double slowestHz = 15.0;
+    constexpr double fastestHz = 900.0;
+    constexpr double frameSeconds = static_cast<double>(spectrumSamples) / 2000.0;
+    // Of a Hann window, half of the samples count.
+    constexpr double windowSum = 0.5 * static_cast<double>(spectrumSamples);
+    for (std::size_t rib = 0; rib < inference::ribCount; ++rib) {
+        const double rateHz = std::abs(ways.back()[rib] - ways.front()[rib]) / frameSeconds;
+        if (rateHz <= 0.0) {
+            continue;
+        }
+        std::array<std::complex<double>, partialsOfRib> sum{};
+        for (std::size_t i = 0; i < spectrumSamples; ++i) {
+            const std::complex<double> turn = std::polar(1.0, -2.0 * std::numbers::pi * ways[i][rib]);
+            std::complex<double> each = window_[i] * static_cast<double>(wave[i]);
+            for (std::complex<double>& partial : sum) {
+                each *= turn;
+                partial += each;
+            }
+        }
+        for (std::size_t partial = 0; partial < partialsOfRib; ++partial) {
+            const double hertz = rateHz * static_cast<double>(partial + 1);
+            if (hertz >= slowestHz && hertz <= fastestHz) {
+                sums.lines[rib * partialsOfRib + partial] += 2.0 * std::norm(sum[partial]) / (windowSum * windowSum);
+                sums.lineFrames[rib * partialsOfRib + partial] += 1.0;
+            }
+        }
+    }
+}
+
+void TextureMeter::add(std::size_t bin, std::span<const float, spectrumSamples> wave, std::span<const RibWay> ways) {
     Sums& sums = sums_.at(bin);
     addSpectrum(sums, wave);
+    if (!ways.empty()) {
+        addLines(sums, wave, ways);
+    }
     sums.frames += 1.0;
     for (const float value : wave) {
         const double square = static_cast<double>(value) * value;
@@ -114,6 +148,10 @@ std::vector<TextureFigures> TextureMeter::figures() const {
             const double variance = sums.logSquares[kind] / sums.pieces[kind] - mean * mean;
             each.envelope[2 * kind] = mean - logRms;
             each.envelope[2 * kind + 1] = std::sqrt(std::max(variance, 0.0));
+        }
+        each.lineFrames = sums.lineFrames;
+        for (std::size_t i = 0; i < ribPartials; ++i) {
+            each.lines[i] = sums.lines[i] / std::max(sums.lineFrames[i], 1.0);
         }
         const double kurtosis = sums.fourths / sums.samples / (each.meanSquare * each.meanSquare + 1e-12);
         each.envelope[envelopeFigures - 1] = 0.25 * std::log(kurtosis + 1e-3);

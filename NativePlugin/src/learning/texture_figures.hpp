@@ -1,5 +1,7 @@
 #pragma once
 
+#include "inference/segment_generator.hpp"
+
 #include <array>
 #include <cstddef>
 #include <span>
@@ -25,6 +27,11 @@ inline constexpr std::size_t spectrumSamples = 256;
 inline constexpr std::size_t spectrumBins = spectrumSamples / 2 + 1;
 inline constexpr double hertzPerBin = 2000.0 / static_cast<double>(spectrumSamples);
 inline constexpr std::size_t envelopeFigures = 7;
+inline constexpr std::size_t partialsOfRib = 6;
+inline constexpr std::size_t ribPartials = partialsOfRib * inference::ribCount;
+
+/// How far a tip has travelled along each wave vector, in turns.
+using RibWay = std::array<double, inference::ribCount>;
 
 /// What a texture of unit level is like at one speed.
 struct TextureFigures {
@@ -34,6 +41,10 @@ struct TextureFigures {
     /// How its strength changes in time: mean and spread of the log RMS of 4, 20 and 60 samples; log kurtosis / 4.
     std::array<double, envelopeFigures> envelope{};
     double meanSquare = 0.0;
+    /// Mean power of each partial of the ribs, those of the first wave vector first, and in how many frames it was one
+    /// that a wave at 2 kHz can show.
+    std::array<double, ribPartials> lines{};
+    std::array<double, ribPartials> lineFrames{};
 };
 
 /// Gathers the figures of many stretches.
@@ -41,8 +52,8 @@ class TextureMeter {
 public:
     explicit TextureMeter(std::size_t bins);
 
-    /// One stretch of `spectrumSamples`; its speed belongs to `bin`.
-    void add(std::size_t bin, std::span<const float, spectrumSamples> wave);
+    /// One stretch of `spectrumSamples`; its speed belongs to `bin`. `ways`: for each sample; empty without ribs.
+    void add(std::size_t bin, std::span<const float, spectrumSamples> wave, std::span<const RibWay> ways);
     [[nodiscard]] std::vector<TextureFigures> figures() const;
 
 private:
@@ -55,7 +66,11 @@ private:
         std::array<double, 3> pieces{};
         std::array<double, 3> logs{};
         std::array<double, 3> logSquares{};
+        std::array<double, ribPartials> lines{};
+        std::array<double, ribPartials> lineFrames{};
     };
+
+    void addLines(Sums& sums, std::span<const float, spectrumSamples> wave, std::span<const RibWay> ways) const;
 
     void addSpectrum(Sums& sums, std::span<const float, spectrumSamples> wave) const;
 

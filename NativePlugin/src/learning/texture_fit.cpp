@@ -17,6 +17,9 @@ constexpr double powerFloor = 1e-7;
 constexpr double decibelsPerNat = 8.685889638065037;
 constexpr double envelopeWeight = 1.0;
 constexpr double levelWeight = 0.3;
+constexpr double lineWeight = 1.0;
+constexpr double lineFloor = 3e-4;
+constexpr double fewestLineFrames = 3.0;
 
 struct Band {
     std::size_t first = 0;
@@ -45,6 +48,20 @@ double bandPower(const TextureFigures& figures, const Band& band) {
     return sum / static_cast<double>(band.end - band.first);
 }
 
+double lineDistance(const TextureFigures& recorded, const TextureFigures& generated) {
+    double sum = 0.0;
+    double count = 0.0;
+    for (std::size_t i = 0; i < ribPartials; ++i) {
+        if (recorded.lineFrames[i] >= fewestLineFrames && generated.lineFrames[i] >= fewestLineFrames) {
+            const double difference =
+                10.0 * std::log10((generated.lines[i] + lineFloor) / (recorded.lines[i] + lineFloor));
+            sum += difference * difference;
+            count += 1.0;
+        }
+    }
+    return count > 0.0 ? sum / count : 0.0;
+}
+
 double oneDistance(const TextureFigures& recorded, const TextureFigures& generated, const std::vector<Band>& bands) {
     double spectral = 0.0;
     for (const Band& band : bands) {
@@ -59,7 +76,27 @@ double oneDistance(const TextureFigures& recorded, const TextureFigures& generat
     }
     const double level =
         10.0 * std::log10((generated.meanSquare + powerFloor) / (recorded.meanSquare + powerFloor));
-    return spectral + envelopeWeight * envelope + levelWeight * level * level;
+    return spectral + envelopeWeight * envelope + levelWeight * level * level +
+           lineWeight * lineDistance(recorded, generated);
+}
+
+std::vector<RibWay> waysAlong(const PreparedRecording& recording,
+                              std::span<const float, 2 * inference::ribCount> waveVectors) {
+    constexpr double millimetresPerSample = 1000.0 / inference::waveformRateHz;
+    if (std::ranges::all_of(waveVectors, [](float value) { return value == 0.0F; })) {
+        return {};
+    }
+    std::vector<RibWay> ways(recording.motion.size());
+    RibWay way{};
+    for (std::size_t i = 0; i < ways.size(); ++i) {
+        ways[i] = way;
+        for (std::size_t rib = 0; rib < way.size(); ++rib) {
+            way[rib] += millimetresPerSample *
+                        (static_cast<double>(waveVectors[2 * rib]) * recording.motion[i][0] +
+                         static_cast<double>(waveVectors[2 * rib + 1]) * recording.motion[i][1]);
+        }
+    }
+    return ways;
 }
 
 std::vector<double> slidingSpeeds(const PreparedRecording& recording, const Sliding& sliding) {
@@ -89,11 +126,13 @@ double textureDistance(std::span<const TextureFigures> recorded, std::span<const
 }
 
 TextureFit::TextureFit(ClosedLoop& loop, const PreparedRecording& recording, const Sliding& sliding,
-                       std::span<const float> unitWave, std::uint64_t seed)
+                       std::span<const float> unitWave,
+                       std::span<const float, 2 * inference::ribCount> waveVectors, std::uint64_t seed)
     : loop_(loop),
       recording_(recording),
       sliding_(sliding),
       unitWave_(unitWave),
+      ways_(waysAlong(recording, waveVectors)),
       seed_(seed),
       bins_(SpeedBins::divide(slidingSpeeds(recording, sliding), mostBins)) {
     TextureMeter meter(bins_.count());
@@ -115,7 +154,9 @@ void TextureFit::measure(TextureMeter& meter, std::span<const float> wave, std::
             for (std::size_t i = start + at; i < start + at + spectrumSamples; ++i) {
                 logSpeed += std::log(recording_.speedMps(i)) / static_cast<double>(spectrumSamples);
             }
-            meter.add(bins_.binOf(std::exp(logSpeed)), wave.subspan(at).first<spectrumSamples>());
+            const std::span<const RibWay> ways =
+                ways_.empty() ? std::span<const RibWay>() : std::span(ways_).subspan(start + at, spectrumSamples);
+            meter.add(bins_.binOf(std::exp(logSpeed)), wave.subspan(at).first<spectrumSamples>(), ways);
         }
     }
 }

@@ -11,7 +11,7 @@
 
 namespace haptoflow::learning {
 
-/// How far generated figures are from recorded ones, in dB^2: third-octave spectra, level and envelope, speeds weighted
+/// How far generated figures are from recorded ones, in dB^2: third-octave spectra, level, envelope and ribs, speeds weighted
 /// by how much of the recording is there. Speeds at which nothing was generated do not count.
 [[nodiscard]] double textureDistance(std::span<const TextureFigures> recorded,
                                      std::span<const TextureFigures> generated, double bandwidthHz);
@@ -21,7 +21,8 @@ class TextureFit {
 public:
     /// `unitWave`: the recording divided by its level. All of it must outlive the fit.
     TextureFit(ClosedLoop& loop, const PreparedRecording& recording, const Sliding& sliding,
-               std::span<const float> unitWave, std::uint64_t seed);
+               std::span<const float> unitWave, std::span<const float, 2 * inference::ribCount> waveVectors,
+               std::uint64_t seed);
 
     [[nodiscard]] const SpeedBins& bins() const noexcept { return bins_; }
     [[nodiscard]] std::span<const TextureFigures> recorded() const noexcept { return recorded_; }
@@ -43,6 +44,8 @@ private:
     const PreparedRecording& recording_;
     const Sliding& sliding_;
     std::span<const float> unitWave_;
+    /// For each sample of the recording; empty without ribs.
+    std::vector<RibWay> ways_;
     std::uint64_t seed_;
     SpeedBins bins_;
     std::vector<TextureFigures> recorded_;

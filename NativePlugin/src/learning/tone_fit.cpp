@@ -156,7 +156,7 @@ ToneFit fitTone(const SpeedBins& bins, std::span<const TextureFigures> recorded,
             gain = std::clamp(gain - common, -30.0, 30.0);
         }
         const double after = powerBehind(made, fit.tone, row);
-        fit.logLevels.push_back(0.5 * std::log(std::max(recorded[used[row]].meanSquare, 1e-9) / std::max(after, 1e-9)));
+        fit.logLevels.push_back(-0.5 * std::log(std::max(after, 1e-9)));
     }
     return fit;
 }

@@ -14,8 +14,9 @@ namespace {
 
 using Complex = std::complex<double>;
 
-constexpr std::size_t windowSamples = 600;
-constexpr std::size_t windowHop = 300;
+constexpr std::size_t shortestWindow = 160;
+constexpr std::size_t longestWindow = 800;
+constexpr double wantedWayMm = 25.0;
 constexpr std::size_t predictorOrder = 10;
 constexpr std::size_t mostWindows = 160;
 constexpr double sampleSeconds = 1.0 / 2000.0;
@@ -30,12 +31,13 @@ constexpr int directions = 60;
 constexpr double slowestRateHz = 15.0;
 constexpr double fastestRateHz = 800.0;
 constexpr std::size_t fewestWindows = 6;
+/// One window in so many must hear a vector: strokes go in all directions, and across some ribs only.
+constexpr std::size_t hearingShare = 5;
 /// Times the power of noise of that spectrum.
-constexpr double leastProminence = 7.0;
+constexpr double leastProminence = 2.6;
 /// Over what stands around it in the way's spectrum: a resonance is wide, a rib's line is not.
-constexpr double leastContrast = 3.5;
+constexpr double leastContrast = 4.0;
 constexpr double smallestSpeedRatio = 1.25;
-constexpr double secondShare = 0.25;
 
 /// Windowed and whitened, with the tip's way in millimetres from the window's middle.
 struct Window {
@@ -81,43 +83,64 @@ std::vector<double> whitened(const Sliding& sliding, std::span<const float> wave
     return result;
 }
 
+double hannAt(std::size_t sample, std::size_t length) {
+    return 0.5 -
+           0.5 * std::cos(2.0 * std::numbers::pi * (static_cast<double>(sample) + 0.5) / static_cast<double>(length));
+}
+
+/// A way of so many millimetres holds many ribs, and a tracker's error over it is less than one.
+std::size_t windowLength(double speedMps) {
+    const double samples = wantedWayMm / (millimetresPerMetre * sampleSeconds * std::max(speedMps, slowestSlidingMps));
+    return static_cast<std::size_t>(
+        std::clamp(samples, static_cast<double>(shortestWindow), static_cast<double>(longestWindow)));
+}
+
+std::optional<Window> windowAt(const PreparedRecording& recording, std::span<const double> wave, std::size_t start,
+                               std::size_t length) {
+    Window window;
+    double x = 0.0;
+    double y = 0.0;
+    double way = 0.0;
+    double energy = 0.0;
+    double squares = 0.0;
+    for (std::size_t i = 0; i < length; ++i) {
+        const double hann = hannAt(i, length);
+        const auto& motion = recording.motion[start + i];
+        window.wave.push_back(hann * wave[start + i]);
+        window.x.push_back(x);
+        window.y.push_back(y);
+        x += millimetresPerMetre * sampleSeconds * motion[0];
+        y += millimetresPerMetre * sampleSeconds * motion[1];
+        way += millimetresPerMetre * sampleSeconds * std::hypot(motion[0], motion[1]);
+        energy += wave[start + i] * wave[start + i] / static_cast<double>(length);
+        squares += hann * hann;
+    }
+    const double straight = std::hypot(x, y);
+    if (straight < straightest * way || way < shortestWayMm || !(energy > 0.0)) {
+        return std::nullopt;
+    }
+    window.directionX = x / straight;
+    window.directionY = y / straight;
+    window.wayMm = way;
+    window.speedMmps = way / (static_cast<double>(length) * sampleSeconds);
+    window.noisePower = energy * squares;
+    return window;
+}
+
 std::vector<Window> windowsOf(const PreparedRecording& recording, const Sliding& sliding,
                               std::span<const float> unitWave) {
     const std::vector<double> wave = whitened(sliding, unitWave);
     std::vector<Window> windows;
-    for (std::size_t start = 0; start + windowSamples <= wave.size(); start += windowHop) {
-        if (!sliding.holds(start, windowSamples)) {
-            continue;
+    for (std::size_t start = 0; start + shortestWindow <= wave.size();) {
+        const std::size_t length = windowLength(recording.speedMps(start));
+        if (sliding.holds(start, length)) {
+            if (std::optional<Window> window = windowAt(recording, wave, start, length)) {
+                windows.push_back(std::move(*window));
+            }
+            start += length / 2;
+        } else {
+            start += shortestWindow / 2;
         }
-        Window window;
-        double x = 0.0;
-        double y = 0.0;
-        double way = 0.0;
-        double energy = 0.0;
-        double squares = 0.0;
-        for (std::size_t i = 0; i < windowSamples; ++i) {
-            const double hann = 0.5 - 0.5 * std::cos(2.0 * std::numbers::pi * (static_cast<double>(i) + 0.5) /
-                                                     static_cast<double>(windowSamples));
-            const auto& motion = recording.motion[start + i];
-            window.wave.push_back(hann * wave[start + i]);
-            window.x.push_back(x);
-            window.y.push_back(y);
-            x += millimetresPerMetre * sampleSeconds * motion[0];
-            y += millimetresPerMetre * sampleSeconds * motion[1];
-            way += millimetresPerMetre * sampleSeconds * std::hypot(motion[0], motion[1]);
-            energy += wave[start + i] * wave[start + i] / static_cast<double>(windowSamples);
-            squares += hann * hann;
-        }
-        const double straight = std::hypot(x, y);
-        if (straight < straightest * way || way < shortestWayMm || !(energy > 0.0)) {
-            continue;
-        }
-        window.directionX = x / straight;
-        window.directionY = y / straight;
-        window.wayMm = way;
-        window.speedMmps = way / (static_cast<double>(windowSamples) * sampleSeconds);
-        window.noisePower = energy * squares;
-        windows.push_back(std::move(window));
     }
     if (windows.size() > mostWindows) {
         std::vector<Window> kept;
@@ -170,8 +193,13 @@ std::vector<double> spectrumAlong(const Window& window) {
 class Search {
 public:
     explicit Search(std::vector<Window> windows) : windows_(std::move(windows)) {
+        std::vector<double> ways;
         for (const Window& window : windows_) {
-            spectra_.push_back(spectrumAlong(window));
+            ways.push_back(window.wayMm);
+        }
+        if (!ways.empty()) {
+            std::ranges::nth_element(ways, ways.begin() + static_cast<std::ptrdiff_t>(ways.size() / 2));
+            medianWayMm_ = ways[ways.size() / 2];
         }
     }
 
@@ -183,10 +211,12 @@ public:
         scan();
         while (found.size() < inference::ribCount) {
             std::optional<WaveVector> next = strongest(found);
-            if (!next || (!found.empty() && next->prominence < secondShare * found[0].prominence)) {
+            if (!next) {
                 break;
             }
             found.push_back(*next);
+            takeOut(*next);
+            scan();
         }
         return found;
     }
@@ -217,12 +247,12 @@ private:
             if (hears(windows_[w], along)) {
                 const auto index = static_cast<std::size_t>(std::lround(along / cyclesStep));
                 if (index < spectra_[w].size()) {
-                    sum += logarithmic(spectra_[w][index]);
+                    sum += limited(spectra_[w][index]);
                     ++count;
                 }
             }
         }
-        return count >= std::max(fewestWindows, windows_.size() / 3) ? sum / static_cast<double>(count) : 0.0;
+        return count >= std::max(fewestWindows, windows_.size() / hearingShare) ? sum / static_cast<double>(count) : 0.0;
     }
 
     [[nodiscard]] double exactly(double kx, double ky) const {
@@ -230,26 +260,57 @@ private:
         std::size_t count = 0;
         for (const Window& window : windows_) {
             if (hears(window, kx * window.directionX + ky * window.directionY)) {
-                sum += logarithmic(powerAt(window, kx, ky));
+                sum += limited(powerAt(window, kx, ky));
                 ++count;
             }
         }
-        return count >= std::max(fewestWindows, windows_.size() / 3) ? sum / static_cast<double>(count) : 0.0;
+        return count >= std::max(fewestWindows, windows_.size() / hearingShare) ? sum / static_cast<double>(count) : 0.0;
     }
 
     /// One loud window must not stand for many.
-    static double logarithmic(double power) {
-        constexpr double largest = 60.0;
+    static double limited(double power) {
+        constexpr double largest = 40.0;
         return std::min(power, largest);
     }
 
+    /// What the ribs that were found leave of each window, so that they do not pass for others in strokes that cross
+    /// both alike.
+    void takeOut(const WaveVector& vector) {
+        constexpr int harmonics = 8;
+        for (Window& window : windows_) {
+            for (int harmonic = 1; harmonic <= harmonics; ++harmonic) {
+                const double kx = harmonic * vector.x;
+                const double ky = harmonic * vector.y;
+                if (!hears(window, kx * window.directionX + ky * window.directionY)) {
+                    continue;
+                }
+                std::vector<Complex> line(window.wave.size());
+                Complex sum = 0.0;
+                double weight = 0.0;
+                for (std::size_t i = 0; i < line.size(); ++i) {
+                    line[i] = std::polar(1.0, 2.0 * std::numbers::pi * (kx * window.x[i] + ky * window.y[i]));
+                    sum += window.wave[i] * std::conj(line[i]);
+                    weight += hannAt(i, line.size());
+                }
+                for (std::size_t i = 0; i < line.size(); ++i) {
+                    window.wave[i] -= hannAt(i, line.size()) * 2.0 * (sum / weight * line[i]).real();
+                }
+            }
+        }
+    }
+
     void scan() {
+        spectra_.clear();
+        points_.clear();
+        for (const Window& window : windows_) {
+            spectra_.push_back(spectrumAlong(window));
+        }
         for (int direction = 0; direction < directions; ++direction) {
             const double angle = std::numbers::pi * static_cast<double>(direction) / static_cast<double>(directions);
             for (double cycles = lowestCycles; cycles < highestCycles; cycles += cyclesStep) {
                 const Point point{cycles * std::cos(angle), cycles * std::sin(angle), 0.0, 0.0};
                 const double prominence = onGrid(point.kx, point.ky);
-                if (prominence > 0.6 * leastProminence) {
+                if (prominence > 0.7 * leastProminence) {
                     points_.push_back({point.kx, point.ky, prominence, 0.0});
                 }
             }
@@ -288,13 +349,19 @@ private:
         return point;
     }
 
-    /// Over the median of vectors of the same direction that are 8 to 40 % shorter or longer.
+    /// Over the median of vectors of the same direction beside it, clear of what a window resolves.
     [[nodiscard]] double contrastOf(const Point& point) const {
+        constexpr int steps = 16;
+        constexpr double mainLobe = 2.5;
+        constexpr double reach = 0.4;
+        const double length = std::hypot(point.kx, point.ky);
+        const double nearest = std::max(0.06 * length, mainLobe / medianWayMm_);
         std::vector<double> around;
-        for (int i = -20; i <= 20; ++i) {
-            if (std::abs(i) >= 4) {
-                const double scale = 1.0 + 0.02 * static_cast<double>(i);
-                const double each = onGrid(scale * point.kx, scale * point.ky);
+        for (int i = 0; i < steps; ++i) {
+            const double offset = nearest + reach * length * static_cast<double>(i) / static_cast<double>(steps);
+            for (const double sign : {-1.0, 1.0}) {
+                const double scale = 1.0 + sign * offset / length;
+                const double each = scale > 0.0 ? onGrid(scale * point.kx, scale * point.ky) : 0.0;
                 if (each > 0.0) {
                     around.push_back(each);
                 }
@@ -308,8 +375,8 @@ private:
     }
 
     [[nodiscard]] std::optional<WaveVector> strongest(const std::vector<WaveVector>& found) const {
-        constexpr std::size_t mostTries = 6;
-        std::size_t tries = 0;
+        constexpr std::size_t mostTries = 8;
+        std::vector<Point> tried;
         for (const Point& point : points_) {
             const bool isKnown = std::ranges::any_of(found, [&](const WaveVector& each) {
                 return isMultiple(point, each);
@@ -317,12 +384,19 @@ private:
             if (isKnown) {
                 continue;
             }
+            const bool isTried = std::ranges::any_of(tried, [&](const Point& each) {
+                return std::hypot(point.kx - each.kx, point.ky - each.ky) < 0.1 * std::hypot(each.kx, each.ky);
+            });
+            if (isTried) {
+                continue;
+            }
             Point best = refined(point);
             best.contrast = contrastOf(best);
             if (best.prominence >= leastProminence && best.contrast >= leastContrast) {
                 return fundamentalOf(best);
             }
-            if (++tries == mostTries) {
+            tried.push_back(point);
+            if (tried.size() == mostTries) {
                 break;
             }
         }
@@ -331,11 +405,11 @@ private:
 
     /// A harmonic may be stronger than what it belongs to.
     [[nodiscard]] WaveVector fundamentalOf(const Point& harmonic) const {
-        for (const double divisor : {3.0, 2.0}) {
+        for (const double divisor : {4.0, 3.0, 2.0}) {
             const Point lower = refined({harmonic.kx / divisor, harmonic.ky / divisor, 0.0, 0.0});
             const double ratio = std::hypot(harmonic.kx, harmonic.ky) / std::hypot(lower.kx, lower.ky);
-            if (lower.prominence >= 0.3 * harmonic.prominence && lower.prominence >= leastProminence &&
-                std::abs(ratio - divisor) < 0.04 * divisor && contrastOf(lower) >= leastContrast) {
+            if (lower.prominence >= leastProminence && std::abs(ratio - divisor) < 0.05 * divisor &&
+                contrastOf(lower) >= 0.7 * leastContrast) {
                 return vectorOf(lower);
             }
         }
@@ -351,6 +425,7 @@ private:
     std::vector<Window> windows_;
     std::vector<std::vector<double>> spectra_;
     std::vector<Point> points_;
+    double medianWayMm_ = 1.0;
 };
 
 }  // namespace

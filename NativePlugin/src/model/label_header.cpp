@@ -56,6 +56,9 @@ void readLabelTraits(const HeaderNode& node, Label& label) {
     label.frequencyExponent = node.at("frequency_exponent").number(0.0, 4.0);
     const HeaderNode wavelength = node.at("wavelength_metres");
     if (node.at("periodic").boolean()) {
+        if (wavelength.isNull()) {
+            wavelength.refuse("a number from 1e-06 to 1, because \"periodic\" is true");
+        }
         label.wavelengthMetres = wavelength.number(1e-6, 1.0);
     } else if (!wavelength.isNull()) {
         wavelength.refuse("null, because the label is not periodic");

@@ -86,7 +86,11 @@ MaterialFile readRoot(const HeaderNode& root) {
     checkFormat(root);
     MaterialFile material;
     material.space = readSpace(root.at("space"));
-    material.label.name = root.at("name").name(nameBytes);
+    const HeaderNode name = root.at("name");
+    material.label.name = name.name(nameBytes);
+    if (material.label.name.find_first_not_of(' ') == std::string::npos) {
+        name.refuse("text that is not blank");
+    }
     if (const auto description = root.find("description")) {
         material.description = description->text(textBytes);
     }

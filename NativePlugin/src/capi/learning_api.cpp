@@ -1,0 +1,127 @@
+#include "capi/handles.hpp"
+#include "inference/tier_graphs.hpp"
+#include "learning/learner.hpp"
+
+#include <algorithm>
+#include <cstddef>
+#include <limits>
+#include <memory>
+#include <span>
+#include <string>
+
+using namespace haptoflow;
+using namespace haptoflow::capi;
+
+namespace haptoflow::capi {
+
+struct OpenLearning {
+    std::string material;
+    std::string report;
+};
+
+}  // namespace haptoflow::capi
+
+namespace {
+
+constexpr std::size_t mandatoryOptions = offsetof(haptoflow_learning_options, seed);
+constexpr std::size_t batchOfFit = 64;
+constexpr double longestLimitSeconds = 3600.0;
+
+std::string textOrNone(const char* text) {
+    return text != nullptr ? text : "";
+}
+
+const model::Tier& chosenTier(const model::ModelFile& model, const char* name) {
+    if (name == nullptr) {
+        return model.header().tiers[model.header().defaultTier];
+    }
+    const model::Tier* tier = model.findTier(name);
+    if (tier == nullptr) {
+        throw std::invalid_argument(std::string("options: the model has no tier \"") + name + '"');
+    }
+    return *tier;
+}
+
+learning::Recording recordingOf(const haptoflow_learning_options& given) {
+    (void)require(given.acceleration_mps2, "options: acceleration_mps2");
+    if (given.axis_count != 1 && given.axis_count != 3) {
+        throw std::invalid_argument("options: axis_count is " + std::to_string(given.axis_count) +
+                                    "; expected 1 or 3");
+    }
+    constexpr uint64_t mostSamples = std::numeric_limits<std::size_t>::max() / (3 * sizeof(float));
+    if (given.sample_count > mostSamples) {
+        throw std::invalid_argument("options: sample_count is " + std::to_string(given.sample_count));
+    }
+    const auto count = static_cast<std::size_t>(given.sample_count);
+    const auto numbers = [](const float* values, std::size_t size) {
+        return values != nullptr ? std::span(values, size) : std::span<const float>();
+    };
+    return {.rateHz = given.sample_rate_hz,
+            .axisCount = given.axis_count,
+            .accelerationMps2 = numbers(given.acceleration_mps2, count * given.axis_count),
+            .velocityMps = numbers(given.velocity_mps, 2 * count),
+            .constantVelocityMps = {given.constant_velocity_mps[0], given.constant_velocity_mps[1]},
+            .forceNewtons = numbers(given.force_newtons, count),
+            .constantForceNewtons = given.constant_force_newtons};
+}
+
+learning::LearningSettings settingsOf(const haptoflow_learning_options& given,
+                                      const inference::Cancellation* cancellation) {
+    learning::LearningSettings settings;
+    settings.name = require(given.name, "options: name");
+    settings.category = textOrNone(given.category);
+    settings.description = textOrNone(given.description);
+    settings.licence = textOrNone(given.licence);
+    settings.seed = given.seed;
+    if (given.seconds_limit != 0.0) {
+        if (!(given.seconds_limit > 0.0 && given.seconds_limit <= longestLimitSeconds)) {
+            throw std::invalid_argument("options: seconds_limit is " + std::to_string(given.seconds_limit) +
+                                        "; expected above 0 to 3600, or 0 for 20");
+        }
+        settings.secondsLimit = given.seconds_limit;
+    }
+    if (given.wave_vectors != nullptr) {
+        settings.waveVectors.emplace();
+        std::copy_n(given.wave_vectors, settings.waveVectors->size(), settings.waveVectors->begin());
+    }
+    if (given.progress != nullptr) {
+        settings.progress = [progress = given.progress, context = given.progress_context](
+                                double share, const char* doing) { progress(context, share, doing); };
+    }
+    settings.cancellation = cancellation;
+    return settings;
+}
+
+}  // namespace
+
+haptoflow_status haptoflow_learn_material(const haptoflow_learning_options* options, haptoflow_learning** learning) {
+    return guarded([&] {
+        const auto given = readDescriptor(options, mandatoryOptions, "options");
+        (void)require(learning, "learning");
+        const auto runtime = runtimes().get(given.runtime);
+        const auto open = models().get(given.model);
+        const model::Tier& tier = chosenTier(open->model, given.tier);
+        const inference::LoadLimits limits = loadLimits(given.cancellation, 0.0);
+        const learning::Recording recording = recordingOf(given);
+        const learning::LearningSettings settings = settingsOf(given, limits.cancellation.get());
+        learning::checkSettings(settings);
+        learning::checkRecording(recording);
+        inference::OnnxSegmentGenerator generator(runtime, open->model, tier.name, inference::defaultSolver(tier),
+                                                  batchOfFit, limits);
+        learning::LearntMaterial learnt = learning::learnMaterial(recording, open->model, generator, settings);
+        *learning = learnings().open(std::make_shared<const OpenLearning>(
+            OpenLearning{std::move(learnt.materialJson), learning::reportJson(learnt.report)}));
+    });
+}
+
+haptoflow_status haptoflow_learning_material(const haptoflow_learning* learning, const char** json) {
+    return guarded([&] { *require(json, "json") = learnings().get(learning)->material.c_str(); });
+}
+
+haptoflow_status haptoflow_learning_report(const haptoflow_learning* learning, const char** json) {
+    return guarded([&] { *require(json, "json") = learnings().get(learning)->report.c_str(); });
+}
+
+haptoflow_status haptoflow_learning_close(haptoflow_learning** learning) {
+    return guarded([&] { closeHandle(learnings(), learning, "learning"); });
+}

@@ -1,0 +1,182 @@
+// Learning through the C interface: a material's text, progress, cancellation, recordings of no use.
+#include "open_engine.hpp"
+
+#include "learning/made_recording.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <array>
+#include <string>
+#include <vector>
+
+namespace haptoflow::capi::testing {
+namespace {
+
+using learning::testing::MadeRecording;
+
+class LearningApiTest : public WithTinyModel {
+protected:
+    void TearDown() override {
+        EXPECT_EQ(haptoflow_learning_close(&learning_), HAPTOFLOW_OK);
+        EXPECT_EQ(learning_, nullptr);
+        WithTinyModel::TearDown();
+    }
+
+    /// Of a short fit on the tiny model.
+    [[nodiscard]] haptoflow_learning_options options() const {
+        haptoflow_learning_options result{};
+        result.struct_size = sizeof(result);
+        result.axis_count = 1;
+        result.runtime = runtime_;
+        result.model = model_;
+        result.name = "made surface";
+        result.acceleration_mps2 = made_.acceleration.data();
+        result.sample_count = made_.acceleration.size();
+        result.sample_rate_hz = 4000.0;
+        result.velocity_mps = made_.velocity.data();
+        result.force_newtons = made_.force.data();
+        result.seed = 1;
+        return result;
+    }
+
+    [[nodiscard]] std::string materialText() const {
+        const char* json = nullptr;
+        EXPECT_EQ(haptoflow_learning_material(learning_, &json), HAPTOFLOW_OK) << message();
+        return json != nullptr ? json : "";
+    }
+
+    MadeRecording made_{{}, {}};
+    haptoflow_learning* learning_ = nullptr;
+};
+
+TEST_F(LearningApiTest, WhatIsLearntIsRegisteredBesideTheModelsLabels) {
+    auto given = options();
+    given.category = "wood";
+    given.licence = "CC BY 4.0";
+    ASSERT_EQ(haptoflow_learn_material(&given, &learning_), HAPTOFLOW_OK) << message();
+    const std::string text = materialText();
+    const nlohmann::json json = nlohmann::json::parse(text);
+    EXPECT_EQ(json["name"], "made surface");
+    EXPECT_EQ(json["category"], "wood");
+    EXPECT_EQ(json["provenance"]["licence"], "CC BY 4.0");
+    const char* space = nullptr;
+    ASSERT_EQ(haptoflow_model_space(model_, &space), HAPTOFLOW_OK);
+    EXPECT_EQ(json["space"], space);
+
+    haptoflow_engine_options engineOptions{};
+    engineOptions.struct_size = sizeof(engineOptions);
+    engineOptions.runtime = runtime_;
+    engineOptions.model = model_;
+    engineOptions.without_worker = 1;
+    haptoflow_engine* engine = nullptr;
+    ASSERT_EQ(haptoflow_engine_create(&engineOptions, &engine), HAPTOFLOW_OK) << message();
+    uint32_t index = 0;
+    EXPECT_EQ(haptoflow_engine_register_material(engine, text.data(), text.size(), &index), HAPTOFLOW_OK) << message();
+    uint32_t labels = 0;
+    EXPECT_EQ(haptoflow_model_label_count(model_, &labels), HAPTOFLOW_OK);
+    EXPECT_EQ(index, labels);
+    EXPECT_EQ(haptoflow_engine_close(&engine), HAPTOFLOW_OK);
+
+    const char* report = nullptr;
+    ASSERT_EQ(haptoflow_learning_report(learning_, &report), HAPTOFLOW_OK) << message();
+    const nlohmann::json figures = nlohmann::json::parse(report);
+    EXPECT_TRUE(figures.contains("nearest_label"));
+    EXPECT_GT(figures["segments"].get<int>(), 1000);
+    EXPECT_FALSE(figures["stopped_early"].get<bool>());
+}
+
+TEST_F(LearningApiTest, EqualOptionsGiveEqualBytes) {
+    const auto given = options();
+    ASSERT_EQ(haptoflow_learn_material(&given, &learning_), HAPTOFLOW_OK) << message();
+    const std::string first = materialText();
+    ASSERT_EQ(haptoflow_learning_close(&learning_), HAPTOFLOW_OK);
+    ASSERT_EQ(haptoflow_learn_material(&given, &learning_), HAPTOFLOW_OK) << message();
+    EXPECT_EQ(materialText(), first);
+}
+
+TEST_F(LearningApiTest, ProgressRisesAndEndsAtOne) {
+    std::vector<double> shares;
+    auto given = options();
+    given.progress = [](void* context, double share, const char* doing) {
+        EXPECT_NE(doing, nullptr);
+        static_cast<std::vector<double>*>(context)->push_back(share);
+    };
+    given.progress_context = &shares;
+    ASSERT_EQ(haptoflow_learn_material(&given, &learning_), HAPTOFLOW_OK) << message();
+    ASSERT_GT(shares.size(), 5U);
+    EXPECT_TRUE(std::ranges::is_sorted(shares));
+    EXPECT_DOUBLE_EQ(shares.back(), 1.0);
+}
+
+TEST_F(LearningApiTest, ACancellationEndsItAndLeavesTheOutputAlone) {
+    haptoflow_cancellation* cancellation = nullptr;
+    ASSERT_EQ(haptoflow_cancellation_create(&cancellation), HAPTOFLOW_OK);
+    auto given = options();
+    given.cancellation = cancellation;
+    given.progress = [](void* context, double share, const char*) {
+        if (share > 0.2) {
+            EXPECT_EQ(haptoflow_cancellation_cancel(static_cast<haptoflow_cancellation*>(context)), HAPTOFLOW_OK);
+        }
+    };
+    given.progress_context = cancellation;
+    EXPECT_EQ(haptoflow_learn_material(&given, &learning_), HAPTOFLOW_CANCELLED);
+    EXPECT_EQ(learning_, nullptr);
+    EXPECT_EQ(haptoflow_cancellation_close(&cancellation), HAPTOFLOW_OK);
+}
+
+TEST_F(LearningApiTest, ARecordingOfNoUseIsSaidToBeOne) {
+    auto given = options();
+    given.sample_count = 4000;
+    EXPECT_EQ(haptoflow_learn_material(&given, &learning_), HAPTOFLOW_RECORDING_UNUSABLE);
+    EXPECT_THAT(message(), ::testing::HasSubstr("lasts 1 s"));
+    EXPECT_STREQ(haptoflow_status_name(HAPTOFLOW_RECORDING_UNUSABLE), "HAPTOFLOW_RECORDING_UNUSABLE");
+}
+
+TEST_F(LearningApiTest, ArgumentsOutsideTheirRangesAreNamed) {
+    const auto expectRefused = [&](const haptoflow_learning_options& given, const std::string& named) {
+        EXPECT_EQ(haptoflow_learn_material(&given, &learning_), HAPTOFLOW_INVALID_ARGUMENT) << named;
+        EXPECT_THAT(message(), ::testing::HasSubstr(named));
+    };
+    auto given = options();
+    given.axis_count = 2;
+    expectRefused(given, "axis_count");
+    given = options();
+    given.acceleration_mps2 = nullptr;
+    expectRefused(given, "acceleration_mps2");
+    given = options();
+    given.name = nullptr;
+    expectRefused(given, "name");
+    given = options();
+    given.name = "Denim";
+    expectRefused(given, "Denim");
+    given = options();
+    given.sample_rate_hz = 500.0;
+    expectRefused(given, "500 Hz");
+    given = options();
+    given.seconds_limit = -1.0;
+    expectRefused(given, "seconds_limit");
+    given = options();
+    given.tier = "none";
+    expectRefused(given, "none");
+    given = options();
+    given.sample_count = ~uint64_t{0};
+    expectRefused(given, "sample_count");
+    const std::array<float, 4> wild{1000.0F, 0.0F, 0.0F, 0.0F};
+    given = options();
+    given.wave_vectors = wild.data();
+    expectRefused(given, "wave_vectors");
+    given = options();
+    given.runtime = nullptr;
+    EXPECT_EQ(haptoflow_learn_material(&given, &learning_), HAPTOFLOW_INVALID_ARGUMENT);
+    EXPECT_EQ(haptoflow_learn_material(nullptr, &learning_), HAPTOFLOW_INVALID_ARGUMENT);
+    given = options();
+    EXPECT_EQ(haptoflow_learn_material(&given, nullptr), HAPTOFLOW_INVALID_ARGUMENT);
+    const char* json = nullptr;
+    EXPECT_EQ(haptoflow_learning_material(nullptr, &json), HAPTOFLOW_INVALID_ARGUMENT);
+    EXPECT_EQ(haptoflow_learning_report(nullptr, &json), HAPTOFLOW_INVALID_ARGUMENT);
+    EXPECT_EQ(haptoflow_learning_close(nullptr), HAPTOFLOW_INVALID_ARGUMENT);
+}
+
+}  // namespace
+}  // namespace haptoflow::capi::testing

@@ -1,0 +1,247 @@
+#include "learning/learner.hpp"
+
+#include "dsp/tone_cepstrum.hpp"
+#include "inference/inference_error.hpp"
+#include "inference/onnx_runtime.hpp"
+#include "inference/onnx_segment_generator.hpp"
+#include "inference/tier_graphs.hpp"
+#include "learning/made_recording.hpp"
+#include "learning/tone_fit.hpp"
+#include "model/material_file.hpp"
+#include "model/model_file.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace haptoflow::learning {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::ThrowsMessage;
+using testing::MadeMotion;
+using testing::MadeRecording;
+using testing::MadeSurface;
+
+/// The shipped model's default tier.
+class LearnerTest : public ::testing::Test {
+protected:
+    [[nodiscard]] LearntMaterial learn(const Recording& recording, const LearningSettings& settings) {
+        return learnMaterial(recording, model_, generator_, settings);
+    }
+
+    static LearningSettings brief() {
+        LearningSettings settings;
+        settings.name = "made surface";
+        settings.recordings = "made.csv";
+        settings.secondsLimit = 600.0;
+        settings.segmentBudget = 5000;
+        return settings;
+    }
+
+    model::ModelFile model_ = model::ModelFile::read(HAPTOFLOW_TEST_DEFAULT_MODEL);
+    inference::OnnxSegmentGenerator generator_{inference::Runtime::open(HAPTOFLOW_TEST_ONNXRUNTIME), model_,
+                                               model_.header().tiers[model_.header().defaultTier].name,
+                                               inference::defaultSolver(
+                                                   model_.header().tiers[model_.header().defaultTier]),
+                                               64};
+};
+
+TEST_F(LearnerTest, TheMaterialIsAMaterialFileOfTheModelsSpace) {
+    const MadeRecording made({}, {});
+    const LearntMaterial learnt = learn(made.view(), brief());
+    const model::MaterialFile material = model::parseMaterial(learnt.materialJson);
+    EXPECT_NO_THROW(model::requireSpace(material, model_.header()));
+    EXPECT_EQ(material.label.name, "made surface");
+    EXPECT_EQ(material.provenance.licence, "unknown");
+    EXPECT_EQ(material.provenance.recordings, "made.csv");
+    EXPECT_NEAR(material.provenance.seconds, 10.0, 0.5);
+    EXPECT_EQ(material.seeds.size(), 8U);
+    EXPECT_NEAR(material.speedMps[0], 0.03, 0.005);
+    EXPECT_NEAR(material.speedMps[1], 0.25, 0.03);
+    EXPECT_TRUE(learnt.report.waveVectors.empty());
+    EXPECT_FALSE(learnt.report.stoppedEarly);
+}
+
+TEST_F(LearnerTest, EqualSeedsGiveEqualBytesAndAnotherSeedAnotherMaterial) {
+    const MadeRecording made({}, {});
+    LearningSettings settings = brief();
+    const std::string first = learn(made.view(), settings).materialJson;
+    EXPECT_EQ(learn(made.view(), settings).materialJson, first);
+    settings.seed = 2;
+    EXPECT_NE(learn(made.view(), settings).materialJson, first);
+}
+
+TEST_F(LearnerTest, TheFitComesNearerThanTheNearestLabelAndTheToneNearerStill) {
+    const MadeRecording made({.resonanceHz = 260.0}, {});
+    LearningSettings settings = brief();
+    settings.segmentBudget = 14'000;
+    const LearningReport report = learn(made.view(), settings).report;
+    EXPECT_LT(report.fittedDistanceDb, report.nearestDistanceDb);
+    EXPECT_LT(report.spectralDistanceDb, 1.8);
+    EXPECT_LT(report.levelErrorDb, 1.0);
+    EXPECT_GT(report.generations, 5U);
+}
+
+TEST_F(LearnerTest, ASeedBehindTheToneSoundsAsItWasRecorded) {
+    const MadeRecording made({.resonanceHz = 90.0}, {}, 2000.0);
+    const LearntMaterial learnt = learn(made.view(), brief());
+    const model::MaterialFile material = model::parseMaterial(learnt.materialJson);
+    const nlohmann::json json = nlohmann::json::parse(learnt.materialJson);
+    Tone tone;
+    tone.speedsMps = json["tone"]["speeds_mps"].get<std::vector<double>>();
+    tone.frequenciesHz = json["tone"]["frequencies_hz"].get<std::vector<double>>();
+    tone.gainsDb = json["tone"]["gains_db"].get<std::vector<std::vector<double>>>();
+    const model::MaterialSeed& seed = material.seeds[0];
+    const double speed = std::hypot(seed.velocityMps[0], seed.velocityMps[1]);
+    const dsp::ToneKernel kernel = dsp::toneKernel(
+        dsp::toneCepstrum([&](double hertz) { return tone.gainDb(speed, std::max(hertz, 1.0)); }));
+    std::vector<double> heard;
+    for (std::size_t i = dsp::toneTaps; i < seed.samples.size(); ++i) {
+        double sum = 0.0;
+        for (std::size_t tap = 0; tap < kernel.size(); ++tap) {
+            sum += static_cast<double>(kernel[tap]) * seed.samples[i - tap];
+        }
+        heard.push_back(sum);
+    }
+    // Somewhere in the recording stands the same wave.
+    double best = 0.0;
+    for (std::size_t start = 0; start + heard.size() <= made.acceleration.size(); ++start) {
+        double product = 0.0;
+        double one = 0.0;
+        double other = 0.0;
+        for (std::size_t i = 0; i < heard.size(); ++i) {
+            const double value = made.acceleration[start + i];
+            product += heard[i] * value;
+            one += heard[i] * heard[i];
+            other += value * value;
+        }
+        best = std::max(best, product / std::sqrt(one * other));
+    }
+    EXPECT_GT(best, 0.97);
+}
+
+TEST_F(LearnerTest, RibsOfTheRecordingStandInTheEmbeddingAndMakeItPeriodic) {
+    const MadeRecording made({.ribs = {0.8, 0.45}, .ribShare = 0.5}, {});
+    const LearntMaterial learnt = learn(made.view(), brief());
+    const model::MaterialFile material = model::parseMaterial(learnt.materialJson);
+    EXPECT_NEAR(material.embedding[60], 0.8, 0.02);
+    EXPECT_NEAR(material.embedding[61], 0.45, 0.02);
+    ASSERT_TRUE(material.label.wavelengthMetres.has_value());
+    EXPECT_NEAR(*material.label.wavelengthMetres, 1e-3 / std::hypot(0.8, 0.45), 3e-5);
+    EXPECT_DOUBLE_EQ(material.label.frequencyExponent, 1.0);
+}
+
+TEST_F(LearnerTest, WaveVectorsThatAreGivenAreTakenAndNoneAreLookedFor) {
+    const MadeRecording made({.ribs = {0.8, 0.45}, .ribShare = 0.5}, {});
+    LearningSettings settings = brief();
+    settings.segmentBudget = 1000;
+    settings.waveVectors = {{0.5, 0.0, 0.0, 0.25}};
+    const model::MaterialFile given = model::parseMaterial(learn(made.view(), settings).materialJson);
+    EXPECT_FLOAT_EQ(given.embedding[60], 0.5F);
+    EXPECT_FLOAT_EQ(given.embedding[63], 0.25F);
+    settings.waveVectors = {{0.0, 0.0, 0.0, 0.0}};
+    EXPECT_FALSE(model::parseMaterial(learn(made.view(), settings).materialJson).label.wavelengthMetres.has_value());
+}
+
+TEST_F(LearnerTest, AMissingStretchIsLeftOutAndSaidSo) {
+    MadeRecording made({}, {.seconds = 12.0});
+    for (std::size_t i = 10'000; i < 10'400; ++i) {
+        made.acceleration[i] = std::numeric_limits<float>::quiet_NaN();
+    }
+    LearningSettings settings = brief();
+    settings.segmentBudget = 1000;
+    const LearningReport report = learn(made.view(), settings).report;
+    EXPECT_NEAR(report.slidingSeconds, 11.78, 0.1);
+    EXPECT_THAT(report.warnings, ::testing::Contains(HasSubstr("was left out")));
+}
+
+TEST_F(LearnerTest, OneConstantConditionIsLearntWithAWarning) {
+    MadeRecording made({}, {.slowestMps = 0.08, .fastestMps = 0.08});
+    made.velocity.clear();
+    made.force.clear();
+    made.constantVelocity = {0.08, 0.0};
+    made.constantForce = 0.8;
+    LearningSettings settings = brief();
+    settings.segmentBudget = 2000;
+    const LearntMaterial learnt = learn(made.view(), settings);
+    EXPECT_THAT(learnt.report.warnings, ::testing::Contains(HasSubstr("the speed hardly changes")));
+    const model::MaterialFile material = model::parseMaterial(learnt.materialJson);
+    EXPECT_GT(material.label.speedLevelExponent, 0.5);
+    EXPECT_GE(material.seeds.size(), 4U);
+}
+
+TEST_F(LearnerTest, ALevelThatNoLabelComesNearIsSuspectedAndAnAbsurdOneRefused) {
+    MadeRecording made({}, {});
+    const auto scaled = [&](float gain) {
+        MadeRecording result = made;
+        for (float& value : result.acceleration) {
+            value *= gain;
+        }
+        return result;
+    };
+    LearningSettings settings = brief();
+    settings.segmentBudget = 1000;
+    const MadeRecording quiet = scaled(1e-3F);
+    EXPECT_THAT(learn(quiet.view(), settings).report.warnings,
+                ::testing::Contains(HasSubstr("check the unit or full scale of the acceleration")));
+    const MadeRecording absurd = scaled(1e5F);
+    EXPECT_THAT([&] { (void)learn(absurd.view(), settings); },
+                ThrowsMessage<RecordingUnusable>(HasSubstr("above every label of the model")));
+}
+
+TEST_F(LearnerTest, ACancelledFitEndsAtTheNextGeneration) {
+    const MadeRecording made({}, {});
+    inference::Cancellation cancellation;
+    LearningSettings settings = brief();
+    settings.segmentBudget = 1'000'000;
+    settings.cancellation = &cancellation;
+    int told = 0;
+    settings.progress = [&](double share, const char*) {
+        EXPECT_GE(share, 0.0);
+        EXPECT_LE(share, 1.0);
+        if (share > 0.2 && ++told == 2) {
+            cancellation.cancel();
+        }
+    };
+    EXPECT_THROW((void)learn(made.view(), settings), inference::LoadCancelled);
+    EXPECT_EQ(told, 2);
+}
+
+TEST_F(LearnerTest, ALimitOfSecondsEndsTheFitWithWhatItHas) {
+    const MadeRecording made({}, {});
+    LearningSettings settings = brief();
+    settings.segmentBudget = 1'000'000;
+    settings.secondsLimit = 0.5;
+    const LearntMaterial learnt = learn(made.view(), settings);
+    EXPECT_TRUE(learnt.report.stoppedEarly);
+    EXPECT_NO_THROW((void)model::parseMaterial(learnt.materialJson));
+}
+
+TEST_F(LearnerTest, NamesThatNoMaterialCanHaveAreRefusedBeforeAnythingIsLearnt) {
+    const MadeRecording made({}, {});
+    LearningSettings settings = brief();
+    for (const std::string& name : {std::string(), std::string("Denim"), std::string(129, 'a'), std::string("\xFF")}) {
+        settings.name = name;
+        EXPECT_THROW((void)learn(made.view(), settings), std::invalid_argument) << name;
+    }
+}
+
+TEST_F(LearnerTest, AModelOfThreeLabelsIsEnough) {
+    const model::ModelFile tiny = model::ModelFile::read(HAPTOFLOW_TEST_GOLDEN_DIR "/model/tiny.haptoflow");
+    const model::Tier& tier = tiny.header().tiers[tiny.header().defaultTier];
+    inference::OnnxSegmentGenerator generator(inference::Runtime::open(HAPTOFLOW_TEST_ONNXRUNTIME), tiny, tier.name,
+                                              inference::defaultSolver(tier), 64);
+    const MadeRecording made({}, {});
+    LearningSettings settings = brief();
+    settings.segmentBudget = 2000;
+    const LearntMaterial learnt = learnMaterial(made.view(), tiny, generator, settings);
+    EXPECT_NO_THROW(model::requireSpace(model::parseMaterial(learnt.materialJson), tiny.header()));
+}
+
+}  // namespace
+}  // namespace haptoflow::learning

@@ -1,0 +1,108 @@
+#pragma once
+
+#include "inference/gaussian_noise.hpp"
+#include "learning/recording.hpp"
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+#include <vector>
+
+namespace haptoflow::learning::testing {
+
+/// A surface that a test makes: noise through a resonance, its level a power of speed and force, ribs where wanted.
+struct MadeSurface {
+    double levelAtReference = 1.5;
+    double speedExponent = 0.9;
+    double forceExponent = 0.3;
+    double resonanceHz = 180.0;
+    /// Cycles per millimetre; zero for none.
+    std::array<double, 2> ribs{};
+    std::array<double, 2> otherRibs{};
+    /// Of the level, in each partial of the ribs.
+    double ribShare = 0.9;
+    /// Gain of the level where the speed is above it.
+    double stepMps = 0.0;
+    double stepGain = 1.0;
+};
+
+struct MadeMotion {
+    double seconds = 10.0;
+    double slowestMps = 0.03;
+    double fastestMps = 0.25;
+    /// The direction goes round while the tip moves; false: along the first axis.
+    bool turns = true;
+};
+
+/// A recording with the memory that its spans look at.
+class MadeRecording {
+public:
+    MadeRecording(const MadeSurface& surface, const MadeMotion& motion, double rateHz = 4000.0, unsigned seed = 7)
+        : rateHz_(rateHz) {
+        const auto count = static_cast<std::size_t>(motion.seconds * rateHz);
+        std::vector<float> noise(count);
+        inference::fillStandardNormal({.seed = seed, .voice = 0, .segment = 0}, noise);
+        const double turn = 2.0 * std::numbers::pi * surface.resonanceHz / rateHz;
+        const double radius = std::exp(-0.5 * turn);
+        const double first = 2.0 * radius * std::cos(turn);
+        const double second = -radius * radius;
+        // Of this resonance, so that the wave's RMS is 1.
+        const double gain = std::sqrt((1.0 + second) * ((1.0 - second) * (1.0 - second) - first * first) / (1.0 - second));
+        double one = 0.0;
+        double two = 0.0;
+        std::array<double, 2> way{};
+        for (std::size_t i = 0; i < count; ++i) {
+            const double time = static_cast<double>(i) / rateHz;
+            const double share = 0.5 - 0.5 * std::cos(2.0 * std::numbers::pi * time / 2.3);
+            const double speed = motion.slowestMps * std::pow(motion.fastestMps / motion.slowestMps, share);
+            const double direction = motion.turns ? 0.9 * time : 0.0;
+            const double pressed = 0.8 + 0.4 * std::sin(2.0 * std::numbers::pi * time / 1.7);
+            velocity.push_back(static_cast<float>(speed * std::cos(direction)));
+            velocity.push_back(static_cast<float>(speed * std::sin(direction)));
+            force.push_back(static_cast<float>(pressed));
+            for (std::size_t axis = 0; axis < 2; ++axis) {
+                way[axis] += 1000.0 / rateHz * velocity[2 * i + axis];
+            }
+            const double wave = gain * noise[i] + first * one + second * two;
+            two = one;
+            one = wave;
+            double value = wave;
+            for (const std::array<double, 2>& ribs : {surface.ribs, surface.otherRibs}) {
+                if (ribs[0] != 0.0 || ribs[1] != 0.0) {
+                    const double turns = ribs[0] * way[0] + ribs[1] * way[1];
+                    for (int partial = 1; partial <= 3; ++partial) {
+                        value += surface.ribShare * std::numbers::sqrt2 / partial *
+                                 std::cos(2.0 * std::numbers::pi * partial * turns);
+                    }
+                }
+            }
+            const double level = surface.levelAtReference * std::pow(speed / 0.1, surface.speedExponent) *
+                                 std::pow(pressed, surface.forceExponent) *
+                                 (surface.stepMps > 0.0 && speed > surface.stepMps ? surface.stepGain : 1.0);
+            acceleration.push_back(static_cast<float>(level * value));
+        }
+    }
+
+    [[nodiscard]] Recording view() const {
+        return {.rateHz = rateHz_,
+                .axisCount = axisCount,
+                .accelerationMps2 = acceleration,
+                .velocityMps = velocity,
+                .constantVelocityMps = constantVelocity,
+                .forceNewtons = force,
+                .constantForceNewtons = constantForce};
+    }
+
+    std::size_t axisCount = 1;
+    std::vector<float> acceleration;
+    std::vector<float> velocity;
+    std::vector<float> force;
+    std::array<double, 2> constantVelocity{};
+    double constantForce = 0.0;
+
+private:
+    double rateHz_;
+};
+
+}  // namespace haptoflow::learning::testing

@@ -1,0 +1,124 @@
+#include "learning/dft321.hpp"
+#include "learning/made_recording.hpp"
+#include "learning/prepared_recording.hpp"
+#include "learning/resampling.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace haptoflow::learning {
+namespace {
+
+using testing::MadeRecording;
+
+std::vector<float> tone(double hertz, double rateHz, double seconds) {
+    std::vector<float> wave(static_cast<std::size_t>(rateHz * seconds));
+    for (std::size_t i = 0; i < wave.size(); ++i) {
+        wave[i] = static_cast<float>(std::sin(2.0 * std::numbers::pi * hertz * static_cast<double>(i) / rateHz));
+    }
+    return wave;
+}
+
+double rmsInside(std::span<const float> wave) {
+    double sum = 0.0;
+    const std::size_t margin = 400;
+    for (std::size_t i = margin; i + margin < wave.size(); ++i) {
+        sum += static_cast<double>(wave[i]) * wave[i];
+    }
+    return std::sqrt(sum / static_cast<double>(wave.size() - 2 * margin));
+}
+
+PreparedRecording prepared(const std::vector<float>& wave, double rateHz) {
+    return prepareRecording({.rateHz = rateHz,
+                             .axisCount = 1,
+                             .accelerationMps2 = wave,
+                             .constantVelocityMps = {0.1, 0.0},
+                             .constantForceNewtons = 1.0});
+}
+
+TEST(PreparationTest, ATouchableToneKeepsItsLevelAndItsTimeAtAnyRate) {
+    for (const double rateHz : {1000.0, 1666.0, 2000.0, 6024.1, 44'100.0, 192'000.0}) {
+        const PreparedRecording recording = prepared(tone(150.0, rateHz, 4.0), rateHz);
+        EXPECT_NEAR(rmsInside(recording.wave), std::numbers::sqrt2 / 2.0, 0.005) << rateHz;
+        const std::vector<float> wanted = tone(150.0, 2000.0, 4.0);
+        for (std::size_t i = 2000; i < 2040; ++i) {
+            EXPECT_NEAR(recording.wave[i], wanted[i], 0.02) << rateHz;
+        }
+    }
+}
+
+TEST(PreparationTest, WhatA2KilohertzWaveCannotHoldIsTakenOutAndNotFoldedBack) {
+    EXPECT_LT(rmsInside(prepared(tone(1500.0, 8000.0, 4.0), 8000.0).wave), 0.001);
+    EXPECT_LT(rmsInside(prepared(tone(3.0, 8000.0, 4.0), 8000.0).wave), 0.001);
+}
+
+TEST(PreparationTest, OneMovingAxisOfThreeComesBackUnchanged) {
+    const std::vector<float> wave = tone(120.0, 2000.0, 2.0);
+    std::array<std::vector<double>, 3> axes;
+    axes[0].assign(wave.size(), 0.0);
+    axes[1].assign(wave.begin(), wave.end());
+    axes[2].assign(wave.size(), 0.0);
+    const std::vector<double> combined = combineAxes(axes);
+    for (std::size_t i = 500; i < 3500; ++i) {
+        ASSERT_NEAR(combined[i], axes[1][i], 0.02);
+    }
+}
+
+TEST(PreparationTest, ThreeAxesTogetherKeepTheirEnergyEvenWhereTheyCancel) {
+    std::array<std::vector<double>, 3> axes;
+    std::vector<float> noise(8000);
+    double energy = 0.0;
+    for (std::size_t axis = 0; axis < 2; ++axis) {
+        inference::fillStandardNormal({.seed = 3, .voice = static_cast<std::uint32_t>(axis), .segment = 0}, noise);
+        axes[axis] = bandPassed(std::vector<double>(noise.begin(), noise.end()));
+        for (const double value : axes[axis]) {
+            energy += value * value;
+        }
+    }
+    axes[2] = axes[0];
+    std::ranges::transform(axes[2], axes[2].begin(), [](double value) { return -0.8 * value; });
+    for (const double value : axes[2]) {
+        energy += value * value;
+    }
+    double found = 0.0;
+    for (const double value : combineAxes(axes)) {
+        found += value * value;
+    }
+    EXPECT_NEAR(10.0 * std::log10(found / energy), 0.0, 0.5);
+}
+
+TEST(PreparationTest, AMissingSampleCostsItsNeighbourhoodAndNothingElse) {
+    MadeRecording made({}, {});
+    const PreparedRecording whole = prepareRecording(made.view());
+    EXPECT_EQ(std::ranges::count(whole.isUsable, 0), 0);
+    for (std::size_t i = 20'000; i < 20'028; ++i) {
+        made.acceleration[i] = std::numeric_limits<float>::quiet_NaN();
+    }
+    made.force[30'000] = std::numeric_limits<float>::infinity();
+    const PreparedRecording holed = prepareRecording(made.view());
+    const auto lost = std::ranges::count(holed.isUsable, 0);
+    EXPECT_GT(lost, 400);
+    EXPECT_LT(lost, 600);
+    for (std::size_t i = 0; i < whole.wave.size(); ++i) {
+        ASSERT_TRUE(std::isfinite(holed.wave[i]));
+        ASSERT_TRUE(std::isfinite(holed.motion[i][2]));
+        if (holed.isUsable[i] != 0) {
+            ASSERT_NEAR(holed.wave[i], whole.wave[i], 0.05);
+        }
+    }
+}
+
+TEST(PreparationTest, AFrozenSensorIsLeftOut) {
+    MadeRecording made({}, {});
+    std::fill_n(made.acceleration.begin() + 12'000, 800, made.acceleration[12'000]);
+    const PreparedRecording recording = prepareRecording(made.view());
+    EXPECT_EQ(recording.isUsable[6200], 0);
+    EXPECT_EQ(recording.isUsable[7000], 1);
+}
+
+}  // namespace
+}  // namespace haptoflow::learning

@@ -1,0 +1,110 @@
+#include "learning/learner.hpp"
+#include "learning/made_recording.hpp"
+#include "learning/prepared_recording.hpp"
+#include "learning/sliding.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <limits>
+
+namespace haptoflow::learning {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::ThrowsMessage;
+using testing::MadeRecording;
+
+model::ModelHeader header() {
+    model::ModelHeader result;
+    result.speedMps.maximum = 1.5;
+    result.forceNewtons.maximum = 5.0;
+    return result;
+}
+
+void prepareAndFind(const Recording& recording) {
+    checkRecording(recording);
+    (void)findSliding(prepareRecording(recording), header());
+}
+
+TEST(RecordingCheckTest, AWholeRecordingIsTaken) {
+    const MadeRecording made({}, {});
+    EXPECT_NO_THROW(prepareAndFind(made.view()));
+}
+
+TEST(RecordingCheckTest, TwoSecondsAreTooShort) {
+    const MadeRecording made({}, {.seconds = 2.0});
+    EXPECT_THAT([&] { prepareAndFind(made.view()); },
+                ThrowsMessage<RecordingUnusable>(HasSubstr("lasts 2 s; record 10 s or more of sliding")));
+}
+
+TEST(RecordingCheckTest, ASensorThatNeverChangesIsSilent) {
+    MadeRecording made({}, {});
+    std::ranges::fill(made.acceleration, 9.8F);
+    EXPECT_THAT([&] { prepareAndFind(made.view()); }, ThrowsMessage<RecordingUnusable>(HasSubstr("never changes")));
+}
+
+TEST(RecordingCheckTest, SamplesAtTheEndOfTheRangeAreClipped) {
+    MadeRecording made({}, {});
+    for (float& value : made.acceleration) {
+        value = std::clamp(value, -2.0F, 2.0F);
+    }
+    EXPECT_THAT([&] { prepareAndFind(made.view()); }, ThrowsMessage<RecordingUnusable>(HasSubstr("is clipped")));
+}
+
+TEST(RecordingCheckTest, MostlyNumbersThatAreNotFiniteAreRefused) {
+    MadeRecording made({}, {});
+    std::fill_n(made.acceleration.begin(), made.acceleration.size() * 3 / 5, std::numeric_limits<float>::quiet_NaN());
+    EXPECT_THAT([&] { prepareAndFind(made.view()); }, ThrowsMessage<RecordingUnusable>(HasSubstr("is not finite in 60 %")));
+}
+
+TEST(RecordingCheckTest, ATipThatRestsShowsNothing) {
+    MadeRecording made({}, {});
+    made.velocity.clear();
+    made.constantVelocity = {0.001, 0.0};
+    EXPECT_THAT([&] { prepareAndFind(made.view()); }, ThrowsMessage<RecordingUnusable>(HasSubstr("the tip never moves")));
+}
+
+TEST(RecordingCheckTest, ASpeedThatNoHandReachesIsAskedForItsUnit) {
+    MadeRecording made({}, {});
+    for (float& value : made.velocity) {
+        value *= 1000.0F;
+    }
+    EXPECT_THAT([&] { prepareAndFind(made.view()); }, ThrowsMessage<RecordingUnusable>(HasSubstr("is it in mm/s?")));
+}
+
+TEST(RecordingCheckTest, ASpeedBeyondTheModelIsRefused) {
+    MadeRecording made({}, {});
+    made.velocity.clear();
+    made.constantVelocity = {2.0, 0.0};
+    EXPECT_THAT([&] { prepareAndFind(made.view()); },
+                ThrowsMessage<RecordingUnusable>(HasSubstr("the model was trained up to 1.5 m/s")));
+}
+
+TEST(RecordingCheckTest, NoForceIsRefusedAndAForceInMillinewtonsToo) {
+    MadeRecording made({}, {});
+    made.force.clear();
+    EXPECT_THAT([&] { prepareAndFind(made.view()); }, ThrowsMessage<RecordingUnusable>(HasSubstr("give the force")));
+    made.constantForce = 900.0;
+    EXPECT_THAT([&] { prepareAndFind(made.view()); }, ThrowsMessage<RecordingUnusable>(HasSubstr("millinewtons?")));
+}
+
+TEST(RecordingCheckTest, SizesAndRatesThatDoNotFitAreArguments) {
+    const MadeRecording made({}, {});
+    Recording recording = made.view();
+    recording.axisCount = 2;
+    EXPECT_THROW(checkRecording(recording), std::invalid_argument);
+    recording = made.view();
+    recording.rateHz = std::numeric_limits<double>::quiet_NaN();
+    EXPECT_THROW(checkRecording(recording), std::invalid_argument);
+    recording = made.view();
+    recording.velocityMps = recording.velocityMps.first(10);
+    EXPECT_THROW(checkRecording(recording), std::invalid_argument);
+    recording = made.view();
+    recording.forceNewtons = recording.forceNewtons.first(10);
+    EXPECT_THROW(checkRecording(recording), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace haptoflow::learning

@@ -1,0 +1,286 @@
+#include "model/material_file.hpp"
+
+#include "material_builder.hpp"
+#include "model/model_file.hpp"
+#include "model_builder.hpp"
+#include "random.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
+
+namespace haptoflow::model::testing {
+namespace {
+
+using Json = nlohmann::json;
+using ::testing::HasSubstr;
+
+const std::string goldenFolder = HAPTOFLOW_TEST_GOLDEN_DIR "/material/";
+
+Json readJson(const std::string& path) {
+    std::ifstream stream(path);
+    return Json::parse(stream);
+}
+
+/// That the material is refused with a message that holds `part`.
+void expectRefusal(const Json& material, const std::string& part) {
+    try {
+        (void)parseMaterial(material.dump());
+        ADD_FAILURE() << "accepted; expected a refusal that mentions: " << part;
+    } catch (const MaterialError& error) {
+        EXPECT_THAT(error.what(), HasSubstr(part));
+    }
+}
+
+/// The same of a valid material with one value changed.
+void expectRefused(const std::string& pointer, const Json& value, const std::string& part) {
+    Json material = validMaterial("0123abcd");
+    material[Json::json_pointer(pointer)] = value;
+    expectRefusal(material, part);
+}
+
+TEST(MaterialFileTest, EveryKeyOfAFileIsRead) {
+    const MaterialFile material = parseMaterial(validMaterial("0123abcd").dump());
+    EXPECT_EQ(material.space, "0123abcd");
+    EXPECT_EQ(material.label.name, "denim");
+    EXPECT_EQ(material.label.category, "cloth");
+    EXPECT_EQ(material.description, "A pair of jeans.");
+    EXPECT_EQ(material.provenance.licence, "unknown");
+    EXPECT_EQ(material.provenance.seconds, 10.5);
+    EXPECT_EQ(material.embedding[63], 0.5F);
+    EXPECT_EQ(material.speedMps[1], 0.18);
+    EXPECT_EQ(material.forceNewtons[0], 1.0);
+    EXPECT_EQ(material.label.wavelengthMetres, 0.002);
+    EXPECT_EQ(material.label.impact->modes[0].frequencyHz, 90.0);
+    EXPECT_EQ(material.label.level->logLevels[1], 1.0);
+    EXPECT_EQ(material.label.level->forceExponent, 0.5);
+    EXPECT_EQ(material.label.tone->gainsDb[1][1], 12.0);
+    EXPECT_EQ(material.label.levelOffsetDb, 3.0);
+    ASSERT_EQ(material.seeds.size(), 1U);
+    EXPECT_EQ(material.seeds[0].ribPhase[0], 0.25);
+    EXPECT_NEAR(material.seeds[0].samples[5], std::sqrt(2.0), 1e-6);
+}
+
+TEST(MaterialFileTest, WhatIsOptionalMayBeLeftOutAndUnknownKeysAreIgnored) {
+    Json json = validMaterial("0123abcd");
+    for (const char* key : {"description", "impact", "level", "tone", "level_offset_db", "seeds"}) {
+        json.erase(key);
+    }
+    json["colour"] = "indigo";
+    const MaterialFile material = parseMaterial(json.dump());
+    EXPECT_FALSE(material.label.level || material.label.tone || material.label.impact);
+    EXPECT_EQ(material.label.levelOffsetDb, 0.0);
+    EXPECT_TRUE(material.seeds.empty());
+}
+
+TEST(MaterialFileTest, AFileWithoutAnyOneOfItsOtherKeysIsRefusedByItsName) {
+    for (const char* key :
+         {"format", "version", "space", "name", "category", "provenance", "embedding", "range", "level_exponents",
+          "frequency_exponent", "periodic", "wavelength_metres", "stiffness_newtons_per_metre", "friction_coefficient"}) {
+        Json material = validMaterial("0123abcd");
+        material.erase(key);
+        expectRefusal(material, std::string("\"") + key + '"');
+    }
+}
+
+TEST(MaterialFileTest, ABadValueIsRefusedByItsKey) {
+    expectRefused("/format", "haptoflow", "material key \"format\": expected \"haptoflow-material\"");
+    expectRefused("/version", 2, "update HaptoFlow");
+    expectRefused("/version", 0, "version");
+    expectRefused("/space", "0123ABCD", "8 hexadecimal digits");
+    expectRefused("/space", "0123abc", "space");
+    expectRefused("/name", "", "name");
+    expectRefused("/name", std::string(129, 'a'), "the limit is 128");
+    expectRefused("/embedding", std::vector<double>(63, 0.0), "embedding");
+    expectRefused("/embedding/7", 1e30, "embedding[7]");
+    expectRefused("/embedding/7", "0", "embedding[7]");
+    expectRefused("/range/speed_mps", Json{0.2, 0.1}, "range.speed_mps");
+    expectRefused("/range/force_newtons", Json{0.2, 2000.0}, "range.force_newtons[1]");
+    expectRefused("/provenance/seconds", -1.0, "provenance.seconds");
+    expectRefused("/provenance/licence", "", "provenance.licence");
+    expectRefused("/provenance/created", "2026-13-01", "provenance.created");
+    expectRefused("/seeds/0/samples/3", 900.0, "seeds[0].samples");
+    expectRefused("/seeds/0/samples", std::vector<double>(399, 1.0), "seeds[0].samples");
+    expectRefused("/seeds/0/force_newtons", -1.0, "seeds[0].force_newtons");
+    expectRefused("/seeds/0/rib_phase", Json{0.5}, "seeds[0].rib_phase");
+    expectRefused("/seeds", Json(Json::array_t(17, validSeed())), "the limit is 16");
+}
+
+TEST(MaterialFileTest, ABadLevelToneOrOffsetIsRefusedByItsKeyAlsoInAModel) {
+    const auto refused = [](const std::string& pointer, const Json& value, const std::string& part) {
+        expectRefused(pointer, value, part);
+        ModelBuilder builder;
+        Json& label = builder.header["labels"][1];
+        const Json material = validMaterial("0123abcd");
+        for (const char* key : {"level", "tone", "level_offset_db"}) {
+            label[key] = material[key];
+        }
+        EXPECT_TRUE(ModelFile::parse(builder.build()).header().labels[1].tone);
+        label[Json::json_pointer(pointer)] = value;
+        try {
+            (void)ModelFile::parse(builder.build());
+            ADD_FAILURE() << "the model was accepted; expected a refusal that mentions: " << part;
+        } catch (const ModelError& error) {
+            EXPECT_THAT(error.what(), HasSubstr("labels[1]." + part));
+        }
+    };
+    refused("/level/speeds_mps", Json{0.1, 0.05, 0.2}, "level.speeds_mps[1]");
+    refused("/level/speeds_mps", Json{0.1, 0.1, 0.2}, "level.speeds_mps[1]");
+    refused("/level/speeds_mps", Json::array(), "level.speeds_mps");
+    refused("/level/speeds_mps/0", -0.1, "level.speeds_mps[0]");
+    refused("/level/log_levels", Json{0.0, 1.0}, "level.log_levels");
+    refused("/level/log_levels/0", 21.0, "level.log_levels[0]");
+    refused("/level/force_newtons", 0.005, "level.force_newtons");
+    refused("/level/force_exponent", 5.0, "level.force_exponent");
+    refused("/level", Json{1}, "level");
+    refused("/tone/speeds_mps/0", 0.0, "tone.speeds_mps[0]");
+    refused("/tone/frequencies_hz", Json{50.0}, "tone.frequencies_hz");
+    refused("/tone/frequencies_hz/0", 9.0, "tone.frequencies_hz[0]");
+    refused("/tone/frequencies_hz/1", 1001.0, "tone.frequencies_hz[1]");
+    refused("/tone/gains_db", Json{{0.0, 0.0}}, "tone.gains_db");
+    refused("/tone/gains_db/1/0", -31.0, "tone.gains_db[1][0]");
+    refused("/tone/gains_db/0", Json{0.0, 0.0, 0.0}, "tone.gains_db[0]");
+    refused("/level_offset_db", 25.0, "level_offset_db");
+    refused("/level_offset_db", nullptr, "level_offset_db");
+}
+
+TEST(MaterialFileTest, EveryRefusalOfTheGoldenFilesNamesItsKey) {
+    const Json golden = readJson(goldenFolder + "invalid.json");
+    const Json whole = readJson(goldenFolder + golden.at("of").get<std::string>());
+    EXPECT_NO_THROW((void)parseMaterial(whole.dump()));
+    ASSERT_GT(golden.at("cases").size(), 20U);
+    for (const Json& each : golden.at("cases")) {
+        const auto key = each.at("key").get<std::string>();
+        SCOPED_TRACE(each.at("name").get<std::string>());
+        // A member that is missing is named apart from the object that lacks it.
+        expectRefusal(whole.patch(each.at("patch")), key.substr(key.rfind('.') + 1));
+    }
+}
+
+TEST(MaterialFileTest, TheGoldenFilesAreReadAndTheirSpacesAreThoseOfTheirModels) {
+    const Json golden = readJson(goldenFolder + "expected.json");
+    const ModelFile tiny = ModelFile::read(HAPTOFLOW_TEST_GOLDEN_DIR "/model/tiny.haptoflow");
+    const ModelFile shipped = ModelFile::read(HAPTOFLOW_TEST_DEFAULT_MODEL);
+    EXPECT_EQ(spaceOf(tiny.header()), golden.at("spaces").at("tiny"));
+    EXPECT_EQ(spaceOf(shipped.header()), golden.at("spaces").at("default"));
+    for (const auto& [name, expected] : golden.at("materials").items()) {
+        const MaterialFile material = readMaterial(goldenFolder + name + ".haptomaterial");
+        EXPECT_EQ(material.label.name, expected.at("name"));
+        EXPECT_EQ(material.space, expected.at("space"));
+    }
+}
+
+TEST(MaterialFileTest, AMaterialOfAnotherSpaceIsRefusedWithBothSpaces) {
+    const ModelFile model = ModelFile::parse(ModelBuilder{}.build());
+    const MaterialFile material = parseMaterial(validMaterial("0123abcd").dump());
+    try {
+        requireSpace(material, model.header());
+        ADD_FAILURE() << "accepted";
+    } catch (const MaterialMismatch& error) {
+        EXPECT_THAT(error.what(), HasSubstr("0123abcd"));
+        EXPECT_THAT(error.what(), HasSubstr(spaceOf(model.header())));
+        EXPECT_THAT(error.what(), HasSubstr("learn the material again"));
+    }
+}
+
+TEST(MaterialFileTest, ATextAboveTheLimitIsRefusedBeforeItIsRead) {
+    const std::string longText(maximumMaterialBytes + 1, '[');
+    try {
+        (void)parseMaterial(longText);
+        ADD_FAILURE() << "accepted";
+    } catch (const MaterialError& error) {
+        EXPECT_THAT(error.what(), HasSubstr("the limit is 1048576"));
+    }
+}
+
+TEST(MaterialFileTest, AFileThatIsNotThereOrNotOneIsRefusedWithItsPath) {
+    const auto refusal = [](const std::string& path) -> std::string {
+        try {
+            (void)readMaterial(path);
+        } catch (const MaterialError& error) {
+            return error.what();
+        }
+        return "accepted";
+    };
+    EXPECT_THAT(refusal("/no/such/denim.haptomaterial"), HasSubstr("/no/such/denim.haptomaterial: there is no such"));
+    EXPECT_THAT(refusal(std::filesystem::temp_directory_path().string()), HasSubstr("there is no such file"));
+    EXPECT_THAT(refusal(HAPTOFLOW_TEST_DEFAULT_MODEL), HasSubstr("default.haptoflow: the file has"));
+    EXPECT_THAT(refusal(HAPTOFLOW_TEST_GOLDEN_DIR "/model/tiny.haptoflow"), HasSubstr("is not valid JSON"));
+}
+
+// Run under the sanitizers, these show that no byte of a file is trusted.
+
+TEST(MaterialMutationTest, AFileCutShortAnywhereIsRefused) {
+    const std::string text = validMaterial("0123abcd").dump();
+    for (std::size_t length = 0; length < text.size(); ++length) {
+        EXPECT_THROW((void)parseMaterial(std::string_view(text).substr(0, length)), MaterialError) << length;
+    }
+}
+
+TEST(MaterialMutationTest, AFileWithChangedBytesIsRefusedOrReadable) {
+    const std::string text = validMaterial("0123abcd").dump();
+    Random random(17);
+    int accepted = 0;
+    int refused = 0;
+    for (int mutant = 0; mutant < 4000; ++mutant) {
+        std::string changed = text;
+        const std::size_t changes = 1 + random.below(3);
+        for (std::size_t change = 0; change < changes; ++change) {
+            changed[random.below(changed.size())] = static_cast<char>(random.below(256));
+        }
+        try {
+            const MaterialFile material = parseMaterial(changed);
+            EXPECT_FALSE(material.label.name.empty());
+            for (const float value : material.embedding) {
+                EXPECT_TRUE(std::isfinite(value));
+            }
+            ++accepted;
+        } catch (const MaterialError& error) {
+            EXPECT_STRNE(error.what(), "");
+            ++refused;
+        }
+    }
+    EXPECT_GT(accepted, 30);
+    EXPECT_GT(refused, 100);
+}
+
+TEST(MaterialMutationTest, AnyValueInThePlaceOfAnotherIsRefusedOrReadable) {
+    const Json whole = validMaterial("0123abcd");
+    const Json flat = whole.flatten();
+    const std::vector<Json> values{nullptr, true, -1, 0, 1e308, -1e308, "", "x", Json::array(), Json::object(),
+                                   18446744073709551615ULL};
+    int refused = 0;
+    for (const auto& [pointer, unused] : flat.items()) {
+        if (pointer.find("samples/") != std::string::npos && pointer.find("samples/0") == std::string::npos) {
+            continue;
+        }
+        for (const Json& value : values) {
+            Json mutant = whole;
+            mutant[Json::json_pointer(pointer)] = value;
+            try {
+                (void)parseMaterial(mutant.dump());
+            } catch (const MaterialError&) {
+                ++refused;
+            }
+        }
+    }
+    EXPECT_GT(refused, 500);
+}
+
+TEST(MaterialMutationTest, DeepNestingAndRepeatedKeysAreRefused) {
+    Json material = validMaterial("0123abcd");
+    material["nest"] = Json::parse(std::string(31, '[') + std::string(31, ']'));
+    EXPECT_NO_THROW((void)parseMaterial(material.dump()));
+    material["nest"] = Json::parse(std::string(32, '[') + std::string(32, ']'));
+    expectRefusal(material, "the material nests deeper than 32 levels");
+    EXPECT_THROW((void)parseMaterial(R"({"format": "haptoflow-material", "format": "haptoflow-material"})"),
+                 MaterialError);
+}
+
+}  // namespace
+}  // namespace haptoflow::model::testing
