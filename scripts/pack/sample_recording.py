@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Writes the recording that the sample Workshop learns a material from: Samples~/Workshop/Recordings/doormat.*.
 
-Ten seconds of a stylus on a material that no training protocol records, by the synthetic recorder: strokes back and
+Ten and a half seconds of a stylus on a material that no training protocol records, by the synthetic recorder: strokes back and
 forth whose speed and force change as a hand's do. A WAV file of three axes (its name ends in .bytes, so that Unity
 imports it as it is and not as sound), its sidecar, and a table of motion and force. From the repository root:
 
@@ -28,7 +28,7 @@ from haptoflow_training.recordings.synthetic.unseen import unseen_materials  # n
 
 FOLDER = ROOT / "Samples~" / "Workshop" / "Recordings"
 NAME = "doormat"
-SECONDS, RATE_HZ, MOTION_HZ = 10.0, 2000, 100
+SECONDS, RATE_HZ, MOTION_HZ = 10.5, 2000, 100
 SEED = 17
 # Of the materials that are drawn, the one that lies between carpet and another label.
 CARPET = 12

@@ -117,7 +117,7 @@ namespace HaptoFlow.PreviewTests
         public void TheSamplesRecordingIsReadWithItsMotionAndItsLicence()
         {
             Recording recording = RecordingReader.Read(Path.Combine(Workshop(), "doormat.wav.bytes"));
-            Assert.That((recording.AxisCount, recording.SampleCount), Is.EqualTo((3, 20000)));
+            Assert.That((recording.AxisCount, recording.SampleCount), Is.EqualTo((3, 21000)));
             Assert.That(recording.SampleRateHz, Is.EqualTo(2000.0).Within(1e-6));
             Assert.That((recording.Label, recording.Licence, recording.KnowsMotion), Is.EqualTo(("doormat", "MIT", true)));
             Assert.That(recording.Remarks, Is.Empty);

@@ -12,6 +12,7 @@ namespace HaptoFlow.Editor
     /// <summary>The controls of the window that learns materials. Main thread, within OnGUI.</summary>
     internal sealed class NewMaterialControls
     {
+        private const float LabelWidth = 112f;
         private const float ButtonWidth = 84f;
 
         private static readonly GUIContent Model =
@@ -81,7 +82,7 @@ namespace HaptoFlow.Editor
                 LayOut(session, model);
             }
             float before = EditorGUIUtility.labelWidth;
-            EditorGUIUtility.labelWidth = PreviewControls.LabelWidth;
+            EditorGUIUtility.labelWidth = LabelWidth;
             var chosen = (HapticModelAsset?)EditorGUILayout.ObjectField(
                 Model, state.Model, typeof(HapticModelAsset), false);
             if (chosen != state.Model)
