@@ -277,6 +277,30 @@ namespace HaptoFlow.Tests
             yield return null;
         }
 
+        [UnityTest]
+        public IEnumerator ARuleThatLeadsToALearntMaterialIsPreparedAndFelt()
+        {
+            HapticMaterial material = Learnt("glass", "fur");
+            GameObject plate = Make("Plate");
+            var box = plate.AddComponent<BoxCollider>();
+            box.size = new Vector3(0.4f, 0.02f, 0.4f);
+            box.center = new Vector3(0f, -0.01f, 0f);
+            var map = ScriptableObject.CreateInstance<HapticMaterialMap>();
+            materials.Add(map);
+            map.Add(HapticMaterialRule.ForName("Plate", material));
+            Make("Scope").AddComponent<HapticMaterialMapScope>().Map = map;
+            FinishLoading();
+            Session.FinishRegistrations();
+            Assert.That(Haptics.LearntMaterials, Is.EqualTo(1), "nothing was touched");
+            HapticStylus stylus = Circling();
+            for (int frame = 0; frame < 20; ++frame)
+            {
+                yield return null;
+            }
+            Assert.That(stylus.IsTouching, Is.True);
+            Assert.That(stylus.Contact.Labels.Label(0), Is.EqualTo(LabelCount));
+        }
+
         [Test]
         public void ATextThatIsNoneIsRefusedByItsKeyAndChangesNothing()
         {
