@@ -80,9 +80,12 @@ namespace HaptoFlow
         public bool Hold()
         {
             GameObject owner = collider.gameObject;
-            return owner.layer == Layer && owner.CompareTag(Tag) && collider.sharedMaterial == PhysicsMaterial &&
-                (!(collider is MeshCollider mesh) || mesh.sharedMesh == Mesh) &&
-                (!(collider is TerrainCollider terrain) || terrain.terrainData == Terrain) && ShowsTheSame();
+            // By reference: what was destroyed meanwhile equals the null that Unity gives out for it.
+            return owner.layer == Layer && owner.CompareTag(Tag) &&
+                ReferenceEquals(collider.sharedMaterial, PhysicsMaterial) &&
+                (!(collider is MeshCollider mesh) || ReferenceEquals(mesh.sharedMesh, Mesh)) &&
+                (!(collider is TerrainCollider terrain) || ReferenceEquals(terrain.terrainData, Terrain)) &&
+                ShowsTheSame();
         }
 
         /// <summary>The asset itself, or the copy that Unity makes of it when a script asks for an object's own.</summary>

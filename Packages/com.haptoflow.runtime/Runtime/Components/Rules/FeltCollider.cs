@@ -71,11 +71,12 @@ namespace HaptoFlow
             }
             isUniform = true;
             CanBeFelt = false;
+            bool isFeltKind = ColliderProbe.IsFeltKind(Collider);
             for (int part = 0; part < parts.Length; ++part)
             {
                 parts[part] = Match(maps, part);
                 isUniform &= parts[part].IsSameAs(parts[0]);
-                CanBeFelt |= parts[part].CanBeFelt;
+                CanBeFelt |= isFeltKind && parts[part].CanBeFelt;
             }
             trianglesUpTo = isUniform || facts.Mesh is null || !facts.Mesh.isReadable
                 ? Array.Empty<int>()
