@@ -16,5 +16,6 @@ void addContactCommand(CLI::App& app, CommandOutcome& outcome);
 void addInspectCommand(CLI::App& app, CommandOutcome& outcome);
 void addActuatorCommand(CLI::App& app, CommandOutcome& outcome);
 void addBenchCommand(CLI::App& app, CommandOutcome& outcome);
+void addLearnCommand(CLI::App& app, CommandOutcome& outcome);
 
 }  // namespace haptoflow::cli

@@ -87,6 +87,7 @@ int run(int argc, char** argv) {
         "  haptoflow contact scene.json --stroke stroke.csv\n"
         "  haptoflow inspect default.haptoflow\n"
         "  haptoflow actuator show voice-coil\n"
+        "  haptoflow learn denim.csv -o denim.haptomaterial\n"
         "  haptoflow bench --quick\n"
         "Exit codes: 0 done, 2 wrong usage, 3 bad input file, 4 internal error.");
 
@@ -95,6 +96,7 @@ int run(int argc, char** argv) {
     addContactCommand(app, outcome);
     addInspectCommand(app, outcome);
     addActuatorCommand(app, outcome);
+    addLearnCommand(app, outcome);
     addBenchCommand(app, outcome);
 
     const std::vector<std::string> words(argv + std::min(argc, 1), argv + argc);

@@ -129,7 +129,7 @@ def _broken(recording: Recording, how: str) -> Recording:
         return replace(recording, acceleration_time_seconds=time[keep], acceleration_g=acceleration[keep])
     if how == "apart":
         return replace(recording, force_time_seconds=recording.force_time_seconds + 100.0)
-    return small_recording(seconds=0.65)
+    return small_recording(seconds=0.15)
 
 
 @pytest.mark.parametrize(

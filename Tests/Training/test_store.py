@@ -170,7 +170,7 @@ def test_nothing_usable_is_an_error_that_names_the_first_problem(tmp_path: Path)
         InputError, match=r"no recording could be prepared \(1 were skipped.*1_0_20_500_0.*trimming"
     ):
         prepare_store(
-            [small_recording("1_0_20_500_0", seconds=0.65)], LABELS, tmp_path / "s", SETTINGS, progress=False
+            [small_recording("1_0_20_500_0", seconds=0.15)], LABELS, tmp_path / "s", SETTINGS, progress=False
         )
     assert list(tmp_path.iterdir()) == []
 

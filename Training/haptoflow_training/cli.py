@@ -21,6 +21,7 @@ _COMMANDS: dict[str, str] = {
     "train-tiers": "train a model file with several tiers over one embedding and level",
     "train-codec": "train the small codec behind latent tiers",
     "export": "write a trained run into a .haptoflow model file",
+    "sliders": "find a designer's sliders in a model's embedding space",
     "stroke": "write a hand-like stroke as CSV for `haptoflow render`",
     "evaluate": "accuracy over time: every row of the plan, measured through the engine",
     "discriminate": "check that a classifier trained on recordings names what the engine renders",

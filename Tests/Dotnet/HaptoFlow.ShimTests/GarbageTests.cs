@@ -57,6 +57,16 @@ namespace HaptoFlow.ShimTests
         });
 
         [Test]
+        public void SlidingOverALearntMaterialMakesNoGarbage() => Check(Circle(0.001f), () =>
+        {
+            HapticMaterial material =
+                HapticMaterial.Create(Model.MaterialText.OfLabel(DefaultModel.Asset().File, "glass"), "fur");
+            Board().SharedMaterial = material;
+            HapticSession.Current.FinishRegistrations();
+            Assert.That(Haptics.LearntMaterials, Is.EqualTo(1));
+        });
+
+        [Test]
         public void APenWhoseForceDecidesMakesNoGarbage() => Check(Circle(0.006f), () => Board(), stylus =>
         {
             stylus.Force = stylus.gameObject.AddComponent<SteadyForce>();

@@ -107,6 +107,10 @@ namespace UnityEditor.AssetImporters
             mainObject = obj;
         }
 
+        public void DependsOnSourceAsset(string path)
+        {
+        }
+
         public void LogImportError(string msg, Object? obj = null)
         {
             Entries.Add(new ImportLog.ImportLogEntry { message = msg, flags = ImportLogFlags.Error });

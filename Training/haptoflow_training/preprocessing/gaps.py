@@ -40,6 +40,7 @@ def _cut(recording: Recording, first: int, last: int) -> Recording | None:
         force_newtons=recording.force_newtons[force],
         position_time_seconds=recording.position_time_seconds[position],
         position_mm=recording.position_mm[position],
+        velocity_mps=None if recording.velocity_mps is None else recording.velocity_mps[position],
     )
 
 

@@ -36,6 +36,22 @@ def velocity_mps(
     return CubicSpline(uniform, slopes, axis=0)(clamped) / 1000.0
 
 
+def smooth_velocity_mps(
+    time_seconds: NDArray[np.float64],
+    velocity: NDArray[np.floating],
+    grid_seconds: NDArray[np.float64],
+    window_seconds: float,
+) -> NDArray[np.float64]:
+    """Velocities [k, 2] in m/s at `time_seconds` -> [n, 2] at `grid_seconds` (clamped at the ends), smoothed by a cubic
+    over a window of samples, as those that are derived from positions are."""
+    uniform, values = _uniform(time_seconds, velocity)
+    window = 2 * round(window_seconds / float(uniform[1] - uniform[0]) / 2) + 1
+    if 5 <= window <= len(uniform):
+        values = signal.savgol_filter(values, window, 3, axis=0, mode="interp")
+    clamped = np.clip(grid_seconds, uniform[0], uniform[-1])
+    return np.column_stack([np.interp(clamped, uniform, axis) for axis in values.T])
+
+
 def position_mm_on_grid(
     time_seconds: NDArray[np.float64], position_mm: NDArray[np.floating], grid_seconds: NDArray[np.float64]
 ) -> NDArray[np.float64]:

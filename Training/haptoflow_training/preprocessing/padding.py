@@ -19,6 +19,8 @@ from haptoflow_training.preprocessing.settings import PreprocessingSettings
 
 PaddingState = Literal["rest", "contact", "air"]
 PADDING_STATES: tuple[PaddingState, ...] = ("rest", "contact", "air")
+# Of a recording's length at each end: silence must not outweigh what was recorded.
+_LARGEST_SHARE = 1.0 / 3.0
 
 
 @dataclass(frozen=True)
@@ -33,11 +35,13 @@ class PaddedRecording:
 def pad_recording(
     prepared: PreparedRecording, name: str, settings: PreprocessingSettings, seed: int
 ) -> PaddedRecording:
-    """Each end is padded with `padding_probability`; the draw depends on `seed` and `name` alone."""
+    """Each end is padded with `padding_probability`; the draw depends on `seed` and `name` alone, and no end gets more than
+    a third of the recording's length."""
     digest = hashlib.blake2b(f"padding/{seed}/{name}".encode(), digest_size=8).digest()
     generator = np.random.default_rng(int.from_bytes(digest, "little"))
-    before = _draw(generator, settings)
-    after = _draw(generator, settings)
+    longest = int(_LARGEST_SHARE * len(prepared.waveform_mps2))
+    before = _draw(generator, settings, longest)
+    after = _draw(generator, settings, longest)
     if before is not None:
         prepared = _pad_front(prepared, *before, settings)
     if after is not None:
@@ -46,12 +50,12 @@ def pad_recording(
 
 
 def _draw(
-    generator: np.random.Generator, settings: PreprocessingSettings
+    generator: np.random.Generator, settings: PreprocessingSettings, longest: int
 ) -> tuple[PaddingState, int] | None:
     wanted = generator.random() < settings.padding_probability
     state = PADDING_STATES[int(generator.integers(len(PADDING_STATES)))]
     segments = int(generator.integers(1, settings.padding_segments_max + 1))
-    return (state, segments * settings.segment_samples) if wanted else None
+    return (state, min(segments * settings.segment_samples, longest)) if wanted else None
 
 
 def _pad_front(

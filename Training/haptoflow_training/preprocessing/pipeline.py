@@ -17,6 +17,8 @@ from haptoflow_training.preprocessing.settings import PreprocessingSettings
 from haptoflow_training.recordings.recording import STANDARD_GRAVITY_MPS2, Recording
 
 _CONTEXT_SECONDS = 0.2
+# Of a recording shorter than 1.5 s, so that trimming does not take most of it.
+_LARGEST_TRIM_SHARE = 0.2
 
 
 @dataclass(frozen=True)
@@ -60,23 +62,29 @@ def preprocess_parts(recording: Recording, settings: PreprocessingSettings) -> l
 def _prepared(recording: Recording, settings: PreprocessingSettings) -> PreparedRecording:
     start, stop = _common_span(recording)
     # Filters see a little of what the trim takes away, so that no filter rings where the cut is.
-    context = min(_CONTEXT_SECONDS, settings.trim_seconds)
+    trim = min(settings.trim_seconds, _LARGEST_TRIM_SHARE * (stop - start))
+    context = min(_CONTEXT_SECONDS, trim)
     step = 1.0 / settings.sample_rate_hz
-    kept = int((stop - start - 2 * settings.trim_seconds) / step)
+    kept = int((stop - start - 2 * trim) / step)
     lead = round(context / step)
     if kept < settings.segment_samples:
         raise InputError(
             f"recording {recording.identity.name}: {max(kept, 0) * step:.2f} s are left after trimming "
-            f"{settings.trim_seconds} s from both ends; "
+            f"{trim:.2g} s from both ends; "
             f"expected {settings.segment_samples * step:.2f} s at least"
         )
-    origin = start + settings.trim_seconds - lead * step
+    origin = start + trim - lead * step
     grid = origin + step * np.arange(lead + kept + lead)
     grid = grid[grid <= stop]
     waveform = _waveform(recording, origin, len(grid), settings)
-    velocity = motion.velocity_mps(
-        recording.position_time_seconds, recording.position_mm, grid, settings.velocity_window_seconds
-    )
+    if recording.velocity_mps is None:
+        velocity = motion.velocity_mps(
+            recording.position_time_seconds, recording.position_mm, grid, settings.velocity_window_seconds
+        )
+    else:
+        velocity = motion.smooth_velocity_mps(
+            recording.position_time_seconds, recording.velocity_mps, grid, settings.velocity_window_seconds
+        )
     position = motion.position_mm_on_grid(recording.position_time_seconds, recording.position_mm, grid)
     force = motion.force_newtons(
         recording.force_time_seconds, recording.force_newtons, grid, settings.force_low_pass_hz
@@ -105,7 +113,8 @@ def _waveform(
     # enough.
     uniform = CubicSpline(time[first:last], axes, axis=0)(clamped)
     uniform = filters.zero_phase_high_pass(uniform, settings.high_pass_hz, settings.high_rate_hz)
-    combined = dft321(uniform, settings.high_rate_hz, settings.dft321_frame_seconds)
+    one_axis = uniform.shape[1] == 1
+    combined = uniform[:, 0] if one_axis else dft321(uniform, settings.high_rate_hz, settings.dft321_frame_seconds)
     combined = filters.zero_phase_low_pass(combined, settings.low_pass_hz, settings.high_rate_hz)
     return filters.decimate(combined, settings.high_rate_hz, settings.sample_rate_hz)
 
@@ -145,8 +154,9 @@ def _require_no_gap(recording: Recording, settings: PreprocessingSettings) -> No
 
 def _require_usable(recording: Recording) -> None:
     name = recording.identity.name
+    axes = (1,) if np.shape(recording.acceleration_g)[1:] == (1,) else (3,)
     sensors = (
-        ("acceleration", recording.acceleration_time_seconds, recording.acceleration_g, (3,)),
+        ("acceleration", recording.acceleration_time_seconds, recording.acceleration_g, axes),
         ("force", recording.force_time_seconds, recording.force_newtons, ()),
         ("position", recording.position_time_seconds, recording.position_mm, (2,)),
     )

@@ -59,6 +59,15 @@ class RecordingFiles:
     position_path: Path
     table_reader: TableReader = read_table
 
+    @property
+    def paths(self) -> tuple[Path, ...]:
+        """Every file that the recording is made from."""
+        return self.acceleration_path, self.force_path, self.position_path
+
+    def path_of(self, sensor: str) -> Path:
+        """Where acceleration, force or position is read from."""
+        return dict(zip(("acceleration", "force", "position"), self.paths, strict=True))[sensor]
+
     def load(self) -> Recording:
         """DatasetFileError (an InputError) names the file that is not as the layout has it."""
         acceleration = read_sensor(self.acceleration_path, ACCELERATION, self.table_reader)
@@ -101,6 +110,15 @@ class ClusterDataset:
             f"{self.root}: {len(self.unlabelled)} recordings are left out: no label names their textures "
             f"({', '.join(textures)})"
         )
+
+    def origin_of(self, entry: RecordingFiles) -> tuple[str, str]:
+        """(licence, source) of one recording."""
+        return str(self.provenance.get("licence") or UNKNOWN), str(self.provenance.get("source") or UNKNOWN)
+
+    @property
+    def notes(self) -> tuple[str, ...]:
+        """What was ignored: nothing."""
+        return ()
 
     @property
     def labels(self) -> list[str]:

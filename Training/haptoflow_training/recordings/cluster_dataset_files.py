@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 TableReader = Callable[[Path], "pandas.DataFrame"]
 
-_TOLERATED_SHARE = 0.01
+TOLERATED_SHARE = 0.01
 
 
 class DatasetFileError(InputError):
@@ -78,22 +78,24 @@ def read_sensor(
     if len(numbers) < 2:
         raise DatasetFileError(path, f"{len(numbers)} rows", "2 rows at least")
     broken = ~np.isfinite(numbers).all(axis=1)
-    if broken.mean() > _TOLERATED_SHARE:
+    if broken.mean() > TOLERATED_SHARE:
         row = int(broken.argmax())
         column = kind.columns[int((~np.isfinite(numbers[row])).argmax())]
         raise DatasetFileError(path, f"no number in row {row + 2}, column {column}", "finite numbers only")
-    numbers = _rising(path, numbers[~broken] if broken.any() else numbers)
+    numbers = rising_rows(path, numbers[~broken] if broken.any() else numbers)
     values = numbers[:, 1:]
     return numbers[:, 0].copy(), (values[:, 0] if values.shape[1] == 1 else values).copy()
 
 
-def _rising(path: Path, numbers: NDArray[np.float64]) -> NDArray[np.float64]:
+def rising_rows(path: Path, numbers: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Rows [n, 1 + columns] whose first column is their time, without those that repeat the time stamp before; of those,
+    1 % at most. DatasetFileError where the clock runs back."""
     steps = np.diff(numbers[:, 0])
     if (steps < 0).any():
         row = int((steps < 0).argmax()) + 3
         raise DatasetFileError(path, f"time runs back at row {row}", "rising time stamps")
     repeated = np.concatenate([[False], steps == 0])
-    if repeated.mean() > _TOLERATED_SHARE or repeated.sum() > len(numbers) - 2:
+    if repeated.mean() > TOLERATED_SHARE or repeated.sum() > len(numbers) - 2:
         raise DatasetFileError(
             path, f"{int(repeated.sum())} of {len(numbers)} time stamps repeat", "rising time stamps"
         )

@@ -22,6 +22,7 @@ class RecordingIdentity:
 
     `direction_degrees` is clockwise (0, 45 ... 315) for the `machine` protocol and None for `hand`, whose names
     carry the word `hand` in its place; `speed_mmps` and `force_millinewtons` are then the medians asked for.
+    file_name: of a recording of one's own, whose name says nothing else; empty for names of that form.
     """
 
     texture_id: int
@@ -29,6 +30,7 @@ class RecordingIdentity:
     speed_mmps: int
     force_millinewtons: int
     repeat: int
+    file_name: str = ""
 
     @property
     def protocol(self) -> Protocol:
@@ -36,6 +38,8 @@ class RecordingIdentity:
 
     @property
     def name(self) -> str:
+        if self.file_name:
+            return self.file_name
         direction = "hand" if self.direction_degrees is None else str(self.direction_degrees)
         return f"{self.texture_id}_{direction}_{self.speed_mmps}_{self.force_millinewtons}_{self.repeat}"
 
@@ -57,10 +61,12 @@ class RecordingIdentity:
 class Recording:
     """Three sensors with clocks of their own; nothing resampled, nothing filtered.
 
-    acceleration_time_seconds: [n] float64, increasing, irregular. acceleration_g: [n, 3] float, g, gravity on Z.
+    acceleration_time_seconds: [n] float64, increasing, irregular. acceleration_g: [n, 3] float, g, gravity on Z; or
+    [n, 1] where one axis was recorded.
     force_time_seconds: [m] float64. force_newtons: [m] float. position_time_seconds: [k] float64.
     position_mm: [k, 2] float, millimetres, X and Y of the scan area. specimen: which piece of its material a synthetic
-    recording is of; None where nobody said, as in files.
+    recording is of; None where nobody said, as in files. velocity_mps: [k, 2] at position_time_seconds where it was
+    recorded and the position is its integral; None where it is to be derived from the position.
     """
 
     identity: RecordingIdentity
@@ -72,10 +78,11 @@ class Recording:
     position_time_seconds: NDArray[np.float64]
     position_mm: NDArray[np.floating]
     specimen: int | None = None
+    velocity_mps: NDArray[np.floating] | None = None
 
     @property
     def vibration_g(self) -> NDArray[np.float64]:
-        """[n, 3]: the acceleration without its mean, and so without gravity."""
+        """[n, axes]: the acceleration without its mean, and so without gravity."""
         acceleration = np.asarray(self.acceleration_g, dtype=np.float64)
         return acceleration - acceleration.mean(axis=0)
 

@@ -16,6 +16,7 @@ namespace HaptoFlow.Editor
             return SettingsRules.Check()
                 .Concat(StylusRules.Check(scene))
                 .Concat(SurfaceRules.Check(scene))
+                .Concat(LearntMaterialRules.Check(scene))
                 .Concat(ColliderRules.Check(scene))
                 .Concat(MapRules.Check(scene))
                 .Concat(OutputRules.Check(scene))

@@ -1,5 +1,6 @@
 #nullable enable
 using System;
+using HaptoFlow.Model;
 using UnityEngine;
 using Object = UnityEngine.Object;
 
@@ -16,6 +17,14 @@ namespace HaptoFlow
 
         [SerializeField, Tooltip("A label of the model.")]
         private string label = "wood";
+
+        [SerializeField, Tooltip("A Haptic Material that was learnt from a recording, in the place of the label; none " +
+            "for the label.")]
+        private HapticMaterial? learnt;
+
+        // The asset that this describes, where there is one.
+        [NonSerialized]
+        private HapticMaterial? owner;
 
         [SerializeField, Tooltip("A second label to blend with; empty for none.")]
         private string secondLabel = "";
@@ -51,6 +60,18 @@ namespace HaptoFlow
         {
             get => label;
             set => Change(ref label, value);
+        }
+
+        /// <summary>A Haptic Material that carries its embedding, felt in the place of <see cref="Label"/>; null for the
+        /// label. The description of such an asset is made of the asset itself.</summary>
+        public HapticMaterial? Learnt
+        {
+            get => owner != null && owner.IsLearnt ? owner : learnt != null && learnt.IsLearnt ? learnt : null;
+            set
+            {
+                learnt = value;
+                ++Version;
+            }
         }
 
         /// <summary>Empty for none.</summary>
@@ -131,9 +152,12 @@ namespace HaptoFlow
 
         internal void Touch() => ++Version;
 
+        internal void BelongTo(HapticMaterial asset) => owner = asset;
+
         internal void CopyFrom(MaterialDescription other)
         {
             label = other.label;
+            learnt = other.Learnt;
             secondLabel = other.secondLabel;
             blend = other.blend;
             stiffnessNewtonsPerMetre = other.stiffnessNewtonsPerMetre;
@@ -153,7 +177,8 @@ namespace HaptoFlow
         }
     }
 
-    /// <summary>A material that several surfaces share.</summary>
+    /// <summary>A material that several surfaces share: labels of the model, or one that was learnt from a recording
+    /// and carries its embedding.</summary>
     [CreateAssetMenu(menuName = "HaptoFlow/Haptic Material", fileName = "HapticMaterial", order = 1)]
     [HelpURL(HelpPages.Components + "haptic-material")]
     public sealed class HapticMaterial : ScriptableObject
@@ -161,15 +186,71 @@ namespace HaptoFlow
         [SerializeField]
         private MaterialDescription description = new MaterialDescription();
 
+        // The text of a .haptomaterial file, as the engine takes it.
+        [SerializeField, HideInInspector]
+        private string learnt = "";
+
         private readonly MaterialLookUp lookUp = new MaterialLookUp();
 
         /// <summary>What the surfaces that share this are made of.</summary>
-        public MaterialDescription Description => description;
+        public MaterialDescription Description
+        {
+            get
+            {
+                description.BelongTo(this);
+                return description;
+            }
+        }
+
+        /// <summary>It was learnt from a recording, and is felt in the place of its description's label wherever the
+        /// model is the one that it was learnt for.</summary>
+        public bool IsLearnt => learnt.Length > 0;
+
+        /// <summary>The text of its material file; empty where it is made of labels alone.</summary>
+        public string Learnt => learnt;
+
+        /// <summary>Makes a material of a material file's text. Main thread.</summary>
+        /// <param name="text">Of a whole .haptomaterial file.</param>
+        /// <param name="label">A label of the model, felt where the material cannot be: usually the nearest.</param>
+        /// <exception cref="HaptoFlowException">The text is none; the message names the key.</exception>
+        public static HapticMaterial Create(string text, string label)
+        {
+            string name = MaterialFile.Read(text).Name;
+            var material = CreateInstance<HapticMaterial>();
+            material.name = name;
+            material.Description.Label = label;
+            material.learnt = text;
+            return material;
+        }
+
+        /// <summary>Carries another material from now on; where it is touched, that is felt as soon as the engine has
+        /// it. Main thread.</summary>
+        /// <param name="text">Of a whole .haptomaterial file; empty for the description's labels alone.</param>
+        /// <exception cref="HaptoFlowException">The text is none; the message names the key.</exception>
+        public void Carry(string text)
+        {
+            if (text.Length > 0)
+            {
+                MaterialFile.Read(text);
+            }
+            learnt = text;
+            Announce();
+        }
 
         /// <summary>The labels as the engine takes them, looked up again only when something changed.</summary>
         /// <param name="user">Who is named where the model does not know a label.</param>
-        internal MaterialLookUp LookUp(HapticSession session, Object user) => lookUp.Of(description, session, user);
+        internal MaterialLookUp LookUp(HapticSession session, Object user) => lookUp.Of(Description, session, user);
 
-        private void OnValidate() => description.Touch();
+        private void Announce()
+        {
+            description.Touch();
+            HapticSession.Existing?.ChangeLearnt(this);
+        }
+
+        private void OnEnable() => Announce();
+
+        private void OnValidate() => Announce();
+
+        private void OnDestroy() => HapticSession.Existing?.ForgetLearnt(this);
     }
 }

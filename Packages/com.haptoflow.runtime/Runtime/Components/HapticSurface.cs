@@ -41,7 +41,11 @@ namespace HaptoFlow
         public HapticMaterial? SharedMaterial
         {
             get => sharedMaterial;
-            set => sharedMaterial = value;
+            set
+            {
+                sharedMaterial = value;
+                HapticSession.Existing?.Prepare(SharedDescription);
+            }
         }
 
         /// <summary>What this surface is made of, to be changed: changes reach no other surface and no asset. As with
@@ -165,6 +169,7 @@ namespace HaptoFlow
         {
             Register();
             TellSurfaceAbove();
+            HapticSession.Existing?.Prepare(SharedDescription);
         }
 
         private void OnDisable() => Unregister();

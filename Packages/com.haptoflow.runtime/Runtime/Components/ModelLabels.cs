@@ -25,6 +25,9 @@ namespace HaptoFlow
 
         public IReadOnlyList<string> All => names.All;
 
+        /// <summary>Of the engine that these labels are felt with; null where there is none.</summary>
+        public LearntMaterials? Learnt { get; set; }
+
         /// <summary>The labels of a description with their weights; unknown ones are left out. The stiffness is the
         /// weighted mean of the labels', 0 where none is known.</summary>
         public LabelBlend Blend(
@@ -34,7 +37,7 @@ namespace HaptoFlow
             stiffnessNewtonsPerMetre = 0.0;
             for (int entry = 0; entry < blend.Count; ++entry)
             {
-                stiffnessNewtonsPerMetre += blend.Weight(entry) * stiffness[blend.Label(entry)];
+                stiffnessNewtonsPerMetre += blend.Weight(entry) * StiffnessOf(blend.Label(entry));
             }
             return blend;
         }
@@ -42,7 +45,7 @@ namespace HaptoFlow
         private LabelBlend Named(MaterialDescription material, Object user)
         {
             int second = 0;
-            bool knowsFirst = TryFind(material.Label, user, out int first);
+            bool knowsFirst = TryFindFirst(material, user, out int first);
             bool knowsSecond = material.SecondLabel.Length > 0 && TryFind(material.SecondLabel, user, out second);
             if (knowsFirst && knowsSecond)
             {
@@ -50,6 +53,22 @@ namespace HaptoFlow
             }
             return knowsFirst ? LabelBlend.Of(first) : knowsSecond ? LabelBlend.Of(second) : default;
         }
+
+        /// <summary>What was learnt goes before the label; while it is on its way nobody is warned of the label.
+        /// </summary>
+        private bool TryFindFirst(MaterialDescription material, Object user, out int index)
+        {
+            HapticMaterial? learnt = material.Learnt;
+            bool isWaiting = false;
+            if (learnt != null && Learnt != null && Learnt.TryFind(learnt, out index, out isWaiting))
+            {
+                return true;
+            }
+            return isWaiting ? names.TryFind(material.Label, out index) : TryFind(material.Label, user, out index);
+        }
+
+        private double StiffnessOf(int index) =>
+            index < stiffness.Length ? stiffness[index] : Learnt!.StiffnessNewtonsPerMetre(index);
 
         private bool TryFind(string name, Object user, out int index)
         {

@@ -1,0 +1,177 @@
+#include "recording_sidecar.hpp"
+
+#include "exit_codes.hpp"
+#include "input_file.hpp"
+#include "model/bounded_json.hpp"
+#include "model/model_error.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace haptoflow::cli {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+constexpr const char* defaultsFile = "recordings.json";
+constexpr double fastestMps = 10.0;
+constexpr std::array keys{"label",  "full_scale_mps2", "speed_mps", "velocity_mps", "force_newtons",
+                          "motion", "rate_hz",         "licence",   "source"};
+
+std::string allKeys() {
+    std::string text;
+    for (const char* key : keys) {
+        text += (text.empty() ? "" : ", ") + std::string(key);
+    }
+    return text;
+}
+
+[[noreturn]] void fail(const fs::path& file, const std::string& found, const std::string& expected) {
+    throw InputError(file.string() + ": " + found + "; expected " + expected);
+}
+
+json documentIn(const fs::path& file) {
+    std::error_code ignored;
+    if (!fs::is_regular_file(file, ignored)) {
+        return json::object();
+    }
+    std::string text = readInputFile(file.string(), "a JSON object");
+    if (text.starts_with("\xEF\xBB\xBF")) {
+        text.erase(0, 3);
+    }
+    json document;
+    try {
+        document = model::parseBoundedJson(text);
+    } catch (const model::ModelError& error) {
+        fail(file, std::string("not JSON (") + error.what() + ")", "a JSON object with keys of " + allKeys());
+    }
+    if (!document.is_object()) {
+        fail(file, "JSON that is no object", "a JSON object with keys of " + allKeys());
+    }
+    for (const auto& [key, unused] : document.items()) {
+        if (std::ranges::find(keys, key) == keys.end()) {
+            fail(file, "unknown key '" + key + "'", "keys of " + allKeys());
+        }
+    }
+    if (document.contains("speed_mps") && document.contains("velocity_mps")) {
+        fail(file, "keys speed_mps and velocity_mps", "one of them");
+    }
+    return document;
+}
+
+/// The values of both files and where each comes from.
+class Values {
+public:
+    explicit Values(const fs::path& recording) {
+        fs::path own = recording;
+        own.replace_extension(".json");
+        add(recording.parent_path() / defaultsFile);
+        if (own.filename() != defaultsFile) {
+            add(own);
+        }
+    }
+
+    [[nodiscard]] std::string text(const std::string& key) const {
+        const json* value = find(key);
+        if (value == nullptr) {
+            return {};
+        }
+        if (!value->is_string()) {
+            refuse(key, "a text in quotes");
+        }
+        return value->get<std::string>();
+    }
+
+    [[nodiscard]] std::optional<double> number(const std::string& key, double lowest, double highest,
+                                               const std::string& expected) const {
+        const json* value = find(key);
+        if (value == nullptr) {
+            return std::nullopt;
+        }
+        if (!value->is_number() || !(value->get<double>() >= lowest && value->get<double>() <= highest)) {
+            refuse(key, expected);
+        }
+        return value->get<double>();
+    }
+
+    [[nodiscard]] std::optional<std::array<double, 2>> velocity() const {
+        if (const auto speed = number("speed_mps", 0.0, fastestMps, "metres a second, 0 to 10 (a thousandth of mm/s)")) {
+            return std::array{*speed, 0.0};
+        }
+        const json* value = find("velocity_mps");
+        if (value == nullptr) {
+            return std::nullopt;
+        }
+        const bool isPair = value->is_array() && value->size() == 2 && (*value)[0].is_number() && (*value)[1].is_number();
+        if (!isPair || !(std::hypot((*value)[0].get<double>(), (*value)[1].get<double>()) <= fastestMps)) {
+            refuse("velocity_mps", "[vx, vy] in metres a second, 10 at most (a thousandth of mm/s)");
+        }
+        return std::array{(*value)[0].get<double>(), (*value)[1].get<double>()};
+    }
+
+    [[nodiscard]] std::optional<fs::path> motion() const {
+        const std::string name = text("motion");
+        if (name.empty()) {
+            return std::nullopt;
+        }
+        const fs::path path = origins_.at("motion").parent_path() / name;
+        std::error_code ignored;
+        if (!fs::is_regular_file(path, ignored)) {
+            fail(origins_.at("motion"), "key 'motion' names " + name + ", which is not there",
+                 "a table beside the recording");
+        }
+        return path;
+    }
+
+private:
+    void add(const fs::path& file) {
+        const json document = documentIn(file);
+        for (const auto& [key, value] : document.items()) {
+            // A file says one of speed and velocity; the later file's word replaces both.
+            if (key == "speed_mps") {
+                values_.erase("velocity_mps");
+            } else if (key == "velocity_mps") {
+                values_.erase("speed_mps");
+            }
+            values_[key] = value;
+            origins_[key] = file;
+        }
+    }
+
+    [[nodiscard]] const json* find(const std::string& key) const {
+        const auto found = values_.find(key);
+        return found == values_.end() ? nullptr : &found->second;
+    }
+
+    [[noreturn]] void refuse(const std::string& key, const std::string& expected) const {
+        fail(origins_.at(key), "key '" + key + "' is " + values_.at(key).dump().substr(0, 60), expected);
+    }
+
+    std::map<std::string, json> values_;
+    std::map<std::string, fs::path> origins_;
+};
+
+}  // namespace
+
+RecordingSidecar readRecordingSidecar(const fs::path& recording) {
+    const Values values(recording);
+    RecordingSidecar sidecar;
+    sidecar.path = recording;
+    sidecar.path.replace_extension(".json");
+    sidecar.label = values.text("label");
+    sidecar.fullScaleMps2 = values.number("full_scale_mps2", 0.01, 1e5, "m/s^2 at +-1, 0.01 to 100000");
+    sidecar.velocityMps = values.velocity();
+    sidecar.forceNewtons =
+        values.number("force_newtons", 0.0, 100.0, "newtons, 0 to 100 (a thousandth of mN)");
+    sidecar.motion = values.motion();
+    sidecar.rateHz = values.number("rate_hz", 1000.0, 192'000.0, "samples a second, 1000 to 192000");
+    sidecar.licence = values.text("licence");
+    sidecar.source = values.text("source");
+    return sidecar;
+}
+
+}  // namespace haptoflow::cli

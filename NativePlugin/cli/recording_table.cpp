@@ -1,0 +1,285 @@
+#include "recording_table.hpp"
+
+#include "decimal_number.hpp"
+#include "exit_codes.hpp"
+#include "input_file.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <span>
+#include <string_view>
+
+namespace haptoflow::cli {
+namespace {
+
+constexpr std::string_view timeColumn = "time_s";
+constexpr double gravityMps2 = 9.80665;
+constexpr std::size_t mostColumns = 256;
+constexpr std::size_t mostRows = 60'000'000;
+
+struct ColumnForm {
+    std::vector<std::string> columns;
+    double factor = 1.0;
+    MotionForm motion = MotionForm::velocity;
+};
+
+const std::vector<ColumnForm>& accelerationForms() {
+    static const std::vector<ColumnForm> forms{
+        {{"acceleration_mps2"}, 1.0},
+        {{"acceleration_g"}, gravityMps2},
+        {{"acceleration_x_mps2", "acceleration_y_mps2", "acceleration_z_mps2"}, 1.0},
+        {{"acceleration_x_g", "acceleration_y_g", "acceleration_z_g"}, gravityMps2}};
+    return forms;
+}
+
+const std::vector<ColumnForm>& allMotionForms() {
+    static const std::vector<ColumnForm> forms{{{"velocity_x_mps", "velocity_y_mps"}, 1.0, MotionForm::velocity},
+                                               {{"speed_mps"}, 1.0, MotionForm::speed},
+                                               {{"speed_mmps"}, 1e-3, MotionForm::speed},
+                                               {{"position_x_mm", "position_y_mm"}, 1e-3, MotionForm::position},
+                                               {{"position_x_m", "position_y_m"}, 1.0, MotionForm::position}};
+    return forms;
+}
+
+const std::vector<ColumnForm>& allForceForms() {
+    static const std::vector<ColumnForm> forms{{{"force_newtons"}, 1.0}, {{"force_millinewtons"}, 1e-3}};
+    return forms;
+}
+
+std::string joined(const std::vector<std::string>& words) {
+    std::string text;
+    for (const std::string& word : words) {
+        text += (text.empty() ? "" : ", ") + word;
+    }
+    return text;
+}
+
+std::string namesOf(const std::vector<ColumnForm>& forms) {
+    std::string text;
+    for (const ColumnForm& form : forms) {
+        text += (text.empty() ? "" : " | ") + joined(form.columns);
+    }
+    return text;
+}
+
+std::string_view trimmed(std::string_view text) {
+    constexpr std::string_view blank = " \t\r\"";
+    const std::size_t first = text.find_first_not_of(blank);
+    return first == std::string_view::npos ? std::string_view()
+                                           : text.substr(first, text.find_last_not_of(blank) - first + 1);
+}
+
+class TableReader {
+public:
+    TableReader(const std::string& path, bool needsAcceleration)
+        : path_(path),
+          needsAcceleration_(needsAcceleration),
+          text_(readInputFile(path, "a table (CSV) with the columns time_s and acceleration_mps2")),
+          rest_(text_) {
+        if (rest_.starts_with("\xEF\xBB\xBF")) {
+            rest_.remove_prefix(3);
+        }
+    }
+
+    RecordingTable read() {
+        readHeader();
+        RecordingTable table;
+        table.path = path_;
+        const std::optional<ColumnForm> acceleration = formIn(accelerationForms(), "acceleration");
+        const std::optional<ColumnForm> motion = formIn(allMotionForms(), "motion");
+        const std::optional<ColumnForm> force = formIn(allForceForms(), "force");
+        if (needsAcceleration_ && !acceleration) {
+            fail("columns " + joined(names_), "acceleration: " + namesOf(accelerationForms()));
+        }
+        table.unknown = unknownNames();
+        const std::optional<std::size_t> time = place(timeColumn);
+        std::vector<std::pair<std::vector<std::size_t>, std::vector<double>*>> wanted;
+        const auto want = [&](const std::optional<ColumnForm>& form, std::optional<TableSeries>& series) {
+            if (form) {
+                series.emplace();
+                series->width = form->columns.size();
+                series->columns = joined(form->columns);
+                wanted.emplace_back(placesOf(*form), &series->values);
+            }
+        };
+        if (needsAcceleration_) {
+            want(acceleration, table.acceleration);
+        }
+        want(motion, table.motion);
+        want(force, table.force);
+        if (time) {
+            wanted.emplace_back(std::vector<std::size_t>{*time}, &table.timeSeconds);
+        }
+        readRows(wanted);
+        scale(acceleration, table.acceleration);
+        scale(motion, table.motion);
+        scale(force, table.force);
+        table.motionForm = motion ? motion->motion : MotionForm::velocity;
+        return table;
+    }
+
+private:
+    [[noreturn]] void fail(const std::string& found, const std::string& expected) const {
+        throw InputError(path_ + ": " + found + "; expected " + expected);
+    }
+
+    std::string_view nextLine() {
+        const std::size_t end = std::min(rest_.find('\n'), rest_.size());
+        const std::string_view line = rest_.substr(0, end);
+        rest_.remove_prefix(std::min(end + 1, rest_.size()));
+        ++lineNumber_;
+        return line;
+    }
+
+    void readHeader() {
+        if (rest_.empty()) {
+            fail("is empty", "a table (CSV) with the columns time_s and acceleration_mps2");
+        }
+        const std::string_view line = nextLine();
+        if (line.find(';') != std::string_view::npos && line.find(',') == std::string_view::npos) {
+            fail("columns separated by semicolons", "commas between columns and points in numbers");
+        }
+        for (std::size_t start = 0; start <= line.size();) {
+            const std::size_t comma = std::min(line.find(',', start), line.size());
+            names_.emplace_back(trimmed(line.substr(start, comma - start)).substr(0, 80));
+            start = comma + 1;
+            if (names_.size() > mostColumns) {
+                fail("more than " + std::to_string(mostColumns) + " columns", "a recording's");
+            }
+        }
+        for (const std::string& name : names_) {
+            if (std::ranges::count(names_, name) > 1) {
+                fail("column " + name + " twice", "each column once");
+            }
+        }
+    }
+
+    [[nodiscard]] std::optional<std::size_t> place(std::string_view name) const {
+        const auto found = std::ranges::find(names_, name);
+        return found == names_.end() ? std::nullopt
+                                     : std::optional(static_cast<std::size_t>(found - names_.begin()));
+    }
+
+    [[nodiscard]] std::vector<std::size_t> placesOf(const ColumnForm& form) const {
+        std::vector<std::size_t> places;
+        for (const std::string& name : form.columns) {
+            places.push_back(*place(name));
+        }
+        return places;
+    }
+
+    [[nodiscard]] std::optional<ColumnForm> formIn(const std::vector<ColumnForm>& forms, const std::string& what) const {
+        const auto isThere = [&](const std::string& name) { return place(name).has_value(); };
+        std::optional<ColumnForm> found;
+        for (const ColumnForm& form : forms) {
+            if (std::ranges::none_of(form.columns, isThere)) {
+                continue;
+            }
+            if (found) {
+                fail(what + " in several forms (" + joined(found->columns) + " and " + joined(form.columns) + ")",
+                     "one of " + namesOf(forms));
+            }
+            for (const std::string& name : form.columns) {
+                if (!isThere(name)) {
+                    fail("columns " + joined(names_) + " without " + name, joined(form.columns));
+                }
+            }
+            found = form;
+        }
+        return found;
+    }
+
+    [[nodiscard]] std::vector<std::string> unknownNames() const {
+        std::vector<std::string> unknown;
+        for (const std::string& name : names_) {
+            const auto knows = [&](const std::vector<ColumnForm>& forms) {
+                return std::ranges::any_of(forms, [&](const ColumnForm& form) {
+                    return std::ranges::find(form.columns, name) != form.columns.end();
+                });
+            };
+            if (name != timeColumn && !knows(accelerationForms()) && !knows(allMotionForms()) &&
+                !knows(allForceForms())) {
+                unknown.push_back(name);
+            }
+        }
+        return unknown;
+    }
+
+    [[nodiscard]] double number(std::string_view cell, std::size_t column) const {
+        const std::string_view text = trimmed(cell);
+        if (text.empty() || text == "nan" || text == "NaN" || text == "NA" || text == "inf" || text == "-inf") {
+            return std::numeric_limits<double>::quiet_NaN();
+        }
+        const std::optional<double> value = decimalNumber(text);
+        if (!value) {
+            throw InputError(path_ + ":" + std::to_string(lineNumber_) + ": column " + names_[column] +
+                             ": expected a number with a decimal point, found \"" + std::string(text.substr(0, 40)) +
+                             "\"");
+        }
+        return *value;
+    }
+
+    void readRows(const std::vector<std::pair<std::vector<std::size_t>, std::vector<double>*>>& wanted) {
+        std::vector<std::string_view> cells;
+        std::size_t rows = 0;
+        while (!rest_.empty()) {
+            const std::string_view line = nextLine();
+            if (trimmed(line).empty()) {
+                continue;
+            }
+            cells.clear();
+            for (std::size_t start = 0; start <= line.size();) {
+                const std::size_t comma = std::min(line.find(',', start), line.size());
+                cells.push_back(line.substr(start, comma - start));
+                start = comma + 1;
+            }
+            if (cells.size() != names_.size()) {
+                throw InputError(path_ + ":" + std::to_string(lineNumber_) + ": expected " +
+                                 std::to_string(names_.size()) + " values as in the first line, found " +
+                                 std::to_string(cells.size()) + " (decimals need a point, not a comma)");
+            }
+            for (const auto& [places, values] : wanted) {
+                for (const std::size_t column : places) {
+                    values->push_back(number(cells[column], column));
+                }
+            }
+            if (++rows > mostRows) {
+                fail("more than " + std::to_string(mostRows) + " rows", "five minutes of recording at most");
+            }
+        }
+        if (rows < 4) {
+            fail(std::to_string(rows) + " rows", "4 rows at least");
+        }
+    }
+
+    static void scale(const std::optional<ColumnForm>& form, std::optional<TableSeries>& series) {
+        if (series) {
+            std::ranges::transform(series->values, series->values.begin(),
+                                   [&](double value) { return value * form->factor; });
+        }
+    }
+
+    const std::string& path_;
+    bool needsAcceleration_;
+    std::string text_;
+    std::string_view rest_;
+    std::vector<std::string> names_;
+    std::size_t lineNumber_ = 0;
+};
+
+}  // namespace
+
+std::string motionForms() {
+    return namesOf(allMotionForms());
+}
+
+std::string forceForms() {
+    return namesOf(allForceForms());
+}
+
+RecordingTable readRecordingTable(const std::string& path, bool needsAcceleration) {
+    return TableReader(path, needsAcceleration).read();
+}
+
+}  // namespace haptoflow::cli

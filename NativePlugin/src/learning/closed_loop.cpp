@@ -1,0 +1,141 @@
+#include "learning/closed_loop.hpp"
+
+#include "inference/gaussian_noise.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace haptoflow::learning {
+namespace {
+
+constexpr std::size_t segment = inference::segmentSamples;
+constexpr std::size_t spliceSamples = 4;
+constexpr std::size_t correlationSamples = 32;
+
+/// Puts a segment behind what is running, with the engine's splice: gains that hold the level for any correlation.
+void splice(std::span<float, segment> running, std::span<const float, segment> successor) {
+    double one = 0.0;
+    double other = 0.0;
+    double product = 0.0;
+    for (std::size_t i = 0; i < correlationSamples; ++i) {
+        one += static_cast<double>(running[i]) * running[i];
+        other += static_cast<double>(successor[i]) * successor[i];
+        product += static_cast<double>(running[i]) * successor[i];
+    }
+    const double power = std::sqrt(one * other);
+    const double correlation = power > 1e-20 ? std::clamp(product / power, 0.0, 1.0) : 1.0;
+    for (std::size_t i = 0; i < segment; ++i) {
+        if (i >= spliceSamples) {
+            running[i] = successor[i];
+            continue;
+        }
+        const double share = static_cast<double>(i + 1) / static_cast<double>(spliceSamples + 1);
+        const double rest = 1.0 - share;
+        const double norm = std::sqrt(rest * rest + share * share + 2.0 * share * rest * correlation);
+        running[i] = static_cast<float>((rest * running[i] + share * successor[i]) / norm);
+    }
+}
+
+/// How far the tip travels along each wave vector with every sample, in turns.
+std::array<double, inference::ribCount> turnsPerSample(const Embedding& embedding, const std::array<float, 3>& motion) {
+    constexpr double millimetresPerMetre = 1000.0;
+    std::array<double, inference::ribCount> turns{};
+    for (std::size_t rib = 0; rib < turns.size(); ++rib) {
+        const std::size_t first = embedding.size() - 2 * inference::ribCount + 2 * rib;
+        const double cyclesPerMillimetreSpeed = static_cast<double>(embedding[first]) * motion[0] +
+                                                static_cast<double>(embedding[first + 1]) * motion[1];
+        turns[rib] = cyclesPerMillimetreSpeed * millimetresPerMetre / inference::waveformRateHz;
+    }
+    return turns;
+}
+
+}  // namespace
+
+ClosedLoop::ClosedLoop(inference::SegmentGenerator& generator, const model::ModelHeader& model,
+                       const PreparedRecording& recording, std::span<const float> unitWave)
+    : generator_(generator), model_(model), recording_(recording), unitWave_(unitWave) {}
+
+std::array<float, 3> ClosedLoop::motionBefore(std::size_t sample, std::size_t count) const {
+    std::array<double, 3> mean{};
+    const std::size_t first = sample > count ? sample - count : 0;
+    const std::size_t last = std::min(std::max(sample, first + 1), recording_.motion.size());
+    for (std::size_t i = first; i < last; ++i) {
+        for (std::size_t component = 0; component < mean.size(); ++component) {
+            mean[component] += recording_.motion[i][component] / static_cast<double>(last - first);
+        }
+    }
+    const double speed = std::hypot(mean[0], mean[1]);
+    const double excess = std::max(1.0, speed / model_.speedMps.maximum);
+    return {static_cast<float>(mean[0] / excess), static_cast<float>(mean[1] / excess),
+            static_cast<float>(std::clamp(mean[2], model_.forceNewtons.minimum, model_.forceNewtons.maximum))};
+}
+
+std::vector<float> ClosedLoop::run(std::span<const Embedding> embeddings, std::span<const Chain> chains,
+                                   const LoopSettings& settings) {
+    const std::size_t whole = settings.warmSamples + settings.samples;
+    // Before each chain its past, behind it the rest of its last segment.
+    const std::size_t stride = segment + whole + segment;
+    std::vector<float> waves(chains.size() * stride);
+    for (std::size_t c = 0; c < chains.size(); ++c) {
+        std::copy_n(unitWave_.begin() + static_cast<std::ptrdiff_t>(chains[c].start - segment), segment,
+                    waves.begin() + static_cast<std::ptrdiff_t>(c * stride));
+    }
+    std::vector<std::array<double, inference::ribCount>> phases(chains.size());
+    std::vector<float> previous(chains.size() * segment);
+    std::vector<float> noise(chains.size() * segment);
+    std::vector<float> made(chains.size() * segment);
+    std::vector<float> levels(chains.size());
+    const auto at = [](std::vector<float>& values, std::size_t chain) {
+        return std::span<float, segment>(values.data() + chain * segment, segment);
+    };
+    std::vector<inference::SegmentRequest> requests;
+    requests.reserve(chains.size());
+    for (std::size_t c = 0; c < chains.size(); ++c) {
+        requests.push_back({embeddings[chains[c].embedding], {}, at(previous, c), at(noise, c), {}});
+    }
+    std::uint64_t hop = 0;
+    for (std::size_t start = 0; start < whole; start += settings.hopSamples, ++hop) {
+        for (std::size_t c = 0; c < chains.size(); ++c) {
+            requests[c].motion = motionBefore(chains[c].start + start, settings.hopSamples);
+            for (std::size_t rib = 0; rib < inference::ribCount; ++rib) {
+                const auto phase = static_cast<float>(phases[c][rib]);
+                requests[c].ribPhase[rib] = phase < 1.0F ? phase : 0.0F;
+            }
+            inference::fillStandardNormal(
+                {.seed = settings.seed, .voice = chains[c].noise, .segment = settings.round * 4096 + hop}, at(noise, c));
+        }
+        generator_.levels(requests, levels);
+        for (std::size_t c = 0; c < chains.size(); ++c) {
+            for (std::size_t i = 0; i < segment; ++i) {
+                previous[c * segment + i] = waves[c * stride + start + i] * levels[c];
+            }
+        }
+        generator_.generate(requests, made);
+        segments_ += chains.size();
+        for (std::size_t c = 0; c < chains.size(); ++c) {
+            const auto successor = at(made, c);
+            for (float& value : successor) {
+                value /= levels[c];
+            }
+            const std::span<float, segment> running(waves.data() + c * stride + segment + start, segment);
+            if (start == 0) {
+                std::ranges::copy(successor, running.begin());
+            } else {
+                splice(running, successor);
+            }
+            const auto turns = turnsPerSample(requests[c].embedding, requests[c].motion);
+            for (std::size_t rib = 0; rib < turns.size(); ++rib) {
+                const double phase = phases[c][rib] + turns[rib] * static_cast<double>(settings.hopSamples);
+                phases[c][rib] = phase - std::floor(phase);
+            }
+        }
+    }
+    std::vector<float> result(chains.size() * settings.samples);
+    for (std::size_t c = 0; c < chains.size(); ++c) {
+        std::copy_n(waves.begin() + static_cast<std::ptrdiff_t>(c * stride + segment + settings.warmSamples),
+                    settings.samples, result.begin() + static_cast<std::ptrdiff_t>(c * settings.samples));
+    }
+    return result;
+}
+
+}  // namespace haptoflow::learning

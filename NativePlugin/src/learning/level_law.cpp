@@ -1,0 +1,234 @@
+#include "learning/level_law.hpp"
+
+#include "learning/linear_algebra.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace haptoflow::learning {
+namespace {
+
+constexpr std::size_t frameSamples = 100;
+constexpr std::size_t frameHop = 50;
+constexpr double speedOffsetMps = 0.0005;
+constexpr double smallestForceNewtons = 0.02;
+/// How far one frame's log RMS strays from the law, and how far a slope between knots strays from the common one.
+constexpr double frameSpread = 0.35;
+constexpr double slopeSpread = 0.5;
+constexpr double framesPerKnot = 14.0;
+constexpr double knotDistance = 0.22;
+constexpr std::size_t mostKnots = 14;
+constexpr int newtonRounds = 30;
+
+double logSpeed(double speedMps) {
+    return std::log(speedMps + speedOffsetMps);
+}
+
+struct Frame {
+    double logSpeed = 0.0;
+    double logForce = 0.0;
+    double power = 0.0;
+};
+
+std::vector<Frame> framesOf(const PreparedRecording& recording, const Sliding& sliding) {
+    std::vector<Frame> frames;
+    for (std::size_t start = 0; start + frameSamples <= recording.wave.size(); start += frameHop) {
+        if (!sliding.holds(start, frameSamples)) {
+            continue;
+        }
+        Frame frame;
+        for (std::size_t i = start; i < start + frameSamples; ++i) {
+            const double value = recording.wave[i];
+            frame.power += value * value / static_cast<double>(frameSamples);
+            frame.logSpeed += logSpeed(recording.speedMps(i)) / static_cast<double>(frameSamples);
+            frame.logForce +=
+                std::log(std::max(static_cast<double>(recording.motion[i][2]), smallestForceNewtons)) /
+                static_cast<double>(frameSamples);
+        }
+        // Digital silence has no logarithm; a hundredth of what can be felt has.
+        frame.power = std::max(frame.power, 1e-10);
+        frames.push_back(frame);
+    }
+    return frames;
+}
+
+/// Log speeds of the knots: evenly spread quantiles, no two nearer than they can be told apart.
+std::vector<double> knotsOf(const std::vector<Frame>& frames) {
+    std::vector<double> sorted(frames.size());
+    std::ranges::transform(frames, sorted.begin(), [](const Frame& frame) { return frame.logSpeed; });
+    std::ranges::sort(sorted);
+    const auto quantile = [&](double share) {
+        return sorted[static_cast<std::size_t>(share * static_cast<double>(sorted.size() - 1))];
+    };
+    const double first = quantile(0.03);
+    const double last = quantile(0.97);
+    if (last - first < knotDistance) {
+        return {quantile(0.5)};
+    }
+    const auto count = std::clamp<std::size_t>(
+        1 + static_cast<std::size_t>(static_cast<double>(frames.size()) / framesPerKnot), 2, mostKnots);
+    std::vector<double> knots{first};
+    for (std::size_t i = 1; i + 1 < count; ++i) {
+        const double knot = quantile(0.03 + 0.94 * static_cast<double>(i) / static_cast<double>(count - 1));
+        if (knot - knots.back() >= knotDistance && last - knot >= knotDistance) {
+            knots.push_back(knot);
+        }
+    }
+    knots.push_back(last);
+    return knots;
+}
+
+/// Unknowns: the log level at each knot, then the common slope, then the force exponent.
+class Fit {
+public:
+    Fit(const std::vector<Frame>& frames, std::vector<double> knots, double logForce, const ExponentPrior& prior)
+        : frames_(frames), knots_(std::move(knots)), logForce_(logForce), prior_(prior) {}
+
+    std::vector<double> solve() {
+        double mean = 0.0;
+        for (const Frame& frame : frames_) {
+            mean += 0.5 * std::log(frame.power) / static_cast<double>(frames_.size());
+        }
+        std::vector<double> unknown(knots_.size() + 2, mean);
+        unknown[slope()] = prior_.speedMean;
+        unknown[force()] = prior_.forceMean;
+        for (int round = 0; round < newtonRounds; ++round) {
+            step(unknown);
+        }
+        return unknown;
+    }
+
+private:
+    [[nodiscard]] std::size_t slope() const { return knots_.size(); }
+    [[nodiscard]] std::size_t force() const { return knots_.size() + 1; }
+
+    struct Row {
+        std::array<std::size_t, 4> index{};
+        std::array<double, 4> factor{};
+        std::size_t count = 0;
+
+        void add(std::size_t at, double value) {
+            index[count] = at;
+            factor[count] = value;
+            ++count;
+        }
+    };
+
+    [[nodiscard]] Row rowOf(const Frame& frame) const {
+        Row row;
+        const std::size_t last = knots_.size() - 1;
+        if (frame.logSpeed <= knots_.front() || last == 0) {
+            row.add(0, 1.0);
+            row.add(slope(), frame.logSpeed - knots_.front());
+        } else if (frame.logSpeed >= knots_.back()) {
+            row.add(last, 1.0);
+            row.add(slope(), frame.logSpeed - knots_.back());
+        } else {
+            const auto above = static_cast<std::size_t>(std::ranges::upper_bound(knots_, frame.logSpeed) -
+                                                        knots_.begin());
+            const double share = (frame.logSpeed - knots_[above - 1]) / (knots_[above] - knots_[above - 1]);
+            row.add(above - 1, 1.0 - share);
+            row.add(above, share);
+        }
+        row.add(force(), frame.logForce - logForce_);
+        return row;
+    }
+
+    static void accumulate(SymmetricMatrix& normal, std::vector<double>& right, const Row& row, double residual,
+                           double weight) {
+        for (std::size_t i = 0; i < row.count; ++i) {
+            right[row.index[i]] += weight * row.factor[i] * residual;
+            for (std::size_t j = 0; j < row.count; ++j) {
+                normal.at(row.index[i], row.index[j]) += weight * row.factor[i] * row.factor[j];
+            }
+        }
+    }
+
+    /// One step of Fisher's scoring: of s + power exp(-2 s) / 2, whose slope is 1 - power exp(-2 s) and whose expected
+    /// curvature is 2. Frames overlap by half.
+    void step(std::vector<double>& unknown) const {
+        SymmetricMatrix normal(unknown.size());
+        std::vector<double> right(unknown.size());
+        constexpr double largestStep = 1.0;
+        constexpr double frameWeight = 0.5 / (frameSpread * frameSpread);
+        for (const Frame& frame : frames_) {
+            const Row row = rowOf(frame);
+            double law = 0.0;
+            for (std::size_t i = 0; i < row.count; ++i) {
+                law += row.factor[i] * unknown[row.index[i]];
+            }
+            const double excess = frame.power * std::exp(-2.0 * law) - 1.0;
+            accumulate(normal, right, row, std::clamp(0.5 * excess, -largestStep, largestStep), frameWeight);
+        }
+        for (std::size_t i = 1; i < knots_.size(); ++i) {
+            const double distance = knots_[i] - knots_[i - 1];
+            Row row;
+            row.add(i, 1.0);
+            row.add(i - 1, -1.0);
+            row.add(slope(), -distance);
+            const double residual = -(unknown[i] - unknown[i - 1] - distance * unknown[slope()]);
+            // A slope may bend as often in a wide stretch as in several narrow ones.
+            accumulate(normal, right, row, residual, 1.0 / (slopeSpread * slopeSpread * distance * knotDistance));
+        }
+        const auto towards = [&](std::size_t index, double mean, double spread) {
+            Row row;
+            row.add(index, 1.0);
+            accumulate(normal, right, row, mean - unknown[index], 1.0 / (spread * spread));
+        };
+        towards(slope(), prior_.speedMean, prior_.speedSpread);
+        towards(force(), prior_.forceMean, prior_.forceSpread);
+        const std::vector<double> change = solvePositive(std::move(normal), std::move(right));
+        for (std::size_t i = 0; i < unknown.size(); ++i) {
+            unknown[i] += std::clamp(change[i], -2.0, 2.0);
+        }
+    }
+
+    const std::vector<Frame>& frames_;
+    std::vector<double> knots_;
+    double logForce_;
+    ExponentPrior prior_;
+};
+
+}  // namespace
+
+double LevelLaw::logLevel(double speedMps, double force) const {
+    const double position = logSpeed(speedMps);
+    const double pressed =
+        forceExponent * std::log(std::max(force, smallestForceNewtons) / forceNewtons);
+    const double first = logSpeed(speedsMps.front());
+    const double last = logSpeed(speedsMps.back());
+    if (position <= first || speedsMps.size() == 1) {
+        return logLevels.front() + speedExponent * (position - first) + pressed;
+    }
+    if (position >= last) {
+        return logLevels.back() + speedExponent * (position - last) + pressed;
+    }
+    std::size_t above = 1;
+    while (logSpeed(speedsMps[above]) < position) {
+        ++above;
+    }
+    const double low = logSpeed(speedsMps[above - 1]);
+    const double share = (position - low) / (logSpeed(speedsMps[above]) - low);
+    return logLevels[above - 1] + share * (logLevels[above] - logLevels[above - 1]) + pressed;
+}
+
+LevelLaw fitLevelLaw(const PreparedRecording& recording, const Sliding& sliding, const ExponentPrior& prior) {
+    const std::vector<Frame> frames = framesOf(recording, sliding);
+    if (frames.size() < 10) {
+        throw RecordingUnusable("the strokes are too short: hardly any slides for 50 ms at a stretch; record longer "
+                                "strokes");
+    }
+    LevelLaw law;
+    law.forceNewtons = std::clamp(sliding.forceNewtons[1], 0.01, 100.0);
+    const std::vector<double> knots = knotsOf(frames);
+    std::vector<double> unknown = Fit(frames, knots, std::log(law.forceNewtons), prior).solve();
+    law.forceExponent = std::clamp(unknown[knots.size() + 1], -4.0, 4.0);
+    law.speedExponent = std::clamp(unknown[knots.size()], -4.0, 4.0);
+    for (std::size_t i = 0; i < knots.size(); ++i) {
+        law.speedsMps.push_back(std::exp(knots[i]) - speedOffsetMps);
+        law.logLevels.push_back(unknown[i]);
+    }
+    return law;
+}
+
+}  // namespace haptoflow::learning

@@ -1,0 +1,145 @@
+#include "learning/material_text.hpp"
+
+#include "model/crc32.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+
+namespace haptoflow::learning {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// So many digits as are worth keeping: it makes files smaller and equal on platforms whose last bits differ.
+double rounded(double value, double perUnit) {
+    return std::round(value * perUnit) / perUnit + 0.0;
+}
+
+template <typename Range>
+Json roundedNumbers(const Range& values, double perUnit) {
+    Json result = Json::array();
+    for (const auto value : values) {
+        result.push_back(rounded(static_cast<double>(value), perUnit));
+    }
+    return result;
+}
+
+std::string hexadecimal(std::uint32_t value) {
+    std::array<char, 9> text{};
+    (void)std::snprintf(text.data(), text.size(), "%08x", static_cast<unsigned>(value));
+    return text.data();
+}
+
+std::string spaceOf(const model::ModelFile& model) {
+    std::string text;
+    for (const model::Tier& tier : model.header().tiers) {
+        const auto blob = std::ranges::find(model.header().blobs, tier.field, &model::Blob::name);
+        text += tier.name + ':' + hexadecimal(blob->crc32) + ';';
+    }
+    return hexadecimal(model::crc32(std::as_bytes(std::span(text))));
+}
+
+Json impactJson(const model::Impact& impact) {
+    Json modes = Json::array();
+    for (const model::ImpactMode& mode : impact.modes) {
+        if (mode.frequencyHz > 0.0) {
+            modes.push_back({{"frequency_hz", mode.frequencyHz},
+                             {"decay_per_second", mode.decayPerSecond},
+                             {"gain_per_second", mode.gainPerSecond}});
+        }
+    }
+    return {{"modes", modes}, {"restitution", impact.restitution}};
+}
+
+Json toneJson(const Tone& tone) {
+    Json rows = Json::array();
+    for (const std::vector<double>& row : tone.gainsDb) {
+        rows.push_back(roundedNumbers(row, 1e3));
+    }
+    return {{"speeds_mps", roundedNumbers(tone.speedsMps, 1e6)},
+            {"frequencies_hz", roundedNumbers(tone.frequenciesHz, 1e3)},
+            {"gains_db", rows}};
+}
+
+Json seedsJson(std::span<const LearntSeed> seeds) {
+    Json result = Json::array();
+    for (const LearntSeed& seed : seeds) {
+        result.push_back({{"velocity_mps", roundedNumbers(seed.velocityMps, 1e6)},
+                          {"force_newtons", rounded(seed.forceNewtons, 1e4)},
+                          {"samples", roundedNumbers(seed.samples, 1e5)}});
+    }
+    return result;
+}
+
+}  // namespace
+
+std::string materialText(const model::ModelFile& model, const MaterialContent& content) {
+    const LearningSettings& settings = content.settings;
+    const LearningReport& report = content.report;
+    Json json;
+    json["format"] = "haptoflow-material";
+    json["version"] = 1;
+    json["space"] = spaceOf(model);
+    json["name"] = settings.name;
+    json["category"] = settings.category.empty() ? content.nearest.category : settings.category;
+    json["description"] = settings.description;
+    json["provenance"] = {{"statement", "learnt from a recording, beginning at the label " + content.nearest.name},
+                          {"recordings", settings.recordings},
+                          {"licence", settings.licence.empty() ? "unknown" : settings.licence},
+                          {"seconds", rounded(report.slidingSeconds, 1e2)},
+                          {"created", settings.created}};
+    json["embedding"] = roundedNumbers(content.embedding, 1e6);
+    json["range"] = {{"speed_mps", roundedNumbers(report.speedMps, 1e5)},
+                     {"force_newtons", roundedNumbers(report.forceNewtons, 1e4)}};
+    json["level_exponents"] = {{"speed", rounded(content.level.speedExponent, 1e4)},
+                               {"force", rounded(content.level.forceExponent, 1e4)}};
+    json["frequency_exponent"] = rounded(content.frequencyExponent, 1e4);
+    json["periodic"] = content.wavelengthMetres.has_value();
+    json["wavelength_metres"] = content.wavelengthMetres ? Json(rounded(*content.wavelengthMetres, 1e8)) : Json(nullptr);
+    json["stiffness_newtons_per_metre"] = content.nearest.stiffnessNewtonsPerMetre;
+    json["friction_coefficient"] = content.nearest.frictionCoefficient;
+    if (content.nearest.impact) {
+        json["impact"] = impactJson(*content.nearest.impact);
+    }
+    json["level"] = {{"speeds_mps", roundedNumbers(content.level.speedsMps, 1e6)},
+                     {"log_levels", roundedNumbers(content.level.logLevels, 1e5)},
+                     {"force_newtons", rounded(content.level.forceNewtons, 1e4)},
+                     {"force_exponent", rounded(content.level.forceExponent, 1e4)}};
+    if (!content.tone.speedsMps.empty()) {
+        json["tone"] = toneJson(content.tone);
+    }
+    json["seeds"] = seedsJson(content.seeds);
+    return json.dump() + "\n";
+}
+
+std::string reportJson(const LearningReport& report) {
+    Json vectors = Json::array();
+    for (const LearntWaveVector& each : report.waveVectors) {
+        vectors.push_back({{"x_cycles_per_mm", rounded(each.x, 1e5)}, {"y_cycles_per_mm", rounded(each.y, 1e5)}});
+    }
+    const Json json{{"nearest_label", report.nearestLabel},
+                    {"nearest_distance_db", rounded(report.nearestDistanceDb, 1e3)},
+                    {"fitted_distance_db", rounded(report.fittedDistanceDb, 1e3)},
+                    {"spectral_distance_db", rounded(report.spectralDistanceDb, 1e3)},
+                    {"level_error_db", rounded(report.levelErrorDb, 1e3)},
+                    {"sliding_seconds", rounded(report.slidingSeconds, 1e2)},
+                    {"speed_mps", roundedNumbers(report.speedMps, 1e5)},
+                    {"force_newtons", roundedNumbers(report.forceNewtons, 1e4)},
+                    {"level_exponents",
+                     {{"speed", rounded(report.speedExponent, 1e4)}, {"force", rounded(report.forceExponent, 1e4)}}},
+                    {"wave_vectors", vectors},
+                    {"seeds", report.seeds},
+                    {"tone_speeds", report.toneSpeeds},
+                    {"segments", report.segments},
+                    {"generations", report.generations},
+                    {"seconds", rounded(report.seconds, 1e2)},
+                    {"stopped_early", report.stoppedEarly},
+                    {"warnings", report.warnings}};
+    return json.dump(2) + "\n";
+}
+
+}  // namespace haptoflow::learning

@@ -1,0 +1,33 @@
+#pragma once
+
+#include "learning/closed_loop.hpp"
+#include "learning/learner.hpp"
+#include "learning/level_law.hpp"
+#include "learning/seed_choice.hpp"
+#include "learning/tone_fit.hpp"
+#include "model/model_file.hpp"
+
+#include <optional>
+#include <span>
+#include <string>
+
+namespace haptoflow::learning {
+
+/// Everything that stands in a material file.
+struct MaterialContent {
+    const LearningSettings& settings;
+    const LearningReport& report;
+    /// What the recording does not say comes from here.
+    const model::Label& nearest;
+    const Embedding& embedding;
+    const LevelLaw& level;
+    const Tone& tone;
+    double frequencyExponent = 0.0;
+    std::optional<double> wavelengthMetres;
+    std::span<const LearntSeed> seeds;
+};
+
+/// The text of a `.haptomaterial` file, ending in a line feed.
+[[nodiscard]] std::string materialText(const model::ModelFile& model, const MaterialContent& content);
+
+}  // namespace haptoflow::learning

@@ -1,0 +1,116 @@
+#include "learning/recording.hpp"
+
+#include "learning/plain_number.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <string>
+
+namespace haptoflow::learning {
+namespace {
+
+constexpr double largestLostShare = 0.5;
+/// A limiter holds its end value for as long as the wave would be beyond it; noise meets its own maximum once.
+constexpr std::size_t shortestClippedRun = 3;
+constexpr double largestClippedShare = 0.001;
+
+void require(bool holds, const std::string& message) {
+    if (!holds) {
+        throw std::invalid_argument(message);
+    }
+}
+
+void checkSizes(const Recording& recording) {
+    require(recording.axisCount == 1 || recording.axisCount == 3,
+            "the recording has " + std::to_string(recording.axisCount) + " axes; expected 1 or 3");
+    require(recording.rateHz >= lowestRateHz && recording.rateHz <= highestRateHz,
+            "the recording's rate is " + plainNumber(recording.rateHz) + " Hz; expected 1000 to 192000 Hz");
+    const std::size_t count = recording.sampleCount();
+    require(count * recording.axisCount == recording.accelerationMps2.size(),
+            "the acceleration does not have as many numbers for each axis");
+    require(recording.velocityMps.empty() || recording.velocityMps.size() == 2 * count,
+            "the velocity does not have two numbers for each sample of the acceleration");
+    require(recording.forceNewtons.empty() || recording.forceNewtons.size() == count,
+            "the force does not have one number for each sample of the acceleration");
+    require(std::isfinite(recording.constantVelocityMps[0]) && std::isfinite(recording.constantVelocityMps[1]),
+            "the constant velocity is not finite");
+    require(std::isfinite(recording.constantForceNewtons) && recording.constantForceNewtons >= 0.0,
+            "the constant force is " + plainNumber(recording.constantForceNewtons) + " N; expected 0 or more");
+}
+
+struct AxisFigures {
+    std::size_t finite = 0;
+    double mean = 0.0;
+    double rms = 0.0;
+    double clippedShare = 0.0;
+};
+
+AxisFigures figuresOf(const Recording& recording, std::size_t axis) {
+    AxisFigures figures;
+    double sum = 0.0;
+    double squares = 0.0;
+    float lowest = 0.0F;
+    float highest = 0.0F;
+    const auto at = [&](std::size_t i) { return recording.accelerationMps2[i * recording.axisCount + axis]; };
+    const std::size_t count = recording.sampleCount();
+    for (std::size_t i = 0; i < count; ++i) {
+        const float value = at(i);
+        if (std::isfinite(value)) {
+            lowest = figures.finite == 0 ? value : std::min(lowest, value);
+            highest = figures.finite == 0 ? value : std::max(highest, value);
+            sum += value;
+            ++figures.finite;
+        }
+    }
+    if (figures.finite == 0) {
+        return figures;
+    }
+    figures.mean = sum / static_cast<double>(figures.finite);
+    std::size_t run = 0;
+    std::size_t clipped = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+        const float value = at(i);
+        const bool isEnd = (value == lowest || value == highest) && highest > lowest;
+        run = isEnd && run > 0 && value == at(i - 1) ? run + 1 : (isEnd ? 1 : 0);
+        clipped += run == shortestClippedRun ? shortestClippedRun : (run > shortestClippedRun ? 1 : 0);
+        if (std::isfinite(value)) {
+            squares += (value - figures.mean) * (value - figures.mean);
+        }
+    }
+    figures.rms = std::sqrt(squares / static_cast<double>(figures.finite));
+    figures.clippedShare = static_cast<double>(clipped) / static_cast<double>(count);
+    return figures;
+}
+
+}  // namespace
+
+void checkRecording(const Recording& recording) {
+    checkSizes(recording);
+    if (recording.seconds() < shortestSlidingSeconds) {
+        throw RecordingUnusable("the recording lasts " + plainNumber(recording.seconds()) +
+                                " s; record 10 s or more of sliding");
+    }
+    double rms = 0.0;
+    for (std::size_t axis = 0; axis < recording.axisCount; ++axis) {
+        const AxisFigures figures = figuresOf(recording, axis);
+        const std::string name = recording.axisCount == 1 ? "the acceleration" : "axis " + std::to_string(axis + 1);
+        const auto count = static_cast<double>(recording.sampleCount());
+        if (static_cast<double>(figures.finite) < (1.0 - largestLostShare) * count) {
+            throw RecordingUnusable(name + " is not finite in " +
+                                    plainNumber(100.0 - 100.0 * static_cast<double>(figures.finite) / count) +
+                                    " % of its samples; record again, or cut the recording to what is whole");
+        }
+        if (figures.clippedShare > largestClippedShare) {
+            throw RecordingUnusable(name + " is clipped: " + plainNumber(100.0 * figures.clippedShare) +
+                                    " % of its samples stand at its largest or smallest value; record again with a "
+                                    "larger range");
+        }
+        rms = std::max(rms, figures.rms);
+    }
+    if (!(rms > 0.0)) {
+        throw RecordingUnusable("the acceleration never changes; is the sensor connected?");
+    }
+}
+
+}  // namespace haptoflow::learning

@@ -1,0 +1,32 @@
+#pragma once
+
+#include "learning/prepared_recording.hpp"
+#include "model/model_header.hpp"
+
+#include <cstdint>
+#include <vector>
+
+namespace haptoflow::learning {
+
+/// Slower than this, a tip rests.
+inline constexpr double slowestSlidingMps = 0.004;
+
+/// Which samples show the material: usable, touching, sliding, and inside the model's range of speed.
+struct Sliding {
+    std::vector<std::uint8_t> isSliding;
+    double seconds = 0.0;
+    /// 2nd, 50th and 98th percentile while sliding.
+    std::array<double, 3> speedMps{};
+    std::array<double, 3> forceNewtons{};
+
+    /// Whether all samples from first to first + count slide.
+    [[nodiscard]] bool holds(std::size_t first, std::size_t count) const;
+
+    /// Number of sliding samples before each, and behind the last: what makes `holds` quick.
+    std::vector<std::uint32_t> before;
+};
+
+/// Throws RecordingUnusable: no motion, too fast, no force, too little sliding.
+[[nodiscard]] Sliding findSliding(const PreparedRecording& recording, const model::ModelHeader& model);
+
+}  // namespace haptoflow::learning

@@ -1,0 +1,124 @@
+#include "learning/texture_figures.hpp"
+
+#include "dsp/fourier_transform.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <numbers>
+
+namespace haptoflow::learning {
+namespace {
+
+constexpr std::array<std::size_t, 3> pieceSamples{4, 20, 60};
+constexpr double powerFloor = 1e-3;
+constexpr double samplesPerBin = 2800.0;
+constexpr double narrowestBin = 0.18;
+
+}  // namespace
+
+std::size_t SpeedBins::binOf(double speedMps) const {
+    return static_cast<std::size_t>(std::ranges::upper_bound(edgesMps, speedMps) - edgesMps.begin());
+}
+
+SpeedBins SpeedBins::divide(std::vector<double> speedsMps, std::size_t most) {
+    std::ranges::sort(speedsMps);
+    const auto total = static_cast<double>(speedsMps.size());
+    const auto bins = std::clamp<std::size_t>(static_cast<std::size_t>(total / samplesPerBin), 1, most);
+    SpeedBins result;
+    double last = speedsMps.front();
+    for (std::size_t i = 1; i < bins; ++i) {
+        const double edge = speedsMps[static_cast<std::size_t>(total * static_cast<double>(i) /
+                                                               static_cast<double>(bins))];
+        if (std::log(edge / last) >= narrowestBin && std::log(speedsMps.back() / edge) >= narrowestBin) {
+            result.edgesMps.push_back(edge);
+            last = edge;
+        }
+    }
+    std::vector<double> sums(result.edgesMps.size() + 1);
+    std::vector<double> counts(sums.size());
+    for (const double speed : speedsMps) {
+        const std::size_t bin = result.binOf(speed);
+        sums[bin] += std::log(speed);
+        counts[bin] += 1.0;
+    }
+    for (std::size_t bin = 0; bin < sums.size(); ++bin) {
+        result.centresMps.push_back(std::exp(sums[bin] / std::max(counts[bin], 1.0)));
+    }
+    return result;
+}
+
+TextureMeter::TextureMeter(std::size_t bins) : sums_(bins) {
+    for (std::size_t i = 0; i < spectrumSamples; ++i) {
+        window_[i] = 0.5 - 0.5 * std::cos(2.0 * std::numbers::pi * static_cast<double>(i) /
+                                          static_cast<double>(spectrumSamples));
+    }
+}
+
+void TextureMeter::addSpectrum(Sums& sums, std::span<const float, spectrumSamples> wave) const {
+    std::vector<std::complex<double>> values(spectrumSamples);
+    for (std::size_t i = 0; i < spectrumSamples; ++i) {
+        values[i] = static_cast<double>(wave[i]) * window_[i];
+    }
+    dsp::fourierTransform(values, dsp::Direction::forward);
+    // So that the bins' sum is the mean square: the window's is 3/8, and inner bins stand for two.
+    constexpr double windowPower = 0.375;
+    constexpr auto length = static_cast<double>(spectrumSamples);
+    for (std::size_t bin = 0; bin < spectrumBins; ++bin) {
+        const double sides = bin == 0 || bin + 1 == spectrumBins ? 1.0 : 2.0;
+        sums.power[bin] += sides * std::norm(values[bin]) / (windowPower * length * length);
+    }
+}
+
+void TextureMeter::add(std::size_t bin, std::span<const float, spectrumSamples> wave) {
+    Sums& sums = sums_.at(bin);
+    addSpectrum(sums, wave);
+    sums.frames += 1.0;
+    for (const float value : wave) {
+        const double square = static_cast<double>(value) * value;
+        sums.squares += square;
+        sums.fourths += square * square;
+    }
+    sums.samples += static_cast<double>(spectrumSamples);
+    for (std::size_t kind = 0; kind < pieceSamples.size(); ++kind) {
+        const std::size_t length = pieceSamples[kind];
+        for (std::size_t start = 0; start + length <= wave.size(); start += length) {
+            double power = 0.0;
+            for (std::size_t i = start; i < start + length; ++i) {
+                power += static_cast<double>(wave[i]) * wave[i];
+            }
+            const double logRms = 0.5 * std::log(power / static_cast<double>(length) + powerFloor);
+            sums.pieces[kind] += 1.0;
+            sums.logs[kind] += logRms;
+            sums.logSquares[kind] += logRms * logRms;
+        }
+    }
+}
+
+std::vector<TextureFigures> TextureMeter::figures() const {
+    std::vector<TextureFigures> result(sums_.size());
+    for (std::size_t bin = 0; bin < sums_.size(); ++bin) {
+        const Sums& sums = sums_[bin];
+        TextureFigures& each = result[bin];
+        each.frames = sums.frames;
+        if (sums.frames <= 0.0) {
+            continue;
+        }
+        for (std::size_t i = 0; i < spectrumBins; ++i) {
+            each.power[i] = sums.power[i] / sums.frames;
+        }
+        each.meanSquare = sums.squares / sums.samples;
+        const double logRms = 0.5 * std::log(each.meanSquare + powerFloor);
+        for (std::size_t kind = 0; kind < pieceSamples.size(); ++kind) {
+            const double mean = sums.logs[kind] / sums.pieces[kind];
+            const double variance = sums.logSquares[kind] / sums.pieces[kind] - mean * mean;
+            each.envelope[2 * kind] = mean - logRms;
+            each.envelope[2 * kind + 1] = std::sqrt(std::max(variance, 0.0));
+        }
+        const double kurtosis = sums.fourths / sums.samples / (each.meanSquare * each.meanSquare + 1e-12);
+        each.envelope[envelopeFigures - 1] = 0.25 * std::log(kurtosis + 1e-3);
+    }
+    return result;
+}
+
+}  // namespace haptoflow::learning

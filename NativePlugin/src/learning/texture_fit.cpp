@@ -1,0 +1,220 @@
+#include "learning/texture_fit.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace haptoflow::learning {
+namespace {
+
+constexpr std::size_t mostBins = 6;
+constexpr std::size_t pastSamples = inference::segmentSamples;
+constexpr std::size_t warmSamples = 200;
+constexpr std::size_t chainSamples = 512;
+constexpr std::size_t frameHop = 64;
+constexpr double lowestHz = 15.0;
+constexpr double highestHz = 900.0;
+constexpr double powerFloor = 1e-7;
+constexpr double decibelsPerNat = 8.685889638065037;
+constexpr double envelopeWeight = 1.0;
+constexpr double levelWeight = 0.3;
+
+struct Band {
+    std::size_t first = 0;
+    std::size_t end = 0;
+};
+
+std::vector<Band> bandsUpTo(double bandwidthHz) {
+    constexpr double relativeWidth = 0.23;
+    std::vector<Band> bands;
+    double hertz = lowestHz;
+    while (hertz < std::min(highestHz, bandwidthHz)) {
+        const auto first = static_cast<std::size_t>(std::lround(hertz / hertzPerBin));
+        const auto width = std::max<std::size_t>(
+            1, static_cast<std::size_t>(relativeWidth * hertz / hertzPerBin));
+        bands.push_back({first, std::min(first + width, spectrumBins)});
+        hertz = static_cast<double>(first + width) * hertzPerBin;
+    }
+    return bands;
+}
+
+double bandPower(const TextureFigures& figures, const Band& band) {
+    double sum = 0.0;
+    for (std::size_t bin = band.first; bin < band.end; ++bin) {
+        sum += figures.power[bin];
+    }
+    return sum / static_cast<double>(band.end - band.first);
+}
+
+double oneDistance(const TextureFigures& recorded, const TextureFigures& generated, const std::vector<Band>& bands) {
+    double spectral = 0.0;
+    for (const Band& band : bands) {
+        const double difference = 10.0 * std::log10((bandPower(generated, band) + powerFloor) /
+                                                    (bandPower(recorded, band) + powerFloor));
+        spectral += difference * difference / static_cast<double>(bands.size());
+    }
+    double envelope = 0.0;
+    for (std::size_t i = 0; i < envelopeFigures; ++i) {
+        const double difference = decibelsPerNat * (generated.envelope[i] - recorded.envelope[i]);
+        envelope += difference * difference / static_cast<double>(envelopeFigures);
+    }
+    const double level =
+        10.0 * std::log10((generated.meanSquare + powerFloor) / (recorded.meanSquare + powerFloor));
+    return spectral + envelopeWeight * envelope + levelWeight * level * level;
+}
+
+std::vector<double> slidingSpeeds(const PreparedRecording& recording, const Sliding& sliding) {
+    std::vector<double> speeds;
+    for (std::size_t i = 0; i < sliding.isSliding.size(); ++i) {
+        if (sliding.isSliding[i] != 0) {
+            speeds.push_back(recording.speedMps(i));
+        }
+    }
+    return speeds;
+}
+
+}  // namespace
+
+double textureDistance(std::span<const TextureFigures> recorded, std::span<const TextureFigures> generated,
+                       double bandwidthHz) {
+    const std::vector<Band> bands = bandsUpTo(bandwidthHz);
+    double total = 0.0;
+    double weights = 0.0;
+    for (std::size_t bin = 0; bin < recorded.size(); ++bin) {
+        if (recorded[bin].frames > 0.0 && generated[bin].frames > 0.0) {
+            total += recorded[bin].frames * oneDistance(recorded[bin], generated[bin], bands);
+            weights += recorded[bin].frames;
+        }
+    }
+    return weights > 0.0 ? total / weights : 0.0;
+}
+
+TextureFit::TextureFit(ClosedLoop& loop, const PreparedRecording& recording, const Sliding& sliding,
+                       std::span<const float> unitWave, std::uint64_t seed)
+    : loop_(loop),
+      recording_(recording),
+      sliding_(sliding),
+      unitWave_(unitWave),
+      seed_(seed),
+      bins_(SpeedBins::divide(slidingSpeeds(recording, sliding), mostBins)) {
+    TextureMeter meter(bins_.count());
+    measure(meter, unitWave, 0, frameHop);
+    recorded_ = meter.figures();
+    starts_ = startsByBin(chainSamples);
+    const bool hasStart =
+        std::ranges::any_of(starts_, [](const std::vector<std::size_t>& starts) { return !starts.empty(); });
+    if (!hasStart) {
+        throw RecordingUnusable("the recording has no stretch of half a second without a gap that slides; record longer "
+                                "strokes");
+    }
+}
+
+void TextureFit::measure(TextureMeter& meter, std::span<const float> wave, std::size_t start, std::size_t hop) const {
+    for (std::size_t at = 0; at + spectrumSamples <= wave.size(); at += hop) {
+        if (sliding_.holds(start + at, spectrumSamples)) {
+            double logSpeed = 0.0;
+            for (std::size_t i = start + at; i < start + at + spectrumSamples; ++i) {
+                logSpeed += std::log(recording_.speedMps(i)) / static_cast<double>(spectrumSamples);
+            }
+            meter.add(bins_.binOf(std::exp(logSpeed)), wave.subspan(at).first<spectrumSamples>());
+        }
+    }
+}
+
+std::vector<std::vector<std::size_t>> TextureFit::startsByBin(std::size_t samples) const {
+    constexpr std::size_t step = 50;
+    constexpr double leastSliding = 0.8;
+    std::vector<std::vector<std::size_t>> starts(bins_.count());
+    std::vector<std::size_t> usableBefore(recording_.isUsable.size() + 1);
+    for (std::size_t i = 0; i < recording_.isUsable.size(); ++i) {
+        usableBefore[i + 1] = usableBefore[i] + recording_.isUsable[i];
+    }
+    const std::size_t whole = pastSamples + warmSamples + samples;
+    for (std::size_t first = 0; first + whole < recording_.isUsable.size(); first += step) {
+        const std::size_t counted = first + pastSamples + warmSamples;
+        const std::uint32_t sliding = sliding_.before[counted + samples] - sliding_.before[counted];
+        if (usableBefore[first + whole] - usableBefore[first] == whole &&
+            sliding >= leastSliding * static_cast<double>(samples)) {
+            double logSpeed = 0.0;
+            for (std::size_t i = counted; i < counted + samples; ++i) {
+                logSpeed += std::log(std::max(recording_.speedMps(i), slowestSlidingMps)) /
+                            static_cast<double>(samples);
+            }
+            starts[bins_.binOf(std::exp(logSpeed))].push_back(first + pastSamples);
+        }
+    }
+    return starts;
+}
+
+std::vector<double> TextureFit::distances(std::span<const Embedding> embeddings, std::size_t chains,
+                                          std::uint64_t round) {
+    // A step through each bin's stretches that meets all of them evenly: the golden ratio's.
+    constexpr double goldenShare = 0.6180339887498949;
+    std::vector<Chain> each;
+    for (std::size_t k = 0; k < chains; ++k) {
+        const auto& starts = starts_[k % starts_.size()];
+        if (starts.empty()) {
+            continue;
+        }
+        const double turn = goldenShare * static_cast<double>(round * chains + k + 1);
+        const auto index = static_cast<std::size_t>((turn - std::floor(turn)) * static_cast<double>(starts.size()));
+        each.push_back({0, starts[std::min(index, starts.size() - 1)], static_cast<std::uint32_t>(k)});
+    }
+    std::vector<Chain> all;
+    all.reserve(each.size() * embeddings.size());
+    for (std::size_t e = 0; e < embeddings.size(); ++e) {
+        for (Chain chain : each) {
+            chain.embedding = e;
+            all.push_back(chain);
+        }
+    }
+    const std::vector<float> waves = loop_.run(embeddings, all,
+                                               {.hopSamples = 100,
+                                                .warmSamples = warmSamples,
+                                                .samples = chainSamples,
+                                                .seed = seed_,
+                                                .round = round});
+    std::vector<double> result;
+    for (std::size_t e = 0; e < embeddings.size(); ++e) {
+        TextureMeter meter(bins_.count());
+        for (std::size_t k = 0; k < each.size(); ++k) {
+            measure(meter, std::span(waves).subspan((e * each.size() + k) * chainSamples, chainSamples),
+                    each[k].start + warmSamples, frameHop);
+        }
+        result.push_back(textureDistance(recorded_, meter.figures(), recording_.bandwidthHz));
+    }
+    return result;
+}
+
+std::vector<TextureFigures> TextureFit::resynthesis(const Embedding& embedding) {
+    constexpr std::size_t hopAt72Hz = 28;
+    constexpr std::size_t mostChains = 96;
+    constexpr std::size_t usualChains = 60;
+    std::size_t available = 0;
+    for (const auto& starts : starts_) {
+        available += starts.size();
+    }
+    const std::size_t count = std::min(mostChains, std::max(usualChains, available / 20));
+    std::vector<Chain> chains;
+    for (std::size_t k = 0; k < count; ++k) {
+        const auto& starts = starts_[k % starts_.size()];
+        if (!starts.empty()) {
+            const std::size_t place = k / starts_.size();
+            const std::size_t places = (count + starts_.size() - 1) / starts_.size();
+            chains.push_back({0, starts[place * starts.size() / places], static_cast<std::uint32_t>(k)});
+        }
+    }
+    const std::vector<float> waves = loop_.run(std::span(&embedding, 1), chains,
+                                               {.hopSamples = hopAt72Hz,
+                                                .warmSamples = warmSamples,
+                                                .samples = chainSamples,
+                                                .seed = seed_,
+                                                .round = 1'000'000});
+    TextureMeter meter(bins_.count());
+    for (std::size_t k = 0; k < chains.size(); ++k) {
+        measure(meter, std::span(waves).subspan(k * chainSamples, chainSamples), chains[k].start + warmSamples,
+                frameHop);
+    }
+    return meter.figures();
+}
+
+}  // namespace haptoflow::learning

@@ -1,0 +1,164 @@
+#include "learning/tone_fit.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace haptoflow::learning {
+namespace {
+
+constexpr double lowestHz = 20.0;
+constexpr double highestHz = 950.0;
+constexpr double bandOctaves = 1.0 / 3.0;
+constexpr double narrowestHz = 7.0;
+constexpr double relativeWidth = 0.12;
+constexpr double largestGainDb = 24.0;
+/// Decibels for each nat of power.
+constexpr double decibels = 4.342944819032518;
+/// Of frames that overlap as these do, so many are worth one.
+constexpr double framesPerIndependent = 2.2;
+constexpr double commonSpreadDb = 10.0;
+constexpr double fewestFrames = 3.0;
+
+double interpolate(std::span<const double> xs, std::span<const double> ys, double x) {
+    if (x <= xs.front()) {
+        return ys.front();
+    }
+    if (x >= xs.back()) {
+        return ys.back();
+    }
+    const auto above = static_cast<std::size_t>(std::ranges::upper_bound(xs, x) - xs.begin());
+    const double share = std::log(x / xs[above - 1]) / std::log(xs[above] / xs[above - 1]);
+    return ys[above - 1] + share * (ys[above] - ys[above - 1]);
+}
+
+std::vector<double> bandCentres(double bandwidthHz) {
+    std::vector<double> centres;
+    const double last = std::min(highestHz, bandwidthHz);
+    for (double centre = lowestHz; centre < 0.9 * last; centre *= std::exp2(bandOctaves)) {
+        centres.push_back(centre);
+    }
+    centres.push_back(last);
+    return centres;
+}
+
+struct Ratio {
+    double decibel = 0.0;
+    double variance = 0.0;
+};
+
+/// Recorded over generated power around a frequency.
+Ratio ratioAt(const TextureFigures& recorded, const TextureFigures& generated, double centreHz) {
+    const double width = std::max(narrowestHz, relativeWidth * centreHz);
+    double wanted = 0.0;
+    double found = 0.0;
+    double weights = 0.0;
+    double squares = 0.0;
+    for (std::size_t bin = 1; bin < spectrumBins; ++bin) {
+        const double distance = (static_cast<double>(bin) * hertzPerBin - centreHz) / width;
+        if (std::abs(distance) > 3.0) {
+            continue;
+        }
+        const double weight = std::exp(-0.5 * distance * distance);
+        wanted += weight * recorded.power[bin];
+        found += weight * generated.power[bin];
+        weights += weight;
+        squares += weight * weight;
+    }
+    // Neighbouring bins of a Hann window are not independent.
+    const double bands = std::max(1.0, weights * weights / squares / 1.5);
+    const double independent = 1.0 / recorded.frames + 1.0 / generated.frames;
+    return {.decibel = decibels * std::log((wanted + 1e-9 * weights) / (found + 1e-9 * weights)),
+            .variance = decibels * decibels * framesPerIndependent * independent / bands};
+}
+
+/// Draws one frequency's ratios at several speeds to their mean.
+std::vector<double> shrunk(const std::vector<Ratio>& ratios) {
+    double weights = 0.0;
+    double mean = 0.0;
+    for (const Ratio& ratio : ratios) {
+        weights += 1.0 / (ratio.variance + 1.0);
+        mean += ratio.decibel / (ratio.variance + 1.0);
+    }
+    mean /= weights;
+    double excess = 0.0;
+    for (const Ratio& ratio : ratios) {
+        const double away = ratio.decibel - mean;
+        excess += (away * away - ratio.variance) / static_cast<double>(ratios.size());
+    }
+    // Rows are never taken for one and the same: three numbers do not show that.
+    const double spread = std::clamp(excess, 0.5, 100.0);
+    double meanVariance = 0.0;
+    for (const Ratio& ratio : ratios) {
+        meanVariance += ratio.variance / static_cast<double>(ratios.size() * ratios.size());
+    }
+    const double kept = commonSpreadDb * commonSpreadDb / (commonSpreadDb * commonSpreadDb + meanVariance);
+    std::vector<double> result;
+    for (const Ratio& ratio : ratios) {
+        const double share = spread / (spread + ratio.variance);
+        result.push_back(kept * mean + share * (ratio.decibel - mean));
+    }
+    return result;
+}
+
+double powerBehind(const TextureFigures& figures, const Tone& tone, std::size_t row) {
+    double sum = 0.0;
+    for (std::size_t bin = 1; bin < spectrumBins; ++bin) {
+        const double gain = interpolate(tone.frequenciesHz, tone.gainsDb[row], static_cast<double>(bin) * hertzPerBin);
+        sum += figures.power[bin] * std::pow(10.0, 0.1 * gain);
+    }
+    return sum;
+}
+
+}  // namespace
+
+double Tone::gainDb(double speedMps, double frequencyHz) const {
+    std::vector<double> rows;
+    rows.reserve(gainsDb.size());
+    for (const std::vector<double>& row : gainsDb) {
+        rows.push_back(interpolate(frequenciesHz, row, frequencyHz));
+    }
+    return interpolate(speedsMps, rows, speedMps);
+}
+
+ToneFit fitTone(const SpeedBins& bins, std::span<const TextureFigures> recorded,
+                std::span<const TextureFigures> generated, double bandwidthHz) {
+    ToneFit fit;
+    std::vector<std::size_t> used;
+    for (std::size_t bin = 0; bin < bins.count(); ++bin) {
+        if (recorded[bin].frames >= fewestFrames && generated[bin].frames >= fewestFrames) {
+            used.push_back(bin);
+            fit.tone.speedsMps.push_back(bins.centresMps[bin]);
+        }
+    }
+    if (used.empty()) {
+        return fit;
+    }
+    fit.tone.frequenciesHz = bandCentres(bandwidthHz);
+    fit.tone.gainsDb.assign(used.size(), std::vector<double>(fit.tone.frequenciesHz.size()));
+    for (std::size_t f = 0; f < fit.tone.frequenciesHz.size(); ++f) {
+        std::vector<Ratio> ratios;
+        for (const std::size_t bin : used) {
+            ratios.push_back(ratioAt(recorded[bin], generated[bin], fit.tone.frequenciesHz[f]));
+        }
+        const std::vector<double> gains = shrunk(ratios);
+        for (std::size_t row = 0; row < used.size(); ++row) {
+            fit.tone.gainsDb[row][f] = std::clamp(gains[row], -largestGainDb, largestGainDb);
+        }
+    }
+    for (std::size_t row = 0; row < used.size(); ++row) {
+        const TextureFigures& made = generated[used[row]];
+        double before = 0.0;
+        for (std::size_t bin = 1; bin < spectrumBins; ++bin) {
+            before += made.power[bin];
+        }
+        const double common = 10.0 * std::log10(powerBehind(made, fit.tone, row) / std::max(before, 1e-12));
+        for (double& gain : fit.tone.gainsDb[row]) {
+            gain = std::clamp(gain - common, -30.0, 30.0);
+        }
+        const double after = powerBehind(made, fit.tone, row);
+        fit.logLevels.push_back(0.5 * std::log(std::max(recorded[used[row]].meanSquare, 1e-9) / std::max(after, 1e-9)));
+    }
+    return fit;
+}
+
+}  // namespace haptoflow::learning

@@ -1,0 +1,289 @@
+"""A recording of one's own in every form reads as the same stroke; what is wrong is named with its remedy."""
+
+from __future__ import annotations
+
+import json
+import re
+from pathlib import Path
+
+import numpy as np
+import pytest
+from own_samples import (
+    RATE_HZ,
+    Stroke,
+    csv_one_axis,
+    csv_three_axes,
+    stroke,
+    three_axes,
+    wav_with_motion,
+    with_sidecar,
+    write_table,
+)
+from scipy.io import wavfile
+
+from haptoflow_training.errors import InputError
+from haptoflow_training.recordings.material_recording import MaterialRecording, read_material_recordings
+from haptoflow_training.recordings.own_dataset import open_own_dataset
+
+MADE = stroke(4.0)
+TRIMMED_SPEED = float(np.hypot(*MADE.velocity_mps.T)[int(0.3 * RATE_HZ) : -int(0.3 * RATE_HZ)].mean())
+
+
+def mean_speed(recording: MaterialRecording) -> float:
+    return float(np.hypot(*recording.velocity_mps.T).mean())
+
+
+def read(path: Path) -> MaterialRecording:
+    (recording,) = read_material_recordings([path])
+    return recording
+
+
+def assert_is_the_stroke(recording: MaterialRecording, made: Stroke, moving: bool = True) -> None:
+    """The stroke at 2 kHz, without the 0.3 s that are trimmed at each end."""
+    count = len(recording.vibration_mps2)
+    assert count == pytest.approx(2000 * (made.time_seconds[-1] - 0.6), abs=25)
+    at = made.time_seconds[0] + 0.3 + np.arange(count) / 2000.0
+    truth = np.interp(at, made.time_seconds, made.acceleration_mps2)
+    found = recording.vibration_mps2
+    assert np.sqrt(np.mean(found**2)) == pytest.approx(np.sqrt(np.mean(truth**2)), rel=0.03)
+    assert np.corrcoef(found, truth)[0, 1] > 0.98
+    if moving:
+        for axis in range(2):
+            velocity = np.interp(at, made.time_seconds, made.velocity_mps[:, axis])
+            assert np.abs(recording.velocity_mps[:, axis] - velocity).max() < 0.004
+        force = np.interp(at, made.time_seconds, made.force_newtons)
+        assert np.abs(recording.force_newtons - force).max() < 0.02
+
+
+@pytest.mark.parametrize("form", [csv_one_axis, csv_three_axes, wav_with_motion])
+def test_every_form_reads_as_the_same_stroke(tmp_path: Path, form: object) -> None:
+    path = form(tmp_path, "slow", "denim", MADE, licence="CC0 1.0", source="a jacket")  # type: ignore[operator]
+    recording = read(path)
+    assert_is_the_stroke(recording, MADE)
+    assert (recording.name, recording.label) == (path.name, "denim")
+    assert (recording.licence, recording.source) == ("CC0 1.0", "a jacket")
+
+
+def test_what_is_constant_stands_in_the_sidecar_or_in_the_folder_s_recordings_json(tmp_path: Path) -> None:
+    path = tmp_path / "plain.wav"
+    wavfile.write(path, RATE_HZ, (MADE.acceleration_mps2 / 50.0).astype(np.float32))
+    (tmp_path / "recordings.json").write_text(json.dumps({"full_scale_mps2": 50, "speed_mps": 0.08, "force_newtons": 2}))
+    recording = read(path)
+    assert_is_the_stroke(recording, MADE, moving=False)
+    np.testing.assert_allclose(recording.velocity_mps, np.tile([0.08, 0.0], (len(recording.velocity_mps), 1)), atol=1e-6)
+    np.testing.assert_allclose(recording.force_newtons, 2.0, atol=1e-6)
+    assert (recording.label, recording.licence, recording.source) == ("", "unknown", "unknown")
+    with_sidecar(path, {"velocity_mps": [0.0, -0.1], "label": "felt"})
+    recording = read(path)
+    np.testing.assert_allclose(recording.velocity_mps[:, 1], -0.1, atol=1e-6)
+    assert recording.label == "felt" and recording.force_newtons[0] == pytest.approx(2.0)
+
+
+def test_a_table_without_time_has_its_rate_in_the_sidecar_and_units_are_converted(tmp_path: Path) -> None:
+    columns = {
+        "acceleration_g": MADE.acceleration_mps2 / 9.80665,
+        "speed_mmps": 1000.0 * np.hypot(*MADE.velocity_mps.T),
+        "temperature": np.full(len(MADE.time_seconds), 20.0),
+        "force_newtons": MADE.force_newtons,
+    }
+    path = write_table(tmp_path / "a.csv", columns, {"rate_hz": RATE_HZ, "label": "denim"})
+    recording = read(path)
+    assert_is_the_stroke(recording, MADE, moving=False)
+    assert mean_speed(recording) == pytest.approx(TRIMMED_SPEED, rel=0.01)
+    assert open_own_dataset(tmp_path).notes == (f"{path}: columns temperature are not known and are ignored",)
+
+
+@pytest.mark.parametrize(("rate_hz", "kind"), [(1000, np.int32), (44100, np.float32), (96000, np.int16)])
+def test_a_wav_of_any_rate_and_kind_keeps_its_level_and_what_lies_above_the_band_does_not_fold_back(
+    tmp_path: Path, rate_hz: int, kind: type
+) -> None:
+    time = np.arange(3 * rate_hz) / rate_hz
+    wave = 3.0 * np.sin(2 * np.pi * 150.0 * time)
+    if rate_hz > 20000:
+        wave += 3.0 * np.sin(2 * np.pi * 7900.0 * time)
+    scale = np.iinfo(kind).max if np.issubdtype(kind, np.integer) else 1.0
+    path = tmp_path / "tone.wav"
+    wavfile.write(path, rate_hz, (wave / 20.0 * scale).astype(kind))
+    with_sidecar(path, {"full_scale_mps2": 20, "speed_mps": 0.1, "force_newtons": 1})
+    found = read(path).vibration_mps2[200:-200]
+    assert np.sqrt(np.mean(found**2)) == pytest.approx(3.0 / np.sqrt(2.0), rel=0.02)
+    spectrum = np.abs(np.fft.rfft(found * np.hanning(len(found))))
+    frequency = np.fft.rfftfreq(len(found), 0.0005)
+    assert spectrum[np.abs(frequency - 150.0) > 20.0].max() < 0.005 * spectrum.max()
+
+
+def test_three_channels_of_a_wav_are_one_axis_with_their_common_energy(tmp_path: Path) -> None:
+    path = tmp_path / "three.wav"
+    wavfile.write(path, RATE_HZ, (np.column_stack(three_axes(MADE.acceleration_mps2)) / 50.0).astype(np.float32))
+    with_sidecar(path, {"full_scale_mps2": 50, "speed_mps": 0.1, "force_newtons": 1})
+    assert_is_the_stroke(read(path), MADE, moving=False)
+
+
+def test_positions_that_a_slow_tracker_holds_are_no_jumps(tmp_path: Path) -> None:
+    held = np.repeat(MADE.position_mm[:: RATE_HZ // 50], RATE_HZ // 50, axis=0)[: len(MADE.time_seconds)]
+    columns = {
+        "time_s": MADE.time_seconds, "acceleration_mps2": MADE.acceleration_mps2,
+        "position_x_mm": 4.0 * held[:, 0], "position_y_mm": 4.0 * held[:, 1],
+    }  # fmt: skip
+    recording = read(write_table(tmp_path / "held.csv", columns, {"force_newtons": 1}))
+    assert mean_speed(recording) == pytest.approx(4.0 * TRIMMED_SPEED, rel=0.02)
+
+
+def test_a_value_that_is_missing_costs_its_neighbourhood(tmp_path: Path) -> None:
+    made = stroke(4.0)
+    path = csv_one_axis(tmp_path, "a", "denim", made)
+    lines = path.read_text().splitlines()
+    for row, column in ((5000, 1), (7000, 2), (9000, 4)):
+        cells = lines[row].split(",")
+        cells[column] = "" if row == 7000 else "nan"
+        lines[row] = ",".join(cells)
+    path.write_text("\n".join(lines) + "\n")
+    assert_is_the_stroke(read(path), made)
+
+
+def without(name: str) -> dict[str, np.ndarray]:
+    columns = {
+        "time_s": MADE.time_seconds, "acceleration_mps2": MADE.acceleration_mps2,
+        "speed_mps": np.hypot(*MADE.velocity_mps.T), "force_newtons": MADE.force_newtons,
+    }  # fmt: skip
+    return {key: value for key, value in columns.items() if key != name}
+
+
+BAD_TABLES = {
+    "no acceleration": (without("acceleration_mps2"), {}, r"a\.csv: columns time_s, speed_mps.*expected acceleration: "),
+    "no time": (without("time_s"), {}, r"without time_s; expected a column time_s, or the key rate_hz in a\.json"),
+    "no motion": (without("speed_mps"), {}, r"no motion.*velocity_x_mps.*speed_mmps.*key speed_mps"),
+    "no force": (without("force_newtons"), {}, r"no force.*force_newtons.*force_millinewtons.*a\.json"),
+    "two accelerations": (
+        {**without(""), "acceleration_g": MADE.acceleration_mps2}, {}, r"several forms \(acceleration_mps2 and accel",
+    ),
+    "two axes of three": (
+        {
+            **without("acceleration_mps2"), "acceleration_x_g": MADE.acceleration_mps2,
+            "acceleration_z_g": MADE.acceleration_mps2,
+        }, {}, r"without acceleration_y_g",
+    ),
+    "motion twice": ({**without("")}, {"motion": "m.csv"}, r"motion in the table and in the motion file"),
+    "speed in mm/s": (
+        {**without("speed_mps"), "speed_mps": 1000.0 * np.hypot(*MADE.velocity_mps.T)}, {},
+        r"speed_mps gives a speed of .*name the column speed_mmps",
+    ),
+    "position in metres": (
+        {
+            **without("speed_mps"), "position_x_mm": MADE.position_mm[:, 0] / 1000.0,
+            "position_y_mm": MADE.position_mm[:, 1] / 1000.0,
+        }, {}, r"position_x_mm gives a speed.*position_x_m, position_y_m",
+    ),
+    "g in columns of m/s^2": (
+        {
+            **without("acceleration_mps2"), **{
+                f"acceleration_{axis}_mps2": values
+                for axis, values in zip("xyz", three_axes(MADE.acceleration_mps2, 9.80665), strict=True)
+            },
+        }, {}, r"rests at 1\.0.*looks like g",
+    ),
+    "m/s^2 in columns of g": (
+        {
+            **without("acceleration_mps2"), **{
+                f"acceleration_{axis}_g": values
+                for axis, values in zip("xyz", three_axes(MADE.acceleration_mps2), strict=True)
+            },
+        }, {}, r"rests at 9\.8.*looks like m/s\^2",
+    ),
+    "force in millinewtons": (
+        {**without("force_newtons"), "force_newtons": 1000.0 * MADE.force_newtons}, {}, r"force is .*expected newtons",
+    ),
+    "milliseconds": (
+        {**without("time_s"), "time_s": 1000.0 * MADE.time_seconds}, {}, r"4 samples a second by time_s; expected 1000",
+    ),
+    "speed key in mm/s": (without("speed_mps"), {"speed_mps": 80}, r"a\.json: key 'speed_mps' is 80.*thousandth"),
+    "unknown key": (without(""), {"lable": "denim"}, r"a\.json: unknown key 'lable'; expected keys of label"),
+    "text for a number": (without(""), {"force_newtons": "1 N"}, r"key 'force_newtons' is '1 N'; expected newtons"),
+    "missing motion file": (without("speed_mps"), {"motion": "gone.csv"}, r"gone\.csv, which is not there"),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("kind", BAD_TABLES)
+def test_a_table_that_cannot_be_read_is_named_with_what_was_found_and_expected(tmp_path: Path, kind: str) -> None:
+    columns, sidecar, words = BAD_TABLES[kind]
+    write_table(tmp_path / "m.csv", {"time_s": MADE.time_seconds, "speed_mps": np.hypot(*MADE.velocity_mps.T)})
+    path = write_table(tmp_path / "a.csv", columns, sidecar)
+    with pytest.raises(InputError, match=words) as raised:
+        read(path)
+    assert "\n" not in str(raised.value)
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ("", "empty file"),
+        ("time_s;acceleration_mps2\n0,1;2\n", "separated by semicolons"),
+        ("time_s,acceleration_mps2,speed_mps,force_newtons\n0,a,1,1\n1,2,1,1\n", "text in column acceleration_mps2"),
+        ("time_s,acceleration_mps2\n0,1\n0.001,1\n", "2 rows with numbers"),
+    ],
+)
+def test_a_damaged_table_is_named(tmp_path: Path, text: str, words: str) -> None:
+    path = tmp_path / "a.csv"
+    path.write_text(text)
+    with pytest.raises(InputError, match=rf"a\.csv: .*{words}"):
+        read(path)
+
+
+@pytest.mark.parametrize(
+    ("sidecar", "channels", "rate", "words"),
+    [
+        ({}, 1, 4000, r"a\.json: no key 'full_scale_mps2' for a\.wav; expected \"full_scale_mps2\""),
+        ({"full_scale_mps2": 50, "speed_mps": 0.1, "force_newtons": 1}, 2, 4000, "2 channels; expected 1 or 3"),
+        ({"full_scale_mps2": 50, "speed_mps": 0.1, "force_newtons": 1}, 1, 500, "500 samples a second"),
+        ({"full_scale_mps2": -1}, 1, 4000, "key 'full_scale_mps2' is -1"),
+    ],
+)
+def test_a_wav_that_cannot_be_read_is_named(
+    tmp_path: Path, sidecar: dict[str, object], channels: int, rate: int, words: str
+) -> None:
+    path = tmp_path / "a.wav"
+    wavfile.write(path, rate, np.zeros((4000, channels), dtype=np.float32))
+    with_sidecar(path, sidecar)
+    with pytest.raises(InputError, match=words):
+        read(path)
+
+
+def test_a_file_of_another_kind_and_an_empty_folder_are_named(tmp_path: Path) -> None:
+    (tmp_path / "a.wav").write_bytes(b"not a wave")
+    with_sidecar(tmp_path / "a.wav", {"full_scale_mps2": 50})
+    with pytest.raises(InputError, match=r"a\.wav: not read as WAV"):
+        read(tmp_path / "a.wav")
+    (tmp_path / "empty").mkdir()
+    with pytest.raises(InputError, match=r"empty: no recording in it; expected files that end with \.csv"):
+        read_material_recordings([tmp_path / "empty"])
+    with pytest.raises(InputError, match="does not exist"):
+        read_material_recordings([tmp_path / "gone"])
+
+
+def test_parquet_is_read_where_pandas_has_an_engine_and_refused_with_the_remedy_elsewhere(tmp_path: Path) -> None:
+    import pandas
+
+    path = tmp_path / "a.parquet"
+    frame = pandas.DataFrame(without(""))
+    with_sidecar(path, {"label": "denim"})
+    try:
+        frame.to_parquet(path)
+    except ImportError:
+        path.write_bytes(b"PAR1")
+        with pytest.raises(InputError, match=r"a\.parquet: Parquet needs pyarrow.*pip install pyarrow"):
+            read(path)
+    else:
+        assert_is_the_stroke(read(path), MADE, moving=False)
+
+
+def test_a_folder_says_what_each_file_is_and_takes_motion_files_for_no_recordings(tmp_path: Path) -> None:
+    wav_with_motion(tmp_path / "felt", "slow", "felt", MADE, licence="CC0 1.0", source="a hat")
+    csv_one_axis(tmp_path / "denim", "slow", "denim", MADE)
+    csv_one_axis(tmp_path, "nameless", "", MADE)
+    dataset = open_own_dataset(tmp_path)
+    assert {(file.identity.name, file.label) for file in dataset} == {
+        ("denim/slow.csv", "denim"), ("felt/slow.wav", "felt"),
+    }  # fmt: skip
+    assert re.search(r"1 recordings are left out: no sidecar has a key 'label' for nameless\.csv", dataset.left_out)
+    assert dataset.provenance["source"] == "unknown, a hat"
+    assert [path.name for path in dataset.recordings[1].paths] == ["slow.wav", "slow.json", "slow.motion.csv"]

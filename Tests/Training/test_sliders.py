@@ -1,0 +1,125 @@
+"""Sliders move what they say, never leave the labels' spread, and the shipped file is what the command writes."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from haptoflow_training.cli import main
+from haptoflow_training.evaluation.metrics import power_spectrum
+from haptoflow_training.evaluation.temporal_metrics import rib_modulation_depth
+from haptoflow_training.export.material_file import model_space
+from haptoflow_training.export.material_sound import LevelTable
+from haptoflow_training.export.model_file import ModelFile, read_model_file
+from haptoflow_training.fewshot.level_law import LevelLaw
+from haptoflow_training.fewshot.sliders import Sliders, find_sliders
+from haptoflow_training.fewshot.voice import Voice, render
+from haptoflow_training.models.file_model import FileModel
+from haptoflow_training.recordings.synthetic import load_materials
+
+ROOT = Path(__file__).parents[2]
+DEFAULT = ROOT / "Packages" / "com.haptoflow.runtime" / "Runtime" / "Models" / "default.haptoflow"
+SHIPPED = ROOT / "Packages" / "com.haptoflow.runtime" / "Editor" / "Sliders" / "default.sliders.json"
+TINY = ROOT / "Tests" / "Golden" / "model" / "tiny.haptoflow"
+FLAT = LevelLaw(LevelTable((0.1,), (0.0,), 1.0, 0.0), 0.0)
+
+
+@pytest.fixture(scope="module")
+def file() -> ModelFile:
+    return read_model_file(DEFAULT)
+
+
+@pytest.fixture(scope="module")
+def sliders(file: ModelFile) -> Sliders:
+    return find_sliders(file, load_materials())
+
+
+def learnt(file: ModelFile, label: str) -> np.ndarray:
+    names = [entry["name"] for entry in file.header["labels"]]
+    return file.tensors["embedding"][names.index(label)]
+
+
+def voices(file: ModelFile, sliders: Sliders, label: str, name: str, values: tuple[float, ...]) -> list[Voice]:
+    base = learnt(file, label)
+    slid = [np.concatenate([sliders.slid(base[:60], {name: value}), base[60:]]) for value in values]
+    return [Voice(each.astype(np.float32), FLAT) for each in slid]
+
+
+def rendered(file: ModelFile, asked: list[Voice], velocity: tuple[float, float]) -> np.ndarray:
+    motion = np.tile(np.array([*velocity, 1.0], dtype=np.float32), (len(asked), 4400, 1))
+    return render(FileModel(file).tier(), asked, motion, 3).waves[:, 400:]
+
+
+def centroid_hz(wave: np.ndarray) -> float:
+    power, frequency = power_spectrum(wave, 512), np.fft.rfftfreq(512, 1.0 / 2000.0)
+    band = (frequency >= 20.0) & (frequency <= 900.0)
+    return float((power[band] * frequency[band]).sum() / power[band].sum())
+
+
+def test_coarseness_lowers_the_pitch_step_by_step_and_hardness_raises_it(file: ModelFile, sliders: Sliders) -> None:
+    values, labels = (-1.0, -0.5, 0.0, 0.5, 1.0), ("wood", "stone", "paper", "rubber")
+    for name, sign in (("coarseness", -1.0), ("hardness", 1.0)):
+        asked = [voice for label in labels for voice in voices(file, sliders, label, name, values)]
+        waves = rendered(file, asked, (0.08, 0.03))
+        pitch = np.log([centroid_hz(wave) for wave in waves]).reshape(len(labels), len(values)).mean(axis=0)
+        assert (sign * np.diff(pitch) > 0.0).all(), (name, np.exp(pitch))
+        assert sign * (pitch[-1] - pitch[0]) > 0.25
+
+
+def test_regularity_makes_ribs_stand_out(file: ModelFile, sliders: Sliders) -> None:
+    depths = []
+    for label, rate in (("jute", 40.0), ("corduroy", 32.0)):
+        asked = voices(file, sliders, label, "regularity", (-1.0, 1.0))
+        depths.append([rib_modulation_depth(wave, rate) for wave in rendered(file, asked, (0.08, 0.0))])
+    irregular, regular = np.mean(depths, axis=0)
+    assert regular > irregular
+
+
+def test_no_combination_of_sliders_leaves_the_spread_of_the_labels(file: ModelFile, sliders: Sliders) -> None:
+    rng = np.random.default_rng(1)
+    for label in ("wood", "carpet", "metal mesh"):
+        for _ in range(50):
+            values = dict(zip(sliders.directions, rng.choice([-1.0, 1.0, 5.0, -5.0], len(sliders.directions)), strict=True))
+            along = sliders.axes @ (sliders.slid(learnt(file, label)[:60], values) - sliders.mean)
+            assert (along >= sliders.lowest - 1e-4).all()
+            assert (along <= sliders.highest + 1e-4).all()
+
+
+def test_a_material_outside_the_spread_stays_where_it_is_and_is_led_no_further(sliders: Sliders) -> None:
+    far = sliders.mean + 3.0 * sliders.highest[0] * sliders.axes[0]
+    assert sliders.slid(far, {}) == pytest.approx(far)
+    for name, direction in sliders.directions.items():
+        outwards = float(np.sign(direction @ sliders.axes[0]))
+        led = sliders.axes[0] @ (sliders.slid(far, {name: outwards}) - sliders.mean)
+        assert led == pytest.approx(3.0 * sliders.highest[0])
+
+
+def test_sliders_at_rest_and_the_level_change_no_embedding(file: ModelFile, sliders: Sliders) -> None:
+    base = learnt(file, "wood")[:60]
+    assert sliders.slid(base, {"coarseness": 0.0, "level": 1.0}) == pytest.approx(base, abs=1e-9)
+
+
+def test_the_shipped_file_is_what_the_command_writes(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    out = tmp_path / "default.sliders.json"
+    assert main(["sliders", "--model", str(DEFAULT), "-o", str(out)]) == 0
+    assert "stickiness and level" in capsys.readouterr().out
+    made, shipped = (json.loads(path.read_text(encoding="utf-8")) for path in (out, SHIPPED))
+    assert made["space"] == shipped["space"] == model_space(read_model_file(DEFAULT))
+    assert [slider["name"] for slider in shipped["sliders"]] == [
+        "coarseness", "hardness", "regularity", "stickiness", "level",
+    ]  # fmt: skip
+    for one, other in zip(made["sliders"], shipped["sliders"], strict=True):
+        assert one["direction"] == pytest.approx(other["direction"], abs=1e-5)
+    axes = np.array(shipped["axes"])
+    assert axes @ axes.T == pytest.approx(np.eye(len(axes)), abs=1e-4)
+    assert shipped["sliders"][-1]["level_db"] == 12.0
+    assert not any(shipped["sliders"][-1]["direction"])
+
+
+def test_a_model_of_other_labels_is_refused(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["sliders", "--model", str(TINY), "-o", str(tmp_path / "x.json")]) == 3
+    assert "shares 0 labels" in capsys.readouterr().err
+    assert not (tmp_path / "x.json").exists()

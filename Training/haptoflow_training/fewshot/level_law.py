@@ -1,0 +1,139 @@
+"""The level of a material from its recording: a table over speed that follows what was recorded, a force exponent.
+
+Penalised least squares of the log level, solved as a generalised linear model of the mean square (Gamma with logarithmic
+link): so the table meets the power that was recorded, and not the mean of its logarithm, which blows pull apart.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from haptoflow_training.export.material_sound import MAXIMUM_LEVEL_SPEEDS, LevelTable
+from haptoflow_training.fewshot.label_prior import LabelPrior
+from haptoflow_training.fewshot.material_recording import Windows
+from haptoflow_training.models.conditioning import REST_FORCE_NEWTONS, REST_SPEED_MPS
+from haptoflow_training.models.level_model import LEVEL_FLOOR_MPS2
+
+_Doubles = NDArray[np.float64]
+
+SLOWEST_MPS = 0.004
+_KNOTS_PER_E_FOLD = 2.2
+# Of a tenth of a second's log level about the law, and of the law's slope between two knots about a straight one.
+_WINDOW_SPREAD, _BEND_SPREAD = 0.2, 0.35
+_ROUNDS = 25
+
+
+@dataclass(frozen=True)
+class LevelLaw:
+    """table: the level at any motion. speed_exponent: of its continuation beyond the recorded speeds."""
+
+    table: LevelTable
+    speed_exponent: float
+
+    @property
+    def force_exponent(self) -> float:
+        return self.table.force_exponent
+
+    def log_level(self, motion: NDArray[np.floating]) -> _Doubles:
+        """Of motion [..., 3]."""
+        speed = np.hypot(motion[..., 0], motion[..., 1])
+        return self.table.log_level(speed, motion[..., 2], self.speed_exponent)
+
+    def shifted(self, speeds_mps: _Doubles, shift: _Doubles) -> LevelLaw:
+        """With `shift` [n], given at rising speeds, added to its log levels."""
+        places = np.log(np.asarray(self.table.speeds_mps) + REST_SPEED_MPS)
+        added = np.interp(places, np.log(speeds_mps + REST_SPEED_MPS), shift)
+        levels = tuple(round(float(value), 4) for value in np.asarray(self.table.log_levels) + added)
+        table = LevelTable(self.table.speeds_mps, levels, self.table.force_newtons, self.table.force_exponent)
+        return LevelLaw(table, self.speed_exponent)
+
+
+def fit_level(windows: Windows, prior: LabelPrior) -> LevelLaw:
+    """From windows of about 100 ms, half overlapped. ValueError where no window moves."""
+    speed, force = windows.speed_mps.astype(np.float64), windows.force_newtons.astype(np.float64)
+    moving = (speed > SLOWEST_MPS) & (windows.unsteadiness < 0.6)
+    if moving.sum() < 8:
+        moving = speed > SLOWEST_MPS
+    if not moving.any():
+        raise ValueError(f"no part of the recording moves faster than {1000.0 * SLOWEST_MPS:g} mm/s")
+    power = np.square(windows.waves[moving], dtype=np.float64).mean(axis=1) + LEVEL_FLOOR_MPS2**2
+    speed, force = speed[moving], np.maximum(force[moving], REST_FORCE_NEWTONS)
+    place = np.log(speed + REST_SPEED_MPS)
+    middle = math.exp(float(np.log(force).mean()))
+    knots = _knots(place)
+    basis = np.stack([np.interp(place, knots, row) for row in np.eye(len(knots))], axis=1)
+    pressed = np.log(force / middle)
+    design = np.column_stack([basis, pressed])
+    # Neighbours share half of their samples, so each counts half.
+    weight = 0.5 / _WINDOW_SPREAD**2
+    penalty, target = _penalty(knots, prior)
+    found = np.append(np.interp(knots, *_sorted_means(place, 0.5 * np.log(power))), prior.force_exponent[0])
+    for _ in range(_ROUNDS):
+        log_level = design @ found
+        # Limited, so that a blow in one window cannot throw the first rounds off.
+        step = np.clip(0.5 * (power * np.exp(-2.0 * log_level) - 1.0), -1.0, 2.0)
+        wanted = log_level + step
+        matrix = weight * design.T @ design + penalty.T @ penalty
+        previous = found
+        found = np.linalg.solve(matrix, weight * design.T @ wanted + penalty.T @ target)
+        if np.abs(found - previous).max() < 1e-5:
+            break
+    levels, exponent = found[:-1], float(np.clip(found[-1], -4.0, 4.0))
+    speeds = tuple(round(math.exp(knot) - REST_SPEED_MPS, 5) for knot in knots)
+    table = LevelTable(speeds, tuple(round(float(level), 4) for level in levels), round(middle, 4), round(exponent, 4))
+    return LevelLaw(table, round(_slope(place, design @ found - exponent * pressed, prior), 4))
+
+
+def _knots(place: _Doubles) -> _Doubles:
+    low, high = np.quantile(place, [0.02, 0.98])
+    count = int(np.clip(1 + round(_KNOTS_PER_E_FOLD * (high - low)), 1, MAXIMUM_LEVEL_SPEEDS))
+    count = min(count, max(1, len(place) // 6))
+    if count == 1 or high - low < 0.05:
+        return np.array([float(np.median(place))])
+    return np.linspace(low, high, count)
+
+
+def _sorted_means(place: _Doubles, values: _Doubles) -> tuple[_Doubles, _Doubles]:
+    """A first guess of the curve: means of neighbouring values, by place."""
+    order = np.argsort(place)
+    parts = np.array_split(order, max(1, min(8, len(order) // 4)))
+    return np.array([place[part].mean() for part in parts]), np.array([values[part].mean() for part in parts])
+
+
+def _penalty(knots: _Doubles, prior: LabelPrior) -> tuple[_Doubles, _Doubles]:
+    """Rows and targets: slopes about those of the labels, changes of slope about none, the force exponent about the
+    labels'."""
+    rows, targets = [], []
+    steps = np.diff(knots)
+    for index, step in enumerate(steps):
+        row = np.zeros(len(knots) + 1)
+        row[index : index + 2] = np.array([-1.0, 1.0]) / step
+        rows.append(row / (3.0 * prior.speed_exponent[1]))
+        targets.append(prior.speed_exponent[0] / (3.0 * prior.speed_exponent[1]))
+    for index in range(len(steps) - 1):
+        row = np.zeros(len(knots) + 1)
+        row[index : index + 3] += np.array([1.0, -1.0, 0.0]) / steps[index]
+        row[index : index + 3] += np.array([0.0, -1.0, 1.0]) / steps[index + 1]
+        # The slope of a random walk: finer knots bend less at each.
+        rows.append(row / (_BEND_SPREAD * math.sqrt(2.0 * steps[index])))
+        targets.append(0.0)
+    last = np.zeros(len(knots) + 1)
+    last[-1] = 1.0 / prior.force_exponent[1]
+    rows.append(last)
+    targets.append(prior.force_exponent[0] / prior.force_exponent[1])
+    return np.array(rows), np.array(targets)
+
+
+def _slope(place: _Doubles, log_level: _Doubles, prior: LabelPrior) -> float:
+    """Of the upper half of the recorded speeds, where the law will be continued; the labels' where little is known."""
+    upper = place >= np.median(place)
+    x, y = place[upper], log_level[upper]
+    mean, spread = prior.speed_exponent
+    certainty = (x - x.mean()) @ (x - x.mean()) / _WINDOW_SPREAD**2 * 0.5
+    slope = (x - x.mean()) @ (y - y.mean()) / max(float((x - x.mean()) @ (x - x.mean())), 1e-9)
+    blended = (certainty * slope + mean / spread**2) / (certainty + 1.0 / spread**2)
+    return float(np.clip(blended, 0.0, 2.0))

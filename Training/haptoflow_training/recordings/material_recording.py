@@ -1,0 +1,63 @@
+"""Recordings as whoever learns one material wants them: 2 kHz, one axis, the motion of every sample."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from haptoflow_training.errors import InputError
+from haptoflow_training.preprocessing.pipeline import preprocess_parts
+from haptoflow_training.preprocessing.settings import PreprocessingSettings
+from haptoflow_training.recordings.open_recordings import open_recordings
+
+
+@dataclass(frozen=True)
+class MaterialRecording:
+    """One stretch without gaps, filtered and trimmed as for training.
+
+    name: the file's, with its part where gaps cut it. label: empty where nobody said. vibration_mps2: [n] at 2 kHz, m/s^2.
+    velocity_mps: [n, 2]. force_newtons: [n]. licence, source: `unknown` where nobody said.
+    """
+
+    name: str
+    label: str
+    vibration_mps2: NDArray[np.float32]
+    velocity_mps: NDArray[np.float32]
+    force_newtons: NDArray[np.float32]
+    licence: str
+    source: str
+
+    @property
+    def seconds(self) -> float:
+        return len(self.vibration_mps2) / 2000.0
+
+
+def read_material_recordings(paths: Sequence[Path | str]) -> list[MaterialRecording]:
+    """Every recording in files and folders (files of one's own, or the published data set's layout).
+
+    InputError where one cannot be used: it names file, column or key, what was found and what is expected; and where
+    there is none at all.
+    """
+    settings = PreprocessingSettings()
+    recordings: list[MaterialRecording] = []
+    for path in paths:
+        dataset = open_recordings(path)
+        for problem in dataset.problems:
+            raise InputError(str(problem))
+        for entry in (*dataset.recordings, *dataset.unlabelled):
+            licence, source = dataset.origin_of(entry)
+            for number, part in enumerate(preprocess_parts(entry.load(), settings)):
+                name = entry.identity.name if number == 0 else f"{entry.identity.name} part {number + 1}"
+                recordings.append(
+                    MaterialRecording(
+                        name, entry.label, part.waveform_mps2, part.motion[:, :2].copy(), part.motion[:, 2].copy(),
+                        licence, source,
+                    )  # fmt: skip
+                )
+    if not recordings:
+        raise InputError(f"{', '.join(map(str, paths))}: no recording; expected .csv, .parquet or .wav files")
+    return recordings

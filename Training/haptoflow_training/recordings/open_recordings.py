@@ -1,0 +1,25 @@
+"""Whatever recordings a path holds: the published data set's layout, or files of one's own."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from haptoflow_training.recordings.cluster_dataset import ClusterDataset, RecordingFiles, open_dataset
+from haptoflow_training.recordings.dataset_layout import SENSOR_FOLDER
+from haptoflow_training.recordings.labels import LabelMap
+from haptoflow_training.recordings.own_dataset import OwnDataset, open_own_dataset
+from haptoflow_training.recordings.own_files import OwnRecordingFile
+
+Dataset = ClusterDataset | OwnDataset
+RecordingFile = RecordingFiles | OwnRecordingFile
+
+
+def open_recordings(path: Path | str, labels: LabelMap | None = None) -> Dataset:
+    """Index a folder that holds sensor_data, a folder of CSV, Parquet or WAV files, or one such file.
+
+    Without `labels` every texture's name is its label, or what its sidecar says. InputError names a path with nothing.
+    """
+    root = Path(path)
+    if (root / SENSOR_FOLDER).is_dir():
+        return open_dataset(root, labels)
+    return open_own_dataset(root, labels)
