@@ -98,11 +98,23 @@ namespace HaptoFlow
             return found == asset || found.name == asset.name + CopySuffix;
         }
 
-        /// <summary>The renderer on the collider's object, else on the nearest object above it, else below it.</summary>
+        /// <summary>Of a mesh or a skinned mesh: on the collider's object, else on the nearest object above it, else
+        /// below it.</summary>
         private static Renderer? RendererOf(Collider collider)
         {
-            Renderer? found = collider.GetComponentInParent<Renderer>(true);
-            return found != null ? found : collider.GetComponentInChildren<Renderer>(true);
+            for (Transform? place = collider.transform; place != null; place = place.parent)
+            {
+                if (place.TryGetComponent(out MeshRenderer mesh))
+                {
+                    return mesh;
+                }
+                if (place.TryGetComponent(out SkinnedMeshRenderer skinned))
+                {
+                    return skinned;
+                }
+            }
+            Renderer? below = collider.GetComponentInChildren<MeshRenderer>(true);
+            return below != null ? below : collider.GetComponentInChildren<SkinnedMeshRenderer>(true);
         }
 
         private bool ShowsTheSame()
