@@ -79,7 +79,8 @@ namespace HaptoFlow.SampleTests
                 FindObjectsInactive.Exclude, FindObjectsSortMode.None);
             FeltPart[] parts = colliders.Where(collider => !collider.transform.IsChildOf(scene.Pen.transform))
                 .SelectMany(collider => FeltColliders.Resolve(collider)!.Parts).ToArray();
-            Assert.That(parts.Select(part => part.Rule).Distinct(), Is.EquivalentTo(Enumerable.Range(0, scene.Map.Rules.Count)));
+            Assert.That(parts.Select(part => part.Rule).Distinct(),
+                Is.EquivalentTo(Enumerable.Range(0, scene.Map.Rules.Count)));
         }
 
         [TestCase("AddMaterialPanel.cs")]

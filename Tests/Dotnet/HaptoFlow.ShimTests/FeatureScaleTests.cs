@@ -62,7 +62,8 @@ namespace HaptoFlow.ShimTests
                 material.ToneDbPerOctave = 6f;
             });
             Assert.That(ToneRuns, Is.GreaterThan(0UL));
-            Assert.That(Band(bright, 500.0) / Band(bright, 60.0), Is.GreaterThan(8.0 * Band(plain, 500.0) / Band(plain, 60.0)));
+            Assert.That(Band(bright, 500.0) / Band(bright, 60.0),
+                Is.GreaterThan(8.0 * Band(plain, 500.0) / Band(plain, 60.0)));
         }
 
         [Test]

@@ -11,8 +11,8 @@ using SurfacePhysics = UnityEngine.PhysicMaterial;
 
 namespace HaptoFlow
 {
-    /// <summary>What rules may ask of a collider, read once. Main thread. Reading makes garbage; asking whether it still
-    /// holds makes none.</summary>
+    /// <summary>What rules may ask of a collider, read once. Main thread. Reading makes garbage; asking whether it
+    /// still holds makes none.</summary>
     internal sealed class ColliderFacts
     {
         private const string CopySuffix = " (Instance)";
@@ -88,7 +88,8 @@ namespace HaptoFlow
                 ShowsTheSame();
         }
 
-        /// <summary>The asset itself, or the copy that Unity makes of it when a script asks for an object's own.</summary>
+        /// <summary>The asset itself, or the copy that Unity makes of it when a script asks for an object's own.
+        /// </summary>
         public static bool IsSameOrCopy(Object? asset, Object? found)
         {
             if (asset == null || found == null)
