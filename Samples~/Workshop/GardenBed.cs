@@ -5,8 +5,8 @@ using Object = UnityEngine.Object;
 
 namespace HaptoFlow.Samples.Workshop
 {
-    /// <summary>A terrain of three layers that run into each other. It is drawn by a mesh of its own: the look of a terrain
-    /// that a script makes depends on the render pipeline.</summary>
+    /// <summary>A terrain of three layers that run into each other. It is drawn by a mesh of its own: the look of a
+    /// terrain that a script makes depends on the render pipeline.</summary>
     internal sealed class GardenBed
     {
         private const int Corners = 33;

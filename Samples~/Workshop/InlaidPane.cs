@@ -5,7 +5,8 @@ using Object = UnityEngine.Object;
 
 namespace HaptoFlow.Samples.Workshop
 {
-    /// <summary>A pane of ceramic with a mask: red is a ring of jute, green is how much of its strength is left.</summary>
+    /// <summary>A pane of ceramic with a mask: red is a ring of jute, green is how much of its strength is left.
+    /// </summary>
     internal sealed class InlaidPane
     {
         private const int Texels = 128;

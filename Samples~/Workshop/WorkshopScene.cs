@@ -4,7 +4,7 @@ using UnityEngine;
 
 namespace HaptoFlow.Samples.Workshop
 {
-    /// <summary>Builds the sample when it wakes: a bench without a single Haptic Surface. A map's rules say what each
+    /// <summary>Builds the sample when it wakes: a bench of things that nobody tagged. A map's rules say what each
     /// thing feels like: a terrain by its layers, a board by the materials that it is drawn with, a plate by a mask.
     /// </summary>
     [RequireComponent(typeof(PipelineMaterial))]

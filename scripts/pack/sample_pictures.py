@@ -7,8 +7,8 @@ Run from the repository's root, after `npm run build`:
 StylusTracing.png: the scene as its camera sees it with a stroke, the vibration in m/s^2, and its spectrogram.
 TextureGallery.png: the wall of tiles, in their colours, with the same stroke of 12 cm, there and back, on each label of
 the shipped model: waveforms and spectrograms of one scale, the level (RMS) beside the name.
-Workshop.png: the bench as its camera sees it, and a stroke over its terrain, whose three layers run into each other: the
-weights, the vibration in m/s^2, and its spectrogram.
+Workshop.png: the bench as its camera sees it, and a stroke over its terrain, whose three layers run into each other:
+the weights, the vibration in m/s^2, and its spectrogram.
 """
 
 from __future__ import annotations
@@ -318,8 +318,10 @@ def sheet_facets(corner: np.ndarray, size: np.ndarray, low: float, high: float) 
     def point(x: float, z: float) -> np.ndarray:
         return corner + size * [x, np.sin(np.pi * x) * np.sin(np.pi * z), z]
 
-    sheet = [[point(low, a), point(low, b), point(high, b), point(high, a)] for a, b in zip(depth, depth[1:], strict=False)]
-    return np.array(sheet)
+    return np.array([
+        [point(low, a), point(low, b), point(high, b), point(high, a)]
+        for a, b in zip(depth[:-1], depth[1:], strict=True)
+    ])  # fmt: skip
 
 
 def draw_pane(axes: plt.Axes, camera: Camera) -> None:
@@ -362,16 +364,18 @@ def workshop_picture(engine: Path, folder: Path, file: Path) -> None:
         4, 1, figsize=(9.6, 9.0), height_ratios=(3.6, 0.7, 1.1, 1.5), layout="constrained"
     )
     figure.suptitle(
-        "The sample's bench, drawn from its sources: not a screenshot of Unity. Below: a stroke over the terrain from left to "
-        "right", fontsize=10,
+        "The sample's bench, drawn from its sources: not a screenshot of Unity. Below: a stroke over the terrain from "
+        "left to right", fontsize=10,
     )
     draw_workshop(above)
     shares.stackplot(
-        times, garden_weights(places / GARDEN_SIZE[0]).T, labels=GARDEN_LABELS, colors=[tuple(c) for c in GARDEN_COLOURS]
+        times, garden_weights(places / GARDEN_SIZE[0]).T, labels=GARDEN_LABELS,
+        colors=[tuple(colour) for colour in GARDEN_COLOURS],
     )
     shares.set(ylabel="weights", ylim=(0.0, 1.0), xticklabels=[])
     shares.legend(loc="center left", bbox_to_anchor=(1.0, 0.5), frameon=False)
-    wave.plot(np.arange(len(felt.acceleration_mps2)) / felt.rate_hz, felt.acceleration_mps2, color="#1f4e79", linewidth=0.3)
+    heard = np.arange(len(felt.acceleration_mps2)) / felt.rate_hz
+    wave.plot(heard, felt.acceleration_mps2, color="#1f4e79", linewidth=0.3)
     wave.set(ylabel="m/s²", xticklabels=[])
     draw_spectrogram(colours, felt)
     colours.set(ylabel="Hz", xlabel="seconds")

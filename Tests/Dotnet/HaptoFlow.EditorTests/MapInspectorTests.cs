@@ -66,6 +66,25 @@ namespace HaptoFlow.EditorShimTests
         }
 
         [Test]
+        public void ATextureThatIsNotReadableIsMadeSoByItsImportSettings()
+        {
+            HapticMaskMap mask = ScriptableObject.CreateInstance<HapticMaskMap>();
+            mask.name = "Ring";
+            mask.Texture = new Texture2D(2, 2, TextureFormat.RGBA32, false) { name = "Paint" };
+            mask.Texture.Apply(false, true);
+            Assert.That(() => MaskBake.Bake(mask),
+                Throws.InvalidOperationException.With.Message.Contains("Read/Write"));
+            Assert.That(mask.IsBaked, Is.False);
+            Assert.That(InspectorTests.Draw(mask).Where(item => item.Kind == DrawnKind.Button), Is.Empty,
+                "no importer made it");
+            var importer = new TextureImporter();
+            AssetDatabase.AddImported(Folder + "/Paint.png", mask.Texture, importer);
+            EditorScreen.Press("Enable Read/Write");
+            InspectorTests.Draw(mask);
+            Assert.That(importer.isReadable, Is.True);
+        }
+
+        [Test]
         public void ASurfaceSaysByWhichRuleItWouldFeelWithoutIt()
         {
             HapticMaterial stone = ScriptableObject.CreateInstance<HapticMaterial>();

@@ -159,6 +159,26 @@ namespace HaptoFlow.EditorTests
         }
 
         [Test]
+        public void AStylusSaysWhichRuleDecidesWhatItFeels()
+        {
+            HapticStylus stylus = PlayTouching(out _);
+            HapticMaterialMap map = ScriptableObject.CreateInstance<HapticMaterialMap>();
+            map.name = "Rooms";
+            HapticMaterial stone = ScriptableObject.CreateInstance<HapticMaterial>();
+            stone.Description.Label = "stone";
+            map.Add(HapticMaterialRule.ForTag("Finish", null));
+            map.Add(HapticMaterialRule.ForName("Tab*", stone));
+            HaptoFlowSettings.Active.MaterialMap = map;
+            stylus.Contact.Surface!.enabled = false;
+            World.Frames(2);
+            Drawn[] drawn = InspectorTests.Draw(stylus).ToArray();
+            Assert.That(Value(drawn, "Touches"), Is.EqualTo("Table"));
+            Assert.That(Value(drawn, "Feels like"), Is.EqualTo("stone"));
+            Assert.That(Value(drawn, "Because of"), Is.EqualTo("rule 2 of \"Rooms\": name \"Tab*\""));
+            HaptoFlowSettings.Active.MaterialMap = null;
+        }
+
+        [Test]
         public void PanicInTheInspectorIsSilenceAtOnce()
         {
             PlayTouching(out HapticOutput output);

@@ -1,5 +1,7 @@
 using System;
+using System.IO;
 using System.Linq;
+using System.Text.RegularExpressions;
 using HaptoFlow.Samples.Workshop;
 using NUnit.Framework;
 using UnityEngine;
@@ -33,7 +35,7 @@ namespace HaptoFlow.SampleTests
             Assert.That(scene.Pen.Stylus.IsTouching, Is.True);
             HapticContact contact = scene.Pen.Stylus.Contact;
             Assert.That(contact.Collider.name, Is.EqualTo(name));
-            Assert.That(contact.Surface, Is.Null, "there is no Haptic Surface in the scene");
+            Assert.That(contact.Surface, Is.Null, "none of these things is tagged");
             Assert.That(contact.Material!.Label, Is.EqualTo(label));
             WhyBoard board = UnityEngine.Object.FindObjectsByType<WhyBoard>(
                 FindObjectsInactive.Exclude, FindObjectsSortMode.None).Single();
@@ -77,7 +79,19 @@ namespace HaptoFlow.SampleTests
                 FindObjectsInactive.Exclude, FindObjectsSortMode.None);
             FeltPart[] parts = colliders.Where(collider => !collider.transform.IsChildOf(scene.Pen.transform))
                 .SelectMany(collider => FeltColliders.Resolve(collider)!.Parts).ToArray();
-            Assert.That(parts.Select(part => part.Rule).Distinct(), Is.EquivalentTo(Enumerable.Range(0, scene.Map.Rules.Count)));
+            Assert.That(parts.Select(part => part.Rule).Distinct(),
+                Is.EquivalentTo(Enumerable.Range(0, scene.Map.Rules.Count)));
+        }
+
+        [TestCase("AddMaterialPanel.cs")]
+        [TestCase("Recordings/doormat.wav.bytes")]
+        [TestCase("Recordings/doormat.json")]
+        [TestCase("Recordings/doormat.motion.csv")]
+        public void TheSceneFileHoldsThePanelAndItsRecording(string name)
+        {
+            string meta = File.ReadAllText(SampleFile("Workshop", name + ".meta"));
+            string guid = Regex.Match(meta, "guid: (\\w{32})").Groups[1].Value;
+            Assert.That(File.ReadAllText(SampleFile("Workshop", "Workshop.unity")), Does.Contain(guid));
         }
 
         [Test]

@@ -112,6 +112,22 @@ namespace HaptoFlow.ShimTests
         });
 
         [Test]
+        public void GoingFromColliderToColliderMakesNoGarbageOnceTheyAreKnown() => Check(
+            seconds => new Vector3(0.4f * (float)Math.Sin(8.0 * seconds), 0.001f, 0f),
+            () =>
+            {
+                HapticMaterialMap map = Map();
+                map.Add(HapticMaterialRule.ForName("Key 1*", Feeling("stone")));
+                map.DefaultMaterial = Feeling("wood");
+                for (int index = 0; index < 60; ++index)
+                {
+                    var box = Make("Key " + index).AddComponent<BoxCollider>();
+                    box.size = new Vector3(0.012f, 0.02f, 0.1f);
+                    box.center = new Vector3(0.014f * (index - 30), -0.01f, 0f);
+                }
+            });
+
+        [Test]
         public void ATerrainsLayersMakeNoGarbage() => Check(Circle(0.001f), () =>
         {
             HapticMaterialMap map = Map();

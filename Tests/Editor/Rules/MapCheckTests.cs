@@ -88,6 +88,8 @@ namespace HaptoFlow.EditorTests
             With("Rule 1 of Rooms looks for a tag that the project does not have");
             With("Rule 2 of Rooms looks for a layer that the project gives no name");
             With("Rule 3 of Rooms names nothing to look for");
+            map.Add(HapticMaterialRule.ForSubmesh(Halves("Vase").sharedMesh, 2, Material("stone")));
+            With("Rule 4 of Rooms looks for submesh 2 of a mesh whose last is 1");
         }
 
         [Test]

@@ -180,8 +180,9 @@ namespace HaptoFlow.Tests
             var ray = new Ray(new Vector3(x, 0.1f, 0.01f), Vector3.down);
             Assert.That(floor.Raycast(ray, out RaycastHit hit, 1f), Is.True);
             var place = new TouchedPlace(floor, default, hit);
-            Assert.That(
-                mask.TryFeel(place, Map.Rules[0].Material, HapticSession.Current, floor, out FeltMaterial felt), Is.True);
+            bool isFelt = mask.TryFeel(
+                place, Map.Rules[0].Material, HapticSession.Current, floor, out FeltMaterial felt);
+            Assert.That(isFelt, Is.True);
             return felt;
         }
 

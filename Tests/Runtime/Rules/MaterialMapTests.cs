@@ -78,6 +78,48 @@ namespace HaptoFlow.Tests
         }
 
         [UnityTest]
+        public IEnumerator ARendererAboveOrBelowTheColliderCountsWhereItHasNoneAndATrailDoesNot()
+        {
+            FinishLoading();
+            Material oak = Paint("Oak");
+            Map.Add(HapticMaterialRule.ForRendererMaterial(oak, Feeling("wood")));
+            BoxCollider box = Bare();
+            box.gameObject.AddComponent<TrailRenderer>().sharedMaterial = oak;
+            HapticStylus stylus = Resting();
+            yield return null;
+            yield return null;
+            Assert.That(stylus.IsTouching, Is.False, "a trail is not what the object looks like");
+            GameObject below = Make("Look");
+            below.transform.SetParent(box.transform, false);
+            below.AddComponent<SkinnedMeshRenderer>().sharedMaterial = oak;
+            HapticMaterialMap.Refresh();
+            yield return null;
+            Assert.That(FeltAlone(stylus), Is.EqualTo("wood"));
+            GameObject above = Make("Parent");
+            above.AddComponent<MeshRenderer>().sharedMaterial = Paint("Ice");
+            box.transform.SetParent(above.transform, true);
+            HapticMaterialMap.Refresh();
+            yield return null;
+            Assert.That(stylus.IsTouching, Is.False, "the nearest above comes before what is below");
+        }
+
+        [UnityTest]
+        public IEnumerator AContactThatIsOverStillSaysWhyAlsoWhenItsMapIsGone()
+        {
+            FinishLoading();
+            Bare();
+            HapticMaterialMap map = MapNamed("Other");
+            map.DefaultMaterial = Feeling("wood");
+            HaptoFlowSettings.Active.MaterialMap = map;
+            HapticStylus stylus = Resting();
+            yield return null;
+            yield return null;
+            HapticContact contact = stylus.Contact;
+            Object.DestroyImmediate(map);
+            Assert.That(contact.Explain(), Is.EqualTo("a map that is gone"));
+        }
+
+        [UnityTest]
         public IEnumerator TheFirstRuleThatMatchesCountsAlsoWhereItSaysNothing()
         {
             FinishLoading();

@@ -167,6 +167,23 @@ namespace HaptoFlow.Tests
         }
 
         [UnityTest]
+        public IEnumerator TerrainDataDestroyedUnderTheTipEndsTheTouchWithoutAnError()
+        {
+            FinishLoading();
+            Terrain("grass", "rock");
+            AddRule(0, "wood");
+            AddRule(1, "stone");
+            HapticStylus stylus = Resting();
+            yield return null;
+            yield return null;
+            Assert.That(stylus.IsTouching, Is.True);
+            UnityEngine.Object.DestroyImmediate(terrain.terrainData!);
+            yield return null;
+            yield return null;
+            Assert.That(stylus.IsTouching, Is.False);
+        }
+
+        [UnityTest]
         public IEnumerator ATerrainWithoutLayersFeelsByTheRulesForItsObject()
         {
             FinishLoading();

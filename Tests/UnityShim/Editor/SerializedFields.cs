@@ -50,7 +50,8 @@ namespace UnityShim
             return (field!, found);
         }
 
-        /// <summary>Paths of everything that is a value of its own; a list's length comes before its elements.</summary>
+        /// <summary>Paths of everything that is a value of its own; a list's length comes before its elements.
+        /// </summary>
         public static IEnumerable<string> Leaves(object owner)
         {
             foreach (FieldInfo field in FieldsOf(owner.GetType()))

@@ -83,7 +83,8 @@ namespace UnityEditor
 
         internal bool Differs(string path) => values[0].Keys
             .Where(leaf => leaf == path || leaf.StartsWith(path + ".", StringComparison.Ordinal))
-            .Any(leaf => values.Any(each => !each.TryGetValue(leaf, out object? other) || !Equals(other, values[0][leaf])));
+            .Any(leaf => values.Any(
+                each => !each.TryGetValue(leaf, out object? other) || !Equals(other, values[0][leaf])));
 
         internal void SetValue(string path, object? value)
         {

@@ -72,6 +72,14 @@ namespace UnityEngine
         public bool enabled { get; set; } = true;
     }
 
+    public partial class SkinnedMeshRenderer : Renderer
+    {
+    }
+
+    public sealed partial class TrailRenderer : Renderer
+    {
+    }
+
     public partial class MeshRenderer : Renderer
     {
     }

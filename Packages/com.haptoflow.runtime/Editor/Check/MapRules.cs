@@ -128,8 +128,8 @@ namespace HaptoFlow.Editor
             if (convex.Length > 0)
             {
                 yield return new Finding(MessageType.Warning,
-                    $"{FeltWords.Names(convex, MostNames)}: the submeshes feel like different materials, but a convex " +
-                    "collider does not tell which triangle is touched, so all of it feels like the first. Switch " +
+                    $"{FeltWords.Names(convex, MostNames)}: the submeshes feel like different materials, but a " +
+                    "convex collider does not tell which triangle is touched, so all of it feels like the first. Switch " +
                     "Convex off, or give each material a collider of its own.", Owners(convex));
             }
         }

@@ -13,8 +13,8 @@ namespace HaptoFlow.Editor
         private static readonly GUIContent Shared = new GUIContent("Shared Material",
             "A Haptic Material asset that several surfaces share; empty to describe one here.");
         private static readonly GUIContent Mask = new GUIContent("Mask",
-            "Further materials by a texture, at the place that is touched; empty for none. It counts on readable mesh " +
-            "colliders that are not convex.");
+            "Further materials by a texture, at the place that is touched; empty for none. It counts on readable " +
+            "mesh colliders that are not convex.");
         private static readonly GUIContent Children = new GUIContent("Include Children",
             "Colliders of children count too, but for those below another Haptic Surface.");
         private static readonly GUIContent OwnMotion = new GUIContent("Feel Own Motion",

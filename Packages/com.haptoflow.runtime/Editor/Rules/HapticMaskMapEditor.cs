@@ -11,9 +11,11 @@ namespace HaptoFlow.Editor
     internal sealed class HapticMaskMapEditor : UnityEditor.Editor
     {
         private static readonly GUIContent Source = new GUIContent("Texture",
-            "What the channels are baked from. It must be readable while it is baked; at run time only the copy counts.");
+            "What the channels are baked from. It must be readable while it is baked; at run time only the copy " +
+            "counts.");
         private static readonly GUIContent Size = new GUIContent("Largest Size",
-            "In texels, of the longer side. A larger texture is baked at half its size, or half of that, until it fits.");
+            "In texels, of the longer side. A larger texture is baked at half its size, or half of that, until it " +
+            "fits.");
         private static readonly GUIContent Second = new GUIContent("Second Coordinates",
             "Off: the mesh's first texture coordinates count. On: its second.");
         private static readonly GUIContent Tiling = new GUIContent("Tiling",

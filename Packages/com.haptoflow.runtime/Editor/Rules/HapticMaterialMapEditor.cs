@@ -16,7 +16,8 @@ namespace HaptoFlow.Editor
         private static readonly GUIContent Rules = new GUIContent("Rules",
             "The first rule that matches counts. A Haptic Surface on an object wins over every rule.");
         private static readonly GUIContent Default = new GUIContent("Default",
-            "What no rule matches feels like this; empty to ask the next map, and to feel nothing where there is none.");
+            "What no rule matches feels like this; empty to ask the next map, and to feel nothing where there is " +
+            "none.");
 
         private IReadOnlyList<(string Text, MessageType Kind)> lines = Array.Empty<(string, MessageType)>();
         private bool isStale = true;

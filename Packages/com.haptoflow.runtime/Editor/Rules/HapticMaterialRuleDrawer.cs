@@ -17,8 +17,8 @@ namespace HaptoFlow.Editor
         private static readonly GUIContent PhysicsMaterial = new GUIContent("Physics Material",
             "The collider's physics material.");
         private static readonly GUIContent RendererMaterial = new GUIContent("Renderer Material",
-            "A material of the object's renderer. On a mesh collider each submesh goes by its own; on other colliders " +
-            "the first counts.");
+            "A material of the object's renderer. On a mesh collider each submesh goes by its own; on other " +
+            "colliders the first counts.");
         private static readonly GUIContent TerrainLayer = new GUIContent("Terrain Layer",
             "A layer that a terrain is painted with. Layers are mixed as they are painted.");
         private static readonly GUIContent Mesh = new GUIContent("Mesh",

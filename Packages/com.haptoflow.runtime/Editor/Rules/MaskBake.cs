@@ -20,8 +20,8 @@ namespace HaptoFlow.Editor
             if (!texture.isReadable)
             {
                 string then = mask.IsBaked ? "changes of it cannot be baked" : "it cannot be baked and has no effect";
-                return $"{mask.name}: the texture {texture.name} is not readable, so {then}. Switch on Read/Write in its " +
-                    "import settings.";
+                return $"{mask.name}: the texture {texture.name} is not readable, so {then}. Switch on Read/Write in " +
+                    "its import settings.";
             }
             if (!mask.IsBaked)
             {
@@ -62,8 +62,8 @@ namespace HaptoFlow.Editor
             }
             if (!texture.isReadable)
             {
-                throw new InvalidOperationException($"the texture {texture.name} is not readable: switch on Read/Write " +
-                    "in its import settings");
+                throw new InvalidOperationException($"the texture {texture.name} is not readable: switch on " +
+                    "Read/Write in its import settings");
             }
             int halvings = 0;
             while (Math.Max(texture.width, texture.height) >> halvings > mask.LargestSize)

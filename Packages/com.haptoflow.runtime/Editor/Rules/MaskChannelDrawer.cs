@@ -10,8 +10,10 @@ namespace HaptoFlow.Editor
     {
         private static readonly GUIContent Material = new GUIContent("Material",
             "There is more of it where the channel is brighter; empty for nothing.");
-        private static readonly GUIContent Lowest = new GUIContent("At Black", "The factor where the channel is black.");
-        private static readonly GUIContent Highest = new GUIContent("At White", "The factor where the channel is white.");
+        private static readonly GUIContent Lowest = new GUIContent("At Black",
+            "The factor where the channel is black.");
+        private static readonly GUIContent Highest = new GUIContent("At White",
+            "The factor where the channel is white.");
 
         private static float RowHeight =>
             EditorGUIUtility.singleLineHeight + EditorGUIUtility.standardVerticalSpacing;

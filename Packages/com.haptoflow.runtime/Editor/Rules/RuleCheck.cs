@@ -25,6 +25,11 @@ namespace HaptoFlow.Editor
             {
                 return "looks for a layer that the project gives no name";
             }
+            if (rule.Subject == MaterialRuleSubject.Submesh && rule.Mesh != null &&
+                rule.Submesh >= rule.Mesh.subMeshCount)
+            {
+                return $"looks for submesh {rule.Submesh} of a mesh whose last is {rule.Mesh.subMeshCount - 1}";
+            }
             for (int before = 0; before < index; ++before)
             {
                 if (Covers(map.Rules[before], rule))

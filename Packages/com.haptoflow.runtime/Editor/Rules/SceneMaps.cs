@@ -19,7 +19,9 @@ namespace HaptoFlow.Editor
                 .Where(scope => scope.enabled && scope.Map != null)
                 .OrderBy(scope => scope.Order)
                 .ToArray();
-            HaptoFlowSettings? settings = Application.isPlaying ? HaptoFlowSettings.Active : ProjectSettingsAsset.Find();
+            HaptoFlowSettings? settings = Application.isPlaying
+                ? HaptoFlowSettings.Active
+                : ProjectSettingsAsset.Find();
             project = settings != null && settings.MaterialMap != null ? settings.MaterialMap : null;
         }
 

@@ -19,8 +19,8 @@ namespace HaptoFlow.Editor
         public string Text { get; }
     }
 
-    /// <summary>What colliders feel like and by which rule, and which are not felt: of the selection where there is one,
-    /// else of the scene.</summary>
+    /// <summary>What colliders feel like and by which rule, and which are not felt: of the selection where there is
+    /// one, else of the scene.</summary>
     internal sealed class SurfaceList
     {
         private SurfaceList(IReadOnlyList<Collider> colliders, bool ofSelection)

@@ -37,6 +37,11 @@ namespace HaptoFlow
     /// have it where it was a step ago. Main thread, no garbage.</summary>
     internal static class ColliderProbe
     {
+        /// <summary>A kind of collider that a tip can feel.</summary>
+        public static bool IsFeltKind(Collider collider) =>
+            collider is BoxCollider || collider is SphereCollider || collider is CapsuleCollider ||
+            collider is CharacterController || collider is MeshCollider || collider is TerrainCollider;
+
         /// <summary>Where the collider's local frame is. Character controllers and terrains stand upright whatever
         /// their
         /// transform says.</summary>

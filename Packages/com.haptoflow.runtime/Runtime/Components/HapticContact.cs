@@ -33,8 +33,8 @@ namespace HaptoFlow
         /// <see cref="HapticMaterialMap"/>.</summary>
         public HapticSurface? Surface { get; }
 
-        /// <summary>What the place is made of, to be read; of several materials the one with the most weight. Null where
-        /// the place feels like nothing, or like nothing that the model knows.</summary>
+        /// <summary>What the place is made of, to be read; of several materials the one with the most weight. Null
+        /// where the place feels like nothing, or like nothing that the model knows.</summary>
         public MaterialDescription? Material { get; }
 
         /// <summary>The collider that is touched.</summary>

@@ -39,7 +39,8 @@ namespace HaptoFlow
         private float strength = 1f;
 
         [SerializeField, Range(SmallestFeatureScale, LargestFeatureScale)]
-        [Tooltip("The material's features, its ribs included, are this many times as large. 1 leaves them as they are.")]
+        [Tooltip("The material's features, its ribs included, are this many times as large. 1 leaves them as they " +
+            "are.")]
         private float featureScale = 1f;
 
         [SerializeField, Range(-MostToneDbPerOctave, MostToneDbPerOctave)]

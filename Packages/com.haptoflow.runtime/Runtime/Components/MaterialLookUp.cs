@@ -3,8 +3,8 @@ using UnityEngine;
 
 namespace HaptoFlow
 {
-    /// <summary>What a description means to the running engine, looked up again only when the description or the model's
-    /// labels changed. Main thread; no garbage while nothing changes.</summary>
+    /// <summary>What a description means to the running engine, looked up again only when the description or the
+    /// model's labels changed. Main thread; no garbage while nothing changes.</summary>
     internal sealed class MaterialLookUp
     {
         private MaterialDescription? knownDescription;

@@ -11,8 +11,8 @@ using SurfacePhysics = UnityEngine.PhysicMaterial;
 
 namespace HaptoFlow
 {
-    /// <summary>What rules may ask of a collider, read once. Main thread. Reading makes garbage; asking whether it still
-    /// holds makes none.</summary>
+    /// <summary>What rules may ask of a collider, read once. Main thread. Reading makes garbage; asking whether it
+    /// still holds makes none.</summary>
     internal sealed class ColliderFacts
     {
         private const string CopySuffix = " (Instance)";
@@ -80,12 +80,16 @@ namespace HaptoFlow
         public bool Hold()
         {
             GameObject owner = collider.gameObject;
-            return owner.layer == Layer && owner.CompareTag(Tag) && collider.sharedMaterial == PhysicsMaterial &&
-                (!(collider is MeshCollider mesh) || mesh.sharedMesh == Mesh) &&
-                (!(collider is TerrainCollider terrain) || terrain.terrainData == Terrain) && ShowsTheSame();
+            // By reference: what was destroyed meanwhile equals the null that Unity gives out for it.
+            return owner.layer == Layer && owner.CompareTag(Tag) &&
+                ReferenceEquals(collider.sharedMaterial, PhysicsMaterial) &&
+                (!(collider is MeshCollider mesh) || ReferenceEquals(mesh.sharedMesh, Mesh)) &&
+                (!(collider is TerrainCollider terrain) || ReferenceEquals(terrain.terrainData, Terrain)) &&
+                ShowsTheSame();
         }
 
-        /// <summary>The asset itself, or the copy that Unity makes of it when a script asks for an object's own.</summary>
+        /// <summary>The asset itself, or the copy that Unity makes of it when a script asks for an object's own.
+        /// </summary>
         public static bool IsSameOrCopy(Object? asset, Object? found)
         {
             if (asset == null || found == null)
@@ -95,11 +99,23 @@ namespace HaptoFlow
             return found == asset || found.name == asset.name + CopySuffix;
         }
 
-        /// <summary>The renderer on the collider's object, else on the nearest object above it, else below it.</summary>
+        /// <summary>Of a mesh or a skinned mesh: on the collider's object, else on the nearest object above it, else
+        /// below it.</summary>
         private static Renderer? RendererOf(Collider collider)
         {
-            Renderer? found = collider.GetComponentInParent<Renderer>(true);
-            return found != null ? found : collider.GetComponentInChildren<Renderer>(true);
+            for (Transform? place = collider.transform; place != null; place = place.parent)
+            {
+                if (place.TryGetComponent(out MeshRenderer mesh))
+                {
+                    return mesh;
+                }
+                if (place.TryGetComponent(out SkinnedMeshRenderer skinned))
+                {
+                    return skinned;
+                }
+            }
+            Renderer? below = collider.GetComponentInChildren<MeshRenderer>(true);
+            return below != null ? below : collider.GetComponentInChildren<SkinnedMeshRenderer>(true);
         }
 
         private bool ShowsTheSame()

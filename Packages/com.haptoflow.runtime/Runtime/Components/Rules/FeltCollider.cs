@@ -6,8 +6,8 @@ using UnityEngine;
 
 namespace HaptoFlow
 {
-    /// <summary>What a collider feels like by the rules of maps: as a whole, or part by part. Main thread. Working it out
-    /// makes garbage; asking for a place makes none.</summary>
+    /// <summary>What a collider feels like by the rules of maps: as a whole, or part by part. Main thread. Working it
+    /// out makes garbage; asking for a place makes none.</summary>
     internal sealed class FeltCollider
     {
         private ColliderFacts facts;
@@ -71,11 +71,12 @@ namespace HaptoFlow
             }
             isUniform = true;
             CanBeFelt = false;
+            bool isFeltKind = ColliderProbe.IsFeltKind(Collider);
             for (int part = 0; part < parts.Length; ++part)
             {
                 parts[part] = Match(maps, part);
                 isUniform &= parts[part].IsSameAs(parts[0]);
-                CanBeFelt |= parts[part].CanBeFelt;
+                CanBeFelt |= isFeltKind && parts[part].CanBeFelt;
             }
             trianglesUpTo = isUniform || facts.Mesh is null || !facts.Mesh.isReadable
                 ? Array.Empty<int>()
@@ -97,7 +98,8 @@ namespace HaptoFlow
         private FeltMaterial OfPart(int part, in TouchedPlace place, HapticSession session)
         {
             FeltPart found = parts[part];
-            if (found.Mask is { } mask && mask.TryFeel(place, found.Material, session, Collider, out FeltMaterial masked))
+            if (found.Mask is { } mask &&
+                mask.TryFeel(place, found.Material, session, Collider, out FeltMaterial masked))
             {
                 masked.Part = part;
                 return masked;

@@ -5,8 +5,8 @@ using UnityEngine;
 
 namespace HaptoFlow
 {
-    /// <summary>What colliders without a surface feel like by the maps, kept from frame to frame. Main thread; no garbage
-    /// for a collider that is known and has not changed.</summary>
+    /// <summary>What colliders without a surface feel like by the maps, kept from frame to frame. Main thread; no
+    /// garbage for a collider that is known and has not changed.</summary>
     internal static class FeltColliders
     {
         private const int FewestBeforeSweep = 256;

@@ -29,6 +29,7 @@ namespace HaptoFlow
         public bool IsSameAs(in FeltPart other) => ReferenceEquals(Map, other.Map) && Rule == other.Rule;
 
         /// <summary>For people. Makes garbage.</summary>
-        public string Explain() => Map is null ? "no rule matches" : Map.Explain(Rule);
+        public string Explain() =>
+            Map is null ? "no rule matches" : Map != null ? Map.Explain(Rule) : "a map that is gone";
     }
 }

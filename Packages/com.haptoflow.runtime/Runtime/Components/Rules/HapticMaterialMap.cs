@@ -18,8 +18,8 @@ namespace HaptoFlow
         [SerializeField, Tooltip("The first rule that matches counts.")]
         private List<HapticMaterialRule> rules = new List<HapticMaterialRule>();
 
-        [SerializeField, Tooltip("What no rule matches feels like this; empty to ask the next map, and to feel nothing " +
-            "where there is none.")]
+        [SerializeField, Tooltip("What no rule matches feels like this; empty to ask the next map, and to feel " +
+            "nothing where there is none.")]
         private HapticMaterial? defaultMaterial;
 
         /// <summary>In their order: the first that matches counts.</summary>

@@ -50,7 +50,8 @@ namespace HaptoFlow
         [SerializeField, Tooltip("The collider's physics material.")]
         private SurfacePhysics? physicsMaterial;
 
-        [SerializeField, Tooltip("A material of the object's renderer. On a mesh collider each submesh goes by its own.")]
+        [SerializeField, Tooltip("A material of the object's renderer. On a mesh collider each submesh goes by its " +
+            "own.")]
         private Material? rendererMaterial;
 
         [SerializeField, Tooltip("A layer that a terrain is painted with.")]
@@ -143,7 +144,9 @@ namespace HaptoFlow
         public static HapticMaterialRule ForRendererMaterial(Material rendererMaterial, HapticMaterial? material) =>
             new HapticMaterialRule
             {
-                subject = MaterialRuleSubject.RendererMaterial, rendererMaterial = rendererMaterial, material = material,
+                subject = MaterialRuleSubject.RendererMaterial,
+                rendererMaterial = rendererMaterial,
+                material = material,
             };
 
         /// <summary>A rule for a terrain layer.</summary>

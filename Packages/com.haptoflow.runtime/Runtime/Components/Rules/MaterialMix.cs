@@ -47,8 +47,9 @@ namespace HaptoFlow
         public void AddNothing(float weight) => total += Usable(weight);
 
         /// <param name="part">The submesh or terrain layer that it comes from.</param>
-        public void Add(HapticMaterial material, HapticSession session, UnityEngine.Object user, float weight, int part) =>
-            Add(FeltMaterial.Of(material.Description, material.LookUp(session, user)), weight, part);
+        public void Add(
+            HapticMaterial material, HapticSession session, UnityEngine.Object user, float weight, int part) => Add(
+                FeltMaterial.Of(material.Description, material.LookUp(session, user)), weight, part);
 
         /// <summary>A share of a material; one of which the model knows no label is nothing.</summary>
         public void Add(in FeltMaterial material, float weight, int part)

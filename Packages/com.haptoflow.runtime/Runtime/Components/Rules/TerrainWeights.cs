@@ -7,8 +7,8 @@ using Object = UnityEngine.Object;
 
 namespace HaptoFlow
 {
-    /// <summary>How much of each layer a terrain has at each place: read once, a byte a layer and texel, since Unity's own
-    /// reading makes garbage. Of a large terrain several texels become one. Main thread.</summary>
+    /// <summary>How much of each layer a terrain has at each place: read once, a byte a layer and texel, since Unity's
+    /// own reading makes garbage. Of a large terrain several texels become one. Main thread.</summary>
     internal sealed class TerrainWeights
     {
         // Rows that are read at once: a strip of a large terrain is a few megabytes of garbage, not hundreds.
