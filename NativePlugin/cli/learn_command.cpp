@@ -28,7 +28,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t batchOfFit = 64;
-constexpr std::size_t longestName = 64;
+constexpr std::size_t longestName = 128;
 
 struct LearnOptions {
     std::string recordingPath;
@@ -117,19 +117,20 @@ void runLearn(const LearnOptions& options) {
 
     learning::LearningSettings settings;
     settings.name = options.name ? *options.name
-                    : plainName(recording.label.empty() ? fs::path(options.recordingPath).stem().string()
-                                                        : recording.label);
+                                 : plainName(recording.label.empty() ? fs::path(options.recordingPath).stem().string()
+                                                                     : recording.label);
     settings.category = options.category;
     settings.licence = options.licence.empty() ? recording.licence : options.licence;
-    settings.recordings = fs::path(options.recordingPath).filename().string() +
-                          (recording.source.empty() ? "" : ", " + recording.source);
+    settings.recordings =
+        fs::path(options.recordingPath).filename().string() + (recording.source.empty() ? "" : ", " + recording.source);
     settings.seed = options.seed;
     settings.secondsLimit = options.secondsLimit;
     const ProgressBar bar = progressBar("learn", options.quiet);
     settings.progress = [&](double share, const char* doing) { bar(share, doing); };
 
     const fs::path outputPath = options.outputPath.empty() ? settings.name + ".haptomaterial" : options.outputPath;
-    const std::array<NamedPath, 2> outputs{NamedPath{"--output", outputPath}, NamedPath{"--report", options.reportPath}};
+    const std::array<NamedPath, 2> outputs{NamedPath{"--output", outputPath},
+                                           NamedPath{"--report", options.reportPath}};
     const std::array<NamedPath, 2> inputs{NamedPath{"the recording", options.recordingPath},
                                           NamedPath{"the model", modelPath}};
     requireApart(outputs, inputs);

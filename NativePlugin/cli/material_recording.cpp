@@ -51,7 +51,8 @@ Track trackOf(const std::string& path, std::span<const double> time, const Table
             continue;
         }
         if (!track.timeSeconds.empty() && !(time[row] > track.timeSeconds.back())) {
-            fail(path, "time_s does not rise at row " + std::to_string(row + 2) + " (" + std::to_string(time[row]) + ")",
+            fail(path,
+                 "time_s does not rise at row " + std::to_string(row + 2) + " (" + std::to_string(time[row]) + ")",
                  "every time later than the one before");
         }
         track.timeSeconds.push_back(time[row]);
@@ -264,8 +265,7 @@ void checkGravity(const std::string& path, const TableSeries& acceleration) {
             ++count;
         }
     }
-    const double rest =
-        std::hypot(mean[0], mean[1], mean[2]) / static_cast<double>(std::max<std::size_t>(count, 1));
+    const double rest = std::hypot(mean[0], mean[1], mean[2]) / static_cast<double>(std::max<std::size_t>(count, 1));
     if (rest > 0.9 && rest < 1.1) {
         fail(path, "acceleration_x rests at " + plainNumber(rest) + ", which looks like g",
              "m/s^2 (9.8 at rest); name the columns acceleration_x_g and so on where they are in g");
@@ -324,8 +324,7 @@ private:
         if (info.channels != 1 && info.channels != 3) {
             fail(path_, std::to_string(info.channels) + " channels", "1 or 3: one axis, or X, Y and Z");
         }
-        const std::optional<double> fullScale =
-            words_.fullScaleMps2 ? words_.fullScaleMps2 : sidecar_.fullScaleMps2;
+        const std::optional<double> fullScale = words_.fullScaleMps2 ? words_.fullScaleMps2 : sidecar_.fullScaleMps2;
         if (!fullScale) {
             fail(sidecar_.path.string(), "no key 'full_scale_mps2' for " + fs::path(path_).filename().string(),
                  "\"full_scale_mps2\": the acceleration in m/s^2 that +-1 stands for; or --full-scale-mps2");

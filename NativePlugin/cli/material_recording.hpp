@@ -11,9 +11,9 @@ namespace haptoflow::cli {
 
 /// What the command line says of a recording; it holds before what the sidecar says.
 struct RecordingWords {
-    std::optional<double> speedMps;
-    std::optional<double> forceNewtons;
-    std::optional<double> fullScaleMps2;
+    std::optional<double> speedMps{};
+    std::optional<double> forceNewtons{};
+    std::optional<double> fullScaleMps2{};
 };
 
 /// A recording of one material, evenly sampled, as learning takes it.

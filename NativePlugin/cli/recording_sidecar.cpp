@@ -99,14 +99,16 @@ public:
     }
 
     [[nodiscard]] std::optional<std::array<double, 2>> velocity() const {
-        if (const auto speed = number("speed_mps", 0.0, fastestMps, "metres a second, 0 to 10 (a thousandth of mm/s)")) {
+        if (const auto speed =
+                number("speed_mps", 0.0, fastestMps, "metres a second, 0 to 10 (a thousandth of mm/s)")) {
             return std::array{*speed, 0.0};
         }
         const json* value = find("velocity_mps");
         if (value == nullptr) {
             return std::nullopt;
         }
-        const bool isPair = value->is_array() && value->size() == 2 && (*value)[0].is_number() && (*value)[1].is_number();
+        const bool isPair =
+            value->is_array() && value->size() == 2 && (*value)[0].is_number() && (*value)[1].is_number();
         if (!isPair || !(std::hypot((*value)[0].get<double>(), (*value)[1].get<double>()) <= fastestMps)) {
             refuse("velocity_mps", "[vx, vy] in metres a second, 10 at most (a thousandth of mm/s)");
         }
@@ -165,8 +167,7 @@ RecordingSidecar readRecordingSidecar(const fs::path& recording) {
     sidecar.label = values.text("label");
     sidecar.fullScaleMps2 = values.number("full_scale_mps2", 0.01, 1e5, "m/s^2 at +-1, 0.01 to 100000");
     sidecar.velocityMps = values.velocity();
-    sidecar.forceNewtons =
-        values.number("force_newtons", 0.0, 100.0, "newtons, 0 to 100 (a thousandth of mN)");
+    sidecar.forceNewtons = values.number("force_newtons", 0.0, 100.0, "newtons, 0 to 100 (a thousandth of mN)");
     sidecar.motion = values.motion();
     sidecar.rateHz = values.number("rate_hz", 1000.0, 192'000.0, "samples a second, 1000 to 192000");
     sidecar.licence = values.text("licence");

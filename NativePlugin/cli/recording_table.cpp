@@ -63,7 +63,7 @@ std::string namesOf(const std::vector<ColumnForm>& forms) {
     return text;
 }
 
-std::string_view trimmed(std::string_view text) {
+std::string_view bareCell(std::string_view text) {
     constexpr std::string_view blank = " \t\r\"";
     const std::size_t first = text.find_first_not_of(blank);
     return first == std::string_view::npos ? std::string_view()
@@ -142,7 +142,7 @@ private:
         }
         for (std::size_t start = 0; start <= line.size();) {
             const std::size_t comma = std::min(line.find(',', start), line.size());
-            names_.emplace_back(trimmed(line.substr(start, comma - start)).substr(0, 80));
+            names_.emplace_back(bareCell(line.substr(start, comma - start)).substr(0, 80));
             start = comma + 1;
             if (names_.size() > mostColumns) {
                 fail("more than " + std::to_string(mostColumns) + " columns", "a recording's");
@@ -157,8 +157,7 @@ private:
 
     [[nodiscard]] std::optional<std::size_t> place(std::string_view name) const {
         const auto found = std::ranges::find(names_, name);
-        return found == names_.end() ? std::nullopt
-                                     : std::optional(static_cast<std::size_t>(found - names_.begin()));
+        return found == names_.end() ? std::nullopt : std::optional(static_cast<std::size_t>(found - names_.begin()));
     }
 
     [[nodiscard]] std::vector<std::size_t> placesOf(const ColumnForm& form) const {
@@ -169,7 +168,8 @@ private:
         return places;
     }
 
-    [[nodiscard]] std::optional<ColumnForm> formIn(const std::vector<ColumnForm>& forms, const std::string& what) const {
+    [[nodiscard]] std::optional<ColumnForm> formIn(const std::vector<ColumnForm>& forms,
+                                                   const std::string& what) const {
         const auto isThere = [&](const std::string& name) { return place(name).has_value(); };
         std::optional<ColumnForm> found;
         for (const ColumnForm& form : forms) {
@@ -207,7 +207,7 @@ private:
     }
 
     [[nodiscard]] double number(std::string_view cell, std::size_t column) const {
-        const std::string_view text = trimmed(cell);
+        const std::string_view text = bareCell(cell);
         if (text.empty() || text == "nan" || text == "NaN" || text == "NA" || text == "inf" || text == "-inf") {
             return std::numeric_limits<double>::quiet_NaN();
         }
@@ -225,7 +225,7 @@ private:
         std::size_t rows = 0;
         while (!rest_.empty()) {
             const std::string_view line = nextLine();
-            if (trimmed(line).empty()) {
+            if (bareCell(line).empty()) {
                 continue;
             }
             cells.clear();

@@ -7,8 +7,8 @@
 
 namespace haptoflow::cli {
 
-/// Columns of a table that belong together, in SI units: sample by sample, `width` numbers each. A cell without a number
-/// is NaN.
+/// Columns of a table that belong together, in SI units: sample by sample, `width` numbers each. A cell without a
+/// number is NaN.
 struct TableSeries {
     std::size_t width = 1;
     std::vector<double> values;

@@ -850,8 +850,8 @@ HAPTOFLOW_API haptoflow_status haptoflow_noise_fill(uint64_t seed, uint32_t voic
  * matter. What comes of it is the text of a material file for haptoflow_engine_register_material. */
 typedef struct haptoflow_learning haptoflow_learning;
 
-/* Told the share that is done, 0 to 1, and what is being done; the text lives during the call. Called on the thread that
- * learns, some times a second; it must return. */
+/* Told the share that is done, 0 to 1, and what is being done; the text lives during the call. Called on the thread
+ * that learns, some times a second; it must return. */
 typedef void (*haptoflow_progress_callback)(void* context, double share, const char* doing);
 
 typedef struct haptoflow_learning_options {
@@ -890,13 +890,14 @@ typedef struct haptoflow_learning_options {
     void* progress_context;
     /* Null for one that nobody cancels. */
     const haptoflow_cancellation* cancellation;
-    /* k1x, k1y, k2x, k2y in cycles per millimetre, zeros for a surface without ribs; null to find them in the recording. */
+    /* k1x, k1y, k2x, k2y in cycles per millimetre, zeros for a surface without ribs; null to find them in the
+     * recording. */
     const float* wave_vectors;
 } haptoflow_learning_options;
 
 /* Learns, and returns when it is done; *learning is closed with haptoflow_learning_close. Errors: INVALID_ARGUMENT,
- * RECORDING_UNUSABLE (too short, silent, clipped, not finite, no motion, a speed, force or level that no hand makes; the
- * message says which), CANCELLED, MODEL_INCONSISTENT, INFERENCE_FAILED, TIER_TOO_SLOW, OUT_OF_MEMORY.
+ * RECORDING_UNUSABLE (too short, silent, clipped, not finite, no motion, a speed, force or level that no hand makes:
+ * the message says which), CANCELLED, MODEL_INCONSISTENT, INFERENCE_FAILED, TIER_TOO_SLOW, OUT_OF_MEMORY.
  * [loader-thread] Blocks for seconds; allocates. */
 HAPTOFLOW_API haptoflow_status haptoflow_learn_material(const haptoflow_learning_options* options,
                                                         haptoflow_learning** learning);
@@ -906,8 +907,9 @@ HAPTOFLOW_API haptoflow_status haptoflow_learn_material(const haptoflow_learning
 HAPTOFLOW_API haptoflow_status haptoflow_learning_material(const haptoflow_learning* learning, const char** json);
 
 /* *json becomes a JSON object with what was learnt in figures: nearest_label, nearest_distance_db, fitted_distance_db,
- * spectral_distance_db, level_error_db, sliding_seconds, speed_mps, force_newtons, level_exponents, wave_vectors, seeds,
- * segments, seconds, stopped_early, warnings and more. Lives until the learning is closed. Errors: INVALID_ARGUMENT.
+ * spectral_distance_db, level_error_db, sliding_seconds, speed_mps, force_newtons, level_exponents, wave_vectors,
+ * seeds, segments, seconds, stopped_early, warnings and more. Lives until the learning is closed. Errors:
+ * INVALID_ARGUMENT.
  * [any-thread] Blocks for as long as another thread opens or closes a handle. */
 HAPTOFLOW_API haptoflow_status haptoflow_learning_report(const haptoflow_learning* learning, const char** json);
 

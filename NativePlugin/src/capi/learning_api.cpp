@@ -45,8 +45,7 @@ const model::Tier& chosenTier(const model::ModelFile& model, const char* name) {
 learning::Recording recordingOf(const haptoflow_learning_options& given) {
     (void)require(given.acceleration_mps2, "options: acceleration_mps2");
     if (given.axis_count != 1 && given.axis_count != 3) {
-        throw std::invalid_argument("options: axis_count is " + std::to_string(given.axis_count) +
-                                    "; expected 1 or 3");
+        throw std::invalid_argument("options: axis_count is " + std::to_string(given.axis_count) + "; expected 1 or 3");
     }
     constexpr uint64_t mostSamples = std::numeric_limits<std::size_t>::max() / (3 * sizeof(float));
     if (given.sample_count > mostSamples) {

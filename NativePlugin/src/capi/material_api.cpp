@@ -67,6 +67,7 @@ haptoflow_status haptoflow_engine_material_count(const haptoflow_engine* engine,
 haptoflow_status haptoflow_engine_material(const haptoflow_engine* engine, uint32_t index, haptoflow_label_info* info) {
     return guarded([&] {
         const auto open = engines().get(engine);
-        writeDescriptor(info, describe(open->engine->materials().registeredLabel(index)), "info");
+        open->engine->materials().showLabel(
+            index, [info](const model::Label& label) { writeDescriptor(info, describe(label), "info"); });
     });
 }

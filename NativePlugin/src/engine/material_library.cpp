@@ -135,9 +135,9 @@ void MaterialLibrary::replace(std::size_t index, model::MaterialFile material, c
     owned_[place] = std::move(fresh);
 }
 
-const model::Label& MaterialLibrary::registeredLabel(std::size_t index) const {
+void MaterialLibrary::showLabel(std::size_t index, const std::function<void(const model::Label&)>& look) const {
     const std::lock_guard lock(mutex_);
-    return owned_[placeOf(index)]->file.label;
+    look(owned_[placeOf(index)]->file.label);
 }
 
 std::size_t MaterialLibrary::placeOf(std::size_t index) const {

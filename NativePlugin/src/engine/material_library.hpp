@@ -64,8 +64,9 @@ public:
     /// are at work, which takes microseconds. Throws the same, std::invalid_argument for an index of none.
     void replace(std::size_t index, model::MaterialFile material, const LevelSource& levels);
     [[nodiscard]] std::size_t registeredCount() const noexcept { return count_.load(std::memory_order_acquire); }
-    /// The label of a registered material; lives until that is replaced. Throws std::invalid_argument.
-    [[nodiscard]] const model::Label& registeredLabel(std::size_t index) const;
+    /// Shows the label of a registered material, which lives until that is replaced; nothing is replaced meanwhile.
+    /// Throws std::invalid_argument.
+    void showLabel(std::size_t index, const std::function<void(const model::Label&)>& look) const;
 
     [[nodiscard]] const model::ModelFile& model() const noexcept { return model_; }
 

@@ -42,8 +42,8 @@ std::array<double, inference::ribCount> turnsPerSample(const Embedding& embeddin
     std::array<double, inference::ribCount> turns{};
     for (std::size_t rib = 0; rib < turns.size(); ++rib) {
         const std::size_t first = embedding.size() - 2 * inference::ribCount + 2 * rib;
-        const double cyclesPerMillimetreSpeed = static_cast<double>(embedding[first]) * motion[0] +
-                                                static_cast<double>(embedding[first + 1]) * motion[1];
+        const double cyclesPerMillimetreSpeed =
+            static_cast<double>(embedding[first]) * motion[0] + static_cast<double>(embedding[first + 1]) * motion[1];
         turns[rib] = cyclesPerMillimetreSpeed * millimetresPerMetre / inference::waveformRateHz;
     }
     return turns;
@@ -100,7 +100,8 @@ std::vector<float> ClosedLoop::run(std::span<const Embedding> embeddings, std::s
                 requests[c].ribPhase[rib] = phase < 1.0F ? phase : 0.0F;
             }
             inference::fillStandardNormal(
-                {.seed = settings.seed, .voice = chains[c].noise, .segment = settings.round * 4096 + hop}, at(noise, c));
+                {.seed = settings.seed, .voice = chains[c].noise, .segment = settings.round * 4096 + hop},
+                at(noise, c));
         }
         for (std::size_t c = 0; c < chains.size(); ++c) {
             std::copy_n(waves.begin() + static_cast<std::ptrdiff_t>(c * stride + start), segment,

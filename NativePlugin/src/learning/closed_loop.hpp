@@ -39,8 +39,8 @@ public:
     ClosedLoop(inference::SegmentGenerator& generator, const model::ModelHeader& model,
                const PreparedRecording& recording, std::span<const float> unitWave);
 
-    /// `settings.samples` of unit level for each chain, one after the other. Each segment is told the mean motion of its
-    /// own hop: the recording's ribs are to be met where they are, not where a tracker would see them. Throws
+    /// `settings.samples` of unit level for each chain, one after the other. Each segment is told the mean motion of
+    /// its own hop: the recording's ribs are to be met where they are, not where a tracker would see them. Throws
     /// inference::InferenceError.
     [[nodiscard]] std::vector<float> run(std::span<const Embedding> embeddings, std::span<const Chain> chains,
                                          const LoopSettings& settings);

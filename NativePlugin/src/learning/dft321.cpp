@@ -65,8 +65,7 @@ private:
 FrameSpectrum combined(const std::array<FrameSpectrum, 3>& axes) {
     FrameSpectrum result;
     for (std::size_t bin = 0; bin < frameBins; ++bin) {
-        const double magnitude =
-            std::sqrt(std::norm(axes[0][bin]) + std::norm(axes[1][bin]) + std::norm(axes[2][bin]));
+        const double magnitude = std::sqrt(std::norm(axes[0][bin]) + std::norm(axes[1][bin]) + std::norm(axes[2][bin]));
         Complex direction = axes[0][bin] + axes[1][bin] + axes[2][bin];
         if (std::abs(direction) <= 1e-9 * magnitude) {
             // Axes that cancel exactly leave no phase: the strongest one lends its own.
@@ -179,10 +178,10 @@ std::vector<double> combineAxes(const std::array<std::vector<double>, 3>& axes) 
     std::vector<double> sum((frames + 1) * hop);
     for (std::size_t frame = 0; frame < frames; ++frame) {
         const std::size_t start = frame * hop;
-        transform.addInverse(combined({transform.forward(padded[0].data() + start),
-                                       transform.forward(padded[1].data() + start),
-                                       transform.forward(padded[2].data() + start)}),
-                             sum.data() + start);
+        transform.addInverse(
+            combined({transform.forward(padded[0].data() + start), transform.forward(padded[1].data() + start),
+                      transform.forward(padded[2].data() + start)}),
+            sum.data() + start);
     }
     return withBandEnergies({sum.begin() + hop, sum.begin() + hop + static_cast<std::ptrdiff_t>(count)}, axes);
 }

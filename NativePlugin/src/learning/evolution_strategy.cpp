@@ -40,8 +40,8 @@ EvolutionStrategy::EvolutionStrategy(std::vector<double> start, double stepSize,
     damping_ = 1.0 + 2.0 * std::max(0.0, std::sqrt((effective_ - 1.0) / (n + 1.0)) - 1.0) + stepPathRate_;
     pathRate_ = (4.0 + effective_ / n) / (n + 4.0 + 2.0 * effective_ / n);
     rankOneRate_ = 2.0 / ((n + 1.3) * (n + 1.3) + effective_);
-    rankMuRate_ = std::min(1.0 - rankOneRate_, 2.0 * (effective_ - 2.0 + 1.0 / effective_) /
-                                                   ((n + 2.0) * (n + 2.0) + effective_));
+    rankMuRate_ = std::min(1.0 - rankOneRate_,
+                           2.0 * (effective_ - 2.0 + 1.0 / effective_) / ((n + 2.0) * (n + 2.0) + effective_));
     expectedLength_ = std::sqrt(n) * (1.0 - 1.0 / (4.0 * n) + 1.0 / (21.0 * n * n));
     for (std::size_t i = 0; i < size_; ++i) {
         covariance_.at(i, i) = 1.0;
@@ -100,16 +100,14 @@ void EvolutionStrategy::tell(std::span<const double> scores) {
         length += stepPath_[i] * stepPath_[i];
     }
     length = std::sqrt(length);
-    const double settled =
-        std::sqrt(1.0 - std::pow(1.0 - stepPathRate_, 2.0 * static_cast<double>(generation_)));
-    const bool isSteady =
-        length / settled / expectedLength_ < 1.4 + 2.0 / (static_cast<double>(size_) + 1.0);
+    const double settled = std::sqrt(1.0 - std::pow(1.0 - stepPathRate_, 2.0 * static_cast<double>(generation_)));
+    const bool isSteady = length / settled / expectedLength_ < 1.4 + 2.0 / (static_cast<double>(size_) + 1.0);
     const double pathGain = isSteady ? std::sqrt(pathRate_ * (2.0 - pathRate_) * effective_) : 0.0;
     for (std::size_t i = 0; i < size_; ++i) {
         path_[i] = (1.0 - pathRate_) * path_[i] + pathGain * step[i];
     }
-    const double kept = 1.0 - rankOneRate_ - rankMuRate_ +
-                        (isSteady ? 0.0 : rankOneRate_ * pathRate_ * (2.0 - pathRate_));
+    const double kept =
+        1.0 - rankOneRate_ - rankMuRate_ + (isSteady ? 0.0 : rankOneRate_ * pathRate_ * (2.0 - pathRate_));
     for (std::size_t i = 0; i < size_; ++i) {
         for (std::size_t j = 0; j < size_; ++j) {
             double value = kept * covariance_.at(i, j) + rankOneRate_ * path_[i] * path_[j];

@@ -111,14 +111,16 @@ private:
                                        " s; from 10 s on a material is learnt more truly");
         }
         if (sliding_.speedMps[2] < 1.3 * sliding_.speedMps[0]) {
-            report_.warnings.push_back("the speed hardly changes: how level and spectrum follow it is taken from the "
-                                       "model's labels");
+            report_.warnings.push_back(
+                "the speed hardly changes: how level and spectrum follow it is taken from the "
+                "model's labels");
         }
         const double lost = 1.0 - std::accumulate(recording_.isUsable.begin(), recording_.isUsable.end(), 0.0) /
                                       static_cast<double>(recording_.isUsable.size());
         if (lost > 0.0) {
-            report_.warnings.push_back(plainNumber(100.0 * lost) +
-                                       " % of the recording was left out around samples that are missing or stand still");
+            report_.warnings.push_back(
+                plainNumber(100.0 * lost) +
+                " % of the recording was left out around samples that are missing or stand still");
         }
     }
 
@@ -149,17 +151,12 @@ private:
     /// A unit mistaken by ten or a thousand shows in the level alone.
     void checkLevel() {
         const double speed = std::min(sliding_.speedMps[1], model_.header().speedMps.maximum);
-        const double force =
-            std::clamp(sliding_.forceNewtons[1], model_.header().forceNewtons.minimum, model_.header().forceNewtons.maximum);
+        const double force = std::clamp(sliding_.forceNewtons[1], model_.header().forceNewtons.minimum,
+                                        model_.header().forceNewtons.maximum);
         std::vector<inference::SegmentRequest> requests;
         for (std::size_t label = 0; label < model_.header().labels.size(); ++label) {
-            inference::SegmentRequest request{{},
-                                              {static_cast<float>(speed), 0.0F, static_cast<float>(force)},
-                                              silence_,
-                                              silence_,
-                                              {},
-                                              {},
-                                              {}};
+            inference::SegmentRequest request{
+                {}, {static_cast<float>(speed), 0.0F, static_cast<float>(force)}, silence_, silence_, {}, {}, {}};
             std::ranges::copy(model_.embedding(label), request.embedding.begin());
             requests.push_back(request);
         }
@@ -253,8 +250,7 @@ private:
         const std::size_t chains = std::max<std::size_t>(12, 3 * fit.bins().count());
         Embedding fitted = start;
         const std::uint64_t perGeneration = population * chains * segmentsPerChain;
-        const std::uint64_t generations =
-            settings_.segmentBudget / perGeneration;
+        const std::uint64_t generations = settings_.segmentBudget / perGeneration;
         if (space.axisCount() > 0 && generations > 0) {
             EvolutionStrategy strategy(space.coordinatesOf(start), firstStep, population, settings_.seed + 1);
             for (std::uint64_t generation = 0; generation < generations; ++generation) {
@@ -333,8 +329,8 @@ private:
             for (std::size_t i = 1; i < spectrumBins; ++i) {
                 const double hertz = static_cast<double>(i) * hertzPerBin;
                 if (hertz >= lowestHz && hertz <= highestHz) {
-                    const double made = 10.0 * std::log10(generated[bin].power[i] + 1e-12) +
-                                        tone.tone.gainDb(speed, hertz) + gainDb;
+                    const double made =
+                        10.0 * std::log10(generated[bin].power[i] + 1e-12) + tone.tone.gainDb(speed, hertz) + gainDb;
                     const double difference = made - 10.0 * std::log10(recorded.power[i] + 1e-12);
                     squares += difference * difference;
                     count += 1.0;
@@ -342,8 +338,8 @@ private:
             }
             total += recorded.frames * std::sqrt(squares / count);
             weights += recorded.frames;
-            report_.levelErrorDb = std::max(
-                report_.levelErrorDb, std::abs(10.0 * std::log10(std::max(recorded.meanSquare, 1e-9))));
+            report_.levelErrorDb =
+                std::max(report_.levelErrorDb, std::abs(10.0 * std::log10(std::max(recorded.meanSquare, 1e-9))));
         }
         report_.spectralDistanceDb = weights > 0.0 ? total / weights : 0.0;
     }

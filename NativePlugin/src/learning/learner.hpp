@@ -87,8 +87,8 @@ struct LearntMaterial {
 void checkSettings(const LearningSettings& settings);
 
 /// Makes a material of a recording: level law, wave vectors, embedding, tone and seeds. `generator` is the model's, of
-/// any tier. Equal arguments give equal bytes. Throws RecordingUnusable, std::invalid_argument, inference::LoadCancelled
-/// and inference::InferenceError. Worker thread.
+/// any tier. Equal arguments give equal bytes. Throws RecordingUnusable, std::invalid_argument,
+/// inference::LoadCancelled and inference::InferenceError. Worker thread.
 [[nodiscard]] LearntMaterial learnMaterial(const Recording& recording, const model::ModelFile& model,
                                            inference::SegmentGenerator& generator, const LearningSettings& settings);
 

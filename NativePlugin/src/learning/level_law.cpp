@@ -61,9 +61,8 @@ std::vector<Frame> framesOf(const PreparedRecording& recording, const Sliding& s
             const double speed = recording.speedMps(i) + speedOffsetMps;
             frame.power += value * value / static_cast<double>(frameSamples);
             squaredSpeed += speed * speed / static_cast<double>(frameSamples);
-            frame.logForce +=
-                std::log(std::max(static_cast<double>(recording.motion[i][2]), smallestForceNewtons)) /
-                static_cast<double>(frameSamples);
+            frame.logForce += std::log(std::max(static_cast<double>(recording.motion[i][2]), smallestForceNewtons)) /
+                              static_cast<double>(frameSamples);
         }
         // Levels grow about as the speed: what a frame's power is the mean of goes with the mean of the square.
         frame.logSpeed = 0.5 * std::log(squaredSpeed);
@@ -74,7 +73,8 @@ std::vector<Frame> framesOf(const PreparedRecording& recording, const Sliding& s
             steady.push_back(frame);
         }
     }
-    return static_cast<double>(steady.size()) >= leastSteadyShare * static_cast<double>(frames.size()) ? steady : frames;
+    return static_cast<double>(steady.size()) >= leastSteadyShare * static_cast<double>(frames.size()) ? steady
+                                                                                                       : frames;
 }
 
 /// Log speeds of the knots: evenly spread quantiles, no two nearer than they can be told apart.
@@ -149,8 +149,8 @@ private:
             row.add(last, 1.0);
             row.add(slope(), frame.logSpeed - knots_.back());
         } else {
-            const auto above = static_cast<std::size_t>(std::ranges::upper_bound(knots_, frame.logSpeed) -
-                                                        knots_.begin());
+            const auto above =
+                static_cast<std::size_t>(std::ranges::upper_bound(knots_, frame.logSpeed) - knots_.begin());
             const double share = (frame.logSpeed - knots_[above - 1]) / (knots_[above] - knots_[above - 1]);
             row.add(above - 1, 1.0 - share);
             row.add(above, share);
@@ -215,7 +215,8 @@ private:
 };
 
 /// From one end of the table to the other, as far as its width tells that from what other materials have.
-double overallSlope(const std::vector<double>& knots, const std::vector<double>& logLevels, const ExponentPrior& prior) {
+double overallSlope(const std::vector<double>& knots, const std::vector<double>& logLevels,
+                    const ExponentPrior& prior) {
     constexpr double endSpread = 0.15;
     const double width = knots.back() - knots.front();
     if (width <= 0.0) {
@@ -231,8 +232,7 @@ double overallSlope(const std::vector<double>& knots, const std::vector<double>&
 
 double LevelLaw::logLevel(double speedMps, double force) const {
     const double position = logSpeed(speedMps);
-    const double pressed =
-        forceExponent * std::log(std::max(force, smallestForceNewtons) / forceNewtons);
+    const double pressed = forceExponent * std::log(std::max(force, smallestForceNewtons) / forceNewtons);
     const double first = logSpeed(speedsMps.front());
     const double last = logSpeed(speedsMps.back());
     if (position <= first || speedsMps.size() == 1) {
@@ -253,8 +253,9 @@ double LevelLaw::logLevel(double speedMps, double force) const {
 LevelLaw fitLevelLaw(const PreparedRecording& recording, const Sliding& sliding, const ExponentPrior& prior) {
     const std::vector<Frame> frames = framesOf(recording, sliding);
     if (frames.size() < 10) {
-        throw RecordingUnusable("the strokes are too short: hardly any slides for 50 ms at a stretch; record longer "
-                                "strokes");
+        throw RecordingUnusable(
+            "the strokes are too short: hardly any slides for 50 ms at a stretch; record longer "
+            "strokes");
     }
     LevelLaw law;
     law.forceNewtons = std::clamp(sliding.forceNewtons[1], 0.01, 100.0);

@@ -88,7 +88,8 @@ std::string materialText(const model::ModelFile& model, const MaterialContent& c
                                {"force", rounded(content.level.forceExponent, 1e4)}};
     json["frequency_exponent"] = rounded(content.frequencyExponent, 1e4);
     json["periodic"] = content.wavelengthMetres.has_value();
-    json["wavelength_metres"] = content.wavelengthMetres ? Json(rounded(*content.wavelengthMetres, 1e8)) : Json(nullptr);
+    json["wavelength_metres"] =
+        content.wavelengthMetres ? Json(rounded(*content.wavelengthMetres, 1e8)) : Json(nullptr);
     json["stiffness_newtons_per_metre"] = content.nearest.stiffnessNewtonsPerMetre;
     json["friction_coefficient"] = content.nearest.frictionCoefficient;
     if (content.nearest.impact) {

@@ -44,8 +44,7 @@ std::vector<Candidate> candidatesOf(const PreparedRecording& recording, const Sl
         Candidate each{.start = start, .motion = {}, .place = {}};
         for (std::size_t i = start; i < start + model::seedSamples; ++i) {
             for (std::size_t component = 0; component < each.motion.size(); ++component) {
-                each.motion[component] +=
-                    recording.motion[i][component] / static_cast<double>(model::seedSamples);
+                each.motion[component] += recording.motion[i][component] / static_cast<double>(model::seedSamples);
             }
         }
         const double speed = std::hypot(each.motion[0], each.motion[1]);
@@ -76,9 +75,8 @@ std::vector<Candidate> spreadOut(const std::vector<Candidate>& candidates) {
             middle.place[i] += each.place[i] / static_cast<double>(candidates.size());
         }
     }
-    const auto first = std::ranges::min_element(candidates, {}, [&](const Candidate& each) {
-        return distanceOf(each, middle);
-    });
+    const auto first =
+        std::ranges::min_element(candidates, {}, [&](const Candidate& each) { return distanceOf(each, middle); });
     std::vector<Candidate> chosen{*first};
     std::vector<double> nearest(candidates.size(), std::numeric_limits<double>::infinity());
     while (chosen.size() < mostLearntSeeds) {

@@ -93,8 +93,8 @@ Sliding findSliding(const PreparedRecording& recording, const model::ModelHeader
     }
     sliding.seconds = static_cast<double>(keptSpeeds.size()) * sampleSeconds;
     if (sliding.seconds < shortestSlidingSeconds) {
-        throw RecordingUnusable("the tip slides for " + seconds(keptSpeeds.size()) + " s of " + seconds(count) + " s (" +
-                                seconds(count - usable) +
+        throw RecordingUnusable("the tip slides for " + seconds(keptSpeeds.size()) + " s of " + seconds(count) +
+                                " s (" + seconds(count - usable) +
                                 " s were left out for samples that are missing or stand still); record 10 s or more of "
                                 "sliding");
     }

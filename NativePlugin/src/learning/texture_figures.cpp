@@ -28,8 +28,8 @@ SpeedBins SpeedBins::divide(std::vector<double> speedsMps, std::size_t most) {
     SpeedBins result;
     double last = speedsMps.front();
     for (std::size_t i = 1; i < bins; ++i) {
-        const double edge = speedsMps[static_cast<std::size_t>(total * static_cast<double>(i) /
-                                                               static_cast<double>(bins))];
+        const double edge =
+            speedsMps[static_cast<std::size_t>(total * static_cast<double>(i) / static_cast<double>(bins))];
         if (std::log(edge / last) >= narrowestBin && std::log(speedsMps.back() / edge) >= narrowestBin) {
             result.edgesMps.push_back(edge);
             last = edge;

@@ -32,8 +32,7 @@ std::vector<Band> bandsUpTo(double bandwidthHz) {
     double hertz = lowestHz;
     while (hertz < std::min(highestHz, bandwidthHz)) {
         const auto first = static_cast<std::size_t>(std::lround(hertz / hertzPerBin));
-        const auto width = std::max<std::size_t>(
-            1, static_cast<std::size_t>(relativeWidth * hertz / hertzPerBin));
+        const auto width = std::max<std::size_t>(1, static_cast<std::size_t>(relativeWidth * hertz / hertzPerBin));
         bands.push_back({first, std::min(first + width, spectrumBins)});
         hertz = static_cast<double>(first + width) * hertzPerBin;
     }
@@ -65,8 +64,8 @@ double lineDistance(const TextureFigures& recorded, const TextureFigures& genera
 double oneDistance(const TextureFigures& recorded, const TextureFigures& generated, const std::vector<Band>& bands) {
     double spectral = 0.0;
     for (const Band& band : bands) {
-        const double difference = 10.0 * std::log10((bandPower(generated, band) + powerFloor) /
-                                                    (bandPower(recorded, band) + powerFloor));
+        const double difference =
+            10.0 * std::log10((bandPower(generated, band) + powerFloor) / (bandPower(recorded, band) + powerFloor));
         spectral += difference * difference / static_cast<double>(bands.size());
     }
     double envelope = 0.0;
@@ -74,8 +73,7 @@ double oneDistance(const TextureFigures& recorded, const TextureFigures& generat
         const double difference = decibelsPerNat * (generated.envelope[i] - recorded.envelope[i]);
         envelope += difference * difference / static_cast<double>(envelopeFigures);
     }
-    const double level =
-        10.0 * std::log10((generated.meanSquare + powerFloor) / (recorded.meanSquare + powerFloor));
+    const double level = 10.0 * std::log10((generated.meanSquare + powerFloor) / (recorded.meanSquare + powerFloor));
     return spectral + envelopeWeight * envelope + levelWeight * level * level +
            lineWeight * lineDistance(recorded, generated);
 }
@@ -91,9 +89,8 @@ std::vector<RibWay> waysAlong(const PreparedRecording& recording,
     for (std::size_t i = 0; i < ways.size(); ++i) {
         ways[i] = way;
         for (std::size_t rib = 0; rib < way.size(); ++rib) {
-            way[rib] += millimetresPerSample *
-                        (static_cast<double>(waveVectors[2 * rib]) * recording.motion[i][0] +
-                         static_cast<double>(waveVectors[2 * rib + 1]) * recording.motion[i][1]);
+            way[rib] += millimetresPerSample * (static_cast<double>(waveVectors[2 * rib]) * recording.motion[i][0] +
+                                                static_cast<double>(waveVectors[2 * rib + 1]) * recording.motion[i][1]);
         }
     }
     return ways;
@@ -126,8 +123,8 @@ double textureDistance(std::span<const TextureFigures> recorded, std::span<const
 }
 
 TextureFit::TextureFit(ClosedLoop& loop, const PreparedRecording& recording, const Sliding& sliding,
-                       std::span<const float> unitWave,
-                       std::span<const float, 2 * inference::ribCount> waveVectors, std::uint64_t seed)
+                       std::span<const float> unitWave, std::span<const float, 2 * inference::ribCount> waveVectors,
+                       std::uint64_t seed)
     : loop_(loop),
       recording_(recording),
       sliding_(sliding),
@@ -142,8 +139,9 @@ TextureFit::TextureFit(ClosedLoop& loop, const PreparedRecording& recording, con
     const bool hasStart =
         std::ranges::any_of(starts_, [](const std::vector<std::size_t>& starts) { return !starts.empty(); });
     if (!hasStart) {
-        throw RecordingUnusable("the recording has no stretch of half a second without a gap that slides; record longer "
-                                "strokes");
+        throw RecordingUnusable(
+            "the recording has no stretch of half a second without a gap that slides; record longer "
+            "strokes");
     }
 }
 
@@ -177,8 +175,8 @@ std::vector<std::vector<std::size_t>> TextureFit::startsByBin(std::size_t sample
             sliding >= leastSliding * static_cast<double>(samples)) {
             double logSpeed = 0.0;
             for (std::size_t i = counted; i < counted + samples; ++i) {
-                logSpeed += std::log(std::max(recording_.speedMps(i), slowestSlidingMps)) /
-                            static_cast<double>(samples);
+                logSpeed +=
+                    std::log(std::max(recording_.speedMps(i), slowestSlidingMps)) / static_cast<double>(samples);
             }
             starts[bins_.binOf(std::exp(logSpeed))].push_back(first + pastSamples);
         }
@@ -208,12 +206,9 @@ std::vector<double> TextureFit::distances(std::span<const Embedding> embeddings,
             all.push_back(chain);
         }
     }
-    const std::vector<float> waves = loop_.run(embeddings, all,
-                                               {.hopSamples = 100,
-                                                .warmSamples = warmSamples,
-                                                .samples = chainSamples,
-                                                .seed = seed_,
-                                                .round = round});
+    const std::vector<float> waves = loop_.run(
+        embeddings, all,
+        {.hopSamples = 100, .warmSamples = warmSamples, .samples = chainSamples, .seed = seed_, .round = round});
     std::vector<double> result;
     for (std::size_t e = 0; e < embeddings.size(); ++e) {
         TextureMeter meter(bins_.count());

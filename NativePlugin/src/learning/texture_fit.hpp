@@ -11,8 +11,8 @@
 
 namespace haptoflow::learning {
 
-/// How far generated figures are from recorded ones, in dB^2: third-octave spectra, level, envelope and ribs, speeds weighted
-/// by how much of the recording is there. Speeds at which nothing was generated do not count.
+/// How far generated figures are from recorded ones, in dB^2: third-octave spectra, level, envelope and ribs, speeds
+/// weighted by how much of the recording is there. Speeds at which nothing was generated do not count.
 [[nodiscard]] double textureDistance(std::span<const TextureFigures> recorded,
                                      std::span<const TextureFigures> generated, double bandwidthHz);
 

@@ -252,7 +252,8 @@ private:
                 }
             }
         }
-        return count >= std::max(fewestWindows, windows_.size() / hearingShare) ? sum / static_cast<double>(count) : 0.0;
+        return count >= std::max(fewestWindows, windows_.size() / hearingShare) ? sum / static_cast<double>(count)
+                                                                                : 0.0;
     }
 
     [[nodiscard]] double exactly(double kx, double ky) const {
@@ -264,7 +265,8 @@ private:
                 ++count;
             }
         }
-        return count >= std::max(fewestWindows, windows_.size() / hearingShare) ? sum / static_cast<double>(count) : 0.0;
+        return count >= std::max(fewestWindows, windows_.size() / hearingShare) ? sum / static_cast<double>(count)
+                                                                                : 0.0;
     }
 
     /// One loud window must not stand for many.
@@ -378,9 +380,8 @@ private:
         constexpr std::size_t mostTries = 8;
         std::vector<Point> tried;
         for (const Point& point : points_) {
-            const bool isKnown = std::ranges::any_of(found, [&](const WaveVector& each) {
-                return isMultiple(point, each);
-            });
+            const bool isKnown =
+                std::ranges::any_of(found, [&](const WaveVector& each) { return isMultiple(point, each); });
             if (isKnown) {
                 continue;
             }

@@ -6,9 +6,12 @@
 #include <array>
 #include <cstdint>
 #include <cstdlib>
+#include <fstream>
+#include <iterator>
 #include <limits>
 #include <mutex>
 #include <random>
+#include <string>
 #include <thread>
 #include <type_traits>
 #include <vector>
@@ -85,7 +88,7 @@ private:
     };
 
     haptoflow_status once() {
-        static constexpr std::array<Kind, 16> kinds{{{450, &Storm::render},
+        static constexpr std::array<Kind, 17> kinds{{{450, &Storm::render},
                                                      {340, &Storm::publish},
                                                      {30, &Storm::createVoice},
                                                      {15, &Storm::destroyVoice},
@@ -99,7 +102,8 @@ private:
                                                      {2, &Storm::closeGenerator},
                                                      {17, &Storm::useGenerator},
                                                      {20, &Storm::askModel},
-                                                     {85, &Storm::command},
+                                                     {73, &Storm::command},
+                                                     {12, &Storm::useMaterials},
                                                      {10, &Storm::cancel}}};
         std::uint32_t choice = next() % 1000;
         for (const Kind& kind : kinds) {
@@ -166,6 +170,8 @@ private:
         state.velocity_mps[0] = wildFloat();
         state.velocity_mps[1] = wildFloat();
         state.force_newtons = wildFloat();
+        state.spatial_scale = wildFloat();
+        state.tone_db_per_octave = wildFloat();
         state.struct_size = sizeOf(sizeof(state));
         return state;
     }
@@ -345,6 +351,30 @@ private:
         }
     }
 
+    haptoflow_status useMaterials() {
+        haptoflow_engine* engine = handles_.engines.any(next());
+        // A label of the tiny model again, or a text that is cut short.
+        static const std::string material = [] {
+            std::ifstream stream(HAPTOFLOW_TEST_GOLDEN_DIR "/material/ribbed.haptomaterial");
+            return std::string(std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>());
+        }();
+        const std::uint64_t length = oneIn(8) ? next() % material.size() : material.size();
+        const std::uint32_t index = next() % 8;
+        std::uint32_t found = 0;
+        haptoflow_label_info info{};
+        info.struct_size = sizeOf(sizeof(info));
+        switch (next() % 4) {
+            case 0:
+                return haptoflow_engine_register_material(engine, material.data(), length, oneIn(16) ? nullptr : &found);
+            case 1:
+                return haptoflow_engine_replace_material(engine, index, material.data(), length);
+            case 2:
+                return haptoflow_engine_material_count(engine, oneIn(16) ? nullptr : &found);
+            default:
+                return haptoflow_engine_material(engine, index, oneIn(16) ? nullptr : &info);
+        }
+    }
+
     haptoflow_status command() {
         const haptoflow_voice voice = handles_.voices.any(next());
         haptoflow_engine* engine = handles_.engines.any(next());
@@ -405,7 +435,8 @@ private:
 
     void check(haptoflow_status status) {
         isSound_ = isSound_ && (status == HAPTOFLOW_OK || status == HAPTOFLOW_INVALID_ARGUMENT ||
-                                status == HAPTOFLOW_BUSY || status == HAPTOFLOW_CANCELLED);
+                                status == HAPTOFLOW_BUSY || status == HAPTOFLOW_CANCELLED ||
+                                status == HAPTOFLOW_MATERIAL_INVALID || status == HAPTOFLOW_MATERIAL_MISMATCH);
     }
 
     StormHandles& handles_;

@@ -1,4 +1,5 @@
 #include "open_engine.hpp"
+#include "learning_options.hpp"
 #include "public_header.hpp"
 
 #include <array>
@@ -26,7 +27,7 @@ TEST(LibraryApiTest, NamesEveryStatusAndOnlyThose) {
     EXPECT_STREQ(haptoflow_status_name(HAPTOFLOW_INFERENCE_FAILED), "HAPTOFLOW_INFERENCE_FAILED");
     EXPECT_STREQ(haptoflow_status_name(HAPTOFLOW_CANCELLED), "HAPTOFLOW_CANCELLED");
     EXPECT_STREQ(haptoflow_status_name(HAPTOFLOW_TIER_TOO_SLOW), "HAPTOFLOW_TIER_TOO_SLOW");
-    for (const haptoflow_status status : {-1, 5, 9, 17, 24, INT32_MAX, INT32_MIN}) {
+    for (const haptoflow_status status : {-1, 5, 9, 24, INT32_MAX, INT32_MIN}) {
         EXPECT_STREQ(haptoflow_status_name(status), "HAPTOFLOW_UNKNOWN_STATUS");
     }
 }
@@ -101,6 +102,11 @@ TEST(ArgumentTest, NullPointersAreRefusedByEveryFunction) {
     const haptoflow_wave_features_options featureOptions{sizeof(featureOptions), 0, 0.0, 0.0, 0.0};
     haptoflow_wave_features* features = nullptr;
     ASSERT_EQ(haptoflow_wave_features_create(&featureOptions, &features), HAPTOFLOW_OK) << message();
+    const learning::testing::MadeRecording made({}, {.seconds = 4.0});
+    const haptoflow_learning_options learningOptions = optionsOf(made, open.runtime, open.model);
+    haptoflow_learning* noLearning = nullptr;
+    haptoflow_learning* learning = nullptr;
+    ASSERT_EQ(haptoflow_learn_material(&learningOptions, &learning), HAPTOFLOW_OK) << message();
     haptoflow_wave_frame frame{};
     haptoflow_voice noVoice = 0;
     uint32_t count = 0;
@@ -140,6 +146,9 @@ TEST(ArgumentTest, NullPointersAreRefusedByEveryFunction) {
         {"haptoflow_model_embedding",
          {[&] { return haptoflow_model_embedding(nullptr, 0, numbers.data()); },
           [&] { return haptoflow_model_embedding(open.model, 0, nullptr); }}},
+        {"haptoflow_model_space",
+         {[&] { return haptoflow_model_space(nullptr, &text); },
+          [&] { return haptoflow_model_space(open.model, nullptr); }}},
         {"haptoflow_model_tier_count",
          {[&] { return haptoflow_model_tier_count(nullptr, &count); },
           [&] { return haptoflow_model_tier_count(open.model, nullptr); }}},
@@ -166,6 +175,19 @@ TEST(ArgumentTest, NullPointersAreRefusedByEveryFunction) {
         {"haptoflow_engine_close", {[&] { return haptoflow_engine_close(nullptr); }}},
         {"haptoflow_engine_set_quality",
          {[&] { return haptoflow_engine_set_quality(nullptr, HAPTOFLOW_QUALITY_DRAFT); }}},
+        {"haptoflow_engine_register_material",
+         {[&] { return haptoflow_engine_register_material(nullptr, "{}", 2, &count); },
+          [&] { return haptoflow_engine_register_material(open.engine, nullptr, 2, &count); },
+          [&] { return haptoflow_engine_register_material(open.engine, "{}", 2, nullptr); }}},
+        {"haptoflow_engine_replace_material",
+         {[&] { return haptoflow_engine_replace_material(nullptr, 0, "{}", 2); },
+          [&] { return haptoflow_engine_replace_material(open.engine, 0, nullptr, 2); }}},
+        {"haptoflow_engine_material_count",
+         {[&] { return haptoflow_engine_material_count(nullptr, &count); },
+          [&] { return haptoflow_engine_material_count(open.engine, nullptr); }}},
+        {"haptoflow_engine_material",
+         {[&] { return haptoflow_engine_material(nullptr, 0, &label); },
+          [&] { return haptoflow_engine_material(open.engine, 0, nullptr); }}},
         {"haptoflow_engine_step", {[&] { return haptoflow_engine_step(nullptr); }}},
         {"haptoflow_engine_get_statistics",
          {[&] { return haptoflow_engine_get_statistics(nullptr, &statistics); },
@@ -201,6 +223,16 @@ TEST(ArgumentTest, NullPointersAreRefusedByEveryFunction) {
           [&] { return haptoflow_wave_features_process(features, nullptr, 1, &frame, 1, &length); },
           [&] { return haptoflow_wave_features_process(features, numbers.data(), 1, nullptr, 1, &length); },
           [&] { return haptoflow_wave_features_process(features, numbers.data(), 1, &frame, 1, nullptr); }}},
+        {"haptoflow_learn_material",
+         {[&] { return haptoflow_learn_material(nullptr, &noLearning); },
+          [&] { return haptoflow_learn_material(&learningOptions, nullptr); }}},
+        {"haptoflow_learning_material",
+         {[&] { return haptoflow_learning_material(nullptr, &text); },
+          [&] { return haptoflow_learning_material(learning, nullptr); }}},
+        {"haptoflow_learning_report",
+         {[&] { return haptoflow_learning_report(nullptr, &text); },
+          [&] { return haptoflow_learning_report(learning, nullptr); }}},
+        {"haptoflow_learning_close", {[&] { return haptoflow_learning_close(nullptr); }}},
         {"haptoflow_noise_fill", {[&] { return haptoflow_noise_fill(0, 0, 0, nullptr, 1); }}},
     };
     std::map<std::string, std::size_t> called;
@@ -222,6 +254,8 @@ TEST(ArgumentTest, NullPointersAreRefusedByEveryFunction) {
     EXPECT_EQ(noGenerator, nullptr);
     EXPECT_EQ(noEngine, nullptr);
     EXPECT_EQ(noVoice, 0U);
+    EXPECT_EQ(noLearning, nullptr);
+    EXPECT_EQ(haptoflow_learning_close(&learning), HAPTOFLOW_OK);
     EXPECT_EQ(haptoflow_generator_close(&generator), HAPTOFLOW_OK);
 }
 

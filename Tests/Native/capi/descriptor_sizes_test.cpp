@@ -1,5 +1,6 @@
 // Every struct of the header that begins with struct_size, as callers compiled with an older or a newer header have it.
 #include "open_engine.hpp"
+#include "learning_options.hpp"
 #include "public_header.hpp"
 
 #include <array>
@@ -140,6 +141,9 @@ protected:
                 "haptoflow_wave_features_options", "haptoflow_wave_features_create",
                 sizeof(haptoflow_wave_features_options), {0, 8000, 0.005, 60.0, 400.0},
                 opening(haptoflow_wave_features_create, haptoflow_wave_features_close)),
+            input<haptoflow_learning_options>("haptoflow_learning_options", "haptoflow_learn_material",
+                                              offsetof(haptoflow_learning_options, seed), learningOptions_,
+                                              opening(haptoflow_learn_material, haptoflow_learning_close)),
             input<haptoflow_contact_state>(
                 "haptoflow_contact_state", "haptoflow_voice_publish",
                 offsetof(haptoflow_contact_state, approach_speed_mps), slidingState(),
@@ -180,6 +184,8 @@ protected:
     OpenEngine open_{tinyModelPath};
     haptoflow_generator_options generatorOptions_{};
     haptoflow_engine_options engineOptions_{};
+    learning::testing::MadeRecording made_{{}, {.seconds = 4.0}};
+    haptoflow_learning_options learningOptions_ = optionsOf(made_, open_.runtime, open_.model);
     haptoflow_generator* generator_ = nullptr;
     std::array<float, HAPTOFLOW_EMBEDDING_SIZE> embedding_{};
     std::array<float, HAPTOFLOW_MOTION_SIZE> motion_{0.1F, 0.0F, 1.0F};

@@ -1,7 +1,6 @@
 // Learning through the C interface: a material's text, progress, cancellation, recordings of no use.
+#include "learning_options.hpp"
 #include "open_engine.hpp"
-
-#include "learning/made_recording.hpp"
 
 #include <nlohmann/json.hpp>
 
@@ -23,22 +22,7 @@ protected:
         WithTinyModel::TearDown();
     }
 
-    /// Of a short fit on the tiny model.
-    [[nodiscard]] haptoflow_learning_options options() const {
-        haptoflow_learning_options result{};
-        result.struct_size = sizeof(result);
-        result.axis_count = 1;
-        result.runtime = runtime_;
-        result.model = model_;
-        result.name = "made surface";
-        result.acceleration_mps2 = made_.acceleration.data();
-        result.sample_count = made_.acceleration.size();
-        result.sample_rate_hz = 4000.0;
-        result.velocity_mps = made_.velocity.data();
-        result.force_newtons = made_.force.data();
-        result.seed = 1;
-        return result;
-    }
+    [[nodiscard]] haptoflow_learning_options options() const { return optionsOf(made_, runtime_, model_); }
 
     [[nodiscard]] std::string materialText() const {
         const char* json = nullptr;

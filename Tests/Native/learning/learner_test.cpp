@@ -22,10 +22,10 @@ namespace haptoflow::learning {
 namespace {
 
 using ::testing::HasSubstr;
-using ::testing::ThrowsMessage;
 using testing::MadeMotion;
 using testing::MadeRecording;
 using testing::MadeSurface;
+using ::testing::ThrowsMessage;
 
 /// The shipped model's default tier.
 class LearnerTest : public ::testing::Test {
@@ -44,11 +44,10 @@ protected:
     }
 
     model::ModelFile model_ = model::ModelFile::read(HAPTOFLOW_TEST_DEFAULT_MODEL);
-    inference::OnnxSegmentGenerator generator_{inference::Runtime::open(HAPTOFLOW_TEST_ONNXRUNTIME), model_,
-                                               model_.header().tiers[model_.header().defaultTier].name,
-                                               inference::defaultSolver(
-                                                   model_.header().tiers[model_.header().defaultTier]),
-                                               64};
+    inference::OnnxSegmentGenerator generator_{
+        inference::Runtime::open(HAPTOFLOW_TEST_ONNXRUNTIME), model_,
+        model_.header().tiers[model_.header().defaultTier].name,
+        inference::defaultSolver(model_.header().tiers[model_.header().defaultTier]), 64};
 };
 
 TEST_F(LearnerTest, TheMaterialIsAMaterialFileOfTheModelsSpace) {
@@ -98,8 +97,8 @@ TEST_F(LearnerTest, ASeedBehindTheToneSoundsAsItWasRecorded) {
     tone.gainsDb = json["tone"]["gains_db"].get<std::vector<std::vector<double>>>();
     const model::MaterialSeed& seed = material.seeds[0];
     const double speed = std::hypot(seed.velocityMps[0], seed.velocityMps[1]);
-    const dsp::ToneKernel kernel = dsp::toneKernel(
-        dsp::toneCepstrum([&](double hertz) { return tone.gainDb(speed, std::max(hertz, 1.0)); }));
+    const dsp::ToneKernel kernel =
+        dsp::toneKernel(dsp::toneCepstrum([&](double hertz) { return tone.gainDb(speed, std::max(hertz, 1.0)); }));
     std::vector<double> heard;
     for (std::size_t i = dsp::toneTaps; i < seed.samples.size(); ++i) {
         double sum = 0.0;

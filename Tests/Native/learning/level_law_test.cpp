@@ -23,8 +23,8 @@ LevelLaw lawOf(const MadeRecording& made, const ExponentPrior& prior = {}) {
 
 double errorDb(const LevelLaw& law, const MadeSurface& surface, double speed, double force) {
     const double step = surface.stepMps > 0.0 && speed > surface.stepMps ? surface.stepGain : 1.0;
-    const double truth = std::log(surface.levelAtReference * step) +
-                         surface.speedExponent * std::log(speed / 0.1) + surface.forceExponent * std::log(force);
+    const double truth = std::log(surface.levelAtReference * step) + surface.speedExponent * std::log(speed / 0.1) +
+                         surface.forceExponent * std::log(force);
     return decibelsPerNat * (law.logLevel(speed, force) - truth);
 }
 

@@ -48,7 +48,8 @@ public:
         const double first = 2.0 * radius * std::cos(turn);
         const double second = -radius * radius;
         // Of this resonance, so that the wave's RMS is 1.
-        const double gain = std::sqrt((1.0 + second) * ((1.0 - second) * (1.0 - second) - first * first) / (1.0 - second));
+        const double gain =
+            std::sqrt((1.0 + second) * ((1.0 - second) * (1.0 - second) - first * first) / (1.0 - second));
         double one = 0.0;
         double two = 0.0;
         std::array<double, 2> way{};

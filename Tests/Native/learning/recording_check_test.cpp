@@ -13,8 +13,8 @@ namespace haptoflow::learning {
 namespace {
 
 using ::testing::HasSubstr;
-using ::testing::ThrowsMessage;
 using testing::MadeRecording;
+using ::testing::ThrowsMessage;
 
 model::ModelHeader header() {
     model::ModelHeader result;
@@ -56,14 +56,16 @@ TEST(RecordingCheckTest, SamplesAtTheEndOfTheRangeAreClipped) {
 TEST(RecordingCheckTest, MostlyNumbersThatAreNotFiniteAreRefused) {
     MadeRecording made({}, {});
     std::fill_n(made.acceleration.begin(), made.acceleration.size() * 3 / 5, std::numeric_limits<float>::quiet_NaN());
-    EXPECT_THAT([&] { prepareAndFind(made.view()); }, ThrowsMessage<RecordingUnusable>(HasSubstr("is not finite in 60 %")));
+    EXPECT_THAT([&] { prepareAndFind(made.view()); },
+                ThrowsMessage<RecordingUnusable>(HasSubstr("is not finite in 60 %")));
 }
 
 TEST(RecordingCheckTest, ATipThatRestsShowsNothing) {
     MadeRecording made({}, {});
     made.velocity.clear();
     made.constantVelocity = {0.001, 0.0};
-    EXPECT_THAT([&] { prepareAndFind(made.view()); }, ThrowsMessage<RecordingUnusable>(HasSubstr("the tip never moves")));
+    EXPECT_THAT([&] { prepareAndFind(made.view()); },
+                ThrowsMessage<RecordingUnusable>(HasSubstr("the tip never moves")));
 }
 
 TEST(RecordingCheckTest, ASpeedThatNoHandReachesIsAskedForItsUnit) {

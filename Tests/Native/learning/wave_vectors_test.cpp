@@ -1,6 +1,6 @@
+#include "learning/wave_vectors.hpp"
 #include "learning/level_law.hpp"
 #include "learning/made_recording.hpp"
-#include "learning/wave_vectors.hpp"
 
 #include <gtest/gtest.h>
 
@@ -21,8 +21,8 @@ std::vector<WaveVector> vectorsOf(const MadeRecording& made) {
     const LevelLaw law = fitLevelLaw(recording, sliding, {});
     std::vector<float> unit(recording.wave.size());
     for (std::size_t i = 0; i < unit.size(); ++i) {
-        unit[i] = static_cast<float>(recording.wave[i] /
-                                     std::exp(law.logLevel(std::max(recording.speedMps(i), 0.004), recording.motion[i][2])));
+        unit[i] = static_cast<float>(
+            recording.wave[i] / std::exp(law.logLevel(std::max(recording.speedMps(i), 0.004), recording.motion[i][2])));
     }
     return findWaveVectors(recording, sliding, unit);
 }

@@ -1,0 +1,273 @@
+#include "model/material_builder.hpp"
+#include "open_engine.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#if defined(__GLIBC__)
+#include <malloc.h>
+#endif
+
+#include <atomic>
+#include <fstream>
+#include <functional>
+#include <iterator>
+#include <string>
+#include <thread>
+#include <vector>
+
+namespace haptoflow::capi::testing {
+namespace {
+
+using ::testing::HasSubstr;
+using nlohmann::json;
+
+std::string spaceOf(const haptoflow_model* model) {
+    const char* space = nullptr;
+    EXPECT_EQ(haptoflow_model_space(model, &space), HAPTOFLOW_OK) << message();
+    return space == nullptr ? "" : space;
+}
+
+class MaterialApiTest : public ::testing::Test {
+protected:
+    /// The text of a valid material of the model, as a test changes it.
+    [[nodiscard]] std::string material(const std::function<void(json&)>& change = {}) const {
+        json text = model::testing::validMaterial(spaceOf(open_.model));
+        if (change) {
+            change(text);
+        }
+        return text.dump();
+    }
+    haptoflow_status add(const std::string& text, uint32_t* index) {
+        return haptoflow_engine_register_material(open_.engine, text.data(), text.size(), index);
+    }
+    [[nodiscard]] uint32_t count() const {
+        uint32_t found = 0;
+        EXPECT_EQ(haptoflow_engine_material_count(open_.engine, &found), HAPTOFLOW_OK) << message();
+        return found;
+    }
+    [[nodiscard]] uint32_t labels() const {
+        uint32_t found = 0;
+        EXPECT_EQ(haptoflow_model_label_count(open_.model, &found), HAPTOFLOW_OK);
+        return found;
+    }
+    static haptoflow_contact_state on(uint32_t label) {
+        haptoflow_contact_state state = slidingState();
+        state.labels[0] = label;
+        return state;
+    }
+    haptoflow_effect_statistics tone() {
+        haptoflow_effect_statistics statistics{};
+        statistics.struct_size = sizeof(statistics);
+        EXPECT_EQ(haptoflow_voice_effect_statistics(open_.voice, HAPTOFLOW_EFFECT_TONE, &statistics), HAPTOFLOW_OK);
+        return statistics;
+    }
+
+    OpenEngine open_{tinyModelPath};
+};
+
+TEST_F(MaterialApiTest, TheModelsSpaceIsThatOfTheGoldenFile) {
+    std::ifstream stream(HAPTOFLOW_TEST_GOLDEN_DIR "/material/expected.json");
+    EXPECT_EQ(spaceOf(open_.model), json::parse(stream).at("spaces").at("tiny").get<std::string>());
+}
+
+TEST_F(MaterialApiTest, ARegisteredMaterialIsCountedDescribedAndFelt) {
+    uint32_t index = 0;
+    ASSERT_EQ(add(material(), &index), HAPTOFLOW_OK) << message();
+    EXPECT_EQ(index, labels());
+    EXPECT_EQ(count(), 1U);
+    haptoflow_label_info info{};
+    info.struct_size = sizeof(info);
+    ASSERT_EQ(haptoflow_engine_material(open_.engine, index, &info), HAPTOFLOW_OK) << message();
+    EXPECT_STREQ(info.name, "denim");
+    EXPECT_STREQ(info.category, "cloth");
+    EXPECT_EQ(info.stiffness_newtons_per_metre, 300.0);
+    EXPECT_EQ(info.wavelength_metres, 0.002);
+    EXPECT_GT(peak(open_.update(on(index))), 0.0F);
+    EXPECT_GT(tone().runs, 0U);
+    EXPECT_EQ(tone().is_asked_for, 1U);
+    EXPECT_EQ(open_.statistics().sanitised, 0U);
+}
+
+TEST_F(MaterialApiTest, WhatIsNoMaterialIsRefusedWithItsKeyAndTheIndexStaysAsItWas) {
+    uint32_t index = 77;
+    EXPECT_EQ(add(material([](json& text) { text["embedding"].erase(0); }), &index), HAPTOFLOW_MATERIAL_INVALID);
+    EXPECT_THAT(message(), HasSubstr("material key \"embedding\""));
+    EXPECT_EQ(add("{", &index), HAPTOFLOW_MATERIAL_INVALID);
+    EXPECT_THAT(message(), HasSubstr("not valid JSON"));
+    EXPECT_EQ(add(material([](json& text) { text["space"] = "00000000"; }), &index), HAPTOFLOW_MATERIAL_MISMATCH);
+    EXPECT_THAT(message(), HasSubstr("learn the material again"));
+    const std::string valid = material();
+    EXPECT_EQ(haptoflow_engine_register_material(open_.engine, valid.data(), UINT64_MAX, &index),
+              HAPTOFLOW_MATERIAL_INVALID);
+    EXPECT_EQ(haptoflow_engine_register_material(open_.engine, nullptr, 10, &index), HAPTOFLOW_INVALID_ARGUMENT);
+    EXPECT_EQ(haptoflow_engine_register_material(open_.engine, valid.data(), valid.size(), nullptr),
+              HAPTOFLOW_INVALID_ARGUMENT);
+    EXPECT_EQ(index, 77U);
+    EXPECT_EQ(count(), 0U);
+    EXPECT_STREQ(haptoflow_status_name(HAPTOFLOW_MATERIAL_MISMATCH), "HAPTOFLOW_MATERIAL_MISMATCH");
+    EXPECT_STREQ(haptoflow_status_name(HAPTOFLOW_MATERIAL_INVALID), "HAPTOFLOW_MATERIAL_INVALID");
+    EXPECT_STREQ(haptoflow_status_name(HAPTOFLOW_RECORDING_UNUSABLE), "HAPTOFLOW_RECORDING_UNUSABLE");
+}
+
+TEST_F(MaterialApiTest, AReplacementIsFeltWithTheNextStateAndARefusedOneLeavesTheMaterialAsItWas) {
+    uint32_t index = 0;
+    ASSERT_EQ(add(material([](json& text) { text["level_offset_db"] = -24.0; }), &index), HAPTOFLOW_OK) << message();
+    (void)open_.update(on(index));
+    const float soft = peak(open_.update(on(index)));
+    const std::string broken = material([](json& text) { text["version"] = 9; });
+    EXPECT_EQ(haptoflow_engine_replace_material(open_.engine, index, broken.data(), broken.size()),
+              HAPTOFLOW_MATERIAL_INVALID);
+    haptoflow_label_info info{};
+    info.struct_size = sizeof(info);
+    ASSERT_EQ(haptoflow_engine_material(open_.engine, index, &info), HAPTOFLOW_OK);
+    EXPECT_STREQ(info.name, "denim");
+    const std::string loud = material([](json& text) { text["level_offset_db"] = 12.0; });
+    ASSERT_EQ(haptoflow_engine_replace_material(open_.engine, index, loud.data(), loud.size()), HAPTOFLOW_OK)
+        << message();
+    for (int update = 0; update < 10; ++update) {
+        (void)open_.update(on(index));
+    }
+    EXPECT_GT(peak(open_.update(on(index))), 4.0F * soft);
+    EXPECT_EQ(count(), 1U);
+    for (const uint32_t none : {0U, index + 1, UINT32_MAX}) {
+        EXPECT_EQ(haptoflow_engine_replace_material(open_.engine, none, loud.data(), loud.size()),
+                  HAPTOFLOW_INVALID_ARGUMENT);
+        EXPECT_EQ(haptoflow_engine_material(open_.engine, none, &info), HAPTOFLOW_INVALID_ARGUMENT);
+    }
+}
+
+TEST_F(MaterialApiTest, SixtyFourMaterialsFitAndOneMoreIsRefused) {
+    uint32_t index = 0;
+    for (uint32_t made = 0; made < HAPTOFLOW_MAXIMUM_MATERIALS; ++made) {
+        ASSERT_EQ(add(material(), &index), HAPTOFLOW_OK) << message();
+        EXPECT_EQ(index, labels() + made);
+    }
+    EXPECT_EQ(add(material(), &index), HAPTOFLOW_INVALID_ARGUMENT);
+    EXPECT_THAT(message(), HasSubstr("64"));
+}
+
+TEST_F(MaterialApiTest, AMaterialWithoutALevelOfItsOwnSoundsAtTheModelsLevel) {
+    std::ifstream stream(HAPTOFLOW_TEST_GOLDEN_DIR "/material/plain-twin.haptomaterial");
+    const std::string twin((std::istreambuf_iterator<char>(stream)), std::istreambuf_iterator<char>());
+    uint32_t index = 0;
+    ASSERT_EQ(add(twin, &index), HAPTOFLOW_OK) << message();
+    OpenEngine other(tinyModelPath);
+    uint32_t plain = 0;
+    for (uint32_t label = 0; label < labels(); ++label) {
+        haptoflow_label_info info{};
+        info.struct_size = sizeof(info);
+        ASSERT_EQ(haptoflow_model_label(open_.model, label, &info), HAPTOFLOW_OK);
+        plain = std::string(info.name) == "plain" ? label : plain;
+    }
+    for (int update = 0; update < 20; ++update) {
+        EXPECT_EQ(open_.update(on(index)), other.update(on(plain))) << "the twin of a label, bit for bit";
+    }
+}
+
+TEST_F(MaterialApiTest, NoByteOfAnotherLabelsSoundChangesForMaterialsThatAreRegisteredReplacedOrTouchedBefore) {
+    OpenEngine with(defaultModelPath);
+    OpenEngine without(defaultModelPath);
+    json text = model::testing::validMaterial(spaceOf(with.model));
+    uint32_t index = 0;
+    for (int made = 0; made < 3; ++made) {
+        text["embedding"][5] = made;
+        if (made == 2) {
+            text.erase("level");
+        }
+        const std::string written = text.dump();
+        ASSERT_EQ(haptoflow_engine_register_material(with.engine, written.data(), written.size(), &index), HAPTOFLOW_OK)
+            << message();
+    }
+    for (uint32_t update = 0; update < 60; ++update) {
+        const haptoflow_contact_state state = on(update / 15);
+        ASSERT_EQ(with.update(state), without.update(state)) << update;
+        if (update % 10 == 0) {
+            const std::string written = text.dump();
+            ASSERT_EQ(haptoflow_engine_replace_material(with.engine, index, written.data(), written.size()),
+                      HAPTOFLOW_OK);
+        }
+    }
+}
+
+TEST_F(MaterialApiTest, SpatialScaleAndToneOfASurfaceReachTheVoiceAndWhatIsOutOfRangeIsCounted) {
+    haptoflow_contact_state state = on(0);
+    state.spatial_scale = 100.0F;
+    state.tone_db_per_octave = -50.0F;
+    (void)open_.update(state);
+    EXPECT_EQ(open_.statistics().sanitised, 2U);
+    EXPECT_GT(tone().runs, 0U);
+    // A program of an earlier header says nothing of either.
+    state.struct_size = offsetof(haptoflow_contact_state, spatial_scale);
+    const uint64_t runs = tone().runs;
+    for (int update = 0; update < 10; ++update) {
+        (void)open_.update(state);
+    }
+    EXPECT_EQ(open_.statistics().sanitised, 2U);
+    EXPECT_LT(tone().runs, runs + 100U) << "the tone has gone out";
+    EXPECT_EQ(tone().is_asked_for, 0U);
+}
+
+#if defined(__GLIBC__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+TEST_F(MaterialApiTest, ThousandsOfReplacementsTakeNoMoreMemoryThanOne) {
+    uint32_t index = 0;
+    const std::string text = material([](json& each) { each["seeds"] = json(json::array_t(16, each["seeds"][0])); });
+    ASSERT_EQ(add(text, &index), HAPTOFLOW_OK) << message();
+    const auto replaceOften = [&](int times) {
+        for (int time = 0; time < times; ++time) {
+            ASSERT_EQ(haptoflow_engine_replace_material(open_.engine, index, text.data(), text.size()), HAPTOFLOW_OK);
+            open_.publish(on(index));
+        }
+    };
+    replaceOften(50);
+    const std::size_t before = mallinfo2().uordblks;
+    replaceOften(1000);
+    // A material of 16 seeds takes 30 kB.
+    EXPECT_LT(mallinfo2().uordblks, before + 200'000U);
+}
+#endif
+
+TEST_F(MaterialApiTest, WhileSlidersReplaceAMaterialVoicesPublishRenderAndGenerateWithoutAFailure) {
+    OpenEngine live(tinyModelPath, true);
+    uint32_t index = 0;
+    const std::string first = material();
+    ASSERT_EQ(haptoflow_engine_register_material(live.engine, first.data(), first.size(), &index), HAPTOFLOW_OK);
+    std::atomic<bool> ended{false};
+    std::thread sliders([&] {
+        for (int turn = 0; turn < 300; ++turn) {
+            const std::string text = material([turn](json& each) {
+                each["embedding"][3] = 0.01 * turn;
+                if (turn % 3 == 0) {
+                    each.erase("tone");
+                }
+            });
+            EXPECT_EQ(haptoflow_engine_replace_material(live.engine, index, text.data(), text.size()), HAPTOFLOW_OK);
+        }
+        ended = true;
+    });
+    std::thread audio([&] {
+        std::vector<float> block(256);
+        while (!ended) {
+            EXPECT_EQ(haptoflow_voice_render(live.voice, block.data(), 256, 1, 0, 48000.0), HAPTOFLOW_OK);
+            EXPECT_TRUE(allFinite(block));
+            std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        }
+    });
+    uint32_t published = 0;
+    while (!ended) {
+        haptoflow_contact_state state = on(published % 2 == 0 ? index : 0);
+        state.label_count = 2;
+        state.labels[1] = index;
+        state.weights[1] = 0.5F;
+        live.publish(state);
+        ++published;
+        std::this_thread::sleep_for(std::chrono::microseconds(500));
+    }
+    sliders.join();
+    audio.join();
+    EXPECT_GT(published, 10U);
+    EXPECT_EQ(live.statistics().failures, 0U);
+}
+
+}  // namespace
+}  // namespace haptoflow::capi::testing

@@ -1,0 +1,299 @@
+// `haptoflow learn`: recordings of every form become material files that render takes.
+#include "command_line.hpp"
+
+#include "learning/made_recording.hpp"
+#include "learning/resampling.hpp"
+#include "learning/texture_figures.hpp"
+#include "material_recording.hpp"
+#include "model/material_file.hpp"
+#include "wav_file.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sndfile.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <sstream>
+#include <string>
+#include <vector>
+
+namespace haptoflow::cli {
+namespace {
+
+using learning::testing::MadeMotion;
+using learning::testing::MadeRecording;
+using learning::testing::MadeSurface;
+using testing::Finished;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+constexpr double rateHz = 4000.0;
+
+class LearnCommandTest : public testing::CommandLineTest {
+protected:
+    /// time_s, acceleration_mps2, velocity and force of a made recording.
+    [[nodiscard]] static std::string csvOf(
+        const MadeRecording& made,
+        const std::string& columns = "time_s,acceleration_mps2,velocity_x_mps,velocity_y_mps,force_newtons") {
+        std::ostringstream text;
+        text << columns << '\n';
+        for (std::size_t i = 0; i < made.acceleration.size(); ++i) {
+            text << static_cast<double>(i) / rateHz << ',' << made.acceleration[i] << ',' << made.velocity[2 * i] << ','
+                 << made.velocity[2 * i + 1] << ',' << made.force[i] << '\n';
+        }
+        return text.str();
+    }
+
+    void writeWav(const std::string& name, const MadeRecording& made, float fullScale) const {
+        WavWriter writer(at(name), static_cast<int>(rateHz), name);
+        std::vector<float> samples = made.acceleration;
+        std::ranges::transform(samples, samples.begin(), [&](float value) { return value / fullScale; });
+        writer.write(samples);
+        writer.close();
+    }
+
+    /// On the tiny model, whose networks are quick.
+    [[nodiscard]] Finished learn(const std::string& words) const {
+        return run("learn " + words + " --model '" + testing::tinyModel + "'");
+    }
+
+    void expectRefused(const std::string& words, const std::string& said, int exitCode = 3) const {
+        const std::size_t files = fileCount();
+        const Finished finished = learn(words + " -o refused.haptomaterial");
+        EXPECT_EQ(finished.exitCode, exitCode) << finished.errors;
+        EXPECT_THAT(finished.errors, HasSubstr(said));
+        EXPECT_EQ(fileCount(), files) << "something was left behind";
+    }
+
+    const MadeRecording made_{{}, {}};
+    const std::string csv_ = csvOf(made_);
+};
+
+TEST_F(LearnCommandTest, ATableBecomesAMaterialFileAndAReportOfTheSameBytesEachTime) {
+    write("denim.csv", csv_);
+    const Finished first = learn("denim.csv --report denim.report.json --licence 'CC BY 4.0' --category fabric");
+    ASSERT_EQ(first.exitCode, 0) << first.errors;
+    EXPECT_THAT(first.output, HasSubstr("Learnt denim from 10.0 s of sliding"));
+    EXPECT_THAT(first.output, HasSubstr("nearest label"));
+    const model::MaterialFile material = model::readMaterial(at("denim.haptomaterial"));
+    EXPECT_EQ(material.label.name, "denim");
+    EXPECT_EQ(material.label.category, "fabric");
+    EXPECT_EQ(material.provenance.licence, "CC BY 4.0");
+    EXPECT_EQ(material.provenance.recordings, "denim.csv");
+    EXPECT_NEAR(nlohmann::json::parse(read("denim.report.json"))["speed_mps"][1].get<double>(), 0.25, 0.02);
+    const std::string before = read("denim.haptomaterial");
+    ASSERT_EQ(learn("denim.csv --licence 'CC BY 4.0' --category fabric --quiet").exitCode, 0);
+    EXPECT_EQ(read("denim.haptomaterial"), before);
+}
+
+TEST_F(LearnCommandTest, AWavWithASidecarIsScaledAndNamedByIt) {
+    writeWav("mat.wav", made_, 50.0F);
+    write("mat.json", R"({"label": "Doormat", "full_scale_mps2": 50, "speed_mps": 0.08, "force_newtons": 0.8,
+                          "licence": "CC0", "source": "our hall"})");
+    const Finished finished = learn("mat.wav");
+    ASSERT_EQ(finished.exitCode, 0) << finished.errors;
+    EXPECT_THAT(finished.errors, HasSubstr("the speed hardly changes"));
+    const model::MaterialFile material = model::readMaterial(at("doormat.haptomaterial"));
+    EXPECT_EQ(material.label.name, "doormat");
+    EXPECT_EQ(material.provenance.licence, "CC0");
+    EXPECT_EQ(material.provenance.recordings, "mat.wav, our hall");
+    EXPECT_DOUBLE_EQ(material.speedMps[1], 0.08);
+}
+
+TEST_F(LearnCommandTest, DefaultsOfTheFolderHoldWhereTheSidecarSaysNothingAndTheCommandLineHoldsBeforeBoth) {
+    writeWav("mat.wav", made_, 50.0F);
+    write("recordings.json", R"({"full_scale_mps2": 10, "velocity_mps": [0.0, 0.1], "force_newtons": 0.5})");
+    write("mat.json", R"({"full_scale_mps2": 50, "speed_mps": 0.2})");
+    const MaterialRecording recording = readMaterialRecording(at("mat.wav").string(), {.forceNewtons = 1.5});
+    EXPECT_NEAR(recording.accelerationMps2[1000], made_.acceleration[1000], 1e-3);
+    EXPECT_DOUBLE_EQ(recording.constantVelocityMps[0], 0.2);
+    EXPECT_DOUBLE_EQ(recording.constantVelocityMps[1], 0.0);
+    EXPECT_DOUBLE_EQ(recording.constantForceNewtons, 1.5);
+}
+
+TEST_F(LearnCommandTest, PositionsOfASlowTrackerGiveTheSpeedAndUnevenTimesAreMadeEven) {
+    std::ostringstream text;
+    text
+        << "time_s,acceleration_x_g,acceleration_y_g,acceleration_z_g,position_x_mm,position_y_mm,force_millinewtons\n";
+    double time = 0.0;
+    for (int i = 0; i < 24'000; ++i) {
+        time += 0.00045 + 0.0001 * ((i * 7919) % 1000) / 1000.0;
+        const double read = std::floor(time * 100.0) / 100.0;
+        text << time << ',' << 0.3 * std::sin(2.0 * std::numbers::pi * 150.0 * time) << ",0.01,-1,"
+             << std::round(80.0 * read * 100.0) / 100.0 << ",5," << 900 << '\n';
+    }
+    write("tracked.csv", text.str());
+    const MaterialRecording recording = readMaterialRecording(at("tracked.csv").string(), {});
+    EXPECT_EQ(recording.axisCount, 3U);
+    EXPECT_NEAR(recording.rateHz, 2000.0, 2.0);
+    const std::size_t middle = recording.accelerationMps2.size() / 6;
+    EXPECT_NEAR(recording.velocityMps[2 * middle], 0.08, 0.002);
+    EXPECT_NEAR(recording.velocityMps[2 * middle + 1], 0.0, 0.002);
+    EXPECT_NEAR(recording.forceNewtons[middle], 0.9, 1e-4);
+    double sum = 0.0;
+    for (std::size_t i = 0; i < recording.accelerationMps2.size(); i += 3) {
+        sum += std::pow(recording.accelerationMps2[i], 2);
+    }
+    EXPECT_NEAR(std::sqrt(3.0 * sum / static_cast<double>(recording.accelerationMps2.size())),
+                0.3 * 9.80665 / std::numbers::sqrt2, 0.05);
+}
+
+TEST_F(LearnCommandTest, AMotionFileHasAClockOfItsOwn) {
+    write("felt.csv", csvOf(made_, "time_s,acceleration_mps2,a,b,c"));
+    write("felt.json", R"({"motion": "felt.motion.csv"})");
+    std::string motion = "time_s,speed_mmps,force_newtons\n";
+    for (int i = -5; i < 1100; ++i) {
+        motion += std::to_string(0.01 * i) + "," + std::to_string(50 + 0.05 * i) + ",0.7\n";
+    }
+    write("felt.motion.csv", motion);
+    const MaterialRecording recording = readMaterialRecording(at("felt.csv").string(), {});
+    EXPECT_NEAR(recording.velocityMps[2 * 20'000], 0.075, 1e-4);
+    EXPECT_NEAR(recording.forceNewtons[20'000], 0.7, 1e-5);
+    ASSERT_EQ(recording.notes.size(), 1U);
+    EXPECT_THAT(recording.notes[0], HasSubstr("columns a, b, c are not known and are ignored"));
+}
+
+TEST_F(LearnCommandTest, AGapInTheTimesAndCellsWithoutANumberAreNoNumbers) {
+    std::ostringstream text;
+    text << "time_s,acceleration_mps2,speed_mps,force_newtons\n";
+    for (int i = 0; i < 20'000; ++i) {
+        const double time = i / 2000.0 + (i >= 10'000 ? 0.007 : 0.0);
+        text << time << ',' << (i % 2 == 0 ? "0.5" : "-0.5") << ",0.1," << (i == 4000 ? "" : "1") << '\n';
+    }
+    write("gap.csv", text.str());
+    const MaterialRecording recording = readMaterialRecording(at("gap.csv").string(), {});
+    EXPECT_TRUE(std::isnan(recording.accelerationMps2[10'006]));
+    EXPECT_FALSE(std::isnan(recording.accelerationMps2[9990]));
+    EXPECT_FALSE(std::isnan(recording.accelerationMps2[10'030]));
+    EXPECT_FLOAT_EQ(recording.forceNewtons[4000], 1.0F);
+}
+
+TEST_F(LearnCommandTest, WhatIsWrongIsNamedWithFileColumnOrKeyAndARemedy) {
+    expectRefused("none.csv", "none.csv: does not exist");
+    write("table.parquet", "PAR1");
+    expectRefused("table.parquet", "expected a recording that ends with .csv or .wav");
+    write("a.csv", "time_s,speed_mps,force_newtons\n0,1,1\n");
+    expectRefused("a.csv",
+                  "a.csv: columns time_s, speed_mps, force_newtons; expected acceleration: acceleration_mps2 | ");
+    write("b.csv", csvOf(made_, "time_s,acceleration_mps2,a,b,force_newtons"));
+    expectRefused("b.csv",
+                  "b.csv: no motion in it or beside it; expected columns velocity_x_mps, velocity_y_mps | speed_mps");
+    write("c.csv", csvOf(made_, "time_s,acceleration_mps2,velocity_x_mps,velocity_y_mps,c"));
+    expectRefused("c.csv", "or --force-newtons");
+    write("d.csv", csvOf(made_, "t,acceleration_mps2,velocity_x_mps,velocity_y_mps,force_newtons"));
+    expectRefused("d.csv", "d.csv: no column time_s; expected a column time_s, or the key rate_hz in d.json");
+    write("e.csv", csvOf(made_, "time_s,acceleration_mps2,velocity_x_mps,b,force_newtons"));
+    expectRefused("e.csv", "without velocity_y_mps");
+    write("f.csv", "time_s;acceleration_mps2;speed_mps\n0;1;2\n");
+    expectRefused("f.csv", "columns separated by semicolons");
+    write("g.csv", "time_s,acceleration_mps2,speed_mps,force_newtons\n0,1,2,3\n0.001,x,2,3\n");
+    expectRefused("g.csv", "g.csv:3: column acceleration_mps2: expected a number with a decimal point, found \"x\"");
+    write("h.csv", "time_s,acceleration_mps2,speed_mps,force_newtons\n0,1,2,3\n0.001,1,2\n");
+    expectRefused("h.csv", "h.csv:3: expected 4 values as in the first line, found 3");
+    write("i.csv", "time_s,acceleration_mps2,speed_mps,force_newtons\n0,1,2,3\n1,1,2,3\n1,1,2,3\n2,1,2,3\n3,1,1,1\n");
+    expectRefused("i.csv", "time_s does not rise at row 4");
+    write("j.csv", "time_s,acceleration_mps2,speed_mps,force_newtons\n0,1,2,3\n1,1,2,3\n2,1,2,3\n3,1,2,3\n");
+    expectRefused("j.csv", "1 samples a second by time_s; expected 1000 to 192000; time_s is in seconds");
+    write("k.csv", csv_);
+    write("k.json", R"({"speeds": 3})");
+    expectRefused("k.csv", "k.json: unknown key 'speeds'; expected keys of label,");
+    write("l.csv", csvOf(MadeRecording({}, {.seconds = 2.0})));
+    expectRefused("l.csv", "l.csv: the recording lasts 2 s; record 10 s or more of sliding");
+    writeWav("m.wav", made_, 50.0F);
+    expectRefused("m.wav", "m.json: no key 'full_scale_mps2' for m.wav");
+    write("n.wav", "no sound");
+    expectRefused("n.wav --full-scale-mps2 50", "n.wav: not read as WAV");
+}
+
+TEST_F(LearnCommandTest, UnitsThatTheNumbersContradictAreAskedFor) {
+    MadeRecording fast = made_;
+    std::ranges::transform(fast.velocity, fast.velocity.begin(), [](float value) { return 1000.0F * value; });
+    write("fast.csv", csvOf(fast));
+    expectRefused("fast.csv", "velocity_x_mps gives a speed of ");
+    std::ostringstream text;
+    text << "time_s,acceleration_x_mps2,acceleration_y_mps2,acceleration_z_mps2,speed_mps,force_newtons\n";
+    for (int i = 0; i < 20'000; ++i) {
+        text << i / 2000.0 << ',' << 0.1 * std::sin(i) << ",0,-1,0.1,1\n";
+    }
+    write("g.csv", text.str());
+    expectRefused("g.csv", "acceleration_x rests at 1, which looks like g");
+}
+
+TEST_F(LearnCommandTest, WordsThatContradictTheFileAreWrongUsage) {
+    write("denim.csv", csv_);
+    expectRefused("denim.csv --speed-mps 0.1", "--speed-mps: denim.csv has a motion of its own", 2);
+    expectRefused("denim.csv --force-newtons 1", "--force-newtons: denim.csv has a force of its own", 2);
+    expectRefused("denim.csv --full-scale-mps2 10", "--full-scale-mps2 is for WAV", 2);
+    expectRefused("denim.csv --name Denim", "--name 'Denim': expected 1 to 128 characters without capital letters", 2);
+    EXPECT_EQ(learn("denim.csv -o denim.csv").exitCode, 2);
+    EXPECT_EQ(read("denim.csv"), csv_);
+}
+
+TEST_F(LearnCommandTest, HelpTeachesWithExamples) {
+    const Finished help = run("learn --help");
+    EXPECT_EQ(help.exitCode, 0);
+    EXPECT_THAT(help.output, HasSubstr("haptoflow learn denim.csv -o denim.haptomaterial"));
+    EXPECT_THAT(help.output, HasSubstr("acceleration_mps2"));
+    EXPECT_THAT(run("lern denim.csv").errors, HasSubstr("did you mean 'learn'?"));
+}
+
+/// Third-octave levels in dB of a wave at 2 kHz, from 50 to 400 Hz.
+std::vector<double> bandsOf(const std::vector<float>& wave) {
+    learning::TextureMeter meter(1);
+    for (std::size_t at = 0; at + learning::spectrumSamples <= wave.size(); at += 64) {
+        meter.add(0, std::span(wave).subspan(at).first<learning::spectrumSamples>(), {});
+    }
+    const learning::TextureFigures figures = meter.figures()[0];
+    std::vector<double> bands;
+    for (double centre = 50.0; centre < 450.0; centre *= std::exp2(1.0 / 3.0)) {
+        double power = 0.0;
+        for (std::size_t bin = 1; bin < learning::spectrumBins; ++bin) {
+            const double hertz = static_cast<double>(bin) * learning::hertzPerBin;
+            if (hertz >= centre * std::exp2(-1.0 / 6.0) && hertz < centre * std::exp2(1.0 / 6.0)) {
+                power += figures.power[bin];
+            }
+        }
+        bands.push_back(10.0 * std::log10(power));
+    }
+    return bands;
+}
+
+/// At 2 kHz, without its first and last 0.3 s.
+std::vector<float> middleAt2kHz(const std::vector<float>& wave, double waveRateHz) {
+    const std::vector<double> all = learning::bandPassed(
+        learning::resampledTo2kHz({.first = wave.data(), .stride = 1, .count = wave.size()}, waveRateHz));
+    return {all.begin() + 600, all.end() - 600};
+}
+
+TEST_F(LearnCommandTest, WhatIsLearntSoundsAsItWasRecordedAtASpeedThatIsAskedFor) {
+    const MadeSurface surface{.levelAtReference = 2.0, .speedExponent = 0.8, .resonanceHz = 240.0};
+    write("tile.csv", csvOf(MadeRecording(surface, {.seconds = 12.0})));
+    const Finished learnt = run("learn tile.csv --quiet");
+    ASSERT_EQ(learnt.exitCode, 0) << learnt.errors;
+
+    write("scene.json", R"({"surfaces": [{"name": "floor", "shape": {"plane": {}}, "material": "tile"}]})");
+    write("stroke.csv", "t,x,y,z,force\n0,0,0.0005,0,0.8\n6,0.54,0.0005,0,0.8\n");
+    const Finished rendered =
+        run("render scene.json --stroke stroke.csv --material tile.haptomaterial -o tile.wav "
+            "--rate 8000 --quiet");
+    ASSERT_EQ(rendered.exitCode, 0) << rendered.errors;
+
+    // The truth: the same surface at 90 mm/s, but for its force, which swings there by half.
+    const MadeRecording truth(surface, {.seconds = 12.0, .slowestMps = 0.09, .fastestMps = 0.09}, rateHz, 99);
+    std::vector<float> heard = readRecording(at("tile.wav").string()).samples;
+    std::ranges::transform(heard, heard.begin(), [](float value) { return 200.0F * value; });
+    const std::vector<double> found = bandsOf(middleAt2kHz(heard, 8000.0));
+    const std::vector<double> wanted = bandsOf(middleAt2kHz(truth.acceleration, rateHz));
+    double difference = 0.0;
+    for (std::size_t i = 0; i < found.size(); ++i) {
+        EXPECT_NEAR(found[i], wanted[i], 3.5) << "third octave " << i;
+        difference += (found[i] - wanted[i]) / static_cast<double>(found.size());
+    }
+    EXPECT_NEAR(difference, 0.0, 1.5);
+}
+
+}  // namespace
+}  // namespace haptoflow::cli

@@ -1,0 +1,184 @@
+#include "dsp/tone_cepstrum.hpp"
+#include "dsp/tone_filter.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <complex>
+#include <numbers>
+#include <vector>
+
+namespace haptoflow::dsp {
+namespace {
+
+constexpr double rateHz = 2000.0;
+
+double responseDb(const ToneKernel& kernel, double frequencyHz) {
+    std::complex<double> sum = 0.0;
+    for (std::size_t tap = 0; tap < kernel.size(); ++tap) {
+        sum += static_cast<double>(kernel[tap]) *
+               std::polar(1.0, -2.0 * std::numbers::pi * frequencyHz * static_cast<double>(tap) / rateHz);
+    }
+    return 20.0 * std::log10(std::abs(sum));
+}
+
+/// From -8 dB at 50 Hz to 8 dB at 800 Hz, in the logarithm of frequency.
+double rising(double frequencyHz) {
+    return -8.0 + 16.0 * std::log(std::clamp(frequencyHz, 50.0, 800.0) / 50.0) / std::log(16.0);
+}
+
+std::vector<float> tone(double frequencyHz, std::size_t count) {
+    std::vector<float> samples(count);
+    for (std::size_t i = 0; i < count; ++i) {
+        samples[i] = static_cast<float>(std::sin(2.0 * std::numbers::pi * frequencyHz * static_cast<double>(i) / rateHz));
+    }
+    return samples;
+}
+
+std::array<float, ToneFilter::memorySamples> silence() {
+    return {};
+}
+
+TEST(ToneCepstrumTest, TheKernelHasTheGainThatWasAskedFor) {
+    const ToneKernel kernel = toneKernel(toneCepstrum(rising));
+    for (double frequencyHz = 30.0; frequencyHz < 950.0; frequencyHz *= 1.1) {
+        EXPECT_NEAR(responseDb(kernel, frequencyHz), rising(frequencyHz), 0.4) << frequencyHz;
+    }
+}
+
+TEST(ToneCepstrumTest, NoGainIsTheIdentity) {
+    const ToneKernel kernel = toneKernel(toneCepstrum([](double) { return 0.0; }));
+    EXPECT_NEAR(kernel[0], 1.0F, 1e-6F);
+    EXPECT_TRUE(std::all_of(kernel.begin() + 1, kernel.end(), [](float tap) { return std::abs(tap) < 1e-6F; }));
+}
+
+TEST(ToneCepstrumTest, TheKernelIsMinimumPhaseSoThatNoOtherOfItsGainComesEarlier) {
+    const ToneKernel kernel = toneKernel(toneCepstrum(rising));
+    // Of all filters of one magnitude, the minimum-phase one has the largest first tap, which is the mean of the
+    // logarithmic gain over frequency.
+    double mean = 0.0;
+    for (int bin = 0; bin < 1000; ++bin) {
+        mean += rising(static_cast<double>(bin) + 0.5) / 1000.0;
+    }
+    EXPECT_NEAR(20.0 * std::log10(static_cast<double>(kernel[0])), mean, 0.1);
+}
+
+TEST(ToneCepstrumTest, GainsInDecibelsAddWhereCepstraDo) {
+    const ToneCepstrum first = toneCepstrum(rising);
+    const ToneCepstrum second = toneCepstrum([](double frequencyHz) { return frequencyHz < 200.0 ? 3.0 : -2.0; });
+    ToneCepstrum sum{};
+    std::ranges::transform(first, second, sum.begin(), [](double a, double b) { return a + 0.5 * b; });
+    const ToneKernel kernel = toneKernel(sum);
+    EXPECT_NEAR(responseDb(kernel, 100.0), rising(100.0) + 1.5, 0.5);
+    EXPECT_NEAR(responseDb(kernel, 600.0), rising(600.0) - 1.0, 0.5);
+}
+
+TEST(ToneFilterTest, WithoutAToneNothingIsChangedAndNothingRuns) {
+    ToneFilter filter;
+    std::vector<float> samples = tone(100.0, 500);
+    const std::vector<float> before = samples;
+    filter.reset(nullptr);
+    filter.setTone(nullptr, silence());
+    filter.process(samples);
+    EXPECT_EQ(samples, before);
+    EXPECT_FALSE(filter.isActive());
+}
+
+TEST(ToneFilterTest, ATonePassesWithTheGainOfItsFrequency) {
+    const ToneKernel kernel = toneKernel(toneCepstrum(rising));
+    for (const double frequencyHz : {60.0, 150.0, 400.0, 800.0}) {
+        ToneFilter filter;
+        filter.reset(&kernel);
+        std::vector<float> samples = tone(frequencyHz, 2000);
+        filter.process(samples);
+        double squares = 0.0;
+        for (std::size_t i = 1000; i < 2000; ++i) {
+            squares += static_cast<double>(samples[i]) * static_cast<double>(samples[i]);
+        }
+        EXPECT_NEAR(10.0 * std::log10(squares / 500.0), rising(frequencyHz), 0.4) << frequencyHz;
+    }
+}
+
+TEST(ToneFilterTest, InPiecesOfAnyLengthItIsTheSameFilter) {
+    const ToneKernel kernel = toneKernel(toneCepstrum(rising));
+    ToneFilter whole;
+    ToneFilter parts;
+    whole.reset(&kernel);
+    parts.reset(&kernel);
+    std::vector<float> expected = tone(130.0, 400);
+    std::vector<float> found = expected;
+    whole.process(expected);
+    for (std::size_t first = 0, length = 1; first < found.size(); first += length, length = length % 7 + 1) {
+        parts.process(std::span(found).subspan(first, std::min(length, found.size() - first)));
+    }
+    EXPECT_EQ(found, expected);
+}
+
+/// The largest step between neighbours of a 50 Hz tone whose kernel changes every `period` samples.
+float largestStep(std::span<const ToneKernel* const> kernels, std::size_t period) {
+    ToneFilter filter;
+    std::vector<float> samples = tone(50.0, 2000);
+    const std::vector<float> input = samples;
+    filter.reset(nullptr);
+    for (std::size_t first = 0; first < samples.size(); first += period) {
+        std::array<float, ToneFilter::memorySamples> past{};
+        if (first >= past.size()) {
+            std::copy_n(input.begin() + static_cast<std::ptrdiff_t>(first - past.size()), past.size(), past.begin());
+        }
+        filter.setTone(kernels[first / period % kernels.size()], past);
+        filter.process(std::span(samples).subspan(first, std::min(period, samples.size() - first)));
+    }
+    float largest = 0.0F;
+    for (std::size_t i = 200; i < samples.size(); ++i) {
+        largest = std::max(largest, std::abs(samples[i] - samples[i - 1]));
+    }
+    return largest;
+}
+
+TEST(ToneFilterTest, AChangeOfToneIsNoClickHoweverOftenItComes) {
+    const ToneKernel quiet = toneKernel(toneCepstrum([](double) { return -12.0; }));
+    const ToneKernel loud = toneKernel(toneCepstrum([](double) { return 6.0; }));
+    const std::array<const ToneKernel*, 4> changing{&quiet, &loud, nullptr, &loud};
+    // At 6 dB a tone of 50 Hz changes by 0.32 from sample to sample; gliding over 20 samples adds 0.09.
+    for (const std::size_t period : {std::size_t{5}, std::size_t{13}, std::size_t{20}, std::size_t{97}}) {
+        EXPECT_LT(largestStep(changing, period), 0.45F) << period;
+    }
+}
+
+TEST(ToneFilterTest, SwitchedOffItGlidesOutAndThenRunsNoMore) {
+    const ToneKernel kernel = toneKernel(toneCepstrum(rising));
+    ToneFilter filter;
+    filter.reset(&kernel);
+    std::vector<float> samples = tone(100.0, 200);
+    filter.process(samples);
+    filter.setTone(nullptr, silence());
+    EXPECT_TRUE(filter.isActive());
+    std::vector<float> rest(ToneFilter::fadeSamples + 1, 1.0F);
+    filter.process(rest);
+    EXPECT_FALSE(filter.isActive());
+    EXPECT_EQ(rest.back(), 1.0F);
+}
+
+TEST(ToneFilterTest, SwitchedOnWithinAWaveItGoesOnFromWhatWasPlayed) {
+    const ToneKernel kernel = toneKernel(toneCepstrum(rising));
+    ToneFilter always;
+    always.reset(&kernel);
+    std::vector<float> expected = tone(100.0, 400);
+    const std::vector<float> input = expected;
+    always.process(expected);
+    ToneFilter later;
+    later.reset(nullptr);
+    std::array<float, ToneFilter::memorySamples> past{};
+    std::copy_n(input.begin() + 200 - static_cast<std::ptrdiff_t>(past.size()), past.size(), past.begin());
+    later.setTone(&kernel, past);
+    std::vector<float> found(input.begin() + 200, input.end());
+    later.process(found);
+    for (std::size_t i = ToneFilter::fadeSamples; i < found.size(); ++i) {
+        ASSERT_NEAR(found[i], expected[200 + i], 1e-5F) << i;
+    }
+}
+
+}  // namespace
+}  // namespace haptoflow::dsp

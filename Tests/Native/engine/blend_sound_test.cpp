@@ -1,0 +1,140 @@
+// Blends of the shipped model in closed loop: what a hand feels between two materials.
+#include "engine/offline_renderer.hpp"
+#include "inference/onnx_runtime.hpp"
+#include "inference/onnx_segment_generator.hpp"
+#include "model/model_file.hpp"
+#include "support/wave_measures.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <initializer_list>
+#include <numbers>
+#include <string>
+#include <vector>
+
+namespace haptoflow::engine {
+namespace {
+
+class BlendSoundTest : public ::testing::Test {
+protected:
+    [[nodiscard]] LabelWeight part(const std::string& label, float weight) const {
+        return {static_cast<std::uint32_t>(model_.findLabel(label) - model_.header().labels.data()), weight};
+    }
+
+    /// What is played in waveform time while a tip slides over a blend, the touch-down left out.
+    std::vector<float> played(const std::vector<LabelWeight>& blend, std::array<float, 2> velocityMps, double seconds) {
+        std::vector<ContactState> states;
+        for (int update = 0; update < static_cast<int>(seconds * 72.0); ++update) {
+            states.push_back(stateOf(update, velocityMps, blend));
+        }
+        return render(states);
+    }
+    std::vector<float> render(const std::vector<ContactState>& states) {
+        std::vector<float> wave = renderOffline(model_, generator_, states, {.fullScaleMps2 = 1e5F, .tailSeconds = 0.0}).waveformMps2;
+        wave.erase(wave.begin(), wave.begin() + 400);
+        return wave;
+    }
+    static ContactState stateOf(int update, std::array<float, 2> velocityMps, const std::vector<LabelWeight>& blend) {
+        ContactState state;
+        state.timeSeconds = update / 72.0;
+        state.touching = true;
+        state.touchCounter = 1;
+        state.velocityMps = velocityMps;
+        state.forceNewtons = 1.0F;
+        for (const LabelWeight& each : blend) {
+            state.material.entries.at(state.material.count++) = each;
+        }
+        return state;
+    }
+
+    /// The power of the line within 2 % of a frequency, and that of the whole.
+    static double shareOfLine(const std::vector<float>& wave, double frequencyHz) {
+        double line = 0.0;
+        double whole = 0.0;
+        for (double hz = 4.0; hz < 990.0; hz += 0.5) {
+            std::complex<double> sum = 0.0;
+            const std::complex<double> step = std::polar(1.0, -2.0 * std::numbers::pi * hz / 2000.0);
+            std::complex<double> turn = 1.0;
+            for (const float sample : wave) {
+                sum += static_cast<double>(sample) * turn;
+                turn *= step;
+            }
+            whole += std::norm(sum);
+            line += std::abs(hz - frequencyHz) <= 0.02 * frequencyHz ? std::norm(sum) : 0.0;
+        }
+        return line / whole;
+    }
+
+    model::ModelFile model_ = model::ModelFile::read(HAPTOFLOW_TEST_DEFAULT_MODEL);
+    inference::OnnxSegmentGenerator generator_{
+        inference::Runtime::open(HAPTOFLOW_TEST_ONNXRUNTIME), model_, "draft", {inference::SolverKind::euler, 1}, 4};
+};
+
+TEST_F(BlendSoundTest, NoPairOfLabelsIsLouderOrSofterThanBothByMoreThanHalfADecibel) {
+    const std::size_t labels = model_.header().labels.size();
+    for (const float speedMps : {0.03F, 0.3F}) {
+        const std::array<float, 2> velocity{0.8F * speedMps, 0.6F * speedMps};
+        std::vector<double> alone;
+        for (std::uint32_t label = 0; label < labels; ++label) {
+            alone.push_back(haptoflow::testing::levelDecibels(played({{label, 1.0F}}, velocity, 5.0)));
+        }
+        for (std::uint32_t first = 0; first < labels; ++first) {
+            for (std::uint32_t second = first + 1; second < labels; ++second) {
+                const double blend = haptoflow::testing::levelDecibels(
+                    played({{first, 0.5F}, {second, 0.5F}}, velocity, 4.0));
+                const auto [softer, louder] = std::minmax(alone[first], alone[second]);
+                EXPECT_GT(blend, softer - 0.5) << model_.header().labels[first].name << " and "
+                                               << model_.header().labels[second].name << " at " << speedMps;
+                EXPECT_LT(blend, louder + 0.5) << model_.header().labels[first].name << " and "
+                                               << model_.header().labels[second].name << " at " << speedMps;
+            }
+        }
+    }
+}
+
+TEST_F(BlendSoundTest, HalfWoodAndHalfCorduroyKeepsThePitchOfTheRibsAndMakesThemWeaker) {
+    // 0.15 m/s over ribs 2.5 mm apart: 60 Hz; a mean of wave vectors would put them at 30 Hz.
+    const std::array<float, 2> velocity{0.15F, 0.0F};
+    const double pure = shareOfLine(played({part("corduroy", 1.0F)}, velocity, 4.0), 60.0);
+    const std::vector<float> blend = played({part("wood", 0.5F), part("corduroy", 0.5F)}, velocity, 4.0);
+    const double half = shareOfLine(blend, 60.0);
+    const double wood = shareOfLine(played({part("wood", 1.0F)}, velocity, 4.0), 60.0);
+    EXPECT_GT(half, 2.0 * wood) << "the ribs are there";
+    EXPECT_LT(half, 0.8 * pure) << "and weaker";
+    EXPECT_GT(half, 3.0 * shareOfLine(blend, 30.0)) << "and nowhere else";
+}
+
+TEST_F(BlendSoundTest, TwoRuledLabelsKeepBothPitches) {
+    // 0.15 m/s over corduroy (60 Hz) and along the mesh's first threads (125 Hz).
+    const std::array<float, 2> velocity{0.15F, 0.0F};
+    const std::vector<float> blend = played({part("corduroy", 0.55F), part("metal mesh", 0.45F)}, velocity, 4.0);
+    const double mean = 0.5 * (60.0 + 125.0);
+    EXPECT_GT(shareOfLine(blend, 60.0), 2.0 * shareOfLine(blend, mean));
+    EXPECT_GT(shareOfLine(blend, 125.0), shareOfLine(blend, mean));
+}
+
+TEST_F(BlendSoundTest, WhileTheWeightSweepsFromWoodToCorduroyNothingClicks) {
+    const std::array<float, 2> velocity{0.15F, 0.0F};
+    std::vector<ContactState> states;
+    for (int update = 0; update <= 288; ++update) {
+        const float share = static_cast<float>(update) / 288.0F;
+        std::vector<LabelWeight> blend;
+        if (share < 1.0F) {
+            blend.push_back(part("wood", 1.0F - share));
+        }
+        if (share > 0.0F) {
+            blend.push_back(part("corduroy", share));
+        }
+        states.push_back(stateOf(update, velocity, blend));
+    }
+    const std::vector<float> sweep = render(states);
+    // From sample to sample no more than within the louder of the two by itself.
+    const std::vector<float> corduroy = played({part("corduroy", 1.0F)}, velocity, 4.0);
+    EXPECT_LT(haptoflow::testing::largestStep(sweep), 1.3F * haptoflow::testing::largestStep(corduroy));
+}
+
+}  // namespace
+}  // namespace haptoflow::engine

@@ -1,0 +1,134 @@
+#include "engine/range_law.hpp"
+#include "engine/rib_phase.hpp"
+#include "simulated_device.hpp"
+#include "small_library.hpp"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+// The spatial scale of a surface: features so many times as large, which sound like a speed so much lower at the level
+// of the speed as it is.
+
+namespace haptoflow::engine {
+namespace {
+
+using testing::FakeGenerator;
+using testing::SimulatedDevice;
+using testing::sliding;
+
+TEST(SpatialScaleStateTest, ScaleAndTiltAreLimitedAndCountedAndAScaleOfZeroIsOne) {
+    ContactState state;
+    state.spatialScale = 0.0F;
+    EXPECT_EQ(sanitise(state), 0U);
+    EXPECT_EQ(state.spatialScale, 1.0F);
+    const std::array<std::pair<float, float>, 5> limited{{{0.1F, 0.25F},
+                                                          {-2.0F, 0.25F},
+                                                          {100.0F, 4.0F},
+                                                          {std::numeric_limits<float>::infinity(), 1.0F},
+                                                          {std::numeric_limits<float>::quiet_NaN(), 1.0F}}};
+    for (const auto& [given, expected] : limited) {
+        state.spatialScale = given;
+        EXPECT_EQ(sanitise(state), 1U) << given;
+        EXPECT_EQ(state.spatialScale, expected) << given;
+    }
+    state.toneDbPerOctave = -100.0F;
+    EXPECT_EQ(sanitise(state), 1U);
+    EXPECT_EQ(state.toneDbPerOctave, -12.0F);
+    state.toneDbPerOctave = std::numeric_limits<float>::quiet_NaN();
+    EXPECT_EQ(sanitise(state), 1U);
+    EXPECT_EQ(state.toneDbPerOctave, 0.0F);
+}
+
+TEST(SpatialScaleLawTest, TheNetworkIsAskedAtTheSpeedOverTheScaleAndTheLevelAtTheSpeed) {
+    const testing::SmallLibrary small;
+    const Material oak = resolveMaterial(small.ingredients({{0, 1.0F}}));
+    const model::ModelHeader& header = small.model.header();
+    const RangedMotion larger = applyRangeLaw(header, oak, {0.08F, -0.06F}, 1.0F, 2.0F);
+    EXPECT_FLOAT_EQ(larger.motion[0], 0.04F);
+    EXPECT_FLOAT_EQ(larger.motion[1], -0.03F);
+    EXPECT_FLOAT_EQ(larger.levelMotion[0], 0.08F);
+    EXPECT_FLOAT_EQ(larger.levelMotion[1], -0.06F);
+    EXPECT_EQ(larger.levelGain, 1.0);
+    EXPECT_EQ(larger.readingRate, 1.0);
+    // The small model is trained up to 0.4 m/s, and reads faster with the square root of the speed beyond.
+    const RangedMotion smaller = applyRangeLaw(header, oak, {0.4F, 0.0F}, 1.0F, 0.25F);
+    EXPECT_FLOAT_EQ(smaller.motion[0], 0.4F);
+    EXPECT_NEAR(smaller.levelGain, 1.0, 1e-6) << "the speed itself is within the range";
+    EXPECT_NEAR(smaller.readingRate, 2.0, 1e-6);
+    const RangedMotion fast = applyRangeLaw(header, oak, {0.8F, 0.0F}, 1.0F, 2.0F);
+    EXPECT_NEAR(fast.readingRate, 1.0, 1e-6) << "half the speed is within the range";
+    EXPECT_NEAR(fast.levelGain, std::sqrt(2.0), 1e-6);
+}
+
+class SpatialScaleTest : public ::testing::Test {
+protected:
+    /// Ribs of 0.2 a millimetre across the first axis.
+    static model::ModelFile ruledModel() {
+        model::testing::ModelBuilder builder;
+        std::vector<float> embedding(2 * model::embeddingSize, 0.5F);
+        for (std::size_t row = 0; row < 2; ++row) {
+            const std::array<float, 4> vectors{0.2F, 0.0F, 0.0F, 0.0F};
+            std::ranges::copy(vectors, embedding.begin() + static_cast<std::ptrdiff_t>(row * 64 + 60));
+        }
+        builder.blobs[0].bytes = model::testing::bytesOf(embedding);
+        return model::ModelFile::parse(builder.build());
+    }
+    static ContactState scaled(float scale) {
+        ContactState state = sliding();
+        state.spatialScale = scale;
+        return state;
+    }
+    struct Asked {
+        float phase = 0.0F;
+        std::array<float, 3> motion{};
+        std::array<float, 3> levelMotion{};
+    };
+
+    /// Turns of the ribs from segment to segment over samples from segment to segment.
+    [[nodiscard]] double turnsPerSample(const SimulatedDevice& device, std::size_t segment) const {
+        const double turns =
+            static_cast<double>(asked_[segment].phase) - static_cast<double>(asked_[segment - 1].phase);
+        const auto hop = static_cast<double>(device.waveform.seams[segment] - device.waveform.seams[segment - 1]);
+        return (turns - std::floor(turns)) / hop;
+    }
+
+    model::ModelFile model_ = ruledModel();
+    std::vector<Asked> asked_;
+    FakeGenerator generator_{[this](const inference::SegmentRequest& request, std::span<float> segment) {
+        asked_.push_back({request.ribPhase[0], request.motion, request.levelMotion.value_or(request.motion)});
+        std::ranges::copy(request.noise, segment.begin());
+    }};
+};
+
+TEST_F(SpatialScaleTest, AScaleOfTwoHalvesThePitchOfRibsExactlyAndOneOfAHalfDoublesIt) {
+    // 0.1 m/s over 0.2 ribs a millimetre: 20 ribs a second, 0.01 a sample.
+    for (const auto& [scale, turns] : {std::pair{1.0F, 0.01}, {2.0F, 0.005}, {0.5F, 0.02}, {4.0F, 0.0025}}) {
+        asked_.clear();
+        SimulatedDevice device(model_, generator_);
+        device.run(0.5, [scale = scale](double) { return scaled(scale); });
+        ASSERT_GT(device.waveform.seams.size(), 10U);
+        for (std::size_t segment = 5; segment < device.waveform.seams.size(); ++segment) {
+            EXPECT_NEAR(turnsPerSample(device, segment), turns, 1e-6) << "scale " << scale;
+        }
+        EXPECT_FLOAT_EQ(asked_.back().motion[0], 0.1F / scale);
+        EXPECT_FLOAT_EQ(asked_.back().levelMotion[0], 0.1F);
+    }
+}
+
+TEST_F(SpatialScaleTest, AScaleThatChangesWithinATouchLeavesThePhaseOfTheRibsContinuous) {
+    SimulatedDevice device(model_, generator_);
+    device.run(1.0, [](double seconds) { return scaled(seconds < 0.3 ? 1.0F : seconds < 0.6 ? 2.0F : 0.5F); });
+    ASSERT_EQ(device.counters().dropped + device.counters().late, 0U);
+    for (std::size_t segment = 2; segment < device.waveform.seams.size(); ++segment) {
+        // From one segment to the next the ribs go on as the earlier one said.
+        const double expected = 0.2 * static_cast<double>(asked_[segment - 1].motion[0]) * 1000.0 / 2000.0;
+        EXPECT_NEAR(turnsPerSample(device, segment), expected, 1e-5) << segment;
+    }
+}
+
+}  // namespace
+}  // namespace haptoflow::engine
