@@ -48,7 +48,7 @@ namespace HaptoFlow.Samples.StylusTracing
             HapticContact contact = stylus.Contact;
             float speedMps = contact.TangentialVelocity.magnitude;
             return FormattableString.Invariant(
-                $"{contact.Surface.SharedDescription.Label}: {speedMps:0.00} m/s, {contact.ForceNewtons:0.0} N");
+                $"{contact.Material?.Label}: {speedMps:0.00} m/s, {contact.ForceNewtons:0.0} N");
         }
     }
 }

@@ -75,11 +75,11 @@ namespace HaptoFlow.Samples.TextureGallery
 
         private void Pick(HapticStylus stylus, in HapticContact contact)
         {
-            if (contact.Surface != Board)
+            if (contact.Material != null && contact.Surface != Board)
             {
-                Board.Material.Label = contact.Surface.SharedDescription.Label;
+                Board.Material.Label = contact.Material.Label;
                 Board.GetComponent<MeshRenderer>().material.color =
-                    contact.Surface.GetComponent<MeshRenderer>().material.color;
+                    contact.Collider.GetComponent<MeshRenderer>().material.color;
             }
         }
 

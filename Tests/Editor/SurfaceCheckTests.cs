@@ -44,6 +44,34 @@ namespace HaptoFlow.EditorTests
         }
 
         [Test]
+        public void ALearntMaterialOfThisModelIsNoFindingAndOneOfAnotherIsFoundOnceWithItsRemedy()
+        {
+            string text = HaptoFlow.Model.MaterialText.OfLabel(Model().File, "glass");
+            HapticMaterial known = HapticMaterial.Create(text, "wood");
+            Tagged("Bottle", "wood").SharedMaterial = known;
+            Assert.That(Texts(), Is.Empty);
+            string space = HaptoFlow.Model.ModelSpace.Of(Model().File).Id;
+            HapticMaterial foreign = HapticMaterial.Create(text.Replace(space, "0badcafe"), "wood");
+            foreign.name = "Foreign";
+            Tagged("Jar", "wood").SharedMaterial = foreign;
+            Tagged("Cup", "wood").Material.Learnt = foreign;
+            Finding finding = Only("Foreign is felt as its label \"wood\": it was learnt for another model");
+            Assert.That(finding.Text, Does.Contain("Learn it again"));
+            Assert.That(finding.Objects, Is.EqualTo(new Object[] { foreign }));
+        }
+
+        [Test]
+        public void MoreLearntMaterialsThanAnEngineTakesAreFound()
+        {
+            string text = HaptoFlow.Model.MaterialText.OfLabel(Model().File, "glass");
+            for (int number = 0; number < 65; ++number)
+            {
+                Tagged("Bottle", "wood").SharedMaterial = HapticMaterial.Create(text, "wood");
+            }
+            Only("use 65 learnt materials; an engine takes 64");
+        }
+
+        [Test]
         public void ASurfaceThatNamesNoLabelIsFound()
         {
             Tagged("Shelf", "");

@@ -15,8 +15,8 @@ namespace HaptoFlow.EditorTests
             Box("Lamp");
             SurfaceList list = SurfaceList.Of(new GameObject[0]);
             Assert.That(list.OfSelection, Is.False);
-            Assert.That(list.Tagged.Select(line => line.Text), Is.EqualTo(new[] { "Table: wood" }));
-            Assert.That(list.Untagged.Select(line => line.Text), Is.EqualTo(new[] { "Lamp" }));
+            Assert.That(list.Felt.Select(line => line.Text), Is.EqualTo(new[] { "Table: wood" }));
+            Assert.That(list.NotFelt.Select(line => line.Text), Is.EqualTo(new[] { "Lamp" }));
         }
 
         [Test]
@@ -27,7 +27,7 @@ namespace HaptoFlow.EditorTests
             Box("Lamp", room);
             SurfaceList list = SurfaceList.Of(new[] { room });
             Assert.That(list.OfSelection, Is.True);
-            Assert.That(list.Untagged.Select(line => line.Text), Is.EqualTo(new[] { "Lamp" }));
+            Assert.That(list.NotFelt.Select(line => line.Text), Is.EqualTo(new[] { "Lamp" }));
         }
 
         [Test]
@@ -55,7 +55,7 @@ namespace HaptoFlow.EditorTests
             var glass = plate.AddComponent<HapticSurface>();
             glass.Material.Label = "glass";
             glass.Material.SecondLabel = "nothing known";
-            Assert.That(SurfaceList.Of(new[] { plate }).Tagged.Single().Text,
+            Assert.That(SurfaceList.Of(new[] { plate }).Felt.Single().Text,
                 Is.EqualTo("Plate: glass and nothing known (not in model)"));
         }
 
@@ -65,8 +65,8 @@ namespace HaptoFlow.EditorTests
             Box("Zone").GetComponent<BoxCollider>().isTrigger = true;
             Box("Off").GetComponent<BoxCollider>().enabled = false;
             SurfaceList list = SurfaceList.Of(new GameObject[0]);
-            Assert.That(list.Untagged, Is.Empty);
-            Assert.That(list.Tagged, Is.Empty);
+            Assert.That(list.NotFelt, Is.Empty);
+            Assert.That(list.Felt, Is.Empty);
         }
     }
 }

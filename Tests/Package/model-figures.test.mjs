@@ -27,7 +27,7 @@ const results = {
 
 /** Pictures that show no model: the recorder's own. */
 const withoutModel = ['recorder-spectra.png'];
-const pictures = ['Documentation~/images', 'Samples~/StylusTracing', 'Samples~/TextureGallery', 'Training/results/default']
+const pictures = ['Documentation~/images', 'Samples~/StylusTracing', 'Samples~/TextureGallery', 'Samples~/Workshop', 'Training/results/default']
   .flatMap((folder) => readdirSync(inRepository(...folder.split('/'))).map((name) => `${folder}/${name}`))
   .filter((file) => file.endsWith('.png') && !withoutModel.includes(path.basename(file)));
 

@@ -72,7 +72,7 @@ namespace HaptoFlow.Tests
             Output(out _);
             HapticStylus stylus = Pressing();
             stylus.TouchBegan += (HapticStylus _, in HapticContact contact) =>
-                Object.DestroyImmediate(contact.Surface.gameObject);
+                Object.DestroyImmediate(contact.Surface!.gameObject);
             yield return null;
             yield return null;
             Assert.That(stylus.IsTouching, Is.False);

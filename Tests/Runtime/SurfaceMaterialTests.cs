@@ -40,6 +40,8 @@ namespace HaptoFlow.Tests
             Assert.That(own.Blend, Is.EqualTo(0.25f));
             Assert.That(own.StiffnessNewtonsPerMetre, Is.EqualTo(321f));
             Assert.That(own.Strength, Is.EqualTo(0.5f));
+            Assert.That(own.FeatureScale, Is.EqualTo(2f));
+            Assert.That(own.ToneDbPerOctave, Is.EqualTo(-3f));
             Assert.That(board.Material, Is.SameAs(own), "asked again, it is the same copy");
             yield return null;
         }
@@ -60,6 +62,23 @@ namespace HaptoFlow.Tests
             Assert.That(board.SharedDescription, Is.SameAs(board.Material));
         }
 
+        [UnityTest]
+        public IEnumerator FeatureScaleAndToneStayWithinTheirRanges()
+        {
+            var material = new MaterialDescription();
+            Assert.That(material.FeatureScale, Is.EqualTo(1f), "features as they are");
+            Assert.That(material.ToneDbPerOctave, Is.Zero, "no tilt");
+            material.FeatureScale = 9f;
+            material.ToneDbPerOctave = 40f;
+            Assert.That(material.FeatureScale, Is.EqualTo(4f));
+            Assert.That(material.ToneDbPerOctave, Is.EqualTo(12f));
+            material.FeatureScale = 0f;
+            material.ToneDbPerOctave = -40f;
+            Assert.That(material.FeatureScale, Is.EqualTo(0.25f));
+            Assert.That(material.ToneDbPerOctave, Is.EqualTo(-12f));
+            yield return null;
+        }
+
         private static HapticMaterial Shared()
         {
             var shared = ScriptableObject.CreateInstance<HapticMaterial>();
@@ -68,6 +87,8 @@ namespace HaptoFlow.Tests
             shared.Description.Blend = 0.25f;
             shared.Description.StiffnessNewtonsPerMetre = 321f;
             shared.Description.Strength = 0.5f;
+            shared.Description.FeatureScale = 2f;
+            shared.Description.ToneDbPerOctave = -3f;
             return shared;
         }
     }

@@ -7,6 +7,8 @@ Run from the repository's root, after `npm run build`:
 StylusTracing.png: the scene as its camera sees it with a stroke, the vibration in m/s^2, and its spectrogram.
 TextureGallery.png: the wall of tiles, in their colours, with the same stroke of 12 cm, there and back, on each label of
 the shipped model: waveforms and spectrograms of one scale, the level (RMS) beside the name.
+Workshop.png: the bench as its camera sees it, and a stroke over its terrain, whose three layers run into each other:
+the weights, the vibration in m/s^2, and its spectrogram.
 """
 
 from __future__ import annotations
@@ -29,6 +31,7 @@ import matplotlib
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
+from matplotlib.collections import PolyCollection
 from matplotlib.patheffects import withStroke
 from PIL import Image, PngImagePlugin
 from scipy.io import wavfile
@@ -254,11 +257,143 @@ def draw_tile(
     axes.set_xlim(0, len(felt.acceleration_mps2))
 
 
+# As GardenBed.cs paints it: corner and size in metres, layers with their labels and colours.
+GARDEN_CORNER = np.array([-0.45, 0.001, -0.02])
+GARDEN_SIZE = np.array([0.42, 0.012, 0.26])
+GARDEN_LABELS = ("concrete", "carpet", "sandpaper")
+GARDEN_COLOURS = np.array([[0.6, 0.6, 0.58], [0.36, 0.55, 0.27], [0.87, 0.76, 0.5]])
+GARDEN_STRIPS = 48
+
+
+def garden_weights(along: np.ndarray) -> np.ndarray:
+    """[..., 3] of the layers at places from 0 to 1."""
+    gravel = np.clip(1.5 - 3.0 * along, 0.0, 1.0)
+    sand = np.clip(3.0 * along - 1.5, 0.0, 1.0)
+    return np.stack([gravel, 1.0 - gravel - sand, sand], axis=-1)
+
+
+def draw_workshop(axes: plt.Axes) -> None:
+    """The bench of the sample Workshop from its camera: each thing with what it feels like."""
+    camera = camera_of(SAMPLES / "Workshop/Workshop.unity")
+    solids = [(box_facets([0, -0.01, 0], [1, 0.02, 0.6]), "#ba7840")]
+    edges = np.linspace(0.0, 1.0, GARDEN_STRIPS + 1)
+    for low, high in zip(edges[:-1], edges[1:], strict=True):
+        colour = garden_weights(np.array(0.5 * (low + high))) @ GARDEN_COLOURS
+        solids.append((sheet_facets(GARDEN_CORNER, GARDEN_SIZE, low, high), tuple(colour)))
+    solids += [
+        (box_facets([0.145, 0.006, 0.11], [0.19, 0.012, 0.22]), "#a37340"),
+        (box_facets([0.335, 0.006, 0.11], [0.19, 0.012, 0.22]), "#8c99ad"),
+        (box_facets([0.02, 0.001, -0.16], [0.16, 0.002, 0.14]), "#73a8d9"),
+        (box_facets([0.27, 0.004, -0.16], [0.2, 0.008, 0.14]), "#d1ccc2"),
+    ]
+    draw_solids(axes, camera, solids)
+    draw_pane(axes, camera)
+    names = [
+        ((-0.375, 0.01, 0.11), "Gravel:\nconcrete"), ((-0.24, 0.012, 0.11), "Turf:\ncarpet"),
+        ((-0.105, 0.01, 0.11), "Sand:\nsandpaper"), ((0.145, 0.012, 0.11), "Oak:\nwood"),
+        ((0.335, 0.012, 0.11), "Steel:\nmetal mesh"), ((-0.25, 0.008, -0.16), "ceramic"),
+        ((-0.25, 0.008, -0.225), "ring: jute"), ((0.02, 0.002, -0.16), "layer Water:\nglass"),
+        ((0.27, 0.008, -0.16), "Specimen"), ((0.0, 0.0, -0.27), "Bench: wood"),
+    ]  # fmt: skip
+    for place, text in names:
+        right, up, _ = camera.seen(np.array(place))
+        axes.text(
+            right, up, text, ha="center", va="center", fontsize=9,
+            path_effects=[withStroke(linewidth=3.0, foreground="white")], zorder=7,
+        )
+    axes.set_xlim(-0.83, 0.83)
+    axes.set_ylim(-0.43, 0.36)
+    axes.set_aspect("equal")
+    axes.axis("off")
+
+
+def box_facets(position: list[float], size: list[float]) -> np.ndarray:
+    return facets({"shape": {"box": {"size": size}}, "position": position})
+
+
+def sheet_facets(corner: np.ndarray, size: np.ndarray, low: float, high: float) -> np.ndarray:
+    """[12, 4, 3] of the terrain's hill between two places along x, each 0 to 1."""
+    depth = np.linspace(0.0, 1.0, 13)
+
+    def point(x: float, z: float) -> np.ndarray:
+        return corner + size * [x, np.sin(np.pi * x) * np.sin(np.pi * z), z]
+
+    return np.array([
+        [point(low, a), point(low, b), point(high, b), point(high, a)]
+        for a, b in zip(depth[:-1], depth[1:], strict=True)
+    ])  # fmt: skip
+
+
+def draw_pane(axes: plt.Axes, camera: Camera) -> None:
+    """The inlaid pane in the colours of its texture, as InlaidPane.cs paints it."""
+    size, texels = np.array([0.26, 0.18]), 64
+    centres = (np.arange(texels) + 0.5) / texels
+    x, z = np.meshgrid(centres, centres)
+    ring = np.clip(5.0 - 250.0 * np.abs(np.hypot((x - 0.5) * size[0], (z - 0.5) * size[1]) - 0.055), 0.0, 1.0)
+    share = (ring * (1.0 - 0.5 * x))[..., None]
+    colours = ((1.0 - share) * [225, 228, 222] + share * [181, 154, 76]) / 255.0
+    corners = np.linspace(0.0, 1.0, texels + 1) - 0.5
+    right, far = np.meshgrid(corners * size[0] - 0.25, corners * size[1] - 0.16)
+    seen = camera.seen(np.stack([right, np.full_like(right, 0.008), far], axis=-1))
+    flat = seen[..., :2]
+    cells = np.stack([flat[:-1, :-1], flat[1:, :-1], flat[1:, 1:], flat[:-1, 1:]], axis=2).reshape(-1, 4, 2)
+    axes.add_collection(PolyCollection(cells, facecolors=colours.reshape(-1, 3), edgecolors="face", linewidths=0.4))
+
+
+def workshop_picture(engine: Path, folder: Path, file: Path) -> None:
+    seconds = 1.6
+    edges = np.linspace(0.0, GARDEN_SIZE[0], GARDEN_STRIPS + 1)
+    strips = [
+        {
+            "name": f"strip {index}", "shape": {"box": {"size": [float(high - low), 0.02, 0.1]}},
+            "position": [float(0.5 * (low + high)), -0.01, 0.0],
+            "material": blend_at(0.5 * (low + high) / GARDEN_SIZE[0]),
+        }
+        for index, (low, high) in enumerate(zip(edges[:-1], edges[1:], strict=True))
+    ]  # fmt: skip
+    scene = folder / "garden.scene.json"
+    described = {"surfaces": strips, "stylus": {"tip_radius": 0.002}, "update_rate": 120}
+    scene.write_text(json.dumps(described), encoding="utf-8")
+    times = np.arange(int(seconds * 120) + 1) / 120.0
+    places = 0.01 + (GARDEN_SIZE[0] - 0.02) * times / seconds
+    stroke = folder / "garden.stroke.csv"
+    rows = [f"{time:.6f},{place:.6f},0.001,0" for time, place in zip(times, places, strict=True)]
+    stroke.write_text("\n".join(["t,x,y,z", *rows]) + "\n", encoding="utf-8")
+    felt = render(engine, scene, stroke, folder)
+    figure, (above, shares, wave, colours) = plt.subplots(
+        4, 1, figsize=(9.6, 9.0), height_ratios=(3.6, 0.7, 1.1, 1.5), layout="constrained"
+    )
+    figure.suptitle(
+        "The sample's bench, drawn from its sources: not a screenshot of Unity. Below: a stroke over the terrain from "
+        "left to right", fontsize=10,
+    )
+    draw_workshop(above)
+    shares.stackplot(
+        times, garden_weights(places / GARDEN_SIZE[0]).T, labels=GARDEN_LABELS,
+        colors=[tuple(colour) for colour in GARDEN_COLOURS],
+    )
+    shares.set(ylabel="weights", ylim=(0.0, 1.0), xticklabels=[])
+    shares.legend(loc="center left", bbox_to_anchor=(1.0, 0.5), frameon=False)
+    heard = np.arange(len(felt.acceleration_mps2)) / felt.rate_hz
+    wave.plot(heard, felt.acceleration_mps2, color="#1f4e79", linewidth=0.3)
+    wave.set(ylabel="m/s²", xticklabels=[])
+    draw_spectrogram(colours, felt)
+    colours.set(ylabel="Hz", xlabel="seconds")
+    for axes in (shares, wave, colours):
+        axes.set_xlim(0.0, seconds)
+    save(figure, file)
+
+
+def blend_at(along: float) -> dict[str, float]:
+    weights = garden_weights(np.array(along))
+    return {label: float(weight) for label, weight in zip(GARDEN_LABELS, weights, strict=True) if weight > 0.0}
+
+
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--engine", type=Path, default=ROOT / "build/native/haptoflow")
     engine = parser.parse_args().engine
-    pictures = {"StylusTracing": tracing_picture, "TextureGallery": gallery_picture}
+    pictures = {"StylusTracing": tracing_picture, "TextureGallery": gallery_picture, "Workshop": workshop_picture}
     with tempfile.TemporaryDirectory() as folder:
         for sample, draw in pictures.items():
             file = SAMPLES / sample / f"{sample}.png"

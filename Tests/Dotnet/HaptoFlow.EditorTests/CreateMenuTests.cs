@@ -80,7 +80,7 @@ namespace HaptoFlow.EditorTests
             SimulatedInput.MouseButton = true;
             World.Frames(60);
             Assert.That(stylus.IsTouching, Is.True);
-            Assert.That(stylus.Contact.Surface.Material.Label, Is.EqualTo("wood"));
+            Assert.That(stylus.Contact.Material!.Label, Is.EqualTo("wood"));
             SimulatedInput.Reset();
             EditorSession.Stop();
         }

@@ -96,6 +96,60 @@ namespace HaptoFlow.EditorTests
         }
 
         [Test]
+        public void FeatureScaleAndToneAreEnteredAndTakenBackByUndo()
+        {
+            HapticSurface table = Tagged("Table", "wood");
+            Undo.IncrementCurrentGroup();
+            EditorScreen.Enter("Feature Scale", 2f);
+            EditorScreen.Enter("Tone (dB/octave)", -3f);
+            Draw(table);
+            Assert.That(table.Material.FeatureScale, Is.EqualTo(2f));
+            Assert.That(table.Material.ToneDbPerOctave, Is.EqualTo(-3f));
+            Undo.PerformUndo();
+            Assert.That(table.Material.FeatureScale, Is.EqualTo(1f));
+            Assert.That(table.Material.ToneDbPerOctave, Is.Zero);
+        }
+
+        [Test]
+        public void AMaterialFileShowsWhatItWasLearntFromAndADamagedOneItsKey()
+        {
+            LogAssert.ignoreFailingMessages = true;
+            string text = HaptoFlow.Model.MaterialText.OfLabel(Model().File, "glass");
+            string path = Import("glass.haptomaterial", System.Text.Encoding.UTF8.GetBytes(text));
+            IReadOnlyList<Drawn> drawn = Draw(AssetImporter.GetAtPath(path)!);
+            Assert.That(Value(drawn, "Nearest Label"), Is.EqualTo("glass"));
+            Assert.That(Value(drawn, "Licence"), Is.EqualTo("MIT"));
+            Assert.That(drawn.Single(item => item.Kind == DrawnKind.Button).Enabled, Is.True);
+            path = Import("cut.haptomaterial", System.Text.Encoding.UTF8.GetBytes(text.Substring(0, 300)));
+            drawn = Draw(AssetImporter.GetAtPath(path)!);
+            Assert.That(drawn.Single(item => item.Kind == DrawnKind.Help).Label, Does.Contain("cannot be used"));
+            Assert.That(drawn.Single(item => item.Kind == DrawnKind.Button).Enabled, Is.False);
+        }
+
+        [Test]
+        public void ALearntMaterialShowsItsOriginAndALabelBehindIt()
+        {
+            var material = HapticMaterial.Create(HaptoFlow.Model.MaterialText.OfLabel(Model().File, "glass"), "fur");
+            IReadOnlyList<Drawn> drawn = Draw(material);
+            Assert.That(Value(drawn, "Nearest Label"), Is.EqualTo("glass"));
+            Assert.That(Value(drawn, "Learnt Material"), Is.EqualTo("this asset"));
+            Assert.That(drawn.Select(item => item.Label), Does.Contain("fur"));
+        }
+
+        [Test]
+        public void ASurfacesOwnDescriptionTakesALearntMaterialAndUndoTakesItBack()
+        {
+            HapticSurface table = Tagged("Table", "wood");
+            var material = HapticMaterial.Create(HaptoFlow.Model.MaterialText.OfLabel(Model().File, "glass"), "fur");
+            Undo.IncrementCurrentGroup();
+            EditorScreen.Enter("Learnt Material", material);
+            Draw(table);
+            Assert.That(table.Material.Learnt, Is.SameAs(material));
+            Undo.PerformUndo();
+            Assert.That(table.Material.Learnt, Is.Null);
+        }
+
+        [Test]
         public void ASurfacesInspectorOpensThePreviewOnIt()
         {
             HapticSurface surface = Tagged("Table", "glass");

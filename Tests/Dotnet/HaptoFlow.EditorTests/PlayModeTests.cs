@@ -100,7 +100,9 @@ namespace HaptoFlow.EditorTests
         {
             HapticStylus stylus = PlayTouching(out _);
             Drawn[] drawn = InspectorTests.Draw(stylus).ToArray();
-            Assert.That(Value(drawn, "Touches"), Is.EqualTo("Table (wood)"));
+            Assert.That(Value(drawn, "Touches"), Is.EqualTo("Table"));
+            Assert.That(Value(drawn, "Feels like"), Is.EqualTo("wood"));
+            Assert.That(Value(drawn, "Because of"), Is.EqualTo("Haptic Surface on \"Table\""));
             Assert.That(Value(drawn, "Force"), Does.EndWith(" N"));
             Assert.That(Value(drawn, "Penetration"), Is.EqualTo("1.0 mm"));
             Assert.That(Value(drawn, "Underruns"), Is.EqualTo("0"));
@@ -157,6 +159,26 @@ namespace HaptoFlow.EditorTests
         }
 
         [Test]
+        public void AStylusSaysWhichRuleDecidesWhatItFeels()
+        {
+            HapticStylus stylus = PlayTouching(out _);
+            HapticMaterialMap map = ScriptableObject.CreateInstance<HapticMaterialMap>();
+            map.name = "Rooms";
+            HapticMaterial stone = ScriptableObject.CreateInstance<HapticMaterial>();
+            stone.Description.Label = "stone";
+            map.Add(HapticMaterialRule.ForTag("Finish", null));
+            map.Add(HapticMaterialRule.ForName("Tab*", stone));
+            HaptoFlowSettings.Active.MaterialMap = map;
+            stylus.Contact.Surface!.enabled = false;
+            World.Frames(2);
+            Drawn[] drawn = InspectorTests.Draw(stylus).ToArray();
+            Assert.That(Value(drawn, "Touches"), Is.EqualTo("Table"));
+            Assert.That(Value(drawn, "Feels like"), Is.EqualTo("stone"));
+            Assert.That(Value(drawn, "Because of"), Is.EqualTo("rule 2 of \"Rooms\": name \"Tab*\""));
+            HaptoFlowSettings.Active.MaterialMap = null;
+        }
+
+        [Test]
         public void PanicInTheInspectorIsSilenceAtOnce()
         {
             PlayTouching(out HapticOutput output);
@@ -181,7 +203,7 @@ namespace HaptoFlow.EditorTests
         public void ALabelThatIsChosenWhilePlayingIsFelt()
         {
             HapticStylus stylus = PlayTouching(out _);
-            HapticSurface surface = stylus.Contact.Surface;
+            HapticSurface surface = stylus.Contact.Surface!;
             LabelBlend before = surface.BlendFor(HapticSession.Current);
             EditorScreen.Press("wood");
             InspectorTests.Draw(surface);

@@ -172,7 +172,7 @@ namespace HaptoFlow.EditorTests
             overlay.OnCreated();
             string[] drawn = EditorScreen.Draw(overlay.OnGUI).Select(item => item.Label).ToArray();
             Assert.That(drawn, Is.EqualTo(
-                new[] { "In the scene", "Untagged (1)", "Lamp", "Tagged (1)", "Table: wood" }));
+                new[] { "In the scene", "Not felt (1)", "Lamp", "Felt (1)", "Table: wood" }));
             EditorScreen.Press("Lamp");
             EditorScreen.Draw(overlay.OnGUI);
             Assert.That(EditorSession.Pinged, Is.EqualTo(lamp));
@@ -206,7 +206,7 @@ namespace HaptoFlow.EditorTests
             }
             IReadOnlyList<Drawn> drawn = EditorScreen.Draw(new SurfaceOverlay().OnGUI);
             Assert.That(drawn.Count, Is.LessThan(20));
-            Assert.That(drawn.Select(item => item.Label), Has.Member("Untagged (40)"));
+            Assert.That(drawn.Select(item => item.Label), Has.Member("Not felt (40)"));
         }
 
         [Test]

@@ -1,7 +1,9 @@
 using System;
 using System.IO;
 using System.Threading;
+using HaptoFlow.Editor;
 using HaptoFlow.Preview;
+using HaptoFlow.Recordings;
 using HaptoFlow.Tests.Support;
 using NUnit.Framework;
 
@@ -28,11 +30,53 @@ namespace HaptoFlow.PreviewTests
                     request.Effects = HapticEffects.Texture | HapticEffects.Impact | HapticEffects.Edge;
                 });
 
+        /// <summary>The same, for the sliders.</summary>
+        [Test, Explicit, Category("DocumentationPicture")]
+        public void TheSlidersAreDrawnForTheDocumentation()
+        {
+            SliderSet sliders = SliderSet.Read(File.ReadAllText(RepositoryFiles.In(
+                "Packages", "com.haptoflow.runtime", "Editor", "Sliders", "default.sliders.json")));
+            var moves = new[] { 1f, -0.8f, 0f, 0f, 0.25f };
+            Draw("sliders.png", StrokePreset.Spiral, new StrokeSettings(0.12, 1.5, 30.0, 2.4), 1.3,
+                new[] { new LabelMix("wood"), new LabelMix("wood", "", 0f, "", moves) }, request =>
+                {
+                    request.Sliders = sliders;
+                    request.Active = 1;
+                }, PreviewRoom.WithSliders);
+        }
+
+        /// <summary>The same, for the window that learns materials, from the sample's recording.</summary>
+        [Test, Explicit, Category("DocumentationPicture")]
+        public void TheWindowThatLearnsMaterialsIsDrawnForTheDocumentation()
+        {
+            byte[] model = File.ReadAllBytes(RepositoryFiles.DefaultModel);
+            Recording recording = RecordingReader.Read(
+                RepositoryFiles.In("Samples~", "Workshop", "Recordings", "doormat.wav.bytes"));
+            using HapticLearning learning = HapticLearning.Start(model, recording,
+                new LearningOptions { Name = recording.Label, Licence = recording.Licence });
+            learning.Wait();
+            Assert.That(learning.Problem, Is.Null);
+            using var worker = new ComparisonWorker();
+            var layout = new PreviewLayout(1200.0, 700.0, PreviewRoom.WithoutStroke);
+            ComparisonResult result = worker.Do(new ComparisonRequest(model, recording)
+            {
+                Material = learning.Material!,
+                Active = 1,
+                Charts = layout.Charts,
+                PixelsPerPoint = 1.5,
+            }, CancellationToken.None);
+            Assert.That(result.Problem, Is.Null);
+            string path = RepositoryFiles.In("Documentation~", "images", "new-material.png");
+            Png.Write(path, WindowPicture.Draw(result, layout, 1.5, recording.Label, recording.Licence,
+                NewMaterialControls.WordsOf(recording), LearningReportText.Of(learning.Report!)), model);
+            Assert.That(new FileInfo(path).Length, Is.GreaterThan(50_000));
+        }
+
         private static void Draw(string file, StrokePreset preset, StrokeSettings settings, double playedSeconds,
-            LabelMix[] materials, Action<PreviewRequest> change)
+            LabelMix[] materials, Action<PreviewRequest> change, PreviewRoom room = PreviewRoom.Usual)
         {
             using var worker = new PreviewWorker();
-            var layout = new PreviewLayout(1200.0, 900.0);
+            var layout = new PreviewLayout(1200.0, 900.0, room);
             var request = new PreviewRequest(File.ReadAllBytes(RepositoryFiles.DefaultModel),
                 PresetStrokes.Make(preset, settings), materials)
             {

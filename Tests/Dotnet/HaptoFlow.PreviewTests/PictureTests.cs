@@ -160,8 +160,8 @@ namespace HaptoFlow.PreviewTests
             Assert.That(PatchPicture.ToMetres(patch, patch.Left, patch.Bottom), Is.EqualTo((0.0, 0.0)));
         }
 
-        [TestCase(1080.0, 868.0)]
-        [TestCase(1200.0, 900.0)]
+        [TestCase(1080.0, 912.0)]
+        [TestCase(1200.0, 930.0)]
         [TestCase(2500.0, 1400.0)]
         public void NothingOfTheWindowLiesUponAnother(double width, double height)
         {

@@ -69,6 +69,44 @@ namespace HaptoFlow.PreviewTests
         }
 
         [Test]
+        public void TheSlidersUnfoldMoveWhatIsHeardAndReset()
+        {
+            Window.Finish();
+            Assert.That(Screen().Select(item => item.Label), Does.Not.Contain("Coarseness"));
+            Enter("Sliders", true);
+            Drawn reset = Screen().Single(item => item.Label == "Reset");
+            Assert.That(reset.Enabled, Is.False, "nothing was moved");
+            Undo.IncrementCurrentGroup();
+            Enter("Coarseness", 0.5f);
+            Assert.That(State.First.Moves, Is.EqualTo(new[] { 0.5f, 0f, 0f, 0f, 0f }));
+            Enter("Level", -5f);
+            Assert.That(State.First.Moves[4], Is.EqualTo(-1f), "no further than the slider goes");
+            Undo.IncrementCurrentGroup();
+            Press("Reset");
+            Assert.That(State.First.Moves, Is.Empty);
+            Undo.PerformUndo();
+            Assert.That(State.First.Moves, Is.EqualTo(new[] { 0.5f, 0f, 0f, 0f, -1f }));
+        }
+
+        [Test]
+        public void AMovedMaterialIsSavedFromTheWindowAndHeardFromThenOn()
+        {
+            WindowHost.AnswerToSave = name => "Assets/" + name;
+            Enter("Sliders", true);
+            Enter("Hardness", -0.5f);
+            Window.Finish();
+            float[] moved = Samples;
+            Press("Save as Haptic Material\u2026");
+            WindowHost.Update();
+            var saved = AssetDatabase.LoadAssetAtPath<HapticMaterial>("Assets/wood, moved.asset");
+            Assert.That(saved.IsLearnt, Is.True);
+            Assert.That((State.First.Learnt, State.First.Moves.Length), Is.EqualTo((saved, 0)));
+            Window.Finish();
+            Assert.That(Samples, Is.EqualTo(moved));
+            WindowHost.AnswerToSave = null;
+        }
+
+        [Test]
         public void TheSecondMaterialAndTheShareAppearWithTheNextLayout()
         {
             Enter("Compare", true);

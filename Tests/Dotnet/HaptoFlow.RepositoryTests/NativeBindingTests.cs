@@ -27,6 +27,7 @@ namespace HaptoFlow.RepositoryTests
         [TestCase(typeof(TierTimes), 32)]
         [TestCase(typeof(WaveFeaturesOptions), 32)]
         [TestCase(typeof(NativeWaveFrame), 40)]
+        [TestCase(typeof(NativeLearningOptions), 176)]
         public void EveryStructHasTheSizeThatItsCDeclarationHas(Type type, int expectedBytes) =>
             Assert.That(Marshal.SizeOf(type), Is.EqualTo(expectedBytes));
 

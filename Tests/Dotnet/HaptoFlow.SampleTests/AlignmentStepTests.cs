@@ -51,7 +51,7 @@ namespace HaptoFlow.SampleTests
             Tip(new Vector3(0f, 0.006f, 0.02f), 0.5f);
             PlayFor(0.2);
             Assert.That(Pen().IsTouching, Is.True);
-            Assert.That(Pen().Contact.Surface.SharedDescription.Label, Is.EqualTo("wood"));
+            Assert.That(Pen().Contact.Material!.Label, Is.EqualTo("wood"));
             Tip(new Vector3(0f, 0.006f, 0.02f), 0f);
             PlayFor(0.1);
             Assert.That(Pen().IsTouching, Is.False);

@@ -23,7 +23,7 @@ namespace HaptoFlow.SampleTests
             SimulatedInput.MouseButton = true;
             PlayFor(0.4);
             Assert.That(scene.Pen.Stylus.IsTouching, Is.True);
-            Assert.That(scene.Pen.Stylus.Contact.Surface.Material.Label, Is.EqualTo("jute"));
+            Assert.That(scene.Pen.Stylus.Contact.Material!.Label, Is.EqualTo("jute"));
         }
 
         [Test]

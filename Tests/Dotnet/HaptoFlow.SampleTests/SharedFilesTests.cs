@@ -11,9 +11,12 @@ namespace HaptoFlow.SampleTests
         public void TheCopiesDifferInTheirNamespaceOnly(string name)
         {
             string tracing = File.ReadAllText(SampleFile("StylusTracing", name));
-            string gallery = File.ReadAllText(SampleFile("TextureGallery", name));
             Assert.That(tracing, Does.Contain("namespace HaptoFlow.Samples.StylusTracing"));
-            Assert.That(gallery, Is.EqualTo(tracing.Replace("Samples.StylusTracing", "Samples.TextureGallery")));
+            foreach (string other in new[] { "TextureGallery", "Workshop" })
+            {
+                Assert.That(File.ReadAllText(SampleFile(other, name)),
+                    Is.EqualTo(tracing.Replace("Samples.StylusTracing", "Samples." + other)));
+            }
         }
     }
 }

@@ -119,7 +119,7 @@ namespace HaptoFlow.SampleTests
                 World.Frame();
                 fastest = Mathf.Max(fastest, scene.Pen.Stylus.Contact.TangentialVelocity.magnitude);
             }
-            Assert.That(scene.Pen.Stylus.Contact.Surface.Material.Label, Is.EqualTo("metal mesh"));
+            Assert.That(scene.Pen.Stylus.Contact.Material!.Label, Is.EqualTo("metal mesh"));
             Assert.That(fastest, Is.EqualTo(0.04f * Mathf.PI).Within(0.05f * 0.04f * Mathf.PI));
             Assert.That(Loudest(), Is.GreaterThan(Audible));
         }
@@ -164,9 +164,9 @@ namespace HaptoFlow.SampleTests
                 World.Frame();
             }
             Assert.That(scene.Pen.Stylus.IsTouching, Is.True, place.ToString());
-            Assert.That(Loudest(), Is.GreaterThan(Audible), scene.Pen.Stylus.Contact.Surface.name);
+            Assert.That(Loudest(), Is.GreaterThan(Audible), scene.Pen.Stylus.Contact.Collider.name);
             Assert.That(InferencesOf(scene.Pen.Stylus), Is.GreaterThan(before));
-            return scene.Pen.Stylus.Contact.Surface.Material.Label;
+            return scene.Pen.Stylus.Contact.Material!.Label;
         }
 
         private static IEnumerable<HapticSurface> Surfaces() => FindAll<HapticSurface>();

@@ -57,6 +57,16 @@ namespace HaptoFlow.ShimTests
         });
 
         [Test]
+        public void SlidingOverALearntMaterialMakesNoGarbage() => Check(Circle(0.001f), () =>
+        {
+            HapticMaterial material =
+                HapticMaterial.Create(Model.MaterialText.OfLabel(DefaultModel.Asset().File, "glass"), "fur");
+            Board().SharedMaterial = material;
+            HapticSession.Current.FinishRegistrations();
+            Assert.That(Haptics.LearntMaterials, Is.EqualTo(1));
+        });
+
+        [Test]
         public void APenWhoseForceDecidesMakesNoGarbage() => Check(Circle(0.006f), () => Board(), stylus =>
         {
             stylus.Force = stylus.gameObject.AddComponent<SteadyForce>();
@@ -83,6 +93,104 @@ namespace HaptoFlow.ShimTests
             bare.transform.SetParent(Make("parent").transform, false);
             bare.AddComponent<BoxCollider>();
         });
+
+        [Test]
+        public void CollidersThatRulesNameMakeNoGarbageHoweverManyRulesThereAre() => Check(Circle(0.001f), () =>
+        {
+            HapticMaterialMap map = Map();
+            for (int index = 0; index < 20; ++index)
+            {
+                map.Add(HapticMaterialRule.ForName("Nobody " + index, null));
+                map.Add(HapticMaterialRule.ForTag("Player", Feeling("stone")));
+            }
+            map.DefaultMaterial = Feeling("wood");
+            var box = Make("Plank").AddComponent<BoxCollider>();
+            box.size = new Vector3(0.4f, 0.02f, 0.4f);
+            box.center = new Vector3(0f, -0.01f, 0f);
+            box.gameObject.AddComponent<MeshRenderer>();
+            Make("Bystander").AddComponent<SphereCollider>().radius = 0.01f;
+        });
+
+        [Test]
+        public void GoingFromColliderToColliderMakesNoGarbageOnceTheyAreKnown() => Check(
+            seconds => new Vector3(0.4f * (float)Math.Sin(8.0 * seconds), 0.001f, 0f),
+            () =>
+            {
+                HapticMaterialMap map = Map();
+                map.Add(HapticMaterialRule.ForName("Key 1*", Feeling("stone")));
+                map.DefaultMaterial = Feeling("wood");
+                for (int index = 0; index < 60; ++index)
+                {
+                    var box = Make("Key " + index).AddComponent<BoxCollider>();
+                    box.size = new Vector3(0.012f, 0.02f, 0.1f);
+                    box.center = new Vector3(0.014f * (index - 30), -0.01f, 0f);
+                }
+            });
+
+        [Test]
+        public void ATerrainsLayersMakeNoGarbage() => Check(Circle(0.001f), () =>
+        {
+            HapticMaterialMap map = Map();
+            var layers = new[] { new TerrainLayer { name = "grass" }, new TerrainLayer { name = "rock" } };
+            map.Add(HapticMaterialRule.ForTerrainLayer(layers[0], Feeling("fur")));
+            map.Add(HapticMaterialRule.ForTerrainLayer(layers[1], Feeling("stone")));
+            var data = new TerrainData { heightmapResolution = 5, terrainLayers = layers };
+            data.SetAlphamaps(0, 0, Halves(data.alphamapResolution));
+            GameObject ground = Make("Ground");
+            ground.transform.position = new Vector3(-0.5f, 0f, -0.5f);
+            ground.AddComponent<TerrainCollider>().terrainData = data;
+        });
+
+        [Test]
+        public void SubmeshesAndAMaskMakeNoGarbage() => Check(Circle(0.001f), () =>
+        {
+            HapticMaterialMap map = Map();
+            HapticMaskMap mask = ScriptableObject.CreateInstance<HapticMaskMap>();
+            mask.SetPixels(2, 1, new[] { new Color32(0, 0, 0, 0), new Color32(255, 90, 200, 255) }, true);
+            mask.Red.SetMaterial(Feeling("glass"));
+            mask.Green.SetFactor(MaskChannelUse.Strength, 0.5f, 1f);
+            mask.Blue.SetFactor(MaskChannelUse.FeatureScale, 0.5f, 2f);
+            map.Add(HapticMaterialRule.ForSubmesh(null, 0, Feeling("wood")));
+            map.Add(HapticMaterialRule.ForSubmesh(null, 1, Feeling("stone")));
+            map.Rules[0].Mask = mask;
+            var mesh = new Mesh
+            {
+                vertices = new[]
+                {
+                    new Vector3(-0.1f, 0f, -0.1f), new Vector3(-0.1f, 0f, 0.1f), new Vector3(0f, 0f, -0.1f),
+                    new Vector3(0f, 0f, 0.1f), new Vector3(0.1f, 0f, -0.1f), new Vector3(0.1f, 0f, 0.1f),
+                },
+                uv = new Vector2[6],
+                subMeshCount = 2,
+            };
+            mesh.SetTriangles(new[] { 0, 1, 3, 0, 3, 2 }, 0);
+            mesh.SetTriangles(new[] { 2, 3, 5, 2, 5, 4 }, 1);
+            Make("Halves").AddComponent<MeshCollider>().sharedMesh = mesh;
+        });
+
+        private static HapticMaterialMap Map()
+        {
+            HapticMaterialMap map = ScriptableObject.CreateInstance<HapticMaterialMap>();
+            HaptoFlowSettings.Active.MaterialMap = map;
+            return map;
+        }
+
+        private static HapticMaterial Feeling(string label)
+        {
+            HapticMaterial material = ScriptableObject.CreateInstance<HapticMaterial>();
+            material.Description.Label = label;
+            return material;
+        }
+
+        private static float[,,] Halves(int resolution)
+        {
+            var map = new float[resolution, resolution, 2];
+            for (int place = 0; place < map.Length; ++place)
+            {
+                map[place / 2 / resolution, place / 2 % resolution, place % 2] = 0.5f;
+            }
+            return map;
+        }
 
         private static Func<double, Vector3> Circle(float height) => seconds =>
             new Vector3(0.04f * (float)Math.Cos(5.0 * seconds), height, 0.04f * (float)Math.Sin(5.0 * seconds));

@@ -42,6 +42,25 @@ namespace HaptoFlow.ShimTests
         }
 
         [Test]
+        public void NoMapAndNoColliderOfTheLastPlayModeCountsInTheNext()
+        {
+            FinishLoading();
+            HapticMaterialMap map = ScriptableObject.CreateInstance<HapticMaterialMap>();
+            HapticMaterial wood = ScriptableObject.CreateInstance<HapticMaterial>();
+            map.DefaultMaterial = wood;
+            Make("Scope").AddComponent<HapticMaterialMapScope>().Map = map;
+            Make("Plank").AddComponent<BoxCollider>();
+            HapticStylus stylus = StylusAlong(_ => Vector3.zero);
+            World.Frames(2);
+            Assert.That(stylus.IsTouching, Is.True);
+            Assert.That(FeltColliders.Count, Is.EqualTo(1));
+            // A crash of the editor's play mode: objects are gone, nobody was told.
+            World.EnterPlayMode();
+            Assert.That(MaterialMaps.Any, Is.False);
+            Assert.That(FeltColliders.Count, Is.Zero);
+        }
+
+        [Test]
         public void ASceneLoadKeepsTheEngineAndFreesTheVoice()
         {
             FinishLoading();

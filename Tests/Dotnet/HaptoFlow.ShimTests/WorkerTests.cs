@@ -35,5 +35,29 @@ namespace HaptoFlow.ShimTests
             Assert.That(tap.Peak(), Is.GreaterThan(0.001f));
             Assert.That(tap.BrokenSamples, Is.Zero);
         }
+
+        [Test]
+        public void AMaterialThatIsReplacedAgainAndAgainWhileAWorkerPlaysItBreaksNothing()
+        {
+            HapticSession.OptionsInstead = null;
+            UnityEngine.Object.DestroyImmediate(Stepper);
+            byte[] model = DefaultModel.Asset().File;
+            string[] texts = Array.ConvertAll(new[] { "glass", "corduroy", "carpet" },
+                label => Model.MaterialText.OfLabel(model, label));
+            HapticMaterial material = HapticMaterial.Create(texts[0], "fur");
+            Board().SharedMaterial = material;
+            FinishLoading();
+            AudioTap tap = Output(out _);
+            HapticStylus stylus = Circling();
+            for (int round = 0; round < 150; ++round)
+            {
+                material.Carry(texts[round % texts.Length]);
+                World.Frames(3);
+            }
+            HapticSession.Current.FinishRegistrations();
+            Assert.That((Haptics.LearntMaterials, Haptics.RefusedMaterials), Is.EqualTo((1, 0)));
+            Assert.That(stylus.TryGetStatistics(out VoiceStatistics statistics), Is.True);
+            Assert.That((statistics.Failures, tap.BrokenSamples), Is.EqualTo((0UL, 0)));
+        }
     }
 }

@@ -18,7 +18,7 @@ namespace HaptoFlow.PreviewTests
             HapticSurface table = Surface("Table");
             table.Material.StiffnessNewtonsPerMetre = 700f;
             table.Material.Strength = 0.5f;
-            SceneMaterial.Apply(Mix, new Object[] { table.gameObject });
+            SceneMaterial.Apply(Mix, null, new Object[] { table.gameObject });
             Assert.That(Read(table), Is.EqualTo(Mix));
             Assert.That(table.Material.StiffnessNewtonsPerMetre, Is.EqualTo(700f));
             Assert.That(table.Material.Strength, Is.EqualTo(0.5f));
@@ -30,7 +30,7 @@ namespace HaptoFlow.PreviewTests
             GameObject box = Make("Box");
             box.AddComponent<BoxCollider>();
             GameObject light = Make("Light");
-            string said = SceneMaterial.Apply(Mix, new Object[] { box, light });
+            string said = SceneMaterial.Apply(Mix, null, new Object[] { box, light });
             Assert.That(Read(box.GetComponent<HapticSurface>()), Is.EqualTo(Mix));
             Assert.That(light.TryGetComponent(out HapticSurface _), Is.False);
             Assert.That(said, Does.StartWith("Applied rubber 75 % + jute 25 % to Box; not to Light"));
@@ -45,7 +45,7 @@ namespace HaptoFlow.PreviewTests
             box.AddComponent<BoxCollider>();
             HapticMaterial asset = Asset("leather");
             Undo.IncrementCurrentGroup();
-            SceneMaterial.Apply(Mix, new Object[] { table.gameObject, box, asset });
+            SceneMaterial.Apply(Mix, null, new Object[] { table.gameObject, box, asset });
             Assert.That(asset.Description.Label, Is.EqualTo("rubber"));
             Undo.PerformUndo();
             Assert.That(Read(table), Is.EqualTo(new LabelMix("wood")));
@@ -63,7 +63,7 @@ namespace HaptoFlow.PreviewTests
             {
                 Share(each, asset);
             }
-            SceneMaterial.Apply(Mix, new Object[] { first.gameObject });
+            SceneMaterial.Apply(Mix, null, new Object[] { first.gameObject });
             Assert.That(Read(first), Is.EqualTo(Mix));
             Assert.That(Read(second), Is.EqualTo(new LabelMix("leather")));
             Assert.That(asset.Description.Label, Is.EqualTo("leather"));
@@ -71,7 +71,7 @@ namespace HaptoFlow.PreviewTests
 
         [Test]
         public void WithNothingSelectedNothingChangesAndTheRemedyIsSaid() => Assert.That(
-            SceneMaterial.Apply(Mix, new Object[0]), Does.StartWith("Select objects of the scene"));
+            SceneMaterial.Apply(Mix, null, new Object[0]), Does.StartWith("Select objects of the scene"));
 
         [Test]
         public void WhatASharedMaterialSaysCountsWhenASurfaceIsTaken()
@@ -89,10 +89,10 @@ namespace HaptoFlow.PreviewTests
             table.Material.Label = "stone";
             GameObject leg = Make("Leg");
             leg.transform.SetParent(table.transform, false);
-            Assert.That(SceneMaterial.TryRead(leg, out LabelMix mix), Is.True);
+            Assert.That(SceneMaterial.TryRead(leg, out LabelMix mix, out _), Is.True);
             Assert.That(mix, Is.EqualTo(new LabelMix("stone")));
-            Assert.That(SceneMaterial.TryRead(Make("Lamp"), out _), Is.False);
-            Assert.That(SceneMaterial.TryRead(null, out _), Is.False);
+            Assert.That(SceneMaterial.TryRead(Make("Lamp"), out _, out _), Is.False);
+            Assert.That(SceneMaterial.TryRead(null, out _, out _), Is.False);
         }
 
         [Test]
@@ -100,7 +100,7 @@ namespace HaptoFlow.PreviewTests
         {
             HapticSurface table = Surface("Table");
             table.Material.Label = "wood";
-            SceneMaterial.Apply(Mix, new Object[] { table.gameObject });
+            SceneMaterial.Apply(Mix, null, new Object[] { table.gameObject });
             TexturePreviewWindow.Open(table);
             Window.Finish();
             Assert.That(Window.Player!.Heard!.Sound.Material, Is.EqualTo(Mix));
@@ -142,7 +142,7 @@ namespace HaptoFlow.PreviewTests
 
         private static LabelMix Read(HapticSurface surface)
         {
-            Assert.That(SceneMaterial.TryRead(surface, out LabelMix mix), Is.True);
+            Assert.That(SceneMaterial.TryRead(surface, out LabelMix mix, out _), Is.True);
             return mix;
         }
     }

@@ -119,6 +119,14 @@ namespace UnityEditor
         {
         }
 
+        /// <summary>An asset that Unity's own importers would have made.</summary>
+        internal static void AddImported(string path, Object asset, AssetImporter importer)
+        {
+            importer.assetPath = path;
+            Assets[path] = asset;
+            Importers[path] = importer;
+        }
+
         internal static AssetImporter? Importer(string path) =>
             Importers.TryGetValue(path, out AssetImporter? importer) ? importer : null;
 

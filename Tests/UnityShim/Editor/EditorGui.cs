@@ -71,6 +71,10 @@ namespace UnityEditor
 
         public static bool ToggleLeft(Rect position, GUIContent label, bool value) => EditorScreen.Field(label, value);
 
+        public static string TagField(Rect position, GUIContent label, string tag) => EditorScreen.Field(label, tag);
+
+        public static int LayerField(Rect position, GUIContent label, int layer) => EditorScreen.Field(label, layer);
+
         public static Rect IndentedRect(Rect source) => source;
 
         public static bool DropdownButton(Rect position, GUIContent content, FocusType focusType) =>

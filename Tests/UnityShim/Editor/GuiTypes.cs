@@ -149,6 +149,9 @@ namespace UnityEngine
         public static Color gray => new Color(0.5f, 0.5f, 0.5f);
         public static Color clear => new Color(0f, 0f, 0f, 0f);
 
+        public static Color operator +(Color a, Color b) => new Color(a.r + b.r, a.g + b.g, a.b + b.b, a.a + b.a);
+        public static Color operator *(float b, Color a) => new Color(b * a.r, b * a.g, b * a.b, b * a.a);
+
         public static bool operator ==(Color lhs, Color rhs) => lhs.Equals(rhs);
         public static bool operator !=(Color lhs, Color rhs) => !lhs.Equals(rhs);
 

@@ -16,12 +16,35 @@ namespace UnityEditor
 
         public string assetPath { get; internal set; } = "";
 
+        public void SaveAndReimport() => AssetDatabase.ImportAsset(assetPath);
+
         public static AssetImporter? GetAtPath(string path) => AssetDatabase.Importer(path);
 
         public static AssetImporters.ImportLog? GetImportLog(string path) =>
             GetAtPath(path) is { } importer && importer.Entries.Count > 0
                 ? new AssetImporters.ImportLog(importer.Entries.ToArray())
                 : null;
+    }
+}
+
+namespace UnityEditor
+{
+    public sealed partial class TextureImporter : AssetImporter
+    {
+        public bool isReadable { get; set; }
+    }
+
+    public partial class ModelImporter : AssetImporter
+    {
+        public bool isReadable { get; set; }
+    }
+}
+
+namespace UnityEditorInternal
+{
+    public partial class InternalEditorUtility
+    {
+        public static string[] tags => UnityShim.ProjectNames.Tags.ToArray();
     }
 }
 
@@ -82,6 +105,10 @@ namespace UnityEditor.AssetImporters
                 throw new InvalidOperationException("the main object was not added to the asset");
             }
             mainObject = obj;
+        }
+
+        public void DependsOnSourceAsset(string path)
+        {
         }
 
         public void LogImportError(string msg, Object? obj = null)

@@ -82,6 +82,12 @@ namespace UnityEditor
             EditorScreen.Field(label, selectedIndex,
                 selectedIndex >= 0 && selectedIndex < displayedOptions.Length ? displayedOptions[selectedIndex] : "");
 
+        public static float FloatField(GUIContent label, float value, params GUILayoutOption[] options) =>
+            EditorScreen.Field(label, value);
+
+        public static string TextField(GUIContent label, string text, params GUILayoutOption[] options) =>
+            EditorScreen.Field(label, text);
+
         public static int IntField(GUIContent label, int value, params GUILayoutOption[] options) =>
             EditorScreen.Field(label, value);
     }
@@ -95,6 +101,13 @@ namespace UnityEditor
 
     public partial class EditorUtility
     {
+        public static string SaveFilePanelInProject(
+            string title, string defaultName, string extension, string message) =>
+            WindowHost.AnswerToSave?.Invoke(defaultName + "." + extension) ?? "";
+
+        public static string OpenFilePanelWithFilters(string title, string directory, string[] filters) =>
+            WindowHost.AnswerToOpen?.Invoke() ?? "";
+
         public static string SaveFilePanel(string title, string directory, string defaultName, string extension) =>
             WindowHost.AnswerToSave?.Invoke(defaultName + "." + extension) ?? "";
     }

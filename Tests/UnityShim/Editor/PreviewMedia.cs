@@ -20,6 +20,36 @@ namespace UnityEngine
         public virtual int width { get; set; }
         public virtual int height { get; set; }
         public TextureWrapMode wrapMode { get; set; }
+        public virtual bool isReadable => true;
+        public Hash128 imageContentsHash { get; set; }
+    }
+
+    public partial struct Hash128
+    {
+        private readonly ulong low;
+
+        public Hash128(ulong u64_0, ulong u64_1) => low = u64_0 ^ (31UL * u64_1);
+
+        public override string ToString() => low.ToString("x32");
+    }
+
+    public partial struct Color32
+    {
+        public byte r;
+        public byte g;
+        public byte b;
+        public byte a;
+
+        public Color32(byte r, byte g, byte b, byte a) => (this.r, this.g, this.b, this.a) = (r, g, b, a);
+
+        public static implicit operator Color32(Color c) => new Color32(
+            Byte(255f * c.r), Byte(255f * c.g), Byte(255f * c.b), Byte(255f * c.a));
+
+        public static Color32 Lerp(Color32 a, Color32 b, float t) => new Color32(
+            Byte(a.r + Mathf.Clamp01(t) * (b.r - a.r)), Byte(a.g + Mathf.Clamp01(t) * (b.g - a.g)),
+            Byte(a.b + Mathf.Clamp01(t) * (b.b - a.b)), Byte(a.a + Mathf.Clamp01(t) * (b.a - a.a)));
+
+        private static byte Byte(float value) => (byte)Math.Round(Mathf.Clamp(value, 0f, 255f));
     }
 
     public sealed partial class Texture2D : Texture
@@ -34,6 +64,33 @@ namespace UnityEngine
             this.height = height;
             bytes = 4 * width * height;
             MediaCount.Add(this);
+        }
+
+        private Color32[] colours = Array.Empty<Color32>();
+        private bool isKept = true;
+
+        public override bool isReadable => isKept;
+
+        /// <exception cref="UnityException">The texture is not readable.</exception>
+        public Color32[] GetPixels32() => isKept
+            ? (Color32[])colours.Clone()
+            : throw new UnityException($"Texture '{name}' is not readable.");
+
+        public void SetPixels32(Color32[] colors)
+        {
+            colours = (Color32[])colors.Clone();
+            ulong sum = 17;
+            foreach (Color32 each in colours)
+            {
+                sum = 31 * sum + (uint)(each.r << 24 | each.g << 16 | each.b << 8 | each.a);
+            }
+            imageContentsHash = new Hash128(sum, 0);
+        }
+
+        public void Apply(bool updateMipmaps, bool makeNoLongerReadable)
+        {
+            Apply(updateMipmaps);
+            isKept = !makeNoLongerReadable;
         }
 
         /// <summary>What the graphics card has.</summary>

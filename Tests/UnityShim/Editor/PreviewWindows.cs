@@ -14,6 +14,9 @@ namespace UnityShim
         /// <summary>Where to save, from the name that is proposed; null to cancel.</summary>
         public static Func<string, string>? AnswerToSave { get; set; }
 
+        /// <summary>Which file to open; null to cancel.</summary>
+        public static Func<string>? AnswerToOpen { get; set; }
+
         /// <summary>What a window showed for a moment.</summary>
         public static string Notification { get; internal set; } = "";
 

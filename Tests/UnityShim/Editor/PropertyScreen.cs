@@ -21,6 +21,14 @@ namespace UnityShim
                 drawer.OnGUI(position, property, label);
                 return;
             }
+            if (property.isArray)
+            {
+                for (int index = 0; index < property.arraySize; ++index)
+                {
+                    Show(position, property.GetArrayElementAtIndex(index), new GUIContent("Element " + index));
+                }
+                return;
+            }
             bool isEvent = typeof(UnityEngine.Events.UnityEventBase).IsAssignableFrom(property.FieldType);
             if (property.propertyType == SerializedPropertyType.Generic && !isEvent)
             {

@@ -1,5 +1,7 @@
 using System;
+using System.Collections;
 using System.Collections.Generic;
+using System.Globalization;
 using System.Linq;
 using System.Reflection;
 using UnityEngine;
@@ -16,33 +18,80 @@ namespace UnityShim
 
         public static IEnumerable<string> Roots(Type type) => FieldsOf(type).Select(field => field.Name);
 
-        /// <summary>Null where there is no such field.</summary>
-        public static FieldInfo? Find(Type type, string path)
+        /// <summary>What a path leads to: "rules.Array.data[2].tag" is the tag of the third of the rules. Null where
+        /// there is no such field.</summary>
+        public static (FieldInfo Field, Type Type)? Find(Type type, string path)
         {
-            FieldInfo? found = null;
+            FieldInfo? field = null;
+            Type found = type;
             foreach (string name in path.Split('.'))
             {
-                found = FieldsOf(found?.FieldType ?? type).FirstOrDefault(field => field.Name == name);
-                if (found == null)
+                if (name == "Array")
+                {
+                    continue;
+                }
+                if (name == "size" && IsList(found))
+                {
+                    found = typeof(int);
+                    continue;
+                }
+                if (name.StartsWith("data[", StringComparison.Ordinal) && IsList(found))
+                {
+                    found = ElementOf(found);
+                    continue;
+                }
+                field = FieldsOf(found).FirstOrDefault(each => each.Name == name);
+                if (field == null)
                 {
                     return null;
                 }
+                found = field.FieldType;
             }
-            return found;
+            return (field!, found);
         }
 
-        /// <summary>Paths of everything that is a value of its own.</summary>
-        public static IEnumerable<string> Leaves(Type type) => FieldsOf(type).SelectMany(field =>
-            IsNested(field.FieldType)
-                ? Leaves(field.FieldType).Select(path => field.Name + "." + path)
-                : new[] { field.Name });
+        /// <summary>Paths of everything that is a value of its own; a list's length comes before its elements.
+        /// </summary>
+        public static IEnumerable<string> Leaves(object owner)
+        {
+            foreach (FieldInfo field in FieldsOf(owner.GetType()))
+            {
+                object? value = field.GetValue(owner);
+                if (IsNested(field.FieldType))
+                {
+                    foreach (string path in Leaves(value!))
+                    {
+                        yield return field.Name + "." + path;
+                    }
+                }
+                else if (IsList(field.FieldType))
+                {
+                    yield return field.Name + ".Array.size";
+                    var list = (IList)value!;
+                    for (int index = 0; index < list.Count; ++index)
+                    {
+                        foreach (string path in Leaves(list[index]!))
+                        {
+                            yield return $"{field.Name}.Array.data[{index}].{path}";
+                        }
+                    }
+                }
+                else
+                {
+                    yield return field.Name;
+                }
+            }
+        }
 
         public static object? Get(object owner, string path)
         {
             object? value = owner;
             foreach (string name in path.Split('.'))
             {
-                value = Find(value!.GetType(), name)!.GetValue(value);
+                value = name == "Array" ? value
+                    : name == "size" && value is IList list ? list.Count
+                    : name.StartsWith("data[", StringComparison.Ordinal) ? ((IList)value!)[IndexOf(name)]
+                    : FieldsOf(value!.GetType()).First(field => field.Name == name).GetValue(value);
             }
             return value;
         }
@@ -51,12 +100,18 @@ namespace UnityShim
         {
             int last = path.LastIndexOf('.');
             object holder = last < 0 ? owner : Get(owner, path.Substring(0, last))!;
-            Find(holder.GetType(), path.Substring(last + 1))!.SetValue(holder, value);
+            string name = path.Substring(last + 1);
+            if (name == "size" && holder is IList list)
+            {
+                Resize(list, (int)value!);
+                return;
+            }
+            FieldsOf(holder.GetType()).First(field => field.Name == name).SetValue(holder, value);
         }
 
         /// <summary>A copy of all values that no later change of the object changes.</summary>
         public static Dictionary<string, object?> Snapshot(Object target) =>
-            Leaves(target.GetType()).ToDictionary(path => path, path => Get(target, path));
+            Leaves(target).ToDictionary(path => path, path => Get(target, path));
 
         public static void Restore(Object target, Dictionary<string, object?> snapshot)
         {
@@ -68,7 +123,29 @@ namespace UnityShim
         }
 
         public static bool IsNested(Type type) => type.IsClass && type != typeof(string) && !type.IsArray &&
+            !(type.IsGenericType && type.GetGenericTypeDefinition() == typeof(List<>)) &&
             type.IsDefined(typeof(SerializableAttribute), false);
+
+        /// <summary>A list whose elements are unfolded.</summary>
+        public static bool IsList(Type type) => type.IsGenericType &&
+            type.GetGenericTypeDefinition() == typeof(List<>) && IsNested(ElementOf(type));
+
+        private static Type ElementOf(Type list) => list.GetGenericArguments()[0];
+
+        private static int IndexOf(string segment) =>
+            int.Parse(segment.Substring(5, segment.Length - 6), CultureInfo.InvariantCulture);
+
+        private static void Resize(IList list, int size)
+        {
+            while (list.Count > size)
+            {
+                list.RemoveAt(list.Count - 1);
+            }
+            while (list.Count < size)
+            {
+                list.Add(Activator.CreateInstance(ElementOf(list.GetType()), true));
+            }
+        }
 
         private static IEnumerable<FieldInfo> FieldsOf(Type? type)
         {

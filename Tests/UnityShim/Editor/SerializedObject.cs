@@ -47,8 +47,8 @@ namespace UnityEditor
         }
 
         public SerializedProperty FindProperty(string propertyPath) =>
-            SerializedFields.Find(targetObject.GetType(), propertyPath) is { } field
-                ? new SerializedProperty(this, propertyPath, field)
+            SerializedFields.Find(targetObject.GetType(), propertyPath) is { } found
+                ? new SerializedProperty(this, propertyPath, found.Field, found.Type)
                 : null!;
 
         public bool ApplyModifiedProperties()
@@ -83,7 +83,8 @@ namespace UnityEditor
 
         internal bool Differs(string path) => values[0].Keys
             .Where(leaf => leaf == path || leaf.StartsWith(path + ".", StringComparison.Ordinal))
-            .Any(leaf => values.Any(each => !Equals(each[leaf], values[0][leaf])));
+            .Any(leaf => values.Any(
+                each => !each.TryGetValue(leaf, out object? other) || !Equals(other, values[0][leaf])));
 
         internal void SetValue(string path, object? value)
         {

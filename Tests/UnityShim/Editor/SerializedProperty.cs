@@ -18,6 +18,7 @@ namespace UnityEditor
         ObjectReference = 5,
         LayerMask = 6,
         Enum = 7,
+        Vector2 = 8,
         Vector3 = 9,
     }
 
@@ -25,8 +26,9 @@ namespace UnityEditor
     {
         private readonly FieldInfo field;
 
-        internal SerializedProperty(SerializedObject owner, string path, FieldInfo field)
+        internal SerializedProperty(SerializedObject owner, string path, FieldInfo field, Type type)
         {
+            FieldType = type;
             serializedObject = owner;
             propertyPath = path;
             this.field = field;
@@ -51,6 +53,7 @@ namespace UnityEditor
             : FieldType == typeof(bool) ? SerializedPropertyType.Boolean
             : FieldType == typeof(int) ? SerializedPropertyType.Integer
             : FieldType == typeof(float) ? SerializedPropertyType.Float
+            : FieldType == typeof(Vector2) ? SerializedPropertyType.Vector2
             : FieldType == typeof(Vector3) ? SerializedPropertyType.Vector3
             : FieldType == typeof(LayerMask) ? SerializedPropertyType.LayerMask
             : FieldType.IsEnum ? SerializedPropertyType.Enum
@@ -100,13 +103,21 @@ namespace UnityEditor
             set => Change(value);
         }
 
-        internal Type FieldType => field.FieldType;
+        public bool isArray => SerializedFields.IsList(FieldType);
+
+        public int arraySize => (int)serializedObject.Value(propertyPath + ".Array.size")!;
+
+        /// <summary>Of a list, or an element of one.</summary>
+        internal Type FieldType { get; }
 
         internal object? Boxed
         {
             get => serializedObject.Value(propertyPath);
             set => serializedObject.SetValue(propertyPath, value);
         }
+
+        public SerializedProperty GetArrayElementAtIndex(int index) =>
+            serializedObject.FindProperty($"{propertyPath}.Array.data[{index}]");
 
         public SerializedProperty FindPropertyRelative(string relativePropertyPath) =>
             serializedObject.FindProperty(propertyPath + "." + relativePropertyPath);

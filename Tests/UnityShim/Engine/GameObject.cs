@@ -60,6 +60,27 @@ namespace UnityEngine
             AddComponentsTo(results);
         }
 
+        /// <summary>Here, else on the nearest object above.</summary>
+        public T GetComponentInParent<T>(bool includeInactive)
+        {
+            for (Transform? place = transform; place is object; place = place.parent)
+            {
+                if ((includeInactive || place.gameObject.activeInHierarchy) && place.TryGetComponent(out T component))
+                {
+                    return component;
+                }
+            }
+            return default!;
+        }
+
+        /// <summary>Here, else the first below.</summary>
+        public T GetComponentInChildren<T>(bool includeInactive)
+        {
+            var found = new List<T>();
+            GetComponentsInChildren(includeInactive, found);
+            return found.Count > 0 ? found[0] : default!;
+        }
+
         public void GetComponentsInChildren<T>(bool includeInactive, List<T> results)
         {
             results.Clear();
@@ -105,6 +126,10 @@ namespace UnityEngine
         public void GetComponents<T>(List<T> results) => owner.GetComponents(results);
         public void GetComponentsInChildren<T>(bool includeInactive, List<T> result) =>
             owner.GetComponentsInChildren(includeInactive, result);
+
+        public T GetComponentInParent<T>(bool includeInactive) => owner.GetComponentInParent<T>(includeInactive);
+        public T GetComponentInChildren<T>(bool includeInactive) => owner.GetComponentInChildren<T>(includeInactive);
+        public bool CompareTag(string tag) => owner.CompareTag(tag);
 
         public void SendMessage(string methodName, object value) => Messages.SendByName(owner, methodName, value);
 

@@ -13,9 +13,10 @@ namespace UnityEngine
 
         internal bool IsDestroyed { get; private set; }
 
+        /// <summary>Reading it makes garbage, as in Unity.</summary>
         public string name
         {
-            get => Named.text;
+            get => new string(Named.text.AsSpan());
             set => Named.text = value;
         }
 

@@ -113,43 +113,6 @@ namespace UnityEngine
         public TerrainData? terrainData { get; set; }
     }
 
-    public sealed class Mesh : Object
-    {
-        public Vector3[] vertices { get; set; } = Array.Empty<Vector3>();
-        public int[] triangles { get; set; } = Array.Empty<int>();
-    }
-
-    public sealed class TerrainData : Object
-    {
-        private float[,] heights = new float[33, 33];
-
-        public Vector3 size { get; set; } = new Vector3(1f, 1f, 1f);
-
-        public int heightmapResolution
-        {
-            get => heights.GetLength(0);
-            set => heights = new float[value, value];
-        }
-
-        public void SetHeights(int xBase, int yBase, float[,] heights)
-        {
-            for (int y = 0; y < heights.GetLength(0); ++y)
-            {
-                for (int x = 0; x < heights.GetLength(1); ++x)
-                {
-                    this.heights[yBase + y, xBase + x] = heights[y, x];
-                }
-            }
-        }
-
-        /// <summary>Row z, column x, as <see cref="SetHeights"/> takes them.</summary>
-        internal Vector3 VertexAt(int x, int z)
-        {
-            float last = heightmapResolution - 1;
-            return Vector3.Scale(size, new Vector3(x / last, heights[z, x], z / last));
-        }
-    }
-
     public partial class Physics
     {
         public static bool queriesHitBackfaces { get; set; }

@@ -32,7 +32,26 @@ namespace UnityEngine
 
     public sealed partial class GameObject
     {
-        public string tag { get; set; } = "Untagged";
+        private string tagText = "Untagged";
+
+        /// <summary>Reading it makes garbage, as in Unity.</summary>
+        public string tag
+        {
+            get => new string(tagText.AsSpan());
+            set
+            {
+                UnityShim.ProjectNames.RequireTag(value);
+                tagText = value;
+            }
+        }
+
+        public bool CompareTag(string tag)
+        {
+            UnityShim.ProjectNames.RequireTag(tag);
+            return tagText == tag;
+        }
+
+        public SceneManagement.Scene scene => default;
     }
 
     [AttributeUsage(AttributeTargets.Class, AllowMultiple = true)]
@@ -70,6 +89,14 @@ namespace UnityEngine.SceneManagement
     /// <summary>There is one: all that lies in the world.</summary>
     public partial struct Scene
     {
+        public static bool operator ==(Scene lhs, Scene rhs) => true;
+
+        public static bool operator !=(Scene lhs, Scene rhs) => !(lhs == rhs);
+
+        public override bool Equals(object? other) => other is Scene;
+
+        public override int GetHashCode() => 0;
+
         public GameObject[] GetRootGameObjects() =>
             World.AllObjects.Where(each => each.transform.parent is null).ToArray();
     }

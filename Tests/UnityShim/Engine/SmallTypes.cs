@@ -24,6 +24,9 @@ namespace UnityEngine
             set => mask = value;
         }
 
+        /// <summary>Empty for a layer without name.</summary>
+        public static string LayerToName(int layer) => UnityShim.ProjectNames.Layers[layer];
+
         public static implicit operator int(LayerMask mask) => mask.mask;
         public static implicit operator LayerMask(int intVal) => new LayerMask { mask = intVal };
     }
@@ -52,6 +55,14 @@ namespace UnityEngine
         public Vector3 point { get; set; }
         public Vector3 normal { get; set; }
         public float distance { get; set; }
+
+        /// <summary>Of non-convex meshes; -1 for anything else.</summary>
+        public int triangleIndex { get; internal set; }
+
+        /// <summary>Of readable non-convex meshes with texture coordinates; 0 for anything else.</summary>
+        public Vector2 textureCoord { get; internal set; }
+
+        public Vector2 textureCoord2 { get; internal set; }
     }
 
     public enum QueryTriggerInteraction

@@ -1,3 +1,5 @@
+using System.Collections.Generic;
+
 namespace UnityEngine
 {
     public enum PrimitiveType
@@ -13,6 +15,7 @@ namespace UnityEngine
     public partial class Renderer : Component
     {
         private Material? shown = new Material();
+        private Material[]? several;
         private bool isOwn;
 
         /// <summary>Reading it makes the renderer's own copy, as in Unity.</summary>
@@ -37,10 +40,44 @@ namespace UnityEngine
             {
                 shown = value;
                 isOwn = false;
+                several = several != null && several.Length > 0 && ReferenceEquals(several[0], value) ? several : null;
+            }
+        }
+
+        /// <summary>Reading makes garbage, as in Unity. Several are kept as they are, without copies of their own.
+        /// </summary>
+        public Material[] sharedMaterials
+        {
+            get => several ?? (shown == null ? System.Array.Empty<Material>() : new[] { shown });
+            set
+            {
+                several = value;
+                sharedMaterial = value.Length > 0 ? value[0] : null;
+            }
+        }
+
+        public void GetSharedMaterials(List<Material> m)
+        {
+            m.Clear();
+            if (several != null)
+            {
+                m.AddRange(several);
+            }
+            else if (shown is object)
+            {
+                m.Add(shown);
             }
         }
 
         public bool enabled { get; set; } = true;
+    }
+
+    public partial class SkinnedMeshRenderer : Renderer
+    {
+    }
+
+    public sealed partial class TrailRenderer : Renderer
+    {
     }
 
     public partial class MeshRenderer : Renderer
@@ -49,6 +86,7 @@ namespace UnityEngine
 
     public sealed partial class MeshFilter : Component
     {
+        public Mesh? sharedMesh { get; set; }
     }
 
     public partial class Material : Object
@@ -58,6 +96,8 @@ namespace UnityEngine
         }
 
         public Color color { get; set; } = Color.white;
+
+        public Texture? mainTexture { get; set; }
     }
 
     public sealed partial class GameObject

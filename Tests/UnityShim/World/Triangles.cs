@@ -55,7 +55,9 @@ namespace UnityShim
                         // A back that is hit turns its normal towards the ray.
                         normal = Vector3.Dot(front, ray.direction) > 0f ? -front : front,
                         distance = distance,
+                        triangleIndex = collider is MeshCollider { convex: false } ? index : -1,
                     };
+                    hit.textureCoord = TextureCoordinate(collider, index, a, b, c, hit.point);
                 }
             }
             return found;
@@ -79,6 +81,27 @@ namespace UnityShim
                 bounds.Encapsulate(c);
             }
             return bounds;
+        }
+
+        /// <summary>0 where Unity has none.</summary>
+        private static Vector2 TextureCoordinate(
+            Collider collider, int index, Vector3 a, Vector3 b, Vector3 c, Vector3 point)
+        {
+            if (!(collider is MeshCollider { convex: false } mesh) || mesh.sharedMesh!.uv.Length == 0 ||
+                !mesh.sharedMesh.isReadable)
+            {
+                return default;
+            }
+            Vector3 whole = Vector3.Cross(b - a, c - a);
+            float ofA = Vector3.Dot(Vector3.Cross(c - b, point - b), whole) / whole.sqrMagnitude;
+            float ofB = Vector3.Dot(Vector3.Cross(a - c, point - c), whole) / whole.sqrMagnitude;
+            int[] triangles = mesh.sharedMesh.triangles;
+            Vector2 first = mesh.sharedMesh.uv[triangles[3 * index]];
+            Vector2 second = mesh.sharedMesh.uv[triangles[3 * index + 1]];
+            Vector2 third = mesh.sharedMesh.uv[triangles[3 * index + 2]];
+            float ofC = 1f - ofA - ofB;
+            return new Vector2(ofA * first.x + ofB * second.x + ofC * third.x,
+                ofA * first.y + ofB * second.y + ofC * third.y);
         }
 
         private static int Count(Collider collider) => collider switch

@@ -201,6 +201,11 @@ namespace UnityShim
                 component.gameObject.Components.Remove(component);
                 PhysicsWorld.Removed(component);
             }
+            if (condemned is ScriptableObject script && !(condemned is UnityEditor.EditorWindow))
+            {
+                Messages.Of(script).Send(Message.OnDisable);
+                Messages.Of(script).Send(Message.OnDestroy);
+            }
             condemned.MarkDestroyed();
         }
 

@@ -13,8 +13,12 @@ namespace HaptoFlow.Editor
 
         public static IEnumerable<Finding> Check(SceneContents scene)
         {
+            // What a rule decides, be it for nothing, needs no tag.
+            Collider[] undecided = scene.Answers
+                .Where(answer => answer.ByRules.Parts.All(part => part.Map is null))
+                .Select(answer => answer.Collider).ToArray();
             var plan = TagPlan.For(
-                scene.Colliders, new HashSet<GameObject>(), new LabelMatcher(LabelCatalog.Current.Names));
+                undecided, new HashSet<GameObject>(), new LabelMatcher(LabelCatalog.Current.Names));
             foreach (TagProposal proposal in plan.Proposals)
             {
                 yield return new Finding(MessageType.Info,
@@ -35,8 +39,8 @@ namespace HaptoFlow.Editor
 
         private static IEnumerable<Finding> CheckMeshes(SceneContents scene)
         {
-            List<MeshCollider> meshes = scene.Colliders.OfType<MeshCollider>()
-                .Where(mesh => SceneColliders.SurfaceOf(mesh) != null).ToList();
+            List<MeshCollider> meshes = scene.Answers.Where(answer => answer.CanBeFelt)
+                .Select(answer => answer.Collider).OfType<MeshCollider>().ToList();
             List<GameObject> empty = meshes.Where(mesh => mesh.sharedMesh == null).Select(Owner).ToList();
             if (empty.Count > 0)
             {

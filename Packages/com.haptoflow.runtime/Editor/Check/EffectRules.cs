@@ -18,7 +18,7 @@ namespace HaptoFlow.Editor
 
         public static IEnumerable<Finding> Check(SceneContents scene)
         {
-            if (scene.Surfaces.Count > 0 && Called(scene).Count == 0)
+            if (Descriptions(scene).Any() && Called(scene).Count == 0)
             {
                 yield return new Finding(MessageType.Warning,
                     "No surface calls for an effect: nothing is felt. Switch on Texture, Impact or Edge on a surface.");
@@ -42,7 +42,7 @@ namespace HaptoFlow.Editor
             var called = new List<string>();
             foreach ((HapticEffects asked, HapticEffect effect, string name) in OfSurfaces)
             {
-                int count = scene.Surfaces.Count(surface => (surface.SharedDescription.Effects & asked) != 0);
+                int count = Descriptions(scene).Count(material => (material.Effects & asked) != 0);
                 Add(called, name, count, "surface", Cost(scene, effect));
             }
             Add(called, "compensation", scene.Outputs.Count(output => output.Processing.Actuator != OutputActuator.Uncompensated),
@@ -53,6 +53,13 @@ namespace HaptoFlow.Editor
                 "output", Cost(scene, HapticEffect.Delay));
             return called;
         }
+
+        /// <summary>Of surfaces, and of the colliders that rules give a material.</summary>
+        private static IEnumerable<MaterialDescription> Descriptions(SceneContents scene) => scene.Surfaces
+            .Select(surface => surface.SharedDescription)
+            .Concat(scene.Answers.Where(answer => answer.Surface is null && answer.CanBeFelt)
+                .Select(answer => answer.ByRules.Parts.First(part => part.CanBeFelt).Material?.Description)
+                .Where(description => description != null).Select(description => description!));
 
         private static bool HasRun(SceneContents scene) =>
             OfSurfaces.Any(each => Cost(scene, each.Effect).HasValue);

@@ -16,6 +16,8 @@ namespace HaptoFlow.Editor
             Surfaces = All<HapticSurface>();
             Outputs = All<HapticOutput>();
             Colliders = SceneColliders.InScenes().Where(IsInReach).ToArray();
+            Maps = new SceneMaps();
+            Answers = Colliders.Select(Maps.Ask).ToArray();
         }
 
         public IReadOnlyList<HapticStylus> Styluses { get; }
@@ -27,6 +29,12 @@ namespace HaptoFlow.Editor
         /// <summary>Those that can be felt, on layers that a stylus looks at; on all layers where there is no stylus.
         /// </summary>
         public IReadOnlyList<Collider> Colliders { get; }
+
+        /// <summary>The maps that count.</summary>
+        public SceneMaps Maps { get; }
+
+        /// <summary>What each of <see cref="Colliders"/> feels like, and why.</summary>
+        public IReadOnlyList<ColliderAnswer> Answers { get; }
 
         private bool IsInReach(Collider collider)
         {

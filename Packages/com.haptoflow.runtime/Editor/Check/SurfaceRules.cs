@@ -38,7 +38,7 @@ namespace HaptoFlow.Editor
             }
         }
 
-        private static IEnumerable<Finding> CheckLabels(
+        internal static IEnumerable<Finding> CheckLabels(
             LabelCatalog catalog, Object owner, MaterialDescription material, string root)
         {
             if (material.Label.Length == 0 && material.SecondLabel.Length == 0)

@@ -12,8 +12,15 @@ namespace HaptoFlow.Editor
         internal static readonly GUIContent Preview = new GUIContent("Preview",
             "Opens the Texture Preview on this material: heard and seen without a headset.");
 
+        private readonly MaterialSummaryView view = new MaterialSummaryView();
+
         public override void OnInspectorGUI()
         {
+            if (targets.Length == 1 && ((HapticMaterial)target).IsLearnt)
+            {
+                view.Draw(((HapticMaterial)target).Learnt);
+                EditorGUILayout.Space();
+            }
             Draw(serializedObject);
             if (GUILayout.Button(Preview))
             {

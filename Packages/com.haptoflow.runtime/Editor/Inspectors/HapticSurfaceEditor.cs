@@ -1,4 +1,5 @@
 #nullable enable
+using System.Linq;
 using UnityEditor;
 using UnityEngine;
 
@@ -11,6 +12,9 @@ namespace HaptoFlow.Editor
     {
         private static readonly GUIContent Shared = new GUIContent("Shared Material",
             "A Haptic Material asset that several surfaces share; empty to describe one here.");
+        private static readonly GUIContent Mask = new GUIContent("Mask",
+            "Further materials by a texture, at the place that is touched; empty for none. It counts on readable " +
+            "mesh colliders that are not convex.");
         private static readonly GUIContent Children = new GUIContent("Include Children",
             "Colliders of children count too, but for those below another Haptic Surface.");
         private static readonly GUIContent OwnMotion = new GUIContent("Feel Own Motion",
@@ -20,6 +24,7 @@ namespace HaptoFlow.Editor
 
         private SerializedProperty shared = null!;
         private SerializedProperty own = null!;
+        private SerializedProperty mask = null!;
         private SerializedProperty children = null!;
         private SerializedProperty ownMotion = null!;
         private SerializedProperty grain = null!;
@@ -30,6 +35,7 @@ namespace HaptoFlow.Editor
         {
             shared = serializedObject.FindProperty("sharedMaterial");
             own = serializedObject.FindProperty("own");
+            mask = serializedObject.FindProperty("mask");
             children = serializedObject.FindProperty("includeChildren");
             ownMotion = serializedObject.FindProperty("feelOwnMotion");
             grain = serializedObject.FindProperty("grain");
@@ -47,6 +53,7 @@ namespace HaptoFlow.Editor
             Object? material = shared.objectReferenceValue;
             EditorGUILayout.PropertyField(shared, Shared);
             DrawMaterial(several, material);
+            EditorGUILayout.PropertyField(mask, Mask);
             EditorGUILayout.Space();
             EditorGUILayout.PropertyField(children, Children);
             EditorGUILayout.PropertyField(ownMotion, OwnMotion);
@@ -113,7 +120,32 @@ namespace HaptoFlow.Editor
                     byRays += mine && (collider is MeshCollider || collider is TerrainCollider) ? 1 : 0;
                 }
             }
-            extent = ExtentOf(felt, byRays);
+            extent = ExtentOf(felt, byRays) + InsteadOf();
+        }
+
+        /// <summary>Which rule would count without this surface, where there is one; empty for several surfaces.
+        /// </summary>
+        private string InsteadOf()
+        {
+            if (targets.Length != 1)
+            {
+                return "";
+            }
+            var surface = (HapticSurface)target;
+            var maps = new SceneMaps();
+            ColliderAnswer? answer = maps.All.Count == 0
+                ? null
+                : SceneColliders.Below(new[] { surface.gameObject }).Where(collider =>
+                    SceneColliders.SurfaceOf(collider) == surface).Select(maps.Ask).FirstOrDefault();
+            if (answer == null || answer.ByRules.Parts.All(part => part.Map is null))
+            {
+                return "";
+            }
+            var byRules = new ColliderAnswer(answer.Collider, null, answer.ByRules);
+            string instead = $"{byRules.Material} ({byRules.Reason})";
+            return answer.Surface is null
+                ? $" This surface is off: rules count, and it feels like {instead}."
+                : $" This surface wins over the rules, by which it would feel like {instead}.";
         }
 
         private static string ExtentOf(int felt, int byRays)

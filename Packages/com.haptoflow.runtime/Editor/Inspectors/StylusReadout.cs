@@ -20,7 +20,9 @@ namespace HaptoFlow.Editor
             if (stylus.IsTouching)
             {
                 HapticContact contact = stylus.Contact;
-                Add("Touches", "{0} ({1})", contact.Surface.name, contact.Surface.SharedDescription.Label);
+                Add("Touches", contact.Collider != null ? contact.Collider.name : "something that is gone");
+                Add("Feels like", FeltWords.Of(contact));
+                Add("Because of", contact.Explain());
                 Add("Force", "{0:0.00} N", contact.ForceNewtons);
                 Add("Speed", "{0:0} mm/s", 1000.0 * contact.TangentialVelocity.magnitude);
                 Add("Penetration", "{0:0.0} mm", 1000.0 * contact.PenetrationMetres);

@@ -9,11 +9,18 @@ namespace HaptoFlow.Editor
     [CustomPropertyDrawer(typeof(MaterialDescription))]
     internal sealed class MaterialDescriptionDrawer : PropertyDrawer
     {
-        private const int FieldRows = 6;
+        private const int FieldRows = 9;
         private const float RemarkWidth = 110f;
 
         private static readonly GUIContent Label = new GUIContent("Label",
             "What it is made of: a label of the model, kept by its name.");
+        private static readonly GUIContent LabelBehind = new GUIContent("Label",
+            "Felt where the learnt material cannot be: while it is on its way to the engine, and under another model.");
+        private static readonly GUIContent Learnt = new GUIContent("Learnt Material",
+            "A Haptic Material that was learnt from a recording, in the place of the label; none for the label.");
+        private static readonly GUIContent ItsOwn = new GUIContent("Learnt Material",
+            "This asset carries what it was learnt from.");
+        private static readonly GUIContent Itself = new GUIContent("this asset");
         private static readonly GUIContent SecondLabel = new GUIContent("Second Label",
             "A label to blend with; none for the first alone.");
         private static readonly GUIContent Blend = new GUIContent("Blend",
@@ -32,6 +39,12 @@ namespace HaptoFlow.Editor
         private static readonly GUIContent Strength = new GUIContent("Strength",
             "Gain of the output while this is touched, 0 to 1.");
 
+        private static readonly GUIContent FeatureScale = new GUIContent("Feature Scale",
+            "The material's features, its ribs included, are this many times as large, 0.25 to 4. The level stays as " +
+            "it is.");
+        private static readonly GUIContent Tone = new GUIContent("Tone (dB/octave)",
+            "The spectrum is tilted about 150 Hz, -12 to 12: above 0 is brighter, below 0 darker.");
+
         private static float RowHeight =>
             EditorGUIUtility.singleLineHeight + EditorGUIUtility.standardVerticalSpacing;
 
@@ -48,7 +61,9 @@ namespace HaptoFlow.Editor
             }
             SerializedProperty first = property.FindPropertyRelative("label");
             SerializedProperty second = property.FindPropertyRelative("secondLabel");
-            LabelField.Draw(row, first, Label, false);
+            bool isLearnt = DrawLearnt(row, property);
+            row.y += RowHeight;
+            LabelField.Draw(row, first, isLearnt ? LabelBehind : Label, false);
             row.y += RowHeight;
             LabelField.Draw(row, second, SecondLabel, true);
             row.y += RowHeight;
@@ -62,7 +77,25 @@ namespace HaptoFlow.Editor
             row.y += RowHeight;
             EditorGUI.PropertyField(row, property.FindPropertyRelative("strength"), Strength);
             row.y += RowHeight;
+            EditorGUI.PropertyField(row, property.FindPropertyRelative("featureScale"), FeatureScale);
+            row.y += RowHeight;
+            EditorGUI.PropertyField(row, property.FindPropertyRelative("toneDbPerOctave"), Tone);
+            row.y += RowHeight;
             DrawEffects(row, property);
+        }
+
+        /// <returns>Something that was learnt goes before the label.</returns>
+        private static bool DrawLearnt(Rect row, SerializedProperty property)
+        {
+            SerializedProperty learnt = property.FindPropertyRelative("learnt");
+            if (property.serializedObject.targetObject is HapticMaterial { IsLearnt: true })
+            {
+                EditorGUI.LabelField(row, ItsOwn, Itself);
+                return true;
+            }
+            bool isLearnt = !learnt.hasMultipleDifferentValues && learnt.objectReferenceValue != null;
+            EditorGUI.PropertyField(row, learnt, Learnt);
+            return isLearnt;
         }
 
         private static void DrawEffects(Rect row, SerializedProperty property)

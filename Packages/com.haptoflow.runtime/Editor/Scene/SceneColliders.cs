@@ -10,9 +10,7 @@ namespace HaptoFlow.Editor
     internal static class SceneColliders
     {
         /// <summary>A kind of collider that a tip can feel.</summary>
-        public static bool CanBeFelt(Collider collider) => !collider.isTrigger &&
-            (collider is BoxCollider || collider is SphereCollider || collider is CapsuleCollider ||
-            collider is CharacterController || collider is MeshCollider || collider is TerrainCollider);
+        public static bool CanBeFelt(Collider collider) => !collider.isTrigger && ColliderProbe.IsFeltKind(collider);
 
         /// <summary>The surface whose material the collider has; null for an untagged one.</summary>
         public static HapticSurface? SurfaceOf(Collider collider)

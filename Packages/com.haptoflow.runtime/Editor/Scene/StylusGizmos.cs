@@ -39,7 +39,7 @@ namespace HaptoFlow.Editor
             if (withCaption)
             {
                 Handles.Label((marked.PointMetres + marked.Normal * ContactMarks.NormalMetres).ToVector(),
-                    contact.Surface.SharedDescription.Label + ": " + ContactMarks.Caption(marked));
+                    FeltWords.Of(contact) + ": " + ContactMarks.Caption(marked));
             }
         }
 

@@ -19,28 +19,24 @@ namespace HaptoFlow.Editor
         public string Text { get; }
     }
 
-    /// <summary>Tagged and untagged colliders, of the selection where there is one, else of the scene.</summary>
+    /// <summary>What colliders feel like and by which rule, and which are not felt: of the selection where there is
+    /// one, else of the scene.</summary>
     internal sealed class SurfaceList
     {
         private SurfaceList(IReadOnlyList<Collider> colliders, bool ofSelection)
         {
             OfSelection = ofSelection;
-            Untagged = colliders
-                .Where(collider => SceneColliders.SurfaceOf(collider) == null)
-                .Select(collider => new SurfaceLine(collider, collider.name))
-                .ToArray();
-            Tagged = colliders
-                .Where(collider => SceneColliders.SurfaceOf(collider) != null)
-                .Select(collider => new SurfaceLine(
-                    collider, collider.name + ": " + MaterialOf(SceneColliders.SurfaceOf(collider)!)))
-                .ToArray();
+            var maps = new SceneMaps();
+            ColliderAnswer[] answers = colliders.Select(maps.Ask).ToArray();
+            NotFelt = answers.Where(answer => !answer.CanBeFelt).Select(LineOf).ToArray();
+            Felt = answers.Where(answer => answer.CanBeFelt).Select(LineOf).ToArray();
         }
 
         public bool OfSelection { get; }
 
-        public IReadOnlyList<SurfaceLine> Tagged { get; }
+        public IReadOnlyList<SurfaceLine> Felt { get; }
 
-        public IReadOnlyList<SurfaceLine> Untagged { get; }
+        public IReadOnlyList<SurfaceLine> NotFelt { get; }
 
         /// <param name="selected">Objects; where none of them has a collider, the scene is listed.</param>
         public static SurfaceList Of(IReadOnlyList<GameObject> selected)
@@ -51,12 +47,12 @@ namespace HaptoFlow.Editor
                 : new SurfaceList(SceneColliders.InScenes(), false);
         }
 
-        private static string MaterialOf(HapticSurface surface)
+        /// <summary>A surface's own line needs no reason; what a rule decides does, also where it is nothing.</summary>
+        private static SurfaceLine LineOf(ColliderAnswer answer)
         {
-            LabelCatalog catalog = LabelCatalog.Current;
-            MaterialDescription material = surface.SharedDescription;
-            string first = catalog.TextOf(material.Label);
-            return material.SecondLabel.Length == 0 ? first : first + " and " + catalog.TextOf(material.SecondLabel);
+            string felt = answer.CanBeFelt ? $"{answer.Collider.name}: {answer.Material}" : answer.Collider.name;
+            bool isByRule = answer.Surface is null && answer.ByRules.Parts.Any(part => part.Map is object);
+            return new SurfaceLine(answer.Collider, isByRule ? $"{felt} ({answer.Reason})" : felt);
         }
     }
 }

@@ -11,14 +11,14 @@ namespace HaptoFlow.Editor
     internal sealed class SurfaceOverlay : IMGUIOverlay
     {
         private const int MostLines = 12;
-        private const float Width = 220f;
+        private const float Width = 300f;
 
         private static readonly GUIContent Line = new GUIContent("", "Click to show it in the Hierarchy.");
         private SurfaceList? list;
         private bool isStale = true;
         private string title = "";
-        private string taggedTitle = "";
-        private string untaggedTitle = "";
+        private string feltTitle = "";
+        private string notFeltTitle = "";
 
         public override void OnCreated()
         {
@@ -46,8 +46,8 @@ namespace HaptoFlow.Editor
             using (new EditorGUILayout.VerticalScope(GUILayout.Width(Width)))
             {
                 GUILayout.Label(title, EditorStyles.miniLabel);
-                Draw(untaggedTitle, list!.Untagged);
-                Draw(taggedTitle, list.Tagged);
+                Draw(notFeltTitle, list!.NotFelt);
+                Draw(feltTitle, list.Felt);
             }
         }
 
@@ -60,8 +60,8 @@ namespace HaptoFlow.Editor
             isStale = false;
             list = SurfaceList.Of(Selection.gameObjects);
             title = list.OfSelection ? "In the selection" : "In the scene";
-            untaggedTitle = $"Untagged ({list.Untagged.Count})";
-            taggedTitle = $"Tagged ({list.Tagged.Count})";
+            notFeltTitle = $"Not felt ({list.NotFelt.Count})";
+            feltTitle = $"Felt ({list.Felt.Count})";
         }
 
         private static void Draw(string caption, IReadOnlyList<SurfaceLine> lines)

@@ -15,10 +15,14 @@ namespace HaptoFlow.Editor
         {
             HaptoFlowSettings.OfProject = SettingsOfProject;
             AssemblyReloadEvents.beforeAssemblyReload += HapticSession.ShutDown;
+            AssemblyReloadEvents.beforeAssemblyReload += HapticLearning.EndAll;
             AssemblyReloadEvents.beforeAssemblyReload += ForgetBuiltIn;
             EditorApplication.quitting += HapticSession.ShutDown;
+            EditorApplication.quitting += HapticLearning.EndAll;
             EditorApplication.playModeStateChanged += OnPlayModeChanged;
             EditorApplication.projectChanged += ProjectSettingsAsset.Forget;
+            // A running scene does not look for new names by itself: reading them makes garbage.
+            EditorApplication.hierarchyChanged += MaterialMaps.Change;
         }
 
         private static void OnPlayModeChanged(PlayModeStateChange change)

@@ -22,11 +22,15 @@ namespace HaptoFlow.Editor
         private static readonly GUIContent FullScale = new GUIContent("Full Scale (m/s\u00b2)",
             "Acceleration that is full scale in the output. Smaller is stronger.");
 
+        private static readonly GUIContent MaterialMap = new GUIContent("Material Map",
+            "Says by rules which object is which material, in every scene. Empty: only objects with a Haptic Surface " +
+            "are felt, and what maps of single scenes name.");
+
         /// <summary>Found by the search box of Project Settings.</summary>
         public static readonly string[] Keywords =
         {
             "HaptoFlow", "haptic", "texture", "model", "quality", "draft", "standard", "fine", "update rate", "display",
-            "ceiling", "full scale",
+            "ceiling", "full scale", "material map", "rules",
         };
 
         public static void Draw(SerializedObject settings)
@@ -52,6 +56,7 @@ namespace HaptoFlow.Editor
             EditorGUILayout.PropertyField(settings.FindProperty("updateRateHz"), Rate);
             EditorGUILayout.PropertyField(settings.FindProperty("ceiling"), Ceiling);
             EditorGUILayout.PropertyField(settings.FindProperty("fullScaleMps2"), FullScale);
+            EditorGUILayout.PropertyField(settings.FindProperty("materialMap"), MaterialMap);
             if (settings.ApplyModifiedProperties() && Application.isPlaying)
             {
                 // Quality counts from the next segment on, the rest when an engine starts anew.

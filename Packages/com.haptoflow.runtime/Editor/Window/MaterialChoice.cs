@@ -10,6 +10,9 @@ namespace HaptoFlow.Editor
     [Serializable]
     internal sealed class MaterialChoice
     {
+        [SerializeField]
+        private HapticMaterial? learnt;
+
         /// <summary>Empty until one is chosen.</summary>
         [field: SerializeField]
         public string Label { get; set; } = "";
@@ -22,18 +25,44 @@ namespace HaptoFlow.Editor
         [field: SerializeField]
         public float Share { get; set; } = 0.5f;
 
-        public void Take(LabelMix mix)
+        /// <summary>Where the sliders are that move the material. Not to be changed: set another array.</summary>
+        [field: SerializeField]
+        public float[] Moves { get; set; } = Array.Empty<float>();
+
+        /// <summary>A material that was learnt, in the place of the label; null for the label.</summary>
+        public HapticMaterial? Learnt
+        {
+            get => learnt != null && learnt.IsLearnt ? learnt : null;
+            set => learnt = value;
+        }
+
+        /// <summary>Another label, or another learnt material: the sliders are at rest.</summary>
+        public void Take(LabelMix mix, HapticMaterial? material)
         {
             Label = mix.First;
             SecondLabel = mix.Second;
             Share = mix.Second.Length > 0 ? mix.Share : 0.5f;
+            Learnt = material;
+            Moves = Array.Empty<float>();
+        }
+
+        /// <summary>A label of the model; the sliders are at rest.</summary>
+        public void Choose(string label)
+        {
+            Label = label;
+            Learnt = null;
+            Moves = Array.Empty<float>();
         }
 
         /// <summary>The label; where none is chosen, the one of that index among the model's.</summary>
         public string LabelOr(IReadOnlyList<string> labels, int index) =>
             Label.Length > 0 ? Label : index < labels.Count ? labels[index] : labels.Count > 0 ? labels[0] : "wood";
 
-        public LabelMix Mix(IReadOnlyList<string> labels, int index) =>
-            new LabelMix(LabelOr(labels, index), SecondLabel, SecondLabel.Length > 0 ? Share : 0f);
+        /// <summary>The label or the learnt material, for people.</summary>
+        public string NameOr(IReadOnlyList<string> labels, int index) =>
+            Learnt != null ? Learnt.name : LabelOr(labels, index);
+
+        public LabelMix Mix(IReadOnlyList<string> labels, int index) => new LabelMix(NameOr(labels, index), SecondLabel,
+            SecondLabel.Length > 0 ? Share : 0f, Learnt != null ? Learnt.Learnt : "", Moves);
     }
 }

@@ -107,8 +107,8 @@ namespace HaptoFlow.Editor
 
         private void DrawMaterial(GUIContent title, MaterialChoice material, PreviewModel model, int index)
         {
-            DrawLabel(title, material.LabelOr(model.Labels, index), model.Labels, false,
-                name => state.Change("Label", _ => material.Label = name));
+            string present = material.NameOr(model.Labels, index) + (material.Learnt != null ? " (learnt)" : "");
+            DrawLabel(title, present, model.Labels, false, name => state.Change("Label", _ => material.Choose(name)));
             DrawLabel(Blend, material.SecondLabel, model.Labels, true,
                 name => state.Change("Blend", _ => material.SecondLabel = name));
             if (blends[index])

@@ -127,6 +127,7 @@ namespace HaptoFlow.Editor
             IReadOnlyList<LabelMix> mixes = state.Mixes(Model.Labels);
             return new PreviewRequest(Model.File, Stroke, mixes)
             {
+                Sliders = SliderCatalog.Of(modelAsset).Sliders,
                 Active = state.Heard,
                 Tier = Model.TierOrDefault(state.Tier),
                 Seed = unchecked((ulong)state.Seed),

@@ -23,9 +23,9 @@ namespace HaptoFlow.Editor
             EditorGUIUtility.labelWidth = PreviewControls.LabelWidth;
             Object? dropped = EditorGUILayout.ObjectField(Material, null, typeof(HapticMaterial), false);
             EditorGUIUtility.labelWidth = before;
-            if (SceneMaterial.TryRead(dropped, out LabelMix mix))
+            if (SceneMaterial.TryRead(dropped, out LabelMix mix, out HapticMaterial? learnt))
             {
-                state.Take(mix);
+                state.Take(mix, learnt);
             }
             using (new EditorGUILayout.HorizontalScope())
             {
@@ -35,7 +35,9 @@ namespace HaptoFlow.Editor
                 }
                 if (GUILayout.Button(Apply))
                 {
-                    said = SceneMaterial.Apply(state.Mixes(model.Labels)[state.ShowsDevice ? 0 : state.Heard], Selection.objects);
+                    int heard = state.ShowsDevice ? 0 : state.Heard;
+                    said = SceneMaterial.Apply(
+                        state.Mixes(model.Labels)[heard], state.Material(heard).Learnt, Selection.objects);
                 }
             }
             return said;
@@ -43,12 +45,12 @@ namespace HaptoFlow.Editor
 
         private static string TakeFrom(Object? selected, TexturePreviewState state)
         {
-            if (!SceneMaterial.TryRead(selected, out LabelMix mix))
+            if (!SceneMaterial.TryRead(selected, out LabelMix mix, out HapticMaterial? learnt))
             {
                 return "Select a surface or a Haptic Material first";
             }
-            state.Take(mix);
-            return $"Took {mix.Title} from {selected!.name}";
+            state.Take(mix, learnt);
+            return $"Took {(learnt != null ? learnt.name : mix.Title)} from {selected!.name}";
         }
     }
 }

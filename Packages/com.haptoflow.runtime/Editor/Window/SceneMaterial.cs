@@ -12,10 +12,12 @@ namespace HaptoFlow.Editor
     internal static class SceneMaterial
     {
         /// <summary>What a surface, its object or a Haptic Material asset is made of.</summary>
+        /// <param name="learnt">In the place of the mix's first label; null for the label.</param>
         /// <returns>False for anything else.</returns>
-        public static bool TryRead(Object? source, out LabelMix mix)
+        public static bool TryRead(Object? source, out LabelMix mix, out HapticMaterial? learnt)
         {
             mix = default;
+            learnt = null;
             Object? described = source switch
             {
                 HapticMaterial material => material,
@@ -31,21 +33,29 @@ namespace HaptoFlow.Editor
             SerializedProperty? shared = serialized.FindProperty("sharedMaterial");
             if (shared != null && shared.objectReferenceValue != null)
             {
-                return TryRead(shared.objectReferenceValue, out mix);
+                return TryRead(shared.objectReferenceValue, out mix, out learnt);
             }
             string path = described is HapticMaterial ? "description" : "own";
             mix = new LabelMix(serialized.FindProperty(path + ".label").stringValue,
                 serialized.FindProperty(path + ".secondLabel").stringValue,
                 serialized.FindProperty(path + ".blend").floatValue);
+            learnt = described is HapticMaterial { IsLearnt: true } carrier
+                ? carrier
+                : serialized.FindProperty(path + ".learnt").objectReferenceValue as HapticMaterial;
             return true;
         }
 
         /// <summary>Makes objects of a material: a surface is changed, an object with a collider becomes one, a Haptic
         /// Material asset changes for everything that shares it. A surface that shared an asset no longer does.
         /// </summary>
+        /// <param name="learnt">In the place of the mix's first label; null for the label.</param>
         /// <returns>What was done, for people.</returns>
-        public static string Apply(LabelMix mix, IReadOnlyCollection<Object> selected)
+        public static string Apply(LabelMix mix, HapticMaterial? learnt, IReadOnlyCollection<Object> selected)
         {
+            if (mix.Moves.Count > 0)
+            {
+                return "Save what the sliders made as a Haptic Material first";
+            }
             Undo.IncrementCurrentGroup();
             Undo.SetCurrentGroupName("Apply " + mix.Title);
             int group = Undo.GetCurrentGroup();
@@ -53,22 +63,28 @@ namespace HaptoFlow.Editor
             var left = new List<Object>();
             foreach (Object each in selected)
             {
-                (TryApply(mix, each) ? done : left).Add(each);
+                (TryApply(mix, learnt, each) ? done : left).Add(each);
             }
             Undo.CollapseUndoOperations(group);
             string remark = left.Count == 0
                 ? ""
-                : $"; not to {Names(left)}: no collider that can be felt, or no object of an open scene";
+                : $"; not to {Names(left)}: no collider that can be felt, no object of an open scene, or a " +
+                    "material that carries another";
             return done.Count == 0 && left.Count == 0
                 ? "Select objects of the scene, or Haptic Materials, first"
                 : $"Applied {mix.Title} to {(done.Count == 0 ? "nothing" : Names(done))}{remark}";
         }
 
-        private static bool TryApply(LabelMix mix, Object target)
+        private static bool TryApply(LabelMix mix, HapticMaterial? learnt, Object target)
         {
-            if (target is HapticMaterial)
+            if (target is HapticMaterial material)
             {
-                Write(target, "description", mix);
+                // One that carries what was learnt is that, and nothing else.
+                if (material.IsLearnt && learnt != material)
+                {
+                    return false;
+                }
+                Write(target, "description", mix, material.IsLearnt ? null : learnt);
                 return true;
             }
             // Prefabs that are selected as assets are opened to be changed.
@@ -84,11 +100,11 @@ namespace HaptoFlow.Editor
                 }
                 surface = Undo.AddComponent<HapticSurface>(owner);
             }
-            Write(surface, "own", mix);
+            Write(surface, "own", mix, learnt);
             return true;
         }
 
-        private static void Write(Object target, string path, LabelMix mix)
+        private static void Write(Object target, string path, LabelMix mix, HapticMaterial? learnt)
         {
             using var serialized = new SerializedObject(target);
             SerializedProperty? shared = serialized.FindProperty("sharedMaterial");
@@ -96,7 +112,9 @@ namespace HaptoFlow.Editor
             {
                 shared.objectReferenceValue = null;
             }
-            serialized.FindProperty(path + ".label").stringValue = mix.First;
+            serialized.FindProperty(path + ".label").stringValue =
+                learnt != null ? learnt.Description.Label : mix.First;
+            serialized.FindProperty(path + ".learnt").objectReferenceValue = learnt;
             serialized.FindProperty(path + ".secondLabel").stringValue = mix.Second;
             serialized.FindProperty(path + ".blend").floatValue = mix.Share;
             serialized.ApplyModifiedProperties();

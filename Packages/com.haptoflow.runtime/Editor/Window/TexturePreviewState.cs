@@ -86,6 +86,10 @@ namespace HaptoFlow.Editor
         [field: SerializeField]
         public bool Loops { get; set; }
 
+        /// <summary>The sliders are unfolded.</summary>
+        [field: SerializeField]
+        public bool ShowsSliders { get; set; }
+
         /// <summary>Another number whenever something may be different.</summary>
         public int Version { get; private set; }
 
@@ -129,7 +133,9 @@ namespace HaptoFlow.Editor
         }
 
         /// <summary>The material that is heard becomes this one; can be undone.</summary>
-        public void Take(LabelMix mix) => Change("Material", changed => changed.Material(changed.Heard).Take(mix));
+        /// <param name="learnt">In the place of the mix's first label; null for the label.</param>
+        public void Take(LabelMix mix, HapticMaterial? learnt) =>
+            Change("Material", changed => changed.Material(changed.Heard).Take(mix, learnt));
 
         /// <summary>Something was undone or done again.</summary>
         public void Forget() => ++Version;

@@ -12,11 +12,14 @@ namespace HaptoFlow.Editor
     internal sealed class TexturePreviewWindow : EditorWindow
     {
         private const float Width = 1200f;
-        private const float Height = 844f;
+        private const float Height = 888f;
 
         // What may be seen of the window where it is docked into less; the rest is scrolled to.
         private const float LeastWidth = 480f;
         private const float LeastHeight = 320f;
+
+        private static readonly GUIContent FromRecording = new GUIContent("New Material from Recording\u2026",
+            "Learns a material from ten seconds of a recording, and saves it as a Haptic Material.");
 
         [SerializeField]
         private TexturePreviewState? state;
@@ -24,6 +27,7 @@ namespace HaptoFlow.Editor
         private readonly PreviewTexture strokePicture = new PreviewTexture();
         private readonly PreviewTexture chartsPicture = new PreviewTexture();
         private PreviewControls? controls;
+        private SliderControls? sliders;
         private PreviewPlayer? player;
         private PatchInput? patch;
         private float pixelsPerPoint = 1f;
@@ -57,9 +61,9 @@ namespace HaptoFlow.Editor
         internal static void Open(Object described)
         {
             Open();
-            if (SceneMaterial.TryRead(described, out LabelMix mix))
+            if (SceneMaterial.TryRead(described, out LabelMix mix, out HapticMaterial? learnt))
             {
-                GetWindow<TexturePreviewWindow>().State.Take(mix);
+                GetWindow<TexturePreviewWindow>().State.Take(mix, learnt);
             }
         }
 
@@ -74,11 +78,13 @@ namespace HaptoFlow.Editor
             }
             Session = new PreviewSession(state);
             controls = new PreviewControls(state);
+            sliders = new SliderControls(state);
             player = new PreviewPlayer(state, Session);
             patch = new PatchInput(state);
             patch.Ended += player.PlayWhenReady;
             Undo.undoRedoPerformed += OnUndo;
             EditorApplication.update += Step;
+            EditorApplication.projectChanged += OnProjectChanged;
             AssemblyReloadEvents.beforeAssemblyReload += Release;
         }
 
@@ -86,6 +92,7 @@ namespace HaptoFlow.Editor
         {
             Undo.undoRedoPerformed -= OnUndo;
             EditorApplication.update -= Step;
+            EditorApplication.projectChanged -= OnProjectChanged;
             AssemblyReloadEvents.beforeAssemblyReload -= Release;
             Release();
         }
@@ -123,6 +130,11 @@ namespace HaptoFlow.Editor
                     ShowNotification(new GUIContent(said));
                 }
                 player.DrawButtons(ExportLater);
+                sliders!.Draw(ModelInUse(), SaveLater);
+                if (GUILayout.Button(FromRecording))
+                {
+                    NewMaterialWindow.Open();
+                }
             }
             DrawStroke(layout.StrokePanel);
             DrawCharts(layout.Charts);
@@ -185,8 +197,37 @@ namespace HaptoFlow.Editor
             }
         }
 
-        private PreviewView View() =>
-            new PreviewView(position.width, position.height, pixelsPerPoint, EditorGUIUtility.isProSkin);
+        private void SaveLater() => EditorApplication.delayCall += Save;
+
+        private void Save()
+        {
+            if (Session == null)
+            {
+                return;
+            }
+            try
+            {
+                int heard = State.ShowsDevice ? 0 : State.Heard;
+                LabelMix mix = State.Mixes(Session.Model.Labels)[heard];
+                HapticMaterial? learnt = State.Material(heard).Learnt;
+                string text = mix.MaterialText(Session.Model.File, SliderCatalog.Of(ModelInUse()).Sliders);
+                string label = learnt != null ? learnt.Description.Label : mix.First;
+                HapticMaterial? saved = MaterialAssets.SaveAs(text, label);
+                if (saved != null)
+                {
+                    State.Take(new LabelMix(label, mix.Second, mix.Share), saved);
+                    ShowNotification(new GUIContent("Saved " + saved.name));
+                }
+            }
+            catch (HaptoFlowException error)
+            {
+                ShowNotification(new GUIContent(error.Message));
+            }
+        }
+
+        private PreviewView View() => new PreviewView(
+            position.width, position.height, pixelsPerPoint, EditorGUIUtility.isProSkin,
+            State.ShowsSliders ? PreviewRoom.WithSliders : PreviewRoom.Usual);
 
         private HapticModelAsset? ModelInUse() => State.Model != null ? State.Model : LabelCatalog.ModelInUse();
 
@@ -194,6 +235,13 @@ namespace HaptoFlow.Editor
         {
             State.Forget();
             Repaint();
+        }
+
+        /// <summary>A learnt material, or the file of the sliders, may be another.</summary>
+        private void OnProjectChanged()
+        {
+            SliderCatalog.Forget();
+            State.Forget();
         }
 
         private void TakeOver()

@@ -37,6 +37,11 @@ namespace HaptoFlow
     /// have it where it was a step ago. Main thread, no garbage.</summary>
     internal static class ColliderProbe
     {
+        /// <summary>A kind of collider that a tip can feel.</summary>
+        public static bool IsFeltKind(Collider collider) =>
+            collider is BoxCollider || collider is SphereCollider || collider is CapsuleCollider ||
+            collider is CharacterController || collider is MeshCollider || collider is TerrainCollider;
+
         /// <summary>Where the collider's local frame is. Character controllers and terrains stand upright whatever
         /// their
         /// transform says.</summary>
@@ -47,8 +52,15 @@ namespace HaptoFlow
 
         /// <summary>False where nothing is near enough, or the collider is of a kind that cannot be felt.</summary>
         public static bool TryClosest(
-            Collider collider, in RigidPose pose, in ProbeQuestion question, out SurfacePoint found)
+            Collider collider, in RigidPose pose, in ProbeQuestion question, out SurfacePoint found) =>
+            TryClosest(collider, pose, question, out found, out _);
+
+        /// <summary>False where nothing is near enough, or the collider is of a kind that cannot be felt.</summary>
+        /// <param name="hit">Of the ray that found the place; null where no ray did.</param>
+        public static bool TryClosest(Collider collider, in RigidPose pose, in ProbeQuestion question,
+            out SurfacePoint found, out RaycastHit? hit)
         {
+            hit = null;
             Double3 tip = pose.PointToLocal(question.TipMetres);
             Double3 scale = collider.transform.lossyScale.ToDouble();
             switch (collider)
@@ -69,7 +81,9 @@ namespace HaptoFlow
                     break;
                 case MeshCollider _:
                 case TerrainCollider _:
-                    return RayProbe.TryClosest(collider, pose, question, out found);
+                    bool isNear = RayProbe.TryClosest(collider, pose, question, out found, out RaycastHit place);
+                    hit = place;
+                    return isNear;
                 default:
                     found = default;
                     return false;

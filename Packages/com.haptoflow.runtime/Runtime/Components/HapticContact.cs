@@ -6,10 +6,17 @@ namespace HaptoFlow
     /// <summary>What a stylus touches, in world space: metres, m/s, newtons.</summary>
     public readonly struct HapticContact
     {
-        internal HapticContact(HapticSurface surface, Collider collider, in Contact.ContactReading reading)
+        private readonly FeltCollider? byRules;
+        private readonly int part;
+
+        internal HapticContact(NearbySurface touched, in FeltMaterial felt, in Contact.ContactReading reading)
         {
-            Surface = surface;
-            Collider = collider;
+            Surface = touched.Surface;
+            byRules = touched.ByRules;
+            part = felt.Part;
+            Material = felt.Heaviest;
+            Labels = felt.Labels;
+            Collider = touched.Collider!;
             Point = reading.PointMetres.ToVector();
             Normal = reading.Normal.ToVector();
             PenetrationMetres = (float)reading.PenetrationMetres;
@@ -22,10 +29,15 @@ namespace HaptoFlow
             TouchCounter = reading.TouchCounter;
         }
 
-        /// <summary>What is touched.</summary>
-        public HapticSurface Surface { get; }
+        /// <summary>The surface that is touched; null where the collider has none and is felt by the rules of a
+        /// <see cref="HapticMaterialMap"/>.</summary>
+        public HapticSurface? Surface { get; }
 
-        /// <summary>Which of its colliders is touched.</summary>
+        /// <summary>What the place is made of, to be read; of several materials the one with the most weight. Null
+        /// where the place feels like nothing, or like nothing that the model knows.</summary>
+        public MaterialDescription? Material { get; }
+
+        /// <summary>The collider that is touched.</summary>
         public Collider Collider { get; }
 
         /// <summary>On the surface.</summary>
@@ -60,6 +72,25 @@ namespace HaptoFlow
 
         /// <summary>Counts the stylus's touch-downs.</summary>
         public uint TouchCounter { get; }
+
+        /// <summary>The labels of the place with their weights.</summary>
+        internal LabelBlend Labels { get; }
+
+        /// <summary>Why the place feels as it does, for people: which surface or which rule of which map says so. Makes
+        /// garbage.</summary>
+        public string Explain()
+        {
+            if (Surface is object)
+            {
+                return Surface != null ? $"Haptic Surface on \"{Surface.name}\"" : "a Haptic Surface that is gone";
+            }
+            return byRules?.Explain(part) ?? "";
+        }
+
+        /// <summary>On another surface; without surfaces, on another collider.</summary>
+        internal bool IsElsewhere(in HapticContact before) =>
+            !ReferenceEquals(Surface, before.Surface) ||
+            (Surface is null && !ReferenceEquals(Collider, before.Collider));
     }
 
     /// <summary>Called on the main thread.</summary>

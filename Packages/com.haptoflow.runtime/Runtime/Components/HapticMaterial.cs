@@ -1,6 +1,8 @@
 #nullable enable
 using System;
+using HaptoFlow.Model;
 using UnityEngine;
+using Object = UnityEngine.Object;
 
 namespace HaptoFlow
 {
@@ -9,8 +11,20 @@ namespace HaptoFlow
     [Serializable]
     public sealed class MaterialDescription
     {
+        internal const float SmallestFeatureScale = 0.25f;
+        internal const float LargestFeatureScale = 4f;
+        internal const float MostToneDbPerOctave = 12f;
+
         [SerializeField, Tooltip("A label of the model.")]
         private string label = "wood";
+
+        [SerializeField]
+        [Tooltip("A Haptic Material that was learnt from a recording, in the place of the label; none for the label.")]
+        private HapticMaterial? learnt;
+
+        // The asset that this describes, where there is one.
+        [NonSerialized]
+        private HapticMaterial? owner;
 
         [SerializeField, Tooltip("A second label to blend with; empty for none.")]
         private string secondLabel = "";
@@ -23,6 +37,15 @@ namespace HaptoFlow
 
         [SerializeField, Range(0f, 1f), Tooltip("Gain of the output while this is touched.")]
         private float strength = 1f;
+
+        [SerializeField, Range(SmallestFeatureScale, LargestFeatureScale)]
+        [Tooltip("The material's features, its ribs included, are this many times as large. 1 leaves them as they " +
+            "are.")]
+        private float featureScale = 1f;
+
+        [SerializeField, Range(-MostToneDbPerOctave, MostToneDbPerOctave)]
+        [Tooltip("The spectrum is tilted about 150 Hz by this many dB an octave: above 0 is brighter, below 0 darker.")]
+        private float toneDbPerOctave;
 
         [SerializeField, Tooltip("The tip feels the material's texture while it slides.")]
         private bool texture = true;
@@ -38,6 +61,18 @@ namespace HaptoFlow
         {
             get => label;
             set => Change(ref label, value);
+        }
+
+        /// <summary>A Haptic Material that carries its embedding, felt in the place of <see cref="Label"/>; null for
+        /// the label. The description of such an asset is made of the asset itself.</summary>
+        public HapticMaterial? Learnt
+        {
+            get => owner != null && owner.IsLearnt ? owner : learnt != null && learnt.IsLearnt ? learnt : null;
+            set
+            {
+                learnt = value;
+                ++Version;
+            }
         }
 
         /// <summary>Empty for none.</summary>
@@ -76,6 +111,22 @@ namespace HaptoFlow
             set => strength = Mathf.Clamp01(value);
         }
 
+        /// <summary>How many times as large the material's features are, ribs included: 0.25 to 4. The level stays that
+        /// of the tip's speed.</summary>
+        public float FeatureScale
+        {
+            get => featureScale;
+            set => featureScale = Mathf.Clamp(value, SmallestFeatureScale, LargestFeatureScale);
+        }
+
+        /// <summary>Tilt of the spectrum about 150 Hz, in dB an octave, -12 to 12: above 0 is brighter, below 0 darker.
+        /// </summary>
+        public float ToneDbPerOctave
+        {
+            get => toneDbPerOctave;
+            set => toneDbPerOctave = Mathf.Clamp(value, -MostToneDbPerOctave, MostToneDbPerOctave);
+        }
+
         /// <summary>Which effects this has: any of <see cref="HapticEffects.Texture"/>,
         /// <see cref="HapticEffects.Impact"/> and <see cref="HapticEffects.Edge"/>;
         /// <see cref="HapticEffects.Nothing"/> for none of them. An effect that no surface asks for costs
@@ -102,13 +153,18 @@ namespace HaptoFlow
 
         internal void Touch() => ++Version;
 
+        internal void BelongTo(HapticMaterial asset) => owner = asset;
+
         internal void CopyFrom(MaterialDescription other)
         {
             label = other.label;
+            learnt = other.Learnt;
             secondLabel = other.secondLabel;
             blend = other.blend;
             stiffnessNewtonsPerMetre = other.stiffnessNewtonsPerMetre;
             strength = other.strength;
+            featureScale = other.featureScale;
+            toneDbPerOctave = other.toneDbPerOctave;
             texture = other.texture;
             impact = other.impact;
             edge = other.edge;
@@ -122,7 +178,8 @@ namespace HaptoFlow
         }
     }
 
-    /// <summary>A material that several surfaces share.</summary>
+    /// <summary>A material that several surfaces share: labels of the model, or one that was learnt from a recording
+    /// and carries its embedding.</summary>
     [CreateAssetMenu(menuName = "HaptoFlow/Haptic Material", fileName = "HapticMaterial", order = 1)]
     [HelpURL(HelpPages.Components + "haptic-material")]
     public sealed class HapticMaterial : ScriptableObject
@@ -130,9 +187,71 @@ namespace HaptoFlow
         [SerializeField]
         private MaterialDescription description = new MaterialDescription();
 
-        /// <summary>What the surfaces that share this are made of.</summary>
-        public MaterialDescription Description => description;
+        // The text of a .haptomaterial file, as the engine takes it.
+        [SerializeField, HideInInspector]
+        private string learnt = "";
 
-        private void OnValidate() => description.Touch();
+        private readonly MaterialLookUp lookUp = new MaterialLookUp();
+
+        /// <summary>What the surfaces that share this are made of.</summary>
+        public MaterialDescription Description
+        {
+            get
+            {
+                description.BelongTo(this);
+                return description;
+            }
+        }
+
+        /// <summary>It was learnt from a recording, and is felt in the place of its description's label wherever the
+        /// model is the one that it was learnt for.</summary>
+        public bool IsLearnt => learnt.Length > 0;
+
+        /// <summary>The text of its material file; empty where it is made of labels alone.</summary>
+        public string Learnt => learnt;
+
+        /// <summary>Makes a material of a material file's text. Main thread.</summary>
+        /// <param name="text">Of a whole .haptomaterial file.</param>
+        /// <param name="label">A label of the model, felt where the material cannot be: usually the nearest.</param>
+        /// <exception cref="HaptoFlowException">The text is none; the message names the key.</exception>
+        public static HapticMaterial Create(string text, string label)
+        {
+            string name = MaterialFile.Read(text).Name;
+            var material = CreateInstance<HapticMaterial>();
+            material.name = name;
+            material.Description.Label = label;
+            material.learnt = text;
+            return material;
+        }
+
+        /// <summary>Carries another material from now on; where it is touched, that is felt as soon as the engine has
+        /// it. Main thread.</summary>
+        /// <param name="text">Of a whole .haptomaterial file; empty for the description's labels alone.</param>
+        /// <exception cref="HaptoFlowException">The text is none; the message names the key.</exception>
+        public void Carry(string text)
+        {
+            if (text.Length > 0)
+            {
+                MaterialFile.Read(text);
+            }
+            learnt = text;
+            Announce();
+        }
+
+        /// <summary>The labels as the engine takes them, looked up again only when something changed.</summary>
+        /// <param name="user">Who is named where the model does not know a label.</param>
+        internal MaterialLookUp LookUp(HapticSession session, Object user) => lookUp.Of(Description, session, user);
+
+        private void Announce()
+        {
+            description.Touch();
+            HapticSession.Existing?.ChangeLearnt(this);
+        }
+
+        private void OnEnable() => Announce();
+
+        private void OnValidate() => Announce();
+
+        private void OnDestroy() => HapticSession.Existing?.ForgetLearnt(this);
     }
 }

@@ -62,6 +62,9 @@ namespace HaptoFlow
         /// <summary>Why there are no haptics; null where nothing is wrong.</summary>
         public string? Problem { get; private set; }
 
+        /// <summary>Null while loading, and where loading failed.</summary>
+        public LearntMaterials? Learnt => Labels.Learnt;
+
         /// <summary>Takes over what was loaded meanwhile. Once a frame; no garbage when nothing happened.</summary>
         public void Poll()
         {
@@ -79,7 +82,10 @@ namespace HaptoFlow
             {
                 Engine = loading.Result.Engine;
                 Labels = loading.Result.Labels;
+                Labels.Learnt = new LearntMaterials(Engine, loading.Result.Space, Labels.All.Count);
                 LabelsVersion = ++versions;
+                SurfaceRegistry.PrepareAll(this);
+                MaterialMaps.PrepareAll(this);
                 return;
             }
             Exception cause = loading.Exception!.GetBaseException();
@@ -99,6 +105,45 @@ namespace HaptoFlow
 
         /// <summary>Waits until the quality that was asked for last is there, or was refused.</summary>
         public void FinishQualityChange() => qualityChange?.Finish();
+
+        /// <summary>Has what a description needs registered before it is touched.</summary>
+        public void Prepare(MaterialDescription description)
+        {
+            HapticMaterial? material = description.Learnt;
+            if (material != null)
+            {
+                Learnt?.TryFind(material, out _, out _);
+            }
+        }
+
+        /// <summary>A material may carry another text, or none.</summary>
+        public void ChangeLearnt(HapticMaterial material)
+        {
+            if (!material.IsLearnt)
+            {
+                ForgetLearnt(material);
+            }
+            else
+            {
+                Learnt?.Change(material);
+            }
+        }
+
+        /// <summary>A material is gone: whoever is made of it is looked up again.</summary>
+        public void ForgetLearnt(HapticMaterial material)
+        {
+            if (Learnt?.Forget(material) == true)
+            {
+                LabelsVersion = ++versions;
+            }
+        }
+
+        /// <summary>Waits until all materials that were asked for are registered, or were refused.</summary>
+        public void FinishRegistrations()
+        {
+            Learnt?.Finish();
+            LabelsVersion = ++versions;
+        }
 
         /// <summary>Waits until loading has ended, well or not.</summary>
         public void FinishLoading()
@@ -121,12 +166,14 @@ namespace HaptoFlow
         {
             cancellation?.Cancel();
             qualityChange?.Finish();
+            Learnt?.Close();
             ((IAsyncResult)loading).AsyncWaitHandle.WaitOne();
             if (loading.Status == TaskStatus.RanToCompletion)
             {
                 loading.Result.Engine.Dispose();
             }
             Engine = null;
+            Labels.Learnt = null;
             // Nobody is left to be told of a loading that was cancelled.
             reported = true;
             cancellation?.Dispose();
@@ -137,6 +184,10 @@ namespace HaptoFlow
             if (Engine == null)
             {
                 return;
+            }
+            if (Learnt!.Poll())
+            {
+                LabelsVersion = ++versions;
             }
             string? failure = qualityChange?.TakeFailure();
             if (failure != null)
@@ -181,7 +232,7 @@ namespace HaptoFlow
             using OnnxRuntime runtime = OnnxRuntime.Open();
             using HapticModel model = HapticModel.Open(file);
             var labels = new ModelLabels(ModelHeader.Read(file).Labels);
-            return new Loaded(new HapticEngine(runtime, model, options), labels);
+            return new Loaded(new HapticEngine(runtime, model, options), labels, ModelSpace.Of(file).Id);
         }
 
         [RuntimeInitializeOnLoadMethod(RuntimeInitializeLoadType.SubsystemRegistration)]
@@ -190,19 +241,24 @@ namespace HaptoFlow
             ShutDown();
             Application.quitting -= ShutDown;
             Application.quitting += ShutDown;
+            Application.quitting -= HapticLearning.EndAll;
+            Application.quitting += HapticLearning.EndAll;
         }
 
         private sealed class Loaded
         {
-            public Loaded(HapticEngine engine, ModelLabels labels)
+            public Loaded(HapticEngine engine, ModelLabels labels, string space)
             {
                 Engine = engine;
                 Labels = labels;
+                Space = space;
             }
 
             public HapticEngine Engine { get; }
 
             public ModelLabels Labels { get; }
+
+            public string Space { get; }
         }
     }
 }

@@ -68,8 +68,8 @@ namespace HaptoFlow
         /// <summary>The touch goes on; once an update. Main thread.</summary>
         public event HapticContactHandler? TouchMoved;
 
-        /// <summary>The tip slid from one surface to another without lifting; the contact is the new one. Main thread.
-        /// </summary>
+        /// <summary>The tip slid from one surface to another, or between colliders that are felt by rules, without
+        /// lifting; the contact is the new one. Main thread.</summary>
         public event HapticContactHandler? SurfaceChanged;
 
         /// <summary>The touch ended; the contact is the last one. Main thread.</summary>
@@ -152,7 +152,7 @@ namespace HaptoFlow
             set => strength = Mathf.Clamp01(value);
         }
 
-        /// <summary>The tip touches a tagged surface.</summary>
+        /// <summary>The tip touches something that can be felt.</summary>
         public bool IsTouching => touching;
 
         /// <summary>What is touched, or was last.</summary>
@@ -194,10 +194,12 @@ namespace HaptoFlow
 
         private void OnEnable()
         {
-            contacts ??= new TipContacts(new ContactSettings(), tipRadiusMetres);
+            contacts ??= new TipContacts(new ContactSettings(), tipRadiusMetres, transform);
             contacts.Tracker.TipRadiusMetres = tipRadiusMetres;
             following = true;
             HapticSession.Current.Poll();
+            MaterialMaps.Poll();
+            TerrainWeights.ReadScenes();
         }
 
         private void OnDisable()
@@ -235,13 +237,14 @@ namespace HaptoFlow
         {
             HapticSession session = HapticSession.Current;
             session.Poll();
+            MaterialMaps.Poll();
             contacts!.Tracker.Force = touchBy == TouchDecision.MeasuredForce ? forceDecision.Touch() : null;
             ContactReading reading;
             using (Markers.Contact.Auto())
             {
                 reading = contacts.Update(SampleAt(nowSeconds), stepSeconds, layers, session, this);
             }
-            TellOf(reading);
+            TellOf(reading, session);
             // A handler may have switched the stylus off: then nobody would close a voice that opened now.
             if (!following)
             {
@@ -249,7 +252,8 @@ namespace HaptoFlow
             }
             using (Markers.Publish.Auto())
             {
-                Voices.Publish(reading, contacts.Touched?.Surface, session);
+                // After the handlers, which may have changed what the surface is made of.
+                Voices.Publish(reading, contacts.Touched?.Feel(session) ?? default, session);
             }
         }
 
@@ -271,7 +275,7 @@ namespace HaptoFlow
                 : force.TryRead(out newtons);
         }
 
-        private void TellOf(in ContactReading reading)
+        private void TellOf(in ContactReading reading, HapticSession session)
         {
             NearbySurface? touched = contacts!.Touched;
             if (touched == null)
@@ -279,8 +283,8 @@ namespace HaptoFlow
                 EndTouch();
                 return;
             }
-            HapticSurface? before = touching ? contact.Surface : null;
-            contact = new HapticContact(touched.Surface, touched.Collider!, reading);
+            HapticContact before = contact;
+            contact = new HapticContact(touched, touched.Feel(session), reading);
             if (!touching)
             {
                 touching = true;
@@ -288,7 +292,7 @@ namespace HaptoFlow
                 Invoke(events.TouchBegan);
                 return;
             }
-            if (!ReferenceEquals(before, contact.Surface))
+            if (contact.IsElsewhere(before))
             {
                 SurfaceChanged?.Invoke(this, contact);
                 Invoke(events.SurfaceChanged);
@@ -305,7 +309,7 @@ namespace HaptoFlow
         {
             if (touching)
             {
-                told.Invoke(contact.Surface);
+                told.Invoke(contact.Surface!);
             }
         }
 
@@ -315,7 +319,7 @@ namespace HaptoFlow
             {
                 touching = false;
                 TouchEnded?.Invoke(this, contact);
-                events.TouchEnded.Invoke(contact.Surface);
+                events.TouchEnded.Invoke(contact.Surface!);
             }
         }
     }

@@ -6,7 +6,8 @@ using UnityEngine.Events;
 namespace HaptoFlow
 {
     /// <summary>The stylus's events for wiring in the Inspector, each with the surface: what the C# events tell,
-    /// without the contact's numbers. Main thread; invoking them makes no garbage.</summary>
+    /// without the contact's numbers. The surface is null for a collider that is felt by the rules of a
+    /// <see cref="HapticMaterialMap"/>. Main thread; invoking them makes no garbage.</summary>
     [Serializable]
     public sealed class HapticStylusEvents
     {

@@ -29,20 +29,23 @@ namespace HaptoFlow
         [SerializeField, Tooltip("Direction of the first tangent axis, in the object's local space: along the grain.")]
         private Vector3 grain = new Vector3(1f, 0f, 0f);
 
+        [SerializeField, Tooltip("Further materials by a texture, at the place that is touched; empty for none.")]
+        private HapticMaskMap? mask;
+
         private readonly List<Collider> registered = new List<Collider>();
         private bool isStale;
-        private LabelBlend blend;
-        private double labelStiffness;
-        private int lookedUpVersion = -1;
-        private MaterialDescription? lookedUpIn;
-        private int lookedUpLabels = -1;
+        private readonly MaterialLookUp ownLookUp = new MaterialLookUp();
 
         /// <summary>The shared material asset; null where the surface describes its own. Changing the asset changes
         /// every surface that shares it, as Renderer.sharedMaterial does.</summary>
         public HapticMaterial? SharedMaterial
         {
             get => sharedMaterial;
-            set => sharedMaterial = value;
+            set
+            {
+                sharedMaterial = value;
+                HapticSession.Existing?.Prepare(SharedDescription);
+            }
         }
 
         /// <summary>What this surface is made of, to be changed: changes reach no other surface and no asset. As with
@@ -89,6 +92,13 @@ namespace HaptoFlow
         {
             get => grain;
             set => grain = value;
+        }
+
+        /// <summary>Further materials by a texture, at the place that is touched; null for none.</summary>
+        public HapticMaskMap? Mask
+        {
+            get => mask;
+            set => mask = value;
         }
 
         /// <summary>Colliders that lead to this surface. A child that comes or goes, and a collider added deeper below,
@@ -139,39 +149,27 @@ namespace HaptoFlow
         }
 
         /// <summary>The labels as the engine takes them, looked up again only when something changed.</summary>
-        internal LabelBlend BlendFor(HapticSession session)
-        {
-            LookUp(session);
-            return blend;
-        }
+        internal LabelBlend BlendFor(HapticSession session) => LookUp(session).Labels;
 
         /// <summary>In N/m; 0 for the contact model's default.</summary>
-        internal double StiffnessFor(HapticSession session)
+        internal double StiffnessFor(HapticSession session) => LookUp(session).StiffnessNewtonsPerMetre;
+
+        /// <summary>What a place on one of the colliders feels like; labels of none where it is nothing.</summary>
+        internal FeltMaterial At(in TouchedPlace place, HapticSession session)
         {
-            LookUp(session);
-            float described = SharedDescription.StiffnessNewtonsPerMetre;
-            return described > 0f ? described : labelStiffness;
+            FeltMaterial whole = FeltMaterial.Of(SharedDescription, LookUp(session));
+            return mask != null && mask.TryFeel(place, whole, session, this, out FeltMaterial felt) ? felt : whole;
         }
 
-        private void LookUp(HapticSession session)
-        {
-            MaterialDescription material = SharedDescription;
-            bool known = ReferenceEquals(material, lookedUpIn) && material.Version == lookedUpVersion &&
-                session.LabelsVersion == lookedUpLabels;
-            if (known)
-            {
-                return;
-            }
-            lookedUpIn = material;
-            lookedUpVersion = material.Version;
-            lookedUpLabels = session.LabelsVersion;
-            blend = session.Labels.Blend(material, this, out labelStiffness);
-        }
+        private MaterialLookUp LookUp(HapticSession session) => sharedMaterial != null
+            ? sharedMaterial.LookUp(session, this)
+            : ownLookUp.Of(own, session, this);
 
         private void OnEnable()
         {
             Register();
             TellSurfaceAbove();
+            HapticSession.Existing?.Prepare(SharedDescription);
         }
 
         private void OnDisable() => Unregister();

@@ -23,6 +23,13 @@ namespace HaptoFlow
         /// <summary>Names of the loaded model's labels; empty before it is loaded.</summary>
         public static IReadOnlyList<string> Labels => HapticSession.Existing?.Labels.All ?? Array.Empty<string>();
 
+        /// <summary>Learnt materials that are felt as they were learnt.</summary>
+        public static int LearntMaterials => HapticSession.Existing?.Learnt?.Felt ?? 0;
+
+        /// <summary>Learnt materials that the engine refused, each with a line in the console: their labels are felt
+        /// instead.</summary>
+        public static int RefusedMaterials => HapticSession.Existing?.Learnt?.Refused ?? 0;
+
         /// <summary>Loads the model now rather than when the first stylus wakes; the loading is done by another thread.
         /// </summary>
         public static void Prepare() => HapticSession.Current.Poll();

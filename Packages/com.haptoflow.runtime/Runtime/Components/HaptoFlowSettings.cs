@@ -36,6 +36,9 @@ namespace HaptoFlow
         [SerializeField, Min(1f), Tooltip("Acceleration that is full scale in the output, in m/s^2.")]
         private float fullScaleMps2 = (float)HapticEngineOptions.DefaultFullScaleMps2;
 
+        [SerializeField, Tooltip("Says by rules which object is which material; empty for Haptic Surfaces alone.")]
+        private HapticMaterialMap? materialMap;
+
         private static HaptoFlowSettings? active;
 
         // Preloaded assets wake before load methods run or after them: no load method forgets this one.
@@ -91,6 +94,14 @@ namespace HaptoFlow
         {
             get => fullScaleMps2;
             set => fullScaleMps2 = value;
+        }
+
+        /// <summary>Says by rules which object is which material, in every scene; null for none. Counts at once, also
+        /// when it is changed while something is touched.</summary>
+        public HapticMaterialMap? MaterialMap
+        {
+            get => materialMap;
+            set => materialMap = value;
         }
 
         /// <summary>The project's settings; built-in ones where the project has none. What is set here counts for

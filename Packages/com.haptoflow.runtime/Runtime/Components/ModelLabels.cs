@@ -4,6 +4,7 @@ using System.Collections.Generic;
 using System.Linq;
 using HaptoFlow.Model;
 using UnityEngine;
+using Object = UnityEngine.Object;
 
 namespace HaptoFlow
 {
@@ -24,25 +25,28 @@ namespace HaptoFlow
 
         public IReadOnlyList<string> All => names.All;
 
+        /// <summary>Of the engine that these labels are felt with; null where there is none.</summary>
+        public LearntMaterials? Learnt { get; set; }
+
         /// <summary>The labels of a description with their weights; unknown ones are left out. The stiffness is the
         /// weighted mean of the labels', 0 where none is known.</summary>
         public LabelBlend Blend(
-            MaterialDescription material, HapticSurface surface, out double stiffnessNewtonsPerMetre)
+            MaterialDescription material, Object user, out double stiffnessNewtonsPerMetre)
         {
-            LabelBlend blend = Named(material, surface);
+            LabelBlend blend = Named(material, user);
             stiffnessNewtonsPerMetre = 0.0;
             for (int entry = 0; entry < blend.Count; ++entry)
             {
-                stiffnessNewtonsPerMetre += blend.Weight(entry) * stiffness[blend.Label(entry)];
+                stiffnessNewtonsPerMetre += blend.Weight(entry) * StiffnessOf(blend.Label(entry));
             }
             return blend;
         }
 
-        private LabelBlend Named(MaterialDescription material, HapticSurface surface)
+        private LabelBlend Named(MaterialDescription material, Object user)
         {
             int second = 0;
-            bool knowsFirst = TryFind(material.Label, surface, out int first);
-            bool knowsSecond = material.SecondLabel.Length > 0 && TryFind(material.SecondLabel, surface, out second);
+            bool knowsFirst = TryFindFirst(material, user, out int first);
+            bool knowsSecond = material.SecondLabel.Length > 0 && TryFind(material.SecondLabel, user, out second);
             if (knowsFirst && knowsSecond)
             {
                 return LabelBlend.Of(first, second, material.Blend);
@@ -50,7 +54,23 @@ namespace HaptoFlow
             return knowsFirst ? LabelBlend.Of(first) : knowsSecond ? LabelBlend.Of(second) : default;
         }
 
-        private bool TryFind(string name, HapticSurface surface, out int index)
+        /// <summary>What was learnt goes before the label; while it is on its way nobody is warned of the label.
+        /// </summary>
+        private bool TryFindFirst(MaterialDescription material, Object user, out int index)
+        {
+            HapticMaterial? learnt = material.Learnt;
+            bool isWaiting = false;
+            if (learnt != null && Learnt != null && Learnt.TryFind(learnt, out index, out isWaiting))
+            {
+                return true;
+            }
+            return isWaiting ? names.TryFind(material.Label, out index) : TryFind(material.Label, user, out index);
+        }
+
+        private double StiffnessOf(int index) =>
+            index < stiffness.Length ? stiffness[index] : Learnt!.StiffnessNewtonsPerMetre(index);
+
+        private bool TryFind(string name, Object user, out int index)
         {
             if (names.TryFind(name, out index))
             {
@@ -63,7 +83,7 @@ namespace HaptoFlow
                     ? "near matches: " + string.Join(", ", near)
                     : "labels are: " + string.Join(", ", All);
                 Debug.LogWarning(
-                    $"HaptoFlow: the model has no label \"{name}\" (first met on {surface.name}); {remedy}.", surface);
+                    $"HaptoFlow: the model has no label \"{name}\" (first met on {user.name}); {remedy}.", user);
             }
             return false;
         }

@@ -5,7 +5,8 @@ using UnityEngine;
 
 namespace HaptoFlow
 {
-    /// <summary>A collider near one tip: its surface, and where it was lately.</summary>
+    /// <summary>A collider near one tip: what it feels like, by its surface or by rules, and where it was lately.
+    /// </summary>
     internal sealed class NearbySurface
     {
         private double lastStepSeconds;
@@ -14,27 +15,51 @@ namespace HaptoFlow
 
         public Collider? Collider { get; private set; }
 
-        public HapticSurface Surface { get; private set; } = null!;
+        /// <summary>Null for a collider that is felt by rules.</summary>
+        public HapticSurface? Surface { get; private set; }
+
+        /// <summary>Null for a collider with a surface.</summary>
+        public FeltCollider? ByRules { get; private set; }
+
+        /// <summary>The place nearest to the tip, of the last update that met it within reach.</summary>
+        public TouchedPlace Place { get; set; }
 
         public TrackedSurface Tracked { get; } = new TrackedSurface(Double3.Right, 0.0);
 
         /// <summary>Number of the last update that met it.</summary>
         public long LastMet { get; set; }
 
-        public void Begin(Collider collider, HapticSurface surface)
+        /// <param name="surface">Null for a collider that is felt by rules.</param>
+        public void Begin(Collider collider, HapticSurface? surface, FeltCollider? byRules)
         {
             Collider = collider;
             Surface = surface;
+            ByRules = byRules;
+            Place = default;
             lastStepSeconds = double.NegativeInfinity;
             movesBetweenSteps = false;
-            Vector3 grain = surface.transform.TransformDirection(surface.Grain);
+            Vector3 grain = surface is object
+                ? surface.transform.TransformDirection(surface.Grain)
+                : collider.transform.TransformDirection(Vector3.right);
             Tracked.Restart(ColliderProbe.PoseOf(collider).DirectionToLocal(grain.ToDouble()), 0.0);
         }
 
         public void End()
         {
             Collider = null;
-            Surface = null!;
+            Surface = null;
+            ByRules = null;
+            Place = default;
+        }
+
+        /// <summary>What is felt at <see cref="Place"/> now. No garbage while nothing changes.</summary>
+        public FeltMaterial Feel(HapticSession session)
+        {
+            if (Surface is object)
+            {
+                return Surface.At(Place, session);
+            }
+            return ByRules is object ? ByRules.At(Place, session) : default;
         }
 
         /// <summary>Where the collider is drawn now.</summary>
@@ -45,7 +70,7 @@ namespace HaptoFlow
         /// <param name="stepSeconds">Time of the last physics step, on the same clock.</param>
         public void Record(double nowSeconds, double stepSeconds, in RigidPose pose)
         {
-            if (!Surface.FeelOwnMotion)
+            if (Surface is object && !Surface.FeelOwnMotion)
             {
                 Tracked.Track.Clear();
                 return;

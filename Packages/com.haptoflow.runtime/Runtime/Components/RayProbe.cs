@@ -31,9 +31,11 @@ namespace HaptoFlow
         private const double BoundsSlackMetres = 1e-4;
         private const int Refinements = 2;
 
-        public static bool TryClosest(
-            Collider collider, in RigidPose pose, in ProbeQuestion question, out SurfacePoint found)
+        /// <param name="hit">Of the ray that found the place.</param>
+        public static bool TryClosest(Collider collider, in RigidPose pose, in ProbeQuestion question,
+            out SurfacePoint found, out RaycastHit hit)
         {
+            hit = default;
             RigidPose physics = PhysicsPose(collider, pose);
             Double3 tip = physics.PointToWorld(pose.PointToLocal(question.TipMetres));
             Double3 cameFrom = question.PreviousTipMetres - question.TipMetres;
@@ -63,6 +65,7 @@ namespace HaptoFlow
                 ? new SurfacePoint(
                     physics.PointToLocal(search.Point), physics.DirectionToLocal(search.Normal), search.Distance)
                 : default;
+            hit = search.Hit;
             return search.Found && search.Distance <= question.ReachMetres;
         }
 
@@ -105,6 +108,7 @@ namespace HaptoFlow
                 Point = Double3.Zero;
                 Normal = Double3.Up;
                 Distance = double.PositiveInfinity;
+                Hit = default;
             }
 
             public bool Found { get; private set; }
@@ -113,6 +117,9 @@ namespace HaptoFlow
 
             /// <summary>Signed, negative inside.</summary>
             public double Distance { get; private set; }
+
+            /// <summary>Of the ray that found the place.</summary>
+            public RaycastHit Hit { get; private set; }
 
             public void Try(Double3 outward)
             {
@@ -125,16 +132,17 @@ namespace HaptoFlow
 
             private void Try(Double3 outward, double lift)
             {
-                if (!Cast(outward, lift, out Double3 point, out Double3 normal))
+                if (!Cast(outward, lift, out Double3 point, out Double3 normal, out RaycastHit hit))
                 {
                     return;
                 }
                 for (int round = 0; round < Refinements; ++round)
                 {
-                    if (!Cast(normal, lift, out Double3 nearer, out Double3 better))
+                    if (!Cast(normal, lift, out Double3 nearer, out Double3 better, out RaycastHit nearerHit))
                     {
                         break;
                     }
+                    hit = nearerHit;
                     point = nearer;
                     normal = better;
                 }
@@ -148,15 +156,17 @@ namespace HaptoFlow
                     return;
                 }
                 Found = true;
+                Hit = hit;
                 Distance = distance;
                 Point = beside ? point : tip - normal * along;
                 Normal = beside ? offset / offset.Length : normal;
             }
 
-            private bool Cast(Double3 outward, double lift, out Double3 point, out Double3 normal)
+            private bool Cast(
+                Double3 outward, double lift, out Double3 point, out Double3 normal, out RaycastHit place)
             {
                 var ray = new Ray((tip + outward * lift).ToVector(), (-outward).ToVector());
-                bool hit = collider.Raycast(ray, out RaycastHit place, (float)(lift + reach));
+                bool hit = collider.Raycast(ray, out place, (float)(lift + reach));
                 point = hit ? place.point.ToDouble() : Double3.Zero;
                 normal = hit ? Vectors.UnitOr(place.normal.ToDouble(), Double3.Up) : Double3.Up;
                 return hit;

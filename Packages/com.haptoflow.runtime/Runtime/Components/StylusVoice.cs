@@ -47,10 +47,10 @@ namespace HaptoFlow
         }
 
         /// <summary>Tells the engine what the tip does; opens the voice first where it can.</summary>
-        /// <param name="surface">What is touched; null where nothing is.</param>
+        /// <param name="felt">What is felt; labels of none where nothing is.</param>
         /// <param name="wanted">Where it plays; null for silence.</param>
         public void Publish(
-            in ContactReading reading, HapticSurface? surface, HapticSession session, IVoiceTarget? wanted)
+            in ContactReading reading, in FeltMaterial felt, HapticSession session, IVoiceTarget? wanted)
         {
             bool isReady = MakeReady(session, wanted, reading);
             newestTouch = reading.TouchCounter;
@@ -70,13 +70,15 @@ namespace HaptoFlow
                 EdgeCounter = reading.EdgeCounter,
                 EdgeHeightMetres = (float)reading.EdgeHeightMetres,
             };
-            if (surface != null)
+            // What has no label that the model knows is left unfelt rather than felt as something else.
+            if (felt.Labels.Count > 0)
             {
-                state.Material = surface.BlendFor(session);
-                // A surface of which no label is known is left unfelt rather than felt as something else.
-                state.Touching = state.Material.Count > 0;
-                state.Effects = surface.SharedDescription.Effects;
-                SetStrength(surface.SharedDescription.Strength * stylus.Strength * output!.Strength);
+                state.Touching = true;
+                state.Material = felt.Labels;
+                state.Effects = felt.Effects;
+                state.SpatialScale = felt.FeatureScale;
+                state.ToneDbPerOctave = felt.ToneDbPerOctave;
+                SetStrength(felt.Strength * stylus.Strength * output!.Strength);
             }
             voice!.Publish(state);
         }

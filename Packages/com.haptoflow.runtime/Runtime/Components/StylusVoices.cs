@@ -95,12 +95,12 @@ namespace HaptoFlow
             }
         }
 
-        public void Publish(in ContactReading reading, HapticSurface? surface, HapticSession session)
+        public void Publish(in ContactReading reading, in FeltMaterial felt, HapticSession session)
         {
-            audio.Publish(reading, surface, session, WantedAudio());
+            audio.Publish(reading, felt, session, WantedAudio());
             foreach (Device each in devices)
             {
-                each.Voice.Publish(reading, surface, session, each.Target);
+                each.Voice.Publish(reading, felt, session, each.Target);
             }
         }
 

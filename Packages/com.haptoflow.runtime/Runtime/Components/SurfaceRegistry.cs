@@ -20,6 +20,15 @@ namespace HaptoFlow
             }
         }
 
+        /// <summary>Has what the surfaces are made of registered before they are touched.</summary>
+        public static void PrepareAll(HapticSession session)
+        {
+            foreach (HapticSurface surface in Surfaces.Values)
+            {
+                session.Prepare(surface.SharedDescription);
+            }
+        }
+
         /// <summary>The collider still leads to the surface as when it was last looked up.</summary>
         public static bool Holds(Collider collider, HapticSurface surface) =>
             Surfaces.TryGetValue(collider, out HapticSurface registered) && ReferenceEquals(registered, surface) &&

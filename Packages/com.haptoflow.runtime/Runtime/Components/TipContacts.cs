@@ -2,6 +2,7 @@
 using HaptoFlow.Contact;
 using HaptoFlow.Numerics;
 using UnityEngine;
+using Object = UnityEngine.Object;
 
 namespace HaptoFlow
 {
@@ -15,15 +16,22 @@ namespace HaptoFlow
         // Surfaces are followed before they are touched, so that a velocity relative to them is there at touch-down.
         private const double FollowedWithinMetres = 0.05;
 
+        // In a crowd: what is nearer than this gets a place before all else.
+        private const double TouchableWithinMetres = 0.003;
+
+        private readonly Transform stylus;
         private readonly Collider[] colliders = new Collider[MostColliders];
         private readonly NearbySurface[] near = new NearbySurface[MostSurfaces];
         private Double3 previousTipMetres;
         private bool hasPreviousTip;
+        private bool isCrowded;
         private bool warnedOfCrowd;
         private long update;
 
-        public TipContacts(ContactSettings settings, double tipRadiusMetres)
+        /// <param name="stylus">Its own colliders are not felt by rules.</param>
+        public TipContacts(ContactSettings settings, double tipRadiusMetres, Transform stylus)
         {
+            this.stylus = stylus;
             Tracker = new ContactTracker(settings, tipRadiusMetres) { Geometry = this };
             for (int index = 0; index < near.Length; ++index)
             {
@@ -82,38 +90,61 @@ namespace HaptoFlow
         private void Consider(double stepSeconds, int layers, HapticSession session, Object context)
         {
             using FrontFacesOnly fronts = FrontFacesOnly.Begin();
-            float radius = (float)(Tracker.ReachMetres + FollowedWithinMetres);
-            int count = Physics.OverlapSphereNonAlloc(
-                Tracker.TipMetres.ToVector(), radius, colliders, layers, QueryTriggerInteraction.Ignore);
-            for (int index = 0; index < count; ++index)
+            if (isCrowded)
             {
-                HapticSurface? surface = SurfaceOf(colliders[index]);
-                if (surface is object)
-                {
-                    Consider(colliders[index], surface, stepSeconds, session, context);
-                }
-                colliders[index] = null!;
+                // What the tip may touch comes before what is only followed.
+                ConsiderWithin(Tracker.ReachMetres + TouchableWithinMetres, stepSeconds, layers, session, true);
+            }
+            bool hasAll = ConsiderWithin(
+                Tracker.ReachMetres + FollowedWithinMetres, stepSeconds, layers, session, false);
+            isCrowded = !hasAll;
+            if (isCrowded)
+            {
+                WarnOfCrowd(context);
             }
         }
 
-        private void Consider(
-            Collider collider, HapticSurface surface, double stepSeconds, HapticSession session, Object context)
+        /// <param name="takesPlaces">Places of surfaces that were not met in this update are taken from them.</param>
+        /// <returns>False where there was no room for some.</returns>
+        private bool ConsiderWithin(
+            double metres, double stepSeconds, int layers, HapticSession session, bool takesPlaces)
         {
-            NearbySurface? place = PlaceFor(collider, surface);
-            if (place == null)
+            int count = Physics.OverlapSphereNonAlloc(
+                Tracker.TipMetres.ToVector(), (float)metres, colliders, layers, QueryTriggerInteraction.Ignore);
+            bool hasAll = count < colliders.Length;
+            for (int index = 0; index < count; ++index)
             {
-                WarnOfCrowd(context);
-                return;
+                Collider collider = colliders[index];
+                HapticSurface? surface = SurfaceOf(collider);
+                FeltCollider? byRules = surface is object || IsOfStylus(collider)
+                    ? null
+                    : FeltColliders.Resolve(collider);
+                if (surface is object || byRules is object)
+                {
+                    NearbySurface? place = PlaceFor(collider, surface, byRules, takesPlaces);
+                    hasAll &= place != null;
+                    if (place != null && place.LastMet != update)
+                    {
+                        Consider(place, collider, stepSeconds, session);
+                    }
+                }
+                colliders[index] = null!;
             }
+            return hasAll;
+        }
+
+        private void Consider(NearbySurface place, Collider collider, double stepSeconds, HapticSession session)
+        {
             place.LastMet = update;
-            place.Tracked.StiffnessNewtonsPerMetre = surface.StiffnessFor(session);
             RigidPose pose = ColliderProbe.PoseOf(collider);
             place.Record(Tracker.NowSeconds, stepSeconds, pose);
             var question = new ProbeQuestion(
                 Tracker.TipMetres, Tracker.ReachMetresOf(place.Tracked), Tracker.PreviousLocalNormal(place.Tracked),
                 hasPreviousTip ? previousTipMetres : Tracker.TipMetres, Tracker.Settings.SwitchMarginMetres);
-            if (ColliderProbe.TryClosest(collider, pose, question, out SurfacePoint local))
+            if (ColliderProbe.TryClosest(collider, pose, question, out SurfacePoint local, out RaycastHit? hit))
             {
+                place.Place = new TouchedPlace(collider, local.PointMetres, hit);
+                place.Tracked.StiffnessNewtonsPerMetre = place.Feel(session).StiffnessNewtonsPerMetre;
                 Tracker.Consider(new ContactCandidate(place.Tracked, pose, local));
             }
         }
@@ -124,7 +155,8 @@ namespace HaptoFlow
         {
             foreach (NearbySurface each in near)
             {
-                if (ReferenceEquals(each.Collider, collider) && SurfaceRegistry.Holds(collider, each.Surface))
+                if (ReferenceEquals(each.Collider, collider) && each.Surface is object &&
+                    SurfaceRegistry.Holds(collider, each.Surface))
                 {
                     return each.Surface;
                 }
@@ -132,18 +164,53 @@ namespace HaptoFlow
             return SurfaceRegistry.Resolve(collider);
         }
 
-        private NearbySurface? PlaceFor(Collider collider, HapticSurface surface)
+        /// <summary>A place whose surface the tip did not touch and that this update has not met.</summary>
+        private NearbySurface? NotMetYet()
+        {
+            foreach (NearbySurface each in near)
+            {
+                if (each.LastMet != update && !ReferenceEquals(each.Tracked, Tracker.Touched))
+                {
+                    Tracker.Release(each.Tracked);
+                    each.End();
+                    return each;
+                }
+            }
+            return null;
+        }
+
+        /// <summary>A pen must not feel itself, nor the body of who holds it, where a rule is wide enough to match
+        /// them.</summary>
+        private bool IsOfStylus(Collider collider)
+        {
+            if (!MaterialMaps.Any)
+            {
+                return false;
+            }
+            Rigidbody body = collider.attachedRigidbody!;
+            return collider.transform.IsChildOf(stylus) ||
+                (collider is CharacterController && stylus.IsChildOf(collider.transform)) ||
+                (body != null && stylus.IsChildOf(body.transform));
+        }
+
+        private NearbySurface? PlaceFor(
+            Collider collider, HapticSurface? surface, FeltCollider? byRules, bool takesPlaces)
         {
             NearbySurface? free = null;
             foreach (NearbySurface each in near)
             {
-                if (ReferenceEquals(each.Collider, collider) && ReferenceEquals(each.Surface, surface))
+                if (ReferenceEquals(each.Collider, collider) && ReferenceEquals(each.Surface, surface) &&
+                    ReferenceEquals(each.ByRules, byRules))
                 {
                     return each;
                 }
                 free = each.Collider is null ? each : free;
             }
-            free?.Begin(collider, surface);
+            if (free == null && takesPlaces)
+            {
+                free = NotMetYet();
+            }
+            free?.Begin(collider, surface, byRules);
             return free;
         }
 
@@ -179,9 +246,9 @@ namespace HaptoFlow
             if (!warnedOfCrowd)
             {
                 warnedOfCrowd = true;
-                Debug.LogWarning($"HaptoFlow: more than {MostSurfaces} tagged colliders within " +
-                    $"{FollowedWithinMetres * 100.0:0} cm of a tip; some are not felt. " +
-                    "Narrow the stylus's layer mask.", context);
+                Debug.LogWarning($"HaptoFlow: more than {MostSurfaces} colliders that can be felt within " +
+                    $"{FollowedWithinMetres * 100.0:0} cm of a tip: those it touches are felt, but the motion of one " +
+                    "that moves is felt late. Narrow the stylus's layer mask.", context);
             }
         }
     }

@@ -1,4 +1,6 @@
+using System;
 using System.Globalization;
+using System.Linq;
 using HaptoFlow.Editor;
 using HaptoFlow.Preview;
 
@@ -11,6 +13,7 @@ namespace HaptoFlow.PreviewTests
         private const double Tab = 22.0;
         private const double Row = 20.0;
         private const double TextSize = 12.0;
+        private const double EntryIndent = 16.0;
 
         private static readonly Palette Palette = Palette.Dark;
         private static readonly Colour Field = Colour.Of(0x2a2a2a);
@@ -35,21 +38,41 @@ namespace HaptoFlow.PreviewTests
         public static PixelCanvas Draw(PreviewResult result, PreviewLayout layout, StrokeSettings settings,
             string preset, double playedSeconds)
         {
-            double width = layout.Charts.Right + layout.Controls.Left;
-            double height = layout.Charts.Bottom + layout.Controls.Top;
-            var canvas = new PixelCanvas(width, height + Tab, result.Request.PixelsPerPoint);
-            canvas.Fill(canvas.Whole, Palette.Window);
-            canvas.Fill(new Box(0.0, 0.0, width, Tab), Colour.Of(0x282828));
-            canvas.FillRound(new Box(4.0, 2.0, 128.0, Tab), Palette.Window, 3.0);
-            canvas.Text("Texture Preview", 68.0, 12.0, TextSize, Label, TextAlign.Centre);
-            canvas.Text("Drawn by a test with the window's own code: not a screenshot of Unity", width - 12.0, 12.0,
-                TextSize, Label, TextAlign.Right);
+            PixelCanvas canvas = Frame(layout, result.Request.PixelsPerPoint, "Texture Preview");
             canvas.Paste(result.StrokePanel, layout.StrokePanel.Left, layout.StrokePanel.Top + Tab);
             canvas.Paste(result.Charts, layout.Charts.Left, layout.Charts.Top + Tab);
             var picture = new WindowPicture(
                 canvas, new Box(layout.Controls.Left, layout.Controls.Top + Tab, layout.Controls.Width, 0.0));
             picture.Controls(result, settings, preset);
             picture.Playhead(result, layout, playedSeconds);
+            return canvas;
+        }
+
+        /// <summary>The window that learns materials.</summary>
+        /// <param name="recording">What was read, in words.</param>
+        /// <param name="report">What the fit achieved, in words.</param>
+        public static PixelCanvas Draw(ComparisonResult result, PreviewLayout layout, double pixelsPerPoint,
+            string name, string licence, string recording, string report)
+        {
+            PixelCanvas canvas = Frame(layout, pixelsPerPoint, "New Material");
+            canvas.Paste(result.Charts, layout.Charts.Left, layout.Charts.Top + Tab);
+            var picture = new WindowPicture(
+                canvas, new Box(layout.Controls.Left, layout.Controls.Top + Tab, layout.Controls.Width, 0.0));
+            picture.NewMaterial(name, licence, recording, report);
+            return canvas;
+        }
+
+        private static PixelCanvas Frame(PreviewLayout layout, double pixelsPerPoint, string title)
+        {
+            double width = layout.Charts.Right + layout.Controls.Left;
+            double height = layout.Charts.Bottom + layout.Controls.Top;
+            var canvas = new PixelCanvas(width, height + Tab, pixelsPerPoint);
+            canvas.Fill(canvas.Whole, Palette.Window);
+            canvas.Fill(new Box(0.0, 0.0, width, Tab), Colour.Of(0x282828));
+            canvas.FillRound(new Box(4.0, 2.0, 128.0, Tab), Palette.Window, 3.0);
+            canvas.Text(title, 68.0, 12.0, TextSize, Label, TextAlign.Centre);
+            canvas.Text("Drawn by a test with the window's own code: not a screenshot of Unity", width - 12.0, 12.0,
+                TextSize, Label, TextAlign.Right);
             return canvas;
         }
 
@@ -64,8 +87,11 @@ namespace HaptoFlow.PreviewTests
             {
                 LabelMix second = request.Materials[1];
                 Choice("Material B", second.First);
-                Choice("Blend with", second.Second);
-                Slider("Share", second.Share, Number(second.Share));
+                Choice("Blend with", second.Second.Length > 0 ? second.Second : "none");
+                if (second.Second.Length > 0)
+                {
+                    Slider("Share", second.Share, Number(second.Share));
+                }
             }
             y += 6.0;
             Choice("Stroke", preset);
@@ -93,9 +119,70 @@ namespace HaptoFlow.PreviewTests
             Buttons(new[] { "Take from Selection", "Apply to Selection" }, new[] { 154.0, 154.0 }, -1);
             y += 6.0;
             Buttons(new[] { "Stop", "A", "B", "Export WAV\u2026", "Measure" },
-                new[] { 56.0, 31.0, 31.0, 104.0, 82.0 }, 1);
+                new[] { 56.0, 31.0, 31.0, 104.0, 82.0 }, 1 + request.Active);
             Switches(result);
-            Help();
+            Words(PreviewKeys.Help);
+            Sliders(request);
+            Buttons(new[] { "New Material from Recording\u2026" }, new[] { controls.Width }, -1);
+        }
+
+        /// <summary>Unfolded where something was moved.</summary>
+        private void Sliders(PreviewRequest request)
+        {
+            float[] moves = request.Materials[^1].Moves.ToArray();
+            double middle = controls.Top + y + 9.0;
+            double left = controls.Left + 4.0;
+            canvas.Polyline(moves.Length > 0
+                ? new[] { (left, middle - 2.0), (left + 4.0, middle + 2.0), (left + 8.0, middle - 2.0) }
+                : new[] { (left + 2.0, middle - 4.0), (left + 6.0, middle), (left + 2.0, middle + 4.0) }, 1.5, Label);
+            canvas.Text("Sliders", left + 14.0, middle, TextSize, Label);
+            y += Row;
+            for (int index = 0; index < moves.Length; ++index)
+            {
+                MaterialSlider slider = request.Sliders!.Sliders[index];
+                Slider(char.ToUpperInvariant(slider.Name[0]) + slider.Name.Substring(1),
+                    (moves[index] - slider.Lowest) / (slider.Highest - slider.Lowest), Number(Math.Round(moves[index], 3)));
+            }
+            if (moves.Length > 0)
+            {
+                Buttons(new[] { "Reset", "Save as Haptic Material\u2026" }, new[] { 64.0, controls.Width - 66.0 }, -1);
+            }
+        }
+
+        private void NewMaterial(string name, string licence, string recording, string report)
+        {
+            Choice("Model", "None (Haptic Model Asset)");
+            Buttons(new[] { "Choose Recording\u2026" }, new[] { controls.Width }, -1);
+            Words(recording);
+            Entry("Speed [m/s]", "0");
+            Entry("Force [N]", "0");
+            Entry("Full Scale [m/s\u00b2]", "0");
+            y += 6.0;
+            Entry("Name", name);
+            Entry("Category", "");
+            Entry("Licence", licence);
+            Entry("Description", "");
+            y += 6.0;
+            Buttons(new[] { "Learn" }, new[] { controls.Width }, -1);
+            Words(report);
+            y += 6.0;
+            Buttons(new[] { "Stop", "Recording", "Result" }, new[] { 56.0, 126.0, 126.0 }, 2);
+            Box row = new Box(controls.Left, controls.Top + y, controls.Width, Row - 2.0);
+            Tick(row, false);
+            canvas.Text("Loop", row.Left + 20.0, row.MiddleY, TextSize, Label);
+            Tick(row.Columns(156.0, 18.0), false);
+            canvas.Text("Match Levels", row.Left + 176.0, row.MiddleY, TextSize, Label);
+            y += Row + 2.0;
+            Buttons(new[] { "Save as Haptic Material\u2026" }, new[] { controls.Width }, -1);
+            Buttons(new[] { "Export File\u2026" }, new[] { controls.Width }, -1);
+        }
+
+        private void Entry(string label, string value)
+        {
+            Box begun = Begin(label);
+            Box field = begun.Columns(EntryIndent, begun.Width - EntryIndent);
+            canvas.FillRound(field, Field, 3.0);
+            canvas.Text(value, field.Left + 6.0, field.MiddleY, TextSize, Label);
         }
 
         private void Buttons(string[] names, double[] widths, int pressed)
@@ -117,23 +204,23 @@ namespace HaptoFlow.PreviewTests
             double peak = 0.0;
             foreach (AnalysedSound sound in result.Sounds)
             {
-                peak = System.Math.Max(peak, sound.Sound.Peak);
+                peak = Math.Max(peak, sound.Sound.Peak);
             }
             Box row = new Box(controls.Left, controls.Top + y, controls.Width, Row - 2.0);
             Tick(row, false);
             canvas.Text("Loop", row.Left + 20.0, row.MiddleY, TextSize, Label);
             Tick(row.Columns(66.0, 18.0), true);
             canvas.Text("Louder", row.Left + 86.0, row.MiddleY, TextSize, Label);
-            double gain = 20.0 * System.Math.Log10(PreviewPlayer.RaisedPeak / peak);
+            double gain = 20.0 * Math.Log10(PreviewPlayer.RaisedPeak / peak);
             canvas.Text(Scale.Text(gain, 0, true) + " dB", row.Left + 140.0, row.MiddleY, Plot.ScaleSize, Label);
             y += Row;
         }
 
-        /// <summary>The keys, wrapped between words.</summary>
-        private void Help()
+        /// <summary>Wrapped between words.</summary>
+        private void Words(string text)
         {
             string line = "";
-            foreach (string word in PreviewKeys.Help.Split(' '))
+            foreach (string word in text.Split(' '))
             {
                 string longer = line.Length > 0 ? line + " " + word : word;
                 if (StrokeFont.Width(longer, Plot.ScaleSize) > controls.Width - 4.0)

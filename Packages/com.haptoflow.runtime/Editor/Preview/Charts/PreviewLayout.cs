@@ -3,6 +3,19 @@ using System;
 
 namespace HaptoFlow.Preview
 {
+    /// <summary>What the left column of a window has room for.</summary>
+    internal enum PreviewRoom
+    {
+        /// <summary>Controls, and the stroke below them.</summary>
+        Usual = 0,
+
+        /// <summary>More controls, for sliders that are unfolded.</summary>
+        WithSliders = 1,
+
+        /// <summary>Controls alone.</summary>
+        WithoutStroke = 2,
+    }
+
     /// <summary>Where everything is in the window, in points: controls and stroke on the left, what it sounds like on
     /// the right.</summary>
     internal sealed class PreviewLayout
@@ -11,21 +24,27 @@ namespace HaptoFlow.Preview
         public const double LeastWidth = 1080.0;
 
         /// <summary>Below this nothing is legible.</summary>
-        public const double LeastHeight = 868.0;
+        public const double LeastHeight = 912.0;
 
+        private const double LeastHeightWithoutStroke = 640.0;
         private const double Margin = 8.0;
         private const double LeftWidth = 312.0;
         private const double StrokeHeight = 340.0;
+        private const double SlidersHeight = 124.0;
 
-        public PreviewLayout(double width, double height)
+        public PreviewLayout(double width, double height, PreviewRoom room = PreviewRoom.Usual)
         {
-            var whole = new Box(0.0, 0.0, Math.Max(LeastWidth, width), Math.Max(LeastHeight, height));
+            double least = room == PreviewRoom.WithoutStroke
+                ? LeastHeightWithoutStroke
+                : LeastHeight + (room == PreviewRoom.WithSliders ? SlidersHeight : 0.0);
+            var whole = new Box(0.0, 0.0, Math.Max(LeastWidth, width), Math.Max(least, height));
             Width = whole.Width;
             Height = whole.Height;
             Box inside = whole.Inside(Margin);
             Box left = inside.Columns(0.0, LeftWidth);
-            Controls = left.Rows(0.0, left.Height - StrokeHeight - Margin);
-            StrokePanel = left.Rows(left.Height - StrokeHeight, StrokeHeight);
+            double stroke = room == PreviewRoom.WithoutStroke ? 0.0 : StrokeHeight + Margin;
+            Controls = left.Rows(0.0, left.Height - stroke);
+            StrokePanel = left.Rows(left.Height - Math.Max(0.0, stroke - Margin), Math.Max(0.0, stroke - Margin));
             Charts = inside.Columns(LeftWidth + Margin, inside.Width - LeftWidth - Margin);
         }
 
@@ -37,7 +56,7 @@ namespace HaptoFlow.Preview
 
         public Box Controls { get; }
 
-        /// <summary>The picture of the patch and of the stroke's motion.</summary>
+        /// <summary>The picture of the patch and of the stroke's motion; empty where there is no room for it.</summary>
         public Box StrokePanel { get; }
 
         /// <summary>The picture of what is heard.</summary>

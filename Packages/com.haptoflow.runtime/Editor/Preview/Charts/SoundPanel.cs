@@ -21,6 +21,21 @@ namespace HaptoFlow.Preview
         public static void Draw(PixelCanvas canvas, Palette palette, IReadOnlyList<AnalysedSound> sounds, int active,
             IReadOnlyList<QualityRow> rows, string chosenTier)
         {
+            Box lower = DrawUpper(canvas, palette, sounds, active);
+            DrawSpectra(canvas, palette, lower.Columns(0.0, lower.Width - TableWidth - 8.0), sounds);
+            DrawTable(canvas, palette, lower.Columns(lower.Width - TableWidth, TableWidth), rows, chosenTier);
+        }
+
+        /// <summary>Without what quality costs.</summary>
+        /// <param name="sounds">One sound, or two to compare.</param>
+        /// <param name="active">Which of them is heard.</param>
+        public static void Draw(PixelCanvas canvas, Palette palette, IReadOnlyList<AnalysedSound> sounds, int active) =>
+            DrawSpectra(canvas, palette, DrawUpper(canvas, palette, sounds, active), sounds);
+
+        /// <returns>The room below.</returns>
+        private static Box DrawUpper(
+            PixelCanvas canvas, Palette palette, IReadOnlyList<AnalysedSound> sounds, int active)
+        {
             Box box = canvas.Whole;
             canvas.Fill(box, palette.Window);
             Box upper = Upper(box);
@@ -43,8 +58,7 @@ namespace HaptoFlow.Preview
                 SpectrogramChart.DrawLegend(canvas, palette,
                     new Box(last.Right + 12.0, last.Top, 9.0, last.Height), top);
             }
-            DrawSpectra(canvas, palette, lower.Columns(0.0, lower.Width - TableWidth - 8.0), sounds);
-            DrawTable(canvas, palette, lower.Columns(lower.Width - TableWidth, TableWidth), rows, chosenTier);
+            return lower;
         }
 
         /// <summary>The plot of a waveform within the picture.</summary>

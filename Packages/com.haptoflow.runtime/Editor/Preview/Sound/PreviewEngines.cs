@@ -1,5 +1,6 @@
 #nullable enable
 using System;
+using System.Collections.Generic;
 
 namespace HaptoFlow.Preview
 {
@@ -10,10 +11,15 @@ namespace HaptoFlow.Preview
         // The command line's default, so that both render alike.
         private const double LeadMs = 8.0;
 
+        // Two are compared; what a slider leaves behind makes room for what comes.
+        private const int KeptMaterials = 4;
+
         private OnnxRuntime? runtime;
         private byte[]? file;
         private HapticModel? model;
         private HapticEngine? engine;
+        // Of the engine: which text is where, the oldest first.
+        private readonly List<(string Text, int Index)> materials = new List<(string, int)>();
         private bool used;
         private (HapticQuality Quality, ulong Seed) options;
 
@@ -42,6 +48,32 @@ namespace HaptoFlow.Preview
             }
             used = true;
             return engine;
+        }
+
+        /// <summary>Where the engine that was made last knows a learnt material, which is registered there first, or
+        /// put in the place of one that nobody hears any more.</summary>
+        /// <param name="text">Of a material file.</param>
+        /// <exception cref="HaptoFlowException">It is none, or was learnt for another model.</exception>
+        public int MaterialIndex(string text)
+        {
+            int known = materials.FindIndex(each => each.Text == text);
+            if (known >= 0)
+            {
+                return materials[known].Index;
+            }
+            int index;
+            if (materials.Count < KeptMaterials)
+            {
+                index = engine!.RegisterMaterial(text);
+            }
+            else
+            {
+                index = materials[0].Index;
+                engine!.ReplaceMaterial(index, text);
+                materials.RemoveAt(0);
+            }
+            materials.Add((text, index));
+            return index;
         }
 
         /// <summary>One tier alone, for measuring. The caller closes it.</summary>
@@ -79,6 +111,7 @@ namespace HaptoFlow.Preview
         {
             engine?.Dispose();
             engine = null;
+            materials.Clear();
             used = false;
         }
 

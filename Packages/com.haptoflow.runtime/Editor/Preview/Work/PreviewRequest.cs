@@ -22,6 +22,9 @@ namespace HaptoFlow.Preview
         /// <summary>One, or two to compare.</summary>
         public IReadOnlyList<LabelMix> Materials { get; }
 
+        /// <summary>Of the model's space; null where it has none.</summary>
+        public SliderSet? Sliders { get; set; }
+
         /// <summary>Which of them is heard.</summary>
         public int Active { get; set; }
 

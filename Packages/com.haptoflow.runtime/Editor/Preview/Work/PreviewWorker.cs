@@ -70,7 +70,11 @@ namespace HaptoFlow.Preview
             }
             HapticEngine engine = engines.Engine(
                 request.ModelFile, QualityOf(request.Tier), request.Seed, !request.IsSketch);
-            float[] samples = StrokeRenderer.Render(engine, request.Stroke, material.In(names), request.Effects, token);
+            int own = material.IsOwn
+                ? engines.MaterialIndex(material.MaterialText(request.ModelFile, request.Sliders))
+                : -1;
+            LabelBlend blend = material.In(names, own);
+            float[] samples = StrokeRenderer.Render(engine, request.Stroke, blend, request.Effects, token);
             AnalysedSound made = AnalysedSound.Of(new PreviewSound(material, request.Stroke, samples), token);
             kept.Add((key, made));
             return made;

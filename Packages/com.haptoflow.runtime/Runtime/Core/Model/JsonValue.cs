@@ -20,6 +20,9 @@ namespace HaptoFlow.Model
         /// <summary>Where it is, for example "labels[3].name"; "the document" for the whole.</summary>
         public string Path { get; }
 
+        /// <summary>Null, a bool, a double, a string, a list of values or a dictionary of them.</summary>
+        internal object? Content => content;
+
         /// <summary>JSON null.</summary>
         public bool IsNull => content == null;
 

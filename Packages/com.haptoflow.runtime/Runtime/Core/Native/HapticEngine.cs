@@ -114,8 +114,8 @@ namespace HaptoFlow
         /// disposed. Takes milliseconds; voices never wait for it. Any thread but an audio callback's.</summary>
         /// <param name="json">The text of a material file.</param>
         /// <returns>What a <see cref="LabelBlend"/> names it by: an index behind those of the model's labels.</returns>
-        /// <exception cref="HaptoFlowException">The text is no material file, the material was learnt for another model,
-        /// or <see cref="MaximumMaterials"/> are registered.</exception>
+        /// <exception cref="HaptoFlowException">The text is no material file, the material was learnt for another
+        /// model, or <see cref="MaximumMaterials"/> are registered.</exception>
         public int RegisterMaterial(string json)
         {
             uint index;
@@ -129,13 +129,13 @@ namespace HaptoFlow
             return (int)index;
         }
 
-        /// <summary>Puts another material in the place of a registered one: the next state that is published sounds like
-        /// it. Where this fails, the old one stays. Takes milliseconds; voices never wait for it. Any thread but an audio
-        /// callback's.</summary>
+        /// <summary>Puts another material in the place of a registered one: the next state that is published sounds
+        /// like it. Where this fails, the old one stays. Takes milliseconds; voices never wait for it. Any thread but
+        /// an audio callback's.</summary>
         /// <param name="index">What <see cref="RegisterMaterial"/> returned.</param>
         /// <param name="json">The text of a material file.</param>
-        /// <exception cref="HaptoFlowException">As of <see cref="RegisterMaterial"/>, and where no material is registered
-        /// at the index.</exception>
+        /// <exception cref="HaptoFlowException">As of <see cref="RegisterMaterial"/>, and where no material is
+        /// registered at the index.</exception>
         public void ReplaceMaterial(int index, string json)
         {
             byte[] text = NativeCall.Utf8(json);

@@ -85,4 +85,14 @@ namespace HaptoFlow.Native
 
         protected override int Close(IntPtr* closing) => NativeMethods.CancellationClose(closing);
     }
+
+    internal sealed unsafe class LearningHandle : NativeHandle
+    {
+        public LearningHandle(IntPtr opened)
+            : base(opened)
+        {
+        }
+
+        protected override int Close(IntPtr* closing) => NativeMethods.LearningClose(closing);
+    }
 }

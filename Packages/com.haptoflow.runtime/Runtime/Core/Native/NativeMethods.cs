@@ -193,6 +193,18 @@ namespace HaptoFlow.Native
             IntPtr features, float* waveMps2, ulong sampleCount, NativeWaveFrame* frames, ulong capacity,
             ulong* frameCount);
 
+        [DllImport(Library, EntryPoint = "haptoflow_learn_material")]
+        public static extern int LearnMaterial(NativeLearningOptions* options, IntPtr* learning);
+
+        [DllImport(Library, EntryPoint = "haptoflow_learning_material")]
+        public static extern int LearningMaterial(IntPtr learning, IntPtr* json);
+
+        [DllImport(Library, EntryPoint = "haptoflow_learning_report")]
+        public static extern int LearningReport(IntPtr learning, IntPtr* json);
+
+        [DllImport(Library, EntryPoint = "haptoflow_learning_close")]
+        public static extern int LearningClose(IntPtr* learning);
+
         [DllImport(Library, EntryPoint = "haptoflow_noise_fill")]
         public static extern int NoiseFill(ulong seed, uint voice, ulong segment, float* noise, ulong count);
     }

@@ -146,4 +146,31 @@ namespace HaptoFlow.Native
         public float TransientAmplitudeMps2;
         public float TransientFrequencyHz;
     }
+
+    [Preserve, StructLayout(LayoutKind.Sequential)]
+    internal unsafe struct NativeLearningOptions
+    {
+        public uint StructSize;
+        public uint AxisCount;
+        public IntPtr Runtime;
+        public IntPtr Model;
+        public IntPtr Tier;
+        public IntPtr Name;
+        public IntPtr Category;
+        public IntPtr Description;
+        public IntPtr Licence;
+        public float* AccelerationMps2;
+        public ulong SampleCount;
+        public double SampleRateHz;
+        public float* VelocityMps;
+        public fixed double ConstantVelocityMps[2];
+        public float* ForceNewtons;
+        public double ConstantForceNewtons;
+        public ulong Seed;
+        public double SecondsLimit;
+        public IntPtr Progress;
+        public IntPtr ProgressContext;
+        public IntPtr Cancellation;
+        public float* WaveVectors;
+    }
 }

@@ -1,0 +1,51 @@
+#nullable enable
+using System.Collections.Generic;
+using System.Linq;
+using HaptoFlow.Model;
+using UnityEditor;
+
+namespace HaptoFlow.Editor
+{
+    /// <summary>Learnt materials are felt only under the model that they were learnt for, and only so many at a time.
+    /// </summary>
+    internal static class LearntMaterialRules
+    {
+        public static IEnumerable<Finding> Check(SceneContents scene)
+        {
+            IEnumerable<HapticMaterial?> ofMaps = scene.Maps.All.SelectMany(map =>
+                map.Rules.Select(rule => rule.Material).Append(map.DefaultMaterial));
+            HapticMaterial[] materials = scene.Surfaces.Select(surface => surface.SharedDescription.Learnt)
+                .Concat(ofMaps.Select(material => material != null ? material.Description.Learnt : null))
+                .OfType<HapticMaterial>().Distinct().ToArray();
+            ModelSpace? model = materials.Length > 0 ? MaterialSummary.SpaceOf(LabelCatalog.ModelInUse()) : null;
+            foreach (HapticMaterial material in materials)
+            {
+                string? problem = model == null ? null : ProblemOf(material, model);
+                if (problem != null)
+                {
+                    yield return new Finding(MessageType.Warning, $"{material.name} is felt as its label " +
+                        $"\"{material.Description.Label}\": {problem}", new[] { material });
+                }
+            }
+            if (materials.Length > HapticEngine.MaximumMaterials)
+            {
+                yield return new Finding(MessageType.Warning, $"Surfaces and maps use {materials.Length} learnt " +
+                    $"materials; an engine takes {HapticEngine.MaximumMaterials}, and the others are felt as their " +
+                    "labels. Use fewer of them at one time.", materials);
+            }
+        }
+
+        private static string? ProblemOf(HapticMaterial material, ModelSpace model)
+        {
+            try
+            {
+                MaterialFile file = MaterialFile.Read(material.Learnt);
+                return file.Space == model.Id ? null : MaterialRegistration.ForeignSpace(file.Space, model.Id);
+            }
+            catch (HaptoFlowException refusal)
+            {
+                return refusal.Message + ".";
+            }
+        }
+    }
+}

@@ -1,0 +1,165 @@
+#nullable enable
+using System.Collections.Generic;
+using System.Linq;
+using UnityEditor;
+using UnityEngine;
+using Object = UnityEngine.Object;
+
+namespace HaptoFlow.Editor
+{
+    /// <summary>What each collider feels like and by which rule, rules that can never match, and parts and masks that
+    /// cannot be told apart.</summary>
+    internal static class MapRules
+    {
+        private const int MostNames = 8;
+
+        public static IEnumerable<Finding> Check(SceneContents scene) => scene.Maps.All
+            .SelectMany(CheckMap)
+            .Concat(CheckMasks(scene))
+            .Concat(CheckMeshes(scene))
+            .Concat(ListColliders(scene));
+
+        private static IEnumerable<Finding> CheckMap(HapticMaterialMap map)
+        {
+            for (int index = 0; index < map.Rules.Count; ++index)
+            {
+                int place = index;
+                string? problem = RuleCheck.ProblemOf(map, index);
+                if (problem != null)
+                {
+                    yield return new Finding(MessageType.Warning, $"Rule {index + 1} of {map.name} {problem}.",
+                        new[] { map }, new Repair("Remove the Rule", () => Remove(map, place)));
+                }
+                foreach (Finding finding in CheckMaterial(map.Rules[index].Material))
+                {
+                    yield return finding;
+                }
+            }
+            foreach (Finding finding in CheckMaterial(map.DefaultMaterial))
+            {
+                yield return finding;
+            }
+            if (map.Rules.Count == 0 && map.DefaultMaterial == null)
+            {
+                yield return new Finding(MessageType.Info, $"The map {map.name} has no rule and no default.",
+                    new[] { map });
+            }
+        }
+
+        private static IEnumerable<Finding> CheckMaterial(HapticMaterial? material) => material == null
+            ? Enumerable.Empty<Finding>()
+            : SurfaceRules.CheckLabels(LabelCatalog.Current, material, material.Description, "description.");
+
+        private static IEnumerable<Finding> CheckMasks(SceneContents scene)
+        {
+            foreach (IGrouping<HapticMaskMap, Collider> mask in scene.Answers
+                .SelectMany(answer => MasksOf(answer).Select(mask => (mask, answer.Collider)))
+                .GroupBy(each => each.mask, each => each.Collider))
+            {
+                string? problem = MaskBake.ProblemOf(mask.Key);
+                if (problem != null)
+                {
+                    yield return new Finding(MessageType.Warning, problem, new[] { mask.Key },
+                        MaskBake.RepairsOf(mask.Key).ToArray());
+                }
+                Collider[] flat = mask.Where(collider => WhyNoCoordinates(collider, mask.Key) != null).ToArray();
+                foreach (IGrouping<string, Collider> reason in flat.GroupBy(
+                    collider => WhyNoCoordinates(collider, mask.Key)!))
+                {
+                    yield return new Finding(MessageType.Warning,
+                        $"{FeltWords.Names(reason.ToArray(), MostNames)}: the mask {mask.Key.name} has no effect, " +
+                        $"since {reason.Key}.", Owners(reason));
+                }
+            }
+        }
+
+        private static IEnumerable<HapticMaskMap> MasksOf(ColliderAnswer answer)
+        {
+            if (answer.Surface is object)
+            {
+                return answer.Surface.Mask != null ? new[] { answer.Surface.Mask } : new HapticMaskMap[0];
+            }
+            return answer.ByRules.Parts.Where(part => part.Mask is object).Select(part => part.Mask!).Distinct();
+        }
+
+        /// <summary>Null where a hit has texture coordinates.</summary>
+        private static string? WhyNoCoordinates(Collider collider, HapticMaskMap mask)
+        {
+            if (!(collider is MeshCollider mesh))
+            {
+                return "only a mesh collider has texture coordinates where it is touched";
+            }
+            if (mesh.convex)
+            {
+                return "a convex mesh collider has no texture coordinates: switch Convex off";
+            }
+            if (mesh.sharedMesh == null)
+            {
+                return "the collider has no mesh";
+            }
+            if (!mesh.sharedMesh.isReadable)
+            {
+                return "its mesh is not readable: switch on Read/Write in the model's import settings";
+            }
+            bool lacksSet = mask.SecondCoordinates ? mesh.sharedMesh.uv2.Length == 0 : mesh.sharedMesh.uv.Length == 0;
+            return lacksSet
+                ? $"its mesh has no {(mask.SecondCoordinates ? "second" : "first")} texture coordinates"
+                : null;
+        }
+
+        /// <summary>Submeshes whose materials differ need the triangle that is touched.</summary>
+        private static IEnumerable<Finding> CheckMeshes(SceneContents scene)
+        {
+            ColliderAnswer[] several = scene.Answers
+                .Where(answer => answer.Surface is null && !answer.ByRules.IsUniform && answer.Collider is MeshCollider)
+                .ToArray();
+            Collider[] unreadable = several.Select(answer => answer.Collider)
+                .Where(collider => !((MeshCollider)collider).sharedMesh!.isReadable).ToArray();
+            if (unreadable.Length > 0)
+            {
+                yield return new Finding(MessageType.Warning,
+                    $"{FeltWords.Names(unreadable, MostNames)}: the submeshes feel like different materials, but the " +
+                    "mesh is not readable, so all of it feels like the first. Switch on Read/Write in the model's " +
+                    "import settings.", Owners(unreadable),
+                    Readability.RepairsOf(unreadable.Select(each => ((MeshCollider)each).sharedMesh!)).ToArray());
+            }
+            Collider[] convex = several.Select(answer => answer.Collider)
+                .Where(collider => ((MeshCollider)collider).convex).ToArray();
+            if (convex.Length > 0)
+            {
+                yield return new Finding(MessageType.Warning,
+                    $"{FeltWords.Names(convex, MostNames)}: the submeshes feel like different materials, but a " +
+                    "convex collider does not tell which triangle is touched, so all of it feels like the first. Switch " +
+                    "Convex off, or give each material a collider of its own.", Owners(convex));
+            }
+        }
+
+        /// <summary>One finding for each answer that colliders have in common.</summary>
+        private static IEnumerable<Finding> ListColliders(SceneContents scene)
+        {
+            if (scene.Maps.All.Count == 0)
+            {
+                yield break;
+            }
+            foreach (IGrouping<string, ColliderAnswer> same in scene.Answers
+                .GroupBy(answer => answer.CanBeFelt
+                    ? $"felt as {answer.Material} ({answer.Reason})"
+                    : $"not felt ({answer.Reason})"))
+            {
+                Collider[] colliders = same.Select(answer => answer.Collider).ToArray();
+                yield return new Finding(MessageType.Info,
+                    $"{FeltWords.Names(colliders, MostNames)}: {same.Key}.", Owners(colliders));
+            }
+        }
+
+        private static IReadOnlyList<Object> Owners(IEnumerable<Collider> colliders) =>
+            colliders.Select(collider => (Object)collider.gameObject).Distinct().ToArray();
+
+        private static void Remove(HapticMaterialMap map, int place)
+        {
+            Undo.RecordObject(map, "Remove the Rule");
+            map.RemoveAt(place);
+            EditorUtility.SetDirty(map);
+        }
+    }
+}

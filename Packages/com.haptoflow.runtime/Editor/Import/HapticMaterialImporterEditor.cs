@@ -1,0 +1,39 @@
+#nullable enable
+using UnityEditor;
+using UnityEditor.AssetImporters;
+using UnityEngine;
+
+namespace HaptoFlow.Editor
+{
+    /// <summary>The Inspector of a .haptomaterial file: nothing to set, everything to read.</summary>
+    [CustomEditor(typeof(HapticMaterialImporter))]
+    internal sealed class HapticMaterialImporterEditor : ScriptedImporterEditor
+    {
+        private readonly MaterialSummaryView view = new MaterialSummaryView();
+        private string text = "";
+
+        public override bool showImportedObject => false;
+
+        protected override bool needsApplyRevert => false;
+
+        public override void OnEnable()
+        {
+            base.OnEnable();
+            // What a damaged file says is in no asset.
+            string path = ((AssetImporter)target).assetPath;
+            text = HapticMaterialImporter.ReadText(FileUtil.GetPhysicalPath(path));
+        }
+
+        public override void OnInspectorGUI()
+        {
+            view.Draw(text);
+            using (new EditorGUI.DisabledScope(!(assetTarget is HapticMaterial { IsLearnt: true })))
+            {
+                if (GUILayout.Button(HapticMaterialEditor.Preview))
+                {
+                    TexturePreviewWindow.Open(assetTarget!);
+                }
+            }
+        }
+    }
+}

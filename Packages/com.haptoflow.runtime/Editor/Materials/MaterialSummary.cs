@@ -1,0 +1,90 @@
+#nullable enable
+using System;
+using System.Collections.Generic;
+using System.Globalization;
+using System.Linq;
+using HaptoFlow.Model;
+
+namespace HaptoFlow.Editor
+{
+    /// <summary>What an Inspector says of a learnt material: what it is nearest to, what it was learnt from, and
+    /// whether it can be felt under the project's model.</summary>
+    internal sealed class MaterialSummary
+    {
+        private MaterialSummary(string problem) => Problem = problem;
+
+        private MaterialSummary(MaterialFile material, ModelSpace? model)
+        {
+            Title = material.Name;
+            Description = material.Description;
+            bool isOfModel = model != null && model.Id == material.Space;
+            Rows = RowsOf(material, isOfModel ? model : null).Where(row => row.Value.Length > 0).ToArray();
+            Mismatch = isOfModel
+                ? null
+                : model == null
+                    ? "The project has no usable model, so nothing is felt."
+                    : "Its label is felt instead: " + MaterialRegistration.ForeignSpace(material.Space, model.Id);
+        }
+
+        /// <summary>What is wrong with the file; null where nothing is. Then everything else is empty.</summary>
+        public string? Problem { get; }
+
+        /// <summary>Why it is not felt under the project's model; null where it is.</summary>
+        public string? Mismatch { get; }
+
+        public string Title { get; } = "";
+
+        public string Description { get; } = "";
+
+        public IReadOnlyList<SummaryRow> Rows { get; } = new SummaryRow[0];
+
+        /// <param name="text">Of a material file.</param>
+        /// <param name="model">The model that it would be felt under; null for none.</param>
+        public static MaterialSummary Of(string text, HapticModelAsset? model)
+        {
+            try
+            {
+                return new MaterialSummary(MaterialFile.Read(text), SpaceOf(model));
+            }
+            catch (HaptoFlowException refusal)
+            {
+                return new MaterialSummary(refusal.Message);
+            }
+        }
+
+        /// <summary>Null where there is no usable model.</summary>
+        public static ModelSpace? SpaceOf(HapticModelAsset? model)
+        {
+            try
+            {
+                return model == null ? null : ModelSpace.Of(model.File);
+            }
+            catch (HaptoFlowException)
+            {
+                // The model's own Inspector says what is wrong with it.
+                return null;
+            }
+        }
+
+        private static IEnumerable<SummaryRow> RowsOf(MaterialFile material, ModelSpace? model)
+        {
+            yield return new SummaryRow("Category", material.Category);
+            yield return new SummaryRow("Nearest Label", model?.NearestLabel(material.Embedding) ?? "");
+            yield return new SummaryRow("Recording", material.Seconds > 0.0 ? Text("{0:0.#} s", material.Seconds) : "");
+            yield return new SummaryRow("Recordings", material.Recordings);
+            yield return new SummaryRow("Licence", material.Licence);
+            yield return new SummaryRow("Provenance", material.Statement);
+            yield return new SummaryRow("Created", material.Created);
+            yield return new SummaryRow("Learnt Speeds", Interval(material.Json["range"]["speed_mps"], "m/s"));
+            yield return new SummaryRow("Learnt Forces", Interval(material.Json["range"]["force_newtons"], "N"));
+            yield return new SummaryRow("Stiffness", Text("{0:0} N/m", material.StiffnessNewtonsPerMetre));
+            yield return new SummaryRow("Space", material.Space);
+        }
+
+        private static string Interval(JsonValue bounds, string unit) =>
+            Text("{0:0.###} to {1:0.###} {2}", bounds[0].AsNumber(), bounds[1].AsNumber(), unit);
+
+        private static string Text(string format, params object[] values) =>
+            string.Format(CultureInfo.InvariantCulture, format, values);
+    }
+}

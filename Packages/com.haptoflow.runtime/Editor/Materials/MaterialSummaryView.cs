@@ -1,0 +1,48 @@
+#nullable enable
+using UnityEditor;
+
+namespace HaptoFlow.Editor
+{
+    /// <summary>Draws what a learnt material says of itself; read anew only when text or model are others.</summary>
+    internal sealed class MaterialSummaryView
+    {
+        private string text = "";
+        private HapticModelAsset? model;
+        private MaterialSummary? summary;
+
+        /// <param name="material">The text of its file.</param>
+        public void Draw(string material)
+        {
+            HapticModelAsset? present = LabelCatalog.ModelInUse();
+            if (summary == null || !ReferenceEquals(material, text) || !ReferenceEquals(present, model))
+            {
+                text = material;
+                model = present;
+                summary = MaterialSummary.Of(material, present);
+            }
+            Draw(summary);
+        }
+
+        public static void Draw(MaterialSummary summary)
+        {
+            if (summary.Problem != null)
+            {
+                EditorGUILayout.HelpBox("This material cannot be used: " + summary.Problem, MessageType.Error);
+                return;
+            }
+            EditorGUILayout.LabelField(summary.Title, EditorStyles.boldLabel);
+            if (summary.Description.Length > 0)
+            {
+                EditorGUILayout.LabelField(summary.Description, EditorStyles.wordWrappedLabel);
+            }
+            if (summary.Mismatch != null)
+            {
+                EditorGUILayout.HelpBox(summary.Mismatch, MessageType.Warning);
+            }
+            foreach (SummaryRow row in summary.Rows)
+            {
+                EditorGUILayout.LabelField(row.Name, row.Value, EditorStyles.wordWrappedLabel);
+            }
+        }
+    }
+}

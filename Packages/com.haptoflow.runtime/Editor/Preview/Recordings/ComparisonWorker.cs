@@ -1,0 +1,83 @@
+#nullable enable
+using System;
+using System.Collections.Generic;
+using System.Globalization;
+using System.Threading;
+using HaptoFlow.Model;
+using HaptoFlow.Recordings;
+
+namespace HaptoFlow.Preview
+{
+    /// <summary>Renders what was learnt with the recording's own motion, and draws both. One thread at a time, one that
+    /// can wait for networks.</summary>
+    internal sealed class ComparisonWorker : IDisposable
+    {
+        private const ulong Seed = 1;
+
+        private readonly PreviewEngines engines = new PreviewEngines();
+        private Recording? heard;
+        private AnalysedSound? recording;
+        private (byte[] Model, Recording Recording, string Material) rendered;
+        private PreviewSound? result;
+
+        /// <exception cref="OperationCanceledException">The token was cancelled.</exception>
+        public ComparisonResult Do(ComparisonRequest request, CancellationToken token)
+        {
+            if (recording == null || !ReferenceEquals(heard, request.Recording))
+            {
+                Stroke stroke = RecordingSound.StrokeOf(request.Recording);
+                recording = AnalysedSound.Of(RecordingSound.Of(request.Recording, stroke), token);
+                heard = request.Recording;
+            }
+            var sounds = new List<AnalysedSound> { recording };
+            string? problem = null;
+            if (request.Material.Length > 0)
+            {
+                try
+                {
+                    sounds.Add(AnalysedSound.Of(Shown(request, Result(request, token)), token));
+                }
+                catch (HaptoFlowException error)
+                {
+                    problem = error.Message;
+                }
+            }
+            token.ThrowIfCancellationRequested();
+            var charts = new PixelCanvas(request.Charts.Width, request.Charts.Height, request.PixelsPerPoint);
+            SoundPanel.Draw(charts, request.Palette, sounds, Math.Min(request.Active, sounds.Count - 1));
+            return new ComparisonResult(charts, sounds, problem);
+        }
+
+        public void Dispose() => engines.Dispose();
+
+        private PreviewSound Result(ComparisonRequest request, CancellationToken token)
+        {
+            (byte[], Recording, string) wanted = (request.ModelFile, request.Recording, request.Material);
+            if (result == null || !rendered.Equals(wanted))
+            {
+                MaterialFile material = MaterialFile.Read(request.Material);
+                HapticEngine engine = engines.Engine(request.ModelFile, HapticQuality.Standard, Seed, true);
+                LabelBlend blend = LabelBlend.Of(engines.MaterialIndex(request.Material));
+                Stroke stroke = recording!.Sound.Stroke;
+                float[] samples = StrokeRenderer.Render(engine, stroke, blend, HapticEffects.Texture, token);
+                result = new PreviewSound(new LabelMix(material.Name), stroke, samples);
+                rendered = wanted;
+            }
+            return result;
+        }
+
+        /// <summary>At the recording's level where that is wanted; the title says by how much.</summary>
+        private PreviewSound Shown(ComparisonRequest request, PreviewSound sound)
+        {
+            if (!request.MatchesLevels || sound.RmsMps2 <= 0.0 || recording!.Sound.RmsMps2 <= 0.0)
+            {
+                return sound;
+            }
+            double gain = recording.Sound.RmsMps2 / sound.RmsMps2;
+            string title = string.Format(CultureInfo.InvariantCulture, "{0} ({1:+0.0;-0.0;0.0} dB)", sound.Title,
+                20.0 * Math.Log10(gain));
+            return new PreviewSound(new LabelMix(title), sound.Stroke,
+                Array.ConvertAll(sound.Samples, sample => (float)gain * sample));
+        }
+    }
+}

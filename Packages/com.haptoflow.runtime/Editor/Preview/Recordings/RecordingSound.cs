@@ -1,0 +1,89 @@
+#nullable enable
+using System;
+using HaptoFlow.Recordings;
+
+namespace HaptoFlow.Preview
+{
+    /// <summary>A recording as the preview shows and plays it beside the material that was learnt from it: one axis, 10
+    /// to 1000 Hz, at the preview's rate; and the stroke that it was made with.</summary>
+    internal static class RecordingSound
+    {
+        /// <summary>What is shown and played of a longer recording.</summary>
+        public const double LongestSeconds = 10.0;
+
+        private const double WorkingHz = 2000.0;
+        private const double HighPassHz = 10.0;
+
+        /// <summary>The first <see cref="LongestSeconds"/> of a recording.</summary>
+        public static PreviewSound Of(Recording recording, Stroke stroke)
+        {
+            int count = Math.Min(recording.SampleCount, (int)(LongestSeconds * recording.SampleRateHz));
+            ReadOnlySpan<float> samples = recording.AccelerationMps2.AsSpan(0, count * recording.AxisCount);
+            float[] still = WithoutDrift(samples, recording.AxisCount, recording.SampleRateHz);
+            float[] axis = recording.AxisCount == 1
+                ? still
+                : AxisCombination.Combined(still, recording.SampleRateHz);
+            float[] working = SincResampler.Resampled(axis, recording.SampleRateHz, WorkingHz);
+            float[] sound = SincResampler.Resampled(working, WorkingHz, PreviewSound.RateHz);
+            for (int index = 0; index < sound.Length; ++index)
+            {
+                sound[index] /= PreviewSound.FullScaleMps2;
+            }
+            return new PreviewSound(new LabelMix("recording"), stroke, sound);
+        }
+
+        /// <summary>The motion of the recording, one contact from its begin to its end.</summary>
+        public static Stroke StrokeOf(Recording recording)
+        {
+            double seconds = Math.Min(recording.Seconds, LongestSeconds);
+            double x = 0.0;
+            double y = 0.0;
+            return new Stroke(time =>
+            {
+                int sample = Math.Min(recording.SampleCount - 1, (int)(time * recording.SampleRateHz));
+                (double velocityX, double velocityY) = recording.VelocityAt(sample);
+                x += velocityX / Stroke.UpdateRateHz;
+                y += velocityY / Stroke.UpdateRateHz;
+                return new PathPoint
+                {
+                    XMetres = x,
+                    YMetres = y,
+                    VelocityXMps = velocityX,
+                    VelocityYMps = velocityY,
+                    ForceNewtons = recording.ForceAt(sample),
+                    Touching = true,
+                };
+            }, seconds, true);
+        }
+
+        /// <summary>Gravity and slow motion are no vibration: a first-order high-pass, forward and backward.</summary>
+        private static float[] WithoutDrift(ReadOnlySpan<float> samples, int axes, double rateHz)
+        {
+            float[] result = samples.ToArray();
+            double share = 1.0 - Math.Exp(-2.0 * Math.PI * HighPassHz / rateHz);
+            for (int axis = 0; axis < axes; ++axis)
+            {
+                double mean = 0.0;
+                for (int index = axis; index < result.Length; index += axes)
+                {
+                    mean += result[index] * axes / (double)result.Length;
+                }
+                HighPass(result, axis, axes, mean, share);
+                HighPass(result, result.Length - axes + axis, -axes, 0.0, share);
+            }
+            return result;
+        }
+
+        private static void HighPass(float[] samples, int first, int step, double begin, double share)
+        {
+            double slow = begin;
+            for (int index = first; index >= 0 && index < samples.Length; index += step)
+            {
+                double fast = samples[index] - slow;
+                slow += share * fast;
+                // At half the rate this passes everything.
+                samples[index] = (float)((1.0 - 0.5 * share) * fast);
+            }
+        }
+    }
+}

@@ -1,0 +1,38 @@
+#nullable enable
+using System;
+
+namespace HaptoFlow.Preview
+{
+    /// <summary>Resamples by a Hann-windowed sinc (Smith and Gossett 1984), band-limited to the lower of the two
+    /// Nyquist rates.</summary>
+    internal static class SincResampler
+    {
+        // Zero crossings of the sinc on either side.
+        private const int Lobes = 16;
+
+        public static float[] Resampled(ReadOnlySpan<float> samples, double fromHz, double toHz)
+        {
+            var result = new float[(int)Math.Floor(samples.Length * toHz / fromHz + 1e-9)];
+            double cutoff = Math.Min(1.0, toHz / fromHz);
+            double half = Lobes / cutoff;
+            for (int index = 0; index < result.Length; ++index)
+            {
+                double place = index * fromHz / toHz;
+                int first = Math.Max(0, (int)Math.Ceiling(place - half));
+                int last = Math.Min(samples.Length - 1, (int)Math.Floor(place + half));
+                double sum = 0.0;
+                for (int input = first; input <= last; ++input)
+                {
+                    double distance = input - place;
+                    double window = 0.5 + 0.5 * Math.Cos(Math.PI * distance / half);
+                    sum += samples[input] * window * cutoff * Sinc(cutoff * distance);
+                }
+                result[index] = (float)sum;
+            }
+            return result;
+        }
+
+        private static double Sinc(double place) =>
+            Math.Abs(place) < 1e-9 ? 1.0 : Math.Sin(Math.PI * place) / (Math.PI * place);
+    }
+}

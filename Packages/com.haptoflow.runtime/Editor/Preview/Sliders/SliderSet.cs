@@ -1,0 +1,150 @@
+#nullable enable
+using System;
+using System.Collections.Generic;
+using System.Linq;
+using HaptoFlow.Model;
+
+namespace HaptoFlow.Preview
+{
+    /// <summary>One direction in which a material can be moved.</summary>
+    internal sealed class MaterialSlider
+    {
+        internal MaterialSlider(CheckedTable table)
+        {
+            Name = table.Text("name");
+            Direction = table.Numbers("direction", MaterialFile.TextureNumbers, MaterialFile.TextureNumbers);
+            LevelDecibels = table.OptionalNumber("level_db", -MaterialRules.MostOffsetDecibels,
+                MaterialRules.MostOffsetDecibels) ?? 0.0;
+            Lowest = (float)table.Number("lowest", -10.0, 0.0);
+            Highest = (float)table.Number("highest", 0.0, 10.0);
+        }
+
+        /// <summary>For example "coarseness".</summary>
+        public string Name { get; }
+
+        /// <summary>What a slider of 1 adds to an embedding.</summary>
+        public IReadOnlyList<double> Direction { get; }
+
+        /// <summary>What a slider of 1 adds to the level.</summary>
+        public double LevelDecibels { get; }
+
+        public float Lowest { get; }
+
+        public float Highest { get; }
+    }
+
+    /// <summary>The sliders of one model's space, as the recorder's parameters gave them, and how far its labels reach.
+    /// Immutable: any thread.</summary>
+    internal sealed class SliderSet
+    {
+        private const string FormatName = "haptoflow-sliders";
+        private const int MostSliders = 16;
+
+        private readonly double[] mean;
+        private readonly double[][] axes;
+        private readonly double[] lowest;
+        private readonly double[] highest;
+
+        private SliderSet(CheckedTable root, JsonValue json)
+        {
+            if (!root.Has("format") || root.Text("format") != FormatName)
+            {
+                throw root.Failure("format", $"\"{FormatName}\"", "this is not a file of sliders");
+            }
+            if (root.Integer("version") != 1)
+            {
+                throw root.Failure("version", "1", "update HaptoFlow");
+            }
+            Space = root.Text("space");
+            Sliders = root.Tables("sliders", 1, MostSliders).Select(each => new MaterialSlider(each)).ToArray();
+            const int size = MaterialFile.TextureNumbers;
+            mean = root.Numbers("mean", size, size);
+            int count = json.Find("axes")?.Content is List<JsonValue> rows ? rows.Count : 0;
+            root.CheckRows("axes", count, size, -1.0, 1.0);
+            axes = json["axes"].AsArray()
+                .Select(axis => axis.AsArray().Select(each => each.AsNumber()).ToArray()).ToArray();
+            lowest = root.Numbers("lowest", count, count);
+            highest = root.Numbers("highest", count, count);
+        }
+
+        /// <summary>Of the model that they move materials of: its <see cref="ModelSpace.Id"/>.</summary>
+        public string Space { get; }
+
+        public IReadOnlyList<MaterialSlider> Sliders { get; }
+
+        /// <exception cref="HaptoFlowException">The text is no file of sliders; the message names the key.</exception>
+        public static SliderSet Read(string text)
+        {
+            try
+            {
+                JsonValue json = JsonValue.Parse(text);
+                return new SliderSet(new CheckedTable(json), json);
+            }
+            catch (FormatException error)
+            {
+                throw new HaptoFlowException(HaptoFlowStatus.MaterialInvalid, error.Message, error);
+            }
+        }
+
+        /// <summary>Nothing is moved.</summary>
+        public static bool IsAtRest(IReadOnlyList<float> values) => values.All(value => value.Equals(0f));
+
+        /// <summary>A material moved along the sliders, never further than the labels' own spread, or than it was
+        /// itself.</summary>
+        /// <param name="values">One for each slider; what is missing is 0.</param>
+        /// <param name="name">Of the material that comes of it.</param>
+        /// <returns>The text of a material file.</returns>
+        public string Moved(MaterialFile material, IReadOnlyList<float> values, string name)
+        {
+            double offset = material.LevelOffsetDecibels + Sliders.Select((slider, index) =>
+                Value(values, index) * slider.LevelDecibels).Sum();
+            offset = Math.Max(-MaterialRules.MostOffsetDecibels, Math.Min(MaterialRules.MostOffsetDecibels, offset));
+            return MaterialText.With(material, new Dictionary<string, object?>
+            {
+                ["name"] = name,
+                ["embedding"] = Moved(material.Embedding, values).Select(number => (float)number).ToArray(),
+                ["level_offset_db"] = offset,
+            });
+        }
+
+        /// <summary>An embedding moved along the sliders; its wave vectors stay.</summary>
+        public double[] Moved(IReadOnlyList<double> embedding, IReadOnlyList<float> values)
+        {
+            double[] moved = embedding.ToArray();
+            for (int index = 0; index < Sliders.Count; ++index)
+            {
+                double value = Value(values, index);
+                for (int number = 0; number < MaterialFile.TextureNumbers; ++number)
+                {
+                    moved[number] += value * Sliders[index].Direction[number];
+                }
+            }
+            for (int axis = 0; axis < axes.Length; ++axis)
+            {
+                double own = Coordinate(embedding, axis);
+                double wanted = Coordinate(moved, axis);
+                double held = Math.Max(Math.Min(lowest[axis], own), Math.Min(Math.Max(highest[axis], own), wanted));
+                for (int number = 0; number < MaterialFile.TextureNumbers; ++number)
+                {
+                    moved[number] += (held - wanted) * axes[axis][number];
+                }
+            }
+            return moved;
+        }
+
+        /// <summary>Along an axis, from the mean of the labels.</summary>
+        internal double Coordinate(IReadOnlyList<double> embedding, int axis)
+        {
+            double sum = 0.0;
+            for (int number = 0; number < MaterialFile.TextureNumbers; ++number)
+            {
+                sum += (embedding[number] - mean[number]) * axes[axis][number];
+            }
+            return sum;
+        }
+
+        private float Value(IReadOnlyList<float> values, int index) => index < values.Count
+            ? Math.Max(Sliders[index].Lowest, Math.Min(Sliders[index].Highest, values[index]))
+            : 0f;
+    }
+}

@@ -1,0 +1,104 @@
+#nullable enable
+using System;
+using System.Collections.Generic;
+using System.Linq;
+using UnityEditor;
+using UnityEngine;
+
+namespace HaptoFlow.Editor
+{
+    /// <summary>The Inspector of a map: its rules, what each matches in the open scenes, and what is wrong with it.
+    /// </summary>
+    [CustomEditor(typeof(HapticMaterialMap))]
+    internal sealed class HapticMaterialMapEditor : UnityEditor.Editor
+    {
+        private const int MostNames = 3;
+        private static readonly GUIContent Rules = new GUIContent("Rules",
+            "The first rule that matches counts. A Haptic Surface on an object wins over every rule.");
+        private static readonly GUIContent Default = new GUIContent("Default",
+            "What no rule matches feels like this; empty to ask the next map, and to feel nothing where there is " +
+            "none.");
+
+        private IReadOnlyList<(string Text, MessageType Kind)> lines = Array.Empty<(string, MessageType)>();
+        private bool isStale = true;
+
+        private void OnEnable()
+        {
+            EditorApplication.hierarchyChanged += Forget;
+            ObjectChangeEvents.changesPublished += OnChanges;
+        }
+
+        private void OnDisable()
+        {
+            EditorApplication.hierarchyChanged -= Forget;
+            ObjectChangeEvents.changesPublished -= OnChanges;
+        }
+
+        public override void OnInspectorGUI()
+        {
+            serializedObject.Update();
+            EditorGUILayout.PropertyField(serializedObject.FindProperty("rules"), Rules);
+            EditorGUILayout.PropertyField(serializedObject.FindProperty("defaultMaterial"), Default);
+            if (serializedObject.ApplyModifiedProperties())
+            {
+                Forget();
+            }
+            // Between laying out and drawing no line may come.
+            if (isStale && Event.current.type == EventType.Layout)
+            {
+                isStale = false;
+                lines = LinesOf((HapticMaterialMap)target).ToArray();
+            }
+            EditorGUILayout.Space();
+            EditorGUILayout.LabelField("In the open scenes", EditorStyles.boldLabel);
+            foreach ((string text, MessageType kind) in lines)
+            {
+                EditorGUILayout.HelpBox(text, kind);
+            }
+        }
+
+        /// <summary>One for each rule, and for the default where there is one.</summary>
+        internal static IEnumerable<(string Text, MessageType Kind)> LinesOf(HapticMaterialMap map)
+        {
+            var maps = new SceneMaps();
+            if (!maps.All.Contains(map))
+            {
+                yield return ("This map counts nowhere: choose it in Project Settings > HaptoFlow, or name it in a " +
+                    "Haptic Material Map Scope of an open scene.", MessageType.Info);
+            }
+            ColliderAnswer[] answers = SceneColliders.InScenes().Select(maps.Ask).ToArray();
+            for (int rule = 0; rule < map.Rules.Count; ++rule)
+            {
+                string? problem = RuleCheck.ProblemOf(map, rule);
+                string felt = FeltWords.Of(new FeltPart(
+                    map, rule, map.Rules[rule].Material, map.Rules[rule].Mask));
+                yield return problem != null
+                    ? ($"Rule {rule + 1} ({map.Rules[rule].Describe()}) {problem}.", MessageType.Warning)
+                    : ($"Rule {rule + 1}: {map.Rules[rule].Describe()} \u2192 {felt}: {MatchedBy(answers, map, rule)}",
+                        MessageType.None);
+            }
+            if (map.DefaultMaterial != null)
+            {
+                yield return ($"Default \u2192 {FeltWords.Of(map.DefaultMaterial)}: {MatchedBy(answers, map, -1)}",
+                    MessageType.None);
+            }
+        }
+
+        private static string MatchedBy(IEnumerable<ColliderAnswer> answers, HapticMaterialMap map, int rule)
+        {
+            Collider[] matched = answers
+                .Where(answer => answer.Surface is null &&
+                    answer.ByRules.Parts.Any(part => ReferenceEquals(part.Map, map) && part.Rule == rule))
+                .Select(answer => answer.Collider).ToArray();
+            return matched.Length == 0 ? "no collider" : FeltWords.Names(matched, MostNames);
+        }
+
+        private void OnChanges(ref ObjectChangeEventStream stream) => Forget();
+
+        private void Forget()
+        {
+            isStale = true;
+            Repaint();
+        }
+    }
+}

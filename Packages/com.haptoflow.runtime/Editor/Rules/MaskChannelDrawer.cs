@@ -1,0 +1,52 @@
+#nullable enable
+using UnityEditor;
+using UnityEngine;
+
+namespace HaptoFlow.Editor
+{
+    /// <summary>Draws what one channel of a mask says: a material, or a factor between two values.</summary>
+    [CustomPropertyDrawer(typeof(MaskChannel))]
+    internal sealed class MaskChannelDrawer : PropertyDrawer
+    {
+        private static readonly GUIContent Material = new GUIContent("Material",
+            "There is more of it where the channel is brighter; empty for nothing.");
+        private static readonly GUIContent Lowest = new GUIContent("At Black",
+            "The factor where the channel is black.");
+        private static readonly GUIContent Highest = new GUIContent("At White",
+            "The factor where the channel is white.");
+
+        private static float RowHeight =>
+            EditorGUIUtility.singleLineHeight + EditorGUIUtility.standardVerticalSpacing;
+
+        public override float GetPropertyHeight(SerializedProperty property, GUIContent label)
+        {
+            MaskChannelUse use = UseOf(property);
+            int rows = use == MaskChannelUse.Nothing ? 1 : use == MaskChannelUse.Material ? 2 : 3;
+            return RowHeight * rows - EditorGUIUtility.standardVerticalSpacing;
+        }
+
+        public override void OnGUI(Rect position, SerializedProperty property, GUIContent label)
+        {
+            MaskChannelUse use = UseOf(property);
+            var row = new Rect(position.x, position.y, position.width, EditorGUIUtility.singleLineHeight);
+            EditorGUI.PropertyField(row, property.FindPropertyRelative("use"), label);
+            if (use == MaskChannelUse.Nothing)
+            {
+                return;
+            }
+            using var indent = new EditorGUI.IndentLevelScope();
+            row.y += RowHeight;
+            if (use == MaskChannelUse.Material)
+            {
+                EditorGUI.PropertyField(row, property.FindPropertyRelative("material"), Material);
+                return;
+            }
+            EditorGUI.PropertyField(row, property.FindPropertyRelative("lowest"), Lowest);
+            row.y += RowHeight;
+            EditorGUI.PropertyField(row, property.FindPropertyRelative("highest"), Highest);
+        }
+
+        private static MaskChannelUse UseOf(SerializedProperty property) =>
+            (MaskChannelUse)property.FindPropertyRelative("use").enumValueIndex;
+    }
+}

@@ -1,0 +1,55 @@
+#nullable enable
+using System;
+using System.Collections.Generic;
+using System.Globalization;
+using HaptoFlow.Model;
+
+namespace HaptoFlow.Editor
+{
+    /// <summary>What a fit achieved, in one or two sentences.</summary>
+    internal static class LearningReportText
+    {
+        /// <param name="json">As the library reports; what it does not say is left out.</param>
+        public static string Of(string json)
+        {
+            JsonValue report;
+            try
+            {
+                report = JsonValue.Parse(json.Trim());
+            }
+            catch (FormatException)
+            {
+                return "";
+            }
+            var parts = new List<string>();
+            if (report.Find("nearest_label")?.Content is string nearest)
+            {
+                parts.Add("nearest label: " + nearest);
+            }
+            Add(parts, report, "spectral_distance_db", "spectra within {0:0.0} dB");
+            Add(parts, report, "level_error_db", "levels within {0:0.0} dB");
+            Add(parts, report, "sliding_seconds", "{0:0.0} s of sliding");
+            Add(parts, report, "seconds", "learnt in {0:0.0} s");
+            string text = parts.Count > 0 ? "Learnt. " + Capital(string.Join("; ", parts)) + "." : "Learnt.";
+            if (report.Find("warnings")?.Content is List<JsonValue> warnings)
+            {
+                foreach (JsonValue warning in warnings)
+                {
+                    text += warning.Content is string words ? " " + Capital(words.TrimEnd('.')) + "." : "";
+                }
+            }
+            return text;
+        }
+
+        private static void Add(List<string> parts, JsonValue report, string key, string format)
+        {
+            if (report.Find(key)?.Content is double number)
+            {
+                parts.Add(string.Format(CultureInfo.InvariantCulture, format, number));
+            }
+        }
+
+        private static string Capital(string words) =>
+            words.Length > 0 ? char.ToUpperInvariant(words[0]) + words.Substring(1) : words;
+    }
+}

@@ -1,0 +1,266 @@
+#nullable enable
+using System;
+using System.Globalization;
+using System.IO;
+using System.Linq;
+using HaptoFlow.Recordings;
+using UnityEditor;
+using UnityEngine;
+
+namespace HaptoFlow.Editor
+{
+    /// <summary>The controls of the window that learns materials. Main thread, within OnGUI.</summary>
+    internal sealed class NewMaterialControls
+    {
+        private const float LabelWidth = 112f;
+        private const float ButtonWidth = 84f;
+
+        private static readonly GUIContent Model =
+            new GUIContent("Model", "The model under which the material shall be felt; none for the project's.");
+        private static readonly GUIContent Choose = new GUIContent("Choose Recording\u2026",
+            "A CSV table or a WAV file of one material, ten seconds or more. What stands beside it (NAME.json) is read, " +
+            "too.");
+        private static readonly GUIContent Speed = new GUIContent("Speed [m/s]",
+            "At which it was recorded, where the file does not say it. 0: not known.");
+        private static readonly GUIContent Force = new GUIContent("Force [N]",
+            "At which it was recorded, where the file does not say it. 0: not known.");
+        private static readonly GUIContent FullScale = new GUIContent("Full Scale [m/s\u00b2]",
+            "The acceleration that +-1 of a WAV file stands for, where no sidecar says it. 0: not known.");
+        private static readonly GUIContent Name = new GUIContent("Name", "What the material is called.");
+        private static readonly GUIContent Category =
+            new GUIContent("Category", "For example cloth or wood; empty for that of the nearest label.");
+        private static readonly GUIContent Licence = new GUIContent("Licence",
+            "Of the recording; the material carries it. Empty for unknown.");
+        private static readonly GUIContent Description =
+            new GUIContent("Description", "One or two sentences, or none.");
+        private static readonly GUIContent LearnButton = new GUIContent("Learn",
+            "Takes ten to twenty seconds in the background; the editor goes on meanwhile.");
+        private static readonly GUIContent CancelButton =
+            new GUIContent("Cancel", "What was learnt before stays.");
+        private static readonly GUIContent Play = new GUIContent("Play", "Plays what is chosen beside it.");
+        private static readonly GUIContent Stop = new GUIContent("Stop", "Silence.");
+        private static readonly GUIContent[] Sides =
+        {
+            new GUIContent("Recording", "Hear the recording."),
+            new GUIContent("Result", "Hear what was learnt, moved as the recording was."),
+        };
+        private static readonly GUIContent Loop = new GUIContent("Loop", "Begins again at the end.");
+        private static readonly GUIContent Match = new GUIContent("Match Levels",
+            "Shows and plays the result at the recording's level, so that only the textures differ.");
+        private static readonly GUIContent SaveButton = new GUIContent("Save as Haptic Material\u2026",
+            "An asset that carries the material; the model stays as it is.");
+        private static readonly GUIContent ExportButton = new GUIContent("Export File\u2026",
+            "A .haptomaterial file, for the command line and other projects.");
+
+        private readonly NewMaterialState state;
+
+        // As laid out: what changes in the midst of an event must not bring controls that nobody laid out.
+        private bool learns;
+        private bool hasResult;
+        private string obstacle = "";
+        private string problem = "";
+        private string found = "";
+        private string report = "";
+        private string reportOf = "";
+
+        public NewMaterialControls(NewMaterialState state) => this.state = state;
+
+        /// <summary>What a button asks for, done when the event is over.</summary>
+        public event Action? ChooseAsked;
+
+        public event Action? LearnAsked;
+
+        public event Action? SaveAsked;
+
+        public event Action? ExportAsked;
+
+        /// <param name="model">In use; null for none.</param>
+        public void Draw(NewMaterialSession session, NewMaterialPlayer player, HapticModelAsset? model)
+        {
+            if (Event.current.type == EventType.Layout)
+            {
+                LayOut(session, model);
+            }
+            float before = EditorGUIUtility.labelWidth;
+            EditorGUIUtility.labelWidth = LabelWidth;
+            var chosen = (HapticModelAsset?)EditorGUILayout.ObjectField(
+                Model, state.Model, typeof(HapticModelAsset), false);
+            if (chosen != state.Model)
+            {
+                state.Change("Model", changed => changed.Model = chosen);
+            }
+            if (GUILayout.Button(Choose))
+            {
+                ChooseAsked?.Invoke();
+            }
+            if (found.Length > 0)
+            {
+                EditorGUILayout.HelpBox(found, MessageType.None);
+            }
+            DrawMotion(session.FromFile);
+            EditorGUILayout.Space(4f);
+            DrawText(Name, state.Name, (changed, text) => changed.Name = text);
+            DrawText(Category, state.Category, (changed, text) => changed.Category = text);
+            DrawText(Licence, state.Licence, (changed, text) => changed.Licence = text);
+            DrawText(Description, state.Description, (changed, text) => changed.Description = text);
+            EditorGUIUtility.labelWidth = before;
+            EditorGUILayout.Space(4f);
+            DrawLearning(session);
+            if (hasResult)
+            {
+                EditorGUILayout.HelpBox(report, MessageType.None);
+            }
+            if (problem.Length > 0)
+            {
+                EditorGUILayout.HelpBox(problem, MessageType.Error);
+            }
+            EditorGUILayout.Space(4f);
+            DrawPlayer(player);
+            DrawSaving();
+        }
+
+        /// <summary>What was read, in one or two sentences.</summary>
+        internal static string WordsOf(Recording recording)
+        {
+            string motion = recording.VelocityMps != null ? "speed from the file"
+                : recording.ConstantVelocityMps is { } velocity
+                    ? Text("speed {0:0.###} m/s", Math.Sqrt(velocity.X * velocity.X + velocity.Y * velocity.Y))
+                    : "speed not known";
+            string force = recording.ForceNewtons != null ? "force from the file"
+                : recording.ConstantForceNewtons is { } newtons ? Text("force {0:0.###} N", newtons)
+                : "force not known";
+            string words = Text("{0}: {1:0.0} s, {2} at {3:0} Hz, {4}, {5}.", recording.Name, recording.Seconds,
+                recording.AxisCount == 1 ? "one axis" : "three axes", recording.SampleRateHz, motion, force);
+            return string.Join(" ", new[] { words }.Concat(recording.Remarks));
+        }
+
+        private void LayOut(NewMaterialSession session, HapticModelAsset? model)
+        {
+            learns = session.Learning != null;
+            hasResult = state.Material.Length > 0;
+            obstacle = session.Obstacle(model) ?? "";
+            problem = session.Problem ?? "";
+            found = session.Recording != null
+                ? WordsOf(session.Recording)
+                : state.Path.Length > 0 ? Path.GetFileName(state.Path) : "";
+            if (reportOf != state.Report)
+            {
+                reportOf = state.Report;
+                report = LearningReportText.Of(state.Report);
+            }
+        }
+
+        private void DrawMotion(Recording? recording)
+        {
+            bool knowsSpeed = recording?.VelocityMps != null || recording?.ConstantVelocityMps != null;
+            bool knowsForce = recording?.ForceNewtons != null || recording?.ConstantForceNewtons != null;
+            DrawNumber(Speed, state.SpeedMps, NewMaterialState.FastestMps, knowsSpeed,
+                (changed, number) => changed.SpeedMps = number);
+            DrawNumber(Force, state.ForceNewtons, NewMaterialState.StrongestNewtons, knowsForce,
+                (changed, number) => changed.ForceNewtons = number);
+            bool isWave = state.Path.EndsWith(".wav", StringComparison.OrdinalIgnoreCase);
+            DrawNumber(FullScale, state.FullScaleMps2, 1e5f, !isWave,
+                (changed, number) => changed.FullScaleMps2 = number);
+        }
+
+        private void DrawLearning(NewMaterialSession session)
+        {
+            if (learns)
+            {
+                using (new EditorGUILayout.HorizontalScope())
+                {
+                    HapticLearning? learning = session.Learning;
+                    Rect bar = EditorGUILayout.GetControlRect();
+                    EditorGUI.ProgressBar(bar, learning?.Share ?? 1f, learning?.Doing ?? "");
+                    if (GUILayout.Button(CancelButton, GUILayout.Width(ButtonWidth)))
+                    {
+                        session.Cancel();
+                    }
+                }
+                return;
+            }
+            using (new EditorGUI.DisabledScope(obstacle.Length > 0))
+            {
+                if (GUILayout.Button(LearnButton))
+                {
+                    LearnAsked?.Invoke();
+                }
+            }
+            if (obstacle.Length > 0)
+            {
+                EditorGUILayout.HelpBox(obstacle, MessageType.Info);
+            }
+        }
+
+        private void DrawPlayer(NewMaterialPlayer player)
+        {
+            using (new EditorGUI.DisabledScope(player.Heard == null || !player.IsAvailable))
+            using (new EditorGUILayout.HorizontalScope())
+            {
+                if (GUILayout.Button(player.IsPlaying ? Stop : Play, GUILayout.Width(56f)))
+                {
+                    player.Toggle();
+                }
+                int side = GUILayout.Toolbar(state.Active, Sides);
+                if (side != state.Active)
+                {
+                    state.Change("Side", changed => changed.Active = side);
+                }
+            }
+            using (new EditorGUILayout.HorizontalScope())
+            {
+                DrawSwitch(Loop, state.Loops, (changed, value) => changed.Loops = value);
+                DrawSwitch(Match, state.MatchesLevels, (changed, value) => changed.MatchesLevels = value);
+            }
+        }
+
+        private void DrawSaving()
+        {
+            using (new EditorGUI.DisabledScope(!hasResult))
+            {
+                if (GUILayout.Button(SaveButton))
+                {
+                    SaveAsked?.Invoke();
+                }
+                if (GUILayout.Button(ExportButton))
+                {
+                    ExportAsked?.Invoke();
+                }
+            }
+        }
+
+        private void DrawNumber(GUIContent title, float value, float highest, bool isKnown,
+            Action<NewMaterialState, float> change)
+        {
+            using (new EditorGUI.DisabledScope(isKnown))
+            {
+                float entered = Mathf.Clamp(EditorGUILayout.FloatField(title, value), 0f, highest);
+                if (!entered.Equals(value) && !float.IsNaN(entered))
+                {
+                    state.Change(title.text.Split(' ')[0], changed => change(changed, entered));
+                }
+            }
+        }
+
+        private void DrawText(GUIContent title, string value, Action<NewMaterialState, string> change)
+        {
+            string entered = EditorGUILayout.TextField(title, value);
+            if (entered != value)
+            {
+                state.Change(title.text, changed => change(changed, entered));
+            }
+        }
+
+        private void DrawSwitch(GUIContent title, bool value, Action<NewMaterialState, bool> change)
+        {
+            bool entered = GUILayout.Toggle(value, title);
+            if (entered != value)
+            {
+                state.Change(title.text, changed => change(changed, entered));
+            }
+        }
+
+        private static string Text(string format, params object[] values) =>
+            string.Format(CultureInfo.InvariantCulture, format, values);
+    }
+}

@@ -1,0 +1,235 @@
+#nullable enable
+using System.IO;
+using HaptoFlow.Model;
+using HaptoFlow.Preview;
+using UnityEditor;
+using UnityEngine;
+
+namespace HaptoFlow.Editor
+{
+    /// <summary>Window > HaptoFlow > New Material from Recording: a material learnt from ten seconds, heard beside its
+    /// recording, saved as a Haptic Material. Everything slow happens in the background.</summary>
+    internal sealed class NewMaterialWindow : EditorWindow
+    {
+        private const float Width = 1200f;
+        private const float Height = 760f;
+
+        // What may be seen of the window where it is docked into less; the rest is scrolled to.
+        private const float LeastWidth = 480f;
+        private const float LeastHeight = 320f;
+
+        private static readonly string[] Forms = { "Recordings", "csv,wav" };
+
+        [SerializeField]
+        private NewMaterialState? state;
+
+        private readonly PreviewTexture picture = new PreviewTexture();
+        private NewMaterialControls? controls;
+        private NewMaterialPlayer? player;
+        private float pixelsPerPoint = 1f;
+        private Vector2 scroll;
+
+        /// <summary>For whoever drives the window.</summary>
+        internal NewMaterialState State => state!;
+
+        /// <summary>Null while the window is closed.</summary>
+        internal NewMaterialSession? Session { get; private set; }
+
+        /// <summary>Null while the window is closed.</summary>
+        internal NewMaterialPlayer? Player => player;
+
+        [MenuItem("Window/HaptoFlow/New Material from Recording", false, 2101)]
+        internal static void Open()
+        {
+            bool isNew = !HasOpenInstances<NewMaterialWindow>();
+            var window = GetWindow<NewMaterialWindow>();
+            if (isNew)
+            {
+                Rect place = window.position;
+                window.position = new Rect(place.x, place.y, Width, Height);
+            }
+        }
+
+        private void OnEnable()
+        {
+            titleContent = new GUIContent("New Material");
+            minSize = new Vector2(LeastWidth, LeastHeight);
+            if (state == null)
+            {
+                state = CreateInstance<NewMaterialState>();
+                state.hideFlags = HideFlags.HideAndDontSave;
+            }
+            Session = new NewMaterialSession(state);
+            player = new NewMaterialPlayer(state, Session);
+            controls = new NewMaterialControls(state);
+            // Dialogs in the midst of drawing would upset what is being drawn.
+            controls.ChooseAsked += () => EditorApplication.delayCall += Choose;
+            controls.LearnAsked += Learn;
+            controls.SaveAsked += () => EditorApplication.delayCall += Save;
+            controls.ExportAsked += () => EditorApplication.delayCall += Export;
+            Undo.undoRedoPerformed += OnUndo;
+            EditorApplication.update += Step;
+            AssemblyReloadEvents.beforeAssemblyReload += Release;
+        }
+
+        private void OnDisable()
+        {
+            Undo.undoRedoPerformed -= OnUndo;
+            EditorApplication.update -= Step;
+            AssemblyReloadEvents.beforeAssemblyReload -= Release;
+            Release();
+        }
+
+        private void OnDestroy()
+        {
+            if (state != null)
+            {
+                DestroyImmediate(state);
+            }
+        }
+
+        private void OnGUI()
+        {
+            if (Session == null)
+            {
+                return;
+            }
+            pixelsPerPoint = EditorGUIUtility.pixelsPerPoint;
+            PreviewLayout layout = View().Layout;
+            var all = new Rect(0f, 0f, (float)layout.Width, (float)layout.Height);
+            using var view = new GUI.ScrollViewScope(new Rect(0f, 0f, position.width, position.height), scroll, all);
+            scroll = view.scrollPosition;
+            using (new GUILayout.AreaScope(layout.Controls.ToRect()))
+            {
+                controls!.Draw(Session, player!, ModelInUse());
+            }
+            picture.Draw(layout.Charts.ToRect());
+            if (player!.PlayedSeconds is { } seconds && Session.Shown is { } shown)
+            {
+                Playhead.DrawLines(layout.Charts, shown.Sounds, seconds, View().Palette);
+            }
+        }
+
+        /// <summary>Once an editor update: asks for what is set, takes over what is finished.</summary>
+        internal void Step()
+        {
+            if (Session == null)
+            {
+                return;
+            }
+            bool isOther = Session.Poll();
+            Session.Refresh(ModelInUse(), View());
+            if (isOther)
+            {
+                TakeOver();
+            }
+            if (player!.Step())
+            {
+                Repaint();
+            }
+        }
+
+        /// <summary>Waits until nothing is under way any more.</summary>
+        internal void Finish()
+        {
+            Session!.Finish(() => Session.Refresh(ModelInUse(), View()));
+            TakeOver();
+            player!.Step();
+        }
+
+        /// <summary>Takes a recording's file; can be undone.</summary>
+        internal void Take(string path) => State.Change("Recording", changed =>
+        {
+            changed.Path = path;
+            changed.Name = "";
+            changed.Licence = "";
+            changed.SpeedMps = 0f;
+            changed.ForceNewtons = 0f;
+            changed.FullScaleMps2 = 0f;
+        });
+
+        internal void Learn()
+        {
+            HapticModelAsset? model = ModelInUse();
+            if (model != null)
+            {
+                Session?.Learn(model);
+            }
+        }
+
+        private void Choose()
+        {
+            string folder = State.Path.Length > 0 ? Path.GetDirectoryName(State.Path) ?? "" : "";
+            string path = EditorUtility.OpenFilePanelWithFilters("Choose Recording", folder, Forms);
+            if (path.Length > 0)
+            {
+                Take(path);
+            }
+        }
+
+        private void Save()
+        {
+            if (Session == null || State.Material.Length == 0)
+            {
+                return;
+            }
+            HapticMaterial? saved = MaterialAssets.SaveAs(State.Material, NearestLabel());
+            if (saved != null)
+            {
+                Selection.activeObject = saved;
+                ShowNotification(new GUIContent("Saved " + saved.name));
+            }
+        }
+
+        private void Export()
+        {
+            if (Session == null || State.Material.Length == 0)
+            {
+                return;
+            }
+            string name = MaterialFile.Read(State.Material).Name;
+            string path = EditorUtility.SaveFilePanel("Export Material File", "", name, "haptomaterial");
+            if (path.Length > 0)
+            {
+                ShowNotification(new GUIContent(MaterialAssets.Export(path, State.Material) ?? "Exported"));
+            }
+        }
+
+        /// <summary>Felt where the material cannot be.</summary>
+        private string NearestLabel()
+        {
+            const string unknown = "wood";
+            return MaterialSummary.SpaceOf(ModelInUse())?.NearestLabel(MaterialFile.Read(State.Material).Embedding) ??
+                unknown;
+        }
+
+        private PreviewView View() => new PreviewView(
+            position.width, position.height, pixelsPerPoint, EditorGUIUtility.isProSkin, PreviewRoom.WithoutStroke);
+
+        private HapticModelAsset? ModelInUse() => State.Model != null ? State.Model : LabelCatalog.ModelInUse();
+
+        private void OnUndo()
+        {
+            State.Forget();
+            Repaint();
+        }
+
+        private void TakeOver()
+        {
+            if (Session!.Shown != null)
+            {
+                picture.Show(Session.Shown.Charts);
+            }
+            Repaint();
+        }
+
+        /// <summary>Lets go of everything that Unity or the native library would keep.</summary>
+        private void Release()
+        {
+            player?.Stop();
+            Session?.Dispose();
+            Session = null;
+            picture.Release();
+        }
+    }
+}

@@ -1,0 +1,161 @@
+#nullable enable
+using System;
+using System.Collections.Generic;
+using HaptoFlow.Numerics;
+using UnityEngine;
+
+namespace HaptoFlow
+{
+    /// <summary>What a collider feels like by the rules of maps: as a whole, or part by part. Main thread. Working it
+    /// out makes garbage; asking for a place makes none.</summary>
+    internal sealed class FeltCollider
+    {
+        private ColliderFacts facts;
+        private FeltPart[] parts;
+        private int[] trianglesUpTo = Array.Empty<int>();
+        private bool isUniform;
+
+        public FeltCollider(Collider collider, IReadOnlyList<HapticMaterialMap> maps)
+        {
+            Collider = collider;
+            facts = new ColliderFacts(collider);
+            parts = Array.Empty<FeltPart>();
+            Match(maps);
+        }
+
+        public Collider Collider { get; }
+
+        /// <summary>Of the maps that it was worked out by.</summary>
+        public int MapsVersion { get; set; }
+
+        /// <summary>Some part feels like something.</summary>
+        public bool CanBeFelt { get; private set; }
+
+        /// <summary>Submeshes or terrain layers, in their order; one where the collider has no such parts.</summary>
+        public IReadOnlyList<FeltPart> Parts => parts;
+
+        /// <summary>All parts go by the same rule.</summary>
+        public bool IsUniform => isUniform;
+
+        public ColliderFacts Facts => facts;
+
+        /// <summary>Nothing has changed that rules may ask for.</summary>
+        public bool Holds() => facts.Hold();
+
+        /// <summary>Works it out anew.</summary>
+        public void Renew(IReadOnlyList<HapticMaterialMap> maps)
+        {
+            facts = new ColliderFacts(Collider);
+            Match(maps);
+        }
+
+        /// <summary>What the place feels like; labels of none where it is nothing.</summary>
+        public FeltMaterial At(in TouchedPlace place, HapticSession session)
+        {
+            if (!isUniform && facts.Terrain is { } terrain)
+            {
+                return OnTerrain(terrain, place, session);
+            }
+            int part = isUniform ? 0 : PartOf(place.Triangle);
+            return OfPart(part, place, session);
+        }
+
+        /// <summary>By which rule a part feels as it does. Makes garbage.</summary>
+        public string Explain(int part) => parts[part < parts.Length ? part : 0].Explain();
+
+        private void Match(IReadOnlyList<HapticMaterialMap> maps)
+        {
+            if (parts.Length != facts.Parts)
+            {
+                parts = new FeltPart[facts.Parts];
+            }
+            isUniform = true;
+            CanBeFelt = false;
+            bool isFeltKind = ColliderProbe.IsFeltKind(Collider);
+            for (int part = 0; part < parts.Length; ++part)
+            {
+                parts[part] = Match(maps, part);
+                isUniform &= parts[part].IsSameAs(parts[0]);
+                CanBeFelt |= isFeltKind && parts[part].CanBeFelt;
+            }
+            trianglesUpTo = isUniform || facts.Mesh is null || !facts.Mesh.isReadable
+                ? Array.Empty<int>()
+                : TrianglesUpTo(facts.Mesh);
+        }
+
+        private FeltPart Match(IReadOnlyList<HapticMaterialMap> maps, int part)
+        {
+            for (int index = 0; index < maps.Count; ++index)
+            {
+                if (maps[index].TryMatch(facts, part, out FeltPart found))
+                {
+                    return found;
+                }
+            }
+            return default;
+        }
+
+        private FeltMaterial OfPart(int part, in TouchedPlace place, HapticSession session)
+        {
+            FeltPart found = parts[part];
+            if (found.Mask is { } mask &&
+                mask.TryFeel(place, found.Material, session, Collider, out FeltMaterial masked))
+            {
+                masked.Part = part;
+                return masked;
+            }
+            if (found.Material is null)
+            {
+                return default;
+            }
+            FeltMaterial felt = FeltMaterial.Of(found.Material.Description, found.Material.LookUp(session, Collider));
+            felt.Part = part;
+            return felt;
+        }
+
+        private FeltMaterial OnTerrain(TerrainData terrain, in TouchedPlace place, HapticSession session)
+        {
+            float[] weights = TerrainWeights.Of(terrain).At(place.LocalMetres, terrain.size.ToDouble());
+            MaterialMix mix = MaterialMix.Shared;
+            mix.Begin();
+            for (int layer = 0; layer < parts.Length && layer < weights.Length; ++layer)
+            {
+                if (parts[layer].Material is { } material)
+                {
+                    mix.Add(material, session, Collider, weights[layer], layer);
+                }
+                else
+                {
+                    mix.AddNothing(weights[layer]);
+                }
+            }
+            return mix.Finish();
+        }
+
+        /// <summary>The first submesh where the triangle is not known.</summary>
+        private int PartOf(int triangle)
+        {
+            for (int part = 0; triangle >= 0 && part < trianglesUpTo.Length; ++part)
+            {
+                if (triangle < trianglesUpTo[part])
+                {
+                    return part;
+                }
+            }
+            return 0;
+        }
+
+        private static int[] TrianglesUpTo(Mesh mesh)
+        {
+            var upTo = new int[mesh.subMeshCount];
+            int triangles = 0;
+            for (int part = 0; part < upTo.Length; ++part)
+            {
+                bool isTriangles = mesh.GetTopology(part) == MeshTopology.Triangles;
+                triangles += isTriangles ? (int)(mesh.GetIndexCount(part) / 3) : 0;
+                upTo[part] = triangles;
+            }
+            return upTo;
+        }
+    }
+}

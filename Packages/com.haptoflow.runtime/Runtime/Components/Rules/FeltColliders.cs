@@ -1,0 +1,73 @@
+#nullable enable
+using System;
+using System.Collections.Generic;
+using UnityEngine;
+
+namespace HaptoFlow
+{
+    /// <summary>What colliders without a surface feel like by the maps, kept from frame to frame. Main thread; no
+    /// garbage for a collider that is known and has not changed.</summary>
+    internal static class FeltColliders
+    {
+        private const int FewestBeforeSweep = 256;
+        private static readonly Dictionary<Collider, FeltCollider> Known = new Dictionary<Collider, FeltCollider>();
+        private static readonly List<HapticMaterialMap> Maps = new List<HapticMaterialMap>();
+        private static readonly List<Collider> Gone = new List<Collider>();
+        private static int sweepAt = FewestBeforeSweep;
+
+        /// <summary>How many are kept.</summary>
+        public static int Count => Known.Count;
+
+        /// <summary>Null where no rule gives the collider a material.</summary>
+        public static FeltCollider? Resolve(Collider collider)
+        {
+            if (!MaterialMaps.Any)
+            {
+                return null;
+            }
+            if (!Known.TryGetValue(collider, out FeltCollider? felt))
+            {
+                Sweep();
+                MaterialMaps.CollectFor(collider.gameObject.scene, Maps);
+                felt = new FeltCollider(collider, Maps) { MapsVersion = MaterialMaps.Version };
+                Known.Add(collider, felt);
+            }
+            else if (felt.MapsVersion != MaterialMaps.Version || !felt.Holds())
+            {
+                MaterialMaps.CollectFor(collider.gameObject.scene, Maps);
+                felt.Renew(Maps);
+                felt.MapsVersion = MaterialMaps.Version;
+            }
+            return felt.CanBeFelt ? felt : null;
+        }
+
+        /// <summary>Colliders that were destroyed are let go of now and then.</summary>
+        private static void Sweep()
+        {
+            if (Known.Count < sweepAt)
+            {
+                return;
+            }
+            foreach (KeyValuePair<Collider, FeltCollider> entry in Known)
+            {
+                if (entry.Key == null)
+                {
+                    Gone.Add(entry.Key!);
+                }
+            }
+            foreach (Collider collider in Gone)
+            {
+                Known.Remove(collider);
+            }
+            Gone.Clear();
+            sweepAt = Math.Max(FewestBeforeSweep, 2 * Known.Count);
+        }
+
+        [RuntimeInitializeOnLoadMethod(RuntimeInitializeLoadType.SubsystemRegistration)]
+        private static void Forget()
+        {
+            Known.Clear();
+            sweepAt = FewestBeforeSweep;
+        }
+    }
+}

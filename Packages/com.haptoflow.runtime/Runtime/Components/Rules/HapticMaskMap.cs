@@ -1,0 +1,363 @@
+#nullable enable
+using System;
+using UnityEngine;
+
+namespace HaptoFlow
+{
+    /// <summary>What a channel of a mask says.</summary>
+    public enum MaskChannelUse
+    {
+        /// <summary>Nothing.</summary>
+        Nothing = 0,
+
+        /// <summary>How much of a further material there is: all of it at full, none at zero.</summary>
+        Material = 1,
+
+        /// <summary>A factor of the strength.</summary>
+        Strength = 2,
+
+        /// <summary>A factor of the feature scale.</summary>
+        FeatureScale = 3,
+    }
+
+    /// <summary>What one channel of a mask says.</summary>
+    [Serializable]
+    public sealed class MaskChannel
+    {
+        [SerializeField, Tooltip("What the channel says.")]
+        private MaskChannelUse use = MaskChannelUse.Nothing;
+
+        [SerializeField, Tooltip("The material that there is more of where the channel is brighter.")]
+        private HapticMaterial? material;
+
+        [SerializeField, Min(0f), Tooltip("The factor where the channel is black.")]
+        private float lowest;
+
+        [SerializeField, Min(0f), Tooltip("The factor where the channel is white.")]
+        private float highest = 1f;
+
+        /// <summary>What the channel says.</summary>
+        public MaskChannelUse Use => use;
+
+        /// <summary>For <see cref="MaskChannelUse.Material"/>; null for nothing.</summary>
+        public HapticMaterial? Material => material;
+
+        /// <summary>The factor where the channel is black.</summary>
+        public float Lowest => lowest;
+
+        /// <summary>The factor where the channel is white.</summary>
+        public float Highest => highest;
+
+        /// <summary>There is more of a material where the channel is brighter.</summary>
+        public void SetMaterial(HapticMaterial? material)
+        {
+            use = MaskChannelUse.Material;
+            this.material = material;
+            MaterialMaps.Change();
+        }
+
+        /// <summary>The channel is a factor.</summary>
+        /// <param name="use"><see cref="MaskChannelUse.Strength"/>, 0 to 1, or
+        /// <see cref="MaskChannelUse.FeatureScale"/>, 0.25 to 4.</param>
+        /// <param name="lowest">Where the channel is black.</param>
+        /// <param name="highest">Where it is white.</param>
+        public void SetFactor(MaskChannelUse use, float lowest, float highest)
+        {
+            this.use = use;
+            this.lowest = lowest;
+            this.highest = highest;
+            MaterialMaps.Change();
+        }
+
+        internal float FactorAt(float value) => lowest + value * (highest - lowest);
+    }
+
+    /// <summary>Materials by a texture: what is felt follows the texture at the place that is touched. Made from a
+    /// readable texture in the editor; at run time only its compact copy is needed. Counts on mesh colliders that are
+    /// not convex and whose mesh is readable: only they have texture coordinates where they are touched.</summary>
+    [CreateAssetMenu(menuName = "HaptoFlow/Haptic Mask Map", fileName = "HapticMaskMap", order = 4)]
+    [HelpURL(HelpPages.Components + "haptic-mask-map")]
+    public sealed class HapticMaskMap : ScriptableObject
+    {
+        internal const int Channels = 4;
+
+        // Beyond this a coordinate has no fraction left that would say where on the texture it is.
+        private const float LargestCoordinate = 1e6f;
+
+        [SerializeField, Tooltip("What the channels are baked from. It must be readable while it is baked.")]
+        private Texture2D? texture;
+
+        [SerializeField, Tooltip("A larger texture is baked at half its size, or half of that, until it fits.")]
+        private int largestSize = 512;
+
+        [SerializeField, Tooltip("Off: the mesh's first texture coordinates count. On: its second.")]
+        private bool secondCoordinates;
+
+        [SerializeField, Tooltip("How often the texture repeats over the texture coordinates.")]
+        private Vector2 tiling = new Vector2(1f, 1f);
+
+        [SerializeField, Tooltip("Shifts the texture over the texture coordinates.")]
+        private Vector2 offset;
+
+        [SerializeField]
+        private MaskChannel red = new MaskChannel();
+
+        [SerializeField]
+        private MaskChannel green = new MaskChannel();
+
+        [SerializeField]
+        private MaskChannel blue = new MaskChannel();
+
+        [SerializeField]
+        private MaskChannel alpha = new MaskChannel();
+
+        [SerializeField, HideInInspector]
+        private byte[] texels = Array.Empty<byte>();
+
+        [SerializeField, HideInInspector]
+        private int width;
+
+        [SerializeField, HideInInspector]
+        private int height;
+
+        [SerializeField, HideInInspector]
+        private bool repeats = true;
+
+        [SerializeField, HideInInspector]
+        private string bakedContents = "";
+
+        /// <summary>What the channels are baked from, in the editor.</summary>
+        public Texture2D? Texture
+        {
+            get => texture;
+            set => texture = value;
+        }
+
+        /// <summary>In texels, of the longer side.</summary>
+        public int LargestSize => Math.Max(1, largestSize);
+
+        /// <summary>The mesh's second texture coordinates count, not the first.</summary>
+        public bool SecondCoordinates
+        {
+            get => secondCoordinates;
+            set => secondCoordinates = value;
+        }
+
+        /// <summary>How often the texture repeats over the texture coordinates.</summary>
+        public Vector2 Tiling
+        {
+            get => tiling;
+            set => tiling = value;
+        }
+
+        /// <summary>Shifts the texture over the texture coordinates.</summary>
+        public Vector2 Offset
+        {
+            get => offset;
+            set => offset = value;
+        }
+
+        /// <summary>What the red channel says.</summary>
+        public MaskChannel Red => red;
+
+        /// <summary>What the green channel says.</summary>
+        public MaskChannel Green => green;
+
+        /// <summary>What the blue channel says.</summary>
+        public MaskChannel Blue => blue;
+
+        /// <summary>What the alpha channel says.</summary>
+        public MaskChannel Alpha => alpha;
+
+        /// <summary>The texture was baked.</summary>
+        public bool IsBaked => width > 0 && height > 0 && texels.Length == Channels * width * height;
+
+        /// <summary>Of the baked copy, in texels.</summary>
+        public int Width => width;
+
+        /// <summary>Of the baked copy, in texels.</summary>
+        public int Height => height;
+
+        /// <summary>What the editor says of the texture's contents when it was baked.</summary>
+        internal string BakedContents
+        {
+            get => bakedContents;
+            set => bakedContents = value;
+        }
+
+        /// <summary>Some channel is a material.</summary>
+        internal bool NamesMaterials => Names(red) || Names(green) || Names(blue) || Names(alpha);
+
+        /// <summary>Gives the map its texels: what baking does in the editor, and for textures that are made at run
+        /// time. Main thread.</summary>
+        /// <param name="width">Of the texels, 1 or more.</param>
+        /// <param name="height">Of the texels, 1 or more.</param>
+        /// <param name="pixels">Row by row from the bottom, as Texture2D.GetPixels32 has them.</param>
+        /// <param name="repeats">Coordinates beyond 0 to 1 repeat the texture; otherwise its edge goes on.</param>
+        /// <exception cref="ArgumentException">The size is not that of the pixels.</exception>
+        public void SetPixels(int width, int height, Color32[] pixels, bool repeats)
+        {
+            if (width < 1 || height < 1 || pixels.Length != width * height)
+            {
+                throw new ArgumentException(
+                    $"a mask of {width} x {height} texels needs {width * height} pixels and was given {pixels.Length}");
+            }
+            this.width = width;
+            this.height = height;
+            this.repeats = repeats;
+            texels = new byte[Channels * pixels.Length];
+            for (int index = 0; index < pixels.Length; ++index)
+            {
+                texels[Channels * index] = pixels[index].r;
+                texels[Channels * index + 1] = pixels[index].g;
+                texels[Channels * index + 2] = pixels[index].b;
+                texels[Channels * index + 3] = pixels[index].a;
+            }
+            MaterialMaps.Change();
+        }
+
+        /// <summary>What the mask makes of a material at a place. No garbage.</summary>
+        /// <param name="under">What there is where no channel says otherwise; null for nothing.</param>
+        /// <returns>False where the mask has nothing to say: it is not baked, or the place has no texture
+        /// coordinate.</returns>
+        internal bool TryFeel(
+            in TouchedPlace place, HapticMaterial? under, HapticSession session, UnityEngine.Object user,
+            out FeltMaterial felt) => TryFeel(
+                place, under is object ? FeltMaterial.Of(under.Description, under.LookUp(session, user)) : default,
+                session, user, out felt);
+
+        internal bool TryFeel(
+            in TouchedPlace place, in FeltMaterial under, HapticSession session, UnityEngine.Object user,
+            out FeltMaterial felt)
+        {
+            felt = default;
+            if (!IsBaked || !place.TryGetTextureCoordinate(secondCoordinates, out Vector2 coordinate))
+            {
+                return false;
+            }
+            var sample = new Sample(this, coordinate);
+            float covered = Share(red, sample.Red) + Share(green, sample.Green) + Share(blue, sample.Blue) +
+                Share(alpha, sample.Alpha);
+            MaterialMix mix = MaterialMix.Shared;
+            mix.Begin();
+            mix.Add(under, Math.Max(0f, 1f - covered), 0);
+            Add(mix, red, sample.Red, session, user);
+            Add(mix, green, sample.Green, session, user);
+            Add(mix, blue, sample.Blue, session, user);
+            Add(mix, alpha, sample.Alpha, session, user);
+            felt = mix.Finish();
+            felt.Strength = Limited(felt.Strength * Factor(MaskChannelUse.Strength, sample), 0f, 1f);
+            felt.FeatureScale = Limited(felt.FeatureScale * Factor(MaskChannelUse.FeatureScale, sample),
+                MaterialDescription.SmallestFeatureScale, MaterialDescription.LargestFeatureScale);
+            return true;
+        }
+
+        /// <summary>1 for what is no number.</summary>
+        private static float Limited(float value, float lowest, float highest) =>
+            float.IsNaN(value) ? 1f : Mathf.Clamp(value, lowest, highest);
+
+        private static bool Names(MaskChannel channel) =>
+            channel.Use == MaskChannelUse.Material && channel.Material != null;
+
+        private static float Share(MaskChannel channel, float value) =>
+            channel.Use == MaskChannelUse.Material ? value : 0f;
+
+        private static void Add(
+            MaterialMix mix, MaskChannel channel, float value, HapticSession session, UnityEngine.Object user)
+        {
+            if (channel.Use != MaskChannelUse.Material)
+            {
+                return;
+            }
+            if (channel.Material is { } material)
+            {
+                mix.Add(material, session, user, value, 0);
+            }
+            else
+            {
+                mix.AddNothing(value);
+            }
+        }
+
+        private float Factor(MaskChannelUse use, in Sample sample) =>
+            (red.Use == use ? red.FactorAt(sample.Red) : 1f) *
+            (green.Use == use ? green.FactorAt(sample.Green) : 1f) *
+            (blue.Use == use ? blue.FactorAt(sample.Blue) : 1f) *
+            (alpha.Use == use ? alpha.FactorAt(sample.Alpha) : 1f);
+
+        private void OnValidate() => MaterialMaps.Change();
+
+        /// <summary>The channels between four texels, 0 to 1.</summary>
+        private readonly struct Sample
+        {
+            public readonly float Red;
+            public readonly float Green;
+            public readonly float Blue;
+            public readonly float Alpha;
+
+            public Sample(HapticMaskMap map, Vector2 coordinate)
+            {
+                Place(coordinate.x * map.tiling.x + map.offset.x, map.width, map.repeats,
+                    out int left, out int right, out float rightShare);
+                Place(coordinate.y * map.tiling.y + map.offset.y, map.height, map.repeats,
+                    out int low, out int high, out float highShare);
+                var corners = new Corners(map, low * map.width + left, low * map.width + right,
+                    high * map.width + left, high * map.width + right, rightShare, highShare);
+                Red = corners.Channel(0);
+                Green = corners.Channel(1);
+                Blue = corners.Channel(2);
+                Alpha = corners.Channel(3);
+            }
+
+            private static void Place(
+                float coordinate, int size, bool repeats, out int first, out int second, out float share)
+            {
+                float inside = Mathf.Clamp(coordinate, -LargestCoordinate, LargestCoordinate);
+                inside = repeats ? inside - (float)Math.Floor(inside) : Mathf.Clamp01(inside);
+                inside = inside >= 0f ? inside : 0f;
+                float texel = inside * size - 0.5f;
+                int below = (int)Math.Floor(texel);
+                share = texel - below;
+                first = repeats ? (below + size) % size : Math.Max(0, below);
+                second = repeats ? (below + 1) % size : Math.Min(size - 1, below + 1);
+            }
+        }
+
+        private readonly struct Corners
+        {
+            private readonly byte[] texels;
+            private readonly int lowLeft;
+            private readonly int lowRight;
+            private readonly int highLeft;
+            private readonly int highRight;
+            private readonly float rightShare;
+            private readonly float highShare;
+
+            public Corners(HapticMaskMap map, int lowLeft, int lowRight, int highLeft, int highRight,
+                float rightShare, float highShare)
+            {
+                texels = map.texels;
+                this.lowLeft = lowLeft;
+                this.lowRight = lowRight;
+                this.highLeft = highLeft;
+                this.highRight = highRight;
+                this.rightShare = rightShare;
+                this.highShare = highShare;
+            }
+
+            public float Channel(int channel)
+            {
+                float low = Between(lowLeft, lowRight, channel);
+                float high = Between(highLeft, highRight, channel);
+                return (low + highShare * (high - low)) / byte.MaxValue;
+            }
+
+            private float Between(int left, int right, int channel)
+            {
+                float first = texels[Channels * left + channel];
+                float second = texels[Channels * right + channel];
+                return first + rightShare * (second - first);
+            }
+        }
+    }
+}

@@ -1,0 +1,235 @@
+#nullable enable
+using System;
+using UnityEngine;
+#if UNITY_6000_0_OR_NEWER
+using SurfacePhysics = UnityEngine.PhysicsMaterial;
+#else
+using SurfacePhysics = UnityEngine.PhysicMaterial;
+#endif
+
+namespace HaptoFlow
+{
+    /// <summary>What of an object a rule looks at.</summary>
+    public enum MaterialRuleSubject
+    {
+        /// <summary>The Unity tag of the collider's object.</summary>
+        Tag = 0,
+
+        /// <summary>The layer of the collider's object.</summary>
+        Layer = 1,
+
+        /// <summary>The collider's physics material.</summary>
+        PhysicsMaterial = 2,
+
+        /// <summary>A material of the object's renderer; on a mesh collider each submesh by its own.</summary>
+        RendererMaterial = 3,
+
+        /// <summary>A layer that a terrain is painted with.</summary>
+        TerrainLayer = 4,
+
+        /// <summary>A submesh of a mesh collider, by its number.</summary>
+        Submesh = 5,
+
+        /// <summary>The name of the collider's object, by a pattern with <c>*</c>.</summary>
+        Name = 6,
+    }
+
+    /// <summary>One line of a <see cref="HapticMaterialMap"/>: what it looks for, and what that feels like.</summary>
+    [Serializable]
+    public sealed class HapticMaterialRule
+    {
+        [SerializeField, Tooltip("What of an object this rule looks at.")]
+        private MaterialRuleSubject subject = MaterialRuleSubject.Tag;
+
+        [SerializeField, Tooltip("The Unity tag of the collider's object.")]
+        private string tag = "";
+
+        [SerializeField, Tooltip("The layer of the collider's object.")]
+        private int layer;
+
+        [SerializeField, Tooltip("The collider's physics material.")]
+        private SurfacePhysics? physicsMaterial;
+
+        [SerializeField, Tooltip("A material of the object's renderer. On a mesh collider each submesh goes by its " +
+            "own.")]
+        private Material? rendererMaterial;
+
+        [SerializeField, Tooltip("A layer that a terrain is painted with.")]
+        private TerrainLayer? terrainLayer;
+
+        [SerializeField, Tooltip("The mesh whose submesh counts; empty for every mesh.")]
+        private Mesh? mesh;
+
+        [SerializeField, Min(0), Tooltip("Number of the submesh, from 0.")]
+        private int submesh;
+
+        [SerializeField, Tooltip("A * stands for any characters; upper and lower case count alike.")]
+        private string namePattern = "";
+
+        [SerializeField, Tooltip("What it feels like; empty for nothing.")]
+        private HapticMaterial? material;
+
+        [SerializeField, Tooltip("Further materials by a texture, at the place that is touched; empty for none.")]
+        private HapticMaskMap? mask;
+
+        private HapticMaterialRule()
+        {
+        }
+
+        /// <summary>What of an object this looks at.</summary>
+        public MaterialRuleSubject Subject => subject;
+
+        /// <summary>For <see cref="MaterialRuleSubject.Tag"/>.</summary>
+        public string Tag => tag ?? "";
+
+        /// <summary>For <see cref="MaterialRuleSubject.Layer"/>, 0 to 31.</summary>
+        public int Layer => layer;
+
+        /// <summary>For <see cref="MaterialRuleSubject.PhysicsMaterial"/>.</summary>
+        public SurfacePhysics? PhysicsMaterial => physicsMaterial;
+
+        /// <summary>For <see cref="MaterialRuleSubject.RendererMaterial"/>.</summary>
+        public Material? RendererMaterial => rendererMaterial;
+
+        /// <summary>For <see cref="MaterialRuleSubject.TerrainLayer"/>.</summary>
+        public TerrainLayer? TerrainLayer => terrainLayer;
+
+        /// <summary>For <see cref="MaterialRuleSubject.Submesh"/>; null for every mesh.</summary>
+        public Mesh? Mesh => mesh;
+
+        /// <summary>For <see cref="MaterialRuleSubject.Submesh"/>, from 0.</summary>
+        public int Submesh => submesh;
+
+        /// <summary>For <see cref="MaterialRuleSubject.Name"/>.</summary>
+        public string NamePattern => namePattern ?? "";
+
+        /// <summary>What it feels like; null for nothing.</summary>
+        public HapticMaterial? Material
+        {
+            get => material;
+            set
+            {
+                material = value;
+                MaterialMaps.Change();
+            }
+        }
+
+        /// <summary>Further materials by a texture; null for none.</summary>
+        public HapticMaskMap? Mask
+        {
+            get => mask;
+            set
+            {
+                mask = value;
+                MaterialMaps.Change();
+            }
+        }
+
+        /// <summary>A rule for a Unity tag.</summary>
+        public static HapticMaterialRule ForTag(string tag, HapticMaterial? material) =>
+            new HapticMaterialRule { subject = MaterialRuleSubject.Tag, tag = tag, material = material };
+
+        /// <summary>A rule for a layer, 0 to 31.</summary>
+        public static HapticMaterialRule ForLayer(int layer, HapticMaterial? material) =>
+            new HapticMaterialRule { subject = MaterialRuleSubject.Layer, layer = layer, material = material };
+
+        /// <summary>A rule for a physics material.</summary>
+        public static HapticMaterialRule ForPhysicsMaterial(SurfacePhysics physicsMaterial, HapticMaterial? material) =>
+            new HapticMaterialRule
+            {
+                subject = MaterialRuleSubject.PhysicsMaterial, physicsMaterial = physicsMaterial, material = material,
+            };
+
+        /// <summary>A rule for a renderer's material.</summary>
+        public static HapticMaterialRule ForRendererMaterial(Material rendererMaterial, HapticMaterial? material) =>
+            new HapticMaterialRule
+            {
+                subject = MaterialRuleSubject.RendererMaterial,
+                rendererMaterial = rendererMaterial,
+                material = material,
+            };
+
+        /// <summary>A rule for a terrain layer.</summary>
+        public static HapticMaterialRule ForTerrainLayer(TerrainLayer terrainLayer, HapticMaterial? material) =>
+            new HapticMaterialRule
+            {
+                subject = MaterialRuleSubject.TerrainLayer, terrainLayer = terrainLayer, material = material,
+            };
+
+        /// <summary>A rule for a submesh.</summary>
+        /// <param name="mesh">Null for every mesh.</param>
+        /// <param name="submesh">From 0.</param>
+        public static HapticMaterialRule ForSubmesh(Mesh? mesh, int submesh, HapticMaterial? material) =>
+            new HapticMaterialRule
+            {
+                subject = MaterialRuleSubject.Submesh, mesh = mesh, submesh = submesh, material = material,
+            };
+
+        /// <summary>A rule for names.</summary>
+        /// <param name="namePattern">A * stands for any characters; upper and lower case count alike.</param>
+        public static HapticMaterialRule ForName(string namePattern, HapticMaterial? material) =>
+            new HapticMaterialRule
+            {
+                subject = MaterialRuleSubject.Name, namePattern = namePattern, material = material,
+            };
+
+        /// <summary>What the rule looks for, for people: <c>tag "Floor"</c>. Makes garbage.</summary>
+        public string Describe()
+        {
+            switch (subject)
+            {
+                case MaterialRuleSubject.Tag:
+                    return $"tag \"{Tag}\"";
+                case MaterialRuleSubject.Layer:
+                    string name = LayerMask.LayerToName(layer);
+                    return name.Length > 0 ? $"layer \"{name}\"" : $"layer {layer}";
+                case MaterialRuleSubject.PhysicsMaterial:
+                    return "physics material " + NameOf(physicsMaterial);
+                case MaterialRuleSubject.RendererMaterial:
+                    return "renderer material " + NameOf(rendererMaterial);
+                case MaterialRuleSubject.TerrainLayer:
+                    return "terrain layer " + NameOf(terrainLayer);
+                case MaterialRuleSubject.Submesh:
+                    return mesh != null ? $"submesh {submesh} of \"{mesh.name}\"" : $"submesh {submesh}";
+                default:
+                    return $"name \"{NamePattern}\"";
+            }
+        }
+
+        /// <summary>What the rule looks for is named: one that names nothing matches nothing.</summary>
+        internal bool IsComplete => subject switch
+        {
+            MaterialRuleSubject.Tag => Tag.Length > 0,
+            MaterialRuleSubject.Layer => layer >= 0 && layer < 32,
+            MaterialRuleSubject.PhysicsMaterial => physicsMaterial != null,
+            MaterialRuleSubject.RendererMaterial => rendererMaterial != null,
+            MaterialRuleSubject.TerrainLayer => terrainLayer != null,
+            MaterialRuleSubject.Submesh => submesh >= 0,
+            _ => NamePattern.Length > 0,
+        };
+
+        /// <param name="part">A submesh or a terrain layer, from 0.</param>
+        internal bool Matches(ColliderFacts facts, int part)
+        {
+            switch (subject)
+            {
+                case MaterialRuleSubject.Tag:
+                    return string.Equals(Tag, facts.Tag, StringComparison.Ordinal);
+                case MaterialRuleSubject.Layer:
+                    return layer == facts.Layer;
+                case MaterialRuleSubject.PhysicsMaterial:
+                    return ColliderFacts.IsSameOrCopy(physicsMaterial, facts.PhysicsMaterial);
+                case MaterialRuleSubject.RendererMaterial:
+                    return ColliderFacts.IsSameOrCopy(rendererMaterial, facts.RendererMaterialOf(part));
+                case MaterialRuleSubject.TerrainLayer:
+                    return terrainLayer != null && facts.TerrainLayerOf(part) == terrainLayer;
+                case MaterialRuleSubject.Submesh:
+                    return facts.Mesh != null && submesh == part && (mesh == null || mesh == facts.Mesh);
+                default:
+                    return HaptoFlow.NamePattern.Matches(NamePattern, facts.Name);
+            }
+        }
+
+        private static string NameOf(UnityEngine.Object? asset) => asset != null ? $"\"{asset.name}\"" : "(none)";
+    }
+}

@@ -1,0 +1,148 @@
+#nullable enable
+using System;
+
+namespace HaptoFlow
+{
+    /// <summary>Mixes materials by their weights into one that a contact state can carry: at most four labels, the
+    /// heaviest. Main thread, one mixture at a time; no garbage.</summary>
+    internal sealed class MaterialMix
+    {
+        private const int MostLabels = 32;
+
+        // Nobody feels less: -54 dB. Rounding at the middle of a texel would otherwise bring a second label in.
+        private const float LeastShare = 0.002f;
+
+        private readonly int[] labels = new int[MostLabels];
+        private readonly float[] weights = new float[MostLabels];
+        private int count;
+        private float total;
+        private float felt;
+        private float strength;
+        private float logFeatureScale;
+        private float tone;
+        private double stiffness;
+        private double stiffnessWeight;
+        private float heaviestWeight;
+        private FeltMaterial heaviest;
+
+        /// <summary>The one of the main thread.</summary>
+        public static MaterialMix Shared { get; } = new MaterialMix();
+
+        /// <summary>A new mixture.</summary>
+        public void Begin()
+        {
+            count = 0;
+            total = 0f;
+            felt = 0f;
+            strength = 0f;
+            logFeatureScale = 0f;
+            tone = 0f;
+            stiffness = 0.0;
+            stiffnessWeight = 0.0;
+            heaviestWeight = 0f;
+            heaviest = default;
+        }
+
+        /// <summary>A share in which nothing is felt: it weakens the rest.</summary>
+        public void AddNothing(float weight) => total += Usable(weight);
+
+        /// <param name="part">The submesh or terrain layer that it comes from.</param>
+        public void Add(
+            HapticMaterial material, HapticSession session, UnityEngine.Object user, float weight, int part) => Add(
+                FeltMaterial.Of(material.Description, material.LookUp(session, user)), weight, part);
+
+        /// <summary>A share of a material; one of which the model knows no label is nothing.</summary>
+        public void Add(in FeltMaterial material, float weight, int part)
+        {
+            weight = Usable(weight);
+            total += weight;
+            if (weight <= 0f || material.Labels.Count == 0)
+            {
+                return;
+            }
+            felt += weight;
+            strength += weight * material.Strength;
+            logFeatureScale += weight * (float)Math.Log(material.FeatureScale > 0f ? material.FeatureScale : 1f);
+            tone += weight * material.ToneDbPerOctave;
+            if (material.StiffnessNewtonsPerMetre > 0.0)
+            {
+                stiffness += weight * material.StiffnessNewtonsPerMetre;
+                stiffnessWeight += weight;
+            }
+            for (int index = 0; index < material.Labels.Count; ++index)
+            {
+                AddLabel(material.Labels.Label(index), weight * material.Labels.Weight(index));
+            }
+            if (weight > heaviestWeight)
+            {
+                heaviestWeight = weight;
+                heaviest = material;
+                heaviest.Part = part;
+            }
+        }
+
+        /// <summary>The mixture: weighted means, but for the effects, which are those of the heaviest material.
+        /// </summary>
+        public FeltMaterial Finish()
+        {
+            if (felt <= 0f)
+            {
+                return default;
+            }
+            FeltMaterial mixed = heaviest;
+            mixed.Labels = HeaviestLabels();
+            mixed.Strength = strength / total;
+            mixed.FeatureScale = (float)Math.Exp(logFeatureScale / felt);
+            mixed.ToneDbPerOctave = tone / felt;
+            mixed.StiffnessNewtonsPerMetre = stiffnessWeight > 0.0 ? stiffness / stiffnessWeight : 0.0;
+            return mixed;
+        }
+
+        private static float Usable(float weight) => weight > 0f && !float.IsInfinity(weight) ? weight : 0f;
+
+        private void AddLabel(int label, float weight)
+        {
+            for (int index = 0; index < count; ++index)
+            {
+                if (labels[index] == label)
+                {
+                    weights[index] += weight;
+                    return;
+                }
+            }
+            if (count < MostLabels)
+            {
+                labels[count] = label;
+                weights[count] = weight;
+                ++count;
+            }
+        }
+
+        private LabelBlend HeaviestLabels()
+        {
+            int most = Math.Min(count, LabelBlend.Maximum);
+            for (int place = 0; place < most; ++place)
+            {
+                int best = place;
+                for (int index = place + 1; index < count; ++index)
+                {
+                    best = weights[index] > weights[best] ? index : best;
+                }
+                (labels[place], labels[best]) = (labels[best], labels[place]);
+                (weights[place], weights[best]) = (weights[best], weights[place]);
+            }
+            int kept = 0;
+            float sum = 0f;
+            for (; kept < most && weights[kept] >= LeastShare * felt; ++kept)
+            {
+                sum += weights[kept];
+            }
+            var blend = default(LabelBlend);
+            for (int place = 0; place < kept; ++place)
+            {
+                blend.Add(labels[place], weights[place] / sum);
+            }
+            return blend;
+        }
+    }
+}

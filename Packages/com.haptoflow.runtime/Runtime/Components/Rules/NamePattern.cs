@@ -1,0 +1,49 @@
+#nullable enable
+
+namespace HaptoFlow
+{
+    /// <summary>Matches names against patterns in which <c>*</c> stands for any number of characters. Upper and lower
+    /// case count alike.</summary>
+    internal static class NamePattern
+    {
+        /// <summary>The whole name fits the whole pattern; an empty pattern fits nothing.</summary>
+        public static bool Matches(string pattern, string name)
+        {
+            int inPattern = 0;
+            int inName = 0;
+            int lastStar = -1;
+            int resumeAt = 0;
+            while (inName < name.Length)
+            {
+                if (inPattern < pattern.Length && pattern[inPattern] == '*')
+                {
+                    lastStar = inPattern++;
+                    resumeAt = inName;
+                }
+                else if (inPattern < pattern.Length && IsSame(pattern[inPattern], name[inName]))
+                {
+                    ++inPattern;
+                    ++inName;
+                }
+                else if (lastStar >= 0)
+                {
+                    // The last star takes one character more.
+                    inPattern = lastStar + 1;
+                    inName = ++resumeAt;
+                }
+                else
+                {
+                    return false;
+                }
+            }
+            while (inPattern < pattern.Length && pattern[inPattern] == '*')
+            {
+                ++inPattern;
+            }
+            return pattern.Length > 0 && inPattern == pattern.Length;
+        }
+
+        private static bool IsSame(char first, char second) =>
+            char.ToUpperInvariant(first) == char.ToUpperInvariant(second);
+    }
+}

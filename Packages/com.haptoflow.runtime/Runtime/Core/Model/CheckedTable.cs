@@ -1,0 +1,134 @@
+#nullable enable
+using System;
+using System.Collections.Generic;
+using System.Globalization;
+using System.Linq;
+
+namespace HaptoFlow.Model
+{
+    /// <summary>A table of a JSON document whose every value is checked as it is read: messages name the key and what
+    /// was expected, in the same words as the other readers'.</summary>
+    internal sealed class CheckedTable
+    {
+        private readonly IReadOnlyDictionary<string, JsonValue> members;
+        private readonly string path;
+
+        public CheckedTable(JsonValue json, string path = "")
+        {
+            members = json.Content as IReadOnlyDictionary<string, JsonValue> ?? new Dictionary<string, JsonValue>();
+            this.path = path;
+        }
+
+        /// <summary>The key is there, and not null.</summary>
+        public bool Has(string key) => members.TryGetValue(key, out JsonValue? value) && !value.IsNull;
+
+        public FormatException Failure(string key, string expected, string remark = "")
+        {
+            string found = members.ContainsKey(key) ? "is not valid" : "is missing";
+            string tail = remark.Length > 0 ? "; " + remark : "";
+            return new FormatException($"'{NameOf(key)}' {found}: expected {expected}{tail}");
+        }
+
+        /// <param name="otherwise">What a missing key stands for; null where it must be there.</param>
+        public string Text(string key, string? otherwise = null)
+        {
+            object? value = members.ContainsKey(key) ? members[key].Content : otherwise;
+            return value as string ?? throw Failure(key, "a text");
+        }
+
+        public bool Boolean(string key) =>
+            Content(key) is bool truth ? truth : throw Failure(key, "true or false");
+
+        public int Integer(string key) => Content(key) is double number && number == Math.Floor(number) &&
+            Math.Abs(number) <= int.MaxValue ? (int)number : throw Failure(key, "a whole number");
+
+        public double Number(string key, double low, double high) =>
+            Content(key) is double number && number >= low && number <= high
+                ? number
+                : throw Failure(key, FormattableString.Invariant($"a number from {low:R} to {high:R}"));
+
+        /// <summary>Null where the key is missing or null.</summary>
+        public double? OptionalNumber(string key, double low, double high) =>
+            Has(key) ? Number(key, low, high) : (double?)null;
+
+        public double[] Numbers(string key, int least, int most, double low = -1e6, double high = 1e6)
+        {
+            string count = least == most ? Words(least) : Words(least) + " to " + Words(most);
+            if (!(Content(key) is List<JsonValue> values) || values.Count < least || values.Count > most)
+            {
+                throw Failure(key, $"a list of {count} numbers");
+            }
+            if (!values.TrueForAll(value => value.Content is double number && number >= low && number <= high))
+            {
+                throw Failure(key, FormattableString.Invariant($"{count} numbers from {low:R} to {high:R}"));
+            }
+            return values.Select(value => (double)value.Content!).ToArray();
+        }
+
+        public double[] Rising(string key, int least, int most, double low, double high, bool mayRepeat = false)
+        {
+            double[] values = Numbers(key, least, most, low, high);
+            for (int index = 1; index < values.Length; ++index)
+            {
+                if (values[index] < values[index - 1] || (!mayRepeat && values[index].Equals(values[index - 1])))
+                {
+                    throw Failure(key, "numbers that rise");
+                }
+            }
+            return values;
+        }
+
+        /// <summary>Checks rows of numbers of the same length.</summary>
+        public void CheckRows(string key, int rows, int columns, double low, double high)
+        {
+            if (!(Content(key) is List<JsonValue> values) || values.Count != rows)
+            {
+                throw Failure(key, $"{Words(rows)} rows, one for each speed");
+            }
+            foreach (JsonValue row in values)
+            {
+                if (!(row.Content is List<JsonValue> numbers) || numbers.Count != columns)
+                {
+                    throw Failure(key, $"{Words(columns)} numbers in each row, one for each frequency");
+                }
+                if (!numbers.TrueForAll(each => each.Content is double number && number >= low && number <= high))
+                {
+                    throw Failure(key, FormattableString.Invariant($"numbers from {low:R} to {high:R}"));
+                }
+            }
+        }
+
+        public CheckedTable Table(string key) => OptionalTable(key) ?? throw Failure(key, "a table");
+
+        /// <summary>Null where the key is missing or null.</summary>
+        public CheckedTable? OptionalTable(string key)
+        {
+            if (!Has(key))
+            {
+                return null;
+            }
+            return members[key].Content is IReadOnlyDictionary<string, JsonValue>
+                ? new CheckedTable(members[key], NameOf(key))
+                : throw Failure(key, "a table");
+        }
+
+        public IReadOnlyList<CheckedTable> Tables(string key, int least, int most)
+        {
+            if (!(Content(key) is List<JsonValue> values) || values.Count < least || values.Count > most)
+            {
+                throw Failure(key, $"a list of {Words(least)} to {Words(most)} tables");
+            }
+            if (!values.TrueForAll(value => value.Content is IReadOnlyDictionary<string, JsonValue>))
+            {
+                throw Failure(key, "a list of tables");
+            }
+            return values.Select((value, index) => new CheckedTable(value, $"{NameOf(key)}[{Words(index)}]")).ToArray();
+        }
+
+        private object? Content(string key) => members.TryGetValue(key, out JsonValue? value) ? value.Content : null;
+
+        private string NameOf(string key) => path.Length > 0 ? path + "." + key : key;
+
+        private static string Words(int number) => number.ToString(CultureInfo.InvariantCulture);
+    }
+}

@@ -1,0 +1,80 @@
+#nullable enable
+using System;
+using System.Collections.Generic;
+using System.Linq;
+
+namespace HaptoFlow.Model
+{
+    /// <summary>Writes material files: a label of a model as a material of its own, and materials with things changed.
+    /// </summary>
+    internal static class MaterialText
+    {
+        private static readonly string[] LabelKeys =
+        {
+            "name", "category", "level_exponents", "frequency_exponent", "periodic", "wavelength_metres",
+            "stiffness_newtons_per_metre", "friction_coefficient", "impact", "level", "tone", "level_offset_db",
+        };
+
+        /// <summary>A label with its embedding; its seeds are the model's.</summary>
+        /// <param name="file">A whole .haptoflow file.</param>
+        /// <exception cref="HaptoFlowException">The bytes are no model, or it has no such label.</exception>
+        public static string OfLabel(ReadOnlySpan<byte> file, string label)
+        {
+            ModelSpace space = ModelSpace.Of(file);
+            JsonValue header = JsonValue.Parse(ModelFile.HeaderText(file));
+            JsonValue[] labels = header["labels"].AsArray().ToArray();
+            int index = Array.FindIndex(labels, each => each["name"].AsText() == label);
+            if (index < 0)
+            {
+                throw new HaptoFlowException(HaptoFlowStatus.InvalidArgument, $"the model has no label \"{label}\"");
+            }
+            JsonValue provenance = header["provenance"];
+            var members = new Dictionary<string, object?>
+            {
+                ["format"] = "haptoflow-material",
+                ["version"] = 1,
+                ["space"] = space.Id,
+                ["description"] = "",
+                ["provenance"] = new Dictionary<string, object?>
+                {
+                    ["statement"] = $"the label {label} of the model {header["name"].AsText()}",
+                    ["recordings"] = provenance["recordings"].AsText(),
+                    ["licence"] = provenance["licence"].AsText(),
+                    ["seconds"] = 0.0,
+                    ["created"] = provenance["created"].AsText(),
+                },
+                ["embedding"] = space.Embedding(index),
+                ["range"] = new Dictionary<string, object?>
+                {
+                    ["speed_mps"] = header["range"]["speed_mps"],
+                    ["force_newtons"] = header["range"]["force_newtons"],
+                },
+            };
+            foreach (string key in LabelKeys)
+            {
+                JsonValue? value = labels[index].Find(key);
+                if (value is { IsNull: false } || key == "wavelength_metres")
+                {
+                    members[key] = value;
+                }
+            }
+            members["seeds"] = new object?[0];
+            return JsonText.Of(members);
+        }
+
+        /// <summary>The same material with members in the place of its own.</summary>
+        public static string With(MaterialFile material, IReadOnlyDictionary<string, object?> changes)
+        {
+            var members = new Dictionary<string, object?>();
+            foreach (KeyValuePair<string, JsonValue> member in material.Json.AsObject())
+            {
+                members[member.Key] = member.Value;
+            }
+            foreach (KeyValuePair<string, object?> change in changes)
+            {
+                members[change.Key] = change.Value;
+            }
+            return JsonText.Of(members);
+        }
+    }
+}

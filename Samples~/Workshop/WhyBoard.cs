@@ -1,0 +1,44 @@
+#nullable enable
+using UnityEngine;
+
+namespace HaptoFlow.Samples.Workshop
+{
+    /// <summary>A line of text that says which rule decides what the pen feels.</summary>
+    public sealed class WhyBoard : MonoBehaviour
+    {
+        private HapticStylus stylus = null!;
+        private TextMesh line = null!;
+        private Collider? shown;
+        private MaterialDescription? shownMaterial;
+
+        /// <summary>What it says.</summary>
+        public string Text => line.text;
+
+        /// <summary>A board at a place of the scene.</summary>
+        public static WhyBoard Create(HapticStylus stylus, Vector3 position, Quaternion rotation)
+        {
+            TextMesh line = Build.Text("", position, rotation);
+            line.gameObject.name = "Why Board";
+            var board = line.gameObject.AddComponent<WhyBoard>();
+            board.stylus = stylus;
+            board.line = line;
+            return board;
+        }
+
+        private void LateUpdate()
+        {
+            if (!stylus.IsTouching)
+            {
+                return;
+            }
+            HapticContact contact = stylus.Contact;
+            // Words make garbage: they are put together when something else is felt.
+            if (!ReferenceEquals(contact.Collider, shown) || !ReferenceEquals(contact.Material, shownMaterial))
+            {
+                shown = contact.Collider;
+                shownMaterial = contact.Material;
+                line.text = $"{contact.Collider.name}: {contact.Explain()}";
+            }
+        }
+    }
+}

@@ -1,0 +1,120 @@
+using System.Collections.Generic;
+using System.Linq;
+using HaptoFlow.Editor;
+using HaptoFlow.EditorTests;
+using NUnit.Framework;
+using UnityEditor;
+using UnityEngine;
+using UnityShim;
+
+namespace HaptoFlow.EditorShimTests
+{
+    /// <summary>What the Inspectors of maps, masks and surfaces show of rules, and what is entered in them.</summary>
+    public sealed class MapInspectorTests : EditorTest
+    {
+        [Test]
+        public void ARuleShowsTheFieldOfWhatItLooksAtAndItsNumber()
+        {
+            HapticMaterialMap map = Map(
+                HapticMaterialRule.ForTag("Finish", null), HapticMaterialRule.ForSubmesh(null, 1, null));
+            string[] shown = InspectorTests.Draw(map).Select(item => item.Label).ToArray();
+            Assert.That(shown, Has.Member("Rule 1").And.Member("Tag").And.Member("Rule 2").And.Member("Submesh"));
+            Assert.That(shown, Has.No.Member("Terrain Layer"));
+        }
+
+        [Test]
+        public void WhatIsEnteredIntoARuleCountsAndIsTakenBackByUndo()
+        {
+            HapticMaterialMap map = Map(HapticMaterialRule.ForTag("Finish", null));
+            Undo.IncrementCurrentGroup();
+            EditorScreen.Enter("Tag", "Respawn");
+            InspectorTests.Draw(map);
+            Assert.That(map.Rules[0].Tag, Is.EqualTo("Respawn"));
+            EditorScreen.Enter("Looks At", MaterialRuleSubject.Name);
+            InspectorTests.Draw(map);
+            EditorScreen.Enter("Name", "Rug*");
+            InspectorTests.Draw(map);
+            Assert.That(map.Rules[0].Describe(), Is.EqualTo("name \"Rug*\""));
+            Undo.PerformUndo();
+            Assert.That(map.Rules[0].Describe(), Is.EqualTo("tag \"Finish\""));
+        }
+
+        [Test]
+        public void ARuleThatIsEnteredWhilePlayingCountsAtOnce()
+        {
+            HapticMaterialMap map = Map(HapticMaterialRule.ForTag("Finish", null));
+            int before = MaterialMaps.Version;
+            EditorScreen.Enter("Tag", "Respawn");
+            InspectorTests.Draw(map);
+            Assert.That(MaterialMaps.Version, Is.GreaterThan(before));
+        }
+
+        [Test]
+        public void AMaskShowsWhatItsChannelsNeedAndBakesAtAButton()
+        {
+            HapticMaskMap mask = ScriptableObject.CreateInstance<HapticMaskMap>();
+            mask.Texture = new Texture2D(2, 2, TextureFormat.RGBA32, false) { name = "Paint" };
+            mask.Texture.SetPixels32(new Color32[4]);
+            Assert.That(InspectorTests.Draw(mask).Select(item => item.Label), Has.No.Member("At Black"));
+            EditorScreen.Enter("Red", MaskChannelUse.Strength);
+            InspectorTests.Draw(mask);
+            Assert.That(InspectorTests.Draw(mask).Select(item => item.Label),
+                Has.Member("At Black").And.Some.Contains("is not baked"));
+            EditorScreen.Press("Bake");
+            InspectorTests.Draw(mask);
+            Assert.That(InspectorTests.Draw(mask).Select(item => item.Label), Has.Member("Baked: 2 x 2 texels."));
+        }
+
+        [Test]
+        public void ATextureThatIsNotReadableIsMadeSoByItsImportSettings()
+        {
+            HapticMaskMap mask = ScriptableObject.CreateInstance<HapticMaskMap>();
+            mask.name = "Ring";
+            mask.Texture = new Texture2D(2, 2, TextureFormat.RGBA32, false) { name = "Paint" };
+            mask.Texture.Apply(false, true);
+            Assert.That(() => MaskBake.Bake(mask),
+                Throws.InvalidOperationException.With.Message.Contains("Read/Write"));
+            Assert.That(mask.IsBaked, Is.False);
+            Assert.That(InspectorTests.Draw(mask).Where(item => item.Kind == DrawnKind.Button), Is.Empty,
+                "no importer made it");
+            var importer = new TextureImporter();
+            AssetDatabase.AddImported(Folder + "/Paint.png", mask.Texture, importer);
+            EditorScreen.Press("Enable Read/Write");
+            InspectorTests.Draw(mask);
+            Assert.That(importer.isReadable, Is.True);
+        }
+
+        [Test]
+        public void ASurfaceSaysByWhichRuleItWouldFeelWithoutIt()
+        {
+            HapticMaterial stone = ScriptableObject.CreateInstance<HapticMaterial>();
+            stone.name = "stone";
+            stone.Description.Label = "stone";
+            HapticMaterialMap map = Map(HapticMaterialRule.ForTag("Finish", stone));
+            map.name = "Rooms";
+            Settings().MaterialMap = map;
+            ProjectSettingsAsset.Forget();
+            HapticSurface table = Tagged("Table", "wood");
+            Assert.That(Extent(table), Does.Not.Contain("rule"));
+            table.gameObject.tag = "Finish";
+            Assert.That(Extent(table), Does.EndWith(
+                "This surface wins over the rules, by which it would feel like stone (rule 1 of \"Rooms\": tag " +
+                "\"Finish\")."));
+            table.enabled = false;
+            Assert.That(Extent(table), Does.Contain("This surface is off: rules count"));
+        }
+
+        private static string Extent(HapticSurface surface) => InspectorTests.Draw(surface)
+            .Last(item => item.Kind == DrawnKind.Help).Label;
+
+        private static HapticMaterialMap Map(params HapticMaterialRule[] rules)
+        {
+            HapticMaterialMap map = ScriptableObject.CreateInstance<HapticMaterialMap>();
+            foreach (HapticMaterialRule rule in rules)
+            {
+                map.Add(rule);
+            }
+            return map;
+        }
+    }
+}

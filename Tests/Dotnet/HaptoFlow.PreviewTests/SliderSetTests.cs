@@ -1,0 +1,144 @@
+using System;
+using System.Linq;
+using System.Threading;
+using HaptoFlow.Model;
+using HaptoFlow.Preview;
+using NUnit.Framework;
+
+namespace HaptoFlow.PreviewTests
+{
+    /// <summary>Sliders move an embedding, never further than the labels' own spread.</summary>
+    public sealed class SliderSetTests
+    {
+        private static readonly SliderSet Sliders = SliderSet.Read(SliderFiles.For(ModelFiles.Default));
+
+        private static MaterialFile Label(string name) =>
+            MaterialFile.Read(MaterialText.OfLabel(ModelFiles.Default, name));
+
+        [Test]
+        public void AtRestNothingMoves()
+        {
+            foreach (string label in new[] { "wood", "glass", "carpet" })
+            {
+                MaterialFile material = Label(label);
+                Assert.That(Sliders.Moved(material.Embedding, new float[0]), Is.EqualTo(material.Embedding).Within(1e-12));
+                Assert.That(Sliders.Moved(material.Embedding, new float[3]), Is.EqualTo(material.Embedding).Within(1e-12));
+            }
+        }
+
+        [Test]
+        public void ASliderMovesAlongItsDirectionWhereThereIsRoom()
+        {
+            MaterialFile wood = Label("wood");
+            double[] moved = Sliders.Moved(wood.Embedding, new[] { 0.5f });
+            for (int number = 0; number < MaterialFile.TextureNumbers; ++number)
+            {
+                double expected = wood.Embedding[number] + 0.5 * Sliders.Sliders[0].Direction[number];
+                Assert.That(moved[number], Is.EqualTo(expected).Within(1e-9), $"{number}");
+            }
+        }
+
+        [Test]
+        public void NoMaterialLeavesTheSpreadOfTheLabelsWhateverIsEntered([Values(-1f, 1f, 1000f, -1000f)] float value)
+        {
+            JsonValue file = JsonValue.Parse(SliderFiles.For(ModelFiles.Default));
+            foreach (ModelLabel label in ModelHeader.Read(ModelFiles.Default).Labels)
+            {
+                MaterialFile material = Label(label.Name);
+                double[] moved = Sliders.Moved(material.Embedding, new[] { value, -value, value });
+                for (int axis = 0; axis < 4; ++axis)
+                {
+                    double place = Sliders.Coordinate(moved, axis);
+                    Assert.That(place, Is.InRange(file["lowest"][axis].AsNumber() - 1e-6, file["highest"][axis].AsNumber() + 1e-6));
+                }
+                Assert.That(moved.Skip(MaterialFile.TextureNumbers),
+                    Is.EqualTo(material.Embedding.Skip(MaterialFile.TextureNumbers)), "wave vectors stay");
+            }
+        }
+
+        [Test]
+        public void AMaterialBeyondTheSpreadIsNotPulledBackAndGoesNoFurther()
+        {
+            JsonValue file = JsonValue.Parse(SliderFiles.For(ModelFiles.Default));
+            double[] axis = file["axes"][0].AsArray().Select(each => each.AsNumber()).ToArray();
+            double[] far = Label("wood").Embedding.Select((number, index) => index < axis.Length ? number + 5.0 * axis[index] : number).ToArray();
+            double place = Sliders.Coordinate(far, 0);
+            Assert.That(place, Is.GreaterThan(file["highest"][0].AsNumber()));
+            Assert.That(Sliders.Coordinate(Sliders.Moved(far, new float[3]), 0), Is.EqualTo(place).Within(1e-9));
+            foreach (float value in new[] { -1f, 1f })
+            {
+                Assert.That(Sliders.Coordinate(Sliders.Moved(far, new[] { value, value }), 0), Is.LessThanOrEqualTo(place + 1e-9));
+            }
+        }
+
+        [Test]
+        public void TheLevelAddsDecibelsWithinWhatAMaterialFileMayHold()
+        {
+            MaterialFile louder = MaterialFile.Read(Sliders.Moved(Label("wood"), new[] { 0f, 0f, 0.5f }, "louder"));
+            Assert.That((louder.Name, louder.LevelOffsetDecibels), Is.EqualTo(("louder", 3.0)));
+            MaterialFile much = louder;
+            foreach (int _ in Enumerable.Range(0, 20))
+            {
+                much = MaterialFile.Read(Sliders.Moved(much, new[] { 0f, 0f, 1f }, "much"));
+            }
+            Assert.That(much.LevelOffsetDecibels, Is.EqualTo(24.0));
+        }
+
+        [TestCase("\"version\":1", "\"version\":2", "'version'")]
+        [TestCase("haptoflow-sliders", "haptoflow-material", "'format'")]
+        [TestCase("\"direction\":[", "\"direction\":[0,", "'sliders[0].direction'")]
+        [TestCase("\"lowest\":[", "\"lowest\":[0,", "'lowest'")]
+        [TestCase("\"mean\"", "\"means\"", "'mean' is missing")]
+        public void AFileThatIsNoneIsRefusedByItsKey(string part, string instead, string message)
+        {
+            string text = SliderFiles.For(ModelFiles.Default);
+            Assert.That(text, Does.Contain(part));
+            Assert.That(Assert.Throws<HaptoFlowException>(() => SliderSet.Read(text.Replace(part, instead)))!.Message,
+                Does.Contain(message));
+        }
+
+        [Test]
+        public void AMovedLabelIsRenderedAndSixDecibelsAreSixDecibels()
+        {
+            using var worker = new PreviewWorker();
+            PreviewResult Render(float[] moves) => worker.Do(new PreviewRequest(ModelFiles.Default,
+                PresetStrokes.Make(StrokePreset.Slide, new StrokeSettings(0.1, 1.0, 0.0, 1.0)),
+                new[] { new LabelMix("wood"), new LabelMix("wood", "", 0f, "", moves) })
+            {
+                Sliders = Sliders,
+                Tier = "draft",
+                Charts = new PreviewLayout(1200.0, 900.0).Charts,
+                StrokePanel = new PreviewLayout(1200.0, 900.0).StrokePanel,
+            }, CancellationToken.None);
+            PreviewResult louder = Render(new[] { 0f, 0f, 1f });
+            Assert.That(louder.Problem, Is.Null);
+            double decibels = 20.0 * Math.Log10(louder.Sounds[1].Sound.RmsMps2 / louder.Sounds[0].Sound.RmsMps2);
+            Assert.That(decibels, Is.EqualTo(6.0).Within(1.5));
+            Assert.That(louder.Sounds[1].Sound.Title, Is.EqualTo("wood, moved"));
+            PreviewResult coarser = Render(new[] { 1f, 0f, 0f });
+            Assert.That(coarser.Sounds[1].Sound.Samples, Is.Not.EqualTo(coarser.Sounds[0].Sound.Samples));
+        }
+
+        [Test]
+        public void ManyPositionsOfTheSlidersStayWithinOneEnginesMaterials()
+        {
+            using var worker = new PreviewWorker();
+            Stroke stroke = PresetStrokes.Make(StrokePreset.Slide, new StrokeSettings(0.1, 1.0, 0.0, 0.1));
+            foreach (int step in Enumerable.Range(0, 80))
+            {
+                PreviewResult result = worker.Do(new PreviewRequest(ModelFiles.Default, stroke,
+                    new[] { new LabelMix("wood", "", 0f, "", new[] { 0.01f * (step + 1) }) })
+                {
+                    Sliders = Sliders,
+                    Tier = "draft",
+                    IsSketch = true,
+                    Charts = new PreviewLayout(1200.0, 900.0).Charts,
+                    StrokePanel = new PreviewLayout(1200.0, 900.0).StrokePanel,
+                    PixelsPerPoint = 0.25,
+                }, CancellationToken.None);
+                Assert.That(result.Problem, Is.Null);
+            }
+            Assert.That(worker.EnginesMade, Is.EqualTo(1));
+        }
+    }
+}

@@ -1,0 +1,136 @@
+using System;
+using System.Collections.Generic;
+using System.IO;
+using System.Linq;
+using HaptoFlow.Model;
+using HaptoFlow.Tests.Support;
+using NUnit.Framework;
+
+namespace HaptoFlow.RepositoryTests
+{
+    public sealed class MaterialFileTests
+    {
+        private static JsonValue Expected => JsonValue.Parse(File.ReadAllText(Golden("expected.json")));
+
+        [Test]
+        public void TheSpaceOfAModelIsThatOfTheOtherReaders()
+        {
+            byte[] tiny = File.ReadAllBytes(RepositoryFiles.In("Tests", "Golden", "model", "tiny.haptoflow"));
+            Assert.That(ModelSpace.Of(tiny).Id, Is.EqualTo(Expected["spaces"]["tiny"].AsText()));
+            byte[] model = File.ReadAllBytes(RepositoryFiles.DefaultModel);
+            Assert.That(ModelSpace.Of(model).Id, Is.EqualTo(Expected["spaces"]["default"].AsText()));
+        }
+
+        [Test]
+        public void EveryLabelIsNearestToItselfAndItsEmbeddingIsTheNativeOnes()
+        {
+            byte[] file = File.ReadAllBytes(RepositoryFiles.DefaultModel);
+            using HapticModel model = HapticModel.Open(file);
+            ModelSpace space = ModelSpace.Of(file);
+            foreach (HapticLabel label in model.Labels)
+            {
+                Assert.That(space.Embedding(label.Index), Is.EqualTo(model.Embedding(label.Index)));
+                double[] embedding = space.Embedding(label.Index).Select(number => (double)number).ToArray();
+                Assert.That(space.NearestLabel(embedding), Is.EqualTo(label.Name));
+            }
+        }
+
+        [TestCase("denim")]
+        [TestCase("plain-twin")]
+        [TestCase("ribbed")]
+        public void AMaterialFileSaysItsNameAndSpaceAndLicence(string name)
+        {
+            MaterialFile material = MaterialFile.Read(File.ReadAllText(Golden(name + ".haptomaterial")));
+            JsonValue expected = Expected["materials"][name];
+            Assert.That(material.Name, Is.EqualTo(expected["name"].AsText()));
+            Assert.That(material.Space, Is.EqualTo(expected["space"].AsText()));
+            Assert.That(material.Licence, Is.EqualTo(name == "plain-twin" ? "unknown" : "MIT"));
+            Assert.That(material.Seconds, Is.EqualTo(name == "plain-twin" ? 0.0 : 12.5));
+        }
+
+        [Test]
+        public void EveryChangeThatBreaksARuleIsRefusedByItsKey()
+        {
+            JsonValue invalid = JsonValue.Parse(File.ReadAllText(Golden("invalid.json")));
+            string sound = File.ReadAllText(Golden(invalid["of"].AsText()));
+            Assert.That(invalid["cases"].AsArray(), Has.Count.GreaterThan(20));
+            foreach (JsonValue each in invalid["cases"].AsArray())
+            {
+                string broken = JsonText.Of(Patched(JsonValue.Parse(sound), each["patch"]));
+                var refusal = Assert.Throws<HaptoFlowException>(() => MaterialFile.Read(broken), each["name"].AsText());
+                Assert.That(refusal!.Status, Is.EqualTo(HaptoFlowStatus.MaterialInvalid));
+                Assert.That(refusal.Message, Does.Contain($"'{each["key"].AsText()}'"), each["name"].AsText());
+            }
+        }
+
+        [TestCase("")]
+        [TestCase("[]")]
+        [TestCase("{\"format\": \"haptoflow-material\"")]
+        [TestCase("\u0000\u0001")]
+        public void WhatIsNoMaterialFileAtAllIsRefusedToo(string text) =>
+            Assert.That(Assert.Throws<HaptoFlowException>(() => MaterialFile.Read(text))!.Status,
+                Is.EqualTo(HaptoFlowStatus.MaterialInvalid));
+
+        [Test]
+        public void ATextOfMoreThanAMebibyteIsRefusedByItsSize()
+        {
+            string large = "{\"format\": \"" + new string('x', MaterialFile.MaximumBytes) + "\"}";
+            Assert.That(Assert.Throws<HaptoFlowException>(() => MaterialFile.Read(large))!.Message,
+                Does.Contain("1048576 bytes"));
+        }
+
+        [Test]
+        public void WhatIsWrittenIsReadAgainUnchanged()
+        {
+            JsonValue document = JsonValue.Parse(File.ReadAllText(Golden("ribbed.haptomaterial")));
+            string written = JsonText.Of(document);
+            Assert.That(JsonText.Of(JsonValue.Parse(written)), Is.EqualTo(written));
+            Assert.That(MaterialFile.Read(written).Embedding, Is.EqualTo(
+                MaterialFile.Read(File.ReadAllText(Golden("ribbed.haptomaterial"))).Embedding));
+            const string awkward = "{\"a\\\"\\\\\\u0001\u00e4\":[null,true,-0.1,1E-07,\"\"],\"b\":{},\"c\":[]}";
+            Assert.That(JsonText.Of(JsonValue.Parse(awkward)), Is.EqualTo(awkward));
+        }
+
+        private static string Golden(string name) => RepositoryFiles.In("Tests", "Golden", "material", name);
+
+        /// <summary>JSON Patch (RFC 6902) as far as the file uses it: replace and remove.</summary>
+        private static object? Patched(JsonValue document, JsonValue patch)
+        {
+            object? root = Plain(document);
+            foreach (JsonValue step in patch.AsArray())
+            {
+                string[] keys = step["path"].AsText().Split('/').Skip(1).ToArray();
+                object holder = keys.SkipLast(1).Aggregate(root!, (place, key) => place is List<object?> list
+                    ? list[int.Parse(key)]!
+                    : ((Dictionary<string, object?>)place)[key]!);
+                bool removes = step["op"].AsText() == "remove";
+                object? value = removes ? null : Plain(step["value"]);
+                if (holder is List<object?> elements)
+                {
+                    int index = int.Parse(keys[^1]);
+                    elements.RemoveAt(index);
+                    if (!removes)
+                    {
+                        elements.Insert(index, value);
+                    }
+                    continue;
+                }
+                var members = (Dictionary<string, object?>)holder;
+                members.Remove(keys[^1]);
+                if (!removes)
+                {
+                    members[keys[^1]] = value;
+                }
+            }
+            return root;
+        }
+
+        private static object? Plain(JsonValue value) => value.Content switch
+        {
+            List<JsonValue> list => list.Select(Plain).ToList(),
+            Dictionary<string, JsonValue> members =>
+                members.ToDictionary(member => member.Key, member => Plain(member.Value)),
+            _ => value.Content,
+        };
+    }
+}

@@ -1,0 +1,118 @@
+using System;
+using System.IO;
+using System.Linq;
+using System.Text.RegularExpressions;
+using HaptoFlow.Samples.Workshop;
+using NUnit.Framework;
+using UnityEngine;
+using UnityShim;
+
+namespace HaptoFlow.SampleTests
+{
+    public sealed class WorkshopTests : SampleTest
+    {
+        private Camera camera = null!;
+
+        [SetUp]
+        public void MakeCamera() => camera = CameraOf(new SceneFile(SampleFile("Workshop", "Workshop.unity")));
+
+        [TestCase("Bench", 0.46f, 0f, "wood", "name \"Bench\"")]
+        [TestCase("Puddle", 0.02f, -0.16f, "glass", "layer \"Water\"")]
+        [TestCase("Specimen", 0.27f, -0.16f, "cardboard", "name \"Specimen\"")]
+        [TestCase("Two Halves", 0.15f, 0.1f, "wood", "renderer material \"Oak\"")]
+        [TestCase("Two Halves", 0.33f, 0.1f, "metal mesh", "renderer material \"Steel\"")]
+        [TestCase("Inlaid Pane", -0.25f, -0.16f, "ceramic", "name \"Inlaid Pane\"")]
+        [TestCase("Inlaid Pane", -0.195f, -0.16f, "jute", "name \"Inlaid Pane\"")]
+        [TestCase("Garden", -0.42f, 0.1f, "concrete", "terrain layer \"Gravel\"")]
+        [TestCase("Garden", -0.24f, 0.1f, "carpet", "terrain layer \"Turf\"")]
+        [TestCase("Garden", -0.06f, 0.1f, "sandpaper", "terrain layer \"Sand\"")]
+        public void EachThingFeelsAsItsRuleSaysAndTheBoardSaysWhichRuleThatIs(
+            string name, float x, float z, string label, string rule)
+        {
+            FinishLoading();
+            WorkshopScene scene = Open();
+            Press(x, z);
+            Assert.That(scene.Pen.Stylus.IsTouching, Is.True);
+            HapticContact contact = scene.Pen.Stylus.Contact;
+            Assert.That(contact.Collider.name, Is.EqualTo(name));
+            Assert.That(contact.Surface, Is.Null, "none of these things is tagged");
+            Assert.That(contact.Material!.Label, Is.EqualTo(label));
+            WhyBoard board = UnityEngine.Object.FindObjectsByType<WhyBoard>(
+                FindObjectsInactive.Exclude, FindObjectsSortMode.None).Single();
+            Assert.That(board.Text, Does.StartWith(name + ": rule ").And.EndsWith($"of \"Workshop\": {rule}"));
+        }
+
+        [Test]
+        public void StrokingTheGardenFromGravelToSandSoundsAllTheWay()
+        {
+            FinishLoading();
+            WorkshopScene scene = Open();
+            Press(-0.42f, 0.1f);
+            AudioDevice.Forget();
+            for (int frame = 0; frame < World.FrameRateHz; ++frame)
+            {
+                float x = -0.42f + 0.36f * frame / (float)World.FrameRateHz;
+                PointAt(camera, new Vector3(x, 0.01f, 0.1f));
+                World.Frame();
+                Assert.That(scene.Pen.Stylus.IsTouching, Is.True, $"{x} m");
+            }
+            Assert.That(Loudest(), Is.GreaterThan(Audible));
+        }
+
+        [Test]
+        public void ANewMaterialForTheSpecimenIsFeltUnderTheNextStroke()
+        {
+            FinishLoading();
+            WorkshopScene scene = Open();
+            Press(0.27f, -0.16f);
+            scene.SpecimenMaterial.Description.Label = "leather";
+            PlayFor(0.05);
+            Assert.That(scene.Pen.Stylus.Contact.Material!.Label, Is.EqualTo("leather"));
+        }
+
+        [Test]
+        public void NothingIsMissedByTheMapAndNoRuleIsIdle()
+        {
+            WorkshopScene scene = Open();
+            PlayFor(0.05);
+            Collider[] colliders = UnityEngine.Object.FindObjectsByType<Collider>(
+                FindObjectsInactive.Exclude, FindObjectsSortMode.None);
+            FeltPart[] parts = colliders.Where(collider => !collider.transform.IsChildOf(scene.Pen.transform))
+                .SelectMany(collider => FeltColliders.Resolve(collider)!.Parts).ToArray();
+            Assert.That(parts.Select(part => part.Rule).Distinct(),
+                Is.EquivalentTo(Enumerable.Range(0, scene.Map.Rules.Count)));
+        }
+
+        [TestCase("AddMaterialPanel.cs")]
+        [TestCase("Recordings/doormat.wav.bytes")]
+        [TestCase("Recordings/doormat.json")]
+        [TestCase("Recordings/doormat.motion.csv")]
+        public void TheSceneFileHoldsThePanelAndItsRecording(string name)
+        {
+            string meta = File.ReadAllText(SampleFile("Workshop", name + ".meta"));
+            string guid = Regex.Match(meta, "guid: (\\w{32})").Groups[1].Value;
+            Assert.That(File.ReadAllText(SampleFile("Workshop", "Workshop.unity")), Does.Contain(guid));
+        }
+
+        [Test]
+        public void WhatTheSceneMadeGoesWithIt()
+        {
+            WorkshopScene scene = Open();
+            HapticMaterialMap map = scene.Map;
+            UnityEngine.Object.DestroyImmediate(scene.gameObject);
+            World.Frame();
+            Assert.That(map == null, Is.True);
+            Assert.That(MaterialMaps.Any, Is.False);
+        }
+
+        /// <summary>The pen comes down at a place of the bench.</summary>
+        private void Press(float x, float z)
+        {
+            PointAt(camera, new Vector3(x, 0.005f, z));
+            SimulatedInput.MouseButton = true;
+            PlayFor(0.4);
+        }
+
+        private WorkshopScene Open() => Wake<WorkshopScene>(bootstrap => bootstrap.View = camera);
+    }
+}

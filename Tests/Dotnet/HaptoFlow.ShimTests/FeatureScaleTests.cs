@@ -1,0 +1,163 @@
+using System;
+using HaptoFlow.Tests;
+using NUnit.Framework;
+using UnityEngine;
+using UnityShim;
+
+namespace HaptoFlow.ShimTests
+{
+    /// <summary>What a material's feature scale and tone make of the wave that reaches the audio device.</summary>
+    public sealed class FeatureScaleTests : SceneTest
+    {
+        // Corduroy's ribs are 2.5 mm apart.
+        private const double RibMetres = 0.0025;
+        private const double SpeedMps = 0.15;
+        private const double Seconds = 1.5;
+
+        [Test]
+        public void FeaturesTwiceAsLargeHalveTheFrequencyOfRibs()
+        {
+            double ribHz = SpeedMps / RibMetres;
+            Func<double, double> plain = Stroke(material => material.Label = "corduroy");
+            Assert.That(plain(ribHz), Is.GreaterThan(4.0 * plain(0.5 * ribHz)));
+            EndScene();
+            BeginScene();
+            Func<double, double> large = Stroke(material =>
+            {
+                material.Label = "corduroy";
+                material.FeatureScale = 2f;
+            });
+            Assert.That(large(0.5 * ribHz), Is.GreaterThan(4.0 * plain(0.5 * ribHz)));
+        }
+
+        [Test]
+        public void AMaterialOfARuleSoundsAsASurfaceOfTheSameMaterialDoes()
+        {
+            Func<double, double> surface = Stroke(material =>
+            {
+                material.Label = "corduroy";
+                material.FeatureScale = 2f;
+            });
+            EndScene();
+            BeginScene();
+            Func<double, double> rule = Stroke(material =>
+            {
+                material.Label = "corduroy";
+                material.FeatureScale = 2f;
+            }, true);
+            double halfRibHz = 0.5 * SpeedMps / RibMetres;
+            Assert.That(rule(halfRibHz), Is.EqualTo(surface(halfRibHz)).Within(1e-9));
+        }
+
+        [Test]
+        public void ABrightToneRunsItsStageAndRaisesWhatIsHighAndNoToneRunsNothing()
+        {
+            Func<double, double> plain = Stroke(material => material.Label = "sandpaper");
+            Assert.That(ToneRuns, Is.Zero, "nobody asked for a tone");
+            EndScene();
+            BeginScene();
+            Func<double, double> bright = Stroke(material =>
+            {
+                material.Label = "sandpaper";
+                material.ToneDbPerOctave = 6f;
+            });
+            Assert.That(ToneRuns, Is.GreaterThan(0UL));
+            Assert.That(Band(bright, 500.0) / Band(bright, 60.0),
+                Is.GreaterThan(8.0 * Band(plain, 500.0) / Band(plain, 60.0)));
+        }
+
+        [Test]
+        public void ATerrainOfHalfWoodAndHalfCorduroyKeepsTheRibsWhereTheyAre()
+        {
+            FinishLoading();
+            var data = new TerrainData { heightmapResolution = 33, size = new Vector3(2f, 0.1f, 2f) };
+            data.terrainLayers = new[] { new TerrainLayer(), new TerrainLayer() };
+            var weights = new float[data.alphamapResolution, data.alphamapResolution, 2];
+            for (int place = 0; place < weights.Length; ++place)
+            {
+                weights[place / 2 / data.alphamapResolution, place / 2 % data.alphamapResolution, place % 2] = 0.5f;
+            }
+            data.SetAlphamaps(0, 0, weights);
+            GameObject ground = Make("Ground");
+            ground.transform.position = new Vector3(-1f, 0f, -1f);
+            ground.AddComponent<TerrainCollider>().terrainData = data;
+            HapticMaterialMap map = ScriptableObject.CreateInstance<HapticMaterialMap>();
+            for (int layer = 0; layer < 2; ++layer)
+            {
+                HapticMaterial material = ScriptableObject.CreateInstance<HapticMaterial>();
+                material.Description.Label = layer == 0 ? "wood" : "corduroy";
+                map.Add(HapticMaterialRule.ForTerrainLayer(data.terrainLayers[layer], material));
+            }
+            HaptoFlowSettings.Active.MaterialMap = map;
+            Func<double, double> powerAt = Heard();
+            double ribHz = SpeedMps / RibMetres;
+            Assert.That(powerAt(ribHz), Is.GreaterThan(4.0 * powerAt(0.5 * ribHz)));
+        }
+
+        private ulong ToneRuns { get; set; }
+
+        /// <summary>Mean power about a frequency.</summary>
+        private static double Band(Func<double, double> powerAt, double hertz)
+        {
+            double sum = 0.0;
+            for (int step = -10; step <= 10; ++step)
+            {
+                sum += powerAt(hertz * (1.0 + 0.02 * step));
+            }
+            return sum;
+        }
+
+        /// <summary>Strokes a wide board across its grain at one speed.</summary>
+        /// <returns>Power at a frequency in hertz, of what reached the device.</returns>
+        private Func<double, double> Stroke(Action<MaterialDescription> describe, bool byRule = false)
+        {
+            FinishLoading();
+            GameObject board = Make("Board");
+            var box = board.AddComponent<BoxCollider>();
+            box.size = new Vector3(2f, 0.02f, 2f);
+            box.center = new Vector3(0f, -0.01f, 0f);
+            if (byRule)
+            {
+                HapticMaterialMap map = ScriptableObject.CreateInstance<HapticMaterialMap>();
+                map.DefaultMaterial = ScriptableObject.CreateInstance<HapticMaterial>();
+                describe(map.DefaultMaterial.Description);
+                HaptoFlowSettings.Active.MaterialMap = map;
+            }
+            else
+            {
+                describe(board.AddComponent<HapticSurface>().Material);
+            }
+            return Heard();
+        }
+
+        private Func<double, double> Heard()
+        {
+            Output(out _);
+            HapticStylus stylus = StylusAlong(seconds => new Vector3((float)(SpeedMps * seconds - 0.5), 0.001f, 0f));
+            World.Frames((int)(0.5 * World.FrameRateHz));
+            AudioDevice.Forget();
+            World.Frames((int)(Seconds * World.FrameRateHz));
+            ToneRuns = stylus.TryGetEffectStatistics(HapticEffect.Tone, out EffectStatistics tone) ? tone.Runs : 0UL;
+            var samples = new double[AudioDevice.RecordedFrames];
+            for (int frame = 0; frame < samples.Length; ++frame)
+            {
+                samples[frame] = AudioDevice.Sample(frame, 0);
+            }
+            return hertz => PowerAt(samples, hertz);
+        }
+
+        private static double PowerAt(double[] samples, double hertz)
+        {
+            double real = 0.0;
+            double imaginary = 0.0;
+            for (int index = 0; index < samples.Length; ++index)
+            {
+                double window = 0.5 - 0.5 * Math.Cos(2.0 * Math.PI * index / samples.Length);
+                double phase = 2.0 * Math.PI * hertz * index / 48000.0;
+                real += window * samples[index] * Math.Cos(phase);
+                imaginary += window * samples[index] * Math.Sin(phase);
+            }
+            return real * real + imaginary * imaginary;
+        }
+    }
+}

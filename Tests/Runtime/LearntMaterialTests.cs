@@ -1,0 +1,315 @@
+#nullable enable
+using System;
+using System.Collections;
+using System.Collections.Generic;
+using System.Linq;
+using System.Text.RegularExpressions;
+using HaptoFlow.Model;
+using NUnit.Framework;
+using UnityEngine;
+using UnityEngine.TestTools;
+using Object = UnityEngine.Object;
+
+namespace HaptoFlow.Tests
+{
+    /// <summary>Haptic Materials that carry their embedding, in a running scene.</summary>
+    public sealed class LearntMaterialTests : SceneTest
+    {
+        private const int LabelCount = 20;
+
+        private readonly List<Object> materials = new List<Object>();
+
+        private static HapticSession Session => HapticSession.Current;
+
+        [TearDown]
+        public void DestroyMaterials()
+        {
+            materials.ForEach(Object.DestroyImmediate);
+            materials.Clear();
+        }
+
+        private static string Text(string label, params (string Key, object? Value)[] changes)
+        {
+            MaterialFile plain = MaterialFile.Read(MaterialText.OfLabel(DefaultModel.Asset().File, label));
+            return MaterialText.With(plain, changes.ToDictionary(each => each.Key, each => each.Value));
+        }
+
+        private HapticMaterial Learnt(string of, string label, params (string Key, object? Value)[] changes)
+        {
+            HapticMaterial material = HapticMaterial.Create(Text(of, changes), label);
+            materials.Add(material);
+            return material;
+        }
+
+        private static LabelBlend BlendOf(HapticSurface surface)
+        {
+            surface.BlendFor(Session);
+            Session.FinishRegistrations();
+            return surface.BlendFor(Session);
+        }
+
+        [UnityTest]
+        public IEnumerator ALearntMaterialIsFeltBesideTheLabels()
+        {
+            FinishLoading();
+            HapticSurface board = Board("fur");
+            board.SharedMaterial = Learnt("glass", "fur", ("stiffness_newtons_per_metre", 432.0));
+            LabelBlend blend = BlendOf(board);
+            Assert.That((blend.Count, blend.Label(0), blend.Weight(0)), Is.EqualTo((1, LabelCount, 1f)));
+            Assert.That(board.StiffnessFor(Session), Is.EqualTo(432.0));
+            Assert.That((Haptics.LearntMaterials, Haptics.RefusedMaterials), Is.EqualTo((1, 0)));
+            AudioTap tap = Output(out _);
+            HapticStylus stylus = Circling();
+            for (int frame = 0; frame < 40; ++frame)
+            {
+                yield return null;
+            }
+            Assert.That(stylus.IsTouching, Is.True);
+            Assert.That(tap.Peak(), Is.GreaterThan(0.001f));
+        }
+
+        [UnityTest]
+        public IEnumerator WhileItIsOnItsWayItsLabelIsFelt()
+        {
+            HapticSurface board = Board("wood");
+            board.SharedMaterial = Learnt("glass", "fur");
+            FinishLoading();
+            Assert.That(board.BlendFor(Session).Label(0), Is.EqualTo(Session.Labels.All.ToList().IndexOf("fur")));
+            Session.FinishRegistrations();
+            Assert.That(board.BlendFor(Session).Label(0), Is.EqualTo(LabelCount));
+            yield return null;
+        }
+
+        [UnityTest]
+        public IEnumerator WhatSurfacesNeedIsRegisteredBeforeItIsTouched()
+        {
+            HapticSurface before = Board();
+            before.SharedMaterial = Learnt("glass", "fur");
+            FinishLoading();
+            HapticSurface after = Board();
+            after.SharedMaterial = Learnt("stone", "fur");
+            Session.FinishRegistrations();
+            Assert.That(Haptics.LearntMaterials, Is.EqualTo(2), "nothing was touched");
+            yield return null;
+        }
+
+        [UnityTest]
+        public IEnumerator ManySurfacesShareOneRegistration()
+        {
+            FinishLoading();
+            HapticMaterial shared = Learnt("glass", "fur");
+            foreach (int _ in Enumerable.Range(0, 5))
+            {
+                HapticSurface board = Board();
+                board.SharedMaterial = shared;
+                Assert.That(BlendOf(board).Label(0), Is.EqualTo(LabelCount));
+            }
+            Assert.That(Haptics.LearntMaterials, Is.EqualTo(1));
+            yield return null;
+        }
+
+        [UnityTest]
+        public IEnumerator TheOwnCopyOfALearntMaterialIsStillLearntAndBlendsWithLabels()
+        {
+            FinishLoading();
+            HapticMaterial shared = Learnt("glass", "fur");
+            HapticSurface board = Board();
+            board.SharedMaterial = shared;
+            board.Material.Strength = 0.5f;
+            Assert.That(board.SharedMaterial, Is.Null);
+            Assert.That(board.Material.Learnt, Is.SameAs(shared));
+            board.Material.SecondLabel = "wood";
+            board.Material.Blend = 0.25f;
+            LabelBlend blend = BlendOf(board);
+            Assert.That((blend.Count, blend.Label(0), blend.Label(1)), Is.EqualTo((2, LabelCount, 0)));
+            board.Material.Learnt = null;
+            Assert.That(board.BlendFor(Session).Label(0), Is.LessThan(LabelCount));
+            yield return null;
+        }
+
+        [UnityTest]
+        public IEnumerator AMaterialOfAnotherModelIsFeltAsItsLabelWithOneWarningThatNamesTheRemedy()
+        {
+            FinishLoading();
+            LogAssert.Expect(LogType.Warning, new Regex(
+                "foreign is felt as its label \"fur\": it was learnt for another model .*0badcafe.*Learn it again"));
+            HapticMaterial foreign = Learnt("glass", "fur", ("space", "0badcafe"));
+            foreign.name = "foreign";
+            int warnings = 0;
+            void Count(string text, string trace, LogType type) => ++warnings;
+            Application.logMessageReceived += Count;
+            foreach (int _ in Enumerable.Range(0, 3))
+            {
+                HapticSurface board = Board();
+                board.SharedMaterial = foreign;
+                Assert.That(BlendOf(board).Label(0), Is.EqualTo(Session.Labels.All.ToList().IndexOf("fur")));
+            }
+            Application.logMessageReceived -= Count;
+            Assert.That(warnings, Is.EqualTo(1));
+            Assert.That((Haptics.LearntMaterials, Haptics.RefusedMaterials), Is.EqualTo((0, 1)));
+            yield return null;
+        }
+
+        [UnityTest]
+        public IEnumerator AnotherModelMakesItFeltAgainAndTheOldOneRefusesIt()
+        {
+            HapticSurface board = Board();
+            board.SharedMaterial = Learnt("glass", "fur");
+            FinishLoading();
+            Assert.That(BlendOf(board).Label(0), Is.EqualTo(LabelCount));
+            Haptics.Restart();
+            Assert.That((Haptics.LearntMaterials, Haptics.IsReady), Is.EqualTo((0, false)));
+            FinishLoading();
+            Assert.That(BlendOf(board).Label(0), Is.EqualTo(LabelCount));
+            Assert.That(Haptics.LearntMaterials, Is.EqualTo(1));
+            yield return null;
+        }
+
+        [UnityTest]
+        public IEnumerator AnotherTextTakesThePlaceOfTheFirstWhileItIsTouched()
+        {
+            FinishLoading();
+            HapticMaterial material = Learnt("glass", "fur", ("stiffness_newtons_per_metre", 300.0));
+            HapticSurface board = Board();
+            board.SharedMaterial = material;
+            HapticStylus stylus = Circling();
+            for (int frame = 0; frame < 10; ++frame)
+            {
+                yield return null;
+            }
+            Assert.That(BlendOf(board).Label(0), Is.EqualTo(LabelCount));
+            material.Carry(Text("sandpaper", ("stiffness_newtons_per_metre", 600.0)));
+            Session.FinishRegistrations();
+            Assert.That((BlendOf(board).Label(0), Haptics.LearntMaterials), Is.EqualTo((LabelCount, 1)));
+            Assert.That(board.StiffnessFor(Session), Is.EqualTo(600.0));
+            material.Carry("");
+            Assert.That(board.BlendFor(Session).Label(0), Is.EqualTo(Session.Labels.All.ToList().IndexOf("fur")));
+            Assert.That(Haptics.LearntMaterials, Is.Zero);
+            yield return null;
+            Assert.That(stylus.IsTouching, Is.True);
+        }
+
+        [UnityTest]
+        public IEnumerator AMaterialThatIsDestroyedWhileItIsTouchedLeavesTheSurfaceItsOwn()
+        {
+            FinishLoading();
+            HapticMaterial material = Learnt("glass", "fur");
+            HapticSurface board = Board("stone");
+            board.SharedMaterial = material;
+            HapticSurface copied = Board("stone");
+            copied.Material.Learnt = material;
+            Circling();
+            for (int frame = 0; frame < 10; ++frame)
+            {
+                yield return null;
+            }
+            Assert.That(BlendOf(copied).Label(0), Is.EqualTo(LabelCount));
+            Object.DestroyImmediate(material);
+            for (int frame = 0; frame < 10; ++frame)
+            {
+                yield return null;
+            }
+            int stone = Session.Labels.All.ToList().IndexOf("stone");
+            Assert.That((BlendOf(board).Label(0), BlendOf(copied).Label(0)), Is.EqualTo((stone, stone)));
+            Assert.That(Haptics.LearntMaterials, Is.Zero);
+        }
+
+        [UnityTest]
+        public IEnumerator OfSeventyMaterialsSixAreRefusedByTheLimitAndAFreedPlaceIsTakenAgain()
+        {
+            FinishLoading();
+            LogAssert.ignoreFailingMessages = true;
+            var refusals = new List<string>();
+            void Note(string text, string trace, LogType type) => refusals.Add(text);
+            Application.logMessageReceived += Note;
+            var boards = new List<HapticSurface>();
+            foreach (int number in Enumerable.Range(0, 70))
+            {
+                HapticSurface board = Board();
+                board.SharedMaterial = Learnt("glass", "fur", ("name", "glass " + number));
+                boards.Add(board);
+            }
+            Session.FinishRegistrations();
+            Application.logMessageReceived -= Note;
+            Assert.That((Haptics.LearntMaterials, Haptics.RefusedMaterials), Is.EqualTo((64, 6)));
+            Assert.That(refusals, Has.Count.EqualTo(6).And.All.Contains("64 learnt materials are in use"));
+            Assert.That(boards.Select(board => board.BlendFor(Session).Label(0)).Distinct().Count(), Is.EqualTo(65));
+            Object.DestroyImmediate(boards[3].SharedMaterial!);
+            HapticSurface late = Board();
+            late.SharedMaterial = Learnt("stone", "fur");
+            Assert.That(BlendOf(late).Label(0), Is.EqualTo(LabelCount + 3));
+            Assert.That(Haptics.LearntMaterials, Is.EqualTo(64));
+            yield return null;
+        }
+
+        [UnityTest]
+        public IEnumerator AMaterialThatGoesWhileItIsOnItsWayGivesItsPlaceBack()
+        {
+            FinishLoading();
+            foreach (int _ in Enumerable.Range(0, 80))
+            {
+                HapticMaterial material = Learnt("glass", "fur");
+                HapticSurface board = Board();
+                board.SharedMaterial = material;
+                Object.DestroyImmediate(material);
+                Session.FinishRegistrations();
+            }
+            Assert.That((Haptics.LearntMaterials, Haptics.RefusedMaterials), Is.EqualTo((0, 0)));
+            HapticSurface last = Board();
+            last.SharedMaterial = Learnt("glass", "fur");
+            Assert.That(BlendOf(last).Label(0), Is.GreaterThanOrEqualTo(LabelCount));
+            yield return null;
+        }
+
+        [UnityTest]
+        public IEnumerator AnEngineThatIsClosedWhileMaterialsAreOnTheirWayWaitsForThem()
+        {
+            FinishLoading();
+            foreach (int number in Enumerable.Range(0, 20))
+            {
+                Board().SharedMaterial = Learnt("glass", "fur", ("name", "glass " + number));
+            }
+            Haptics.Restart();
+            Assert.That(HapticSession.Existing, Is.Null);
+            FinishLoading();
+            Session.FinishRegistrations();
+            Assert.That(Haptics.LearntMaterials, Is.EqualTo(20));
+            yield return null;
+        }
+
+        [UnityTest]
+        public IEnumerator ARuleThatLeadsToALearntMaterialIsPreparedAndFelt()
+        {
+            HapticMaterial material = Learnt("glass", "fur");
+            GameObject plate = Make("Plate");
+            var box = plate.AddComponent<BoxCollider>();
+            box.size = new Vector3(0.4f, 0.02f, 0.4f);
+            box.center = new Vector3(0f, -0.01f, 0f);
+            var map = ScriptableObject.CreateInstance<HapticMaterialMap>();
+            materials.Add(map);
+            map.Add(HapticMaterialRule.ForName("Plate", material));
+            Make("Scope").AddComponent<HapticMaterialMapScope>().Map = map;
+            FinishLoading();
+            Session.FinishRegistrations();
+            Assert.That(Haptics.LearntMaterials, Is.EqualTo(1), "nothing was touched");
+            HapticStylus stylus = Circling();
+            for (int frame = 0; frame < 20; ++frame)
+            {
+                yield return null;
+            }
+            Assert.That(stylus.IsTouching, Is.True);
+            Assert.That(stylus.Contact.Labels.Label(0), Is.EqualTo(LabelCount));
+        }
+
+        [Test]
+        public void ATextThatIsNoneIsRefusedByItsKeyAndChangesNothing()
+        {
+            HapticMaterial material = Learnt("glass", "fur");
+            string before = material.Learnt;
+            var refusal = Assert.Throws<HaptoFlowException>(() => material.Carry(before.Replace("\"embedding\"", "\"e\"")));
+            Assert.That(refusal!.Message, Does.Contain("'embedding' is missing"));
+            Assert.That(material.Learnt, Is.EqualTo(before));
+            Assert.Throws<HaptoFlowException>(() => HapticMaterial.Create("{}", "fur"));
+        }
+    }
+}

@@ -1,0 +1,199 @@
+#nullable enable
+using System.Collections;
+using NUnit.Framework;
+using UnityEngine;
+using UnityEngine.TestTools;
+
+namespace HaptoFlow.Tests
+{
+    /// <summary>Maps, objects and assets that change or go while a tip touches.</summary>
+    public sealed class MapChangeTests : MapTest
+    {
+        [UnityTest]
+        public IEnumerator ATagAndALayerThatChangeWhileTouchingAreFeltInTheNextFrame()
+        {
+            FinishLoading();
+            BoxCollider box = Bare();
+            Map.Add(HapticMaterialRule.ForTag("Finish", Feeling("stone")));
+            Map.Add(HapticMaterialRule.ForLayer(4, Feeling("glass")));
+            Map.DefaultMaterial = Feeling("wood");
+            HapticStylus stylus = Resting();
+            var log = new TouchLog(stylus);
+            yield return null;
+            yield return null;
+            Assert.That(FeltAlone(stylus), Is.EqualTo("wood"));
+            box.gameObject.tag = "Finish";
+            yield return null;
+            Assert.That(FeltAlone(stylus), Is.EqualTo("stone"));
+            box.gameObject.tag = "Untagged";
+            box.gameObject.layer = 4;
+            yield return null;
+            Assert.That(FeltAlone(stylus), Is.EqualTo("glass"));
+            Assert.That(log.Began, Is.EqualTo(1), "one touch all along");
+            Assert.That(log.Ended, Is.Zero);
+        }
+
+        [UnityTest]
+        public IEnumerator ARendererMaterialThatChangesIsFeltAndAScriptsOwnCopyOfItIsTheSame()
+        {
+            FinishLoading();
+            BoxCollider box = Bare();
+            var renderer = box.gameObject.AddComponent<MeshRenderer>();
+            Material oak = Paint("Oak");
+            Material ice = Paint("Ice");
+            Map.Add(HapticMaterialRule.ForRendererMaterial(oak, Feeling("wood")));
+            Map.Add(HapticMaterialRule.ForRendererMaterial(ice, Feeling("glass")));
+            renderer.sharedMaterial = oak;
+            HapticStylus stylus = Resting();
+            yield return null;
+            yield return null;
+            Assert.That(FeltAlone(stylus), Is.EqualTo("wood"));
+            renderer.sharedMaterial = ice;
+            yield return null;
+            Assert.That(FeltAlone(stylus), Is.EqualTo("glass"));
+            Material own = Keep(new Material(ice) { name = "Ice (Instance)" });
+            renderer.sharedMaterial = own;
+            yield return null;
+            Assert.That(FeltAlone(stylus), Is.EqualTo("glass"), "as Renderer.material makes one");
+        }
+
+        [UnityTest]
+        public IEnumerator AMapThatChangesOrGoesWhileTouchingIsFollowed()
+        {
+            FinishLoading();
+            Bare();
+            HapticMaterialRule rule = HapticMaterialRule.ForName("Plank", Feeling("wood"));
+            Map.Add(rule);
+            HapticStylus stylus = Resting();
+            var log = new TouchLog(stylus);
+            yield return null;
+            yield return null;
+            rule.Material = Feeling("stone");
+            yield return null;
+            Assert.That(FeltAlone(stylus), Is.EqualTo("stone"));
+            HapticMaterialMap other = MapNamed("Other");
+            other.DefaultMaterial = Feeling("fur");
+            HaptoFlowSettings.Active.MaterialMap = other;
+            yield return null;
+            Assert.That(FeltAlone(stylus), Is.EqualTo("fur"));
+            Assert.That(log.Began, Is.EqualTo(1), "the touch goes on");
+            Object.DestroyImmediate(other);
+            yield return null;
+            Assert.That(stylus.IsTouching, Is.False);
+            Assert.That(log.Ended, Is.EqualTo(1));
+        }
+
+        [UnityTest]
+        public IEnumerator AColliderDestroyedUnderTheTipEndsTheTouch()
+        {
+            FinishLoading();
+            BoxCollider box = Bare();
+            Map.DefaultMaterial = Feeling("wood");
+            HapticStylus stylus = Resting();
+            var log = new TouchLog(stylus);
+            yield return null;
+            yield return null;
+            Assert.That(stylus.IsTouching, Is.True);
+            Object.DestroyImmediate(box.gameObject);
+            yield return null;
+            Assert.That(stylus.IsTouching, Is.False);
+            Assert.That(log.Ended, Is.EqualTo(1));
+        }
+
+        [UnityTest]
+        public IEnumerator AMaterialDestroyedWhileTouchingBreaksNothing()
+        {
+            FinishLoading();
+            Bare();
+            HapticMaterial wood = Feeling("wood");
+            Map.DefaultMaterial = wood;
+            HapticStylus stylus = Resting();
+            yield return null;
+            yield return null;
+            Object.DestroyImmediate(wood);
+            yield return null;
+            HapticMaterialMap.Refresh();
+            yield return null;
+            Assert.That(stylus.IsTouching, Is.False);
+        }
+
+        [UnityTest]
+        public IEnumerator ANewNameCountsAfterARefresh()
+        {
+            FinishLoading();
+            BoxCollider box = Bare();
+            Map.Add(HapticMaterialRule.ForName("Rug*", Feeling("fur")));
+            Map.DefaultMaterial = Feeling("wood");
+            HapticStylus stylus = Resting();
+            yield return null;
+            yield return null;
+            box.gameObject.name = "Rug";
+            HapticMaterialMap.Refresh();
+            yield return null;
+            Assert.That(FeltAlone(stylus), Is.EqualTo("fur"));
+        }
+
+        [UnityTest]
+        public IEnumerator ASurfaceThatComesAndGoesUnderTheTipTakesOverAndGivesBack()
+        {
+            FinishLoading();
+            BoxCollider box = Bare();
+            Map.DefaultMaterial = Feeling("wood");
+            HapticStylus stylus = Resting();
+            yield return null;
+            yield return null;
+            var surface = box.gameObject.AddComponent<HapticSurface>();
+            surface.Material.Label = "glass";
+            yield return null;
+            Assert.That(FeltAlone(stylus), Is.EqualTo("glass"));
+            Object.DestroyImmediate(surface);
+            yield return null;
+            Assert.That(FeltAlone(stylus), Is.EqualTo("wood"));
+        }
+
+        [UnityTest]
+        public IEnumerator OfFiveHundredCollidersThatRulesNameTheTouchedOneIsFelt()
+        {
+            FinishLoading();
+            for (int index = 0; index < 500; ++index)
+            {
+                var box = Make("Stud " + index).AddComponent<BoxCollider>();
+                box.size = new Vector3(0.003f, 0.02f, 0.003f);
+                box.center = new Vector3(0.004f * (index % 25 - 12), -0.01f, 0.004f * (index / 25 - 10));
+            }
+            Map.Add(HapticMaterialRule.ForName("Stud 262", Feeling("glass")));
+            Map.DefaultMaterial = Feeling("wood");
+            HapticStylus stylus = Resting(0f, 0f);
+            yield return null;
+            yield return null;
+            Assert.That(stylus.IsTouching, Is.True);
+            Assert.That(stylus.Contact.Collider.name, Is.EqualTo("Stud 262"), "row 10, column 12 lies under the tip");
+            Assert.That(FeltAlone(stylus), Is.EqualTo("glass"));
+        }
+
+        [UnityTest]
+        public IEnumerator DestroyedCollidersAreNotKeptForEver()
+        {
+            FinishLoading();
+            Map.DefaultMaterial = Feeling("wood");
+            HapticStylus stylus = Resting();
+            yield return null;
+            for (int round = 0; round < 40; ++round)
+            {
+                var made = new GameObject[20];
+                for (int index = 0; index < made.Length; ++index)
+                {
+                    made[index] = Make("Crumb");
+                    made[index].AddComponent<SphereCollider>().radius = 0.01f;
+                }
+                yield return null;
+                foreach (GameObject each in made)
+                {
+                    Object.DestroyImmediate(each);
+                }
+            }
+            Assert.That(FeltColliders.Count, Is.LessThan(400), "800 were near the tip");
+            Assert.That(stylus.isActiveAndEnabled, Is.True);
+        }
+    }
+}

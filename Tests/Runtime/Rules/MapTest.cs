@@ -1,0 +1,97 @@
+#nullable enable
+using System;
+using System.Collections.Generic;
+using NUnit.Framework;
+using UnityEngine;
+using Object = UnityEngine.Object;
+
+namespace HaptoFlow.Tests
+{
+    /// <summary>A scene whose project has a map without rules; assets that tests make are gone afterwards.</summary>
+    public abstract class MapTest : SceneTest
+    {
+        private readonly List<Object> assets = new List<Object>();
+
+        internal HapticMaterialMap Map { get; private set; } = null!;
+
+        [SetUp]
+        public void GiveTheProjectAMap()
+        {
+            Map = MapNamed("Project");
+            HaptoFlowSettings.Active.MaterialMap = Map;
+        }
+
+        [TearDown]
+        public void DestroyAssets()
+        {
+            foreach (Object each in assets)
+            {
+                Object.DestroyImmediate(each);
+            }
+            assets.Clear();
+        }
+
+        internal T Keep<T>(T asset)
+            where T : Object
+        {
+            assets.Add(asset);
+            return asset;
+        }
+
+        internal HapticMaterialMap MapNamed(string name)
+        {
+            HapticMaterialMap map = Keep(ScriptableObject.CreateInstance<HapticMaterialMap>());
+            map.name = name;
+            return map;
+        }
+
+        internal HapticMaterial Feeling(string label, Action<MaterialDescription>? change = null)
+        {
+            HapticMaterial material = Keep(ScriptableObject.CreateInstance<HapticMaterial>());
+            material.name = label;
+            material.Description.Label = label;
+            change?.Invoke(material.Description);
+            return material;
+        }
+
+        /// <summary>A renderer's material.</summary>
+        internal Material Paint(string name)
+        {
+            GameObject sphere = GameObject.CreatePrimitive(PrimitiveType.Sphere);
+            Material paint = Keep(new Material(sphere.GetComponent<MeshRenderer>().sharedMaterial!) { name = name });
+            Object.DestroyImmediate(sphere);
+            return paint;
+        }
+
+        /// <summary>A board as <see cref="SceneTest.Board"/> makes it, without a surface.</summary>
+        internal BoxCollider Bare(string name = "Plank")
+        {
+            var box = Make(name).AddComponent<BoxCollider>();
+            box.size = new Vector3(0.4f, 0.02f, 0.4f);
+            box.center = new Vector3(0f, -0.01f, 0f);
+            return box;
+        }
+
+        /// <summary>A stylus that rests 1 mm deep in the board.</summary>
+        internal HapticStylus Resting(float x = 0f, float z = 0f) => StylusAlong(_ => new Vector3(x, 0.001f, z));
+
+        /// <summary>The labels that the tip feels with their weights, heaviest first.</summary>
+        internal static List<(string Label, float Weight)> Felt(HapticStylus stylus)
+        {
+            var felt = new List<(string, float)>();
+            LabelBlend blend = stylus.IsTouching ? stylus.Contact.Labels : default;
+            for (int index = 0; index < blend.Count; ++index)
+            {
+                felt.Add((HapticSession.Current.Labels.All[blend.Label(index)], blend.Weight(index)));
+            }
+            return felt;
+        }
+
+        internal static string FeltAlone(HapticStylus stylus)
+        {
+            List<(string Label, float Weight)> felt = Felt(stylus);
+            Assert.That(felt, Has.Count.LessThanOrEqualTo(1));
+            return felt.Count == 0 ? "" : felt[0].Label;
+        }
+    }
+}

@@ -1,0 +1,72 @@
+using System;
+using System.Linq;
+
+namespace UnityEngine
+{
+    public enum MeshTopology
+    {
+        Triangles = 0,
+        Quads = 2,
+        Lines = 3,
+        LineStrip = 4,
+        Points = 5,
+    }
+
+    public sealed class Mesh : Object
+    {
+        private int[][] submeshes = { Array.Empty<int>() };
+        private int[] all = Array.Empty<int>();
+
+        public Vector3[] vertices { get; set; } = Array.Empty<Vector3>();
+
+        /// <summary>Empty where there are none.</summary>
+        public Vector2[] uv { get; set; } = Array.Empty<Vector2>();
+
+        public Vector2[] uv2 { get; set; } = Array.Empty<Vector2>();
+
+        public bool isReadable { get; private set; } = true;
+
+        /// <summary>Of all submeshes, one after the other.</summary>
+        public int[] triangles
+        {
+            get => all;
+            set
+            {
+                submeshes = new[] { value };
+                all = value;
+            }
+        }
+
+        public int subMeshCount
+        {
+            get => submeshes.Length;
+            set
+            {
+                int before = submeshes.Length;
+                Array.Resize(ref submeshes, value);
+                for (int index = before; index < value; ++index)
+                {
+                    submeshes[index] = Array.Empty<int>();
+                }
+                all = submeshes.SelectMany(each => each).ToArray();
+            }
+        }
+
+        public void SetTriangles(int[] triangles, int submesh)
+        {
+            submeshes[submesh] = triangles;
+            all = submeshes.SelectMany(each => each).ToArray();
+        }
+
+        public uint GetIndexCount(int submesh) => (uint)submeshes[submesh].Length;
+
+        public MeshTopology GetTopology(int submesh) => MeshTopology.Triangles;
+
+        public void RecalculateNormals()
+        {
+        }
+
+        /// <summary>To the graphics card. What is here stays for the shim's own use.</summary>
+        public void UploadMeshData(bool markNoLongerReadable) => isReadable &= !markNoLongerReadable;
+    }
+}

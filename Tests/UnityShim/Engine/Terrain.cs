@@ -1,0 +1,146 @@
+using System;
+using System.Linq;
+using UnityShim;
+
+namespace UnityEngine
+{
+    public sealed class TerrainLayer : Object
+    {
+        public Texture2D? diffuseTexture { get; set; }
+
+        public Vector2 tileSize { get; set; }
+    }
+
+    public sealed class TerrainData : Object
+    {
+        private float[,] heights = new float[33, 33];
+        private float[,,] weights = new float[16, 16, 0];
+        private TerrainLayer[] layers = Array.Empty<TerrainLayer>();
+
+        public Vector3 size { get; set; } = new Vector3(1f, 1f, 1f);
+
+        public int heightmapResolution
+        {
+            get => heights.GetLength(0);
+            set => heights = new float[value, value];
+        }
+
+        public int alphamapResolution
+        {
+            get => weights.GetLength(0);
+            set => weights = FirstLayerOnly(value, layers.Length);
+        }
+
+        public int alphamapWidth => alphamapResolution;
+
+        public int alphamapHeight => alphamapResolution;
+
+        public int alphamapLayers => layers.Length;
+
+        /// <summary>Reading makes garbage, as in Unity.</summary>
+        public TerrainLayer[] terrainLayers
+        {
+            get => layers.ToArray();
+            set
+            {
+                layers = value.ToArray();
+                weights = FirstLayerOnly(alphamapResolution, layers.Length);
+            }
+        }
+
+        public void SetHeights(int xBase, int yBase, float[,] heights)
+        {
+            for (int y = 0; y < heights.GetLength(0); ++y)
+            {
+                for (int x = 0; x < heights.GetLength(1); ++x)
+                {
+                    this.heights[yBase + y, xBase + x] = heights[y, x];
+                }
+            }
+        }
+
+        /// <summary>Row z, column x, layer.</summary>
+        public float[,,] GetAlphamaps(int x, int y, int width, int height)
+        {
+            var part = new float[height, width, layers.Length];
+            for (int index = 0; index < part.Length; ++index)
+            {
+                (int row, int column, int layer) = Place(index, width);
+                part[row, column, layer] = weights[y + row, x + column, layer];
+            }
+            return part;
+        }
+
+        public void SetAlphamaps(int x, int y, float[,,] map)
+        {
+            for (int index = 0; index < map.Length; ++index)
+            {
+                (int row, int column, int layer) = Place(index, map.GetLength(1));
+                weights[y + row, x + column, layer] = map[row, column, layer];
+            }
+            foreach (Terrain user in World.Find<Terrain>(true).Where(each => ReferenceEquals(each.terrainData, this)))
+            {
+                TerrainCallbacks.Invoke(user, new RectInt(x, y, map.GetLength(1), map.GetLength(0)));
+            }
+        }
+
+        /// <summary>Row z, column x, as <see cref="SetHeights"/> takes them.</summary>
+        internal Vector3 VertexAt(int x, int z)
+        {
+            float last = heightmapResolution - 1;
+            return Vector3.Scale(size, new Vector3(x / last, heights[z, x], z / last));
+        }
+
+        private (int Row, int Column, int Layer) Place(int index, int width) =>
+            (index / layers.Length / width, index / layers.Length % width, index % layers.Length);
+
+        private static float[,,] FirstLayerOnly(int resolution, int layers)
+        {
+            var made = new float[resolution, resolution, layers];
+            for (int place = 0; layers > 0 && place < resolution * resolution; ++place)
+            {
+                made[place / resolution, place % resolution, 0] = 1f;
+            }
+            return made;
+        }
+    }
+
+    public sealed class Terrain : Behaviour
+    {
+        public TerrainData? terrainData { get; set; }
+
+        public bool drawHeightmap { get; set; } = true;
+
+        public static GameObject CreateTerrainGameObject(TerrainData assignTerrain)
+        {
+            var made = new GameObject("Terrain");
+            made.AddComponent<Terrain>().terrainData = assignTerrain;
+            made.AddComponent<TerrainCollider>().terrainData = assignTerrain;
+            return made;
+        }
+    }
+
+    public static class TerrainCallbacks
+    {
+        public delegate void TextureChangedCallback(
+            Terrain terrain, string textureName, RectInt texelRegion, bool synched);
+
+        public static event TextureChangedCallback? textureChanged;
+
+        internal static void Invoke(Terrain terrain, RectInt region) =>
+            textureChanged?.Invoke(terrain, "alphamap", region, true);
+    }
+
+    public struct RectInt
+    {
+        public RectInt(int xMin, int yMin, int width, int height)
+        {
+            (x, y, this.width, this.height) = (xMin, yMin, width, height);
+        }
+
+        public int x { get; set; }
+        public int y { get; set; }
+        public int width { get; set; }
+        public int height { get; set; }
+    }
+}
