@@ -10,7 +10,8 @@ using NUnit.Framework;
 
 namespace HaptoFlow.RepositoryTests
 {
-    /// <summary>Learning from C#, with the real library: begun, followed, cancelled, two at once, and refused.</summary>
+    /// <summary>Learning from C#, with the real library: begun, followed, cancelled, two at once, and
+    /// refused.</summary>
     public sealed class HapticLearningTests
     {
         // The fit ends with what it has: these tests are not about how good it is.

@@ -140,8 +140,8 @@ namespace HaptoFlow
                 each.Text = each.Material.Learnt;
                 if (each.Index < 0 && free.Count == 0 && taken == HapticEngine.MaximumMaterials)
                 {
-                    Refuse(each, $"{HapticEngine.MaximumMaterials} learnt materials are in use, which is the most that " +
-                        "an engine takes. Use fewer of them in what is loaded at one time.");
+                    Refuse(each, $"{HapticEngine.MaximumMaterials} learnt materials are in use, which is the most " +
+                        "that an engine takes. Use fewer of them in what is loaded at one time.");
                     continue;
                 }
                 int place = each.Index >= 0 ? each.Index : free.Count > 0 ? free.Pop() : MaterialRegistration.NewPlace;

@@ -18,8 +18,8 @@ namespace HaptoFlow.Editor
         private static readonly GUIContent Model =
             new GUIContent("Model", "The model under which the material shall be felt; none for the project's.");
         private static readonly GUIContent Choose = new GUIContent("Choose Recording\u2026",
-            "A CSV table or a WAV file of one material, ten seconds or more. What stands beside it (NAME.json) is read, " +
-            "too.");
+            "A CSV table or a WAV file of one material, ten seconds or more. What stands beside it, NAME.json, is " +
+            "read too.");
         private static readonly GUIContent Speed = new GUIContent("Speed [m/s]",
             "At which it was recorded, where the file does not say it. 0: not known.");
         private static readonly GUIContent Force = new GUIContent("Force [N]",

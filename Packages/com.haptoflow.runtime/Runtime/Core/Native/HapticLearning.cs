@@ -47,13 +47,13 @@ namespace HaptoFlow
         private readonly LearningProgress progress = new LearningProgress();
         private readonly HapticCancellation cancellation;
         private readonly Task<Learnt> work;
+        private Task ended = Task.CompletedTask;
         private bool isDisposed;
 
         private HapticLearning(byte[] modelFile, Recording recording, LearningOptions options)
         {
             cancellation = new HapticCancellation();
             work = Task.Run(() => Learn(modelFile, recording, options));
-            work.ContinueWith(_ => Ended(), TaskContinuationOptions.ExecuteSynchronously);
         }
 
         /// <summary>0 to 1.</summary>
@@ -110,6 +110,8 @@ namespace HaptoFlow
             {
                 var learning = new HapticLearning(modelFile, recording, options);
                 Running.Add(learning);
+                // Later than the list knows it, for it may have ended already.
+                learning.ended = learning.work.ContinueWith(_ => learning.Ended());
                 return learning;
             }
         }
@@ -127,7 +129,7 @@ namespace HaptoFlow
         }
 
         /// <summary>Waits until it ended, with whatever outcome.</summary>
-        public void Wait() => ((IAsyncResult)work).AsyncWaitHandle.WaitOne();
+        public void Wait() => ((IAsyncResult)ended).AsyncWaitHandle.WaitOne();
 
         /// <summary>Cancels it where it is under way. Does not wait.</summary>
         public void Dispose() => Cancel();

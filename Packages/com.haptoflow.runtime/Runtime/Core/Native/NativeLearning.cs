@@ -54,18 +54,11 @@ namespace HaptoFlow.Native
             GC.KeepAlive(model);
             GC.KeepAlive(cancellation);
             using var learning = new LearningHandle(opened);
-            return (Text(learning, NativeMethods.LearningMaterial), Text(learning, NativeMethods.LearningReport));
-        }
-
-        private delegate int ReadText(IntPtr learning, IntPtr* json);
-
-        private static string Text(LearningHandle learning, ReadText read)
-        {
-            IntPtr json;
-            NativeCall.Check(read(learning.Value, &json));
-            string text = NativeCall.Text(json);
-            GC.KeepAlive(learning);
-            return text;
+            IntPtr material;
+            IntPtr report;
+            NativeCall.Check(NativeMethods.LearningMaterial(learning.Value, &material));
+            NativeCall.Check(NativeMethods.LearningReport(learning.Value, &report));
+            return (NativeCall.Text(material), NativeCall.Text(report));
         }
     }
 }
