@@ -172,23 +172,24 @@ void printMaterial(std::ostream& stream, const std::string& path, const model::M
     const model::Label& label = material.label;
     const model::MaterialProvenance& provenance = material.provenance;
     stream << label.name << '\n' << orDash(material.description) << "\n\n";
-    printTable(stream, {{"file", path},
-                        {"space", material.space + ": sounds under the models of this space"},
-                        {"category", label.category},
-                        {"provenance", orDash(provenance.statement)},
-                        {"recordings", orDash(provenance.recordings)},
-                        {"licence", provenance.licence},
-                        {"learnt from", inWords(provenance.seconds) + " s"},
-                        {"created", orDash(provenance.created)},
-                        {"speed", between(material.speedMps) + " m/s"},
-                        {"force", between(material.forceNewtons) + " N"},
-                        {"level", levelOf(label)},
-                        {"tone", toneOf(label)},
-                        {"wave vectors", ribsOf(material)},
-                        {"wavelength", label.wavelengthMetres ? inWords(*label.wavelengthMetres * 1000.0) + " mm" : "-"},
-                        {"stiffness", inWords(label.stiffnessNewtonsPerMetre) + " N/m"},
-                        {"friction", inWords(label.frictionCoefficient)},
-                        {"seeds", std::to_string(material.seeds.size())}});
+    printTable(stream,
+               {{"file", path},
+                {"space", material.space + ": sounds under the models of this space"},
+                {"category", label.category},
+                {"provenance", orDash(provenance.statement)},
+                {"recordings", orDash(provenance.recordings)},
+                {"licence", provenance.licence},
+                {"learnt from", inWords(provenance.seconds) + " s"},
+                {"created", orDash(provenance.created)},
+                {"speed", between(material.speedMps) + " m/s"},
+                {"force", between(material.forceNewtons) + " N"},
+                {"level", levelOf(label)},
+                {"tone", toneOf(label)},
+                {"wave vectors", ribsOf(material)},
+                {"wavelength", label.wavelengthMetres ? inWords(*label.wavelengthMetres * 1000.0) + " mm" : "-"},
+                {"stiffness", inWords(label.stiffnessNewtonsPerMetre) + " N/m"},
+                {"friction", inWords(label.frictionCoefficient)},
+                {"seeds", std::to_string(material.seeds.size())}});
 }
 
 void inspectMaterial(const InspectOptions& options) {
@@ -226,7 +227,8 @@ void runInspect(const InspectOptions& options) {
 }  // namespace
 
 void addInspectCommand(CLI::App& app, CommandOutcome& outcome) {
-    CLI::App* command = app.add_subcommand("inspect", "Verify a model or material file and show what it says about itself");
+    CLI::App* command =
+        app.add_subcommand("inspect", "Verify a model or material file and show what it says about itself");
     const auto options = std::make_shared<InspectOptions>();
     command->add_option("model", options->modelPath, "The .haptoflow or .haptomaterial file")
         ->required()

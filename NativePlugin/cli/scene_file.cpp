@@ -233,7 +233,8 @@ contact::Shape readShape(const Node& node) {
 }
 
 std::vector<std::pair<std::string, double>> readMaterial(const Node& node) {
-    const std::string expected = "a label like \"wood\", a material file like \"denim.haptomaterial\", or an object of them and weights like "
+    const std::string expected =
+        "a label like \"wood\", a material file like \"denim.haptomaterial\", or an object of them and weights like "
         "{\"wood\": 1}";
     if (!node.raw().is_object()) {
         return {{node.text(expected), 1.0}};

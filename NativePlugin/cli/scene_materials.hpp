@@ -14,8 +14,8 @@
 
 namespace haptoflow::cli {
 
-/// What a name in a scene stands for: a label of the model, the name of a material file that was given beside the scene,
-/// or the path of one, relative to the scene file.
+/// What a name in a scene stands for: a label of the model, the name of a material file that was given beside the
+/// scene, or the path of one, relative to the scene file.
 class SceneMaterials {
 public:
     /// The model must outlive this.
@@ -24,8 +24,8 @@ public:
     /// A material file whose name then counts as a label. Throws InputError: not such a file, learnt for another model,
     /// a name that is taken.
     void add(const std::string& path);
-    /// Reads the material files that the scene names. Throws InputError for what is not one, and for a name that nothing
-    /// has, with the scene, the surface and the three nearest names.
+    /// Reads the material files that the scene names. Throws InputError for what is not one, and for a name that
+    /// nothing has, with the scene, the surface and the three nearest names.
     void require(const contact::Scene& scene);
 
     /// Null where nothing has that name.

@@ -489,13 +489,12 @@ HAPTOFLOW_API haptoflow_status haptoflow_engine_set_quality(haptoflow_engine* en
 #define HAPTOFLOW_MAXIMUM_MATERIALS 64
 
 /* Registers a material: json is the text of a material file (Documentation~/own-materials.md), length bytes of it. From
- * then on contact states may name it by *index, which is the number of the model's labels and of the materials registered
- * before. It stays until the engine is closed. No other label sounds different for it.
- * Errors: INVALID_ARGUMENT (also where HAPTOFLOW_MAXIMUM_MATERIALS are registered), MATERIAL_INVALID (the message names
- * the key), MATERIAL_MISMATCH, OUT_OF_MEMORY; MODEL_INCONSISTENT, INFERENCE_FAILED and TIER_TOO_SLOW where the material
- * has no level of its own and the model's level graph fails.
- * [loader-thread] Publishers, worker and callbacks never wait for it. Takes milliseconds; the first material without a
- * level of its own also loads the model's level graph. */
+ * then on contact states may name it by *index, which is the number of the model's labels and of the materials
+ * registered before. It stays until the engine is closed. No other label sounds different for it. Errors:
+ * INVALID_ARGUMENT (also where HAPTOFLOW_MAXIMUM_MATERIALS are registered), MATERIAL_INVALID (the message names the
+ * key), MATERIAL_MISMATCH, OUT_OF_MEMORY; MODEL_INCONSISTENT, INFERENCE_FAILED and TIER_TOO_SLOW where the material has
+ * no level of its own and the model's level graph fails. [loader-thread] Publishers, worker and callbacks never wait
+ * for it. Takes milliseconds; the first material without a level of its own also loads the model's level graph. */
 HAPTOFLOW_API haptoflow_status haptoflow_engine_register_material(haptoflow_engine* engine, const char* json,
                                                                   uint64_t length, uint32_t* index);
 

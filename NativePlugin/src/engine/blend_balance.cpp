@@ -78,10 +78,8 @@ void BlendBalance::request(std::vector<inference::SegmentRequest>& requests) {
         const inference::NoiseKey key{.seed = seed_, .voice = voice_, .segment = firstSegment + segments_};
         ++segments_;
         inference::fillStandardNormal(key, shadow.noise);
-        inference::SegmentRequest request{.embedding = shadow.part.embedding,
-                                          .motion = motion_,
-                                          .previous = shadow.previous,
-                                          .noise = shadow.noise};
+        inference::SegmentRequest request{
+            .embedding = shadow.part.embedding, .motion = motion_, .previous = shadow.previous, .noise = shadow.noise};
         std::ranges::transform(shadow.phase, request.ribPhase.begin(),
                                [](double turns) { return static_cast<float>(turns); });
         request.levelMps2 = 1.0F;
@@ -112,8 +110,8 @@ float BlendBalance::gain() const noexcept {
     for (const Shadow& shadow : std::span(shadows_).first(count_)) {
         wanted += static_cast<double>(shadow.part.share) * shadow.power.logarithm();
     }
-    return static_cast<float>(std::exp(std::clamp(0.5 * (wanted - blend_.logarithm()), -largestLogGain,
-                                                  largestLogGain)));
+    return static_cast<float>(
+        std::exp(std::clamp(0.5 * (wanted - blend_.logarithm()), -largestLogGain, largestLogGain)));
 }
 
 void BlendBalance::level(std::span<float, inference::segmentSamples> segmentMps2, float levelMps2) noexcept {

@@ -26,9 +26,9 @@ struct BlendParts {
 };
 
 /// Keeps the level of a blend between those of its materials. A network was taught materials, not blends of them: it is
-/// up to 2 dB louder or softer than it was asked to be, by other amounts for the blend than for its parts. While a voice
-/// plays a blend, its parts are generated along with it, unheard and a quarter as often, and the blend gets the gain
-/// that makes it as much too loud as they are, on average. Worker thread.
+/// up to 2 dB louder or softer than it was asked to be, by other amounts for the blend than for its parts. While a
+/// voice plays a blend, its parts are generated along with it, unheard and a quarter as often, and the blend gets the
+/// gain that makes it as much too loud as they are, on average. Worker thread.
 class BlendBalance {
 public:
     /// Samples from one segment of the parts to the next.

@@ -40,8 +40,8 @@ ContactAction ContactPublisher::publish(ContactState state) noexcept {
                     .before = reading.ingredients(last_.material),
                     .ranged = {}};
     const Material material = resolveMaterial(contact.ingredients, isNewTouch ? WaveVectors{} : ribs_);
-    contact.ranged = applyRangeLaw(library_.model().header(), material, state.velocityMps, state.forceNewtons,
-                                   state.spatialScale);
+    contact.ranged =
+        applyRangeLaw(library_.model().header(), material, state.velocityMps, state.forceNewtons, state.spatialScale);
     if (state.touching) {
         ribs_ = waveVectorsOf(material.embedding);
     }
@@ -75,8 +75,8 @@ void ContactPublisher::postToAudio(const Contact& contact) noexcept {
     const std::optional<dsp::ToneCepstrum> tone =
         resolveTone(contact.ingredients, std::hypot(motion[0], motion[1]),
                     static_cast<double>(contact.state.toneDbPerOctave), tiltOfOne_);
-    const effects::EffectMask asked = (contact.state.effects & surfaceEffects) |
-                                      (tone ? effects::maskOf(EffectKind::tone) : effects::EffectMask{0});
+    const effects::EffectMask asked =
+        (contact.state.effects & surfaceEffects) | (tone ? effects::maskOf(EffectKind::tone) : effects::EffectMask{0});
     channels_.counters.askedFor.store(contact.state.touching ? asked : 0, std::memory_order_relaxed);
 
     AudioMessage& audio = channels_.toAudio.draft();

@@ -79,14 +79,13 @@ WaveVectors assignRibs(const Ingredients& ingredients, const WaveVectors& before
     std::size_t count = 0;
     Ingredients left = ingredients;
     for (std::size_t round = 0; round < ingredients.count; ++round) {
-        Ingredient& heaviest = *std::ranges::max_element(std::span(left.entries).first(left.count), {},
-                                                         &Ingredient::weight);
+        Ingredient& heaviest =
+            *std::ranges::max_element(std::span(left.entries).first(left.count), {}, &Ingredient::weight);
         const Ingredient each = heaviest;
         heaviest.weight = -1.0;
         for (const WaveVector& candidate : waveVectorsOf(each.material->embedding)) {
             const auto known = std::span(chosen).first(count);
-            if (count < chosen.size() && !candidate.isNone() &&
-                std::ranges::find(known, candidate) == known.end()) {
+            if (count < chosen.size() && !candidate.isNone() && std::ranges::find(known, candidate) == known.end()) {
                 chosen[count] = candidate;
                 ++count;
             }
@@ -120,8 +119,7 @@ std::optional<dsp::ToneCepstrum> resolveTone(const Ingredients& ingredients, dou
 dsp::ToneCepstrum designTilt() {
     constexpr double pivotHz = 150.0;
     constexpr double lowestHz = 10.0;
-    return dsp::toneCepstrum(
-        [=](double frequencyHz) { return std::log2(std::max(frequencyHz, lowestHz) / pivotHz); });
+    return dsp::toneCepstrum([=](double frequencyHz) { return std::log2(std::max(frequencyHz, lowestHz) / pivotHz); });
 }
 
 }  // namespace haptoflow::engine

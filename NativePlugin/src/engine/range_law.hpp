@@ -19,8 +19,8 @@ struct RangedMotion {
 };
 
 /// Clamps the motion to the model's range and continues level and frequency beyond it by the label's own exponents.
-/// Continuous in speed and force; the gain is limited to 16. Features `spatialScale` times as large are those of a speed
-/// so much lower; the level is that of the speed as it is.
+/// Continuous in speed and force; the gain is limited to 16. Features `spatialScale` times as large are those of a
+/// speed so much lower; the level is that of the speed as it is.
 [[nodiscard]] RangedMotion applyRangeLaw(const model::ModelHeader& header, const Material& material,
                                          const std::array<float, 2>& velocityMps, float forceNewtons,
                                          float spatialScale = 1.0F) noexcept;

@@ -168,7 +168,7 @@ bool SegmentPlanner::deliver(std::span<float, inference::segmentSamples> segment
     mirror_.commit(plannedStart_, sent.segment.samplesMps2);
     ribs_.add(plannedStart_, waveVectorsOf(request_.embedding),
               ribTurnsPerSample(request_.embedding, static_cast<double>(request_.motion[0]),
-                                               static_cast<double>(request_.motion[1])));
+                                static_cast<double>(request_.motion[1])));
 
     const std::int64_t head = playhead.timeline.head;
     const auto lead = static_cast<double>(leadSamples(playhead.blockAdvance, contact.readingRate));

@@ -39,8 +39,8 @@ public:
     [[nodiscard]] bool looksAgain() noexcept;
     /// Valid until `deliver` or the next `wake`.
     [[nodiscard]] const inference::SegmentRequest& request() const noexcept { return request_; }
-    /// The segment that was asked for, on its way to the callback; that of a blend is levelled here. True where the same contact needs another behind
-    /// it: read faster, or updated rarely, one segment does not last until the next.
+    /// The segment that was asked for, on its way to the callback; that of a blend is levelled here. True where the
+    /// same contact needs another behind it: read faster, or updated rarely, one segment does not last until the next.
     [[nodiscard]] bool deliver(std::span<float, inference::segmentSamples> segmentMps2) noexcept;
     /// Of a voice that plays a blend: what has to be generated beside its segments.
     [[nodiscard]] BlendBalance& balance() noexcept { return balance_; }

@@ -34,7 +34,8 @@ void OnnxLevelEstimator::levels(std::span<const SegmentRequest> requests, std::s
 
 void OnnxLevelEstimator::estimate(std::span<const SegmentRequest> requests, std::span<float> levelsMps2) {
     if (std::ranges::all_of(requests, [](const SegmentRequest& each) { return each.levelMps2.has_value(); })) {
-        std::ranges::transform(requests, levelsMps2.begin(), [](const SegmentRequest& each) { return *each.levelMps2; });
+        std::ranges::transform(requests, levelsMps2.begin(),
+                               [](const SegmentRequest& each) { return *each.levelMps2; });
         return;
     }
     graph_.setBatch(requests.size());

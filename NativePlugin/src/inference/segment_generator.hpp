@@ -56,7 +56,6 @@ public:
 /// Turns contact states into segments. Worker thread; one user at a time; may allocate.
 class SegmentGenerator : public LevelEstimator {
 public:
-
     /// Writes requests.size() segments of 200 samples in m/s^2, one after the other, into `segments`
     /// (requests.size() * 200 floats). Throws InferenceError when a graph fails; `segments` is then unspecified.
     virtual void generate(std::span<const SegmentRequest> requests, std::span<float> segments) = 0;

@@ -11,9 +11,9 @@
 
 namespace haptoflow::model {
 
-/// A value of a JSON document (a model's header, a material file) together with its path, so that every refusal can name
-/// the key. Views the JSON value.
-/// Each reader throws ModelError: oversized where a count or length is above its limit, inconsistent otherwise.
+/// A value of a JSON document (a model's header, a material file) together with its path, so that every refusal can
+/// name the key. Views the JSON value. Each reader throws ModelError: oversized where a count or length is above its
+/// limit, inconsistent otherwise.
 class HeaderNode {
 public:
     /// `document` is what refusals call the document; it must outlive the node.

@@ -175,6 +175,57 @@ namespace HaptoFlow.RepositoryTests
             voice.Dispose();
         }
 
+        [Test]
+        public void ARegisteredMaterialIsNamedBehindTheLabelsFeltAndReplaced()
+        {
+            string denim = File.ReadAllText(RepositoryFiles.In("Tests", "Golden", "material", "denim.haptomaterial"));
+            Assert.That(denim, Does.Contain("\"" + model.Space + "\""));
+            using HapticEngine engine = EngineWithoutWorker();
+            using HapticVoice voice = engine.OpenVoice(48000.0);
+            int index = engine.RegisterMaterial(denim);
+            Assert.That(index, Is.EqualTo(model.Labels.Count));
+            Assert.That(engine.MaterialCount(), Is.EqualTo(1));
+            Assert.That(engine.Material(index).Name, Is.EqualTo("denim"));
+            Assert.That(engine.Material(index).Index, Is.EqualTo(index));
+            ContactState state = Sliding(1);
+            state.Material = LabelBlend.Of(index);
+            Assert.That(Peak(engine, voice, state, 20), Is.GreaterThan(0.002f));
+            Assert.That(voice.EffectStatistics(HapticEffect.Tone).Runs, Is.GreaterThan(0UL));
+            engine.ReplaceMaterial(index, denim.Replace("denim", "canvas"));
+            Assert.That(engine.Material(index).Name, Is.EqualTo("canvas"));
+            Assert.That(engine.MaterialCount(), Is.EqualTo(1));
+        }
+
+        [Test]
+        public void AMaterialThatCannotSoundIsRefusedAndSaysWhy()
+        {
+            string denim = File.ReadAllText(RepositoryFiles.In("Tests", "Golden", "material", "denim.haptomaterial"));
+            using HapticEngine engine = EngineWithoutWorker();
+            var foreign = Assert.Throws<HaptoFlowException>(
+                () => engine.RegisterMaterial(denim.Replace(model.Space, "00000000")));
+            Assert.That(foreign!.Status, Is.EqualTo(HaptoFlowStatus.MaterialMismatch));
+            Assert.That(foreign.Message, Does.Contain(model.Space));
+            var broken = Assert.Throws<HaptoFlowException>(() => engine.RegisterMaterial("{\"format\": 1}"));
+            Assert.That(broken!.Status, Is.EqualTo(HaptoFlowStatus.MaterialInvalid));
+            Assert.That(broken.Message, Does.Contain("format"));
+            Assert.Throws<HaptoFlowException>(() => engine.ReplaceMaterial(model.Labels.Count, denim));
+            Assert.Throws<HaptoFlowException>(() => engine.Material(model.Labels.Count));
+            Assert.That(engine.MaterialCount(), Is.Zero);
+        }
+
+        [Test]
+        public void SpatialScaleAndToneOfAStateReachTheVoice()
+        {
+            using HapticEngine engine = EngineWithoutWorker();
+            using HapticVoice voice = engine.OpenVoice(48000.0);
+            ContactState state = Sliding(1);
+            state.SpatialScale = 99f;
+            state.ToneDbPerOctave = 3f;
+            Peak(engine, voice, state, 1);
+            Assert.That(voice.Statistics().Sanitised, Is.EqualTo(1UL), "the scale was limited");
+            Assert.That(voice.EffectStatistics(HapticEffect.Tone).Runs, Is.GreaterThan(0UL));
+        }
+
         private static void Generate(HapticGenerator generator, float[] segment, ulong seed)
         {
             var noise = new float[200];

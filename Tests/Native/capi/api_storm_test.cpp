@@ -365,7 +365,8 @@ private:
         info.struct_size = sizeOf(sizeof(info));
         switch (next() % 4) {
             case 0:
-                return haptoflow_engine_register_material(engine, material.data(), length, oneIn(16) ? nullptr : &found);
+                return haptoflow_engine_register_material(engine, material.data(), length,
+                                                          oneIn(16) ? nullptr : &found);
             case 1:
                 return haptoflow_engine_replace_material(engine, index, material.data(), length);
             case 2:

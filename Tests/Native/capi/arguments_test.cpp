@@ -90,7 +90,7 @@ TEST(ArgumentTest, NullPointersAreRefusedByEveryFunction) {
     const std::vector<float> embedding(HAPTOFLOW_EMBEDDING_SIZE);
     const std::vector<float> motion(HAPTOFLOW_MOTION_SIZE);
     const std::vector<float> waveform(HAPTOFLOW_SEGMENT_SAMPLES);
-    const haptoflow_batch batch{sizeof(batch),   1,      embedding.data(), motion.data(), waveform.data(),
+    const haptoflow_batch batch{sizeof(batch),   1,       embedding.data(), motion.data(), waveform.data(),
                                 waveform.data(), nullptr, nullptr};
     std::vector<float> numbers(HAPTOFLOW_SEGMENT_SAMPLES);
 

@@ -50,7 +50,14 @@ struct Golden {
     }
 
     [[nodiscard]] haptoflow_batch batch() const {
-        return {sizeof(haptoflow_batch), 3, embeddings.data(), motions.data(), previous.data(), noise.data(), nullptr, nullptr};
+        return {sizeof(haptoflow_batch),
+                3,
+                embeddings.data(),
+                motions.data(),
+                previous.data(),
+                noise.data(),
+                nullptr,
+                nullptr};
     }
 
     std::vector<float> embeddings;

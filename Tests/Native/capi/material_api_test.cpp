@@ -19,8 +19,8 @@
 namespace haptoflow::capi::testing {
 namespace {
 
-using ::testing::HasSubstr;
 using nlohmann::json;
+using ::testing::HasSubstr;
 
 std::string spaceOf(const haptoflow_model* model) {
     const char* space = nullptr;

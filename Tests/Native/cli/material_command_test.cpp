@@ -15,10 +15,10 @@
 namespace haptoflow::cli {
 namespace {
 
+using nlohmann::json;
 using ::testing::AllOf;
 using testing::Finished;
 using ::testing::HasSubstr;
-using nlohmann::json;
 
 class MaterialCommandTest : public testing::CommandLineTest {
 protected:
@@ -39,7 +39,8 @@ protected:
         }
         write(name, material.dump());
     }
-    void writeScene(const json& material, const json& more = json::object(), const std::string& name = "scene.json") const {
+    void writeScene(const json& material, const json& more = json::object(),
+                    const std::string& name = "scene.json") const {
         json surface = {{"name", "floor"}, {"shape", {{"plane", json::object()}}}, {"material", material}};
         surface.update(more);
         write(name, json({{"surfaces", {surface}}}).dump());

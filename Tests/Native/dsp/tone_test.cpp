@@ -32,7 +32,8 @@ double rising(double frequencyHz) {
 std::vector<float> tone(double frequencyHz, std::size_t count) {
     std::vector<float> samples(count);
     for (std::size_t i = 0; i < count; ++i) {
-        samples[i] = static_cast<float>(std::sin(2.0 * std::numbers::pi * frequencyHz * static_cast<double>(i) / rateHz));
+        samples[i] =
+            static_cast<float>(std::sin(2.0 * std::numbers::pi * frequencyHz * static_cast<double>(i) / rateHz));
     }
     return samples;
 }

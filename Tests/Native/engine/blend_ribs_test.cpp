@@ -100,7 +100,8 @@ TEST_F(BlendRibsTest, WhileAWeightSweepsFromOneRuledLabelToAnotherNoPhaseJumps) 
             }
             isKnown[rib] = true;
             // At 0.1 m/s along x and 0.05 m/s along y.
-            const double turns = (static_cast<double>(all[rib].x) * 100.0 + static_cast<double>(all[rib].y) * 50.0) / 2000.0;
+            const double turns =
+                (static_cast<double>(all[rib].x) * 100.0 + static_cast<double>(all[rib].y) * 50.0) / 2000.0;
             travelled[rib] = phase + turns * static_cast<double>(hop);
         }
         std::array<float, model::embeddingSize> embedding{};

@@ -33,7 +33,8 @@ protected:
         return render(states);
     }
     std::vector<float> render(const std::vector<ContactState>& states) {
-        std::vector<float> wave = renderOffline(model_, generator_, states, {.fullScaleMps2 = 1e5F, .tailSeconds = 0.0}).waveformMps2;
+        std::vector<float> wave =
+            renderOffline(model_, generator_, states, {.fullScaleMps2 = 1e5F, .tailSeconds = 0.0}).waveformMps2;
         wave.erase(wave.begin(), wave.begin() + 400);
         return wave;
     }
@@ -83,8 +84,8 @@ TEST_F(BlendSoundTest, NoPairOfLabelsIsLouderOrSofterThanBothByMoreThanHalfADeci
         }
         for (std::uint32_t first = 0; first < labels; ++first) {
             for (std::uint32_t second = first + 1; second < labels; ++second) {
-                const double blend = haptoflow::testing::levelDecibels(
-                    played({{first, 0.5F}, {second, 0.5F}}, velocity, 4.0));
+                const double blend =
+                    haptoflow::testing::levelDecibels(played({{first, 0.5F}, {second, 0.5F}}, velocity, 4.0));
                 const auto [softer, louder] = std::minmax(alone[first], alone[second]);
                 EXPECT_GT(blend, softer - 0.5) << model_.header().labels[first].name << " and "
                                                << model_.header().labels[second].name << " at " << speedMps;

@@ -43,8 +43,8 @@ TEST(MaterialTest, UnknownLabelsAndNegativeWeightsAreLeftOut) {
 
 TEST(MaterialTest, ABlendWithoutAnyWeightIsTheFirstLabel) {
     const testing::SmallLibrary small;
-    for (const MaterialBlend& empty : {MaterialBlend{}, testing::blendOf({{0, 0.0F}, {1, 0.0F}}),
-                                       testing::blendOf({{7, 1.0F}})}) {
+    for (const MaterialBlend& empty :
+         {MaterialBlend{}, testing::blendOf({{0, 0.0F}, {1, 0.0F}}), testing::blendOf({{7, 1.0F}})}) {
         EXPECT_EQ(resolveMaterial(small.ingredients(empty)).embedding[5], small.model.embedding(0)[5]);
     }
 }

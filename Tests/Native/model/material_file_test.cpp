@@ -79,9 +79,9 @@ TEST(MaterialFileTest, WhatIsOptionalMayBeLeftOutAndUnknownKeysAreIgnored) {
 }
 
 TEST(MaterialFileTest, AFileWithoutAnyOneOfItsOtherKeysIsRefusedByItsName) {
-    for (const char* key :
-         {"format", "version", "space", "name", "category", "provenance", "embedding", "range", "level_exponents",
-          "frequency_exponent", "periodic", "wavelength_metres", "stiffness_newtons_per_metre", "friction_coefficient"}) {
+    for (const char* key : {"format", "version", "space", "name", "category", "provenance", "embedding", "range",
+                            "level_exponents", "frequency_exponent", "periodic", "wavelength_metres",
+                            "stiffness_newtons_per_metre", "friction_coefficient"}) {
         Json material = validMaterial("0123abcd");
         material.erase(key);
         expectRefusal(material, std::string("\"") + key + '"');
@@ -252,8 +252,8 @@ TEST(MaterialMutationTest, AFileWithChangedBytesIsRefusedOrReadable) {
 TEST(MaterialMutationTest, AnyValueInThePlaceOfAnotherIsRefusedOrReadable) {
     const Json whole = validMaterial("0123abcd");
     const Json flat = whole.flatten();
-    const std::vector<Json> values{nullptr, true, -1, 0, 1e308, -1e308, "", "x", Json::array(), Json::object(),
-                                   18446744073709551615ULL};
+    const std::vector<Json> values{
+        nullptr, true, -1, 0, 1e308, -1e308, "", "x", Json::array(), Json::object(), 18446744073709551615ULL};
     int refused = 0;
     for (const auto& [pointer, unused] : flat.items()) {
         if (pointer.find("samples/") != std::string::npos && pointer.find("samples/0") == std::string::npos) {

@@ -43,6 +43,12 @@ void disturb(haptoflow_voice voice, Pace& pace) {
         state.touch_counter = update / 40;
         state.touching = update % 40 < 34 ? 1 : 0;
         state.labels[0] = update % 3;
+        // Tones come, change and go, features grow and shrink, and labels blend.
+        state.tone_db_per_octave = update % 5 == 0 ? 0.0F : static_cast<float>(update % 9) - 4.0F;
+        state.spatial_scale = 0.5F + static_cast<float>(update % 4);
+        state.label_count = 1 + update % 2;
+        state.labels[1] = (update / 2) % 3;
+        state.weights[1] = 0.5F;
         state.velocity_mps[1] = update % 29 == 0 ? std::nanf("") : 0.02F * static_cast<float>(update % 17);
         state.force_newtons = update % 31 == 0 ? INFINITY : 0.5F + 0.1F * static_cast<float>(update % 7);
         (void)haptoflow_voice_publish(voice, &state);
