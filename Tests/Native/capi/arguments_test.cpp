@@ -1,5 +1,5 @@
-#include "open_engine.hpp"
 #include "learning_options.hpp"
+#include "open_engine.hpp"
 #include "public_header.hpp"
 
 #include <array>

@@ -1,6 +1,6 @@
 // Every struct of the header that begins with struct_size, as callers compiled with an older or a newer header have it.
-#include "open_engine.hpp"
 #include "learning_options.hpp"
+#include "open_engine.hpp"
 #include "public_header.hpp"
 
 #include <array>
