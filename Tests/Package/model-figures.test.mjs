@@ -15,12 +15,14 @@ const pages = {
   'Documentation~/accuracy-and-time.md': 'npm run evaluate',
   'Documentation~/actuator-wiring.md': 'haptoflow-training measure-full-scale --page',
   'Documentation~/benchmarks.md': 'npm run bench -- --publish',
+  'Documentation~/own-materials.md': 'haptoflow-training few-shot --page',
   'Documentation~/stability.md': 'npm run test:soak -- --publish',
   'Training/results/default/README.md': 'npm run evaluate, haptoflow-training discriminate, and the words by hand',
 };
 
 const results = {
   'Training/results/accuracy-time.json': 'npm run evaluate',
+  'Training/results/few-shot.json': 'haptoflow-training few-shot',
   'Training/results/default/full-scale.json': 'haptoflow-training measure-full-scale',
   'Training/results/default/label-discrimination.json': 'haptoflow-training discriminate',
 };

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import os
 from pathlib import Path
 
 import torch
@@ -14,6 +15,7 @@ from haptoflow_training.evaluation.few_shot_report import (
     ENGINE,
     assembled,
     curve_table,
+    page_words,
     table,
     write_chart,
     write_results,
@@ -23,6 +25,7 @@ from haptoflow_training.evaluation.few_shot_study import (
     StudyPlan,
     cells_of,
 )
+from haptoflow_training.evaluation.model_stamp import sha256_of, with_measured_words
 from haptoflow_training.export.model_file import read_model_file
 from haptoflow_training.models.file_model import FileModel
 
@@ -48,6 +51,7 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser], su
     parser.add_argument("--model", required=True, type=Path, help=".haptoflow file trained on the recorder's labels")
     parser.add_argument("--results", required=True, type=Path, help="JSON file to write")
     parser.add_argument("--chart", type=Path, help="PNG file to write")
+    parser.add_argument("--page", type=Path, help="page whose measured part is written anew, with --chart's picture")
     parser.add_argument("--work", type=Path, default=Path("build/few-shot"), help="folder of what is done already")
     parser.add_argument("--materials", type=int, default=10, help="how many held-out materials (default 10)")
     parser.add_argument("--seed", type=int, default=2026, help="of materials, recordings and fits (default 2026)")
@@ -69,6 +73,7 @@ def _run(options: argparse.Namespace) -> int:
             cell["rows"][ENGINE] = engine_cells(plan, options.engine, material)
     header = {
         "model": model.file.header["name"],
+        "model_sha256": sha256_of(options.model),
         "seed": options.seed,
         "seconds": list(SECONDS),
         "fit_steps": plan.options.steps,
@@ -79,6 +84,11 @@ def _run(options: argparse.Namespace) -> int:
     write_results(options.results, results)
     if options.chart is not None:
         write_chart(options.chart, results)
+    if options.page is not None:
+        chart = options.chart or options.page.parent / "images" / "few-shot.png"
+        address = Path(os.path.relpath(chart, options.page.parent)).as_posix()
+        page = options.page.read_text(encoding="utf-8")
+        options.page.write_text(with_measured_words(page, page_words(results, address)), encoding="utf-8")
     print(table(results, 10.0))
     print()
     print(curve_table(results, "lsd_median_db"))

@@ -8,16 +8,18 @@ from pathlib import Path
 from typing import Any
 
 from haptoflow_training.evaluation.few_shot_figures import summarised
+from haptoflow_training.evaluation.model_stamp import model_line, picture_metadata
 
 ROWS = {
     "fit": "this fit: embedding, level and tone",
     "embedding": "embedding and level, no tone",
     "nearest": "nearest label with fitted level",
-    "autoregressive-3": "AR, order 20, three speed bins",
-    "autoregressive-1": "AR, order 20, one model",
+    "autoregressive-3": "autoregressive (AR), order 20, three speed bins",
+    "autoregressive-1": "autoregressive (AR), order 20, one model",
     "network": "network moved, too",
 }
 OTHER_DRAW = "other draw"
+_MAIN_SECONDS = 10.0
 ENGINE = "fit, in the engine"
 
 
@@ -83,6 +85,22 @@ def curve_table(results: Mapping[str, Any], figure: str, group: str = "all") -> 
     return "\n".join(lines)
 
 
+def page_words(results: Mapping[str, Any], chart: str) -> str:
+    """Markdown: what a page says of the study, with `chart` as the picture's address; every group that there is."""
+    main = [table(results, _MAIN_SECONDS)]
+    if "without ribs" in results["results"]:
+        main += ["Without the ruled materials:", table(results, _MAIN_SECONDS, "without ribs")]
+    return "\n\n".join(
+        [
+            model_line(results["model_sha256"]),
+            *main,
+            f"![Level, GFC and LSD from 3, 10, 30 and 120 s of recording]({chart})",
+            "LSD, median, with the interval of 95 % from resampling the materials:",
+            curve_table(results, "lsd_median_db"),
+        ]
+    )
+
+
 def write_chart(path: Path, results: Mapping[str, Any]) -> None:
     """Level, GFC and LSD over seconds of recording, PNG; intervals as bands."""
     import matplotlib
@@ -114,7 +132,7 @@ def write_chart(path: Path, results: Mapping[str, Any]) -> None:
         axis.grid(alpha=0.3)
     axes[0].legend(fontsize=7)
     path.parent.mkdir(parents=True, exist_ok=True)
-    figure.savefig(path, dpi=110)
+    figure.savefig(path, dpi=110, metadata=picture_metadata(results["model_sha256"]))
     pyplot.close(figure)
 
 
