@@ -17,11 +17,12 @@ import { addCounts, countsOfTap, countsOfTrx, judged, noCounts } from './test_co
 const sanitized = [
   { preset: 'asan-ubsan', folder: 'model' },
   { preset: 'asan-ubsan', folder: 'contact' },
-  { preset: 'asan-ubsan', folder: 'engine', tests: 'LiveVoice|LiveEngine|StallTest|LeadTest|WaveformTimeline' },
+  { preset: 'asan-ubsan', folder: 'engine', tests: 'LiveVoice|LiveEngine|StallTest|LeadTest|WaveformTimeline|MaterialLibrary|ToneVoice' },
+  { preset: 'asan-ubsan', folder: 'learning', except: 'LearnerTest' },
   { preset: 'asan-ubsan', folder: 'capi', except: 'ClosedLoop|Hard(Case|Scene)Test.*Shipped|RangeSweepSound' },
-  { preset: 'tsan', folder: 'engine', tests: 'LiveEngine|Mailbox|SegmentQueue' },
+  { preset: 'tsan', folder: 'engine', tests: 'LiveEngine|Mailbox|SegmentQueue|MaterialLibrary' },
   { preset: 'asan-ubsan', folder: 'unity' },
-  { preset: 'tsan', folder: 'capi', tests: 'ApiStorm|EngineApi|GeneratorApi|VoiceTable' },
+  { preset: 'tsan', folder: 'capi', tests: 'ApiStorm|EngineApi|GeneratorApi|MaterialApi|VoiceTable' },
   { preset: 'tsan', folder: 'unity', tests: 'AudioThread' },
   // VoiceTable holds a render up inside the voice, which is what this one watches for.
   { preset: 'rtsan', folder: 'capi', except: 'ClosedLoop|Shipped|OpenModel|VoiceTable' },

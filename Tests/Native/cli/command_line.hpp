@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <sys/wait.h>
+#include <unistd.h>
 
 #include <array>
 #include <cstdio>
@@ -26,7 +27,8 @@ struct Finished {
 /// `before` stands before it in the shell.
 inline Finished runHaptoFlow(const std::string& words, const std::string& before = "") {
     const auto errors = std::filesystem::temp_directory_path() /
-                        ("haptoflow_" + std::string(::testing::UnitTest::GetInstance()->current_test_info()->name()));
+                        ("haptoflow_" + std::string(::testing::UnitTest::GetInstance()->current_test_info()->name()) +
+                         '_' + std::to_string(getpid()));
     const std::string command = before +
                                 "HAPTOFLOW_ONNXRUNTIME='" HAPTOFLOW_TEST_ONNXRUNTIME
                                 "' HAPTOFLOW_MODEL='" HAPTOFLOW_TEST_DEFAULT_MODEL "' '" HAPTOFLOW_TEST_CLI "' " +
@@ -53,8 +55,8 @@ class CommandLineTest : public ::testing::Test {
 protected:
     void SetUp() override {
         const ::testing::TestInfo& info = *::testing::UnitTest::GetInstance()->current_test_info();
-        folder_ = std::filesystem::temp_directory_path() /
-                  ("haptoflow_" + std::string(info.test_suite_name()) + "_" + std::string(info.name()));
+        folder_ = std::filesystem::temp_directory_path() / ("haptoflow_" + std::string(info.test_suite_name()) + "_" +
+                                                            std::string(info.name()) + '_' + std::to_string(getpid()));
         std::filesystem::remove_all(folder_);
         std::filesystem::create_directories(folder_);
         write("scene.json", R"({"surfaces": [{"name": "floor", "shape": {"plane": {}}, "material": "wood"}]})");
