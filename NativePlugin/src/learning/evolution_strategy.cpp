@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numeric>
 #include <stdexcept>
+#include <utility>
 
 namespace haptoflow::learning {
 
@@ -76,7 +77,7 @@ const std::vector<std::vector<double>>& EvolutionStrategy::ask() {
 void EvolutionStrategy::tell(std::span<const double> scores) {
     std::vector<std::size_t> order(population_);
     std::iota(order.begin(), order.end(), std::size_t{0});
-    std::ranges::stable_sort(order, [&](std::size_t a, std::size_t b) { return scores[a] < scores[b]; });
+    std::ranges::sort(order, {}, [&](std::size_t each) { return std::pair(scores[each], each); });
 
     std::vector<double> step(size_);
     for (std::size_t rank = 0; rank < weights_.size(); ++rank) {

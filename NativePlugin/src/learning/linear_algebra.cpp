@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 namespace haptoflow::learning {
 namespace {
@@ -85,7 +86,7 @@ EigenDecomposition decompose(SymmetricMatrix matrix) {
     }
     std::vector<std::size_t> order(size);
     std::iota(order.begin(), order.end(), std::size_t{0});
-    std::ranges::stable_sort(order, [&](std::size_t a, std::size_t b) { return matrix.at(a, a) > matrix.at(b, b); });
+    std::ranges::sort(order, {}, [&](std::size_t each) { return std::pair(-matrix.at(each, each), each); });
     EigenDecomposition result;
     for (const std::size_t row : order) {
         result.values.push_back(matrix.at(row, row));

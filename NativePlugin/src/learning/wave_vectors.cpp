@@ -7,6 +7,7 @@
 #include <complex>
 #include <numbers>
 #include <optional>
+#include <tuple>
 #include <utility>
 
 namespace haptoflow::learning {
@@ -317,7 +318,8 @@ private:
                 }
             }
         }
-        std::ranges::stable_sort(points_, [](const Point& a, const Point& b) { return a.prominence > b.prominence; });
+        std::ranges::sort(points_, {},
+                          [](const Point& each) { return std::tuple(-each.prominence, each.kx, each.ky); });
     }
 
     static bool isMultiple(const Point& point, const WaveVector& of) {
