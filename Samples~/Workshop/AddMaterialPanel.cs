@@ -36,7 +36,7 @@ namespace HaptoFlow.Samples.Workshop
         private bool isCancelled;
         private double nextSeconds;
 
-        /// <summary>What the panel says.</summary>
+        /// <summary>The text that the panel shows.</summary>
         public string Text { get; private set; } = "";
 
         /// <summary>A material is being learnt.</summary>

@@ -12,7 +12,7 @@ namespace haptoflow::engine {
 /// For each wave vector of a material, turns along it.
 using RibTurns = std::array<double, inference::ribCount>;
 
-/// In cycles per millimetre along the surface's two axes.
+/// The ribs of a surface: how many cross a millimetre of way, along each of the surface's two axes.
 struct WaveVector {
     float x = 0.0F;
     float y = 0.0F;

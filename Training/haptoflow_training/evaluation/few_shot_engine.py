@@ -12,6 +12,7 @@ from haptoflow_training.evaluation.few_shot_cases import make_case
 from haptoflow_training.evaluation.few_shot_figures import condition_figures
 from haptoflow_training.evaluation.few_shot_study import MAIN_SECONDS, StudyPlan
 from haptoflow_training.export.material_file import SUFFIX
+from haptoflow_training.export.whole_file import write_whole
 from haptoflow_training.fewshot.material_fit import prepared
 from haptoflow_training.recordings.synthetic.materials import Material
 
@@ -41,7 +42,5 @@ def engine_cells(plan: StudyPlan, engine: Path, surface: Material) -> list[dict[
                 options=("--material", str(material), "--quiet"),
             )
             cells.append(condition_figures(condition, made.waveform_mps2[: len(condition.recorded)], None))
-    temporary = path.with_suffix(".part")
-    temporary.write_text(json.dumps(cells), encoding="utf-8")
-    temporary.replace(path)
+    write_whole(path, json.dumps(cells).encode("utf-8"))
     return cells

@@ -19,6 +19,7 @@ from haptoflow_training.evaluation.few_shot_cases import SECONDS, FewShotCase, m
 from haptoflow_training.evaluation.few_shot_figures import condition_figures
 from haptoflow_training.evaluation.few_shot_rivals import fit_autoregressive
 from haptoflow_training.export.material_file import Material, MaterialProvenance, write_material
+from haptoflow_training.export.whole_file import write_whole
 from haptoflow_training.fewshot.embedding_fit import FitOptions
 from haptoflow_training.fewshot.level_law import fit_level
 from haptoflow_training.fewshot.material_fit import FittedMaterial, as_material, fit_material
@@ -54,10 +55,7 @@ def cells_of(plan: StudyPlan, model: FileModel, material: Surface, advance: Call
         advance()
         return stored
     made = _measured(plan, model, make_case(material, plan.seed, max(plan.seconds)))
-    plan.work.mkdir(parents=True, exist_ok=True)
-    temporary = path.with_suffix(".part")
-    temporary.write_text(json.dumps(made), encoding="utf-8")
-    temporary.replace(path)
+    write_whole(path, json.dumps(made).encode("utf-8"))
     advance()
     return made
 

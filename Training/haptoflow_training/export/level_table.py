@@ -13,11 +13,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from haptoflow_training.export import material_sound
+from haptoflow_training.models.conditioning import REST_SPEED_MPS
+
 _Doubles = NDArray[np.float64]
 
-MOST_SPEEDS = 16
-# As the engine reads it: speeds are compared as log(v + this), forces are at least that.
-SPEED_OFFSET_MPS, LEAST_FORCE_NEWTONS = 0.0005, 0.02
 BINS_PER_OCTAVE = 6.0
 _CLOSE_ENOUGH = 0.25 * math.log(10.0) / 20.0
 
@@ -34,14 +34,9 @@ class LevelTable:
     speed_exponent: float
 
     def log_level(self, speed_mps: ArrayLike, force_newtons: ArrayLike) -> _Doubles:
-        """As the engine computes it."""
-        speed = np.log(np.asarray(speed_mps, dtype=np.float64) + SPEED_OFFSET_MPS)
-        knots = np.log(np.array(self.speeds_mps) + SPEED_OFFSET_MPS)
-        beyond = np.minimum(speed - knots[0], 0.0) + np.maximum(speed - knots[-1], 0.0)
-        force = np.log(np.maximum(np.asarray(force_newtons, dtype=np.float64), LEAST_FORCE_NEWTONS) / self.force_newtons)
-        return np.asarray(
-            np.interp(speed, knots, self.log_levels) + self.speed_exponent * beyond + self.force_exponent * force
-        )
+        """At any speed (m/s, 0 or more) and force (N)."""
+        table = material_sound.LevelTable(self.speeds_mps, self.log_levels, self.force_newtons, self.force_exponent)
+        return table.log_level(speed_mps, force_newtons, self.speed_exponent)
 
     def to_json(self) -> dict[str, Any]:
         return {
@@ -68,9 +63,9 @@ def table_through(
 ) -> LevelTable:
     """The table that follows a curve of speeds [n], rising, with the fewest of its points: within a quarter of a decibel,
     or 16 of them."""
-    place = np.log(speeds_mps + SPEED_OFFSET_MPS)
+    place = np.log(speeds_mps + REST_SPEED_MPS)
     kept = sorted({0, len(place) - 1})
-    while len(kept) < min(MOST_SPEEDS, len(place)):
+    while len(kept) < min(material_sound.MAXIMUM_LEVEL_SPEEDS, len(place)):
         misses = np.abs(np.interp(place, place[kept], log_levels[kept]) - log_levels)
         worst = int(misses.argmax())
         if misses[worst] < _CLOSE_ENOUGH:

@@ -1,4 +1,4 @@
-"""Reading a JSON table whose every value is checked: messages name file, key and what was expected."""
+"""Reads JSON tables and checks every value; messages name the file, the key and what was expected."""
 
 from __future__ import annotations
 

@@ -7,7 +7,6 @@ with its embedding, so it means something only under a model of the same space.
 from __future__ import annotations
 
 import json
-import os
 import zlib
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -31,6 +30,7 @@ from haptoflow_training.export.material_sound import (
     ToneTable,
 )
 from haptoflow_training.export.model_file import ModelFile
+from haptoflow_training.export.whole_file import write_whole
 
 FORMAT, VERSION = "haptoflow-material", 1
 SUFFIX = ".haptomaterial"
@@ -153,15 +153,7 @@ def encode_material(material: Material) -> str:
 
 def write_material(path: Path, material: Material) -> None:
     """Write atomically. A full disk leaves the old file as it was; InputError says what stood in the way."""
-    text = encode_material(material)
-    temporary = path.with_suffix(path.suffix + ".part")
-    try:
-        path.parent.mkdir(parents=True, exist_ok=True)
-        temporary.write_text(text, encoding="utf-8")
-        os.replace(temporary, path)
-    except OSError as error:
-        temporary.unlink(missing_ok=True)
-        raise InputError(f"{path}: cannot be written ({error.strerror})") from error
+    write_whole(path, encode_material(material).encode("utf-8"))
 
 
 def read_material(path: Path, space: str | None = None) -> Material:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import os
 import struct
 import zlib
 from dataclasses import dataclass
@@ -14,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from haptoflow_training.errors import InputError
+from haptoflow_training.export.whole_file import write_whole
 
 MAGIC = b"HAPTFLOW"
 VERSION = 1
@@ -81,14 +81,7 @@ def _blob_entry(name: str, kind: str, shape: list[int], content: bytes) -> dict[
 def write_model_file(path: Path, model: ModelFile) -> int:
     """Write atomically; returns the file's CRC-32. A full disk leaves the old file as it was."""
     content = encode_model_file(model)
-    path.parent.mkdir(parents=True, exist_ok=True)
-    temporary = path.with_suffix(path.suffix + ".part")
-    try:
-        temporary.write_bytes(content)
-        os.replace(temporary, path)
-    except OSError as error:
-        temporary.unlink(missing_ok=True)
-        raise InputError(f"{path}: cannot be written ({error.strerror})") from error
+    write_whole(path, content)
     return zlib.crc32(content)
 
 

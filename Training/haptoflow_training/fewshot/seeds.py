@@ -29,7 +29,7 @@ def choose_seeds(
     undone = tone
     if tone is not None:
         undone = replace(tone, gains_db=tuple(tuple(-gain for gain in row) for row in tone.gains_db))
-    # The tone's memory is taken from what was recorded before, and cut off again.
+    # Each seed is filtered together with the samples before it, which fill the filter's memory and are then cut off.
     windows = windows_of(recordings, SEED_SAMPLES + KERNEL_SAMPLES, _HOP_SAMPLES)
     phases = [
         phase[start + KERNEL_SAMPLES + SEED_SAMPLES // 2]

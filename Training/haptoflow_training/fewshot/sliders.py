@@ -9,7 +9,6 @@ from __future__ import annotations
 
 import json
 import math
-import os
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -21,6 +20,7 @@ from numpy.typing import NDArray
 from haptoflow_training.errors import InputError
 from haptoflow_training.export.material_file import model_space
 from haptoflow_training.export.model_file import ModelFile
+from haptoflow_training.export.whole_file import write_whole
 from haptoflow_training.models.label_embedding import WAVE_NUMBERS
 from haptoflow_training.recordings.synthetic.materials import Material
 
@@ -128,14 +128,7 @@ def find_sliders(model: ModelFile, materials: Sequence[Material]) -> Sliders:
 def write_sliders(path: Path, sliders: Sliders) -> None:
     """Write atomically; InputError says what stood in the way."""
     text = json.dumps(sliders.to_json(), allow_nan=False) + "\n"
-    temporary = path.with_suffix(path.suffix + ".part")
-    try:
-        path.parent.mkdir(parents=True, exist_ok=True)
-        temporary.write_text(text, encoding="utf-8")
-        os.replace(temporary, path)
-    except OSError as error:
-        temporary.unlink(missing_ok=True)
-        raise InputError(f"{path}: cannot be written ({error.strerror})") from error
+    write_whole(path, text.encode("utf-8"))
 
 
 def _rounded(values: _Doubles) -> list[float]:

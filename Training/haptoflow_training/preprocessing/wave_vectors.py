@@ -195,8 +195,8 @@ class _Plane:
         return vector
 
     def refined(self, vector: WaveVector) -> WaveVector:
-        """The same between the points of the plane: where line and octave together are strongest, or the centre of a line
-        that has no octave, as uneven threads have."""
+        """The vector to a finer step than the plane's: where the sum of its line and of the line at twice its frequency is
+        largest. Uneven threads have no line there: of those, the centre of the line itself."""
         best = np.array(vector)
         if self._has_octave(best):
             for reach in (2.0 * _STEP_PER_MM, _STEP_PER_MM / 2.0, _STEP_PER_MM / 8.0):

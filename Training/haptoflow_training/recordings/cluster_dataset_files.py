@@ -48,6 +48,20 @@ def read_table(path: Path) -> pandas.DataFrame:
     return pandas.read_csv(path, encoding="utf-8-sig", skipinitialspace=True)
 
 
+def open_table(path: Path, expected: str, table_reader: TableReader = read_table) -> pandas.DataFrame:
+    """The table as it is. DatasetFileError, with what was expected, where the file is empty, unreadable or none."""
+    try:
+        if path.stat().st_size == 0:
+            raise DatasetFileError(path, "empty file", expected)
+        return table_reader(path)
+    except InputError:
+        raise
+    except OSError as error:
+        raise DatasetFileError(path, f"cannot be read ({error.strerror or error})", expected) from error
+    except Exception as error:  # pandas and its Parquet engines raise many kinds for a damaged file
+        raise DatasetFileError(path, f"not a table ({str(error).splitlines()[0]})", expected) from error
+
+
 def read_sensor(
     path: Path, kind: SensorKind, table_reader: TableReader = read_table
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
@@ -57,16 +71,7 @@ def read_sensor(
     number are dropped, up to 1 % of them, and so are time stamps that repeat the one before.
     """
     header = f"columns {','.join(kind.columns)}"
-    try:
-        if path.stat().st_size == 0:
-            raise DatasetFileError(path, "empty file", header)
-        table = table_reader(path)
-    except InputError:
-        raise
-    except OSError as error:
-        raise DatasetFileError(path, f"cannot be read ({error.strerror or error})", header) from error
-    except Exception as error:  # pandas and its Parquet engines raise many kinds for a damaged file
-        raise DatasetFileError(path, f"not a table ({str(error).splitlines()[0]})", header) from error
+    table = open_table(path, header, table_reader)
     found = [str(column).strip() for column in table.columns]
     if not set(kind.columns) <= set(found):
         raise DatasetFileError(path, f"columns {','.join(found)}", header)

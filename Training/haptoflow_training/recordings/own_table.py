@@ -13,7 +13,7 @@ from haptoflow_training.errors import InputError
 from haptoflow_training.recordings.cluster_dataset_files import (
     TOLERATED_SHARE,
     DatasetFileError,
-    read_table,
+    open_table,
     rising_rows,
 )
 from haptoflow_training.recordings.recording import STANDARD_GRAVITY_MPS2
@@ -117,16 +117,7 @@ def read_own_table(path: Path, rate_hz: float | None, *, with_acceleration: bool
 
 def _read_columns(path: Path) -> Mapping[str, object]:
     expected = f"a table with columns {TIME_COLUMN} and acceleration ({names_of(ACCELERATION_FORMS)})"
-    try:
-        if path.stat().st_size == 0:
-            raise DatasetFileError(path, "empty file", expected)
-        table = read_table(path)
-    except InputError:
-        raise
-    except OSError as error:
-        raise DatasetFileError(path, f"cannot be read ({error.strerror or error})", expected) from error
-    except Exception as error:  # pandas and its Parquet engines raise many kinds for a damaged file
-        raise DatasetFileError(path, f"not a table ({str(error).splitlines()[0]})", expected) from error
+    table = open_table(path, expected)
     names = [str(name).strip() for name in table.columns]
     repeated = sorted({name for name in names if names.count(name) > 1})
     if repeated:

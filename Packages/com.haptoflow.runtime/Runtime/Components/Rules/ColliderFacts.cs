@@ -66,7 +66,7 @@ namespace HaptoFlow
         /// <summary>Submeshes of a mesh collider, layers of a terrain; 1 for anything else.</summary>
         public int Parts { get; } = 1;
 
-        /// <summary>Materials that the object's renderer shows.</summary>
+        /// <summary>How many materials the object's renderer has; 0 without a renderer.</summary>
         public int RendererMaterialCount => rendererMaterials.Length;
 
         /// <summary>The renderer's material of a submesh; the first for colliders that are no meshes.</summary>

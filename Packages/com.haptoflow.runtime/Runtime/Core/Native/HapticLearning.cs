@@ -24,7 +24,7 @@ namespace HaptoFlow
         /// <summary>Of the recording; empty where nobody knows.</summary>
         public string Licence { get; set; } = "";
 
-        /// <summary>Name of the tier that is fitted; null for the model's default.</summary>
+        /// <summary>The tier of the model that the material is fitted to, by name; null for the default tier.</summary>
         public string? Tier { get; set; }
 
         /// <summary>Key of all noise.</summary>
@@ -134,8 +134,8 @@ namespace HaptoFlow
         /// <summary>Cancels it where it is under way. Does not wait.</summary>
         public void Dispose() => Cancel();
 
-        /// <summary>Cancels all that are under way and waits for their ends: native code must not outlive a process or
-        /// an application domain.</summary>
+        /// <summary>Cancels all learnings and waits until they have ended, because native code must not call back into a
+        /// process or an application domain that is gone.</summary>
         public static void EndAll()
         {
             HapticLearning[] all;

@@ -1,0 +1,21 @@
+"""Files that are written whole or not at all."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+
+from haptoflow_training.errors import InputError
+
+
+def write_whole(path: Path, content: bytes) -> None:
+    """Write atomically; makes the folder. A full disk leaves the old file as it was; InputError says what stood in the
+    way."""
+    temporary = path.with_suffix(path.suffix + ".part")
+    try:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        temporary.write_bytes(content)
+        os.replace(temporary, path)
+    except OSError as error:
+        temporary.unlink(missing_ok=True)
+        raise InputError(f"{path}: cannot be written ({error.strerror})") from error
