@@ -155,8 +155,8 @@ Track readAnew(const Track& track) {
     return result;
 }
 
-/// Velocities from positions: the slope of a cubic that is fitted to a window of evenly spaced readings (Savitzky-Golay).
-/// It averages the tracker's steps and has no bias at constant speed or acceleration.
+/// Velocities from positions: the slope of a cubic that is fitted to a window of evenly spaced readings
+/// (Savitzky-Golay). It averages the tracker's steps and has no bias at constant speed or acceleration.
 Track slopesOf(const Track& positions) {
     const Track read = readAnew(positions);
     const double step = std::max(medianStep(read.timeSeconds), 1e-3);

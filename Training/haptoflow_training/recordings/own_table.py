@@ -9,7 +9,6 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from haptoflow_training.errors import InputError
 from haptoflow_training.recordings.cluster_dataset_files import (
     TOLERATED_SHARE,
     DatasetFileError,
