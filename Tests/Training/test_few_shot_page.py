@@ -40,6 +40,7 @@ def test_every_command_of_the_page_runs_and_writes_what_it_names(
         quick = {
             "add-material": ["--steps", "2"],
             "sliders": [],
+            "measure-wave-vectors": ["--every", "60"],
             # What takes minutes is stored already.
             "few-shot": ["--materials", "1", "--work", str(work)],
         }[words[0]]
@@ -48,6 +49,6 @@ def test_every_command_of_the_page_runs_and_writes_what_it_names(
         for before, named in zip(words[:-1], words[1:], strict=True):
             if before in ("-o", "--results", "--chart"):
                 assert (tmp_path / named).stat().st_size > 0
-    assert ran == {"add-material", "sliders", "few-shot"}
+    assert ran == {"add-material", "sliders", "few-shot", "measure-wave-vectors"}
     assert (tmp_path / "doormat.haptomaterial").exists()
     assert "fit, in the engine" in (tmp_path / "few-shot.json").read_text(encoding="utf-8")

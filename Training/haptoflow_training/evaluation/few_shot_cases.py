@@ -64,24 +64,33 @@ def study_materials(count: int, seed: int) -> tuple[Material, ...]:
 
 def make_case(material: Material, seed: int, longest_seconds: float = SECONDS[-1]) -> FewShotCase:
     """Deterministic by material and seed."""
+    rides = make_rides(material, seed, max(2, round(longest_seconds / _RIDE_SECONDS)))
+    settings = PreprocessingSettings()
+    return FewShotCase(
+        material,
+        rides,
+        tuple(_condition(material, number, seed, settings) for number in range(len(_CONDITIONS))),
+    )
+
+
+def make_rides(
+    material: Material, seed: int, count: int, *, guided_share: float = 1.0
+) -> tuple[MaterialRecording, ...]:
+    """`count` rides of 5 s in the recorder's frame, slow and fast, light and firm in turn."""
     settings = PreprocessingSettings()
     rides = []
-    for number in range(max(2, round(longest_seconds / _RIDE_SECONDS))):
+    for number in range(count):
         speed, force = _RIDES[number % len(_RIDES)]
         ride = record_hand_condition(
             material,
             RecordingIdentity(material.texture_id, None, speed, force, number),
             seed=seed,
             duration_seconds=_RIDE_SECONDS + 2.0 * settings.trim_seconds + 0.05,
-            guided_share=1.0,
+            guided_share=guided_share,
             specimen=TRAINING_SPECIMENS[number % len(TRAINING_SPECIMENS)],
         )
         rides.append(_as_recording(f"ride-{number + 1}", material.label, preprocess_recording(ride, settings)))
-    return FewShotCase(
-        material,
-        tuple(rides),
-        tuple(_condition(material, number, seed, settings) for number in range(len(_CONDITIONS))),
-    )
+    return tuple(rides)
 
 
 def _condition(material: Material, number: int, seed: int, settings: PreprocessingSettings) -> FewShotCondition:

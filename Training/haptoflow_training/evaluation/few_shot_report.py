@@ -90,6 +90,8 @@ def page_words(results: Mapping[str, Any], chart: str) -> str:
     main = [table(results, _MAIN_SECONDS)]
     if "without ribs" in results["results"]:
         main += ["Without the ruled materials:", table(results, _MAIN_SECONDS, "without ribs")]
+    if "with ribs" in results["results"]:
+        main += ["The ruled materials alone:", table(results, _MAIN_SECONDS, "with ribs")]
     return "\n\n".join(
         [
             model_line(results["model_sha256"]),
@@ -114,7 +116,7 @@ def write_chart(path: Path, results: Mapping[str, Any]) -> None:
         ("gfc_mean", "GFC, mean"),
         ("lsd_median_db", "LSD 20-450 Hz, median (dB)"),
     )
-    figure, axes = pyplot.subplots(1, len(panels), figsize=(13.0, 4.2), layout="constrained")
+    figure, axes = pyplot.subplots(1, len(panels), figsize=(13.0, 4.7), layout="constrained")
     for axis, (key, words) in zip(axes, panels, strict=True):
         for row, label in ROWS.items():
             known = [(seconds, rows[f"{row} {seconds:g}"][key]) for seconds in lengths if f"{row} {seconds:g}" in rows]
@@ -130,7 +132,7 @@ def write_chart(path: Path, results: Mapping[str, Any]) -> None:
         axis.set_xlabel("seconds of recording")
         axis.set_title(words, fontsize=10)
         axis.grid(alpha=0.3)
-    axes[0].legend(fontsize=7)
+    figure.legend(*axes[0].get_legend_handles_labels(), loc="outside lower center", ncols=4, fontsize=8)
     path.parent.mkdir(parents=True, exist_ok=True)
     figure.savefig(path, dpi=110, metadata=picture_metadata(results["model_sha256"]))
     pyplot.close(figure)
