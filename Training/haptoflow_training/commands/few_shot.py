@@ -34,8 +34,8 @@ _EXAMPLES = """examples:
   haptoflow-training few-shot --model default.haptoflow --engine build/native/haptoflow --results few-shot.json
   haptoflow-training few-shot --model mine.haptoflow --materials 4 --results mine.json
 
-A study that is stopped goes on where it was when it is started again with the same --work folder. About a minute of one
-core a material.
+A study that is stopped goes on where it was when it is started again with the same --work folder. About four minutes
+of one core a material.
 """
 
 

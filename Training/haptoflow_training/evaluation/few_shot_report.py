@@ -116,7 +116,7 @@ def write_chart(path: Path, results: Mapping[str, Any]) -> None:
         ("gfc_mean", "GFC, mean"),
         ("lsd_median_db", "LSD 20-450 Hz, median (dB)"),
     )
-    figure, axes = pyplot.subplots(1, len(panels), figsize=(13.0, 4.7), layout="constrained")
+    figure, axes = pyplot.subplots(1, len(panels), figsize=(13.0, 4.7))
     for axis, (key, words) in zip(axes, panels, strict=True):
         for row, label in ROWS.items():
             known = [(seconds, rows[f"{row} {seconds:g}"][key]) for seconds in lengths if f"{row} {seconds:g}" in rows]
@@ -133,7 +133,8 @@ def write_chart(path: Path, results: Mapping[str, Any]) -> None:
         axis.set_title(words, fontsize=10)
         axis.grid(alpha=0.3)
     handles, labels = axes[0].get_legend_handles_labels()
-    axes[1].legend(handles, labels, loc="upper center", bbox_to_anchor=(0.5, -0.14), ncols=4, fontsize=8)
+    figure.legend(handles, labels, loc="lower center", ncols=4, fontsize=8)
+    figure.subplots_adjust(left=0.04, right=0.99, top=0.93, bottom=0.25, wspace=0.16)
     path.parent.mkdir(parents=True, exist_ok=True)
     figure.savefig(path, dpi=110, metadata=picture_metadata(results["model_sha256"]))
     pyplot.close(figure)
