@@ -110,13 +110,15 @@ void printEffects(std::ostream& stream, const Json& rows) {
 
 void printBlends(std::ostream& stream, const Json& rows) {
     std::vector<Row> table{{"materials", "publish us p50", "p99", "worst", "x one", "update ms p50", "p99", "worst",
-                            "x one", "callback us p50", "p99", "worst", "x one"}};
+                            "x one", "callback us p50", "p99", "worst", "x one", "worker % of a core", "x one"}};
     for (const Json& entry : rows) {
         Row row{figure(entry["materials"])};
         for (const char* figures : {"publish_us", "ms_per_update", "callback_us"}) {
             appendRanks(row, entry[figures]);
             row.push_back(figure(entry[figures]["ratio"]));
         }
+        row.push_back(figure(entry["worker_percent"]));
+        row.push_back(figure(entry["worker_ratio"]));
         table.push_back(row);
     }
     printTable(stream, "blends, one contact state: main thread, worker, one block of the callback", table);

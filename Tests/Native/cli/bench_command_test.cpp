@@ -121,6 +121,8 @@ TEST(BenchCommandTest, ABlendIsMeasuredBesideOneMaterialOnEveryThreadThatItCosts
             expectRanked(row[figures], figures);
             expectRatio(row[figures]["ratio"], row[figures]["p50"], rows[0][figures]["p50"], "to one material");
         }
+        EXPECT_GT(row["worker_percent"].get<double>(), 0.0);
+        expectRatio(row["worker_ratio"], row["worker_percent"], rows[0]["worker_percent"], "to one material");
     }
     EXPECT_THAT(materials, ::testing::ElementsAre(1, 2, 4));
 }
