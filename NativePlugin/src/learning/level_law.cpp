@@ -55,8 +55,9 @@ std::vector<Frame> framesOf(const PreparedRecording& recording, const Sliding& s
             const double speed = recording.speedMps(i) + model::LevelTable::restMps;
             frame.power += value * value / static_cast<double>(frameSamples);
             squaredSpeed += speed * speed / static_cast<double>(frameSamples);
-            frame.logForce += std::log(std::max(static_cast<double>(recording.motion[i][2]), model::LevelTable::weakestNewtons)) /
-                              static_cast<double>(frameSamples);
+            frame.logForce +=
+                std::log(std::max(static_cast<double>(recording.motion[i][2]), model::LevelTable::weakestNewtons)) /
+                static_cast<double>(frameSamples);
         }
         // Levels grow about as the speed: what a frame's power is the mean of goes with the mean of the square.
         frame.logSpeed = 0.5 * std::log(squaredSpeed);
