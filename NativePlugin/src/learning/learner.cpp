@@ -127,9 +127,8 @@ private:
                                        " s; from 10 s on a material is learnt more truly");
         }
         if (sliding_.speedMps[2] < 1.3 * sliding_.speedMps[0]) {
-            report_.warnings.push_back(
-                "the speed hardly changes: how level and spectrum follow it is taken from the "
-                "model's labels");
+            report_.warnings.emplace_back(
+                "the speed hardly changes: how level and spectrum follow it is taken from the model's labels");
         }
         const double lost = 1.0 - std::accumulate(recording_.isUsable.begin(), recording_.isUsable.end(), 0.0) /
                                       static_cast<double>(recording_.isUsable.size());
@@ -279,6 +278,7 @@ private:
                 }
                 const std::vector<std::vector<double>>& points = strategy.ask();
                 std::vector<Embedding> embeddings;
+                embeddings.reserve(points.size());
                 for (const std::vector<double>& point : points) {
                     embeddings.push_back(space.at(start, point));
                 }
