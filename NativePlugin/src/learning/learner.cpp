@@ -74,7 +74,7 @@ public:
         report_.seeds = seeds.size();
         report_.toneSpeeds = tone.tone.speedsMps.size();
         report_.speedExponent = level_.speedExponent;
-        report_.forceExponent = level_.forceExponent;
+        report_.forceExponent = level_.table.forceExponent;
         report_.segments = loop.segments();
         report_.seconds = elapsedSeconds();
         LearntMaterial learnt;
@@ -127,9 +127,8 @@ private:
                                        " s; from 10 s on a material is learnt more truly");
         }
         if (sliding_.speedMps[2] < 1.3 * sliding_.speedMps[0]) {
-            report_.warnings.push_back(
-                "the speed hardly changes: how level and spectrum follow it is taken from the "
-                "model's labels");
+            report_.warnings.emplace_back(
+                "the speed hardly changes: how level and spectrum follow it is taken from the model's labels");
         }
         const double lost = 1.0 - std::accumulate(recording_.isUsable.begin(), recording_.isUsable.end(), 0.0) /
                                       static_cast<double>(recording_.isUsable.size());
@@ -279,6 +278,7 @@ private:
                 }
                 const std::vector<std::vector<double>>& points = strategy.ask();
                 std::vector<Embedding> embeddings;
+                embeddings.reserve(points.size());
                 for (const std::vector<double>& point : points) {
                     embeddings.push_back(space.at(start, point));
                 }
@@ -307,8 +307,8 @@ private:
         if (tone.tone.speedsMps.empty()) {
             return tone;
         }
-        for (std::size_t i = 0; i < level_.speedsMps.size(); ++i) {
-            level_.logLevels[i] += correction(tone, level_.speedsMps[i]);
+        for (std::size_t i = 0; i < level_.table.speedsMps.size(); ++i) {
+            level_.table.logLevels[i] += correction(tone, level_.table.speedsMps[i]);
         }
         measureSpectra(fit, generated, tone);
         return tone;
