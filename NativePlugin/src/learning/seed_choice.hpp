@@ -1,11 +1,13 @@
 #pragma once
 
 #include "learning/prepared_recording.hpp"
+#include "learning/rib_alignment.hpp"
 #include "learning/sliding.hpp"
 #include "learning/tone_fit.hpp"
 #include "model/model_header.hpp"
 
 #include <array>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -16,14 +18,18 @@ struct LearntSeed {
     double forceNewtons = 0.0;
     /// With an RMS of 1, so that the tone makes the recording's sound of it.
     std::array<float, model::seedSamples> samples{};
+    /// Turns along each wave vector at sample 200, as the network counts them; empty without ribs.
+    std::optional<std::array<double, inference::ribCount>> ribPhase;
     /// Sample of the recording at which it begins.
     std::size_t start = 0;
 };
 
 inline constexpr std::size_t mostLearntSeeds = 8;
 
-/// Stretches of the recording at speeds, forces and directions as different as it has them.
+/// Stretches of the recording at speeds, forces and directions as different as it has them. `ways`: of the recording's
+/// samples, empty without ribs; `generated`: the network's ribs.
 [[nodiscard]] std::vector<LearntSeed> chooseSeeds(const PreparedRecording& recording, const Sliding& sliding,
-                                                  std::span<const float> unitWave, const Tone& tone);
+                                                  std::span<const float> unitWave, const Tone& tone,
+                                                  std::span<const RibWay> ways, const RibFundamentals& generated);
 
 }  // namespace haptoflow::learning

@@ -1,5 +1,4 @@
 #include "learning/wave_vectors.hpp"
-#include "learning/level_law.hpp"
 #include "learning/made_recording.hpp"
 
 #include <gtest/gtest.h>
@@ -18,13 +17,7 @@ std::vector<WaveVector> vectorsOf(const MadeRecording& made) {
     model::ModelHeader header;
     header.speedMps.maximum = 1.5;
     const Sliding sliding = findSliding(recording, header);
-    const LevelLaw law = fitLevelLaw(recording, sliding, {});
-    std::vector<float> unit(recording.wave.size());
-    for (std::size_t i = 0; i < unit.size(); ++i) {
-        unit[i] = static_cast<float>(
-            recording.wave[i] / std::exp(law.logLevel(std::max(recording.speedMps(i), 0.004), recording.motion[i][2])));
-    }
-    return findWaveVectors(recording, sliding, unit);
+    return findWaveVectors(recording, sliding);
 }
 
 TEST(WaveVectorsTest, RibsAreFoundWithinTwoPercentInPitchAndDirection) {
