@@ -156,8 +156,7 @@ std::vector<PathWindow> pathWindows(const PreparedRecording& recording, const Sl
                 start += shortestSamples / 2;
                 continue;
             }
-            if (std::optional<PathWindow> window =
-                    windowAt(recording, std::span(white).subspan(start, count), first)) {
+            if (std::optional<PathWindow> window = windowAt(recording, std::span(white).subspan(start, count), first)) {
                 windows.push_back(std::move(*window));
             }
             start += count / 2;

@@ -17,7 +17,8 @@ namespace haptoflow::learning {
 [[nodiscard]] double textureDistance(std::span<const TextureFigures> recorded,
                                      std::span<const TextureFigures> generated, double bandwidthHz);
 
-/// What the network makes of an embedding: its figures at each speed, and how its ribs lie to the phase that it is told.
+/// What the network makes of an embedding: its figures at each speed, and how its ribs lie to the phase that it is
+/// told.
 struct Resynthesis {
     std::vector<TextureFigures> figures;
     RibFundamentals fundamentals{};

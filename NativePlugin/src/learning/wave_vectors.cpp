@@ -83,12 +83,10 @@ public:
             const std::size_t step = fundamentalOf(row, place);
             const Harmonics gains = linesOf(evidence_.gains, row, step);
             const Harmonics ratios = linesOf(evidence_.ratios, row, step);
-            if (*std::ranges::max_element(ratios) >= leastRatio &&
-                gains[0] + gains[1] >= lowHarmonicsShare * score) {
+            if (*std::ranges::max_element(ratios) >= leastRatio && gains[0] + gains[1] >= lowHarmonicsShare * score) {
                 const double length = static_cast<double>(step) * stepPerMm;
-                return Clearest{{length * std::cos(angleOf(row)), length * std::sin(angleOf(row))},
-                                audible(gains),
-                                score};
+                return Clearest{
+                    {length * std::cos(angleOf(row)), length * std::sin(angleOf(row))}, audible(gains), score};
             }
             forget(scores, row, place);
         }

@@ -20,9 +20,9 @@ struct WaveVector {
 /// the same speed. Where all strokes go one way, a vector lies along it.
 ///
 /// A ruled surface with wave vector k sounds at |k . v|: with the place x on the surface, it is a line at
-/// exp(2 pi i k . x), whatever speed and direction do meanwhile. The mean of the windows' spectra at k, over that of its
-/// neighbours, is the evidence for a line there; a rib's evidence is that of its first six harmonics together. Training
-/// does the same (preprocessing/wave_vectors.py).
+/// exp(2 pi i k . x), whatever speed and direction do meanwhile. The mean of the windows' spectra at k, over that of
+/// its neighbours, is the evidence for a line there; a rib's evidence is that of its first six harmonics together.
+/// Training does the same (preprocessing/wave_vectors.py).
 [[nodiscard]] std::vector<WaveVector> findWaveVectors(const PreparedRecording& recording, const Sliding& sliding);
 
 }  // namespace haptoflow::learning
