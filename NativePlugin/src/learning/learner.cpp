@@ -10,6 +10,7 @@
 #include "learning/plain_number.hpp"
 #include "learning/prepared_recording.hpp"
 #include "learning/seed_choice.hpp"
+#include "learning/seed_ribs.hpp"
 #include "learning/sliding.hpp"
 #include "learning/texture_fit.hpp"
 #include "learning/thread_clock.hpp"
@@ -71,10 +72,9 @@ public:
         report_.nearestLabel = label.name;
         Embedding embedding = fitEmbedding(fit, space, space.ofLabel(nearest));
         say(0.9, "tone");
-        const Resynthesis made = fit.resynthesis(embedding);
-        ToneFit tone = fitTones(fit, made.figures);
-        const std::vector<LearntSeed> seeds =
-            chooseSeeds(recording_, sliding_, unitWave_, tone.tone, fit.ways(), made.fundamentals);
+        ToneFit tone = fitTones(fit, embedding);
+        std::vector<LearntSeed> seeds = chooseSeeds(recording_, sliding_, unitWave_, tone.tone);
+        placeRibs(seeds, loop, embedding, settings_.seed);
         report_.seeds = seeds.size();
         report_.toneSpeeds = tone.tone.speedsMps.size();
         report_.speedExponent = level_.speedExponent;
@@ -308,7 +308,8 @@ private:
         return distances[1] < distances[0] ? fitted : start;
     }
 
-    ToneFit fitTones(const TextureFit& fit, std::span<const TextureFigures> generated) {
+    ToneFit fitTones(TextureFit& fit, const Embedding& embedding) {
+        const std::vector<TextureFigures> generated = fit.resynthesis(embedding);
         ToneFit tone = fitTone(fit.bins(), fit.recorded(), generated, recording_.bandwidthHz);
         if (tone.tone.speedsMps.empty()) {
             return tone;

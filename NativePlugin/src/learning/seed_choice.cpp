@@ -101,8 +101,7 @@ dsp::ToneKernel inverseKernel(const Tone& tone, double speedMps) {
 }  // namespace
 
 std::vector<LearntSeed> chooseSeeds(const PreparedRecording& recording, const Sliding& sliding,
-                                    std::span<const float> unitWave, const Tone& tone, std::span<const RibWay> ways,
-                                    const RibFundamentals& generated) {
+                                    std::span<const float> unitWave, const Tone& tone) {
     const std::vector<Candidate> candidates = candidatesOf(recording, sliding, unitWave);
     std::vector<LearntSeed> seeds;
     if (candidates.empty()) {
@@ -129,11 +128,6 @@ std::vector<LearntSeed> chooseSeeds(const PreparedRecording& recording, const Sl
         if (rms > 0.0 && std::isfinite(rms)) {
             for (float& value : seed.samples) {
                 value = static_cast<float>(value / rms);
-            }
-            if (!ways.empty()) {
-                const std::span<const RibWay> own = ways.subspan(each.start, model::seedSamples);
-                seed.ribPhase =
-                    alignedPhase(own[model::seedSamples / 2], ribFundamentals(seed.samples, own), generated);
             }
             seeds.push_back(seed);
         }

@@ -1,7 +1,7 @@
 #pragma once
 
+#include "inference/segment_generator.hpp"
 #include "learning/prepared_recording.hpp"
-#include "learning/rib_alignment.hpp"
 #include "learning/sliding.hpp"
 #include "learning/tone_fit.hpp"
 #include "model/model_header.hpp"
@@ -19,17 +19,15 @@ struct LearntSeed {
     /// With an RMS of 1, so that the tone makes the recording's sound of it.
     std::array<float, model::seedSamples> samples{};
     /// Turns along each wave vector at sample 200, as the network counts them; empty without ribs.
-    std::optional<std::array<double, inference::ribCount>> ribPhase;
+    std::optional<std::array<double, inference::ribCount>> ribPhase{};
     /// Sample of the recording at which it begins.
     std::size_t start = 0;
 };
 
 inline constexpr std::size_t mostLearntSeeds = 8;
 
-/// Stretches of the recording at speeds, forces and directions as different as it has them. `ways`: of the recording's
-/// samples, empty without ribs; `generated`: the network's ribs.
+/// Stretches of the recording at speeds, forces and directions as different as it has them.
 [[nodiscard]] std::vector<LearntSeed> chooseSeeds(const PreparedRecording& recording, const Sliding& sliding,
-                                                  std::span<const float> unitWave, const Tone& tone,
-                                                  std::span<const RibWay> ways, const RibFundamentals& generated);
+                                                  std::span<const float> unitWave, const Tone& tone);
 
 }  // namespace haptoflow::learning

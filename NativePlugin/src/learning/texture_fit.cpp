@@ -78,6 +78,24 @@ double oneDistance(const TextureFigures& recorded, const TextureFigures& generat
            lineWeight * lineDistance(recorded, generated);
 }
 
+std::vector<RibWay> waysAlong(const PreparedRecording& recording,
+                              std::span<const float, 2 * inference::ribCount> waveVectors) {
+    constexpr double millimetresPerSample = 1000.0 / inference::waveformRateHz;
+    if (std::ranges::all_of(waveVectors, [](float value) { return value == 0.0F; })) {
+        return {};
+    }
+    std::vector<RibWay> ways(recording.motion.size());
+    RibWay way{};
+    for (std::size_t i = 0; i < ways.size(); ++i) {
+        ways[i] = way;
+        for (std::size_t rib = 0; rib < way.size(); ++rib) {
+            way[rib] += millimetresPerSample * (static_cast<double>(waveVectors[2 * rib]) * recording.motion[i][0] +
+                                                static_cast<double>(waveVectors[2 * rib + 1]) * recording.motion[i][1]);
+        }
+    }
+    return ways;
+}
+
 std::vector<double> slidingSpeeds(const PreparedRecording& recording, const Sliding& sliding) {
     std::vector<double> speeds;
     for (std::size_t i = 0; i < sliding.isSliding.size(); ++i) {
@@ -111,7 +129,7 @@ TextureFit::TextureFit(ClosedLoop& loop, const PreparedRecording& recording, con
       recording_(recording),
       sliding_(sliding),
       unitWave_(unitWave),
-      ways_(ribWays(recording, waveVectors)),
+      ways_(waysAlong(recording, waveVectors)),
       seed_(seed),
       bins_(SpeedBins::divide(slidingSpeeds(recording, sliding), mostBins)) {
     TextureMeter meter(bins_.count());
@@ -203,7 +221,7 @@ std::vector<double> TextureFit::distances(std::span<const Embedding> embeddings,
     return result;
 }
 
-Resynthesis TextureFit::resynthesis(const Embedding& embedding) {
+std::vector<TextureFigures> TextureFit::resynthesis(const Embedding& embedding) {
     constexpr std::size_t hopAt72Hz = 28;
     constexpr std::size_t mostChains = 96;
     constexpr std::size_t usualChains = 60;
@@ -228,32 +246,11 @@ Resynthesis TextureFit::resynthesis(const Embedding& embedding) {
                                                 .seed = seed_,
                                                 .round = 1'000'000});
     TextureMeter meter(bins_.count());
-    Resynthesis made;
     for (std::size_t k = 0; k < chains.size(); ++k) {
-        const std::span<const float> wave = std::span(waves).subspan(k * chainSamples, chainSamples);
-        const std::size_t start = chains[k].start + warmSamples;
-        measure(meter, wave, start, frameHop);
-        if (!ways_.empty()) {
-            addFundamentals(made.fundamentals, wave, chains[k].start, start);
-        }
+        measure(meter, std::span(waves).subspan(k * chainSamples, chainSamples), chains[k].start + warmSamples,
+                frameHop);
     }
-    made.figures = meter.figures();
-    return made;
-}
-
-/// A chain counts its turns from its own beginning.
-void TextureFit::addFundamentals(RibFundamentals& sums, std::span<const float> wave, std::size_t chainStart,
-                                 std::size_t start) const {
-    std::vector<RibWay> ways(wave.size());
-    for (std::size_t i = 0; i < ways.size(); ++i) {
-        for (std::size_t rib = 0; rib < inference::ribCount; ++rib) {
-            ways[i][rib] = ways_[start + i][rib] - ways_[chainStart][rib];
-        }
-    }
-    const RibFundamentals own = ribFundamentals(wave, ways);
-    for (std::size_t rib = 0; rib < inference::ribCount; ++rib) {
-        sums[rib] += own[rib];
-    }
+    return meter.figures();
 }
 
 }  // namespace haptoflow::learning

@@ -2,7 +2,6 @@
 
 #include "learning/closed_loop.hpp"
 #include "learning/embedding_space.hpp"
-#include "learning/rib_alignment.hpp"
 #include "learning/sliding.hpp"
 #include "learning/texture_figures.hpp"
 
@@ -17,13 +16,6 @@ namespace haptoflow::learning {
 [[nodiscard]] double textureDistance(std::span<const TextureFigures> recorded,
                                      std::span<const TextureFigures> generated, double bandwidthHz);
 
-/// What the network makes of an embedding: its figures at each speed, and how its ribs lie to the phase that it is
-/// told.
-struct Resynthesis {
-    std::vector<TextureFigures> figures;
-    RibFundamentals fundamentals{};
-};
-
 /// Compares embeddings by what the network makes of them along the recording's own motion.
 class TextureFit {
 public:
@@ -35,8 +27,6 @@ public:
     [[nodiscard]] const SpeedBins& bins() const noexcept { return bins_; }
     [[nodiscard]] std::span<const TextureFigures> recorded() const noexcept { return recorded_; }
     [[nodiscard]] std::span<const float> unitWave() const noexcept { return unitWave_; }
-    /// For each sample of the recording; empty without ribs.
-    [[nodiscard]] std::span<const RibWay> ways() const noexcept { return ways_; }
 
     /// The distance of each embedding, all with the same noise, on `chains` stretches spread over the speeds; another
     /// `round` takes others.
@@ -44,18 +34,17 @@ public:
                                                 std::uint64_t round);
 
     /// What the network makes of an embedding along the whole recording, several times over, at 72 updates a second.
-    [[nodiscard]] Resynthesis resynthesis(const Embedding& embedding);
+    [[nodiscard]] std::vector<TextureFigures> resynthesis(const Embedding& embedding);
 
 private:
     [[nodiscard]] std::vector<std::vector<std::size_t>> startsByBin(std::size_t samples) const;
-    void addFundamentals(RibFundamentals& sums, std::span<const float> wave, std::size_t chainStart,
-                         std::size_t start) const;
     void measure(TextureMeter& meter, std::span<const float> wave, std::size_t start, std::size_t hop) const;
 
     ClosedLoop& loop_;
     const PreparedRecording& recording_;
     const Sliding& sliding_;
     std::span<const float> unitWave_;
+    /// For each sample of the recording; empty without ribs.
     std::vector<RibWay> ways_;
     std::uint64_t seed_;
     SpeedBins bins_;
