@@ -28,8 +28,8 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser], su
     parser = subparsers.add_parser(
         "learn-figures",
         help=summary,
-        description="Learn materials that the model never saw with `haptoflow learn` from ten seconds each, render them "
-        "at six speeds, and print how far level and spectrum are from another piece of the material.",
+        description="Learn materials that the model never saw with `haptoflow learn` from ten seconds each, render "
+        "them at six speeds, and print how far level and spectrum are from another piece of the material.",
         epilog=_EXAMPLES,
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
