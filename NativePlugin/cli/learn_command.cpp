@@ -93,9 +93,11 @@ void tell(const learning::LearningReport& report, const std::string& name, const
     }
     for (std::size_t i = 0; i < report.waveVectors.size(); ++i) {
         const learning::LearntWaveVector& each = report.waveVectors[i];
-        constexpr double degreesPerRadian = 57.29577951308232;
-        std::cout << (i > 0 ? "; " : "") << fixedDecimals(1.0 / std::hypot(each.x, each.y), 2) << " mm apart, across "
-                  << fixedDecimals(degreesPerRadian * std::atan2(each.y, each.x), 0) << " degrees";
+        std::cout << (i > 0 ? ", " : "every ") << fixedDecimals(1.0 / std::hypot(each.x, each.y), 2) << " mm";
+    }
+    if (!report.waveVectors.empty()) {
+        std::cout << "; the material's first axis lies across them, " << fixedDecimals(report.turnDegrees, 0)
+                  << " degrees from the recording's";
     }
     std::cout << '\n' << "  seeds              " << report.seeds << '\n';
     for (const std::string& warning : report.warnings) {

@@ -231,7 +231,7 @@ def test_the_engine_plays_the_further_label_and_the_material_file_alike(
 
 
 def test_the_help_has_examples(capsys: pytest.CaptureFixture[str]) -> None:
-    for command in ("add-material", "sliders", "few-shot"):
+    for command in ("add-material", "sliders", "few-shot", "learn-figures"):
         with pytest.raises(SystemExit):
             main([command, "--help"])
         said = capsys.readouterr().out

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import json
+from pathlib import Path
+
 import numpy as np
 import pytest
 
@@ -13,6 +16,7 @@ from haptoflow_training.recordings.synthetic import Material, load_materials, re
 
 MATERIALS = load_materials()
 RATE_HZ = 2000
+GOLDEN = Path(__file__).parents[1] / "Golden" / "wave-vectors"
 
 
 def straight_strokes(seconds: float, seed: int, slowest: float = 0.05, fastest: float = 0.35) -> np.ndarray:
@@ -97,3 +101,16 @@ def test_a_short_path_shows_nothing_and_does_not_fail() -> None:
     velocity = straight_strokes(1.0, 5)
     assert estimate_wave_vectors([lined(velocity, np.zeros(len(velocity)))]) == ()
     assert estimate_wave_vectors([lined(np.zeros((4000, 2)), np.zeros(4000))]) == ()
+
+
+@pytest.mark.parametrize(("name", "count"), [("corduroy", 1), ("jute", 2), ("sandpaper", 0)])
+def test_the_golden_recordings_have_the_wave_vectors_that_their_files_say(name: str, count: int) -> None:
+    golden = json.loads((GOLDEN / f"{name}.json").read_text(encoding="utf-8"))
+    velocity = np.concatenate([np.tile(each["velocity_mps"], (each["samples"], 1)) for each in golden["strokes"]])
+    wave = np.float32(golden["scale_mps2"]) * np.array(golden["wave"], dtype=np.float32)
+    force = np.full(len(wave), golden["force_newtons"], dtype=np.float32)
+    found = estimate_wave_vectors([MaterialRecording("", "", wave, velocity.astype(np.float32), force, "", "")])
+    expected = golden["wave_vectors_per_mm"]
+    assert len(found) == len(expected) == count
+    for one, other in zip(found, expected, strict=True):
+        assert np.hypot(*np.subtract(one, other)) < 0.002 * np.hypot(*other)

@@ -23,6 +23,7 @@ _COMMANDS: dict[str, str] = {
     "export": "write a trained run into a .haptoflow model file",
     "add-material": "add a material to a model, or write a material file, from ten seconds of recording",
     "few-shot": "measure what ten seconds of a material give, beside rivals",
+    "learn-figures": "measure what `haptoflow learn` makes of ten seconds of a material",
     "sliders": "find a designer's sliders in a model's embedding space",
     "stroke": "write a hand-like stroke as CSV for `haptoflow render`",
     "evaluate": "accuracy over time: every row of the plan, measured through the engine",

@@ -921,8 +921,8 @@ typedef struct haptoflow_learning_options {
     void* progress_context;
     /* Null for one that nobody cancels. */
     const haptoflow_cancellation* cancellation;
-    /* k1x, k1y, k2x, k2y in cycles per millimetre, zeros for a surface without ribs; null to find them in the
-     * recording. */
+    /* k1x, k1y, k2x, k2y in cycles per millimetre along the recording's axes, zeros for a surface without ribs; null to
+     * find them in the recording. */
     const float* wave_vectors;
 } haptoflow_learning_options;
 
@@ -939,8 +939,8 @@ HAPTOFLOW_API haptoflow_status haptoflow_learning_material(const haptoflow_learn
 
 /* *json becomes a JSON object with what was learnt in figures: nearest_label, nearest_distance_db, fitted_distance_db,
  * spectral_distance_db, level_error_db, sliding_seconds, speed_mps, force_newtons, level_exponents, wave_vectors,
- * seeds, segments, seconds, stopped_early, warnings and more. Lives until the learning is closed. Errors:
- * INVALID_ARGUMENT.
+ * turn_degrees (from the recording's first axis to the material's, which lies across its clearest ribs), seeds,
+ * segments, seconds, stopped_early, warnings and more. Lives until the learning is closed. Errors: INVALID_ARGUMENT.
  * [any-thread] Blocks for as long as another thread opens or closes a handle. */
 HAPTOFLOW_API haptoflow_status haptoflow_learning_report(const haptoflow_learning* learning, const char** json);
 

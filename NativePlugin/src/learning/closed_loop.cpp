@@ -69,6 +69,11 @@ std::array<float, 3> ClosedLoop::motionFrom(std::size_t first, std::size_t count
             static_cast<float>(std::clamp(mean[2], model_.forceNewtons.minimum, model_.forceNewtons.maximum))};
 }
 
+void ClosedLoop::generate(std::span<const inference::SegmentRequest> requests, std::span<float> segments) {
+    generator_.generate(requests, segments);
+    segments_ += requests.size();
+}
+
 std::vector<float> ClosedLoop::run(std::span<const Embedding> embeddings, std::span<const Chain> chains,
                                    const LoopSettings& settings) {
     const std::size_t whole = settings.warmSamples + settings.samples;
@@ -107,8 +112,7 @@ std::vector<float> ClosedLoop::run(std::span<const Embedding> embeddings, std::s
             std::copy_n(waves.begin() + static_cast<std::ptrdiff_t>(c * stride + start), segment,
                         previous.begin() + static_cast<std::ptrdiff_t>(c * segment));
         }
-        generator_.generate(requests, made);
-        segments_ += chains.size();
+        generate(requests, made);
         for (std::size_t c = 0; c < chains.size(); ++c) {
             const auto successor = at(made, c);
             const std::span<float, segment> running(waves.data() + c * stride + segment + start, segment);

@@ -45,12 +45,16 @@ public:
     [[nodiscard]] std::vector<float> run(std::span<const Embedding> embeddings, std::span<const Chain> chains,
                                          const LoopSettings& settings);
 
+    /// Mean motion of the recording's samples from `first` on, inside the model's range.
+    [[nodiscard]] std::array<float, 3> motionFrom(std::size_t first, std::size_t count) const;
+
+    /// One segment for each request. Throws inference::InferenceError.
+    void generate(std::span<const inference::SegmentRequest> requests, std::span<float> segments);
+
     /// Segments made so far.
     [[nodiscard]] std::uint64_t segments() const noexcept { return segments_; }
 
 private:
-    [[nodiscard]] std::array<float, 3> motionFrom(std::size_t first, std::size_t count) const;
-
     inference::SegmentGenerator& generator_;
     const model::ModelHeader& model_;
     const PreparedRecording& recording_;

@@ -5,10 +5,12 @@
 #include "learning/embedding_space.hpp"
 #include "learning/evolution_strategy.hpp"
 #include "learning/level_law.hpp"
+#include "learning/material_frame.hpp"
 #include "learning/material_text.hpp"
 #include "learning/plain_number.hpp"
 #include "learning/prepared_recording.hpp"
 #include "learning/seed_choice.hpp"
+#include "learning/seed_ribs.hpp"
 #include "learning/sliding.hpp"
 #include "learning/texture_fit.hpp"
 #include "learning/thread_clock.hpp"
@@ -27,6 +29,7 @@ constexpr double fewSeconds = 10.0;
 constexpr float largestUnitSample = 12.0F;
 /// A level this far from every label's is more likely a wrong unit.
 constexpr double suspiciousLevelDb = 30.0;
+constexpr double degreesPerRadian = 57.29577951308232;
 constexpr double decibelsPerNat = 8.685889638065037;
 constexpr std::size_t population = 12;
 constexpr double firstStep = 0.45;
@@ -70,7 +73,8 @@ public:
         Embedding embedding = fitEmbedding(fit, space, space.ofLabel(nearest));
         say(0.9, "tone");
         ToneFit tone = fitTones(fit, embedding);
-        const std::vector<LearntSeed> seeds = chooseSeeds(recording_, sliding_, unitWave_, tone.tone);
+        std::vector<LearntSeed> seeds = chooseSeeds(recording_, sliding_, unitWave_, tone.tone);
+        placeRibs(seeds, loop, embedding, settings_.seed);
         report_.seeds = seeds.size();
         report_.toneSpeeds = tone.tone.speedsMps.size();
         report_.speedExponent = level_.speedExponent;
@@ -203,17 +207,20 @@ private:
         }
     }
 
+    /// Turns the recording so that its clearest ribs lie across the first axis.
     void findRibs() {
+        std::vector<WaveVector> vectors;
         if (settings_.waveVectors) {
-            std::ranges::transform(*settings_.waveVectors, waveVectors_.begin(),
-                                   [](double value) { return static_cast<float>(value); });
-        } else {
-            std::size_t next = 0;
-            for (const WaveVector& vector : findWaveVectors(recording_, sliding_, unitWave_)) {
-                waveVectors_[next++] = static_cast<float>(vector.x);
-                waveVectors_[next++] = static_cast<float>(vector.y);
+            for (std::size_t rib = 0; rib < inference::ribCount; ++rib) {
+                vectors.push_back({(*settings_.waveVectors)[2 * rib], (*settings_.waveVectors)[2 * rib + 1]});
             }
+        } else {
+            vectors = findWaveVectors(recording_, sliding_);
         }
+        const MaterialFrame frame = MaterialFrame::across(vectors);
+        waveVectors_ = frame.waveNumbers;
+        frame.turn(recording_);
+        report_.turnDegrees = degreesPerRadian * frame.turnRadians;
         for (std::size_t rib = 0; rib < inference::ribCount; ++rib) {
             if (waveVectors_[2 * rib] != 0.0F || waveVectors_[2 * rib + 1] != 0.0F) {
                 report_.waveVectors.push_back({waveVectors_[2 * rib], waveVectors_[2 * rib + 1]});

@@ -36,7 +36,7 @@ struct LearningSettings {
     /// same on every machine.
     double secondsLimit = usualSecondsLimit;
     std::uint64_t segmentBudget = usualSegmentBudget;
-    /// k1x, k1y, k2x, k2y in cycles per millimetre, zero for none; estimated where empty.
+    /// k1x, k1y, k2x, k2y in cycles per millimetre along the recording's axes, zero for none; estimated where empty.
     std::optional<std::array<double, 2 * inference::ribCount>> waveVectors{};
     /// Told the share that is done, 0 to 1, and what is being done.
     std::function<void(double, const char*)> progress{};
@@ -65,7 +65,10 @@ struct LearningReport {
     std::array<double, 2> forceNewtons{};
     double speedExponent = 0.0;
     double forceExponent = 0.0;
+    /// In the material's frame: the first lies along its first axis.
     std::vector<LearntWaveVector> waveVectors;
+    /// From the recording's first axis to the material's; 0 without ribs.
+    double turnDegrees = 0.0;
     std::size_t seeds = 0;
     std::size_t toneSpeeds = 0;
     std::uint64_t segments = 0;

@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include <cmath>
+#include <utility>
 
 namespace haptoflow::learning {
 namespace {
@@ -48,9 +49,13 @@ Json toneJson(const model::ToneTable& tone) {
 Json seedsJson(std::span<const LearntSeed> seeds) {
     Json result = Json::array();
     for (const LearntSeed& seed : seeds) {
-        result.push_back({{"velocity_mps", roundedNumbers(seed.velocityMps, 1e6)},
-                          {"force_newtons", rounded(seed.forceNewtons, 1e4)},
-                          {"samples", roundedNumbers(seed.samples, 1e5)}});
+        Json each{{"velocity_mps", roundedNumbers(seed.velocityMps, 1e6)},
+                  {"force_newtons", rounded(seed.forceNewtons, 1e4)}};
+        if (seed.ribPhase) {
+            each["rib_phase"] = roundedNumbers(*seed.ribPhase, 1e5);
+        }
+        each["samples"] = roundedNumbers(seed.samples, 1e5);
+        result.push_back(std::move(each));
     }
     return result;
 }
@@ -122,6 +127,7 @@ std::string reportJson(const LearningReport& report) {
                     {"level_exponents",
                      {{"speed", rounded(report.speedExponent, 1e4)}, {"force", rounded(report.forceExponent, 1e4)}}},
                     {"wave_vectors", vectors},
+                    {"turn_degrees", rounded(report.turnDegrees, 1e3)},
                     {"seeds", report.seeds},
                     {"tone_speeds", report.toneSpeeds},
                     {"segments", report.segments},

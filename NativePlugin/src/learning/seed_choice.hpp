@@ -1,11 +1,13 @@
 #pragma once
 
+#include "inference/segment_generator.hpp"
 #include "learning/prepared_recording.hpp"
 #include "learning/sliding.hpp"
 #include "learning/tone_fit.hpp"
 #include "model/model_header.hpp"
 
 #include <array>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -16,6 +18,8 @@ struct LearntSeed {
     double forceNewtons = 0.0;
     /// With an RMS of 1, so that the tone makes the recording's sound of it.
     std::array<float, model::seedSamples> samples{};
+    /// Turns along each wave vector at sample 200, as the network counts them; empty without ribs.
+    std::optional<std::array<double, inference::ribCount>> ribPhase{};
     /// Sample of the recording at which it begins.
     std::size_t start = 0;
 };

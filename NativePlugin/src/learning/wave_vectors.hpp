@@ -1,29 +1,28 @@
 #pragma once
 
-#include "inference/segment_generator.hpp"
 #include "learning/prepared_recording.hpp"
 #include "learning/sliding.hpp"
 
-#include <array>
-#include <span>
 #include <vector>
 
 namespace haptoflow::learning {
 
-/// A family of ribs: what repeats with the way travelled.
+/// A family of ribs or threads, across them, in cycles per millimetre.
 struct WaveVector {
-    /// Cycles per millimetre.
     double x = 0.0;
     double y = 0.0;
-    /// Power of its line over that of noise as strong and of that spectrum.
-    double prominence = 0.0;
 
     [[nodiscard]] double cyclesPerMillimetre() const;
 };
 
-/// At most two, the more prominent first: lines that keep their place in the way while the speed changes. None where
-/// the speed is too even to tell a rib from a resonance. Where all strokes go one way, a vector along it.
-[[nodiscard]] std::vector<WaveVector> findWaveVectors(const PreparedRecording& recording, const Sliding& sliding,
-                                                      std::span<const float> unitWave);
+/// At most two, the clearest first, with wavelengths of 0.4 to 8 mm: lines of the spectrum that follow the speed, by
+/// direction. None where there are none, or where the recording cannot tell: less than about 0.2 m of path, or always
+/// the same speed. Where all strokes go one way, a vector lies along it.
+///
+/// A ruled surface with wave vector k sounds at |k . v|: with the place x on the surface, it is a line at
+/// exp(2 pi i k . x), whatever speed and direction do meanwhile. The mean of the windows' spectra at k, over that of
+/// its neighbours, is the evidence for a line there; a rib's evidence is that of its first six harmonics together.
+/// Training does the same (preprocessing/wave_vectors.py).
+[[nodiscard]] std::vector<WaveVector> findWaveVectors(const PreparedRecording& recording, const Sliding& sliding);
 
 }  // namespace haptoflow::learning

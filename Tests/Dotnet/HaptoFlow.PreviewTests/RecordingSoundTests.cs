@@ -87,6 +87,16 @@ namespace HaptoFlow.PreviewTests
         }
 
         [Test]
+        public void AStrokeAlongTheMaterialsAxesIsTheRecordingsTurnedAndAsFast()
+        {
+            Recording recording = Made(1000.0, 2.0, time => new[] { Wave(100.0, time) });
+            Stroke stroke = RecordingSound.StrokeOf(recording, 90.0);
+            Assert.That(stroke.States.All(state => Math.Abs(state.VelocityXMps) < 1e-6
+                && Math.Abs(state.VelocityYMps + 0.1) < 1e-6), Is.True, "the recording moves along its first axis");
+            Assert.That(stroke.States.All(state => state.ForceNewtons.Equals(1.0)), Is.True);
+        }
+
+        [Test]
         public void TheResultIsRenderedWithTheRecordingsMotionAndMatchedLevelsAreOneLevel()
         {
             using var worker = new ComparisonWorker();

@@ -177,6 +177,18 @@ namespace HaptoFlow.PreviewTests
         }
 
         [Test]
+        public void TheReportSaysHowAMaterialWithRibsLiesToItsRecordingAndNothingOfOneWithout()
+        {
+            const string Ruled = "{\"nearest_label\": \"corduroy\", \"turn_degrees\": 29.4}";
+            Assert.That(LearningReportText.Of(Ruled),
+                Does.Contain("the first axis lies across the ribs, 29 degrees from the recording's"));
+            Assert.That(LearningReportText.TurnDegrees(Ruled), Is.EqualTo(29.4));
+            const string Plain = "{\"nearest_label\": \"wood\", \"turn_degrees\": 0}";
+            Assert.That(LearningReportText.Of(Plain), Does.Not.Contain("ribs"));
+            Assert.That(LearningReportText.TurnDegrees(""), Is.Zero);
+        }
+
+        [Test]
         public void ALearningThatIsCancelledAtOnceLeavesWhatWasLearntBefore()
         {
             Window.Take(Table("denim.csv", ",speed_mps,force_newtons", 10.0));

@@ -89,6 +89,15 @@ TEST_F(LearnCommandTest, ATableBecomesAMaterialFileAndAReportOfTheSameBytesEachT
     EXPECT_EQ(read("denim.haptomaterial"), before);
 }
 
+TEST_F(LearnCommandTest, OfRibsItSaysTheirDistanceAndByWhatAngleTheMaterialIsTurned) {
+    write("ribbed.csv", csvOf(MadeRecording({.ribs = {0.8, 0.45}, .ribShare = 0.5}, {})));
+    const Finished finished = learn("ribbed.csv --report ribbed.report.json --quiet");
+    ASSERT_EQ(finished.exitCode, 0) << finished.errors;
+    EXPECT_THAT(finished.output, HasSubstr("every 1.09 mm; the material's first axis lies across them, 29 degrees from "
+                                           "the recording's"));
+    EXPECT_NEAR(nlohmann::json::parse(read("ribbed.report.json"))["turn_degrees"].get<double>(), 29.36, 1.0);
+}
+
 TEST_F(LearnCommandTest, AWavWithASidecarIsScaledAndNamedByIt) {
     writeWav("mat.wav", made_, 50.0F);
     write("mat.json", R"({"label": "Doormat", "full_scale_mps2": 50, "speed_mps": 0.08, "force_newtons": 0.8,

@@ -1,6 +1,7 @@
 #include "learning/learner.hpp"
 
 #include "dsp/tone_cepstrum.hpp"
+#include "inference/gaussian_noise.hpp"
 #include "inference/inference_error.hpp"
 #include "inference/onnx_runtime.hpp"
 #include "inference/onnx_segment_generator.hpp"
@@ -15,8 +16,12 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <complex>
 #include <limits>
+#include <numbers>
+#include <span>
 
 namespace haptoflow::learning {
 namespace {
@@ -43,12 +48,43 @@ protected:
         return settings;
     }
 
+    /// What the network makes of a seed's first half, moving on as the seed does, from sample 200 on.
+    std::vector<float> goneOn(const model::MaterialFile& material, const model::MaterialSeed& seed,
+                              std::uint32_t draw) {
+        constexpr std::size_t half = inference::segmentSamples;
+        std::vector<float> noise(half);
+        std::vector<float> played(half);
+        inference::fillStandardNormal({.seed = 5, .voice = draw, .segment = 0}, noise);
+        const std::array<inference::SegmentRequest, 1> request{
+            {{material.embedding,
+              {static_cast<float>(seed.velocityMps[0]), static_cast<float>(seed.velocityMps[1]),
+               static_cast<float>(seed.forceNewtons)},
+              std::span<const float, half>(seed.samples.data(), half),
+              std::span<const float, half>(noise.data(), half),
+              {static_cast<float>(seed.ribPhase[0]), static_cast<float>(seed.ribPhase[1])},
+              1.0F,
+              {}}}};
+        generator_.generate(request, played);
+        return played;
+    }
+
     model::ModelFile model_ = model::ModelFile::read(HAPTOFLOW_TEST_DEFAULT_MODEL);
     inference::OnnxSegmentGenerator generator_{
         inference::Runtime::open(HAPTOFLOW_TEST_ONNXRUNTIME), model_,
         model_.header().tiers[model_.header().defaultTier].name,
         inference::defaultSolver(model_.header().tiers[model_.header().defaultTier]), 64};
 };
+
+/// Of the ribs along the material's first axis, of samples that follow one another at the seed's speed.
+std::complex<double> fundamentalOf(std::span<const float> wave, const model::MaterialFile& material,
+                                   const model::MaterialSeed& seed) {
+    const double turns = 1000.0 / inference::waveformRateHz * material.embedding[60] * seed.velocityMps[0];
+    std::complex<double> sum = 0.0;
+    for (std::size_t i = 0; i < wave.size(); ++i) {
+        sum += static_cast<double>(wave[i]) * std::polar(1.0, -2.0 * std::numbers::pi * turns * static_cast<double>(i));
+    }
+    return sum;
+}
 
 TEST_F(LearnerTest, TheMaterialIsAMaterialFileOfTheModelsSpace) {
     const MadeRecording made({}, {});
@@ -124,15 +160,54 @@ TEST_F(LearnerTest, ASeedBehindTheToneSoundsAsItWasRecorded) {
     EXPECT_GT(best, 0.97);
 }
 
-TEST_F(LearnerTest, RibsOfTheRecordingStandInTheEmbeddingAndMakeItPeriodic) {
+TEST_F(LearnerTest, RibsOfTheRecordingStandAcrossTheMaterialsFirstAxisAndMakeItPeriodic) {
     const MadeRecording made({.ribs = {0.8, 0.45}, .ribShare = 0.5}, {});
     const LearntMaterial learnt = learn(made.view(), brief());
     const model::MaterialFile material = model::parseMaterial(learnt.materialJson);
-    EXPECT_NEAR(material.embedding[60], 0.8, 0.02);
-    EXPECT_NEAR(material.embedding[61], 0.45, 0.02);
+    const double length = std::hypot(0.8, 0.45);
+    EXPECT_NEAR(material.embedding[60], length, 0.02);
+    EXPECT_EQ(material.embedding[61], 0.0F);
+    EXPECT_NEAR(learnt.report.turnDegrees, 29.36, 1.0);
     ASSERT_TRUE(material.label.wavelengthMetres.has_value());
-    EXPECT_NEAR(*material.label.wavelengthMetres, 1e-3 / std::hypot(0.8, 0.45), 3e-5);
+    EXPECT_NEAR(*material.label.wavelengthMetres, 1e-3 / length, 3e-5);
     EXPECT_DOUBLE_EQ(material.label.frequencyExponent, 1.0);
+}
+
+TEST_F(LearnerTest, ATouchThatBeginsFromASeedGoesOnWithTheRibsInPlace) {
+    const MadeRecording made({.resonanceHz = 400.0, .ribs = {0.8, 0.45}, .ribShare = 0.9},
+                             {.seconds = 12.0, .slowestMps = 0.05, .fastestMps = 0.15, .strokeSeconds = 0.7});
+    const LearntMaterial learnt = learn(made.view(), brief());
+    const model::MaterialFile material = model::parseMaterial(learnt.materialJson);
+    ASSERT_GE(material.seeds.size(), 4U);
+    // How far what is played has its ribs where the recording has them, 1 for all of it, -1 half a rib off.
+    const auto likeness = [&](double shiftTurns) {
+        double together = 0.0;
+        double most = 0.0;
+        for (model::MaterialSeed seed : material.seeds) {
+            const std::complex<double> recorded = fundamentalOf(std::span(seed.samples).subspan(200), material, seed);
+            seed.ribPhase[0] = std::fmod(seed.ribPhase[0] + shiftTurns, 1.0);
+            for (std::uint32_t draw = 0; draw < 16; ++draw) {
+                const std::complex<double> played = fundamentalOf(goneOn(material, seed, draw), material, seed);
+                together += (played * std::conj(recorded)).real();
+                most += std::abs(played) * std::abs(recorded);
+            }
+        }
+        return together / most;
+    };
+    const double placed = likeness(0.0);
+    EXPECT_GT(placed, 0.6);
+    EXPECT_LT(likeness(0.5), 0.5 * placed) << "the network does not follow the phase";
+}
+
+TEST_F(LearnerTest, SeedsOfASurfaceWithoutRibsHaveNoPhase) {
+    const MadeRecording made({}, {});
+    LearningSettings settings = brief();
+    settings.segmentBudget = 1000;
+    const nlohmann::json json = nlohmann::json::parse(learn(made.view(), settings).materialJson);
+    ASSERT_FALSE(json.at("seeds").empty());
+    for (const nlohmann::json& seed : json.at("seeds")) {
+        EXPECT_FALSE(seed.contains("rib_phase"));
+    }
 }
 
 TEST_F(LearnerTest, WaveVectorsThatAreGivenAreTakenAndNoneAreLookedFor) {

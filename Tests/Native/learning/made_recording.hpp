@@ -33,6 +33,8 @@ struct MadeMotion {
     double fastestMps = 0.25;
     /// The direction goes round while the tip moves; false: along the first axis.
     bool turns = true;
+    /// For so long speed and direction stay before they change; 0 for a motion that changes all the time.
+    double strokeSeconds = 0.0;
 };
 
 /// A recording with the memory that its spans look at.
@@ -55,9 +57,11 @@ public:
         std::array<double, 2> way{};
         for (std::size_t i = 0; i < count; ++i) {
             const double time = static_cast<double>(i) / rateHz;
-            const double share = 0.5 - 0.5 * std::cos(2.0 * std::numbers::pi * time / 2.3);
+            const double moment =
+                motion.strokeSeconds > 0.0 ? motion.strokeSeconds * std::floor(time / motion.strokeSeconds) : time;
+            const double share = 0.5 - 0.5 * std::cos(2.0 * std::numbers::pi * moment / 2.3);
             const double speed = motion.slowestMps * std::pow(motion.fastestMps / motion.slowestMps, share);
-            const double direction = motion.turns ? 0.9 * time : 0.0;
+            const double direction = motion.turns ? 0.9 * moment : 0.0;
             const double pressed = 0.8 + 0.4 * std::sin(2.0 * std::numbers::pi * time / 1.7);
             velocity.push_back(static_cast<float>(speed * std::cos(direction)));
             velocity.push_back(static_cast<float>(speed * std::sin(direction)));

@@ -1,30 +1,100 @@
 #include "learning/wave_vectors.hpp"
-#include "learning/level_law.hpp"
 #include "learning/made_recording.hpp"
 
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
+#include <fstream>
+#include <limits>
+#include <string>
+#include <utility>
 
 namespace haptoflow::learning {
 namespace {
 
+using Json = nlohmann::json;
 using testing::MadeMotion;
 using testing::MadeRecording;
 using testing::MadeSurface;
 
-std::vector<WaveVector> vectorsOf(const MadeRecording& made) {
-    const PreparedRecording recording = prepareRecording(made.view());
+std::vector<WaveVector> vectorsOf(const PreparedRecording& recording) {
     model::ModelHeader header;
     header.speedMps.maximum = 1.5;
-    const Sliding sliding = findSliding(recording, header);
-    const LevelLaw law = fitLevelLaw(recording, sliding, {});
-    std::vector<float> unit(recording.wave.size());
-    for (std::size_t i = 0; i < unit.size(); ++i) {
-        unit[i] = static_cast<float>(
-            recording.wave[i] / std::exp(law.logLevel(std::max(recording.speedMps(i), 0.004), recording.motion[i][2])));
+    return findWaveVectors(recording, findSliding(recording, header));
+}
+
+std::vector<WaveVector> vectorsOf(const MadeRecording& made) {
+    return vectorsOf(prepareRecording(made.view()));
+}
+
+/// A recording that the Python estimator was given, too, and what it found there.
+struct GoldenCase {
+    PreparedRecording recording;
+    std::vector<WaveVector> vectors;
+};
+
+GoldenCase readCase(const std::string& name) {
+    std::ifstream file(HAPTOFLOW_TEST_GOLDEN_DIR "/wave-vectors/" + name + ".json");
+    const Json json = Json::parse(file);
+    GoldenCase result;
+    for (const Json& stroke : json.at("strokes")) {
+        const std::array<float, 3> motion{stroke.at("velocity_mps")[0].get<float>(),
+                                          stroke.at("velocity_mps")[1].get<float>(),
+                                          json.at("force_newtons").get<float>()};
+        result.recording.motion.insert(result.recording.motion.end(), stroke.at("samples").get<std::size_t>(), motion);
     }
-    return findWaveVectors(recording, sliding, unit);
+    for (const Json& value : json.at("wave")) {
+        result.recording.wave.push_back(json.at("scale_mps2").get<float>() * value.get<float>());
+    }
+    result.recording.isUsable.assign(result.recording.wave.size(), 1);
+    for (const Json& vector : json.at("wave_vectors_per_mm")) {
+        result.vectors.push_back({.x = vector[0].get<double>(), .y = vector[1].get<double>()});
+    }
+    return result;
+}
+
+void expectWithin(const std::vector<WaveVector>& found, const std::vector<WaveVector>& expected, double share) {
+    ASSERT_EQ(found.size(), expected.size());
+    for (std::size_t i = 0; i < found.size(); ++i) {
+        EXPECT_LT(std::hypot(found[i].x - expected[i].x, found[i].y - expected[i].y),
+                  share * expected[i].cyclesPerMillimetre())
+            << "vector " << i << " is (" << found[i].x << ", " << found[i].y << ")";
+    }
+}
+
+TEST(WaveVectorsTest, TheVectorsOfTheGoldenRecordingsAreThoseOfThePythonEstimatorWithinTwoPerMille) {
+    for (const auto& [name, count] : {std::pair{"corduroy", 1U}, {"jute", 2U}, {"sandpaper", 0U}}) {
+        SCOPED_TRACE(name);
+        const GoldenCase golden = readCase(name);
+        ASSERT_EQ(golden.vectors.size(), count);
+        ASSERT_EQ(golden.recording.motion.size(), golden.recording.wave.size());
+        expectWithin(vectorsOf(golden.recording), golden.vectors, 0.002);
+    }
+}
+
+TEST(WaveVectorsTest, NoWindowSpansASampleThatIsNotUsable) {
+    GoldenCase golden = readCase("corduroy");
+    constexpr std::size_t first = 5000;
+    constexpr std::size_t count = 900;
+    std::fill_n(golden.recording.isUsable.begin() + first, count, std::uint8_t{0});
+    // What stands there is as wrong as it can be.
+    std::fill_n(golden.recording.wave.begin() + first, count, 1e6F);
+    const GoldenCase whole = readCase("corduroy");
+    expectWithin(vectorsOf(golden.recording), whole.vectors, 0.01);
+    golden.recording.wave[first] = std::numeric_limits<float>::quiet_NaN();
+    expectWithin(vectorsOf(golden.recording), whole.vectors, 0.01);
+}
+
+TEST(WaveVectorsTest, ARecordingOfShortUsableStretchesHasNoWaveVectorsAndDoesNotFail) {
+    GoldenCase golden = readCase("corduroy");
+    for (std::size_t i = 0; i < golden.recording.isUsable.size(); i += 150) {
+        golden.recording.isUsable[i] = 0;
+    }
+    EXPECT_TRUE(vectorsOf(golden.recording).empty());
 }
 
 TEST(WaveVectorsTest, RibsAreFoundWithinTwoPercentInPitchAndDirection) {

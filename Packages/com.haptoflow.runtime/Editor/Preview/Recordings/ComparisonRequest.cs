@@ -21,6 +21,9 @@ namespace HaptoFlow.Preview
         /// <summary>The text of the material that was learnt; empty for none yet.</summary>
         public string Material { get; set; } = "";
 
+        /// <summary>From the recording's first axis to the material's, which lies across its ribs.</summary>
+        public double TurnDegrees { get; set; }
+
         /// <summary>The result is raised or lowered to the recording's level.</summary>
         public bool MatchesLevels { get; set; }
 

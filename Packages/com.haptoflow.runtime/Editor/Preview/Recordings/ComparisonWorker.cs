@@ -17,7 +17,7 @@ namespace HaptoFlow.Preview
         private readonly PreviewEngines engines = new PreviewEngines();
         private Recording? heard;
         private AnalysedSound? recording;
-        private (byte[] Model, Recording Recording, string Material) rendered;
+        private (byte[] Model, Recording Recording, string Material, double TurnDegrees) rendered;
         private PreviewSound? result;
 
         /// <exception cref="OperationCanceledException">The token was cancelled.</exception>
@@ -52,13 +52,14 @@ namespace HaptoFlow.Preview
 
         private PreviewSound Result(ComparisonRequest request, CancellationToken token)
         {
-            (byte[], Recording, string) wanted = (request.ModelFile, request.Recording, request.Material);
+            (byte[], Recording, string, double) wanted =
+                (request.ModelFile, request.Recording, request.Material, request.TurnDegrees);
             if (result == null || !rendered.Equals(wanted))
             {
                 MaterialFile material = MaterialFile.Read(request.Material);
                 HapticEngine engine = engines.Engine(request.ModelFile, HapticQuality.Standard, Seed, true);
                 LabelBlend blend = LabelBlend.Of(engines.MaterialIndex(request.Material));
-                Stroke stroke = recording!.Sound.Stroke;
+                Stroke stroke = RecordingSound.StrokeOf(request.Recording, request.TurnDegrees);
                 float[] samples = StrokeRenderer.Render(engine, stroke, blend, HapticEffects.Texture, token);
                 result = new PreviewSound(new LabelMix(material.Name), stroke, samples);
                 rendered = wanted;

@@ -33,15 +33,20 @@ namespace HaptoFlow.Preview
         }
 
         /// <summary>The motion of the recording, one contact from its begin to its end.</summary>
-        public static Stroke StrokeOf(Recording recording)
+        /// <param name="turnDegrees">From the recording's first axis to that along which the motion is told.</param>
+        public static Stroke StrokeOf(Recording recording, double turnDegrees = 0.0)
         {
+            double cosine = Math.Cos(turnDegrees * Math.PI / 180.0);
+            double sine = Math.Sin(turnDegrees * Math.PI / 180.0);
             double seconds = Math.Min(recording.Seconds, LongestSeconds);
             double x = 0.0;
             double y = 0.0;
             return new Stroke(time =>
             {
                 int sample = Math.Min(recording.SampleCount - 1, (int)(time * recording.SampleRateHz));
-                (double velocityX, double velocityY) = recording.VelocityAt(sample);
+                (double recordedX, double recordedY) = recording.VelocityAt(sample);
+                double velocityX = cosine * recordedX + sine * recordedY;
+                double velocityY = cosine * recordedY - sine * recordedX;
                 x += velocityX / Stroke.UpdateRateHz;
                 y += velocityY / Stroke.UpdateRateHz;
                 return new PathPoint

@@ -12,12 +12,8 @@ namespace HaptoFlow.Editor
         /// <param name="json">As the library reports; what it does not say is left out.</param>
         public static string Of(string json)
         {
-            JsonValue report;
-            try
-            {
-                report = JsonValue.Parse(json.Trim());
-            }
-            catch (FormatException)
+            JsonValue? report = Parsed(json);
+            if (report == null)
             {
                 return "";
             }
@@ -29,6 +25,11 @@ namespace HaptoFlow.Editor
             Add(parts, report, "spectral_distance_db", "spectra within {0:0.0} dB");
             Add(parts, report, "level_error_db", "levels within {0:0.0} dB");
             Add(parts, report, "sliding_seconds", "{0:0.0} s of sliding");
+            if (report.Find("turn_degrees")?.Content is double turn && Math.Abs(turn) >= 0.5)
+            {
+                parts.Add(string.Format(CultureInfo.InvariantCulture,
+                    "the first axis lies across the ribs, {0:0} degrees from the recording's", turn));
+            }
             Add(parts, report, "seconds", "learnt in {0:0.0} s");
             string text = parts.Count > 0 ? "Learnt. " + Capital(string.Join("; ", parts)) + "." : "Learnt.";
             if (report.Find("warnings")?.Content is List<JsonValue> warnings)
@@ -39,6 +40,22 @@ namespace HaptoFlow.Editor
                 }
             }
             return text;
+        }
+
+        /// <summary>From the recording's first axis to the material's; 0 where the report does not say.</summary>
+        public static double TurnDegrees(string json) =>
+            Parsed(json)?.Find("turn_degrees")?.Content is double degrees ? degrees : 0.0;
+
+        private static JsonValue? Parsed(string json)
+        {
+            try
+            {
+                return JsonValue.Parse(json.Trim());
+            }
+            catch (FormatException)
+            {
+                return null;
+            }
         }
 
         private static void Add(List<string> parts, JsonValue report, string key, string format)

@@ -81,6 +81,7 @@ namespace HaptoFlow.Editor
                 comparing.Ask(new ComparisonRequest(model.File, Recording)
                 {
                     Material = state.Material,
+                    TurnDegrees = LearningReportText.TurnDegrees(state.Report),
                     MatchesLevels = state.MatchesLevels,
                     Active = state.Active,
                     Palette = view.Palette,

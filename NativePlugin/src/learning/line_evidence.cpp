@@ -1,0 +1,201 @@
+#include "learning/line_evidence.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <numbers>
+
+namespace haptoflow::learning {
+namespace {
+
+constexpr double lowestHz = 15.0;
+constexpr double highestHz = 800.0;
+constexpr double lowestAlongPerMm = 0.08;
+/// One window in so many must hear a vector: strokes go in all directions, and across some ribs only.
+constexpr std::size_t hearingShare = 5;
+/// Times the mean power of noise: one loud window must not stand for many.
+constexpr double largestPower = 30.0;
+constexpr std::size_t neighbours = 41;
+/// Half overlapped windows tell 0.6 of what separate ones would.
+constexpr double independentShare = 0.6;
+/// Half a main lobe of a window is 1.6 of its bins; ribs that are not quite even smear their higher harmonics.
+constexpr double lobeBins = 1.6;
+constexpr double widerByOrder = 0.1;
+
+bool isInBand(double cyclesPerMm, const PathWindow& window) {
+    const double hertz = cyclesPerMm * window.speedMmps;
+    return hertz >= lowestHz && hertz <= highestHz;
+}
+
+/// Sum over the samples of one wave number after another; in single precision, whose error stays far below noise.
+class TurningWave {
+public:
+    explicit TurningWave(const PathWindow& window) {
+        // Zero behind the end, so that whole lanes are summed.
+        const std::size_t padded = (window.wave.size() + lanes - 1) / lanes * lanes;
+        for (std::vector<float>* each : {&real_, &imaginary_, &stepReal_, &stepImaginary_}) {
+            each->resize(padded);
+        }
+        for (std::size_t i = 0; i < window.wave.size(); ++i) {
+            const double along = window.xMm[i] * window.directionX + window.yMm[i] * window.directionY;
+            const double turn = -2.0 * std::numbers::pi * stepPerMm * along;
+            real_[i] = static_cast<float>(window.wave[i]);
+            stepReal_[i] = static_cast<float>(std::cos(turn));
+            stepImaginary_[i] = static_cast<float>(std::sin(turn));
+        }
+    }
+
+    /// Power at this wave number; the next call is for the next.
+    double next() {
+        std::array<float, lanes> realSums{};
+        std::array<float, lanes> imaginarySums{};
+        for (std::size_t first = 0; first < real_.size(); first += lanes) {
+            float* real = real_.data() + first;
+            float* imaginary = imaginary_.data() + first;
+            const float* stepReal = stepReal_.data() + first;
+            const float* stepImaginary = stepImaginary_.data() + first;
+            for (std::size_t i = 0; i < lanes; ++i) {
+                const float a = real[i];
+                const float b = imaginary[i];
+                realSums[i] += a;
+                imaginarySums[i] += b;
+                real[i] = a * stepReal[i] - b * stepImaginary[i];
+                imaginary[i] = a * stepImaginary[i] + b * stepReal[i];
+            }
+        }
+        double realSum = 0.0;
+        double imaginarySum = 0.0;
+        for (std::size_t i = 0; i < lanes; ++i) {
+            realSum += realSums[i];
+            imaginarySum += imaginarySums[i];
+        }
+        return realSum * realSum + imaginarySum * imaginarySum;
+    }
+
+private:
+    static constexpr std::size_t lanes = 8;
+
+    std::vector<float> real_;
+    std::vector<float> imaginary_;
+    std::vector<float> stepReal_;
+    std::vector<float> stepImaginary_;
+};
+
+double medianOf(std::vector<double> values) {
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::ranges::nth_element(values, middle);
+    return values.size() % 2 == 1 ? *middle : 0.5 * (*middle + *std::max_element(values.begin(), middle));
+}
+
+/// By wave number along the window's own direction, 1 for its median noise.
+std::vector<double> spectrumOf(const PathWindow& window) {
+    TurningWave wave(window);
+    std::vector<double> power(stepCount);
+    std::vector<double> inBand;
+    for (std::size_t step = 0; step < stepCount; ++step) {
+        power[step] = wave.next();
+        if (isInBand(static_cast<double>(step) * stepPerMm, window)) {
+            inBand.push_back(power[step]);
+        }
+    }
+    // The median of a chi-squared variable of two degrees is ln 2 of its mean.
+    const double usual = inBand.empty() ? 1.0 : medianOf(std::move(inBand)) / std::numbers::ln2;
+    for (double& each : power) {
+        each = std::min(usual > 0.0 ? each / usual : each, largestPower);
+    }
+    return power;
+}
+
+/// Inside the band, and nothing that a harmonic of a known vector would explain.
+std::vector<std::uint8_t> heardSteps(const PathWindow& window, std::span<const CyclesPerMm> known) {
+    std::vector<std::uint8_t> heard(stepCount);
+    for (std::size_t step = 0; step < stepCount; ++step) {
+        const double place = static_cast<double>(step) * stepPerMm;
+        bool isHeard = isInBand(place, window);
+        for (const CyclesPerMm& vector : known) {
+            const double fundamental = std::abs(window.directionX * vector[0] + window.directionY * vector[1]);
+            for (std::size_t order = 0; order <= takenHarmonics; ++order) {
+                const double reach = (1.0 + widerByOrder * static_cast<double>(order)) * lobeBins / window.pathMm;
+                isHeard = isHeard && std::abs(place - static_cast<double>(order) * fundamental) >= reach;
+            }
+        }
+        heard[step] = isHeard ? 1 : 0;
+    }
+    return heard;
+}
+
+/// One direction of the map: means over the windows that hear a wave number, and how many do.
+struct DirectionRow {
+    std::array<double, stepCount> sums{};
+    std::array<double, stepCount> counts{};
+};
+
+/// What stands around each value: the median of 41, the ends repeated.
+std::vector<double> mediansAround(std::span<const double> values) {
+    constexpr std::ptrdiff_t reach = neighbours / 2;
+    const auto last = static_cast<std::ptrdiff_t>(values.size()) - 1;
+    std::vector<double> medians(values.size());
+    std::array<double, neighbours> around{};
+    for (std::ptrdiff_t i = 0; i <= last; ++i) {
+        for (std::ptrdiff_t offset = -reach; offset <= reach; ++offset) {
+            around[static_cast<std::size_t>(offset + reach)] =
+                values[static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(i + offset, 0, last))];
+        }
+        std::ranges::nth_element(around, around.begin() + reach);
+        medians[static_cast<std::size_t>(i)] = around[reach];
+    }
+    return medians;
+}
+
+}  // namespace
+
+double angleOf(std::size_t direction) {
+    return std::numbers::pi * static_cast<double>(direction) / static_cast<double>(directionCount);
+}
+
+bool hears(const PathWindow& window, const CyclesPerMm& vector) {
+    return isInBand(std::abs(vector[0] * window.directionX + vector[1] * window.directionY), window);
+}
+
+LineEvidence lineEvidence(std::span<const PathWindow> windows, std::span<const CyclesPerMm> known) {
+    std::vector<std::vector<double>> spectra;
+    std::vector<std::vector<std::uint8_t>> heard;
+    for (const PathWindow& window : windows) {
+        spectra.push_back(spectrumOf(window));
+        heard.push_back(heardSteps(window, known));
+    }
+    const auto fewest = static_cast<double>(std::max(fewestWindows, windows.size() / hearingShare));
+    LineEvidence evidence{DirectionMap(directionCount * stepCount), DirectionMap(directionCount * stepCount)};
+    for (std::size_t direction = 0; direction < directionCount; ++direction) {
+        const double cosine = std::cos(angleOf(direction));
+        const double sine = std::sin(angleOf(direction));
+        DirectionRow row;
+        for (std::size_t w = 0; w < windows.size(); ++w) {
+            const double share = std::abs(windows[w].directionX * cosine + windows[w].directionY * sine);
+            for (std::size_t step = 0; step < stepCount; ++step) {
+                const double along = share * static_cast<double>(step);
+                const auto column = static_cast<std::size_t>(along + 0.5);
+                if (along * stepPerMm > lowestAlongPerMm && heard[w][column] != 0) {
+                    row.sums[step] += spectra[w][column];
+                    row.counts[step] += 1.0;
+                }
+            }
+        }
+        std::array<double, stepCount> means{};
+        for (std::size_t step = 0; step < stepCount; ++step) {
+            means[step] = row.counts[step] >= fewest ? row.sums[step] / row.counts[step] : 1.0;
+        }
+        const std::vector<double> around = mediansAround(means);
+        for (std::size_t step = 0; step < stepCount; ++step) {
+            const double ratio = row.counts[step] >= fewest ? means[step] / std::max(around[step], 1.0) : 0.0;
+            // Of exponentially distributed powers whose mean is `ratio` instead of 1, at the most likely ratio.
+            const double gain =
+                ratio > 1.0 ? independentShare * row.counts[step] * (ratio - 1.0 - std::log(ratio)) : 0.0;
+            evidence.ratios[direction * stepCount + step] = ratio;
+            evidence.gains[direction * stepCount + step] = gain;
+        }
+    }
+    return evidence;
+}
+
+}  // namespace haptoflow::learning
