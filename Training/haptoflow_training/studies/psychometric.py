@@ -122,18 +122,28 @@ def fit(answers: Answers, *, resamples: int = RESAMPLES, seed: int = 0) -> Fit:
     if without > _LARGEST_SHARE_WITHOUT_CURVE:
         words = f"{100 * without:.0f} % of the resamples have no curve, because yes and no hardly overlap"
         return Fit(curve, interval_statement=words, notes=notes)
+    threshold_interval = expanded_interval(x0, count)
+    lowest, highest, span = answers.delay_ms.min(), answers.delay_ms.max(), np.ptp(answers.delay_ms)
+    if threshold_interval.low < lowest - span or threshold_interval.high > highest + span:
+        words = "in some resamples yes hardly depends on the delay, so that their thresholds lie anywhere"
+        return Fit(curve, interval_statement=words, notes=notes)
     if without > 0.0:
         notes += (f"{100 * without:.2g} % of the resamples have no curve and were left out of the intervals",)
-    k_without_one, x0_without_one = _curves(counted, 1.0 - np.eye(count))
+    k_without_one, x0_without_one = leave_one_out(answers)
     return Fit(
         curve,
-        threshold_interval=expanded_interval(x0, count),
+        threshold_interval=threshold_interval,
         k_interval=expanded_interval(k, count),
         threshold_error=jackknife_error(x0_without_one),
         k_error=jackknife_error(k_without_one),
         notes=notes,
         resampled_x0=x0,
     )
+
+
+def leave_one_out(answers: Answers) -> tuple[np.ndarray, np.ndarray]:
+    """k and x0 without each participant in turn; nan where the others have no curve."""
+    return _curves(_counted(answers), 1.0 - np.eye(answers.participants))
 
 
 def threshold_difference(first: Fit, second: Fit, participants: int) -> Interval | None:

@@ -93,6 +93,9 @@ def signed_rank_p(differences: np.ndarray, alternative: str = "two-sided") -> fl
 def _counted_p(differences: np.ndarray, alternative: str) -> float:
     ranks = stats.rankdata(np.abs(differences))[differences != 0.0]
     signed = ranks * np.sign(differences[differences != 0.0])
+    if len(signed) == 1:
+        # SciPy wants two observations; a rank of zero changes no sum.
+        signed = np.append(signed, 0.0)
     # Rounded, because equal sums of half ranks may differ in their last bits.
     test = stats.permutation_test(
         (signed,),
