@@ -4,7 +4,16 @@ from __future__ import annotations
 
 import argparse
 
-from haptoflow_training.commands import study_analyse, study_check, study_golden, study_merge, study_power, study_simulate, study_validate
+from haptoflow_training.commands import (
+    study_analyse,
+    study_budget,
+    study_check,
+    study_golden,
+    study_merge,
+    study_power,
+    study_simulate,
+    study_validate,
+)
 
 _STEPS = {
     "simulate": (study_simulate, "write the logs of participants that do not exist"),
@@ -13,6 +22,7 @@ _STEPS = {
     "analyse": (study_analyse, "write the report of a folder of logs"),
     "power": (study_power, "count what a planned number of participants would find"),
     "validate": (study_validate, "analyse studies whose truth is known"),
+    "budget": (study_budget, "add up the parts of the delay beside the thresholds of the paper"),
     "golden": (study_golden, "write the plans that the Unity package must agree with"),
 }
 

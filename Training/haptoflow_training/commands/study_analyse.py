@@ -53,5 +53,6 @@ def _run(options: argparse.Namespace) -> int:
     if options.results is not None:
         write_whole(options.results, (json.dumps(results(analysed), indent=1) + "\n").encode())
     kind = "simulated" if analysed.is_simulated else "real"
-    print(f"{options.out}: {len(latency)} {kind} sessions of the latency study, {len(similarity)} of the similarity study")
+    counts = f"{len(latency)} {kind} sessions of the latency study, {len(similarity)} of the similarity study"
+    print(f"{options.out}: {counts}")
     return 0

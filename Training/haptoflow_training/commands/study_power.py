@@ -14,8 +14,8 @@ _EXAMPLES = """examples:
   haptoflow-training study power --study latency --participants 24
 
 A similarity study is one material whose last method is rated lower than all others, which are alike, by --difference
-standard deviations of the differences (Cohen's d_z). A latency study follows the paper's two curves. Every figure stands
-with the interval of 95 % that so many simulations allow.
+standard deviations of the differences (Cohen's d_z). A latency study follows the paper's two curves. Every figure
+stands with the interval of 95 % that so many simulations allow.
 """
 
 
@@ -54,7 +54,8 @@ def _similarity(options: argparse.Namespace) -> int:
     if options.methods > 2:
         print(f"  Friedman's test finds a difference in        {found.friedman}")
     print(f"  the pair of first and last method differs in {found.pair}, after correction")
-    print(f"  that pair tested alone differs in            {found.pair_alone}; planned for unrounded ratings: {100 * planned:.1f} %")
+    print(f"  that pair tested alone differs in            {found.pair_alone}")
+    print(f"  planned for it by the formula, not rounded:  {100 * planned:.1f} %")
     if found.equivalence is not None:
         print(f"  methods that are alike differ in             {found.false_pair}")
         print(f"  the first two methods are equivalent in      {found.equivalence}")
@@ -70,7 +71,8 @@ def _latency(options: argparse.Namespace) -> int:
         )
     print(f"{options.participants} participants:")
     for condition, width in found.widths_ms.items():
-        print(f"  {condition}: the threshold's interval is {width:.1f} ms wide and holds the truth in {found.covered[condition]}")
+        covered = found.covered[condition]
+        print(f"  {condition}: the threshold's interval is {width:.1f} ms wide and holds the truth in {covered}")
     print(f"  the thresholds differ in {found.differ}")
     if found.without_interval:
         print(f"  {found.without_interval} of {options.simulations} studies have no interval")

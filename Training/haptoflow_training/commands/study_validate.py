@@ -22,8 +22,8 @@ About fifteen minutes of one core.
 
 def register(parser: argparse.ArgumentParser) -> None:
     parser.description = (
-        "Simulate studies with a known truth, analyse them, and count how often thresholds, differences and their absence "
-        "are found as they should be."
+        "Simulate studies with a known truth, analyse them, and count how often thresholds, differences and their "
+        "absence are found as they should be."
     )
     parser.epilog = _EXAMPLES
     parser.add_argument("--out", required=True, type=Path, help="JSON file to write")
@@ -38,9 +38,9 @@ def _run(options: argparse.Namespace) -> int:
     from haptoflow_training.studies.validation import steps_of, validated
     from haptoflow_training.studies.validation_words import page_words
 
-    for name, value, lowest in (("--studies", options.studies, 2), ("--simulations", options.simulations, 2), ("--seed", options.seed, 0)):
-        if value < lowest:
-            raise InputError(f"{name} {value}: expected {lowest} or more")
+    for name, lowest in (("studies", 2), ("simulations", 2), ("seed", 0)):
+        if getattr(options, name) < lowest:
+            raise InputError(f"--{name} {getattr(options, name)}: expected {lowest} or more")
     page = options.page.read_text(encoding="utf-8") if options.page is not None else None
     with tqdm(total=steps_of(options.studies, options.simulations), unit="study", disable=None) as progress:
         found = validated(

@@ -67,21 +67,23 @@ def latency_figure(result: LatencyResult, *, is_simulated: bool) -> str:
 
 
 def similarity_figure(result: SimilarityResult, *, is_simulated: bool) -> str:
-    """A plot a material: mean ratings with standard errors, and brackets over the pairs that differ or are equivalent."""
+    """A plot a material: mean ratings with standard errors, brackets over pairs that differ or are equivalent."""
     count, methods = len(result.materials), len(result.methods)
     columns = min(_COLUMNS, count)
     rows = -(-count // columns)
     brackets = {name: brackets_of(result.by_material[name].pairs) for name in result.materials}
     levels = max((bracket.level + 1 for found in brackets.values() for bracket in found), default=0)
     top = 7.3 + _BRACKET_STEP * levels
-    figure, axes = _figure(rows, columns, 1.4 + 0.55 * methods * columns, 0.9 + rows * (1.9 + 0.22 * levels), is_simulated)
+    width, height = 1.4 + 0.55 * methods * columns, 0.9 + rows * (1.9 + 0.22 * levels)
+    figure, axes = _figure(rows, columns, width, height, is_simulated)
     for axis in axes[count:]:
         axis.set_visible(False)
     for place, (material, axis) in enumerate(zip(result.materials, axes, strict=False)):
         ratings = result.ratings[place]
         errors = np.std(ratings, axis=0, ddof=1) / np.sqrt(len(ratings))
         colours = [_METHOD_COLOURS[method % len(_METHOD_COLOURS)] for method in range(methods)]
-        axis.bar(range(methods), ratings.mean(axis=0) - 1.0, bottom=1.0, yerr=errors, capsize=3, color=colours, width=0.7)
+        heights = ratings.mean(axis=0) - 1.0
+        axis.bar(range(methods), heights, bottom=1.0, yerr=errors, capsize=3, color=colours, width=0.7)
         for bracket in brackets[material]:
             _draw(axis, bracket)
         axis.set_title(material, fontsize=10)
@@ -106,7 +108,7 @@ def brackets_of(pairs: Sequence[Pair]) -> list[Bracket]:
     taken: list[list[Bracket]] = []
     for pair, sign, colour in sorted(wanted, key=lambda each: (each[0].second - each[0].first, each[0].first)):
         level = 0
-        while level < len(taken) and any(pair.first < other.second and other.first < pair.second for other in taken[level]):
+        while level < len(taken) and any(_overlap(pair, other) for other in taken[level]):
             level += 1
         if level == len(taken):
             taken.append([])
@@ -114,11 +116,16 @@ def brackets_of(pairs: Sequence[Pair]) -> list[Bracket]:
     return [bracket for row in taken for bracket in row]
 
 
+def _overlap(pair: Pair, other: Bracket) -> bool:
+    return pair.first < other.second and other.first < pair.second
+
+
 def _draw(axis: Axes, bracket: Bracket) -> None:
     height = 7.25 + _BRACKET_STEP * bracket.level
     left, right = bracket.first + 0.08, bracket.second - 0.08
-    axis.plot([left, left, right, right], [height - 0.12, height, height, height - 0.12], color=bracket.colour, linewidth=1)
-    axis.text((left + right) / 2.0, height - 0.1, bracket.sign, color=bracket.colour, ha="center", va="bottom", fontsize=10)
+    foot, middle = height - 0.12, (left + right) / 2.0
+    axis.plot([left, left, right, right], [foot, height, height, foot], color=bracket.colour, linewidth=1)
+    axis.text(middle, height - 0.1, bracket.sign, color=bracket.colour, ha="center", va="bottom", fontsize=10)
 
 
 def _figure(rows: int, columns: int, width: float, height: float, is_simulated: bool) -> tuple[Figure, list[Any]]:
@@ -127,7 +134,8 @@ def _figure(rows: int, columns: int, width: float, height: float, is_simulated: 
     matplotlib.use("Agg")
     from matplotlib import pyplot
 
-    figure, axes = pyplot.subplots(rows, columns, figsize=(max(width, 5.0), height), layout="constrained", squeeze=False)
+    size = max(width, 5.0), height
+    figure, axes = pyplot.subplots(rows, columns, figsize=size, layout="constrained", squeeze=False)
     if is_simulated:
         figure.suptitle(SIMULATED_WORDS, color="#b00020", fontsize=11, fontweight="bold")
         for axis in axes.flat:

@@ -24,7 +24,9 @@ def page(title: str, banner: str, parts: Sequence[str]) -> str:
     shown = f'<p class="simulated" role="alert">{escape(banner)}</p>\n' if banner else ""
     return (
         f'<!DOCTYPE html>\n<html lang="en">\n<head>\n<meta charset="utf-8">\n<title>{escape(head)}</title>\n'
-        f"<style>{_STYLE}</style>\n</head>\n<body>\n{shown}<h1>{escape(title)}</h1>\n" + "\n".join(parts) + "\n</body>\n</html>\n"
+        f"<style>{_STYLE}</style>\n</head>\n<body>\n{shown}<h1>{escape(title)}</h1>\n"
+        + "\n".join(parts)
+        + "\n</body>\n</html>\n"
     )
 
 
@@ -50,4 +52,5 @@ def picture(svg: str, caption: str) -> str:
     """The figure in the page itself: as an image, because several SVG trees in one page would share their names."""
     data = base64.b64encode(svg.encode()).decode()
     words = escape(caption, quote=True)
-    return f'<figure><img src="data:image/svg+xml;base64,{data}" alt="{words}"><figcaption>{words}</figcaption></figure>'
+    image = f'<img src="data:image/svg+xml;base64,{data}" alt="{words}">'
+    return f"<figure>{image}<figcaption>{words}</figcaption></figure>"

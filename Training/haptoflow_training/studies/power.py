@@ -66,9 +66,8 @@ def rating_power(
         counts.update(_found(analysed(model.ratings(random, participants)[0]), methods - 1))
         advance()
     shares = {key: share(counts[key], simulations) for key in ("friedman", "pair", "alone", "false", "equivalence")}
-    return RatingPower(
-        shares["friedman"], shares["pair"], shares["alone"], shares["false"], shares["equivalence"] if methods > 2 else None
-    )
+    equivalence = shares["equivalence"] if methods > 2 else None
+    return RatingPower(shares["friedman"], shares["pair"], shares["alone"], shares["false"], equivalence)
 
 
 def _found(result: RatingResult, lowered: int) -> list[str]:

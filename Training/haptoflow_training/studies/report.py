@@ -67,15 +67,22 @@ def _latency(result: LatencyResult, is_simulated: bool) -> list[str]:
         paragraph(f"{result.participants} participants. {words.LATENCY}"),
         picture(latency_figure(result, is_simulated=is_simulated), _marked(words.LATENCY_CAPTION, is_simulated)),
         table(words.FIT_HEADINGS, rows),
-        *(paragraph(f"{condition}: {statement}.") for condition in CONDITIONS for statement in _statements(result.fits[condition])),
+        *(
+            paragraph(f"{condition}: {statement}.")
+            for condition in CONDITIONS
+            for statement in _statements(result.fits[condition])
+        ),
     ]
     if result.difference_ms is not None:
         parts.append(paragraph(_difference_words(result.difference_ms, result.difference_interval)))
     points = [
-        [condition, f"{point.level_ms:g}", f"{point.delivered_ms:.1f}", f"{point.percent:.1f}", _number(point.error_percent, 1), str(point.count)]
+        [
+            condition, f"{point.level_ms:g}", f"{point.delivered_ms:.1f}", f"{point.percent:.1f}",
+            _number(point.error_percent, 1), str(point.count),
+        ]
         for condition in CONDITIONS
         for point in result.points[condition]
-    ]
+    ]  # fmt: skip
     return [*parts, table(words.POINT_HEADINGS, points)]
 
 
@@ -117,9 +124,12 @@ def _similarity(result: SimilarityResult, is_simulated: bool) -> list[str]:
         if found.friedman_statement:
             parts.append(paragraph(f"{found.friedman_statement[:1].upper()}{found.friedman_statement[1:]}."))
         ratings = result.ratings[place]
+        errors = ratings.std(axis=0, ddof=1) / len(ratings) ** 0.5
         means = [
-            [method, f"{ratings[:, column].mean():.2f}", f"{ratings[:, column].std(ddof=1) / len(ratings) ** 0.5:.2f}", _p(one.p)]
-            for column, (method, one) in enumerate(zip(result.methods, found.normality, strict=True))
+            [method, f"{mean:.2f}", f"{error:.2f}", _p(one.p)]
+            for method, mean, error, one in zip(
+                result.methods, ratings.mean(axis=0), errors, found.normality, strict=True
+            )
         ]
         parts += [
             table(words.METHOD_HEADINGS, means),

@@ -18,7 +18,9 @@ from haptoflow_training.studies.log_columns import LATENCY, SIMILARITY
 from haptoflow_training.studies.plans import CONDITIONS
 from haptoflow_training.studies.power import latency_answers, planned_signed_rank_power, rating_power
 from haptoflow_training.studies.psychometric import Answers, Fit, fit, leave_one_out
-from haptoflow_training.studies.rating_tests import EQUIVALENCE_BOUND, SIGNIFICANCE, analysed, equivalence, signed_rank_p
+from haptoflow_training.studies.rating_tests import (
+    EQUIVALENCE_BOUND, SIGNIFICANCE, analysed, equivalence, signed_rank_p,
+)  # fmt: skip
 from haptoflow_training.studies.shares import Share, share
 from haptoflow_training.studies.similarity_analysis import analyse_similarity
 from haptoflow_training.studies.simulated_participants import (

@@ -27,20 +27,21 @@ def _thresholds(found: Mapping[str, Any]) -> list[str]:
     lines = [
         f"Thresholds, {found['studies']} studies written as logs, read and analysed:",
         "",
-        "| condition | truth, ms | mean threshold, ms | spread between studies, ms | mean standard error, ms | interval of 95 % holds the truth |",
+        "| condition | truth, ms | mean threshold, ms | spread between studies, ms | mean standard error, ms "
+        "| interval of 95 % holds the truth |",
         "|---|---|---|---|---|---|",
     ]
     for condition, one in found["thresholds"].items():
         lines.append(
-            f"| {condition} | {one['truth_ms']} | {one['mean_ms']} | {one['spread_ms']} | {one['mean_standard_error_ms']} "
-            f"| {_rate(one['covered'])} |"
+            f"| {condition} | {one['truth_ms']} | {one['mean_ms']} | {one['spread_ms']} "
+            f"| {one['mean_standard_error_ms']} | {_rate(one['covered'])} |"
         )
     return lines
 
 
 def _intervals(found: Mapping[str, Any]) -> list[str]:
     lines = [
-        f"Which interval, {found['simulations']} studies in each row; correlation is that of one participant's answers:",
+        f"Which interval, {found['simulations']} studies a row; the correlation is that of one participant's answers:",
         "",
         "| correlation | interval | turn-on holds the truth | width, ms | turn-off holds the truth | width, ms |",
         "|---|---|---|---|---|---|",
@@ -65,22 +66,28 @@ _FALSE_POSITIVES = {
 
 
 def _false_positives(found: Mapping[str, Any]) -> list[str]:
-    lines = [f"False findings at a level of 5 %, {found['simulations']} studies each:", "", "| what | found in |", "|---|---|"]
-    return lines + [f"| {words} | {_rate(found['false_positives'][key])} |" for key, words in _FALSE_POSITIVES.items()]
+    title = f"False findings at a level of 5 %, {found['simulations']} studies each:"
+    rates = found["false_positives"]
+    rows = [f"| {words} | {_rate(rates[key])} |" for key, words in _FALSE_POSITIVES.items()]
+    return [title, "", "| what | found in |", "|---|---|", *rows]
 
 
 def _planted(found: Mapping[str, Any]) -> list[str]:
     planted, planned = found["planted"], found["planned"]
-    rows = (("friedman", "Friedman's test"), ("pair", "the pair, after correction"), ("pair_alone", "the pair, tested alone"))
-    lines = [
-        f"A planted difference, d_z {planted['difference_dz']} before rounding to whole ratings, of one method to three others:",
+    rows = (
+        ("friedman", "Friedman's test"),
+        ("pair", "the pair, after correction"),
+        ("pair_alone", "the pair, tested alone"),
+    )
+    return [
+        f"One method rated below three others by d_z {planted['difference_dz']}, before rounding to whole ratings:",
         "",
-        f"| found by | planned by `study power`, {found['simulations']} studies | found in the logs of {found['studies']} studies, three materials each |",
+        f"| found by | planned by `study power`, {found['simulations']} studies "
+        f"| found in the logs of {found['studies']} studies, three materials each |",
         "|---|---|---|",
         *(f"| {words} | {_rate(planned[key])} | {_rate(planted[key])} |" for key, words in rows),
         "",
         f"Three materials of each study had no difference; Friedman's test found one on "
-        f"{_rate(planted['friedman_without_difference'])} of them. For differences that are not rounded, G*Power's formula "
-        f"plans {100 * planned['formula']:.1f} %, and Wilcoxon's test found {_rate(planned['unrounded'])}.",
+        f"{_rate(planted['friedman_without_difference'])} of them. For differences that are not rounded, G*Power's "
+        f"formula plans {100 * planned['formula']:.1f} %, and Wilcoxon's test found {_rate(planned['unrounded'])}.",
     ]
-    return lines
