@@ -36,7 +36,7 @@ EFFECT_SIZES = (
     "Kendall's W: how far participants agree on the order of the methods, from 0 (not at all) to 1 (fully).",
     "Rank-biserial r: the share of the ranked differences that favours the first method less the share that favours "
     "the second; 0 means balance, 1 and -1 that every difference points the same way.",
-    "Cohen's d_z: the mean difference in standard deviations of the differences; the paper planned its sample for 0.67.",
+    "Cohen's d_z: the mean difference in standard deviations of the differences; the paper planned for 0.67.",
 )
 LIMITS = (
     "No correction is made over materials: with six of them and no difference anywhere, one in four such studies "
