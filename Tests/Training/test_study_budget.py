@@ -87,6 +87,19 @@ def test_missing_files_and_delays_that_are_none_are_said_in_one_line(
     assert "--device-ms -1: expected 0 to 1000" in capsys.readouterr().err
 
 
+def test_a_page_without_a_measured_part_is_refused_before_anything_is_written(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    plain = tmp_path / "plain.md"
+    plain.write_text("# Page\n", encoding="utf-8")
+    for page, said in ((plain, "the page has no `<!-- measured: begin"), (tmp_path / "gone.md", "gone.md: cannot be read")):
+        assert main(["study", "budget", "--bench", str(PUBLISHED), "--page", str(page)]) == 3
+        assert said in capsys.readouterr().err
+        assert main(["study", "validate", "--out", str(tmp_path / "v.json"), "--page", str(page)]) == 3
+        assert said in capsys.readouterr().err
+    assert not (tmp_path / "v.json").exists() and not (tmp_path / "images").exists()
+
+
 def test_the_chart_and_the_page_are_written_together(tmp_path: Path) -> None:
     page = tmp_path / "page.md"
     page.write_text("<!-- measured: begin (x) -->\n<!-- measured: end -->\n", encoding="utf-8")

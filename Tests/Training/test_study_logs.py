@@ -5,6 +5,7 @@ from __future__ import annotations
 import csv
 import shutil
 from collections.abc import Callable
+from dataclasses import asdict
 from pathlib import Path
 
 import pytest
@@ -13,7 +14,11 @@ from study_samples import change_field, change_lines, change_sidecar, latency_st
 from haptoflow_training.cli import main
 from haptoflow_training.errors import InputError
 from haptoflow_training.studies.log_columns import COLUMNS
+from haptoflow_training.studies.plans import latency_plan, similarity_plan
+from haptoflow_training.studies.session_file import read_session
 from haptoflow_training.studies.study_folder import read_faultless, read_folder
+
+SESSIONS = Path(__file__).parents[1] / "Golden" / "studies" / "sessions"
 
 
 @pytest.fixture(scope="module")
@@ -315,3 +320,32 @@ def test_the_same_seed_simulates_the_same_answers(tmp_path: Path) -> None:
     first, second = (latency_study(tmp_path / name, 2, 9) for name in ("a", "b"))
     for path in sorted(first.glob("*.csv")):
         assert path.read_bytes() == (second / path.name).read_bytes()
+
+
+@pytest.mark.parametrize("path", sorted(SESSIONS.glob("*.csv")), ids=lambda path: path.stem)
+def test_a_session_as_the_unity_samples_write_it_is_read_whole_with_its_interrupted_trial(path: Path) -> None:
+    session, found = read_session(path)
+    assert found == [] and session is not None
+    assert len(session.rows) == len(session.sidecar["plan"]) and session.sidecar["resumptions"] == 1
+    assert [row["attempt"] for row in session.rows].count(2) == 1
+    plan = session.sidecar["plan"]
+    if session.study == "latency":
+        levels = session.sidecar["settings"]["levels_ms"]
+        expected = [asdict(trial) for trial in latency_plan(session.participant, session.sidecar["seed"], levels)]
+    else:
+        settings = session.sidecar["settings"]
+        expected = [
+            asdict(trial)
+            for trial in similarity_plan(
+                session.participant, session.sidecar["seed"], settings["materials"], settings["methods"]
+            )
+        ]
+    assert plan == expected
+
+
+def test_a_session_of_the_latency_sample_is_analysed(tmp_path: Path) -> None:
+    for path in SESSIONS.glob("latency-*"):
+        shutil.copy(path, tmp_path / path.name)
+    assert main(["study", "analyse", str(tmp_path), "--out", str(tmp_path / "report.html")]) == 0
+    page = (tmp_path / "report.html").read_text(encoding="utf-8")
+    assert "SIMULATED" in page and "the threshold lies between 110 and 130 ms" in page
