@@ -140,6 +140,25 @@ def test_ratings_stand_with_their_own_material_method_and_participant(tmp_path: 
     assert np.array_equal(result.ratings, drawn)
 
 
+def test_materials_and_methods_stand_in_the_order_of_the_settings_else_by_name(tmp_path: Path) -> None:
+    model = RatingModel(materials=("wood", "jute"), methods=("ours", "dstn"))
+    logs = similarity_study(tmp_path / "logs", 3, 1, model)
+
+    def names() -> tuple[list[str], list[str]]:
+        result = analyse_similarity(read_faultless(logs).of(SIMILARITY))
+        return list(result.materials), list(result.methods)
+
+    assert names() == (["wood", "jute"], ["ours", "dstn"])
+    objects = {"materials": [{"name": "wood"}, {"name": "jute"}], "methods": [{"name": "ours"}, {"name": "dstn"}]}
+    for path in logs.glob("*.csv"):
+        change_sidecar(path, lambda sidecar: sidecar | {"settings": objects})
+    assert names() == (["wood", "jute"], ["ours", "dstn"])
+    for odd in ({}, {"materials": 3, "methods": [None]}, {"materials": ["wood"], "methods": ["ours", "ours"]}):
+        for path in logs.glob("*.csv"):
+            change_sidecar(path, lambda sidecar, odd=odd: sidecar | {"settings": odd})
+        assert names() == (["jute", "wood"], ["dstn", "ours"])
+
+
 def test_names_that_are_markup_stay_text_in_the_report(tmp_path: Path) -> None:
     model = RatingModel(materials=("<script>alert(1)</script>", "a&b"), methods=("<b>", '"quoted', "$x_1$"))
     logs = similarity_study(tmp_path / "logs", 6, 1, RatingModel(model.materials, ("<b>", "it's", "$x_1$")))

@@ -16,6 +16,7 @@ from haptoflow_training.errors import InputError
 from haptoflow_training.studies.log_columns import COLUMNS
 from haptoflow_training.studies.plans import latency_plan, similarity_plan
 from haptoflow_training.studies.session_file import read_session
+from haptoflow_training.studies.similarity_analysis import listed_names
 from haptoflow_training.studies.study_folder import read_faultless, read_folder
 
 SESSIONS = Path(__file__).parents[1] / "Golden" / "studies" / "sessions"
@@ -250,6 +251,15 @@ def test_what_differs_between_sessions_is_noted_and_no_problem(logs: Path) -> No
     assert any("the device delay of 3 of 3 sessions is an estimate" in note for note in read.notes)
 
 
+def test_the_hand_that_holds_the_pen_is_a_participants_own_and_not_noted(logs: Path) -> None:
+    for participant, hand in ((1, "left"), (2, "right"), (3, "right")):
+        change_sidecar(
+            log_of(logs, participant),
+            lambda sidecar, hand=hand: sidecar | {"settings": sidecar["settings"] | {"pen_hand": hand}},
+        )
+    assert not any("'settings'" in note for note in read_folder(logs).notes)
+
+
 def test_faulty_logs_are_refused_with_every_place_named_up_to_twenty(logs: Path) -> None:
     change_lines(log_of(logs, 1), lambda lines: [lines[0], *(line.replace("yes", "y").replace("no,", "n,") for line in lines[1:])])
     with pytest.raises(InputError) as refused:
@@ -333,13 +343,9 @@ def test_a_session_as_the_unity_samples_write_it_is_read_whole_with_its_interrup
         levels = session.sidecar["settings"]["levels_ms"]
         expected = [asdict(trial) for trial in latency_plan(session.participant, session.sidecar["seed"], levels)]
     else:
-        settings = session.sidecar["settings"]
-        expected = [
-            asdict(trial)
-            for trial in similarity_plan(
-                session.participant, session.sidecar["seed"], settings["materials"], settings["methods"]
-            )
-        ]
+        materials, methods = (listed_names(session.sidecar["settings"], key) for key in ("materials", "methods"))
+        plan_of = similarity_plan(session.participant, session.sidecar["seed"], materials, methods)
+        expected = [asdict(trial) for trial in plan_of]
     assert plan == expected
 
 
