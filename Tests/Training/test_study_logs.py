@@ -326,6 +326,19 @@ def test_numbers_that_make_no_study_are_refused(
     assert said in capsys.readouterr().err and not (tmp_path / "x").exists()
 
 
+def test_a_place_that_cannot_be_written_is_said_in_one_line(
+    logs: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (tmp_path / "file").write_text("")
+    for words in (
+        ["simulate", "--study", "latency", "--participants", "1", "--out", str(tmp_path / "file" / "logs")],
+        ["merge", str(logs), "--out", str(tmp_path / "file")],
+        ["golden", "--out", str(tmp_path / "file" / "plans.json")],
+    ):
+        assert main(["study", *words]) == 3
+        assert "cannot be written" in capsys.readouterr().err.splitlines()[-1]
+
+
 def test_the_same_seed_simulates_the_same_answers(tmp_path: Path) -> None:
     first, second = (latency_study(tmp_path / name, 2, 9) for name in ("a", "b"))
     for path in sorted(first.glob("*.csv")):
