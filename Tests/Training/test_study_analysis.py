@@ -225,10 +225,10 @@ def test_brackets_never_cross_each_other_and_carry_the_sign_of_their_p_value() -
     def pair(first: int, second: int, p: float | None, equivalent: float) -> Pair:
         return Pair(first, second, 0.0, p, p, 0.0, 0.0, 1.0, equivalent)
 
-    found = brackets_of(
-        [pair(0, 1, 0.03, 0.9), pair(0, 2, 0.07, 0.9), pair(1, 2, 0.5, 0.01), pair(0, 3, 0.2, 0.2), pair(2, 3, None, 0.04)]
-    )
-    assert {(one.first, one.second, one.sign) for one in found} == {(0, 1, "*"), (0, 2, "†"), (1, 2, "≈"), (2, 3, "≈")}
+    pairs = [pair(0, 1, 0.03, 0.9), pair(0, 2, 0.07, 0.9), pair(1, 2, 0.5, 0.01), pair(0, 3, 0.2, 0.2)]
+    found = brackets_of([*pairs, pair(2, 3, None, 0.04)])
+    signs = {(one.first, one.second, one.sign) for one in found}
+    assert signs == {(0, 1, "*"), (0, 2, "†"), (1, 2, "≈"), (2, 3, "≈")}
     for one in found:
         for other in found:
             if one is not other and one.level == other.level:

@@ -92,7 +92,8 @@ def test_a_page_without_a_measured_part_is_refused_before_anything_is_written(
 ) -> None:
     plain = tmp_path / "plain.md"
     plain.write_text("# Page\n", encoding="utf-8")
-    for page, said in ((plain, "the page has no `<!-- measured: begin"), (tmp_path / "gone.md", "gone.md: cannot be read")):
+    gone = tmp_path / "gone.md"
+    for page, said in ((plain, "the page has no `<!-- measured: begin"), (gone, "gone.md: cannot be read")):
         assert main(["study", "budget", "--bench", str(PUBLISHED), "--page", str(page)]) == 3
         assert said in capsys.readouterr().err
         assert main(["study", "validate", "--out", str(tmp_path / "v.json"), "--page", str(page)]) == 3

@@ -1,4 +1,4 @@
-"""The psychometric fit: the maximum of the likelihood, honest intervals, and words in place of numbers that mean nothing."""
+"""The psychometric fit: the maximum of the likelihood, honest intervals, and words where no number means anything."""
 
 from __future__ import annotations
 
@@ -35,7 +35,8 @@ def test_the_curve_is_where_a_general_optimiser_finds_the_largest_likelihood(see
         signs = np.where(answers.yes == 1, 1.0, -1.0)
         return float(np.sum(np.log1p(np.exp(-signs * parameters[0] * (answers.delay_ms - parameters[1] * 100.0)))))
 
-    best = optimize.minimize(loss, [0.02, 1.2], method="Nelder-Mead", options={"xatol": 1e-10, "fatol": 1e-12, "maxiter": 5000})
+    exactly = {"xatol": 1e-10, "fatol": 1e-12, "maxiter": 5000}
+    best = optimize.minimize(loss, [0.02, 1.2], method="Nelder-Mead", options=exactly)
     curve = fit_curve(answers)
     assert curve is not None
     assert curve.k == pytest.approx(best.x[0], rel=1e-5)
@@ -139,7 +140,8 @@ def test_the_difference_of_two_thresholds_is_resampled_by_the_same_participants(
     turn_on, turn_off = drawn(7), drawn(8, 0.0311, 107.74)
     first, second = fit(turn_on, seed=2), fit(turn_off, seed=2)
     difference = threshold_difference(first, second, 24)
-    assert difference is not None and difference.low < first.curve.x0 - second.curve.x0 < difference.high  # type: ignore[union-attr]
+    assert difference is not None and first.curve is not None and second.curve is not None
+    assert difference.covers(first.curve.x0 - second.curve.x0)
     same = threshold_difference(first, fit(turn_on, seed=2), 24)
     assert same is not None and (same.low, same.high) == (0.0, 0.0)
 

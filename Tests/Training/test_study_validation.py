@@ -93,7 +93,8 @@ def test_more_participants_find_more_and_no_difference_is_found_at_the_level() -
 
 def test_shares_have_wilsons_interval() -> None:
     one = share(190, 200)
-    assert one.rate == 0.95 and one.low == pytest.approx(0.9104, abs=5e-4) and one.high == pytest.approx(0.9726, abs=5e-4)
+    assert one.rate == 0.95
+    assert (one.low, one.high) == pytest.approx((0.9104, 0.9726), abs=5e-4)
     assert one.covers(0.95) and not one.covers(0.9)
 
 
