@@ -9,6 +9,7 @@ namespace HaptoFlow
     internal sealed class StylusVoice
     {
         private readonly HapticStylus stylus;
+        private readonly MotionGate motion = new MotionGate();
         private HapticVoice? voice;
         private HapticEngine? engine;
         private HapticEngine? refusedBy;
@@ -35,6 +36,12 @@ namespace HaptoFlow
         public bool TryGetEffectStatistics(HapticEffect effect, out EffectStatistics statistics)
         {
             statistics = IsOpen ? voice!.EffectStatistics(effect) : default;
+            return IsOpen;
+        }
+
+        public bool TryGetSignalStatistics(out SignalStatistics statistics)
+        {
+            statistics = IsOpen ? voice!.SignalStatistics() : default;
             return IsOpen;
         }
 
@@ -79,6 +86,12 @@ namespace HaptoFlow
                 state.SpatialScale = felt.FeatureScale;
                 state.ToneDbPerOctave = felt.ToneDbPerOctave;
                 SetStrength(felt.Strength * stylus.Strength * output!.Strength);
+            }
+            bool moves = motion.Update(reading.TimeSeconds, reading.Touching, reading.PointMetres);
+            if (output!.PlaysSignal)
+            {
+                state.FirstVelocityMps = moves ? (float)motion.SpeedMps : 0f;
+                state.SecondVelocityMps = 0f;
             }
             voice!.Publish(state);
         }
