@@ -79,21 +79,48 @@ namespace HaptoFlow.Tests
             }
         }
 
-        [Test]
-        public void OverTwentyTwoParticipantsEachLevelStandsEquallyOftenAtEachPlace()
+        [TestCase(11, 22, 2, 2)]
+        [TestCase(11, 24, 2, 4)]
+        [TestCase(7, 14, 2, 2)]
+        [TestCase(4, 4, 1, 1)]
+        [TestCase(6, 24, 4, 4)]
+        public void EachLevelStandsEquallyOftenAtEachPlaceOfEachCondition(
+            int levels, int participants, int fewest, int most)
         {
-            var counts = new Dictionary<(double, int), int>();
-            for (int participant = 1; participant <= 22; ++participant)
+            double[] delays = Levels.Take(levels).ToArray();
+            var counts = new Dictionary<(string, double, int), int>();
+            for (int participant = 1; participant <= participants; ++participant)
             {
-                PlannedTrial[] first = StudyPlan.Latency(participant, 7, Levels).Trials.Skip(4).Take(11).ToArray();
-                for (int place = 0; place < first.Length; ++place)
+                PlannedTrial[] main = StudyPlan.Latency(participant, 7, delays).Trials.Skip(4).ToArray();
+                for (int trial = 0; trial < main.Length; ++trial)
                 {
-                    var key = (first[place].DelayMilliseconds!.Value, place);
-                    counts[key] = counts.TryGetValue(key, out int before) ? before + 1 : 1;
+                    Count(counts, (main[trial].Condition!, main[trial].DelayMilliseconds!.Value, trial % levels));
                 }
             }
-            Assert.That(counts, Has.Count.EqualTo(121));
-            Assert.That(counts.Values, Has.All.EqualTo(2));
+            Assert.That(counts, Has.Count.EqualTo(2 * levels * levels));
+            Assert.That((counts.Values.Min(), counts.Values.Max()), Is.EqualTo((fewest, most)));
+        }
+
+        [TestCase(6, 4, 24, 6)]
+        [TestCase(3, 3, 36, 12)]
+        [TestCase(2, 6, 12, 2)]
+        public void EachMethodStandsEquallyOftenAtEachPlaceOfEachMaterial(
+            int materials, int methods, int participants, int each)
+        {
+            string[] first = Enumerable.Range(0, materials).Select(index => $"material {index}").ToArray();
+            string[] second = Enumerable.Range(0, methods).Select(index => $"method {index}").ToArray();
+            var counts = new Dictionary<(string, string, int), int>();
+            for (int participant = 1; participant <= participants; ++participant)
+            {
+                PlannedTrial[] main =
+                    StudyPlan.Similarity(participant, 7, first, second).Trials.Skip(methods).ToArray();
+                for (int trial = 0; trial < main.Length; ++trial)
+                {
+                    Count(counts, (main[trial].Material!, main[trial].Method!, trial % methods));
+                }
+            }
+            Assert.That(counts, Has.Count.EqualTo(materials * methods * methods));
+            Assert.That(counts.Values, Has.All.EqualTo(each));
         }
 
         [Test]
@@ -135,6 +162,9 @@ namespace HaptoFlow.Tests
             Assert.That(() => StudyPlan.Similarity(1, 1, Materials, new[] { "x", "x" }), Refusal("\"x\" is there twice"));
             Assert.That(() => StudyPlan.Similarity(1, 1, Materials, new[] { " " }), Refusal("methods"));
         }
+
+        private static void Count<T>(Dictionary<T, int> counts, T key) where T : notnull =>
+            counts[key] = counts.TryGetValue(key, out int before) ? before + 1 : 1;
 
         private static NUnit.Framework.Constraints.IResolveConstraint Refusal(string message) =>
             Throws.TypeOf<StudyException>().With.Message.Contains(message);

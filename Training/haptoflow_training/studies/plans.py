@@ -72,17 +72,21 @@ class SimilarityTrial:
 def latency_plan(participant: int, seed: int, levels_ms: Sequence[float]) -> list[LatencyTrial]:
     """Four practice trials, then every level under one condition and every level under the other.
 
-    participant: from 1. Participants with an odd number begin with turn-on, the others with turn-off.
+    participant: from 1. Participants with an odd number begin with turn-on, the others with turn-off. Each level stands
+    equally often at each place of each condition once every row of the levels' design was used.
     """
     names = shuffled(len(levels_ms), seed)
     rows = williams_design(len(levels_ms))
     first_row = (participant - 1) % len(rows)
+    # Those who begin with a condition have rows of one parity: an even step leaves the rest of the rows to the others.
+    half = len(rows) // 2
+    step = half + half % 2
     conditions = CONDITIONS if participant % 2 == 1 else CONDITIONS[::-1]
     order = [
         (PRACTICE, condition, level) for condition in conditions for level in (min(levels_ms), max(levels_ms))
     ]  # fmt: skip
     for block, condition in enumerate(conditions):
-        row = rows[(first_row + block * (len(rows) // 2)) % len(rows)]
+        row = rows[(first_row + block * step) % len(rows)]
         order += [(MAIN, condition, levels_ms[names[entry]]) for entry in row]
     return [LatencyTrial(place, *entry) for place, entry in enumerate(order, start=1)]
 
@@ -92,15 +96,17 @@ def similarity_plan(
 ) -> list[SimilarityTrial]:
     """Each method once on the first material for practice, then each material with all methods one after another.
 
-    participant: from 1. Materials change places between participants, methods between participants and materials.
+    participant: from 1. Materials change places with each participant. The rows of methods move on once the participants
+    have used every order of materials, so that each method comes equally often at each place of each material.
     """
     material_rows = williams_design(len(materials))
     method_rows = williams_design(len(methods))
     material_names = shuffled(len(materials), seed)
     order = [(PRACTICE, materials[0], method) for method in methods]
-    for place, entry in enumerate(material_rows[(participant - 1) % len(material_rows)]):
+    round_of_materials, material_row = divmod(participant - 1, len(material_rows))
+    for place, entry in enumerate(material_rows[material_row]):
         material = material_names[entry]
         method_names = shuffled(len(methods), seed + 1 + material)
-        row = method_rows[(participant - 1 + place) % len(method_rows)]
+        row = method_rows[(round_of_materials + place) % len(method_rows)]
         order += [(MAIN, materials[material], methods[method_names[method]]) for method in row]
     return [SimilarityTrial(place, *words) for place, words in enumerate(order, start=1)]

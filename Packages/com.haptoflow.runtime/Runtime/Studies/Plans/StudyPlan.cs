@@ -44,7 +44,8 @@ namespace HaptoFlow.Studies
         public IReadOnlyList<PlannedTrial> Trials => trials;
 
         /// <summary>The latency study: four practice trials, then every level under one condition and every level under
-        /// the other. Participants with an odd number begin with <see cref="TurnOn"/>. A rest comes before the main
+        /// the other. Participants with an odd number begin with <see cref="TurnOn"/>. Each level stands equally often at
+        /// each place of each condition once every row of the levels' design was used. A rest comes before the main
         /// trials and between the conditions.</summary>
         /// <param name="participant">From 1.</param>
         /// <param name="levelsMilliseconds">Delays in all, each once, above 0.</param>
@@ -62,6 +63,10 @@ namespace HaptoFlow.Studies
             int[] names = SplitMix64.Shuffle(levelsMilliseconds.Count, seed);
             int[][] rows = WilliamsDesign.Rows(names.Length);
             int row = (participant - 1) % rows.Length;
+            // Those who begin with a condition have rows of one parity: an even step leaves the rest of the rows to the
+            // others.
+            int half = rows.Length / 2;
+            int step = half + half % 2;
             foreach (string condition in conditions)
             {
                 bool isFirst = true;
@@ -70,14 +75,15 @@ namespace HaptoFlow.Studies
                     plan.AddLatency(PlannedTrial.Main, isFirst, condition, levelsMilliseconds[names[entry]]);
                     isFirst = false;
                 }
-                row = (row + rows.Length / 2) % rows.Length;
+                row = (row + step) % rows.Length;
             }
             return plan;
         }
 
         /// <summary>The similarity study: every method on the first material for practice, then each material with all
-        /// methods one after another. Materials change places between participants, methods between participants and
-        /// materials. A rest comes before the main trials and after every <see cref="TrialsBetweenRests"/> of them.
+        /// methods one after another. Materials change places with each participant. The rows of methods move on once the
+        /// participants have used every order of materials, so that each method comes equally often at each place of each
+        /// material. A rest comes before the main trials and after every <see cref="TrialsBetweenRests"/> of them.
         /// </summary>
         /// <param name="participant">From 1.</param>
         /// <param name="materials">Names, each once, without comma, quotation mark or line break.</param>
@@ -96,19 +102,19 @@ namespace HaptoFlow.Studies
             int[] materialNames = SplitMix64.Shuffle(materials.Count, seed);
             int[][] materialRows = WilliamsDesign.Rows(materials.Count);
             int[][] methodRows = WilliamsDesign.Rows(methods.Count);
-            int place = 0;
+            int methodRow = (participant - 1) / materialRows.Length;
             int shown = 0;
             foreach (int entry in materialRows[(participant - 1) % materialRows.Length])
             {
                 int material = materialNames[entry];
                 int[] methodNames = SplitMix64.Shuffle(methods.Count, unchecked(seed + 1ul + (ulong)material));
-                foreach (int method in methodRows[(participant - 1 + place) % methodRows.Length])
+                foreach (int method in methodRows[methodRow % methodRows.Length])
                 {
                     bool rests = shown % TrialsBetweenRests == 0;
                     plan.AddSimilarity(PlannedTrial.Main, rests, materials[material], methods[methodNames[method]]);
                     ++shown;
                 }
-                ++place;
+                ++methodRow;
             }
             return plan;
         }
