@@ -15,6 +15,9 @@ namespace HaptoFlow
         private IVoiceTarget? output;
         private float publishedStrength;
 
+        // Of the engine before: it fades while the present one begins.
+        private readonly LeavingVoice leaving = new LeavingVoice();
+
         // The touch of the newest reading, also of one that no voice has played.
         private uint? newestTouch;
 
@@ -52,6 +55,7 @@ namespace HaptoFlow
         public void Publish(
             in ContactReading reading, in FeltMaterial felt, HapticSession session, IVoiceTarget? wanted)
         {
+            leaving.Update();
             bool isReady = MakeReady(session, wanted, reading);
             newestTouch = reading.TouchCounter;
             if (!isReady)
@@ -85,6 +89,7 @@ namespace HaptoFlow
 
         public void Close()
         {
+            leaving.Close();
             if (voice == null)
             {
                 return;
@@ -121,7 +126,15 @@ namespace HaptoFlow
             {
                 return true;
             }
-            Close();
+            if (voice != null && ReferenceEquals(output, wanted))
+            {
+                leaving.Take(voice, wanted);
+                voice = null;
+            }
+            else
+            {
+                Close();
+            }
             if (ReferenceEquals(refusedBy, session.Engine) || !Open(session, wanted))
             {
                 return false;
