@@ -1,0 +1,316 @@
+#nullable enable
+using System;
+using System.Collections.Generic;
+using System.Linq;
+using System.Threading.Tasks;
+using HaptoFlow.Studies;
+using UnityEngine;
+
+namespace HaptoFlow.Samples.SimilarityStudy
+{
+    /// <summary>Builds the study when it wakes: two grey objects side by side, a pen, a panel for the answer, a view for
+    /// the operator. It loads and measures every method's model, waits for the alignment and the operator, and then
+    /// leads one participant through the plan.</summary>
+    [RequireComponent(typeof(PipelineMaterial))]
+    public sealed class SimilarityScene : MonoBehaviour
+    {
+        // So many frames tell how long a frame takes.
+        private const int PoseFrames = 64;
+        private static readonly Vector3 InstructionPlace = new Vector3(0.13f, 0.17f, 0.2f);
+        private static readonly Vector3 PanelPlace = new Vector3(0.13f, 0.12f, 0.2f);
+
+        private readonly PoseInterval poseInterval = new PoseInterval();
+
+        [SerializeField, Tooltip("The materials, the methods and the set-up.")]
+        private SimilaritySettings? settings;
+
+        [SerializeField]
+        private Camera? view;
+
+        [SerializeField, Min(1), Tooltip("The participant's number, from 1. No names.")]
+        private int participant = 1;
+
+        private MethodModels? models;
+        private TrialParts? parts;
+        private GameObject pair = null!;
+        private TextMesh instruction = null!;
+        private RatingPanel panel = null!;
+        private StudyObject real = null!;
+        private StudyObject virtualObject = null!;
+        private HapticOutput output = null!;
+
+        /// <summary>The materials, the methods and the set-up. To be set before the component wakes.</summary>
+        public SimilaritySettings? Settings
+        {
+            get => settings;
+            set => settings = value;
+        }
+
+        /// <summary>The participant's eye. To be set before the component wakes.</summary>
+        public Camera? View
+        {
+            get => view;
+            set => view = value;
+        }
+
+        /// <summary>From 1. To be set before <see cref="Begin"/>.</summary>
+        public int Participant
+        {
+            get => participant;
+            set => participant = value;
+        }
+
+        /// <summary>The virtual object's place is kept under this name; empty to keep nothing. To be set before the
+        /// component wakes.</summary>
+        public string SaveName { get; set; } = "SimilarityStudy";
+
+        /// <summary>No person takes part: the log says so. To be set before <see cref="Begin"/>.</summary>
+        public bool IsSimulated { get; set; }
+
+        /// <summary>What a method adds to the delay beside the audio block, in ms. To be replaced before the component
+        /// wakes where a laboratory has a better measurement.</summary>
+        public Func<StudyMethod, HapticLoadedModel, Task<double>> MeasureInference { get; set; } = MeasureLive;
+
+        /// <summary>Puts the virtual object beside the real sample.</summary>
+        public SampleAlignment Alignment { get; private set; } = null!;
+
+        /// <summary>Whoever leads the study.</summary>
+        public OperatorView Operator { get; private set; } = null!;
+
+        /// <summary>Null before <see cref="Begin"/>.</summary>
+        public StudySession? Session { get; private set; }
+
+        /// <summary>Null before <see cref="Begin"/>.</summary>
+        public SimilarityProcedure? Procedure { get; private set; }
+
+        /// <summary>Null before <see cref="Begin"/>.</summary>
+        public EqualDelay? Delay { get; private set; }
+
+        /// <summary>The methods' models; null where the settings cannot be used.</summary>
+        public MethodModels? Models => models;
+
+        /// <summary>The question.</summary>
+        public RatingPanel Panel => panel;
+
+        /// <summary>Why the study cannot begin; null where nothing is wrong.</summary>
+        public string? Problem { get; private set; }
+
+        /// <summary>Everything is loaded, measured and aligned: <see cref="Begin"/> can be called.</summary>
+        public bool CanBegin => Problem == null && Session == null && WhatIsMissing() == null;
+
+        /// <summary>The pen in use: the tracked one, else the mouse's.</summary>
+        public HapticStylus Pen => rig.Pen;
+
+        private StudyRig rig = null!;
+
+        /// <summary>Opens the participant's log, anew or where it was interrupted, and waits for the operator's first
+        /// Next. What is wrong stands in <see cref="Problem"/>; nothing has begun then.</summary>
+        public void Begin()
+        {
+            if (!CanBegin)
+            {
+                return;
+            }
+            try
+            {
+                StudyLog log = OpenLog();
+                parts = new TrialParts(
+                    settings!, models!, Delay!, real, virtualObject, Pen, output, panel, instruction);
+                Session = new StudySession(log);
+                Procedure = SimilarityProcedure.Create(Session, parts);
+                Operator.Session = Session;
+            }
+            catch (StudyException refusal)
+            {
+                Delay = null;
+                Stop(refusal);
+            }
+        }
+
+        /// <summary>Tries again after a refusal of <see cref="Begin"/>, for example with another participant.</summary>
+        public void Retry()
+        {
+            if (Session == null && models != null && models.IsReady)
+            {
+                Problem = null;
+                Operator.Problem = null;
+            }
+        }
+
+        private void Awake()
+        {
+            Quaternion facing = view!.transform.rotation;
+            rig = StudyRig.Create(view, settings != null ? settings.PenHand : PenHand.Right);
+            MakeOutput();
+            instruction = Build.Text("Please wait.", InstructionPlace, facing);
+            panel = RatingPanel.Create(PanelPlace, facing);
+#if HAPTOFLOW_INPUT_SYSTEM && ENABLE_INPUT_SYSTEM
+            RatingButtons.Create(panel, settings != null ? settings.PenHand : PenHand.Right);
+#endif
+            Operator = gameObject.AddComponent<OperatorView>();
+            Operator.Output = output;
+            Operator.Detail = Detail;
+            gameObject.AddComponent<StartPanel>().Scene = this;
+            pair = new GameObject("Objects");
+            Alignment = SampleAlignment.Create(pair, rig, SaveName);
+            Prepare();
+        }
+
+        private void Prepare()
+        {
+            try
+            {
+                if (settings == null)
+                {
+                    throw new StudyException("no settings are chosen; choose an asset in the field Settings");
+                }
+                settings.Check();
+                MakeObjects(settings);
+                Alignment.SetSample(settings.SampleMetres, settings.PlateUnderVirtual);
+                models = new MethodModels(settings, MeasureInference);
+            }
+            catch (StudyException refusal)
+            {
+                Stop(refusal);
+            }
+        }
+
+        private void Update()
+        {
+            poseInterval.Add(Time.unscaledDeltaTime);
+            if (Problem != null || models == null || models.IsReady)
+            {
+                return;
+            }
+            try
+            {
+                models.Update();
+            }
+            catch (StudyException refusal)
+            {
+                Stop(refusal);
+            }
+        }
+
+        private void OnDestroy()
+        {
+            if (Procedure != null)
+            {
+                Destroy(Procedure.gameObject);
+            }
+            parts?.Dispose();
+            models?.Dispose();
+        }
+
+        private void Stop(StudyException refusal)
+        {
+            Problem = refusal.Message;
+            Operator.Problem = refusal.Message;
+        }
+
+        private StudyLog OpenLog()
+        {
+            StudyPlan plan = settings!.PlanFor(participant);
+            double? wanted = EqualDelay.OfInterrupted(settings.Folder, participant);
+            if (wanted == null && settings.EqualDelayMilliseconds > 0f)
+            {
+                wanted = settings.EqualDelayMilliseconds;
+            }
+            Delay = new EqualDelay(DelaysOfMethods(), wanted);
+            var description = new StudyDescription(plan, settings.ForLog(), Delay.Of(Delay.Slowest))
+            {
+                IsSimulated = IsSimulated,
+                Environment = StudyScene.Environment(settings),
+                Models = models!.ForLog(),
+            };
+            return StudyLog.Open(settings.Folder, description);
+        }
+
+        private Dictionary<string, SystemDelay> DelaysOfMethods() => settings!.Methods.ToDictionary(
+            each => each.Name,
+            each => new SystemDelay(poseInterval.MedianMilliseconds, models!.InferenceMilliseconds(each.Name),
+                BlockMilliseconds(), settings.DeviceDelayMilliseconds),
+            StringComparer.Ordinal);
+
+        private void MakeOutput()
+        {
+            output = new GameObject("Haptic Output").AddComponent<HapticOutput>();
+            output.Channel = settings != null ? settings.HapticChannel : 1;
+            // Nothing is felt before the first trial.
+            output.Muted = true;
+            var noise = view!.gameObject.AddComponent<MaskingNoise>();
+            noise.Output = output;
+            if (settings != null)
+            {
+                noise.Colour = settings.NoiseColour;
+                noise.LevelDecibels = settings.NoiseDecibels;
+            }
+        }
+
+        private void MakeObjects(SimilaritySettings chosen)
+        {
+            real = new StudyObject("Left Object", pair.transform, Vector3.zero, chosen.SampleMetres,
+                chosen.RealHeightMetres, NewTracing(chosen));
+            real.Surface.Material.Effects = HapticEffects.Nothing;
+            virtualObject = new StudyObject("Right Object", pair.transform, chosen.VirtualMetres, chosen.SampleMetres, 0f,
+                NewTracing(chosen));
+        }
+
+        private static EdgeTracing NewTracing(SimilaritySettings chosen) => new EdgeTracing(
+            chosen.SampleMetres.x, chosen.SampleMetres.z, chosen.EdgeToleranceMetres, chosen.EdgeShare);
+
+        private string? WhatIsMissing()
+        {
+            if (models == null || !models.IsReady)
+            {
+                return models?.Doing ?? "no models";
+            }
+            if (poseInterval.Count < PoseFrames)
+            {
+                return "measuring how long a frame takes";
+            }
+            return settings!.NeedsAlignment && !Alignment.Alignment.IsAligned
+                ? "put the virtual object beside the real sample: press Align"
+                : null;
+        }
+
+        private string Detail()
+        {
+            if (Session == null)
+            {
+                return $"participant P{participant:00}\n{WhatIsMissing() ?? "ready: press Begin"}\n{Alignment.Text}";
+            }
+            PlannedTrial? trial = Session.Trial;
+            return trial == null
+                ? ""
+                : FormattableString.Invariant($"mount the sample \"{trial.Material}\"; method \"{trial.Method}\"\n") +
+                    FormattableString.Invariant($"delay {Delay!.Milliseconds:0.0} ms, ") +
+                    FormattableString.Invariant($"{Delay.ArtificialMilliseconds(trial.Method!):0.0} of them added; ") +
+                    StageWords();
+        }
+
+        private string StageWords() => Procedure!.Stage switch
+        {
+            TrialStage.RealEdges => $"edges of the real sample: {real.Tracing.TracedEdges} of 4",
+            TrialStage.VirtualEdges => $"edges of the virtual object: {virtualObject.Tracing.TracedEdges} of 4",
+            TrialStage.Free => "both freely, the question is open",
+            _ => "waiting",
+        };
+
+        private static double BlockMilliseconds()
+        {
+            AudioSettings.GetDSPBufferSize(out int frames, out _);
+            return 1000.0 * frames / AudioSettings.outputSampleRate;
+        }
+
+        private static async Task<double> MeasureLive(StudyMethod method, HapticLoadedModel model)
+        {
+            AudioSettings.GetDSPBufferSize(out int frames, out _);
+            double blockMilliseconds = BlockMilliseconds();
+            HapticModelDelay delay = await model.MeasureDelay(AudioSettings.outputSampleRate, frames)
+                .ConfigureAwait(false);
+            // The lead holds the block that a segment waits for; the rest is the method's own.
+            return Math.Max(delay.InferenceMedianMilliseconds, delay.LeadMilliseconds - blockMilliseconds);
+        }
+    }
+}
