@@ -11,7 +11,7 @@ namespace {
 /// Of the effects that ran: their blows, and the samples that they worked on.
 nlohmann::ordered_json effectsOf(const engine::OfflineFigures& figures) {
     constexpr std::array<const char*, effects::effectKinds> names{"texture",      "impact",         "edge", "delay",
-                                                                  "compensation", "exposure guard", "tone"};
+                                                                  "compensation", "exposure guard", "tone", "signal"};
     nlohmann::ordered_json effects = nlohmann::ordered_json::object();
     for (std::size_t kind = 0; kind < names.size(); ++kind) {
         if (figures.effectSamples[kind] > 0 || figures.effectEvents[kind] > 0) {

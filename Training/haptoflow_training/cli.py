@@ -27,6 +27,7 @@ _COMMANDS: dict[str, str] = {
     "stroke": "write a hand-like stroke as CSV for `haptoflow render`",
     "evaluate": "accuracy over time: every row of the plan, measured through the engine",
     "discriminate": "check that a classifier trained on recordings names what the engine renders",
+    "study": "the two user studies: simulate, check, merge and analyse their logs",
     "measure-full-scale": "which acceleration should be +-1, from recorded strokes on every label",
 }
 

@@ -546,7 +546,7 @@ typedef uint64_t haptoflow_voice;
 /* As a channel: all of them. */
 #define HAPTOFLOW_ALL_CHANNELS (-1)
 
-/* What a voice's signal can go through, in this order but for the last. A scene pays only for what it asks for. */
+/* What a voice's signal can go through, in this order but for the last two. A scene pays only for what it asks for. */
 typedef int32_t haptoflow_effect;
 enum {
     /* What the network generates while the tip slides. */
@@ -559,10 +559,12 @@ enum {
     HAPTOFLOW_EFFECT_COMPENSATION = 4,
     HAPTOFLOW_EFFECT_EXPOSURE_GUARD = 5,
     /* What a material, or a surface's tone_db_per_octave, does to the texture's spectrum; right behind the texture. */
-    HAPTOFLOW_EFFECT_TONE = 6
+    HAPTOFLOW_EFFECT_TONE = 6,
+    /* A study's sine, which sounds instead of texture, impact and edge: haptoflow_voice_set_signal. */
+    HAPTOFLOW_EFFECT_SIGNAL = 7
 };
 
-#define HAPTOFLOW_EFFECT_COUNT 7
+#define HAPTOFLOW_EFFECT_COUNT 8
 /* Sets of effects: one bit each, and one for none of them. */
 #define HAPTOFLOW_ASKS_FOR_TEXTURE 0x1u
 #define HAPTOFLOW_ASKS_FOR_IMPACT 0x2u
@@ -616,7 +618,7 @@ typedef struct haptoflow_effect_statistics {
     uint64_t runs;
     uint64_t samples;
     double microseconds;
-    /* Blows, of impact and edge. */
+    /* Blows, of impact and edge; how often it began to sound, of the signal. */
     uint64_t events;
 } haptoflow_effect_statistics;
 
@@ -724,6 +726,36 @@ HAPTOFLOW_API haptoflow_status haptoflow_voice_effect_statistics(haptoflow_voice
  * 20 ms. A lift-off closes the texture before the delay; mute, pause and panic act behind it, at once.
  * Errors: INVALID_ARGUMENT, OUT_OF_MEMORY. [publisher] */
 HAPTOFLOW_API haptoflow_status haptoflow_voice_set_delay(haptoflow_voice voice, double seconds);
+
+/* A sine for studies of latency: while it is set, the voice plays it wherever the newest contact state touches and
+ * moves at 5 mm/s or more along the surface, whatever force and speed are, and nothing else: no texture, no impact, no
+ * edge, no inference. It begins and ends within 2 ms on a raised cosine, at phase 0 out of silence, and its phase goes
+ * on while it sounds, also where the frequency changes. Strength, delay, compensation, exposure guard, mute, pause,
+ * panic and missing states act on it as on everything.
+ * frequency_hz: 20 to 500, ignored where the amplitude is 0. amplitude_mps2: the peak, 0 to 60; 0 for no signal, and
+ * the texture sounds again with the next state. Both take effect with the next block; another amplitude is reached
+ * within 10 ms. Errors: INVALID_ARGUMENT. [publisher] */
+HAPTOFLOW_API haptoflow_status haptoflow_voice_set_signal(haptoflow_voice voice, double frequency_hz,
+                                                          double amplitude_mps2);
+
+/* How often contact states have turned the signal on and off, and how long that took: from haptoflow_voice_publish with
+ * the first state that asks for the change to the start of the block in which it begins, the voice's delay included.
+ * What compensation and device add comes on top. Turns that mute, pause, panic, missing states or set_signal itself
+ * cause are not counted. All zero before the first. */
+typedef struct haptoflow_signal_statistics {
+    uint32_t struct_size;
+    uint64_t starts;
+    uint64_t stops;
+    double last_start_latency_seconds;
+    double last_stop_latency_seconds;
+    /* Of all that were counted. */
+    double mean_start_latency_seconds;
+    double mean_stop_latency_seconds;
+} haptoflow_signal_statistics;
+
+/* Errors: INVALID_ARGUMENT. [publisher] */
+HAPTOFLOW_API haptoflow_status haptoflow_voice_signal_statistics(haptoflow_voice voice,
+                                                                 haptoflow_signal_statistics* statistics);
 
 /* What plays the voice, so that its resonances and weak bands are evened out: an actuator profile as JSON, length bytes
  * of it, or the name of one that the library brings along ("flat", "voice-coil"); null for no compensation. Prepared by

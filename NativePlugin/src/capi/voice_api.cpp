@@ -20,6 +20,7 @@ static_assert(effects::effectKinds == HAPTOFLOW_EFFECT_COUNT);
 static_assert(static_cast<int>(effects::ExposureReason::dose) == HAPTOFLOW_EXPOSURE_DOSE);
 static_assert(static_cast<int>(EffectKind::exposureGuard) == HAPTOFLOW_EFFECT_EXPOSURE_GUARD);
 static_assert(static_cast<int>(EffectKind::tone) == HAPTOFLOW_EFFECT_TONE);
+static_assert(static_cast<int>(EffectKind::signal) == HAPTOFLOW_EFFECT_SIGNAL);
 static_assert(effects::maskOf(EffectKind::texture) == HAPTOFLOW_ASKS_FOR_TEXTURE);
 static_assert(effects::maskOf(EffectKind::impact) == HAPTOFLOW_ASKS_FOR_IMPACT);
 static_assert(effects::maskOf(EffectKind::edge) == HAPTOFLOW_ASKS_FOR_EDGE);
@@ -59,12 +60,13 @@ engine::ContactState contactState(const haptoflow_contact_state& given) {
     return state;
 }
 
-effects::EffectMask askedProcessors(engine::VoiceChannels& channels) {
+effects::EffectMask askedBeyondStates(engine::VoiceChannels& channels) {
     const std::lock_guard lock(channels.processorMutex);
     const engine::ProcessorSettings& settings = channels.processorSettings;
     return (settings.hasDelay ? effects::maskOf(EffectKind::delay) : 0U) |
            (settings.actuator != nullptr ? effects::maskOf(EffectKind::compensation) : 0U) |
-           (settings.hasExposureGuard ? effects::maskOf(EffectKind::exposureGuard) : 0U);
+           (settings.hasExposureGuard ? effects::maskOf(EffectKind::exposureGuard) : 0U) |
+           (channels.controls.signal.load().isSet() ? effects::maskOf(EffectKind::signal) : 0U);
 }
 
 effects::ActuatorProfile readActuator(std::string_view text) {
@@ -223,6 +225,39 @@ haptoflow_status haptoflow_voice_set_delay(haptoflow_voice voice, double seconds
     });
 }
 
+haptoflow_status haptoflow_voice_set_signal(haptoflow_voice voice, double frequency_hz, double amplitude_mps2) {
+    return guarded([&] {
+        using Settings = effects::SignalSettings;
+        if (!(amplitude_mps2 >= 0.0 && amplitude_mps2 <= Settings::largestMps2)) {
+            throw std::invalid_argument("amplitude_mps2 is " + std::to_string(amplitude_mps2) + "; expected 0 to 60");
+        }
+        Settings settings;
+        if (amplitude_mps2 > 0.0) {
+            if (!(frequency_hz >= Settings::lowestHz && frequency_hz <= Settings::highestHz)) {
+                throw std::invalid_argument("frequency_hz is " + std::to_string(frequency_hz) +
+                                            "; expected 20 to 500");
+            }
+            settings = {static_cast<float>(frequency_hz), static_cast<float>(amplitude_mps2)};
+        }
+        requireVoice(voice)->voice->channels.controls.signal = settings;
+    });
+}
+
+haptoflow_status haptoflow_voice_signal_statistics(haptoflow_voice voice, haptoflow_signal_statistics* statistics) {
+    return guarded([&] {
+        const VoiceTable::Use use = requireVoice(voice);
+        const engine::VoiceCounters& counters = use->voice->channels.counters;
+        haptoflow_signal_statistics content{};
+        content.starts = counters.signalStarts.count;
+        content.stops = counters.signalStops.count;
+        content.last_start_latency_seconds = counters.signalStarts.lastSeconds;
+        content.last_stop_latency_seconds = counters.signalStops.lastSeconds;
+        content.mean_start_latency_seconds = counters.signalStarts.meanSeconds;
+        content.mean_stop_latency_seconds = counters.signalStops.meanSeconds;
+        writeDescriptor(statistics, content, "statistics");
+    });
+}
+
 haptoflow_status haptoflow_voice_set_actuator(haptoflow_voice voice, const char* profile, uint64_t length) {
     return guarded([&] {
         const VoiceTable::Use use = requireVoice(voice);
@@ -272,14 +307,14 @@ haptoflow_status haptoflow_voice_effect_statistics(haptoflow_voice voice, haptof
                                                    haptoflow_effect_statistics* statistics) {
     return guarded([&] {
         if (effect < 0 || effect >= HAPTOFLOW_EFFECT_COUNT) {
-            throw std::invalid_argument("effect is " + std::to_string(effect) + "; expected 0 to 6");
+            throw std::invalid_argument("effect is " + std::to_string(effect) + "; expected 0 to 7");
         }
         const VoiceTable::Use use = requireVoice(voice);
         const engine::VoiceCounters& counters = use->voice->channels.counters;
         const engine::EffectCounters& own = counters.effects[static_cast<std::size_t>(effect)];
         haptoflow_effect_statistics content{};
         content.is_asked_for =
-            ((counters.askedFor | askedProcessors(use->voice->channels)) >> static_cast<unsigned>(effect)) & 1U;
+            ((counters.askedFor | askedBeyondStates(use->voice->channels)) >> static_cast<unsigned>(effect)) & 1U;
         content.prepared = own.prepared;
         content.runs = own.runs;
         content.samples = own.samples;

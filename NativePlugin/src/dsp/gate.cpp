@@ -11,7 +11,6 @@ namespace haptoflow::dsp {
 namespace {
 
 constexpr double openSeconds = 0.002;
-constexpr double closeSeconds = 0.005;
 
 std::uint64_t wholeSamples(double seconds, double sampleRateHz) {
     // The nudge keeps 0.005 s x 2,000 Hz from becoming 9 samples by rounding.
@@ -44,7 +43,7 @@ const Curve& raisedCosine() {
 
 }  // namespace
 
-Gate::Gate(double sampleRateHz)
+Gate::Gate(double sampleRateHz, double closeSeconds)
     : curve_(raisedCosine()),
       openSamples_(wholeSamples(openSeconds, checkedRate(sampleRateHz))),
       closeSamples_(wholeSamples(closeSeconds, sampleRateHz)) {}

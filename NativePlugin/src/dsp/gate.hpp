@@ -5,17 +5,20 @@
 
 namespace haptoflow::dsp {
 
-/// Opens within 2 ms and closes within 5 ms on a raised cosine, and may be turned round at any sample without a step.
+/// Opens within 2 ms and closes within 5 ms (or as long as it is told) on a raised cosine, and may be turned round at any sample without a step.
 /// Closed means zeros, bit for bit, whatever comes in; fully open means the signal untouched.
 /// All on the audio thread: allocates nothing, waits for nothing. For a turn inside a block, process up to it first.
 class Gate {
 public:
-    /// Starts closed. Throws std::invalid_argument unless `sampleRateHz` is 500-768,000.
-    explicit Gate(double sampleRateHz);
+    static constexpr double usualCloseSeconds = 0.005;
+
+    /// Starts closed. Throws std::invalid_argument unless `sampleRateHz` is 500-768,000. `closeSeconds` is above 0.
+    explicit Gate(double sampleRateHz, double closeSeconds = usualCloseSeconds);
 
     /// From the next sample on.
     void open() noexcept { opening_ = true; }
-    /// From the next sample on; that sample is already quieter, and silence comes 5 ms later at most.
+    /// From the next sample on; that sample is already quieter, and silence comes 5 ms later at most (or what it was
+    /// told).
     void close() noexcept { opening_ = false; }
     /// Closed at once, without a ramp: for a stream that starts anew.
     void reset() noexcept;

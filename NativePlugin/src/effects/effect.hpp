@@ -6,10 +6,11 @@
 
 namespace haptoflow::effects {
 
-/// What a voice's signal can go through, in this order, but for the last. `texture` is what the network generates, and
-/// `tone` what a material or surface does to its spectrum, before anything else; the engine makes both.
-enum class EffectKind : std::uint8_t { texture, impact, edge, delay, compensation, exposureGuard, tone };
-inline constexpr std::size_t effectKinds = 7;
+/// What a voice's signal can go through, in this order, but for the last two. `texture` is what the network generates,
+/// and `tone` what a material or surface does to its spectrum, before anything else; the engine makes both. `signal` is
+/// a study's sine, which stands for texture, impact and edge.
+enum class EffectKind : std::uint8_t { texture, impact, edge, delay, compensation, exposureGuard, tone, signal };
+inline constexpr std::size_t effectKinds = 8;
 
 /// A set of effects, one bit for each kind.
 using EffectMask = std::uint32_t;

@@ -30,6 +30,12 @@ ContactAction ContactPublisher::publish(ContactState state) noexcept {
     VoiceCounters& counters = channels_.counters;
     counters.sanitised.fetch_add(sanitise(state), std::memory_order_relaxed);
     counters.updates.fetch_add(1, std::memory_order_relaxed);
+    noteMotion(state);
+    const bool hasSignal = channels_.controls.signal.load(std::memory_order_relaxed).isSet();
+    if (hasSignal) {
+        state.effects &= ~surfaceEffects;
+        last_.effects &= ~surfaceEffects;
+    }
 
     const std::uint64_t touchesBefore = follower_.touches();
     const ContactAction action = follower_.update(state);
@@ -38,7 +44,8 @@ ContactAction ContactPublisher::publish(ContactState state) noexcept {
     Contact contact{.state = state,
                     .ingredients = reading.ingredients(state.material),
                     .before = reading.ingredients(last_.material),
-                    .ranged = {}};
+                    .ranged = {},
+                    .hasSignal = hasSignal};
     const Material material = resolveMaterial(contact.ingredients, isNewTouch ? WaveVectors{} : ribs_);
     contact.ranged =
         applyRangeLaw(library_.model().header(), material, state.velocityMps, state.forceNewtons, state.spatialScale);
@@ -72,9 +79,11 @@ ContactAction ContactPublisher::publish(ContactState state) noexcept {
 
 void ContactPublisher::postToAudio(const Contact& contact) noexcept {
     const auto& motion = contact.ranged.motion;
-    const std::optional<dsp::ToneCepstrum> tone =
-        resolveTone(contact.ingredients, std::hypot(motion[0], motion[1]),
-                    static_cast<double>(contact.state.toneDbPerOctave), tiltOfOne_);
+    std::optional<dsp::ToneCepstrum> tone;
+    if (!contact.hasSignal) {
+        tone = resolveTone(contact.ingredients, std::hypot(motion[0], motion[1]),
+                           static_cast<double>(contact.state.toneDbPerOctave), tiltOfOne_);
+    }
     const effects::EffectMask asked =
         (contact.state.effects & surfaceEffects) | (tone ? effects::maskOf(EffectKind::tone) : effects::EffectMask{0});
     channels_.counters.askedFor.store(contact.state.touching ? asked : 0, std::memory_order_relaxed);
@@ -91,6 +100,8 @@ void ContactPublisher::postToAudio(const Contact& contact) noexcept {
     audio.edge = edge_;
     audio.hasTone = tone.has_value();
     audio.tone = tone ? dsp::toneKernel(*tone) : dsp::ToneKernel{};
+    audio.isMoving = isMoving_;
+    audio.movingSinceSeconds = movingSinceSeconds_;
     channels_.toAudio.post();
 }
 
@@ -115,6 +126,14 @@ void ContactPublisher::postToWorker(const Contact& contact, const Material& mate
         }
     }
     channels_.toWorker.post();
+}
+
+void ContactPublisher::noteMotion(const ContactState& state) noexcept {
+    const bool isMoving = state.touching && std::hypot(state.velocityMps[0], state.velocityMps[1]) >= signalSpeedMps;
+    if (isMoving != isMoving_) {
+        isMoving_ = isMoving;
+        movingSinceSeconds_ = channels_.clock();
+    }
 }
 
 void ContactPublisher::noteSpeed(const ContactState& state, bool isNewTouch) noexcept {

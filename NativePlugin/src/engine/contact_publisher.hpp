@@ -16,6 +16,9 @@ namespace haptoflow::engine {
 /// nothing; one thread at a time. The library must outlive it.
 class ContactPublisher {
 public:
+    /// A signal sounds from this speed on.
+    static constexpr float signalSpeedMps = 0.005F;
+
     ContactPublisher(const MaterialLibrary& library, VoiceChannels& channels);
 
     /// Returns what the state means for the voice. The state is sanitised first, and what had to be changed counted.
@@ -28,7 +31,10 @@ private:
         Ingredients ingredients;
         Ingredients before;
         RangedMotion ranged;
+        bool hasSignal;
     };
+
+    void noteMotion(const ContactState& state) noexcept;
 
     void noteImpact(const Contact& contact) noexcept;
     void noteTransition(const Contact& contact) noexcept;
@@ -54,6 +60,8 @@ private:
     SeedRibs seedRibs_{};
     BlowMessage impact_;
     BlowMessage edge_;
+    bool isMoving_ = false;
+    double movingSinceSeconds_ = 0.0;
     bool wasTouching_ = false;
     std::uint32_t lastTouchCounter_ = 0;
     std::uint32_t lastEdgeCounter_ = 0;

@@ -60,6 +60,7 @@ void resetAll(const Processors* processors) noexcept {
 EffectStage::EffectStage(double outputRateHz)
     : impact_(EffectKind::impact, outputRateHz),
       edge_(EffectKind::edge, outputRateHz, edgeDecayFactor),
+      signal_(outputRateHz),
       gate_(outputRateHz),
       fadeSamples_(std::max<std::size_t>(1, static_cast<std::size_t>(handOverSeconds * outputRateHz))) {}
 
@@ -116,8 +117,8 @@ void EffectStage::close() noexcept {
 }
 
 bool EffectStage::isIdle() const noexcept {
-    return (delay_ == nullptr || delay_->isIdle()) && impact_.isIdle() && edge_.isIdle() &&
-           allIdle(processors_.get()) && (fadeLeft_ == 0 || allIdle(leaving_.get()));
+    return (delay_ == nullptr || delay_->isIdle()) && areSourcesIdle() && allIdle(processors_.get()) &&
+           (fadeLeft_ == 0 || allIdle(leaving_.get()));
 }
 
 void EffectStage::adoptExposure(const EffectStage& before) noexcept {
@@ -133,6 +134,13 @@ void EffectStage::setDelaySeconds(double seconds) noexcept {
     if (processors_ != nullptr && processors_->delay != nullptr) {
         processors_->delay->setDelaySeconds(seconds);
     }
+}
+
+double EffectStage::delaySeconds() const noexcept {
+    if (delay_ != nullptr) {
+        return delay_->delaySeconds();
+    }
+    return processors_ != nullptr && processors_->delay != nullptr ? processors_->delay->delaySeconds() : 0.0;
 }
 
 void EffectStage::setActuatorGain(double gain) noexcept {
@@ -154,6 +162,7 @@ std::uint64_t EffectStage::version() const noexcept {
 void EffectStage::reset() noexcept {
     impact_.reset();
     edge_.reset();
+    signal_.reset();
     if (guard_ != nullptr) {
         guard_->reset();
     }
@@ -180,19 +189,30 @@ void EffectStage::process(std::span<float> samplesMps2, EffectFigures& figures) 
     passGate(samplesMps2);
 }
 
-void EffectStage::addBlows(std::span<float> samplesMps2, EffectFigures& figures) noexcept {
-    // Without processors the texture has its own gate already: only blows are silenced here.
-    if (impact_.isIdle() && edge_.isIdle()) {
-        return;
-    }
-    std::array<float, blockSamples> blows{};
-    const std::span<float> target = hasProcessors() ? samplesMps2 : std::span(blows).first(samplesMps2.size());
+bool EffectStage::areSourcesIdle() const noexcept {
+    return impact_.isIdle() && edge_.isIdle() && signal_.isIdle();
+}
+
+void EffectStage::runSources(std::span<float> samplesMps2, EffectFigures& figures) noexcept {
     if (!impact_.isIdle()) {
-        run(impact_, EffectKind::impact, target, figures);
+        run(impact_, EffectKind::impact, samplesMps2, figures);
     }
     if (!edge_.isIdle()) {
-        run(edge_, EffectKind::edge, target, figures);
+        run(edge_, EffectKind::edge, samplesMps2, figures);
     }
+    if (!signal_.isIdle()) {
+        run(signal_, EffectKind::signal, samplesMps2, figures);
+    }
+}
+
+void EffectStage::addSources(std::span<float> samplesMps2, EffectFigures& figures) noexcept {
+    // Without processors the texture has its own gate already: only what is added here is silenced here.
+    if (areSourcesIdle()) {
+        return;
+    }
+    std::array<float, blockSamples> added{};
+    const std::span<float> target = hasProcessors() ? samplesMps2 : std::span(added).first(samplesMps2.size());
+    runSources(target, figures);
     if (!hasProcessors()) {
         passGate(target);
         std::ranges::transform(target, samplesMps2, samplesMps2.begin(), std::plus<>());

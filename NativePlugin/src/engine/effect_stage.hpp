@@ -4,6 +4,7 @@
 #include "effects/delay.hpp"
 #include "effects/effect.hpp"
 #include "effects/exposure_guard.hpp"
+#include "effects/signal.hpp"
 #include "effects/strikes.hpp"
 
 #include <array>
@@ -23,7 +24,7 @@ struct EffectFigures {
         std::uint64_t runs = 0;
         std::uint64_t samples = 0;
         std::uint64_t nanoseconds = 0;
-        /// Blows of an impact or an edge, rebounds not counted.
+        /// Blows of an impact or an edge, rebounds not counted; of a signal, how often it began to sound.
         std::uint64_t events = 0;
     };
     std::array<OfKind, effects::effectKinds> kinds{};
@@ -49,7 +50,7 @@ struct Processors {
     std::unique_ptr<effects::Delay> spareDelay;
 };
 
-/// What stands behind the texture of a voice, for one output rate: blows are added, then the whole goes through the
+/// What stands behind the texture of a voice, for one output rate: blows and a signal are added, then the whole goes through the
 /// processors that the voice asks for, then through a gate that silences everything at once.
 ///
 /// A stage without anything to do is not run: a voice that asks for no effect is rendered as if there were none, bit
@@ -62,6 +63,11 @@ public:
     /// A blow with the next sample.
     void strikeImpact(double speedMps, const effects::ImpactResponse& response) noexcept;
     void strikeEdge(double speedMps, const effects::ImpactResponse& response) noexcept;
+    /// See effects::Signal. Whoever closes this stage need not end the signal: it goes with everything else.
+    void setSignal(const effects::SignalSettings& settings) noexcept { signal_.set(settings); }
+    void beginSignal() noexcept { signal_.begin(); }
+    void endSignal() noexcept { signal_.end(); }
+    [[nodiscard]] bool isSignalOn() const noexcept { return signal_.isOn(); }
     /// Hands over within 10 ms of sound from the present processors to these. Not while an earlier hand-over is under
     /// way, nor before `takeUsed` has returned what that one left behind.
     void exchange(std::unique_ptr<Processors> fresh) noexcept;
@@ -71,6 +77,8 @@ public:
     /// What a guard has measured goes on in this stage's, where it has one: another rate is the same hand.
     void adoptExposure(const EffectStage& before) noexcept;
     void setDelaySeconds(double seconds) noexcept;
+    /// By how much what goes in now comes later; 0 without a delay.
+    [[nodiscard]] double delaySeconds() const noexcept;
     void setActuatorGain(double gain) noexcept;
     /// Time that passed without `process`.
     void passSilence(std::size_t samples) noexcept;
@@ -83,9 +91,9 @@ public:
     void open() noexcept;
     void close() noexcept;
 
-    /// Adds the landings and edges that still ring to the next samples, at most 64, in m/s^2. Call `process` with the
-    /// same samples afterwards.
-    void addBlows(std::span<float> samplesMps2, EffectFigures& figures) noexcept;
+    /// Adds the landings and edges that still ring, and the signal, to the next samples, at most 64, in m/s^2. Call
+    /// `process` with the same samples afterwards.
+    void addSources(std::span<float> samplesMps2, EffectFigures& figures) noexcept;
     /// Works on the next samples in place, m/s^2: at most 64.
     void process(std::span<float> samplesMps2, EffectFigures& figures) noexcept;
     /// Silent at once, without a ramp.
@@ -99,6 +107,8 @@ public:
     static constexpr std::size_t blockSamples = 64;
 
 private:
+    [[nodiscard]] bool areSourcesIdle() const noexcept;
+    void runSources(std::span<float> samplesMps2, EffectFigures& figures) noexcept;
     void runProcessors(std::span<float> samplesMps2, EffectFigures& figures) noexcept;
     void runGuard(std::span<float> samplesMps2, EffectFigures& figures) noexcept;
     void passGate(std::span<float> samplesMps2) noexcept;
@@ -107,6 +117,7 @@ private:
 
     effects::Strikes impact_;
     effects::Strikes edge_;
+    effects::Signal signal_;
     dsp::Gate gate_;
     std::unique_ptr<Processors> processors_;
     std::unique_ptr<Processors> leaving_;

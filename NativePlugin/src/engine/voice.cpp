@@ -36,16 +36,21 @@ void Voice::stop() noexcept {
 }
 
 void Voice::strikeImpact(double speedMps, const effects::ImpactResponse& response) noexcept {
-    noteBlow(effects::EffectKind::impact);
+    noteEvent(effects::EffectKind::impact);
     output_->effects.strikeImpact(speedMps, response);
 }
 
 void Voice::strikeEdge(double speedMps, const effects::ImpactResponse& response) noexcept {
-    noteBlow(effects::EffectKind::edge);
+    noteEvent(effects::EffectKind::edge);
     output_->effects.strikeEdge(speedMps, response);
 }
 
-void Voice::noteBlow(effects::EffectKind kind) noexcept {
+void Voice::beginSignal() noexcept {
+    noteEvent(effects::EffectKind::signal);
+    output_->effects.beginSignal();
+}
+
+void Voice::noteEvent(effects::EffectKind kind) noexcept {
     EffectFigures::OfKind& figures = figures_.of(kind);
     figures.prepared = 1;
     ++figures.events;
@@ -170,7 +175,7 @@ void Voice::render(std::span<float> out) noexcept {
             produce(block);
             output_->gate.process(block);
         }
-        output_->effects.addBlows(block, figures_);
+        output_->effects.addSources(block, figures_);
         // Strength comes before the processors: the guard has to measure what is played, and a delayed sound keeps the
         // strength that it was made with.
         output_->strength.process(block);

@@ -27,7 +27,7 @@ public:
     virtual void tookOver(std::int64_t sample) noexcept = 0;
 };
 
-/// One stylus tip's signal: timeline, tone, level, reading rate, output rate, gate, blows, strength, processors,
+/// One stylus tip's signal: timeline, tone, level, reading rate, output rate, gate, blows and signal, strength, processors,
 /// limiter, in this order.
 ///
 /// While the texture's gate is closed nothing is read: the waveform clock stands still. Where no effect sounds either,
@@ -52,6 +52,8 @@ public:
     /// A blow with the next sample; `allowEffects` comes first.
     void strikeImpact(double speedMps, const effects::ImpactResponse& response) noexcept;
     void strikeEdge(double speedMps, const effects::ImpactResponse& response) noexcept;
+    /// The signal begins with the next sample, as `effects().setSignal` has set it; `allowEffects` comes first.
+    void beginSignal() noexcept;
     [[nodiscard]] EffectStage& effects() noexcept { return output_->effects; }
     /// See EffectStage::exchange.
     void exchangeProcessors(std::unique_ptr<Processors> fresh) noexcept;
@@ -89,7 +91,7 @@ public:
 private:
     static constexpr std::size_t blockSamples = EffectStage::blockSamples;
 
-    void noteBlow(effects::EffectKind kind) noexcept;
+    void noteEvent(effects::EffectKind kind) noexcept;
     [[nodiscard]] bool isTextureSilent() const noexcept { return output_->gate.isClosed(); }
     void produce(std::span<float> out) noexcept;
     void readWaveform(std::span<float> out) noexcept;

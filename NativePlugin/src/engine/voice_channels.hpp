@@ -1,6 +1,7 @@
 #pragma once
 
 #include "dsp/tone_cepstrum.hpp"
+#include "effects/signal.hpp"
 #include "engine/blend_balance.hpp"
 #include "engine/level_request.hpp"
 #include "engine/mailbox.hpp"
@@ -14,6 +15,7 @@
 
 #include <array>
 #include <atomic>
+#include <chrono>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -47,6 +49,9 @@ struct AudioMessage {
     BlowMessage edge;
     bool hasTone = false;
     dsp::ToneKernel tone{};
+    /// Touches and moves fast enough for a signal, and since when that, or the opposite, is so: VoiceChannels::clock.
+    bool isMoving = false;
+    double movingSinceSeconds = 0.0;
 };
 
 /// What the worker has to know of a contact.
@@ -98,6 +103,9 @@ struct VoiceControls {
     std::atomic<std::uint64_t> silencedTouch{0};
     /// Of the delay, where the voice has one: 0 to 0.5 s.
     std::atomic<double> delaySeconds{0.0};
+    /// What sounds instead of texture, impact and edge, where it is set.
+    std::atomic<effects::SignalSettings> signal{};
+    static_assert(std::atomic<effects::SignalSettings>::is_always_lock_free);
     /// For the exposure guard: m/s^2 at the hand for each m/s^2 of the signal.
     std::atomic<double> actuatorGain{1.0};
 };
@@ -111,10 +119,22 @@ struct EffectCounters {
     std::atomic<std::uint64_t> events{0};
 };
 
+/// How often a contact state turned a signal on, or off, and what passed from that state to the output's frame where the
+/// change begins. One writer, the callback; any thread reads.
+struct SignalTurns {
+    std::atomic<std::uint64_t> count{0};
+    std::atomic<double> lastSeconds{0.0};
+    std::atomic<double> meanSeconds{0.0};
+
+    void note(double seconds) noexcept;
+};
+
 /// What a voice has done; every counter only grows. Any thread reads.
 struct VoiceCounters {
     /// By effects::EffectKind; of the texture there is nothing here, the other counters tell of it.
     std::array<EffectCounters, effects::effectKinds> effects{};
+    SignalTurns signalStarts;
+    SignalTurns signalStops;
     /// What the newest contact state asks for, and the processors that the voice has.
     std::atomic<effects::EffectMask> askedFor{0};
     std::atomic<std::uint64_t> updates{0};
@@ -148,6 +168,11 @@ struct VoiceCounters {
     std::atomic<std::uint32_t> leadSamples{0};
 };
 
+/// Of the process's steady clock, which every thread reads without entering the kernel.
+[[nodiscard]] inline double steadySeconds() noexcept {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
 /// Everything that publisher, worker and callback of one voice share. Each part has one writer and one reader.
 struct VoiceChannels {
     Mailbox<AudioMessage> toAudio;
@@ -156,6 +181,8 @@ struct VoiceChannels {
     SegmentQueue segments;
     VoiceControls controls;
     VoiceCounters counters;
+    /// Where publisher and callback read the time.
+    double (*clock)() noexcept = steadySeconds;
 
     /// Whether the newest block ended with anything but silence. Set by the callback.
     std::atomic<bool> audible{false};
@@ -206,6 +233,14 @@ struct VoiceChannels {
         delete usedProcessors.load();
     }
 };
+
+inline void SignalTurns::note(double seconds) noexcept {
+    const std::uint64_t turns = count.load(std::memory_order_relaxed) + 1;
+    const double before = meanSeconds.load(std::memory_order_relaxed);
+    lastSeconds.store(seconds, std::memory_order_relaxed);
+    meanSeconds.store(before + (seconds - before) / static_cast<double>(turns), std::memory_order_relaxed);
+    count.store(turns, std::memory_order_release);
+}
 
 inline bool VoiceChannels::changeProcessors(const std::function<bool(ProcessorSettings&)>& change) {
     const std::lock_guard lock(processorMutex);

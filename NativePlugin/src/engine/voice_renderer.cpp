@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace haptoflow::engine {
 namespace {
@@ -42,6 +43,7 @@ void VoiceRenderer::render(std::span<float> out, double rateHz) noexcept {
     } else if (!stopsWithBlock_) {
         decide(rateHz);
         readBlows();
+        readSignal();
         sounded = isSounding();
         takeSegments();
         soundUntilStale(out);
@@ -49,7 +51,7 @@ void VoiceRenderer::render(std::span<float> out, double rateHz) noexcept {
     contactAgeFrames_ += out.size();
     count(channels_.counters.renderedFrames, out.size());
     channels_.audible.store(!voice_.isSilent(), std::memory_order_release);
-    // After a landing the tip rests, and what it struck still rings.
+    // After a landing the tip rests, and what it struck still rings; and while a signal sounds, the texture rests.
     const bool ringsAtRest = silence_ == Silence::rest && !voice_.isSilent();
     channels_.silence.store(ringsAtRest ? Silence::none : silence_, std::memory_order_relaxed);
     report(uncoveredBefore, sounded);
@@ -80,6 +82,8 @@ void VoiceRenderer::readControls() noexcept {
     const VoiceControls& controls = channels_.controls;
     voice_.setStrength(unitRange(controls.strength.load(std::memory_order_relaxed)));
     voice_.setCeiling(unitRange(controls.ceiling.load(std::memory_order_relaxed)));
+    signal_ = controls.signal.load(std::memory_order_relaxed);
+    voice_.effects().setSignal(signal_);
     voice_.effects().setDelaySeconds(controls.delaySeconds.load(std::memory_order_relaxed));
     voice_.effects().setActuatorGain(controls.actuatorGain.load(std::memory_order_relaxed));
 }
@@ -116,7 +120,8 @@ std::size_t VoiceRenderer::framesUntilStale(std::size_t frames) const noexcept {
 SoundConditions VoiceRenderer::conditions(double rateHz) const noexcept {
     const AudioMessage& contact = channels_.toAudio.current();
     const VoiceControls& controls = channels_.controls;
-    return {.isTouched = contact.sliding || contact.onset != playedOnset_ || tapFramesLeft_ > 0,
+    const bool hasTexture = contact.sliding || contact.onset != playedOnset_ || tapFramesLeft_ > 0;
+    return {.isTouched = signal_.isSet() ? contact.isMoving : hasTexture,
             .isStale = framesUntilStale(1) == 0,
             .isMuted = controls.muted.load(std::memory_order_relaxed),
             .isPaused = controls.paused.load(std::memory_order_relaxed),
@@ -136,6 +141,9 @@ void VoiceRenderer::decide(double rateHz) noexcept {
         }
         requestOutput(rateHz);
         wanted = silenceFor(conditions(rateHz));
+    }
+    if (wanted == Silence::none && signal_.isSet()) {
+        wanted = Silence::rest;
     }
     const AudioMessage& contact = channels_.toAudio.current();
     if (wanted == Silence::none) {
@@ -193,7 +201,7 @@ void VoiceRenderer::readBlows() noexcept {
         return;
     }
     voice_.allowEffects();
-    if (contact.touch <= silencedTouch_) {
+    if (contact.touch <= silencedTouch_ || signal_.isSet()) {
         return;
     }
     if (landed) {
@@ -202,6 +210,32 @@ void VoiceRenderer::readBlows() noexcept {
     if (crossed) {
         voice_.strikeEdge(static_cast<double>(contact.edge.speedMps), contact.edge.response);
     }
+}
+
+void VoiceRenderer::readSignal() noexcept {
+    const bool isMoving = channels_.toAudio.current().isMoving;
+    const bool hasTurned = std::exchange(wasMoving_, isMoving) != isMoving;
+    // What has to be silent is silenced with everything else, and begins anew afterwards.
+    if (silence_ != Silence::none && silence_ != Silence::rest) {
+        return;
+    }
+    const bool isWanted = signal_.isSet() && isMoving;
+    if (isWanted == voice_.effects().isSignalOn()) {
+        return;
+    }
+    if (isWanted) {
+        voice_.beginSignal();
+    } else {
+        voice_.effects().endSignal();
+    }
+    if (hasTurned) {
+        noteSignalTurn(isWanted ? channels_.counters.signalStarts : channels_.counters.signalStops);
+    }
+}
+
+void VoiceRenderer::noteSignalTurn(SignalTurns& turns) noexcept {
+    const double sinceSeconds = channels_.toAudio.current().movingSinceSeconds;
+    turns.note(std::max(0.0, channels_.clock() - sinceSeconds) + voice_.effects().delaySeconds());
 }
 
 void VoiceRenderer::takeProcessors() noexcept {

@@ -14,7 +14,7 @@ namespace haptoflow::engine {
 /// The callback's end of a voice: takes the newest contact, commits segments, decides whether the voice sounds,
 /// renders. Wait-free: no allocation, no lock, no system call, nothing unbounded. One thread at a time.
 ///
-/// Its state is `silence_`: none while the voice sounds, else the reason why it does not. A block begins with one
+/// Its state is `silence_`: none while the texture sounds, else the reason why it does not. A block begins with one
 /// decision between the two; within a block only a contact that goes stale and a tap that ends change it.
 class VoiceRenderer {
 public:
@@ -48,6 +48,8 @@ private:
     void decide(double rateHz) noexcept;
     void begin() noexcept;
     void readBlows() noexcept;
+    void readSignal() noexcept;
+    void noteSignalTurn(SignalTurns& turns) noexcept;
     void takeProcessors() noexcept;
     void reportEffects() noexcept;
     void reportExposure() noexcept;
@@ -73,6 +75,10 @@ private:
     // Of BlowMessage::counter.
     std::uint32_t seenImpacts_ = 0;
     std::uint32_t seenEdges_ = 0;
+
+    effects::SignalSettings signal_;
+    // AudioMessage::isMoving of the block before.
+    bool wasMoving_ = false;
 
     bool hasContact_ = false;
     std::uint64_t contactAgeFrames_ = 0;

@@ -1,0 +1,130 @@
+#nullable enable
+using System;
+using UnityEngine;
+
+namespace HaptoFlow.Studies
+{
+    /// <summary>What a stylus did during a trial: how long it touched, how far and fast it slid, how hard it pressed,
+    /// how often it set off and stopped. Main thread; no garbage while it counts.</summary>
+    public sealed class TrialContact : IDisposable
+    {
+        /// <summary>A tip that slides at least so fast, in m/s, moves: the signal effect's threshold.</summary>
+        public const float MovingMps = 0.005f;
+
+        private readonly HapticStylus stylus;
+        private double lastSeconds;
+        private double newtonSeconds;
+        private double pathMetres;
+        private ulong underrunsBefore;
+
+        /// <summary>Counts from now on.</summary>
+        public TrialContact(HapticStylus stylus)
+        {
+            this.stylus = stylus;
+            stylus.TouchBegan += OnBegan;
+            stylus.TouchMoved += OnMoved;
+            stylus.TouchEnded += OnEnded;
+            Begin();
+        }
+
+        /// <summary>The tip touches and slides. Also between trials.</summary>
+        public bool IsMoving { get; private set; }
+
+        /// <summary>How long the tip touched.</summary>
+        public double ContactSeconds { get; private set; }
+
+        /// <summary>How far it slid on what it touched, in mm.</summary>
+        public double PathMillimetres => 1000.0 * pathMetres;
+
+        /// <summary>Path over contact time, in mm/s; 0 without contact.</summary>
+        public double MeanSpeedMmps => ContactSeconds > 0.0 ? PathMillimetres / ContactSeconds : 0.0;
+
+        /// <summary>Over the contact time, in N; 0 without contact.</summary>
+        public double MeanForceNewtons => ContactSeconds > 0.0 ? newtonSeconds / ContactSeconds : 0.0;
+
+        /// <summary>How often the tip set off.</summary>
+        public int Starts { get; private set; }
+
+        /// <summary>How often it came to rest, or lifted while it slid.</summary>
+        public int Stops { get; private set; }
+
+        /// <summary>Audio blocks for which no segment was there.</summary>
+        public ulong Underruns
+        {
+            get
+            {
+                ulong now = UnderrunsByNow();
+                // A voice that was opened anew counts from zero.
+                return now >= underrunsBefore ? now - underrunsBefore : now;
+            }
+        }
+
+        /// <summary>A trial begins: everything counts from zero.</summary>
+        public void Begin()
+        {
+            ContactSeconds = 0.0;
+            pathMetres = 0.0;
+            newtonSeconds = 0.0;
+            Starts = 0;
+            Stops = 0;
+            lastSeconds = NowSeconds();
+            underrunsBefore = UnderrunsByNow();
+        }
+
+        /// <summary>Writes the columns that all studies have.</summary>
+        public TrialRecord AddTo(TrialRecord record) => record
+            .Set("contact_seconds", ContactSeconds)
+            .Set("path_mm", PathMillimetres)
+            .Set("mean_speed_mmps", MeanSpeedMmps)
+            .Set("mean_force_newtons", MeanForceNewtons)
+            .Set("underruns", Underruns);
+
+        /// <summary>Counts no more.</summary>
+        public void Dispose()
+        {
+            stylus.TouchBegan -= OnBegan;
+            stylus.TouchMoved -= OnMoved;
+            stylus.TouchEnded -= OnEnded;
+        }
+
+        private void OnBegan(HapticStylus told, in HapticContact contact)
+        {
+            lastSeconds = NowSeconds();
+            Move(contact.TangentialVelocity.magnitude);
+        }
+
+        private void OnMoved(HapticStylus told, in HapticContact contact)
+        {
+            double now = NowSeconds();
+            double passed = Math.Max(0.0, now - lastSeconds);
+            lastSeconds = now;
+            float speedMps = contact.TangentialVelocity.magnitude;
+            ContactSeconds += passed;
+            pathMetres += passed * speedMps;
+            newtonSeconds += passed * contact.ForceNewtons;
+            Move(speedMps);
+        }
+
+        private void OnEnded(HapticStylus told, in HapticContact contact) => Move(0f);
+
+        private void Move(float speedMps)
+        {
+            bool moves = speedMps >= MovingMps;
+            if (moves && !IsMoving)
+            {
+                ++Starts;
+            }
+            else if (!moves && IsMoving)
+            {
+                ++Stops;
+            }
+            IsMoving = moves;
+        }
+
+        private ulong UnderrunsByNow() =>
+            stylus != null && stylus.TryGetStatistics(out VoiceStatistics statistics) ? statistics.Underruns : 0;
+
+        private static double NowSeconds() =>
+            Time.inFixedTimeStep ? Time.fixedUnscaledTimeAsDouble : Time.unscaledTimeAsDouble;
+    }
+}

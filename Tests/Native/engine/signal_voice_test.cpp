@@ -1,0 +1,318 @@
+#include "simulated_device.hpp"
+#include "test_model.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+#include <span>
+
+// A signal that stands for the texture: when it sounds, what does not run meanwhile, and how its latency is counted.
+
+namespace haptoflow::engine {
+namespace {
+
+using effects::EffectKind;
+using effects::maskOf;
+using testing::FakeGenerator;
+using testing::lifted;
+using testing::SimulatedDevice;
+using testing::sliding;
+
+class SignalVoiceTest : public ::testing::Test {
+protected:
+    static constexpr float fullScaleMps2 = 60.0F;
+    static constexpr effects::SignalSettings tone200{.frequencyHz = 200.0F, .amplitudeMps2 = 6.0F};
+
+    SignalVoiceTest() {
+        nowSeconds = 0.0;
+        device_.voice().channels.clock = +[]() noexcept { return nowSeconds; };
+    }
+
+    void setSignal(const effects::SignalSettings& settings) { device_.controls().signal = settings; }
+    void play(double seconds, const ContactState& state) {
+        begin_ = device_.output.size();
+        device_.run(seconds, [&](double) { return state; });
+    }
+    /// What the last `play` rendered, from that second of it on.
+    [[nodiscard]] std::span<const float> played(double fromSeconds = 0.0) const {
+        const auto skipped = static_cast<std::size_t>(fromSeconds * 48000.0);
+        return std::span<const float>(device_.output).subspan(begin_ + skipped);
+    }
+    [[nodiscard]] static bool isTone(std::span<const float> samples, double frequencyHz, double amplitude) {
+        // Of sin(x) + sin(x + 2 d) = 2 cos(d) sin(x + d), whatever the phase.
+        const double factor = 2.0 * std::cos(2.0 * std::numbers::pi * frequencyHz / 48000.0);
+        for (std::size_t i = 2; i < samples.size(); ++i) {
+            const double expected = factor * static_cast<double>(samples[i - 1]) - static_cast<double>(samples[i - 2]);
+            if (std::abs(expected - static_cast<double>(samples[i])) > 1e-6) {
+                return false;
+            }
+        }
+        return std::abs(static_cast<double>(testing::peak(samples)) - amplitude) < 1e-3 * amplitude;
+    }
+    [[nodiscard]] const EffectCounters& of(EffectKind kind) const {
+        return device_.counters().effects[static_cast<std::size_t>(kind)];
+    }
+    static ContactState everything(float speedMps, std::uint32_t touch = 1) {
+        ContactState state = sliding(speedMps);
+        state.touchCounter = touch;
+        state.approachSpeedMps = 0.5F;
+        state.effects = maskOf(EffectKind::texture) | maskOf(EffectKind::impact) | maskOf(EffectKind::edge);
+        state.toneDbPerOctave = 3.0F;
+        return state;
+    }
+
+    model::ModelFile model_ = testing::smallModel();
+    FakeGenerator generator_{testing::continueTone};
+    SimulatedDevice device_{model_, generator_};
+    std::size_t begin_ = 0;
+    inline static double nowSeconds = 0.0;
+};
+
+TEST_F(SignalVoiceTest, SoundsAtItsAmplitudeWhateverForceAndSpeedAreAsSoonAsTheTipMovesAt5MmPerSecond) {
+    setSignal(tone200);
+    play(0.05, sliding(0.0049F));
+    EXPECT_EQ(testing::peak(played()), 0.0F);
+    for (const float speedMps : {0.005F, 0.15F, 2.0F, 20.0F}) {
+        for (const float forceNewtons : {0.0F, 0.1F, 900.0F}) {
+            play(0.05, sliding(speedMps, forceNewtons));
+            EXPECT_TRUE(isTone(played(0.025), 200.0, 6.0 / fullScaleMps2)) << speedMps << " m/s, " << forceNewtons;
+        }
+    }
+}
+
+TEST_F(SignalVoiceTest, NeitherTextureNorImpactNorEdgeNorToneIsMadeAndNothingIsInferred) {
+    setSignal(tone200);
+    for (std::uint32_t touch = 1; touch < 8; ++touch) {
+        ContactState state = everything(0.2F, touch);
+        state.edgeCounter = touch;
+        state.edgeHeightMetres = 0.01F;
+        state.landingCounter = touch / 2;
+        state.material.entries[0].label = touch % 2;
+        play(0.1, state);
+        EXPECT_TRUE(isTone(played(0.02), 200.0, 6.0 / fullScaleMps2));
+        play(0.05, lifted(touch));
+        EXPECT_EQ(testing::peak(played(0.03)), 0.0F);
+    }
+    for (const EffectKind kind : {EffectKind::texture, EffectKind::impact, EffectKind::edge, EffectKind::tone}) {
+        EXPECT_EQ(of(kind).prepared + of(kind).runs + of(kind).samples + of(kind).events, 0U);
+    }
+    EXPECT_EQ(device_.counters().inferences, 0U);
+    EXPECT_EQ(device_.counters().onsets, 0U);
+    EXPECT_EQ(generator_.generated, 0);
+    EXPECT_EQ(of(EffectKind::signal).prepared, 1U);
+    EXPECT_EQ(of(EffectKind::signal).events, 7U);
+    EXPECT_GT(of(EffectKind::signal).samples, 7U * 4800U / 2U);
+}
+
+TEST_F(SignalVoiceTest, WithoutOneNoSampleChangesAndNothingIsCounted) {
+    SimulatedDevice plain(model_, generator_);
+    const auto hand = [](double seconds) { return seconds < 0.4 ? sliding() : lifted(); };
+    plain.run(0.6, hand);
+    setSignal({.frequencyHz = 200.0F, .amplitudeMps2 = 0.0F});
+    device_.run(0.6, hand);
+    EXPECT_EQ(plain.output, device_.output);
+    EXPECT_EQ(of(EffectKind::signal).prepared + of(EffectKind::signal).runs, 0U);
+    EXPECT_EQ(device_.counters().signalStarts.count, 0U);
+}
+
+TEST_F(SignalVoiceTest, BeginsAndEndsWithin2MsOfTheBlockThatKnowsOfItWithoutAStep) {
+    setSignal(tone200);
+    device_.publish(lifted(0));
+    device_.renderBlock();
+    const std::size_t start = device_.output.size();
+    device_.publish(sliding(0.15F));
+    device_.renderBlock();
+    const std::span<const float> begun = std::span<const float>(device_.output).subspan(start);
+    EXPECT_GT(testing::peak(begun.first(20)), 0.0F);
+    EXPECT_TRUE(isTone(begun.subspan(96), 200.0, 6.0 / fullScaleMps2));
+    device_.publish(lifted());
+    device_.renderBlock();
+    const std::span<const float> ended = std::span<const float>(device_.output).subspan(start + 256);
+    EXPECT_GT(testing::peak(ended.first(40)), 0.0F);
+    EXPECT_EQ(testing::peak(ended.subspan(96)), 0.0F);
+    const double steepest = 0.1 * 2.0 * std::numbers::pi * (200.0 + 0.25 / 0.002) / 48000.0;
+    EXPECT_LT(static_cast<double>(testing::largestStep(device_.output)), steepest);
+}
+
+TEST_F(SignalVoiceTest, SetWhileTheTextureSoundsItTakesOverWithoutAStepAndGivesItBackWithTheNextState) {
+    play(0.3, sliding());
+    const std::uint64_t onsets = device_.counters().onsets;
+    setSignal(tone200);
+    device_.renderBlock();
+    play(0.3, sliding());
+    EXPECT_TRUE(isTone(played(0.02), 200.0, 6.0 / fullScaleMps2));
+    const std::uint64_t inferences = device_.counters().inferences;
+    play(0.3, sliding());
+    EXPECT_EQ(device_.counters().inferences, inferences);
+    setSignal({});
+    device_.renderBlock();
+    play(0.3, sliding());
+    EXPECT_GT(device_.counters().inferences, inferences);
+    EXPECT_EQ(device_.counters().onsets, onsets + 1);
+    EXPECT_TRUE(isTone(played(0.1), testing::toneHz, 1.0 / 60.0) || testing::peak(played(0.1)) > 0.01F);
+    EXPECT_EQ(device_.counters().signalStarts.count + device_.counters().signalStops.count, 0U)
+        << "no contact state turned it";
+    const double steepest = 0.1 * 2.0 * std::numbers::pi * (200.0 + 0.25 / 0.002) / 48000.0 +
+                            haptoflow::testing::steepestStep(48000.0) / 60.0;
+    EXPECT_LT(static_cast<double>(testing::largestStep(device_.output)), steepest);
+}
+
+TEST_F(SignalVoiceTest, MutePausePanicAndMissingStatesSilenceItAndItComesBackWhereTheyEnd) {
+    setSignal(tone200);
+    const auto isSilent = [this] { return testing::peak(played(0.02)) == 0.0F; };
+    const auto sounds = [this] { return isTone(played(0.02), 200.0, 6.0 / fullScaleMps2); };
+    play(0.1, sliding());
+    ASSERT_TRUE(sounds());
+    device_.controls().muted = true;
+    play(0.1, sliding());
+    EXPECT_TRUE(isSilent());
+    device_.controls().muted = false;
+    device_.controls().paused = true;
+    play(0.1, sliding());
+    EXPECT_TRUE(isSilent());
+    EXPECT_EQ(device_.voice().channels.silence, Silence::paused);
+    device_.controls().paused = false;
+    play(0.1, sliding());
+    EXPECT_TRUE(sounds());
+    EXPECT_EQ(device_.voice().channels.silence, Silence::none);
+    device_.voice().channels.panic();
+    play(0.1, sliding());
+    EXPECT_TRUE(isSilent());
+    EXPECT_EQ(device_.voice().channels.silence, Silence::panic);
+    ContactState next = sliding();
+    next.touchCounter = 2;
+    play(0.1, next);
+    EXPECT_TRUE(sounds());
+    begin_ = device_.output.size();
+    device_.run(0.3, [](double) { return std::nullopt; });
+    EXPECT_EQ(testing::peak(played(0.13)), 0.0F);
+    EXPECT_EQ(device_.voice().channels.silence, Silence::stale);
+    play(0.1, next);
+    EXPECT_TRUE(sounds());
+    const double steepest = 0.1 * 2.0 * std::numbers::pi * (200.0 + 0.25 / 0.002) / 48000.0;
+    EXPECT_LT(static_cast<double>(testing::largestStep(device_.output)), steepest);
+    EXPECT_EQ(device_.counters().signalStarts.count, 1U) << "the others were no contact state's";
+    EXPECT_EQ(device_.counters().signalStops.count, 0U);
+}
+
+TEST_F(SignalVoiceTest, AfterAMuteALandingHasItsWholeAttackAgain) {
+    SimulatedDevice fresh(model_, generator_);
+    fresh.publish(lifted(0));
+    fresh.renderBlock();
+    setSignal(tone200);
+    play(0.1, sliding());
+    device_.controls().muted = true;
+    play(0.05, sliding());
+    device_.controls().muted = false;
+    setSignal({});
+    play(0.05, lifted());
+    ContactState landing = everything(0.0F, 2);
+    const std::size_t before = device_.output.size();
+    const std::size_t beforeFresh = fresh.output.size();
+    device_.publish(landing);
+    device_.renderBlock();
+    fresh.publish(landing);
+    fresh.renderBlock();
+    EXPECT_TRUE(std::ranges::equal(std::span(device_.output).subspan(before),
+                                   std::span(fresh.output).subspan(beforeFresh)));
+    EXPECT_GT(testing::peak(std::span<const float>(device_.output).subspan(before)), 0.0F);
+}
+
+TEST_F(SignalVoiceTest, LatencyIsCountedFromTheFirstStateThatAsksForTheChangeToTheBlockThatMakesIt) {
+    setSignal(tone200);
+    nowSeconds = 100.0;
+    device_.publish(sliding(0.001F));
+    device_.renderBlock();
+    nowSeconds = 101.0;
+    device_.publish(sliding(0.15F));
+    nowSeconds = 101.004;
+    device_.publish(sliding(0.16F));
+    nowSeconds = 101.010;
+    device_.renderBlock();
+    const SignalTurns& starts = device_.counters().signalStarts;
+    const SignalTurns& stops = device_.counters().signalStops;
+    EXPECT_EQ(starts.count, 1U);
+    EXPECT_NEAR(starts.lastSeconds, 0.010, 1e-9);
+    nowSeconds = 102.0;
+    device_.publish(sliding(0.0F));
+    nowSeconds = 102.020;
+    device_.renderBlock();
+    EXPECT_EQ(stops.count, 1U);
+    EXPECT_NEAR(stops.lastSeconds, 0.020, 1e-9);
+    nowSeconds = 103.0;
+    device_.publish(sliding(0.2F));
+    nowSeconds = 103.030;
+    device_.renderBlock();
+    EXPECT_EQ(starts.count, 2U);
+    EXPECT_NEAR(starts.lastSeconds, 0.030, 1e-9);
+    EXPECT_NEAR(starts.meanSeconds, 0.020, 1e-9);
+    EXPECT_NEAR(stops.meanSeconds, 0.020, 1e-9);
+    // There and back between two blocks is no turn.
+    device_.publish(lifted());
+    device_.publish(sliding(0.2F));
+    device_.renderBlock();
+    EXPECT_EQ(starts.count, 2U);
+    EXPECT_EQ(stops.count, 1U);
+}
+
+TEST_F(SignalVoiceTest, ADelayComesOnTopOfTheLatencyAndOfWhatIsHeard) {
+    device_.controls().delaySeconds = 0.05;
+    device_.voice().channels.changeProcessors([](ProcessorSettings& settings) { return settings.hasDelay = true; });
+    setSignal(tone200);
+    play(0.1, lifted(0));
+    const std::size_t start = device_.output.size();
+    nowSeconds = 1.0;
+    device_.publish(sliding(0.15F));
+    nowSeconds = 1.003;
+    for (int block = 0; block < 15; ++block) {
+        device_.renderBlock();
+    }
+    EXPECT_NEAR(device_.counters().signalStarts.lastSeconds, 0.053, 1e-9);
+    const std::span<const float> heard = std::span<const float>(device_.output).subspan(start);
+    EXPECT_EQ(testing::peak(heard.first(2400)), 0.0F);
+    EXPECT_GT(testing::peak(heard.subspan(2400, 40)), 0.0F);
+    EXPECT_TRUE(isTone(heard.subspan(2400 + 96), 200.0, 6.0 / fullScaleMps2));
+    nowSeconds = 2.0;
+    device_.publish(lifted());
+    const std::size_t end = device_.output.size();
+    for (int block = 0; block < 15; ++block) {
+        device_.renderBlock();
+    }
+    const std::span<const float> ended = std::span<const float>(device_.output).subspan(end);
+    EXPECT_TRUE(isTone(ended.first(2400), 200.0, 6.0 / fullScaleMps2));
+    EXPECT_EQ(testing::peak(ended.subspan(2400 + 96)), 0.0F);
+    EXPECT_NEAR(device_.counters().signalStops.lastSeconds, 0.05, 1e-9);
+}
+
+TEST_F(SignalVoiceTest, AnotherRateOfTheDeviceGivesTheSameToneAfterTheChange) {
+    setSignal(tone200);
+    play(0.1, sliding());
+    device_.setRate(96000.0);
+    begin_ = device_.output.size();
+    device_.run(0.5, [](double) { return sliding(); });
+    const std::span<const float> later = std::span<const float>(device_.output).last(9600);
+    std::size_t crossings = 0;
+    for (std::size_t i = 1; i < later.size(); ++i) {
+        crossings += later[i - 1] <= 0.0F && later[i] > 0.0F ? 1U : 0U;
+    }
+    EXPECT_EQ(crossings, 20U);
+    EXPECT_NEAR(testing::peak(later), 0.1F, 1e-4F);
+}
+
+TEST_F(SignalVoiceTest, StrengthAndCeilingHoldForItAsForEverything) {
+    setSignal({.frequencyHz = 100.0F, .amplitudeMps2 = 60.0F});
+    device_.controls().strength = 0.25F;
+    play(0.2, sliding());
+    EXPECT_NEAR(testing::peak(played(0.05)), 0.25F, 1e-4F);
+    device_.controls().strength = 1.0F;
+    device_.controls().ceiling = 0.5F;
+    play(0.2, sliding());
+    EXPECT_LE(testing::peak(played(0.05)), 0.5F);
+}
+
+}  // namespace
+}  // namespace haptoflow::engine

@@ -1,0 +1,23 @@
+"""`haptoflow-training study`: the two user studies, from simulated participants to the report."""
+
+from __future__ import annotations
+
+import argparse
+
+from haptoflow_training.commands import study_golden
+
+_STEPS = {
+    "golden": (study_golden, "write the plans that the Unity package must agree with"),
+}
+
+
+def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser], summary: str) -> None:
+    parser = subparsers.add_parser(
+        "study",
+        help=summary,
+        description="Logs of the delay tolerance study and of the similarity study: simulate, check, merge, analyse.",
+        epilog="`haptoflow-training study STEP --help` explains one step with examples.",
+    )
+    steps = parser.add_subparsers(dest="step", required=True, metavar="STEP")
+    for name, (module, words) in _STEPS.items():
+        module.register(steps.add_parser(name, help=words, formatter_class=argparse.RawDescriptionHelpFormatter))
