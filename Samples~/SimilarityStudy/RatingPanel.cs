@@ -74,7 +74,7 @@ namespace HaptoFlow.Samples.SimilarityStudy
         /// <summary>Goes to the next answer, or from none to the middle one.</summary>
         /// <param name="step">-1 or 1.</param>
         public void Move(int step) => Choose(Choice.HasValue
-            ? Mathf.Clamp(Choice.Value + step, Lowest, Highest)
+            ? Math.Max(Lowest, Math.Min(Highest, Choice.Value + step))
             : (Lowest + Highest) / 2);
 
         /// <summary>Gives the chosen answer; nothing happens where none is chosen.</summary>

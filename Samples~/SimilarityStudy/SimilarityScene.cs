@@ -220,7 +220,7 @@ namespace HaptoFlow.Samples.SimilarityStudy
             var description = new StudyDescription(plan, settings.ForLog(), Delay.Of(Delay.Slowest))
             {
                 IsSimulated = IsSimulated,
-                Environment = StudyScene.Environment(settings),
+                Environment = EnvironmentOf(settings),
                 Models = models!.ForLog(),
             };
             return StudyLog.Open(settings.Folder, description);
@@ -229,8 +229,16 @@ namespace HaptoFlow.Samples.SimilarityStudy
         private Dictionary<string, SystemDelay> DelaysOfMethods() => settings!.Methods.ToDictionary(
             each => each.Name,
             each => new SystemDelay(poseInterval.MedianMilliseconds, models!.InferenceMilliseconds(each.Name),
-                BlockMilliseconds(), settings.DeviceDelayMilliseconds),
+                StudyPlayer.BlockMilliseconds, settings.DeviceDelayMilliseconds),
             StringComparer.Ordinal);
+
+        private static StudyEnvironment EnvironmentOf(SimilaritySettings chosen)
+        {
+            StudyEnvironment environment = StudyPlayer.Environment(chosen.Headset);
+            environment.DeviceDelaySource = chosen.DeviceDelaySource;
+            environment.DeviceDelayNote = chosen.DeviceDelayNote;
+            return environment;
+        }
 
         private void MakeOutput()
         {
@@ -297,16 +305,10 @@ namespace HaptoFlow.Samples.SimilarityStudy
             _ => "waiting",
         };
 
-        private static double BlockMilliseconds()
-        {
-            AudioSettings.GetDSPBufferSize(out int frames, out _);
-            return 1000.0 * frames / AudioSettings.outputSampleRate;
-        }
-
         private static async Task<double> MeasureLive(StudyMethod method, HapticLoadedModel model)
         {
             AudioSettings.GetDSPBufferSize(out int frames, out _);
-            double blockMilliseconds = BlockMilliseconds();
+            double blockMilliseconds = StudyPlayer.BlockMilliseconds;
             HapticModelDelay delay = await model.MeasureDelay(AudioSettings.outputSampleRate, frames)
                 .ConfigureAwait(false);
             // The lead holds the block that a segment waits for; the rest is the method's own.

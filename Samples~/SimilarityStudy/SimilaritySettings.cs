@@ -1,7 +1,6 @@
 #nullable enable
 using System;
 using System.Collections.Generic;
-using System.IO;
 using System.Linq;
 using HaptoFlow.Studies;
 using UnityEngine;
@@ -48,6 +47,9 @@ namespace HaptoFlow.Samples.SimilarityStudy
         [SerializeField, Tooltip("The study begins only after the virtual object was aligned with the real sample.")]
         private bool needsAlignment = true;
 
+        [SerializeField, Tooltip("The headset in your words, for the record.")]
+        private string headset = "";
+
         [SerializeField, Tooltip("The hand that holds the pen.")]
         private PenHand penHand = PenHand.Right;
 
@@ -92,7 +94,7 @@ namespace HaptoFlow.Samples.SimilarityStudy
         /// <summary>Where the logs go.</summary>
         public string Folder
         {
-            get => folder.Length > 0 ? folder : Path.Combine(Application.persistentDataPath, "Studies");
+            get => folder.Length > 0 ? folder : StudyPlayer.DefaultFolder;
             set => folder = value ?? "";
         }
 
@@ -120,6 +122,9 @@ namespace HaptoFlow.Samples.SimilarityStudy
             get => needsAlignment;
             set => needsAlignment = value;
         }
+
+        /// <summary>For the record.</summary>
+        public string Headset => headset;
 
         /// <summary>The hand that holds the pen.</summary>
         public PenHand PenHand => penHand;
