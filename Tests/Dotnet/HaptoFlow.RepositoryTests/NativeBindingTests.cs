@@ -22,6 +22,7 @@ namespace HaptoFlow.RepositoryTests
         [TestCase(typeof(NativeContactState), 88)]
         [TestCase(typeof(EffectStatistics), 48)]
         [TestCase(typeof(HapticExposure), 40)]
+        [TestCase(typeof(SignalStatistics), 56)]
         [TestCase(typeof(VoiceStatistics), 176)]
         [TestCase(typeof(EngineStatistics), 88)]
         [TestCase(typeof(TierTimes), 32)]
@@ -225,6 +226,43 @@ namespace HaptoFlow.RepositoryTests
             Peak(engine, voice, state, 1);
             Assert.That(voice.Statistics().Sanitised, Is.EqualTo(1UL), "the scale was limited");
             Assert.That(voice.EffectStatistics(HapticEffect.Tone).Runs, Is.GreaterThan(0UL));
+        }
+
+        [Test]
+        public void ASignalSoundsInsteadOfTheTextureWhileTheTipMovesAndItsTurnsAreCounted()
+        {
+            using HapticEngine engine = EngineWithoutWorker();
+            using HapticVoice voice = engine.OpenVoice(48000.0);
+            voice.SetSignal(200.0, 40.0);
+            Assert.That(Peak(engine, voice, Sliding(1), 10), Is.EqualTo(0.2f).Within(1e-3f), "40 of 200 m/s^2");
+            Assert.That(Peak(engine, voice, new ContactState { TouchCounter = 1 }, 1), Is.GreaterThan(0f));
+            Assert.That(Peak(engine, voice, new ContactState { TouchCounter = 1 }, 2), Is.Zero);
+            SignalStatistics turns = voice.SignalStatistics();
+            Assert.That(turns.Starts, Is.EqualTo(1UL));
+            Assert.That(turns.Stops, Is.EqualTo(1UL));
+            Assert.That(turns.LastStartLatencySeconds, Is.GreaterThan(0.0).And.EqualTo(turns.MeanStartLatencySeconds));
+            Assert.That(turns.LastStopLatencySeconds, Is.GreaterThan(0.0).And.EqualTo(turns.MeanStopLatencySeconds));
+            Assert.That(voice.EffectStatistics(HapticEffect.Signal).Events, Is.EqualTo(1UL));
+            Assert.That(voice.EffectStatistics(HapticEffect.Texture).Runs, Is.Zero);
+            Assert.That(voice.Statistics().Inferences, Is.Zero);
+            voice.SetSignal(0.0, 0.0);
+            Assert.That(voice.EffectStatistics(HapticEffect.Signal).IsAskedFor, Is.False);
+            Peak(engine, voice, Sliding(2), 5);
+            Assert.That(voice.Statistics().Inferences, Is.Not.Zero);
+        }
+
+        [Test]
+        public void ASignalOutOfRangeIsRefusedByName()
+        {
+            using HapticEngine engine = EngineWithoutWorker();
+            HapticVoice voice = engine.OpenVoice(48000.0);
+            var refusal = Assert.Throws<HaptoFlowException>(() => voice.SetSignal(501.0, 1.0));
+            Assert.That(refusal!.Message, Does.Contain("frequency_hz"));
+            refusal = Assert.Throws<HaptoFlowException>(() => voice.SetSignal(200.0, double.NaN));
+            Assert.That(refusal!.Message, Does.Contain("amplitude_mps2"));
+            voice.Dispose();
+            Assert.Throws<HaptoFlowException>(() => voice.SetSignal(200.0, 1.0));
+            Assert.Throws<HaptoFlowException>(() => voice.SignalStatistics());
         }
 
         private static void Generate(HapticGenerator generator, float[] segment, ulong seed)

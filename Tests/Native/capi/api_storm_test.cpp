@@ -383,12 +383,18 @@ private:
         statistics.struct_size = sizeOf(sizeof(statistics));
         haptoflow_engine_statistics engineStatistics{};
         engineStatistics.struct_size = sizeOf(sizeof(engineStatistics));
+        haptoflow_signal_statistics signal{};
+        signal.struct_size = sizeOf(sizeof(signal));
         haptoflow_tier_times times{};
         times.struct_size = sizeOf(sizeof(times));
         std::uint32_t place = 0;
         std::array<float, 16> noise{};
         const bool isNull = oneIn(16);
-        switch (next() % 14) {
+        switch (next() % 16) {
+            case 14:
+                return haptoflow_voice_set_signal(voice, 1000.0 * wildFloat(), 100.0 * wildFloat());
+            case 15:
+                return haptoflow_voice_signal_statistics(voice, isNull ? nullptr : &signal);
             case 0:
                 return haptoflow_voice_set_strength(voice, wildFloat());
             case 1:

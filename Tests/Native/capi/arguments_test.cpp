@@ -207,6 +207,8 @@ TEST(ArgumentTest, NullPointersAreRefusedByEveryFunction) {
         {"haptoflow_voice_render", {[&] { return haptoflow_voice_render(open.voice, nullptr, 8, 1, 0, 48000.0); }}},
         {"haptoflow_voice_get_statistics", {[&] { return haptoflow_voice_get_statistics(open.voice, nullptr); }}},
         {"haptoflow_voice_set_actuator", {[&] { return haptoflow_voice_set_actuator(0, nullptr, 0); }}},
+        {"haptoflow_voice_signal_statistics",
+         {[&] { return haptoflow_voice_signal_statistics(open.voice, nullptr); }}},
         {"haptoflow_voice_exposure", {[&] { return haptoflow_voice_exposure(open.voice, nullptr); }}},
         {"haptoflow_voice_effect_statistics",
          {[&] { return haptoflow_voice_effect_statistics(open.voice, HAPTOFLOW_EFFECT_TEXTURE, nullptr); }}},

@@ -173,6 +173,10 @@ protected:
             output<haptoflow_exposure>(
                 "haptoflow_exposure",
                 [this](haptoflow_exposure* exposure) { return haptoflow_voice_exposure(open_.voice, exposure); }),
+            output<haptoflow_signal_statistics>("haptoflow_signal_statistics",
+                                                [this](haptoflow_signal_statistics* statistics) {
+                                                    return haptoflow_voice_signal_statistics(open_.voice, statistics);
+                                                }),
             output<haptoflow_effect_statistics>("haptoflow_effect_statistics",
                                                 [this](haptoflow_effect_statistics* statistics) {
                                                     return haptoflow_voice_effect_statistics(

@@ -142,6 +142,75 @@ TEST_F(VoiceEffectsApiTest, TheExposureOfAVoiceIsReadableAndHarmlessWithoutAGuar
     EXPECT_LT(exposure.daily_mps2, 0.1);
 }
 
+TEST_F(VoiceEffectsApiTest, ASignalSoundsWhereTheTipMovesInsteadOfEverythingElseAndItsTurnsAreCounted) {
+    ASSERT_EQ(haptoflow_voice_set_delay(open_.voice, 0.01), HAPTOFLOW_OK) << message();
+    ASSERT_EQ(haptoflow_voice_set_signal(open_.voice, 200.0, 6.0), HAPTOFLOW_OK) << message();
+    haptoflow_contact_state state = landing(HAPTOFLOW_ASKS_FOR_TEXTURE | HAPTOFLOW_ASKS_FOR_IMPACT);
+    for (int update = 0; update < 5; ++update) {
+        EXPECT_EQ(peak(open_.update(state)), 0.0F);
+    }
+    state.velocity_mps[0] = 0.15F;
+    for (int update = 0; update < 5; ++update) {
+        (void)open_.update(state);
+    }
+    EXPECT_NEAR(peak(open_.update(state)), 6.0F / static_cast<float>(HAPTOFLOW_DEFAULT_FULL_SCALE_MPS2), 1e-3F);
+    state.touching = 0;
+    for (int update = 0; update < 5; ++update) {
+        (void)open_.update(state);
+    }
+    EXPECT_EQ(peak(open_.update(state)), 0.0F);
+    for (const haptoflow_effect effect : {HAPTOFLOW_EFFECT_TEXTURE, HAPTOFLOW_EFFECT_IMPACT, HAPTOFLOW_EFFECT_EDGE}) {
+        EXPECT_EQ(of(effect).prepared + of(effect).runs + of(effect).samples + of(effect).events, 0U) << effect;
+        EXPECT_EQ(of(effect).is_asked_for, 0U) << effect;
+    }
+    EXPECT_EQ(open_.statistics().inferences, 0U);
+    EXPECT_EQ(of(HAPTOFLOW_EFFECT_SIGNAL).is_asked_for, 1U);
+    EXPECT_EQ(of(HAPTOFLOW_EFFECT_SIGNAL).events, 1U);
+    EXPECT_GT(of(HAPTOFLOW_EFFECT_SIGNAL).samples, 3000U);
+    haptoflow_signal_statistics turns{};
+    turns.struct_size = sizeof(turns);
+    ASSERT_EQ(haptoflow_voice_signal_statistics(open_.voice, &turns), HAPTOFLOW_OK) << message();
+    EXPECT_EQ(turns.starts, 1U);
+    EXPECT_EQ(turns.stops, 1U);
+    EXPECT_GT(turns.last_start_latency_seconds, 0.01) << "the delay, and the way to the callback";
+    EXPECT_GT(turns.last_stop_latency_seconds, 0.01);
+    EXPECT_EQ(turns.mean_start_latency_seconds, turns.last_start_latency_seconds);
+    EXPECT_EQ(turns.mean_stop_latency_seconds, turns.last_stop_latency_seconds);
+}
+
+TEST_F(VoiceEffectsApiTest, WithASignalOfAmplitudeZeroTheTextureSoundsAsBefore) {
+    ASSERT_EQ(haptoflow_voice_set_signal(open_.voice, 200.0, 6.0), HAPTOFLOW_OK);
+    for (int update = 0; update < 5; ++update) {
+        (void)open_.update(slidingState());
+    }
+    EXPECT_EQ(of(HAPTOFLOW_EFFECT_TEXTURE).runs, 0U);
+    ASSERT_EQ(haptoflow_voice_set_signal(open_.voice, 0.0, 0.0), HAPTOFLOW_OK) << message();
+    for (int update = 0; update < 5; ++update) {
+        (void)open_.update(slidingState());
+    }
+    EXPECT_GT(of(HAPTOFLOW_EFFECT_TEXTURE).runs, 0U);
+    EXPECT_EQ(of(HAPTOFLOW_EFFECT_SIGNAL).is_asked_for, 0U);
+}
+
+TEST_F(VoiceEffectsApiTest, ASignalOutOfRangeIsRefusedByNameAndLeavesTheOldOne) {
+    ASSERT_EQ(haptoflow_voice_set_signal(open_.voice, 20.0, 60.0), HAPTOFLOW_OK) << message();
+    const double none = std::numeric_limits<double>::quiet_NaN();
+    for (const double frequencyHz : {0.0, 19.9, 500.1, none, std::numeric_limits<double>::infinity()}) {
+        EXPECT_EQ(haptoflow_voice_set_signal(open_.voice, frequencyHz, 1.0), HAPTOFLOW_INVALID_ARGUMENT);
+        EXPECT_THAT(message(), ::testing::HasSubstr("frequency_hz is "));
+    }
+    for (const double amplitudeMps2 : {-0.1, 60.1, none}) {
+        EXPECT_EQ(haptoflow_voice_set_signal(open_.voice, 200.0, amplitudeMps2), HAPTOFLOW_INVALID_ARGUMENT);
+        EXPECT_THAT(message(), ::testing::HasSubstr("amplitude_mps2 is "));
+    }
+    EXPECT_EQ(of(HAPTOFLOW_EFFECT_SIGNAL).is_asked_for, 1U);
+    EXPECT_EQ(haptoflow_voice_set_signal(999, 200.0, 1.0), HAPTOFLOW_INVALID_ARGUMENT);
+    haptoflow_signal_statistics turns{};
+    turns.struct_size = sizeof(turns);
+    EXPECT_EQ(haptoflow_voice_signal_statistics(999, &turns), HAPTOFLOW_INVALID_ARGUMENT);
+    EXPECT_EQ(haptoflow_voice_signal_statistics(open_.voice, nullptr), HAPTOFLOW_INVALID_ARGUMENT);
+}
+
 TEST_F(VoiceEffectsApiTest, AnEffectThatThereIsNotIsRefusedByName) {
     haptoflow_effect_statistics statistics{};
     statistics.struct_size = sizeof(statistics);

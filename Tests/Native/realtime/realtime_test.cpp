@@ -54,6 +54,10 @@ void disturb(haptoflow_voice voice, Pace& pace) {
         (void)haptoflow_voice_publish(voice, &state);
         (void)haptoflow_voice_set_muted(voice, update % 53 == 52 ? 1 : 0);
         (void)haptoflow_voice_set_strength(voice, 0.5F + 0.5F * static_cast<float>(update % 2));
+        // A signal takes the texture's place for a while.
+        if (update % 67 == 40 || update % 67 == 66) {
+            (void)haptoflow_voice_set_signal(voice, 20.0 + update % 480, update % 67 == 40 ? 6.0 : 0.0);
+        }
         if (update % 101 == 100) {
             (void)haptoflow_voice_panic(voice);
         }

@@ -4,9 +4,12 @@ from __future__ import annotations
 
 import argparse
 
-from haptoflow_training.commands import study_golden
+from haptoflow_training.commands import study_check, study_golden, study_merge, study_simulate
 
 _STEPS = {
+    "simulate": (study_simulate, "write the logs of participants that do not exist"),
+    "check": (study_check, "name what is broken, missing or there twice in a folder of logs"),
+    "merge": (study_merge, "write all sessions of a study as one table"),
     "golden": (study_golden, "write the plans that the Unity package must agree with"),
 }
 

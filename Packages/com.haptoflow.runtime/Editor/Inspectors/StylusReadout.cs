@@ -8,7 +8,7 @@ namespace HaptoFlow.Editor
 
         private static readonly string[] Names =
         {
-            "Texture", "Impact", "Edge", "Delay", "Compensation", "Exposure Guard", "Tone",
+            "Texture", "Impact", "Edge", "Delay", "Compensation", "Exposure Guard", "Tone", "Signal",
         };
 
         protected override void Read(HapticStylus stylus)
@@ -56,7 +56,7 @@ namespace HaptoFlow.Editor
         /// <summary>The stages that run, or have run; those that nobody asked for do not show.</summary>
         private void ReadChain(HapticStylus stylus)
         {
-            for (HapticEffect effect = HapticEffect.Impact; effect <= HapticEffect.Tone; ++effect)
+            for (HapticEffect effect = HapticEffect.Impact; effect <= HapticEffect.Signal; ++effect)
             {
                 if (!stylus.TryGetEffectStatistics(effect, out EffectStatistics stage) ||
                     (stage.Prepared == 0 && !stage.IsAskedFor))
@@ -64,8 +64,10 @@ namespace HaptoFlow.Editor
                     continue;
                 }
                 double microseconds = stage.Runs > 0 ? stage.Microseconds / stage.Runs : 0.0;
-                Add(Names[(int)effect], stage.Events > 0 ? "{0} blows, {1:0.0} us a block" : "{1:0.0} us a block",
-                    stage.Events, microseconds);
+                string counted = effect == HapticEffect.Signal
+                    ? "begun {0} times, {1:0.0} us a block"
+                    : "{0} blows, {1:0.0} us a block";
+                Add(Names[(int)effect], stage.Events > 0 ? counted : "{1:0.0} us a block", stage.Events, microseconds);
             }
         }
     }

@@ -23,7 +23,8 @@ namespace HaptoFlow
         Nothing = 0x80000000,
     }
 
-    /// <summary>The stages of a voice, in the order in which its signal goes through them, but for the last.</summary>
+    /// <summary>The stages of a voice, in the order in which its signal goes through them, but for the last two.
+    /// </summary>
     public enum HapticEffect
     {
         /// <summary>What the network generates while the tip slides.</summary>
@@ -47,5 +48,8 @@ namespace HaptoFlow
         /// <summary>What a material, or a surface's tone, does to the texture's spectrum; right behind the texture.
         /// </summary>
         Tone = 6,
+
+        /// <summary>A study's sine, which sounds instead of texture, impact and edge.</summary>
+        Signal = 7,
     }
 }

@@ -122,6 +122,25 @@ namespace HaptoFlow
         /// <param name="seconds">0 to 0.5; 0 for no delay. A change fades within 20 ms.</param>
         public void SetDelay(double seconds) => NativeCall.Check(NativeMethods.VoiceSetDelay(Id, seconds));
 
+        /// <summary>A sine for studies of latency, which sounds wherever the newest contact state touches and moves at
+        /// 5 mm/s or more, whatever force and speed are, instead of texture, impact and edge; nothing is inferred. It
+        /// begins and ends within 2 ms. Everything that acts on the voice acts on it. Takes effect with the next
+        /// block.</summary>
+        /// <param name="frequencyHz">20 to 500; ignored where the amplitude is 0.</param>
+        /// <param name="amplitudeMps2">Its peak, 0 to 60 m/s^2; 0 for no signal.</param>
+        /// <exception cref="HaptoFlowException">The voice is closed, or a value is out of range.</exception>
+        public void SetSignal(double frequencyHz, double amplitudeMps2) =>
+            NativeCall.Check(NativeMethods.VoiceSetSignal(Id, frequencyHz, amplitudeMps2));
+
+        /// <summary>How often the signal was turned on and off by contact states, and how long that took.</summary>
+        /// <exception cref="HaptoFlowException">The voice is closed.</exception>
+        public SignalStatistics SignalStatistics()
+        {
+            var statistics = new SignalStatistics { StructSize = (uint)sizeof(SignalStatistics) };
+            NativeCall.Check(NativeMethods.VoiceSignalStatistics(Id, &statistics));
+            return statistics;
+        }
+
         /// <summary>What plays the voice, so that its resonances and weak bands are evened out.</summary>
         /// <param name="profile">An actuator profile as JSON, or the name of one that the library brings along:
         /// "flat", "voice-coil"; null for no compensation.</param>

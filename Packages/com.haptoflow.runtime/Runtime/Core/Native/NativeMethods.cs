@@ -160,6 +160,12 @@ namespace HaptoFlow.Native
         [DllImport(Library, EntryPoint = "haptoflow_voice_set_delay")]
         public static extern int VoiceSetDelay(ulong voice, double seconds);
 
+        [DllImport(Library, EntryPoint = "haptoflow_voice_set_signal")]
+        public static extern int VoiceSetSignal(ulong voice, double frequencyHz, double amplitudeMps2);
+
+        [DllImport(Library, EntryPoint = "haptoflow_voice_signal_statistics")]
+        public static extern int VoiceSignalStatistics(ulong voice, SignalStatistics* statistics);
+
         [DllImport(Library, EntryPoint = "haptoflow_voice_set_actuator")]
         public static extern int VoiceSetActuator(ulong voice, byte* profile, ulong length);
 

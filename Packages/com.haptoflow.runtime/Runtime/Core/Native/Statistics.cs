@@ -139,11 +139,39 @@ namespace HaptoFlow
         /// <summary>What they took in all.</summary>
         public double Microseconds;
 
-        /// <summary>Blows, of impact and edge.</summary>
+        /// <summary>Blows, of impact and edge; how often it began to sound, of the signal.</summary>
         public ulong Events;
 
         /// <summary>The voice asks for it at present: of impact and edge, its newest contact state.</summary>
         public bool IsAskedFor => isAskedFor != 0;
+    }
+
+    /// <summary>How often contact states have turned a voice's signal on and off, and what passed from publishing the
+    /// first state that asked for it to the start of the block in which the change begins, the voice's delay included.
+    /// What compensation and device add comes on top. Turns by mute, pause, panic, missing states or
+    /// <see cref="HapticVoice.SetSignal"/> itself are not counted.</summary>
+    [Preserve, StructLayout(LayoutKind.Sequential)]
+    public struct SignalStatistics
+    {
+        internal uint StructSize;
+
+        /// <summary>How often the signal was turned on since the voice was opened.</summary>
+        public ulong Starts;
+
+        /// <summary>How often it was turned off.</summary>
+        public ulong Stops;
+
+        /// <summary>Of the newest start, in seconds; 0 before the first.</summary>
+        public double LastStartLatencySeconds;
+
+        /// <summary>Of the newest stop, in seconds; 0 before the first.</summary>
+        public double LastStopLatencySeconds;
+
+        /// <summary>The mean of all starts, in seconds.</summary>
+        public double MeanStartLatencySeconds;
+
+        /// <summary>The mean of all stops, in seconds.</summary>
+        public double MeanStopLatencySeconds;
     }
 
     /// <summary>What the engine did since it was made. Counts unless the name says otherwise.</summary>

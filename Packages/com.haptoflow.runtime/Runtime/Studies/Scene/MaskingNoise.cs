@@ -24,8 +24,8 @@ namespace HaptoFlow.Studies
         /// <summary>The lowest level, in dB of full scale.</summary>
         public const float LowestDecibels = -60f;
 
-        /// <summary>The highest level, in dB of full scale.</summary>
-        public const float HighestDecibels = -12f;
+        /// <summary>The highest level, in dB of full scale: peaks of the noise stay below full scale.</summary>
+        public const float HighestDecibels = -18f;
 
         private const float FadeSeconds = 0.05f;
 
