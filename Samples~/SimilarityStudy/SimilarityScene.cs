@@ -35,8 +35,6 @@ namespace HaptoFlow.Samples.SimilarityStudy
         private GameObject pair = null!;
         private TextMesh instruction = null!;
         private RatingPanel panel = null!;
-        private StudyObject real = null!;
-        private StudyObject virtualObject = null!;
         private HapticOutput output = null!;
 
         /// <summary>The materials, the methods and the set-up. To be set before the component wakes.</summary>
@@ -92,6 +90,15 @@ namespace HaptoFlow.Samples.SimilarityStudy
         /// <summary>The question.</summary>
         public RatingPanel Panel => panel;
 
+        /// <summary>Lies where the real sample is; null where the settings cannot be used.</summary>
+        public StudyObject Real { get; private set; } = null!;
+
+        /// <summary>Lies beside it; null where the settings cannot be used.</summary>
+        public StudyObject Virtual { get; private set; } = null!;
+
+        /// <summary>The actuator's.</summary>
+        public HapticOutput Output => output;
+
         /// <summary>Why the study cannot begin; null where nothing is wrong.</summary>
         public string? Problem { get; private set; }
 
@@ -115,7 +122,7 @@ namespace HaptoFlow.Samples.SimilarityStudy
             {
                 StudyLog log = OpenLog();
                 parts = new TrialParts(
-                    settings!, models!, Delay!, real, virtualObject, Pen, output, panel, instruction);
+                    settings!, models!, Delay!, Real, Virtual, Pen, output, panel, instruction);
                 Session = new StudySession(log);
                 Procedure = SimilarityProcedure.Create(Session, parts);
                 Operator.Session = Session;
@@ -257,10 +264,10 @@ namespace HaptoFlow.Samples.SimilarityStudy
 
         private void MakeObjects(SimilaritySettings chosen)
         {
-            real = new StudyObject("Left Object", pair.transform, Vector3.zero, chosen.SampleMetres,
+            Real = new StudyObject("Left Object", pair.transform, Vector3.zero, chosen.SampleMetres,
                 chosen.RealHeightMetres, NewTracing(chosen));
-            real.Surface.Material.Effects = HapticEffects.Nothing;
-            virtualObject = new StudyObject("Right Object", pair.transform, chosen.VirtualMetres, chosen.SampleMetres, 0f,
+            Real.Surface.Material.Effects = HapticEffects.Nothing;
+            Virtual = new StudyObject("Right Object", pair.transform, chosen.VirtualMetres, chosen.SampleMetres, 0f,
                 NewTracing(chosen));
         }
 
@@ -299,8 +306,8 @@ namespace HaptoFlow.Samples.SimilarityStudy
 
         private string StageWords() => Procedure!.Stage switch
         {
-            TrialStage.RealEdges => $"edges of the real sample: {real.Tracing.TracedEdges} of 4",
-            TrialStage.VirtualEdges => $"edges of the virtual object: {virtualObject.Tracing.TracedEdges} of 4",
+            TrialStage.RealEdges => $"edges of the real sample: {Real.Tracing.TracedEdges} of 4",
+            TrialStage.VirtualEdges => $"edges of the virtual object: {Virtual.Tracing.TracedEdges} of 4",
             TrialStage.Free => "both freely, the question is open",
             _ => "waiting",
         };

@@ -1,5 +1,6 @@
 using System;
 using System.Collections.Generic;
+using System.Globalization;
 using System.IO;
 using System.Linq;
 using System.Threading.Tasks;
@@ -27,6 +28,7 @@ namespace HaptoFlow.SampleTests.Similarity
         private protected string folder = "";
         private protected SimilarityScene scene = null!;
         private protected Dictionary<string, double> inference = new Dictionary<string, double>();
+        private protected Func<StudyMethod, HapticLoadedModel, Task<double>> measure = null!;
         private Vector3 tip;
 
         private protected string Csv => Directory.GetFiles(folder, "*.csv").Single();
@@ -38,6 +40,8 @@ namespace HaptoFlow.SampleTests.Similarity
         {
             folder = Path.Combine(Path.GetTempPath(), "haptoflow-similarity-" + Guid.NewGuid().ToString("N"));
             inference = new Dictionary<string, double>();
+            measure = (method, _) => Task.FromResult(
+                inference.TryGetValue(method.Name, out double milliseconds) ? milliseconds : 6.0);
         }
 
         [TearDown]
@@ -88,8 +92,7 @@ namespace HaptoFlow.SampleTests.Similarity
                 bootstrap.Settings = settings;
                 bootstrap.SaveName = saveName;
                 bootstrap.Participant = 7;
-                bootstrap.MeasureInference = (method, _) => Task.FromResult(
-                    inference.TryGetValue(method.Name, out double milliseconds) ? milliseconds : 6.0);
+                bootstrap.MeasureInference = measure;
             });
             Hold(new Vector3(0f, 0.1f, 0f));
         }
@@ -144,7 +147,7 @@ namespace HaptoFlow.SampleTests.Similarity
                 }
                 TraceVirtual();
                 Assert.That(Procedure.Stage, Is.EqualTo(TrialStage.Free), $"trial {trial.Trial}");
-                Slide(Corner(scene.Pair(true), 0), scene.Pair(true).position);
+                Slide(Corner(scene.Virtual.Frame, 0), scene.Virtual.Frame.position);
                 Answer(RatingOf(trial));
             }
             return pauses;
@@ -159,9 +162,9 @@ namespace HaptoFlow.SampleTests.Similarity
             Press(Left + "trigger");
         }
 
-        private protected void TraceReal() => Trace(scene.Pair(false), EdgeTracing.EdgeCount);
+        private protected void TraceReal() => Trace(scene.Real.Frame, EdgeTracing.EdgeCount);
 
-        private protected void TraceVirtual() => Trace(scene.Pair(true), EdgeTracing.EdgeCount);
+        private protected void TraceVirtual() => Trace(scene.Virtual.Frame, EdgeTracing.EdgeCount);
 
         /// <summary>Slides along so many edges, pressing, and lifts.</summary>
         private protected void Trace(Transform frame, int edges, float heightMetres = -DeepMetres)
@@ -219,6 +222,17 @@ namespace HaptoFlow.SampleTests.Similarity
             World.Frame();
         }
 
+        /// <summary>Largest magnitude on the actuator's channel since <see cref="AudioDevice.Forget"/>.</summary>
+        private protected float LoudestFelt()
+        {
+            float loudest = 0f;
+            for (int frame = 0; frame < AudioDevice.RecordedFrames; ++frame)
+            {
+                loudest = Math.Max(loudest, Math.Abs(AudioDevice.Sample(frame, scene.Output.Channel)));
+            }
+            return loudest;
+        }
+
         /// <summary>The rows of the log by column.</summary>
         private protected List<Dictionary<string, string>> Rows()
         {
@@ -227,6 +241,9 @@ namespace HaptoFlow.SampleTests.Similarity
             return lines.Skip(1).Select(line => line.Split(',').Select((value, place) => (columns[place], value))
                 .ToDictionary(each => each.Item1, each => each.value)).ToList();
         }
+
+        private protected static double Number(Dictionary<string, string> row, string column) =>
+            double.Parse(row[column], CultureInfo.InvariantCulture);
 
         private protected static T[] FindAll<T>()
             where T : UnityEngine.Object =>
