@@ -122,6 +122,21 @@ namespace HaptoFlow.SampleTests.Similarity
         }
 
         [Test]
+        public void WithoutALaboratorysOwnMeasurementEveryMethodIsMeasuredLiveBeforeTheStudy()
+        {
+            measure = null;
+            Open(Settings(1, 2));
+            Prepare();
+            scene.Begin();
+            foreach (StudyMethod method in scene.Settings!.Methods)
+            {
+                Assert.That(scene.Models!.InferenceMilliseconds(method.Name), Is.GreaterThan(0.0), method.Name);
+            }
+            double slowest = scene.Settings.Methods.Max(each => scene.Delay!.Of(each.Name).TotalMilliseconds);
+            Assert.That(scene.Delay!.Milliseconds, Is.InRange(slowest + 2.0, slowest + 3.0));
+        }
+
+        [Test]
         public void TheHeadphonesGetTheNoiseAndTheActuatorDoesNot()
         {
             Open(Settings(1, 2));

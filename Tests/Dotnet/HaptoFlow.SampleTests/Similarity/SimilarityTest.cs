@@ -28,7 +28,7 @@ namespace HaptoFlow.SampleTests.Similarity
         private protected string folder = "";
         private protected SimilarityScene scene = null!;
         private protected Dictionary<string, double> inference = new Dictionary<string, double>();
-        private protected Func<StudyMethod, HapticLoadedModel, Task<double>> measure = null!;
+        private protected Func<StudyMethod, HapticLoadedModel, Task<double>>? measure;
         private Vector3 tip;
 
         private protected string Csv => Directory.GetFiles(folder, "*.csv").Single();
@@ -92,7 +92,7 @@ namespace HaptoFlow.SampleTests.Similarity
                 bootstrap.Settings = settings;
                 bootstrap.SaveName = saveName;
                 bootstrap.Participant = 7;
-                bootstrap.MeasureInference = measure;
+                bootstrap.MeasureInference = measure ?? bootstrap.MeasureInference;
             });
             Hold(new Vector3(0f, 0.1f, 0f));
         }
