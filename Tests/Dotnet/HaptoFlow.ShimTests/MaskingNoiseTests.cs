@@ -104,6 +104,18 @@ namespace HaptoFlow.ShimTests
         }
 
         [Test]
+        public void ADeviceWithoutAChannelForEachMeansNoNoiseAndAWord()
+        {
+            AudioDevice.ChangeDevice(48000, 512, AudioSpeakerMode.Mono);
+            LogAssert.Expect(LogType.Error, new System.Text.RegularExpressions.Regex("has 1 channels"));
+            World.Frames(30);
+            Assert.That(noise.Problem, Does.Contain("plays on channel 1"));
+            AudioDevice.ChangeDevice(48000, 512, AudioSpeakerMode.Stereo);
+            World.Frames(30);
+            Assert.That(noise.Problem, Is.Null);
+        }
+
+        [Test]
         public void SwitchedOffItIsSilent()
         {
             World.Frames(30);

@@ -55,6 +55,25 @@ namespace HaptoFlow.ShimTests
         }
 
         [Test]
+        public void BeforeASessionTheOperatorChoosesTheParticipantAndARefusalLeavesTheChoice()
+        {
+            int begun = 0;
+            view.Session = null;
+            view.Begin = participant => begun = participant;
+            Press("+10");
+            Press("+1");
+            Press("-10");
+            Press("-10");
+            Press("+1");
+            PassFor(0.3);
+            Assert.That(Text(), Does.Contain("participant P02"));
+            view.Problem = "participant 2 has finished this study";
+            Press("Begin");
+            Assert.That(begun, Is.EqualTo(2));
+            Assert.That(Buttons(), Does.Contain("Begin").And.Contain("+1"));
+        }
+
+        [Test]
         public void AFullDiskIsSaidInWords()
         {
             session.Continue();

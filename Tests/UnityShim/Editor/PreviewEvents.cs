@@ -25,6 +25,8 @@ namespace UnityEngine
         B = 98,
         C = 99,
         E = 101,
+        N = 110,
+        Y = 121,
         UpArrow = 273,
         DownArrow = 274,
         RightArrow = 275,

@@ -41,6 +41,12 @@ namespace HaptoFlow
             return IsOpen;
         }
 
+        public bool TryGetSignalStatistics(out SignalStatistics statistics)
+        {
+            statistics = IsOpen ? voice!.SignalStatistics() : default;
+            return IsOpen;
+        }
+
         public void Panic()
         {
             if (IsOpen)

@@ -44,6 +44,7 @@ namespace HaptoFlow.Studies
         private volatile float wantedGain;
         private volatile bool isPink;
         private volatile int sampleRateHz = 48000;
+        private int channelCount;
         private float gain;
         private string? told;
 
@@ -85,7 +86,11 @@ namespace HaptoFlow.Studies
             gain = 0f;
         }
 
-        private void ReadConfiguration(bool deviceWasChanged) => sampleRateHz = AudioSettings.outputSampleRate;
+        private void ReadConfiguration(bool deviceWasChanged)
+        {
+            sampleRateHz = AudioSettings.outputSampleRate;
+            channelCount = StudyPlayer.Channels;
+        }
 
         private void Update()
         {
@@ -106,9 +111,14 @@ namespace HaptoFlow.Studies
             {
                 return "there is no masking noise: choose the output whose channel stays clean in the field Output";
             }
-            return output.Channel < 0
-                ? "there is no masking noise: the haptic output plays on all channels, and one has to be left to the " +
-                    "headphones; choose its channel"
+            if (output.Channel < 0)
+            {
+                return "there is no masking noise: the haptic output plays on all channels, and one has to be left " +
+                    "to the headphones; choose its channel";
+            }
+            return output.Channel >= channelCount || channelCount < 2
+                ? $"there is no masking noise: the audio device has {channelCount} channels and the haptic output " +
+                    $"plays on channel {output.Channel}, counted from 0; choose an audio device with a channel for each"
                 : null;
         }
 

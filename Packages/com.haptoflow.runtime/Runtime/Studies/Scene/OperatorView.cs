@@ -18,12 +18,25 @@ namespace HaptoFlow.Studies
         private const float LineHeight = 22f;
         private const float Width = 620f;
         private const float Margin = 10f;
+        private const float ButtonWidth = 80f;
+        private const int LargestParticipant = 999;
+
+        private static readonly (string Caption, int Step)[] Steps =
+        {
+            ("-10", -10), ("-1", -1), ("+1", 1), ("+10", 10),
+        };
 
         private readonly List<string> lines = new List<string>();
         private double nextSeconds;
 
         /// <summary>What is led; null until it is known.</summary>
         public StudySession? Session { get; set; }
+
+        /// <summary>Whose study begins next, 1 to 999: chosen by buttons as long as there is no session.</summary>
+        public int Participant { get; set; } = 1;
+
+        /// <summary>Begins the study for a participant; null where that is done elsewhere.</summary>
+        public Action<int>? Begin { get; set; }
 
         /// <summary>Whose level the meter shows.</summary>
         public HapticOutput? Output { get; set; }
@@ -56,21 +69,50 @@ namespace HaptoFlow.Studies
                 GUI.Label(new Rect(Margin, top, Width, LineHeight), line);
                 top += LineHeight;
             }
-            if (Session?.Phase == StudyPhase.Paused && Problem == null)
+            if (Session == null)
             {
-                if (GUI.Button(new Rect(Margin, top, 140f, 1.5f * LineHeight), "Next"))
+                DrawChoice(top);
+            }
+            else if (Session.Phase == StudyPhase.Paused && Problem == null)
+            {
+                if (Button(0, top, "Next"))
                 {
                     Session.Continue();
                 }
             }
-            else if (Session?.Phase == StudyPhase.Task || Session?.Phase == StudyPhase.Question)
+            else if (Session.Phase == StudyPhase.Task || Session.Phase == StudyPhase.Question)
             {
-                if (GUI.Button(new Rect(Margin, top, 140f, 1.5f * LineHeight), "Pause"))
+                if (Button(0, top, "Pause"))
                 {
                     Session.PauseHere();
                 }
             }
         }
+
+        private void DrawChoice(float top)
+        {
+            if (Begin == null)
+            {
+                return;
+            }
+            int place = 0;
+            foreach ((string caption, int step) in Steps)
+            {
+                if (Button(place++, top, caption))
+                {
+                    Participant = Math.Max(1, Math.Min(LargestParticipant, Participant + step));
+                    Write();
+                }
+            }
+            if (Button(place, top, "Begin"))
+            {
+                Begin(Participant);
+                Write();
+            }
+        }
+
+        private static bool Button(int place, float top, string caption) => GUI.Button(
+            new Rect(Margin + place * (ButtonWidth + Margin), top, ButtonWidth, 1.5f * LineHeight), caption);
 
         private void Write()
         {
@@ -81,6 +123,10 @@ namespace HaptoFlow.Studies
                     WhereOf(Session));
                 lines.Add(StateOf(Session));
             }
+            else
+            {
+                lines.Add($"participant P{Participant:00}: choose the number and press Begin");
+            }
             if (Detail != null)
             {
                 lines.AddRange(Detail().Split('\n'));
@@ -89,9 +135,12 @@ namespace HaptoFlow.Studies
             {
                 lines.Add("level " + Meter(Output.Level));
             }
-            lines.Add("disk: " + (Session?.Problem == null
-                ? "every answer is written"
-                : "NOT WRITTEN, it is tried again: " + Session.Problem));
+            if (Session != null)
+            {
+                lines.Add("disk: " + (Session.Problem == null
+                    ? "every answer is written"
+                    : "NOT WRITTEN, it is tried again: " + Session.Problem));
+            }
             if (Problem != null)
             {
                 lines.Add("STOPPED: " + Problem);
