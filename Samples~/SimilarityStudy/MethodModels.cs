@@ -13,7 +13,7 @@ namespace HaptoFlow.Samples.SimilarityStudy
     /// </summary>
     public sealed class MethodModels : IDisposable
     {
-        private readonly SimilaritySettings settings;
+        private readonly SimilarityStudySettings settings;
         private readonly Func<StudyMethod, HapticLoadedModel, Task<double>> measure;
         private readonly Dictionary<string, HapticLoadedModel> loaded =
             new Dictionary<string, HapticLoadedModel>(StringComparer.Ordinal);
@@ -23,7 +23,7 @@ namespace HaptoFlow.Samples.SimilarityStudy
 
         /// <param name="measure">What a method adds to the delay, in ms.</param>
         public MethodModels(
-            SimilaritySettings settings, Func<StudyMethod, HapticLoadedModel, Task<double>> measure)
+            SimilarityStudySettings settings, Func<StudyMethod, HapticLoadedModel, Task<double>> measure)
         {
             this.settings = settings;
             this.measure = measure;

@@ -1,5 +1,4 @@
 #nullable enable
-#if HAPTOFLOW_INPUT_SYSTEM && ENABLE_INPUT_SYSTEM
 using UnityEngine;
 
 namespace HaptoFlow.Samples.SimilarityStudy
@@ -7,6 +6,7 @@ namespace HaptoFlow.Samples.SimilarityStudy
     /// <summary>Answers with the hand that holds no pen, or with the keyboard.</summary>
     public sealed class RatingButtons : MonoBehaviour
     {
+#if HAPTOFLOW_INPUT_SYSTEM && ENABLE_INPUT_SYSTEM
         private readonly ButtonPress[] numbers = new ButtonPress[RatingPanel.Highest];
         private RatingPanel panel = null!;
         private ButtonPress lower = null!;
@@ -63,6 +63,33 @@ namespace HaptoFlow.Samples.SimilarityStudy
                 each.Dispose();
             }
         }
+#else
+        private RatingPanel panel = null!;
+
+        /// <param name="penHand">Without the Input System only the keyboard answers.</param>
+        public static RatingButtons Create(RatingPanel panel, PenHand penHand)
+        {
+            var buttons = new GameObject("Rating Buttons").AddComponent<RatingButtons>();
+            buttons.panel = panel;
+            return buttons;
+        }
+
+#if ENABLE_LEGACY_INPUT_MANAGER
+        private void Update()
+        {
+            for (int answer = RatingPanel.Lowest; answer <= RatingPanel.Highest; ++answer)
+            {
+                if (Input.GetKeyDown(KeyCode.Alpha0 + answer))
+                {
+                    panel.Choose(answer);
+                }
+            }
+            if (Input.GetKeyDown(KeyCode.Return))
+            {
+                panel.Confirm();
+            }
+        }
+#endif
+#endif
     }
 }
-#endif

@@ -18,7 +18,7 @@ namespace HaptoFlow.Samples.SimilarityStudy
 
         /// <param name="settings">Whose materials are felt.</param>
         /// <param name="models">Ready to be used.</param>
-        public TrialParts(SimilaritySettings settings, MethodModels models, EqualDelay delay, StudyObject real,
+        public TrialParts(SimilarityStudySettings settings, MethodModels models, EqualDelay delay, StudyObject real,
             StudyObject @virtual, HapticStylus pen, HapticOutput output, RatingPanel panel, TextMesh instruction)
         {
             this.models = models;

@@ -13,7 +13,7 @@ namespace HaptoFlow.SampleTests.Similarity
     {
         private readonly Vector3 place = new Vector3(0.04f, -0.05f, 0.03f);
         private readonly Quaternion turn = Quaternion.AngleAxis(9f, Vector3.up);
-        private SimilaritySettings settings = null!;
+        private SimilarityStudySettings settings = null!;
 
         [SetUp]
         public void OpenUnaligned()
@@ -31,9 +31,11 @@ namespace HaptoFlow.SampleTests.Similarity
         [Test]
         public void WithoutThreeTouchedPointsTheStudyDoesNotBegin()
         {
-            scene.Begin();
+            scene.Begin(7);
             Assert.That((scene.CanBegin, scene.Session), Is.EqualTo((false, (StudySession?)null)));
+            PlayFor(0.3);
             Assert.That(scene.Operator.Lines, Has.Some.Contains("press Align"));
+            Assert.That(scene.Problem, Does.Contain("press Align"));
         }
 
         [Test]
@@ -45,7 +47,7 @@ namespace HaptoFlow.SampleTests.Similarity
             Vector3 aside = place + turn * settings.VirtualMetres;
             Assert.That(Vector3.Distance(scene.Virtual.Frame.position, aside), Is.LessThan(1e-3f));
             Assert.That(scene.Pen.TouchBy, Is.EqualTo(TouchDecision.MeasuredForce));
-            scene.Begin();
+            scene.Begin(7);
             scene.Session!.Continue();
             SimulatedInput.SetControl(Right + "tip", 0.5f);
             AudioDevice.Forget();
@@ -63,7 +65,7 @@ namespace HaptoFlow.SampleTests.Similarity
         public void APenThatIsAlignedAndDoesNotPressTracesNothing()
         {
             Align();
-            scene.Begin();
+            scene.Begin(7);
             scene.Session!.Continue();
             SimulatedInput.SetControl(Right + "tip", 0f);
             Trace(scene.Real.Frame, 4);

@@ -15,14 +15,14 @@ namespace HaptoFlow.SampleTests.Similarity
     /// <summary>The scene and the settings that the sample brings along, as text.</summary>
     public sealed class SimilarityAssetTests : SimilarityTest
     {
-        private static string Asset => File.ReadAllText(SampleFile("SimilarityStudy", "SimilarityStudy.asset"));
+        private static string Asset => File.ReadAllText(SampleFile("SimilarityStudy", "SimilarityStudySettings.asset"));
 
         [Test]
         public void TheSettingsNameEveryFieldOnceAndNoOther()
         {
             IEnumerable<string> keys = Regex.Matches(Asset, @"^  ([a-z]\w*):", RegexOptions.Multiline)
                 .Select(match => match.Groups[1].Value).Where(key => !key.StartsWith("m_"));
-            Assert.That(keys, Is.EquivalentTo(FieldsOf<SimilaritySettings>()));
+            Assert.That(keys, Is.EquivalentTo(FieldsOf<SimilarityStudySettings>()));
             Assert.That(KeysOfEntries("materials"), Is.EquivalentTo(FieldsOf<StudyMaterial>()));
             Assert.That(KeysOfEntries("methods"), Is.EquivalentTo(FieldsOf<StudyMethod>()));
         }
@@ -38,15 +38,15 @@ namespace HaptoFlow.SampleTests.Similarity
             string guid = Regex.Match(model, "guid: (\\w{32})").Groups[1].Value;
             Assert.That(Regex.Matches(Asset, "model: .*" + guid), Has.Count.EqualTo(2));
             Assert.That(Values("quality"), Is.EqualTo(new[] { $"{(int)HapticQuality.Draft}", $"{(int)HapticQuality.Standard}" }));
-            SimilaritySettings settings = Settings(
+            SimilarityStudySettings settings = Settings(
                 Values("label").Select(label => new StudyMaterial(label, label)),
                 new[] { new StudyMethod("a", DefaultModel.Asset(), HapticQuality.Draft),
                     new StudyMethod("b", DefaultModel.Asset(), HapticQuality.Standard) });
             Assert.That(settings.Check, Throws.Nothing);
         }
 
-        [TestCase("SimilarityScene.cs")]
-        [TestCase("SimilarityStudy.asset")]
+        [TestCase("SimilarityStudyScene.cs")]
+        [TestCase("SimilarityStudySettings.asset")]
         public void TheSceneFileHoldsTheBootstrapAndItsSettings(string name)
         {
             string meta = File.ReadAllText(SampleFile("SimilarityStudy", name + ".meta"));

@@ -20,7 +20,7 @@ namespace HaptoFlow.SampleTests.Similarity
         [TestCase(1, 2)]
         public void EveryTrialIsLoggedOnceAlsoWhereTheSessionWasInterruptedInMidTrial(int materials, int methods)
         {
-            SimilaritySettings settings = Settings(materials, methods);
+            SimilarityStudySettings settings = Settings(materials, methods);
             inference = new Dictionary<string, double> { ["Ours"] = 9.5, ["Rival"] = 14.25 };
             Begin(settings);
             StudyPlan plan = scene.Session!.Plan;
@@ -191,7 +191,7 @@ namespace HaptoFlow.SampleTests.Similarity
         [Test]
         public void NothingThatTheParticipantSeesNamesMaterialOrMethodAndBothObjectsAlwaysLookAlike()
         {
-            SimilaritySettings settings = Settings(3, 4);
+            SimilarityStudySettings settings = Settings(3, 4);
             string[] words = settings.Materials.SelectMany(each => new[] { each.Name, each.Label })
                 .Concat(settings.Methods.SelectMany(each => new[] { each.Name, each.Model!.name, $"{each.Quality}" }))
                 .ToArray();

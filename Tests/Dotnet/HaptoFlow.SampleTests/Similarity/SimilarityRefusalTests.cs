@@ -19,7 +19,7 @@ namespace HaptoFlow.SampleTests.Similarity
         [Test]
         public void AModelThatDoesNotLoadStopsTheStudyByTheNameOfItsMethodAndFile()
         {
-            SimilaritySettings settings = Settings(1, 2);
+            SimilarityStudySettings settings = Settings(1, 2);
             settings.Compare(settings.Materials, settings.Methods.Append(
                 new StudyMethod("DSTN", Named(EditedModel.Damaged(), "dstn-1"), HapticQuality.Standard)));
             Refused(settings, "method \"DSTN\"", "dstn-1.haptoflow", "checksum");
@@ -28,7 +28,7 @@ namespace HaptoFlow.SampleTests.Similarity
         [Test]
         public void AMethodWithoutModelStopsTheStudy()
         {
-            SimilaritySettings settings = Settings(1, 2);
+            SimilarityStudySettings settings = Settings(1, 2);
             settings.Compare(settings.Materials, settings.Methods.Append(
                 new StudyMethod("SPSI", null, HapticQuality.Standard)));
             Refused(settings, "method \"SPSI\"", "has no model");
@@ -37,7 +37,7 @@ namespace HaptoFlow.SampleTests.Similarity
         [Test]
         public void AutomaticQualityStopsTheStudy()
         {
-            SimilaritySettings settings = Settings(1, 1);
+            SimilarityStudySettings settings = Settings(1, 1);
             settings.Compare(settings.Materials, settings.Methods.Append(
                 new StudyMethod("SPSI", DefaultModel.Asset(), HapticQuality.Auto)));
             Refused(settings, "method \"SPSI\"", "quality Auto");
@@ -46,7 +46,7 @@ namespace HaptoFlow.SampleTests.Similarity
         [Test]
         public void TheSameTierUnderTwoNamesStopsTheStudy()
         {
-            SimilaritySettings settings = Settings(1, 3);
+            SimilarityStudySettings settings = Settings(1, 3);
             // The package's model has no tier "fine": its best one is "standard".
             settings.Compare(settings.Materials, settings.Methods.Append(
                 new StudyMethod("Best", DefaultModel.Asset(), HapticQuality.Fine)));
@@ -56,7 +56,7 @@ namespace HaptoFlow.SampleTests.Similarity
         [Test]
         public void ALabelThatAModelDoesNotHaveStopsTheStudy()
         {
-            SimilaritySettings settings = Settings(1, 2);
+            SimilarityStudySettings settings = Settings(1, 2);
             settings.Compare(settings.Materials.Append(new StudyMaterial("Hemp cloth", "hemp")), settings.Methods);
             Refused(settings, "material \"Hemp cloth\"", "method \"Ours quick\" has no label \"hemp\"", "wood, plywood");
         }
@@ -64,7 +64,7 @@ namespace HaptoFlow.SampleTests.Similarity
         [Test]
         public void AMaterialOfNothingStopsTheStudy()
         {
-            SimilaritySettings settings = Settings(1, 2);
+            SimilarityStudySettings settings = Settings(1, 2);
             settings.Compare(settings.Materials.Append(new StudyMaterial("Void", " ")), settings.Methods);
             Refused(settings, "material \"Void\"", "neither a label nor a Haptic Material");
         }
@@ -74,7 +74,7 @@ namespace HaptoFlow.SampleTests.Similarity
         {
             HapticMaterial denim =
                 HapticMaterial.Create(MaterialText.OfLabel(DefaultModel.Asset().File, "glass"), "cotton");
-            SimilaritySettings settings = Settings(new[] { new StudyMaterial("Denim", "", denim) }, Settings(1, 2).Methods);
+            SimilarityStudySettings settings = Settings(new[] { new StudyMaterial("Denim", "", denim) }, Settings(1, 2).Methods);
             Begin(settings);
             scene.Session!.Continue();
             TraceReal();
@@ -95,7 +95,7 @@ namespace HaptoFlow.SampleTests.Similarity
         [TestCase("a,b")]
         public void ANameThatCannotStandInALogStopsTheStudy(string name)
         {
-            SimilaritySettings settings = Settings(1, 3);
+            SimilarityStudySettings settings = Settings(1, 3);
             settings.Compare(settings.Materials, settings.Methods.Append(
                 new StudyMethod(name, EditedModel.OfAnotherSpace(), HapticQuality.Standard)));
             Refused(settings, $"\"{name}\"");
@@ -114,12 +114,12 @@ namespace HaptoFlow.SampleTests.Similarity
         [Test]
         public void AMethodThatIsSlowerThanTheEqualDelayStopsTheStudyByName()
         {
-            SimilaritySettings settings = Settings(1, 2);
+            SimilarityStudySettings settings = Settings(1, 2);
             settings.EqualDelayMilliseconds = 60f;
             inference = new Dictionary<string, double> { ["Rival quick"] = 80.0 };
             Open(settings);
             Prepare();
-            scene.Begin();
+            scene.Begin(7);
             Assert.That(scene.Problem, Does.Contain("method \"Rival quick\" cannot be given 60 ms"));
             Assert.That((scene.Session, Directory.Exists(folder)), Is.EqualTo(((StudySession?)null, false)));
         }
@@ -136,24 +136,22 @@ namespace HaptoFlow.SampleTests.Similarity
         [Test]
         public void AParticipantWhoIsDoneIsRefusedAndAnotherCanBegin()
         {
-            SimilaritySettings settings = Settings(1, 1);
+            SimilarityStudySettings settings = Settings(1, 1);
             Begin(settings);
             TakePart();
             Crash();
             Open(settings);
             Prepare();
-            scene.Begin();
+            scene.Begin(7);
             Assert.That(scene.Problem, Does.Contain("participant 7 has finished this study"));
-            scene.Participant = 8;
-            scene.Retry();
-            scene.Begin();
+            scene.Begin(8);
             Assert.That((scene.Problem, scene.Session!.Plan.Participant), Is.EqualTo(((string?)null, 8)));
         }
 
         [Test]
         public void AnInterruptedSessionKeepsItsDelayThoughTheMachineIsMeasuredAnew()
         {
-            SimilaritySettings settings = Settings(1, 2);
+            SimilarityStudySettings settings = Settings(1, 2);
             inference = new Dictionary<string, double> { ["Ours quick"] = 20.0 };
             Begin(settings);
             TakePart(3);
@@ -171,7 +169,7 @@ namespace HaptoFlow.SampleTests.Similarity
         [Test]
         public void AnInterruptedSessionIsNotGoneOnWithWhereAMethodBecameTooSlowForItsDelay()
         {
-            SimilaritySettings settings = Settings(1, 2);
+            SimilarityStudySettings settings = Settings(1, 2);
             Begin(settings);
             TakePart(3);
             byte[] before = File.ReadAllBytes(Csv);
@@ -179,7 +177,7 @@ namespace HaptoFlow.SampleTests.Similarity
             inference = new Dictionary<string, double> { ["Ours quick"] = 90.0 };
             Open(settings);
             Prepare();
-            scene.Begin();
+            scene.Begin(7);
             Assert.That(scene.Problem, Does.Contain("method \"Ours quick\" cannot be given"));
             Assert.That(File.ReadAllBytes(Csv), Is.EqualTo(before));
         }
@@ -188,13 +186,13 @@ namespace HaptoFlow.SampleTests.Similarity
         [TestCase(0.01f, 0.3f, "at least 0.02")]
         public void ObjectsThatCannotBeTracedStopTheStudy(float width, float aside, string expected)
         {
-            SimilaritySettings settings = Settings(1, 2);
+            SimilarityStudySettings settings = Settings(1, 2);
             Set(settings, "sampleMetres", new Vector3(width, 0.01f, 0.15f));
             Set(settings, "virtualMetres", new Vector3(aside, 0f, 0f));
             Refused(settings, expected);
         }
 
-        private void Refused(SimilaritySettings? settings, params string[] words)
+        private void Refused(SimilarityStudySettings? settings, params string[] words)
         {
             Open(settings);
             Prepare();
@@ -203,14 +201,14 @@ namespace HaptoFlow.SampleTests.Similarity
             {
                 Assert.That(scene.Problem, Does.Contain(word));
             }
-            scene.Begin();
+            scene.Begin(7);
             PlayFor(0.5);
             Assert.That(scene.Session, Is.Null);
             Assert.That(scene.Operator.Lines, Has.Some.StartsWith("STOPPED: "));
             Assert.That(Directory.Exists(folder), Is.False, "nothing was begun");
         }
 
-        private static void Set(SimilaritySettings settings, string field, object value) => typeof(SimilaritySettings)
+        private static void Set(SimilarityStudySettings settings, string field, object value) => typeof(SimilarityStudySettings)
             .GetField(field, System.Reflection.BindingFlags.NonPublic | System.Reflection.BindingFlags.Instance)!
             .SetValue(settings, value);
     }

@@ -26,7 +26,7 @@ namespace HaptoFlow.SampleTests.Similarity
         private static readonly string[] Labels = { "wood", "jute", "ceramic", "plastic", "fur", "metal" };
 
         private protected string folder = "";
-        private protected SimilarityScene scene = null!;
+        private protected SimilarityStudyScene scene = null!;
         private protected Dictionary<string, double> inference = new Dictionary<string, double>();
         private protected Func<StudyMethod, HapticLoadedModel, Task<double>>? measure;
         private Vector3 tip;
@@ -54,7 +54,7 @@ namespace HaptoFlow.SampleTests.Similarity
         }
 
         /// <summary>Up to six labels, and up to four methods: two tiers of two models.</summary>
-        private protected SimilaritySettings Settings(int materials, int methods) => Settings(
+        private protected SimilarityStudySettings Settings(int materials, int methods) => Settings(
             Labels.Take(materials).Select(label => new StudyMaterial("Sample of " + label, label)),
             new[]
             {
@@ -64,10 +64,10 @@ namespace HaptoFlow.SampleTests.Similarity
                 new StudyMethod("Rival", Named(EditedModel.WithLabelsReversed(), "rival"), HapticQuality.Standard),
             }.Take(methods));
 
-        private protected SimilaritySettings Settings(
+        private protected SimilarityStudySettings Settings(
             IEnumerable<StudyMaterial> materials, IEnumerable<StudyMethod> methods)
         {
-            var settings = ScriptableObject.CreateInstance<SimilaritySettings>();
+            var settings = ScriptableObject.CreateInstance<SimilarityStudySettings>();
             settings.name = "Test Study";
             settings.Compare(materials, methods);
             settings.Folder = folder;
@@ -83,15 +83,20 @@ namespace HaptoFlow.SampleTests.Similarity
         }
 
         /// <summary>The scene as its file has it.</summary>
-        private protected void Open(SimilaritySettings? settings, string saveName = "")
+        private protected void Open(SimilarityStudySettings? settings, string saveName = "")
         {
             Camera camera = CameraOf(new SceneFile(SampleFile("SimilarityStudy", "SimilarityStudy.unity")));
-            scene = Wake<SimilarityScene>(bootstrap =>
+            // As in the scene file, the camera hears.
+            foreach (AudioListener each in FindAll<AudioListener>())
+            {
+                UnityEngine.Object.DestroyImmediate(each);
+            }
+            camera.gameObject.AddComponent<AudioListener>();
+            scene = Wake<SimilarityStudyScene>(bootstrap =>
             {
                 bootstrap.View = camera;
                 bootstrap.Settings = settings;
                 bootstrap.SaveName = saveName;
-                bootstrap.Participant = 7;
                 bootstrap.MeasureInference = measure ?? bootstrap.MeasureInference;
             });
             Hold(new Vector3(0f, 0.1f, 0f));
@@ -107,11 +112,11 @@ namespace HaptoFlow.SampleTests.Similarity
             }
         }
 
-        private protected void Begin(SimilaritySettings settings)
+        private protected void Begin(SimilarityStudySettings settings)
         {
             Open(settings);
             Prepare();
-            scene.Begin();
+            scene.Begin(7);
             Assert.That(scene.Problem, Is.Null);
         }
 
@@ -119,7 +124,6 @@ namespace HaptoFlow.SampleTests.Similarity
         private protected void Crash()
         {
             World.LoadEmptyScene();
-            Make("Listener").AddComponent<AudioListener>();
             Make("Stepper").AddComponent<EngineStepper>();
         }
 

@@ -9,8 +9,8 @@ namespace HaptoFlow.Samples.SimilarityStudy
 {
     /// <summary>A similarity study: which materials, which methods, how the samples are mounted, what the set-up adds to
     /// the delay. One asset for all participants of a study.</summary>
-    [CreateAssetMenu(menuName = "HaptoFlow/Similarity Study", fileName = "SimilarityStudy")]
-    public sealed class SimilaritySettings : ScriptableObject
+    [CreateAssetMenu(menuName = "HaptoFlow/Similarity Study Settings", fileName = "SimilarityStudySettings")]
+    public sealed class SimilarityStudySettings : ScriptableObject
     {
         [SerializeField, Tooltip("The real samples, any number of them. The first one is used for practice.")]
         private StudyMaterial[] materials = Array.Empty<StudyMaterial>();
@@ -70,13 +70,16 @@ namespace HaptoFlow.Samples.SimilarityStudy
 
         [SerializeField, Min(0f), Tooltip("From the audio callback to the hand, in ms: buffers of the audio device, " +
             "amplifier, actuator. Software cannot measure it.")]
-        private float deviceDelayMilliseconds = 10f;
+        private float deviceDelayMilliseconds = 20f;
 
         [SerializeField, Tooltip("Where the device delay is known from.")]
         private DeviceDelaySource deviceDelaySource = DeviceDelaySource.Estimated;
 
         [SerializeField, Tooltip("How the device delay was measured, or what the estimate rests on.")]
-        private string deviceDelayNote = "assumed, not measured";
+        private string deviceDelayNote = "assumed by the sample, not measured on this set-up";
+
+        [SerializeField, Tooltip("Nobody takes part: this is a rehearsal, and logs and reports say so.")]
+        private bool simulated;
 
         /// <summary>The first is used for practice.</summary>
         public IReadOnlyList<StudyMaterial> Materials => materials;
@@ -154,6 +157,13 @@ namespace HaptoFlow.Samples.SimilarityStudy
         /// <summary>How it was measured, or what the estimate rests on.</summary>
         public string DeviceDelayNote => deviceDelayNote;
 
+        /// <summary>Nobody takes part; logs and reports say so.</summary>
+        public bool Simulated
+        {
+            get => simulated;
+            set => simulated = value;
+        }
+
         /// <summary>Chooses what is compared. Before the study's component wakes.</summary>
         public void Compare(IEnumerable<StudyMaterial> chosenMaterials, IEnumerable<StudyMethod> chosenMethods)
         {
@@ -207,7 +217,7 @@ namespace HaptoFlow.Samples.SimilarityStudy
             }).ToArray() },
             { "methods", methods.Select(each => new StudyFields
             {
-                { "name", each.Name }, { "quality", each.Quality.ToString() },
+                { "name", each.Name }, { "quality", each.Quality.ToString().ToLowerInvariant() },
             }).ToArray() },
             { "sample_metres", new double[] { sampleMetres.x, sampleMetres.y, sampleMetres.z } },
             { "virtual_metres", new double[] { virtualMetres.x, virtualMetres.y, virtualMetres.z } },
@@ -216,10 +226,14 @@ namespace HaptoFlow.Samples.SimilarityStudy
             { "real_height_metres", realHeightMetres },
             { "plate_under_virtual", plateUnderVirtual },
             { "needs_alignment", needsAlignment },
-            { "pen_hand", penHand.ToString() },
+            { "pen_hand", penHand == PenHand.Left ? "left" : "right" },
             { "haptic_channel", hapticChannel },
-            { "noise_colour", noiseColour.ToString() },
-            { "noise_decibels", noiseDecibels },
+            {
+                "noise", new StudyFields
+                {
+                    { "colour", noiseColour == NoiseColour.Pink ? "pink" : "white" }, { "level_db", noiseDecibels },
+                }
+            },
             { "equal_delay_ms", equalDelayMilliseconds },
         };
 

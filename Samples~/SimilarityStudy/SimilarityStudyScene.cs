@@ -12,7 +12,7 @@ namespace HaptoFlow.Samples.SimilarityStudy
     /// the operator. It loads and measures every method's model, waits for the alignment and the operator, and then
     /// leads one participant through the plan.</summary>
     [RequireComponent(typeof(PipelineMaterial))]
-    public sealed class SimilarityScene : MonoBehaviour
+    public sealed class SimilarityStudyScene : MonoBehaviour
     {
         // So many frames tell how long a frame takes.
         private const int PoseFrames = 64;
@@ -22,13 +22,10 @@ namespace HaptoFlow.Samples.SimilarityStudy
         private readonly PoseInterval poseInterval = new PoseInterval();
 
         [SerializeField, Tooltip("The materials, the methods and the set-up.")]
-        private SimilaritySettings? settings;
+        private SimilarityStudySettings? settings;
 
         [SerializeField]
         private Camera? view;
-
-        [SerializeField, Min(1), Tooltip("The participant's number, from 1. No names.")]
-        private int participant = 1;
 
         private MethodModels? models;
         private TrialParts? parts;
@@ -36,9 +33,12 @@ namespace HaptoFlow.Samples.SimilarityStudy
         private TextMesh instruction = null!;
         private RatingPanel panel = null!;
         private HapticOutput output = null!;
+        private MaskingNoise noise = null!;
+        private StudyRig rig = null!;
+        private bool isRefused;
 
         /// <summary>The materials, the methods and the set-up. To be set before the component wakes.</summary>
-        public SimilaritySettings? Settings
+        public SimilarityStudySettings? Settings
         {
             get => settings;
             set => settings = value;
@@ -51,19 +51,9 @@ namespace HaptoFlow.Samples.SimilarityStudy
             set => view = value;
         }
 
-        /// <summary>From 1. To be set before <see cref="Begin"/>.</summary>
-        public int Participant
-        {
-            get => participant;
-            set => participant = value;
-        }
-
         /// <summary>The virtual object's place is kept under this name; empty to keep nothing. To be set before the
         /// component wakes.</summary>
         public string SaveName { get; set; } = "SimilarityStudy";
-
-        /// <summary>No person takes part: the log says so. To be set before <see cref="Begin"/>.</summary>
-        public bool IsSimulated { get; set; }
 
         /// <summary>What a method adds to the delay beside the audio block, in ms. To be replaced before the component
         /// wakes where a laboratory has a better measurement.</summary>
@@ -99,65 +89,66 @@ namespace HaptoFlow.Samples.SimilarityStudy
         /// <summary>The actuator's.</summary>
         public HapticOutput Output => output;
 
-        /// <summary>Why the study cannot begin; null where nothing is wrong.</summary>
-        public string? Problem { get; private set; }
+        /// <summary>Why the study cannot begin, or did not when it was last asked to; null where nothing is wrong.
+        /// </summary>
+        public string? Problem => Operator.Problem;
 
         /// <summary>Everything is loaded, measured and aligned: <see cref="Begin"/> can be called.</summary>
-        public bool CanBegin => Problem == null && Session == null && WhatIsMissing() == null;
+        public bool CanBegin => !isRefused && Session == null && WhatIsMissing() == null;
 
         /// <summary>The pen in use: the tracked one, else the mouse's.</summary>
         public HapticStylus Pen => rig.Pen;
 
-        private StudyRig rig = null!;
-
         /// <summary>Opens the participant's log, anew or where it was interrupted, and waits for the operator's first
-        /// Next. What is wrong stands in <see cref="Problem"/>; nothing has begun then.</summary>
-        public void Begin()
+        /// Next. What is wrong stands in <see cref="Problem"/>; nothing has begun then, and it can be tried again.
+        /// </summary>
+        /// <param name="participant">From 1.</param>
+        public void Begin(int participant)
         {
-            if (!CanBegin)
+            if (isRefused || Session != null)
             {
                 return;
             }
             try
             {
-                StudyLog log = OpenLog();
+                string? missing = WhatIsMissing() ?? noise.Problem;
+                if (missing != null)
+                {
+                    throw new StudyException(missing);
+                }
+                StudyLog log = OpenLog(participant);
                 parts = new TrialParts(
                     settings!, models!, Delay!, Real, Virtual, Pen, output, panel, instruction);
                 Session = new StudySession(log);
                 Procedure = SimilarityProcedure.Create(Session, parts);
                 Operator.Session = Session;
+                Operator.Problem = null;
             }
             catch (StudyException refusal)
             {
-                Delay = null;
-                Stop(refusal);
-            }
-        }
-
-        /// <summary>Tries again after a refusal of <see cref="Begin"/>, for example with another participant.</summary>
-        public void Retry()
-        {
-            if (Session == null && models != null && models.IsReady)
-            {
-                Problem = null;
-                Operator.Problem = null;
+                Operator.Problem = refusal.Message;
             }
         }
 
         private void Awake()
         {
+            // Until the first trial the pen belongs to the model of the project, where it has one.
+            HaptoFlowSettings active = HaptoFlowSettings.Active;
+            if (active.Model == null && settings != null)
+            {
+                active.Model = settings.Methods.Select(each => each.Model).FirstOrDefault(each => each != null);
+            }
             Quaternion facing = view!.transform.rotation;
             rig = StudyRig.Create(view, settings != null ? settings.PenHand : PenHand.Right);
             MakeOutput();
             instruction = Build.Text("Please wait.", InstructionPlace, facing);
             panel = RatingPanel.Create(PanelPlace, facing);
-#if HAPTOFLOW_INPUT_SYSTEM && ENABLE_INPUT_SYSTEM
             RatingButtons.Create(panel, settings != null ? settings.PenHand : PenHand.Right);
-#endif
             Operator = gameObject.AddComponent<OperatorView>();
             Operator.Output = output;
             Operator.Detail = Detail;
-            gameObject.AddComponent<StartPanel>().Scene = this;
+            Operator.Begin = Begin;
+            AlignmentButtons.Create(this);
             pair = new GameObject("Objects");
             Alignment = SampleAlignment.Create(pair, rig, SaveName);
             Prepare();
@@ -185,7 +176,7 @@ namespace HaptoFlow.Samples.SimilarityStudy
         private void Update()
         {
             poseInterval.Add(Time.unscaledDeltaTime);
-            if (Problem != null || models == null || models.IsReady)
+            if (isRefused || models == null || models.IsReady)
             {
                 return;
             }
@@ -211,11 +202,11 @@ namespace HaptoFlow.Samples.SimilarityStudy
 
         private void Stop(StudyException refusal)
         {
-            Problem = refusal.Message;
+            isRefused = true;
             Operator.Problem = refusal.Message;
         }
 
-        private StudyLog OpenLog()
+        private StudyLog OpenLog(int participant)
         {
             StudyPlan plan = settings!.PlanFor(participant);
             double? wanted = EqualDelay.OfInterrupted(settings.Folder, participant);
@@ -226,7 +217,7 @@ namespace HaptoFlow.Samples.SimilarityStudy
             Delay = new EqualDelay(DelaysOfMethods(), wanted);
             var description = new StudyDescription(plan, settings.ForLog(), Delay.Of(Delay.Slowest))
             {
-                IsSimulated = IsSimulated,
+                IsSimulated = settings.Simulated,
                 Environment = EnvironmentOf(settings),
                 Models = models!.ForLog(),
             };
@@ -239,7 +230,7 @@ namespace HaptoFlow.Samples.SimilarityStudy
                 StudyPlayer.BlockMilliseconds, settings.DeviceDelayMilliseconds),
             StringComparer.Ordinal);
 
-        private static StudyEnvironment EnvironmentOf(SimilaritySettings chosen)
+        private static StudyEnvironment EnvironmentOf(SimilarityStudySettings chosen)
         {
             StudyEnvironment environment = StudyPlayer.Environment(chosen.Headset);
             environment.DeviceDelaySource = chosen.DeviceDelaySource;
@@ -249,11 +240,14 @@ namespace HaptoFlow.Samples.SimilarityStudy
 
         private void MakeOutput()
         {
-            output = new GameObject("Haptic Output").AddComponent<HapticOutput>();
+            GameObject ears = view!.gameObject;
+            noise = ears.AddComponent<MaskingNoise>();
+            // Behind the noise: the output overwrites its channel.
+            output = ears.AddComponent<HapticOutput>();
+            output.Route = OutputRoute.ListenerChannel;
             output.Channel = settings != null ? settings.HapticChannel : 1;
             // Nothing is felt before the first trial.
             output.Muted = true;
-            var noise = view!.gameObject.AddComponent<MaskingNoise>();
             noise.Output = output;
             if (settings != null)
             {
@@ -262,7 +256,7 @@ namespace HaptoFlow.Samples.SimilarityStudy
             }
         }
 
-        private void MakeObjects(SimilaritySettings chosen)
+        private void MakeObjects(SimilarityStudySettings chosen)
         {
             Real = new StudyObject("Left Object", pair.transform, Vector3.zero, chosen.SampleMetres,
                 chosen.RealHeightMetres, NewTracing(chosen));
@@ -271,14 +265,14 @@ namespace HaptoFlow.Samples.SimilarityStudy
                 NewTracing(chosen));
         }
 
-        private static EdgeTracing NewTracing(SimilaritySettings chosen) => new EdgeTracing(
+        private static EdgeTracing NewTracing(SimilarityStudySettings chosen) => new EdgeTracing(
             chosen.SampleMetres.x, chosen.SampleMetres.z, chosen.EdgeToleranceMetres, chosen.EdgeShare);
 
         private string? WhatIsMissing()
         {
             if (models == null || !models.IsReady)
             {
-                return models?.Doing ?? "no models";
+                return models?.Doing;
             }
             if (poseInterval.Count < PoseFrames)
             {
@@ -293,7 +287,7 @@ namespace HaptoFlow.Samples.SimilarityStudy
         {
             if (Session == null)
             {
-                return $"participant P{participant:00}\n{WhatIsMissing() ?? "ready: press Begin"}\n{Alignment.Text}";
+                return $"{WhatIsMissing() ?? "ready: press Begin"}\n{Alignment.Text}";
             }
             PlannedTrial? trial = Session.Trial;
             return trial == null
