@@ -1,3 +1,5 @@
+extern alias Legacy;
+
 using System;
 using System.Collections.Generic;
 using System.Globalization;
@@ -9,6 +11,8 @@ using HaptoFlow.Tests;
 using NUnit.Framework;
 using UnityEngine;
 using UnityShim;
+using LegacyButtons = Legacy::HaptoFlow.Samples.SimilarityStudy.RatingButtons;
+using LegacyPanel = Legacy::HaptoFlow.Samples.SimilarityStudy.RatingPanel;
 
 namespace HaptoFlow.SampleTests.Similarity
 {
@@ -20,6 +24,8 @@ namespace HaptoFlow.SampleTests.Similarity
         [TestCase(1, 2)]
         public void EveryTrialIsLoggedOnceAlsoWhereTheSessionWasInterruptedInMidTrial(int materials, int methods)
         {
+            // The project itself names no model.
+            HaptoFlowSettings.Active.Model = null;
             SimilarityStudySettings settings = Settings(materials, methods);
             inference = new Dictionary<string, double> { ["Ours"] = 9.5, ["Rival"] = 14.25 };
             Begin(settings);
@@ -69,6 +75,80 @@ namespace HaptoFlow.SampleTests.Similarity
                 Assert.That(sidecar, Does.Contain(hash.ToLowerInvariant()).And.Contain(method.Model.name + ".haptoflow"));
             }
             Assert.That(Directory.GetFiles(folder), Has.Length.EqualTo(2));
+            Assert.That(Log.Lines.Where(line => line.Type != LogType.Log), Is.Empty);
+        }
+
+        [Test]
+        public void AnAnswerThatTheDiskRefusesIsWrittenLaterAndNoTrialIsLostOrRepeated()
+        {
+            Begin(Settings(1, 2));
+            TakePart(2);
+            string csv = Csv;
+            File.Move(csv, csv + ".kept");
+            Directory.CreateDirectory(csv);
+            TraceVirtual();
+            Answer(5);
+            Assert.That(scene.Session!.Phase, Is.EqualTo(StudyPhase.Disk));
+            Assert.That((Procedure.Stage, scene.Panel.IsOpen, scene.Output.Muted),
+                Is.EqualTo((TrialStage.Waiting, false, true)));
+            Answer(6);
+            PlayFor(3.0);
+            Assert.That(scene.Operator.Lines, Has.Some.Contains("NOT WRITTEN"));
+            Directory.Delete(csv);
+            File.Move(csv + ".kept", csv);
+            PlayFor(3.0);
+            Assert.That((scene.Session.Phase, scene.Session.Pause), Is.EqualTo((StudyPhase.Paused, StudyPause.Disk)));
+            TakePart();
+            Assert.That(Rows().Select(row => row["trial"]), Is.EqualTo(new[] { "1", "2", "3", "4" }));
+            Assert.That(Rows()[1]["rating"], Is.EqualTo("5"));
+        }
+
+        [Test]
+        public void APenThatIsNotTrackedForAWhileGoesOnWhereItWas()
+        {
+            Begin(Settings(1, 2));
+            scene.Session!.Continue();
+            Trace(scene.Real.Frame, 2);
+            SimulatedInput.SetControl(Right + "isTracked", 0f);
+            PlayFor(1.0);
+            Assert.That((Procedure.Stage, scene.Real.Tracing.TracedEdges), Is.EqualTo((TrialStage.RealEdges, 2)));
+            TraceReal();
+            TraceVirtual();
+            Answer(2);
+            Assert.That(Rows().Single()["rating"], Is.EqualTo("2"));
+        }
+
+        [Test]
+        public void WithoutATrackedPenTheMouseTakesPart()
+        {
+            Open(Settings(1, 2));
+            SimulatedInput.SetControl(Right + "isTracked", 0f);
+            Prepare();
+            scene.Begin(7);
+            scene.Session!.Continue();
+            TraceByMouse(scene.Real.Frame);
+            Assert.That(Procedure.Stage, Is.EqualTo(TrialStage.VirtualEdges));
+            AudioDevice.Forget();
+            TraceByMouse(scene.Virtual.Frame);
+            Assert.That(LoudestFelt(), Is.GreaterThan(Audible));
+            Answer(3);
+            Assert.That(Rows().Single()["rating"], Is.EqualTo("3"));
+        }
+
+        [Test]
+        public void WithoutTheInputSystemKeysAnswer()
+        {
+            LegacyPanel panel = LegacyPanel.Create(Vector3.zero, Quaternion.identity);
+            LegacyButtons.Create(panel, Legacy::HaptoFlow.PenHand.Right);
+            var answers = new List<int>();
+            panel.Confirmed += answers.Add;
+            panel.Open();
+            foreach (KeyCode key in new[] { KeyCode.Return, KeyCode.Alpha0 + 8, KeyCode.Alpha0 + 6, KeyCode.Return })
+            {
+                SimulatedInput.KeyDown = key;
+                World.Frame();
+            }
+            Assert.That(answers, Is.EqualTo(new[] { 6 }));
         }
 
         [Test]
@@ -223,6 +303,24 @@ namespace HaptoFlow.SampleTests.Similarity
             World.Frames(3);
             Assert.That(FindAll<HapticStylus>().Where(each => each.isActiveAndEnabled),
                 Is.EqualTo(new[] { scene.Pen }));
+        }
+
+        private void TraceByMouse(Transform frame)
+        {
+            SimulatedInput.MouseButton = false;
+            PointAt(scene.View!, Corner(frame, 0));
+            PlayFor(0.3);
+            SimulatedInput.MouseButton = true;
+            for (int corner = 0; corner < 4; ++corner)
+            {
+                for (int step = 0; step <= 40; ++step)
+                {
+                    PointAt(scene.View!, Vector3.Lerp(Corner(frame, corner), Corner(frame, (corner + 1) % 4), step / 40f));
+                    PlayFor(0.02);
+                }
+            }
+            SimulatedInput.MouseButton = false;
+            PlayFor(0.3);
         }
 
         /// <summary>Both objects, their colours and sizes; and no word in text or names tells anything.</summary>
