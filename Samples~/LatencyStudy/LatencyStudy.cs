@@ -160,7 +160,7 @@ namespace HaptoFlow.Samples.LatencyStudy
 
         private void OnChanged(StudySession changed)
         {
-            output.Muted = changed.Phase != StudyPhase.Task;
+            output.Muted = true;
             switch (changed.Phase)
             {
                 case StudyPhase.Task:
@@ -181,9 +181,7 @@ namespace HaptoFlow.Samples.LatencyStudy
 
         private void BeginTrial(StudySession begun)
         {
-            tracing = null;
-            nearSinceSeconds = double.NaN;
-            marker.Wait();
+            AwaitThePen();
             delay = MeasureDelay();
             double planned = begun.Trial!.DelayMilliseconds!.Value;
             if (!TryReach(planned))
@@ -227,7 +225,7 @@ namespace HaptoFlow.Samples.LatencyStudy
         {
             if (tracing == null)
             {
-                WaitForThePen();
+                RunWhenThePenIsThere();
             }
             else if (marker.IsDone)
             {
@@ -241,15 +239,21 @@ namespace HaptoFlow.Samples.LatencyStudy
                 }
                 else
                 {
-                    tracing = null;
-                    nearSinceSeconds = double.NaN;
-                    marker.Wait();
+                    AwaitThePen();
                     panel.AskToFollow(traced.Trial!);
                 }
             }
         }
 
-        private void WaitForThePen()
+        private void AwaitThePen()
+        {
+            tracing = null;
+            nearSinceSeconds = double.NaN;
+            output.Muted = true;
+            marker.Wait();
+        }
+
+        private void RunWhenThePenIsThere()
         {
             double now = Time.unscaledTimeAsDouble;
             foreach ((HapticStylus stylus, TrialContact contact) in pens)
@@ -269,6 +273,8 @@ namespace HaptoFlow.Samples.LatencyStudy
                     tracing = contact;
                     contact.Begin();
                     marker.Run();
+                    // On the way to the marker nothing is felt: the marker's strokes are all that is judged.
+                    output.Muted = false;
                 }
                 return;
             }

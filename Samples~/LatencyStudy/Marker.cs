@@ -52,8 +52,11 @@ namespace HaptoFlow.Samples.LatencyStudy
             beganSeconds = Time.unscaledTimeAsDouble;
         }
 
-        /// <summary>Way on the path, in metres.</summary>
-        internal double WayAt(double seconds, out bool moves, out bool isDone)
+        /// <summary>Way on the path since it began, in metres.</summary>
+        /// <param name="seconds">Since it began.</param>
+        /// <param name="moves">It is on its way then.</param>
+        /// <param name="isDone">All is over then.</param>
+        public double WayAt(double seconds, out bool moves, out bool isDone)
         {
             double cycle = settings.RestSeconds + settings.MoveSeconds;
             double whole = Math.Min(Math.Max(0.0, Math.Floor(seconds / cycle)), settings.Strokes);

@@ -98,6 +98,16 @@ def test_an_interval_is_refused_where_yes_and_no_hardly_overlap() -> None:
     assert "hardly overlap" in result.interval_statement
 
 
+def test_an_interval_is_refused_where_some_resamples_are_almost_flat() -> None:
+    random = np.random.default_rng(12)
+    results = [fit(answers_of(random.uniform(size=(8, 11)) < 0.5), seed=1) for _ in range(40)]
+    refused = [one for one in results if one.curve is not None and one.threshold_interval is None]
+    assert refused and all(one.interval_statement for one in refused)
+    for one in results:
+        if one.threshold_interval is not None:
+            assert -150.0 <= one.threshold_interval.low <= one.threshold_interval.high <= 450.0
+
+
 def test_a_threshold_beyond_the_tested_delays_is_called_extrapolated() -> None:
     result = fit(drawn(3, x0=290.0))
     assert result.curve is not None and result.curve.x0 > 250.0

@@ -38,6 +38,11 @@ def test_five_differences_of_one_sign_are_not_significant_as_the_normal_approxim
     assert signed_rank_p(np.array([1.0, 1.0, 2.0, 1.0, 3.0])) == pytest.approx(0.0625)
 
 
+def test_a_single_difference_proves_nothing() -> None:
+    one = np.array([0.0, 0.0, 2.0, 0.0])
+    assert signed_rank_p(one) == 1.0 and signed_rank_p(one, "greater") == 0.5 and signed_rank_p(one, "less") == 1.0
+
+
 def test_many_differences_keep_their_zeros_among_the_ranks_and_correct_the_variance_for_ties() -> None:
     differences = np.array([1.0] * 8 + [2.0] * 5 + [-1.0] * 4 + [0.0] * 7)
     ranks = stats.rankdata(np.abs(differences))[differences != 0.0]

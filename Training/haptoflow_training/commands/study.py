@@ -4,12 +4,25 @@ from __future__ import annotations
 
 import argparse
 
-from haptoflow_training.commands import study_check, study_golden, study_merge, study_simulate
+from haptoflow_training.commands import (
+    study_analyse,
+    study_budget,
+    study_check,
+    study_golden,
+    study_merge,
+    study_power,
+    study_simulate,
+    study_validate,
+)
 
 _STEPS = {
     "simulate": (study_simulate, "write the logs of participants that do not exist"),
     "check": (study_check, "name what is broken, missing or there twice in a folder of logs"),
     "merge": (study_merge, "write all sessions of a study as one table"),
+    "analyse": (study_analyse, "write the report of a folder of logs"),
+    "power": (study_power, "count what a planned number of participants would find"),
+    "validate": (study_validate, "analyse studies whose truth is known"),
+    "budget": (study_budget, "add up the parts of the delay beside the thresholds of the paper"),
     "golden": (study_golden, "write the plans that the Unity package must agree with"),
 }
 

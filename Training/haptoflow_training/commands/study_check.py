@@ -34,5 +34,5 @@ def _run(options: argparse.Namespace) -> int:
             simulated = sum(session.is_simulated for session in sessions)
             trials = sum(len(session.rows) for session in sessions)
             print(f"{study}: {len(sessions)} sessions, {simulated} of them simulated, {trials} answered trials")
-    print(f"{len(read.problems)} problems")
+    print(f"{len(read.problems)} problem{'' if len(read.problems) == 1 else 's'}")
     return 3 if read.problems else 0

@@ -29,7 +29,7 @@ def register(parser: argparse.ArgumentParser) -> None:
 def _run(options: argparse.Namespace) -> int:
     folder, out = options.folder.resolve(), options.out.resolve()
     if out == folder or folder in out.parents:
-        raise InputError(f"{options.out}: lies in the folder of the logs, where only logs may be; expected another folder")
+        raise InputError(f"{options.out}: lies in the folder of the logs, where only logs may be; name another folder")
     read = read_faultless(options.folder)
     for study in STUDIES:
         sessions = read.of(study)

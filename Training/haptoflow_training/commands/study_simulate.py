@@ -16,8 +16,9 @@ _EXAMPLES = f"""examples:
   haptoflow-training study simulate --study latency --participants 24 --seed 1 --out simulated
   haptoflow-training study simulate --study similarity --participants 24 --seed 1 --difference 0 --out no-difference
 
-Answers to delays follow the paper's two curves. Ratings are alike but for the last method, which is rated lower on every
-second material by --difference standard deviations of the differences (Cohen's d_z; the paper planned with {PLANNED_DZ}).
+Answers to delays follow the paper's two curves. Ratings are alike but for the last method, which is rated lower on
+every second material by --difference standard deviations of the differences (Cohen's d_z; the paper planned with
+{PLANNED_DZ}).
 Every file says that it is simulated, and real and simulated logs are never analysed together.
 """
 
@@ -28,7 +29,7 @@ def register(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--study", required=True, choices=STUDIES)
     parser.add_argument("--participants", type=int, default=24, help="1 to 999 (default 24)")
     parser.add_argument("--seed", type=int, default=1, help="of plans and answers, 0 or more (default 1)")
-    parser.add_argument("--difference", type=float, default=PLANNED_DZ, help="similarity only: d_z, 0 to 5 (default 0.67)")
+    parser.add_argument("--difference", type=float, default=PLANNED_DZ, help="similarity only: 0 to 5 (default 0.67)")
     parser.add_argument("--out", required=True, type=Path, help="folder to write into")
     parser.set_defaults(run=_run)
 

@@ -28,8 +28,8 @@ def participant_weights(participants: int, resamples: int, seed: int) -> np.ndar
 def expanded_interval(values: np.ndarray, participants: int) -> Interval:
     """Expanded percentile interval of resampled values, 95 %; values that are nan are left out.
 
-    Hesterberg (2015), What teachers should know about the bootstrap, section 5: percentiles of a resampled statistic are
-    too narrow by sqrt((n - 1) / n) and take a normal's tails where Student's t are due; the levels are moved out by both.
+    Hesterberg (2015), What teachers should know about the bootstrap: percentiles of a resampled statistic are too
+    narrow by sqrt((n - 1) / n) and have a normal's tails where Student's t are due; the levels are moved out by both.
     """
     percentile_levels = expanded_levels(participants)
     low, high = np.quantile(values[~np.isnan(values)], percentile_levels)

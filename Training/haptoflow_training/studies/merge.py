@@ -8,6 +8,7 @@ from collections.abc import Sequence
 
 from haptoflow_training.studies.log_columns import COLUMNS
 from haptoflow_training.studies.session_file import Session
+from haptoflow_training.studies.session_writer import field_text
 
 OWN_COLUMNS = ("participant", "session", "simulated")
 
@@ -20,5 +21,5 @@ def merged_csv(study: str, sessions: Sequence[Session]) -> str:
     writer.writerow([*OWN_COLUMNS, *names])
     for session in sessions:
         own = (session.participant, session.session, int(session.is_simulated))
-        writer.writerows([*own, *("" if row[name] is None else row[name] for name in names)] for row in session.rows)
+        writer.writerows([*own, *(field_text(row[name]) for name in names)] for row in session.rows)
     return text.getvalue()

@@ -1,7 +1,7 @@
 """The psychometric function y = 100 / (1 + exp(-k (x - x0))) by maximum likelihood on single yes or no answers.
 
-The likelihood is that of a logistic regression of the answer on the delay, with slope k and intercept -k x0. Each answer
-counts alike; least squares through the percentages, the other habit, takes a level at 2 % for as uncertain as one at 50 %.
+The likelihood is that of a logistic regression of the answer on the delay, with slope k and intercept -k x0. Each
+answer counts alike. Least squares through the percentages would take a level at 2 % for as uncertain as one at 50 %.
 """
 
 from __future__ import annotations
@@ -49,9 +49,9 @@ class Curve:
 class Fit:
     """What one condition's answers say.
 
-    curve: None where there is none; `statement` says why. The intervals (95 %) and standard errors are over participants,
-    None where none can be given; `interval_statement` says why. resampled_x0 has one value a resample, nan where a
-    resample has no curve.
+    curve: None where there is none; `statement` says why. The intervals (95 %) and standard errors are over
+    participants, None where none can be given; `interval_statement` says why. resampled_x0 has one value a resample,
+    nan where a resample has no curve.
     """
 
     curve: Curve | None
@@ -87,7 +87,8 @@ def degenerate_statement(answers: Answers) -> str:
         return f"every trial had the same delay, {delay[0]:g} ms: a curve needs several"
     longest_no, shortest_yes = delay[~yes].max(), delay[yes].min()
     if longest_no <= shortest_yes:
-        where = f"between {longest_no:g} and {shortest_yes:g} ms" if longest_no < shortest_yes else f"at {longest_no:g} ms"
+        steps = longest_no < shortest_yes
+        where = f"between {longest_no:g} and {shortest_yes:g} ms" if steps else f"at {longest_no:g} ms"
         return (
             f"the answers step from no to yes without overlap: the threshold lies {where}, and the slope k has no "
             "maximum-likelihood value"
@@ -122,18 +123,28 @@ def fit(answers: Answers, *, resamples: int = RESAMPLES, seed: int = 0) -> Fit:
     if without > _LARGEST_SHARE_WITHOUT_CURVE:
         words = f"{100 * without:.0f} % of the resamples have no curve, because yes and no hardly overlap"
         return Fit(curve, interval_statement=words, notes=notes)
+    threshold_interval = expanded_interval(x0, count)
+    lowest, highest, span = answers.delay_ms.min(), answers.delay_ms.max(), np.ptp(answers.delay_ms)
+    if threshold_interval.low < lowest - span or threshold_interval.high > highest + span:
+        words = "in some resamples yes hardly depends on the delay, so that their thresholds lie anywhere"
+        return Fit(curve, interval_statement=words, notes=notes)
     if without > 0.0:
         notes += (f"{100 * without:.2g} % of the resamples have no curve and were left out of the intervals",)
-    k_without_one, x0_without_one = _curves(counted, 1.0 - np.eye(count))
+    k_without_one, x0_without_one = leave_one_out(answers)
     return Fit(
         curve,
-        threshold_interval=expanded_interval(x0, count),
+        threshold_interval=threshold_interval,
         k_interval=expanded_interval(k, count),
         threshold_error=jackknife_error(x0_without_one),
         k_error=jackknife_error(k_without_one),
         notes=notes,
         resampled_x0=x0,
     )
+
+
+def leave_one_out(answers: Answers) -> tuple[np.ndarray, np.ndarray]:
+    """k and x0 without each participant in turn; nan where the others have no curve."""
+    return _curves(_counted(answers), 1.0 - np.eye(answers.participants))
 
 
 def threshold_difference(first: Fit, second: Fit, participants: int) -> Interval | None:
@@ -202,7 +213,9 @@ def _curves(counted: _Counts, weights: np.ndarray) -> tuple[np.ndarray, np.ndarr
     return np.where(rises, slope / scale, np.nan), np.where(rises, centre - intercept * scale / divisor, np.nan)
 
 
-def percent_yes(answers: Answers, level_ms: Sequence[float], levels: np.ndarray) -> list[tuple[float, float, float, int]]:
+def percent_yes(
+    answers: Answers, level_ms: Sequence[float], levels: np.ndarray
+) -> list[tuple[float, float, float, int]]:
     """Of each level: mean delivered delay, percentage of yes, its standard error (sd / sqrt(n)), and the count n."""
     rows = []
     for level in level_ms:

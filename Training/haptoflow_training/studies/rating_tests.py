@@ -4,8 +4,8 @@ Ratings from 1 to 7 tie often, and two methods often get the same rating. So of 
 
 - Differences of zero keep their place among the ranks and are then left out (zero_method "pratt"). Without them
   ("wilcox") a few differences among many equal ratings would look unanimous.
-- The p-value comes from the normal approximation, whose variance SciPy corrects for ties, without continuity correction:
-  SciPy's exact distribution is that of ranks without ties.
+- The p-value comes from the normal approximation, whose variance SciPy corrects for ties, without continuity
+  correction: SciPy's exact distribution is that of ranks without ties.
 - Up to 12 differences that are not zero, where the approximation is coarse, every pattern of signs is counted instead
   (scipy.stats.permutation_test).
 """
@@ -53,8 +53,8 @@ class Pair:
 
     p: of Wilcoxon's test, two-sided; p_shaffer: adjusted, None where Friedman's test found nothing to follow up.
     rank_biserial: the share of the ranks that favours `first` less that for `second`, -1 to 1. cohen_dz: the mean
-    difference in standard deviations of the differences. bound: in points of rating; p_equivalence: the larger of the two
-    one-sided tests' p-values. None where the differences are all zero, or have no spread.
+    difference in standard deviations of the differences. bound: in points of rating; p_equivalence: the larger of the
+    two one-sided tests' p-values. None where the differences are all zero, or have no spread.
     """
 
     first: int
@@ -70,7 +70,7 @@ class Pair:
 
 @dataclass(frozen=True)
 class RatingResult:
-    """One material's. friedman is None for two methods, whose one pair is tested directly, and for ratings all equal."""
+    """Of one material. friedman is None for two methods, whose pair is tested directly, and for ratings all equal."""
 
     normality: tuple[Normality, ...]
     friedman: Friedman | None
@@ -93,6 +93,9 @@ def signed_rank_p(differences: np.ndarray, alternative: str = "two-sided") -> fl
 def _counted_p(differences: np.ndarray, alternative: str) -> float:
     ranks = stats.rankdata(np.abs(differences))[differences != 0.0]
     signed = ranks * np.sign(differences[differences != 0.0])
+    if len(signed) == 1:
+        # SciPy wants two observations; a rank of zero changes no sum.
+        signed = np.append(signed, 0.0)
     # Rounded, because equal sums of half ranks may differ in their last bits.
     test = stats.permutation_test(
         (signed,),
@@ -108,8 +111,8 @@ def _counted_p(differences: np.ndarray, alternative: str) -> float:
 def equivalence(first: np.ndarray, second: np.ndarray) -> tuple[float | None, float | None]:
     """Bound in points of rating and p-value of two one-sided Wilcoxon tests; None, None where no rating varies.
 
-    The bound is 0.8 pooled standard deviations of the two methods' ratings. It is estimated from the same ratings, so that
-    the rate of false equivalence is near the level, not bounded by it.
+    The bound is 0.8 pooled standard deviations of the two methods' ratings. It is estimated from the same ratings, so
+    that the rate of false equivalence is near the level, not bounded by it.
     """
     pooled = float(np.sqrt((np.var(first, ddof=1) + np.var(second, ddof=1)) / 2.0))
     if pooled == 0.0 or np.isnan(pooled):

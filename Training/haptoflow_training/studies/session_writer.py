@@ -15,7 +15,7 @@ def write_session(folder: Path, sidecar: Mapping[str, Any], rows: Sequence[Mappi
     """The rows' file. A column that a row does not have stays empty."""
     stem = f"{sidecar['study']}-P{sidecar['participant']:02d}-{sidecar['session']}"
     names = [column.name for column in COLUMNS[sidecar["study"]]]
-    lines = [",".join(names), *(",".join(_field(row.get(name)) for name in names) for row in rows)]
+    lines = [",".join(names), *(",".join(field_text(row.get(name)) for name in names) for row in rows)]
     path = folder / f"{stem}.csv"
     write_whole(path, ("\n".join(lines) + "\n").encode())
     document = {"format": FORMAT, "version": VERSION, **sidecar}
@@ -23,7 +23,8 @@ def write_session(folder: Path, sidecar: Mapping[str, Any], rows: Sequence[Mappi
     return path
 
 
-def _field(value: object) -> str:
+def field_text(value: object) -> str:
+    """Numbers to six decimals; None is empty."""
     if value is None:
         return ""
     return f"{value:.6f}".rstrip("0").rstrip(".") if isinstance(value, float) else str(value)

@@ -55,8 +55,9 @@ def _names(sessions: Sequence[Session], key: str) -> list[str]:
     """In the settings' order where the sidecars have it, else by name."""
     found = {str(row[key]) for session in sessions for row in session.rows if row["block"] == MAIN}
     listed = sessions[0].sidecar["settings"].get(f"{key}s")
-    is_order = isinstance(listed, list) and all(isinstance(name, str) for name in listed) and len(set(listed)) == len(listed)
-    return list(listed) if is_order and set(listed) == found else sorted(found)
+    if not isinstance(listed, list) or not all(isinstance(name, str) for name in listed):
+        return sorted(found)
+    return list(listed) if sorted(listed) == sorted(found) else sorted(found)
 
 
 def _refuse_gaps(
@@ -66,6 +67,6 @@ def _refuse_gaps(
     if len(gaps):
         material, place, method = gaps[0]
         raise InputError(
-            f"{sessions[place].path}: no rating of {methods[method]} on {materials[material]}, which others rated; every "
-            "participant must rate every method on every material"
+            f"{sessions[place].path}: no rating of {methods[method]} on {materials[material]}, which others rated; "
+            "every participant must rate every method on every material"
         )

@@ -31,7 +31,9 @@ class AnswerModel:
     curves: Mapping[str, Curve] = field(default_factory=lambda: dict(PAPER_CURVES))
     between: float = 0.3
 
-    def answers(self, random: np.random.Generator, condition: str, delays_ms: np.ndarray, own: np.ndarray) -> np.ndarray:
+    def answers(
+        self, random: np.random.Generator, condition: str, delays_ms: np.ndarray, own: np.ndarray
+    ) -> np.ndarray:
         """Yes (True) to each delay. own: a standard normal number a participant, broadcast against delays_ms."""
         curve = self.curves[condition]
         noise = random.standard_normal(np.broadcast_shapes(delays_ms.shape, own.shape))
@@ -43,8 +45,8 @@ class AnswerModel:
 class RatingModel:
     """Ratings from 1 to 7: mean, a participant's own offset, noise, rounded. In points of rating.
 
-    lowered: of (material, method), by how many standard deviations of the differences (Cohen's d_z, before rounding) the
-    method is rated below the others.
+    lowered: of (material, method), by how many standard deviations of the differences (Cohen's d_z, before rounding)
+    the method is rated below the others.
     """
 
     materials: Sequence[str] = MATERIALS

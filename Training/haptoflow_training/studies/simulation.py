@@ -55,7 +55,8 @@ def simulate_similarity(
     ratings = model.ratings(random, participants)
     places = {name: place for names in (model.materials, model.methods) for place, name in enumerate(names)}
     lowered = [
-        {"material": material, "method": method, "lower_by_dz": value} for (material, method), value in model.lowered.items()
+        {"material": material, "method": method, "lower_by_dz": value}
+        for (material, method), value in model.lowered.items()
     ]
     settings = {
         "materials": list(model.materials), "methods": list(model.methods), "simulated_truth": {"lowered": lowered},

@@ -11,9 +11,11 @@ from pathlib import Path
 
 from haptoflow_training.errors import InputError
 from haptoflow_training.studies.log_columns import STUDIES
-from haptoflow_training.studies.session_file import NAME, Problem, Session, read_session
+from haptoflow_training.studies.problems import Problem
+from haptoflow_training.studies.session_file import NAME, Session, read_session
 
 _MOST_SHOWN = 20
+_NOT_NAMED = "not named as a session, STUDY-PARTICIPANT-SESSION, for example latency-P07-1a2b3c4d; take it out"
 
 
 @dataclass(frozen=True)
@@ -35,7 +37,7 @@ def read_folder(folder: Path) -> StudyFolder:
         raise InputError(f"{folder}: no folder; expected one with the logs of a study")
     files = sorted(path for path in folder.rglob("*") if path.suffix.lower() in (".csv", ".json") and path.is_file())
     problems = [
-        Problem(path, "not named as a session, STUDY-PARTICIPANT-SESSION, for example latency-P07-1a2b3c4d; take it out")
+        Problem(path, _NOT_NAMED)
         for path in files
         if not NAME.fullmatch(path.stem) or path.suffix not in (".csv", ".json")
     ]
