@@ -2,7 +2,6 @@
 using System;
 using System.Collections.Generic;
 using System.Linq;
-using System.Security.Cryptography;
 using System.Threading.Tasks;
 using HaptoFlow.Studies;
 
@@ -66,7 +65,7 @@ namespace HaptoFlow.Samples.SimilarityStudy
 
         /// <summary>For the sidecar: which file each method played.</summary>
         public StudyModel[] ForLog() => settings.Methods
-            .Select(each => new StudyModel(each.Name, FileOf(each), Sha256Of(each.Model!)))
+            .Select(each => new StudyModel(each.Name, FileOf(each), Hash.Sha256(each.Model!.File)))
             .ToArray();
 
         /// <summary>Closes the models.</summary>
@@ -149,7 +148,7 @@ namespace HaptoFlow.Samples.SimilarityStudy
             foreach (StudyMethod each in settings.Methods)
             {
                 string tier = loaded[each.Name].TierName;
-                string key = Sha256Of(each.Model!) + tier;
+                string key = Hash.Sha256(each.Model!.File) + tier;
                 if (known.TryGetValue(key, out string other))
                 {
                     throw new StudyException($"the methods \"{other}\" and \"{each.Name}\" are the same tier \"{tier}\" of " +
@@ -179,11 +178,5 @@ namespace HaptoFlow.Samples.SimilarityStudy
         }
 
         private static string FileOf(StudyMethod method) => method.Model!.name + ".haptoflow";
-
-        private static string Sha256Of(HapticModelAsset model)
-        {
-            using SHA256 hash = SHA256.Create();
-            return string.Concat(hash.ComputeHash(model.File).Select(each => each.ToString("x2")));
-        }
     }
 }

@@ -129,10 +129,19 @@ namespace HaptoFlow.Samples.SimilarityStudy
                 TrialStage.RealEdges => "Slide along the four edges of the LEFT object.",
                 TrialStage.VirtualEdges => "Now slide along the four edges of the RIGHT object.",
                 TrialStage.Free => "Feel both objects for as long as you like, then answer.",
-                _ => session.Phase == StudyPhase.Finished
-                    ? "The study is over. Thank you."
-                    : "Please rest, and wait until it goes on.",
+                _ => WhileWaiting(),
             };
+        }
+
+        private string WhileWaiting()
+        {
+            if (session.Phase == StudyPhase.Finished)
+            {
+                return "The study is over. Thank you.";
+            }
+            return session.Phase == StudyPhase.Paused && session.Pause == StudyPause.Rest
+                ? "Please rest. Say when you are ready to go on."
+                : "Please wait until it goes on, and keep the pen off the objects.";
         }
 
         private void OnConfirmed(int rating)

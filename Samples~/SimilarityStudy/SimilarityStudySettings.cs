@@ -209,18 +209,13 @@ namespace HaptoFlow.Samples.SimilarityStudy
         /// <summary>What the sidecar says of the settings.</summary>
         public StudyFields ForLog() => new StudyFields
         {
-            { "materials", materials.Select(each => new StudyFields
-            {
-                { "name", each.Name },
-                { "label", each.Material != null ? each.Material.Description.Label : each.Label },
-                { "learnt", each.Material != null && each.Material.IsLearnt },
-            }).ToArray() },
+            { "materials", materials.Select(each => each.ForLog()).ToArray() },
             { "methods", methods.Select(each => new StudyFields
             {
                 { "name", each.Name }, { "quality", each.Quality.ToString().ToLowerInvariant() },
             }).ToArray() },
-            { "sample_metres", new double[] { sampleMetres.x, sampleMetres.y, sampleMetres.z } },
-            { "virtual_metres", new double[] { virtualMetres.x, virtualMetres.y, virtualMetres.z } },
+            { "sample_metres", new[] { sampleMetres.x, sampleMetres.y, sampleMetres.z } },
+            { "virtual_metres", new[] { virtualMetres.x, virtualMetres.y, virtualMetres.z } },
             { "edge_tolerance_metres", edgeToleranceMetres },
             { "edge_share", edgeShare },
             { "real_height_metres", realHeightMetres },

@@ -1,5 +1,7 @@
 #nullable enable
 using System;
+using System.Text;
+using HaptoFlow.Studies;
 using UnityEngine;
 
 namespace HaptoFlow.Samples.SimilarityStudy
@@ -41,5 +43,27 @@ namespace HaptoFlow.Samples.SimilarityStudy
 
         /// <summary>Null for the label alone.</summary>
         public HapticMaterial? Material => material;
+
+        /// <summary>What the sidecar says of it: a session is gone on with the same or not at all.</summary>
+        public StudyFields ForLog()
+        {
+            var fields = new StudyFields { { "name", name } };
+            if (material == null)
+            {
+                fields.Add("label", label);
+                return fields;
+            }
+            MaterialDescription felt = material.Description;
+            fields.Add("label", felt.Label);
+            fields.Add("second_label", felt.SecondLabel);
+            fields.Add("blend", felt.Blend);
+            fields.Add("stiffness_newtons_per_metre", felt.StiffnessNewtonsPerMetre);
+            fields.Add("strength", felt.Strength);
+            fields.Add("feature_scale", felt.FeatureScale);
+            fields.Add("tone_db_per_octave", felt.ToneDbPerOctave);
+            fields.Add("effects", felt.Effects.ToString().ToLowerInvariant());
+            fields.Add("learnt_sha256", material.IsLearnt ? Hash.Sha256(Encoding.UTF8.GetBytes(material.Learnt)) : "");
+            return fields;
+        }
     }
 }

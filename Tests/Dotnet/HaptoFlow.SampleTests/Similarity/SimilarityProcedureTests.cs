@@ -41,6 +41,10 @@ namespace HaptoFlow.SampleTests.Similarity
             int rests = 1 + (materials * methods - 1) / 12;
             Assert.That(pauses.Count(pause => pause == StudyPause.Rest), Is.EqualTo(rests));
             Assert.That(pauses.Count(pause => pause == StudyPause.Begin), Is.EqualTo(2));
+            // Another sample is mounted for every material but those that come after a rest or the interruption.
+            int changes = Enumerable.Range(1, plan.Trials.Count - 1).Count(next => !plan.Trials[next].RestBefore &&
+                plan.Trials[next].Trial != stopAt && plan.Trials[next].Material != plan.Trials[next - 1].Material);
+            Assert.That(pauses.Count(pause => pause == StudyPause.Sample), Is.EqualTo(changes));
 
             List<Dictionary<string, string>> rows = Rows();
             Assert.That(rows.Select(row => int.Parse(row["trial"], CultureInfo.InvariantCulture)),
@@ -149,6 +153,31 @@ namespace HaptoFlow.SampleTests.Similarity
                 World.Frame();
             }
             Assert.That(answers, Is.EqualTo(new[] { 6 }));
+        }
+
+        [Test]
+        public void WhileTheOperatorMountsAnotherSampleNothingIsAskedOrFelt()
+        {
+            Begin(Settings(2, 2));
+            while (scene.Session!.Pause != StudyPause.Sample || scene.Session.Phase != StudyPhase.Paused)
+            {
+                scene.Session.Continue();
+                TraceReal();
+                TraceVirtual();
+                Answer(4);
+            }
+            PlannedTrial next = scene.Session.Trial!;
+            Assert.That(next.ChangesSample, Is.True);
+            PlayFor(0.3);
+            Assert.That(scene.Operator.Lines, Has.Some.Contains("another sample: mount it"));
+            Assert.That(scene.Operator.Lines, Has.Some.Contains($"mount the sample \"{next.Material}\""));
+            AudioDevice.Forget();
+            TraceReal();
+            TraceVirtual();
+            Answer(4);
+            Assert.That((Procedure.Stage, LoudestFelt()), Is.EqualTo((TrialStage.Waiting, 0f)));
+            scene.Session.Continue();
+            Assert.That((scene.Session.Trial, scene.Session.Attempt), Is.EqualTo((next, 1)));
         }
 
         [Test]
