@@ -55,28 +55,38 @@ namespace HaptoFlow.Samples.SimilarityStudy
 
         /// <summary>What the answers of an interrupted session were given with; null where there is none yet.</summary>
         /// <param name="folder">Of the logs.</param>
+        /// <exception cref="StudyException">A log is there and cannot be read.</exception>
         public static double? OfInterrupted(string folder, int participant)
         {
-            if (!Directory.Exists(folder))
+            try
+            {
+                return Directory.Exists(folder)
+                    ? Directory.GetFiles(folder, $"similarity-P{participant:00}-*.csv").Select(DelayOf)
+                        .FirstOrDefault(each => each != null)
+                    : null;
+            }
+            catch (Exception error) when (error is IOException || error is UnauthorizedAccessException)
+            {
+                throw new StudyException($"{folder}: {error.Message}; close the program that holds the file", error);
+            }
+        }
+
+        /// <summary>Of a log's first whole row.</summary>
+        private static double? DelayOf(string path)
+        {
+            string[] lines = File.ReadAllText(path).Split('\n');
+            // The last line is empty, or torn by a crash.
+            if (lines.Length <= 2)
             {
                 return null;
             }
-            foreach (string path in Directory.GetFiles(folder, $"similarity-P{participant:00}-*.csv"))
-            {
-                string[] lines = File.ReadAllText(path).Split('\n');
-                // The last line is empty, or torn by a crash.
-                if (lines.Length > 2)
-                {
-                    int column = Array.IndexOf(lines[0].Split(','), "delay_ms");
-                    string[] fields = lines[1].Split(',');
-                    if (column >= 0 && column < fields.Length && double.TryParse(
-                        fields[column], NumberStyles.Float, CultureInfo.InvariantCulture, out double milliseconds))
-                    {
-                        return milliseconds;
-                    }
-                }
-            }
-            return null;
+            int column = Array.IndexOf(lines[0].Split(','), "delay_ms");
+            string[] fields = lines[1].Split(',');
+            bool isThere = column >= 0 && column < fields.Length;
+            return isThere && double.TryParse(
+                fields[column], NumberStyles.Float, CultureInfo.InvariantCulture, out double milliseconds)
+                ? milliseconds
+                : (double?)null;
         }
     }
 }

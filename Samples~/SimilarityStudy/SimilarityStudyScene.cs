@@ -176,6 +176,7 @@ namespace HaptoFlow.Samples.SimilarityStudy
         private void Update()
         {
             poseInterval.Add(Time.unscaledDeltaTime);
+            PauseWhereTheModelEnded();
             if (isRefused || models == null || models.IsReady)
             {
                 return;
@@ -187,6 +188,19 @@ namespace HaptoFlow.Samples.SimilarityStudy
             catch (StudyException refusal)
             {
                 Stop(refusal);
+            }
+        }
+
+        /// <summary>What is felt without its model would be rated as if it were the method's.</summary>
+        private void PauseWhereTheModelEnded()
+        {
+            string? method = Procedure != null && Procedure.Stage != TrialStage.Waiting ? Session!.Trial!.Method : null;
+            string? problem = method != null ? models!.Of(method).Problem : null;
+            if (problem != null)
+            {
+                Session!.PauseHere();
+                Operator.Problem = $"method \"{method}\": {problem}; start the application again, the session goes on " +
+                    "with this trial";
             }
         }
 

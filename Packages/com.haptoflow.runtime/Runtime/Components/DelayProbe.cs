@@ -1,5 +1,6 @@
 #nullable enable
 using System;
+using System.Collections.Generic;
 using System.Diagnostics;
 using System.Threading;
 
@@ -12,6 +13,9 @@ namespace HaptoFlow
         // More than the segments whose distances the engine remembers.
         private const int Segments = 160;
         private const double MostSeconds = 10.0;
+
+        // The engine guesses before it has seen some.
+        private const int GuessedSegments = 16;
         private const float SpeedMps = 0.1f;
         private const float ForceNewtons = 0.5f;
 
@@ -38,10 +42,12 @@ namespace HaptoFlow
         {
             using HapticVoice voice = engine.OpenVoice(sampleRateHz);
             var block = new float[blockFrames];
+            var leads = new List<uint>();
             var clock = Stopwatch.StartNew();
             double publishSeconds = 0.0;
             double renderSeconds = 0.0;
-            while (voice.Statistics().Inferences < Segments && clock.Elapsed.TotalSeconds < MostSeconds)
+            VoiceStatistics statistics = default;
+            while (statistics.Inferences < Segments && clock.Elapsed.TotalSeconds < MostSeconds)
             {
                 cancelled.ThrowIfCancellationRequested();
                 double now = clock.Elapsed.TotalSeconds;
@@ -53,6 +59,11 @@ namespace HaptoFlow
                     {
                         engine.Step();
                     }
+                    statistics = voice.Statistics();
+                    if (statistics.Inferences >= GuessedSegments)
+                    {
+                        leads.Add(statistics.LeadSamples);
+                    }
                 }
                 if (now >= renderSeconds)
                 {
@@ -62,7 +73,10 @@ namespace HaptoFlow
                 // A sleep may take 15 ms, longer than a block.
                 Thread.Yield();
             }
-            double leadMilliseconds = 0.5 * voice.Statistics().LeadSamples;
+            // A stall of this machine lengthens the lead for a while; half of the time it was no longer than this.
+            leads.Sort();
+            uint lead = leads.Count > 0 ? leads[leads.Count / 2] : statistics.LeadSamples;
+            double leadMilliseconds = 0.5 * lead;
             // The voice closes with a block; somebody has to render it.
             voice.SetMuted(true);
             voice.Render(block, 1, 0, sampleRateHz);

@@ -108,6 +108,19 @@ namespace HaptoFlow.SampleTests.Similarity
         }
 
         [Test]
+        public void WhereTheModelEndsInMidTrialTheSessionPausesAndNamesTheMethod()
+        {
+            Begin(Settings(1, 2));
+            scene.Session!.Continue();
+            TraceReal();
+            scene.Models!.Of(scene.Session.Trial!.Method!).Dispose();
+            World.Frames(2);
+            Assert.That(scene.Session.Phase, Is.EqualTo(StudyPhase.Paused));
+            Assert.That(scene.Problem, Does.Contain("method \"Ours quick\": the model was closed"));
+            Assert.That((Procedure.Stage, scene.Output.Muted), Is.EqualTo((TrialStage.Waiting, true)));
+        }
+
+        [Test]
         public void APenThatIsNotTrackedForAWhileGoesOnWhereItWas()
         {
             Begin(Settings(1, 2));
