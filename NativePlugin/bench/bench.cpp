@@ -1,5 +1,6 @@
 #include "bench/bench.hpp"
 
+#include "bench/blend_bench.hpp"
 #include "bench/callback_bench.hpp"
 #include "bench/contact_bench.hpp"
 #include "bench/distribution.hpp"
@@ -54,6 +55,7 @@ nlohmann::ordered_json references() {
     return {{"callback_us", "as many voices that write silence: p50 to p50"},
             {"callback_events_us", "ordinary blocks of the same row: p50 to p50"},
             {"effects", "the same voice without the effect: p50 to p50"},
+            {"blends", "one material alone: p50 to p50"},
             {"outputs", "the voice of an audio output at 48 kHz: p50 to p50"},
             {"onset_ms", "the goal: p99 to goal"},
             {"contact_to_sound_ms", "the goal: p99 to goal"},
@@ -92,6 +94,7 @@ nlohmann::ordered_json runBench(const BenchOptions& options, const BenchProgress
         {"callback", 14.0, [&](const Advance& advance) { return measureCallback(subjects, plan, advance); }},
         {"events", 8.0, [&](const Advance& advance) { return measureEventBlocks(subjects, plan, advance); }},
         {"effects", 8.0, [&](const Advance& advance) { return measureEffects(subjects, plan, advance); }},
+        {"blends", 3.0, [&](const Advance& advance) { return measureBlends(subjects, plan, advance); }},
         {"outputs", 6.0, [&](const Advance& advance) { return measureOutputs(subjects, plan, advance); }},
         {"latency", 130.0, [&](const Advance& advance) { return measureLatency(subjects, plan, advance); }},
         {"inference", 35.0, [&](const Advance& advance) { return measureInference(subjects, plan, advance); }},

@@ -15,8 +15,8 @@
 namespace haptoflow::bench {
 
 /// What can be measured alone. Loading and memory are always measured: everything else needs what they open.
-inline constexpr std::array<std::string_view, 9> measurementNames{
-    "callback", "events", "effects", "outputs", "latency", "inference", "voices", "idle", "contact"};
+inline constexpr std::array<std::string_view, 10> measurementNames{
+    "callback", "events", "effects", "blends", "outputs", "latency", "inference", "voices", "idle", "contact"};
 
 struct BenchOptions {
     SubjectFiles files;

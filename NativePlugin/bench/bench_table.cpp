@@ -108,6 +108,22 @@ void printEffects(std::ostream& stream, const Json& rows) {
     printTable(stream, "effects, 256 frames at 48 kHz, us", table);
 }
 
+void printBlends(std::ostream& stream, const Json& rows) {
+    std::vector<Row> table{{"materials", "publish us p50", "p99", "worst", "x one", "update ms p50", "p99", "worst",
+                            "x one", "callback us p50", "p99", "worst", "x one", "worker % of a core", "x one"}};
+    for (const Json& entry : rows) {
+        Row row{figure(entry["materials"])};
+        for (const char* figures : {"publish_us", "ms_per_update", "callback_us"}) {
+            appendRanks(row, entry[figures]);
+            row.push_back(figure(entry[figures]["ratio"]));
+        }
+        row.push_back(figure(entry["worker_percent"]));
+        row.push_back(figure(entry["worker_ratio"]));
+        table.push_back(row);
+    }
+    printTable(stream, "blends, one contact state: main thread, worker, one block of the callback", table);
+}
+
 void printOutputs(std::ostream& stream, const Json& rows) {
     std::vector<Row> table{{"output", "voice at Hz", "p50", "p99", "worst", "p50 % of frame", "x audio"}};
     for (const Json& entry : rows) {
@@ -240,6 +256,7 @@ void printTables(std::ostream& stream, const Json& report) {
     print("callback_us", [&](const Json& section) { printCallback(stream, section); });
     print("callback_events_us", [&](const Json& section) { printEvents(stream, section); });
     print("effects", [&](const Json& section) { printEffects(stream, section); });
+    print("blends", [&](const Json& section) { printBlends(stream, section); });
     print("outputs", [&](const Json& section) { printOutputs(stream, section); });
     print("onset_ms", [&](const Json& section) { printLatency(stream, "onset, ms", section); });
     print("contact_to_sound_ms", [&](const Json& section) { printLatency(stream, "contact to sound, ms", section); });

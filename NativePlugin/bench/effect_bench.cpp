@@ -23,18 +23,22 @@ constexpr double crossingsPerSecond = 10.0;
 constexpr float approachSpeedMps = 0.3F;
 constexpr float edgeHeightMetres = 0.001F;
 constexpr double delaySeconds = 0.1;
+constexpr float tiltDbPerOctave = 3.0F;
+constexpr effects::SignalSettings studySignal{.frequencyHz = 200.0F, .amplitudeMps2 = 6.0F};
 
 struct NamedEffect {
     const char* name;
     EffectKind kind;
 };
 
-constexpr std::array<NamedEffect, 6> measuredEffects{{{"texture", EffectKind::texture},
+constexpr std::array<NamedEffect, 8> measuredEffects{{{"texture", EffectKind::texture},
+                                                      {"tone", EffectKind::tone},
                                                       {"impact", EffectKind::impact},
                                                       {"edge", EffectKind::edge},
                                                       {"delay", EffectKind::delay},
                                                       {"compensation", EffectKind::compensation},
-                                                      {"exposure guard", EffectKind::exposureGuard}}};
+                                                      {"exposure guard", EffectKind::exposureGuard},
+                                                      {"signal", EffectKind::signal}}};
 
 /// Two voices that do the same, with and without the effect, rendered and timed apart.
 class WithAndWithout {
@@ -47,6 +51,9 @@ public:
           without_(engine_->addVoice(outputRateHz)),
           order_(subjects.seed) {
         with_->channels.controls.delaySeconds = delaySeconds;
+        if (kind == EffectKind::signal) {
+            with_->channels.controls.signal = studySignal;
+        }
         engine_->changeProcessors(*with_, [kind](engine::ProcessorSettings& settings) {
             settings.hasDelay = kind == EffectKind::delay;
             settings.hasExposureGuard = kind == EffectKind::exposureGuard;
@@ -66,10 +73,12 @@ public:
         state.edgeCounter = static_cast<std::uint32_t>(seconds * crossingsPerSecond);
         state.edgeHeightMetres = edgeHeightMetres;
         const bool isOfSurface = kind_ <= EffectKind::edge;
-        // Both voices ask for the texture, except where the texture itself is measured.
-        state.effects = kind_ == EffectKind::texture ? 0U : maskOf(EffectKind::texture);
+        // Both voices ask for the texture, except where the texture itself is measured, or what sounds instead of it.
+        const bool isAlone = kind_ == EffectKind::texture || kind_ == EffectKind::signal;
+        state.effects = isAlone ? 0U : maskOf(EffectKind::texture);
         engine_->publish(*without_, state);
         state.effects |= isOfSurface ? maskOf(kind_) : 0U;
+        state.toneDbPerOctave = kind_ == EffectKind::tone ? tiltDbPerOctave : 0.0F;
         engine_->publish(*with_, state);
         engine_->step();
     }

@@ -190,6 +190,12 @@ namespace HaptoFlow.Samples.LatencyStudy
                     { "move_seconds", moveSeconds }, { "rest_seconds", restSeconds }, { "strokes", strokes },
                 }
             },
+            {
+                "motion", new StudyFields
+                {
+                    { "sets_off_mmps", 1000.0 * TrialContact.SetsOffMps }, { "rests_mmps", 1000.0 * TrialContact.RestsMps },
+                }
+            },
             { "haptic_channel", hapticChannel },
             {
                 "noise", new StudyFields

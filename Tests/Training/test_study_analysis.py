@@ -45,8 +45,7 @@ def test_one_command_makes_a_report_of_both_studies_that_is_called_simulated_eve
     pictures = pictures_of(page)
     assert len(pictures) == 2 and results["simulated"] is True
     for picture in pictures:
-        # Matplotlib writes each text that it draws as a comment beside its outline.
-        assert "<!-- SIMULATED: no person took part -->" in picture and "<!-- simulated -->" in picture
+        assert ">SIMULATED: no person took part</text>" in picture and ">simulated</text>" in picture
     for caption in re.findall(r"<figcaption>(.*?)</figcaption>", page):
         assert caption.startswith("SIMULATED: no person took part.")
     assert not re.search(r"(src|href)=\"(?!data:)", page)
@@ -129,7 +128,7 @@ def test_a_planted_difference_is_found_on_its_materials_and_drawn_with_a_star(tm
     assert differs == {("haptoflow", "spsi"), ("transformer", "spsi"), ("dstn", "spsi")}
     assert all(pair["p_shaffer"] is None for pair in wood["pairs"])
     (picture,) = pictures_of(page)
-    assert picture.count("<!-- * -->") == 3 and "<!-- ≈ -->" in picture
+    assert picture.count(">*</text>") == 3 and ">≈</text>" in picture
 
 
 def test_ratings_stand_with_their_own_material_method_and_participant(tmp_path: Path) -> None:
@@ -140,11 +139,31 @@ def test_ratings_stand_with_their_own_material_method_and_participant(tmp_path: 
     assert np.array_equal(result.ratings, drawn)
 
 
+def test_materials_and_methods_stand_in_the_order_of_the_settings_else_by_name(tmp_path: Path) -> None:
+    model = RatingModel(materials=("wood", "jute"), methods=("ours", "dstn"))
+    logs = similarity_study(tmp_path / "logs", 3, 1, model)
+
+    def names() -> tuple[list[str], list[str]]:
+        result = analyse_similarity(read_faultless(logs).of(SIMILARITY))
+        return list(result.materials), list(result.methods)
+
+    assert names() == (["wood", "jute"], ["ours", "dstn"])
+    objects = {"materials": [{"name": "wood"}, {"name": "jute"}], "methods": [{"name": "ours"}, {"name": "dstn"}]}
+    for path in logs.glob("*.csv"):
+        change_sidecar(path, lambda sidecar: sidecar | {"settings": objects})
+    assert names() == (["wood", "jute"], ["ours", "dstn"])
+    for odd in ({}, {"materials": 3, "methods": [None]}, {"materials": ["wood"], "methods": ["ours", "ours"]}):
+        for path in logs.glob("*.csv"):
+            change_sidecar(path, lambda sidecar, odd=odd: sidecar | {"settings": odd})
+        assert names() == (["jute", "wood"], ["dstn", "ours"])
+
+
 def test_names_that_are_markup_stay_text_in_the_report(tmp_path: Path) -> None:
-    model = RatingModel(materials=("<script>alert(1)</script>", "a&b"), methods=("<b>", '"quoted', "$x_1$"))
-    logs = similarity_study(tmp_path / "logs", 6, 1, RatingModel(model.materials, ("<b>", "it's", "$x_1$")))
-    page, _ = analysed(logs, tmp_path)
+    model = RatingModel(materials=("<script>alert(1)</script>", "ジュート"), methods=("<b>", "it's", "$\\frac$ 1$"))
+    page, _ = analysed(similarity_study(tmp_path / "logs", 6, 1, model), tmp_path)
     assert "<script>" not in page and "&lt;script&gt;alert(1)&lt;/script&gt;" in page and "<b>" not in page
+    (picture,) = pictures_of(page)
+    assert "<script>" not in picture and ">ジュート</text>" in picture and ">$\\frac$ 1$</text>" in picture
 
 
 @pytest.mark.parametrize(("methods", "brackets"), [(2, 1), (6, 15)])

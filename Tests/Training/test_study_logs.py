@@ -5,6 +5,7 @@ from __future__ import annotations
 import csv
 import shutil
 from collections.abc import Callable
+from dataclasses import asdict
 from pathlib import Path
 
 import pytest
@@ -13,7 +14,12 @@ from study_samples import change_field, change_lines, change_sidecar, latency_st
 from haptoflow_training.cli import main
 from haptoflow_training.errors import InputError
 from haptoflow_training.studies.log_columns import COLUMNS
+from haptoflow_training.studies.plans import latency_plan, similarity_plan
+from haptoflow_training.studies.session_file import read_session
+from haptoflow_training.studies.similarity_analysis import listed_names
 from haptoflow_training.studies.study_folder import read_faultless, read_folder
+
+SESSIONS = Path(__file__).parents[1] / "Golden" / "studies" / "sessions"
 
 
 @pytest.fixture(scope="module")
@@ -245,6 +251,15 @@ def test_what_differs_between_sessions_is_noted_and_no_problem(logs: Path) -> No
     assert any("the device delay of 3 of 3 sessions is an estimate" in note for note in read.notes)
 
 
+def test_the_hand_that_holds_the_pen_is_a_participants_own_and_not_noted(logs: Path) -> None:
+    for participant, hand in ((1, "left"), (2, "right"), (3, "right")):
+        change_sidecar(
+            log_of(logs, participant),
+            lambda sidecar, hand=hand: sidecar | {"settings": sidecar["settings"] | {"pen_hand": hand}},
+        )
+    assert not any("'settings'" in note for note in read_folder(logs).notes)
+
+
 def test_faulty_logs_are_refused_with_every_place_named_up_to_twenty(logs: Path) -> None:
     change_lines(log_of(logs, 1), lambda lines: [lines[0], *(line.replace("yes", "y").replace("no,", "n,") for line in lines[1:])])
     with pytest.raises(InputError) as refused:
@@ -311,7 +326,45 @@ def test_numbers_that_make_no_study_are_refused(
     assert said in capsys.readouterr().err and not (tmp_path / "x").exists()
 
 
+def test_a_place_that_cannot_be_written_is_said_in_one_line(
+    logs: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (tmp_path / "file").write_text("")
+    for words in (
+        ["simulate", "--study", "latency", "--participants", "1", "--out", str(tmp_path / "file" / "logs")],
+        ["merge", str(logs), "--out", str(tmp_path / "file")],
+        ["golden", "--out", str(tmp_path / "file" / "plans.json")],
+    ):
+        assert main(["study", *words]) == 3
+        assert "cannot be written" in capsys.readouterr().err.splitlines()[-1]
+
+
 def test_the_same_seed_simulates_the_same_answers(tmp_path: Path) -> None:
     first, second = (latency_study(tmp_path / name, 2, 9) for name in ("a", "b"))
     for path in sorted(first.glob("*.csv")):
         assert path.read_bytes() == (second / path.name).read_bytes()
+
+
+@pytest.mark.parametrize("path", sorted(SESSIONS.glob("*.csv")), ids=lambda path: path.stem)
+def test_a_session_as_the_unity_samples_write_it_is_read_whole_with_its_interrupted_trial(path: Path) -> None:
+    session, found = read_session(path)
+    assert found == [] and session is not None
+    assert len(session.rows) == len(session.sidecar["plan"]) and session.sidecar["resumptions"] == 1
+    assert [row["attempt"] for row in session.rows].count(2) == 1
+    plan = session.sidecar["plan"]
+    if session.study == "latency":
+        levels = session.sidecar["settings"]["levels_ms"]
+        expected = [asdict(trial) for trial in latency_plan(session.participant, session.sidecar["seed"], levels)]
+    else:
+        materials, methods = (listed_names(session.sidecar["settings"], key) for key in ("materials", "methods"))
+        plan_of = similarity_plan(session.participant, session.sidecar["seed"], materials, methods)
+        expected = [asdict(trial) for trial in plan_of]
+    assert plan == expected
+
+
+def test_a_session_of_the_latency_sample_is_analysed(tmp_path: Path) -> None:
+    for path in SESSIONS.glob("latency-*"):
+        shutil.copy(path, tmp_path / path.name)
+    assert main(["study", "analyse", str(tmp_path), "--out", str(tmp_path / "report.html")]) == 0
+    page = (tmp_path / "report.html").read_text(encoding="utf-8")
+    assert "SIMULATED" in page and "the threshold lies between 110 and 130 ms" in page

@@ -5,9 +5,10 @@
 
 namespace haptoflow::dsp {
 
-/// Opens within 2 ms and closes within 5 ms (or as long as it is told) on a raised cosine, and may be turned round at any sample without a step.
-/// Closed means zeros, bit for bit, whatever comes in; fully open means the signal untouched.
-/// All on the audio thread: allocates nothing, waits for nothing. For a turn inside a block, process up to it first.
+/// Opens within 2 ms and closes within 5 ms (or as long as it is told) on a raised cosine, and may be turned round at
+/// any sample without a step. Closed means zeros, bit for bit, whatever comes in; fully open means the signal
+/// untouched. All on the audio thread: allocates nothing, waits for nothing. For a turn inside a block, process up to
+/// it first.
 class Gate {
 public:
     static constexpr double usualCloseSeconds = 0.005;

@@ -50,8 +50,8 @@ struct Processors {
     std::unique_ptr<effects::Delay> spareDelay;
 };
 
-/// What stands behind the texture of a voice, for one output rate: blows and a signal are added, then the whole goes through the
-/// processors that the voice asks for, then through a gate that silences everything at once.
+/// What stands behind the texture of a voice, for one output rate: blows and a signal are added, then the whole goes
+/// through the processors that the voice asks for, then through a gate that silences everything at once.
 ///
 /// A stage without anything to do is not run: a voice that asks for no effect is rendered as if there were none, bit
 /// for bit. Audio thread but for construction.

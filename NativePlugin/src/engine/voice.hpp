@@ -27,8 +27,8 @@ public:
     virtual void tookOver(std::int64_t sample) noexcept = 0;
 };
 
-/// One stylus tip's signal: timeline, tone, level, reading rate, output rate, gate, blows and signal, strength, processors,
-/// limiter, in this order.
+/// One stylus tip's signal: timeline, tone, level, reading rate, output rate, gate, blows and signal, strength,
+/// processors, limiter, in this order.
 ///
 /// While the texture's gate is closed nothing is read: the waveform clock stands still. Where no effect sounds either,
 /// `render` writes zeros.

@@ -119,8 +119,8 @@ struct EffectCounters {
     std::atomic<std::uint64_t> events{0};
 };
 
-/// How often a contact state turned a signal on, or off, and what passed from that state to the output's frame where the
-/// change begins. One writer, the callback; any thread reads.
+/// How often a contact state turned a signal on, or off, and what passed from that state to the output's frame where
+/// the change begins. One writer, the callback; any thread reads.
 struct SignalTurns {
     std::atomic<std::uint64_t> count{0};
     std::atomic<double> lastSeconds{0.0};

@@ -19,6 +19,7 @@ namespace HaptoFlow.SampleTests
         private readonly LatencyStudy study;
         private readonly Queue<Vector3> seen = new Queue<Vector3>();
         private Vector3 place;
+        private bool trembles;
 
         public LatencyParticipant(LatencyStudy study)
         {
@@ -47,7 +48,9 @@ namespace HaptoFlow.SampleTests
                 place.y = PressedHeight;
             }
             SimulatedInput.SetControl(PenHand + "isTracked", 1f);
-            SimulatedInput.SetControl(PenHand + "pointerPosition", place);
+            // A real tracker never repeats itself.
+            trembles = !trembles;
+            SimulatedInput.SetControl(PenHand + "pointerPosition", place + (trembles ? 1e-6f : 0f) * Vector3.right);
             SimulatedInput.SetControl(PenHand + "pointerRotation", Quaternion.identity);
             Answer();
             World.Frame();

@@ -1,6 +1,5 @@
-using System;
 using System.Collections.Generic;
-using HaptoFlow.Studies;
+using UnityEngine;
 using UnityShim;
 
 namespace HaptoFlow.SampleTests
@@ -11,16 +10,16 @@ namespace HaptoFlow.SampleTests
     {
         // Longer than a half wave of 200 Hz.
         private const int LongestGapFrames = 240;
+        private const float TrembleMetres = 1e-5f;
 
         private readonly int channel;
+        private Vector3 place;
         private bool wasMoving;
 
         public ToneWatch(HapticStylus stylus, int channel)
         {
             this.channel = channel;
-            stylus.TouchBegan += OnMoved;
             stylus.TouchMoved += OnMoved;
-            stylus.TouchEnded += (HapticStylus told, in HapticContact contact) => Note(false);
         }
 
         /// <summary>When the pen set off: the next block hears of it first.</summary>
@@ -58,16 +57,17 @@ namespace HaptoFlow.SampleTests
             return tones;
         }
 
-        private void OnMoved(HapticStylus told, in HapticContact contact) =>
-            Note(contact.TangentialVelocity.magnitude >= TrialContact.MovingMps);
-
-        private void Note(bool moves)
+        /// <summary>By the pen's places alone: the frame in which it is elsewhere than in the last is the first of a
+        /// motion.</summary>
+        private void OnMoved(HapticStylus told, in HapticContact contact)
         {
+            bool moves = Vector3.Distance(contact.Point, place) > TrembleMetres;
             if (moves != wasMoving)
             {
                 (moves ? Starts : Stops).Add(AudioDevice.RecordedFrames);
             }
             wasMoving = moves;
+            place = contact.Point;
         }
     }
 }

@@ -70,7 +70,7 @@ TEST(BenchCommandTest, TheReportHasEveryKeyOfTheContract) {
     const Json report = reportOf("all");
     for (const char* key : {"callback_us", "callback_events_us", "onset_ms", "contact_to_sound_ms", "stop_ms",
                             "inference_ms", "speedup_vs_paper_architecture", "voices", "idle", "memory_mib", "load_ms",
-                            "contact", "effects", "outputs"}) {
+                            "contact", "effects", "blends", "outputs"}) {
         EXPECT_TRUE(report.contains(key)) << key;
     }
     EXPECT_TRUE(report["notes"].empty()) << report["notes"];
@@ -108,7 +108,23 @@ TEST(BenchCommandTest, EachEffectCostsWhatItTakesWhereItIsAskedForAndNeverRunsWh
         expectRatio(row["on"]["ratio"], row["on"]["callback_us"]["p50"], row["off"]["callback_us"]["p50"],
                     "with to without");
     }
-    EXPECT_THAT(names, ::testing::ElementsAre("texture", "impact", "edge", "delay", "compensation", "exposure guard"));
+    EXPECT_THAT(names, ::testing::ElementsAre("texture", "tone", "impact", "edge", "delay", "compensation",
+                                              "exposure guard", "signal"));
+}
+
+TEST(BenchCommandTest, ABlendIsMeasuredBesideOneMaterialOnEveryThreadThatItCosts) {
+    const Json rows = reportOf("blends")["blends"];
+    std::vector<int> materials;
+    for (const Json& row : rows) {
+        materials.push_back(row["materials"]);
+        for (const char* figures : {"publish_us", "ms_per_update", "callback_us"}) {
+            expectRanked(row[figures], figures);
+            expectRatio(row[figures]["ratio"], row[figures]["p50"], rows[0][figures]["p50"], "to one material");
+        }
+        EXPECT_GT(row["worker_percent"].get<double>(), 0.0);
+        expectRatio(row["worker_ratio"], row["worker_percent"], rows[0]["worker_percent"], "to one material");
+    }
+    EXPECT_THAT(materials, ::testing::ElementsAre(1, 2, 4));
 }
 
 TEST(BenchCommandTest, EachOutputIsMeasuredBesideTheVoiceOfAnAudioOutput) {

@@ -217,8 +217,8 @@ TEST_F(SignalVoiceTest, AfterAMuteALandingHasItsWholeAttackAgain) {
     device_.renderBlock();
     fresh.publish(landing);
     fresh.renderBlock();
-    EXPECT_TRUE(std::ranges::equal(std::span(device_.output).subspan(before),
-                                   std::span(fresh.output).subspan(beforeFresh)));
+    EXPECT_TRUE(
+        std::ranges::equal(std::span(device_.output).subspan(before), std::span(fresh.output).subspan(beforeFresh)));
     EXPECT_GT(testing::peak(std::span<const float>(device_.output).subspan(before)), 0.0F);
 }
 

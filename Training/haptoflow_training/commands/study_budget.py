@@ -7,7 +7,7 @@ import os
 from pathlib import Path
 
 from haptoflow_training.errors import InputError
-from haptoflow_training.evaluation.model_stamp import with_measured_words
+from haptoflow_training.evaluation.model_stamp import read_measured_page, with_measured_words
 from haptoflow_training.export.whole_file import write_whole
 
 _PUBLISHED = Path("Documentation~") / "benchmarks.md"
@@ -46,8 +46,7 @@ def _run(options: argparse.Namespace) -> int:
     address = "" if chart is None else Path(os.path.relpath(chart, (options.page or chart).parent)).as_posix()
     words = page_words(bench, address, options.device_ms)
     if options.page is not None:
-        page = with_measured_words(options.page.read_text(encoding="utf-8"), words)
-        write_whole(options.page, page.encode())
+        write_whole(options.page, with_measured_words(read_measured_page(options.page), words).encode())
     if chart is not None:
         write_chart(chart, bench, options.device_ms)
     print(words)

@@ -9,7 +9,7 @@ from pathlib import Path
 from tqdm import tqdm
 
 from haptoflow_training.errors import InputError
-from haptoflow_training.evaluation.model_stamp import with_measured_words
+from haptoflow_training.evaluation.model_stamp import read_measured_page, with_measured_words
 from haptoflow_training.export.whole_file import write_whole
 
 _EXAMPLES = """examples:
@@ -41,14 +41,15 @@ def _run(options: argparse.Namespace) -> int:
     for name, lowest in (("studies", 2), ("simulations", 2), ("seed", 0)):
         if getattr(options, name) < lowest:
             raise InputError(f"--{name} {getattr(options, name)}: expected {lowest} or more")
-    page = options.page.read_text(encoding="utf-8") if options.page is not None else None
+    if options.page is not None:
+        read_measured_page(options.page)
     with tqdm(total=steps_of(options.studies, options.simulations), unit="study", disable=None) as progress:
         found = validated(
             studies=options.studies, simulations=options.simulations, seed=options.seed, advance=progress.update
         )
     write_whole(options.out, (json.dumps(found, indent=1) + "\n").encode())
     words = page_words(found)
-    if page is not None:
-        write_whole(options.page, with_measured_words(page, words).encode())
+    if options.page is not None:
+        write_whole(options.page, with_measured_words(read_measured_page(options.page), words).encode())
     print(words)
     return 0

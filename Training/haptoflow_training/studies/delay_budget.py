@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import io
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
 from haptoflow_training.evaluation.model_stamp import model_line, picture_metadata
+from haptoflow_training.export.whole_file import write_whole
 from haptoflow_training.studies.bench_figures import BenchFigures, Block
 from haptoflow_training.studies.plans import TURN_OFF, TURN_ON
 from haptoflow_training.studies.simulated_participants import PAPER_CURVES
@@ -146,6 +148,7 @@ def write_chart(path: Path, bench: BenchFigures, device_ms: float | None = None)
     axis.set_xlim(0.0, 140.0)
     axis.set_xlabel("ms from the hand's movement to the vibration's (72 Hz, blocks of 256 frames)")
     axis.legend(fontsize=8, ncols=4, loc="upper center", bbox_to_anchor=(0.5, -0.24))
-    path.parent.mkdir(parents=True, exist_ok=True)
-    figure.savefig(path, dpi=110, bbox_inches="tight", metadata=picture_metadata(bench.model_sha256))
+    picture = io.BytesIO()
+    figure.savefig(picture, format="png", dpi=110, bbox_inches="tight", metadata=picture_metadata(bench.model_sha256))
     pyplot.close(figure)
+    write_whole(path, picture.getvalue())

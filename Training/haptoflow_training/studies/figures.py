@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+import warnings
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
@@ -86,10 +87,10 @@ def similarity_figure(result: SimilarityResult, *, is_simulated: bool) -> str:
         axis.bar(range(methods), heights, bottom=1.0, yerr=errors, capsize=3, color=colours, width=0.7)
         for bracket in brackets[material]:
             _draw(axis, bracket)
-        axis.set_title(material, fontsize=10)
+        axis.set_title(_plain(material), fontsize=10)
         axis.set_ylim(1.0, top)
         axis.set_yticks(range(1, 8))
-        axis.set_xticks(range(methods), result.methods, fontsize=7, rotation=30, ha="right")
+        axis.set_xticks(range(methods), [_plain(name) for name in result.methods], fontsize=7, rotation=30, ha="right")
         axis.grid(axis="y", alpha=0.3)
         axis.set_axisbelow(True)
         if place % columns == 0:
@@ -146,12 +147,19 @@ def _figure(rows: int, columns: int, width: float, height: float, is_simulated: 
     return figure, list(axes.flat)
 
 
+def _plain(name: str) -> str:
+    """Dollars are dollars, not the beginning of a formula."""
+    return name.replace("$", r"\$")
+
+
 def _svg(figure: Figure) -> str:
     import matplotlib
     from matplotlib import pyplot
 
     text = io.StringIO()
-    with matplotlib.rc_context({"svg.hashsalt": "haptoflow"}):
+    # Texts stay texts, so that the reader's browser finds the letters of any script; matplotlib's own font has few.
+    with matplotlib.rc_context({"svg.hashsalt": "haptoflow", "svg.fonttype": "none"}), warnings.catch_warnings():
+        warnings.filterwarnings("ignore", message="Glyph .* missing from current font")
         figure.savefig(text, format="svg", metadata={"Date": None})
     pyplot.close(figure)
     return text.getvalue()

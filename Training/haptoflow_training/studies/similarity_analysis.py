@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -54,10 +55,16 @@ def analyse_similarity(sessions: Sequence[Session]) -> SimilarityResult:
 def _names(sessions: Sequence[Session], key: str) -> list[str]:
     """In the settings' order where the sidecars have it, else by name."""
     found = {str(row[key]) for session in sessions for row in session.rows if row["block"] == MAIN}
-    listed = sessions[0].sidecar["settings"].get(f"{key}s")
-    if not isinstance(listed, list) or not all(isinstance(name, str) for name in listed):
-        return sorted(found)
-    return list(listed) if sorted(listed) == sorted(found) else sorted(found)
+    listed = listed_names(sessions[0].sidecar["settings"], f"{key}s")
+    return listed if sorted(listed) == sorted(found) else sorted(found)
+
+
+def listed_names(settings: Mapping[str, Any], key: str) -> list[str]:
+    """Of settings that list names, or objects with a `name`; empty where they do neither."""
+    listed = settings.get(key)
+    entries = listed if isinstance(listed, list) else []
+    names = [entry.get("name") if isinstance(entry, dict) else entry for entry in entries]
+    return names if all(isinstance(name, str) for name in names) else []
 
 
 def _refuse_gaps(

@@ -15,6 +15,7 @@ from haptoflow_training.studies.problems import Problem
 from haptoflow_training.studies.session_file import NAME, Session, read_session
 
 _MOST_SHOWN = 20
+_OWN_SETTINGS = ("pen_hand",)
 _NOT_NAMED = "not named as a session, STUDY-PARTICIPANT-SESSION, for example latency-P07-1a2b3c4d; take it out"
 
 
@@ -104,6 +105,11 @@ def _between(sessions: Sequence[Session]) -> list[Problem]:
     return problems
 
 
+def _compared(value: object) -> object:
+    """Settings without those that are each participant's own."""
+    return {key: one for key, one in value.items() if key not in _OWN_SETTINGS} if isinstance(value, dict) else value
+
+
 def _notes(sessions: Sequence[Session]) -> list[str]:
     notes = []
     for study in STUDIES:
@@ -114,7 +120,7 @@ def _notes(sessions: Sequence[Session]) -> list[str]:
             ("models", "participants felt different models"),
             ("build", "participants used different programs"),
         ):
-            kinds = {json.dumps(session.sidecar[key], sort_keys=True) for session in of_study}
+            kinds = {json.dumps(_compared(session.sidecar[key]), sort_keys=True) for session in of_study}
             if len(kinds) > 1:
                 notes.append(f"{study}: {len(kinds)} different values of '{key}' in the sidecars: {why}")
         estimated = sum(session.sidecar["device"]["device_delay_source"] == "estimated" for session in of_study)

@@ -9,6 +9,7 @@ namespace HaptoFlow
     internal sealed class StylusVoice
     {
         private readonly HapticStylus stylus;
+        private readonly MotionGate motion = new MotionGate();
         private HapticVoice? voice;
         private HapticEngine? engine;
         private HapticEngine? refusedBy;
@@ -89,6 +90,12 @@ namespace HaptoFlow
                 state.SpatialScale = felt.FeatureScale;
                 state.ToneDbPerOctave = felt.ToneDbPerOctave;
                 SetStrength(felt.Strength * stylus.Strength * output!.Strength);
+            }
+            bool moves = motion.Update(reading.TimeSeconds, reading.Touching, reading.PointMetres);
+            if (output!.PlaysSignal)
+            {
+                state.FirstVelocityMps = moves ? (float)motion.SpeedMps : 0f;
+                state.SecondVelocityMps = 0f;
             }
             voice!.Publish(state);
         }

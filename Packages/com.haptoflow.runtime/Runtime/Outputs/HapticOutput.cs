@@ -136,7 +136,8 @@ namespace HaptoFlow
             mixer.ForEach((voice, output) => output.processing.Apply(voice, output), this);
 
         /// <summary>A sine for studies of latency, in the place of everything else: it sounds while a tip touches and
-        /// moves at 5 mm/s or more, whatever speed and force are. Not kept with the scene.</summary>
+        /// moves, whatever speed and force are. A tip sets off at 30 mm/s and comes to rest below 15 mm/s, from one
+        /// frame to the next, on a surface that stands still. Not kept with the scene.</summary>
         /// <param name="frequencyHz">20 to 500; ignored where the amplitude is 0.</param>
         /// <param name="amplitudeMps2">Its peak, 0 to 60 m/s^2; 0 for no signal.</param>
         /// <exception cref="ArgumentOutOfRangeException">A value is out of range.</exception>
@@ -183,6 +184,8 @@ namespace HaptoFlow
             owner.SetActive(true);
             return made;
         }
+
+        bool IVoiceTarget.PlaysSignal => signalMps2 > 0.0;
 
         void IVoiceTarget.Add(HapticVoice voice)
         {

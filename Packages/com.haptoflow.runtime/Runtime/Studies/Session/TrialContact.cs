@@ -1,5 +1,6 @@
 #nullable enable
 using System;
+using HaptoFlow.Contact;
 using UnityEngine;
 
 namespace HaptoFlow.Studies
@@ -8,10 +9,14 @@ namespace HaptoFlow.Studies
     /// how often it set off and stopped. Main thread; no garbage while it counts.</summary>
     public sealed class TrialContact : IDisposable
     {
-        /// <summary>A tip that slides at least so fast, in m/s, moves: the signal effect's threshold.</summary>
-        public const float MovingMps = 0.005f;
+        /// <summary>A tip at rest sets off at this speed, in m/s, as for an output's signal.</summary>
+        public const double SetsOffMps = MotionGate.SetsOffMps;
+
+        /// <summary>A moving tip comes to rest below this speed, in m/s.</summary>
+        public const double RestsMps = MotionGate.RestsMps;
 
         private readonly HapticStylus stylus;
+        private readonly MotionGate motion = new MotionGate();
         private double lastSeconds;
         private double newtonSeconds;
         private double pathMetres;
@@ -27,7 +32,7 @@ namespace HaptoFlow.Studies
             Begin();
         }
 
-        /// <summary>The tip touches and slides. Also between trials.</summary>
+        /// <summary>The tip touches and moves over a surface that stands still. Also between trials.</summary>
         public bool IsMoving { get; private set; }
 
         /// <summary>How long the tip touched.</summary>
@@ -90,7 +95,7 @@ namespace HaptoFlow.Studies
         private void OnBegan(HapticStylus told, in HapticContact contact)
         {
             lastSeconds = NowSeconds();
-            Move(contact.TangentialVelocity.magnitude);
+            Move(motion.Update(lastSeconds, true, contact.Point.ToDouble()));
         }
 
         private void OnMoved(HapticStylus told, in HapticContact contact)
@@ -102,14 +107,14 @@ namespace HaptoFlow.Studies
             ContactSeconds += passed;
             pathMetres += passed * speedMps;
             newtonSeconds += passed * contact.ForceNewtons;
-            Move(speedMps);
+            Move(motion.Update(now, true, contact.Point.ToDouble()));
         }
 
-        private void OnEnded(HapticStylus told, in HapticContact contact) => Move(0f);
+        private void OnEnded(HapticStylus told, in HapticContact contact) =>
+            Move(motion.Update(NowSeconds(), false, default));
 
-        private void Move(float speedMps)
+        private void Move(bool moves)
         {
-            bool moves = speedMps >= MovingMps;
             if (moves && !IsMoving)
             {
                 ++Starts;
