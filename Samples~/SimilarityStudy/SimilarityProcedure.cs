@@ -43,7 +43,7 @@ namespace HaptoFlow.Samples.SimilarityStudy
             var procedure = new GameObject("Procedure").AddComponent<SimilarityProcedure>();
             procedure.session = session;
             procedure.parts = parts;
-            procedure.contact = new TrialContact(parts.Pen);
+            procedure.contact = new TrialContact(parts.Pen, parts.Virtual.Surface);
             session.Changed += procedure.OnChanged;
             parts.Panel.Confirmed += procedure.OnConfirmed;
             procedure.OnChanged(session);

@@ -64,8 +64,8 @@ namespace HaptoFlow.SampleTests.Similarity
                 {
                     Assert.That(Number(row, column), Is.GreaterThan(0.0), $"{where}, {column}");
                 }
-                // Two perimeters of 0.676 m each.
-                Assert.That(Number(row, "path_mm"), Is.InRange(1300.0, 1800.0), where);
+                // The virtual object alone: its perimeter of 0.676 m and a stroke of 0.12 m.
+                Assert.That(Number(row, "path_mm"), Is.InRange(650.0, 850.0), where);
                 Assert.That(row["underruns"], Is.EqualTo("0"), where);
             }
             Assert.That(rows.Select(row => row["delay_ms"]).Distinct().Count(), Is.EqualTo(1));
