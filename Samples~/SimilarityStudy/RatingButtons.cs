@@ -20,9 +20,9 @@ namespace HaptoFlow.Samples.SimilarityStudy
             // The panel is switched off while nothing is asked: its buttons live beside it.
             var buttons = new GameObject("Rating Buttons").AddComponent<RatingButtons>();
             buttons.panel = panel;
-            buttons.lower = new ButtonPress("<Keyboard>/leftArrow", hand + "thumbstick/left");
-            buttons.higher = new ButtonPress("<Keyboard>/rightArrow", hand + "thumbstick/right");
-            buttons.confirm = new ButtonPress("<Keyboard>/enter", hand + "trigger");
+            buttons.lower = new ButtonPress("<Keyboard>/leftArrow", hand + "primaryButton");
+            buttons.higher = new ButtonPress("<Keyboard>/rightArrow", hand + "secondaryButton");
+            buttons.confirm = new ButtonPress("<Keyboard>/enter", hand + "triggerPressed");
             for (int answer = RatingPanel.Lowest; answer <= RatingPanel.Highest; ++answer)
             {
                 buttons.numbers[answer - 1] = new ButtonPress("<Keyboard>/" + answer);

@@ -44,7 +44,7 @@ namespace HaptoFlow.Samples.SimilarityStudy
                 panel.numbers[answer - 1] = panel.Add($"{answer}", new Vector3(x, 0f, 0f));
             }
             panel.Add("1: not similar at all          7: extremely similar", new Vector3(0f, -0.03f, 0f));
-            panel.Add("choose with the stick or 1 to 7, confirm with the trigger or Enter", new Vector3(0f, -0.06f, 0f));
+            panel.Add("two buttons, or 1 to 7: choose\ntrigger, or Enter: confirm", new Vector3(0f, -0.065f, 0f));
             panel.gameObject.SetActive(false);
             return panel;
         }

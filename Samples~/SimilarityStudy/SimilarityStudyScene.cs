@@ -16,7 +16,7 @@ namespace HaptoFlow.Samples.SimilarityStudy
     {
         // So many frames tell how long a frame takes.
         private const int PoseFrames = 64;
-        private static readonly Vector3 InstructionPlace = new Vector3(0.13f, 0.17f, 0.2f);
+        private static readonly Vector3 InstructionPlace = new Vector3(0.13f, 0.195f, 0.2f);
         private static readonly Vector3 PanelPlace = new Vector3(0.13f, 0.12f, 0.2f);
 
         private readonly PoseInterval poseInterval = new PoseInterval();

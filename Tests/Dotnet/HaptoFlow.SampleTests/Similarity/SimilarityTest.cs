@@ -163,7 +163,7 @@ namespace HaptoFlow.SampleTests.Similarity
         private protected void Answer(int rating)
         {
             Press("<Keyboard>/" + rating);
-            Press(Left + "trigger");
+            Press(Left + "triggerPressed");
         }
 
         private protected void TraceReal() => Trace(scene.Real.Frame, EdgeTracing.EdgeCount);
