@@ -48,6 +48,20 @@ namespace HaptoFlow.Tests
         }
 
         [Test]
+        public void ASampleIsChangedWhereverTheMaterialIsAnotherThanBeforeAndNowhereElse()
+        {
+            StudyPlan plan = StudyPlan.Similarity(7, 5, Materials, Methods);
+            Assert.That(plan.Trials[0].ChangesSample, Is.False);
+            for (int place = 1; place < plan.Trials.Count; ++place)
+            {
+                Assert.That(plan.Trials[place].ChangesSample,
+                    Is.EqualTo(plan.Trials[place].Material != plan.Trials[place - 1].Material));
+            }
+            Assert.That(StudyPlan.Latency(7, 5, Levels).Trials.Select(trial => trial.ChangesSample),
+                Has.All.False);
+        }
+
+        [Test]
         public void EveryLevelComesOnceUnderEachConditionAfterFourPracticeTrials(
             [Values(1, 2, 23, 24, 1000)] int participant, [Values(0ul, 1ul, ulong.MaxValue)] ulong seed)
         {

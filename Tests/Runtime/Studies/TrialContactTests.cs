@@ -49,6 +49,25 @@ namespace HaptoFlow.Tests
         }
 
         [Test]
+        public void OfAStrokeOverTwoSurfacesOnlyTheChosenOneCounts()
+        {
+            HapticSurface left = Board();
+            HapticSurface right = Board("fur");
+            right.transform.position = new Vector3(0.4f, 0f, 0f);
+            // 20 cm on the left board, then 10 cm on the right one.
+            HapticStylus stylus = StylusAlong(seconds => new Vector3(0.2f * (float)seconds, 0.001f, 0f));
+            FinishLoading();
+            using var all = new TrialContact(stylus);
+            using var onLeft = new TrialContact(stylus, left);
+            using var onRight = new TrialContact(stylus, right);
+            World.Frames(136);
+            Assert.That(onLeft.PathMillimetres, Is.EqualTo(200.0).Within(6.0));
+            Assert.That(onRight.PathMillimetres, Is.EqualTo(100.0).Within(6.0));
+            Assert.That(onLeft.ContactSeconds + onRight.ContactSeconds, Is.EqualTo(all.ContactSeconds).Within(1e-9));
+            Assert.That((onLeft.Starts, onLeft.Stops, onRight.IsMoving), Is.EqualTo((1, 1, true)));
+        }
+
+        [Test]
         public void TheRecordHasTheColumnsOfAllStudies()
         {
             Board();

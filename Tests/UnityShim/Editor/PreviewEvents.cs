@@ -20,7 +20,9 @@ namespace UnityEngine
     public enum KeyCode
     {
         None = 0,
+        Return = 13,
         Space = 32,
+        Alpha0 = 48,
         A = 97,
         B = 98,
         C = 99,

@@ -16,6 +16,9 @@ namespace HaptoFlow
         private IVoiceTarget? output;
         private float publishedStrength;
 
+        // Of the engine before: it fades while the present one begins.
+        private readonly LeavingVoice leaving = new LeavingVoice();
+
         // The touch of the newest reading, also of one that no voice has played.
         private uint? newestTouch;
 
@@ -59,6 +62,7 @@ namespace HaptoFlow
         public void Publish(
             in ContactReading reading, in FeltMaterial felt, HapticSession session, IVoiceTarget? wanted)
         {
+            leaving.Update();
             bool isReady = MakeReady(session, wanted, reading);
             newestTouch = reading.TouchCounter;
             if (!isReady)
@@ -98,6 +102,7 @@ namespace HaptoFlow
 
         public void Close()
         {
+            leaving.Close();
             if (voice == null)
             {
                 return;
@@ -134,7 +139,15 @@ namespace HaptoFlow
             {
                 return true;
             }
-            Close();
+            if (voice != null && ReferenceEquals(output, wanted))
+            {
+                leaving.Take(voice, wanted);
+                voice = null;
+            }
+            else
+            {
+                Close();
+            }
             if (ReferenceEquals(refusedBy, session.Engine) || !Open(session, wanted))
             {
                 return false;

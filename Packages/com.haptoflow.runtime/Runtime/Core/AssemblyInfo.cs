@@ -9,4 +9,5 @@ using System.Runtime.CompilerServices;
 [assembly: InternalsVisibleTo("HaptoFlow.Tests")]
 [assembly: InternalsVisibleTo("HaptoFlow.RepositoryTests")]
 [assembly: InternalsVisibleTo("HaptoFlow.ShimTests")]
+[assembly: InternalsVisibleTo("HaptoFlow.SampleTests")]
 [assembly: InternalsVisibleTo("HaptoFlow.MissingLibraryTests")]

@@ -28,6 +28,10 @@ namespace HaptoFlow.Studies
         /// <summary>The study stops before this trial until somebody goes on.</summary>
         public bool RestBefore { get; }
 
+        /// <summary>Similarity study: the trial before was on another material, so that the operator has to mount
+        /// another sample first.</summary>
+        public bool ChangesSample { get; internal set; }
+
         /// <summary>Latency study: <see cref="StudyPlan.TurnOn"/> or <see cref="StudyPlan.TurnOff"/>.</summary>
         public string? Condition { get; internal set; }
 

@@ -126,8 +126,16 @@ namespace HaptoFlow.Studies
                 DelayMilliseconds = delayMilliseconds,
             });
 
-        private void AddSimilarity(string block, bool restBefore, string material, string method) =>
-            trials.Add(new PlannedTrial(trials.Count + 1, block, restBefore) { Material = material, Method = method });
+        private void AddSimilarity(string block, bool restBefore, string material, string method)
+        {
+            PlannedTrial? before = trials.LastOrDefault();
+            trials.Add(new PlannedTrial(trials.Count + 1, block, restBefore)
+            {
+                Material = material,
+                Method = method,
+                ChangesSample = before != null && !string.Equals(before.Material, material, StringComparison.Ordinal),
+            });
+        }
 
         private static void CheckLevels(IReadOnlyList<double> levels)
         {

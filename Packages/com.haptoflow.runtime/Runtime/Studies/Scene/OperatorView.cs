@@ -163,6 +163,7 @@ namespace HaptoFlow.Studies
             StudyPhase.Paused => session.Pause switch
             {
                 StudyPause.Rest => "rest: press Next when the participant is ready",
+                StudyPause.Sample => "another sample: mount it, then press Next",
                 StudyPause.Operator => "paused: the trial begins again with Next",
                 StudyPause.ClockJump => "paused: the application stood still; the trial begins again with Next",
                 StudyPause.Disk => "paused: the disk takes answers again; press Next",

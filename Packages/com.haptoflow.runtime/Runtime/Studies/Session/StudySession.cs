@@ -31,6 +31,9 @@ namespace HaptoFlow.Studies
         /// <summary>The plan has a rest here.</summary>
         Rest,
 
+        /// <summary>The operator mounts another sample.</summary>
+        Sample,
+
         /// <summary>The operator paused it.</summary>
         Operator,
 
@@ -174,9 +177,9 @@ namespace HaptoFlow.Studies
             {
                 Become(StudyPhase.Finished);
             }
-            else if (Trial.RestBefore || hadToWait)
+            else if (Trial.RestBefore || Trial.ChangesSample || hadToWait)
             {
-                Pause = hadToWait ? StudyPause.Disk : StudyPause.Rest;
+                Pause = hadToWait ? StudyPause.Disk : Trial.RestBefore ? StudyPause.Rest : StudyPause.Sample;
                 Become(StudyPhase.Paused);
             }
             else

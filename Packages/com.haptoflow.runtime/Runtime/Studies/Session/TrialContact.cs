@@ -16,6 +16,7 @@ namespace HaptoFlow.Studies
         public const double RestsMps = MotionGate.RestsMps;
 
         private readonly HapticStylus stylus;
+        private readonly HapticSurface? surface;
         private readonly MotionGate motion = new MotionGate();
         private double lastSeconds;
         private double newtonSeconds;
@@ -23,9 +24,11 @@ namespace HaptoFlow.Studies
         private ulong underrunsBefore;
 
         /// <summary>Counts from now on.</summary>
-        public TrialContact(HapticStylus stylus)
+        /// <param name="surface">What is touched elsewhere does not count; null for everything.</param>
+        public TrialContact(HapticStylus stylus, HapticSurface? surface = null)
         {
             this.stylus = stylus;
+            this.surface = surface;
             stylus.TouchBegan += OnBegan;
             stylus.TouchMoved += OnMoved;
             stylus.TouchEnded += OnEnded;
@@ -95,7 +98,7 @@ namespace HaptoFlow.Studies
         private void OnBegan(HapticStylus told, in HapticContact contact)
         {
             lastSeconds = NowSeconds();
-            Move(motion.Update(lastSeconds, true, contact.Point.ToDouble()));
+            Move(motion.Update(lastSeconds, Counts(contact), contact.Point.ToDouble()));
         }
 
         private void OnMoved(HapticStylus told, in HapticContact contact)
@@ -103,6 +106,11 @@ namespace HaptoFlow.Studies
             double now = NowSeconds();
             double passed = Math.Max(0.0, now - lastSeconds);
             lastSeconds = now;
+            if (!Counts(contact))
+            {
+                Move(motion.Update(now, false, default));
+                return;
+            }
             float speedMps = contact.TangentialVelocity.magnitude;
             ContactSeconds += passed;
             pathMetres += passed * speedMps;
@@ -112,6 +120,9 @@ namespace HaptoFlow.Studies
 
         private void OnEnded(HapticStylus told, in HapticContact contact) =>
             Move(motion.Update(NowSeconds(), false, default));
+
+        private bool Counts(in HapticContact contact) =>
+            surface is null || ReferenceEquals(surface, contact.Surface);
 
         private void Move(bool moves)
         {
