@@ -95,6 +95,7 @@ namespace HaptoFlow.SampleTests
             Assert.That(sidecar["resumptions"].AsInteger(), Is.EqualTo(1));
             Assert.That(sidecar["device"]["device_delay_source"].AsText(), Is.EqualTo("estimated"));
             Assert.That(sidecar["device"]["block_frames"].AsInteger(), Is.EqualTo(BlockFrames));
+            RecordedSession.Keep(folder, "latency");
         }
 
         [Test]

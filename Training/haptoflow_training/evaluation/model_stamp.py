@@ -41,7 +41,10 @@ def read_measured_page(path: Path) -> str:
         page = path.read_text(encoding="utf-8")
     except (OSError, UnicodeDecodeError) as error:
         raise InputError(f"{path}: cannot be read as a page ({error})") from error
-    with_measured_words(page, "")
+    try:
+        with_measured_words(page, "")
+    except InputError as error:
+        raise InputError(f"{path}: {error}") from error
     return page
 
 

@@ -80,6 +80,10 @@ namespace HaptoFlow.SampleTests.Similarity
             }
             Assert.That(Directory.GetFiles(folder), Has.Length.EqualTo(2));
             Assert.That(Log.Lines.Where(line => line.Type != LogType.Log), Is.Empty);
+            if (materials == 6)
+            {
+                RecordedSession.Keep(folder, "similarity");
+            }
         }
 
         [Test]
