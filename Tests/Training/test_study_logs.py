@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+import json
 import shutil
 from collections.abc import Callable
 from dataclasses import asdict
@@ -369,9 +370,39 @@ def test_a_session_as_the_unity_samples_write_it_is_read_whole_with_its_interrup
     assert plan == expected
 
 
+def test_there_is_a_recorded_session_of_each_sample() -> None:
+    recorded = sorted(path.name.split("-")[0] for path in SESSIONS.glob("*.csv"))
+    assert recorded == ["latency", "similarity"] and len(list(SESSIONS.iterdir())) == 4
+
+
 def test_a_session_of_the_latency_sample_is_analysed(tmp_path: Path) -> None:
     for path in SESSIONS.glob("latency-*"):
         shutil.copy(path, tmp_path / path.name)
     assert main(["study", "analyse", str(tmp_path), "--out", str(tmp_path / "report.html")]) == 0
     page = (tmp_path / "report.html").read_text(encoding="utf-8")
     assert "SIMULATED" in page and "the threshold lies between 110 and 130 ms" in page
+
+
+def test_a_session_of_the_similarity_sample_is_analysed_together_with_those_of_two_others(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (recorded,) = SESSIONS.glob("similarity-*.csv")
+    shutil.copy(recorded, tmp_path / recorded.name)
+    shutil.copy(recorded.with_suffix(".json"), tmp_path)
+    assert main(["study", "analyse", str(tmp_path), "--out", str(tmp_path / "report.html")]) == 3
+    assert capsys.readouterr().err.endswith("1 participants of the similarity study; its tests need 3\n")
+    for participant in (8, 9):
+        log = tmp_path / f"similarity-P{participant:02d}-0000000{participant}.csv"
+        shutil.copy(recorded, log)
+        shutil.copy(recorded.with_suffix(".json"), log.with_suffix(".json"))
+        of = {"participant": participant, "session": f"0000000{participant}"}
+        change_sidecar(log, lambda sidecar, of=of: sidecar | of)
+        change_field(log, 6, "rating", str(participant - 7))
+    report, results = tmp_path / "report.html", tmp_path / "results.json"
+    assert main(["study", "analyse", str(tmp_path), "--out", str(report), "--results", str(results)]) == 0
+    page = report.read_text(encoding="utf-8")
+    sidecar = json.loads(recorded.with_suffix(".json").read_text(encoding="utf-8"))
+    assert len(sidecar["settings"]["materials"]) == 6 and len(sidecar["settings"]["methods"]) == 4
+    for entry in sidecar["settings"]["materials"] + sidecar["settings"]["methods"]:
+        assert entry["name"] in page
+    assert "SIMULATED" in page and "Sample of jute" in results.read_text(encoding="utf-8")

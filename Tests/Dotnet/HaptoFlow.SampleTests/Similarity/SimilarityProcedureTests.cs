@@ -27,6 +27,7 @@ namespace HaptoFlow.SampleTests.Similarity
             // The project itself names no model.
             HaptoFlowSettings.Active.Model = null;
             SimilarityStudySettings settings = Settings(materials, methods);
+            settings.Simulated = true;
             inference = new Dictionary<string, double> { ["Ours"] = 9.5, ["Rival"] = 14.25 };
             Begin(settings);
             StudyPlan plan = scene.Session!.Plan;
@@ -72,7 +73,7 @@ namespace HaptoFlow.SampleTests.Similarity
             Assert.That(rows.Select(row => Number(row, "elapsed_seconds")), Is.Ordered.Ascending);
             string sidecar = File.ReadAllText(Path.ChangeExtension(Csv, ".json"));
             Assert.That(sidecar, Does.Contain("\"finished\": true").Or.Contain("\"finished\":true"));
-            Assert.That(sidecar, Does.Match("\"resumptions\": ?1"));
+            Assert.That(sidecar, Does.Match("\"resumptions\": ?1").And.Match("\"simulated\": ?true"));
             foreach (StudyMethod method in settings.Methods)
             {
                 string hash = Convert.ToHexString(System.Security.Cryptography.SHA256.HashData(method.Model!.File));
