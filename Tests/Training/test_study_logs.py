@@ -387,19 +387,20 @@ def test_a_session_of_the_similarity_sample_is_analysed_together_with_those_of_t
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     (recorded,) = SESSIONS.glob("similarity-*.csv")
-    shutil.copy(recorded, tmp_path / recorded.name)
-    shutil.copy(recorded.with_suffix(".json"), tmp_path)
-    assert main(["study", "analyse", str(tmp_path), "--out", str(tmp_path / "report.html")]) == 3
+    logs, report, results = (tmp_path / name for name in ("logs", "report.html", "results.json"))
+    logs.mkdir()
+    for path in (recorded, recorded.with_suffix(".json")):
+        shutil.copy(path, logs)
+    assert main(["study", "analyse", str(logs), "--out", str(report)]) == 3
     assert capsys.readouterr().err.endswith("1 participants of the similarity study; its tests need 3\n")
     for participant in (8, 9):
-        log = tmp_path / f"similarity-P{participant:02d}-0000000{participant}.csv"
+        log = logs / f"similarity-P{participant:02d}-0000000{participant}.csv"
         shutil.copy(recorded, log)
         shutil.copy(recorded.with_suffix(".json"), log.with_suffix(".json"))
         of = {"participant": participant, "session": f"0000000{participant}"}
         change_sidecar(log, lambda sidecar, of=of: sidecar | of)
         change_field(log, 6, "rating", str(participant - 7))
-    report, results = tmp_path / "report.html", tmp_path / "results.json"
-    assert main(["study", "analyse", str(tmp_path), "--out", str(report), "--results", str(results)]) == 0
+    assert main(["study", "analyse", str(logs), "--out", str(report), "--results", str(results)]) == 0
     page = report.read_text(encoding="utf-8")
     sidecar = json.loads(recorded.with_suffix(".json").read_text(encoding="utf-8"))
     assert len(sidecar["settings"]["materials"]) == 6 and len(sidecar["settings"]["methods"]) == 4

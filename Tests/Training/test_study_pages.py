@@ -81,18 +81,24 @@ def test_every_column_and_key_of_the_logs_is_explained() -> None:
 
 
 def test_what_the_page_says_of_counterbalancing_is_what_the_plans_give() -> None:
-    text = LOGS.read_text(encoding="utf-8")
+    text = " ".join(LOGS.read_text(encoding="utf-8").split())
+    materials: Counter[tuple[str, int]] = Counter()
     methods: Counter[tuple[str, str, int]] = Counter()
     levels: Counter[tuple[str, float, int]] = Counter()
     for participant in range(1, 25):
         trials = [trial for trial in similarity_plan(participant, 1, MATERIALS, METHODS) if trial.block == "main"]
+        materials.update((trial.material, place) for place, trial in enumerate(trials[::4]))
         methods.update((trial.material, trial.method, place % 4) for place, trial in enumerate(trials))
         answered = [trial for trial in latency_plan(participant, 1, LEVELS_MS) if trial.block == "main"]
         levels.update((trial.condition, trial.delay_ms, place % 11) for place, trial in enumerate(answered))
-    assert len(methods) == 6 * 4 * 4
-    assert f"of a material {min(methods.values())} to {max(methods.values())} times" in " ".join(text.split())
-    fewest = 0 if len(levels) < 2 * 11 * 11 else min(levels.values())
-    assert f"of a condition's block {fewest} to {max(levels.values())} times" in " ".join(text.split())
+    assert (len(materials), len(methods), len(levels)) == (6 * 6, 6 * 4 * 4, 2 * 11 * 11)
+    (of_materials,), (of_methods,) = set(materials.values()), set(methods.values())
+    assert f"each of six materials stands at each place exactly {of_materials} times" in text
+    assert f"at each place of each material exactly {of_methods} times" in text
+    assert f"of a condition's block {min(levels.values())} to {max(levels.values())} times" in text
+    twice, three, four = (list(levels.values()).count(times) for times in (2, 3, 4))
+    combinations = f"of the {len(levels)} combinations of condition, level and place"
+    assert f"{combinations}, {twice} come twice, {three} three times, {four} four times" in text
 
 
 def test_the_budget_page_shows_the_published_benchmark() -> None:
