@@ -136,10 +136,9 @@ namespace HaptoFlow.SampleTests.Similarity
         }
 
         [Test]
-        public void WithoutATrackedPenTheMouseTakesPart()
+        public void AsLongAsNoPenWasTrackedTheMouseTakesPartAndThenThePen()
         {
-            Open(Settings(1, 2));
-            SimulatedInput.SetControl(Right + "isTracked", 0f);
+            Open(Settings(1, 2), hasPen: false);
             Prepare();
             scene.Begin(7);
             scene.Session!.Continue();
@@ -148,8 +147,13 @@ namespace HaptoFlow.SampleTests.Similarity
             AudioDevice.Forget();
             TraceByMouse(scene.Virtual.Frame);
             Assert.That(LoudestFelt(), Is.GreaterThan(Audible));
+            Hold(new Vector3(0f, 0.1f, 0f));
             Answer(3);
-            Assert.That(Rows().Single()["rating"], Is.EqualTo("3"));
+            TraceReal();
+            TraceVirtual();
+            Answer(6);
+            Assert.That(Rows().Select(row => row["rating"]), Is.EqualTo(new[] { "3", "6" }));
+            Assert.That(Rows().Select(row => Number(row, "path_mm")), Has.All.GreaterThan(500.0));
         }
 
         [Test]
