@@ -65,7 +65,12 @@ namespace HaptoFlow.Samples.LatencyStudy
                 delay = MeasureDelay();
                 delay.CheckReaches(settings.LevelsMilliseconds);
                 string folder = settings.Folder.Length > 0 ? settings.Folder : StudyPlayer.DefaultFolder;
-                session = new StudySession(StudyLog.Open(folder, Describe(participant)));
+                StudyLog log = StudyLog.Open(folder, Describe(participant));
+                if (session != null)
+                {
+                    session.Changed -= OnChanged;
+                }
+                session = new StudySession(log);
                 session.Changed += OnChanged;
                 view.Session = session;
                 view.Problem = null;
@@ -213,11 +218,11 @@ namespace HaptoFlow.Samples.LatencyStudy
         private void CheckAgain()
         {
             double now = Time.unscaledTimeAsDouble;
-            if (session!.Phase == StudyPhase.Paused && view.Problem != null && now >= nextCheckSeconds)
+            if (session!.Phase == StudyPhase.Paused && session.Trial != null && view.Problem != null && now >= nextCheckSeconds)
             {
                 nextCheckSeconds = now + SecondsBetweenChecks;
                 delay = MeasureDelay();
-                TryReach(session.Trial!.DelayMilliseconds!.Value);
+                TryReach(session.Trial.DelayMilliseconds!.Value);
             }
         }
 

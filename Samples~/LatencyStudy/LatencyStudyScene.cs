@@ -63,19 +63,16 @@ namespace HaptoFlow.Samples.LatencyStudy
             Study.Prepare(chosen, output, view.GetComponent<MaskingNoise>(), Marker.Create(chosen, Vector3.zero),
                 QuestionPanel.Create(new Vector3(0f, 0.14f, 0.24f), view.transform.rotation),
                 gameObject.AddComponent<OperatorView>());
-            Study.AddPen(MakeMousePen(output));
+            HapticStylus mouse = MousePen.Create(view).Stylus;
+            mouse.Output = output;
+            Study.AddPen(mouse);
 #if HAPTOFLOW_INPUT_SYSTEM && ENABLE_INPUT_SYSTEM
-            HapticStylus held = StudyRig.Create(view, chosen.PenHand).Pen.Stylus!;
+            StudyRig rig = StudyRig.Create(view, chosen.PenHand);
+            rig.WithoutHeadset = mouse.gameObject;
+            HapticStylus held = rig.Pen.Stylus!;
             held.Output = output;
             Study.AddPen(held);
 #endif
-        }
-
-        private HapticStylus MakeMousePen(HapticOutput output)
-        {
-            HapticStylus stylus = MousePen.Create(view).Stylus;
-            stylus.Output = output;
-            return stylus;
         }
 
         private static HapticOutput MakeOutput(GameObject ears, LatencyStudySettings settings)

@@ -9,6 +9,7 @@ namespace HaptoFlow.Samples.LatencyStudy
 {
     /// <summary>A headset's tracking space with a pen in one hand. Once the head is tracked, the space is placed so that
     /// the eyes are where the scene has its camera; without a headset the camera stays.</summary>
+    [DefaultExecutionOrder(100)]
     public sealed class StudyRig : MonoBehaviour
     {
         private InputAction isTracked = null!;
@@ -19,6 +20,10 @@ namespace HaptoFlow.Samples.LatencyStudy
 
         /// <summary>The pen.</summary>
         public XrPen Pen { get; private set; } = null!;
+
+        /// <summary>Goes when the pen in the hand is tracked for the first time: the mouse's pen, which would stand in
+        /// the participant's view. Null for nothing.</summary>
+        public GameObject? WithoutHeadset { get; set; }
 
         /// <summary>The space with a pen in one hand.</summary>
         public static StudyRig Create(Camera view, PenHand hand)
@@ -41,6 +46,11 @@ namespace HaptoFlow.Samples.LatencyStudy
 
         private void Update()
         {
+            // The pen has looked for its device in this frame already: it comes earlier.
+            if (WithoutHeadset != null && Pen.Stylus!.gameObject.activeSelf)
+            {
+                WithoutHeadset.SetActive(false);
+            }
             if (placed || isTracked.ReadValue<float>() < 0.5f)
             {
                 return;

@@ -1,5 +1,7 @@
 import assert from 'node:assert/strict';
 import test from 'node:test';
+import { inRepository } from '../../scripts/lib/repository.mjs';
+import { findingsOfTidy } from '../../scripts/lint/cpp_checks.mjs';
 import { functionsWithoutThreadTag, machineTraces } from '../../scripts/lint/house_checks.mjs';
 
 test('a function without a thread tag in its own comment is found', () => {
@@ -16,6 +18,12 @@ test('a function without a thread tag in its own comment is found', () => {
 test('a tag of the previous function does not count for the next', () => {
   const header = '/* [any-thread] */\nHAPTOFLOW_API int haptoflow_a(void);\nHAPTOFLOW_API int haptoflow_b(void);\n';
   assert.deepEqual(functionsWithoutThreadTag(header), ['haptoflow_b']);
+});
+
+test('of clang-tidy\'s lines, errors and warnings in this repository are findings, and what it cannot read of a standard library is not', () => {
+  const own = `${inRepository('NativePlugin', 'src', 'a.hpp')}:3:1: error: use auto [modernize-use-auto]`;
+  const foreign = '/usr/include/c++/12/bits/iterator_concepts.h:982:13: error: no matching function [clang-diagnostic-error]';
+  assert.deepEqual(findingsOfTidy(`${foreign}\n${own}\n    auto a = 1;\n1 error generated.\n`), [own]);
 });
 
 test('paths of one machine and package hosts are found with their line', () => {

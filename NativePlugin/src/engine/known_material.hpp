@@ -35,7 +35,7 @@ public:
     [[nodiscard]] dsp::ToneCepstrum at(double speedMps) const noexcept;
 
 private:
-    std::vector<double> logSpeeds_;
+    std::vector<double> speedsMps_;
     std::vector<dsp::ToneCepstrum> cepstra_;
 };
 

@@ -21,7 +21,7 @@ public:
     [[nodiscard]] Message& draft() noexcept { return slots_[writing_]; }
     /// Writer: makes the draft the newest message.
     void post() noexcept {
-        const std::uint8_t offered = static_cast<std::uint8_t>(writing_ | freshBit);
+        const auto offered = static_cast<std::uint8_t>(writing_ | freshBit);
         writing_ = static_cast<std::uint8_t>(exchanged_.exchange(offered, std::memory_order_acq_rel) & indexBits);
     }
 

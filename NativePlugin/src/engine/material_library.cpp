@@ -1,6 +1,7 @@
 #include "engine/material_library.hpp"
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <limits>
@@ -93,7 +94,7 @@ std::unique_ptr<const MaterialLibrary::Registered> MaterialLibrary::prepare(mode
     known.embedding = made->file.embedding;
     known.grid = &levels_.grid();
     if (!made->file.label.level) {
-        const std::span<const float, model::embeddingSize> embeddings[] = {known.embedding};
+        const std::array embeddings{known.embedding};
         made->graphLevels = tabulateLevels(levels_.grid(), embeddings, levels());
         known.graphLevels = std::span(std::as_const(made->graphLevels)).first<LevelGrid::points>();
     }

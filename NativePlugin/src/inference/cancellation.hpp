@@ -14,6 +14,7 @@ public:
     Cancellation() = default;
     Cancellation(const Cancellation&) = delete;
     Cancellation& operator=(const Cancellation&) = delete;
+    ~Cancellation() = default;
 
     /// Runs the actions that are registered; further calls do nothing.
     void cancel() noexcept;

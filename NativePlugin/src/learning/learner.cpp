@@ -74,7 +74,7 @@ public:
         report_.seeds = seeds.size();
         report_.toneSpeeds = tone.tone.speedsMps.size();
         report_.speedExponent = level_.speedExponent;
-        report_.forceExponent = level_.forceExponent;
+        report_.forceExponent = level_.table.forceExponent;
         report_.segments = loop.segments();
         report_.seconds = elapsedSeconds();
         LearntMaterial learnt;
@@ -307,8 +307,8 @@ private:
         if (tone.tone.speedsMps.empty()) {
             return tone;
         }
-        for (std::size_t i = 0; i < level_.speedsMps.size(); ++i) {
-            level_.logLevels[i] += correction(tone, level_.speedsMps[i]);
+        for (std::size_t i = 0; i < level_.table.speedsMps.size(); ++i) {
+            level_.table.logLevels[i] += correction(tone, level_.table.speedsMps[i]);
         }
         measureSpectra(fit, generated, tone);
         return tone;

@@ -10,8 +10,6 @@ namespace {
 
 constexpr std::size_t frameSamples = 100;
 constexpr std::size_t frameHop = 50;
-constexpr double speedOffsetMps = 0.0005;
-constexpr double smallestForceNewtons = 0.02;
 /// How far one frame's log RMS strays from the law, and how far a slope between knots strays from the common one.
 constexpr double frameSpread = 0.35;
 constexpr double slopeSpread = 0.9;
@@ -22,10 +20,6 @@ constexpr int newtonRounds = 30;
 constexpr std::size_t steadyMargin = 80;
 constexpr double largestChange = 2.0;
 constexpr double leastSteadyShare = 0.25;
-
-double logSpeed(double speedMps) {
-    return std::log(speedMps + speedOffsetMps);
-}
 
 struct Frame {
     double logSpeed = 0.0;
@@ -58,11 +52,12 @@ std::vector<Frame> framesOf(const PreparedRecording& recording, const Sliding& s
         double squaredSpeed = 0.0;
         for (std::size_t i = start; i < start + frameSamples; ++i) {
             const double value = recording.wave[i];
-            const double speed = recording.speedMps(i) + speedOffsetMps;
+            const double speed = recording.speedMps(i) + model::LevelTable::restMps;
             frame.power += value * value / static_cast<double>(frameSamples);
             squaredSpeed += speed * speed / static_cast<double>(frameSamples);
-            frame.logForce += std::log(std::max(static_cast<double>(recording.motion[i][2]), smallestForceNewtons)) /
-                              static_cast<double>(frameSamples);
+            frame.logForce +=
+                std::log(std::max(static_cast<double>(recording.motion[i][2]), model::LevelTable::weakestNewtons)) /
+                static_cast<double>(frameSamples);
         }
         // Levels grow about as the speed: what a frame's power is the mean of goes with the mean of the square.
         frame.logSpeed = 0.5 * std::log(squaredSpeed);
@@ -230,26 +225,6 @@ double overallSlope(const std::vector<double>& knots, const std::vector<double>&
 
 }  // namespace
 
-double LevelLaw::logLevel(double speedMps, double force) const {
-    const double position = logSpeed(speedMps);
-    const double pressed = forceExponent * std::log(std::max(force, smallestForceNewtons) / forceNewtons);
-    const double first = logSpeed(speedsMps.front());
-    const double last = logSpeed(speedsMps.back());
-    if (position <= first || speedsMps.size() == 1) {
-        return logLevels.front() + speedExponent * (position - first) + pressed;
-    }
-    if (position >= last) {
-        return logLevels.back() + speedExponent * (position - last) + pressed;
-    }
-    std::size_t above = 1;
-    while (logSpeed(speedsMps[above]) < position) {
-        ++above;
-    }
-    const double low = logSpeed(speedsMps[above - 1]);
-    const double share = (position - low) / (logSpeed(speedsMps[above]) - low);
-    return logLevels[above - 1] + share * (logLevels[above] - logLevels[above - 1]) + pressed;
-}
-
 LevelLaw fitLevelLaw(const PreparedRecording& recording, const Sliding& sliding, const ExponentPrior& prior) {
     const std::vector<Frame> frames = framesOf(recording, sliding);
     if (frames.size() < 10) {
@@ -258,14 +233,14 @@ LevelLaw fitLevelLaw(const PreparedRecording& recording, const Sliding& sliding,
             "strokes");
     }
     LevelLaw law;
-    law.forceNewtons = std::clamp(sliding.forceNewtons[1], 0.01, 100.0);
+    law.table.forceNewtons = std::clamp(sliding.forceNewtons[1], 0.01, 100.0);
     const std::vector<double> knots = knotsOf(frames);
-    std::vector<double> unknown = Fit(frames, knots, std::log(law.forceNewtons), prior).solve();
-    law.forceExponent = std::clamp(unknown[knots.size() + 1], -4.0, 4.0);
+    std::vector<double> unknown = Fit(frames, knots, std::log(law.table.forceNewtons), prior).solve();
+    law.table.forceExponent = std::clamp(unknown[knots.size() + 1], -4.0, 4.0);
     law.speedExponent = std::clamp(overallSlope(knots, unknown, prior), -4.0, 4.0);
     for (std::size_t i = 0; i < knots.size(); ++i) {
-        law.speedsMps.push_back(std::exp(knots[i]) - speedOffsetMps);
-        law.logLevels.push_back(unknown[i]);
+        law.table.speedsMps.push_back(std::exp(knots[i]) - model::LevelTable::restMps);
+        law.table.logLevels.push_back(unknown[i]);
     }
     return law;
 }

@@ -2,24 +2,20 @@
 
 #include "learning/prepared_recording.hpp"
 #include "learning/sliding.hpp"
-
-#include <vector>
+#include "model/material_tables.hpp"
 
 namespace haptoflow::learning {
 
-/// How strong the material vibrates: a table of log RMS over log speed and a power of the force.
+/// How strong the material vibrates.
 struct LevelLaw {
-    /// 1 to 16, rising; where one speed alone was recorded, one.
-    std::vector<double> speedsMps;
-    /// Natural logarithm of the RMS in m/s^2 at `forceNewtons`.
-    std::vector<double> logLevels;
-    double forceNewtons = 1.0;
-    double forceExponent = 0.0;
+    /// Where one speed alone was recorded, it holds one.
+    model::LevelTable table;
     /// Beyond the table's ends.
     double speedExponent = 0.0;
 
-    /// Straight lines in log(v + 0.0005 m/s) between the table's speeds; the force floored at 0.02 N.
-    [[nodiscard]] double logLevel(double speedMps, double force) const;
+    [[nodiscard]] double logLevel(double speedMps, double newtons) const noexcept {
+        return table.logLevel(speedMps, newtons, speedExponent);
+    }
 };
 
 /// What other materials have: the mean of their exponents and how far they are from it.

@@ -35,7 +35,7 @@ Json impactJson(const model::Impact& impact) {
     return {{"modes", modes}, {"restitution", impact.restitution}};
 }
 
-Json toneJson(const Tone& tone) {
+Json toneJson(const model::ToneTable& tone) {
     Json rows = Json::array();
     for (const std::vector<double>& row : tone.gainsDb) {
         rows.push_back(roundedNumbers(row, 1e3));
@@ -85,7 +85,7 @@ std::string materialText(const model::ModelFile& model, const MaterialContent& c
     json["range"] = {{"speed_mps", roundedNumbers(report.speedMps, 1e5)},
                      {"force_newtons", roundedNumbers(report.forceNewtons, 1e4)}};
     json["level_exponents"] = {{"speed", rounded(content.level.speedExponent, 1e4)},
-                               {"force", rounded(content.level.forceExponent, 1e4)}};
+                               {"force", rounded(content.level.table.forceExponent, 1e4)}};
     json["frequency_exponent"] = rounded(content.frequencyExponent, 1e4);
     json["periodic"] = content.wavelengthMetres.has_value();
     json["wavelength_metres"] =
@@ -95,10 +95,10 @@ std::string materialText(const model::ModelFile& model, const MaterialContent& c
     if (content.nearest.impact) {
         json["impact"] = impactJson(*content.nearest.impact);
     }
-    json["level"] = {{"speeds_mps", roundedNumbers(content.level.speedsMps, 1e6)},
-                     {"log_levels", roundedNumbers(content.level.logLevels, 1e5)},
-                     {"force_newtons", rounded(content.level.forceNewtons, 1e4)},
-                     {"force_exponent", rounded(content.level.forceExponent, 1e4)}};
+    json["level"] = {{"speeds_mps", roundedNumbers(content.level.table.speedsMps, 1e6)},
+                     {"log_levels", roundedNumbers(content.level.table.logLevels, 1e5)},
+                     {"force_newtons", rounded(content.level.table.forceNewtons, 1e4)},
+                     {"force_exponent", rounded(content.level.table.forceExponent, 1e4)}};
     if (!content.tone.speedsMps.empty()) {
         json["tone"] = toneJson(content.tone);
     }

@@ -21,7 +21,7 @@ struct MaterialContent {
     const model::Label& nearest;
     const Embedding& embedding;
     const LevelLaw& level;
-    const Tone& tone;
+    const model::ToneTable& tone;
     double frequencyExponent = 0.0;
     std::optional<double> wavelengthMetres;
     std::span<const LearntSeed> seeds;

@@ -92,7 +92,7 @@ std::vector<Candidate> spreadOut(const std::vector<Candidate>& candidates) {
     return chosen;
 }
 
-dsp::ToneKernel inverseKernel(const Tone& tone, double speedMps) {
+dsp::ToneKernel inverseKernel(const model::ToneTable& tone, double speedMps) {
     // The inverse of a minimum-phase filter is the minimum-phase filter of the opposite gains.
     return dsp::toneKernel(
         dsp::toneCepstrum([&](double hertz) { return -tone.gainDb(speedMps, std::max(hertz, 1.0)); }));
@@ -101,7 +101,7 @@ dsp::ToneKernel inverseKernel(const Tone& tone, double speedMps) {
 }  // namespace
 
 std::vector<LearntSeed> chooseSeeds(const PreparedRecording& recording, const Sliding& sliding,
-                                    std::span<const float> unitWave, const Tone& tone) {
+                                    std::span<const float> unitWave, const model::ToneTable& tone) {
     const std::vector<Candidate> candidates = candidatesOf(recording, sliding, unitWave);
     std::vector<LearntSeed> seeds;
     if (candidates.empty()) {

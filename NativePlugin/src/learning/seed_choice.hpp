@@ -24,6 +24,6 @@ inline constexpr std::size_t mostLearntSeeds = 8;
 
 /// Stretches of the recording at speeds, forces and directions as different as it has them.
 [[nodiscard]] std::vector<LearntSeed> chooseSeeds(const PreparedRecording& recording, const Sliding& sliding,
-                                                  std::span<const float> unitWave, const Tone& tone);
+                                                  std::span<const float> unitWave, const model::ToneTable& tone);
 
 }  // namespace haptoflow::learning

@@ -19,18 +19,6 @@ constexpr double framesPerIndependent = 2.2;
 constexpr double commonSpreadDb = 10.0;
 constexpr double fewestFrames = 3.0;
 
-double interpolate(std::span<const double> xs, std::span<const double> ys, double x) {
-    if (x <= xs.front()) {
-        return ys.front();
-    }
-    if (x >= xs.back()) {
-        return ys.back();
-    }
-    const auto above = static_cast<std::size_t>(std::ranges::upper_bound(xs, x) - xs.begin());
-    const double share = std::log(x / xs[above - 1]) / std::log(xs[above] / xs[above - 1]);
-    return ys[above - 1] + share * (ys[above] - ys[above - 1]);
-}
-
 std::vector<double> bandCentres(double bandwidthHz) {
     std::vector<double> centres;
     const double last = std::min(highestHz, bandwidthHz);
@@ -100,25 +88,16 @@ std::vector<double> shrunk(const std::vector<Ratio>& ratios) {
     return result;
 }
 
-double powerBehind(const TextureFigures& figures, const Tone& tone, std::size_t row) {
+double powerBehind(const TextureFigures& figures, const model::ToneTable& tone, std::size_t row) {
     double sum = 0.0;
     for (std::size_t bin = 1; bin < spectrumBins; ++bin) {
-        const double gain = interpolate(tone.frequenciesHz, tone.gainsDb[row], static_cast<double>(bin) * hertzPerBin);
+        const double gain = tone.rowGainDb(row, static_cast<double>(bin) * hertzPerBin);
         sum += figures.power[bin] * std::pow(10.0, 0.1 * gain);
     }
     return sum;
 }
 
 }  // namespace
-
-double Tone::gainDb(double speedMps, double frequencyHz) const {
-    std::vector<double> rows;
-    rows.reserve(gainsDb.size());
-    for (const std::vector<double>& row : gainsDb) {
-        rows.push_back(interpolate(frequenciesHz, row, frequencyHz));
-    }
-    return interpolate(speedsMps, rows, speedMps);
-}
 
 ToneFit fitTone(const SpeedBins& bins, std::span<const TextureFigures> recorded,
                 std::span<const TextureFigures> generated, double bandwidthHz) {

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "model/material_tables.hpp"
+
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -50,30 +52,6 @@ struct Impact {
     std::array<ImpactMode, maximumModes> modes{};
     /// Share of the speed that a rebound keeps, 0 to 0.9.
     double restitution = 0.0;
-};
-
-/// A label's own level, used instead of the level graph's.
-struct LevelTable {
-    static constexpr std::size_t maximumSpeeds = 16;
-    /// Rising; at least one.
-    std::vector<double> speedsMps;
-    /// Natural logarithm of the RMS in m/s^2 before tone at each speed, at `forceNewtons`.
-    std::vector<double> logLevels;
-    double forceNewtons = 1.0;
-    double forceExponent = 0.0;
-};
-
-/// What is done to a label's spectrum after it was generated.
-struct ToneTable {
-    static constexpr std::size_t maximumSpeeds = 8;
-    static constexpr std::size_t minimumFrequencies = 2;
-    static constexpr std::size_t maximumFrequencies = 32;
-    /// Rising; at least one.
-    std::vector<double> speedsMps;
-    /// Rising.
-    std::vector<double> frequenciesHz;
-    /// For each speed the gain at each frequency.
-    std::vector<std::vector<double>> gainsDb;
 };
 
 struct Label {

@@ -3,6 +3,7 @@ using System.Collections.Generic;
 using System.Globalization;
 using System.IO;
 using System.Linq;
+using System.Reflection;
 using HaptoFlow.Model;
 using HaptoFlow.Samples.LatencyStudy;
 using HaptoFlow.Studies;
@@ -254,6 +255,61 @@ namespace HaptoFlow.SampleTests
             settings.ToneMps2 = 20f;
             Press(1);
             Assert.That(study.View.Problem, Is.Null);
+        }
+
+        [Test]
+        public void ThePenOfTheMouseGoesWhenAPenIsTracked()
+        {
+            var mouse = UnityEngine.Object.FindObjectsByType<MousePen>(
+                FindObjectsInactive.Include, FindObjectsSortMode.None).Single();
+            Assert.That(mouse.gameObject.activeSelf, Is.True);
+            participant.Frame();
+            participant.Frame();
+            Assert.That(mouse.gameObject.activeSelf, Is.False);
+        }
+
+        [Test]
+        public void AFinishedStudyMakesRoomForTheNextParticipantAndRefusesTheSameOne()
+        {
+            settings.LevelsMilliseconds = new[] { 50.0, 250.0 };
+            Begin(1);
+            participant.Until(() => study.Session!.Phase == StudyPhase.Finished, 120.0);
+            Press(1);
+            Assert.That(study.View.Problem, Does.Contain("participant 1 has finished this study"));
+            Press(2);
+            Assert.That(study.View.Problem, Is.Null);
+            participant.Until(() => study.Session!.Phase == StudyPhase.Finished, 120.0);
+            Assert.That(Directory.GetFiles(folder, "latency-P0?-*.csv").Select(path => File.ReadAllLines(path).Length),
+                Is.EqualTo(new[] { 9, 9 }));
+        }
+
+        [Test]
+        public void TheSettingsAssetHoldsEveryFieldAtItsDefault()
+        {
+            string[] lines = File.ReadAllLines(SampleFile("LatencyStudy", "LatencyStudySettings.asset"));
+            object fresh = ScriptableObject.CreateInstance<LatencyStudySettings>();
+            FieldInfo[] fields = typeof(LatencyStudySettings).GetFields(BindingFlags.Instance | BindingFlags.NonPublic)
+                .Where(field => field.GetCustomAttribute<SerializeField>() != null).ToArray();
+            Assert.That(fields, Has.Length.GreaterThan(12));
+            foreach (FieldInfo field in fields)
+            {
+                int line = Array.FindIndex(lines, each => each.StartsWith($"  {field.Name}:", StringComparison.Ordinal));
+                Assert.That(line, Is.GreaterThan(0), field.Name);
+                string expected = field.GetValue(fresh) switch
+                {
+                    double[] levels => string.Join(" ", levels),
+                    Enum choice => Convert.ToInt32(choice).ToString(CultureInfo.InvariantCulture),
+                    bool truth => truth ? "1" : "0",
+                    object value => Convert.ToString(value, CultureInfo.InvariantCulture)!,
+                    null => "",
+                };
+                string found = lines[line].Substring(field.Name.Length + 3).Trim();
+                for (int next = line + 1; next < lines.Length && lines[next].StartsWith("  - "); ++next)
+                {
+                    found += (found.Length > 0 ? " " : "") + lines[next].Substring(4);
+                }
+                Assert.That(found, Is.EqualTo(expected), field.Name);
+            }
         }
 
         [Test]

@@ -74,6 +74,22 @@ namespace HaptoFlow.ShimTests
         }
 
         [Test]
+        public void AfterTheLastTrialTheNextParticipantCanBegin()
+        {
+            view.Begin = _ => { };
+            session.Continue();
+            while (session.Phase != StudyPhase.Finished)
+            {
+                session.Ask();
+                session.Answer(StudyFolder.Yes());
+                session.Continue();
+            }
+            PassFor(0.3);
+            Assert.That(Text(), Does.Contain("all trials are answered").And.Contain("finished").And.Contain("press Begin"));
+            Assert.That(Buttons(), Does.Contain("Begin"));
+        }
+
+        [Test]
         public void AFullDiskIsSaidInWords()
         {
             session.Continue();

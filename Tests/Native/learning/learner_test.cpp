@@ -91,7 +91,7 @@ TEST_F(LearnerTest, ASeedBehindTheToneSoundsAsItWasRecorded) {
     const LearntMaterial learnt = learn(made.view(), brief());
     const model::MaterialFile material = model::parseMaterial(learnt.materialJson);
     const nlohmann::json json = nlohmann::json::parse(learnt.materialJson);
-    Tone tone;
+    model::ToneTable tone;
     tone.speedsMps = json["tone"]["speeds_mps"].get<std::vector<double>>();
     tone.frequenciesHz = json["tone"]["frequencies_hz"].get<std::vector<double>>();
     tone.gainsDb = json["tone"]["gains_db"].get<std::vector<std::vector<double>>>();

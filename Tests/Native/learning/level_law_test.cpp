@@ -35,7 +35,7 @@ TEST(LevelLawTest, APowerLawIsFoundWithinHalfADecibelAndGoesOnBeyondTheRecordedS
         EXPECT_NEAR(errorDb(law, surface, speed, 0.9), 0.0, 0.8) << speed;
     }
     EXPECT_NEAR(law.speedExponent, 0.7, 0.12);
-    EXPECT_NEAR(law.forceExponent, 0.35, 0.15);
+    EXPECT_NEAR(law.table.forceExponent, 0.35, 0.15);
     EXPECT_NEAR(errorDb(law, surface, 0.5, 0.9), 0.0, 2.0);
 }
 
@@ -49,16 +49,16 @@ TEST(LevelLawTest, AJumpOf14DecibelsIsFollowedInsideTheRecordedRange) {
 TEST(LevelLawTest, OneSpeedLeavesTheExponentsToThePrior) {
     MadeRecording made({.speedExponent = 0.0}, {.slowestMps = 0.08, .fastestMps = 0.0801});
     const LevelLaw law = lawOf(made, {.speedMean = 0.75, .speedSpread = 0.1, .forceMean = 0.2, .forceSpread = 0.1});
-    EXPECT_EQ(law.speedsMps.size(), 1U);
+    EXPECT_EQ(law.table.speedsMps.size(), 1U);
     EXPECT_NEAR(law.speedExponent, 0.75, 0.05);
-    EXPECT_NEAR(law.speedsMps[0], 0.08, 0.002);
+    EXPECT_NEAR(law.table.speedsMps[0], 0.08, 0.002);
 }
 
 TEST(LevelLawTest, TheTableKeepsTheMaterialFilesLimits) {
     const LevelLaw law = lawOf(MadeRecording({}, {.seconds = 60.0, .slowestMps = 0.006, .fastestMps = 1.0}));
-    EXPECT_LE(law.speedsMps.size(), 16U);
-    EXPECT_TRUE(std::ranges::is_sorted(law.speedsMps));
-    EXPECT_EQ(law.speedsMps.size(), law.logLevels.size());
+    EXPECT_LE(law.table.speedsMps.size(), 16U);
+    EXPECT_TRUE(std::ranges::is_sorted(law.table.speedsMps));
+    EXPECT_EQ(law.table.speedsMps.size(), law.table.logLevels.size());
 }
 
 }  // namespace

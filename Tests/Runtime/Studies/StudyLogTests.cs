@@ -138,6 +138,12 @@ namespace HaptoFlow.Tests
                 .Message.Contains("name a folder that can be written to"));
         }
 
+        [TestCase("a\0b")]
+        [TestCase("")]
+        public void AFolderThatIsNoPathIsRefused(string path) => Assert.That(
+            () => StudyLog.Open(path, StudyFolder.Description(), folder.Files),
+            Throws.TypeOf<StudyException>().With.Message.Contains("settings' folder"));
+
         [Test]
         public void AFileInThePlaceOfTheFolderIsRefusedByTheRealDiskToo()
         {

@@ -16,7 +16,7 @@ _EXAMPLES = """examples:
   haptoflow-training study validate --out Training/results/study-validation.json --page Documentation~/study-analysis.md
   haptoflow-training study validate --studies 20 --simulations 100 --out first-look.json
 
-About fifteen minutes of one core.
+About ten minutes of one core.
 """
 
 

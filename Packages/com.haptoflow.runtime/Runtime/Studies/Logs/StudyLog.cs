@@ -73,6 +73,10 @@ namespace HaptoFlow.Studies
         {
             try
             {
+                if (folder.Length == 0)
+                {
+                    throw new ArgumentException("the folder of the logs has no name");
+                }
                 string stem = $"{description.Plan.Kind.Name}-P{description.Plan.Participant:00}-";
                 List<string> tables = FilesOf(files, folder, stem, ".csv");
                 List<string> sidecars = FilesOf(files, folder, stem, ".json");
@@ -86,7 +90,7 @@ namespace HaptoFlow.Studies
                     ? Again(files, sessions[0], description)
                     : Begin(files, Path.Combine(folder, stem + NewSession() + ".csv"), description);
             }
-            catch (Exception error) when (IsOfDisk(error))
+            catch (Exception error) when (IsOfDisk(error) || IsOfPath(error))
             {
                 throw new StudyException(
                     $"{folder}: {error.Message}; name a folder that can be written to in the settings' folder", error);
@@ -257,6 +261,9 @@ namespace HaptoFlow.Studies
         private static string SidecarOf(string path) => Path.ChangeExtension(path, ".json");
 
         private static string NewSession() => Guid.NewGuid().ToString("N").Substring(0, 8);
+
+        private static bool IsOfPath(Exception error) =>
+            error is ArgumentException || error is NotSupportedException;
 
         private static bool IsOfDisk(Exception error) => error is IOException || error is UnauthorizedAccessException;
     }

@@ -32,7 +32,7 @@ namespace HaptoFlow.Studies
         /// <summary>What is led; null until it is known.</summary>
         public StudySession? Session { get; set; }
 
-        /// <summary>Whose study begins next, 1 to 999: chosen by buttons as long as there is no session.</summary>
+        /// <summary>Whose study begins next, 1 to 999: chosen by buttons while no session is under way.</summary>
         public int Participant { get; set; } = 1;
 
         /// <summary>Begins the study for a participant; null where that is done elsewhere.</summary>
@@ -69,7 +69,7 @@ namespace HaptoFlow.Studies
                 GUI.Label(new Rect(Margin, top, Width, LineHeight), line);
                 top += LineHeight;
             }
-            if (Session == null)
+            if (Session == null || Session.Phase == StudyPhase.Finished)
             {
                 DrawChoice(top);
             }
@@ -123,7 +123,7 @@ namespace HaptoFlow.Studies
                     WhereOf(Session));
                 lines.Add(StateOf(Session));
             }
-            else
+            if (Session == null || Session.Phase == StudyPhase.Finished)
             {
                 lines.Add($"participant P{Participant:00}: choose the number and press Begin");
             }
