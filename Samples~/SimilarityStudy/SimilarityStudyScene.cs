@@ -8,8 +8,8 @@ using UnityEngine;
 
 namespace HaptoFlow.Samples.SimilarityStudy
 {
-    /// <summary>Builds the study when it wakes: two grey objects side by side, a pen, a panel for the answer, a view for
-    /// the operator. It loads and measures every method's model, waits for the alignment and the operator, and then
+    /// <summary>Builds the study when it wakes: two grey objects side by side, a pen, a panel for the answer, a view
+    /// for the operator. It loads and measures every method's model, waits for the alignment and the operator, and then
     /// leads one participant through the plan.</summary>
     [RequireComponent(typeof(PipelineMaterial))]
     public sealed class SimilarityStudyScene : MonoBehaviour
@@ -21,7 +21,7 @@ namespace HaptoFlow.Samples.SimilarityStudy
 
         private readonly PoseInterval poseInterval = new PoseInterval();
 
-        [SerializeField, Tooltip("The materials, the methods and the set-up.")]
+        [SerializeField, Tooltip("The materials, the methods and the set-up stand there.")]
         private SimilarityStudySettings? settings;
 
         [SerializeField]
@@ -200,8 +200,8 @@ namespace HaptoFlow.Samples.SimilarityStudy
             if (problem != null)
             {
                 Session!.PauseHere();
-                Operator.Problem = $"method \"{method}\": {problem}; start the application again, the session goes on " +
-                    "with this trial";
+                Operator.Problem = $"method \"{method}\": {problem}; start the application again, the session goes " +
+                    "on with this trial";
             }
         }
 

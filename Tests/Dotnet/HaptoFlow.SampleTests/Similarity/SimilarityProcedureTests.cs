@@ -76,7 +76,8 @@ namespace HaptoFlow.SampleTests.Similarity
             foreach (StudyMethod method in settings.Methods)
             {
                 string hash = Convert.ToHexString(System.Security.Cryptography.SHA256.HashData(method.Model!.File));
-                Assert.That(sidecar, Does.Contain(hash.ToLowerInvariant()).And.Contain(method.Model.name + ".haptoflow"));
+                Assert.That(sidecar, Does.Contain(hash.ToLowerInvariant()));
+                Assert.That(sidecar, Does.Contain(method.Model.name + ".haptoflow"));
             }
             Assert.That(Directory.GetFiles(folder), Has.Length.EqualTo(2));
             Assert.That(Log.Lines.Where(line => line.Type != LogType.Log), Is.Empty);
@@ -361,7 +362,8 @@ namespace HaptoFlow.SampleTests.Similarity
             {
                 for (int step = 0; step <= 40; ++step)
                 {
-                    PointAt(scene.View!, Vector3.Lerp(Corner(frame, corner), Corner(frame, (corner + 1) % 4), step / 40f));
+                    Vector3 to = Corner(frame, (corner + 1) % 4);
+                    PointAt(scene.View!, Vector3.Lerp(Corner(frame, corner), to, step / 40f));
                     PlayFor(0.02);
                 }
             }
@@ -376,7 +378,8 @@ namespace HaptoFlow.SampleTests.Similarity
                 .Concat(FindAll<Transform>().Select(each => each.name));
             foreach (string text in seen)
             {
-                Assert.That(words.Where(word => text.Contains(word, StringComparison.OrdinalIgnoreCase)), Is.Empty, text);
+                Assert.That(words.Where(word => text.Contains(word, StringComparison.OrdinalIgnoreCase)), Is.Empty,
+                    text);
             }
             string Look(StudyObject each) => $"{each.Renderer.material.color} {each.Renderer.material.mainTexture} " +
                 $"{each.Renderer.transform.lossyScale}";
