@@ -8,7 +8,8 @@ using HaptoFlow.Studies;
 
 namespace HaptoFlow.Samples.SimilarityStudy
 {
-    /// <summary>One delay for all methods: that of the slowest. The faster ones are delayed by what is missing.</summary>
+    /// <summary>One delay for all methods: that of the slowest. The faster ones are delayed by what is missing.
+    /// </summary>
     public sealed class EqualDelay
     {
         /// <summary>Above the slowest method, so that a session that goes on after an interruption, and is measured

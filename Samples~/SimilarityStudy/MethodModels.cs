@@ -124,8 +124,8 @@ namespace HaptoFlow.Samples.SimilarityStudy
             {
                 if (!model.Labels.Contains(label, StringComparer.OrdinalIgnoreCase))
                 {
-                    throw new StudyException($"material \"{material.Name}\": the model of method \"{method.Name}\" has no " +
-                        $"label \"{label}\"; its labels are {string.Join(", ", model.Labels)}");
+                    throw new StudyException($"material \"{material.Name}\": the model of method \"{method.Name}\" " +
+                        $"has no label \"{label}\"; its labels are {string.Join(", ", model.Labels)}");
                 }
             }
             return true;
@@ -151,8 +151,9 @@ namespace HaptoFlow.Samples.SimilarityStudy
                 string key = Hash.Sha256(each.Model!.File) + tier;
                 if (known.TryGetValue(key, out string other))
                 {
-                    throw new StudyException($"the methods \"{other}\" and \"{each.Name}\" are the same tier \"{tier}\" of " +
-                        "the same model; leave one out, or choose another quality");
+                    throw new StudyException(
+                        $"the methods \"{other}\" and \"{each.Name}\" are the same tier \"{tier}\" of the same model; " +
+                        "leave one out, or choose another quality");
                 }
                 known.Add(key, each.Name);
             }

@@ -34,8 +34,8 @@ namespace HaptoFlow.Samples.SimilarityStudy
 
         /// <summary>Which corners are touched.</summary>
         /// <param name="size">Of the sample, in metres.</param>
-        /// <param name="hasPlate">A plate lies under the virtual object: a pen's measured force decides what it touches.
-        /// </param>
+        /// <param name="hasPlate">A plate lies under the virtual object: a pen's measured force decides what it
+        /// touches.</param>
         public void SetSample(Vector3 size, bool hasPlate)
         {
             forceDecides = hasPlate;

@@ -28,6 +28,7 @@ namespace HaptoFlow.Samples.SimilarityStudy
     {
         private StudySession session = null!;
         private TrialParts parts = null!;
+        private HapticStylus pen = null!;
         private TrialContact contact = null!;
         private double stageSeconds;
         private double realSeconds;
@@ -43,7 +44,7 @@ namespace HaptoFlow.Samples.SimilarityStudy
             var procedure = new GameObject("Procedure").AddComponent<SimilarityProcedure>();
             procedure.session = session;
             procedure.parts = parts;
-            procedure.contact = new TrialContact(parts.Pen, parts.Virtual.Surface);
+            procedure.Count(parts.Pen);
             session.Changed += procedure.OnChanged;
             parts.Panel.Confirmed += procedure.OnConfirmed;
             procedure.OnChanged(session);
@@ -63,7 +64,7 @@ namespace HaptoFlow.Samples.SimilarityStudy
             }
             if (Stage == TrialStage.RealEdges)
             {
-                parts.Real.Trace(parts.Pen);
+                parts.Real.Trace(pen);
                 if (parts.Real.Tracing.IsComplete)
                 {
                     realSeconds = session.ElapsedSeconds - stageSeconds;
@@ -72,7 +73,7 @@ namespace HaptoFlow.Samples.SimilarityStudy
             }
             else if (Stage == TrialStage.VirtualEdges)
             {
-                parts.Virtual.Trace(parts.Pen);
+                parts.Virtual.Trace(pen);
                 if (parts.Virtual.Tracing.IsComplete)
                 {
                     virtualSeconds = session.ElapsedSeconds - stageSeconds;
@@ -111,11 +112,22 @@ namespace HaptoFlow.Samples.SimilarityStudy
         private void Begin(PlannedTrial trial)
         {
             parts.Panel.Close();
+            if (!ReferenceEquals(pen, parts.Pen))
+            {
+                contact.Dispose();
+                Count(parts.Pen);
+            }
             parts.Play(trial);
             parts.Real.Tracing.Begin();
             parts.Virtual.Tracing.Begin();
             isNew = true;
             Enter(TrialStage.RealEdges);
+        }
+
+        private void Count(HapticStylus used)
+        {
+            pen = used;
+            contact = new TrialContact(used, parts.Virtual.Surface);
         }
 
         private void Enter(TrialStage stage)

@@ -8,8 +8,8 @@ using UnityEngine;
 
 namespace HaptoFlow.Samples.SimilarityStudy
 {
-    /// <summary>Builds the study when it wakes: two grey objects side by side, a pen, a panel for the answer, a view for
-    /// the operator. It loads and measures every method's model, waits for the alignment and the operator, and then
+    /// <summary>Builds the study when it wakes: two grey objects side by side, a pen, a panel for the answer, a view
+    /// for the operator. It loads and measures every method's model, waits for the alignment and the operator, and then
     /// leads one participant through the plan.</summary>
     [RequireComponent(typeof(PipelineMaterial))]
     public sealed class SimilarityStudyScene : MonoBehaviour
@@ -21,7 +21,7 @@ namespace HaptoFlow.Samples.SimilarityStudy
 
         private readonly PoseInterval poseInterval = new PoseInterval();
 
-        [SerializeField, Tooltip("The materials, the methods and the set-up.")]
+        [SerializeField, Tooltip("The materials, the methods and the set-up stand there.")]
         private SimilarityStudySettings? settings;
 
         [SerializeField]
@@ -96,7 +96,7 @@ namespace HaptoFlow.Samples.SimilarityStudy
         /// <summary>Everything is loaded, measured and aligned: <see cref="Begin"/> can be called.</summary>
         public bool CanBegin => !isRefused && Session == null && WhatIsMissing() == null;
 
-        /// <summary>The pen in use: the tracked one, else the mouse's.</summary>
+        /// <summary>The pen in use: the tracked one; the mouse's as long as none was ever tracked.</summary>
         public HapticStylus Pen => rig.Pen;
 
         /// <summary>Opens the participant's log, anew or where it was interrupted, and waits for the operator's first
@@ -118,7 +118,7 @@ namespace HaptoFlow.Samples.SimilarityStudy
                 }
                 StudyLog log = OpenLog(participant);
                 parts = new TrialParts(
-                    settings!, models!, Delay!, Real, Virtual, Pen, output, panel, instruction);
+                    settings!, models!, Delay!, Real, Virtual, rig, output, panel, instruction);
                 Session = new StudySession(log);
                 Procedure = SimilarityProcedure.Create(Session, parts);
                 Operator.Session = Session;
@@ -141,6 +141,7 @@ namespace HaptoFlow.Samples.SimilarityStudy
             Quaternion facing = view!.transform.rotation;
             rig = StudyRig.Create(view, settings != null ? settings.PenHand : PenHand.Right);
             MakeOutput();
+            rig.PlayOn(output);
             instruction = Build.Text("Please wait.", InstructionPlace, facing);
             panel = RatingPanel.Create(PanelPlace, facing);
             RatingButtons.Create(panel, settings != null ? settings.PenHand : PenHand.Right);
@@ -199,8 +200,8 @@ namespace HaptoFlow.Samples.SimilarityStudy
             if (problem != null)
             {
                 Session!.PauseHere();
-                Operator.Problem = $"method \"{method}\": {problem}; start the application again, the session goes on " +
-                    "with this trial";
+                Operator.Problem = $"method \"{method}\": {problem}; start the application again, the session goes " +
+                    "on with this trial";
             }
         }
 
@@ -301,7 +302,7 @@ namespace HaptoFlow.Samples.SimilarityStudy
         {
             if (Session == null)
             {
-                return $"{WhatIsMissing() ?? "ready: press Begin"}\n{Alignment.Text}";
+                return $"{WhatIsMissing() ?? "ready: press Begin"}\npen: {Pen.name}\n{Alignment.Text}";
             }
             PlannedTrial? trial = Session.Trial;
             return trial == null

@@ -7,75 +7,82 @@ using UnityEngine;
 
 namespace HaptoFlow.Samples.SimilarityStudy
 {
-    /// <summary>A similarity study: which materials, which methods, how the samples are mounted, what the set-up adds to
-    /// the delay. One asset for all participants of a study.</summary>
+    /// <summary>A similarity study: which materials, which methods, how the samples are mounted, what the set-up adds
+    /// to the delay. One asset for all participants of a study.</summary>
     [CreateAssetMenu(menuName = "HaptoFlow/Similarity Study Settings", fileName = "SimilarityStudySettings")]
     public sealed class SimilarityStudySettings : ScriptableObject
     {
-        [SerializeField, Tooltip("The real samples, any number of them. The first one is used for practice.")]
+        [SerializeField, Tooltip("These are the real samples, any number of them. The first one is used for practice.")]
         private StudyMaterial[] materials = Array.Empty<StudyMaterial>();
 
-        [SerializeField, Tooltip("What generates the vibration, any number of them.")]
+        [SerializeField, Tooltip("These generate the vibration. There may be any number of them.")]
         private StudyMethod[] methods = Array.Empty<StudyMethod>();
 
-        [SerializeField, Tooltip("Shuffles the order; one number for the whole study. Every log holds it.")]
+        [SerializeField, Tooltip("The order of materials and methods follows from this number and the participant's. " +
+            "It is the same for all participants of a study.")]
         private ulong seed = 1;
 
-        [SerializeField, Tooltip("Where the logs go; empty for the folder Studies in the application's persistent data.")]
+        [SerializeField, Tooltip("The logs go here. When it is empty, they go to the folder Studies in the player's " +
+            "persistent data.")]
         private string folder = "";
 
-        [SerializeField, Tooltip("Width, height and depth of the mounted samples, in metres.")]
+        [SerializeField, Tooltip("This is how wide, high and deep the mounted samples are, in metres.")]
         private Vector3 sampleMetres = new Vector3(0.2f, 0.01f, 0.15f);
 
-        [SerializeField, Tooltip("From the middle of the real sample to that of the virtual one, in metres.")]
+        [SerializeField, Tooltip("The virtual object lies this far from the real sample, from middle to middle, in " +
+            "metres.")]
         private Vector3 virtualMetres = new Vector3(0.26f, 0f, 0f);
 
-        [SerializeField, Range(0.002f, 0.03f), Tooltip("A tip no farther from an edge traces it, in metres.")]
+        [SerializeField, Range(0.002f, 0.03f), Tooltip("A tip that is no farther from an edge than this traces it, " +
+            "in metres.")]
         private float edgeToleranceMetres = 0.012f;
 
-        [SerializeField, Range(0.1f, 1f), Tooltip("The share of each edge that has to be traced.")]
+        [SerializeField, Range(0.1f, 1f), Tooltip("This share of each edge has to be traced.")]
         private float edgeShare = 0.9f;
 
-        [SerializeField, Range(0f, 0.01f), Tooltip("The tip counts as touching the real sample from this height on, in " +
-            "metres: what the tracking may be off.")]
+        [SerializeField, Range(0f, 0.01f), Tooltip("The tip counts as touching the real sample from this height on, " +
+            "in metres. It makes up for what the tracking is off.")]
         private float realHeightMetres = 0.004f;
 
-        [SerializeField, Tooltip("A blank plate lies under the virtual object: the measured tip force decides what a " +
-            "pen touches, where it measures one.")]
+        [SerializeField, Tooltip("A blank plate lies under the virtual object. The force that a pen measures then " +
+            "decides what it touches.")]
         private bool plateUnderVirtual = true;
 
         [SerializeField, Tooltip("The study begins only after the virtual object was aligned with the real sample.")]
         private bool needsAlignment = true;
 
-        [SerializeField, Tooltip("The headset in your words, for the record.")]
+        [SerializeField, Tooltip("The log calls the headset this.")]
         private string headset = "";
 
-        [SerializeField, Tooltip("The hand that holds the pen.")]
+        [SerializeField, Tooltip("This hand holds the pen. The other one answers.")]
         private PenHand penHand = PenHand.Right;
 
-        [SerializeField, Min(0), Tooltip("The audio channel of the actuator, from 0. Every other channel gets the " +
-            "masking noise.")]
+        [SerializeField, Min(0), Tooltip("The actuator is wired to this channel of the audio device, counted from 0. " +
+            "Every other channel gets the masking noise.")]
         private int hapticChannel = 1;
 
-        [SerializeField, Tooltip("The noise in the headphones.")]
+        [SerializeField, Tooltip("The headphones play this noise.")]
         private NoiseColour noiseColour = NoiseColour.White;
 
         [SerializeField, Range(MaskingNoise.LowestDecibels, MaskingNoise.HighestDecibels)]
-        [Tooltip("The root mean square of the noise, in dB of full scale.")]
+        [Tooltip("The noise has this root mean square, in dB of full scale. The actuator must not be heard.")]
         private float noiseDecibels = -30f;
 
-        [SerializeField, Min(0f), Tooltip("The delay in all that every method gets, in ms. 0 takes that of the slowest " +
-            "method, measured before each session; enter what was measured once so that all participants have the same.")]
+        [SerializeField, Min(0f), Tooltip("Every method gets this delay in all, in ms. 0 takes that of the slowest " +
+            "method, measured before each session. Enter what was measured once, so that all participants have the " +
+            "same.")]
         private float equalDelayMilliseconds;
 
-        [SerializeField, Min(0f), Tooltip("From the audio callback to the hand, in ms: buffers of the audio device, " +
-            "amplifier, actuator. Software cannot measure it.")]
+        [SerializeField, Min(0f), Tooltip("This passes from the audio callback to the hand, in ms: in the buffers of " +
+            "the audio device, the amplifier and the actuator. Software cannot measure it.")]
         private float deviceDelayMilliseconds = 20f;
 
-        [SerializeField, Tooltip("Where the device delay is known from.")]
+        [SerializeField, Tooltip("Measured is what an oscilloscope or an accelerometer showed on this set-up. Logs " +
+            "and reports name the source.")]
         private DeviceDelaySource deviceDelaySource = DeviceDelaySource.Estimated;
 
-        [SerializeField, Tooltip("How the device delay was measured, or what the estimate rests on.")]
+        [SerializeField, Tooltip("This says how and when the device delay was measured, or what the estimate rests " +
+            "on.")]
         private string deviceDelayNote = "assumed by the sample, not measured on this set-up";
 
         [SerializeField, Tooltip("Nobody takes part: this is a rehearsal, and logs and reports say so.")]
@@ -198,11 +205,11 @@ namespace HaptoFlow.Samples.SimilarityStudy
             Require(smallest >= 0.02f && sampleMetres.y > 0f, "Sample Metres",
                 "expected a width and depth of at least 0.02 and a height above 0");
             Require(edgeToleranceMetres > 0f && edgeToleranceMetres <= 0.25f * smallest, "Edge Tolerance Metres",
-                "expected more than 0 and at most a quarter of the sample's shorter side, so that the edges stay apart");
+                "expected more than 0 and at most a quarter of the sample's shorter side, so that edges stay apart");
             Require(edgeShare > 0f && edgeShare <= 1f, "Edge Share", "expected more than 0 and at most 1");
             bool isApart = Mathf.Abs(virtualMetres.x) > sampleMetres.x || Mathf.Abs(virtualMetres.z) > sampleMetres.z;
-            Require(isApart, "Virtual Metres", "the virtual object would overlap the real sample; move it aside by more " +
-                "than the sample's width or depth");
+            Require(isApart, "Virtual Metres", "the virtual object would overlap the real sample; move it aside by " +
+                "more than the sample's width or depth");
             Require(hapticChannel >= 0, "Haptic Channel", "expected a channel from 0");
         }
 

@@ -10,16 +10,16 @@ namespace HaptoFlow.Samples.SimilarityStudy
     [Serializable]
     public sealed class StudyMaterial
     {
-        [SerializeField, Tooltip("The name under which logs and reports list it; the operator mounts the sample of this " +
-            "name.")]
+        [SerializeField, Tooltip("Logs and reports list the material under this name, and the operator mounts the " +
+            "sample of this name.")]
         private string name = "";
 
-        [SerializeField, Tooltip("A label of the models: its texture is felt, without impacts and edges. Counts where " +
-            "Material is empty.")]
+        [SerializeField, Tooltip("This label of the models is felt, its texture alone. It counts where Material is " +
+            "empty.")]
         private string label = "";
 
-        [SerializeField, Tooltip("A Haptic Material, also one that was learnt from a recording; it is felt as its " +
-            "description says.")]
+        [SerializeField, Tooltip("This Haptic Material is felt as its description says. It may have been learnt from " +
+            "a recording.")]
         private HapticMaterial? material;
 
         /// <summary>For the asset's Inspector.</summary>

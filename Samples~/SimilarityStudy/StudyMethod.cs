@@ -8,14 +8,15 @@ namespace HaptoFlow.Samples.SimilarityStudy
     [Serializable]
     public sealed class StudyMethod
     {
-        [SerializeField, Tooltip("The name under which logs and reports list it, for example ours or DSTN.")]
+        [SerializeField, Tooltip("Logs and reports list the method under this name, for example ours or DSTN.")]
         private string name = "";
 
-        [SerializeField, Tooltip("The .haptoflow file: the package's model, or a baseline that npm run evaluate exports.")]
+        [SerializeField, Tooltip("This .haptoflow file generates: the package's model, or a rival that npm run " +
+            "evaluate exports.")]
         private HapticModelAsset? model;
 
-        [SerializeField, Tooltip("The tier of the model that generates. Auto is refused, since it changes the tier " +
-            "while participants feel it.")]
+        [SerializeField, Tooltip("This tier of the model generates. Auto is refused, since it changes the tier while " +
+            "participants feel it.")]
         private HapticQuality quality = HapticQuality.Standard;
 
         /// <summary>For the asset's Inspector.</summary>

@@ -13,11 +13,11 @@ namespace HaptoFlow.Samples.SimilarityStudy
     {
         private XrPen tracked = null!;
         private MousePen mouse = null!;
+        private bool wasTracked;
 
-        /// <summary>The tracked pen, else the mouse's.</summary>
-        public HapticStylus Pen => IsTracked ? tracked.Stylus! : mouse.Stylus;
-
-        private bool IsTracked => tracked.Stylus != null && tracked.Stylus.gameObject.activeInHierarchy;
+        /// <summary>The tracked pen, also while it is out of sight; the mouse's as long as none was ever tracked.
+        /// </summary>
+        public HapticStylus Pen => wasTracked ? tracked.Stylus! : mouse.Stylus;
 
         /// <summary>The space with its pen.</summary>
         public static StudyRig Create(Camera view, PenHand hand)
@@ -31,17 +31,22 @@ namespace HaptoFlow.Samples.SimilarityStudy
             return rig;
         }
 
-        private void Update()
+        /// <summary>Where both pens are felt.</summary>
+        public void PlayOn(HapticOutput output)
         {
-            // Both at once would both be felt.
-            bool wantsMouse = !IsTracked;
-            if (wantsMouse != mouse.gameObject.activeSelf)
+            tracked.Stylus!.Output = output;
+            mouse.Stylus.Output = output;
+        }
+
+        // A pen that is not tracked has gone to sleep by now.
+        private void LateUpdate()
+        {
+            if (!wasTracked && tracked.Stylus!.gameObject.activeInHierarchy)
             {
-                mouse.gameObject.SetActive(wantsMouse);
+                wasTracked = true;
+                // Both at once would both be felt.
+                mouse.gameObject.SetActive(false);
             }
-#if HAPTOFLOW_INPUT_SYSTEM && ENABLE_INPUT_SYSTEM
-            PlaceOnce();
-#endif
         }
 
 #if HAPTOFLOW_INPUT_SYSTEM && ENABLE_INPUT_SYSTEM
@@ -66,8 +71,8 @@ namespace HaptoFlow.Samples.SimilarityStudy
             return action;
         }
 
-        /// <summary>Once the head is tracked, the eyes are put where the scene has its camera.</summary>
-        private void PlaceOnce()
+        // Once the head is tracked, the eyes are put where the scene has its camera.
+        private void Update()
         {
             if (placed || isTracked.ReadValue<float>() < 0.5f)
             {

@@ -13,19 +13,20 @@ namespace HaptoFlow.Samples.SimilarityStudy
     public sealed class TrialParts : IDisposable
     {
         private readonly MethodModels models;
+        private readonly StudyRig rig;
         private readonly Dictionary<string, HapticMaterial> materials;
         private readonly List<HapticMaterial> made = new List<HapticMaterial>();
 
         /// <param name="settings">Whose materials are felt.</param>
         /// <param name="models">Ready to be used.</param>
         public TrialParts(SimilarityStudySettings settings, MethodModels models, EqualDelay delay, StudyObject real,
-            StudyObject @virtual, HapticStylus pen, HapticOutput output, RatingPanel panel, TextMesh instruction)
+            StudyObject @virtual, StudyRig rig, HapticOutput output, RatingPanel panel, TextMesh instruction)
         {
             this.models = models;
             Delay = delay;
             Real = real;
             Virtual = @virtual;
-            Pen = pen;
+            this.rig = rig;
             Output = output;
             Panel = panel;
             Instruction = instruction;
@@ -41,8 +42,8 @@ namespace HaptoFlow.Samples.SimilarityStudy
         /// <summary>Lies beside it, and is felt.</summary>
         public StudyObject Virtual { get; }
 
-        /// <summary>The participant's.</summary>
-        public HapticStylus Pen { get; }
+        /// <summary>The participant's at present.</summary>
+        public HapticStylus Pen => rig.Pen;
 
         /// <summary>The actuator's.</summary>
         public HapticOutput Output { get; }

@@ -18,7 +18,8 @@ namespace HaptoFlow.Tests
             int count = parts.Length - 1;
             for (int label = 0; label < count; ++label)
             {
-                parts[label + 1] = " " + (count - 1 - label) + parts[label + 1].TrimStart().TrimStart("0123456789".ToCharArray());
+                string rest = parts[label + 1].TrimStart().TrimStart("0123456789".ToCharArray());
+                parts[label + 1] = $" {count - 1 - label}{rest}";
             }
             return string.Join("\"embedding_row\":", parts).Replace("\":  ", "\": ");
         });

@@ -57,8 +57,8 @@ namespace HaptoFlow
             : Model.Header.Tiers[(int)session.Engine.Statistics().Tier].Name;
 
         /// <summary>Styluses feel by this model from their next update on. What sounds meanwhile fades within a block
-        /// and 5 ms while the new model begins, so that nothing clicks; nothing is loaded, and nobody waits. An output by
-        /// the mixer effect has one voice at a time: there, change while nothing is touched.</summary>
+        /// and 5 ms while the new model begins, so that nothing clicks; nothing is loaded, and nobody waits. An output
+        /// by the mixer effect has one voice at a time: there, change while nothing is touched.</summary>
         /// <exception cref="InvalidOperationException">The model is not ready.</exception>
         public void Use()
         {
@@ -86,8 +86,8 @@ namespace HaptoFlow
             return isFelt;
         }
 
-        /// <summary>Measures by how much this model's sound comes after the motion, with a voice that nobody hears: a few
-        /// seconds of one core. The audio device should play as it will later; nothing should be touched meanwhile.
+        /// <summary>Measures by how much this model's sound comes after the motion, with a voice that nobody hears: a
+        /// few seconds of one core. The audio device should play as it will later; nothing should be touched meanwhile.
         /// </summary>
         /// <param name="sampleRateHz">Of the audio device.</param>
         /// <param name="blockFrames">Of the audio device.</param>

@@ -285,6 +285,7 @@ namespace HaptoFlow
             // Nobody is left to be told of a loading that was cancelled.
             reported = true;
             cancellation?.Dispose();
+            closing.Dispose();
         }
 
         private void Watch()

@@ -37,7 +37,8 @@ namespace HaptoFlow.SampleTests.Similarity
                 "Packages", "com.haptoflow.runtime", "Runtime", "Models", "default.haptoflow.meta"));
             string guid = Regex.Match(model, "guid: (\\w{32})").Groups[1].Value;
             Assert.That(Regex.Matches(Asset, "model: .*" + guid), Has.Count.EqualTo(2));
-            Assert.That(Values("quality"), Is.EqualTo(new[] { $"{(int)HapticQuality.Draft}", $"{(int)HapticQuality.Standard}" }));
+            Assert.That(Values("quality"), 
+                Is.EqualTo(new[] { $"{(int)HapticQuality.Draft}", $"{(int)HapticQuality.Standard}" }));
             SimilarityStudySettings settings = Settings(
                 Values("label").Select(label => new StudyMaterial(label, label)),
                 new[] { new StudyMethod("a", DefaultModel.Asset(), HapticQuality.Draft),
@@ -74,11 +75,13 @@ namespace HaptoFlow.SampleTests.Similarity
         }
 
         private static IEnumerable<string> Values(string key) =>
-            Regex.Matches(Asset, @"^    " + key + ": (.*)$", RegexOptions.Multiline).Select(match => match.Groups[1].Value);
+            Regex.Matches(Asset, @"^    " + key + ": (.*)$", RegexOptions.Multiline)
+                .Select(match => match.Groups[1].Value);
 
         private static IEnumerable<string> KeysOfEntries(string list)
         {
-            string text = Regex.Match(Asset, $@"^  {list}:\n((?:  [- ] .*\n)+)", RegexOptions.Multiline).Groups[1].Value;
+            string text = Regex.Match(
+                Asset, $@"^  {list}:\n((?:  [- ] .*\n)+)", RegexOptions.Multiline).Groups[1].Value;
             return Regex.Matches(text, @"^  [- ] (\w+):", RegexOptions.Multiline)
                 .Select(match => match.Groups[1].Value).Distinct();
         }

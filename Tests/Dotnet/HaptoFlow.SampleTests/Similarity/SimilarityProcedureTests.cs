@@ -77,7 +77,8 @@ namespace HaptoFlow.SampleTests.Similarity
             foreach (StudyMethod method in settings.Methods)
             {
                 string hash = Convert.ToHexString(System.Security.Cryptography.SHA256.HashData(method.Model!.File));
-                Assert.That(sidecar, Does.Contain(hash.ToLowerInvariant()).And.Contain(method.Model.name + ".haptoflow"));
+                Assert.That(sidecar, Does.Contain(hash.ToLowerInvariant()));
+                Assert.That(sidecar, Does.Contain(method.Model.name + ".haptoflow"));
             }
             Assert.That(Directory.GetFiles(folder), Has.Length.EqualTo(2));
             Assert.That(Log.Lines.Where(line => line.Type != LogType.Log), Is.Empty);
@@ -141,10 +142,9 @@ namespace HaptoFlow.SampleTests.Similarity
         }
 
         [Test]
-        public void WithoutATrackedPenTheMouseTakesPart()
+        public void AsLongAsNoPenWasTrackedTheMouseTakesPartAndThenThePen()
         {
-            Open(Settings(1, 2));
-            SimulatedInput.SetControl(Right + "isTracked", 0f);
+            Open(Settings(1, 2), hasPen: false);
             Prepare();
             scene.Begin(7);
             scene.Session!.Continue();
@@ -153,8 +153,13 @@ namespace HaptoFlow.SampleTests.Similarity
             AudioDevice.Forget();
             TraceByMouse(scene.Virtual.Frame);
             Assert.That(LoudestFelt(), Is.GreaterThan(Audible));
+            Hold(new Vector3(0f, 0.1f, 0f));
             Answer(3);
-            Assert.That(Rows().Single()["rating"], Is.EqualTo("3"));
+            TraceReal();
+            TraceVirtual();
+            Answer(6);
+            Assert.That(Rows().Select(row => row["rating"]), Is.EqualTo(new[] { "3", "6" }));
+            Assert.That(Rows().Select(row => Number(row, "path_mm")), Has.All.GreaterThan(500.0));
         }
 
         [Test]
@@ -362,7 +367,8 @@ namespace HaptoFlow.SampleTests.Similarity
             {
                 for (int step = 0; step <= 40; ++step)
                 {
-                    PointAt(scene.View!, Vector3.Lerp(Corner(frame, corner), Corner(frame, (corner + 1) % 4), step / 40f));
+                    Vector3 to = Corner(frame, (corner + 1) % 4);
+                    PointAt(scene.View!, Vector3.Lerp(Corner(frame, corner), to, step / 40f));
                     PlayFor(0.02);
                 }
             }
@@ -377,7 +383,8 @@ namespace HaptoFlow.SampleTests.Similarity
                 .Concat(FindAll<Transform>().Select(each => each.name));
             foreach (string text in seen)
             {
-                Assert.That(words.Where(word => text.Contains(word, StringComparison.OrdinalIgnoreCase)), Is.Empty, text);
+                Assert.That(words.Where(word => text.Contains(word, StringComparison.OrdinalIgnoreCase)), Is.Empty,
+                    text);
             }
             string Look(StudyObject each) => $"{each.Renderer.material.color} {each.Renderer.material.mainTexture} " +
                 $"{each.Renderer.transform.lossyScale}";

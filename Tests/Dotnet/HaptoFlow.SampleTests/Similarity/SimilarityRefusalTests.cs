@@ -58,7 +58,8 @@ namespace HaptoFlow.SampleTests.Similarity
         {
             SimilarityStudySettings settings = Settings(1, 2);
             settings.Compare(settings.Materials.Append(new StudyMaterial("Hemp cloth", "hemp")), settings.Methods);
-            Refused(settings, "material \"Hemp cloth\"", "method \"Ours quick\" has no label \"hemp\"", "wood, plywood");
+            Refused(settings, "material \"Hemp cloth\"", "method \"Ours quick\" has no label \"hemp\"",
+                "wood, plywood");
         }
 
         [Test]
@@ -74,7 +75,8 @@ namespace HaptoFlow.SampleTests.Similarity
         {
             HapticMaterial denim =
                 HapticMaterial.Create(MaterialText.OfLabel(DefaultModel.Asset().File, "glass"), "cotton");
-            SimilarityStudySettings settings = Settings(new[] { new StudyMaterial("Denim", "", denim) }, Settings(1, 2).Methods);
+            SimilarityStudySettings settings = Settings(
+                new[] { new StudyMaterial("Denim", "", denim) }, Settings(1, 2).Methods);
             Begin(settings);
             scene.Session!.Continue();
             TraceReal();
@@ -130,7 +132,8 @@ namespace HaptoFlow.SampleTests.Similarity
             measure = (_, _) => Task.FromException<double>(new InvalidOperationException("no voice is free"));
             Open(Settings(1, 2));
             Prepare();
-            Assert.That(scene.Problem, Does.Contain("method \"Ours quick\": its delay could not be measured: no voice"));
+            Assert.That(scene.Problem, 
+                Does.Contain("method \"Ours quick\": its delay could not be measured: no voice"));
         }
 
         [Test]
@@ -162,8 +165,8 @@ namespace HaptoFlow.SampleTests.Similarity
             Assert.That(scene.Delay!.Milliseconds, Is.EqualTo(planned));
             TakePart();
             Assert.That(Rows().Select(row => Number(row, "delay_ms")), Is.All.EqualTo(planned));
-            Assert.That(Rows().Where(row => row["method"] == "Ours quick").Select(row => row["system_delay_ms"]).Distinct()
-                .Count(), Is.EqualTo(2));
+            Assert.That(Rows().Where(row => row["method"] == "Ours quick").Select(row => row["system_delay_ms"])
+                .Distinct().Count(), Is.EqualTo(2));
         }
 
         [Test]
@@ -208,7 +211,7 @@ namespace HaptoFlow.SampleTests.Similarity
             Assert.That(Directory.Exists(folder), Is.False, "nothing was begun");
         }
 
-        private static void Set(SimilarityStudySettings settings, string field, object value) => typeof(SimilarityStudySettings)
+        private static void Set(SimilarityStudySettings settings, string field, object value) => settings.GetType()
             .GetField(field, System.Reflection.BindingFlags.NonPublic | System.Reflection.BindingFlags.Instance)!
             .SetValue(settings, value);
     }

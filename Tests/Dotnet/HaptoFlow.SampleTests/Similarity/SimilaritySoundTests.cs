@@ -53,8 +53,8 @@ namespace HaptoFlow.SampleTests.Similarity
         [Test]
         public void ATrialSoundsAsStrongAsItsModelMakesItsMaterialInAnyOtherScene()
         {
-            SimilarityStudySettings settings = Settings(Two.Select(label => new StudyMaterial("Sample of " + label, label)),
-                Settings(1, 2).Methods);
+            SimilarityStudySettings settings = Settings(
+                Two.Select(label => new StudyMaterial("Sample of " + label, label)), Settings(1, 2).Methods);
             var expected = new Dictionary<string, double>();
             foreach (StudyMethod method in settings.Methods)
             {

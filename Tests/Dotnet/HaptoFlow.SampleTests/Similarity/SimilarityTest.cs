@@ -83,7 +83,7 @@ namespace HaptoFlow.SampleTests.Similarity
         }
 
         /// <summary>The scene as its file has it.</summary>
-        private protected void Open(SimilarityStudySettings? settings, string saveName = "")
+        private protected void Open(SimilarityStudySettings? settings, string saveName = "", bool hasPen = true)
         {
             Camera camera = CameraOf(new SceneFile(SampleFile("SimilarityStudy", "SimilarityStudy.unity")));
             // As in the scene file, the camera hears.
@@ -99,7 +99,10 @@ namespace HaptoFlow.SampleTests.Similarity
                 bootstrap.SaveName = saveName;
                 bootstrap.MeasureInference = measure ?? bootstrap.MeasureInference;
             });
-            Hold(new Vector3(0f, 0.1f, 0f));
+            if (hasPen)
+            {
+                Hold(new Vector3(0f, 0.1f, 0f));
+            }
         }
 
         /// <summary>Until the models are there, or the study refused.</summary>
