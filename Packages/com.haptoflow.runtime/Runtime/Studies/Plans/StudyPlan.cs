@@ -44,8 +44,8 @@ namespace HaptoFlow.Studies
         public IReadOnlyList<PlannedTrial> Trials => trials;
 
         /// <summary>The latency study: four practice trials, then every level under one condition and every level under
-        /// the other. Participants with an odd number begin with <see cref="TurnOn"/>. Each level stands equally often at
-        /// each place of each condition once every row of the levels' design was used. A rest comes before the main
+        /// the other. Participants with an odd number begin with <see cref="TurnOn"/>. Each level stands equally often
+        /// at each place of each condition once every row of the levels' design was used. A rest comes before the main
         /// trials and between the conditions.</summary>
         /// <param name="participant">From 1.</param>
         /// <param name="levelsMilliseconds">Delays in all, each once, above 0.</param>
@@ -81,10 +81,10 @@ namespace HaptoFlow.Studies
         }
 
         /// <summary>The similarity study: every method on the first material for practice, then each material with all
-        /// methods one after another. Materials change places with each participant. The rows of methods move on once the
-        /// participants have used every order of materials, so that each method comes equally often at each place of each
-        /// material. A rest comes before the main trials and after every <see cref="TrialsBetweenRests"/> of them.
-        /// </summary>
+        /// methods one after another. Materials change places with each participant. The rows of methods move on once
+        /// the participants have used every order of materials, so that each method comes equally often at each place
+        /// of each material. A rest comes before the main trials and after every <see cref="TrialsBetweenRests"/> of
+        /// them.</summary>
         /// <param name="participant">From 1.</param>
         /// <param name="materials">Names, each once, without comma, quotation mark or line break.</param>
         /// <param name="methods">As the materials.</param>
