@@ -62,11 +62,11 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser], su
 
 
 def _run(options: argparse.Namespace) -> int:
-    for place in (options.results, options.chart):
-        if place is not None:
-            check_writable(place)
     if options.page is not None:
         read_measured_page(options.page)
+    for place in (options.results, options.chart, options.page):
+        if place is not None:
+            check_writable(place)
     # One core is what the study's seconds are stated for.
     torch.set_num_threads(1)
     model = FileModel(read_model_file(options.model))
