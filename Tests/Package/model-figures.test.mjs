@@ -15,6 +15,7 @@ const pages = {
   'Documentation~/accuracy-and-time.md': 'npm run evaluate',
   'Documentation~/actuator-wiring.md': 'haptoflow-training measure-full-scale --page',
   'Documentation~/benchmarks.md': 'npm run bench -- --publish',
+  'Documentation~/delay-budget.md': 'haptoflow-training study budget --page',
   'Documentation~/own-materials.md': 'haptoflow-training few-shot --page',
   'Documentation~/stability.md': 'npm run test:soak -- --publish',
   'Training/results/default/README.md': 'npm run evaluate, haptoflow-training discriminate, and the words by hand',

@@ -9,8 +9,8 @@ import { repositoryFiles } from '../../scripts/lint/files.mjs';
 const read = (...parts) => readFileSync(inRepository(...parts), 'utf8');
 const pageNames = readdirSync(inRepository('Documentation~')).filter((name) => name.endsWith('.md'));
 const pages = pageNames.map((name) => ({ name, text: read('Documentation~', name) }));
-const ofUnity = ['index', 'installation', 'first-scene', 'components', 'mx-ink-quest3', 'actuator-wiring', 'authoring', 'api-tour', 'performance', 'troubleshooting'];
-const unityPages = [...pages, ...['StylusTracing', 'TextureGallery', 'Workshop'].map((sample) => ({ name: sample, text: read('Samples~', sample, 'README.md') }))]
+const ofUnity = ['index', 'installation', 'first-scene', 'components', 'mx-ink-quest3', 'actuator-wiring', 'authoring', 'api-tour', 'performance', 'troubleshooting', 'latency-study', 'similarity-study'];
+const unityPages = [...pages, ...['StylusTracing', 'TextureGallery', 'Workshop', 'LatencyStudy', 'SimilarityStudy'].map((sample) => ({ name: sample, text: read('Samples~', sample, 'README.md') }))]
   .filter(({ name }) => ofUnity.includes(path.basename(name, '.md')) || !name.endsWith('.md'));
 const files = await repositoryFiles();
 const sources = files
@@ -40,7 +40,8 @@ test('troubleshooting has every message that the runtime says', () => {
 
 test('every menu that a page names is a menu of the package', () => {
   const menus = sources.flatMap(({ text }) => [...text.matchAll(/"((?:Window|GameObject)\/HaptoFlow\/[^"]+)"/g)].map(([, menu]) => menu.replace(/ _?[%#&].*$/, '')));
-  const assets = sources.flatMap(({ text }) => [...text.matchAll(/menuName = "([^"]+)"/g)].map(([, menu]) => `Assets/Create/${menu}`));
+  const samples = files.filter((name) => name.startsWith('Samples~/') && name.endsWith('.cs')).map((name) => ({ text: read(name) }));
+  const assets = [...sources, ...samples].flatMap(({ text }) => [...text.matchAll(/menuName = "([^"]+)"/g)].map(([, menu]) => `Assets/Create/${menu}`));
   const known = [...menus, ...assets];
   for (const { name, text } of unityPages) {
     const words = text.replace(/\s+/g, ' ');

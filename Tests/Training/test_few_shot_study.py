@@ -9,6 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from haptoflow_training.cli import main
 from haptoflow_training.evaluation.few_shot_cases import SECONDS, FewShotCase, make_case, study_materials
 from haptoflow_training.evaluation.few_shot_figures import condition_figures, summarised
 from haptoflow_training.evaluation.few_shot_report import (
@@ -156,6 +157,31 @@ def test_a_whole_study_of_one_material_measures_every_row(tmp_path: Path) -> Non
     assert all(len(cells) == 6 for cells in made["rows"].values())
     assert all(np.isfinite(value) for cells in made["rows"].values() for each in cells for value in each.values())
     assert (tmp_path / "unseen-01.haptomaterial").exists()
+
+
+@pytest.mark.parametrize(
+    ("option", "name", "said"),
+    [
+        ("--page", "gone.md", "gone.md: cannot be read"),
+        ("--page", "plain.md", "plain.md: the page has no `<!-- measured: begin"),
+        ("--page", "folder", "folder: cannot be read"),
+        ("--results", "plain.md/few-shot.json", "few-shot.json: cannot be written (File exists)"),
+        ("--results", "folder", "folder: cannot be written (Is a directory)"),
+        ("--chart", "plain.md/few-shot.png", "few-shot.png: cannot be written (File exists)"),
+    ],
+)
+def test_a_place_that_cannot_be_written_is_said_in_one_line_before_anything_is_fitted(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], option: str, name: str, said: str
+) -> None:
+    (tmp_path / "plain.md").write_text("# Page\n", encoding="utf-8")
+    (tmp_path / "folder").mkdir()
+    work = tmp_path / "work"
+    words = {"--model": DEFAULT, "--results": tmp_path / "few-shot.json", "--work": work} | {option: tmp_path / name}
+    assert main(["few-shot", *(str(word) for pair in words.items() for word in pair)]) == 3
+    (line,) = capsys.readouterr().err.splitlines()
+    assert said in line
+    assert not work.exists() and not (tmp_path / "few-shot.json").exists()
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["folder", "plain.md"]
 
 
 def test_the_published_table_is_that_of_the_published_results() -> None:

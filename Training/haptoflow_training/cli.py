@@ -29,6 +29,7 @@ _COMMANDS: dict[str, str] = {
     "evaluate": "accuracy over time: every row of the plan, measured through the engine",
     "discriminate": "check that a classifier trained on recordings names what the engine renders",
     "measure-wave-vectors": "count the ribs that are found, missed and made up from seconds of strokes",
+    "study": "the two user studies: simulate, check, merge and analyse their logs",
     "measure-full-scale": "which acceleration should be +-1, from recorded strokes on every label",
 }
 

@@ -6,6 +6,7 @@ using System.Reflection;
 using System.Text.Json;
 using System.Text.RegularExpressions;
 using HaptoFlow.Editor;
+using HaptoFlow.Studies;
 using HaptoFlow.Tests.Support;
 using NUnit.Framework;
 using UnityEditor.Overlays;
@@ -20,6 +21,7 @@ namespace HaptoFlow.EditorTests
         private static readonly Assembly[] Assemblies =
         {
             typeof(HapticSurface).Assembly, typeof(MousePen).Assembly, typeof(InputActionTipForce).Assembly,
+            typeof(MaskingNoise).Assembly,
         };
 
         private static IEnumerable<Type> Components() => Assemblies.SelectMany(assembly => assembly.GetTypes())

@@ -86,6 +86,12 @@ namespace HaptoFlow.ShimTests
             });
 
         [Test]
+        public void ATrialThatIsCountedMakesNoGarbage() => Check(
+            seconds => new Vector3(0.05f * (float)seconds, 0.001f + 0.01f * (float)Math.Sin(40.0 * seconds), 0f),
+            () => Board(),
+            stylus => new Studies.TrialContact(stylus));
+
+        [Test]
         public void AnUntaggedColliderNearTheTipMakesNoGarbage() => Check(Circle(0.001f), () =>
         {
             Board();

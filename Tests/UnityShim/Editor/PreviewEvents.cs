@@ -20,11 +20,15 @@ namespace UnityEngine
     public enum KeyCode
     {
         None = 0,
+        Return = 13,
         Space = 32,
+        Alpha0 = 48,
         A = 97,
         B = 98,
         C = 99,
         E = 101,
+        N = 110,
+        Y = 121,
         UpArrow = 273,
         DownArrow = 274,
         RightArrow = 275,

@@ -9,6 +9,14 @@ namespace UnityEngine
 
         public static string persistentDataPath => ProjectFolders.Persistent;
 
+        public static string productName => "Shim";
+
+        public static string version => "0.1";
+
+        public static string unityVersion => "2022.3.76f1";
+
+        public static RuntimePlatform platform => RuntimePlatform.LinuxEditor;
+
         public static event Action? quitting
         {
             add => World.Quitting += value;
@@ -22,6 +30,17 @@ namespace UnityEngine
             add => UnityShim.Log.Received += value;
             remove => UnityShim.Log.Received -= value;
         }
+    }
+
+    public enum RuntimePlatform
+    {
+        OSXEditor = 0,
+        OSXPlayer = 1,
+        WindowsPlayer = 2,
+        WindowsEditor = 7,
+        Android = 11,
+        LinuxPlayer = 13,
+        LinuxEditor = 16,
     }
 
     public class Debug

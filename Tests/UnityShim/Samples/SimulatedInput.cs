@@ -16,6 +16,9 @@ namespace UnityShim
         /// <summary>Null where there is no graphics pen; 0 for one in the air.</summary>
         public static float? PenPressure { get; set; }
 
+        /// <summary>Of the old Input Manager: goes down in this frame.</summary>
+        public static KeyCode KeyDown { get; set; }
+
         public static void SetControl<TValue>(string path, TValue value)
             where TValue : struct => Values[path] = value;
 
@@ -25,6 +28,7 @@ namespace UnityShim
             MousePosition = default;
             MouseButton = false;
             PenPressure = null;
+            KeyDown = KeyCode.None;
         }
 
         internal static object? Control(string path) => Values.TryGetValue(path, out object value) ? value : null;
@@ -38,5 +42,7 @@ namespace UnityEngine
         public static Vector3 mousePosition => UnityShim.SimulatedInput.MousePosition;
 
         public static bool GetMouseButton(int button) => button == 0 && UnityShim.SimulatedInput.MouseButton;
+
+        public static bool GetKeyDown(KeyCode key) => UnityShim.SimulatedInput.KeyDown == key;
     }
 }

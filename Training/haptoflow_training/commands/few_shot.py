@@ -25,8 +25,9 @@ from haptoflow_training.evaluation.few_shot_study import (
     StudyPlan,
     cells_of,
 )
-from haptoflow_training.evaluation.model_stamp import sha256_of, with_measured_words
+from haptoflow_training.evaluation.model_stamp import read_measured_page, sha256_of, with_measured_words
 from haptoflow_training.export.model_file import read_model_file
+from haptoflow_training.export.whole_file import check_writable, write_whole
 from haptoflow_training.models.file_model import FileModel
 
 _EXAMPLES = """examples:
@@ -61,6 +62,11 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser], su
 
 
 def _run(options: argparse.Namespace) -> int:
+    if options.page is not None:
+        read_measured_page(options.page)
+    for place in (options.results, options.chart, options.page):
+        if place is not None:
+            check_writable(place)
     # One core is what the study's seconds are stated for.
     torch.set_num_threads(1)
     model = FileModel(read_model_file(options.model))
@@ -87,8 +93,8 @@ def _run(options: argparse.Namespace) -> int:
     if options.page is not None:
         chart = options.chart or options.page.parent / "images" / "few-shot.png"
         address = Path(os.path.relpath(chart, options.page.parent)).as_posix()
-        page = options.page.read_text(encoding="utf-8")
-        options.page.write_text(with_measured_words(page, page_words(results, address)), encoding="utf-8")
+        page = with_measured_words(read_measured_page(options.page), page_words(results, address))
+        write_whole(options.page, page.encode())
     print(table(results, 10.0))
     print()
     print(curve_table(results, "lsd_median_db"))

@@ -9,6 +9,7 @@ from typing import Any
 
 from haptoflow_training.evaluation.few_shot_figures import summarised
 from haptoflow_training.evaluation.model_stamp import model_line, picture_metadata
+from haptoflow_training.export.whole_file import write_whole
 
 ROWS = {
     "fit": "this fit: embedding, level and tone",
@@ -52,8 +53,7 @@ def assembled(cells: Sequence[Mapping[str, Any]], header: Mapping[str, Any]) -> 
 
 
 def write_results(path: Path, results: Mapping[str, Any]) -> None:
-    path.parent.mkdir(parents=True, exist_ok=True)
-    path.write_text(json.dumps(results, indent=1) + "\n", encoding="utf-8")
+    write_whole(path, (json.dumps(results, indent=1) + "\n").encode())
 
 
 def table(results: Mapping[str, Any], seconds: float, group: str = "all") -> str:

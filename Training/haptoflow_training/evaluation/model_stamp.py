@@ -35,6 +35,19 @@ def picture_metadata(sha256: str) -> dict[str, str]:
     return {_PICTURE_KEY: sha256}
 
 
+def read_measured_page(path: Path) -> str:
+    """A page that has a measured part to write anew; InputError where it has none, before anything is measured."""
+    try:
+        page = path.read_text(encoding="utf-8")
+    except (OSError, UnicodeDecodeError) as error:
+        raise InputError(f"{path}: cannot be read as a page ({error})") from error
+    try:
+        with_measured_words(page, "")
+    except InputError as error:
+        raise InputError(f"{path}: {error}") from error
+    return page
+
+
 def with_measured_words(page: str, words: str) -> str:
     """The page with `words` between its markers; InputError where it has none."""
     found = re.search(r"(<!-- measured: begin [^>]*-->\n).*?(<!-- measured: end -->)", page, re.DOTALL)

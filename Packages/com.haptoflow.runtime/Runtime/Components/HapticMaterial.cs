@@ -245,13 +245,13 @@ namespace HaptoFlow
         private void Announce()
         {
             description.Touch();
-            HapticSession.Existing?.ChangeLearnt(this);
+            HapticSession.TellOfChange(this);
         }
 
         private void OnEnable() => Announce();
 
         private void OnValidate() => Announce();
 
-        private void OnDestroy() => HapticSession.Existing?.ForgetLearnt(this);
+        private void OnDestroy() => HapticSession.TellOfEnd(this);
     }
 }

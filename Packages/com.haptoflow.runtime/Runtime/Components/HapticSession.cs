@@ -1,30 +1,38 @@
 #nullable enable
 using System;
+using System.Collections.Generic;
+using System.Threading;
 using System.Threading.Tasks;
 using HaptoFlow.Model;
 using UnityEngine;
 
 namespace HaptoFlow
 {
-    /// <summary>The engine of the running application: loaded in the background when the first stylus wakes, closed
-    /// when
-    /// the application ends. Main thread, but for what says otherwise.</summary>
+    /// <summary>An engine of the running application. That of the settings is loaded in the background when the first
+    /// stylus wakes; others are loaded beside it, and one of them may be in use in its place. All are closed when the
+    /// application ends. Main thread, but for what says otherwise.</summary>
     internal sealed class HapticSession
     {
-        private static HapticSession? current;
+        private static readonly List<HapticSession> Beside = new List<HapticSession>();
+        private static HapticSession? ofSettings;
+        private static HapticSession? inPlaceOfSettings;
         private static int versions;
 
         private readonly Task<Loaded> loading;
         private readonly HapticCancellation? cancellation;
+        private readonly CancellationTokenSource closing = new CancellationTokenSource();
         private readonly EngineHealth health = new EngineHealth();
         private QualityChange? qualityChange;
+        private readonly bool isBeside;
+        private Task<HapticModelDelay>? measuring;
         private bool reported;
 
-        private HapticSession(HaptoFlowSettings settings)
+        private HapticSession(
+            HaptoFlowSettings settings, HapticModelAsset? model, HapticQuality quality, bool isBeside)
         {
             LabelsVersion = ++versions;
             Settings = settings;
-            HapticModelAsset? model = settings.Model;
+            this.isBeside = isBeside;
             if (model == null)
             {
                 loading = Task.FromException<Loaded>(new HaptoFlowException(HaptoFlowStatus.InvalidArgument,
@@ -33,22 +41,34 @@ namespace HaptoFlow
             }
             byte[] file = model.File;
             HapticEngineOptions options = OptionsOf(settings);
+            options.Quality = quality;
+            UpdateRateHz = options.UpdateRateHz;
+            HasWorker = !options.WithoutWorker;
             cancellation = NewCancellation();
             options.Cancellation = cancellation;
             loading = Task.Run(() => Load(file, options));
         }
 
-        /// <summary>The session; starts it where there is none.</summary>
-        public static HapticSession Current => current ??= new HapticSession(HaptoFlowSettings.Active);
+        /// <summary>The session in use; starts that of the settings where there is none.</summary>
+        public static HapticSession Current => inPlaceOfSettings ?? (ofSettings ??= OfSettings());
 
         /// <summary>Null where no stylus has woken yet.</summary>
-        public static HapticSession? Existing => current;
+        public static HapticSession? Existing => inPlaceOfSettings ?? ofSettings;
 
         /// <summary>Of engines without worker, for whoever steps them: rendering and tests outside of real
         /// time.</summary>
         public static HapticEngineOptions? OptionsInstead { get; set; }
 
         public HaptoFlowSettings Settings { get; }
+
+        /// <summary>Contact states a second that the engine was told to expect.</summary>
+        public double UpdateRateHz { get; }
+
+        /// <summary>The engine generates by itself; without a worker somebody has to step it.</summary>
+        public bool HasWorker { get; }
+
+        /// <summary>It was closed: by whoever loaded it, or because the application ends.</summary>
+        public bool IsClosed { get; private set; }
 
         /// <summary>Another number whenever the labels may be others.</summary>
         public int LabelsVersion { get; private set; }
@@ -90,7 +110,43 @@ namespace HaptoFlow
             }
             Exception cause = loading.Exception!.GetBaseException();
             Problem = cause.Message;
-            Debug.LogError($"HaptoFlow: the scene goes on without haptics: {cause.Message}");
+            // Whoever loads a model beside the one in use is told by its Problem, and the scene keeps its haptics.
+            if (!isBeside)
+            {
+                Debug.LogError($"HaptoFlow: the scene goes on without haptics: {cause.Message}");
+            }
+        }
+
+        /// <summary>Loads a model beside the one in use.</summary>
+        public static HapticSession Load(HapticModelAsset model, HapticQuality quality)
+        {
+            var session = new HapticSession(HaptoFlowSettings.Active, model, quality, true);
+            Beside.Add(session);
+            return session;
+        }
+
+        /// <summary>From now on styluses feel by this session, in the place of that of the settings.</summary>
+        public void Use()
+        {
+            inPlaceOfSettings = this;
+            SurfaceRegistry.PrepareAll(this);
+            MaterialMaps.PrepareAll(this);
+        }
+
+        /// <summary>From now on styluses feel by the session of the settings.</summary>
+        public static void UseSettings() => inPlaceOfSettings = null;
+
+        /// <summary>Closes a session that was loaded beside the one of the settings.</summary>
+        public void Unload()
+        {
+            if (Beside.Remove(this))
+            {
+                if (ReferenceEquals(inPlaceOfSettings, this))
+                {
+                    inPlaceOfSettings = null;
+                }
+                Close();
+            }
         }
 
         /// <summary>Changes the quality of a running engine. A tier that has to be loaded first is loaded by another
@@ -117,7 +173,7 @@ namespace HaptoFlow
         }
 
         /// <summary>A material may carry another text, or none.</summary>
-        public void ChangeLearnt(HapticMaterial material)
+        private void ChangeLearnt(HapticMaterial material)
         {
             if (!material.IsLearnt)
             {
@@ -130,7 +186,7 @@ namespace HaptoFlow
         }
 
         /// <summary>A material is gone: whoever is made of it is looked up again.</summary>
-        public void ForgetLearnt(HapticMaterial material)
+        private void ForgetLearnt(HapticMaterial material)
         {
             if (Learnt?.Forget(material) == true)
             {
@@ -145,6 +201,18 @@ namespace HaptoFlow
             LabelsVersion = ++versions;
         }
 
+        /// <summary>Has another thread measure by how much this engine's sound comes after the motion. A second call
+        /// while it measures returns what is under way.</summary>
+        public Task<HapticModelDelay> MeasureDelay(int sampleRateHz, int blockFrames)
+        {
+            if (measuring == null || measuring.IsCompleted)
+            {
+                var probe = new DelayProbe(Engine!, sampleRateHz, blockFrames, UpdateRateHz, HasWorker);
+                measuring = Task.Run(() => probe.Measure(closing.Token));
+            }
+            return measuring;
+        }
+
         /// <summary>Waits until loading has ended, well or not.</summary>
         public void FinishLoading()
         {
@@ -152,19 +220,59 @@ namespace HaptoFlow
             Poll();
         }
 
-        /// <summary>Closes the engine. The next stylus that asks starts anew.</summary>
+        /// <summary>A material may carry another text, or none: every engine is told.</summary>
+        public static void TellOfChange(HapticMaterial material)
+        {
+            ofSettings?.ChangeLearnt(material);
+            foreach (HapticSession each in Beside)
+            {
+                each.ChangeLearnt(material);
+            }
+        }
+
+        /// <summary>A material is gone: every engine is told.</summary>
+        public static void TellOfEnd(HapticMaterial material)
+        {
+            ofSettings?.ForgetLearnt(material);
+            foreach (HapticSession each in Beside)
+            {
+                each.ForgetLearnt(material);
+            }
+        }
+
+        /// <summary>Closes the engine of the settings and leaves those that were loaded beside it. The next stylus that
+        /// asks starts it anew.</summary>
+        public static void Restart()
+        {
+            HapticSession? ending = ofSettings;
+            ofSettings = null;
+            inPlaceOfSettings = null;
+            ending?.Close();
+        }
+
+        /// <summary>Closes every engine. The next stylus that asks starts anew.</summary>
         public static void ShutDown()
         {
-            HapticSession? ending = current;
-            current = null;
-            ending?.Close();
+            Restart();
+            HapticSession[] ending = Beside.ToArray();
+            Beside.Clear();
+            Array.ForEach(ending, each => each.Close());
+        }
+
+        private static HapticSession OfSettings()
+        {
+            HaptoFlowSettings settings = HaptoFlowSettings.Active;
+            return new HapticSession(settings, settings.Model, settings.Quality, false);
         }
 
         /// <summary>Ends a loading that is under way and waits for it: a process or an application domain must not end
         /// beneath it.</summary>
         private void Close()
         {
+            IsClosed = true;
             cancellation?.Cancel();
+            closing.Cancel();
+            Task.WhenAny(measuring ?? Task.CompletedTask).GetAwaiter().GetResult();
             qualityChange?.Finish();
             Learnt?.Close();
             ((IAsyncResult)loading).AsyncWaitHandle.WaitOne();
@@ -177,6 +285,7 @@ namespace HaptoFlow
             // Nobody is left to be told of a loading that was cancelled.
             reported = true;
             cancellation?.Dispose();
+            closing.Dispose();
         }
 
         private void Watch()
@@ -194,7 +303,10 @@ namespace HaptoFlow
             {
                 Debug.LogWarning($"HaptoFlow: the quality stays as it was: {failure}");
             }
-            string? death = health.Examine(Time.unscaledTimeAsDouble, Engine);
+            // An engine that nobody feels is looked at when it is used.
+            string? death = ReferenceEquals(this, Existing)
+                ? health.Examine(Time.unscaledTimeAsDouble, Engine)
+                : null;
             if (death != null)
             {
                 Problem = death;
@@ -218,7 +330,6 @@ namespace HaptoFlow
         private static HapticEngineOptions OptionsOf(HaptoFlowSettings settings)
         {
             HapticEngineOptions options = OptionsInstead ?? default;
-            options.Quality = settings.Quality;
             options.BudgetShare = settings.BudgetShare;
             options.UpdateRateHz = settings.FollowDisplay && DisplayRate.TryGet(out double displayHz)
                 ? displayHz

@@ -175,6 +175,14 @@ namespace HaptoFlow
             return voices != null && voices.TryGetEffectStatistics(effect, out statistics);
         }
 
+        /// <summary>How late the signal of the stylus's output began and ended. False while the stylus has no voice.
+        /// </summary>
+        public bool TryGetSignalStatistics(out SignalStatistics statistics)
+        {
+            statistics = default;
+            return voices != null && voices.TryGetSignalStatistics(out statistics);
+        }
+
         /// <summary>Silence at once; sounds again with the next touch-down.</summary>
         public void Panic() => voices?.Panic();
 

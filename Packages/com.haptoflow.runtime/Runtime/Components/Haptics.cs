@@ -35,8 +35,20 @@ namespace HaptoFlow
         public static void Prepare() => HapticSession.Current.Poll();
 
         /// <summary>Closes the engine; it starts anew, with the settings as they are then, when a stylus next asks.
+        /// Models of <see cref="Load"/> stay loaded, and none of them is in use any more.</summary>
+        public static void Restart() => HapticSession.Restart();
+
+        /// <summary>Loads a model beside the one in use, by another thread; <see cref="HapticLoadedModel.Use"/> then
+        /// changes over to it from one frame to the next. For scenes that change or compare models while they run.
         /// </summary>
-        public static void Restart() => HapticSession.ShutDown();
+        /// <param name="quality">Which of its tiers generates.</param>
+        /// <returns>To be disposed by the caller.</returns>
+        public static HapticLoadedModel Load(HapticModelAsset model, HapticQuality quality) =>
+            new HapticLoadedModel(model, quality);
+
+        /// <summary>Styluses feel by the model of the settings again, with their next update. Loaded models stay
+        /// loaded.</summary>
+        public static void UseSettings() => HapticSession.UseSettings();
 
         /// <summary>From the next segment on; also kept in the active settings. A tier that has to be loaded first is
         /// loaded by another thread, while the present one goes on.</summary>

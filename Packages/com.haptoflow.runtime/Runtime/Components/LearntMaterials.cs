@@ -51,6 +51,10 @@ namespace HaptoFlow
             return index >= 0;
         }
 
+        /// <summary>Null for a material that is felt, or that nobody asked for yet.</summary>
+        public string? WhyRefused(HapticMaterial material) =>
+            known.TryGetValue(material, out Known found) && found.IsRefused ? found.Refusal : null;
+
         /// <summary>In N/m, of a material that was found.</summary>
         public double StiffnessNewtonsPerMetre(int index) => stiffness[index - labelCount];
 
@@ -196,6 +200,7 @@ namespace HaptoFlow
         private void Refuse(Known material, string why)
         {
             SetRefused(material, true);
+            material.Refusal = why;
             HapticMaterial asset = material.Material;
             string label = asset.Description.Label;
             Debug.LogWarning($"HaptoFlow: {asset.name} is felt as its label \"{label}\": {why}", asset);
@@ -223,6 +228,8 @@ namespace HaptoFlow
             public bool IsUnderWay { get; set; }
 
             public bool IsRefused { get; set; }
+
+            public string Refusal { get; set; } = "";
 
             public bool IsGone { get; set; }
         }

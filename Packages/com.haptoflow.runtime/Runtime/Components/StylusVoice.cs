@@ -9,11 +9,15 @@ namespace HaptoFlow
     internal sealed class StylusVoice
     {
         private readonly HapticStylus stylus;
+        private readonly MotionGate motion = new MotionGate();
         private HapticVoice? voice;
         private HapticEngine? engine;
         private HapticEngine? refusedBy;
         private IVoiceTarget? output;
         private float publishedStrength;
+
+        // Of the engine before: it fades while the present one begins.
+        private readonly LeavingVoice leaving = new LeavingVoice();
 
         // The touch of the newest reading, also of one that no voice has played.
         private uint? newestTouch;
@@ -38,6 +42,12 @@ namespace HaptoFlow
             return IsOpen;
         }
 
+        public bool TryGetSignalStatistics(out SignalStatistics statistics)
+        {
+            statistics = IsOpen ? voice!.SignalStatistics() : default;
+            return IsOpen;
+        }
+
         public void Panic()
         {
             if (IsOpen)
@@ -52,6 +62,7 @@ namespace HaptoFlow
         public void Publish(
             in ContactReading reading, in FeltMaterial felt, HapticSession session, IVoiceTarget? wanted)
         {
+            leaving.Update();
             bool isReady = MakeReady(session, wanted, reading);
             newestTouch = reading.TouchCounter;
             if (!isReady)
@@ -80,11 +91,18 @@ namespace HaptoFlow
                 state.ToneDbPerOctave = felt.ToneDbPerOctave;
                 SetStrength(felt.Strength * stylus.Strength * output!.Strength);
             }
+            bool moves = motion.Update(reading.TimeSeconds, reading.Touching, reading.PointMetres);
+            if (output!.PlaysSignal)
+            {
+                state.FirstVelocityMps = moves ? (float)motion.SpeedMps : 0f;
+                state.SecondVelocityMps = 0f;
+            }
             voice!.Publish(state);
         }
 
         public void Close()
         {
+            leaving.Close();
             if (voice == null)
             {
                 return;
@@ -121,7 +139,15 @@ namespace HaptoFlow
             {
                 return true;
             }
-            Close();
+            if (voice != null && ReferenceEquals(output, wanted))
+            {
+                leaving.Take(voice, wanted);
+                voice = null;
+            }
+            else
+            {
+                Close();
+            }
             if (ReferenceEquals(refusedBy, session.Engine) || !Open(session, wanted))
             {
                 return false;

@@ -86,6 +86,10 @@ namespace HaptoFlow
             return false;
         }
 
+        /// <summary>Of the audio output's voice, which alone has a signal.</summary>
+        public bool TryGetSignalStatistics(out SignalStatistics statistics) =>
+            audio.TryGetSignalStatistics(out statistics);
+
         public void Panic()
         {
             audio.Panic();

@@ -54,6 +54,8 @@ namespace HaptoFlow
         private readonly VoiceMixer mixer = new VoiceMixer();
         private readonly OutputMeter meter = new OutputMeter();
         private AudioSource? source;
+        private double signalHz;
+        private double signalMps2;
         private bool started;
         private volatile int sampleRateHz = 48000;
         private volatile int renderedChannel;
@@ -133,6 +135,27 @@ namespace HaptoFlow
         public void ApplyProcessing() =>
             mixer.ForEach((voice, output) => output.processing.Apply(voice, output), this);
 
+        /// <summary>A sine for studies of latency, in the place of everything else: it sounds while a tip touches and
+        /// moves, whatever speed and force are. A tip sets off at 30 mm/s and comes to rest below 15 mm/s, from one
+        /// frame to the next, on a surface that stands still. Not kept with the scene.</summary>
+        /// <param name="frequencyHz">20 to 500; ignored where the amplitude is 0.</param>
+        /// <param name="amplitudeMps2">Its peak, 0 to 60 m/s^2; 0 for no signal.</param>
+        /// <exception cref="ArgumentOutOfRangeException">A value is out of range.</exception>
+        public void SetSignal(double frequencyHz, double amplitudeMps2)
+        {
+            if (!(amplitudeMps2 >= 0.0 && amplitudeMps2 <= 60.0))
+            {
+                throw new ArgumentOutOfRangeException(nameof(amplitudeMps2), amplitudeMps2, "expected 0 to 60 m/s^2");
+            }
+            if (amplitudeMps2 > 0.0 && !(frequencyHz >= 20.0 && frequencyHz <= 500.0))
+            {
+                throw new ArgumentOutOfRangeException(nameof(frequencyHz), frequencyHz, "expected 20 to 500 Hz");
+            }
+            signalHz = frequencyHz;
+            signalMps2 = amplitudeMps2;
+            mixer.ForEach((voice, output) => voice.SetSignal(output.signalHz, output.signalMps2), this);
+        }
+
         /// <summary>Of the device, in Hz.</summary>
         public int SampleRateHz => sampleRateHz;
 
@@ -162,10 +185,13 @@ namespace HaptoFlow
             return made;
         }
 
+        bool IVoiceTarget.PlaysSignal => signalMps2 > 0.0;
+
         void IVoiceTarget.Add(HapticVoice voice)
         {
             voice.SetMuted(muted);
             processing.Apply(voice, this);
+            voice.SetSignal(signalHz, signalMps2);
             mixer.Add(voice);
             if (route == OutputRoute.MixerEffect)
             {

@@ -10,6 +10,10 @@ namespace HaptoFlow
         /// <summary>Gain, 0 to 1.</summary>
         float Strength { get; }
 
+        /// <summary>The output plays a signal in the place of what is felt: it begins and ends with the tip's motion.
+        /// </summary>
+        bool PlaysSignal { get; }
+
         /// <summary>From now on the output renders the voice, and nobody else does.</summary>
         void Add(HapticVoice voice);
 

@@ -2,7 +2,7 @@
 using System;
 using System.Globalization;
 using System.IO;
-using System.Text;
+using HaptoFlow.Files;
 using HaptoFlow.Model;
 using HaptoFlow.Numerics;
 
@@ -24,24 +24,13 @@ namespace HaptoFlow.Alignment
         /// <exception cref="UnauthorizedAccessException">The file cannot be written.</exception>
         public static void Write(string path, in RigidPose pose)
         {
-            string folder = Path.GetDirectoryName(Path.GetFullPath(path))!;
-            Directory.CreateDirectory(folder);
             Double3 place = pose.PositionMetres;
             Rotation turn = pose.Rotation;
             string text = string.Format(CultureInfo.InvariantCulture,
                 "{{\"format\": \"{0}\", \"version\": {1}, \"position_m\": [{2:R}, {3:R}, {4:R}], " +
                 "\"rotation_xyzw\": [{5:R}, {6:R}, {7:R}, {8:R}]}}\n",
                 Format, Version, place.X, place.Y, place.Z, turn.X, turn.Y, turn.Z, turn.W);
-            string temporary = path + ".new";
-            File.WriteAllText(temporary, text, new UTF8Encoding(false));
-            if (File.Exists(path))
-            {
-                File.Replace(temporary, path, null);
-            }
-            else
-            {
-                File.Move(temporary, path);
-            }
+            WholeFile.Write(path, text);
         }
 
         /// <summary>False where there is no such file, or none that can be used.</summary>

@@ -130,6 +130,11 @@ namespace HaptoFlow.Model
                 Digits();
             }
             string digits = text.Substring(start, position - start);
+            if (ulong.TryParse(digits, NumberStyles.None, CultureInfo.InvariantCulture, out ulong whole) &&
+                whole > JsonValue.LargestExactInteger)
+            {
+                return whole;
+            }
             double number = double.Parse(digits, NumberStyles.Float, CultureInfo.InvariantCulture);
             return !double.IsInfinity(number) ? number : throw Broken("a number out of range");
         }

@@ -9,8 +9,8 @@ namespace HaptoFlow.Model
     /// <summary>Writes JSON: values that were parsed, and texts, numbers, lists and dictionaries of them.</summary>
     internal static class JsonText
     {
-        /// <param name="value">Null, a bool, a string, a float, a double, an int, a <see cref="JsonValue"/>, a list of
-        /// such or pairs of a key and such.</param>
+        /// <param name="value">Null, a bool, a string, a float, a double, an int, a ulong, a <see cref="JsonValue"/>, a
+        /// list of such or pairs of a key and such.</param>
         /// <exception cref="ArgumentException">Something else, or a number that is not finite.</exception>
         public static string Of(object? value)
         {
@@ -42,6 +42,9 @@ namespace HaptoFlow.Model
                     text.Append(number.ToString("R", CultureInfo.InvariantCulture));
                     break;
                 case int number:
+                    text.Append(number.ToString(CultureInfo.InvariantCulture));
+                    break;
+                case ulong number:
                     text.Append(number.ToString(CultureInfo.InvariantCulture));
                     break;
                 case IEnumerable<KeyValuePair<string, JsonValue>> members:

@@ -9,6 +9,9 @@ namespace HaptoFlow.Model
     /// value's path.</summary>
     public sealed class JsonValue
     {
+        /// <summary>Up to here a double holds every whole number; larger ones are kept as 64 bits.</summary>
+        internal const ulong LargestExactInteger = 1ul << 53;
+
         private readonly object? content;
 
         internal JsonValue(object? content, string path)
@@ -20,7 +23,8 @@ namespace HaptoFlow.Model
         /// <summary>Where it is, for example "labels[3].name"; "the document" for the whole.</summary>
         public string Path { get; }
 
-        /// <summary>Null, a bool, a double, a string, a list of values or a dictionary of them.</summary>
+        /// <summary>Null, a bool, a double, a ulong above <see cref="LargestExactInteger"/>, a string, a list of values
+        /// or a dictionary of them.</summary>
         internal object? Content => content;
 
         /// <summary>JSON null.</summary>
@@ -34,7 +38,12 @@ namespace HaptoFlow.Model
         public string AsText() => content as string ?? throw Expected("a string");
 
         /// <summary>A number.</summary>
-        public double AsNumber() => content is double number ? number : throw Expected("a number");
+        public double AsNumber() => content switch
+        {
+            double number => number,
+            ulong whole => whole,
+            _ => throw Expected("a number"),
+        };
 
         /// <summary>A whole number that fits 32 bits.</summary>
         public int AsInteger()
@@ -42,6 +51,18 @@ namespace HaptoFlow.Model
             double number = AsNumber();
             bool whole = number == Math.Floor(number) && Math.Abs(number) <= int.MaxValue;
             return whole ? (int)number : throw Expected("a whole number");
+        }
+
+        /// <summary>A whole number from 0 to 2^64 - 1, exactly.</summary>
+        public ulong AsUnsigned64()
+        {
+            if (content is ulong large)
+            {
+                return large;
+            }
+            bool fits = content is double number && number >= 0.0 && number <= LargestExactInteger &&
+                number == Math.Floor(number);
+            return fits ? (ulong)(double)content! : throw Expected("a whole number from 0 to 2^64 - 1");
         }
 
         /// <summary>True or false.</summary>

@@ -106,6 +106,8 @@ namespace HaptoFlow
         /// <summary>What the output did so far.</summary>
         public HapticQueueStatistics Statistics => queue?.Statistics ?? default;
 
+        bool IVoiceTarget.PlaysSignal => false;
+
         int IVoiceTarget.SampleRateHz => (int)WaveHistory.RateHz;
 
         /// <summary>Silence at once; the stylus sounds again with its next touch-down.</summary>

@@ -1,0 +1,122 @@
+#nullable enable
+using System.Collections.Generic;
+using System.Linq;
+using HaptoFlow.Model;
+
+namespace HaptoFlow.Studies
+{
+    /// <summary>A model or exported baseline that a study plays.</summary>
+    public readonly struct StudyModel
+    {
+        /// <param name="sha256">Of the file's bytes, 64 hexadecimal digits.</param>
+        public StudyModel(string method, string file, string sha256)
+        {
+            Method = method;
+            File = file;
+            Sha256 = sha256;
+        }
+
+        /// <summary>The method's name in the settings; "signal" in the latency study.</summary>
+        public string Method { get; }
+
+        /// <summary>The file's name without its folders.</summary>
+        public string File { get; }
+
+        /// <summary>Of the file's bytes.</summary>
+        public string Sha256 { get; }
+    }
+
+    /// <summary>What the sidecar of a log says of a session, but for what the session itself finds out.</summary>
+    public sealed class StudyDescription
+    {
+        /// <param name="plan">The participant's plan.</param>
+        /// <param name="settings">The study's own settings as used: a session is resumed with the same or not at all.
+        /// </param>
+        /// <param name="delay">The parts of the system's delay at the start.</param>
+        public StudyDescription(StudyPlan plan, StudyFields settings, SystemDelay delay)
+        {
+            Plan = plan;
+            Settings = settings;
+            Delay = delay;
+        }
+
+        /// <summary>The participant's plan.</summary>
+        public StudyPlan Plan { get; }
+
+        /// <summary>The study's own settings as used.</summary>
+        public StudyFields Settings { get; }
+
+        /// <summary>The parts of the system's delay at the start.</summary>
+        public SystemDelay Delay { get; }
+
+        /// <summary>No person took part: reports say so.</summary>
+        public bool IsSimulated { get; set; }
+
+        /// <summary>What played the study.</summary>
+        public StudyEnvironment Environment { get; set; } = new StudyEnvironment();
+
+        /// <summary>What generated the vibration.</summary>
+        public IReadOnlyList<StudyModel> Models { get; set; } = new StudyModel[0];
+
+        /// <summary>What a resumed session must have as it was begun.</summary>
+        internal StudyFields Fixed() => new StudyFields
+        {
+            { "study", Plan.Kind.Name },
+            { "participant", Plan.Participant },
+            { "seed", Plan.Seed },
+            { "simulated", IsSimulated },
+            { "settings", Settings },
+            { "models", Models.Select(each => new StudyFields
+            {
+                { "method", each.Method }, { "file", each.File }, { "sha256", each.Sha256 },
+            }).ToArray() },
+            { "plan", Plan.Trials.Select(Entry).ToArray() },
+        };
+
+        /// <summary>The sidecar's text.</summary>
+        internal string Sidecar(SidecarState state)
+        {
+            var document = new StudyFields { { "format", SidecarState.Format }, { "version", SidecarState.Version } };
+            foreach (KeyValuePair<string, object?> member in Fixed())
+            {
+                if (member.Key == "seed")
+                {
+                    document.Add("session", state.Session);
+                }
+                if (member.Key == "settings")
+                {
+                    AddState(document, state);
+                }
+                document.Add(member.Key, member.Value);
+            }
+            return JsonText.Of(document) + "\n";
+        }
+
+        private void AddState(StudyFields document, SidecarState state)
+        {
+            document.Add("created", state.Created);
+            document.Add("finished", state.IsFinished);
+            document.Add("resumptions", state.ResumedAtTrials.Count);
+            document.Add("resumed_at_trials", state.ResumedAtTrials.ToArray());
+            document.Add("build", Environment.Build());
+            document.Add("device", Environment.Device(Delay));
+            document.Add("delay", new StudyFields
+            {
+                { "pose_interval_ms", Delay.PoseIntervalMilliseconds },
+                { "inference_ms", Delay.InferenceMilliseconds },
+                { "block_ms", Delay.BlockMilliseconds },
+                { "device_ms", Delay.DeviceMilliseconds },
+            });
+        }
+
+        private StudyFields Entry(PlannedTrial trial)
+        {
+            var entry = new StudyFields();
+            foreach (string column in Plan.Kind.PlannedColumns)
+            {
+                entry.Add(column, StudyKind.Planned(trial, column));
+            }
+            return entry;
+        }
+    }
+}

@@ -1,0 +1,273 @@
+#nullable enable
+using System;
+using System.Collections.Generic;
+using System.IO;
+using System.Linq;
+using System.Text;
+using HaptoFlow.Model;
+
+namespace HaptoFlow.Studies
+{
+    /// <summary>The two files of a session: rows of answered trials as CSV, and a JSON sidecar that says what was done.
+    /// Every row is on disk before the next trial begins; what cannot be written is kept and tried again. Main thread.
+    /// </summary>
+    public sealed class StudyLog
+    {
+        private const string AnotherParticipant = "or choose another participant number";
+
+        private readonly IStudyFiles files;
+        private readonly StudyDescription description;
+        private readonly SidecarState state;
+        private byte[] written;
+        private byte[]? pending;
+
+        private StudyLog(
+            IStudyFiles files, string path, StudyDescription description, SidecarState state, LogTable table)
+        {
+            this.files = files;
+            this.description = description;
+            this.state = state;
+            CsvPath = path;
+            written = table.Content;
+            Answered = table.Rows;
+            ElapsedSeconds = table.ElapsedSeconds;
+        }
+
+        /// <summary>The rows.</summary>
+        public string CsvPath { get; }
+
+        /// <summary>The sidecar.</summary>
+        public string SidecarPath => SidecarOf(CsvPath);
+
+        /// <summary>8 hexadecimal digits.</summary>
+        public string Session => state.Session;
+
+        /// <summary>What is logged.</summary>
+        public StudyPlan Plan => description.Plan;
+
+        /// <summary>Trials whose rows are on disk.</summary>
+        public int Answered { get; private set; }
+
+        /// <summary>Of the last row on disk, in seconds since the session began.</summary>
+        public double ElapsedSeconds { get; }
+
+        /// <summary>How often the session was gone on with, this time included.</summary>
+        public int Resumptions => state.ResumedAtTrials.Count;
+
+        /// <summary>The sidecar says that the session is over.</summary>
+        public bool IsFinished => state.IsFinished;
+
+        /// <summary>A row waits for the disk.</summary>
+        public bool HasPending => pending != null;
+
+        /// <summary>Why the last attempt to write failed, for the operator; null where nothing is wrong.</summary>
+        public string? Problem { get; private set; }
+
+        /// <summary>Begins a participant's session, or goes on with the one that was interrupted.</summary>
+        /// <exception cref="StudyException">The participant has finished this study, the interrupted session was begun
+        /// with other settings, a file is damaged, or the folder cannot be written to. Nothing was overwritten.
+        /// </exception>
+        public static StudyLog Open(string folder, StudyDescription description) =>
+            Open(folder, description, new DiskFiles());
+
+        internal static StudyLog Open(string folder, StudyDescription description, IStudyFiles files)
+        {
+            try
+            {
+                if (folder.Length == 0)
+                {
+                    throw new ArgumentException("the folder of the logs has no name");
+                }
+                string stem = $"{description.Plan.Kind.Name}-P{description.Plan.Participant:00}-";
+                List<string> tables = FilesOf(files, folder, stem, ".csv");
+                List<string> sidecars = FilesOf(files, folder, stem, ".json");
+                List<string> sessions = tables
+                    .Union(sidecars.Select(each => Path.ChangeExtension(each, ".csv")))
+                    .ToList();
+                if (sessions.Count > 1)
+                {
+                    throw new StudyException($"{sessions[0]}: participant {description.Plan.Participant} has " +
+                        $"{sessions.Count} sessions in this folder; move all but one elsewhere, {AnotherParticipant}");
+                }
+                return sessions.Count == 1
+                    ? Again(files, sessions[0], description)
+                    : Begin(files, Path.Combine(folder, stem + NewSession() + ".csv"), description);
+            }
+            catch (Exception error) when (IsOfDisk(error) || IsOfPath(error))
+            {
+                throw new StudyException(
+                    $"{folder}: {error.Message}; name a folder that can be written to in the settings' folder", error);
+            }
+        }
+
+        /// <summary>How often the participant is asked a trial by now: 1, more where the session was interrupted there.
+        /// </summary>
+        public int AttemptsAt(int trial) => 1 + state.ResumedAtTrials.Count(each => each == trial);
+
+        /// <summary>Writes a row. Where that fails, the row is kept: see <see cref="TryWritePending"/>.</summary>
+        /// <returns>The row is on disk.</returns>
+        /// <exception cref="InvalidOperationException">The row before it is not yet on disk, or all are.</exception>
+        public bool Append(TrialRecord record)
+        {
+            if (HasPending || Answered == Plan.Trials.Count)
+            {
+                throw new InvalidOperationException(HasPending
+                    ? "the row before this one is not yet on disk"
+                    : "every trial of the plan has its row");
+            }
+            foreach (string column in Plan.Kind.PlannedColumns)
+            {
+                object planned = StudyKind.Planned(Plan.Trials[Answered], column);
+                record.Set(column, TrialRecord.TextOf(planned));
+            }
+            pending = Encoding.UTF8.GetBytes(record.Row(Plan.Kind) + "\n");
+            return TryWritePending();
+        }
+
+        /// <summary>Tries again to write the row that waits.</summary>
+        /// <returns>No row waits any more.</returns>
+        public bool TryWritePending()
+        {
+            if (pending == null)
+            {
+                return true;
+            }
+            byte[] line = pending;
+            if (!TryWrite(CsvPath, () => files.AddLine(CsvPath, written, line)))
+            {
+                return false;
+            }
+            written = written.Concat(line).ToArray();
+            pending = null;
+            ++Answered;
+            return true;
+        }
+
+        /// <summary>Says in the sidecar that the session is over.</summary>
+        /// <returns>It is on disk.</returns>
+        public bool Finish()
+        {
+            state.IsFinished = true;
+            bool isWritten = TryWrite(SidecarPath, WriteSidecar);
+            state.IsFinished = isWritten;
+            return isWritten;
+        }
+
+        private bool TryWrite(string path, Action write)
+        {
+            try
+            {
+                write();
+                Problem = null;
+                return true;
+            }
+            catch (Exception error) when (IsOfDisk(error))
+            {
+                Problem = $"{path}: {error.Message}";
+                return false;
+            }
+        }
+
+        private static StudyLog Begin(IStudyFiles files, string path, StudyDescription description)
+        {
+            // First the table: one without sidecar holds no answer, a sidecar without table may have lost some.
+            string header = LogTable.Header(description.Plan.Kind);
+            files.Replace(path, header);
+            return Opened(files, path, description, Encoding.UTF8.GetBytes(header));
+        }
+
+        private static StudyLog Opened(IStudyFiles files, string path, StudyDescription description, byte[] content)
+        {
+            string session = Path.GetFileNameWithoutExtension(path).Split('-').Last();
+            var state = new SidecarState(session, DateTime.UtcNow.ToString("yyyy-MM-ddTHH:mm:ssZ",
+                System.Globalization.CultureInfo.InvariantCulture));
+            var log = new StudyLog(files, path, description, state, LogTable.Read(description.Plan, content));
+            log.WriteSidecar();
+            return log;
+        }
+
+        private static StudyLog Again(IStudyFiles files, string path, StudyDescription description)
+        {
+            string sidecar = SidecarOf(path);
+            if (!files.Exists(path))
+            {
+                throw new StudyException(
+                    $"{path}: is gone while its sidecar is there; bring it back, {AnotherParticipant}");
+            }
+            if (!files.Exists(sidecar))
+            {
+                byte[] content = files.Read(path);
+                bool isBare = content.SequenceEqual(Encoding.UTF8.GetBytes(LogTable.Header(description.Plan.Kind)));
+                return isBare
+                    ? Opened(files, path, description, content)
+                    : throw new StudyException(
+                        $"{sidecar}: is gone while its table is there; bring it back, {AnotherParticipant}");
+            }
+            SidecarState state = Checked(sidecar, () => Resumable(files, sidecar, description));
+            LogTable table = Checked(path, () => LogTable.Read(description.Plan, files.Read(path)));
+            state.ResumedAtTrials.Add(table.Rows + 1);
+            var log = new StudyLog(files, path, description, state, table);
+            log.WriteSidecar();
+            return log;
+        }
+
+        private static SidecarState Resumable(IStudyFiles files, string sidecar, StudyDescription description)
+        {
+            JsonValue was = JsonValue.Parse(Encoding.UTF8.GetString(files.Read(sidecar)));
+            SidecarState state = SidecarState.Read(was);
+            if (state.IsFinished)
+            {
+                throw new StudyException($"{sidecar}: participant {description.Plan.Participant} has finished this " +
+                    "study; choose another participant number");
+            }
+            JsonValue now = JsonValue.Parse(description.Sidecar(state));
+            foreach (string key in description.Fixed().Select(member => member.Key))
+            {
+                RefuseDifference(sidecar, was[key], now[key]);
+            }
+            RefuseDifference(sidecar, was["device"]["device_delay_ms"], now["device"]["device_delay_ms"]);
+            RefuseDifference(sidecar, was["device"]["device_delay_source"], now["device"]["device_delay_source"]);
+            return state;
+        }
+
+        private static void RefuseDifference(string sidecar, JsonValue was, JsonValue now)
+        {
+            (string Path, string Was, string Is)? difference = JsonDifference.Find(was, now);
+            if (difference.HasValue)
+            {
+                (string path, string before, string after) = difference.Value;
+                throw new StudyException($"{sidecar}: the session was begun with {path} = {before} and would go on " +
+                    $"with {after}; put it back, {AnotherParticipant}");
+            }
+        }
+
+        private static T Checked<T>(string path, Func<T> read)
+        {
+            try
+            {
+                return read();
+            }
+            catch (FormatException error)
+            {
+                throw new StudyException($"{path}: {error.Message}; repair it, {AnotherParticipant}", error);
+            }
+        }
+
+        private void WriteSidecar() => files.Replace(SidecarPath, description.Sidecar(state));
+
+        private static List<string> FilesOf(IStudyFiles files, string folder, string stem, string ending) => files
+            .Find(folder, stem + "*" + ending)
+            .Where(each => each.EndsWith(ending, StringComparison.Ordinal))
+            .OrderBy(each => each, StringComparer.Ordinal)
+            .ToList();
+
+        private static string SidecarOf(string path) => Path.ChangeExtension(path, ".json");
+
+        private static string NewSession() => Guid.NewGuid().ToString("N").Substring(0, 8);
+
+        private static bool IsOfPath(Exception error) =>
+            error is ArgumentException || error is NotSupportedException;
+
+        private static bool IsOfDisk(Exception error) => error is IOException || error is UnauthorizedAccessException;
+    }
+}

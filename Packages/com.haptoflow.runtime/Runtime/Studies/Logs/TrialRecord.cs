@@ -1,0 +1,67 @@
+#nullable enable
+using System;
+using System.Collections.Generic;
+using System.Globalization;
+using System.Linq;
+
+namespace HaptoFlow.Studies
+{
+    /// <summary>An answered trial, column by column, as it will stand in the log. What is not set stays empty: it does
+    /// not apply. Any thread, one at a time.</summary>
+    public sealed class TrialRecord
+    {
+        private readonly Dictionary<string, string> values = new Dictionary<string, string>(StringComparer.Ordinal);
+
+        /// <summary>Of a column; empty where nothing was set.</summary>
+        public string this[string column] => values.TryGetValue(column, out string? value) ? value : "";
+
+        /// <summary>A word without comma, quotation mark or line break.</summary>
+        /// <exception cref="ArgumentException">The word has one of these.</exception>
+        public TrialRecord Set(string column, string word)
+        {
+            if (word.IndexOfAny(new[] { ',', '"', '\n', '\r' }) >= 0)
+            {
+                throw new ArgumentException($"{column}: \"{word}\" cannot stand in a log", nameof(word));
+            }
+            values[column] = word;
+            return this;
+        }
+
+        /// <summary>A number, kept to six decimals; what is not finite leaves the column empty.</summary>
+        public TrialRecord Set(string column, double number)
+        {
+            values[column] = TextOf(number);
+            return this;
+        }
+
+        /// <summary>The planned delay in all, and its parts: the system's, and what an output adds.</summary>
+        /// <exception cref="StudyException">The system is slower than the plan wants.</exception>
+        public TrialRecord SetDelay(double plannedMilliseconds, SystemDelay system)
+        {
+            double artificial = system.ArtificialMilliseconds(plannedMilliseconds);
+            return Set("delay_ms", plannedMilliseconds)
+                .Set("system_delay_ms", system.TotalMilliseconds)
+                .Set("artificial_delay_ms", artificial)
+                .Set("delivered_delay_ms", system.TotalMilliseconds + artificial);
+        }
+
+        internal static string TextOf(double number) => double.IsNaN(number) || double.IsInfinity(number)
+            ? ""
+            : number.ToString("0.######", CultureInfo.InvariantCulture);
+
+        internal static string TextOf(object planned) =>
+            planned is double number ? TextOf(number) : Convert.ToString(planned, CultureInfo.InvariantCulture)!;
+
+        /// <summary>The row of a log, without line break.</summary>
+        /// <exception cref="ArgumentException">A column was set that the study does not have.</exception>
+        internal string Row(StudyKind kind)
+        {
+            string? unknown = values.Keys.FirstOrDefault(column => !kind.Columns.Contains(column));
+            if (unknown != null)
+            {
+                throw new ArgumentException($"the log of the study \"{kind.Name}\" has no column {unknown}");
+            }
+            return string.Join(",", kind.Columns.Select(column => this[column]));
+        }
+    }
+}

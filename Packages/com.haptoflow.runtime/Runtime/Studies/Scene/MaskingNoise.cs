@@ -1,0 +1,151 @@
+#nullable enable
+using System;
+using UnityEngine;
+
+namespace HaptoFlow.Studies
+{
+    /// <summary>What a masking noise sounds like.</summary>
+    public enum NoiseColour
+    {
+        /// <summary>As strong in every hertz.</summary>
+        White,
+
+        /// <summary>As strong in every octave: covers a low hum at a lower loudness.</summary>
+        Pink,
+    }
+
+    /// <summary>Plays noise in the headphones, so that the participant does not hear the actuator. Every channel gets
+    /// it but the haptic one, which stays clean. Belongs on the Audio Listener's object.</summary>
+    [AddComponentMenu("HaptoFlow/Masking Noise")]
+    [DisallowMultipleComponent]
+    [HelpURL(HelpPages.Components + "masking-noise")]
+    public sealed class MaskingNoise : MonoBehaviour
+    {
+        /// <summary>The lowest level, in dB of full scale.</summary>
+        public const float LowestDecibels = -60f;
+
+        /// <summary>The highest level, in dB of full scale: peaks of the noise stay below full scale.</summary>
+        public const float HighestDecibels = -18f;
+
+        private const float FadeSeconds = 0.05f;
+
+        [SerializeField, Tooltip("The output whose channel stays clean.")]
+        private HapticOutput? output;
+
+        [SerializeField, Tooltip("White is as strong in every hertz, pink in every octave.")]
+        private NoiseColour colour = NoiseColour.White;
+
+        [SerializeField, Range(LowestDecibels, HighestDecibels),
+         Tooltip("The root mean square of the noise, in dB of full scale.")]
+        private float levelDecibels = -30f;
+
+        private readonly NoiseGenerator generator = new NoiseGenerator();
+        private volatile int hapticChannel = HapticVoice.AllChannels;
+        private volatile float wantedGain;
+        private volatile bool isPink;
+        private volatile int sampleRateHz = 48000;
+        private int channelCount;
+        private float gain;
+        private string? told;
+
+        /// <summary>The output whose channel stays clean. Without one, or with one that plays on all channels, there is
+        /// no noise: see <see cref="Problem"/>.</summary>
+        public HapticOutput? Output
+        {
+            get => output;
+            set => output = value;
+        }
+
+        /// <summary>White or pink.</summary>
+        public NoiseColour Colour
+        {
+            get => colour;
+            set => colour = value;
+        }
+
+        /// <summary>Root mean square in dB of full scale, <see cref="LowestDecibels"/> to
+        /// <see cref="HighestDecibels"/>.</summary>
+        public float LevelDecibels
+        {
+            get => levelDecibels;
+            set => levelDecibels = Mathf.Clamp(value, LowestDecibels, HighestDecibels);
+        }
+
+        /// <summary>Why there is no noise; null where there is.</summary>
+        public string? Problem { get; private set; }
+
+        private void OnEnable()
+        {
+            ReadConfiguration(false);
+            AudioSettings.OnAudioConfigurationChanged += ReadConfiguration;
+        }
+
+        private void OnDisable()
+        {
+            AudioSettings.OnAudioConfigurationChanged -= ReadConfiguration;
+            gain = 0f;
+        }
+
+        private void ReadConfiguration(bool deviceWasChanged)
+        {
+            sampleRateHz = AudioSettings.outputSampleRate;
+            channelCount = StudyPlayer.Channels;
+        }
+
+        private void Update()
+        {
+            Problem = WhyNot();
+            hapticChannel = Problem == null ? output!.Channel : HapticVoice.AllChannels;
+            isPink = colour == NoiseColour.Pink;
+            wantedGain = Problem == null ? (float)Math.Pow(10.0, 0.05 * levelDecibels) : 0f;
+            if (Problem != null && !string.Equals(Problem, told, StringComparison.Ordinal))
+            {
+                Debug.LogError($"HaptoFlow: {Problem}", this);
+            }
+            told = Problem;
+        }
+
+        private string? WhyNot()
+        {
+            if (output == null)
+            {
+                return "there is no masking noise: choose the output whose channel stays clean in the field Output";
+            }
+            if (output.Channel < 0)
+            {
+                return "there is no masking noise: the haptic output plays on all channels, and one has to be left " +
+                    "to the headphones; choose its channel";
+            }
+            return output.Channel >= channelCount || channelCount < 2
+                ? $"there is no masking noise: the audio device has {channelCount} channels and the haptic output " +
+                    $"plays on channel {output.Channel}, counted from 0; choose an audio device with a channel for each"
+                : null;
+        }
+
+        // Audio thread: no garbage, no wait.
+        private void OnAudioFilterRead(float[] data, int channels)
+        {
+            int clean = hapticChannel;
+            if (clean < 0)
+            {
+                gain = 0f;
+                return;
+            }
+            float step = 1f / (FadeSeconds * sampleRateHz);
+            float wanted = wantedGain;
+            for (int first = 0; first + channels <= data.Length; first += channels)
+            {
+                gain += Math.Max(-step, Math.Min(step, wanted - gain));
+                float sample = gain * generator.Next(isPink);
+                for (int channel = 0; channel < channels; ++channel)
+                {
+                    if (channel != clean)
+                    {
+                        ref float place = ref data[first + channel];
+                        place = Math.Max(-1f, Math.Min(1f, place + sample));
+                    }
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,95 @@
+#nullable enable
+using UnityEngine;
+
+namespace HaptoFlow.Samples.SimilarityStudy
+{
+    /// <summary>Answers with the hand that holds no pen, or with the keyboard.</summary>
+    public sealed class RatingButtons : MonoBehaviour
+    {
+#if HAPTOFLOW_INPUT_SYSTEM && ENABLE_INPUT_SYSTEM
+        private readonly ButtonPress[] numbers = new ButtonPress[RatingPanel.Highest];
+        private RatingPanel panel = null!;
+        private ButtonPress lower = null!;
+        private ButtonPress higher = null!;
+        private ButtonPress confirm = null!;
+
+        /// <param name="penHand">The other hand answers.</param>
+        public static RatingButtons Create(RatingPanel panel, PenHand penHand)
+        {
+            string hand = "<XRController>{" + (penHand == PenHand.Right ? "Left" : "Right") + "Hand}/";
+            // The panel is switched off while nothing is asked: its buttons live beside it.
+            var buttons = new GameObject("Rating Buttons").AddComponent<RatingButtons>();
+            buttons.panel = panel;
+            buttons.lower = new ButtonPress("<Keyboard>/leftArrow", hand + "primaryButton");
+            buttons.higher = new ButtonPress("<Keyboard>/rightArrow", hand + "secondaryButton");
+            buttons.confirm = new ButtonPress("<Keyboard>/enter", hand + "triggerPressed");
+            for (int answer = RatingPanel.Lowest; answer <= RatingPanel.Highest; ++answer)
+            {
+                buttons.numbers[answer - 1] = new ButtonPress("<Keyboard>/" + answer);
+            }
+            return buttons;
+        }
+
+        private void Update()
+        {
+            for (int answer = RatingPanel.Lowest; answer <= RatingPanel.Highest; ++answer)
+            {
+                if (numbers[answer - 1].IsNew())
+                {
+                    panel.Choose(answer);
+                }
+            }
+            // Each is read in every frame, so that one that is held while the question opens does not count as new.
+            bool isLower = lower.IsNew();
+            bool isHigher = higher.IsNew();
+            bool isConfirmed = confirm.IsNew();
+            if (isLower != isHigher)
+            {
+                panel.Move(isLower ? -1 : 1);
+            }
+            if (isConfirmed)
+            {
+                panel.Confirm();
+            }
+        }
+
+        private void OnDestroy()
+        {
+            lower.Dispose();
+            higher.Dispose();
+            confirm.Dispose();
+            foreach (ButtonPress each in numbers)
+            {
+                each.Dispose();
+            }
+        }
+#else
+        private RatingPanel panel = null!;
+
+        /// <param name="penHand">Without the Input System only the keyboard answers.</param>
+        public static RatingButtons Create(RatingPanel panel, PenHand penHand)
+        {
+            var buttons = new GameObject("Rating Buttons").AddComponent<RatingButtons>();
+            buttons.panel = panel;
+            return buttons;
+        }
+
+#if ENABLE_LEGACY_INPUT_MANAGER
+        private void Update()
+        {
+            for (int answer = RatingPanel.Lowest; answer <= RatingPanel.Highest; ++answer)
+            {
+                if (Input.GetKeyDown(KeyCode.Alpha0 + answer))
+                {
+                    panel.Choose(answer);
+                }
+            }
+            if (Input.GetKeyDown(KeyCode.Return))
+            {
+                panel.Confirm();
+            }
+        }
+#endif
+#endif
+    }
+}

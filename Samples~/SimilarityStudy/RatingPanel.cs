@@ -1,0 +1,107 @@
+#nullable enable
+using System;
+using UnityEngine;
+
+namespace HaptoFlow.Samples.SimilarityStudy
+{
+    /// <summary>The question and its seven answers, in front of the participant. The answer is chosen and then
+    /// confirmed, so that a slip of the thumb is no answer.</summary>
+    public sealed class RatingPanel : MonoBehaviour
+    {
+        /// <summary>The lowest answer.</summary>
+        public const int Lowest = 1;
+
+        /// <summary>The highest answer.</summary>
+        public const int Highest = 7;
+
+        /// <summary>What is asked.</summary>
+        public const string Question = "How similar are these objects?";
+
+        private const float SpacingMetres = 0.035f;
+        private static readonly Color Plain = Color.white;
+        private static readonly Color Chosen = new Color(0.95f, 0.85f, 0.2f);
+
+        private readonly TextMesh[] numbers = new TextMesh[Highest];
+
+        /// <summary>The participant confirmed an answer, 1 to 7.</summary>
+        public event Action<int>? Confirmed;
+
+        /// <summary>1 to 7; null before one is chosen.</summary>
+        public int? Choice { get; private set; }
+
+        /// <summary>The question is shown.</summary>
+        public bool IsOpen => gameObject.activeSelf;
+
+        /// <summary>A panel that is closed.</summary>
+        public static RatingPanel Create(Vector3 position, Quaternion facing)
+        {
+            var panel = new GameObject("Rating Panel").AddComponent<RatingPanel>();
+            panel.transform.SetPositionAndRotation(position, facing);
+            panel.Add(Question, new Vector3(0f, 0.035f, 0f));
+            for (int answer = Lowest; answer <= Highest; ++answer)
+            {
+                float x = (answer - 0.5f * (Lowest + Highest)) * SpacingMetres;
+                panel.numbers[answer - 1] = panel.Add($"{answer}", new Vector3(x, 0f, 0f));
+            }
+            panel.Add("1: not similar at all          7: extremely similar", new Vector3(0f, -0.03f, 0f));
+            panel.Add("two buttons, or 1 to 7: choose\ntrigger, or Enter: confirm", new Vector3(0f, -0.065f, 0f));
+            panel.gameObject.SetActive(false);
+            return panel;
+        }
+
+        /// <summary>Asks; no answer is chosen.</summary>
+        public void Open()
+        {
+            Choice = null;
+            Show();
+            gameObject.SetActive(true);
+        }
+
+        /// <summary>Asks no more.</summary>
+        public void Close() => gameObject.SetActive(false);
+
+        /// <summary>Chooses an answer while the question is open; another may be chosen until one is confirmed.
+        /// </summary>
+        public void Choose(int answer)
+        {
+            if (IsOpen && answer >= Lowest && answer <= Highest)
+            {
+                Choice = answer;
+                Show();
+            }
+        }
+
+        /// <summary>Goes to the next answer, or from none to the middle one.</summary>
+        /// <param name="step">-1 or 1.</param>
+        public void Move(int step) => Choose(Choice.HasValue
+            ? Math.Max(Lowest, Math.Min(Highest, Choice.Value + step))
+            : (Lowest + Highest) / 2);
+
+        /// <summary>Gives the chosen answer; nothing happens where none is chosen.</summary>
+        public void Confirm()
+        {
+            if (IsOpen && Choice.HasValue)
+            {
+                int answer = Choice.Value;
+                Close();
+                Confirmed?.Invoke(answer);
+            }
+        }
+
+        private TextMesh Add(string text, Vector3 place)
+        {
+            TextMesh made = Build.Text(text, Vector3.zero, Quaternion.identity);
+            made.transform.SetParent(transform, false);
+            made.transform.localPosition = place;
+            return made;
+        }
+
+        private void Show()
+        {
+            for (int answer = Lowest; answer <= Highest; ++answer)
+            {
+                numbers[answer - 1].color = Choice == answer ? Chosen : Plain;
+            }
+        }
+    }
+}

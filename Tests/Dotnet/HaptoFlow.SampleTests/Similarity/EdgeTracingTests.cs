@@ -1,0 +1,96 @@
+using HaptoFlow.Samples.SimilarityStudy;
+using NUnit.Framework;
+
+namespace HaptoFlow.SampleTests.Similarity
+{
+    /// <summary>A rectangle of 20 x 15 cm; a tip within 1 cm of an edge is on it.</summary>
+    public sealed class EdgeTracingTests
+    {
+        private EdgeTracing tracing = null!;
+
+        [SetUp]
+        public void Begin() => tracing = new EdgeTracing(0.2, 0.15, 0.01, 0.9);
+
+        [Test]
+        public void AllFourEdgesInAnyOrderAndDirectionCompleteIt()
+        {
+            Line(0.1, 0.075, 0.1, -0.075);
+            Line(-0.1, 0.075, 0.1, 0.075);
+            Line(0.1, -0.075, -0.1, -0.075);
+            Assert.That((tracing.TracedEdges, tracing.IsComplete), Is.EqualTo((3, false)));
+            Line(-0.1, -0.075, -0.1, 0.075);
+            Assert.That(tracing.IsComplete, Is.True);
+        }
+
+        [TestCase(0.85, false)]
+        [TestCase(0.95, true)]
+        public void AnEdgeIsTracedAtItsWantedShare(double share, bool isTraced)
+        {
+            Line(-0.1, -0.075, -0.1 + 0.2 * share, -0.075);
+            Assert.That(tracing.IsTraced(0), Is.EqualTo(isTraced));
+        }
+
+        [Test]
+        public void ALineBesideAnEdgeTracesNothing()
+        {
+            Line(-0.09, -0.06, 0.09, -0.06);
+            Line(-0.09, 0.0, 0.09, 0.0);
+            Assert.That(tracing.TracedEdges, Is.Zero);
+        }
+
+        [Test]
+        public void FewPlacesOfAFastHandAreJoined()
+        {
+            for (double x = -0.1; x <= 0.1001; x += 0.04)
+            {
+                tracing.Add(x, -0.075);
+            }
+            Assert.That(tracing.IsTraced(0), Is.True);
+        }
+
+        [Test]
+        public void WhatWasLiftedOverIsNotTraced()
+        {
+            for (double x = -0.1; x <= 0.1001; x += 0.04)
+            {
+                tracing.Add(x, -0.075);
+                tracing.Lift();
+            }
+            Assert.That(tracing.IsTraced(0), Is.False);
+        }
+
+        [Test]
+        public void AJumpFromEndToEndIsNoLine()
+        {
+            tracing.Add(-0.1, -0.075);
+            tracing.Add(0.1, -0.075);
+            Assert.That(tracing.IsTraced(0), Is.False);
+        }
+
+        [Test]
+        public void WhatIsBegunAnewIsForgotten()
+        {
+            Line(-0.1, -0.075, 0.1, -0.075);
+            tracing.Begin();
+            Assert.That(tracing.TracedEdges, Is.Zero);
+        }
+
+        [Test]
+        public void PlacesThatAreNoNumbersTraceNothing()
+        {
+            tracing.Add(double.NaN, double.NaN);
+            tracing.Add(double.PositiveInfinity, 0.0);
+            Assert.That(tracing.TracedEdges, Is.Zero);
+        }
+
+        private void Line(double fromX, double fromZ, double toX, double toZ)
+        {
+            tracing.Lift();
+            for (int step = 0; step <= 50; ++step)
+            {
+                double share = step / 50.0;
+                tracing.Add(fromX + share * (toX - fromX), fromZ + share * (toZ - fromZ));
+            }
+        }
+    }
+}

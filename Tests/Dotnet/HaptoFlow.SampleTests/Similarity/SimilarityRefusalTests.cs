@@ -1,0 +1,218 @@
+using System;
+using System.Collections.Generic;
+using System.IO;
+using System.Linq;
+using System.Threading.Tasks;
+using HaptoFlow.Model;
+using HaptoFlow.Samples.SimilarityStudy;
+using HaptoFlow.Studies;
+using HaptoFlow.Tests;
+using NUnit.Framework;
+using UnityEngine;
+using UnityShim;
+
+namespace HaptoFlow.SampleTests.Similarity
+{
+    /// <summary>What stops the study before it begins, and is named.</summary>
+    public sealed class SimilarityRefusalTests : SimilarityTest
+    {
+        [Test]
+        public void AModelThatDoesNotLoadStopsTheStudyByTheNameOfItsMethodAndFile()
+        {
+            SimilarityStudySettings settings = Settings(1, 2);
+            settings.Compare(settings.Materials, settings.Methods.Append(
+                new StudyMethod("DSTN", Named(EditedModel.Damaged(), "dstn-1"), HapticQuality.Standard)));
+            Refused(settings, "method \"DSTN\"", "dstn-1.haptoflow", "checksum");
+        }
+
+        [Test]
+        public void AMethodWithoutModelStopsTheStudy()
+        {
+            SimilarityStudySettings settings = Settings(1, 2);
+            settings.Compare(settings.Materials, settings.Methods.Append(
+                new StudyMethod("SPSI", null, HapticQuality.Standard)));
+            Refused(settings, "method \"SPSI\"", "has no model");
+        }
+
+        [Test]
+        public void AutomaticQualityStopsTheStudy()
+        {
+            SimilarityStudySettings settings = Settings(1, 1);
+            settings.Compare(settings.Materials, settings.Methods.Append(
+                new StudyMethod("SPSI", DefaultModel.Asset(), HapticQuality.Auto)));
+            Refused(settings, "method \"SPSI\"", "quality Auto");
+        }
+
+        [Test]
+        public void TheSameTierUnderTwoNamesStopsTheStudy()
+        {
+            SimilarityStudySettings settings = Settings(1, 3);
+            // The package's model has no tier "fine": its best one is "standard".
+            settings.Compare(settings.Materials, settings.Methods.Append(
+                new StudyMethod("Best", DefaultModel.Asset(), HapticQuality.Fine)));
+            Refused(settings, "\"Ours\" and \"Best\" are the same tier \"standard\"");
+        }
+
+        [Test]
+        public void ALabelThatAModelDoesNotHaveStopsTheStudy()
+        {
+            SimilarityStudySettings settings = Settings(1, 2);
+            settings.Compare(settings.Materials.Append(new StudyMaterial("Hemp cloth", "hemp")), settings.Methods);
+            Refused(settings, "material \"Hemp cloth\"", "method \"Ours quick\" has no label \"hemp\"",
+                "wood, plywood");
+        }
+
+        [Test]
+        public void AMaterialOfNothingStopsTheStudy()
+        {
+            SimilarityStudySettings settings = Settings(1, 2);
+            settings.Compare(settings.Materials.Append(new StudyMaterial("Void", " ")), settings.Methods);
+            Refused(settings, "material \"Void\"", "neither a label nor a Haptic Material");
+        }
+
+        [Test]
+        public void ALearntMaterialOfAnotherModelStopsTheStudyAndOneOfTheSameDoesNot()
+        {
+            HapticMaterial denim =
+                HapticMaterial.Create(MaterialText.OfLabel(DefaultModel.Asset().File, "glass"), "cotton");
+            SimilarityStudySettings settings = Settings(
+                new[] { new StudyMaterial("Denim", "", denim) }, Settings(1, 2).Methods);
+            Begin(settings);
+            scene.Session!.Continue();
+            TraceReal();
+            AudioDevice.Forget();
+            TraceVirtual();
+            Assert.That(Haptics.LearntMaterials, Is.EqualTo(1));
+            Assert.That(LoudestFelt(), Is.GreaterThan(Audible));
+            Crash();
+            Directory.Delete(folder, true);
+            settings.Compare(settings.Materials, settings.Methods.Append(
+                new StudyMethod("Foreign", EditedModel.OfAnotherSpace(), HapticQuality.Standard)));
+            Refused(settings, "material \"Denim\"", "method \"Foreign\"", "another model");
+            UnityEngine.Object.DestroyImmediate(denim);
+        }
+
+        [TestCase("Ours")]
+        [TestCase("")]
+        [TestCase("a,b")]
+        public void ANameThatCannotStandInALogStopsTheStudy(string name)
+        {
+            SimilarityStudySettings settings = Settings(1, 3);
+            settings.Compare(settings.Materials, settings.Methods.Append(
+                new StudyMethod(name, EditedModel.OfAnotherSpace(), HapticQuality.Standard)));
+            Refused(settings, $"\"{name}\"");
+        }
+
+        [Test]
+        public void SettingsWithoutMaterialsMethodsOrAtAllStopTheStudy()
+        {
+            Refused(Settings(0, 2), "materials: a study needs at least one");
+            Crash();
+            Refused(Settings(1, 0), "methods: a study needs at least one");
+            Crash();
+            Refused(null, "no settings are chosen");
+        }
+
+        [Test]
+        public void AMethodThatIsSlowerThanTheEqualDelayStopsTheStudyByName()
+        {
+            SimilarityStudySettings settings = Settings(1, 2);
+            settings.EqualDelayMilliseconds = 60f;
+            inference = new Dictionary<string, double> { ["Rival quick"] = 80.0 };
+            Open(settings);
+            Prepare();
+            scene.Begin(7);
+            Assert.That(scene.Problem, Does.Contain("method \"Rival quick\" cannot be given 60 ms"));
+            Assert.That((scene.Session, Directory.Exists(folder)), Is.EqualTo(((StudySession?)null, false)));
+        }
+
+        [Test]
+        public void AMeasurementThatFailsStopsTheStudyByName()
+        {
+            measure = (_, _) => Task.FromException<double>(new InvalidOperationException("no voice is free"));
+            Open(Settings(1, 2));
+            Prepare();
+            Assert.That(scene.Problem, 
+                Does.Contain("method \"Ours quick\": its delay could not be measured: no voice"));
+        }
+
+        [Test]
+        public void AParticipantWhoIsDoneIsRefusedAndAnotherCanBegin()
+        {
+            SimilarityStudySettings settings = Settings(1, 1);
+            Begin(settings);
+            TakePart();
+            Crash();
+            Open(settings);
+            Prepare();
+            scene.Begin(7);
+            Assert.That(scene.Problem, Does.Contain("participant 7 has finished this study"));
+            scene.Begin(8);
+            Assert.That((scene.Problem, scene.Session!.Plan.Participant), Is.EqualTo(((string?)null, 8)));
+        }
+
+        [Test]
+        public void AnInterruptedSessionKeepsItsDelayThoughTheMachineIsMeasuredAnew()
+        {
+            SimilarityStudySettings settings = Settings(1, 2);
+            inference = new Dictionary<string, double> { ["Ours quick"] = 20.0 };
+            Begin(settings);
+            TakePart(3);
+            double planned = scene.Delay!.Milliseconds;
+            Crash();
+            inference = new Dictionary<string, double> { ["Ours quick"] = 21.5 };
+            Begin(settings);
+            Assert.That(scene.Delay!.Milliseconds, Is.EqualTo(planned));
+            TakePart();
+            Assert.That(Rows().Select(row => Number(row, "delay_ms")), Is.All.EqualTo(planned));
+            Assert.That(Rows().Where(row => row["method"] == "Ours quick").Select(row => row["system_delay_ms"])
+                .Distinct().Count(), Is.EqualTo(2));
+        }
+
+        [Test]
+        public void AnInterruptedSessionIsNotGoneOnWithWhereAMethodBecameTooSlowForItsDelay()
+        {
+            SimilarityStudySettings settings = Settings(1, 2);
+            Begin(settings);
+            TakePart(3);
+            byte[] before = File.ReadAllBytes(Csv);
+            Crash();
+            inference = new Dictionary<string, double> { ["Ours quick"] = 90.0 };
+            Open(settings);
+            Prepare();
+            scene.Begin(7);
+            Assert.That(scene.Problem, Does.Contain("method \"Ours quick\" cannot be given"));
+            Assert.That(File.ReadAllBytes(Csv), Is.EqualTo(before));
+        }
+
+        [TestCase(0.25f, 0f, "would overlap")]
+        [TestCase(0.01f, 0.3f, "at least 0.02")]
+        public void ObjectsThatCannotBeTracedStopTheStudy(float width, float aside, string expected)
+        {
+            SimilarityStudySettings settings = Settings(1, 2);
+            Set(settings, "sampleMetres", new Vector3(width, 0.01f, 0.15f));
+            Set(settings, "virtualMetres", new Vector3(aside, 0f, 0f));
+            Refused(settings, expected);
+        }
+
+        private void Refused(SimilarityStudySettings? settings, params string[] words)
+        {
+            Open(settings);
+            Prepare();
+            Assert.That(scene.Problem, Is.Not.Null);
+            foreach (string word in words)
+            {
+                Assert.That(scene.Problem, Does.Contain(word));
+            }
+            scene.Begin(7);
+            PlayFor(0.5);
+            Assert.That(scene.Session, Is.Null);
+            Assert.That(scene.Operator.Lines, Has.Some.StartsWith("STOPPED: "));
+            Assert.That(Directory.Exists(folder), Is.False, "nothing was begun");
+        }
+
+        private static void Set(SimilarityStudySettings settings, string field, object value) => settings.GetType()
+            .GetField(field, System.Reflection.BindingFlags.NonPublic | System.Reflection.BindingFlags.Instance)!
+            .SetValue(settings, value);
+    }
+}

@@ -1,0 +1,259 @@
+using System;
+using System.Collections.Generic;
+using System.Globalization;
+using System.IO;
+using System.Linq;
+using System.Threading.Tasks;
+using HaptoFlow.Samples.SimilarityStudy;
+using HaptoFlow.Studies;
+using HaptoFlow.Tests;
+using NUnit.Framework;
+using UnityEngine;
+using UnityShim;
+
+namespace HaptoFlow.SampleTests.Similarity
+{
+    /// <summary>The similarity study with a scripted participant: a pen in the right hand, an answer from the left.
+    /// </summary>
+    public abstract class SimilarityTest : SampleTest
+    {
+        protected const string Left = "<XRController>{LeftHand}/";
+        protected const string Right = "<XRController>{RightHand}/";
+        protected const double HandMps = 0.6;
+        private const float InsetMetres = 0.003f;
+        private const float DeepMetres = 0.001f;
+
+        private static readonly string[] Labels = { "wood", "jute", "ceramic", "plastic", "fur", "metal" };
+
+        private protected string folder = "";
+        private protected SimilarityStudyScene scene = null!;
+        private protected Dictionary<string, double> inference = new Dictionary<string, double>();
+        private protected Func<StudyMethod, HapticLoadedModel, Task<double>>? measure;
+        private Vector3 tip;
+
+        private protected string Csv => Directory.GetFiles(folder, "*.csv").Single();
+
+        private protected SimilarityProcedure Procedure => scene.Procedure!;
+
+        [SetUp]
+        public void MakeFolder()
+        {
+            folder = Path.Combine(Path.GetTempPath(), "haptoflow-similarity-" + Guid.NewGuid().ToString("N"));
+            inference = new Dictionary<string, double>();
+            measure = (method, _) => Task.FromResult(
+                inference.TryGetValue(method.Name, out double milliseconds) ? milliseconds : 6.0);
+        }
+
+        [TearDown]
+        public void RemoveFolder()
+        {
+            if (Directory.Exists(folder))
+            {
+                Directory.Delete(folder, true);
+            }
+        }
+
+        /// <summary>Up to six labels, and up to four methods: two tiers of two models.</summary>
+        private protected SimilarityStudySettings Settings(int materials, int methods) => Settings(
+            Labels.Take(materials).Select(label => new StudyMaterial("Sample of " + label, label)),
+            new[]
+            {
+                new StudyMethod("Ours quick", Named(DefaultModel.Asset(), "ours"), HapticQuality.Draft),
+                new StudyMethod("Rival quick", Named(EditedModel.WithLabelsReversed(), "rival"), HapticQuality.Draft),
+                new StudyMethod("Ours", Named(DefaultModel.Asset(), "ours"), HapticQuality.Standard),
+                new StudyMethod("Rival", Named(EditedModel.WithLabelsReversed(), "rival"), HapticQuality.Standard),
+            }.Take(methods));
+
+        private protected SimilarityStudySettings Settings(
+            IEnumerable<StudyMaterial> materials, IEnumerable<StudyMethod> methods)
+        {
+            var settings = ScriptableObject.CreateInstance<SimilarityStudySettings>();
+            settings.name = "Test Study";
+            settings.Compare(materials, methods);
+            settings.Folder = folder;
+            settings.Seed = 5;
+            settings.NeedsAlignment = false;
+            return settings;
+        }
+
+        private protected static HapticModelAsset Named(HapticModelAsset model, string name)
+        {
+            model.name = name;
+            return model;
+        }
+
+        /// <summary>The scene as its file has it.</summary>
+        private protected void Open(SimilarityStudySettings? settings, string saveName = "", bool hasPen = true)
+        {
+            Camera camera = CameraOf(new SceneFile(SampleFile("SimilarityStudy", "SimilarityStudy.unity")));
+            // As in the scene file, the camera hears.
+            foreach (AudioListener each in FindAll<AudioListener>())
+            {
+                UnityEngine.Object.DestroyImmediate(each);
+            }
+            camera.gameObject.AddComponent<AudioListener>();
+            scene = Wake<SimilarityStudyScene>(bootstrap =>
+            {
+                bootstrap.View = camera;
+                bootstrap.Settings = settings;
+                bootstrap.SaveName = saveName;
+                bootstrap.MeasureInference = measure ?? bootstrap.MeasureInference;
+            });
+            if (hasPen)
+            {
+                Hold(new Vector3(0f, 0.1f, 0f));
+            }
+        }
+
+        /// <summary>Until the models are there, or the study refused.</summary>
+        private protected void Prepare()
+        {
+            var until = DateTime.UtcNow.AddMinutes(2);
+            while (!scene.CanBegin && scene.Problem == null && DateTime.UtcNow < until)
+            {
+                World.Frame();
+            }
+        }
+
+        private protected void Begin(SimilarityStudySettings settings)
+        {
+            Open(settings);
+            Prepare();
+            scene.Begin(7);
+            Assert.That(scene.Problem, Is.Null);
+        }
+
+        /// <summary>The application is gone from one moment to the next; what was written is what there is.</summary>
+        private protected void Crash()
+        {
+            World.LoadEmptyScene();
+            Make("Stepper").AddComponent<EngineStepper>();
+        }
+
+        /// <summary>Goes through every trial and every pause until the plan is done.</summary>
+        /// <param name="stopAt">The trial in whose middle it stops; 0 for none.</param>
+        /// <returns>The pauses that the operator ended.</returns>
+        private protected List<StudyPause> TakePart(int stopAt = 0)
+        {
+            var pauses = new List<StudyPause>();
+            while (scene.Session!.Phase != StudyPhase.Finished)
+            {
+                if (scene.Session.Phase == StudyPhase.Paused)
+                {
+                    pauses.Add(scene.Session.Pause);
+                    scene.Session.Continue();
+                    continue;
+                }
+                PlannedTrial trial = scene.Session.Trial!;
+                Assert.That(Procedure.Stage, Is.EqualTo(TrialStage.RealEdges), $"trial {trial.Trial}");
+                TraceReal();
+                Assert.That(Procedure.Stage, Is.EqualTo(TrialStage.VirtualEdges), $"trial {trial.Trial}");
+                if (trial.Trial == stopAt)
+                {
+                    return pauses;
+                }
+                TraceVirtual();
+                Assert.That(Procedure.Stage, Is.EqualTo(TrialStage.Free), $"trial {trial.Trial}");
+                Slide(Corner(scene.Virtual.Frame, 0), scene.Virtual.Frame.position);
+                Answer(RatingOf(trial));
+            }
+            return pauses;
+        }
+
+        /// <summary>What the scripted participant answers: another rating for each pair.</summary>
+        private protected static int RatingOf(PlannedTrial trial) => 1 + (trial.Trial * 3 + trial.Method!.Length) % 7;
+
+        private protected void Answer(int rating)
+        {
+            Press("<Keyboard>/" + rating);
+            Press(Left + "triggerPressed");
+        }
+
+        private protected void TraceReal() => Trace(scene.Real.Frame, EdgeTracing.EdgeCount);
+
+        private protected void TraceVirtual() => Trace(scene.Virtual.Frame, EdgeTracing.EdgeCount);
+
+        /// <summary>Slides along so many edges, pressing, and lifts.</summary>
+        private protected void Trace(Transform frame, int edges, float heightMetres = -DeepMetres)
+        {
+            Hold(Corner(frame, 0) + 0.02f * Vector3.up);
+            for (int corner = 0; corner <= edges; ++corner)
+            {
+                MoveTo(Corner(frame, corner % 4) + (scene.Pen.TipRadiusMetres + heightMetres) * Vector3.up);
+            }
+            Hold(tip + 0.03f * Vector3.up);
+        }
+
+        private protected void Slide(Vector3 from, Vector3 to)
+        {
+            Vector3 down = (scene.Pen.TipRadiusMetres - DeepMetres) * Vector3.up;
+            Hold(from + down);
+            MoveTo(to + down);
+            Hold(to + 0.03f * Vector3.up);
+        }
+
+        /// <summary>Of an object's top, a little inside: 0 near left, then near right, far right, far left.</summary>
+        private protected Vector3 Corner(Transform frame, int corner)
+        {
+            Vector3 size = scene.Settings!.SampleMetres;
+            float x = (corner == 1 || corner == 2 ? 0.5f : -0.5f) * (size.x - 2f * InsetMetres);
+            float z = (corner >= 2 ? 0.5f : -0.5f) * (size.z - 2f * InsetMetres);
+            return frame.TransformPoint(new Vector3(x, 0f, z));
+        }
+
+        private protected void MoveTo(Vector3 to)
+        {
+            Vector3 from = tip;
+            int frames = Math.Max(1, (int)Math.Ceiling(Vector3.Distance(from, to) / HandMps * World.FrameRateHz));
+            for (int frame = 1; frame <= frames; ++frame)
+            {
+                Hold(from + (to - from) * (frame / (float)frames));
+            }
+        }
+
+        /// <summary>The pen is here for a frame.</summary>
+        private protected void Hold(Vector3 place)
+        {
+            tip = place;
+            SimulatedInput.SetControl(Right + "isTracked", 1f);
+            SimulatedInput.SetControl(Right + "tipPose/position", place);
+            SimulatedInput.SetControl(Right + "tipPose/rotation", Quaternion.identity);
+            World.Frame();
+        }
+
+        private protected static void Press(string control)
+        {
+            SimulatedInput.SetControl(control, 1f);
+            World.Frame();
+            SimulatedInput.SetControl(control, 0f);
+            World.Frame();
+        }
+
+        /// <summary>Largest magnitude on the actuator's channel since <see cref="AudioDevice.Forget"/>.</summary>
+        private protected float LoudestFelt()
+        {
+            float loudest = 0f;
+            for (int frame = 0; frame < AudioDevice.RecordedFrames; ++frame)
+            {
+                loudest = Math.Max(loudest, Math.Abs(AudioDevice.Sample(frame, scene.Output.Channel)));
+            }
+            return loudest;
+        }
+
+        /// <summary>The rows of the log by column.</summary>
+        private protected List<Dictionary<string, string>> Rows()
+        {
+            string[] lines = File.ReadAllText(Csv).TrimEnd('\n').Split('\n');
+            string[] columns = lines[0].Split(',');
+            return lines.Skip(1).Select(line => line.Split(',').Select((value, place) => (columns[place], value))
+                .ToDictionary(each => each.Item1, each => each.value)).ToList();
+        }
+
+        private protected static double Number(Dictionary<string, string> row, string column) =>
+            double.Parse(row[column], CultureInfo.InvariantCulture);
+
+        private protected static T[] FindAll<T>()
+            where T : UnityEngine.Object =>
+            UnityEngine.Object.FindObjectsByType<T>(FindObjectsInactive.Include, FindObjectsSortMode.None);
+    }
+}

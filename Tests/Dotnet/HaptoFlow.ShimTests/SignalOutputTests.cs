@@ -1,0 +1,77 @@
+using System;
+using System.Linq;
+using HaptoFlow.Tests;
+using NUnit.Framework;
+using UnityEngine;
+using UnityShim;
+
+namespace HaptoFlow.ShimTests
+{
+    /// <summary>An output's signal: a sine in the place of what is felt.</summary>
+    public sealed class SignalOutputTests : SceneTest
+    {
+        private HapticOutput output = null!;
+
+        [SetUp]
+        public void MakeAnOutput()
+        {
+            Output(out output);
+            Board();
+        }
+
+        [Test]
+        public void TheSineSoundsAtItsAmplitudeWhileTheTipMovesAndNothingIsInferred()
+        {
+            output.SetSignal(200.0, 20.0);
+            HapticStylus stylus = Circling();
+            FinishLoading();
+            World.Frames(45);
+            AudioDevice.Forget();
+            World.Frames(45);
+            float[] heard = Heard();
+            Assert.That(heard.Max(), Is.EqualTo(20.0 / HapticEngineOptions.DefaultFullScaleMps2).Within(1e-3));
+            double rms = Math.Sqrt(heard.Average(sample => (double)sample * sample));
+            Assert.That(rms, Is.EqualTo(heard.Max() / Math.Sqrt(2.0)).Within(1e-3), "a sine, unbroken");
+            Assert.That(stylus.TryGetStatistics(out VoiceStatistics statistics), Is.True);
+            Assert.That(statistics.Inferences, Is.Zero);
+            Assert.That(stylus.TryGetSignalStatistics(out SignalStatistics signal), Is.True);
+            Assert.That(signal.Starts, Is.EqualTo(1ul));
+        }
+
+        [Test]
+        public void ItCanBeSetAndTakenAwayWhileAVoiceIsOpen()
+        {
+            HapticStylus stylus = Circling();
+            FinishLoading();
+            World.Frames(45);
+            output.SetSignal(200.0, 20.0);
+            World.Frames(45);
+            Assert.That(RunsOf(stylus), Is.GreaterThan(0ul));
+            output.SetSignal(0.0, 0.0);
+            World.Frames(5);
+            ulong before = RunsOf(stylus);
+            AudioDevice.Forget();
+            World.Frames(45);
+            Assert.That(RunsOf(stylus), Is.EqualTo(before));
+            Assert.That(Heard().Max(), Is.GreaterThan(0.001f), "the texture is felt again");
+        }
+
+        [TestCase(0.0, 20.0)]
+        [TestCase(501.0, 20.0)]
+        [TestCase(double.NaN, 20.0)]
+        [TestCase(200.0, 61.0)]
+        [TestCase(200.0, -1.0)]
+        [TestCase(200.0, double.NaN)]
+        public void ASignalOutOfRangeIsRefused(double frequencyHz, double amplitudeMps2) => Assert.That(
+            () => output.SetSignal(frequencyHz, amplitudeMps2), Throws.TypeOf<ArgumentOutOfRangeException>());
+
+        private static ulong RunsOf(HapticStylus stylus)
+        {
+            Assert.That(stylus.TryGetEffectStatistics(HapticEffect.Signal, out EffectStatistics statistics), Is.True);
+            return statistics.Runs;
+        }
+
+        private static float[] Heard() => Enumerable.Range(0, AudioDevice.RecordedFrames)
+            .Select(frame => AudioDevice.Sample(frame, 0)).ToArray();
+    }
+}

@@ -1,0 +1,57 @@
+#nullable enable
+using System;
+using System.IO;
+using System.Linq;
+using HaptoFlow.Studies;
+
+namespace HaptoFlow.Tests
+{
+    /// <summary>A folder of its own with the logs of a small latency study.</summary>
+    internal sealed class StudyFolder : IDisposable
+    {
+        public string Path { get; } = System.IO.Path.Combine(
+            System.IO.Path.GetTempPath(), "haptoflow-study-" + System.IO.Path.GetRandomFileName());
+
+        public FailingFiles Files { get; } = new FailingFiles();
+
+        public string Csv => Directory.GetFiles(Path, "*.csv").Single();
+
+        public string Sidecar => Directory.GetFiles(Path, "*.json").Single();
+
+        public string[] Rows => File.ReadAllText(Csv).TrimEnd('\n').Split('\n').Skip(1).ToArray();
+
+        public static StudyDescription Description(
+            int participant = 7, ulong seed = 1, double amplitude = 20.0, double deviceMilliseconds = 5.0)
+        {
+            StudyPlan plan = StudyPlan.Latency(participant, seed, new[] { 50.0, 70.0 });
+            var settings = new StudyFields { { "tone", new StudyFields { { "amplitude_mps2", amplitude } } } };
+            return new StudyDescription(plan, settings, new SystemDelay(11.1, 0.0, 10.7, deviceMilliseconds))
+            {
+                Environment = new StudyEnvironment { DeviceDelayNote = "made up" },
+            };
+        }
+
+        public StudyLog Open(StudyDescription? description = null) =>
+            StudyLog.Open(Path, description ?? Description(), Files);
+
+        public static TrialRecord Yes() => new TrialRecord().Set("answer", "yes");
+
+        /// <summary>A session that answered some trials and was then cut off.</summary>
+        public void Leave(int answered)
+        {
+            StudyLog log = Open();
+            for (int trial = 0; trial < answered; ++trial)
+            {
+                log.Append(Yes().Set("elapsed_seconds", 10.0 * (trial + 1)).Set("attempt", 1));
+            }
+        }
+
+        public void Dispose()
+        {
+            if (Directory.Exists(Path))
+            {
+                Directory.Delete(Path, true);
+            }
+        }
+    }
+}

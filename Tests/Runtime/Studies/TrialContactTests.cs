@@ -1,0 +1,104 @@
+#nullable enable
+#if HAPTOFLOW_OUTSIDE_UNITY
+using System;
+using HaptoFlow.Studies;
+using NUnit.Framework;
+using UnityEngine;
+using UnityShim;
+
+namespace HaptoFlow.Tests
+{
+    /// <summary>What a stylus did during a trial, of a stroke whose length, time and force are known.</summary>
+    public sealed class TrialContactTests : SceneTest
+    {
+        [Test]
+        public void PathTimeSpeedAndForceAreTheStrokes()
+        {
+            Board();
+            // 0.15 m/s, 1 mm below the surface for a tip of 2 mm: the sphere cuts 3 mm deep.
+            HapticStylus stylus = StylusAlong(seconds => new Vector3(-0.15f + 0.15f * (float)seconds, 0.001f, 0f));
+            FinishLoading();
+            World.Frames(10);
+            using var contact = new TrialContact(stylus);
+            World.Frames(90);
+            Assert.That(contact.ContactSeconds, Is.EqualTo(1.0).Within(0.012));
+            Assert.That(contact.PathMillimetres, Is.EqualTo(150.0).Within(3.0));
+            Assert.That(contact.MeanSpeedMmps, Is.EqualTo(150.0).Within(1.0));
+            Assert.That(contact.MeanForceNewtons, Is.EqualTo(stylus.Contact.ForceNewtons).Within(0.01));
+            Assert.That(contact.IsMoving, Is.True);
+            contact.Begin();
+            Assert.That((contact.ContactSeconds, contact.PathMillimetres), Is.EqualTo((0.0, 0.0)));
+        }
+
+        [Test]
+        public void SettingOffAndStoppingAreCountedAlsoWhereThePenLifts()
+        {
+            Board();
+            HapticStylus stylus = StylusAlong(Stops);
+            FinishLoading();
+            using var contact = new TrialContact(stylus);
+            World.Frames(45);
+            Assert.That((contact.Starts, contact.Stops), Is.EqualTo((1, 0)), "it slides");
+            World.Frames(45);
+            Assert.That((contact.Starts, contact.Stops), Is.EqualTo((1, 1)), "it rests");
+            World.Frames(45);
+            Assert.That((contact.Starts, contact.Stops), Is.EqualTo((2, 1)), "it slides again");
+            World.Frames(45);
+            Assert.That((contact.Starts, contact.Stops), Is.EqualTo((2, 2)), "it has lifted");
+            Assert.That(contact.ContactSeconds, Is.EqualTo(1.5).Within(0.05));
+        }
+
+        [Test]
+        public void OfAStrokeOverTwoSurfacesOnlyTheChosenOneCounts()
+        {
+            HapticSurface left = Board();
+            HapticSurface right = Board("fur");
+            right.transform.position = new Vector3(0.4f, 0f, 0f);
+            // 20 cm on the left board, then 10 cm on the right one.
+            HapticStylus stylus = StylusAlong(seconds => new Vector3(0.2f * (float)seconds, 0.001f, 0f));
+            FinishLoading();
+            using var all = new TrialContact(stylus);
+            using var onLeft = new TrialContact(stylus, left);
+            using var onRight = new TrialContact(stylus, right);
+            World.Frames(136);
+            Assert.That(onLeft.PathMillimetres, Is.EqualTo(200.0).Within(6.0));
+            Assert.That(onRight.PathMillimetres, Is.EqualTo(100.0).Within(6.0));
+            Assert.That(onLeft.ContactSeconds + onRight.ContactSeconds, Is.EqualTo(all.ContactSeconds).Within(1e-9));
+            Assert.That((onLeft.Starts, onLeft.Stops, onRight.IsMoving), Is.EqualTo((1, 1, true)));
+        }
+
+        [Test]
+        public void TheRecordHasTheColumnsOfAllStudies()
+        {
+            Board();
+            using var contact = new TrialContact(Circling());
+            FinishLoading();
+            World.Frames(30);
+            TrialRecord record = contact.AddTo(new TrialRecord());
+            foreach (string column in new[] { "contact_seconds", "path_mm", "mean_speed_mmps", "mean_force_newtons" })
+            {
+                Assert.That(double.Parse(record[column], System.Globalization.CultureInfo.InvariantCulture),
+                    Is.GreaterThan(0.0), column);
+            }
+            Assert.That(record["underruns"], Is.EqualTo("0"));
+        }
+
+        [Test]
+        public void WhatIsDisposedCountsNoMore()
+        {
+            Board();
+            var contact = new TrialContact(Circling());
+            contact.Dispose();
+            World.Frames(30);
+            Assert.That(contact.ContactSeconds, Is.Zero);
+        }
+
+        private static Vector3 Stops(double seconds)
+        {
+            double slides = Math.Min(seconds, 0.5) + Math.Max(0.0, Math.Min(seconds, 1.5) - 1.0);
+            float height = seconds < 1.5 ? 0.001f : 0.05f;
+            return new Vector3(-0.1f + 0.1f * (float)slides, height, 0f);
+        }
+    }
+}
+#endif

@@ -1,0 +1,154 @@
+"""What each part of the way from the hand to the hand may take before people notice the delay."""
+
+from __future__ import annotations
+
+import io
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from haptoflow_training.evaluation.model_stamp import model_line, picture_metadata
+from haptoflow_training.export.whole_file import write_whole
+from haptoflow_training.studies.bench_figures import BenchFigures, Block
+from haptoflow_training.studies.plans import TURN_OFF, TURN_ON
+from haptoflow_training.studies.simulated_participants import PAPER_CURVES
+
+REFRESH_RATES_HZ = (72.0, 90.0, 120.0)
+_MAIN_BLOCK = Block(256)
+_PARTS = (("pose interval", "#4a73b5"), ("inference, p99", "#d1495b"), ("audio block", "#2f7d57"))
+_NOT_MEASURED = "not measured here"
+_TITLES = {TURN_ON: "Turn-On", TURN_OFF: "Turn-Off"}
+
+
+@dataclass(frozen=True)
+class Budget:
+    """In ms. device_ms: from the audio callback to the hand; None where nobody measured it."""
+
+    pose_interval_ms: float
+    inference_ms: float
+    block_ms: float
+    device_ms: float | None = None
+
+    @property
+    def known_ms(self) -> float:
+        return self.pose_interval_ms + self.inference_ms + self.block_ms + (self.device_ms or 0.0)
+
+    def left_ms(self, condition: str) -> float:
+        """Until the paper's threshold; below 0 where it is passed."""
+        return PAPER_CURVES[condition].x0 - self.known_ms
+
+
+def budgets(bench: BenchFigures, refresh_hz: float, block: Block, device_ms: float | None) -> dict[str, Budget]:
+    """By quality. Every part counts in full, as if each event just missed the part before."""
+    return {
+        quality: Budget(1000.0 / refresh_hz, spread.p99, block.milliseconds(bench.rate_hz), device_ms)
+        for quality, spread in bench.inference_ms.items()
+    }
+
+
+def page_words(bench: BenchFigures, chart: str, device_ms: float | None = None) -> str:
+    """Markdown of the page's measured part, with `chart` as the picture's address."""
+    main = budgets(bench, REFRESH_RATES_HZ[0], _MAIN_BLOCK, device_ms)
+    return "\n\n".join(
+        [
+            model_line(bench.model_sha256),
+            f"Inference and latencies: {bench.words}, as [benchmarks](benchmarks.md) publishes them.",
+            "\n".join(_parts_table(main, device_ms)),
+            f"![Parts of the delay by quality, and the two thresholds of the paper]({chart})",
+            "Other frame rates and blocks, quality `standard`, everything but the device:",
+            "\n".join(_settings_table(bench, device_ms)),
+            "The same way measured inside the library, 99th percentile of events, with the frame in which they happen:",
+            "\n".join(_measured_table(bench, device_ms)),
+        ]
+    )
+
+
+def _parts_table(main: Mapping[str, Budget], device_ms: float | None) -> list[str]:
+    device = _NOT_MEASURED if device_ms is None else f"{device_ms:.1f}"
+    together = "together, without device" if device_ms is None else "together"
+    rows: Sequence[tuple[str, Sequence[str]]] = (
+        ("pose interval, 72 Hz", [f"{one.pose_interval_ms:.1f}" for one in main.values()]),
+        ("inference, p99 at the pace of use", [f"{one.inference_ms:.2f}" for one in main.values()]),
+        ("audio block, 256 frames", [f"{one.block_ms:.1f}" for one in main.values()]),
+        ("device: driver, converter, amplifier, actuator", [device for _ in main]),
+        (f"**{together}**", [f"**{one.known_ms:.1f}**" for one in main.values()]),
+        *(
+            (f"left before {title}, {PAPER_CURVES[condition].x0} ms", [_left(one, condition) for one in main.values()])
+            for condition, title in _TITLES.items()
+        ),
+    )
+    lines = ["| ms | " + " | ".join(main) + " |", "|---|" + "---|" * len(main)]
+    return lines + [f"| {words} | " + " | ".join(cells) + " |" for words, cells in rows]
+
+
+def _left(budget: Budget, condition: str) -> str:
+    left = budget.left_ms(condition)
+    return f"{left:.1f}" if left >= 0.0 else f"**passed by {-left:.1f}**"
+
+
+def _settings_table(bench: BenchFigures, device_ms: float | None) -> list[str]:
+    rates = " | ".join(f"{rate:.0f} Hz, ms" for rate in REFRESH_RATES_HZ)
+    lines = [
+        f"| block, frames | {rates} | left before Turn-Off at 72 Hz |",
+        "|---|" + "---|" * (len(REFRESH_RATES_HZ) + 1),
+    ]
+    for block in sorted(bench.onset_ms, key=lambda each: each.frames * each.burst):
+        by_rate = [budgets(bench, rate, block, device_ms)["standard"] for rate in REFRESH_RATES_HZ]
+        cells = [f"{one.known_ms:.1f}" for one in by_rate]
+        lines.append(f"| {block} | " + " | ".join(cells) + f" | {_left(by_rate[0], TURN_OFF)} |")
+    return lines
+
+
+def _measured_table(bench: BenchFigures, device_ms: float | None) -> list[str]:
+    interval = 1000.0 / REFRESH_RATES_HZ[0]
+    lines = [
+        "| block, frames | onset, ms | with pose interval | left before Turn-On "
+        "| stop, ms | with pose interval | left before Turn-Off |",
+        "|---|---|---|---|---|---|---|",
+    ]
+    for block in sorted(bench.onset_ms, key=lambda each: each.frames * each.burst):
+        cells = []
+        for spread, condition in ((bench.onset_ms[block], TURN_ON), (bench.stop_ms[block], TURN_OFF)):
+            budget = Budget(interval, 0.0, spread.p99, device_ms)
+            cells += [f"{spread.p99:.1f}", f"{budget.known_ms:.1f}", _left(budget, condition)]
+        lines.append(f"| {block} | " + " | ".join(cells) + " |")
+    return lines
+
+
+def write_chart(path: Path, bench: BenchFigures, device_ms: float | None = None) -> None:
+    """A bar a quality, its parts one after another, and the paper's thresholds; PNG."""
+    import matplotlib
+
+    matplotlib.use("Agg")
+    from matplotlib import pyplot
+
+    found = budgets(bench, REFRESH_RATES_HZ[0], _MAIN_BLOCK, device_ms)
+    figure, axis = pyplot.subplots(figsize=(8.6, 1.9 + 0.55 * len(found)), layout="constrained")
+    for place, budget in enumerate(found.values()):
+        left = 0.0
+        values = (budget.pose_interval_ms, budget.inference_ms, budget.block_ms)
+        for value, (words, colour) in zip(values, _PARTS, strict=True):
+            axis.barh(place, value, left=left, color=colour, label=words if place == 0 else None, height=0.6)
+            left += value
+        room = PAPER_CURVES[TURN_OFF].x0 - left
+        words = "device: not measured here" if device_ms is None else "device"
+        width = max(0.0, room if device_ms is None else device_ms)
+        axis.barh(place, width, left=left, color="white", edgecolor="#999999", hatch="//", height=0.6,
+                  label=words if place == 0 else None)  # fmt: skip
+        if device_ms is None:
+            axis.text(left + room / 2.0, place, f"{room:.0f} ms left for it", ha="center", va="center", fontsize=9,
+                      bbox={"facecolor": "white", "edgecolor": "none", "pad": 1.5})  # fmt: skip
+    for condition, colour in ((TURN_OFF, "#222222"), (TURN_ON, "#8a5fb0")):
+        threshold = PAPER_CURVES[condition].x0
+        axis.axvline(threshold, color=colour, linestyle="--", linewidth=1.4)
+        axis.annotate(f"{_TITLES[condition]}\n{threshold} ms", (threshold, -0.6), ha="center", va="bottom",
+                      fontsize=9, color=colour, annotation_clip=False)  # fmt: skip
+    axis.set_yticks(range(len(found)), list(found))
+    axis.set_ylim(len(found) - 0.45, -0.55)
+    axis.set_xlim(0.0, 140.0)
+    axis.set_xlabel("ms from the hand's movement to the vibration's (72 Hz, blocks of 256 frames)")
+    axis.legend(fontsize=8, ncols=4, loc="upper center", bbox_to_anchor=(0.5, -0.24))
+    picture = io.BytesIO()
+    figure.savefig(picture, format="png", dpi=110, bbox_inches="tight", metadata=picture_metadata(bench.model_sha256))
+    pyplot.close(figure)
+    write_whole(path, picture.getvalue())

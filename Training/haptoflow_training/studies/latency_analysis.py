@@ -1,0 +1,68 @@
+"""The delay tolerance study: a curve and a threshold for each condition, from the delays as delivered."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from haptoflow_training.studies.bootstrap import Interval
+from haptoflow_training.studies.plans import CONDITIONS, MAIN
+from haptoflow_training.studies.psychometric import RESAMPLES, Answers, Fit, fit, percent_yes, threshold_difference
+from haptoflow_training.studies.session_file import Session
+
+
+@dataclass(frozen=True)
+class Point:
+    """Of one planned level: the mean delivered delay, percentage of yes, its standard error, answers."""
+
+    level_ms: float
+    delivered_ms: float
+    percent: float
+    error_percent: float
+    count: int
+
+
+@dataclass(frozen=True)
+class LatencyResult:
+    """difference: of the thresholds, turn-on less turn-off, with its interval, None where either has none."""
+
+    participants: int
+    points: Mapping[str, Sequence[Point]]
+    fits: Mapping[str, Fit]
+    answers: Mapping[str, int]
+    difference_ms: float | None
+    difference_interval: Interval | None
+
+
+def analyse_latency(sessions: Sequence[Session], *, resamples: int = RESAMPLES, seed: int = 0) -> LatencyResult:
+    """Practice is left out."""
+    points, fits, counts = {}, {}, {}
+    for condition in CONDITIONS:
+        answers, levels = answers_of(sessions, condition)
+        found = np.unique(levels)
+        rows = percent_yes(answers, list(found), levels)
+        points[condition] = [Point(float(level), *row) for level, row in zip(found, rows, strict=True)]
+        fits[condition] = fit(answers, resamples=resamples, seed=seed)
+        counts[condition] = len(levels)
+    first, second = (fits[condition] for condition in CONDITIONS)
+    difference = first.curve.x0 - second.curve.x0 if first.curve and second.curve else None
+    interval = threshold_difference(first, second, len(sessions))
+    return LatencyResult(len(sessions), points, fits, counts, difference, interval)
+
+
+def answers_of(sessions: Sequence[Session], condition: str) -> tuple[Answers, np.ndarray]:
+    """The main trials' answers, and the planned level of each."""
+    rows = [
+        (place, row)
+        for place, session in enumerate(sessions)
+        for row in session.rows
+        if row["block"] == MAIN and row["condition"] == condition
+    ]
+    answers = Answers(
+        np.array([row["delivered_delay_ms"] for _, row in rows], dtype=float),
+        np.array([row["answer"] == "yes" for _, row in rows], dtype=int),
+        np.array([place for place, _ in rows], dtype=int),
+    )
+    return answers, np.array([row["delay_ms"] for _, row in rows], dtype=float)

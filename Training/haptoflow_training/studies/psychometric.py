@@ -1,0 +1,227 @@
+"""The psychometric function y = 100 / (1 + exp(-k (x - x0))) by maximum likelihood on single yes or no answers.
+
+The likelihood is that of a logistic regression of the answer on the delay, with slope k and intercept -k x0. Each
+answer counts alike. Least squares through the percentages would take a level at 2 % for as uncertain as one at 50 %.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from scipy import special
+
+from haptoflow_training.studies.bootstrap import Interval, expanded_interval, jackknife_error, participant_weights
+
+RESAMPLES = 2000
+FEWEST_PARTICIPANTS = 5
+# Beyond this share of resamples without a curve, an interval over the others would speak of the lucky ones only.
+_LARGEST_SHARE_WITHOUT_CURVE = 0.05
+_NEWTON_STEPS = 60
+
+
+@dataclass(frozen=True)
+class Answers:
+    """Of one condition: one entry an answer. delay_ms: as delivered; yes: 0 or 1; participant: a number from 0."""
+
+    delay_ms: np.ndarray
+    yes: np.ndarray
+    participant: np.ndarray
+
+    @property
+    def participants(self) -> int:
+        return int(self.participant.max()) + 1 if len(self.participant) else 0
+
+
+@dataclass(frozen=True)
+class Curve:
+    """k in 1/ms; x0, the 50 % threshold, in ms."""
+
+    k: float
+    x0: float
+
+    def percent(self, delay_ms: np.ndarray | float) -> np.ndarray:
+        return np.asarray(100.0 * special.expit(self.k * (np.asarray(delay_ms) - self.x0)))
+
+
+@dataclass(frozen=True)
+class Fit:
+    """What one condition's answers say.
+
+    curve: None where there is none; `statement` says why. The intervals (95 %) and standard errors are over
+    participants, None where none can be given; `interval_statement` says why. resampled_x0 has one value a resample,
+    nan where a resample has no curve.
+    """
+
+    curve: Curve | None
+    statement: str = ""
+    threshold_interval: Interval | None = None
+    k_interval: Interval | None = None
+    threshold_error: float | None = None
+    k_error: float | None = None
+    interval_statement: str = ""
+    notes: tuple[str, ...] = ()
+    resampled_x0: np.ndarray | None = None
+
+
+@dataclass(frozen=True)
+class _Counts:
+    """Trials and yes of each participant (row) at each delay that occurs (column)."""
+
+    delays_ms: np.ndarray
+    trials: np.ndarray
+    yes: np.ndarray
+
+
+def degenerate_statement(answers: Answers) -> str:
+    """Why no curve can be fitted, or nothing where one can."""
+    delay, yes = answers.delay_ms, answers.yes.astype(bool)
+    if len(delay) == 0:
+        return "there is no answer"
+    if yes.all():
+        return f"every answer is yes: the threshold lies below {delay.min():g} ms, the shortest delay"
+    if not yes.any():
+        return f"every answer is no: the threshold lies above {delay.max():g} ms, the longest delay"
+    if np.ptp(delay) == 0.0:
+        return f"every trial had the same delay, {delay[0]:g} ms: a curve needs several"
+    longest_no, shortest_yes = delay[~yes].max(), delay[yes].min()
+    if longest_no <= shortest_yes:
+        steps = longest_no < shortest_yes
+        where = f"between {longest_no:g} and {shortest_yes:g} ms" if steps else f"at {longest_no:g} ms"
+        return (
+            f"the answers step from no to yes without overlap: the threshold lies {where}, and the slope k has no "
+            "maximum-likelihood value"
+        )
+    if delay[yes].max() <= delay[~yes].min():
+        return "the answers step from yes to no as the delay grows: they do not detect delay"
+    return ""
+
+
+def fit_curve(answers: Answers) -> Curve | None:
+    """None for degenerate answers, and where yes does not become more frequent with the delay."""
+    if degenerate_statement(answers):
+        return None
+    k, x0 = _curves(_counted(answers), np.ones((1, answers.participants)))
+    return None if np.isnan(k[0]) else Curve(float(k[0]), float(x0[0]))
+
+
+def fit(answers: Answers, *, resamples: int = RESAMPLES, seed: int = 0) -> Fit:
+    """Curve, intervals and standard errors; the same seed draws the same participants, in every condition alike."""
+    statement = degenerate_statement(answers)
+    curve = fit_curve(answers)
+    if curve is None:
+        return Fit(None, statement or "yes does not become more frequent as the delay grows: there is no threshold")
+    notes = _range_notes(answers, curve)
+    count = answers.participants
+    if count < FEWEST_PARTICIPANTS:
+        words = f"{count} participants are too few to resample, which takes {FEWEST_PARTICIPANTS}"
+        return Fit(curve, interval_statement=words, notes=notes)
+    counted = _counted(answers)
+    k, x0 = _curves(counted, participant_weights(count, resamples, seed))
+    without = float(np.isnan(k).mean())
+    if without > _LARGEST_SHARE_WITHOUT_CURVE:
+        words = f"{100 * without:.0f} % of the resamples have no curve, because yes and no hardly overlap"
+        return Fit(curve, interval_statement=words, notes=notes)
+    threshold_interval = expanded_interval(x0, count)
+    lowest, highest, span = answers.delay_ms.min(), answers.delay_ms.max(), np.ptp(answers.delay_ms)
+    if threshold_interval.low < lowest - span or threshold_interval.high > highest + span:
+        words = "in some resamples yes hardly depends on the delay, so that their thresholds lie anywhere"
+        return Fit(curve, interval_statement=words, notes=notes)
+    if without > 0.0:
+        notes += (f"{100 * without:.2g} % of the resamples have no curve and were left out of the intervals",)
+    k_without_one, x0_without_one = leave_one_out(answers)
+    return Fit(
+        curve,
+        threshold_interval=threshold_interval,
+        k_interval=expanded_interval(k, count),
+        threshold_error=jackknife_error(x0_without_one),
+        k_error=jackknife_error(k_without_one),
+        notes=notes,
+        resampled_x0=x0,
+    )
+
+
+def leave_one_out(answers: Answers) -> tuple[np.ndarray, np.ndarray]:
+    """k and x0 without each participant in turn; nan where the others have no curve."""
+    return _curves(_counted(answers), 1.0 - np.eye(answers.participants))
+
+
+def threshold_difference(first: Fit, second: Fit, participants: int) -> Interval | None:
+    """Interval of first's threshold less second's, both fitted with one seed to the same participants' answers."""
+    if first.resampled_x0 is None or second.resampled_x0 is None:
+        return None
+    return expanded_interval(first.resampled_x0 - second.resampled_x0, participants)
+
+
+def _range_notes(answers: Answers, curve: Curve) -> tuple[str, ...]:
+    low, high = answers.delay_ms.min(), answers.delay_ms.max()
+    if low <= curve.x0 <= high:
+        return ()
+    return (f"the threshold lies outside the tested delays of {low:g} to {high:g} ms: it is extrapolated",)
+
+
+def _counted(answers: Answers) -> _Counts:
+    delays, place = np.unique(answers.delay_ms, return_inverse=True)
+    trials = np.zeros((answers.participants, len(delays)))
+    yes = np.zeros_like(trials)
+    np.add.at(trials, (answers.participant, place), 1.0)
+    np.add.at(yes, (answers.participant, place), answers.yes.astype(float))
+    return _Counts(delays, trials, yes)
+
+
+def _curves(counted: _Counts, weights: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """k and x0 of each row of weights over the participants; nan without overlap of yes and no, or with k <= 0.
+
+    Newton's method on the concave log-likelihood, all rows at once, with steps of at most 2 in units of the delays'
+    standard deviation, because a whole step from a flat start can leave the region where it converges.
+    """
+    delays = counted.delays_ms
+    centre, scale = delays.mean(), delays.std()
+    standardised = (delays - centre) / scale
+    trials, yes = weights @ counted.trials, weights @ counted.yes
+    longest_no = np.where(trials - yes > 0.0, delays, -np.inf).max(axis=1)
+    shortest_yes = np.where(yes > 0.0, delays, np.inf).min(axis=1)
+    longest_yes = np.where(yes > 0.0, delays, -np.inf).max(axis=1)
+    shortest_no = np.where(trials - yes > 0.0, delays, np.inf).min(axis=1)
+    overlaps = (longest_no > shortest_yes) & (longest_yes > shortest_no)
+    intercept, slope = np.zeros(len(weights)), np.zeros(len(weights))
+    solved = np.flatnonzero(overlaps)
+    trials, yes = trials[solved], yes[solved]
+    for _ in range(_NEWTON_STEPS):
+        if len(solved) == 0:
+            break
+        expected = special.expit(intercept[solved, None] + slope[solved, None] * standardised)
+        residual = yes - trials * expected
+        spread = trials * expected * (1.0 - expected)
+        gradient = residual.sum(axis=1), residual @ standardised
+        curvature = spread.sum(axis=1), spread @ standardised, spread @ standardised**2
+        determinant = curvature[0] * curvature[2] - curvature[1] ** 2
+        steps = np.stack(
+            [
+                (curvature[2] * gradient[0] - curvature[1] * gradient[1]) / determinant,
+                (curvature[0] * gradient[1] - curvature[1] * gradient[0]) / determinant,
+            ]
+        )
+        steps /= np.maximum(1.0, np.abs(steps).max(axis=0) / 2.0)
+        intercept[solved] += steps[0]
+        slope[solved] += steps[1]
+        if np.abs(steps).max() < 1e-10:
+            break
+    rises = overlaps & (slope > 0.0)
+    divisor = np.where(rises, slope, 1.0)
+    return np.where(rises, slope / scale, np.nan), np.where(rises, centre - intercept * scale / divisor, np.nan)
+
+
+def percent_yes(
+    answers: Answers, level_ms: Sequence[float], levels: np.ndarray
+) -> list[tuple[float, float, float, int]]:
+    """Of each level: mean delivered delay, percentage of yes, its standard error (sd / sqrt(n)), and the count n."""
+    rows = []
+    for level in level_ms:
+        chosen = levels == level
+        yes = answers.yes[chosen].astype(float)
+        count = len(yes)
+        error = float(np.std(yes, ddof=1) / np.sqrt(count)) if count > 1 else float("nan")
+        rows.append((float(answers.delay_ms[chosen].mean()), 100.0 * float(yes.mean()), 100.0 * error, count))
+    return rows

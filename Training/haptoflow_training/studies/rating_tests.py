@@ -1,0 +1,202 @@
+"""Tests and effect sizes on paired ratings: rows are participants, columns methods. SciPy's tests, with what ties need.
+
+Ratings from 1 to 7 tie often, and two methods often get the same rating. So of Wilcoxon's signed-rank test:
+
+- Differences of zero keep their place among the ranks and are then left out (zero_method "pratt"). Without them
+  ("wilcox") a few differences among many equal ratings would look unanimous.
+- The p-value comes from the normal approximation, whose variance SciPy corrects for ties, without continuity
+  correction: SciPy's exact distribution is that of ranks without ties.
+- Up to 12 differences that are not zero, where the approximation is coarse, every pattern of signs is counted instead
+  (scipy.stats.permutation_test).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from itertools import combinations
+
+import numpy as np
+from scipy import stats
+
+from haptoflow_training.studies.shaffer import adjusted
+
+SIGNIFICANCE = 0.05
+TREND = 0.1
+# Cohen's d of the smallest difference that counts as a difference: "large" in Cohen's words, as in the paper.
+EQUIVALENCE_BOUND = 0.8
+_MOST_COUNTED_SIGNS = 12
+# Shifts by an equivalence bound leave ties that differ in the last bits.
+_DECIMALS = 9
+
+
+@dataclass(frozen=True)
+class Normality:
+    """Shapiro and Wilk's W and p; None for ratings that are all equal or fewer than three."""
+
+    w: float | None
+    p: float | None
+
+
+@dataclass(frozen=True)
+class Friedman:
+    """chi_square has k - 1 degrees of freedom, corrected for ties. kendall_w: 0 no agreement on the order, 1 full."""
+
+    chi_square: float
+    p: float
+    kendall_w: float
+
+
+@dataclass(frozen=True)
+class Pair:
+    """`first` less `second`, by column.
+
+    p: of Wilcoxon's test, two-sided; p_shaffer: adjusted, None where Friedman's test found nothing to follow up.
+    rank_biserial: the share of the ranks that favours `first` less that for `second`, -1 to 1. cohen_dz: the mean
+    difference in standard deviations of the differences. bound: in points of rating; p_equivalence: the larger of the
+    two one-sided tests' p-values. None where the differences are all zero, or have no spread.
+    """
+
+    first: int
+    second: int
+    mean_difference: float
+    p: float | None
+    p_shaffer: float | None
+    rank_biserial: float | None
+    cohen_dz: float | None
+    bound: float | None
+    p_equivalence: float | None
+
+
+@dataclass(frozen=True)
+class RatingResult:
+    """Of one material. friedman is None for two methods, whose pair is tested directly, and for ratings all equal."""
+
+    normality: tuple[Normality, ...]
+    friedman: Friedman | None
+    friedman_statement: str
+    pairs: tuple[Pair, ...]
+
+
+def signed_rank_p(differences: np.ndarray, alternative: str = "two-sided") -> float | None:
+    """Wilcoxon's signed-rank test; None where every difference is zero."""
+    rounded = np.round(np.asarray(differences, dtype=float), _DECIMALS)
+    nonzero = int(np.count_nonzero(rounded))
+    if nonzero == 0:
+        return None
+    if nonzero <= _MOST_COUNTED_SIGNS:
+        return _counted_p(rounded, alternative)
+    result = stats.wilcoxon(rounded, zero_method="pratt", correction=False, alternative=alternative, method="approx")
+    return float(result.pvalue)
+
+
+def _counted_p(differences: np.ndarray, alternative: str) -> float:
+    ranks = stats.rankdata(np.abs(differences))[differences != 0.0]
+    signed = ranks * np.sign(differences[differences != 0.0])
+    if len(signed) == 1:
+        # SciPy wants two observations; a rank of zero changes no sum.
+        signed = np.append(signed, 0.0)
+    # Rounded, because equal sums of half ranks may differ in their last bits.
+    test = stats.permutation_test(
+        (signed,),
+        lambda values, axis: np.round(np.sum(values, axis=axis), _DECIMALS),
+        permutation_type="samples",
+        vectorized=True,
+        n_resamples=np.inf,
+        alternative=alternative,
+    )
+    return float(min(1.0, test.pvalue))
+
+
+def equivalence(first: np.ndarray, second: np.ndarray) -> tuple[float | None, float | None]:
+    """Bound in points of rating and p-value of two one-sided Wilcoxon tests; None, None where no rating varies.
+
+    The bound is 0.8 pooled standard deviations of the two methods' ratings. It is estimated from the same ratings, so
+    that the rate of false equivalence is near the level, not bounded by it.
+    """
+    pooled = float(np.sqrt((np.var(first, ddof=1) + np.var(second, ddof=1)) / 2.0))
+    if pooled == 0.0 or np.isnan(pooled):
+        return None, None
+    bound = EQUIVALENCE_BOUND * pooled
+    differences = first - second
+    above = signed_rank_p(differences + bound, "greater")
+    below = signed_rank_p(differences - bound, "less")
+    # Differences that all lie at a bound are no evidence against it.
+    return bound, max(1.0 if p is None else p for p in (above, below))
+
+
+def rank_biserial(differences: np.ndarray) -> float | None:
+    """Kerby (2014), The simple difference formula, on Pratt's ranks; None where every difference is zero."""
+    rounded = np.round(differences, _DECIMALS)
+    ranks = stats.rankdata(np.abs(rounded))
+    favourable, unfavourable = float(ranks[rounded > 0.0].sum()), float(ranks[rounded < 0.0].sum())
+    total = favourable + unfavourable
+    return (favourable - unfavourable) / total if total > 0.0 else None
+
+
+def cohen_dz(differences: np.ndarray) -> float | None:
+    """Mean difference in standard deviations of the differences; None where they do not vary."""
+    spread = float(np.std(differences, ddof=1)) if len(differences) > 1 else 0.0
+    return float(np.mean(differences)) / spread if spread > 0.0 else None
+
+
+def normality(ratings: np.ndarray) -> Normality:
+    if len(ratings) < 3 or np.ptp(ratings) == 0.0:
+        return Normality(None, None)
+    result = stats.shapiro(ratings)
+    return Normality(float(result.statistic), float(result.pvalue))
+
+
+def friedman(ratings: np.ndarray) -> Friedman | None:
+    """Of three methods or more; None where every participant rated all methods alike."""
+    participants, methods = ratings.shape
+    if np.all(np.ptp(ratings, axis=1) == 0.0):
+        return None
+    result = stats.friedmanchisquare(*ratings.T)
+    chi_square = float(result.statistic)
+    return Friedman(chi_square, float(result.pvalue), chi_square / (participants * (methods - 1)))
+
+
+def analysed(ratings: np.ndarray) -> RatingResult:
+    """ratings: participants by methods, of one material, two methods at least, without gaps."""
+    methods = ratings.shape[1]
+    found = friedman(ratings) if methods > 2 else None
+    statement = ""
+    if methods == 2:
+        statement = "two methods: their one pair is tested directly"
+    elif found is None:
+        statement = "every participant rated all methods alike"
+    elif found.p >= SIGNIFICANCE:
+        statement = "the methods' ratings do not differ significantly, so that no pair is tested for a difference"
+    follows_up = methods == 2 or (found is not None and found.p < SIGNIFICANCE)
+    names = list(combinations(range(methods), 2))
+    raw = {pair: signed_rank_p(ratings[:, pair[0]] - ratings[:, pair[1]]) for pair in names}
+    corrected = _corrected(raw, methods) if follows_up else dict.fromkeys(names)
+    return RatingResult(
+        tuple(normality(column) for column in ratings.T),
+        found,
+        statement,
+        tuple(_pair(ratings, pair, raw[pair], corrected[pair]) for pair in names),
+    )
+
+
+def _corrected(raw: Mapping[tuple[int, int], float | None], methods: int) -> dict[tuple[int, int], float | None]:
+    """Pairs without any difference count as p = 1 in the correction, and stay without a p-value."""
+    values = adjusted([1.0 if p is None else p for p in raw.values()], methods)
+    return {pair: None if raw[pair] is None else value for pair, value in zip(raw, values, strict=True)}
+
+
+def _pair(ratings: np.ndarray, pair: tuple[int, int], p: float | None, p_shaffer: float | None) -> Pair:
+    first, second = ratings[:, pair[0]], ratings[:, pair[1]]
+    differences = first - second
+    bound, p_equivalence = equivalence(first, second)
+    return Pair(
+        *pair,
+        mean_difference=float(differences.mean()),
+        p=p,
+        p_shaffer=p_shaffer,
+        rank_biserial=rank_biserial(differences),
+        cohen_dz=cohen_dz(differences),
+        bound=bound,
+        p_equivalence=p_equivalence,
+    )

@@ -1,0 +1,243 @@
+"""The report of a folder of logs: one HTML file that needs no other."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from haptoflow_training.studies import report_words as words
+from haptoflow_training.studies.bootstrap import Interval
+from haptoflow_training.studies.figures import SIMULATED_WORDS, latency_figure, similarity_figure
+from haptoflow_training.studies.html import heading, listing, page, paragraph, picture, table
+from haptoflow_training.studies.latency_analysis import LatencyResult
+from haptoflow_training.studies.plans import CONDITIONS
+from haptoflow_training.studies.psychometric import Fit
+from haptoflow_training.studies.rating_tests import Pair
+from haptoflow_training.studies.session_file import Session
+from haptoflow_training.studies.similarity_analysis import SimilarityResult
+
+_NONE = "-"
+
+
+@dataclass(frozen=True)
+class Analysed:
+    """What a report is written from; a study without sessions is None."""
+
+    sessions: Sequence[Session]
+    notes: Sequence[str]
+    latency: LatencyResult | None
+    similarity: SimilarityResult | None
+
+    @property
+    def is_simulated(self) -> bool:
+        return any(session.is_simulated for session in self.sessions)
+
+
+def report(analysed: Analysed) -> str:
+    """HTML. It has no date and no machine, so that the same logs give the same report."""
+    simulated = analysed.is_simulated
+    parts = [paragraph(words.INTRODUCTION)]
+    if simulated:
+        parts.append(paragraph(words.SIMULATED))
+    if analysed.latency is not None:
+        parts += _latency(analysed.latency, simulated)
+    if analysed.similarity is not None:
+        parts += _similarity(analysed.similarity, simulated)
+    parts += [heading("What was analysed"), _sessions(analysed.sessions)]
+    if analysed.notes:
+        parts.append(listing(analysed.notes))
+    return page("Delay tolerance and similarity", SIMULATED_WORDS if simulated else "", parts)
+
+
+def results(analysed: Analysed) -> dict[str, Any]:
+    """The same figures for programs."""
+    found: dict[str, Any] = {"format": "haptoflow study results", "version": 1, "simulated": analysed.is_simulated}
+    if analysed.latency is not None:
+        found["latency"] = _latency_results(analysed.latency)
+    if analysed.similarity is not None:
+        found["similarity"] = _similarity_results(analysed.similarity)
+    return found | {"notes": list(analysed.notes)}
+
+
+def _latency(result: LatencyResult, is_simulated: bool) -> list[str]:
+    rows = [_fit_row(condition, result.fits[condition], result.answers[condition]) for condition in CONDITIONS]
+    parts = [
+        heading("Delay tolerance"),
+        paragraph(f"{result.participants} participants. {words.LATENCY}"),
+        picture(latency_figure(result, is_simulated=is_simulated), _marked(words.LATENCY_CAPTION, is_simulated)),
+        table(words.FIT_HEADINGS, rows),
+        *(
+            paragraph(f"{condition}: {statement}.")
+            for condition in CONDITIONS
+            for statement in _statements(result.fits[condition])
+        ),
+    ]
+    if result.difference_ms is not None:
+        parts.append(paragraph(_difference_words(result.difference_ms, result.difference_interval)))
+    points = [
+        [
+            condition, f"{point.level_ms:g}", f"{point.delivered_ms:.1f}", f"{point.percent:.1f}",
+            _number(point.error_percent, 1), str(point.count),
+        ]
+        for condition in CONDITIONS
+        for point in result.points[condition]
+    ]  # fmt: skip
+    return [*parts, table(words.POINT_HEADINGS, points)]
+
+
+def _fit_row(condition: str, fit: Fit, answers: int) -> list[str]:
+    if fit.curve is None:
+        return [condition, str(answers), *[_NONE] * 6]
+    return [
+        condition, str(answers), f"{fit.curve.x0:.1f}", _interval(fit.threshold_interval, 1),
+        _number(fit.threshold_error, 1), f"{fit.curve.k:.4f}", _interval(fit.k_interval, 4), _number(fit.k_error, 4),
+    ]  # fmt: skip
+
+
+def _statements(fit: Fit) -> list[str]:
+    found = [fit.statement] if fit.statement else []
+    if fit.interval_statement:
+        found.append(f"no interval is given, because {fit.interval_statement}")
+    return [*found, *fit.notes]
+
+
+def _difference_words(difference: float, interval: Interval | None) -> str:
+    said = f"The threshold of turn-on less that of turn-off is {difference:.1f} ms"
+    if interval is None:
+        return f"{said}; no interval is given."
+    verdict = "includes 0: the thresholds may be equal" if interval.covers(0.0) else "excludes 0"
+    return f"{said}, with an interval of 95 % from {interval.low:.1f} to {interval.high:.1f} ms, which {verdict}."
+
+
+def _similarity(result: SimilarityResult, is_simulated: bool) -> list[str]:
+    parts = [
+        heading("Similarity"),
+        paragraph(f"{result.participants} participants. {words.SIMILARITY}"),
+        picture(similarity_figure(result, is_simulated=is_simulated), _marked(words.SIMILARITY_CAPTION, is_simulated)),
+        table(words.MATERIAL_HEADINGS, [_material_row(result, name) for name in result.materials]),
+        listing(words.EFFECT_SIZES),
+    ]
+    for place, name in enumerate(result.materials):
+        found = result.by_material[name]
+        parts += [heading(name, 3)]
+        if found.friedman_statement:
+            parts.append(paragraph(f"{found.friedman_statement[:1].upper()}{found.friedman_statement[1:]}."))
+        ratings = result.ratings[place]
+        errors = ratings.std(axis=0, ddof=1) / len(ratings) ** 0.5
+        means = [
+            [method, f"{mean:.2f}", f"{error:.2f}", _p(one.p)]
+            for method, mean, error, one in zip(
+                result.methods, ratings.mean(axis=0), errors, found.normality, strict=True
+            )
+        ]
+        parts += [
+            table(words.METHOD_HEADINGS, means),
+            table(words.PAIR_HEADINGS, [_pair_row(result, pair) for pair in found.pairs]),
+        ]
+    return [*parts, listing(words.LIMITS)]
+
+
+def _material_row(result: SimilarityResult, name: str) -> list[str]:
+    found = result.by_material[name]
+    rejected = sum(one.p is not None and one.p < 0.05 for one in found.normality)
+    normal = f"rejected for {rejected} of {len(found.normality)}"
+    if found.friedman is None:
+        return [name, normal, _NONE, _NONE, _NONE]
+    return [name, normal, f"{found.friedman.chi_square:.2f}", _p(found.friedman.p), f"{found.friedman.kendall_w:.2f}"]
+
+
+def _pair_row(result: SimilarityResult, pair: Pair) -> list[str]:
+    is_followed_up = pair.p_shaffer is not None
+    return [
+        f"{result.methods[pair.first]} - {result.methods[pair.second]}",
+        f"{pair.mean_difference:+.2f}",
+        _p(pair.p if is_followed_up else None),
+        _p(pair.p_shaffer),
+        _number(pair.rank_biserial, 2),
+        _number(pair.cohen_dz, 2),
+        _NONE if pair.bound is None else f"±{pair.bound:.2f}",
+        _p(pair.p_equivalence),
+    ]
+
+
+def _sessions(sessions: Sequence[Session]) -> str:
+    rows = []
+    for session in sessions:
+        device = session.sidecar["device"]
+        delay = f"{_text(device.get('device_delay_ms'))} ms, {device['device_delay_source']}"
+        build, headset = session.sidecar["build"], _text(device.get("headset"))
+        rows.append(
+            [
+                session.path.name, _text(session.sidecar["seed"]), _text(session.sidecar["resumptions"]),
+                "yes" if session.is_simulated else "no", headset, delay, _text(build.get("package")),
+            ]
+        )  # fmt: skip
+    return table(words.SESSION_HEADINGS, rows)
+
+
+def _marked(caption: str, is_simulated: bool) -> str:
+    return f"{SIMULATED_WORDS}. {caption}" if is_simulated else caption
+
+
+def _text(value: object) -> str:
+    return _NONE if value in (None, "") else str(value)
+
+
+def _number(value: float | None, digits: int) -> str:
+    return _NONE if value is None or value != value else f"{value:.{digits}f}"
+
+
+def _interval(interval: Interval | None, digits: int) -> str:
+    return _NONE if interval is None else f"{interval.low:.{digits}f} to {interval.high:.{digits}f}"
+
+
+def _p(p: float | None) -> str:
+    if p is None:
+        return _NONE
+    return "< 0.001" if p < 0.001 else f"{p:.3f}"
+
+
+def _latency_results(result: LatencyResult) -> dict[str, Any]:
+    def ends(interval: Interval | None) -> list[float] | None:
+        return None if interval is None else [interval.low, interval.high]
+
+    conditions = {}
+    for condition in CONDITIONS:
+        fit = result.fits[condition]
+        conditions[condition] = {
+            "answers": result.answers[condition],
+            "threshold_ms": None if fit.curve is None else fit.curve.x0,
+            "threshold_interval_ms": ends(fit.threshold_interval),
+            "threshold_error_ms": fit.threshold_error,
+            "k_per_ms": None if fit.curve is None else fit.curve.k,
+            "k_interval_per_ms": ends(fit.k_interval),
+            "k_error_per_ms": fit.k_error,
+            "statements": _statements(fit),
+        }
+    return {
+        "participants": result.participants,
+        "conditions": conditions,
+        "difference_ms": result.difference_ms,
+        "difference_interval_ms": ends(result.difference_interval),
+    }
+
+
+def _similarity_results(result: SimilarityResult) -> dict[str, Any]:
+    def pair_results(pair: Pair) -> dict[str, Any]:
+        return {**vars(pair), "first": result.methods[pair.first], "second": result.methods[pair.second]}
+
+    return {
+        "participants": result.participants,
+        "methods": list(result.methods),
+        "materials": {
+            name: {
+                "means": [float(value) for value in result.ratings[place].mean(axis=0)],
+                "shapiro_p": [one.p for one in result.by_material[name].normality],
+                "friedman": None if (found := result.by_material[name].friedman) is None else vars(found),
+                "statement": result.by_material[name].friedman_statement,
+                "pairs": [pair_results(pair) for pair in result.by_material[name].pairs],
+            }
+            for place, name in enumerate(result.materials)
+        },
+    }

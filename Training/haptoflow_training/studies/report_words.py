@@ -1,0 +1,58 @@
+"""What a report says of its tests and figures, for readers who were not there."""
+
+from __future__ import annotations
+
+INTRODUCTION = (
+    "This report was written by haptoflow-training study analyse from the logs of a folder. "
+    "Documentation~/study-analysis.md explains every test and how it was validated."
+)
+SIMULATED = (
+    "Every answer and rating in this report was drawn at random by a program. It shows what the analysis does, and "
+    "says nothing about people."
+)
+LATENCY = (
+    "Each participant said after each trial whether a delay was perceived. The percentage of yes is fitted by "
+    "y = 100 / (1 + exp(-k (x - x0))) of the delivered delay x, by maximum likelihood on the single answers; x0 is the "
+    "delay at which half of the answers are yes. Intervals are expanded percentile intervals of 95 % from 2,000 "
+    "resamples of the participants; standard errors leave out one participant after the other. Practice is left "
+    "out."
+)
+LATENCY_CAPTION = (
+    "Percentage of trials in which a delay was perceived. Points are means at the delivered delay, bars are "
+    "standard errors, dashed lines the fitted curves, thick lines at 50 % the intervals of the thresholds."
+)
+SIMILARITY = (
+    "Each participant rated from 1 to 7 how similar each method's virtual material feels to the real one. For each "
+    "material, Friedman's test asks whether the methods differ at all; where p < 0.05, every pair is compared by "
+    "Wilcoxon's signed-rank test with Shaffer's static correction over the material's pairs. Two one-sided Wilcoxon "
+    "tests ask of every pair whether its difference lies within 0.8 pooled standard deviations. Practice is left "
+    "out."
+)
+SIMILARITY_CAPTION = (
+    "Mean similarity ratings with standard errors. Brackets: † p < 0.1 and * p < 0.05 for a difference after "
+    "Shaffer's correction, green ≈ p < 0.05 for equivalence."
+)
+EFFECT_SIZES = (
+    "Kendall's W: how far participants agree on the order of the methods, from 0 (not at all) to 1 (fully).",
+    "Rank-biserial r: the share of the ranked differences that favours the first method less the share that favours "
+    "the second; 0 means balance, 1 and -1 that every difference points the same way.",
+    "Cohen's d_z: the mean difference in standard deviations of the differences; the paper planned for 0.67.",
+)
+LIMITS = (
+    "No correction is made over materials: with six of them and no difference anywhere, one in four such studies "
+    "finds a difference on some material.",
+    "Equivalence is tested without correction over pairs, against a bound that is estimated from the same ratings.",
+    "A pair without * and without ≈ is undecided: no difference was found, and none was excluded.",
+)
+FIT_HEADINGS = (
+    "condition", "answers", "threshold x0 (ms)", "95 % interval", "standard error", "k (1/ms)", "95 % interval",
+    "standard error",
+)  # fmt: skip
+POINT_HEADINGS = ("condition", "planned (ms)", "delivered (ms)", "yes (%)", "standard error (%)", "answers")
+MATERIAL_HEADINGS = ("material", "normality (Shapiro-Wilk, p < 0.05)", "Friedman chi-square", "p", "Kendall's W")
+METHOD_HEADINGS = ("method", "mean rating", "standard error", "Shapiro-Wilk p")
+PAIR_HEADINGS = (
+    "pair", "mean difference", "Wilcoxon p", "p after Shaffer", "rank-biserial r", "d_z", "equivalence bound",
+    "equivalence p",
+)  # fmt: skip
+SESSION_HEADINGS = ("session", "seed", "resumptions", "simulated", "headset", "device delay", "HaptoFlow")

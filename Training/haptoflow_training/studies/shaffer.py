@@ -1,0 +1,47 @@
+"""Shaffer's static correction of the p-values of all pairs of k methods.
+
+Shaffer (1986), Modified sequentially rejective multiple test procedures, J. Am. Stat. Assoc. 81, 826-831. Equalities
+between pairs depend on each other: once one pair of three methods differs, at most one of the other two can be equal.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from functools import cache
+from math import comb
+
+
+@cache
+def possible_true_counts(methods: int) -> frozenset[int]:
+    """How many of the k (k - 1) / 2 hypotheses of equality can be true at once.
+
+    Some group of j methods is equal among itself, which makes j (j - 1) / 2 true; the rest divides itself likewise.
+    """
+    if methods < 2:
+        return frozenset({0})
+    return frozenset(
+        comb(group, 2) + rest for group in range(1, methods + 1) for rest in possible_true_counts(methods - group)
+    )
+
+
+def factors(methods: int) -> list[int]:
+    """By which the smallest p-value is multiplied, the next one, and so on: the most that can be true at that step."""
+    pairs = comb(methods, 2)
+    counts = possible_true_counts(methods)
+    return [max(count for count in counts if count <= pairs - rejected) for rejected in range(pairs)]
+
+
+def adjusted(p_values: Sequence[float], methods: int) -> list[float]:
+    """Adjusted p-values in the order given: at most 1, and never smaller than that of a smaller p-value.
+
+    ValueError where there are not as many as pairs of methods.
+    """
+    by_rank = factors(methods)
+    if len(p_values) != len(by_rank):
+        raise ValueError(f"{len(p_values)} p-values; {methods} methods have {len(by_rank)} pairs")
+    result = [0.0] * len(p_values)
+    largest = 0.0
+    for rank, place in enumerate(sorted(range(len(p_values)), key=lambda index: p_values[index])):
+        largest = max(largest, min(1.0, by_rank[rank] * p_values[place]))
+        result[place] = largest
+    return result

@@ -1,0 +1,79 @@
+"""The similarity study: the ratings of each material, method against method."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from haptoflow_training.errors import InputError
+from haptoflow_training.studies.plans import MAIN
+from haptoflow_training.studies.rating_tests import RatingResult, analysed
+from haptoflow_training.studies.session_file import Session
+
+_FEWEST_PARTICIPANTS = 3
+_MOST_METHODS = 12
+
+
+@dataclass(frozen=True)
+class SimilarityResult:
+    """ratings: materials by participants by methods."""
+
+    materials: Sequence[str]
+    methods: Sequence[str]
+    ratings: np.ndarray
+    by_material: Mapping[str, RatingResult]
+
+    @property
+    def participants(self) -> int:
+        return int(self.ratings.shape[1])
+
+
+def analyse_similarity(sessions: Sequence[Session]) -> SimilarityResult:
+    """Practice is left out. InputError names a rating that is missing or stands twice."""
+    if len(sessions) < _FEWEST_PARTICIPANTS:
+        raise InputError(f"{len(sessions)} participants of the similarity study; its tests need {_FEWEST_PARTICIPANTS}")
+    materials, methods = _names(sessions, "material"), _names(sessions, "method")
+    if not 2 <= len(methods) <= _MOST_METHODS:
+        raise InputError(f"{len(methods)} methods in the similarity study; it can compare 2 to {_MOST_METHODS}")
+    ratings = np.full((len(materials), len(sessions), len(methods)), np.nan)
+    for place, session in enumerate(sessions):
+        for row in session.rows:
+            if row["block"] != MAIN:
+                continue
+            cell = materials.index(str(row["material"])), place, methods.index(str(row["method"]))
+            if not np.isnan(ratings[cell]):
+                raise InputError(f"{session.path}: {row['method']} on {row['material']} is rated twice; expected once")
+            ratings[cell] = row["rating"]
+    _refuse_gaps(ratings, materials, methods, sessions)
+    by_material = {name: analysed(of_material) for name, of_material in zip(materials, ratings, strict=True)}
+    return SimilarityResult(materials, methods, ratings, by_material)
+
+
+def _names(sessions: Sequence[Session], key: str) -> list[str]:
+    """In the settings' order where the sidecars have it, else by name."""
+    found = {str(row[key]) for session in sessions for row in session.rows if row["block"] == MAIN}
+    listed = listed_names(sessions[0].sidecar["settings"], f"{key}s")
+    return listed if sorted(listed) == sorted(found) else sorted(found)
+
+
+def listed_names(settings: Mapping[str, Any], key: str) -> list[str]:
+    """Of settings that list names, or objects with a `name`; empty where they do neither."""
+    listed = settings.get(key)
+    entries = listed if isinstance(listed, list) else []
+    names = [entry.get("name") if isinstance(entry, dict) else entry for entry in entries]
+    return names if all(isinstance(name, str) for name in names) else []
+
+
+def _refuse_gaps(
+    ratings: np.ndarray, materials: Sequence[str], methods: Sequence[str], sessions: Sequence[Session]
+) -> None:
+    gaps = np.argwhere(np.isnan(ratings))
+    if len(gaps):
+        material, place, method = gaps[0]
+        raise InputError(
+            f"{sessions[place].path}: no rating of {methods[method]} on {materials[material]}, which others rated; "
+            "every participant must rate every method on every material"
+        )

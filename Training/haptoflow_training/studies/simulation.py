@@ -1,0 +1,185 @@
+"""Whole simulated studies as logs: every participant's plan, answered by a simulated participant."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import asdict
+from datetime import datetime, timezone
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from haptoflow_training.errors import InputError
+from haptoflow_training.studies.log_columns import LATENCY, SIMILARITY, STUDIES
+from haptoflow_training.studies.plans import MAIN, LatencyTrial, SimilarityTrial, latency_plan, similarity_plan
+from haptoflow_training.studies.session_file import NAME
+from haptoflow_training.studies.session_writer import write_session
+from haptoflow_training.studies.simulated_participants import LEVELS_MS, AnswerModel, RatingModel
+
+_WORDS = "simulated: haptoflow-training study simulate"
+# Of a headset with 72 frames a second, blocks of 256 frames at 48 kHz, and a device delay that nobody measured.
+_REFRESH_HZ, _OUTPUT_HZ, _BLOCK_FRAMES, _DEVICE_MS = 72.0, 48000, 256, 20.0
+_INFERENCE_MS = {LATENCY: 0.0, SIMILARITY: 15.0}
+_ARTIFICIAL_MS = 10.0
+
+
+def simulate_latency(
+    folder: Path, participants: int, seed: int, model: AnswerModel | None = None, advance: Callable[[], object] = int
+) -> None:
+    """One session a participant, of the paper's levels. InputError where the folder holds sessions already."""
+    model = model or AnswerModel()
+    _refuse_sessions(folder, LATENCY)
+    random = np.random.default_rng((seed, STUDIES.index(LATENCY)))
+    curves = {condition: asdict(curve) for condition, curve in model.curves.items()}
+    truth = {"curves": curves, "correlation_of_a_participants_answers": model.between}
+    for participant in range(1, participants + 1):
+        plan = latency_plan(participant, seed, LEVELS_MS)
+        own = random.standard_normal(1)
+        rows = []
+        for trial in plan:
+            is_yes = bool(model.answers(random, trial.condition, np.array([trial.delay_ms]), own)[0])
+            rows.append(_latency_row(random, trial, is_yes))
+        settings = {"levels_ms": list(LEVELS_MS), "simulated_truth": truth}
+        write_session(folder, _sidecar(random, LATENCY, participant, seed, settings, plan), _timed(rows))
+        advance()
+
+
+def simulate_similarity(
+    folder: Path, participants: int, seed: int, model: RatingModel | None = None, advance: Callable[[], object] = int
+) -> None:
+    """One session a participant, of the model's materials and methods. InputError as for the latency study."""
+    model = model or RatingModel()
+    _refuse_sessions(folder, SIMILARITY)
+    random = np.random.default_rng((seed, STUDIES.index(SIMILARITY)))
+    ratings = model.ratings(random, participants)
+    places = {name: place for names in (model.materials, model.methods) for place, name in enumerate(names)}
+    lowered = [
+        {"material": material, "method": method, "lower_by_dz": value}
+        for (material, method), value in model.lowered.items()
+    ]
+    settings = {
+        "materials": list(model.materials), "methods": list(model.methods), "simulated_truth": {"lowered": lowered},
+    }  # fmt: skip
+    for participant in range(1, participants + 1):
+        plan = similarity_plan(participant, seed, model.materials, model.methods)
+        rows = []
+        for trial in plan:
+            rating = int(ratings[places[trial.material], participant - 1, places[trial.method]])
+            rows.append(_similarity_row(random, trial, rating if trial.block == MAIN else 4))
+        write_session(folder, _sidecar(random, SIMILARITY, participant, seed, settings, plan), _timed(rows))
+        advance()
+
+
+def _refuse_sessions(folder: Path, study: str) -> None:
+    for path in sorted(folder.rglob("*.json")) if folder.is_dir() else ():
+        name = NAME.fullmatch(path.stem)
+        if name is None:
+            continue
+        if name[1] == study or '"simulated": true' not in path.read_text(encoding="utf-8", errors="replace"):
+            raise InputError(f"{folder}: holds {path.name} already; simulated studies need a folder of their own")
+
+
+def _delay_parts(study: str) -> dict[str, float]:
+    return {
+        "pose_interval_ms": 1000.0 / _REFRESH_HZ,
+        "inference_ms": _INFERENCE_MS[study],
+        "block_ms": 1000.0 * _BLOCK_FRAMES / _OUTPUT_HZ,
+        "device_ms": _DEVICE_MS,
+    }
+
+
+def _sidecar(
+    random: np.random.Generator,
+    study: str,
+    participant: int,
+    seed: int,
+    settings: Mapping[str, Any],
+    plan: Sequence[LatencyTrial | SimilarityTrial],
+) -> dict[str, Any]:
+    return {
+        "study": study,
+        "participant": participant,
+        "session": f"{random.integers(1 << 32):08x}",
+        "seed": seed,
+        "simulated": True,
+        "created": datetime.now(timezone.utc).strftime("%Y-%m-%dT%H:%M:%SZ"),
+        "finished": True,
+        "resumptions": 0,
+        "build": {"application": _WORDS, "unity": "", "package": "", "platform": ""},
+        "device": {
+            "headset": "none: simulated",
+            "refresh_rate_hz": _REFRESH_HZ,
+            "output_rate_hz": _OUTPUT_HZ,
+            "block_frames": _BLOCK_FRAMES,
+            "device_delay_ms": _DEVICE_MS,
+            "device_delay_source": "estimated",
+            "device_delay_note": "none: simulated",
+        },
+        "delay": _delay_parts(study),
+        "models": [],
+        "settings": settings,
+        "plan": [asdict(trial) for trial in plan],
+    }
+
+
+def _delays(study: str, planned_ms: float | None) -> dict[str, float]:
+    system = round(sum(_delay_parts(study).values()), 6)
+    planned = system + _ARTIFICIAL_MS if planned_ms is None else planned_ms
+    return {
+        "delay_ms": planned,
+        "system_delay_ms": system,
+        "artificial_delay_ms": planned - system,
+        "delivered_delay_ms": planned,
+    }
+
+
+def _latency_row(random: np.random.Generator, trial: LatencyTrial, is_yes: bool) -> dict[str, Any]:
+    strokes = int(random.integers(2, 6))
+    return {
+        "trial": trial.trial,
+        "block": trial.block,
+        "condition": trial.condition,
+        **_delays(LATENCY, trial.delay_ms),
+        "starts": strokes,
+        "stops": strokes,
+        "answer": "yes" if is_yes else "no",
+        **_contact(random, 150.0, 1.5 * strokes),
+    }
+
+
+def _similarity_row(random: np.random.Generator, trial: SimilarityTrial, rating: int) -> dict[str, Any]:
+    real, virtual, free = (float(seconds) for seconds in random.uniform(4.0, 12.0, 3))
+    return {
+        "trial": trial.trial,
+        "block": trial.block,
+        "material": trial.material,
+        "method": trial.method,
+        **_delays(SIMILARITY, None),
+        "real_edges_seconds": real,
+        "virtual_edges_seconds": virtual,
+        "free_seconds": free,
+        "rating": rating,
+        **_contact(random, 100.0, real + virtual + free),
+    }
+
+
+def _contact(random: np.random.Generator, speed_mmps: float, seconds: float) -> dict[str, Any]:
+    speed = float(speed_mmps * random.uniform(0.8, 1.2))
+    return {
+        "response_seconds": float(random.lognormal(0.7, 0.4)),
+        "contact_seconds": seconds,
+        "path_mm": seconds * speed,
+        "mean_speed_mmps": speed,
+        "mean_force_newtons": float(random.uniform(0.4, 1.2)),
+        "underruns": 0,
+        "attempt": 1,
+    }
+
+
+def _timed(rows: Sequence[dict[str, Any]]) -> list[dict[str, Any]]:
+    elapsed = 0.0
+    for row in rows:
+        elapsed += row["contact_seconds"] + row["response_seconds"]
+        row["elapsed_seconds"] = elapsed
+    return list(rows)

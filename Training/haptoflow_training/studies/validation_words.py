@@ -1,0 +1,93 @@
+"""The validation as tables for a page."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+
+def page_words(found: Mapping[str, Any]) -> str:
+    """Markdown of what `validated` returned; every rate with the interval of 95 % that so many studies allow."""
+    return "\n\n".join(
+        [
+            f"{found['participants']} simulated participants a study, seed {found['seed']}, SciPy {found['scipy']}.",
+            "\n".join(_thresholds(found)),
+            "\n".join(_intervals(found)),
+            "\n".join(_false_positives(found)),
+            "\n".join(_planted(found)),
+        ]
+    )
+
+
+def _rate(value: Mapping[str, float]) -> str:
+    return f"{100 * value['rate']:.1f} % ({100 * value['low']:.1f}-{100 * value['high']:.1f})"
+
+
+def _thresholds(found: Mapping[str, Any]) -> list[str]:
+    lines = [
+        f"Thresholds, {found['studies']} studies written as logs, read and analysed:",
+        "",
+        "| condition | truth, ms | mean threshold, ms | spread between studies, ms | mean standard error, ms "
+        "| interval of 95 % holds the truth |",
+        "|---|---|---|---|---|---|",
+    ]
+    for condition, one in found["thresholds"].items():
+        lines.append(
+            f"| {condition} | {one['truth_ms']} | {one['mean_ms']} | {one['spread_ms']} "
+            f"| {one['mean_standard_error_ms']} | {_rate(one['covered'])} |"
+        )
+    return lines
+
+
+def _intervals(found: Mapping[str, Any]) -> list[str]:
+    lines = [
+        f"Which interval, {found['simulations']} studies a row; the correlation is that of one participant's answers:",
+        "",
+        "| correlation | interval | turn-on holds the truth | width, ms | turn-off holds the truth | width, ms |",
+        "|---|---|---|---|---|---|",
+    ]
+    for case in found["intervals"]:
+        for name, by_condition in case["by_interval"].items():
+            cells = [cell for one in by_condition.values() for cell in (_rate(one), f"{one['median_width_ms']:.1f}")]
+            lines.append(f"| {case['between']} | {name} | " + " | ".join(cells) + " |")
+    return lines
+
+
+_FALSE_POSITIVES = {
+    "friedman": "four methods alike: Friedman's test",
+    "wilcoxon": "the same: one pair by Wilcoxon's test alone",
+    "any_pair_after_shaffer": "the same: any of the six pairs, after Friedman's test and correction",
+    "friedman_crowded": "ratings crowded at 6 and 7: Friedman's test",
+    "wilcoxon_crowded": "the same: one pair by Wilcoxon's test alone",
+    "any_pair_crowded": "the same: any of the six pairs, after Friedman's test and correction",
+    "any_pair_of_three_alike_beside_a_lower_one": "one method lower by d_z 1.5: any pair of the three others",
+    "equivalence_at_the_bound": "a difference that is just not equivalent, called equivalent",
+}
+
+
+def _false_positives(found: Mapping[str, Any]) -> list[str]:
+    title = f"False findings at a level of 5 %, {found['simulations']} studies each:"
+    rates = found["false_positives"]
+    rows = [f"| {words} | {_rate(rates[key])} |" for key, words in _FALSE_POSITIVES.items()]
+    return [title, "", "| what | found in |", "|---|---|", *rows]
+
+
+def _planted(found: Mapping[str, Any]) -> list[str]:
+    planted, planned = found["planted"], found["planned"]
+    rows = (
+        ("friedman", "Friedman's test"),
+        ("pair", "the pair, after correction"),
+        ("pair_alone", "the pair, tested alone"),
+    )
+    return [
+        f"One method rated below three others by d_z {planted['difference_dz']}, before rounding to whole ratings:",
+        "",
+        f"| found by | planned by `study power`, {found['simulations']} studies "
+        f"| found in the logs of {found['studies']} studies, three materials each |",
+        "|---|---|---|",
+        *(f"| {words} | {_rate(planned[key])} | {_rate(planted[key])} |" for key, words in rows),
+        "",
+        f"Three materials of each study had no difference; Friedman's test found one on "
+        f"{_rate(planted['friedman_without_difference'])} of them. For differences that are not rounded, G*Power's "
+        f"formula plans {100 * planned['formula']:.1f} %, and Wilcoxon's test found {_rate(planned['unrounded'])}.",
+    ]
