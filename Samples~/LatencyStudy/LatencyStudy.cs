@@ -218,7 +218,8 @@ namespace HaptoFlow.Samples.LatencyStudy
         private void CheckAgain()
         {
             double now = Time.unscaledTimeAsDouble;
-            if (session!.Phase == StudyPhase.Paused && session.Trial != null && view.Problem != null && now >= nextCheckSeconds)
+            bool isStopped = session!.Phase == StudyPhase.Paused && view.Problem != null;
+            if (isStopped && session.Trial != null && now >= nextCheckSeconds)
             {
                 nextCheckSeconds = now + SecondsBetweenChecks;
                 delay = MeasureDelay();
@@ -296,17 +297,13 @@ namespace HaptoFlow.Samples.LatencyStudy
             PlannedTrial? trial = session?.Trial;
             string text = trial == null
                 ? $"system delay {MeasureDelay()}"
-                : FormattableString.Invariant(
-                    $"{trial.Condition}, {trial.DelayMilliseconds} ms in all = system {delay} + artificial {output.Processing.DelayMilliseconds:0.0}");
-            text += settings.DeviceDelaySource == DeviceDelaySource.Measured
-                ? $"\ndevice delay measured: {settings.DeviceDelayNote}"
-                : $"\ndevice delay ESTIMATED, not measured: {settings.DeviceDelayNote}";
+                : OperatorLines.OfTrial(trial, delay, output.Processing.DelayMilliseconds);
+            text += "\n" + OperatorLines.OfDevice(settings);
             foreach ((HapticStylus stylus, TrialContact contact) in pens)
             {
                 if (contact == tracing && stylus.TryGetSignalStatistics(out SignalStatistics signal))
                 {
-                    text += FormattableString.Invariant(
-                        $"\npen {(contact.IsMoving ? "moves" : "rests")}, pose to sound without the device {1000.0 * signal.LastStartLatencySeconds:0.0} ms at its last start, {1000.0 * signal.LastStopLatencySeconds:0.0} ms at its last stop");
+                    text += "\n" + OperatorLines.OfPen(contact, signal);
                 }
             }
             return text;

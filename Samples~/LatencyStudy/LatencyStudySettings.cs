@@ -1,5 +1,6 @@
 #nullable enable
 using System.Collections.Generic;
+using System.Globalization;
 using System.Linq;
 using HaptoFlow.Studies;
 using UnityEngine;
@@ -47,8 +48,8 @@ namespace HaptoFlow.Samples.LatencyStudy
             "latency-study of the documentation says.")]
         private float deviceDelayMilliseconds = 20f;
 
-        [SerializeField, Tooltip("Measured is what an oscilloscope or an accelerometer showed on this set-up. Logs and " +
-            "reports name the source.")]
+        [SerializeField, Tooltip("Measured is what an oscilloscope or an accelerometer showed on this set-up. Logs " +
+            "and reports name the source.")]
         private DeviceDelaySource deviceDelaySource = DeviceDelaySource.Estimated;
 
         [SerializeField, Tooltip("How and when the device delay was measured, or what the estimate rests on.")]
@@ -193,7 +194,8 @@ namespace HaptoFlow.Samples.LatencyStudy
             {
                 "motion", new StudyFields
                 {
-                    { "sets_off_mmps", 1000.0 * TrialContact.SetsOffMps }, { "rests_mmps", 1000.0 * TrialContact.RestsMps },
+                    { "sets_off_mmps", 1000.0 * TrialContact.SetsOffMps },
+                    { "rests_mmps", 1000.0 * TrialContact.RestsMps },
                 }
             },
             { "haptic_channel", hapticChannel },
@@ -213,8 +215,9 @@ namespace HaptoFlow.Samples.LatencyStudy
             double needed = levelsMilliseconds.Length > 0 ? 0.001 * levelsMilliseconds.Max() + LongestStopSeconds : 0.0;
             if (restSeconds < needed || moveSeconds < needed)
             {
-                throw new StudyException(System.FormattableString.Invariant(
-                    $"{name}: rest_seconds is {restSeconds} and move_seconds {moveSeconds}; expected at least {needed} for both, the longest level and 0.2 s"));
+                throw new StudyException(string.Format(CultureInfo.InvariantCulture,
+                    "{0}: rest_seconds is {1} and move_seconds {2}; expected at least {3} for both, the longest level " +
+                    "and 0.2 s", name, restSeconds, moveSeconds, needed));
             }
         }
     }

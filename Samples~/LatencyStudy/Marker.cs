@@ -60,7 +60,8 @@ namespace HaptoFlow.Samples.LatencyStudy
         {
             double cycle = settings.RestSeconds + settings.MoveSeconds;
             double whole = Math.Min(Math.Max(0.0, Math.Floor(seconds / cycle)), settings.Strokes);
-            double moving = Math.Min(Math.Max(0.0, seconds - whole * cycle - settings.RestSeconds), settings.MoveSeconds);
+            double sinceRest = seconds - whole * cycle - settings.RestSeconds;
+            double moving = Math.Min(Math.Max(0.0, sinceRest), settings.MoveSeconds);
             isDone = whole >= settings.Strokes && seconds >= whole * cycle + settings.RestSeconds;
             moves = whole < settings.Strokes && moving > 0.0 && moving < settings.MoveSeconds;
             double strokeSeconds = whole * settings.MoveSeconds + (whole < settings.Strokes ? moving : 0.0);

@@ -7,8 +7,8 @@ using UnityEngine.InputSystem.XR;
 
 namespace HaptoFlow.Samples.LatencyStudy
 {
-    /// <summary>A headset's tracking space with a pen in one hand. Once the head is tracked, the space is placed so that
-    /// the eyes are where the scene has its camera; without a headset the camera stays.</summary>
+    /// <summary>A headset's tracking space with a pen in one hand. Once the head is tracked, the space is placed so
+    /// that the eyes are where the scene has its camera; without a headset the camera stays.</summary>
     [DefaultExecutionOrder(100)]
     public sealed class StudyRig : MonoBehaviour
     {

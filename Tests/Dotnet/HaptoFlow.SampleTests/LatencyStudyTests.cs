@@ -293,7 +293,8 @@ namespace HaptoFlow.SampleTests
             Assert.That(fields, Has.Length.GreaterThan(12));
             foreach (FieldInfo field in fields)
             {
-                int line = Array.FindIndex(lines, each => each.StartsWith($"  {field.Name}:", StringComparison.Ordinal));
+                string key = $"  {field.Name}:";
+                int line = Array.FindIndex(lines, each => each.StartsWith(key, StringComparison.Ordinal));
                 Assert.That(line, Is.GreaterThan(0), field.Name);
                 string expected = field.GetValue(fresh) switch
                 {
@@ -325,10 +326,13 @@ namespace HaptoFlow.SampleTests
         {
             Begin(1);
             participant.Until(() => study.Marker.IsMoving);
-            PlayFor(0.3);
+            for (int frame = 0; frame < 30; ++frame)
+            {
+                participant.Frame();
+            }
             string text = string.Join("\n", study.View.Lines);
-            Assert.That(text, Does.Contain("trial 1 of 26 (practice)").And.Contain("turn-on, 50 ms in all = system 26.4 ms")
-                .And.Contain("artificial 23.6").And.Contain("device delay ESTIMATED").And.Contain("level "));
+            Assert.That(text, Does.Contain("trial 1 of 26 (practice)").And
+                .Contain("turn-on, 50 ms in all = system 26.4 ms").And.Contain("pen moves; from pose to block").And.Contain("artificial 23.6").And.Contain("device delay ESTIMATED").And.Contain("level "));
         }
 
         [Test]

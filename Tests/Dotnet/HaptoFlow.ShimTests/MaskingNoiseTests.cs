@@ -36,12 +36,14 @@ namespace HaptoFlow.ShimTests
         {
             float[][] felt = { Stroke(mode, false), Stroke(mode, true) };
             Assert.That(felt[0].Max(), Is.GreaterThan(0.001f), "something is felt");
-            Assert.That(felt[1], Is.EqualTo(felt[0]).Within(1e-7f), "the strokes begin at different times of the clock");
+            // The strokes begin at different times of the clock.
+            Assert.That(felt[1], Is.EqualTo(felt[0]).Within(1e-7f));
         }
 
         [Test]
         public void EveryOtherChannelHasTheNoiseAtItsLevel(
-            [Values(NoiseColour.White, NoiseColour.Pink)] NoiseColour colour, [Values(-40f, MaskingNoise.HighestDecibels)] float decibels)
+            [Values(NoiseColour.White, NoiseColour.Pink)] NoiseColour colour,
+            [Values(-40f, MaskingNoise.HighestDecibels)] float decibels)
         {
             AudioDevice.ChangeDevice(48000, 256, AudioSpeakerMode.Quad);
             noise.Colour = colour;
@@ -62,7 +64,8 @@ namespace HaptoFlow.ShimTests
         [Test]
         public void PinkNoiseFallsByThreeDecibelsAnOctaveAndWhiteNoiseDoesNot()
         {
-            foreach ((NoiseColour colour, double perOctave) in new[] { (NoiseColour.White, 0.0), (NoiseColour.Pink, -3.0) })
+            var cases = new[] { (NoiseColour.White, 0.0), (NoiseColour.Pink, -3.0) };
+            foreach ((NoiseColour colour, double perOctave) in cases)
             {
                 noise.Colour = colour;
                 World.Frames(30);

@@ -85,7 +85,8 @@ namespace HaptoFlow.ShimTests
                 session.Continue();
             }
             PassFor(0.3);
-            Assert.That(Text(), Does.Contain("all trials are answered").And.Contain("finished").And.Contain("press Begin"));
+            Assert.That(Text(),
+                Does.Contain("all trials are answered").And.Contain("finished").And.Contain("press Begin"));
             Assert.That(Buttons(), Does.Contain("Begin"));
         }
 
@@ -127,7 +128,8 @@ namespace HaptoFlow.ShimTests
 
         private static void PassFor(double seconds) => World.Frames((int)Math.Ceiling(seconds * World.FrameRateHz));
 
-        private string Text() => string.Join("\n", Draw().Where(each => each.Kind == DrawnKind.Label).Select(each => each.Label));
+        private string Text() => string.Join(
+            "\n", Draw().Where(each => each.Kind == DrawnKind.Label).Select(each => each.Label));
 
         private string[] Buttons() =>
             Draw().Where(each => each.Kind == DrawnKind.Button).Select(each => each.Label).ToArray();

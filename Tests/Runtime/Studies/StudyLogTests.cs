@@ -109,7 +109,7 @@ namespace HaptoFlow.Tests
             Assert.That(log.Problem, Does.Contain(log.CsvPath).And.Contain("No space left on device"));
             Assert.That(log.HasPending, Is.True);
             Assert.That(log.Answered, Is.EqualTo(1));
-            Assert.That(() => log.Append(StudyFolder.Yes()), Throws.InvalidOperationException, "no row may overtake it");
+            Assert.That(() => log.Append(StudyFolder.Yes()), Throws.InvalidOperationException, "no row overtakes it");
             folder.Files.Failure = null;
             Assert.That(log.TryWritePending(), Is.True);
             Assert.That(log.Problem, Is.Null);
@@ -212,7 +212,8 @@ namespace HaptoFlow.Tests
         public void ATableThatIsNotUtf8IsRefused()
         {
             folder.Leave(answered: 1);
-            File.WriteAllBytes(folder.Csv, File.ReadAllBytes(folder.Csv).Concat(new byte[] { 0xff, (byte)'\n' }).ToArray());
+            byte[] before = File.ReadAllBytes(folder.Csv);
+            File.WriteAllBytes(folder.Csv, before.Concat(new byte[] { 0xff, (byte)'\n' }).ToArray());
             Assert.That(() => folder.Open(), Throws.TypeOf<StudyException>().With.Message.Contains("UTF-8"));
         }
 

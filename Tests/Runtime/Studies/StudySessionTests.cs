@@ -171,9 +171,9 @@ namespace HaptoFlow.Tests
             }
             session.Continue();
             session.Ask();
-            folder.Files.Failure = null;
             session.Answer(StudyFolder.Yes());
-            File.WriteAllText(folder.Sidecar, File.ReadAllText(folder.Sidecar).Replace("\"finished\":true", "\"finished\":false"));
+            string sidecar = File.ReadAllText(folder.Sidecar);
+            File.WriteAllText(folder.Sidecar, sidecar.Replace("\"finished\":true", "\"finished\":false"));
             session = new StudySession(folder.Open());
             session.Advance(now);
             Assert.That(session.Phase, Is.EqualTo(StudyPhase.Finished));

@@ -3,12 +3,12 @@ using HaptoFlow.Numerics;
 
 namespace HaptoFlow.Contact
 {
-    /// <summary>Says whether a tip moves over a surface that stands still, from one frame to the next: for signals that
-    /// must begin and end with the motion. The velocity that textures are made from looks back over 35 ms and would come
-    /// later.</summary>
-    /// <remarks>Two thresholds keep the noise of a tracker and a hand's tremor (some 10 mm/s) from switching a signal on
-    /// and off at rest. A difference of two frames lags by half a frame, which counts as part of the time between two
-    /// poses.</remarks>
+    /// <summary>Says whether a tip moves over a surface that stands still, from one frame to the next: for signals
+    /// that must begin and end with the motion. The velocity that textures are made from looks back over 35 ms and
+    /// would come later.</summary>
+    /// <remarks>Two thresholds keep the noise of a tracker and a hand's tremor (some 10 mm/s) from switching a signal
+    /// on and off at rest. A difference of two frames lags by half a frame, which counts as part of the time between
+    /// two poses.</remarks>
     internal sealed class MotionGate
     {
         /// <summary>A tip at rest sets off at this speed.</summary>

@@ -41,7 +41,8 @@ namespace HaptoFlow.Studies
             int rows = lines.Length - 2;
             if (rows > plan.Trials.Count)
             {
-                throw new FormatException($"line {plan.Trials.Count + 2}: the plan has {plan.Trials.Count} trials only");
+                throw new FormatException(
+                    $"line {plan.Trials.Count + 2}: the plan has {plan.Trials.Count} trials only");
             }
             for (int row = 0; row < rows; ++row)
             {

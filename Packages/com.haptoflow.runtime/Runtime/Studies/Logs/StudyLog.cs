@@ -21,7 +21,8 @@ namespace HaptoFlow.Studies
         private byte[] written;
         private byte[]? pending;
 
-        private StudyLog(IStudyFiles files, string path, StudyDescription description, SidecarState state, LogTable table)
+        private StudyLog(
+            IStudyFiles files, string path, StudyDescription description, SidecarState state, LogTable table)
         {
             this.files = files;
             this.description = description;
@@ -80,7 +81,9 @@ namespace HaptoFlow.Studies
                 string stem = $"{description.Plan.Kind.Name}-P{description.Plan.Participant:00}-";
                 List<string> tables = FilesOf(files, folder, stem, ".csv");
                 List<string> sidecars = FilesOf(files, folder, stem, ".json");
-                List<string> sessions = tables.Union(sidecars.Select(each => Path.ChangeExtension(each, ".csv"))).ToList();
+                List<string> sessions = tables
+                    .Union(sidecars.Select(each => Path.ChangeExtension(each, ".csv")))
+                    .ToList();
                 if (sessions.Count > 1)
                 {
                     throw new StudyException($"{sessions[0]}: participant {description.Plan.Participant} has " +

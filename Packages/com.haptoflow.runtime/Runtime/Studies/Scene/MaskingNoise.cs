@@ -63,8 +63,8 @@ namespace HaptoFlow.Studies
             set => colour = value;
         }
 
-        /// <summary>Root mean square in dB of full scale, <see cref="LowestDecibels"/> to <see cref="HighestDecibels"/>.
-        /// </summary>
+        /// <summary>Root mean square in dB of full scale, <see cref="LowestDecibels"/> to
+        /// <see cref="HighestDecibels"/>.</summary>
         public float LevelDecibels
         {
             get => levelDecibels;

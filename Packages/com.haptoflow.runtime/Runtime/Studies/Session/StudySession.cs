@@ -139,7 +139,8 @@ namespace HaptoFlow.Studies
 
         /// <summary>The participant's answer: the record is completed with times and attempt, and written before
         /// anything else begins.</summary>
-        /// <returns>False where no question is open: then nothing is recorded, as with a button pressed twice.</returns>
+        /// <returns>False where no question is open: then nothing is recorded, as with a button pressed twice.
+        /// </returns>
         public bool Answer(TrialRecord record)
         {
             if (Phase != StudyPhase.Question)

@@ -77,8 +77,8 @@ namespace HaptoFlow.Studies
                 $"{TotalMilliseconds:0.0} to {TotalMilliseconds + MaximumArtificialMilliseconds:0.0} ms");
             throw new StudyException(
                 $"the delay level {names} ms cannot be reached: the system delay is {this}, so levels from {range} " +
-                "can be; leave the level out of levels_ms, or make the system faster (a shorter audio block, a higher " +
-                "frame rate)");
+                "can be; leave the level out of levels_ms, or make the system faster (a shorter audio block, a " +
+                "higher frame rate)");
         }
 
         /// <summary>The sum and its parts, for people.</summary>
