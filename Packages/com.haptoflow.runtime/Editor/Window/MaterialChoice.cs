@@ -13,6 +13,12 @@ namespace HaptoFlow.Editor
         [SerializeField]
         private HapticMaterial? learnt;
 
+        [SerializeField]
+        private float featureScale = 1f;
+
+        [SerializeField]
+        private float toneDbPerOctave;
+
         /// <summary>Empty until one is chosen.</summary>
         [field: SerializeField]
         public string Label { get; set; } = "";
@@ -28,6 +34,25 @@ namespace HaptoFlow.Editor
         /// <summary>Where the sliders are that move the material. Not to be changed: set another array.</summary>
         [field: SerializeField]
         public float[] Moves { get; set; } = Array.Empty<float>();
+
+        /// <summary>How many times as large the features are, 0.25 to 4; anything else is limited to that.</summary>
+        public float FeatureScale
+        {
+            get => featureScale;
+            set => featureScale = Mathf.Clamp(
+                value, MaterialDescription.SmallestFeatureScale, MaterialDescription.LargestFeatureScale);
+        }
+
+        /// <summary>Tilt of the spectrum about 150 Hz, -12 to 12; anything else is limited to that.</summary>
+        public float ToneDbPerOctave
+        {
+            get => toneDbPerOctave;
+            set => toneDbPerOctave = Mathf.Clamp(
+                value, -MaterialDescription.MostToneDbPerOctave, MaterialDescription.MostToneDbPerOctave);
+        }
+
+        /// <summary>No slider changes the material.</summary>
+        public bool IsAtRest => SliderSet.IsAtRest(Moves) && featureScale.Equals(1f) && toneDbPerOctave.Equals(0f);
 
         /// <summary>A material that was learnt, in the place of the label; null for the label.</summary>
         public HapticMaterial? Learnt
