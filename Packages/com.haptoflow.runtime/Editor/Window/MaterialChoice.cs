@@ -61,14 +61,17 @@ namespace HaptoFlow.Editor
             set => learnt = value;
         }
 
-        /// <summary>Another label, or another learnt material: the sliders are at rest.</summary>
+        /// <summary>Another label, or another learnt material: no slider moves it; scale and tone are the mix's.
+        /// </summary>
         public void Take(LabelMix mix, HapticMaterial? material)
         {
             Label = mix.First;
             SecondLabel = mix.Second;
             Share = mix.Second.Length > 0 ? mix.Share : 0.5f;
             Learnt = material;
-            Moves = Array.Empty<float>();
+            Rest();
+            FeatureScale = mix.FeatureScale;
+            ToneDbPerOctave = mix.ToneDbPerOctave;
         }
 
         /// <summary>A label of the model; the sliders are at rest.</summary>
@@ -76,7 +79,15 @@ namespace HaptoFlow.Editor
         {
             Label = label;
             Learnt = null;
+            Rest();
+        }
+
+        /// <summary>No slider changes the material any more.</summary>
+        public void Rest()
+        {
             Moves = Array.Empty<float>();
+            FeatureScale = 1f;
+            ToneDbPerOctave = 0f;
         }
 
         /// <summary>The label; where none is chosen, the one of that index among the model's.</summary>
@@ -88,6 +99,7 @@ namespace HaptoFlow.Editor
             Learnt != null ? Learnt.name : LabelOr(labels, index);
 
         public LabelMix Mix(IReadOnlyList<string> labels, int index) => new LabelMix(NameOr(labels, index), SecondLabel,
-            SecondLabel.Length > 0 ? Share : 0f, Learnt != null ? Learnt.Learnt : "", Moves);
+            SecondLabel.Length > 0 ? Share : 0f, Learnt != null ? Learnt.Learnt : "", Moves, FeatureScale,
+            ToneDbPerOctave);
     }
 }

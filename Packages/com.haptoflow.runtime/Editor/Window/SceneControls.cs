@@ -35,9 +35,8 @@ namespace HaptoFlow.Editor
                 }
                 if (GUILayout.Button(Apply))
                 {
-                    int heard = state.ShowsDevice ? 0 : state.Heard;
                     said = SceneMaterial.Apply(
-                        state.Mixes(model.Labels)[heard], state.Material(heard).Learnt, Selection.objects);
+                        state.HeardMix(model.Labels), state.Material(state.Heard).Learnt, Selection.objects);
                 }
             }
             return said;

@@ -38,7 +38,9 @@ namespace HaptoFlow.Editor
             string path = described is HapticMaterial ? "description" : "own";
             mix = new LabelMix(serialized.FindProperty(path + ".label").stringValue,
                 serialized.FindProperty(path + ".secondLabel").stringValue,
-                serialized.FindProperty(path + ".blend").floatValue);
+                serialized.FindProperty(path + ".blend").floatValue, "", null,
+                serialized.FindProperty(path + ".featureScale").floatValue,
+                serialized.FindProperty(path + ".toneDbPerOctave").floatValue);
             learnt = described is HapticMaterial { IsLearnt: true } carrier
                 ? carrier
                 : serialized.FindProperty(path + ".learnt").objectReferenceValue as HapticMaterial;
@@ -117,6 +119,8 @@ namespace HaptoFlow.Editor
             serialized.FindProperty(path + ".learnt").objectReferenceValue = learnt;
             serialized.FindProperty(path + ".secondLabel").stringValue = mix.Second;
             serialized.FindProperty(path + ".blend").floatValue = mix.Share;
+            serialized.FindProperty(path + ".featureScale").floatValue = mix.FeatureScale;
+            serialized.FindProperty(path + ".toneDbPerOctave").floatValue = mix.ToneDbPerOctave;
             serialized.ApplyModifiedProperties();
         }
 
