@@ -1,5 +1,6 @@
 using System;
 using System.Collections.Generic;
+using System.IO;
 using System.Linq;
 using HaptoFlow.Editor;
 using HaptoFlow.Preview;
@@ -132,11 +133,28 @@ namespace HaptoFlow.PreviewTests
         [Test]
         public void AModelWithoutSlidersOfItsOwnHasScaleAndToneAllTheSame()
         {
-            State.Model = Model(DefaultFile());
-            Enter("Sliders", true);
-            Assert.That(Screen().Select(item => item.Label), Does.Not.Contain("Coarseness"));
-            Enter("Feature Scale", 2f);
-            Assert.That(State.First.FeatureScale, Is.EqualTo(2f));
+            const string path = "Assets/HaptoFlowScaleTests.haptoflow";
+            const string beside = "Assets/HaptoFlowScaleTests.sliders.json";
+            File.WriteAllBytes(path, DefaultFile());
+            File.WriteAllText(beside, SliderFiles.For(DefaultFile(), "0badcafe"));
+            try
+            {
+                AssetDatabase.ImportAsset(path);
+                State.Model = AssetDatabase.LoadAssetAtPath<HapticModelAsset>(path);
+                SliderCatalog.Forget();
+                Enter("Sliders", true);
+                Assert.That(Screen().Select(item => item.Label), Does.Not.Contain("Coarseness"));
+                Enter("Feature Scale", 2f);
+                Assert.That(State.First.FeatureScale, Is.EqualTo(2f));
+                Press("Reset");
+                Assert.That(State.First.FeatureScale, Is.EqualTo(1f));
+            }
+            finally
+            {
+                SliderCatalog.Forget();
+                AssetDatabase.DeleteAsset(path);
+                AssetDatabase.DeleteAsset(beside);
+            }
         }
 
         [Test]
@@ -164,11 +182,13 @@ namespace HaptoFlow.PreviewTests
         public void ALabelThatWasOnlyScaledIsSavedAndOneAtRestIsNot()
         {
             WindowHost.AnswerToSave = name => "Assets/" + name;
+            Window.Finish();
             Enter("Sliders", true);
             Assert.That(Screen().Single(item => item.Label == "Save as Haptic Material\u2026").Enabled, Is.False);
             Enter("Feature Scale", 0.5f);
             Press("Save as Haptic Material\u2026");
             WindowHost.Update();
+            Assert.That(WindowHost.Notification, Is.EqualTo("Saved wood"));
             var saved = AssetDatabase.LoadAssetAtPath<HapticMaterial>("Assets/wood.asset");
             Assert.That(saved.Description.FeatureScale, Is.EqualTo(0.5f));
             WindowHost.AnswerToSave = null;
