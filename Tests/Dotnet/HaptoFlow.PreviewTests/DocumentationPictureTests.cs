@@ -30,7 +30,7 @@ namespace HaptoFlow.PreviewTests
                     request.Effects = HapticEffects.Texture | HapticEffects.Impact | HapticEffects.Edge;
                 });
 
-        /// <summary>The same, for the sliders.</summary>
+        /// <summary>The same, for the sliders, without milliseconds: they are not about what a quality costs.</summary>
         [Test, Explicit, Category("DocumentationPicture")]
         public void TheSlidersAreDrawnForTheDocumentation()
         {
@@ -42,6 +42,7 @@ namespace HaptoFlow.PreviewTests
                 {
                     request.Sliders = sliders;
                     request.Active = 1;
+                    request.Measurement = 0;
                 }, PreviewRoom.WithSliders);
         }
 

@@ -145,8 +145,7 @@ namespace HaptoFlow.PreviewTests
         public void ALandingHasTheSpeedThatIsSet()
         {
             Stroke stroke = PresetStrokes.Make(StrokePreset.Taps, new StrokeSettings(0.1, 1.0, 0.0, 1.0, 0.7));
-            Assert.That(stroke.States[20].ContactOn(LabelBlend.Of(3), HapticEffects.Impact).ApproachSpeedMps,
-                Is.EqualTo(0.7f));
+            Assert.That(stroke.States[20].ContactOn(default).ApproachSpeedMps, Is.EqualTo(0.7f));
         }
 
         [Test]
@@ -156,8 +155,7 @@ namespace HaptoFlow.PreviewTests
         [Test]
         public void WhatIsPublishedInTheAirHasNeitherSpeedNorForce()
         {
-            ContactState air = PresetStrokes.Make(StrokePreset.Slide, Usual).States[0]
-                .ContactOn(LabelBlend.Of(3), HapticEffects.Texture);
+            ContactState air = PresetStrokes.Make(StrokePreset.Slide, Usual).States[0].ContactOn(default);
             Assert.That(air.Touching, Is.False);
             Assert.That((air.FirstVelocityMps, air.SecondVelocityMps, air.ForceNewtons), Is.EqualTo((0f, 0f, 0f)));
         }

@@ -1,5 +1,6 @@
 using System;
 using System.Collections.Generic;
+using System.IO;
 using System.Linq;
 using HaptoFlow.Editor;
 using HaptoFlow.Preview;
@@ -86,6 +87,111 @@ namespace HaptoFlow.PreviewTests
             Assert.That(State.First.Moves, Is.Empty);
             Undo.PerformUndo();
             Assert.That(State.First.Moves, Is.EqualTo(new[] { 0.5f, 0f, 0f, 0f, -1f }));
+        }
+
+        [Test]
+        public void FeatureScaleAndToneAreAmongTheSlidersAndChangeWhatIsHeardWithinTheirRanges()
+        {
+            Window.Finish();
+            float[] before = Samples;
+            Assert.That(Screen().Select(item => item.Label), Does.Not.Contain("Feature Scale"));
+            Enter("Sliders", true);
+            Undo.IncrementCurrentGroup();
+            Enter("Feature Scale", 9f);
+            Assert.That(State.First.FeatureScale, Is.EqualTo(4f));
+            Undo.IncrementCurrentGroup();
+            Enter("Tone [dB/oct]", -40f);
+            Assert.That(State.First.ToneDbPerOctave, Is.EqualTo(-12f));
+            Window.Finish();
+            Assert.That(Window.Player!.Heard!.Sound.Title, Is.EqualTo("wood (x4, -12 dB/oct)"));
+            Assert.That(Samples.SequenceEqual(before), Is.False);
+            Undo.PerformUndo();
+            Assert.That((State.First.FeatureScale, State.First.ToneDbPerOctave), Is.EqualTo((4f, 0f)));
+            Undo.PerformUndo();
+            Assert.That(State.First.FeatureScale, Is.EqualTo(1f));
+            Window.Finish();
+            Assert.That(Samples.SequenceEqual(before), Is.True);
+        }
+
+        [Test]
+        public void ResetAndAnotherLabelPutScaleAndToneBackAndReloadingKeepsThem()
+        {
+            Enter("Sliders", true);
+            Enter("Feature Scale", 2f);
+            Enter("Tone [dB/oct]", 3f);
+            WindowHost.Reload(Window);
+            Assert.That((State.First.FeatureScale, State.First.ToneDbPerOctave), Is.EqualTo((2f, 3f)));
+            Undo.IncrementCurrentGroup();
+            Press("Reset");
+            Assert.That((State.First.FeatureScale, State.First.ToneDbPerOctave), Is.EqualTo((1f, 0f)));
+            Undo.PerformUndo();
+            Assert.That((State.First.FeatureScale, State.First.ToneDbPerOctave), Is.EqualTo((2f, 3f)));
+            State.Change("Label", state => state.First.Choose("cork"));
+            Assert.That(State.First.IsAtRest, Is.True);
+        }
+
+        [Test]
+        public void AModelWithoutSlidersOfItsOwnHasScaleAndToneAllTheSame()
+        {
+            const string path = "Assets/HaptoFlowScaleTests.haptoflow";
+            const string beside = "Assets/HaptoFlowScaleTests.sliders.json";
+            File.WriteAllBytes(path, DefaultFile());
+            File.WriteAllText(beside, SliderFiles.For(DefaultFile(), "0badcafe"));
+            try
+            {
+                AssetDatabase.ImportAsset(path);
+                State.Model = AssetDatabase.LoadAssetAtPath<HapticModelAsset>(path);
+                SliderCatalog.Forget();
+                Enter("Sliders", true);
+                Assert.That(Screen().Select(item => item.Label), Does.Not.Contain("Coarseness"));
+                Enter("Feature Scale", 2f);
+                Assert.That(State.First.FeatureScale, Is.EqualTo(2f));
+                Press("Reset");
+                Assert.That(State.First.FeatureScale, Is.EqualTo(1f));
+            }
+            finally
+            {
+                SliderCatalog.Forget();
+                AssetDatabase.DeleteAsset(path);
+                AssetDatabase.DeleteAsset(beside);
+            }
+        }
+
+        [Test]
+        public void ASavedMaterialKeepsScaleAndToneAndSoundsAsItDid()
+        {
+            WindowHost.AnswerToSave = name => "Assets/" + name;
+            Enter("Sliders", true);
+            Enter("Hardness", -0.5f);
+            Enter("Feature Scale", 2f);
+            Enter("Tone [dB/oct]", 3f);
+            Window.Finish();
+            float[] moved = Samples;
+            Press("Save as Haptic Material\u2026");
+            WindowHost.Update();
+            MaterialDescription saved =
+                AssetDatabase.LoadAssetAtPath<HapticMaterial>("Assets/wood, moved.asset").Description;
+            Assert.That((saved.FeatureScale, saved.ToneDbPerOctave), Is.EqualTo((2f, 3f)));
+            Assert.That((State.First.FeatureScale, State.First.Moves.Length), Is.EqualTo((2f, 0)));
+            Window.Finish();
+            Assert.That(Samples.SequenceEqual(moved), Is.True);
+            WindowHost.AnswerToSave = null;
+        }
+
+        [Test]
+        public void ALabelThatWasOnlyScaledIsSavedAndOneAtRestIsNot()
+        {
+            WindowHost.AnswerToSave = name => "Assets/" + name;
+            Window.Finish();
+            Enter("Sliders", true);
+            Assert.That(Screen().Single(item => item.Label == "Save as Haptic Material\u2026").Enabled, Is.False);
+            Enter("Feature Scale", 0.5f);
+            Press("Save as Haptic Material\u2026");
+            WindowHost.Update();
+            Assert.That(WindowHost.Notification, Is.EqualTo("Saved wood"));
+            var saved = AssetDatabase.LoadAssetAtPath<HapticMaterial>("Assets/wood.asset");
+            Assert.That(saved.Description.FeatureScale, Is.EqualTo(0.5f));
+            WindowHost.AnswerToSave = null;
         }
 
         [Test]

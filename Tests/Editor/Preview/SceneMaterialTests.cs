@@ -83,6 +83,46 @@ namespace HaptoFlow.PreviewTests
         }
 
         [Test]
+        public void ScaleAndToneOfASurfaceAreTakenHeardAndAppliedToAnother()
+        {
+            HapticSurface table = Surface("Table");
+            table.Material.Label = "corduroy";
+            table.Material.FeatureScale = 2f;
+            table.Material.ToneDbPerOctave = 3f;
+            TexturePreviewWindow.Open(table);
+            Window.Finish();
+            Assert.That(Window.Player!.Heard!.Sound.Title, Is.EqualTo("corduroy (x2, +3 dB/oct)"));
+            HapticSurface shelf = Surface("Shelf");
+            string said = SceneMaterial.Apply(Window.Player.Heard.Sound.Material, null, new Object[] { shelf.gameObject });
+            Assert.That(said, Is.EqualTo("Applied corduroy (x2, +3 dB/oct) to Shelf"));
+            Assert.That((shelf.Material.FeatureScale, shelf.Material.ToneDbPerOctave), Is.EqualTo((2f, 3f)));
+            Assert.That(Read(shelf), Is.EqualTo(Read(table)));
+        }
+
+        [Test]
+        public void ScaleAndToneOfAHapticMaterialAreTakenAndOneThatSaysNeitherPutsThemBack()
+        {
+            HapticMaterial asset = Asset("leather");
+            asset.Description.FeatureScale = 0.5f;
+            asset.Description.ToneDbPerOctave = -6f;
+            TexturePreviewWindow.Open(asset);
+            Assert.That((State.First.FeatureScale, State.First.ToneDbPerOctave), Is.EqualTo((0.5f, -6f)));
+            TexturePreviewWindow.Open(Asset("cork"));
+            Assert.That((State.First.FeatureScale, State.First.ToneDbPerOctave), Is.EqualTo((1f, 0f)));
+        }
+
+        [Test]
+        public void ScaleAndToneAreAppliedToAHapticMaterialAndTakenBackByUndo()
+        {
+            HapticMaterial asset = Asset("leather");
+            Undo.IncrementCurrentGroup();
+            SceneMaterial.Apply(new LabelMix("cork", "", 0f, "", null, 4f, -12f), null, new Object[] { asset });
+            Assert.That((asset.Description.FeatureScale, asset.Description.ToneDbPerOctave), Is.EqualTo((4f, -12f)));
+            Undo.PerformUndo();
+            Assert.That((asset.Description.FeatureScale, asset.Description.ToneDbPerOctave), Is.EqualTo((1f, 0f)));
+        }
+
+        [Test]
         public void AChildTakesTheSurfaceAboveIt()
         {
             HapticSurface table = Surface("Table");

@@ -1,4 +1,5 @@
 #nullable enable
+using System;
 using System.IO;
 using System.Text;
 using HaptoFlow.Model;
@@ -15,28 +16,33 @@ namespace HaptoFlow.Editor
         /// <summary>Asks where, and saves there.</summary>
         /// <param name="text">Of a material file.</param>
         /// <param name="label">Felt where the material cannot be.</param>
+        /// <param name="describe">What else the asset's description says; null for what it says already.</param>
         /// <returns>Null where the user thought better of it.</returns>
-        public static HapticMaterial? SaveAs(string text, string label)
+        public static HapticMaterial? SaveAs(string text, string label, Action<MaterialDescription>? describe = null)
         {
             string path = EditorUtility.SaveFilePanelInProject("Save as Haptic Material", MaterialFile.Read(text).Name,
                 MaterialEnding, "The material and what it was learnt from become an asset; the model stays as it is.");
-            return path.Length > 0 ? Save(path, text, label) : null;
+            return path.Length > 0 ? Save(path, text, label, describe) : null;
         }
 
         /// <summary>A material that is there already carries the text from now on, for whoever uses it.</summary>
-        public static HapticMaterial Save(string path, string text, string label)
+        /// <param name="describe">What else the asset's description says; null for what it says already.</param>
+        public static HapticMaterial Save(
+            string path, string text, string label, Action<MaterialDescription>? describe = null)
         {
             var present = AssetDatabase.LoadAssetAtPath<HapticMaterial>(path);
             if (present != null)
             {
                 Undo.RecordObject(present, "Save " + present.name);
                 present.Description.Label = label;
+                describe?.Invoke(present.Description);
                 present.Carry(text);
                 EditorUtility.SetDirty(present);
                 AssetDatabase.SaveAssetIfDirty(present);
                 return present;
             }
             HapticMaterial made = HapticMaterial.Create(text, label);
+            describe?.Invoke(made.Description);
             AssetDatabase.CreateAsset(made, path);
             Undo.RegisterCreatedObjectUndo(made, "Save " + made.name);
             return made;
@@ -51,7 +57,7 @@ namespace HaptoFlow.Editor
                 File.WriteAllText(path, text, new UTF8Encoding(false));
                 return null;
             }
-            catch (System.Exception error) when (error is IOException || error is System.UnauthorizedAccessException)
+            catch (Exception error) when (error is IOException || error is UnauthorizedAccessException)
             {
                 return error.Message;
             }

@@ -11,7 +11,8 @@ namespace HaptoFlow.Editor
         private static readonly GUIContent Material = new GUIContent("Take from",
             "Drop a Haptic Material here: the material that is heard becomes what it describes.");
         private static readonly GUIContent Take = new GUIContent("Take from Selection",
-            "The material that is heard becomes that of the selected surface or Haptic Material.");
+            "The material that is heard becomes that of the selected Haptic Material, or what the selected object " +
+            "feels like: by its Haptic Surface, else by a rule.");
         private static readonly GUIContent Apply = new GUIContent("Apply to Selection",
             "The selected objects and Haptic Materials become the material that is heard. Can be undone.");
 
@@ -31,26 +32,31 @@ namespace HaptoFlow.Editor
             {
                 if (GUILayout.Button(Take))
                 {
-                    said = TakeFrom(Selection.activeObject, state);
+                    said = TakeFrom(Selection.activeObject, state, model);
                 }
                 if (GUILayout.Button(Apply))
                 {
-                    int heard = state.ShowsDevice ? 0 : state.Heard;
                     said = SceneMaterial.Apply(
-                        state.Mixes(model.Labels)[heard], state.Material(heard).Learnt, Selection.objects);
+                        state.HeardMix(model.Labels), state.Material(state.Heard).Learnt, Selection.objects);
                 }
             }
             return said;
         }
 
-        private static string TakeFrom(Object? selected, TexturePreviewState state)
+        /// <summary>The material that is heard becomes what is felt of an object; can be undone.</summary>
+        /// <returns>What was taken and why, or why nothing was, for people.</returns>
+        public static string TakeFrom(Object? selected, TexturePreviewState state, PreviewModel model)
         {
-            if (!SceneMaterial.TryRead(selected, out LabelMix mix, out HapticMaterial? learnt))
+            SelectedMaterial found = SelectedMaterial.Of(selected);
+            string remark = found.Remark.Length > 0 ? $" ({found.Remark})" : "";
+            if (!SceneMaterial.TryRead(found.Described, out LabelMix mix, out HapticMaterial? learnt))
             {
-                return "Select a surface or a Haptic Material first";
+                return remark.Length > 0
+                    ? selected!.name + " is not felt" + remark
+                    : "Select an object of the scene or a Haptic Material first";
             }
             state.Take(mix, learnt);
-            return $"Took {(learnt != null ? learnt.name : mix.Title)} from {selected!.name}";
+            return $"Took {state.HeardMix(model.Labels).Title} from {selected!.name}{remark}";
         }
     }
 }

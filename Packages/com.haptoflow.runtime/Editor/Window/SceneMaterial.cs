@@ -11,20 +11,14 @@ namespace HaptoFlow.Editor
     /// step of undo for all. Main thread.</summary>
     internal static class SceneMaterial
     {
-        /// <summary>What a surface, its object or a Haptic Material asset is made of.</summary>
+        /// <summary>What a surface, a Haptic Material asset or an object that is felt is made of.</summary>
         /// <param name="learnt">In the place of the mix's first label; null for the label.</param>
         /// <returns>False for anything else.</returns>
         public static bool TryRead(Object? source, out LabelMix mix, out HapticMaterial? learnt)
         {
             mix = default;
             learnt = null;
-            Object? described = source switch
-            {
-                HapticMaterial material => material,
-                HapticSurface surface => surface,
-                GameObject owner => SurfaceRegistry.OwnerOf(owner.transform),
-                _ => null,
-            };
+            Object? described = SelectedMaterial.Of(source).Described;
             if (described == null)
             {
                 return false;
@@ -38,7 +32,9 @@ namespace HaptoFlow.Editor
             string path = described is HapticMaterial ? "description" : "own";
             mix = new LabelMix(serialized.FindProperty(path + ".label").stringValue,
                 serialized.FindProperty(path + ".secondLabel").stringValue,
-                serialized.FindProperty(path + ".blend").floatValue);
+                serialized.FindProperty(path + ".blend").floatValue, "", null,
+                serialized.FindProperty(path + ".featureScale").floatValue,
+                serialized.FindProperty(path + ".toneDbPerOctave").floatValue);
             learnt = described is HapticMaterial { IsLearnt: true } carrier
                 ? carrier
                 : serialized.FindProperty(path + ".learnt").objectReferenceValue as HapticMaterial;
@@ -117,6 +113,8 @@ namespace HaptoFlow.Editor
             serialized.FindProperty(path + ".learnt").objectReferenceValue = learnt;
             serialized.FindProperty(path + ".secondLabel").stringValue = mix.Second;
             serialized.FindProperty(path + ".blend").floatValue = mix.Share;
+            serialized.FindProperty(path + ".featureScale").floatValue = mix.FeatureScale;
+            serialized.FindProperty(path + ".toneDbPerOctave").floatValue = mix.ToneDbPerOctave;
             serialized.ApplyModifiedProperties();
         }
 

@@ -12,11 +12,15 @@ namespace HaptoFlow.Editor
     internal sealed class SliderControls
     {
         private static readonly GUIContent Title = new GUIContent("Sliders",
-            "Move the material that is heard within what the model's labels span.");
+            "They change the material that is heard: its features, its tone, and its place among the model's labels.");
         private static readonly GUIContent Reset =
-            new GUIContent("Reset", "The material is as it was before the sliders moved it.");
+            new GUIContent("Reset", "All sliders rest: nothing is moved, the feature scale is 1, the tone 0.");
         private static readonly GUIContent Save = new GUIContent("Save as Haptic Material\u2026",
-            "An asset that carries the moved material; the model stays as it is.");
+            "An asset that carries the moved material, its feature scale and its tone; the model stays as it is.");
+        private static readonly GUIContent FeatureScale = new GUIContent("Feature Scale",
+            "The material's features, its ribs included, are this many times as large. The level stays as it is.");
+        private static readonly GUIContent Tone = new GUIContent("Tone [dB/oct]",
+            "The spectrum is tilted about 150 Hz: above 0 it is brighter, below 0 darker.");
         private static readonly Dictionary<string, string> Tooltips = new Dictionary<string, string>
         {
             ["coarseness"] = "Above 0 the grain is coarser, below 0 finer.",
@@ -52,44 +56,55 @@ namespace HaptoFlow.Editor
             {
                 return;
             }
-            if (catalog.Sliders == null)
-            {
-                EditorGUILayout.HelpBox(catalog.Problem!, MessageType.Info);
-                return;
-            }
             float before = EditorGUIUtility.labelWidth;
             EditorGUIUtility.labelWidth = PreviewControls.LabelWidth;
             MaterialChoice material = state.Material(state.Heard);
-            for (int index = 0; index < catalog.Sliders.Sliders.Count; ++index)
+            DrawSlider(FeatureScale, material.FeatureScale, MaterialDescription.SmallestFeatureScale,
+                MaterialDescription.LargestFeatureScale, value => material.FeatureScale = value);
+            DrawSlider(Tone, material.ToneDbPerOctave, -MaterialDescription.MostToneDbPerOctave,
+                MaterialDescription.MostToneDbPerOctave, value => material.ToneDbPerOctave = value);
+            if (catalog.Sliders == null)
             {
-                DrawSlider(catalog.Sliders, material, index);
+                EditorGUILayout.HelpBox(catalog.Problem!, MessageType.Info);
+            }
+            for (int index = 0; index < (catalog.Sliders?.Sliders.Count ?? 0); ++index)
+            {
+                DrawMove(catalog.Sliders!, material, index);
             }
             EditorGUIUtility.labelWidth = before;
             DrawButtons(material, save);
         }
 
-        private void DrawSlider(SliderSet sliders, MaterialChoice material, int index)
+        private void DrawMove(SliderSet sliders, MaterialChoice material, int index)
         {
             MaterialSlider slider = sliders.Sliders[index];
             float present = index < material.Moves.Length ? material.Moves[index] : 0f;
-            float entered = EditorGUILayout.Slider(TitleOf(slider.Name), present, slider.Lowest, slider.Highest);
-            if (!entered.Equals(present))
+            DrawSlider(TitleOf(slider.Name), present, slider.Lowest, slider.Highest, entered =>
             {
                 var moves = new float[sliders.Sliders.Count];
                 Array.Copy(material.Moves, moves, Math.Min(moves.Length, material.Moves.Length));
                 moves[index] = entered;
-                state.Change(slider.Name, _ => material.Moves = moves);
+                material.Moves = moves;
+            });
+        }
+
+        private void DrawSlider(GUIContent title, float present, float lowest, float highest, Action<float> change)
+        {
+            float entered = EditorGUILayout.Slider(title, present, lowest, highest);
+            if (!entered.Equals(present))
+            {
+                state.Change(title.text, _ => change(entered));
             }
         }
 
         private void DrawButtons(MaterialChoice material, Action save)
         {
-            using (new EditorGUI.DisabledScope(SliderSet.IsAtRest(material.Moves)))
+            using (new EditorGUI.DisabledScope(material.IsAtRest))
             using (new EditorGUILayout.HorizontalScope())
             {
                 if (GUILayout.Button(Reset, GUILayout.Width(64f)))
                 {
-                    state.Change("Reset of Sliders", _ => material.Moves = Array.Empty<float>());
+                    state.Change("Reset of Sliders", _ => material.Rest());
                 }
                 if (GUILayout.Button(Save))
                 {

@@ -123,6 +123,9 @@ namespace HaptoFlow.Editor
             return ShowsSecond ? new[] { first, Second.Mix(labels, 1) } : new[] { first };
         }
 
+        /// <summary>The one of <see cref="Mixes"/> that is heard, or that a device plays.</summary>
+        public LabelMix HeardMix(IReadOnlyList<string> labels) => Mixes(labels)[ShowsDevice ? 0 : Heard];
+
         /// <summary>Makes a change that can be undone.</summary>
         /// <param name="what">Of the undo's name, for example "Speed".</param>
         public void Change(string what, Action<TexturePreviewState> change)

@@ -207,15 +207,19 @@ namespace HaptoFlow.Editor
             }
             try
             {
-                int heard = State.ShowsDevice ? 0 : State.Heard;
-                LabelMix mix = State.Mixes(Session.Model.Labels)[heard];
-                HapticMaterial? learnt = State.Material(heard).Learnt;
+                LabelMix mix = State.HeardMix(Session.Model.Labels);
+                HapticMaterial? learnt = State.Material(State.Heard).Learnt;
                 string text = mix.MaterialText(Session.Model.File, SliderCatalog.Of(ModelInUse()).Sliders);
                 string label = learnt != null ? learnt.Description.Label : mix.First;
-                HapticMaterial? saved = MaterialAssets.SaveAs(text, label);
+                HapticMaterial? saved = MaterialAssets.SaveAs(text, label, described =>
+                {
+                    described.FeatureScale = mix.FeatureScale;
+                    described.ToneDbPerOctave = mix.ToneDbPerOctave;
+                });
                 if (saved != null)
                 {
-                    State.Take(new LabelMix(label, mix.Second, mix.Share), saved);
+                    State.Take(new LabelMix(label, mix.Second, mix.Share, "", null, mix.FeatureScale,
+                        mix.ToneDbPerOctave), saved);
                     ShowNotification(new GUIContent("Saved " + saved.name));
                 }
             }

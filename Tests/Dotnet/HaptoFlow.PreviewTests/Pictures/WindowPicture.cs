@@ -129,7 +129,8 @@ namespace HaptoFlow.PreviewTests
         /// <summary>Unfolded where something was moved.</summary>
         private void Sliders(PreviewRequest request)
         {
-            float[] moves = request.Materials[^1].Moves.ToArray();
+            LabelMix heard = request.Materials[^1];
+            float[] moves = heard.Moves.ToArray();
             double middle = controls.Top + y + 9.0;
             double left = controls.Left + 4.0;
             canvas.Polyline(moves.Length > 0
@@ -137,6 +138,11 @@ namespace HaptoFlow.PreviewTests
                 : new[] { (left + 2.0, middle - 4.0), (left + 6.0, middle), (left + 2.0, middle + 4.0) }, 1.5, Label);
             canvas.Text("Sliders", left + 14.0, middle, TextSize, Label);
             y += Row;
+            if (moves.Length > 0)
+            {
+                Slider("Feature Scale", (heard.FeatureScale - 0.25) / 3.75, Number(heard.FeatureScale));
+                Slider("Tone [dB/oct]", (heard.ToneDbPerOctave + 12.0) / 24.0, Number(heard.ToneDbPerOctave));
+            }
             for (int index = 0; index < moves.Length; ++index)
             {
                 MaterialSlider slider = request.Sliders!.Sliders[index];

@@ -30,7 +30,7 @@ namespace HaptoFlow.Preview
         private const double Margin = 8.0;
         private const double LeftWidth = 312.0;
         private const double StrokeHeight = 340.0;
-        private const double SlidersHeight = 124.0;
+        private const double SlidersHeight = 164.0;
 
         public PreviewLayout(double width, double height, PreviewRoom room = PreviewRoom.Usual)
         {

@@ -58,9 +58,13 @@ namespace HaptoFlow.Preview
             {
                 MaterialFile material = MaterialFile.Read(request.Material);
                 HapticEngine engine = engines.Engine(request.ModelFile, HapticQuality.Standard, Seed, true);
-                LabelBlend blend = LabelBlend.Of(engines.MaterialIndex(request.Material));
+                var surface = new ContactState
+                {
+                    Material = LabelBlend.Of(engines.MaterialIndex(request.Material)),
+                    Effects = HapticEffects.Texture,
+                };
                 Stroke stroke = RecordingSound.StrokeOf(request.Recording, request.TurnDegrees);
-                float[] samples = StrokeRenderer.Render(engine, stroke, blend, HapticEffects.Texture, token);
+                float[] samples = StrokeRenderer.Render(engine, stroke, surface, token);
                 result = new PreviewSound(new LabelMix(material.Name), stroke, samples);
                 rendered = wanted;
             }

@@ -18,14 +18,18 @@ namespace HaptoFlow.Preview
         /// <param name="share">0: the first alone. 1: the second alone.</param>
         /// <param name="learnt">The text of the first one's material file; empty for a label.</param>
         /// <param name="moves">Where the sliders are that move the first one; null for nowhere.</param>
-        public LabelMix(
-            string first, string second = "", float share = 0f, string learnt = "", float[]? moves = null)
+        /// <param name="featureScale">How many times as large the features of the whole are, 0.25 to 4.</param>
+        /// <param name="toneDbPerOctave">Tilt of the whole's spectrum about 150 Hz, -12 to 12.</param>
+        public LabelMix(string first, string second = "", float share = 0f, string learnt = "", float[]? moves = null,
+            float featureScale = 1f, float toneDbPerOctave = 0f)
         {
             First = first;
             Second = share > 0f ? second : "";
             Share = Second.Length > 0 ? share : 0f;
             Learnt = learnt;
             this.moves = moves == null || SliderSet.IsAtRest(moves) ? null : moves;
+            FeatureScale = featureScale;
+            ToneDbPerOctave = toneDbPerOctave;
         }
 
         /// <summary>A label, or the name of the learnt material.</summary>
@@ -43,19 +47,40 @@ namespace HaptoFlow.Preview
         /// <summary>Of the sliders; empty where they are at rest.</summary>
         public IReadOnlyList<float> Moves => moves ?? AtRest;
 
+        /// <summary>How many times as large the features of the whole are, 0.25 to 4.</summary>
+        public float FeatureScale { get; }
+
+        /// <summary>Tilt of the whole's spectrum about 150 Hz, -12 to 12.</summary>
+        public float ToneDbPerOctave { get; }
+
         /// <summary>The first one is no label of the model as it is.</summary>
         public bool IsOwn => Learnt.Length > 0 || moves != null;
 
-        /// <summary>For people, for example "wood 60 % + cork 40 %".</summary>
+        /// <summary>For people, for example "wood 60 % + cork 40 %" or "corduroy (x2, +3 dB/oct)".</summary>
         public string Title
         {
             get
             {
                 string first = moves == null ? First : First + ", moved";
-                return Second.Length == 0
+                string labels = Second.Length == 0
                     ? first
                     : string.Format(CultureInfo.InvariantCulture, "{0} {1:0} % + {2} {3:0} %",
                         first, 100f * (1f - Share), Second, 100f * Share);
+                return labels + ScaleAndTone;
+            }
+        }
+
+        /// <summary>For people; empty where neither changes anything.</summary>
+        private string ScaleAndTone
+        {
+            get
+            {
+                string[] parts = new[]
+                {
+                    FeatureScale.Equals(1f) ? "" : Text("x{0:0.##}", FeatureScale),
+                    ToneDbPerOctave.Equals(0f) ? "" : Text("{0:+0.##;-0.##;0} dB/oct", ToneDbPerOctave),
+                }.Where(part => part.Length > 0).ToArray();
+                return parts.Length == 0 ? "" : $" ({string.Join(", ", parts)})";
             }
         }
 
@@ -84,11 +109,16 @@ namespace HaptoFlow.Preview
 
         public bool Equals(LabelMix other) =>
             First == other.First && Second == other.Second && Share.Equals(other.Share) && Learnt == other.Learnt &&
-            Moves.SequenceEqual(other.Moves);
+            Moves.SequenceEqual(other.Moves) && FeatureScale.Equals(other.FeatureScale) &&
+            ToneDbPerOctave.Equals(other.ToneDbPerOctave);
 
         public override bool Equals(object? other) => other is LabelMix mix && Equals(mix);
 
-        public override int GetHashCode() => HashCode.Combine(First, Second, Share, Learnt.Length);
+        public override int GetHashCode() => HashCode.Combine(First, Second, Share, Learnt.Length, FeatureScale,
+            ToneDbPerOctave);
+
+        private static string Text(string format, float number) =>
+            string.Format(CultureInfo.InvariantCulture, format, number);
 
         private static int Index(LabelNames names, string label)
         {

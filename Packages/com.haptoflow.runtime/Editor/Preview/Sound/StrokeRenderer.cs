@@ -11,11 +11,11 @@ namespace HaptoFlow.Preview
         /// the offline renderer takes the ends of a voice. A thread that can wait for networks.</summary>
         /// <param name="engine">Without worker. Fresh (no voice opened before) and with a fixed lead, it makes the same
         /// samples from the same stroke and seed every time.</param>
+        /// <param name="surface">What the surface says: material, effects, scale and tone.</param>
         /// <returns>Samples of +-1 at <see cref="PreviewSound.RateHz"/>, as long as the stroke.</returns>
         /// <exception cref="OperationCanceledException">The token was cancelled.</exception>
-        /// <param name="effects">What the surface asks for.</param>
-        public static float[] Render(HapticEngine engine, Stroke stroke, LabelBlend material, HapticEffects effects,
-            CancellationToken token)
+        public static float[] Render(
+            HapticEngine engine, Stroke stroke, in ContactState surface, CancellationToken token)
         {
             using HapticVoice voice = engine.OpenVoice(PreviewSound.RateHz);
             var samples = new float[Frames(stroke.DurationSeconds)];
@@ -25,7 +25,7 @@ namespace HaptoFlow.Preview
                 int begin = Frames(index / Stroke.UpdateRateHz);
                 int end = Frames((index + 1) / Stroke.UpdateRateHz);
                 Span<float> block = samples.AsSpan(begin, end - begin);
-                voice.Publish(stroke.States[index].ContactOn(material, effects));
+                voice.Publish(stroke.States[index].ContactOn(surface));
                 voice.Render(block.Slice(0, 1), 1, 0, PreviewSound.RateHz);
                 engine.Step();
                 voice.Render(block.Slice(1), 1, 0, PreviewSound.RateHz);

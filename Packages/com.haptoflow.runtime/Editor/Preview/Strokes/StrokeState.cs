@@ -52,20 +52,21 @@ namespace HaptoFlow.Preview
         public double SpeedMps => System.Math.Sqrt(VelocityXMps * VelocityXMps + VelocityYMps * VelocityYMps);
 
         /// <summary>What a stylus would publish on such a surface.</summary>
-        /// <param name="effects">What the surface asks for.</param>
-        public ContactState ContactOn(LabelBlend material, HapticEffects effects) => new ContactState
+        /// <param name="surface">What the surface says: material, effects, scale and tone. Its motion is not read.
+        /// </param>
+        public ContactState ContactOn(in ContactState surface)
         {
-            Effects = effects,
-            Touching = Touching,
-            TouchCounter = TouchCounter,
-            Material = material,
-            FirstVelocityMps = Touching ? (float)VelocityXMps : 0f,
-            SecondVelocityMps = Touching ? (float)VelocityYMps : 0f,
-            ForceNewtons = Touching ? (float)ForceNewtons : 0f,
-            ApproachSpeedMps = (float)LandingSpeedMps,
-            EdgeCounter = EdgeCounter,
-            EdgeHeightMetres = PresetStrokes.RimHeightMetres,
-        };
+            ContactState contact = surface;
+            contact.Touching = Touching;
+            contact.TouchCounter = TouchCounter;
+            contact.FirstVelocityMps = Touching ? (float)VelocityXMps : 0f;
+            contact.SecondVelocityMps = Touching ? (float)VelocityYMps : 0f;
+            contact.ForceNewtons = Touching ? (float)ForceNewtons : 0f;
+            contact.ApproachSpeedMps = (float)LandingSpeedMps;
+            contact.EdgeCounter = EdgeCounter;
+            contact.EdgeHeightMetres = PresetStrokes.RimHeightMetres;
+            return contact;
+        }
     }
 
     /// <summary>A point of a path before it is laid onto the patch. Units as in <see cref="StrokeState"/>.</summary>

@@ -73,8 +73,14 @@ namespace HaptoFlow.Preview
             int own = material.IsOwn
                 ? engines.MaterialIndex(material.MaterialText(request.ModelFile, request.Sliders))
                 : -1;
-            LabelBlend blend = material.In(names, own);
-            float[] samples = StrokeRenderer.Render(engine, request.Stroke, blend, request.Effects, token);
+            var surface = new ContactState
+            {
+                Material = material.In(names, own),
+                Effects = request.Effects,
+                SpatialScale = material.FeatureScale,
+                ToneDbPerOctave = material.ToneDbPerOctave,
+            };
+            float[] samples = StrokeRenderer.Render(engine, request.Stroke, surface, token);
             AnalysedSound made = AnalysedSound.Of(new PreviewSound(material, request.Stroke, samples), token);
             kept.Add((key, made));
             return made;

@@ -1,0 +1,112 @@
+#nullable enable
+using System.Collections.Generic;
+using System.Linq;
+using UnityEngine;
+
+namespace HaptoFlow.Editor
+{
+    /// <summary>What a selected object is made of: a Haptic Material, a surface, or an object that is felt by a surface
+    /// or by a rule. Main thread.</summary>
+    internal readonly struct SelectedMaterial
+    {
+        private SelectedMaterial(Object? described, string remark = "")
+        {
+            Described = described;
+            Remark = remark;
+        }
+
+        /// <summary>The surface or the Haptic Material that describes it; null where nothing is felt.</summary>
+        public Object? Described { get; }
+
+        /// <summary>For people: by which rule, and of which part; where nothing is felt, why. Empty where there is
+        /// nothing to say.</summary>
+        public string Remark { get; }
+
+        public static SelectedMaterial Of(Object? selected)
+        {
+            if (selected is GameObject owner && owner != null)
+            {
+                return OfObject(owner);
+            }
+            bool describes = selected != null && (selected is HapticMaterial || selected is HapticSurface);
+            return new SelectedMaterial(describes ? selected : null);
+        }
+
+        /// <summary>The object's own surface first, then what its colliders feel like; a surface that is off describes
+        /// what no rule does.</summary>
+        private static SelectedMaterial OfObject(GameObject owner)
+        {
+            bool hasOwn = owner.TryGetComponent(out HapticSurface own);
+            if (hasOwn && own.enabled)
+            {
+                return new SelectedMaterial(own);
+            }
+            var maps = new SceneMaps();
+            ColliderAnswer[] answers = SceneColliders.Below(new[] { owner }).Select(maps.Ask)
+                .OrderBy(answer => answer.Collider.gameObject == owner ? 0 : 1).ToArray();
+            ColliderAnswer? felt = answers.FirstOrDefault(answer => answer.CanBeFelt);
+            if (felt != null)
+            {
+                return felt.Surface is object ? new SelectedMaterial(felt.Surface) : OfRule(owner, felt);
+            }
+            HapticSurface? described = hasOwn ? own
+                : answers.Length == 0 ? SurfaceRegistry.OwnerOf(owner.transform)
+                : answers.Select(answer => SceneColliders.SurfaceOf(answer.Collider))
+                    .FirstOrDefault(surface => surface != null);
+            if (described != null)
+            {
+                return new SelectedMaterial(
+                    described, described.isActiveAndEnabled ? "" : "its Haptic Surface is switched off");
+            }
+            return new SelectedMaterial(null, WhyNot(answers));
+        }
+
+        private static SelectedMaterial OfRule(GameObject owner, ColliderAnswer answer)
+        {
+            FeltCollider felt = answer.ByRules;
+            int index = 0;
+            while (!felt.Parts[index].CanBeFelt)
+            {
+                ++index;
+            }
+            FeltPart part = felt.Parts[index];
+            var remarks = new List<string>();
+            if (answer.Collider.gameObject != owner)
+            {
+                remarks.Add(answer.Collider.name);
+            }
+            if (!felt.IsUniform)
+            {
+                string kind = felt.Facts.Terrain is object ? "layer" : "submesh";
+                remarks.Add($"{kind} {index + 1} of {felt.Parts.Count}");
+            }
+            remarks.Add(part.Explain());
+            if (part.Mask is object)
+            {
+                remarks.Add(part.Material is object
+                    ? $"without its mask {part.Mask.name}"
+                    : $"the first material of its mask {part.Mask.name}");
+            }
+            return new SelectedMaterial(part.Material ?? FirstOf(part.Mask), string.Join("; ", remarks));
+        }
+
+        private static HapticMaterial? FirstOf(HapticMaskMap? mask) => mask is null
+            ? null
+            : new[] { mask.Red, mask.Green, mask.Blue, mask.Alpha }
+                .Where(channel => channel.Use == MaskChannelUse.Material && channel.Material != null)
+                .Select(channel => channel.Material).FirstOrDefault();
+
+        private static string WhyNot(IReadOnlyCollection<ColliderAnswer> answers)
+        {
+            if (answers.Count == 0)
+            {
+                return "it has no collider that can be felt";
+            }
+            ColliderAnswer first = answers.FirstOrDefault(
+                answer => answer.ByRules.Parts.Any(part => part.Map is object)) ?? answers.First();
+            return first.ByRules.Parts.All(part => part.Map is null)
+                ? "it has no Haptic Surface, and no rule matches"
+                : first.Reason;
+        }
+    }
+}
