@@ -30,7 +30,7 @@ export const leftOut = {
     },
     {
       because: 'a material is learnt, which asks the network hundreds of times, or registered thousands of times',
-      tests: ['LearningApiTest.*', 'DescriptorSizesTest.AnInputOfA*', 'MaterialApiTest.ThousandsOfReplacements*'],
+      tests: ['LearningApiTest.*', 'DescriptorSizesTest.AnInputOfA*', 'ArgumentTest.NullPointers*', 'MaterialApiTest.ThousandsOfReplacements*'],
     },
     {
       because: 'qemu runs threads in the memory order of this machine, so that a storm of them finds there what it finds here',
