@@ -30,9 +30,14 @@ export const leftOut = {
     },
     {
       because: 'a material is learnt, which asks the network hundreds of times, or registered thousands of times',
-      tests: ['LearningApiTest.*', 'DescriptorSizesTest.AnInputOfA*', 'MaterialApiTest.ThousandsOfReplacements*'],
+      tests: ['LearningApiTest.*', 'DescriptorSizesTest.AnInputOfA*', 'ArgumentTest.NullPointers*', 'MaterialApiTest.ThousandsOfReplacements*'],
     },
-    { because: 'it depends on the pace of threads or on measured time, which emulation changes', tests: ['ApiStorm*', '*LivePace*', '*MeasuredTime*', '*TenMinutes*'] },
+    {
+      because: 'qemu runs threads in the memory order of this machine, so that a storm of them finds there what it finds here',
+      tests: ['ApiStorm*', 'MaterialLibraryTest.WhatPublishersRead*', 'SegmentQueueTest.BetweenTwoThreads*', 'VoiceTableTest.OfTwoThreads*',
+        'MaterialApiTest.WhileSlidersReplace*', 'LiveEngineTest.ManyVoicesPublishers*'],
+    },
+    { because: 'it depends on the pace of threads or on measured time, which emulation changes', tests: ['*LivePace*', '*MeasuredTime*', '*TenMinutes*'] },
     { because: 'millions of small steps that other tests of the same code take by the thousand', tests: ['MutationTest.Changed*', 'ProcessorsTest.SettingsThatChangeAtAnyMoment*'] },
   ],
 };
