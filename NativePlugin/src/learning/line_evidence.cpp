@@ -174,7 +174,7 @@ LineEvidence lineEvidence(std::span<const PathWindow> windows, std::span<const C
             const double share = std::abs(windows[w].directionX * cosine + windows[w].directionY * sine);
             for (std::size_t step = 0; step < stepCount; ++step) {
                 const double along = share * static_cast<double>(step);
-                const auto column = static_cast<std::size_t>(along + 0.5);
+                const auto column = static_cast<std::size_t>(std::floor(along + 0.5));
                 if (along * stepPerMm > lowestAlongPerMm && heard[w][column] != 0) {
                     row.sums[step] += spectra[w][column];
                     row.counts[step] += 1.0;
