@@ -24,7 +24,8 @@ namespace HaptoFlow.PreviewTests
             object settings = Activator.CreateInstance(Twin(typeof(StrokeSettings)), 0.1, 1.0, 0.0, 0.3, 0.3)!;
             object stroke = Twin(typeof(PresetStrokes)).GetMethod("Make")!.Invoke(null, new[] { 0, settings })!;
             Array materials = Array.CreateInstance(Twin(typeof(LabelMix)), 1);
-            materials.SetValue(Activator.CreateInstance(Twin(typeof(LabelMix)), "wood", "", 0f, "", null), 0);
+            materials.SetValue(Activator.CreateInstance(
+                Twin(typeof(LabelMix)), "wood", "", 0f, "", null, 1f, 0f), 0);
             object request = Activator.CreateInstance(
                 Twin(typeof(PreviewRequest)), ModelFiles.Default, stroke, materials)!;
             object panel = Activator.CreateInstance(Twin(typeof(Box)), 0.0, 0.0, 600.0, 400.0)!;
