@@ -5,6 +5,7 @@ using NUnit.Framework;
 using UnityEngine;
 using UnityEngine.TestTools;
 using UnityShim;
+using LegacyAnswers = Legacy::HaptoFlow.Samples.LatencyStudy.AnswerButtons;
 using LegacyScene = Legacy::HaptoFlow.Samples.StylusTracing.TracingScene;
 using LegacyXrPen = Legacy::HaptoFlow.XrPen;
 
@@ -24,6 +25,17 @@ namespace HaptoFlow.SampleTests
             PlayFor(0.4);
             Assert.That(scene.Pen.Stylus.IsTouching, Is.True);
             Assert.That(scene.Pen.Stylus.Contact.Material!.Label, Is.EqualTo("jute"));
+        }
+
+        [Test]
+        public void TheOldInputManagersKeysAnswerTheDelayStudy()
+        {
+            using var answers = new LegacyAnswers(Legacy::HaptoFlow.PenHand.Right);
+            Assert.That(answers.Take(), Is.Null);
+            SimulatedInput.KeyDown = KeyCode.Y;
+            Assert.That(answers.Take(), Is.True);
+            SimulatedInput.KeyDown = KeyCode.N;
+            Assert.That(answers.Take(), Is.False);
         }
 
         [Test]

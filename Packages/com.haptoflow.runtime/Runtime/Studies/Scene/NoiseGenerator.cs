@@ -10,10 +10,13 @@ namespace HaptoFlow.Studies
         private const float WhiteScale = 1.7320508f;
 
         // Makes up for the filter's gain on white noise of a root mean square of 1, by its impulse response.
-        private static readonly float PinkScale = FindPinkScale();
+        private static readonly float PinkScale;
 
         private readonly float[] state = new float[7];
         private uint bits = 0x9E3779B9u;
+
+        // Explicit, so that it runs where the first generator is made, and not on the audio thread.
+        static NoiseGenerator() => PinkScale = FindPinkScale();
 
         public float Next(bool isPink)
         {
