@@ -11,6 +11,8 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
+from haptoflow_training.cli import main
+from haptoflow_training.commands import measure_full_scale
 from haptoflow_training.errors import InputError
 from haptoflow_training.evaluation.engine_render import FULL_SCALE_MPS2, write_scene
 from haptoflow_training.evaluation.full_scale import (
@@ -129,3 +131,22 @@ def test_the_limiter_of_the_engine_bends_as_many_samples_as_are_counted_here(tmp
     limited = json.loads(report.read_text(encoding="utf-8"))["limited_samples"]
     assert limited > 1000
     assert share_in_knee([level], 60.0) * len(level.magnitudes_mps2) == pytest.approx(limited, abs=2)
+
+
+@pytest.mark.parametrize("option", ["--page", "--out"])
+def test_a_place_that_cannot_be_written_is_said_before_anything_is_rendered(
+    tmp_path: Path, option: str, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def rendered(*_: object, **__: object) -> None:
+        raise AssertionError("a label was asked for before the places were tried")
+
+    monkeypatch.setattr(measure_full_scale, "model_labels", rendered)
+    page = tmp_path / "page.md"
+    page.write_text("<!-- measured: begin (made) -->\n<!-- measured: end -->\n", encoding="utf-8")
+    (tmp_path / "file").write_text("", encoding="utf-8")
+    places = {"--page": str(page), "--out": str(tmp_path / "report.json"), option: str(tmp_path / "file" / "made")}
+    strokes = tmp_path / "strokes.csv"
+    strokes.write_text("stroke_id,t_s,x_m,y_m,z_m\n1,0,0,0,0\n1,0.01,0.001,0,0\n1,0.02,0.002,0,0\n", encoding="utf-8")
+    words = ["measure-full-scale", "--engine", "engine", "--model", "model", "--strokes", str(strokes)]
+    assert main([*words, *(word for pair in places.items() for word in pair)]) == 3
+    assert f"{tmp_path / 'file' / 'made'}: cannot be" in capsys.readouterr().err

@@ -17,7 +17,13 @@ from haptoflow_training.evaluation.full_scale import (
     model_labels,
     summarise,
 )
-from haptoflow_training.evaluation.model_stamp import model_line, sha256_of, with_measured_words
+from haptoflow_training.evaluation.model_stamp import (
+    model_line,
+    read_measured_page,
+    sha256_of,
+    with_measured_words,
+)
+from haptoflow_training.export.whole_file import check_writable, write_whole
 from haptoflow_training.strokes.recorded_strokes import read_recorded_strokes
 
 
@@ -54,18 +60,20 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser], su
 
 def run(options: argparse.Namespace) -> int:
     strokes = read_recorded_strokes(options.strokes)
+    check_writable(options.out)
+    if options.page is not None:
+        read_measured_page(options.page)
+        check_writable(options.page)
     labels = model_labels(options.engine, options.model)
     with tqdm(total=len(strokes) * len(labels) * len(options.forces), unit="render") as bar:
         levels = measure_levels(
             options.engine, options.model, strokes, labels, options.forces, workers=options.workers, advance=bar.update
         )
     report = {"model_sha256": sha256_of(options.model), **summarise(levels, sorted(set(options.full_scales)))}
-    options.out.parent.mkdir(parents=True, exist_ok=True)
-    options.out.write_text(json.dumps(report, indent=1) + "\n", encoding="utf-8")
+    write_whole(options.out, (json.dumps(report, indent=1) + "\n").encode())
     if options.page is not None:
         words = f"{model_line(report['model_sha256'])}\n\n{full_scale_table(report)}"
-        page = options.page.read_text(encoding="utf-8")
-        options.page.write_text(with_measured_words(page, words), encoding="utf-8")
+        write_whole(options.page, with_measured_words(read_measured_page(options.page), words).encode())
     print(
         f"{options.out}: {report['smallest_full_scale_mps2']:.0f} m/s^2 over all labels, "
         f"{report['smallest_full_scale_of_loudest_label_mps2']:.0f} m/s^2 for the loudest alone"
