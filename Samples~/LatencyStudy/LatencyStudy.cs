@@ -50,7 +50,8 @@ namespace HaptoFlow.Samples.LatencyStudy
         /// <summary>The present trial's delay without the artificial part.</summary>
         public SystemDelay Delay => delay;
 
-        /// <summary>The system's delay by what is measured now. Makes no garbage.</summary>
+        /// <summary>The system delay from the pose interval and the audio block as they are now, and the device delay of
+        /// the settings. Allocates nothing.</summary>
         /// <exception cref="StudyException">The device delay of the settings is no time.</exception>
         public SystemDelay MeasureDelay() => new SystemDelay(
             poses.MedianMilliseconds, 0.0, StudyPlayer.BlockMilliseconds, settings.DeviceDelayMilliseconds);

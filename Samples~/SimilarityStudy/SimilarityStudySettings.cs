@@ -133,35 +133,35 @@ namespace HaptoFlow.Samples.SimilarityStudy
             set => needsAlignment = value;
         }
 
-        /// <summary>For the record.</summary>
+        /// <summary>The name of the headset, for the log.</summary>
         public string Headset => headset;
 
         /// <summary>The hand that holds the pen.</summary>
         public PenHand PenHand => penHand;
 
-        /// <summary>Of the actuator, from 0.</summary>
+        /// <summary>The output channel that the actuator is connected to; the first one is 0.</summary>
         public int HapticChannel => hapticChannel;
 
-        /// <summary>The noise in the headphones.</summary>
+        /// <summary>The colour of the masking noise in the headphones.</summary>
         public NoiseColour NoiseColour => noiseColour;
 
-        /// <summary>Root mean square, in dB of full scale.</summary>
+        /// <summary>The RMS level of the masking noise, in dB of full scale.</summary>
         public float NoiseDecibels => noiseDecibels;
 
-        /// <summary>In ms; 0 for that of the slowest method.</summary>
+        /// <summary>The delay of every method, in ms; 0 for the delay of the slowest method.</summary>
         public float EqualDelayMilliseconds
         {
             get => equalDelayMilliseconds;
             set => equalDelayMilliseconds = value;
         }
 
-        /// <summary>From the audio callback to the hand, in ms.</summary>
+        /// <summary>The delay from the audio callback to the hand, in ms.</summary>
         public float DeviceDelayMilliseconds => deviceDelayMilliseconds;
 
-        /// <summary>Where it is known from.</summary>
+        /// <summary>Whether the device delay was measured or estimated.</summary>
         public DeviceDelaySource DeviceDelaySource => deviceDelaySource;
 
-        /// <summary>How it was measured, or what the estimate rests on.</summary>
+        /// <summary>How the device delay was measured, or what its estimate rests on.</summary>
         public string DeviceDelayNote => deviceDelayNote;
 
         /// <summary>Nobody takes part; logs and reports say so.</summary>

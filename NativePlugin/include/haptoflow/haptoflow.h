@@ -732,16 +732,16 @@ HAPTOFLOW_API haptoflow_status haptoflow_voice_set_delay(haptoflow_voice voice, 
  * edge, no inference. It begins and ends within 2 ms on a raised cosine, at phase 0 out of silence, and its phase goes
  * on while it sounds, also where the frequency changes. Strength, delay, compensation, exposure guard, mute, pause,
  * panic and missing states act on it as on everything.
- * frequency_hz: 20 to 500, ignored where the amplitude is 0. amplitude_mps2: the peak, 0 to 60; 0 for no signal, and
- * the texture sounds again with the next state. Both take effect with the next block; another amplitude is reached
- * within 10 ms. Errors: INVALID_ARGUMENT. [publisher] */
+ * frequency_hz: 20 to 500; it is ignored if the amplitude is 0. amplitude_mps2: the peak amplitude, 0 to 60. An
+ * amplitude of 0 switches the signal off, and the texture sounds again with the next state. Both values take effect
+ * with the next block; a change of amplitude takes 10 ms. Errors: INVALID_ARGUMENT. [publisher] */
 HAPTOFLOW_API haptoflow_status haptoflow_voice_set_signal(haptoflow_voice voice, double frequency_hz,
                                                           double amplitude_mps2);
 
-/* How often contact states have turned the signal on and off, and how long that took: from haptoflow_voice_publish with
- * the first state that asks for the change to the start of the block in which it begins, the voice's delay included.
- * What compensation and device add comes on top. Turns that mute, pause, panic, missing states or set_signal itself
- * cause are not counted. All zero before the first. */
+/* How often contact states have started and stopped the signal, and the latency of these changes. The latency runs from
+ * haptoflow_voice_publish of the first state that asks for the change to the start of the block in which the change
+ * begins. It includes the voice's delay, but not the delay of compensation and device. Changes that mute, pause, panic,
+ * missing states or set_signal cause are not counted. All values are zero before the first change. */
 typedef struct haptoflow_signal_statistics {
     uint32_t struct_size;
     uint64_t starts;

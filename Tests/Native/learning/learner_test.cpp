@@ -27,9 +27,7 @@ namespace haptoflow::learning {
 namespace {
 
 using ::testing::HasSubstr;
-using testing::MadeMotion;
 using testing::MadeRecording;
-using testing::MadeSurface;
 using ::testing::ThrowsMessage;
 
 /// The shipped model's default tier.
@@ -48,7 +46,7 @@ protected:
         return settings;
     }
 
-    /// What the network makes of a seed's first half, moving on as the seed does, from sample 200 on.
+    /// The segment that the network generates after a seed's first 200 samples, at the seed's own motion.
     std::vector<float> goneOn(const model::MaterialFile& material, const model::MaterialSeed& seed,
                               std::uint32_t draw) {
         constexpr std::size_t half = inference::segmentSamples;

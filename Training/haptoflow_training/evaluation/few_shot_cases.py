@@ -20,7 +20,7 @@ from haptoflow_training.recordings.synthetic.unseen import unseen_materials
 SECONDS = (3.0, 10.0, 30.0, 120.0)
 # Median speed (mm/s) and force (mN) of each ride in turn, so that few seconds already hold slow and fast.
 _RIDES = ((35, 800), (100, 1200), (22, 1400), (70, 600), (150, 1000), (48, 900))
-_RIDE_SECONDS = 5.0
+RIDE_SECONDS = 5.0
 _SHORTEST_RIDE_SECONDS = 1.5
 # Between the speeds of every protocol; forces and directions go through their ranges.
 _CONDITIONS = ((0.02, 0.5, 20.0), (0.034, 1.35, 110.0), (0.056, 0.9, 200.0), (0.085, 0.6, 300.0), (0.13, 1.8, 65.0),
@@ -53,9 +53,9 @@ class FewShotCase:
 
     def recordings(self, seconds: float) -> list[MaterialRecording]:
         """The first seconds: whole rides, or of the first two a piece each."""
-        if seconds < 2.0 * _RIDE_SECONDS:
+        if seconds < 2.0 * RIDE_SECONDS:
             return [_cut(ride, max(_SHORTEST_RIDE_SECONDS, seconds / 2.0)) for ride in self.rides[:2]]
-        return [_cut(ride, _RIDE_SECONDS) for ride in self.rides[: round(seconds / _RIDE_SECONDS)]]
+        return [_cut(ride, RIDE_SECONDS) for ride in self.rides[: round(seconds / RIDE_SECONDS)]]
 
 
 def study_materials(count: int, seed: int) -> tuple[Material, ...]:
@@ -64,7 +64,7 @@ def study_materials(count: int, seed: int) -> tuple[Material, ...]:
 
 def make_case(material: Material, seed: int, longest_seconds: float = SECONDS[-1]) -> FewShotCase:
     """Deterministic by material and seed."""
-    rides = make_rides(material, seed, max(2, round(longest_seconds / _RIDE_SECONDS)))
+    rides = make_rides(material, seed, max(2, round(longest_seconds / RIDE_SECONDS)))
     settings = PreprocessingSettings()
     return FewShotCase(
         material,
@@ -85,7 +85,7 @@ def make_rides(
             material,
             RecordingIdentity(material.texture_id, None, speed, force, number),
             seed=seed,
-            duration_seconds=_RIDE_SECONDS + 2.0 * settings.trim_seconds + 0.05,
+            duration_seconds=RIDE_SECONDS + 2.0 * settings.trim_seconds + 0.05,
             guided_share=guided_share,
             specimen=TRAINING_SPECIMENS[number % len(TRAINING_SPECIMENS)],
         )

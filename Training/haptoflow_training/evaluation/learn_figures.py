@@ -18,6 +18,7 @@ from haptoflow_training.evaluation.engine_render import render_motion
 from haptoflow_training.evaluation.few_shot_cases import FewShotCase
 from haptoflow_training.evaluation.few_shot_figures import condition_figures
 from haptoflow_training.evaluation.few_shot_rivals import fit_autoregressive
+from haptoflow_training.evaluation.wave_vector_study import CLOSE, relative_error
 from haptoflow_training.fewshot.label_prior import LabelPrior
 from haptoflow_training.fewshot.level_law import fit_level
 from haptoflow_training.fewshot.sound_fit import LEVEL_HOP_SAMPLES, LEVEL_WINDOW_SAMPLES
@@ -33,7 +34,6 @@ LEARNT, AUTOREGRESSIVE, OTHER_DRAW = "learn", "autoregressive", "other draw"
 # Between two rides, so that nothing is learnt from the step from one to the next.
 _MISSING_SAMPLES = 20
 _DRAWN_MATERIALS = 60
-_RIGHT_SHARE = 0.02
 
 
 @dataclass(frozen=True)
@@ -132,15 +132,6 @@ def _families(material: Material, report: dict[str, Any], turn_radians: float) -
         np.array([cosine * x - sine * y, sine * x + cosine * y])
         for x, y in ((each["x_cycles_per_mm"], each["y_cycles_per_mm"]) for each in report["wave_vectors"])
     ]
-    angles = [math.radians(ruling.direction_degrees) for ruling in material.rulings]
-    true = [
-        np.array([math.cos(angle), math.sin(angle)]) / ruling.wavelength_mm
-        for angle, ruling in zip(angles, material.rulings, strict=True)
-    ]
-
-    def near(one: np.ndarray, other: np.ndarray) -> bool:
-        apart = min(float(np.linalg.norm(one - other)), float(np.linalg.norm(one + other)))
-        return apart < _RIGHT_SHARE * float(np.linalg.norm(other))
-
-    found = sum(any(near(vector, each) for vector in vectors) for each in true)
-    return found, sum(not any(near(vector, each) for each in true) for vector in vectors)
+    true = [np.array(vector) for vector in material.wave_vectors_per_mm]
+    found = sum(any(relative_error(vector, each) < CLOSE for vector in vectors) for each in true)
+    return found, sum(not any(relative_error(vector, each) < CLOSE for each in true) for vector in vectors)

@@ -9,14 +9,13 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from haptoflow_training.evaluation.few_shot_cases import make_rides
+from haptoflow_training.evaluation.few_shot_cases import RIDE_SECONDS, make_rides
 from haptoflow_training.preprocessing.wave_vectors import WaveVector, estimate_wave_vectors
 from haptoflow_training.recordings.synthetic import Material, load_materials
 from haptoflow_training.recordings.synthetic.unseen import unseen_materials
 
 SECONDS = (10.0, 30.0)
 CLOSE, NEAR = 0.02, 0.05
-_RIDE_SECONDS = 5.0
 # Of guided strokes (straight, even) and of free ones; the labels get some of both.
 _GUIDED, _FREE, _LABELS = 1.0, 0.3, 0.6
 _GUIDED_SEEDS, _FREE_SEEDS, _PLAIN_SEEDS = (2026, 7, 8, 9, 10, 11), (2026, 8, 10), (2026, 7)
@@ -35,9 +34,7 @@ class StudySurface:
     @property
     def vectors(self) -> NDArray[np.float64]:
         """[n, 2] in cycles per millimetre."""
-        angles = np.radians([each.direction_degrees for each in self.material.rulings])
-        lengths = np.array([each.wavelength_mm for each in self.material.rulings])
-        return np.stack([np.cos(angles), np.sin(angles)], axis=-1).reshape(-1, 2) / lengths[:, None]
+        return np.array(self.material.wave_vectors_per_mm).reshape(-1, 2)
 
 
 def study_surfaces() -> Iterator[StudySurface]:
@@ -65,15 +62,15 @@ def measured(surfaces: Sequence[StudySurface], advance: Callable[[], None] = lam
     found_by_surface = []
     for surface in surfaces:
         rides = make_rides(
-            surface.material, surface.seed, round(max(SECONDS) / _RIDE_SECONDS), guided_share=surface.guided_share
+            surface.material, surface.seed, round(max(SECONDS) / RIDE_SECONDS), guided_share=surface.guided_share
         )
         row: dict[str, Any] = {"name": surface.name, "wave_vectors_per_mm": np.round(surface.vectors, 4).tolist()}
         for seconds in SECONDS:
-            found = estimate_wave_vectors(rides[: round(seconds / _RIDE_SECONDS)])
+            found = estimate_wave_vectors(rides[: round(seconds / RIDE_SECONDS)])
             row[f"found_{seconds:g}"] = [list(each) for each in found]
             total = totals[f"{seconds:g}"]
-            errors = [min((_error(each, vector) for each in found), default=np.inf) for vector in surface.vectors]
-            wrong = sum(all(_error(each, vector) >= NEAR for vector in surface.vectors) for each in found)
+            errors = [min((relative_error(each, vector) for each in found), default=np.inf) for vector in surface.vectors]
+            wrong = sum(all(relative_error(each, vector) >= NEAR for vector in surface.vectors) for each in found)
             kind = "ruled" if len(surface.vectors) else "unruled"
             total[f"{kind}_surfaces"] += 1
             total[f"wrong_on_{kind}"] += wrong
@@ -85,7 +82,7 @@ def measured(surfaces: Sequence[StudySurface], advance: Callable[[], None] = lam
     return {"totals": totals, "surfaces": found_by_surface}
 
 
-def _error(found: WaveVector, vector: NDArray[np.float64]) -> float:
-    """Relative; the opposite vector is the same ribs."""
-    distance = min(float(np.linalg.norm(np.array(found) - sign * vector)) for sign in (1.0, -1.0))
+def relative_error(found: WaveVector | NDArray[np.float64], vector: NDArray[np.float64]) -> float:
+    """The distance from `found` to `vector` over the length of `vector`; the opposite vector is the same ribs."""
+    distance = min(float(np.linalg.norm(np.asarray(found) - sign * vector)) for sign in (1.0, -1.0))
     return distance / float(np.linalg.norm(vector))

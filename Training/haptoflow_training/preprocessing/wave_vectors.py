@@ -31,6 +31,8 @@ WaveVector = tuple[float, float]
 SHORTEST_WAVELENGTH_MM, LONGEST_WAVELENGTH_MM = 0.4, 8.0
 _MOST_WAVE_VECTORS = 2
 _STEP_PER_MM, _HIGHEST_PER_MM = 0.01, 4.0
+# Multiples of the step from 0 to a little above the highest wave number.
+_STEPS = round(_HIGHEST_PER_MM / _STEP_PER_MM) + 2
 _DIRECTIONS = 120
 _HARMONICS = 6
 # Where a line can be told from the hand's own motion and from the end of the band.
@@ -95,12 +97,11 @@ class _Evidence:
         spectra = _spectra(windows, wave)
         heard = _heard(windows, known)
         spectra = np.minimum(spectra, _LARGEST_POWER)
-        steps = spectra.shape[1]
         rows = np.arange(len(windows))[:, None]
-        mean, count = np.zeros((_DIRECTIONS, steps)), np.zeros((_DIRECTIONS, steps))
+        mean, count = np.zeros((_DIRECTIONS, _STEPS)), np.zeros((_DIRECTIONS, _STEPS))
         for index, angle in enumerate(_angles()):
             share = np.abs(windows.direction @ [np.cos(angle), np.sin(angle)])
-            along = share[:, None] * np.arange(steps)[None]
+            along = share[:, None] * np.arange(_STEPS)[None]
             column = np.floor(along + 0.5).astype(int)
             counted = heard[rows, column] & (along * _STEP_PER_MM > _LOWEST_ALONG_PER_MM)
             count[index] = counted.sum(axis=0)
@@ -134,9 +135,8 @@ class _Evidence:
         """The sum over the harmonics of each fundamental."""
         scores = np.zeros_like(self.gains)
         low, high = (round(1.0 / (each * _STEP_PER_MM)) for each in (LONGEST_WAVELENGTH_MM, SHORTEST_WAVELENGTH_MM))
-        steps = self.gains.shape[1]
         for order in range(1, _HARMONICS + 1):
-            places = np.arange(low, min(high, (steps - 1) // order + 1))
+            places = np.arange(low, min(high, (_STEPS - 1) // order + 1))
             scores[:, places] += np.maximum(self.gains[:, order * places] - _PRICE_OF_A_HARMONIC, 0.0)
         for vector in known:
             turn = np.degrees(np.abs(_angles() - np.arctan2(vector[1], vector[0])) % np.pi)
@@ -147,7 +147,7 @@ class _Evidence:
 
     @staticmethod
     def _lines(values: _Doubles, row: int, step: int) -> _Doubles:
-        """[6]: at the harmonics of a fundamental; 0 beyond the highest wave number."""
+        """[6]: `values` at the six harmonics of the fundamental `step`, 0 for those beyond the highest wave number."""
         places = step * np.arange(1, _HARMONICS + 1)
         inside = places < values.shape[1]
         return np.where(inside, values[row, np.minimum(places, values.shape[1] - 1)], 0.0)
@@ -189,14 +189,13 @@ def _angles() -> _Doubles:
 
 def _spectra(windows: PathWindows, wave: _Doubles) -> _Doubles:
     """[windows, steps]: power by cycles per millimetre along each window's own direction, 1 for its median noise."""
-    steps = round(_HIGHEST_PER_MM / _STEP_PER_MM) + 2
-    power = np.zeros((len(windows), steps))
+    power = np.zeros((len(windows), _STEPS))
     turned = wave.astype(np.complex64)
     step = np.exp(-2j * np.pi * _STEP_PER_MM * windows.along_mm).astype(np.complex64)
-    for index in range(steps):
+    for index in range(_STEPS):
         power[:, index] = np.square(np.abs(turned.sum(axis=1)))
         turned *= step
-    band = _band(windows, steps)
+    band = _band(windows)
     for index in range(len(windows)):
         # The median of a chi-squared variable of two degrees is ln 2 of its mean.
         usual = float(np.median(power[index, band[index]])) / np.log(2.0) if band[index].any() else 1.0
@@ -204,16 +203,15 @@ def _spectra(windows: PathWindows, wave: _Doubles) -> _Doubles:
     return power
 
 
-def _band(windows: PathWindows, steps: int) -> NDArray[np.bool_]:
-    hertz = np.arange(steps)[None] * _STEP_PER_MM * windows.speed_mmps[:, None]
+def _band(windows: PathWindows) -> NDArray[np.bool_]:
+    hertz = np.arange(_STEPS)[None] * _STEP_PER_MM * windows.speed_mmps[:, None]
     return np.asarray((hertz >= _LOWEST_HZ) & (hertz <= _HIGHEST_HZ))
 
 
 def _heard(windows: PathWindows, known: Sequence[_Doubles]) -> NDArray[np.bool_]:
     """[windows, steps]: inside the band, and nothing that a harmonic of a known vector would explain."""
-    steps = round(_HIGHEST_PER_MM / _STEP_PER_MM) + 2
-    heard = _band(windows, steps)
-    places = np.arange(steps)[None] * _STEP_PER_MM
+    heard = _band(windows)
+    places = np.arange(_STEPS)[None] * _STEP_PER_MM
     for vector in known:
         fundamental = np.abs(windows.direction @ vector)[:, None]
         for order in range(_TAKEN_HARMONICS + 1):

@@ -39,7 +39,8 @@ class Budget:
 
 
 def budgets(bench: BenchFigures, refresh_hz: float, block: Block, device_ms: float | None) -> dict[str, Budget]:
-    """By quality. Every part counts in full, as if each event just missed the part before."""
+    """The delay budget of each quality, by its name. It is the worst case: an event waits for a whole pose interval and a
+    whole audio block."""
     return {
         quality: Budget(1000.0 / refresh_hz, spread.p99, block.milliseconds(bench.rate_hz), device_ms)
         for quality, spread in bench.inference_ms.items()

@@ -1,4 +1,5 @@
-"""Participants that do not exist, with a truth that an analysis has to find again. Never mixed with real ones."""
+"""Simulated participants. Their true thresholds and ratings are known, so that a test can see whether the analysis
+recovers them. Their logs say that they are simulated and are never mixed with real ones."""
 
 from __future__ import annotations
 

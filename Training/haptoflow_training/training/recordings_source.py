@@ -5,7 +5,6 @@ from __future__ import annotations
 import dataclasses
 import hashlib
 import json
-import math
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
@@ -148,13 +147,7 @@ def synthetic_label_infos(data: DataConfig) -> list[LabelInfo]:
             wavelength_metres=(
                 1e-3 * material.dominant_ruling.wavelength_mm if material.dominant_ruling else None
             ),
-            wave_vectors_per_mm=tuple(
-                (
-                    math.cos(math.radians(ruling.direction_degrees)) / ruling.wavelength_mm,
-                    math.sin(math.radians(ruling.direction_degrees)) / ruling.wavelength_mm,
-                )
-                for ruling in material.rulings
-            ),
+            wave_vectors_per_mm=material.wave_vectors_per_mm,
             landing=landing_of(material),
         )
         for material in _materials(data)

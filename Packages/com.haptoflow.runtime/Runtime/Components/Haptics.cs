@@ -42,7 +42,7 @@ namespace HaptoFlow
         /// changes over to it from one frame to the next. For scenes that change or compare models while they run.
         /// </summary>
         /// <param name="quality">Which of its tiers generates.</param>
-        /// <returns>To be disposed by the caller.</returns>
+        /// <returns>The loaded model. The caller disposes it, which closes its engine.</returns>
         public static HapticLoadedModel Load(HapticModelAsset model, HapticQuality quality) =>
             new HapticLoadedModel(model, quality);
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import re
 import tomllib
 from collections.abc import Mapping, Sequence
@@ -88,6 +89,15 @@ class Material:
     def dominant_ruling(self) -> Ruling | None:
         """The highest family of ribs, whose wavelength is the label's; None for a random surface."""
         return max(self.rulings, key=lambda ruling: ruling.relative_height, default=None)
+
+    @property
+    def wave_vectors_per_mm(self) -> tuple[tuple[float, float], ...]:
+        """(x, y) of each family of ribs, in cycles per millimetre."""
+        angles = [math.radians(ruling.direction_degrees) for ruling in self.rulings]
+        return tuple(
+            (math.cos(angle) / ruling.wavelength_mm, math.sin(angle) / ruling.wavelength_mm)
+            for angle, ruling in zip(angles, self.rulings, strict=True)
+        )
 
     def with_calibrated(self, **values: float) -> Material:
         return replace(self, calibrated=replace(self.calibrated, **values))

@@ -9,7 +9,8 @@ using HaptoFlow.Model;
 namespace HaptoFlow.Studies
 {
     /// <summary>The two files of a session: rows of answered trials as CSV, and a JSON sidecar that says what was done.
-    /// Every row is on disk before the next trial begins; what cannot be written is kept and tried again. Main thread.
+    /// Each row is written to disk before the next trial begins. A row that cannot be written stays in memory and is
+    /// written again later, so that no answer is lost. Main thread.
     /// </summary>
     public sealed class StudyLog
     {
