@@ -1,3 +1,4 @@
 using System.Runtime.CompilerServices;
 
 [assembly: InternalsVisibleTo("HaptoFlow.EditorTests")]
+[assembly: InternalsVisibleTo("HaptoFlow.PreviewTests")]

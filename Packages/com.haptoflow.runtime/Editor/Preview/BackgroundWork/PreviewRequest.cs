@@ -1,4 +1,5 @@
 #nullable enable
+using System;
 using System.Collections.Generic;
 
 namespace HaptoFlow.Preview
@@ -46,14 +47,31 @@ namespace HaptoFlow.Preview
 
         /// <summary>Milliseconds are measured where this number was not seen before; 0 for never.</summary>
         public int Measurement { get; set; }
+    }
 
-        public Palette Palette { get; set; } = Palette.Dark;
+    /// <summary>What a preview shows. Immutable by convention.</summary>
+    internal sealed class PreviewResult
+    {
+        public PreviewResult(PreviewRequest request, IReadOnlyList<AnalysedSound> sounds)
+        {
+            Request = request;
+            Sounds = sounds;
+            Panel = new SoundPanel(sounds);
+        }
 
-        public Box StrokePanel { get; set; }
+        public PreviewRequest Request { get; }
 
-        public Box Charts { get; set; }
+        /// <summary>As many as the request has materials, and one more if a device renders the first; none if there is a
+        /// problem.</summary>
+        public IReadOnlyList<AnalysedSound> Sounds { get; }
 
-        /// <summary>Pixels of a point.</summary>
-        public double PixelsPerPoint { get; set; } = 1.0;
+        /// <summary>Draws the sounds.</summary>
+        public SoundPanel Panel { get; }
+
+        /// <summary>One for each tier; none if the model cannot be read.</summary>
+        public IReadOnlyList<QualityRow> Qualities { get; set; } = Array.Empty<QualityRow>();
+
+        /// <summary>Why there is no sound; null if there is one.</summary>
+        public string? Problem { get; set; }
     }
 }

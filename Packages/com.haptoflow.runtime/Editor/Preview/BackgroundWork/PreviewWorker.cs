@@ -44,14 +44,8 @@ namespace HaptoFlow.Preview
                 sounds = Array.Empty<AnalysedSound>();
             }
             token.ThrowIfCancellationRequested();
-            var stroke = new PixelCanvas(
-                request.StrokePanel.Width, request.StrokePanel.Height, request.PixelsPerPoint);
-            StrokePanel.Draw(stroke, request.Palette, request.Stroke);
-            var charts = new PixelCanvas(request.Charts.Width, request.Charts.Height, request.PixelsPerPoint);
-            SoundPanel.Draw(charts, request.Palette, sounds, request.Active, qualities, request.Tier);
-            return new PreviewResult(request, stroke, charts)
+            return new PreviewResult(request, sounds)
             {
-                Sounds = sounds,
                 Qualities = qualities,
                 Problem = problem,
             };

@@ -15,11 +15,24 @@ namespace HaptoFlow.Preview
 
         private static readonly Colour[] Table = Fill();
 
+        /// <summary>All colours, the darkest in the lowest row: for legends.</summary>
+        public static ColourImage Column { get; } = MakeColumn();
+
         /// <param name="share">0 to 1; what is not a number counts as 0.</param>
         public static Colour At(double share)
         {
             double held = share > 0.0 ? Math.Min(1.0, share) : 0.0;
             return Table[(int)(held * (Table.Length - 1) + 0.5)];
+        }
+
+        private static ColourImage MakeColumn()
+        {
+            var image = new ColourImage(1, Table.Length);
+            for (int y = 0; y < Table.Length; ++y)
+            {
+                image.Set(0, y, Table[y]);
+            }
+            return image;
         }
 
         private static Colour[] Fill()

@@ -8,7 +8,7 @@ namespace HaptoFlow.Preview
     internal static class MotionChart
     {
         /// <param name="frame">The plot itself; the speed's scale is left of it, the force's right, time below.</param>
-        public static void Draw(PixelCanvas canvas, Palette palette, Box frame, Stroke stroke)
+        public static void Draw(ICanvas canvas, Palette palette, Box frame, Stroke stroke)
         {
             double fastest = Scale.RoundUp(stroke.FastestMps);
             double strongest = Scale.RoundUp(stroke.StrongestNewtons);
@@ -19,33 +19,15 @@ namespace HaptoFlow.Preview
             foreach (double share in new[] { 0.0, 0.5, 1.0 })
             {
                 double y = plot.Y(share);
-                canvas.HorizontalHair(frame.Left, frame.Right, Math.Min(y, frame.Bottom - 1.0), palette.Grid);
+                canvas.DrawHorizontalHairline(frame.Left, frame.Right, Math.Min(y, frame.Bottom - 1.0), palette.Grid);
                 plot.RowText(Scale.Text(share * fastest, 4), y, frame.Left - 6.0, TextAlign.Right, palette.Speed);
                 plot.RowText(Scale.Text(share * strongest, 4), y, frame.Right + 6.0, TextAlign.Left, palette.Force);
             }
             List<(double X, double Y)> force = Curve(plot, stroke, state => state.ForceNewtons / strongest);
-            Shade(canvas, plot.Frame, force, palette.Force.WithOpacity(0.22));
-            canvas.Polyline(force, 3.0, palette.Force);
-            canvas.Polyline(Curve(plot, stroke, state => state.SpeedMps / fastest), 1.6, palette.Speed);
-        }
-
-        /// <summary>From a curve down to the frame's bottom.</summary>
-        private static void Shade(
-            PixelCanvas canvas, Box frame, IReadOnlyList<(double X, double Y)> curve, Colour colour)
-        {
-            double pixel = 1.0 / canvas.Scale;
-            int next = 1;
-            for (double x = frame.Left; x < curve[curve.Count - 1].X; x += pixel)
-            {
-                while (next < curve.Count - 1 && curve[next].X < x)
-                {
-                    ++next;
-                }
-                (double fromX, double fromY) = curve[next - 1];
-                (double toX, double toY) = curve[next];
-                double y = fromY + (toY - fromY) * Math.Max(0.0, Math.Min(1.0, (x - fromX) / (toX - fromX)));
-                canvas.Fill(new Box(x, y, pixel, frame.Bottom - y), colour);
-            }
+            canvas.FillArea(force.ConvertAll(point => (point.X, point.Y, plot.Frame.Bottom)),
+                palette.Force.WithOpacity(0.22));
+            canvas.DrawPolyline(force, 3.0, palette.Force);
+            canvas.DrawPolyline(Curve(plot, stroke, state => state.SpeedMps / fastest), 1.6, palette.Speed);
         }
 
         private static List<(double X, double Y)> Curve(Plot plot, Stroke stroke, Func<StrokeState, double> share)

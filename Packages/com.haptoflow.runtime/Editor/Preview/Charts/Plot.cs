@@ -12,20 +12,20 @@ namespace HaptoFlow.Preview
 
         private const double LeastGap = 5.0;
 
-        private readonly PixelCanvas canvas;
+        private readonly ICanvas canvas;
         private readonly Palette palette;
         private readonly (double Low, double High) horizontal;
         private readonly (double Low, double High) vertical;
 
-        public Plot(PixelCanvas canvas, Palette palette, Box frame, (double Low, double High) horizontal,
+        public Plot(ICanvas canvas, Palette palette, Box frame, (double Low, double High) horizontal,
             (double Low, double High) vertical)
         {
             this.canvas = canvas;
             this.palette = palette;
             this.horizontal = horizontal;
             this.vertical = vertical;
-            Frame = frame.Snapped(canvas.Scale);
-            canvas.Fill(Frame, palette.Plot);
+            Frame = frame.Snapped(canvas.PixelsPerPoint);
+            canvas.FillRectangle(Frame, palette.Plot);
         }
 
         public Box Frame { get; }
@@ -46,7 +46,7 @@ namespace HaptoFlow.Preview
             foreach (double value in values)
             {
                 double y = Y(value);
-                canvas.HorizontalHair(Frame.Left, Frame.Right, Math.Min(y, Frame.Bottom - 1.0), palette.Grid);
+                canvas.DrawHorizontalHairline(Frame.Left, Frame.Right, Math.Min(y, Frame.Bottom - 1.0), palette.Grid);
                 RowText(text(value), y, Frame.Left - 6.0, TextAlign.Right, palette.Soft);
             }
         }
@@ -55,7 +55,7 @@ namespace HaptoFlow.Preview
         public void RowText(string text, double y, double x, TextAlign align, Colour colour)
         {
             double held = Math.Max(Frame.Top + 4.0, Math.Min(Frame.Bottom - 4.0, y));
-            canvas.Text(text, x, held, ScaleSize, colour, align);
+            canvas.DrawText(text, x, held, ScaleSize, colour, align);
         }
 
         /// <summary>Lines down.</summary>
@@ -63,7 +63,7 @@ namespace HaptoFlow.Preview
         {
             foreach (double value in values)
             {
-                canvas.VerticalHair(
+                canvas.DrawVerticalHairline(
                     Math.Min(X(value), Frame.Right - 1.0), Frame.Top, Frame.Bottom, palette.Grid);
             }
         }
@@ -77,12 +77,12 @@ namespace HaptoFlow.Preview
             {
                 string number = text(values[index]);
                 string label = index == values.Count - 1 ? number + " " + unit : number;
-                double width = StrokeFont.Width(label, ScaleSize);
-                double wanted = X(values[index]) - 0.5 * StrokeFont.Width(number, ScaleSize);
+                double width = canvas.MeasureText(label, ScaleSize);
+                double wanted = X(values[index]) - 0.5 * canvas.MeasureText(number, ScaleSize);
                 double left = Math.Max(Frame.Left, Math.Min(Frame.Right - width, wanted));
                 if (left + width <= end)
                 {
-                    canvas.Text(label, left, Frame.Bottom + 10.0, ScaleSize, palette.Soft);
+                    canvas.DrawText(label, left, Frame.Bottom + 10.0, ScaleSize, palette.Soft);
                     end = left - LeastGap;
                 }
             }

@@ -14,7 +14,7 @@ namespace HaptoFlow.Preview
 
         /// <param name="chosen">The tier that renders.</param>
         public static void Draw(
-            PixelCanvas canvas, Palette palette, Box box, IReadOnlyList<QualityRow> rows, string chosen)
+            ICanvas canvas, Palette palette, Box box, IReadOnlyList<QualityRow> rows, string chosen)
         {
             double[] columns = Columns(box);
             Headings(canvas, palette, box, columns);
@@ -24,7 +24,7 @@ namespace HaptoFlow.Preview
                 Box row = box.Rows(30.0 + index * RowHeight, RowHeight);
                 if (rows[index].Name == chosen)
                 {
-                    canvas.FillRound(row.Inside(-6.0, 1.0, -6.0, 1.0), palette.First.WithOpacity(0.16), 4.0);
+                    canvas.FillRectangle(row.Inside(-6.0, 1.0, -6.0, 1.0), palette.First.WithOpacity(0.16), 4.0);
                 }
                 Row(canvas, palette, row, columns, rows[index], slowest);
             }
@@ -39,10 +39,10 @@ namespace HaptoFlow.Preview
             return new[] { box.Left, box.Left + 68.0, accuracy - 22.0, accuracy + 44.0, accuracy + 94.0, box.Right };
         }
 
-        private static void Headings(PixelCanvas canvas, Palette palette, Box box, double[] columns)
+        private static void Headings(ICanvas canvas, Palette palette, Box box, double[] columns)
         {
             void Heading(string text, double x, TextAlign align, double y) =>
-                canvas.Text(text, x, box.Top + y, Plot.ScaleSize, palette.Soft, align);
+                canvas.DrawText(text, x, box.Top + y, Plot.ScaleSize, palette.Soft, align);
 
             Heading("quality", columns[0], TextAlign.Left, 18.0);
             Heading("ms a segment", columns[1], TextAlign.Left, 6.0);
@@ -54,14 +54,14 @@ namespace HaptoFlow.Preview
             Heading("fit", columns[4], TextAlign.Right, 18.0);
             Heading("spectral", columns[5], TextAlign.Right, 6.0);
             Heading("distance dB", columns[5], TextAlign.Right, 18.0);
-            canvas.HorizontalHair(box.Left, box.Right, box.Top + 27.0, palette.Grid);
+            canvas.DrawHorizontalHairline(box.Left, box.Right, box.Top + 27.0, palette.Grid);
         }
 
         private static void Row(
-            PixelCanvas canvas, Palette palette, Box row, double[] columns, QualityRow figures, double slowest)
+            ICanvas canvas, Palette palette, Box row, double[] columns, QualityRow figures, double slowest)
         {
             void Cell(string text, double x, TextAlign align, Colour colour) =>
-                canvas.Text(text, x, row.MiddleY, TextSize, colour, align);
+                canvas.DrawText(text, x, row.MiddleY, TextSize, colour, align);
 
             Cell(figures.Name, columns[0], TextAlign.Left, palette.Ink);
             if (figures.Timing is { } timing)
@@ -69,7 +69,7 @@ namespace HaptoFlow.Preview
                 double room = columns[2] - columns[1] - 84.0;
                 double length = Math.Max(2.0, room * timing.MedianMs / slowest);
                 var bar = new Box(columns[1], row.MiddleY - 4.0, length, 8.0);
-                canvas.FillRound(bar, palette.Speed, 2.0);
+                canvas.FillRectangle(bar, palette.Speed, 2.0);
                 Cell(Milliseconds(timing.MedianMs), bar.Right + 7.0, TextAlign.Left, palette.Ink);
                 Cell(Milliseconds(timing.Percentile90Ms), columns[2], TextAlign.Right, palette.Soft);
             }
@@ -87,7 +87,7 @@ namespace HaptoFlow.Preview
             Cell(Figure(figures.SpectralDistanceDecibels, 1, false), columns[5], TextAlign.Right, palette.Ink);
         }
 
-        private static void Remarks(PixelCanvas canvas, Palette palette, Box box, IReadOnlyList<QualityRow> rows)
+        private static void Remarks(ICanvas canvas, Palette palette, Box box, IReadOnlyList<QualityRow> rows)
         {
             int count = rows.Select(row => row.Timing?.Count ?? 0).DefaultIfEmpty().Max();
             string times = count > 0 ? $"Time: this machine, one thread, {count} segments of 100 ms each."
@@ -101,7 +101,7 @@ namespace HaptoFlow.Preview
             };
             for (int line = 0; line < lines.Length; ++line)
             {
-                canvas.Text(lines[line], box.Left, box.Top + 7.0 + 15.0 * line, Plot.ScaleSize, palette.Soft);
+                canvas.DrawText(lines[line], box.Left, box.Top + 7.0 + 15.0 * line, Plot.ScaleSize, palette.Soft);
             }
         }
 

@@ -3,12 +3,13 @@ using System;
 
 namespace HaptoFlow.Preview
 {
-    /// <summary>Acceleration over time: for each column of pixels its extremes, and brighter its RMS.</summary>
+    /// <summary>Draws acceleration over time: each column of pixels shows the extremes, and brighter the RMS, of its
+    /// samples.</summary>
     internal static class WaveformChart
     {
         private static readonly double[] Limits = { 1.0, 1.5, 2.0, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0 };
 
-        /// <summary>A round number that holds a peak, in m/s^2, with little room above.</summary>
+        /// <summary>A round number for the upper edge that holds a peak with little room above, in m/s^2.</summary>
         public static double Limit(double peakMps2)
         {
             double held = Math.Max(0.01, peakMps2);
@@ -16,32 +17,35 @@ namespace HaptoFlow.Preview
             return power * Array.Find(Limits, limit => limit * power >= held);
         }
 
-        /// <param name="frame">The plot itself; the scale is drawn left of it.</param>
-        /// <param name="limitMps2">At the upper edge.</param>
+        /// <param name="frame">The plot area; the axis numbers stand left of it.</param>
+        /// <param name="limitMps2">Acceleration at the upper edge.</param>
         public static void Draw(
-            PixelCanvas canvas, Palette palette, Box frame, PreviewSound sound, Colour colour, double limitMps2)
+            ICanvas canvas, Palette palette, Box frame, PreviewSound sound, Colour colour, double limitMps2)
         {
             var plot = new Plot(canvas, palette, frame, (0.0, sound.DurationSeconds), (-limitMps2, limitMps2));
             plot.Columns(Scale.Ticks(0.0, sound.DurationSeconds, 6));
             plot.Rows(new[] { -limitMps2, 0.0, limitMps2 }, value => Scale.Text(value, 2));
-            Colour extremes = Colour.Between(palette.Plot, colour, 0.5);
-            int columns = (int)Math.Round(plot.Frame.Width * canvas.Scale);
-            double pixel = 1.0 / canvas.Scale;
+            int columns = Math.Max(1, (int)Math.Round(plot.Frame.Width * canvas.PixelsPerPoint));
+            double pixel = 1.0 / canvas.PixelsPerPoint;
+            var extremes = new (double X, double Top, double Bottom)[columns];
+            var rms = new (double X, double Top, double Bottom)[columns];
             for (int column = 0; column < columns; ++column)
             {
-                (double low, double high, double rms) = Column(sound, column, columns);
-                double x = plot.Frame.Left + column * pixel;
-                FillColumn(canvas, plot, x, low, high, extremes);
-                FillColumn(canvas, plot, x, -rms, rms, colour);
+                (double low, double high, double level) = Column(sound, column, columns);
+                double x = plot.Frame.Left + (column + 0.5) * pixel;
+                extremes[column] = Edges(plot, x, low, high, pixel);
+                rms[column] = Edges(plot, x, -level, level, pixel);
             }
+            canvas.FillArea(extremes, Colour.Between(palette.Plot, colour, 0.5));
+            canvas.FillArea(rms, colour);
         }
 
-        private static void FillColumn(
-            PixelCanvas canvas, Plot plot, double x, double low, double high, Colour colour)
+        /// <summary>At least a pixel high, so that silence is a line.</summary>
+        private static (double X, double Top, double Bottom) Edges(
+            Plot plot, double x, double low, double high, double pixel)
         {
-            double line = 1.0 / canvas.Scale;
-            double top = plot.Y(high) - 0.5 * line;
-            canvas.Fill(new Box(x, top, line, Math.Max(line, plot.Y(low) - plot.Y(high))), colour);
+            double top = plot.Y(high) - 0.5 * pixel;
+            return (x, top, top + Math.Max(pixel, plot.Y(low) - plot.Y(high)));
         }
 
         private static (double Low, double High, double Rms) Column(PreviewSound sound, int column, int columns)

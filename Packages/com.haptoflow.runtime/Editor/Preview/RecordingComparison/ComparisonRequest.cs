@@ -1,4 +1,6 @@
 #nullable enable
+using System;
+using System.Collections.Generic;
 using HaptoFlow.Recordings;
 
 namespace HaptoFlow.Preview
@@ -29,12 +31,31 @@ namespace HaptoFlow.Preview
 
         /// <summary>Which is heard: 0 for the recording, 1 for the result.</summary>
         public int Active { get; set; }
+    }
 
-        public Palette Palette { get; set; } = Palette.Dark;
+    /// <summary>What a comparison shows. Immutable by convention.</summary>
+    internal sealed class ComparisonResult
+    {
+        public ComparisonResult(ComparisonRequest request, IReadOnlyList<AnalysedSound> sounds, string? problem)
+        {
+            Request = request;
+            Sounds = sounds;
+            Panel = new SoundPanel(sounds);
+            Problem = problem;
+        }
 
-        public Box Charts { get; set; }
+        public ComparisonRequest Request { get; }
 
-        /// <summary>Pixels of a point.</summary>
-        public double PixelsPerPoint { get; set; } = 1.0;
+        /// <summary>The recording, and after it the result if there is one.</summary>
+        public IReadOnlyList<AnalysedSound> Sounds { get; }
+
+        /// <summary>Draws the sounds.</summary>
+        public SoundPanel Panel { get; }
+
+        /// <summary>Index of the sound that is played.</summary>
+        public int Active => Math.Min(Request.Active, Sounds.Count - 1);
+
+        /// <summary>Why the result cannot be rendered; null if it can, or if there is none yet.</summary>
+        public string? Problem { get; }
     }
 }

@@ -43,9 +43,7 @@ namespace HaptoFlow.Preview
                 }
             }
             token.ThrowIfCancellationRequested();
-            var charts = new PixelCanvas(request.Charts.Width, request.Charts.Height, request.PixelsPerPoint);
-            SoundPanel.Draw(charts, request.Palette, sounds, Math.Min(request.Active, sounds.Count - 1));
-            return new ComparisonResult(charts, sounds, problem);
+            return new ComparisonResult(request, sounds, problem);
         }
 
         public void Dispose() => engines.Dispose();

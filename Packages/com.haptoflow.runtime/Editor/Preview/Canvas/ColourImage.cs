@@ -1,0 +1,36 @@
+#nullable enable
+
+namespace HaptoFlow.Preview
+{
+    /// <summary>A buffer of opaque colours. Immutable by convention, so that a texture made from it stays valid.
+    /// </summary>
+    internal sealed class ColourImage
+    {
+        public const int BytesPerPixel = 4;
+
+        public ColourImage(int width, int height)
+        {
+            Width = width;
+            Height = height;
+            Pixels = new byte[width * height * BytesPerPixel];
+        }
+
+        public int Width { get; }
+
+        public int Height { get; }
+
+        /// <summary>Red, green, blue and opacity of each pixel. The lowest row comes first, as in Unity's textures.
+        /// </summary>
+        public byte[] Pixels { get; }
+
+        /// <param name="y">0 is the lowest row.</param>
+        public void Set(int x, int y, Colour colour)
+        {
+            int index = (y * Width + x) * BytesPerPixel;
+            Pixels[index] = colour.Red;
+            Pixels[index + 1] = colour.Green;
+            Pixels[index + 2] = colour.Blue;
+            Pixels[index + 3] = colour.Opacity;
+        }
+    }
+}

@@ -1,0 +1,95 @@
+#nullable enable
+using System;
+using System.Collections.Generic;
+
+namespace HaptoFlow.Preview
+{
+    /// <summary>Which part of a text stands at its x.</summary>
+    internal enum TextAlign
+    {
+        Left,
+        Centre,
+        Right,
+    }
+
+    /// <summary>What the charts draw on. Lengths are in points, y downwards. In the editor it is implemented with
+    /// Unity's IMGUI; tests implement it with SkiaSharp, to check charts and to make the documentation's pictures.
+    /// </summary>
+    internal interface ICanvas
+    {
+        /// <summary>1, or more on a screen with dense pixels.</summary>
+        double PixelsPerPoint { get; }
+
+        void FillRectangle(Box box, Colour colour, double cornerRadius = 0.0);
+
+        /// <summary>An antialiased line through points, with round joints where the implementation has them.</summary>
+        void DrawPolyline(IReadOnlyList<(double X, double Y)> points, double width, Colour colour);
+
+        /// <summary>Fills the area between an upper and a lower edge, both given at the same ascending x and straight
+        /// in between.</summary>
+        void FillArea(IReadOnlyList<(double X, double Top, double Bottom)> edges, Colour colour);
+
+        /// <summary>One line of text.</summary>
+        /// <param name="y">Of the middle of the capitals.</param>
+        /// <param name="size">Of the font, in points.</param>
+        void DrawText(string text, double x, double y, double size, Colour colour,
+            TextAlign align = TextAlign.Left, bool bold = false);
+
+        /// <summary>Width of one line of text, in points.</summary>
+        double MeasureText(string text, double size, bool bold = false);
+
+        /// <summary>Stretches an image over a box, with linear interpolation.</summary>
+        void DrawImage(ColourImage image, Box box);
+
+        /// <summary>Cuts off what is drawn outside a box, until <see cref="EndClip"/>. Clips do not nest.</summary>
+        void BeginClip(Box box);
+
+        void EndClip();
+    }
+
+    /// <summary>Shapes made of the calls of <see cref="ICanvas"/>.</summary>
+    internal static class CanvasShapes
+    {
+        public static void DrawLine(
+            this ICanvas canvas, double x0, double y0, double x1, double y1, double width, Colour colour) =>
+            canvas.DrawPolyline(new[] { (x0, y0), (x1, y1) }, width, colour);
+
+        /// <summary>A horizontal line, one pixel wide and aligned to the pixels.</summary>
+        public static void DrawHorizontalHairline(
+            this ICanvas canvas, double left, double right, double y, Colour colour)
+        {
+            double pixel = 1.0 / canvas.PixelsPerPoint;
+            canvas.FillRectangle(new Box(left, Math.Floor(y / pixel) * pixel, right - left, pixel), colour);
+        }
+
+        /// <summary>A vertical line, one pixel wide and aligned to the pixels.</summary>
+        public static void DrawVerticalHairline(
+            this ICanvas canvas, double x, double top, double bottom, Colour colour)
+        {
+            double pixel = 1.0 / canvas.PixelsPerPoint;
+            canvas.FillRectangle(new Box(Math.Floor(x / pixel) * pixel, top, pixel, bottom - top), colour);
+        }
+
+        public static void FillCircle(this ICanvas canvas, double x, double y, double radius, Colour colour) =>
+            canvas.FillRectangle(new Box(x - radius, y - radius, 2.0 * radius, 2.0 * radius), colour, radius);
+
+        /// <summary>The text, or as much of it as is no wider than <paramref name="width"/>, ending in an ellipsis.
+        /// </summary>
+        public static string FitText(this ICanvas canvas, string text, double size, double width, bool bold = false)
+        {
+            if (canvas.MeasureText(text, size, bold) <= width)
+            {
+                return text;
+            }
+            for (int length = text.Length - 1; length > 0; --length)
+            {
+                string shortened = text.Substring(0, length).TrimEnd() + "\u2026";
+                if (canvas.MeasureText(shortened, size, bold) <= width)
+                {
+                    return shortened;
+                }
+            }
+            return "\u2026";
+        }
+    }
+}
