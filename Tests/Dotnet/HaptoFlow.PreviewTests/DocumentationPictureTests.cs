@@ -11,14 +11,14 @@ namespace HaptoFlow.PreviewTests
 {
     public sealed class DocumentationPictureTests
     {
-        /// <summary>Only by name, on a machine that does nothing else, since the picture shows measured milliseconds:
-        /// <c>dotnet test Tests/Dotnet/HaptoFlow.PreviewTests --filter TestCategory=DocumentationPicture</c>.</summary>
+        // The pictures show measured milliseconds: run these tests on an idle machine with
+        //   dotnet test Tests/Dotnet/HaptoFlow.PreviewTests --filter TestCategory=DocumentationPicture
+        // and then write the model's hash into each picture with node scripts/pack/stamp_picture.mjs FILE...
         [Test, Explicit, Category("DocumentationPicture")]
         public void TheWindowIsDrawnForTheDocumentation() =>
             Draw("texture-preview.png", StrokePreset.Spiral, new StrokeSettings(0.12, 1.5, 30.0, 2.4), 1.3,
                 new[] { new LabelMix("corduroy"), new LabelMix("wood", "sandpaper", 0.3f) }, _ => { });
 
-        /// <summary>The same, for what is felt through devices without the wave.</summary>
         [Test, Explicit, Category("DocumentationPicture")]
         [TestCase("output-controller.png", nameof(PreviewDevice.Controller))]
         [TestCase("output-motor.png", nameof(PreviewDevice.Motor))]
@@ -30,7 +30,7 @@ namespace HaptoFlow.PreviewTests
                     request.Effects = HapticEffects.Texture | HapticEffects.Impact | HapticEffects.Edge;
                 });
 
-        /// <summary>The same, for the sliders, without milliseconds: they are not about what a quality costs.</summary>
+        /// <summary>Without milliseconds, which this picture is not about.</summary>
         [Test, Explicit, Category("DocumentationPicture")]
         public void TheSlidersAreDrawnForTheDocumentation()
         {
@@ -46,7 +46,6 @@ namespace HaptoFlow.PreviewTests
                 }, PreviewRoom.WithSliders);
         }
 
-        /// <summary>The same, for the window that learns materials, from the sample's recording.</summary>
         [Test, Explicit, Category("DocumentationPicture")]
         public void TheWindowThatLearnsMaterialsIsDrawnForTheDocumentation()
         {
@@ -63,13 +62,12 @@ namespace HaptoFlow.PreviewTests
             {
                 Material = learning.Material!,
                 Active = 1,
-                Charts = layout.Charts,
-                PixelsPerPoint = 1.5,
             }, CancellationToken.None);
             Assert.That(result.Problem, Is.Null);
             string path = RepositoryFiles.In("Documentation~", "images", "new-material.png");
-            Png.Write(path, WindowPicture.Draw(result, layout, 1.5, recording.Label, recording.Licence,
-                NewMaterialControls.WordsOf(recording), LearningReportText.Of(learning.Report!)), model);
+            using SkiaCanvas picture = WindowPicture.Draw(result, layout, recording.Label, recording.Licence,
+                NewMaterialControls.WordsOf(recording), LearningReportText.Of(learning.Report!));
+            picture.Save(path);
             Assert.That(new FileInfo(path).Length, Is.GreaterThan(50_000));
         }
 
@@ -81,17 +79,15 @@ namespace HaptoFlow.PreviewTests
             var request = new PreviewRequest(File.ReadAllBytes(RepositoryFiles.DefaultModel),
                 PresetStrokes.Make(preset, settings), materials)
             {
-                StrokePanel = layout.StrokePanel,
-                Charts = layout.Charts,
-                PixelsPerPoint = 1.5,
                 Measurement = 1,
             };
             change(request);
             PreviewResult result = worker.Do(request, CancellationToken.None);
             Assert.That(result.Problem, Is.Null);
             string path = RepositoryFiles.In("Documentation~", "images", file);
-            Png.Write(path, WindowPicture.Draw(result, layout, settings, preset.ToString(), playedSeconds),
-                request.ModelFile);
+            using SkiaCanvas picture =
+                WindowPicture.Draw(result, layout, settings, preset.ToString(), playedSeconds);
+            picture.Save(path);
             Assert.That(new FileInfo(path).Length, Is.GreaterThan(50_000));
         }
     }

@@ -35,8 +35,8 @@ namespace HaptoFlow.PreviewTests
             Encoding.UTF8.GetBytes(json, file.AsSpan(PrefixBytes));
             BinaryPrimitives.WriteInt32LittleEndian(file.AsSpan(12), padded - PrefixBytes);
             BinaryPrimitives.WriteInt64LittleEndian(file.AsSpan(16), padded);
-            BinaryPrimitives.WriteUInt32LittleEndian(file.AsSpan(24), Png.Checksum(file.AsSpan(PrefixBytes)));
-            BinaryPrimitives.WriteUInt32LittleEndian(file.AsSpan(28), Png.Checksum(file.AsSpan(0, 28)));
+            BinaryPrimitives.WriteUInt32LittleEndian(file.AsSpan(24), Crc32.Of(file.AsSpan(PrefixBytes)));
+            BinaryPrimitives.WriteUInt32LittleEndian(file.AsSpan(28), Crc32.Of(file.AsSpan(0, 28)));
             return ModelHeader.Read(file);
         }
     }

@@ -8,8 +8,8 @@ using NUnit.Framework;
 
 namespace HaptoFlow.PreviewTests
 {
-    /// <summary>Draws what the window shows, from the default model, into out/test/preview: to be looked at. What can
-    /// be told without looking is asserted.</summary>
+    /// <summary>Draws the charts of the default model into out/test/preview, for a person to look at, and asserts what
+    /// can be checked without looking.</summary>
     public sealed class PictureTests
     {
         private static readonly StrokeSettings Usual = new StrokeSettings(0.12, 1.5, 30.0, 2.0);
@@ -33,8 +33,6 @@ namespace HaptoFlow.PreviewTests
                 {
                     IsSketch = true,
                     Tier = "draft",
-                    StrokePanel = new Box(0.0, 0.0, 100.0, 200.0),
-                    Charts = new Box(0.0, 0.0, 600.0, 400.0),
                 };
                 PreviewResult result = worker.Do(request, CancellationToken.None);
                 Assert.That(result.Problem, Is.Null);
@@ -43,24 +41,35 @@ namespace HaptoFlow.PreviewTests
             return sounds;
         }
 
-        private static PixelCanvas Charts(Palette palette, Box box, double scale, IReadOnlyList<AnalysedSound> sounds)
+        private static SkiaCanvas Charts(
+            Palette palette, Box box, double pixelsPerPoint, IReadOnlyList<AnalysedSound> sounds)
         {
-            var canvas = new PixelCanvas(box.Width, box.Height, scale);
-            using var texts = new TextWatch(canvas);
+            var canvas = new SkiaCanvas(box.Width, box.Height, pixelsPerPoint, palette.Window);
             IReadOnlyList<QualityRow> rows = QualityRow.Of(MeasuredModel.Header(), MeasuredModel.Timings());
-            SoundPanel.Draw(canvas, palette, sounds, 0, rows, "standard");
+            new SoundPanel(sounds).Draw(canvas, palette, canvas.Whole, 0, rows, "standard");
             return canvas;
         }
 
-        private static void Save(string name, PixelCanvas canvas) =>
-            Png.Write(RepositoryFiles.In("out", "test", "preview", name + ".png"), canvas);
+        /// <summary>Saves the picture and checks its texts.</summary>
+        private static void Save(string name, SkiaCanvas canvas)
+        {
+            canvas.Save(RepositoryFiles.In("out", "test", "preview", name + ".png"));
+            LegibleTexts.Check(canvas);
+        }
 
-        private static int Count(PixelCanvas canvas, Box box, Predicate<Colour> wanted)
+        private static SkiaCanvas Stroke(Palette palette, Stroke stroke, double pixelsPerPoint = 1.0)
+        {
+            var canvas = new SkiaCanvas(312.0, 340.0, pixelsPerPoint, palette.Window);
+            StrokePanel.Draw(canvas, palette, canvas.Whole, stroke);
+            return canvas;
+        }
+
+        private static int Count(SkiaCanvas canvas, Box box, Predicate<Colour> wanted)
         {
             int count = 0;
-            for (var y = (int)(box.Top * canvas.Scale); y < (int)(box.Bottom * canvas.Scale); ++y)
+            for (var y = (int)(box.Top * canvas.PixelsPerPoint); y < (int)(box.Bottom * canvas.PixelsPerPoint); ++y)
             {
-                for (var x = (int)(box.Left * canvas.Scale); x < (int)(box.Right * canvas.Scale); ++x)
+                for (var x = (int)(box.Left * canvas.PixelsPerPoint); x < (int)(box.Right * canvas.PixelsPerPoint); ++x)
                 {
                     count += wanted(canvas[x, y]) ? 1 : 0;
                 }
@@ -69,12 +78,13 @@ namespace HaptoFlow.PreviewTests
         }
 
         [Test]
-        public void TwoMaterialsStandSideBySideInTheirColours([Values] bool dark)
+        public void TwoMaterialsAreDrawnSideBySideInTheirColours(
+            [Values] bool dark, [Values(1.0, 2.0)] double pixelsPerPoint)
         {
             Palette palette = dark ? Palette.Dark : Palette.Light;
-            PixelCanvas canvas = Charts(palette, new PreviewLayout(1200.0, 800.0).Charts, 1.0, Sounds(
+            using SkiaCanvas canvas = Charts(palette, new PreviewLayout(1200.0, 800.0).Charts, pixelsPerPoint, Sounds(
                 StrokePreset.BackAndForth, new LabelMix("corduroy"), new LabelMix("wood", "sandpaper", 0.3f)));
-            Save(dark ? "charts-two-dark" : "charts-two-light", canvas);
+            Save($"charts-two-{(dark ? "dark" : "light")}-{100 * pixelsPerPoint:0}", canvas);
             Box first = SoundPanel.Waveform(canvas.Whole, 0, 2);
             Box second = SoundPanel.Waveform(canvas.Whole, 1, 2);
             Assert.That(Count(canvas, first, colour => colour.Equals(palette.First)), Is.GreaterThan(1000));
@@ -84,40 +94,43 @@ namespace HaptoFlow.PreviewTests
         }
 
         [Test]
-        public void OneMaterialFillsTheWidth([Values(1.0, 1.5, 2.0)] double scale)
+        public void OneMaterialIsDrawnOverTheWholeWidth([Values(1.0, 1.5, 2.0)] double pixelsPerPoint)
         {
-            PixelCanvas canvas = Charts(Palette.Dark, new PreviewLayout(1200.0, 800.0).Charts, scale,
+            using SkiaCanvas canvas = Charts(Palette.Dark, new PreviewLayout(1200.0, 800.0).Charts, pixelsPerPoint,
                 Sounds(StrokePreset.Accelerating, new LabelMix("metal mesh")));
-            Save($"charts-one-{100 * scale:0}", canvas);
+            Save($"charts-one-{100 * pixelsPerPoint:0}", canvas);
             Assert.That(SoundPanel.Waveform(canvas.Whole, 0, 1).Width, Is.GreaterThan(700.0));
         }
 
         [Test]
-        public void TheSmallestWindowIsStillLegible([Values] bool dark) => Save(
-            dark ? "charts-smallest-dark" : "charts-smallest-light", Charts(dark ? Palette.Dark : Palette.Light,
-                new PreviewLayout(0.0, 0.0).Charts, 1.0, Sounds(StrokePreset.Taps,
-                    new LabelMix("metal mesh", "cardboard", 0.25f), new LabelMix("sandpaper", "metal mesh", 0.5f))));
-
-        [Test]
-        public void NothingRenderedYetIsFramesAndWords()
+        public void TheSmallestWindowIsLegible([Values] bool dark)
         {
-            var canvas = new PixelCanvas(700.0, 500.0);
-            using var texts = new TextWatch(canvas);
-            SoundPanel.Draw(canvas, Palette.Dark, Array.Empty<AnalysedSound>(), 0, Array.Empty<QualityRow>(), "");
-            Save("charts-nothing", canvas);
-            Assert.That(texts.All, Does.Contain("Spectrum"));
+            using SkiaCanvas canvas = Charts(dark ? Palette.Dark : Palette.Light, new PreviewLayout(0.0, 0.0).Charts,
+                1.0, Sounds(StrokePreset.Taps, new LabelMix("metal mesh", "cardboard", 0.25f),
+                    new LabelMix("sandpaper", "metal mesh", 0.5f)));
+            Save(dark ? "charts-smallest-dark" : "charts-smallest-light", canvas);
         }
 
         [Test]
-        public void LouderIsBrighterInTheSpectrogram()
+        public void ChartsWithoutSoundsHaveTheirTitles()
+        {
+            using var canvas = new SkiaCanvas(700.0, 500.0, 1.0, Palette.Dark.Window);
+            new SoundPanel(Array.Empty<AnalysedSound>()).Draw(
+                canvas, Palette.Dark, canvas.Whole, 0, Array.Empty<QualityRow>(), "");
+            Save("charts-nothing", canvas);
+            Assert.That(canvas.Texts.Select(each => each.Text), Does.Contain("Spectrum"));
+        }
+
+        [Test]
+        public void TheSpectrogramIsBrightWhileTheTipTouches()
         {
             IReadOnlyList<AnalysedSound> sounds = Sounds(
                 StrokePreset.BackAndForth, new LabelMix("corduroy"), new LabelMix("wood", "sandpaper", 0.3f));
-            PixelCanvas canvas = Charts(Palette.Dark, new PreviewLayout(1200.0, 800.0).Charts, 1.0, sounds);
+            using SkiaCanvas canvas = Charts(Palette.Dark, new PreviewLayout(1200.0, 800.0).Charts, 1.0, sounds);
             Box box = SoundPanel.SpectrogramBox(canvas.Whole, 0, 2).Inside(2.0);
             Box air = box.Columns(0.0, 8.0);
             Box touch = box.Columns(0.1 * box.Width, 0.8 * box.Width);
-            Assert.That(Count(canvas, air, colour => colour.Red > 60), Is.Zero, "before the touch it is dark");
+            Assert.That(Count(canvas, air, colour => colour.Red > 60), Is.Zero, "the spectrogram is dark before the touch");
             Assert.That(Count(canvas, touch, colour => colour.Red > 60), Is.GreaterThan(2000));
         }
 
@@ -126,11 +139,7 @@ namespace HaptoFlow.PreviewTests
             [Values(0, 1, 2, 3, 4, 5)] int preset, [Values] bool dark)
         {
             Palette palette = dark ? Palette.Dark : Palette.Light;
-            var canvas = new PixelCanvas(312.0, 340.0);
-            using (new TextWatch(canvas))
-            {
-                StrokePanel.Draw(canvas, palette, PresetStrokes.Make((StrokePreset)preset, Usual));
-            }
+            using SkiaCanvas canvas = Stroke(palette, PresetStrokes.Make((StrokePreset)preset, Usual));
             Save($"stroke-{((StrokePreset)preset).ToString().ToLowerInvariant()}-{(dark ? "dark" : "light")}", canvas);
             Box motion = PreviewLayout.Motion(canvas.Whole);
             Assert.That(Count(canvas, motion, colour => colour.Equals(palette.Speed)), Is.GreaterThan(60));
@@ -140,20 +149,18 @@ namespace HaptoFlow.PreviewTests
         }
 
         [Test]
-        public void APatchWithoutAStrokeAsksForOne()
+        public void AnEmptyPatchSaysDrawAStroke()
         {
-            var canvas = new PixelCanvas(312.0, 340.0);
-            using var texts = new TextWatch(canvas);
-            StrokePanel.Draw(canvas, Palette.Light, DrawnStroke.Of(Array.Empty<DrawnPoint>()));
+            using SkiaCanvas canvas = Stroke(Palette.Light, DrawnStroke.Of(Array.Empty<DrawnPoint>()), 2.0);
             Save("stroke-empty", canvas);
-            Assert.That(texts.All, Does.Contain("Draw a stroke"));
+            Assert.That(canvas.Texts.Select(each => each.Text), Does.Contain("Draw a stroke"));
         }
 
         [Test]
-        public void APlaceOnThePatchAndItsPointInThePictureAreEachOther()
+        public void ToMetresInvertsToPoints()
         {
             Box patch = PreviewLayout.Patch(new Box(0.0, 0.0, 312.0, 340.0));
-            Assert.That(patch.Width / patch.Height, Is.EqualTo(1.5).Within(1e-9), "metres are as long up as across");
+            Assert.That(patch.Width / patch.Height, Is.EqualTo(1.5).Within(1e-9), "both axes have the same scale");
             (double x, double y) = PatchPicture.ToPoints(patch, 0.03, 0.07);
             (double xMetres, double yMetres) = PatchPicture.ToMetres(patch, x, y);
             Assert.That((xMetres, yMetres), Is.EqualTo((0.03, 0.07)).Within(1e-12));
@@ -163,7 +170,7 @@ namespace HaptoFlow.PreviewTests
         [TestCase(1080.0, 912.0)]
         [TestCase(1200.0, 930.0)]
         [TestCase(2500.0, 1400.0)]
-        public void NothingOfTheWindowLiesUponAnother(double width, double height)
+        public void ThePartsOfTheWindowDoNotOverlap(double width, double height)
         {
             var layout = new PreviewLayout(width, height);
             Box[] boxes = { layout.Controls, layout.StrokePanel, layout.Charts };
@@ -172,9 +179,9 @@ namespace HaptoFlow.PreviewTests
             {
                 Assert.That(window.Contains(boxes[index].Left, boxes[index].Top), Is.True);
                 Assert.That(window.Contains(boxes[index].Right, boxes[index].Bottom), Is.True);
-                Assert.That(boxes.Take(index).Any(other => TextWatch.Meet(other, boxes[index])), Is.False);
+                Assert.That(boxes.Take(index).Any(other => LegibleTexts.Overlap(other, boxes[index])), Is.False);
             }
-            Assert.That(layout.Controls.Height, Is.GreaterThanOrEqualTo(458.0), "the controls need that");
+            Assert.That(layout.Controls.Height, Is.GreaterThanOrEqualTo(458.0), "the controls need this height");
         }
     }
 }

@@ -28,6 +28,17 @@ namespace HaptoFlow.PreviewTests
             Screen();
         }
 
+        /// <summary>Colour of the first shape of the charts, the card behind them.</summary>
+        private Color CardColour()
+        {
+            Screen();
+            float left = (float)new PreviewLayout(Window.position.width, Window.position.height).Charts.Left;
+            return ScreenPaint.All.First(each => each.Place.x == left).Color;
+        }
+
+        private static Texture2D[] Images() =>
+            ScreenPaint.All.Select(each => each.Image).Where(each => each != null && each.name != "UnityWhite").ToArray()!;
+
         [SetUp]
         public void Forget()
         {
@@ -292,24 +303,22 @@ namespace HaptoFlow.PreviewTests
         }
 
         [Test]
-        public void TheSkinOfTheEditorIsThatOfThePictures()
+        public void ChartsAreDrawnInTheSkinOfTheEditor()
         {
             Window.Finish();
-            Colour Corner() => Window.Session!.Shown!.Charts[30, 12];
-            Assert.That(Corner(), Is.EqualTo(Palette.Dark.Card));
+            Assert.That(CardColour(), Is.EqualTo(Palette.Dark.Card.ToColor()));
             EditorSession.DarkSkin = false;
-            Window.Finish();
-            Assert.That(Corner(), Is.EqualTo(Palette.Light.Card));
+            Assert.That(CardColour(), Is.EqualTo(Palette.Light.Card.ToColor()));
         }
 
         [Test]
-        public void PicturesAreAsDenseAsTheScreen()
+        public void AHairlineIsOnePixelOfADenseScreen()
         {
+            Window.Finish();
             WindowHost.PixelsPerPoint = 2f;
             Screen();
-            Window.Finish();
-            var layout = new PreviewLayout(Window.position.width, Window.position.height);
-            Assert.That(Window.Session!.Shown!.Charts.PixelWidth, Is.EqualTo(2.0 * layout.Charts.Width));
+            float thinnest = ScreenPaint.All.Where(each => each.Call == "DrawRect").Min(each => each.Place.height);
+            Assert.That(thinnest, Is.EqualTo(0.5f));
         }
 
         [Test]
@@ -326,9 +335,10 @@ namespace HaptoFlow.PreviewTests
         {
             int before = MediaCount.Alive;
             Window.Finish();
+            Screen();
             Key(KeyCode.Space);
             Window.Step();
-            Assert.That(MediaCount.Alive, Is.EqualTo(before + 3), "two pictures and a clip");
+            Assert.That(MediaCount.Alive, Is.EqualTo(before + 3), "the spectrogram, its legend and a clip");
             Close();
             Assert.That(MediaCount.Alive, Is.EqualTo(before));
             Assert.That(ClipPreview.Playing, Is.Null);
@@ -356,13 +366,49 @@ namespace HaptoFlow.PreviewTests
         }
 
         [Test]
-        public void PicturesOfAnotherSizeTakeThePlaceOfTheOldOnes()
+        public void TexturesAreMadeAgainOnlyWhenTheSoundIsAnother()
         {
             Window.Finish();
-            int pictures = MediaCount.Alive;
+            Screen();
+            int textures = MediaCount.Alive;
+            Texture2D[] first = Images();
+            Screen();
             Window.position = new Rect(0f, 0f, 1500f, 900f);
+            Screen();
+            Assert.That(Images(), Is.EqualTo(first), "the size does not matter to a texture");
+            State.Change("Seed", state => state.Seed = 2);
             Window.Finish();
-            Assert.That(MediaCount.Alive, Is.EqualTo(pictures));
+            Screen();
+            Assert.That(MediaCount.Alive, Is.EqualTo(textures));
+            Assert.That(Images(), Is.Not.EqualTo(first));
+        }
+
+        [Test]
+        public void ARepaintWithoutChangesReplaysTheSameDrawingWithoutGarbage()
+        {
+            Window.Finish();
+            Screen();
+            PreviewView view = PreviewView.Of(Window.position, PreviewRoom.Usual, null);
+            int drawings = 0;
+            var picture = new EditorPicture(canvas =>
+            {
+                ++drawings;
+                Window.Session!.Shown!.Panel.Draw(canvas, view.Palette, view.Layout.Charts, 0);
+            });
+            Event.current = new Event { type = EventType.Layout };
+            picture.OnGUI(this, view);
+            Assert.That(drawings, Is.Zero, "only a repaint draws");
+            Event.current = new Event { type = EventType.Repaint };
+            picture.OnGUI(this, view);
+            ScreenPaint.Clear();
+            picture.OnGUI(this, view);
+            int calls = ScreenPaint.All.Count;
+            ScreenPaint.Clear();
+            long before = GC.GetAllocatedBytesForCurrentThread();
+            picture.OnGUI(this, view);
+            Assert.That(GC.GetAllocatedBytesForCurrentThread() - before, Is.Zero);
+            Assert.That((drawings, ScreenPaint.All.Count), Is.EqualTo((1, calls)));
+            picture.Release();
         }
     }
 }

@@ -93,9 +93,7 @@ namespace UnityEditor
         public static void ProgressBar(Rect position, float value, string text) =>
             EditorScreen.Add(DrawnKind.Bar, text, EditorScreen.TextOf(value));
 
-        public static void DrawRect(Rect rect, Color color)
-        {
-        }
+        public static void DrawRect(Rect rect, Color color) => ScreenPaint.Add(nameof(DrawRect), rect, color);
 
         public static void Slider(
             Rect position, SerializedProperty property, float leftValue, float rightValue, GUIContent label) =>

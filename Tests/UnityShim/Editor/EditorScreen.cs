@@ -12,7 +12,6 @@ namespace UnityShim
         Field,
         Button,
         Bar,
-        Box,
     }
 
     /// <summary>One thing that editor code drew.</summary>
@@ -66,10 +65,10 @@ namespace UnityShim
             {
                 Event.current = new Event { type = EventType.Layout };
                 Pass(draw, false);
-                int laidOut = Controls();
+                int laidOut = Items.Count;
                 Event.current = present.type == EventType.Ignore ? new Event { type = EventType.Repaint } : present;
                 Pass(draw, true);
-                Expect(Controls() <= laidOut, $"{Controls()} controls were drawn and {laidOut} laid out");
+                Expect(Items.Count <= laidOut, $"{Items.Count} controls were drawn and {laidOut} laid out");
                 Expect(Presses.Count == 0, "no such enabled button: " + string.Join(", ", Presses));
                 Expect(Entries.Count == 0, "no such enabled field: " + string.Join(", ", Entries.Keys));
                 return Items.ToList();
@@ -117,12 +116,10 @@ namespace UnityShim
             _ => value.ToString() ?? "",
         };
 
-        // Pictures are drawn into room that was laid out.
-        private static int Controls() => Items.Count(item => item.Kind != DrawnKind.Box);
-
         private static void Pass(Action draw, bool withHand)
         {
             Items.Clear();
+            ScreenPaint.Clear();
             Groups.Clear();
             GUI.enabled = true;
             GUI.changed = false;

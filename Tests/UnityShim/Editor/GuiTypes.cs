@@ -1,4 +1,5 @@
 using System;
+using UnityShim;
 
 namespace UnityEngine
 {
@@ -200,6 +201,10 @@ namespace UnityEngine
             name = other.name;
             wordWrap = other.wordWrap;
             richText = other.richText;
+            fontSize = other.fontSize;
+            alignment = other.alignment;
+            clipping = other.clipping;
+            padding = other.padding;
         }
 
         public static GUIStyle none { get; } = new GUIStyle();
@@ -207,8 +212,43 @@ namespace UnityEngine
         public string name { get; set; } = "";
         public bool wordWrap { get; set; }
         public bool richText { get; set; }
+        public int fontSize { get; set; }
+        public TextAnchor alignment { get; set; }
+        public TextClipping clipping { get; set; } = TextClipping.Clip;
+        public RectOffset padding { get; set; } = new RectOffset(0, 0, 0, 0);
+        public GUIStyleState normal { get; set; } = new GUIStyleState();
+
+        /// <summary>Every letter is 0.55 of the font's size wide.</summary>
+        public Vector2 CalcSize(GUIContent content) =>
+            new Vector2(0.55f * fontSize * content.text.Length, 1.2f * fontSize);
+
+        public void Draw(Rect position, GUIContent content, bool isHover, bool isActive, bool on,
+            bool hasKeyboardFocus) =>
+            ScreenPaint.Add(nameof(Draw), position, GUI.contentColor, content.text);
 
         public static implicit operator GUIStyle(string str) => new GUIStyle { name = str };
+    }
+
+    public sealed partial class GUIStyleState
+    {
+        public Color textColor { get; set; }
+    }
+
+    public enum TextClipping
+    {
+        Overflow = 0,
+        Clip = 1,
+    }
+
+    public partial class RectOffset
+    {
+        public RectOffset(int left, int right, int top, int bottom) =>
+            (this.left, this.right, this.top, this.bottom) = (left, right, top, bottom);
+
+        public int left { get; set; }
+        public int right { get; set; }
+        public int top { get; set; }
+        public int bottom { get; set; }
     }
 
     public sealed partial class GUILayoutOption

@@ -15,7 +15,16 @@ namespace UnityEngine
     public partial class GUI
     {
         public static void DrawTexture(Rect position, Texture image, ScaleMode scaleMode) =>
-            EditorScreen.Add(DrawnKind.Box, image.name);
+            ScreenPaint.Add(nameof(DrawTexture), position, color, "", image as Texture2D);
+
+        public static void DrawTexture(Rect position, Texture image, ScaleMode scaleMode, bool alphaBlend,
+            float imageAspect, Color color, float borderWidth, float borderRadius) =>
+            ScreenPaint.Add(nameof(DrawTexture), position, color, "", image as Texture2D);
+
+        public static void BeginClip(Rect position, Vector2 scrollOffset, Vector2 renderOffset, bool resetOffset) =>
+            EditorScreen.Open("clip");
+
+        public static void EndClip() => EditorScreen.Close("clip");
 
         public partial class ScrollViewScope : Scope
         {

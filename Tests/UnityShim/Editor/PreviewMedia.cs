@@ -54,6 +54,9 @@ namespace UnityEngine
 
     public sealed partial class Texture2D : Texture
     {
+        /// <summary>Unity's own: never destroyed.</summary>
+        public static Texture2D whiteTexture { get; } = new Texture2D("UnityWhite");
+
         private readonly int bytes;
         private byte[] waiting = Array.Empty<byte>();
 
@@ -65,6 +68,8 @@ namespace UnityEngine
             bytes = 4 * width * height;
             MediaCount.Add(this);
         }
+
+        private Texture2D(string name) => this.name = name;
 
         private Color32[] colours = Array.Empty<Color32>();
         private bool isKept = true;

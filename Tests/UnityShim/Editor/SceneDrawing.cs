@@ -1,6 +1,7 @@
 using System;
 using System.Collections.Generic;
 using UnityEngine;
+using UnityShim;
 
 namespace UnityEditor
 {
@@ -44,6 +45,24 @@ namespace UnityEditor
         public static void DrawLine(Vector3 p1, Vector3 p2) => Lines.Add((p1, p2, color));
 
         public static void DrawLine(Vector3 p1, Vector3 p2, float thickness) => DrawLine(p1, p2);
+
+        public static void DrawAAPolyLine(Texture2D? lineTex, float width, params Vector3[] points) =>
+            ScreenPaint.Add(nameof(DrawAAPolyLine), Around(points), color);
+
+        public static void DrawLines(Vector3[] lineSegments) =>
+            ScreenPaint.Add(nameof(DrawLines), Around(lineSegments), color);
+
+        private static Rect Around(Vector3[] points)
+        {
+            Vector3 low = points[0];
+            Vector3 high = points[0];
+            foreach (Vector3 point in points)
+            {
+                low = new Vector3(Mathf.Min(low.x, point.x), Mathf.Min(low.y, point.y), 0f);
+                high = new Vector3(Mathf.Max(high.x, point.x), Mathf.Max(high.y, point.y), 0f);
+            }
+            return new Rect(low.x, low.y, high.x - low.x, high.y - low.y);
+        }
 
         public static void DrawWireDisc(Vector3 center, Vector3 normal, float radius)
         {

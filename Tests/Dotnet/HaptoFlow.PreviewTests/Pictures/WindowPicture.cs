@@ -6,14 +6,15 @@ using HaptoFlow.Preview;
 
 namespace HaptoFlow.PreviewTests
 {
-    /// <summary>The Texture Preview window as the dark skin shows it, for the documentation: the charts are the
-    /// window's own, its controls, which Unity draws, are drawn after their looks.</summary>
+    /// <summary>The preview windows in the dark skin, for the documentation. The charts are drawn by the windows' own
+    /// code; the controls, which Unity draws, are imitated.</summary>
     internal sealed class WindowPicture
     {
         private const double Tab = 22.0;
         private const double Row = 20.0;
         private const double TextSize = 12.0;
         private const double EntryIndent = 16.0;
+        private const double PixelsPerPoint = 1.5;
 
         private static readonly Palette Palette = Palette.Dark;
         private static readonly Colour Field = Colour.Of(0x2a2a2a);
@@ -23,11 +24,11 @@ namespace HaptoFlow.PreviewTests
         private static readonly Colour Groove = Colour.Of(0x5e5e5e);
         private static readonly Colour Thumb = Colour.Of(0xa0a0a0);
 
-        private readonly PixelCanvas canvas;
+        private readonly SkiaCanvas canvas;
         private readonly Box controls;
         private double y;
 
-        private WindowPicture(PixelCanvas canvas, Box controls)
+        private WindowPicture(SkiaCanvas canvas, Box controls)
         {
             this.canvas = canvas;
             this.controls = controls;
@@ -35,12 +36,13 @@ namespace HaptoFlow.PreviewTests
 
         /// <param name="settings">What the stroke of the result was made from.</param>
         /// <param name="playedSeconds">Where the playhead is.</param>
-        public static PixelCanvas Draw(PreviewResult result, PreviewLayout layout, StrokeSettings settings,
+        public static SkiaCanvas Draw(PreviewResult result, PreviewLayout layout, StrokeSettings settings,
             string preset, double playedSeconds)
         {
-            PixelCanvas canvas = Frame(layout, result.Request.PixelsPerPoint, "Texture Preview");
-            canvas.Paste(result.StrokePanel, layout.StrokePanel.Left, layout.StrokePanel.Top + Tab);
-            canvas.Paste(result.Charts, layout.Charts.Left, layout.Charts.Top + Tab);
+            SkiaCanvas canvas = Frame(layout, "Texture Preview");
+            StrokePanel.Draw(canvas, Palette, BelowTab(layout.StrokePanel), result.Request.Stroke);
+            result.Panel.Draw(canvas, Palette, BelowTab(layout.Charts), result.Request.Active, result.Qualities,
+                result.Request.Tier);
             var picture = new WindowPicture(
                 canvas, new Box(layout.Controls.Left, layout.Controls.Top + Tab, layout.Controls.Width, 0.0));
             picture.Controls(result, settings, preset);
@@ -51,27 +53,28 @@ namespace HaptoFlow.PreviewTests
         /// <summary>The window that learns materials.</summary>
         /// <param name="recording">What was read, in words.</param>
         /// <param name="report">What the fit achieved, in words.</param>
-        public static PixelCanvas Draw(ComparisonResult result, PreviewLayout layout, double pixelsPerPoint,
-            string name, string licence, string recording, string report)
+        public static SkiaCanvas Draw(ComparisonResult result, PreviewLayout layout, string name, string licence,
+            string recording, string report)
         {
-            PixelCanvas canvas = Frame(layout, pixelsPerPoint, "New Material");
-            canvas.Paste(result.Charts, layout.Charts.Left, layout.Charts.Top + Tab);
+            SkiaCanvas canvas = Frame(layout, "New Material");
+            result.Panel.Draw(canvas, Palette, BelowTab(layout.Charts), result.Active);
             var picture = new WindowPicture(
                 canvas, new Box(layout.Controls.Left, layout.Controls.Top + Tab, layout.Controls.Width, 0.0));
             picture.NewMaterial(name, licence, recording, report);
             return canvas;
         }
 
-        private static PixelCanvas Frame(PreviewLayout layout, double pixelsPerPoint, string title)
+        private static Box BelowTab(Box box) => new Box(box.Left, box.Top + Tab, box.Width, box.Height);
+
+        private static SkiaCanvas Frame(PreviewLayout layout, string title)
         {
             double width = layout.Charts.Right + layout.Controls.Left;
             double height = layout.Charts.Bottom + layout.Controls.Top;
-            var canvas = new PixelCanvas(width, height + Tab, pixelsPerPoint);
-            canvas.Fill(canvas.Whole, Palette.Window);
-            canvas.Fill(new Box(0.0, 0.0, width, Tab), Colour.Of(0x282828));
-            canvas.FillRound(new Box(4.0, 2.0, 128.0, Tab), Palette.Window, 3.0);
-            canvas.Text(title, 68.0, 12.0, TextSize, Label, TextAlign.Centre);
-            canvas.Text("Drawn by a test with the window's own code: not a screenshot of Unity", width - 12.0, 12.0,
+            var canvas = new SkiaCanvas(width, height + Tab, PixelsPerPoint, Palette.Window);
+            canvas.FillRectangle(new Box(0.0, 0.0, width, Tab), Colour.Of(0x282828));
+            canvas.FillRectangle(new Box(4.0, 2.0, 128.0, Tab), Palette.Window, 3.0);
+            canvas.DrawText(title, 68.0, 12.0, TextSize, Label, TextAlign.Centre);
+            canvas.DrawText("Drawn by a test with the window's own code: not a screenshot of Unity", width - 12.0, 12.0,
                 TextSize, Label, TextAlign.Right);
             return canvas;
         }
@@ -113,8 +116,8 @@ namespace HaptoFlow.PreviewTests
             });
             Choice("Quality", request.Tier);
             Box seed = Begin("Seed");
-            canvas.FillRound(seed, Field, 3.0);
-            canvas.Text(Number(request.Seed), seed.Left + 6.0, seed.MiddleY, TextSize, Label);
+            canvas.FillRectangle(seed, Field, 3.0);
+            canvas.DrawText(Number(request.Seed), seed.Left + 6.0, seed.MiddleY, TextSize, Label);
             Choice("Take from", "None (Haptic Material)");
             Buttons(new[] { "Take from Selection", "Apply to Selection" }, new[] { 154.0, 154.0 }, -1);
             y += 6.0;
@@ -133,10 +136,10 @@ namespace HaptoFlow.PreviewTests
             float[] moves = heard.Moves.ToArray();
             double middle = controls.Top + y + 9.0;
             double left = controls.Left + 4.0;
-            canvas.Polyline(moves.Length > 0
+            canvas.DrawPolyline(moves.Length > 0
                 ? new[] { (left, middle - 2.0), (left + 4.0, middle + 2.0), (left + 8.0, middle - 2.0) }
                 : new[] { (left + 2.0, middle - 4.0), (left + 6.0, middle), (left + 2.0, middle + 4.0) }, 1.5, Label);
-            canvas.Text("Sliders", left + 14.0, middle, TextSize, Label);
+            canvas.DrawText("Sliders", left + 14.0, middle, TextSize, Label);
             y += Row;
             if (moves.Length > 0)
             {
@@ -175,9 +178,9 @@ namespace HaptoFlow.PreviewTests
             Buttons(new[] { "Stop", "Recording", "Result" }, new[] { 56.0, 126.0, 126.0 }, 2);
             Box row = new Box(controls.Left, controls.Top + y, controls.Width, Row - 2.0);
             Tick(row, false);
-            canvas.Text("Loop", row.Left + 20.0, row.MiddleY, TextSize, Label);
+            canvas.DrawText("Loop", row.Left + 20.0, row.MiddleY, TextSize, Label);
             Tick(row.Columns(156.0, 18.0), false);
-            canvas.Text("Match Levels", row.Left + 176.0, row.MiddleY, TextSize, Label);
+            canvas.DrawText("Match Levels", row.Left + 176.0, row.MiddleY, TextSize, Label);
             y += Row + 2.0;
             Buttons(new[] { "Save as Haptic Material\u2026" }, new[] { controls.Width }, -1);
             Buttons(new[] { "Export File\u2026" }, new[] { controls.Width }, -1);
@@ -187,8 +190,8 @@ namespace HaptoFlow.PreviewTests
         {
             Box begun = Begin(label);
             Box field = begun.Columns(EntryIndent, begun.Width - EntryIndent);
-            canvas.FillRound(field, Field, 3.0);
-            canvas.Text(value, field.Left + 6.0, field.MiddleY, TextSize, Label);
+            canvas.FillRectangle(field, Field, 3.0);
+            canvas.DrawText(value, field.Left + 6.0, field.MiddleY, TextSize, Label);
         }
 
         private void Buttons(string[] names, double[] widths, int pressed)
@@ -197,8 +200,8 @@ namespace HaptoFlow.PreviewTests
             for (int index = 0; index < names.Length; ++index)
             {
                 var box = new Box(x, controls.Top + y, widths[index], 22.0);
-                canvas.FillRound(box, index == pressed ? Pressed : Button, 3.0);
-                canvas.Text(names[index], x + 0.5 * widths[index], controls.Top + y + 11.0, TextSize, Label,
+                canvas.FillRectangle(box, index == pressed ? Pressed : Button, 3.0);
+                canvas.DrawText(names[index], x + 0.5 * widths[index], controls.Top + y + 11.0, TextSize, Label,
                     TextAlign.Centre);
                 x += widths[index] + 2.0;
             }
@@ -214,11 +217,11 @@ namespace HaptoFlow.PreviewTests
             }
             Box row = new Box(controls.Left, controls.Top + y, controls.Width, Row - 2.0);
             Tick(row, false);
-            canvas.Text("Loop", row.Left + 20.0, row.MiddleY, TextSize, Label);
+            canvas.DrawText("Loop", row.Left + 20.0, row.MiddleY, TextSize, Label);
             Tick(row.Columns(66.0, 18.0), true);
-            canvas.Text("Louder", row.Left + 86.0, row.MiddleY, TextSize, Label);
+            canvas.DrawText("Louder", row.Left + 86.0, row.MiddleY, TextSize, Label);
             double gain = 20.0 * Math.Log10(PreviewPlayer.RaisedPeak / peak);
-            canvas.Text(Scale.Text(gain, 0, true) + " dB", row.Left + 140.0, row.MiddleY, Plot.ScaleSize, Label);
+            canvas.DrawText(Scale.Text(gain, 0, true) + " dB", row.Left + 140.0, row.MiddleY, Plot.ScaleSize, Label);
             y += Row;
         }
 
@@ -229,7 +232,7 @@ namespace HaptoFlow.PreviewTests
             foreach (string word in text.Split(' '))
             {
                 string longer = line.Length > 0 ? line + " " + word : word;
-                if (StrokeFont.Width(longer, Plot.ScaleSize) > controls.Width - 4.0)
+                if (canvas.MeasureText(longer, Plot.ScaleSize) > controls.Width - 4.0)
                 {
                     HelpLine(line);
                     longer = word;
@@ -241,17 +244,17 @@ namespace HaptoFlow.PreviewTests
 
         private void HelpLine(string line)
         {
-            canvas.Text(line, controls.Left + 2.0, controls.Top + y + 6.0, Plot.ScaleSize, Palette.Soft);
+            canvas.DrawText(line, controls.Left + 2.0, controls.Top + y + 6.0, Plot.ScaleSize, Palette.Soft);
             y += 13.0;
         }
 
         private void Tick(Box row, bool on)
         {
             var box = new Box(row.Left + 1.0, row.MiddleY - 7.0, 14.0, 14.0);
-            canvas.FillRound(box, Field, 2.0);
+            canvas.FillRectangle(box, Field, 2.0);
             if (on)
             {
-                canvas.Polyline(new[]
+                canvas.DrawPolyline(new[]
                 {
                     (box.Left + 3.0, box.MiddleY), (box.Left + 6.0, box.Bottom - 3.5), (box.Right - 3.0, box.Top + 3.5),
                 }, 1.8, Label);
@@ -271,7 +274,7 @@ namespace HaptoFlow.PreviewTests
             {
                 var box = new Box(left, row.Top, width, row.Height);
                 Tick(box, (asked & effect) != 0);
-                canvas.Text(name, box.Left + 20.0, box.MiddleY, TextSize, Label);
+                canvas.DrawText(name, box.Left + 20.0, box.MiddleY, TextSize, Label);
                 left += width;
             }
         }
@@ -279,9 +282,9 @@ namespace HaptoFlow.PreviewTests
         private void Choice(string label, string value)
         {
             Box field = Begin(label);
-            canvas.FillRound(field, Button, 3.0);
-            canvas.Text(value, field.Left + 7.0, field.MiddleY, TextSize, Label);
-            canvas.Polyline(new[]
+            canvas.FillRectangle(field, Button, 3.0);
+            canvas.DrawText(value, field.Left + 7.0, field.MiddleY, TextSize, Label);
+            canvas.DrawPolyline(new[]
             {
                 (field.Right - 16.0, field.MiddleY - 2.0), (field.Right - 12.0, field.MiddleY + 2.0),
                 (field.Right - 8.0, field.MiddleY - 2.0),
@@ -292,16 +295,16 @@ namespace HaptoFlow.PreviewTests
         {
             Box field = Begin(label);
             double length = field.Width - 60.0;
-            canvas.FillRound(new Box(field.Left, field.MiddleY - 1.0, length, 2.0), Groove, 1.0);
-            canvas.Disc(field.Left + 5.0 + share * (length - 10.0), field.MiddleY, 5.0, Thumb);
+            canvas.FillRectangle(new Box(field.Left, field.MiddleY - 1.0, length, 2.0), Groove, 1.0);
+            canvas.FillCircle(field.Left + 5.0 + share * (length - 10.0), field.MiddleY, 5.0, Thumb);
             var number = new Box(field.Right - 54.0, field.Top, 54.0, field.Height);
-            canvas.FillRound(number, Field, 3.0);
-            canvas.Text(value, number.Left + 6.0, number.MiddleY, TextSize, Label);
+            canvas.FillRectangle(number, Field, 3.0);
+            canvas.DrawText(value, number.Left + 6.0, number.MiddleY, TextSize, Label);
         }
 
         private Box Begin(string label)
         {
-            canvas.Text(label, controls.Left + 2.0, controls.Top + y + 9.0, TextSize, Label);
+            canvas.DrawText(label, controls.Left + 2.0, controls.Top + y + 9.0, TextSize, Label);
             var field = new Box(controls.Left + 100.0, controls.Top + y, controls.Width - 100.0, Row - 2.0);
             y += Row;
             return field;
@@ -310,7 +313,7 @@ namespace HaptoFlow.PreviewTests
         private void Playhead(PreviewResult result, PreviewLayout layout, double seconds)
         {
             int count = result.Sounds.Count;
-            Box charts = result.Charts.Whole;
+            Box charts = BelowTab(layout.Charts);
             double share = seconds / result.Sounds[0].Sound.DurationSeconds;
             for (int index = 0; index < count; ++index)
             {
@@ -319,16 +322,14 @@ namespace HaptoFlow.PreviewTests
                              SoundPanel.Waveform(charts, index, count), SoundPanel.SpectrogramBox(charts, index, count),
                          })
                 {
-                    double x = layout.Charts.Left + plot.Left + share * plot.Width;
-                    double top = layout.Charts.Top + Tab + plot.Top;
-                    canvas.VerticalHair(x, top, top + plot.Height, Palette.Ink);
+                    canvas.DrawVerticalHairline(plot.Left + share * plot.Width, plot.Top, plot.Bottom, Palette.Ink);
                 }
             }
             StrokeState state = result.Request.Stroke.At(seconds);
-            Box patch = PreviewLayout.Patch(result.StrokePanel.Whole);
+            Box patch = PreviewLayout.Patch(BelowTab(layout.StrokePanel));
             (double tipX, double tipY) = PatchPicture.ToPoints(patch, state.XMetres, state.YMetres);
-            var tip = new Box(layout.StrokePanel.Left + tipX - 4.0, layout.StrokePanel.Top + Tab + tipY - 4.0, 8.0, 8.0);
-            canvas.Fill(tip, Palette.First);
+            var tip = new Box(tipX - 4.0, tipY - 4.0, 8.0, 8.0);
+            canvas.FillRectangle(tip, Palette.First);
         }
 
         private static string Number(double value) => value.ToString("0.###", CultureInfo.InvariantCulture);

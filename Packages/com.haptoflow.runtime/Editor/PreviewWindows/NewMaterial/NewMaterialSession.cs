@@ -17,7 +17,7 @@ namespace HaptoFlow.Editor
         private readonly LatestTask<ComparisonRequest, ComparisonResult> comparing;
         private RecordingFile? file;
         private (string Path, float FullScale) asked;
-        private (Recording, string Material, bool Matches, int Active, PreviewView, byte[])? compared;
+        private (Recording, string Material, bool Matches, int Active, byte[])? compared;
         private (Recording? File, float Speed, float Force) completedOf;
         private HapticLearning? learning;
         private string? failure;
@@ -60,7 +60,7 @@ namespace HaptoFlow.Editor
 
         /// <summary>Asks for what is set where it is not what was asked for last.</summary>
         /// <param name="model">The model to learn for; null where there is none.</param>
-        public void Refresh(HapticModelAsset? model, PreviewView view)
+        public void Refresh(HapticModelAsset? model)
         {
             if (asked != (state.Path, state.FullScaleMps2))
             {
@@ -73,8 +73,8 @@ namespace HaptoFlow.Editor
             {
                 return;
             }
-            (Recording, string, bool, int, PreviewView, byte[]) wanted =
-                (Recording, state.Material, state.MatchesLevels, state.Active, view, model.File);
+            (Recording, string, bool, int, byte[]) wanted =
+                (Recording, state.Material, state.MatchesLevels, state.Active, model.File);
             if (!wanted.Equals(compared))
             {
                 compared = wanted;
@@ -84,9 +84,6 @@ namespace HaptoFlow.Editor
                     TurnDegrees = LearningReportText.TurnDegrees(state.Report),
                     MatchesLevels = state.MatchesLevels,
                     Active = state.Active,
-                    Palette = view.Palette,
-                    Charts = view.Layout.Charts,
-                    PixelsPerPoint = view.PixelsPerPoint,
                 });
             }
         }

@@ -23,10 +23,10 @@ namespace HaptoFlow.Editor
         [SerializeField]
         private NewMaterialState? state;
 
-        private readonly PreviewTexture picture = new PreviewTexture();
+        private EditorPicture? picture;
         private NewMaterialControls? controls;
         private NewMaterialPlayer? player;
-        private float pixelsPerPoint = 1f;
+        private PreviewView? view;
         private Vector2 scroll;
 
         /// <summary>For whoever drives the window.</summary>
@@ -60,6 +60,7 @@ namespace HaptoFlow.Editor
                 state.hideFlags = HideFlags.HideAndDontSave;
             }
             Session = new NewMaterialSession(state);
+            picture = new EditorPicture(DrawCharts);
             player = new NewMaterialPlayer(state, Session);
             controls = new NewMaterialControls(state);
             // Dialogs in the midst of drawing would upset what is being drawn.
@@ -94,19 +95,22 @@ namespace HaptoFlow.Editor
             {
                 return;
             }
-            pixelsPerPoint = EditorGUIUtility.pixelsPerPoint;
-            PreviewLayout layout = View().Layout;
+            view = PreviewView.Of(position, PreviewRoom.WithoutStroke, view);
+            PreviewLayout layout = view.Layout;
             var all = new Rect(0f, 0f, (float)layout.Width, (float)layout.Height);
-            using var view = new GUI.ScrollViewScope(new Rect(0f, 0f, position.width, position.height), scroll, all);
-            scroll = view.scrollPosition;
+            using var scrolled = new GUI.ScrollViewScope(new Rect(0f, 0f, position.width, position.height), scroll, all);
+            scroll = scrolled.scrollPosition;
             using (new GUILayout.AreaScope(layout.Controls.ToRect()))
             {
                 controls!.Draw(Session, player!, ModelInUse());
             }
-            picture.Draw(layout.Charts.ToRect());
-            if (player!.PlayedSeconds is { } seconds && Session.Shown is { } shown)
+            if (Session.Shown is { } shown)
             {
-                Playhead.DrawLines(layout.Charts, shown.Sounds, seconds, View().Palette);
+                picture!.OnGUI(shown, view);
+                if (player!.PlayedSeconds is { } seconds)
+                {
+                    Playhead.DrawLines(layout.Charts, shown.Sounds, seconds, view.Palette);
+                }
             }
         }
 
@@ -118,12 +122,8 @@ namespace HaptoFlow.Editor
                 return;
             }
             bool isOther = Session.Poll();
-            Session.Refresh(ModelInUse(), View());
-            if (isOther)
-            {
-                TakeOver();
-            }
-            if (player!.Step())
+            Session.Refresh(ModelInUse());
+            if (player!.Step() || isOther)
             {
                 Repaint();
             }
@@ -132,9 +132,9 @@ namespace HaptoFlow.Editor
         /// <summary>Waits until nothing is under way any more.</summary>
         internal void Finish()
         {
-            Session!.Finish(() => Session.Refresh(ModelInUse(), View()));
-            TakeOver();
+            Session!.Finish(() => Session.Refresh(ModelInUse()));
             player!.Step();
+            Repaint();
         }
 
         /// <summary>Takes a recording's file; can be undone.</summary>
@@ -203,9 +203,6 @@ namespace HaptoFlow.Editor
                 unknown;
         }
 
-        private PreviewView View() => new PreviewView(
-            position.width, position.height, pixelsPerPoint, EditorGUIUtility.isProSkin, PreviewRoom.WithoutStroke);
-
         private HapticModelAsset? ModelInUse() => State.Model != null ? State.Model : LabelCatalog.ModelInUse();
 
         private void OnUndo()
@@ -214,13 +211,10 @@ namespace HaptoFlow.Editor
             Repaint();
         }
 
-        private void TakeOver()
+        private void DrawCharts(ICanvas canvas)
         {
-            if (Session!.Shown != null)
-            {
-                picture.Show(Session.Shown.Charts);
-            }
-            Repaint();
+            ComparisonResult shown = Session!.Shown!;
+            shown.Panel.Draw(canvas, view!.Palette, view.Layout.Charts, shown.Active);
         }
 
         /// <summary>Lets go of everything that Unity or the native library would keep.</summary>
@@ -229,7 +223,7 @@ namespace HaptoFlow.Editor
             player?.Stop();
             Session?.Dispose();
             Session = null;
-            picture.Release();
+            picture?.Release();
         }
     }
 }

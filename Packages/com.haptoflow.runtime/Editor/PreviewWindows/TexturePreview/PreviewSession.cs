@@ -15,7 +15,7 @@ namespace HaptoFlow.Editor
         private readonly LatestTask<PreviewRequest, PreviewResult> task;
         private (StrokePreset, StrokeSettings, DrawnPoint[])? strokeSource;
         private Stroke stroke = DrawnStroke.Of(Array.Empty<DrawnPoint>());
-        private (int, PreviewModel, PreviewView, int)? asked;
+        private (int Version, PreviewModel Model, int Measurement)? asked;
         private bool askedSketch;
         private HapticModelAsset? modelAsset;
         private int measurement = 1;
@@ -60,7 +60,7 @@ namespace HaptoFlow.Editor
         /// <summary>Asks for what is set where it is not what was asked for last.</summary>
         /// <param name="asset">The model to preview; null where there is none.</param>
         /// <param name="held">A control is held down: a sketch will do until it is released.</param>
-        public void Refresh(HapticModelAsset? asset, PreviewView view, bool held)
+        public void Refresh(HapticModelAsset? asset, bool held)
         {
             HapticModelAsset? present = asset != null ? asset : null;
             if (!ReferenceEquals(present, modelAsset) || (present != null && present.File != Model.File))
@@ -68,7 +68,7 @@ namespace HaptoFlow.Editor
                 modelAsset = present;
                 Model = PreviewModel.Of(present);
             }
-            (int, PreviewModel, PreviewView, int) wanted = (state.Version, Model, view, measurement);
+            (int, PreviewModel, int) wanted = (state.Version, Model, measurement);
             bool same = wanted.Equals(asked);
             if (same && (!askedSketch || held))
             {
@@ -76,7 +76,7 @@ namespace HaptoFlow.Editor
             }
             asked = wanted;
             askedSketch = held && !same;
-            task.Ask(Request(view));
+            task.Ask(Request());
         }
 
         /// <summary>Takes over what was finished meanwhile.</summary>
@@ -122,7 +122,7 @@ namespace HaptoFlow.Editor
             worker.Dispose();
         }
 
-        private PreviewRequest Request(PreviewView view)
+        private PreviewRequest Request()
         {
             IReadOnlyList<LabelMix> mixes = state.Mixes(Model.Labels);
             return new PreviewRequest(Model.File, Stroke, mixes)
@@ -135,10 +135,6 @@ namespace HaptoFlow.Editor
                 Device = state.Device,
                 IsSketch = askedSketch,
                 Measurement = measurement,
-                Palette = view.Palette,
-                StrokePanel = view.Layout.StrokePanel,
-                Charts = view.Layout.Charts,
-                PixelsPerPoint = view.PixelsPerPoint,
             };
         }
     }

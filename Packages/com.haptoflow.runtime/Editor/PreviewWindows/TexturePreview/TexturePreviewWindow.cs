@@ -24,13 +24,13 @@ namespace HaptoFlow.Editor
         [SerializeField]
         private TexturePreviewState? state;
 
-        private readonly PreviewTexture strokePicture = new PreviewTexture();
-        private readonly PreviewTexture chartsPicture = new PreviewTexture();
+        private EditorPicture? strokePicture;
+        private EditorPicture? chartsPicture;
         private PreviewControls? controls;
         private SliderControls? sliders;
         private PreviewPlayer? player;
         private PatchInput? patch;
-        private float pixelsPerPoint = 1f;
+        private PreviewView? view;
         private Vector2 scroll;
 
         /// <summary>For whoever drives the window.</summary>
@@ -77,6 +77,8 @@ namespace HaptoFlow.Editor
                 state.hideFlags = HideFlags.HideAndDontSave;
             }
             Session = new PreviewSession(state);
+            strokePicture = new EditorPicture(DrawStroke);
+            chartsPicture = new EditorPicture(DrawCharts);
             controls = new PreviewControls(state);
             sliders = new SliderControls(state);
             player = new PreviewPlayer(state, Session);
@@ -111,17 +113,18 @@ namespace HaptoFlow.Editor
             {
                 return;
             }
-            pixelsPerPoint = EditorGUIUtility.pixelsPerPoint;
             if (PreviewKeys.Handle(Event.current, State, player!.Toggle, ExportLater))
             {
                 // What a key changes may need controls that were not laid out.
                 Repaint();
                 return;
             }
-            PreviewLayout layout = View().Layout;
+            PreviewRoom room = State.ShowsSliders ? PreviewRoom.WithSliders : PreviewRoom.Usual;
+            view = PreviewView.Of(position, room, view);
+            PreviewLayout layout = view.Layout;
             var all = new Rect(0f, 0f, (float)layout.Width, (float)layout.Height);
-            using var view = new GUI.ScrollViewScope(new Rect(0f, 0f, position.width, position.height), scroll, all);
-            scroll = view.scrollPosition;
+            using var scrolled = new GUI.ScrollViewScope(new Rect(0f, 0f, position.width, position.height), scroll, all);
+            scroll = scrolled.scrollPosition;
             using (new GUILayout.AreaScope(layout.Controls.ToRect()))
             {
                 controls!.Draw(Session.Model);
@@ -136,8 +139,8 @@ namespace HaptoFlow.Editor
                     NewMaterialWindow.Open();
                 }
             }
-            DrawStroke(layout.StrokePanel);
-            DrawCharts(layout.Charts);
+            ShowStroke(layout.StrokePanel);
+            ShowCharts(layout.Charts);
         }
 
         /// <summary>Once an editor update: asks for what is set, takes over what is finished.</summary>
@@ -147,12 +150,9 @@ namespace HaptoFlow.Editor
             {
                 return;
             }
-            Session.Refresh(ModelInUse(), View(), GUIUtility.hotControl != 0);
-            if (Session.Poll())
-            {
-                TakeOver();
-            }
-            if (player!.Step())
+            Session.Refresh(ModelInUse(), GUIUtility.hotControl != 0);
+            bool isOther = Session.Poll();
+            if (player!.Step() || isOther)
             {
                 Repaint();
             }
@@ -161,10 +161,10 @@ namespace HaptoFlow.Editor
         /// <summary>Waits until what is set is shown.</summary>
         internal void Finish()
         {
-            Session!.Refresh(ModelInUse(), View(), false);
+            Session!.Refresh(ModelInUse(), false);
             Session.Finish();
-            TakeOver();
             player!.Step();
+            Repaint();
         }
 
         /// <summary>Writes what is heard to a file.</summary>
@@ -229,10 +229,6 @@ namespace HaptoFlow.Editor
             }
         }
 
-        private PreviewView View() => new PreviewView(
-            position.width, position.height, pixelsPerPoint, EditorGUIUtility.isProSkin,
-            State.ShowsSliders ? PreviewRoom.WithSliders : PreviewRoom.Usual);
-
         private HapticModelAsset? ModelInUse() => State.Model != null ? State.Model : LabelCatalog.ModelInUse();
 
         private void OnUndo()
@@ -248,39 +244,43 @@ namespace HaptoFlow.Editor
             State.Forget();
         }
 
-        private void TakeOver()
+        private void ShowStroke(Box panel)
         {
-            if (Session!.Shown != null)
-            {
-                strokePicture.Show(Session.Shown.StrokePanel);
-                chartsPicture.Show(Session.Shown.Charts);
-            }
-            Repaint();
-        }
-
-        private void DrawStroke(Box panel)
-        {
-            strokePicture.Draw(panel.ToRect());
+            // The drawn stroke follows the pointer at once; its sound is rendered later.
+            strokePicture!.OnGUI(Session!.Stroke, view!);
             Box place = PreviewLayout.Patch(panel);
             patch!.Handle(Event.current, place.ToRect(), ClockSeconds());
             if (player!.PlayedSeconds is { } seconds)
             {
-                Playhead.DrawTip(place, Session!.Stroke.At(seconds), View().Palette, State.Heard);
+                Playhead.DrawTip(place, Session!.Stroke.At(seconds), view!.Palette, State.Heard);
             }
         }
 
-        private void DrawCharts(Box panel)
+        private void ShowCharts(Box panel)
         {
-            chartsPicture.Draw(panel.ToRect());
-            if (Session!.Problem is { } problem)
+            if (Session!.Shown is { } shown)
+            {
+                chartsPicture!.OnGUI(shown, view!);
+                if (player!.PlayedSeconds is { } seconds)
+                {
+                    Playhead.DrawLines(panel, shown.Sounds, seconds, view!.Palette);
+                }
+            }
+            if (Session.Problem is { } problem)
             {
                 Box help = panel.Inside(16.0).Rows(0.0, 56.0);
                 EditorGUI.HelpBox(help.ToRect(), problem, MessageType.Error);
             }
-            if (player!.PlayedSeconds is { } seconds && Session.Shown is { } shown)
-            {
-                Playhead.DrawLines(panel, shown.Sounds, seconds, View().Palette);
-            }
+        }
+
+        private void DrawStroke(ICanvas canvas) =>
+            StrokePanel.Draw(canvas, view!.Palette, view.Layout.StrokePanel, Session!.Stroke);
+
+        private void DrawCharts(ICanvas canvas)
+        {
+            PreviewResult shown = Session!.Shown!;
+            shown.Panel.Draw(canvas, view!.Palette, view.Layout.Charts, shown.Request.Active, shown.Qualities,
+                shown.Request.Tier);
         }
 
         /// <summary>Lets go of everything that Unity or the native library would keep.</summary>
@@ -289,8 +289,8 @@ namespace HaptoFlow.Editor
             player?.Stop();
             Session?.Dispose();
             Session = null;
-            strokePicture.Release();
-            chartsPicture.Release();
+            strokePicture?.Release();
+            chartsPicture?.Release();
         }
     }
 }
