@@ -106,7 +106,6 @@ namespace HaptoFlow.PreviewTests
             {
                 Material = material,
                 MatchesLevels = matches,
-                Charts = new PreviewLayout(1200.0, 760.0, PreviewRoom.WithoutStroke).Charts,
             };
             ComparisonResult alone = worker.Do(Request("", false), CancellationToken.None);
             Assert.That((alone.Sounds.Count, alone.Problem), Is.EqualTo((1, (string?)null)));

@@ -25,8 +25,6 @@ namespace HaptoFlow.PreviewTests
             new PreviewRequest(ModelFiles.Default, Slide, materials)
             {
                 Tier = "draft",
-                StrokePanel = new Box(0.0, 0.0, 312.0, 340.0),
-                Charts = new Box(0.0, 0.0, 600.0, 500.0),
             };
 
         private PreviewResult Do(PreviewRequest request) => worker.Do(request, CancellationToken.None);
@@ -70,8 +68,6 @@ namespace HaptoFlow.PreviewTests
                 {
                     Tier = "draft",
                     Effects = effects,
-                    StrokePanel = new Box(0.0, 0.0, 312.0, 340.0),
-                    Charts = new Box(0.0, 0.0, 600.0, 500.0),
                 };
             Assert.That(Samples(With(HapticEffects.Nothing)), Is.All.Zero);
             Assert.That(Do(With(effect)).Sounds[0].Sound.PeakMps2, Is.GreaterThan(0.5));
@@ -122,10 +118,9 @@ namespace HaptoFlow.PreviewTests
         {
             AnalysedSound first = Do(Request(new LabelMix("wood"))).Sounds[0];
             int made = worker.EnginesMade;
-            PreviewRequest lighter = Request(new LabelMix("wood"));
-            lighter.Palette = Palette.Light;
-            lighter.Charts = new Box(0.0, 0.0, 700.0, 520.0);
-            Assert.That(Do(lighter).Sounds[0], Is.SameAs(first));
+            PreviewRequest again = Request(new LabelMix("wood"));
+            again.Active = 1;
+            Assert.That(Do(again).Sounds[0], Is.SameAs(first));
             Assert.That(worker.EnginesMade, Is.EqualTo(made));
         }
 
@@ -166,17 +161,12 @@ namespace HaptoFlow.PreviewTests
         }
 
         [Test]
-        public void ADamagedModelIsAProblemWithAMessageAndEmptyCharts()
+        public void ADamagedModelGivesAProblemAndNoSounds()
         {
-            PreviewResult result = Do(new PreviewRequest(ModelFiles.Damaged(), Slide, new[] { new LabelMix("wood") })
-            {
-                StrokePanel = new Box(0.0, 0.0, 312.0, 340.0),
-                Charts = new Box(0.0, 0.0, 600.0, 500.0),
-            });
+            PreviewResult result = Do(new PreviewRequest(ModelFiles.Damaged(), Slide, new[] { new LabelMix("wood") }));
             Assert.That(result.Problem, Does.Contain("checksum"));
             Assert.That(result.Sounds, Is.Empty);
             Assert.That(result.Qualities, Is.Empty);
-            Assert.That(result.Charts.PixelWidth, Is.EqualTo(600));
         }
 
         [Test]

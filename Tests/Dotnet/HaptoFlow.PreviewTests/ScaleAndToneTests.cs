@@ -33,8 +33,6 @@ namespace HaptoFlow.PreviewTests
             PreviewResult result = worker.Do(new PreviewRequest(ModelFiles.Default, Slide, materials)
             {
                 Tier = "draft",
-                StrokePanel = new Box(0.0, 0.0, 312.0, 340.0),
-                Charts = new Box(0.0, 0.0, 600.0, 500.0),
             }, CancellationToken.None);
             Assert.That(result.Problem, Is.Null);
             return result.Sounds.Select(each => each.Sound).ToArray();

@@ -107,8 +107,6 @@ namespace HaptoFlow.PreviewTests
             {
                 Sliders = Sliders,
                 Tier = "draft",
-                Charts = new PreviewLayout(1200.0, 900.0).Charts,
-                StrokePanel = new PreviewLayout(1200.0, 900.0).StrokePanel,
             }, CancellationToken.None);
             PreviewResult louder = Render(new[] { 0f, 0f, 1f });
             Assert.That(louder.Problem, Is.Null);
@@ -132,9 +130,6 @@ namespace HaptoFlow.PreviewTests
                     Sliders = Sliders,
                     Tier = "draft",
                     IsSketch = true,
-                    Charts = new PreviewLayout(1200.0, 900.0).Charts,
-                    StrokePanel = new PreviewLayout(1200.0, 900.0).StrokePanel,
-                    PixelsPerPoint = 0.25,
                 }, CancellationToken.None);
                 Assert.That(result.Problem, Is.Null);
             }
