@@ -16,6 +16,8 @@ export const packagesByPurpose = {
   ],
   // What the SDK itself is made of, and what brings it where apt does not: see dotnet.mjs.
   dotnet: ['ca-certificates', 'curl', 'libicu-dev'],
+  // The font of the charts that the C# tests draw.
+  pictures: ['fonts-inter'],
   // Which files belong to the project, `git` says.
   files: ['git'],
   lint: ['git', 'clang-format', 'clang-tidy', 'python3'],

@@ -136,6 +136,6 @@ export const runners = {
   sanitizers: { purposes: ['build', 'test', 'realtime'], execute: sanitizers },
   training: { purposes: ['python', 'files'], execute: training },
   platforms: { purposes: ['build', 'test', 'platforms'], execute: platformTests },
-  dotnet: { purposes: ['build', 'dotnet'], execute: dotnet },
+  dotnet: { purposes: ['build', 'dotnet', 'pictures'], execute: dotnet },
   package: { purposes: ['files'], execute: packageTests },
 };

@@ -137,8 +137,13 @@ namespace HaptoFlow.PreviewTests
         private static SKTypeface Load(string name)
         {
             string path = "/usr/share/fonts/opentype/inter/" + name + ".otf";
-            return File.Exists(path)
-                ? SKTypeface.FromFile(path)
+            if (File.Exists(path))
+            {
+                return SKTypeface.FromFile(path);
+            }
+            // Without fontconfig, SkiaSharp finds no font of the system on Linux.
+            return !OperatingSystem.IsLinux()
+                ? SKTypeface.Default
                 : throw new FileNotFoundException(
                     $"The charts' font {path} is missing; run: apt-get install {FontPackage}", path);
         }

@@ -1,5 +1,6 @@
 #nullable enable
 using System;
+using System.Collections.Generic;
 
 namespace HaptoFlow.Preview
 {
@@ -27,25 +28,27 @@ namespace HaptoFlow.Preview
             plot.Rows(new[] { -limitMps2, 0.0, limitMps2 }, value => Scale.Text(value, 2));
             int columns = Math.Max(1, (int)Math.Round(plot.Frame.Width * canvas.PixelsPerPoint));
             double pixel = 1.0 / canvas.PixelsPerPoint;
-            var extremes = new (double X, double Top, double Bottom)[columns];
-            var rms = new (double X, double Top, double Bottom)[columns];
+            var extremes = new List<(double X, double Top, double Bottom)>(2 * columns);
+            var rms = new List<(double X, double Top, double Bottom)>(2 * columns);
             for (int column = 0; column < columns; ++column)
             {
                 (double low, double high, double level) = Column(sound, column, columns);
-                double x = plot.Frame.Left + (column + 0.5) * pixel;
-                extremes[column] = Edges(plot, x, low, high, pixel);
-                rms[column] = Edges(plot, x, -level, level, pixel);
+                double x = plot.Frame.Left + column * pixel;
+                AddColumn(extremes, plot, x, low, high, pixel);
+                AddColumn(rms, plot, x, -level, level, pixel);
             }
             canvas.FillArea(extremes, Colour.Between(palette.Plot, colour, 0.5));
             canvas.FillArea(rms, colour);
         }
 
-        /// <summary>At least a pixel high, so that silence is a line.</summary>
-        private static (double X, double Top, double Bottom) Edges(
-            Plot plot, double x, double low, double high, double pixel)
+        /// <summary>A step as wide as the column, and at least a pixel high, so that silence is a line.</summary>
+        private static void AddColumn(List<(double X, double Top, double Bottom)> edges, Plot plot, double x,
+            double low, double high, double pixel)
         {
             double top = plot.Y(high) - 0.5 * pixel;
-            return (x, top, top + Math.Max(pixel, plot.Y(low) - plot.Y(high)));
+            double bottom = top + Math.Max(pixel, plot.Y(low) - plot.Y(high));
+            edges.Add((x, top, bottom));
+            edges.Add((x + pixel, top, bottom));
         }
 
         private static (double Low, double High, double Rms) Column(PreviewSound sound, int column, int columns)
