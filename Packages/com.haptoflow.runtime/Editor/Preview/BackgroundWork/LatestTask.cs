@@ -5,8 +5,8 @@ using System.Threading.Tasks;
 
 namespace HaptoFlow.Preview
 {
-    /// <summary>Does work in the background, one request at a time; of those that come in meanwhile the newest is next,
-    /// the others are never begun. All methods from one thread.</summary>
+    /// <summary>Works on one request at a time in the background. Of the requests submitted meanwhile only the newest is
+    /// kept. Call all methods from one thread.</summary>
     internal sealed class LatestTask<TRequest, TResult> : IDisposable
         where TRequest : class
         where TResult : class
@@ -16,21 +16,22 @@ namespace HaptoFlow.Preview
         private TRequest? waiting;
         private Task<TResult>? running;
 
-        /// <param name="work">Called in the background, never twice at the same time.</param>
+        /// <param name="work">Runs in the background, never twice at the same time.</param>
         public LatestTask(Func<TRequest, CancellationToken, TResult> work) => this.work = work;
 
-        /// <summary>Something is under way or waiting.</summary>
+        /// <summary>True while a request runs or waits.</summary>
         public bool IsBusy => running != null || waiting != null;
 
-        public void Ask(TRequest request)
+        /// <summary>Starts a request, or keeps it until the running one is finished.</summary>
+        public void Submit(TRequest request)
         {
             waiting = request;
             StartNext();
         }
 
-        /// <summary>Takes what was finished, and begins what waits.</summary>
-        /// <returns>Null where nothing was finished since the last call.</returns>
-        /// <exception cref="Exception">What the work threw.</exception>
+        /// <summary>Takes the finished result, and starts the waiting request.</summary>
+        /// <returns>Null if nothing was finished since the last call.</returns>
+        /// <exception cref="Exception">The exception that the work threw.</exception>
         public TResult? Poll()
         {
             if (running == null || !running.IsCompleted)
@@ -43,7 +44,8 @@ namespace HaptoFlow.Preview
             return finished.GetAwaiter().GetResult();
         }
 
-        /// <summary>Waits until the present request is done; what waits begins. For tests and for the end.</summary>
+        /// <summary>Blocks until the running request is finished. <see cref="Poll"/> then starts the waiting one.
+        /// </summary>
         public void Wait()
         {
             if (running != null)
@@ -52,8 +54,8 @@ namespace HaptoFlow.Preview
             }
         }
 
-        /// <summary>Cancels what is under way and waits for its end: native calls must not outlive the domain.
-        /// </summary>
+        /// <summary>Cancels the running request and waits until it ends, because native calls must not outlive a domain
+        /// reload.</summary>
         public void Dispose()
         {
             waiting = null;

@@ -4,7 +4,7 @@ using System.Collections.Generic;
 
 namespace HaptoFlow.Preview
 {
-    /// <summary>What a preview shall show. Immutable by custom.</summary>
+    /// <summary>The input of a preview. Immutable by convention once submitted.</summary>
     internal sealed class PreviewRequest
     {
         public PreviewRequest(byte[] modelFile, Stroke stroke, IReadOnlyList<LabelMix> materials)
@@ -14,42 +14,42 @@ namespace HaptoFlow.Preview
             Materials = materials;
         }
 
-        /// <summary>Bytes of a whole .haptoflow file; another array is another model.</summary>
+        /// <summary>Bytes of a whole .haptoflow file. Models are compared by reference.</summary>
         public byte[] ModelFile { get; }
 
-        /// <summary>Another object is another stroke.</summary>
+        /// <summary>Strokes are compared by reference.</summary>
         public Stroke Stroke { get; }
 
         /// <summary>One, or two to compare.</summary>
         public IReadOnlyList<LabelMix> Materials { get; }
 
-        /// <summary>Of the model's space; null where it has none.</summary>
+        /// <summary>The model's sliders; null if it has none.</summary>
         public SliderSet? Sliders { get; set; }
 
-        /// <summary>Which of them is heard.</summary>
+        /// <summary>Index of the sound that is played.</summary>
         public int Active { get; set; }
 
         /// <summary>Name of a tier of the model: "draft", "standard" or "fine".</summary>
         public string Tier { get; set; } = "standard";
 
-        /// <summary>What the surface asks for.</summary>
+        /// <summary>Effects of the surface.</summary>
         public HapticEffects Effects { get; set; } = HapticEffects.Texture;
 
-        /// <summary>What the wave is felt through: anything but an actuator is shown beside the active material's wave.
-        /// </summary>
+        /// <summary>If this is not an actuator, its sound is shown beside the first material's.</summary>
         public PreviewDevice Device { get; set; }
 
-        /// <summary>Key of all noise.</summary>
+        /// <summary>Key of the noise generator.</summary>
         public ulong Seed { get; set; } = 1;
 
-        /// <summary>A control is held down: be quick, other noise will do.</summary>
+        /// <summary>True while a control is dragged: a used engine may render, whose noise differs from a fresh one's.
+        /// </summary>
         public bool IsSketch { get; set; }
 
-        /// <summary>Milliseconds are measured where this number was not seen before; 0 for never.</summary>
+        /// <summary>The tiers are timed when this number differs from that of the last timing; 0 for never.</summary>
         public int Measurement { get; set; }
     }
 
-    /// <summary>What a preview shows. Immutable by convention.</summary>
+    /// <summary>The output of a preview. Immutable by convention.</summary>
     internal sealed class PreviewResult
     {
         public PreviewResult(PreviewRequest request, IReadOnlyList<AnalysedSound> sounds)

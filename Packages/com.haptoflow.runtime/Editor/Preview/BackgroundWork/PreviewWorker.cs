@@ -7,8 +7,8 @@ using HaptoFlow.Model;
 
 namespace HaptoFlow.Preview
 {
-    /// <summary>Makes results from requests, and keeps what the next request is likely to want again. One thread at a
-    /// time, one that can wait for networks.</summary>
+    /// <summary>Renders and analyses the sounds of requests, and keeps those of the last request for the next one. One
+    /// thread at a time, never the main thread.</summary>
     internal sealed class PreviewWorker : IDisposable
     {
         private readonly PreviewEngines engines = new PreviewEngines();
@@ -17,10 +17,11 @@ namespace HaptoFlow.Preview
         private byte[]? timedFile;
         private int timedMeasurement;
 
-        /// <summary>Engines made so far.</summary>
+        /// <summary>Number of engines created so far.</summary>
         public int EnginesMade => engines.Made;
 
-        /// <summary>A missing library, a damaged model or an unknown label becomes the result's problem.</summary>
+        /// <summary>Makes the result of a request. A missing library, a damaged model or an unknown label is reported as
+        /// the result's problem.</summary>
         /// <exception cref="OperationCanceledException">The token was cancelled.</exception>
         public PreviewResult Do(PreviewRequest request, CancellationToken token)
         {
@@ -33,7 +34,7 @@ namespace HaptoFlow.Preview
                 qualities = QualityRow.Of(header, new Dictionary<string, TierTiming>());
                 var names = new LabelNames(header.Labels.Select(label => label.Name));
                 sounds = request.Materials.Select(material => Sound(request, material, names, token)).ToArray();
-                Forget(request, sounds);
+                KeepOnly(sounds);
                 sounds = Through(request.Device, sounds, token);
                 Measure(request, header, token);
                 qualities = QualityRow.Of(header, timings);
@@ -64,12 +65,12 @@ namespace HaptoFlow.Preview
             }
             HapticEngine engine = engines.Engine(
                 request.ModelFile, QualityOf(request.Tier), request.Seed, !request.IsSketch);
-            int own = material.IsOwn
+            int registered = material.IsRegistered
                 ? engines.MaterialIndex(material.MaterialText(request.ModelFile, request.Sliders))
                 : -1;
             var surface = new ContactState
             {
-                Material = material.In(names, own),
+                Material = material.ToBlend(names, registered),
                 Effects = request.Effects,
                 SpatialScale = material.FeatureScale,
                 ToneDbPerOctave = material.ToneDbPerOctave,
@@ -80,7 +81,7 @@ namespace HaptoFlow.Preview
             return made;
         }
 
-        /// <summary>The first material's wave, and behind it what a device makes of that.</summary>
+        /// <summary>The first material's sound, and after it what the device plays for it.</summary>
         private static IReadOnlyList<AnalysedSound> Through(
             PreviewDevice device, IReadOnlyList<AnalysedSound> sounds, CancellationToken token)
         {
@@ -88,15 +89,15 @@ namespace HaptoFlow.Preview
             {
                 return sounds;
             }
-            PreviewSound played = DeviceRendering.Played(sounds[0].Sound, device, token);
+            PreviewSound played = DeviceRendering.Render(sounds[0].Sound, device, token);
             return new[] { sounds[0], AnalysedSound.Of(played, token) };
         }
 
-        /// <summary>Only what is shown stays.</summary>
-        private void Forget(PreviewRequest request, IReadOnlyList<AnalysedSound> shown) =>
+        /// <summary>Drops the sounds that this result does not show.</summary>
+        private void KeepOnly(IReadOnlyList<AnalysedSound> shown) =>
             kept.RemoveAll(each => !shown.Contains(each.Sound));
 
-        /// <summary>Not while a control is held: it would make waiting longer.</summary>
+        /// <summary>Times the tiers if the request says so; never for a sketch, which must be quick.</summary>
         private void Measure(PreviewRequest request, ModelHeader header, CancellationToken token)
         {
             if (!ReferenceEquals(timedFile, request.ModelFile))
@@ -118,7 +119,7 @@ namespace HaptoFlow.Preview
             timedMeasurement = request.Measurement;
         }
 
-        /// <exception cref="HaptoFlowException">The engine has no name for such a tier.</exception>
+        /// <exception cref="HaptoFlowException">No quality has the name of this tier.</exception>
         private static HapticQuality QualityOf(string tier) => tier switch
         {
             "draft" => HapticQuality.Draft,
@@ -128,7 +129,7 @@ namespace HaptoFlow.Preview
                 $"tier \"{tier}\" cannot be previewed; expected draft, standard or fine"),
         };
 
-        /// <summary>What a sound depends on.</summary>
+        /// <summary>Everything that the samples of a sound depend on.</summary>
         private readonly struct SoundKey
         {
             private readonly byte[] modelFile;
@@ -150,7 +151,8 @@ namespace HaptoFlow.Preview
                 effects = request.Effects;
             }
 
-            /// <summary>A sketch does where a sketch is wanted; the real thing always does.</summary>
+            /// <summary>True if a sound of this key can be used for another one. A sketch can only be used for a sketch.
+            /// </summary>
             public bool Serves(in SoundKey wanted) =>
                 ReferenceEquals(modelFile, wanted.modelFile) && ReferenceEquals(stroke, wanted.stroke) &&
                 material.Equals(wanted.material) && tier == wanted.tier && seed == wanted.seed &&

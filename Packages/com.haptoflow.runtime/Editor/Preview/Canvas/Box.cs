@@ -30,29 +30,31 @@ namespace HaptoFlow.Preview
 
         public double MiddleY => Top + 0.5 * Height;
 
-        /// <summary>Smaller by these margins.</summary>
+        /// <summary>This box without a margin on each side.</summary>
         public Box Inside(double left, double top, double right, double bottom) =>
             new Box(Left + left, Top + top, Width - left - right, Height - top - bottom);
 
-        /// <summary>Smaller by the same margin everywhere.</summary>
+        /// <summary>This box without the same margin on every side.</summary>
         public Box Inside(double margin) => Inside(margin, margin, margin, margin);
 
-        /// <summary>With its edges between pixels: sharp.</summary>
-        /// <param name="scale">Pixels of a point.</param>
-        public Box Snapped(double scale)
+        /// <summary>This box with its edges rounded to the edges of pixels, so that they are sharp.</summary>
+        public Box Snapped(double pixelsPerPoint)
         {
-            double left = Math.Round(Left * scale);
-            double top = Math.Round(Top * scale);
-            return new Box(left / scale, top / scale, (Math.Round(Right * scale) - left) / scale,
-                (Math.Round(Bottom * scale) - top) / scale);
+            double left = Math.Round(Left * pixelsPerPoint) / pixelsPerPoint;
+            double top = Math.Round(Top * pixelsPerPoint) / pixelsPerPoint;
+            double right = Math.Round(Right * pixelsPerPoint) / pixelsPerPoint;
+            double bottom = Math.Round(Bottom * pixelsPerPoint) / pixelsPerPoint;
+            return new Box(left, top, right - left, bottom - top);
         }
 
         public bool Contains(double x, double y) => x >= Left && x <= Right && y >= Top && y <= Bottom;
 
-        /// <summary>A part of it, counted from its left edge.</summary>
+        /// <summary>A part of this box over its whole height.</summary>
+        /// <param name="from">Distance of its left edge from the left edge of this box.</param>
         public Box Columns(double from, double width) => new Box(Left + from, Top, width, Height);
 
-        /// <summary>A part of it, counted from its top edge.</summary>
+        /// <summary>A part of this box over its whole width.</summary>
+        /// <param name="from">Distance of its top edge from the top edge of this box.</param>
         public Box Rows(double from, double height) => new Box(Left, Top + from, Width, height);
     }
 }

@@ -3,7 +3,7 @@ using System;
 
 namespace HaptoFlow.Preview
 {
-    /// <summary>sRGB with opacity, 0 to 255 each.</summary>
+    /// <summary>An sRGB colour with opacity, each channel from 0 to 255.</summary>
     internal readonly struct Colour : IEquatable<Colour>
     {
         public Colour(byte red, byte green, byte blue, byte opacity = 255)
@@ -29,13 +29,13 @@ namespace HaptoFlow.Preview
         public Colour WithOpacity(double share) =>
             new Colour(Red, Green, Blue, (byte)Math.Round(255.0 * Math.Max(0.0, Math.Min(1.0, share))));
 
-        /// <param name="share">0: the first. 1: the second.</param>
+        /// <param name="share">0 gives the first colour, 1 the second.</param>
         public static Colour Between(Colour first, Colour second, double share) => new Colour(
             Mix(first.Red, second.Red, share), Mix(first.Green, second.Green, share),
             Mix(first.Blue, second.Blue, share), Mix(first.Opacity, second.Opacity, share));
 
-        /// <summary>Contrast of two opaque colours, 1 to 21, as WCAG 2.1 defines it: (L1 + 0.05) / (L2 + 0.05) of the
-        /// relative luminances, the lighter above.</summary>
+        /// <summary>Contrast ratio of two opaque colours, 1 to 21, as WCAG 2.1 defines it: (L1 + 0.05) / (L2 + 0.05),
+        /// where L1 is the relative luminance of the lighter colour.</summary>
         public static double Contrast(Colour one, Colour other)
         {
             double light = Math.Max(one.Luminance, other.Luminance);

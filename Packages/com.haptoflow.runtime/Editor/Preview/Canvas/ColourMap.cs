@@ -3,8 +3,8 @@ using System;
 
 namespace HaptoFlow.Preview
 {
-    /// <summary>Matplotlib's colour map "inferno" (CC0) at 17 even steps: lightness rises steadily, so that stronger
-    /// always looks brighter.</summary>
+    /// <summary>Matplotlib's colour map "inferno" (CC0), interpolated between 17 evenly spaced colours. Its lightness
+    /// rises steadily, so that a higher value always looks brighter.</summary>
     internal static class ColourMap
     {
         private static readonly int[] Steps =
@@ -18,7 +18,7 @@ namespace HaptoFlow.Preview
         /// <summary>All colours, the darkest in the lowest row: for legends.</summary>
         public static ColourImage Column { get; } = MakeColumn();
 
-        /// <param name="share">0 to 1; what is not a number counts as 0.</param>
+        /// <param name="share">0 to 1; NaN counts as 0.</param>
         public static Colour At(double share)
         {
             double held = share > 0.0 ? Math.Min(1.0, share) : 0.0;

@@ -2,7 +2,7 @@
 
 namespace HaptoFlow.Preview
 {
-    /// <summary>Colours of the pictures, one set for each skin of the editor.</summary>
+    /// <summary>The colours of the charts, one palette for each skin of the editor.</summary>
     internal sealed class Palette
     {
         /// <summary>For the editor's dark skin.</summary>
@@ -41,34 +41,34 @@ namespace HaptoFlow.Preview
         {
         }
 
-        /// <summary>Of the editor's windows.</summary>
+        /// <summary>Background of the editor's windows.</summary>
         public Colour Window { get; private set; }
 
-        /// <summary>Behind a group of charts.</summary>
+        /// <summary>Background of a group of charts.</summary>
         public Colour Card { get; private set; }
 
-        /// <summary>Behind curves.</summary>
+        /// <summary>Background of a plot area.</summary>
         public Colour Plot { get; private set; }
 
         public Colour Grid { get; private set; }
 
-        /// <summary>Text that matters.</summary>
+        /// <summary>Primary text.</summary>
         public Colour Ink { get; private set; }
 
-        /// <summary>Scales and remarks.</summary>
+        /// <summary>Secondary text: axis numbers and remarks.</summary>
         public Colour Soft { get; private set; }
 
-        /// <summary>Of material A.</summary>
+        /// <summary>Curves of material A.</summary>
         public Colour First { get; private set; }
 
-        /// <summary>Of material B.</summary>
+        /// <summary>Curves of material B.</summary>
         public Colour Second { get; private set; }
 
         public Colour Speed { get; private set; }
 
         public Colour Force { get; private set; }
 
-        /// <summary>The surface that is stroked.</summary>
+        /// <summary>Background of the patch on which strokes are drawn.</summary>
         public Colour Patch { get; private set; }
     }
 }

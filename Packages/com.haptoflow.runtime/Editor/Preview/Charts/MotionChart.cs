@@ -4,10 +4,10 @@ using System.Collections.Generic;
 
 namespace HaptoFlow.Preview
 {
-    /// <summary>Speed and force of a stroke over time; both fall to zero in the air.</summary>
+    /// <summary>Draws speed and force of a stroke over time; both are zero while the tip does not touch.</summary>
     internal static class MotionChart
     {
-        /// <param name="frame">The plot itself; the speed's scale is left of it, the force's right, time below.</param>
+        /// <param name="frame">The plot area; the axis of speed stands left of it, of force right, of time below.</param>
         public static void Draw(ICanvas canvas, Palette palette, Box frame, Stroke stroke)
         {
             double fastest = Scale.RoundUp(stroke.FastestMps);

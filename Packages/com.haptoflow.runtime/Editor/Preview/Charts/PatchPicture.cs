@@ -4,7 +4,7 @@ using System.Collections.Generic;
 
 namespace HaptoFlow.Preview
 {
-    /// <summary>The patch with the stroke on it; the line is as thick as the force.</summary>
+    /// <summary>Draws the patch and the stroke on it; the line's width shows the force.</summary>
     internal static class PatchPicture
     {
         private const double ThinnestPoints = 1.3;
@@ -19,7 +19,7 @@ namespace HaptoFlow.Preview
             Stroke.PatchWidthMetres * (x - frame.Left) / frame.Width,
             Stroke.PatchHeightMetres * (frame.Bottom - y) / frame.Height);
 
-        /// <param name="hint">Shown where nothing is drawn.</param>
+        /// <param name="hint">Text for a stroke without contact.</param>
         public static void Draw(ICanvas canvas, Palette palette, Box frame, Stroke stroke, string hint)
         {
             canvas.BeginClip(frame);
@@ -35,7 +35,7 @@ namespace HaptoFlow.Preview
             canvas.EndClip();
         }
 
-        /// <summary>Neighbouring stretches of the same rounded width are drawn as one line.</summary>
+        /// <summary>Draws one polyline for each run of segments of the same rounded width.</summary>
         private static void DrawPath(ICanvas canvas, Palette palette, Box frame, Stroke stroke)
         {
             double strongest = Math.Max(1e-6, stroke.StrongestNewtons);
@@ -69,16 +69,16 @@ namespace HaptoFlow.Preview
             }
         }
 
-        /// <summary>A ring at every touch-down, and an arrow head where the last touch is going.</summary>
+        /// <summary>Draws a ring at every touch-down, and an arrow head at the end of the last touch.</summary>
         private static void DrawEnds(ICanvas canvas, Palette palette, Box frame, Stroke stroke)
         {
             StrokeState last = default;
             for (int index = 0; index < stroke.States.Count; ++index)
             {
                 StrokeState state = stroke.States[index];
-                bool lands = state.Touching && (index == 0 || !stroke.States[index - 1].Touching);
+                bool touchesDown = state.Touching && (index == 0 || !stroke.States[index - 1].Touching);
                 last = state.Touching && state.SpeedMps > 0.0 ? state : last;
-                if (lands)
+                if (touchesDown)
                 {
                     (double x, double y) = ToPoints(frame, state.XMetres, state.YMetres);
                     canvas.FillCircle(x, y, 5.5, palette.Ink);

@@ -4,13 +4,14 @@ using System.Collections.Generic;
 
 namespace HaptoFlow.Preview
 {
-    /// <summary>A chart's frame: from values to points, with grid and scales around it.</summary>
+    /// <summary>The plot area of a chart: converts values to points, and draws the grid and the axis numbers.</summary>
     internal sealed class Plot
     {
-        /// <summary>Of scales, in points.</summary>
+        /// <summary>Font size of axis numbers, in points.</summary>
         public const double ScaleSize = 10.0;
 
-        private const double LeastGap = 5.0;
+        // Between two axis numbers, in points.
+        private const double MinimumGap = 5.0;
 
         private readonly ICanvas canvas;
         private readonly Palette palette;
@@ -33,14 +34,14 @@ namespace HaptoFlow.Preview
         public double X(double value) =>
             Frame.Left + Frame.Width * (value - horizontal.Low) / (horizontal.High - horizontal.Low);
 
-        /// <summary>Held within the frame.</summary>
+        /// <summary>Limited to the plot area.</summary>
         public double Y(double value)
         {
             double share = (value - vertical.Low) / (vertical.High - vertical.Low);
             return Frame.Bottom - Frame.Height * Math.Max(0.0, Math.Min(1.0, share));
         }
 
-        /// <summary>Lines across, and numbers left of them.</summary>
+        /// <summary>Draws horizontal grid lines, and their numbers left of them.</summary>
         public void Rows(IEnumerable<double> values, Func<double, string> text)
         {
             foreach (double value in values)
@@ -51,14 +52,14 @@ namespace HaptoFlow.Preview
             }
         }
 
-        /// <summary>A number beside the frame, kept within its height.</summary>
+        /// <summary>Draws a number beside the plot area, within its height.</summary>
         public void RowText(string text, double y, double x, TextAlign align, Colour colour)
         {
             double held = Math.Max(Frame.Top + 4.0, Math.Min(Frame.Bottom - 4.0, y));
             canvas.DrawText(text, x, held, ScaleSize, colour, align);
         }
 
-        /// <summary>Lines down.</summary>
+        /// <summary>Draws vertical grid lines.</summary>
         public void Columns(IEnumerable<double> values)
         {
             foreach (double value in values)
@@ -68,8 +69,8 @@ namespace HaptoFlow.Preview
             }
         }
 
-        /// <summary>Numbers below the frame; the unit goes with the last. Where two would meet, the last one stays.
-        /// </summary>
+        /// <summary>Draws the numbers of the horizontal axis below the plot area, the last one with the unit. A number
+        /// that would overlap the next one is left out.</summary>
         public void ColumnTexts(IReadOnlyList<double> values, Func<double, string> text, string unit)
         {
             double end = Frame.Right;
@@ -83,7 +84,7 @@ namespace HaptoFlow.Preview
                 if (left + width <= end)
                 {
                     canvas.DrawText(label, left, Frame.Bottom + 10.0, ScaleSize, palette.Soft);
-                    end = left - LeastGap;
+                    end = left - MinimumGap;
                 }
             }
         }

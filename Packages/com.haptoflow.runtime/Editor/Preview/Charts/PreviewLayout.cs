@@ -3,27 +3,27 @@ using System;
 
 namespace HaptoFlow.Preview
 {
-    /// <summary>What the left column of a window has room for.</summary>
+    /// <summary>What the left column of a preview window holds.</summary>
     internal enum PreviewRoom
     {
         /// <summary>Controls, and the stroke below them.</summary>
         Usual = 0,
 
-        /// <summary>More controls, for sliders that are unfolded.</summary>
+        /// <summary>Controls with the sliders unfolded, and the stroke below them.</summary>
         WithSliders = 1,
 
-        /// <summary>Controls alone.</summary>
+        /// <summary>Only controls.</summary>
         WithoutStroke = 2,
     }
 
-    /// <summary>Where everything is in the window, in points: controls and stroke on the left, what it sounds like on
-    /// the right.</summary>
+    /// <summary>Places of the parts of a preview window, in points: controls and stroke on the left, charts on the
+    /// right.</summary>
     internal sealed class PreviewLayout
     {
-        /// <summary>Below this nothing is legible.</summary>
+        /// <summary>The charts are not legible in less, so that a smaller window scrolls.</summary>
         public const double LeastWidth = 1080.0;
 
-        /// <summary>Below this nothing is legible.</summary>
+        /// <summary>The charts are not legible in less, so that a smaller window scrolls.</summary>
         public const double LeastHeight = 912.0;
 
         private const double LeastHeightWithoutStroke = 640.0;
@@ -48,21 +48,21 @@ namespace HaptoFlow.Preview
             Charts = inside.Columns(LeftWidth + Margin, inside.Width - LeftWidth - Margin);
         }
 
-        /// <summary>Of the whole, which is larger than a window that is too small.</summary>
+        /// <summary>Of the whole content, in points; a smaller window scrolls.</summary>
         public double Width { get; }
 
-        /// <summary>Of the whole, which is larger than a window that is too small.</summary>
+        /// <summary>Of the whole content, in points; a smaller window scrolls.</summary>
         public double Height { get; }
 
         public Box Controls { get; }
 
-        /// <summary>The picture of the patch and of the stroke's motion; empty where there is no room for it.</summary>
+        /// <summary>The panel of the stroke; empty without one.</summary>
         public Box StrokePanel { get; }
 
-        /// <summary>The picture of what is heard.</summary>
+        /// <summary>The panel of the sounds.</summary>
         public Box Charts { get; }
 
-        /// <summary>The patch within the picture of the stroke.</summary>
+        /// <summary>The patch within the panel of the stroke.</summary>
         public static Box Patch(Box strokePanel)
         {
             double width = strokePanel.Width - 24.0;
@@ -70,7 +70,7 @@ namespace HaptoFlow.Preview
             return new Box(strokePanel.Left + 12.0, strokePanel.Top + 32.0, width, height);
         }
 
-        /// <summary>Speed and force within the picture of the stroke.</summary>
+        /// <summary>The plot area of speed and force within the panel of the stroke.</summary>
         public static Box Motion(Box strokePanel)
         {
             double top = Patch(strokePanel).Bottom + 30.0;

@@ -5,7 +5,7 @@ using HaptoFlow.Model;
 
 namespace HaptoFlow.Preview
 {
-    /// <summary>A tier: what it is worth by the model's header, and what it takes on this machine.</summary>
+    /// <summary>The accuracy of a tier by the model's header, and its time on this machine.</summary>
     internal sealed class QualityRow
     {
         private QualityRow(ModelTier tier, bool isDefault, TierTiming? timing)
@@ -22,24 +22,24 @@ namespace HaptoFlow.Preview
 
         public bool IsDefault { get; }
 
-        /// <summary>Null where it was not measured yet.</summary>
+        /// <summary>Null until it was measured.</summary>
         public TierTiming? Timing { get; }
 
-        /// <summary>Generated RMS over recorded RMS, signed; null where the header does not tell.</summary>
+        /// <summary>Ratio of generated to recorded RMS, in decibels; null if the header has no value.</summary>
         public double? LevelErrorDecibels { get; }
 
-        /// <summary>Of magnitude spectra, 0 to 1; null where the header does not tell.</summary>
+        /// <summary>GFC of the magnitude spectra, 0 to 1; null if the header has no value.</summary>
         public double? GoodnessOfFit { get; }
 
-        /// <summary>RMS over 20 to 1000 Hz of the difference of the mean power spectra; null where the header does not
-        /// tell.</summary>
+        /// <summary>LSD: RMS over 20 to 1000 Hz of the difference of the mean power spectra; null if the header has no
+        /// value.</summary>
         public double? SpectralDistanceDecibels { get; }
 
-        /// <summary>Whether the header tells anything.</summary>
+        /// <summary>True if the header has at least one of the three values.</summary>
         public bool HasAccuracy =>
             LevelErrorDecibels != null || GoodnessOfFit != null || SpectralDistanceDecibels != null;
 
-        /// <param name="timings">By the name of the tier.</param>
+        /// <param name="timings">By name of the tier.</param>
         public static IReadOnlyList<QualityRow> Of(
             ModelHeader header, IReadOnlyDictionary<string, TierTiming> timings) =>
             header.Tiers.Select(tier => new QualityRow(tier, tier.Name == header.DefaultTier.Name,

@@ -5,14 +5,14 @@ using System.Linq;
 
 namespace HaptoFlow.Preview
 {
-    /// <summary>What accuracy costs in time: each tier's milliseconds on this machine beside its accuracy.</summary>
+    /// <summary>Draws a table of the tiers: milliseconds per segment on this machine, and accuracy.</summary>
     internal static class QualityTable
     {
         private const double RowHeight = 24.0;
         private const double TextSize = 12.0;
         private const string Unknown = "\u2013";
 
-        /// <param name="chosen">The tier that renders.</param>
+        /// <param name="chosen">Name of the tier that renders.</param>
         public static void Draw(
             ICanvas canvas, Palette palette, Box box, IReadOnlyList<QualityRow> rows, string chosen)
         {
@@ -31,8 +31,8 @@ namespace HaptoFlow.Preview
             Remarks(canvas, palette, box.Rows(38.0 + rows.Count * RowHeight, 60.0), rows);
         }
 
-        /// <summary>Left edges of: name, bar, milliseconds (right edge), and right edges of level, fit and distance.
-        /// </summary>
+        /// <summary>Left edges of name and bar, then right edges of the 90th percentile, level error, spectral fit and
+        /// spectral distance.</summary>
         private static double[] Columns(Box box)
         {
             double accuracy = box.Right - 164.0;
@@ -45,7 +45,7 @@ namespace HaptoFlow.Preview
                 canvas.DrawText(text, x, box.Top + y, Plot.ScaleSize, palette.Soft, align);
 
             Heading("quality", columns[0], TextAlign.Left, 18.0);
-            Heading("ms a segment", columns[1], TextAlign.Left, 6.0);
+            Heading("ms per segment", columns[1], TextAlign.Left, 6.0);
             Heading("median", columns[1], TextAlign.Left, 18.0);
             Heading("90 %", columns[2], TextAlign.Right, 18.0);
             Heading("level", columns[3], TextAlign.Right, 6.0);
@@ -96,7 +96,7 @@ namespace HaptoFlow.Preview
             {
                 times,
                 "Accuracy: from the model's header.",
-                "Level error: generated over recorded RMS, best at 0. Spectral fit: best at 1.",
+                "Level error: generated to recorded RMS, best at 0. Spectral fit: best at 1.",
                 "Spectral distance over 20 to 1000 Hz: best at 0.",
             };
             for (int line = 0; line < lines.Length; ++line)

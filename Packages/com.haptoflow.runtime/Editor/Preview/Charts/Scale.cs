@@ -8,10 +8,12 @@ namespace HaptoFlow.Preview
     /// <summary>Numbers along an axis.</summary>
     internal static class Scale
     {
-        /// <summary>Multiples of 1, 2 or 5 times a power of ten, both ends included.</summary>
-        public static IReadOnlyList<double> Ticks(double low, double high, int most)
+        /// <summary>Multiples of 1, 2 or 5 times a power of ten from <paramref name="low"/> to
+        /// <paramref name="high"/>.</summary>
+        /// <param name="maximum">Number of intervals.</param>
+        public static IReadOnlyList<double> Ticks(double low, double high, int maximum)
         {
-            double step = Step(high - low, most);
+            double step = Step(high - low, maximum);
             var ticks = new List<double>();
             for (double tick = Math.Ceiling(low / step - 1e-9) * step; tick <= high + 1e-9 * step; tick += step)
             {
@@ -20,7 +22,8 @@ namespace HaptoFlow.Preview
             return ticks;
         }
 
-        /// <summary>The next 1, 2 or 5 times a power of ten that is not below.</summary>
+        /// <summary>The smallest 1, 2 or 5 times a power of ten that is not below a value; 1 if the value is not
+        /// positive.</summary>
         public static double RoundUp(double value)
         {
             if (!(value > 0.0))
@@ -32,19 +35,20 @@ namespace HaptoFlow.Preview
             return power * (share <= 1.0 + 1e-9 ? 1.0 : share <= 2.0 + 1e-9 ? 2.0 : share <= 5.0 + 1e-9 ? 5.0 : 10.0);
         }
 
-        /// <summary>For people, the same in every country: at most so many digits after the point, and a real minus.
-        /// </summary>
+        /// <summary>A number for display in every locale, with a typographic minus.</summary>
+        /// <param name="digits">Maximum number of digits after the point.</param>
+        /// <param name="signed">True for a plus before positive numbers.</param>
         public static string Text(double value, int digits, bool signed = false)
         {
             string zeros = digits > 0 ? "0." + new string('#', digits) : "0";
             return Minus(value, zeros, signed);
         }
 
-        /// <summary>The same with all digits after the point.</summary>
+        /// <summary>As <see cref="Text"/>, with trailing zeros.</summary>
         public static string Fixed(double value, int digits, bool signed = false) =>
             Minus(value, digits > 0 ? "0." + new string('0', digits) : "0", signed);
 
-        private static double Step(double span, int most) => RoundUp(span / Math.Max(1, most));
+        private static double Step(double span, int maximum) => RoundUp(span / Math.Max(1, maximum));
 
         private static string Minus(double value, string format, bool signed)
         {

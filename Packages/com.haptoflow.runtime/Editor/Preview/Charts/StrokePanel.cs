@@ -2,7 +2,7 @@
 
 namespace HaptoFlow.Preview
 {
-    /// <summary>The picture of the stroke: the patch, and speed and force below it.</summary>
+    /// <summary>Draws the stroke: the patch, and speed and force below it.</summary>
     internal static class StrokePanel
     {
         public static void Draw(ICanvas canvas, Palette palette, Box box, Stroke stroke)

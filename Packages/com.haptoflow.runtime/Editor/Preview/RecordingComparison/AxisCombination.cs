@@ -3,9 +3,9 @@ using System;
 
 namespace HaptoFlow.Preview
 {
-    /// <summary>Three axes of vibration into one (DFT321, Landin et al. 2010), as learning does it: each frame keeps
-    /// the energy of all axes and takes the phase of their sum. Root-Hann windows before and after, half overlapping.
-    /// </summary>
+    /// <summary>Combines three axes of vibration into one by DFT321 (Landin et al. 2010), as learning does: each frame
+    /// has the energy of all axes and the phase of their sum. Square-root Hann windows for analysis and synthesis,
+    /// overlapping by half.</summary>
     internal static class AxisCombination
     {
         private const double FrameSeconds = 0.035;
@@ -37,7 +37,7 @@ namespace HaptoFlow.Preview
                     fourier.Transform(real[axis], imaginary[axis]);
                 }
                 Combine(real, imaginary);
-                // The inverse transform is the forward one of the conjugate.
+                // The inverse transform is the forward transform of the conjugate.
                 fourier.Transform(real[0], imaginary[0]);
                 for (int index = 0; index < length; ++index)
                 {
@@ -63,7 +63,7 @@ namespace HaptoFlow.Preview
             }
         }
 
-        /// <summary>Into the first axis, conjugated.</summary>
+        /// <summary>Writes the conjugate of the combined spectrum into the first axis.</summary>
         private static void Combine(double[][] real, double[][] imaginary)
         {
             for (int bin = 0; bin < real[0].Length; ++bin)

@@ -5,7 +5,8 @@ using HaptoFlow.Recordings;
 
 namespace HaptoFlow.Preview
 {
-    /// <summary>A recording, and beside it what was learnt from it. Immutable by custom.</summary>
+    /// <summary>A recording and the material learnt from it, to be compared. Immutable by convention once submitted.
+    /// </summary>
     internal sealed class ComparisonRequest
     {
         public ComparisonRequest(byte[] modelFile, Recording recording)
@@ -14,26 +15,26 @@ namespace HaptoFlow.Preview
             Recording = recording;
         }
 
-        /// <summary>Bytes of a whole .haptoflow file; another array is another model.</summary>
+        /// <summary>Bytes of a whole .haptoflow file. Models are compared by reference.</summary>
         public byte[] ModelFile { get; }
 
-        /// <summary>Another object is another recording.</summary>
+        /// <summary>Recordings are compared by reference.</summary>
         public Recording Recording { get; }
 
-        /// <summary>The text of the material that was learnt; empty for none yet.</summary>
+        /// <summary>The text of the learnt material's file; empty before one was learnt.</summary>
         public string Material { get; set; } = "";
 
-        /// <summary>From the recording's first axis to the material's, which lies across its ribs.</summary>
+        /// <summary>Angle from the recording's first axis to the material's, which is perpendicular to its ribs.</summary>
         public double TurnDegrees { get; set; }
 
-        /// <summary>The result is raised or lowered to the recording's level.</summary>
+        /// <summary>True to play the result at the recording's level.</summary>
         public bool MatchesLevels { get; set; }
 
-        /// <summary>Which is heard: 0 for the recording, 1 for the result.</summary>
+        /// <summary>Index of the sound that is played: 0 for the recording, 1 for the result.</summary>
         public int Active { get; set; }
     }
 
-    /// <summary>What a comparison shows. Immutable by convention.</summary>
+    /// <summary>The output of a comparison. Immutable by convention.</summary>
     internal sealed class ComparisonResult
     {
         public ComparisonResult(ComparisonRequest request, IReadOnlyList<AnalysedSound> sounds, string? problem)

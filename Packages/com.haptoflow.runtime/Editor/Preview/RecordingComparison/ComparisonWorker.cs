@@ -8,14 +8,14 @@ using HaptoFlow.Recordings;
 
 namespace HaptoFlow.Preview
 {
-    /// <summary>Renders what was learnt with the recording's own motion, and draws both. One thread at a time, one that
-    /// can wait for networks.</summary>
+    /// <summary>Renders a learnt material with the motion of its recording, and analyses both. One thread at a time,
+    /// never the main thread.</summary>
     internal sealed class ComparisonWorker : IDisposable
     {
         private const ulong Seed = 1;
 
         private readonly PreviewEngines engines = new PreviewEngines();
-        private Recording? heard;
+        private Recording? analysed;
         private AnalysedSound? recording;
         private (byte[] Model, Recording Recording, string Material, double TurnDegrees) rendered;
         private PreviewSound? result;
@@ -23,11 +23,11 @@ namespace HaptoFlow.Preview
         /// <exception cref="OperationCanceledException">The token was cancelled.</exception>
         public ComparisonResult Do(ComparisonRequest request, CancellationToken token)
         {
-            if (recording == null || !ReferenceEquals(heard, request.Recording))
+            if (recording == null || !ReferenceEquals(analysed, request.Recording))
             {
                 Stroke stroke = RecordingSound.StrokeOf(request.Recording);
                 recording = AnalysedSound.Of(RecordingSound.Of(request.Recording, stroke), token);
-                heard = request.Recording;
+                analysed = request.Recording;
             }
             var sounds = new List<AnalysedSound> { recording };
             string? problem = null;
@@ -69,7 +69,7 @@ namespace HaptoFlow.Preview
             return result;
         }
 
-        /// <summary>At the recording's level where that is wanted; the title says by how much.</summary>
+        /// <summary>The result, at the recording's level if requested; then the title names the gain.</summary>
         private PreviewSound Shown(ComparisonRequest request, PreviewSound sound)
         {
             if (!request.MatchesLevels || sound.RmsMps2 <= 0.0 || recording!.Sound.RmsMps2 <= 0.0)

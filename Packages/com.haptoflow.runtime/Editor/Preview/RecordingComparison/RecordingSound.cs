@@ -4,11 +4,11 @@ using HaptoFlow.Recordings;
 
 namespace HaptoFlow.Preview
 {
-    /// <summary>A recording as the preview shows and plays it beside the material that was learnt from it: one axis, 10
-    /// to 1000 Hz, at the preview's rate; and the stroke that it was made with.</summary>
+    /// <summary>Converts a recording for comparison with the material learnt from it: one axis, 10 to 1000 Hz, at the
+    /// preview's sample rate; and the stroke that it was made with.</summary>
     internal static class RecordingSound
     {
-        /// <summary>What is shown and played of a longer recording.</summary>
+        /// <summary>A longer recording is cut off here.</summary>
         public const double LongestSeconds = 10.0;
 
         private const double WorkingHz = 2000.0;
@@ -32,8 +32,8 @@ namespace HaptoFlow.Preview
             return new PreviewSound(new LabelMix("recording"), stroke, sound);
         }
 
-        /// <summary>The motion of the recording, one contact from its begin to its end.</summary>
-        /// <param name="turnDegrees">From the recording's first axis to that along which the motion is told.</param>
+        /// <summary>The motion of the recording as one touch over its whole length.</summary>
+        /// <param name="turnDegrees">Angle from the recording's first axis to the stroke's.</param>
         public static Stroke StrokeOf(Recording recording, double turnDegrees = 0.0)
         {
             double cosine = Math.Cos(turnDegrees * Math.PI / 180.0);
@@ -61,7 +61,7 @@ namespace HaptoFlow.Preview
             }, seconds, true);
         }
 
-        /// <summary>Gravity and slow motion are no vibration: a first-order high-pass, forward and backward.</summary>
+        /// <summary>Removes gravity and slow motion by a first-order high-pass filter, run forward and backward.</summary>
         private static float[] WithoutDrift(ReadOnlySpan<float> samples, int axes, double rateHz)
         {
             float[] result = samples.ToArray();
@@ -86,7 +86,7 @@ namespace HaptoFlow.Preview
             {
                 double fast = samples[index] - slow;
                 slow += share * fast;
-                // At half the rate this passes everything.
+                // This factor makes the gain 1 at half the sample rate.
                 samples[index] = (float)((1.0 - 0.5 * share) * fast);
             }
         }

@@ -3,8 +3,9 @@ using System;
 
 namespace HaptoFlow.Preview
 {
-    /// <summary>Resamples by a Hann-windowed sinc (Smith and Gossett 1984), band-limited to the lower of the two
-    /// Nyquist rates.</summary>
+    /// <summary>Resamples with a Hann-windowed sinc (Smith and Gossett 1984), band-limited to the lower of the two
+    /// Nyquist frequencies.</summary>
+    /// <remarks>Unity resamples only audio files, when it imports them.</remarks>
     internal static class SincResampler
     {
         // Zero crossings of the sinc on either side.

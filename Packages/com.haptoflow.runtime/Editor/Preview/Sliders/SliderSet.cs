@@ -6,7 +6,7 @@ using HaptoFlow.Model;
 
 namespace HaptoFlow.Preview
 {
-    /// <summary>One direction in which a material can be moved.</summary>
+    /// <summary>A slider: a direction in the embedding space along which a material is changed.</summary>
     internal sealed class MaterialSlider
     {
         internal MaterialSlider(CheckedTable table)
@@ -22,10 +22,10 @@ namespace HaptoFlow.Preview
         /// <summary>For example "coarseness".</summary>
         public string Name { get; }
 
-        /// <summary>What a slider of 1 adds to an embedding.</summary>
+        /// <summary>Added to the embedding at a position of 1.</summary>
         public IReadOnlyList<double> Direction { get; }
 
-        /// <summary>What a slider of 1 adds to the level.</summary>
+        /// <summary>Added to the level at a position of 1.</summary>
         public double LevelDecibels { get; }
 
         public float Lowest { get; }
@@ -33,8 +33,8 @@ namespace HaptoFlow.Preview
         public float Highest { get; }
     }
 
-    /// <summary>The sliders of one model's space, as the recorder's parameters gave them, and how far its labels reach.
-    /// Immutable: any thread.</summary>
+    /// <summary>The sliders of one model's embedding space, and the range of its labels' embeddings. Immutable; any
+    /// thread.</summary>
     internal sealed class SliderSet
     {
         private const string FormatName = "haptoflow-sliders";
@@ -67,12 +67,12 @@ namespace HaptoFlow.Preview
             highest = root.Numbers("highest", count, count);
         }
 
-        /// <summary>Of the model that they move materials of: its <see cref="ModelSpace.Id"/>.</summary>
+        /// <summary>The <see cref="ModelSpace.Id"/> of the model whose materials the sliders change.</summary>
         public string Space { get; }
 
         public IReadOnlyList<MaterialSlider> Sliders { get; }
 
-        /// <exception cref="HaptoFlowException">The text is no file of sliders; the message names the key.</exception>
+        /// <exception cref="HaptoFlowException">The text is not a file of sliders; the message names the key.</exception>
         public static SliderSet Read(string text)
         {
             try
@@ -86,13 +86,13 @@ namespace HaptoFlow.Preview
             }
         }
 
-        /// <summary>Nothing is moved.</summary>
+        /// <summary>True if every slider is at 0.</summary>
         public static bool IsAtRest(IReadOnlyList<float> values) => values.All(value => value.Equals(0f));
 
-        /// <summary>A material moved along the sliders, never further than the labels' own spread, or than it was
-        /// itself.</summary>
-        /// <param name="values">One for each slider; what is missing is 0.</param>
-        /// <param name="name">Of the material that comes of it.</param>
+        /// <summary>Applies the sliders to a material. The embedding stays within the range of the model's labels, or of
+        /// the material itself if that is outside.</summary>
+        /// <param name="values">Position of each slider; missing ones are 0.</param>
+        /// <param name="name">Name of the new material.</param>
         /// <returns>The text of a material file.</returns>
         public string Moved(MaterialFile material, IReadOnlyList<float> values, string name)
         {
@@ -107,7 +107,7 @@ namespace HaptoFlow.Preview
             });
         }
 
-        /// <summary>An embedding moved along the sliders; its wave vectors stay.</summary>
+        /// <summary>Applies the sliders to an embedding; its wave vectors do not change.</summary>
         public double[] Moved(IReadOnlyList<double> embedding, IReadOnlyList<float> values)
         {
             double[] moved = embedding.ToArray();
@@ -132,7 +132,7 @@ namespace HaptoFlow.Preview
             return moved;
         }
 
-        /// <summary>Along an axis, from the mean of the labels.</summary>
+        /// <summary>Projection of an embedding on a principal axis, relative to the mean of the labels.</summary>
         internal double Coordinate(IReadOnlyList<double> embedding, int axis)
         {
             double sum = 0.0;

@@ -5,21 +5,21 @@ using HaptoFlow.Outputs;
 
 namespace HaptoFlow.Preview
 {
-    /// <summary>What the wave is felt through.</summary>
+    /// <summary>The device whose output is previewed.</summary>
     internal enum PreviewDevice
     {
-        /// <summary>An actuator that plays the wave as it is.</summary>
+        /// <summary>An actuator that plays the waveform itself.</summary>
         Actuator = 0,
 
-        /// <summary>A controller that takes amplitude and frequency.</summary>
+        /// <summary>A controller that plays frames of amplitude and frequency.</summary>
         Controller = 1,
 
-        /// <summary>A motor of one frequency.</summary>
+        /// <summary>A motor that vibrates at one frequency with a variable amplitude.</summary>
         Motor = 2,
     }
 
-    /// <summary>A wave as a device plays it that gets frames of amplitude and frequency instead. A thread that can wait.
-    /// </summary>
+    /// <summary>Simulates devices that play frames of amplitude and frequency in place of the waveform. Any thread but
+    /// the audio thread.</summary>
     internal static class DeviceRendering
     {
         private const double ControllerFrameSeconds = 0.005;
@@ -28,22 +28,22 @@ namespace HaptoFlow.Preview
         private const double HighestHz = 400.0;
         private const double MotorHz = 160.0;
 
-        // A motor's mass follows an amplitude with this time constant.
+        // Time constant with which a motor's amplitude follows its input.
         private const double MotorRiseSeconds = 0.015;
         private const int BlockFrames = PreviewSound.RateHz / 100;
 
-        /// <summary>For people, for example "as a motor of 160 Hz plays it".</summary>
+        /// <summary>A title for the device's sound, for example "as a motor of 160 Hz plays it".</summary>
         public static string NameOf(PreviewDevice device) => device switch
         {
             PreviewDevice.Controller => "as a controller plays its frames",
             PreviewDevice.Motor => $"as a motor of {MotorHz:0} Hz plays it",
-            _ => "the wave",
+            _ => "the waveform",
         };
 
-        /// <summary>The same stroke through the device.</summary>
+        /// <summary>What the device plays for a sound.</summary>
         /// <exception cref="HaptoFlowException">The library is missing.</exception>
         /// <exception cref="OperationCanceledException">The token was cancelled.</exception>
-        public static PreviewSound Played(PreviewSound wanted, PreviewDevice device, CancellationToken token)
+        public static PreviewSound Render(PreviewSound source, PreviewDevice device, CancellationToken token)
         {
             bool isMotor = device == PreviewDevice.Motor;
             double frameSeconds = isMotor ? MotorFrameSeconds : ControllerFrameSeconds;
@@ -54,22 +54,22 @@ namespace HaptoFlow.Preview
             features.SetRange(isMotor ? MotorHz : LowestHz, isMotor ? MotorHz : HighestHz);
             var carrier = new Carrier(frameSeconds * PreviewSound.RateHz, isMotor ? MotorRiseSeconds : 0.0);
             var frames = new WaveFrame[features.MostFrames];
-            var played = new float[wanted.Samples.Length];
+            var played = new float[source.Samples.Length];
             for (int begin = 0; begin < played.Length; begin += BlockFrames)
             {
                 token.ThrowIfCancellationRequested();
                 int count = Math.Min(BlockFrames, played.Length - begin);
-                int completed = features.Process(wanted.Samples.AsSpan(begin, count), frames);
+                int completed = features.Process(source.Samples.AsSpan(begin, count), frames);
                 for (int index = 0; index < completed; ++index)
                 {
                     carrier.Play(frames[index], played);
                 }
             }
-            return new PreviewSound(wanted.Material, wanted.Stroke, played, device);
+            return new PreviewSound(source.Material, source.Stroke, played, device);
         }
 
-        /// <summary>A sinusoid whose amplitude and frequency move in straight lines from frame to frame; its phase never
-        /// jumps.</summary>
+        /// <summary>A sinusoid of continuous phase whose amplitude and frequency are interpolated linearly between
+        /// frames.</summary>
         private sealed class Carrier
         {
             private readonly double frameSamples;

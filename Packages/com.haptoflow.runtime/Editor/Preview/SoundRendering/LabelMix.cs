@@ -7,19 +7,21 @@ using HaptoFlow.Model;
 
 namespace HaptoFlow.Preview
 {
-    /// <summary>A label or a learnt material, or one of them and a second label in a blend, by name.</summary>
+    /// <summary>A material to preview: a label or a learnt material, alone or blended with a second label. Immutable.
+    /// </summary>
     internal readonly struct LabelMix : IEquatable<LabelMix>
     {
         private static readonly float[] AtRest = new float[0];
 
         private readonly float[]? moves;
 
-        /// <param name="second">Empty for none.</param>
-        /// <param name="share">0: the first alone. 1: the second alone.</param>
-        /// <param name="learnt">The text of the first one's material file; empty for a label.</param>
-        /// <param name="moves">Where the sliders are that move the first one; null for nowhere.</param>
-        /// <param name="featureScale">How many times as large the features of the whole are, 0.25 to 4.</param>
-        /// <param name="toneDbPerOctave">Tilt of the whole's spectrum about 150 Hz, -12 to 12.</param>
+        /// <param name="first">A label, or the name of the learnt material.</param>
+        /// <param name="second">A label; empty for none.</param>
+        /// <param name="share">Of the second: 0 for the first alone, 1 for the second alone.</param>
+        /// <param name="learnt">The text of the learnt material's file; empty for a label.</param>
+        /// <param name="moves">Positions of the sliders that change the first material; null if they are all 0.</param>
+        /// <param name="featureScale">Feature scale, 0.25 to 4.</param>
+        /// <param name="toneDbPerOctave">Tone: tilt of the spectrum about 150 Hz, -12 to 12.</param>
         public LabelMix(string first, string second = "", float share = 0f, string learnt = "", float[]? moves = null,
             float featureScale = 1f, float toneDbPerOctave = 0f)
         {
@@ -35,28 +37,29 @@ namespace HaptoFlow.Preview
         /// <summary>A label, or the name of the learnt material.</summary>
         public string First { get; }
 
-        /// <summary>Empty for none.</summary>
+        /// <summary>A label; empty for none.</summary>
         public string Second { get; }
 
-        /// <summary>0: the first alone. 1: the second alone.</summary>
+        /// <summary>Share of the second, 0 to 1.</summary>
         public float Share { get; }
 
-        /// <summary>The text of the first one's material file; empty for a label.</summary>
+        /// <summary>The text of the learnt material's file; empty for a label.</summary>
         public string Learnt { get; }
 
-        /// <summary>Of the sliders; empty where they are at rest.</summary>
+        /// <summary>Positions of the sliders; empty if they are all 0.</summary>
         public IReadOnlyList<float> Moves => moves ?? AtRest;
 
-        /// <summary>How many times as large the features of the whole are, 0.25 to 4.</summary>
+        /// <summary>Feature scale, 0.25 to 4.</summary>
         public float FeatureScale { get; }
 
-        /// <summary>Tilt of the whole's spectrum about 150 Hz, -12 to 12.</summary>
+        /// <summary>Tone: tilt of the spectrum about 150 Hz, -12 to 12.</summary>
         public float ToneDbPerOctave { get; }
 
-        /// <summary>The first one is no label of the model as it is.</summary>
-        public bool IsOwn => Learnt.Length > 0 || moves != null;
+        /// <summary>True if the first material is not one of the model's labels and must be registered with the engine.
+        /// </summary>
+        public bool IsRegistered => Learnt.Length > 0 || moves != null;
 
-        /// <summary>For people, for example "wood 60 % + cork 40 %" or "corduroy (x2, +3 dB/oct)".</summary>
+        /// <summary>A title, for example "wood 60 % + cork 40 %" or "corduroy (x2, +3 dB/oct)".</summary>
         public string Title
         {
             get
@@ -70,7 +73,7 @@ namespace HaptoFlow.Preview
             }
         }
 
-        /// <summary>For people; empty where neither changes anything.</summary>
+        /// <summary>Empty if both have their defaults.</summary>
         private string ScaleAndTone
         {
             get
@@ -84,20 +87,21 @@ namespace HaptoFlow.Preview
             }
         }
 
-        /// <exception cref="HaptoFlowException">The model does not have a label of that name.</exception>
-        public LabelBlend In(LabelNames names) => In(names, -1);
+        /// <exception cref="HaptoFlowException">The model lacks a label.</exception>
+        public LabelBlend ToBlend(LabelNames names) => ToBlend(names, -1);
 
-        /// <param name="own">Index of the first one in the engine, where it is no label; else -1.</param>
-        /// <exception cref="HaptoFlowException">The model does not have a label of that name.</exception>
-        public LabelBlend In(LabelNames names, int own)
+        /// <param name="registered">Index at which the first material was registered with the engine; -1 for a label.
+        /// </param>
+        /// <exception cref="HaptoFlowException">The model lacks a label.</exception>
+        public LabelBlend ToBlend(LabelNames names, int registered)
         {
-            int first = own >= 0 ? own : Index(names, First);
+            int first = registered >= 0 ? registered : Index(names, First);
             return Second.Length == 0 ? LabelBlend.Of(first) : LabelBlend.Of(first, Index(names, Second), Share);
         }
 
-        /// <summary>The text of the material that the first one is, once the sliders have moved it.</summary>
-        /// <param name="sliders">Null where the model has none: then nothing moves.</param>
-        /// <exception cref="HaptoFlowException">The model does not have the label, or the text is no material file.
+        /// <summary>The text of a material file for the first material with the sliders' changes.</summary>
+        /// <param name="sliders">Null if the model has none: then their positions are ignored.</param>
+        /// <exception cref="HaptoFlowException">The model lacks the label, or the text is not a material file.
         /// </exception>
         public string MaterialText(byte[] modelFile, SliderSet? sliders)
         {

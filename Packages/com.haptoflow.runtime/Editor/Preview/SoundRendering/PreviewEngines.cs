@@ -4,30 +4,32 @@ using System.Collections.Generic;
 
 namespace HaptoFlow.Preview
 {
-    /// <summary>The engine that previews are rendered with: made when it is needed, kept while it serves. One thread
-    /// at a time, one that can wait for the disk and for networks.</summary>
+    /// <summary>Creates the engine that previews are rendered with, and keeps it as long as model, quality and seed stay
+    /// the same. One thread at a time, never the main thread: loading and inference take long.</summary>
     internal sealed class PreviewEngines : IDisposable
     {
-        // The command line's default, so that both render alike.
+        // The command line's default lead, so that both render the same samples.
         private const double LeadMs = 8.0;
 
-        // Two are compared; what a slider leaves behind makes room for what comes.
+        // Two materials are compared at a time. Registered materials beyond this number are replaced, oldest first.
         private const int KeptMaterials = 4;
 
         private OnnxRuntime? runtime;
         private byte[]? file;
         private HapticModel? model;
         private HapticEngine? engine;
-        // Of the engine: which text is where, the oldest first.
+        // Materials registered with the engine, the oldest first.
         private readonly List<(string Text, int Index)> materials = new List<(string, int)>();
         private bool used;
         private (HapticQuality Quality, ulong Seed) options;
 
-        /// <summary>Engines made so far: each takes as long to make as a stroke takes to render.</summary>
+        /// <summary>Number of engines created so far. Creating one takes about as long as rendering a stroke.</summary>
         public int Made { get; private set; }
 
-        /// <param name="fresh">No voice was opened in it: what it renders depends on stroke and seed alone.</param>
-        /// <exception cref="HaptoFlowException">A library is not there, or the file is no usable model.</exception>
+        /// <summary>The engine for these options.</summary>
+        /// <param name="fresh">True for an engine without an earlier voice, whose samples depend only on stroke and
+        /// seed.</param>
+        /// <exception cref="HaptoFlowException">A library is missing, or the model cannot be used.</exception>
         public HapticEngine Engine(byte[] modelFile, HapticQuality quality, ulong seed, bool fresh)
         {
             HapticModel opened = Model(modelFile);
@@ -50,10 +52,11 @@ namespace HaptoFlow.Preview
             return engine;
         }
 
-        /// <summary>Where the engine that was made last knows a learnt material, which is registered there first, or
-        /// put in the place of one that nobody hears any more.</summary>
-        /// <param name="text">Of a material file.</param>
-        /// <exception cref="HaptoFlowException">It is none, or was learnt for another model.</exception>
+        /// <summary>Index of a learnt material in the engine that was created last. Registers the material first if
+        /// necessary, in place of the oldest one if there are too many.</summary>
+        /// <param name="text">The text of a material file.</param>
+        /// <exception cref="HaptoFlowException">The text is not a material file, or was learnt for another model.
+        /// </exception>
         public int MaterialIndex(string text)
         {
             int known = materials.FindIndex(each => each.Text == text);
@@ -76,8 +79,8 @@ namespace HaptoFlow.Preview
             return index;
         }
 
-        /// <summary>One tier alone, for measuring. The caller closes it.</summary>
-        /// <exception cref="HaptoFlowException">A library is not there, or the file is no usable model.</exception>
+        /// <summary>A generator of one tier, for timing. The caller disposes it.</summary>
+        /// <exception cref="HaptoFlowException">A library is missing, or the model cannot be used.</exception>
         public HapticGenerator Generator(byte[] modelFile, string tier)
         {
             HapticModel opened = Model(modelFile);
@@ -87,7 +90,7 @@ namespace HaptoFlow.Preview
         /// <summary>The material embedding of the model's first label.</summary>
         public float[] Embedding(byte[] modelFile) => Model(modelFile).Embedding(0);
 
-        /// <summary>Native memory goes now, not when the collector comes by.</summary>
+        /// <summary>Frees native memory.</summary>
         public void Dispose()
         {
             CloseModel();

@@ -3,17 +3,17 @@ using System;
 
 namespace HaptoFlow.Preview
 {
-    /// <summary>A stroke as it sounds on a material. Immutable by custom: any thread.</summary>
+    /// <summary>The vibration of a stroke on a material, as samples. Immutable by convention; any thread.</summary>
     internal sealed class PreviewSound
     {
-        /// <summary>Of the samples, in Hz.</summary>
+        /// <summary>Sample rate, in Hz.</summary>
         public const int RateHz = 48000;
 
-        /// <summary>The acceleration that is +-1, in m/s^2.</summary>
+        /// <summary>Full scale: acceleration of a sample of 1, in m/s^2.</summary>
         public const float FullScaleMps2 = (float)HapticEngineOptions.DefaultFullScaleMps2;
 
-        /// <param name="samples">+-1.</param>
-        /// <param name="device">What plays it.</param>
+        /// <param name="samples">In units of <see cref="FullScaleMps2"/>, -1 to 1.</param>
+        /// <param name="device">The device that plays them.</param>
         public PreviewSound(
             LabelMix material, Stroke stroke, float[] samples, PreviewDevice device = PreviewDevice.Actuator)
         {
@@ -36,14 +36,14 @@ namespace HaptoFlow.Preview
             RmsMps2 = FullScaleMps2 * Math.Sqrt(squares / Math.Max(1, touched));
         }
 
-        /// <summary>For people: the material, or the device that plays it.</summary>
+        /// <summary>Title of the material or of the device, for display.</summary>
         public string Title { get; }
 
         public LabelMix Material { get; }
 
         public Stroke Stroke { get; }
 
-        /// <summary>+-1, one channel.</summary>
+        /// <summary>One channel in units of <see cref="FullScaleMps2"/>, -1 to 1.</summary>
         public float[] Samples { get; }
 
         public double DurationSeconds => Samples.Length / (double)RateHz;
@@ -53,7 +53,7 @@ namespace HaptoFlow.Preview
 
         public double PeakMps2 => FullScaleMps2 * Peak;
 
-        /// <summary>While the tip touches.</summary>
+        /// <summary>RMS while the tip touches.</summary>
         public double RmsMps2 { get; }
     }
 }

@@ -4,15 +4,16 @@ using System.Threading;
 
 namespace HaptoFlow.Preview
 {
-    /// <summary>Lets a voice follow a stroke outside of real time.</summary>
+    /// <summary>Renders a stroke with a voice, not in real time.</summary>
     internal static class StrokeRenderer
     {
-        /// <summary>Contact state, its first sample, inference, the samples up to the next state: the order in which
-        /// the offline renderer takes the ends of a voice. A thread that can wait for networks.</summary>
-        /// <param name="engine">Without worker. Fresh (no voice opened before) and with a fixed lead, it makes the same
-        /// samples from the same stroke and seed every time.</param>
-        /// <param name="surface">What the surface says: material, effects, scale and tone.</param>
-        /// <returns>Samples of +-1 at <see cref="PreviewSound.RateHz"/>, as long as the stroke.</returns>
+        /// <summary>Renders each contact state in the order of the native offline renderer: publish the state, render
+        /// its first sample, run inference, render the samples up to the next state. Never the main thread.</summary>
+        /// <param name="engine">Without worker. If no voice was opened in it before and its lead is fixed, the samples
+        /// depend only on stroke and seed.</param>
+        /// <param name="surface">Material, effects, feature scale and tone of the surface; its motion is ignored.
+        /// </param>
+        /// <returns>Samples at <see cref="PreviewSound.RateHz"/>, as long as the stroke.</returns>
         /// <exception cref="OperationCanceledException">The token was cancelled.</exception>
         public static float[] Render(
             HapticEngine engine, Stroke stroke, in ContactState surface, CancellationToken token)

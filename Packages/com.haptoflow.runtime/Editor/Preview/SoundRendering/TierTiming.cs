@@ -6,7 +6,7 @@ using System.Threading;
 
 namespace HaptoFlow.Preview
 {
-    /// <summary>What one segment of a tier takes on this machine.</summary>
+    /// <summary>Time that one segment of a tier takes on this machine.</summary>
     internal sealed class TierTiming
     {
         private const int WarmUps = 8;
@@ -19,16 +19,16 @@ namespace HaptoFlow.Preview
             Percentile90Ms = Percentile(sortedMs, 0.9);
         }
 
-        /// <summary>Measurements behind the figures.</summary>
+        /// <summary>Number of measurements.</summary>
         public int Count { get; }
 
         public double MedianMs { get; }
 
-        /// <summary>Of ten segments nine took less, or as much.</summary>
+        /// <summary>90th percentile.</summary>
         public double Percentile90Ms { get; }
 
-        /// <summary>Segments one after the other on the calling thread, after a few that are not counted: caches are
-        /// full, as in the benchmarks' column "hot". Takes up to a second.</summary>
+        /// <summary>Generates segments one after the other on the calling thread, the first ones without timing to warm
+        /// the caches, as in the benchmarks' column "hot". Takes up to a second.</summary>
         /// <exception cref="OperationCanceledException">The token was cancelled.</exception>
         public static TierTiming Measure(HapticGenerator generator, float[] embedding, CancellationToken token)
         {
@@ -58,7 +58,7 @@ namespace HaptoFlow.Preview
         internal static TierTiming Of(double[] milliseconds) =>
             new TierTiming(milliseconds.OrderBy(value => value).ToArray());
 
-        /// <summary>By nearest rank.</summary>
+        /// <summary>By the nearest-rank method.</summary>
         private static double Percentile(double[] sorted, double share) =>
             sorted[Math.Max(0, (int)Math.Ceiling(share * sorted.Length) - 1)];
     }

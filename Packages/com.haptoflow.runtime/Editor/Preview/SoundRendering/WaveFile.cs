@@ -5,14 +5,16 @@ using System.Text;
 
 namespace HaptoFlow.Preview
 {
-    /// <summary>RIFF WAVE with one channel of 32-bit floats (format tag 3, with the fact chunk that formats other than
-    /// PCM need), as the command line writes it.</summary>
+    /// <summary>Writes RIFF WAVE files with one channel of 32-bit floats, as the command line does: format tag 3, with
+    /// the fact chunk that formats other than PCM need.</summary>
+    /// <remarks>Unity reads WAV files and does not write them.</remarks>
     internal static class WaveFile
     {
         private const int HeaderBytes = 12 + 8 + 18 + 8 + 4 + 8;
         private const short FloatFormat = 3;
 
-        /// <param name="samples">+-1.</param>
+        /// <summary>The bytes of a file.</summary>
+        /// <param name="samples">-1 to 1.</param>
         public static byte[] Bytes(ReadOnlySpan<float> samples, int rateHz)
         {
             int dataBytes = checked(samples.Length * sizeof(float));

@@ -3,7 +3,7 @@ using System.Threading;
 
 namespace HaptoFlow.Preview
 {
-    /// <summary>A sound with its spectra.</summary>
+    /// <summary>A sound with its spectrum and its spectrogram. Immutable.</summary>
     internal sealed class AnalysedSound
     {
         private AnalysedSound(PreviewSound sound, Spectrum spectrum, Spectrogram spectrogram)

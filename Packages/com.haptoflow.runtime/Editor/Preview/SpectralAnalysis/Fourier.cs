@@ -3,8 +3,9 @@ using System;
 
 namespace HaptoFlow.Preview
 {
-    /// <summary>Discrete Fourier transform of a fixed length, X[k] = sum x[n] exp(-2 pi i k n / N), by Cooley and Tukey
-    /// (1965). One thread at a time.</summary>
+    /// <summary>Discrete Fourier transform of a fixed length, X[k] = sum x[n] exp(-2 pi i k n / N), by the radix-2
+    /// algorithm of Cooley and Tukey (1965). One thread at a time.</summary>
+    /// <remarks>Unity transforms only what an AudioSource plays, and a package cannot depend on NuGet.</remarks>
     internal sealed class Fourier
     {
         private readonly double[] cosines;
@@ -35,7 +36,7 @@ namespace HaptoFlow.Preview
 
         public int Length { get; }
 
-        /// <summary>In place.</summary>
+        /// <summary>Transforms in place.</summary>
         public void Transform(double[] real, double[] imaginary)
         {
             for (int index = 0; index < Length; ++index)

@@ -3,8 +3,8 @@ using System;
 
 namespace HaptoFlow.Preview
 {
-    /// <summary>One-sided power spectral density of Hann windows of a wave: 2 |X[k]|^2 / (rate sum w^2), in
-    /// (m/s^2)^2/Hz. Summed over all bins and multiplied by their width it is the mean square.</summary>
+    /// <summary>One-sided power spectral density of Hann windows of a waveform: 2 |X[k]|^2 / (rate sum w^2), in
+    /// (m/s^2)^2/Hz. Its sum over all bins, multiplied by the width of a bin, is the mean square.</summary>
     internal sealed class PowerDensity
     {
         private readonly Fourier fourier;
@@ -13,7 +13,7 @@ namespace HaptoFlow.Preview
         private readonly double[] imaginary;
         private readonly double scale;
 
-        /// <param name="length">Samples of a window, a power of two.</param>
+        /// <param name="length">Samples per window, a power of two.</param>
         public PowerDensity(int length, double rateHz)
         {
             fourier = new Fourier(length);
@@ -34,11 +34,13 @@ namespace HaptoFlow.Preview
 
         public double HertzPerBin { get; }
 
-        /// <summary>Densities of two windows of a wave at once: a real wave in each part of a complex one. Outside the
-        /// wave there is silence.</summary>
-        /// <param name="samples">+-1 of <see cref="PreviewSound.FullScaleMps2"/>.</param>
-        /// <param name="first">Where the first window begins, also before 0.</param>
-        /// <param name="firstDensities">As many bins from 0 Hz on as it has room for, at most half the length.</param>
+        /// <summary>Computes the densities of two windows in one transform, as real and imaginary part of its input.
+        /// Samples outside the waveform count as zero.</summary>
+        /// <param name="samples">In units of <see cref="PreviewSound.FullScaleMps2"/>.</param>
+        /// <param name="first">Index of the first window's first sample; may be negative.</param>
+        /// <param name="second">Index of the second window's first sample; may be negative.</param>
+        /// <param name="firstDensities">Receives the bins from 0 Hz; its length is at most half the window.</param>
+        /// <param name="secondDensities">As long as <paramref name="firstDensities"/>.</param>
         public void Of(ReadOnlySpan<float> samples, int first, int second, Span<double> firstDensities,
             Span<double> secondDensities)
         {
@@ -70,14 +72,15 @@ namespace HaptoFlow.Preview
         }
     }
 
-    /// <summary>Arithmetic of decibels.</summary>
+    /// <summary>Conversions to decibels.</summary>
     internal static class Levels
     {
-        /// <summary>10 log10 of a power; minus infinity for none.</summary>
+        /// <summary>10 log10 of a power; minus infinity for zero.</summary>
         public static double Decibels(double power) =>
             power > 0.0 ? 10.0 * Math.Log10(power) : double.NegativeInfinity;
 
-        /// <summary>The next multiple of ten that is at least 3 dB above: the top of a picture.</summary>
+        /// <summary>Upper end of a level axis: the smallest multiple of ten at least 3 dB above the highest level.
+        /// </summary>
         public static double Top(double highestDecibels) => double.IsInfinity(highestDecibels)
             ? 0.0
             : 10.0 * Math.Ceiling((highestDecibels + 3.0) / 10.0);

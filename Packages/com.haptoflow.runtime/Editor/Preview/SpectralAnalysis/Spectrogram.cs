@@ -4,7 +4,7 @@ using System.Threading;
 
 namespace HaptoFlow.Preview
 {
-    /// <summary>Power spectral density over time: Hann windows of 85 ms, one every 10 ms.</summary>
+    /// <summary>Power spectral density over time, from Hann windows of 85 ms at a hop of 10 ms. Immutable.</summary>
     internal sealed class Spectrogram
     {
         private const int WindowSamples = 4096;
@@ -20,15 +20,15 @@ namespace HaptoFlow.Preview
             HertzPerRow = hertzPerRow;
         }
 
-        /// <summary>Spread evenly over the sound's length.</summary>
+        /// <summary>Number of windows, spread evenly over the sound's length.</summary>
         public int Columns { get; }
 
-        /// <summary>From 0 Hz up to <see cref="Spectrum.HighestHz"/>.</summary>
+        /// <summary>Number of frequencies from 0 Hz to past <see cref="Spectrum.HighestHz"/>.</summary>
         public int Rows { get; }
 
         public double HertzPerRow { get; }
 
-        /// <summary>dB re 1 (m/s^2)^2/Hz.</summary>
+        /// <summary>Highest level of all, dB re 1 (m/s^2)^2/Hz; minus infinity for silence.</summary>
         public float Highest { get; private set; } = float.NegativeInfinity;
 
         /// <exception cref="OperationCanceledException">The token was cancelled.</exception>

@@ -4,8 +4,8 @@ using System.Threading;
 
 namespace HaptoFlow.Preview
 {
-    /// <summary>Mean power spectral density of a sound while its tip touches, after Welch (1967): Hann windows of
-    /// 171 ms, each half over the last.</summary>
+    /// <summary>Mean power spectral density of a sound while its tip touches, by the method of Welch (1967) with Hann
+    /// windows of 171 ms that overlap by half. Immutable.</summary>
     internal sealed class Spectrum
     {
         public const double LowestHz = 20.0;
@@ -23,7 +23,7 @@ namespace HaptoFlow.Preview
 
         public double HertzPerBin { get; }
 
-        /// <summary>From 0 Hz up to past <see cref="HighestHz"/>.</summary>
+        /// <summary>Number of frequencies from 0 Hz to past <see cref="HighestHz"/>.</summary>
         public int Bins => densities.Length;
 
         /// <exception cref="OperationCanceledException">The token was cancelled.</exception>
@@ -48,7 +48,8 @@ namespace HaptoFlow.Preview
             return new Spectrum(sum, density.HertzPerBin);
         }
 
-        /// <summary>dB re 1 (m/s^2)^2/Hz, between the bins on a straight line; minus infinity for silence.</summary>
+        /// <summary>Level at a frequency, dB re 1 (m/s^2)^2/Hz; the density is interpolated linearly between bins. Minus
+        /// infinity for silence.</summary>
         public double Decibels(double hertz)
         {
             double place = Math.Max(0.0, Math.Min(Bins - 1.0, hertz / HertzPerBin));
@@ -56,7 +57,7 @@ namespace HaptoFlow.Preview
             return Levels.Decibels(densities[bin] + (place - bin) * (densities[bin + 1] - densities[bin]));
         }
 
-        /// <summary>The highest within a band, both ends included.</summary>
+        /// <summary>The highest level within a band, both ends included.</summary>
         public double DecibelsBetween(double fromHertz, double toHertz)
         {
             double highest = Math.Max(Decibels(fromHertz), Decibels(toHertz));

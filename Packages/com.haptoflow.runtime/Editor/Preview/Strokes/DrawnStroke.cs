@@ -4,32 +4,32 @@ using System.Collections.Generic;
 
 namespace HaptoFlow.Preview
 {
-    /// <summary>A place of the pointer while it was down. Fields, so that Unity keeps them.</summary>
+    /// <summary>A position of the pointer while it was pressed. Has fields, which Unity serializes.</summary>
     [Serializable]
     internal struct DrawnPoint
     {
-        /// <summary>Since the first point.</summary>
+        /// <summary>Time since the first point.</summary>
         public float TimeSeconds;
 
-        /// <summary>From the patch's lower left corner.</summary>
+        /// <summary>Distance from the patch's lower left corner.</summary>
         public float XMetres;
 
-        /// <summary>From the patch's lower left corner.</summary>
+        /// <summary>Distance from the patch's lower left corner.</summary>
         public float YMetres;
 
         public float ForceNewtons;
 
-        /// <summary>The first point of a touch.</summary>
+        /// <summary>True for the first point of a touch.</summary>
         public bool Lands;
     }
 
-    /// <summary>Collects a stroke from pointer events, and makes it one at the engine's update rate.</summary>
+    /// <summary>Collects pointer events, and converts them to a stroke at the engine's update rate.</summary>
     internal sealed class DrawnStroke
     {
-        // The window over which the runtime takes its velocity from tracked positions.
+        // The runtime estimates velocity from tracked positions over the same window.
         private const double VelocityWindowSeconds = 0.035;
 
-        // A pointer that rests sends nothing; what comes after so long a gap began to move just before.
+        // A resting pointer sends no events. After a gap of RestSeconds, motion began EventSeconds before the new event.
         private const float RestSeconds = 0.03f;
         private const float EventSeconds = 0.008f;
         private const float PauseSeconds = 0.15f;
@@ -40,8 +40,8 @@ namespace HaptoFlow.Preview
 
         public IReadOnlyList<DrawnPoint> Points => points;
 
-        /// <summary>The pointer comes down.</summary>
-        /// <param name="clockSeconds">Of any clock that does not go backwards.</param>
+        /// <summary>Starts a touch.</summary>
+        /// <param name="clockSeconds">Time of any monotonic clock.</param>
         /// <param name="before">Touches before this one; empty for a new stroke.</param>
         public void Begin(
             double clockSeconds, double xMetres, double yMetres, double forceNewtons, IEnumerable<DrawnPoint> before)
@@ -53,7 +53,7 @@ namespace HaptoFlow.Preview
             points.Add(Point(start, xMetres, yMetres, forceNewtons, true));
         }
 
-        /// <summary>The pointer moves while it is down. Beyond 20 s nothing is added.</summary>
+        /// <summary>Adds a position of the pressed pointer, unless the stroke is longer than 20 s.</summary>
         public void Move(double clockSeconds, double xMetres, double yMetres, double forceNewtons)
         {
             DrawnPoint last = points[points.Count - 1];
@@ -72,7 +72,7 @@ namespace HaptoFlow.Preview
             points.Add(Point(seconds, xMetres, yMetres, forceNewtons, false));
         }
 
-        /// <summary>The stroke of such points; an empty one where there are none.</summary>
+        /// <summary>The stroke of these points; without contact if there are none.</summary>
         public static Stroke Of(IReadOnlyList<DrawnPoint> drawn)
         {
             double last = drawn.Count > 0 ? drawn[drawn.Count - 1].TimeSeconds : 0.0;
@@ -105,7 +105,7 @@ namespace HaptoFlow.Preview
             };
         }
 
-        /// <summary>Indices of the touch that is under way; none between touches.</summary>
+        /// <summary>Indices of the points of the touch at a time; an empty range between touches.</summary>
         private static (int First, int End) TouchAt(IReadOnlyList<DrawnPoint> drawn, double seconds)
         {
             int first = -1;

@@ -6,13 +6,13 @@ namespace HaptoFlow.Preview
     /// <summary>Makes strokes from settings.</summary>
     internal static class PresetStrokes
     {
-        /// <summary>Before the first touch-down.</summary>
+        /// <summary>Time before the first touch-down.</summary>
         public const double LeadSeconds = 0.1;
 
-        /// <summary>After the last lift-off: the fade is heard and seen.</summary>
+        /// <summary>Time after the last lift-off, for the fade.</summary>
         public const double TailSeconds = 0.2;
 
-        /// <summary>Of the rims of <see cref="StrokePreset.Rims"/>: a pen's tip.</summary>
+        /// <summary>Height of the rims of <see cref="StrokePreset.Rims"/>.</summary>
         public const float RimHeightMetres = 0.001f;
 
         private const double RimPeriodSeconds = 0.25;
@@ -23,7 +23,7 @@ namespace HaptoFlow.Preview
         private const double CentreX = 0.5 * Stroke.PatchWidthMetres;
         private const double CentreY = 0.5 * Stroke.PatchHeightMetres;
 
-        /// <exception cref="ArgumentException">Of a stroke that is drawn, not made.</exception>
+        /// <exception cref="ArgumentException">The preset is <see cref="StrokePreset.Drawn"/>.</exception>
         public static Stroke Make(StrokePreset preset, StrokeSettings settings)
         {
             Func<double, PathPoint> motion = preset switch
@@ -41,8 +41,8 @@ namespace HaptoFlow.Preview
                 preset != StrokePreset.BackAndForth && preset != StrokePreset.Spiral);
         }
 
-        /// <summary>A point at a distance from where straight strokes begin, moving at a speed along the direction.
-        /// </summary>
+        /// <summary>A point of a straight stroke.</summary>
+        /// <param name="metres">Distance from its start.</param>
         internal static PathPoint Along(in StrokeSettings settings, double metres, double speedMps)
         {
             (double x, double y) = Unit(settings.DirectionDegrees);
@@ -63,12 +63,12 @@ namespace HaptoFlow.Preview
             return (Math.Cos(radians), Math.Sin(radians));
         }
 
-        /// <summary>From the centre towards the edge, with a margin.</summary>
+        /// <summary>Distance from the centre towards the edge of the patch, less a margin.</summary>
         private static double Room(double x, double y) => 0.86 * Math.Min(
             CentreX / Math.Max(1e-9, Math.Abs(x)), CentreY / Math.Max(1e-9, Math.Abs(y)));
 
-        /// <summary>Around the motion: before and after it the tip is in the air, and it lands and lifts within 20 ms.
-        /// </summary>
+        /// <summary>Adds touch-down and lift-off, during which the force ramps for 20 ms, and time without contact before
+        /// and after.</summary>
         private static Func<double, PathPoint> Touching(Func<double, PathPoint> motion, StrokeSettings settings) =>
             seconds =>
             {
@@ -81,7 +81,7 @@ namespace HaptoFlow.Preview
                 return point;
             };
 
-        /// <summary>x = a sin(w t) with a w = speed; at least two periods fit into the stroke.</summary>
+        /// <summary>x = a sin(w t) with a w = speed, where a is small enough for two periods.</summary>
         private static Func<double, PathPoint> BackAndForth(StrokeSettings settings)
         {
             (double x, double y) = Unit(settings.DirectionDegrees);
@@ -111,7 +111,7 @@ namespace HaptoFlow.Preview
             return point;
         };
 
-        /// <summary>Half a sine of force every 320 ms.</summary>
+        /// <summary>The force is half a sine of 80 ms, every 320 ms.</summary>
         private static Func<double, PathPoint> Taps(StrokeSettings settings) => seconds =>
         {
             PathPoint point = Along(settings, settings.SpeedMps * seconds, settings.SpeedMps);

@@ -18,7 +18,7 @@ namespace HaptoFlow.Preview
         public SpiralPath(in StrokeSettings settings)
         {
             this.settings = settings;
-            // From the inner to the outer radius within the stroke: length = (r1^2 - r0^2) / 2 k, nearly.
+            // The stroke goes from the inner to the outer radius; its length is about (r1^2 - r0^2) / 2 k.
             double length = settings.SpeedMps * settings.ContactSeconds;
             metresPerRadian = (OuterMetres * OuterMetres - InnerMetres * InnerMetres) / (2.0 * length);
             innerRadians = InnerMetres / metresPerRadian;
@@ -48,7 +48,7 @@ namespace HaptoFlow.Preview
             return 0.5 * metresPerRadian * (radians * root + Math.Log(radians + root));
         }
 
-        /// <summary>The angle at a length, by Newton's method.</summary>
+        /// <summary>The angle phi at a length, by Newton's method.</summary>
         private double Turned(double length)
         {
             double radians = Math.Sqrt(2.0 * length / metresPerRadian);

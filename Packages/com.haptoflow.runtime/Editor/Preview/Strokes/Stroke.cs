@@ -5,21 +5,21 @@ using System.Linq;
 
 namespace HaptoFlow.Preview
 {
-    /// <summary>A tip's way over the patch at the rate at which a headset would report it. Immutable: any thread.
+    /// <summary>The motion of a tip over the patch, sampled at the update rate of a headset. Immutable; any thread.
     /// </summary>
     internal sealed class Stroke
     {
         public const double PatchWidthMetres = 0.12;
         public const double PatchHeightMetres = 0.08;
 
-        /// <summary>Contact states a second.</summary>
+        /// <summary>Contact states per second.</summary>
         public const double UpdateRateHz = 72.0;
 
         private readonly StrokeState[] states;
 
-        /// <param name="path">Point at a time in seconds; asked once for each update, in order.</param>
-        /// <param name="durationSeconds">Up to and with the silence at the end.</param>
-        /// <param name="wraps">A path that leaves the patch comes in again at the other side.</param>
+        /// <param name="path">Gives the point at a time in seconds; called once for each update, in order.</param>
+        /// <param name="durationSeconds">Includes the time without contact at the end.</param>
+        /// <param name="wraps">True if a path that leaves the patch enters again at the opposite edge.</param>
         public Stroke(Func<double, PathPoint> path, double durationSeconds, bool wraps)
         {
             int count = Math.Max(1, (int)Math.Ceiling(durationSeconds * UpdateRateHz - 1e-9));
@@ -47,7 +47,7 @@ namespace HaptoFlow.Preview
             }
         }
 
-        /// <summary>One for each update, the first at 0 s.</summary>
+        /// <summary>One state for each update, the first at 0 s.</summary>
         public IReadOnlyList<StrokeState> States => states;
 
         public double DurationSeconds { get; }
@@ -58,7 +58,7 @@ namespace HaptoFlow.Preview
         public double StrongestNewtons => states.Where(state => state.Touching).Select(state => state.ForceNewtons)
             .DefaultIfEmpty().Max();
 
-        /// <summary>The last state that was published by then.</summary>
+        /// <summary>The latest state at a time.</summary>
         public StrokeState At(double seconds)
         {
             double place = Math.Floor(seconds * UpdateRateHz + 1e-9);

@@ -2,38 +2,38 @@
 
 namespace HaptoFlow.Preview
 {
-    /// <summary>Strokes that are always at hand.</summary>
+    /// <summary>Predefined strokes.</summary>
     internal enum StrokePreset
     {
-        /// <summary>One speed, one direction. What leaves the patch comes in again at the other side.</summary>
+        /// <summary>Constant speed and direction. A path that leaves the patch enters again at the opposite edge.</summary>
         Slide = 0,
 
-        /// <summary>To and fro; the speed is the one in the middle, and zero at the turns.</summary>
+        /// <summary>Back and forth: full speed in the middle, zero at the turning points.</summary>
         BackAndForth = 1,
 
-        /// <summary>One speed, all directions, from the inside outwards.</summary>
+        /// <summary>A spiral outwards at constant speed, in all directions.</summary>
         Spiral = 2,
 
-        /// <summary>From rest to the speed, in one direction.</summary>
+        /// <summary>From rest to full speed in one direction.</summary>
         Accelerating = 3,
 
-        /// <summary>One speed; the force grows from nothing.</summary>
+        /// <summary>Constant speed with a force that rises from zero.</summary>
         Pressing = 4,
 
-        /// <summary>Short touches while the hand moves on.</summary>
+        /// <summary>Short touches during a motion of constant speed.</summary>
         Taps = 5,
 
-        /// <summary>What was drawn on the patch.</summary>
+        /// <summary>The stroke drawn on the patch.</summary>
         Drawn = 6,
 
-        /// <summary>One speed over a row of blocks: a rim every 250 ms.</summary>
+        /// <summary>Constant speed over a row of blocks, with a rim every 250 ms.</summary>
         Rims = 7,
     }
 
-    /// <summary>What a preset is made from.</summary>
+    /// <summary>The parameters of a predefined stroke.</summary>
     internal readonly struct StrokeSettings
     {
-        /// <summary>A hand that lands gently, in m/s.</summary>
+        /// <summary>Approach speed of a gentle touch-down, in m/s.</summary>
         public const double UsualLandingSpeedMps = 0.05;
 
         public StrokeSettings(double speedMps, double forceNewtons, double directionDegrees, double contactSeconds,
@@ -46,18 +46,18 @@ namespace HaptoFlow.Preview
             LandingSpeedMps = landingSpeedMps;
         }
 
-        /// <summary>Along the surface, above 0.</summary>
+        /// <summary>Tangential speed, above 0.</summary>
         public double SpeedMps { get; }
 
         public double ForceNewtons { get; }
 
-        /// <summary>0 is along the surface's first axis, to the right; 90 along the second, upwards.</summary>
+        /// <summary>0 is the surface's first axis, to the right; 90 is the second, upwards.</summary>
         public double DirectionDegrees { get; }
 
-        /// <summary>From the first touch-down to the last lift-off.</summary>
+        /// <summary>Time from the first touch-down to the last lift-off.</summary>
         public double ContactSeconds { get; }
 
-        /// <summary>Into the surface, at every touch-down.</summary>
+        /// <summary>Normal speed at every touch-down.</summary>
         public double LandingSpeedMps { get; }
     }
 }

@@ -2,8 +2,8 @@
 
 namespace HaptoFlow.Preview
 {
-    /// <summary>Where the tip is on the patch at one moment and how it moves. Metres from the patch's lower left
-    /// corner, x to the right along the first axis of the surface, y upwards along the second.</summary>
+    /// <summary>Position, velocity and force of the tip at one time. Positions are relative to the patch's lower left
+    /// corner; x is the surface's first axis, to the right, y the second, upwards.</summary>
     internal readonly struct StrokeState
     {
         public StrokeState(double timeSeconds, in PathPoint point, uint touchCounter, bool continues)
@@ -21,7 +21,7 @@ namespace HaptoFlow.Preview
             EdgeCounter = point.EdgeCounter;
         }
 
-        /// <summary>Since the stroke began.</summary>
+        /// <summary>Time since the start of the stroke.</summary>
         public double TimeSeconds { get; }
 
         public double XMetres { get; }
@@ -36,23 +36,22 @@ namespace HaptoFlow.Preview
 
         public bool Touching { get; }
 
-        /// <summary>One more at each touch-down.</summary>
+        /// <summary>Increases by one at each touch-down.</summary>
         public uint TouchCounter { get; }
 
-        /// <summary>A line leads here from the state before: the same touch, and no step over the patch's edge.
-        /// </summary>
+        /// <summary>True if the previous state belongs to the same touch and the path did not wrap in between.</summary>
         public bool Continues { get; }
 
-        /// <summary>Into the surface, at the touch-down.</summary>
+        /// <summary>Normal speed at the touch-down.</summary>
         public double LandingSpeedMps { get; }
 
-        /// <summary>One more at each rim.</summary>
+        /// <summary>Increases by one at each rim.</summary>
         public uint EdgeCounter { get; }
 
         public double SpeedMps => System.Math.Sqrt(VelocityXMps * VelocityXMps + VelocityYMps * VelocityYMps);
 
-        /// <summary>What a stylus would publish on such a surface.</summary>
-        /// <param name="surface">What the surface says: material, effects, scale and tone. Its motion is not read.
+        /// <summary>The contact state that a stylus would publish on a surface.</summary>
+        /// <param name="surface">Material, effects, feature scale and tone of the surface; its motion is ignored.
         /// </param>
         public ContactState ContactOn(in ContactState surface)
         {
@@ -69,7 +68,8 @@ namespace HaptoFlow.Preview
         }
     }
 
-    /// <summary>A point of a path before it is laid onto the patch. Units as in <see cref="StrokeState"/>.</summary>
+    /// <summary>A point of a path before wrapping at the edges of the patch. Units as in <see cref="StrokeState"/>.
+    /// </summary>
     internal struct PathPoint
     {
         public double XMetres;
