@@ -72,7 +72,7 @@ namespace HaptoFlow.PreviewTests
         }
 
         private static void Draw(string file, StrokePreset preset, StrokeSettings settings, double playedSeconds,
-            LabelMix[] materials, Action<PreviewRequest> change, PreviewRoom room = PreviewRoom.Usual)
+            LabelMix[] materials, Action<PreviewRequest> change, PreviewRoom room = PreviewRoom.Default)
         {
             using var worker = new PreviewWorker();
             var layout = new PreviewLayout(1200.0, 900.0, room);

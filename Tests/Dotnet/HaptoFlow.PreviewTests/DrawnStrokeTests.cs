@@ -105,7 +105,7 @@ namespace HaptoFlow.PreviewTests
             Stroke stroke = DrawnStroke.Of(Nothing);
             Assert.That(stroke.States, Is.Not.Empty);
             Assert.That(stroke.States.Any(state => state.Touching), Is.False);
-            Assert.That((stroke.FastestMps, stroke.StrongestNewtons), Is.EqualTo((0.0, 0.0)));
+            Assert.That((stroke.MaximumSpeedMps, stroke.MaximumForceNewtons), Is.EqualTo((0.0, 0.0)));
         }
     }
 }

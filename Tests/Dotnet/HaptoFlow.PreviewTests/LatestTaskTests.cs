@@ -20,9 +20,9 @@ namespace HaptoFlow.PreviewTests
                 gate.Wait(CancellationToken.None);
                 return request + "!";
             });
-            task.Ask("first");
-            task.Ask("second");
-            task.Ask("third");
+            task.Submit("first");
+            task.Submit("second");
+            task.Submit("third");
             gate.Release(2);
             task.Wait();
             Assert.That(task.Poll(), Is.EqualTo("first!"));
@@ -39,8 +39,8 @@ namespace HaptoFlow.PreviewTests
         {
             using var task = new LatestTask<string, string>((request, _) =>
                 request == "bad" ? throw new FormatException("as bad as asked for") : request);
-            task.Ask("bad");
-            task.Ask("good");
+            task.Submit("bad");
+            task.Submit("good");
             task.Wait();
             Assert.That(() => task.Poll(), Throws.TypeOf<FormatException>());
             task.Wait();
@@ -60,8 +60,8 @@ namespace HaptoFlow.PreviewTests
                 token.ThrowIfCancellationRequested();
                 return request;
             });
-            task.Ask("endless");
-            task.Ask("never begun");
+            task.Submit("endless");
+            task.Submit("never begun");
             begun.Wait();
             task.Dispose();
             Assert.That(Volatile.Read(ref ended), Is.True);
@@ -81,7 +81,7 @@ namespace HaptoFlow.PreviewTests
             });
             foreach (int number in Enumerable.Range(0, 200))
             {
-                task.Ask(number.ToString());
+                task.Submit(number.ToString());
                 task.Poll();
             }
             while (task.IsBusy)

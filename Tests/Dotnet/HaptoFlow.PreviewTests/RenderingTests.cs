@@ -117,11 +117,11 @@ namespace HaptoFlow.PreviewTests
         public void WhatIsShownAlreadyIsNotRenderedAgain()
         {
             AnalysedSound first = Do(Request(new LabelMix("wood"))).Sounds[0];
-            int made = worker.EnginesMade;
+            int made = worker.EnginesCreated;
             PreviewRequest again = Request(new LabelMix("wood"));
             again.Active = 1;
             Assert.That(Do(again).Sounds[0], Is.SameAs(first));
-            Assert.That(worker.EnginesMade, Is.EqualTo(made));
+            Assert.That(worker.EnginesCreated, Is.EqualTo(made));
         }
 
         [Test]
@@ -133,9 +133,9 @@ namespace HaptoFlow.PreviewTests
             PreviewRequest next = Request(new LabelMix("rubber"));
             next.IsSketch = true;
             Do(next);
-            Assert.That(worker.EnginesMade, Is.EqualTo(1));
+            Assert.That(worker.EnginesCreated, Is.EqualTo(1));
             float[] real = Samples(Request(new LabelMix("rubber")));
-            Assert.That(worker.EnginesMade, Is.EqualTo(2));
+            Assert.That(worker.EnginesCreated, Is.EqualTo(2));
             using var other = new PreviewWorker();
             Assert.That(other.Do(Request(new LabelMix("rubber")), CancellationToken.None).Sounds[0].Sound.Samples,
                 Is.EqualTo(real));

@@ -133,7 +133,7 @@ namespace HaptoFlow.PreviewTests
                 }, CancellationToken.None);
                 Assert.That(result.Problem, Is.Null);
             }
-            Assert.That(worker.EnginesMade, Is.EqualTo(1));
+            Assert.That(worker.EnginesCreated, Is.EqualTo(1));
         }
     }
 }

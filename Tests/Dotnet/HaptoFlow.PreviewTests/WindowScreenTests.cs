@@ -114,7 +114,7 @@ namespace HaptoFlow.PreviewTests
             Enter("Tone [dB/oct]", -40f);
             Assert.That(State.First.ToneDbPerOctave, Is.EqualTo(-12f));
             Window.Finish();
-            Assert.That(Window.Player!.Heard!.Sound.Title, Is.EqualTo("wood (x4, -12 dB/oct)"));
+            Assert.That(Window.Player!.PlayedSound!.Sound.Title, Is.EqualTo("wood (x4, -12 dB/oct)"));
             Assert.That(Samples.SequenceEqual(before), Is.False);
             Undo.PerformUndo();
             Assert.That((State.First.FeatureScale, State.First.ToneDbPerOctave), Is.EqualTo((4f, 0f)));
@@ -388,7 +388,7 @@ namespace HaptoFlow.PreviewTests
         {
             Window.Finish();
             Screen();
-            PreviewView view = PreviewView.Of(Window.position, PreviewRoom.Usual, null);
+            PreviewView view = PreviewView.Of(Window.position, PreviewRoom.Default, null);
             int drawings = 0;
             var picture = new EditorPicture(canvas =>
             {

@@ -140,10 +140,10 @@ namespace HaptoFlow.PreviewTests
             Window.Finish();
             Assert.That(Window.Session!.Problem, Is.Null);
             Assert.That(Window.Session.Shown!.Sounds, Has.Count.EqualTo(2));
-            Assert.That(Window.Player!.Heard!.Sound.Title, Is.EqualTo("jute"));
+            Assert.That(Window.Player!.PlayedSound!.Sound.Title, Is.EqualTo("jute"));
             State.Change("Side", changed => changed.Active = 0);
             Window.Finish();
-            Assert.That(Window.Player.Heard!.Sound.Title, Is.EqualTo("recording"));
+            Assert.That(Window.Player.PlayedSound!.Sound.Title, Is.EqualTo("recording"));
             Undo.PerformUndo();
             Window.Finish();
             Assert.That(Window.Session.Shown.Sounds, Has.Count.EqualTo(1));

@@ -88,7 +88,7 @@ namespace HaptoFlow.PreviewTests
         public void HalfOfAPensPressureIsTheForceThatIsSet()
         {
             Draw(0.04, PointerType.Pen, 0.75f);
-            Assert.That(Window.Session!.Stroke.StrongestNewtons, Is.EqualTo(2.25).Within(1e-5));
+            Assert.That(Window.Session!.Stroke.MaximumForceNewtons, Is.EqualTo(2.25).Within(1e-5));
         }
 
         [Test]

@@ -91,9 +91,9 @@ namespace HaptoFlow.PreviewTests
             table.Material.ToneDbPerOctave = 3f;
             TexturePreviewWindow.Open(table);
             Window.Finish();
-            Assert.That(Window.Player!.Heard!.Sound.Title, Is.EqualTo("corduroy (x2, +3 dB/oct)"));
+            Assert.That(Window.Player!.PlayedSound!.Sound.Title, Is.EqualTo("corduroy (x2, +3 dB/oct)"));
             HapticSurface shelf = Surface("Shelf");
-            string said = SceneMaterial.Apply(Window.Player.Heard.Sound.Material, null, new Object[] { shelf.gameObject });
+            string said = SceneMaterial.Apply(Window.Player.PlayedSound.Sound.Material, null, new Object[] { shelf.gameObject });
             Assert.That(said, Is.EqualTo("Applied corduroy (x2, +3 dB/oct) to Shelf"));
             Assert.That((shelf.Material.FeatureScale, shelf.Material.ToneDbPerOctave), Is.EqualTo((2f, 3f)));
             Assert.That(Read(shelf), Is.EqualTo(Read(table)));
@@ -143,7 +143,7 @@ namespace HaptoFlow.PreviewTests
             SceneMaterial.Apply(Mix, null, new Object[] { table.gameObject });
             TexturePreviewWindow.Open(table);
             Window.Finish();
-            Assert.That(Window.Player!.Heard!.Sound.Material, Is.EqualTo(Mix));
+            Assert.That(Window.Player!.PlayedSound!.Sound.Material, Is.EqualTo(Mix));
             Undo.PerformUndo();
             Assert.That(State.First.Label, Is.EqualTo("wood"));
         }

@@ -56,12 +56,12 @@ namespace HaptoFlow.PreviewTests
             TexturePreviewWindow.Open(material);
             Window.Finish();
             Assert.That(Window.Session!.Problem, Is.Null);
-            Assert.That(Window.Player!.Heard!.Sound.Title, Is.EqualTo("glass"));
-            double learnt = Window.Player.Heard.Sound.RmsMps2;
+            Assert.That(Window.Player!.PlayedSound!.Sound.Title, Is.EqualTo("glass"));
+            double learnt = Window.Player.PlayedSound.Sound.RmsMps2;
             State.Change("Label", changed => changed.First.Choose("glass"));
             Window.Finish();
             Assert.That(State.First.Learnt, Is.Null);
-            Assert.That(Window.Player.Heard!.Sound.RmsMps2, Is.EqualTo(learnt).Within(0.1 * learnt));
+            Assert.That(Window.Player.PlayedSound!.Sound.RmsMps2, Is.EqualTo(learnt).Within(0.1 * learnt));
         }
 
         [Test]
@@ -74,7 +74,7 @@ namespace HaptoFlow.PreviewTests
             State.Change("Seed", changed => changed.Seed = 3);
             Window.Finish();
             Assert.That(Window.Session!.Problem, Is.Null);
-            Assert.That(Window.Player!.Heard!.Sound.Title, Is.EqualTo("fur"));
+            Assert.That(Window.Player!.PlayedSound!.Sound.Title, Is.EqualTo("fur"));
         }
 
         [Test]

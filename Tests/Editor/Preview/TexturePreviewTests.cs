@@ -20,7 +20,7 @@ namespace HaptoFlow.PreviewTests
             float[] wood = Samples;
             State.Change("Label", state => state.First.Label = "rubber");
             Window.Finish();
-            Assert.That(Window.Player!.Heard!.Sound.Material, Is.EqualTo(new LabelMix("rubber")));
+            Assert.That(Window.Player!.PlayedSound!.Sound.Material, Is.EqualTo(new LabelMix("rubber")));
             Assert.That(Samples, Is.Not.EqualTo(wood));
             Assert.That(Window.Session!.Problem, Is.Null);
         }
@@ -90,7 +90,7 @@ namespace HaptoFlow.PreviewTests
             float[] wood = Samples;
             Assert.That(Key(KeyCode.B), Is.True);
             Window.Finish();
-            Assert.That(Window.Player!.Heard!.Sound.Material, Is.EqualTo(new LabelMix("sandpaper")));
+            Assert.That(Window.Player!.PlayedSound!.Sound.Material, Is.EqualTo(new LabelMix("sandpaper")));
             Assert.That(Window.Session!.Shown!.Sounds, Has.Count.EqualTo(2), "B is heard, so B is shown");
             Assert.That(Key(KeyCode.A), Is.True);
             Window.Finish();
@@ -189,7 +189,7 @@ namespace HaptoFlow.PreviewTests
                 state.First.Share = 0.25f;
             });
             Window.Finish();
-            Assert.That(Window.Player!.Heard!.Sound.Material, Is.EqualTo(new LabelMix("wood", "sandpaper", 0.25f)));
+            Assert.That(Window.Player!.PlayedSound!.Sound.Material, Is.EqualTo(new LabelMix("wood", "sandpaper", 0.25f)));
             Assert.That(Samples, Is.Not.EqualTo(wood));
         }
 

@@ -98,13 +98,13 @@ namespace HaptoFlow.PreviewTests
             }
             y += 6.0;
             Choice("Stroke", preset);
-            Slider("Speed [m/s]", settings.SpeedMps / TexturePreviewState.FastestMps, Number(settings.SpeedMps));
-            Slider("Force [N]", settings.ForceNewtons / TexturePreviewState.StrongestNewtons,
+            Slider("Speed [m/s]", settings.SpeedMps / TexturePreviewState.MaximumSpeedMps, Number(settings.SpeedMps));
+            Slider("Force [N]", settings.ForceNewtons / TexturePreviewState.MaximumForceNewtons,
                 Number(settings.ForceNewtons));
             Slider("Direction [\u00b0]", settings.DirectionDegrees / 360.0, Number(settings.DirectionDegrees));
-            Slider("Contact [s]", settings.ContactSeconds / TexturePreviewState.LongestSeconds,
+            Slider("Contact [s]", settings.ContactSeconds / TexturePreviewState.MaximumSeconds,
                 Number(settings.ContactSeconds));
-            Slider("Landing [m/s]", settings.LandingSpeedMps / TexturePreviewState.HardestLandingMps,
+            Slider("Landing [m/s]", settings.LandingSpeedMps / TexturePreviewState.MaximumLandingMps,
                 Number(settings.LandingSpeedMps));
             Effects(request.Effects);
             y += 6.0;
@@ -221,7 +221,7 @@ namespace HaptoFlow.PreviewTests
             Tick(row.Columns(66.0, 18.0), true);
             canvas.DrawText("Louder", row.Left + 86.0, row.MiddleY, TextSize, Label);
             double gain = 20.0 * Math.Log10(PreviewPlayer.RaisedPeak / peak);
-            canvas.DrawText(Scale.Text(gain, 0, true) + " dB", row.Left + 140.0, row.MiddleY, Plot.ScaleSize, Label);
+            canvas.DrawText(AxisNumbers.Text(gain, 0, true) + " dB", row.Left + 140.0, row.MiddleY, Plot.NumberSize, Label);
             y += Row;
         }
 
@@ -232,7 +232,7 @@ namespace HaptoFlow.PreviewTests
             foreach (string word in text.Split(' '))
             {
                 string longer = line.Length > 0 ? line + " " + word : word;
-                if (canvas.MeasureText(longer, Plot.ScaleSize) > controls.Width - 4.0)
+                if (canvas.MeasureText(longer, Plot.NumberSize) > controls.Width - 4.0)
                 {
                     HelpLine(line);
                     longer = word;
@@ -244,7 +244,7 @@ namespace HaptoFlow.PreviewTests
 
         private void HelpLine(string line)
         {
-            canvas.DrawText(line, controls.Left + 2.0, controls.Top + y + 6.0, Plot.ScaleSize, Palette.Soft);
+            canvas.DrawText(line, controls.Left + 2.0, controls.Top + y + 6.0, Plot.NumberSize, Palette.Soft);
             y += 13.0;
         }
 

@@ -20,7 +20,7 @@ namespace HaptoFlow.PreviewTests
         internal TexturePreviewState State => Window.State;
 
         /// <summary>The samples of the material that is heard.</summary>
-        internal float[] Samples => Window.Player!.Heard!.Sound.Samples;
+        internal float[] Samples => Window.Player!.PlayedSound!.Sound.Samples;
 
         [SetUp]
         public void OpenWindow()

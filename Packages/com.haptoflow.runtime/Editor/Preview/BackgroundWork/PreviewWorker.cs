@@ -18,7 +18,7 @@ namespace HaptoFlow.Preview
         private int timedMeasurement;
 
         /// <summary>Number of engines created so far.</summary>
-        public int EnginesMade => engines.Made;
+        public int EnginesCreated => engines.Created;
 
         /// <summary>Makes the result of a request. A missing library, a damaged model or an unknown label is reported as
         /// the result's problem.</summary>

@@ -10,18 +10,18 @@ namespace HaptoFlow.Preview
         /// <param name="frame">The plot area; the axis of speed stands left of it, of force right, of time below.</param>
         public static void Draw(ICanvas canvas, Palette palette, Box frame, Stroke stroke)
         {
-            double fastest = Scale.RoundUp(stroke.FastestMps);
-            double strongest = Scale.RoundUp(stroke.StrongestNewtons);
+            double fastest = AxisNumbers.RoundUp(stroke.MaximumSpeedMps);
+            double strongest = AxisNumbers.RoundUp(stroke.MaximumForceNewtons);
             var plot = new Plot(canvas, palette, frame, (0.0, stroke.DurationSeconds), (0.0, 1.08));
-            IReadOnlyList<double> seconds = Scale.Ticks(0.0, stroke.DurationSeconds, 5);
+            IReadOnlyList<double> seconds = AxisNumbers.Ticks(0.0, stroke.DurationSeconds, 5);
             plot.Columns(seconds);
-            plot.ColumnTexts(seconds, value => Scale.Text(value, 2), "s");
+            plot.ColumnTexts(seconds, value => AxisNumbers.Text(value, 2), "s");
             foreach (double share in new[] { 0.0, 0.5, 1.0 })
             {
                 double y = plot.Y(share);
                 canvas.DrawHorizontalHairline(frame.Left, frame.Right, Math.Min(y, frame.Bottom - 1.0), palette.Grid);
-                plot.RowText(Scale.Text(share * fastest, 4), y, frame.Left - 6.0, TextAlign.Right, palette.Speed);
-                plot.RowText(Scale.Text(share * strongest, 4), y, frame.Right + 6.0, TextAlign.Left, palette.Force);
+                plot.RowText(AxisNumbers.Text(share * fastest, 4), y, frame.Left - 6.0, TextAlign.Right, palette.Speed);
+                plot.RowText(AxisNumbers.Text(share * strongest, 4), y, frame.Right + 6.0, TextAlign.Left, palette.Force);
             }
             List<(double X, double Y)> force = Curve(plot, stroke, state => state.ForceNewtons / strongest);
             canvas.FillArea(force.ConvertAll(point => (point.X, point.Y, plot.Frame.Bottom)),

@@ -7,8 +7,8 @@ namespace HaptoFlow.Preview
     /// <summary>Draws the patch and the stroke on it; the line's width shows the force.</summary>
     internal static class PatchPicture
     {
-        private const double ThinnestPoints = 1.3;
-        private const double ThickestPoints = 5.5;
+        private const double MinimumWidthPoints = 1.3;
+        private const double MaximumWidthPoints = 5.5;
         private const double WidthStep = 0.25;
 
         public static (double X, double Y) ToPoints(Box frame, double xMetres, double yMetres) => (
@@ -27,7 +27,7 @@ namespace HaptoFlow.Preview
             DrawGrid(canvas, palette, frame);
             DrawPath(canvas, palette, frame, stroke);
             DrawEnds(canvas, palette, frame, stroke);
-            if (stroke.StrongestNewtons <= 0.0)
+            if (stroke.MaximumForceNewtons <= 0.0)
             {
                 canvas.DrawText(hint, frame.MiddleX, frame.MiddleY, 12.0, palette.Ink, TextAlign.Centre);
             }
@@ -38,7 +38,7 @@ namespace HaptoFlow.Preview
         /// <summary>Draws one polyline for each run of segments of the same rounded width.</summary>
         private static void DrawPath(ICanvas canvas, Palette palette, Box frame, Stroke stroke)
         {
-            double strongest = Math.Max(1e-6, stroke.StrongestNewtons);
+            double strongest = Math.Max(1e-6, stroke.MaximumForceNewtons);
             var points = new List<(double X, double Y)>();
             double width = 0.0;
             for (int index = 1; index < stroke.States.Count; ++index)
@@ -46,7 +46,7 @@ namespace HaptoFlow.Preview
                 StrokeState to = stroke.States[index];
                 double share = to.ForceNewtons / strongest;
                 double rounded = WidthStep *
-                    Math.Round((ThinnestPoints + share * (ThickestPoints - ThinnestPoints)) / WidthStep);
+                    Math.Round((MinimumWidthPoints + share * (MaximumWidthPoints - MinimumWidthPoints)) / WidthStep);
                 if (points.Count > 0 && (!to.Continues || rounded != width))
                 {
                     canvas.DrawPolyline(points, width, palette.Ink);
@@ -125,7 +125,7 @@ namespace HaptoFlow.Preview
             canvas.DrawLine(left, y, right, y, 1.5, palette.Ink);
             canvas.DrawLine(left, y - 3.0, left, y + 3.0, 1.5, palette.Ink);
             canvas.DrawLine(right, y - 3.0, right, y + 3.0, 1.5, palette.Ink);
-            canvas.DrawText("20 mm", 0.5 * (left + right), y - 11.0, Plot.ScaleSize, palette.Ink, TextAlign.Centre);
+            canvas.DrawText("20 mm", 0.5 * (left + right), y - 11.0, Plot.NumberSize, palette.Ink, TextAlign.Centre);
         }
     }
 }

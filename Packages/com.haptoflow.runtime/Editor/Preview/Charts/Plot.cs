@@ -8,7 +8,7 @@ namespace HaptoFlow.Preview
     internal sealed class Plot
     {
         /// <summary>Font size of axis numbers, in points.</summary>
-        public const double ScaleSize = 10.0;
+        public const double NumberSize = 10.0;
 
         // Between two axis numbers, in points.
         private const double MinimumGap = 5.0;
@@ -56,7 +56,7 @@ namespace HaptoFlow.Preview
         public void RowText(string text, double y, double x, TextAlign align, Colour colour)
         {
             double held = Math.Max(Frame.Top + 4.0, Math.Min(Frame.Bottom - 4.0, y));
-            canvas.DrawText(text, x, held, ScaleSize, colour, align);
+            canvas.DrawText(text, x, held, NumberSize, colour, align);
         }
 
         /// <summary>Draws vertical grid lines.</summary>
@@ -78,12 +78,12 @@ namespace HaptoFlow.Preview
             {
                 string number = text(values[index]);
                 string label = index == values.Count - 1 ? number + " " + unit : number;
-                double width = canvas.MeasureText(label, ScaleSize);
-                double wanted = X(values[index]) - 0.5 * canvas.MeasureText(number, ScaleSize);
+                double width = canvas.MeasureText(label, NumberSize);
+                double wanted = X(values[index]) - 0.5 * canvas.MeasureText(number, NumberSize);
                 double left = Math.Max(Frame.Left, Math.Min(Frame.Right - width, wanted));
                 if (left + width <= end)
                 {
-                    canvas.DrawText(label, left, Frame.Bottom + 10.0, ScaleSize, palette.Soft);
+                    canvas.DrawText(label, left, Frame.Bottom + 10.0, NumberSize, palette.Soft);
                     end = left - MinimumGap;
                 }
             }

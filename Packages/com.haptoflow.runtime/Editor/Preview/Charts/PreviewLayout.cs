@@ -7,7 +7,7 @@ namespace HaptoFlow.Preview
     internal enum PreviewRoom
     {
         /// <summary>Controls, and the stroke below them.</summary>
-        Usual = 0,
+        Default = 0,
 
         /// <summary>Controls with the sliders unfolded, and the stroke below them.</summary>
         WithSliders = 1,
@@ -21,23 +21,23 @@ namespace HaptoFlow.Preview
     internal sealed class PreviewLayout
     {
         /// <summary>The charts are not legible in less, so that a smaller window scrolls.</summary>
-        public const double LeastWidth = 1080.0;
+        public const double MinimumWidth = 1080.0;
 
         /// <summary>The charts are not legible in less, so that a smaller window scrolls.</summary>
-        public const double LeastHeight = 912.0;
+        public const double MinimumHeight = 912.0;
 
-        private const double LeastHeightWithoutStroke = 640.0;
+        private const double MinimumHeightWithoutStroke = 640.0;
         private const double Margin = 8.0;
         private const double LeftWidth = 312.0;
         private const double StrokeHeight = 340.0;
         private const double SlidersHeight = 164.0;
 
-        public PreviewLayout(double width, double height, PreviewRoom room = PreviewRoom.Usual)
+        public PreviewLayout(double width, double height, PreviewRoom room = PreviewRoom.Default)
         {
             double least = room == PreviewRoom.WithoutStroke
-                ? LeastHeightWithoutStroke
-                : LeastHeight + (room == PreviewRoom.WithSliders ? SlidersHeight : 0.0);
-            var whole = new Box(0.0, 0.0, Math.Max(LeastWidth, width), Math.Max(least, height));
+                ? MinimumHeightWithoutStroke
+                : MinimumHeight + (room == PreviewRoom.WithSliders ? SlidersHeight : 0.0);
+            var whole = new Box(0.0, 0.0, Math.Max(MinimumWidth, width), Math.Max(least, height));
             Width = whole.Width;
             Height = whole.Height;
             Box inside = whole.Inside(Margin);

@@ -42,7 +42,7 @@ namespace HaptoFlow.Preview
         private static void Headings(ICanvas canvas, Palette palette, Box box, double[] columns)
         {
             void Heading(string text, double x, TextAlign align, double y) =>
-                canvas.DrawText(text, x, box.Top + y, Plot.ScaleSize, palette.Soft, align);
+                canvas.DrawText(text, x, box.Top + y, Plot.NumberSize, palette.Soft, align);
 
             Heading("quality", columns[0], TextAlign.Left, 18.0);
             Heading("ms per segment", columns[1], TextAlign.Left, 6.0);
@@ -101,13 +101,13 @@ namespace HaptoFlow.Preview
             };
             for (int line = 0; line < lines.Length; ++line)
             {
-                canvas.DrawText(lines[line], box.Left, box.Top + 7.0 + 15.0 * line, Plot.ScaleSize, palette.Soft);
+                canvas.DrawText(lines[line], box.Left, box.Top + 7.0 + 15.0 * line, Plot.NumberSize, palette.Soft);
             }
         }
 
-        private static string Milliseconds(double value) => Scale.Fixed(value, value < 10.0 ? 2 : 1);
+        private static string Milliseconds(double value) => AxisNumbers.Fixed(value, value < 10.0 ? 2 : 1);
 
         private static string Figure(double? value, int digits, bool signed) =>
-            value is { } figure ? Scale.Fixed(figure, digits, signed) : Unknown;
+            value is { } figure ? AxisNumbers.Fixed(figure, digits, signed) : Unknown;
     }
 }

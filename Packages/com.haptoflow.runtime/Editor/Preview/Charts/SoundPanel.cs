@@ -122,8 +122,8 @@ namespace HaptoFlow.Preview
                 left += 26.0;
             }
             double width = column.Right - left - 12.0;
-            string rms = $"RMS {Scale.Fixed(sound.RmsMps2, 2)}";
-            string figures = $"{rms}   peak {Scale.Fixed(sound.PeakMps2, 1)} m/s\u00b2";
+            string rms = $"RMS {AxisNumbers.Fixed(sound.RmsMps2, 2)}";
+            string figures = $"{rms}   peak {AxisNumbers.Fixed(sound.PeakMps2, 1)} m/s\u00b2";
             double titleWidth = canvas.MeasureText(sound.Title, titleSize, true);
             if (canvas.MeasureText(figures, figureSize) > width - titleWidth)
             {
@@ -142,7 +142,7 @@ namespace HaptoFlow.Preview
 
         /// <summary>Between the first and the second number of an axis.</summary>
         private static void DrawUnit(ICanvas canvas, Palette palette, Box plot, string unit) =>
-            canvas.DrawText(unit, plot.Left - 6.0, plot.Top + 16.0, Plot.ScaleSize, palette.Soft, TextAlign.Right);
+            canvas.DrawText(unit, plot.Left - 6.0, plot.Top + 16.0, Plot.NumberSize, palette.Soft, TextAlign.Right);
 
         private void DrawSpectra(ICanvas canvas, Palette palette, Box card)
         {
@@ -153,7 +153,7 @@ namespace HaptoFlow.Preview
             double left = card.Left + 12.0;
             canvas.DrawText(title, left, y, titleSize, palette.Ink, bold: true);
             canvas.DrawText("dB re 1 (m/s\u00b2)\u00b2/Hz", left + canvas.MeasureText(title, titleSize, true) + 12.0, y,
-                Plot.ScaleSize, palette.Soft);
+                Plot.NumberSize, palette.Soft);
             if (sounds.Count == 0)
             {
                 return;

@@ -18,24 +18,24 @@ namespace HaptoFlow.Preview
         /// <param name="image">Made by <see cref="Image"/>.</param>
         public static void Draw(ICanvas canvas, Palette palette, Box frame, ColourImage image, double durationSeconds)
         {
-            var plot = new Plot(canvas, palette, frame, (0.0, durationSeconds), (0.0, Spectrum.HighestHz));
+            var plot = new Plot(canvas, palette, frame, (0.0, durationSeconds), (0.0, Spectrum.MaximumHz));
             foreach (double hertz in AxisHz)
             {
-                plot.RowText(Scale.Text(hertz, 0), plot.Y(hertz), frame.Left - 6.0, TextAlign.Right, palette.Soft);
+                plot.RowText(AxisNumbers.Text(hertz, 0), plot.Y(hertz), frame.Left - 6.0, TextAlign.Right, palette.Soft);
             }
-            plot.ColumnTexts(Scale.Ticks(0.0, durationSeconds, 6), value => Scale.Text(value, 2), "s");
+            plot.ColumnTexts(AxisNumbers.Ticks(0.0, durationSeconds, 6), value => AxisNumbers.Text(value, 2), "s");
             canvas.DrawImage(image, plot.Frame);
         }
 
         /// <summary>One column of pixels for each of the spectrogram's; the rows cover 0 Hz to
-        /// <see cref="Spectrum.HighestHz"/> evenly. Any thread.</summary>
+        /// <see cref="Spectrum.MaximumHz"/> evenly. Any thread.</summary>
         /// <param name="topDecibels">Level of the brightest colour, dB re 1 (m/s^2)^2/Hz.</param>
         public static ColourImage Image(Spectrogram spectrogram, double topDecibels)
         {
             var image = new ColourImage(spectrogram.Columns, ImageRows);
             for (int y = 0; y < ImageRows; ++y)
             {
-                double place = (y + 0.5) / ImageRows * Spectrum.HighestHz / spectrogram.HertzPerRow;
+                double place = (y + 0.5) / ImageRows * Spectrum.MaximumHz / spectrogram.HertzPerRow;
                 int row = Math.Min(spectrogram.Rows - 2, (int)place);
                 for (int x = 0; x < spectrogram.Columns; ++x)
                 {
@@ -55,10 +55,10 @@ namespace HaptoFlow.Preview
             foreach (double level in Enumerable.Range(0, 4).Select(step => topDecibels - step * RangeDecibels / 3.0))
             {
                 double y = bar.Top + bar.Height * (topDecibels - level) / RangeDecibels;
-                canvas.DrawText(Scale.Text(level, 0), bar.Right + 5.0,
-                    Math.Max(bar.Top + 4.0, Math.Min(bar.Bottom - 4.0, y)), Plot.ScaleSize, palette.Soft);
+                canvas.DrawText(AxisNumbers.Text(level, 0), bar.Right + 5.0,
+                    Math.Max(bar.Top + 4.0, Math.Min(bar.Bottom - 4.0, y)), Plot.NumberSize, palette.Soft);
             }
-            canvas.DrawText("dB", bar.Left, bar.Bottom + 10.0, Plot.ScaleSize, palette.Soft);
+            canvas.DrawText("dB", bar.Left, bar.Bottom + 10.0, Plot.NumberSize, palette.Soft);
         }
 
         /// <summary>Place of a level in the colour map: 0 for silence, 1 for the top.</summary>

@@ -18,13 +18,13 @@ namespace HaptoFlow.Preview
             params (Spectrum Spectrum, Colour Colour)[] curves)
         {
             var plot = new Plot(canvas, palette, frame,
-                (Math.Log10(Spectrum.LowestHz), Math.Log10(Spectrum.HighestHz)),
+                (Math.Log10(Spectrum.MinimumHz), Math.Log10(Spectrum.MaximumHz)),
                 (topDecibels - RangeDecibels, topDecibels));
             double[] columns = Array.ConvertAll(GridHz, Math.Log10);
             plot.Columns(columns);
-            plot.Rows(Scale.Ticks(topDecibels - RangeDecibels, topDecibels, frame.Height > 130.0 ? 8 : 4),
-                value => Scale.Text(value, 0));
-            plot.ColumnTexts(columns, value => Scale.Text(Math.Pow(10.0, value), 0), "Hz");
+            plot.Rows(AxisNumbers.Ticks(topDecibels - RangeDecibels, topDecibels, frame.Height > 130.0 ? 8 : 4),
+                value => AxisNumbers.Text(value, 0));
+            plot.ColumnTexts(columns, value => AxisNumbers.Text(Math.Pow(10.0, value), 0), "Hz");
             foreach ((Spectrum spectrum, Colour colour) in curves)
             {
                 DrawCurve(canvas, plot, spectrum, colour);
@@ -33,7 +33,7 @@ namespace HaptoFlow.Preview
 
         /// <summary>The highest level that the curve of a spectrum reaches in this chart, in decibels.</summary>
         public static double Highest(Spectrum spectrum) =>
-            spectrum.DecibelsBetween(Spectrum.LowestHz, Spectrum.HighestHz);
+            spectrum.DecibelsBetween(Spectrum.MinimumHz, Spectrum.MaximumHz);
 
         /// <summary>Each column of pixels shows the highest level of its band, so that no narrow peak is lost.
         /// </summary>
@@ -55,7 +55,7 @@ namespace HaptoFlow.Preview
         private static double Hertz(Plot plot, double x)
         {
             double share = x / plot.Frame.Width;
-            return Spectrum.LowestHz * Math.Pow(Spectrum.HighestHz / Spectrum.LowestHz, share);
+            return Spectrum.MinimumHz * Math.Pow(Spectrum.MaximumHz / Spectrum.MinimumHz, share);
         }
     }
 }

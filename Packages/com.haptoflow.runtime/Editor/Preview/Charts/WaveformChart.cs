@@ -24,8 +24,8 @@ namespace HaptoFlow.Preview
             ICanvas canvas, Palette palette, Box frame, PreviewSound sound, Colour colour, double limitMps2)
         {
             var plot = new Plot(canvas, palette, frame, (0.0, sound.DurationSeconds), (-limitMps2, limitMps2));
-            plot.Columns(Scale.Ticks(0.0, sound.DurationSeconds, 6));
-            plot.Rows(new[] { -limitMps2, 0.0, limitMps2 }, value => Scale.Text(value, 2));
+            plot.Columns(AxisNumbers.Ticks(0.0, sound.DurationSeconds, 6));
+            plot.Rows(new[] { -limitMps2, 0.0, limitMps2 }, value => AxisNumbers.Text(value, 2));
             int columns = Math.Max(1, (int)Math.Round(plot.Frame.Width * canvas.PixelsPerPoint));
             double pixel = 1.0 / canvas.PixelsPerPoint;
             var extremes = new List<(double X, double Top, double Bottom)>(2 * columns);

@@ -9,15 +9,15 @@ namespace HaptoFlow.Preview
     internal static class RecordingSound
     {
         /// <summary>A longer recording is cut off here.</summary>
-        public const double LongestSeconds = 10.0;
+        public const double MaximumSeconds = 10.0;
 
         private const double WorkingHz = 2000.0;
         private const double HighPassHz = 10.0;
 
-        /// <summary>The first <see cref="LongestSeconds"/> of a recording.</summary>
+        /// <summary>The first <see cref="MaximumSeconds"/> of a recording.</summary>
         public static PreviewSound Of(Recording recording, Stroke stroke)
         {
-            int count = Math.Min(recording.SampleCount, (int)(LongestSeconds * recording.SampleRateHz));
+            int count = Math.Min(recording.SampleCount, (int)(MaximumSeconds * recording.SampleRateHz));
             ReadOnlySpan<float> samples = recording.AccelerationMps2.AsSpan(0, count * recording.AxisCount);
             float[] still = WithoutDrift(samples, recording.AxisCount, recording.SampleRateHz);
             float[] axis = recording.AxisCount == 1
@@ -38,7 +38,7 @@ namespace HaptoFlow.Preview
         {
             double cosine = Math.Cos(turnDegrees * Math.PI / 180.0);
             double sine = Math.Sin(turnDegrees * Math.PI / 180.0);
-            double seconds = Math.Min(recording.Seconds, LongestSeconds);
+            double seconds = Math.Min(recording.Seconds, MaximumSeconds);
             double x = 0.0;
             double y = 0.0;
             return new Stroke(time =>

@@ -38,7 +38,7 @@ namespace HaptoFlow.Preview
     internal sealed class SliderSet
     {
         private const string FormatName = "haptoflow-sliders";
-        private const int MostSliders = 16;
+        private const int MaximumSliders = 16;
 
         private readonly double[] mean;
         private readonly double[][] axes;
@@ -56,7 +56,7 @@ namespace HaptoFlow.Preview
                 throw root.Failure("version", "1", "update HaptoFlow");
             }
             Space = root.Text("space");
-            Sliders = root.Tables("sliders", 1, MostSliders).Select(each => new MaterialSlider(each)).ToArray();
+            Sliders = root.Tables("sliders", 1, MaximumSliders).Select(each => new MaterialSlider(each)).ToArray();
             const int size = MaterialFile.TextureNumbers;
             mean = root.Numbers("mean", size, size);
             int count = json.Find("axes")?.Content is List<JsonValue> rows ? rows.Count : 0;

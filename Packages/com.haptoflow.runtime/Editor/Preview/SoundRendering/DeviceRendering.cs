@@ -24,8 +24,8 @@ namespace HaptoFlow.Preview
     {
         private const double ControllerFrameSeconds = 0.005;
         private const double MotorFrameSeconds = 0.008;
-        private const double LowestHz = 60.0;
-        private const double HighestHz = 400.0;
+        private const double MinimumHz = 60.0;
+        private const double MaximumHz = 400.0;
         private const double MotorHz = 160.0;
 
         // Time constant with which a motor's amplitude follows its input.
@@ -51,7 +51,7 @@ namespace HaptoFlow.Preview
             {
                 FullScaleMps2 = PreviewSound.FullScaleMps2,
             };
-            features.SetRange(isMotor ? MotorHz : LowestHz, isMotor ? MotorHz : HighestHz);
+            features.SetRange(isMotor ? MotorHz : MinimumHz, isMotor ? MotorHz : MaximumHz);
             var carrier = new Carrier(frameSeconds * PreviewSound.RateHz, isMotor ? MotorRiseSeconds : 0.0);
             var frames = new WaveFrame[features.MostFrames];
             var played = new float[source.Samples.Length];

@@ -24,7 +24,7 @@ namespace HaptoFlow.Preview
         private (HapticQuality Quality, ulong Seed) options;
 
         /// <summary>Number of engines created so far. Creating one takes about as long as rendering a stroke.</summary>
-        public int Made { get; private set; }
+        public int Created { get; private set; }
 
         /// <summary>The engine for these options.</summary>
         /// <param name="fresh">True for an engine without an earlier voice, whose samples depend only on stroke and
@@ -46,7 +46,7 @@ namespace HaptoFlow.Preview
                     FixedLeadMs = LeadMs,
                 });
                 options = (quality, seed);
-                ++Made;
+                ++Created;
             }
             used = true;
             return engine;

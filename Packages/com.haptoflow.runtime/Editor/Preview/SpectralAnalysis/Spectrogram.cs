@@ -23,7 +23,7 @@ namespace HaptoFlow.Preview
         /// <summary>Number of windows, spread evenly over the sound's length.</summary>
         public int Columns { get; }
 
-        /// <summary>Number of frequencies from 0 Hz to past <see cref="Spectrum.HighestHz"/>.</summary>
+        /// <summary>Number of frequencies from 0 Hz to past <see cref="Spectrum.MaximumHz"/>.</summary>
         public int Rows { get; }
 
         public double HertzPerRow { get; }
@@ -35,7 +35,7 @@ namespace HaptoFlow.Preview
         public static Spectrogram Of(PreviewSound sound, CancellationToken token)
         {
             var density = new PowerDensity(WindowSamples, PreviewSound.RateHz);
-            int rows = (int)(Spectrum.HighestHz / density.HertzPerBin) + 2;
+            int rows = (int)(Spectrum.MaximumHz / density.HertzPerBin) + 2;
             int columns = Math.Max(2, 2 * (int)Math.Round(0.5 * sound.DurationSeconds * ColumnsPerSecond));
             var result = new Spectrogram(new float[columns * rows], columns, rows, density.HertzPerBin);
             var first = new double[rows];

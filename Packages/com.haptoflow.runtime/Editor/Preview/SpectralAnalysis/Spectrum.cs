@@ -8,8 +8,8 @@ namespace HaptoFlow.Preview
     /// windows of 171 ms that overlap by half. Immutable.</summary>
     internal sealed class Spectrum
     {
-        public const double LowestHz = 20.0;
-        public const double HighestHz = 1000.0;
+        public const double MinimumHz = 20.0;
+        public const double MaximumHz = 1000.0;
 
         private const int WindowSamples = 8192;
 
@@ -23,14 +23,14 @@ namespace HaptoFlow.Preview
 
         public double HertzPerBin { get; }
 
-        /// <summary>Number of frequencies from 0 Hz to past <see cref="HighestHz"/>.</summary>
+        /// <summary>Number of frequencies from 0 Hz to past <see cref="MaximumHz"/>.</summary>
         public int Bins => densities.Length;
 
         /// <exception cref="OperationCanceledException">The token was cancelled.</exception>
         public static Spectrum Of(PreviewSound sound, CancellationToken token)
         {
             var density = new PowerDensity(WindowSamples, PreviewSound.RateHz);
-            var sum = new double[(int)(HighestHz / density.HertzPerBin) + 2];
+            var sum = new double[(int)(MaximumHz / density.HertzPerBin) + 2];
             var first = new double[sum.Length];
             var second = new double[sum.Length];
             int windows = 0;

@@ -33,7 +33,7 @@ namespace HaptoFlow.Preview
         private const float RestSeconds = 0.03f;
         private const float EventSeconds = 0.008f;
         private const float PauseSeconds = 0.15f;
-        private const double LongestSeconds = 20.0;
+        private const double MaximumSeconds = 20.0;
 
         private readonly List<DrawnPoint> points = new List<DrawnPoint>();
         private double beganSeconds;
@@ -58,7 +58,7 @@ namespace HaptoFlow.Preview
         {
             DrawnPoint last = points[points.Count - 1];
             var seconds = (float)(clockSeconds - beganSeconds);
-            if (!(seconds > last.TimeSeconds) || seconds > LongestSeconds)
+            if (!(seconds > last.TimeSeconds) || seconds > MaximumSeconds)
             {
                 return;
             }
@@ -101,7 +101,7 @@ namespace HaptoFlow.Preview
                 VelocityYMps = (after.YMetres - before.YMetres) / window,
                 ForceNewtons = now.ForceNewtons,
                 Touching = true,
-                LandingSpeedMps = StrokeSettings.UsualLandingSpeedMps,
+                LandingSpeedMps = StrokeSettings.DefaultLandingSpeedMps,
             };
         }
 

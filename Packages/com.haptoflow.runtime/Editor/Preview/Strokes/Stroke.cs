@@ -52,10 +52,10 @@ namespace HaptoFlow.Preview
 
         public double DurationSeconds { get; }
 
-        public double FastestMps => states.Where(state => state.Touching).Select(state => state.SpeedMps)
+        public double MaximumSpeedMps => states.Where(state => state.Touching).Select(state => state.SpeedMps)
             .DefaultIfEmpty().Max();
 
-        public double StrongestNewtons => states.Where(state => state.Touching).Select(state => state.ForceNewtons)
+        public double MaximumForceNewtons => states.Where(state => state.Touching).Select(state => state.ForceNewtons)
             .DefaultIfEmpty().Max();
 
         /// <summary>The latest state at a time.</summary>

@@ -34,10 +34,10 @@ namespace HaptoFlow.Preview
     internal readonly struct StrokeSettings
     {
         /// <summary>Approach speed of a gentle touch-down, in m/s.</summary>
-        public const double UsualLandingSpeedMps = 0.05;
+        public const double DefaultLandingSpeedMps = 0.05;
 
         public StrokeSettings(double speedMps, double forceNewtons, double directionDegrees, double contactSeconds,
-            double landingSpeedMps = UsualLandingSpeedMps)
+            double landingSpeedMps = DefaultLandingSpeedMps)
         {
             SpeedMps = speedMps;
             ForceNewtons = forceNewtons;

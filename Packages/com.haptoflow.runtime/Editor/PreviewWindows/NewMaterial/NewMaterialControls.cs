@@ -154,9 +154,9 @@ namespace HaptoFlow.Editor
         {
             bool knowsSpeed = recording?.VelocityMps != null || recording?.ConstantVelocityMps != null;
             bool knowsForce = recording?.ForceNewtons != null || recording?.ConstantForceNewtons != null;
-            DrawNumber(Speed, state.SpeedMps, NewMaterialState.FastestMps, knowsSpeed,
+            DrawNumber(Speed, state.SpeedMps, NewMaterialState.MaximumSpeedMps, knowsSpeed,
                 (changed, number) => changed.SpeedMps = number);
-            DrawNumber(Force, state.ForceNewtons, NewMaterialState.StrongestNewtons, knowsForce,
+            DrawNumber(Force, state.ForceNewtons, NewMaterialState.MaximumForceNewtons, knowsForce,
                 (changed, number) => changed.ForceNewtons = number);
             bool isWave = state.Path.EndsWith(".wav", StringComparison.OrdinalIgnoreCase);
             DrawNumber(FullScale, state.FullScaleMps2, 1e5f, !isWave,
@@ -194,7 +194,7 @@ namespace HaptoFlow.Editor
 
         private void DrawPlayer(NewMaterialPlayer player)
         {
-            using (new EditorGUI.DisabledScope(player.Heard == null || !player.IsAvailable))
+            using (new EditorGUI.DisabledScope(player.PlayedSound == null || !player.IsAvailable))
             using (new EditorGUILayout.HorizontalScope())
             {
                 if (GUILayout.Button(player.IsPlaying ? Stop : Play, GUILayout.Width(56f)))

@@ -78,7 +78,7 @@ namespace HaptoFlow.Editor
             if (!wanted.Equals(compared))
             {
                 compared = wanted;
-                comparing.Ask(new ComparisonRequest(model.File, Recording)
+                comparing.Submit(new ComparisonRequest(model.File, Recording)
                 {
                     Material = state.Material,
                     TurnDegrees = LearningReportText.TurnDegrees(state.Report),
@@ -172,7 +172,7 @@ namespace HaptoFlow.Editor
                 file = null;
                 return;
             }
-            reading.Ask(new RecordingFile.Request(
+            reading.Submit(new RecordingFile.Request(
                 state.Path, state.FullScaleMps2 > 0f ? state.FullScaleMps2 : (double?)null));
         }
 

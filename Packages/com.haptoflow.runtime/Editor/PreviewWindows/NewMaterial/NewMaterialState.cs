@@ -9,8 +9,8 @@ namespace HaptoFlow.Editor
     /// too, so that neither a reload of the scripts nor an error loses it.</summary>
     internal sealed class NewMaterialState : ScriptableObject
     {
-        public const float FastestMps = 10f;
-        public const float StrongestNewtons = 100f;
+        public const float MaximumSpeedMps = 10f;
+        public const float MaximumForceNewtons = 100f;
 
         /// <summary>Null for the project's.</summary>
         [field: SerializeField]
@@ -77,6 +77,6 @@ namespace HaptoFlow.Editor
         }
 
         /// <summary>Something was undone or done again.</summary>
-        public void Forget() => ++Version;
+        public void MarkChanged() => ++Version;
     }
 }

@@ -15,8 +15,8 @@ namespace HaptoFlow.Editor
         private const float Height = 760f;
 
         // What may be seen of the window where it is docked into less; the rest is scrolled to.
-        private const float LeastWidth = 480f;
-        private const float LeastHeight = 320f;
+        private const float MinimumWidth = 480f;
+        private const float MinimumHeight = 320f;
 
         private static readonly string[] Forms = { "Recordings", "csv,wav" };
 
@@ -53,7 +53,7 @@ namespace HaptoFlow.Editor
         private void OnEnable()
         {
             titleContent = new GUIContent("New Material");
-            minSize = new Vector2(LeastWidth, LeastHeight);
+            minSize = new Vector2(MinimumWidth, MinimumHeight);
             if (state == null)
             {
                 state = CreateInstance<NewMaterialState>();
@@ -207,7 +207,7 @@ namespace HaptoFlow.Editor
 
         private void OnUndo()
         {
-            State.Forget();
+            State.MarkChanged();
             Repaint();
         }
 

@@ -22,7 +22,7 @@ namespace HaptoFlow.Editor
         }
 
         /// <summary>Null where nothing is there to be heard.</summary>
-        public AnalysedSound? Heard => session.Shown == null || session.Shown.Sounds.Count == 0
+        public AnalysedSound? PlayedSound => session.Shown == null || session.Shown.Sounds.Count == 0
             ? null
             : session.Shown.Sounds[Math.Min(state.Active, session.Shown.Sounds.Count - 1)];
 
@@ -72,13 +72,13 @@ namespace HaptoFlow.Editor
         public bool Step()
         {
             bool wasPlaying = speaker.IsPlaying;
-            if (waits && !session.IsBusy && Heard != null)
+            if (waits && !session.IsBusy && PlayedSound != null)
             {
                 waits = false;
                 Start(0);
             }
-            else if (wasPlaying && !session.IsBusy && Heard != null &&
-                (!ReferenceEquals(Heard, playing) || looped != state.Loops))
+            else if (wasPlaying && !session.IsBusy && PlayedSound != null &&
+                (!ReferenceEquals(PlayedSound, playing) || looped != state.Loops))
             {
                 Start(speaker.PositionSamples);
             }
@@ -91,7 +91,7 @@ namespace HaptoFlow.Editor
 
         private void Start(int sample)
         {
-            playing = Heard;
+            playing = PlayedSound;
             looped = state.Loops;
             speaker.Play(playing!.Sound, Gain, sample, looped);
         }

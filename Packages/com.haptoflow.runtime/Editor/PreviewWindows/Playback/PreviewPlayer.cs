@@ -45,9 +45,9 @@ namespace HaptoFlow.Editor
         }
 
         /// <summary>The active material's; null where nothing was rendered.</summary>
-        public AnalysedSound? Heard =>
-            session.Shown != null && state.Heard < session.Shown.Sounds.Count
-                ? session.Shown.Sounds[state.Heard]
+        public AnalysedSound? PlayedSound =>
+            session.Shown != null && state.PlayedIndex < session.Shown.Sounds.Count
+                ? session.Shown.Sounds[state.PlayedIndex]
                 : null;
 
         /// <summary>Where the playhead is; null while nothing plays.</summary>
@@ -100,12 +100,12 @@ namespace HaptoFlow.Editor
         /// <returns>Something moves: the window is to be drawn again.</returns>
         public bool Step()
         {
-            if (waits && session.IsFinal && Heard != null)
+            if (waits && session.IsFinal && PlayedSound != null)
             {
                 waits = false;
                 Start(0);
             }
-            else if (speaker.IsPlaying && session.IsFinal && Heard != null && IsOther())
+            else if (speaker.IsPlaying && session.IsFinal && PlayedSound != null && IsOther())
             {
                 Start(speaker.PositionSamples);
             }
@@ -129,8 +129,8 @@ namespace HaptoFlow.Editor
                 }
                 using (new EditorGUI.DisabledScope(!state.Compares && !state.ShowsDevice))
                 {
-                    int side = GUILayout.Toolbar(state.Heard, Sides, GUILayout.Width(64f));
-                    if (side != state.Heard)
+                    int side = GUILayout.Toolbar(state.PlayedIndex, Sides, GUILayout.Width(64f));
+                    if (side != state.PlayedIndex)
                     {
                         state.Change("Material", changed => changed.Active = side);
                     }
@@ -166,14 +166,14 @@ namespace HaptoFlow.Editor
             ? "this editor plays no clips: export instead"
             : session.IsBusy
                 ? "rendering\u2026"
-                : Gain > 1f ? Scale.Text(20.0 * Math.Log10(Gain), 0, true) + " dB" : "";
+                : Gain > 1f ? AxisNumbers.Text(20.0 * Math.Log10(Gain), 0, true) + " dB" : "";
 
         private bool IsOther() =>
-            !ReferenceEquals(Heard, playing) || raised != state.Raises || looped != state.Loops;
+            !ReferenceEquals(PlayedSound, playing) || raised != state.Raises || looped != state.Loops;
 
         private void Start(int sample)
         {
-            playing = Heard;
+            playing = PlayedSound;
             raised = state.Raises;
             looped = state.Loops;
             speaker.Play(playing!.Sound, Gain, sample, looped);

@@ -124,20 +124,20 @@ namespace HaptoFlow.Editor
             {
                 state.Change("Stroke", changed => changed.Preset = (StrokePreset)preset);
             }
-            DrawSlider(Speed, state.SpeedMps, TexturePreviewState.SlowestMps, TexturePreviewState.FastestMps,
+            DrawSlider(Speed, state.SpeedMps, TexturePreviewState.MinimumSpeedMps, TexturePreviewState.MaximumSpeedMps,
                 (changed, value) => changed.SpeedMps = value);
-            DrawSlider(Force, state.ForceNewtons, TexturePreviewState.WeakestNewtons,
-                TexturePreviewState.StrongestNewtons, (changed, value) => changed.ForceNewtons = value);
+            DrawSlider(Force, state.ForceNewtons, TexturePreviewState.MinimumForceNewtons,
+                TexturePreviewState.MaximumForceNewtons, (changed, value) => changed.ForceNewtons = value);
             DrawSlider(Direction, state.DirectionDegrees, 0f, 360f,
                 (changed, value) => changed.DirectionDegrees = value);
-            DrawSlider(Contact, state.ContactSeconds, 0.2f, TexturePreviewState.LongestSeconds,
+            DrawSlider(Contact, state.ContactSeconds, 0.2f, TexturePreviewState.MaximumSeconds,
                 (changed, value) => changed.ContactSeconds = value);
         }
 
         private void DrawEffects()
         {
-            DrawSlider(Landing, state.LandingMps, TexturePreviewState.SoftestLandingMps,
-                TexturePreviewState.HardestLandingMps, (changed, value) => changed.LandingMps = value);
+            DrawSlider(Landing, state.LandingMps, TexturePreviewState.MinimumLandingMps,
+                TexturePreviewState.MaximumLandingMps, (changed, value) => changed.LandingMps = value);
             Rect rest = EditorGUI.PrefixLabel(EditorGUILayout.GetControlRect(), Effects);
             rest.width /= EffectTitles.Length;
             DrawEffect(rest, 0, state.HasTexture, (changed, value) => changed.HasTexture = value);

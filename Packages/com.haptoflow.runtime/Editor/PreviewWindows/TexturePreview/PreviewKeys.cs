@@ -56,10 +56,10 @@ namespace HaptoFlow.Editor
 
         private static void Speed(TexturePreviewState state, float factor) => state.Change("Speed", changed =>
             changed.SpeedMps = Mathf.Clamp(
-                changed.SpeedMps * factor, TexturePreviewState.SlowestMps, TexturePreviewState.FastestMps));
+                changed.SpeedMps * factor, TexturePreviewState.MinimumSpeedMps, TexturePreviewState.MaximumSpeedMps));
 
         private static void Force(TexturePreviewState state, float factor) => state.Change("Force", changed =>
-            changed.ForceNewtons = Mathf.Clamp(changed.ForceNewtons * factor, TexturePreviewState.WeakestNewtons,
-                TexturePreviewState.StrongestNewtons));
+            changed.ForceNewtons = Mathf.Clamp(changed.ForceNewtons * factor, TexturePreviewState.MinimumForceNewtons,
+                TexturePreviewState.MaximumForceNewtons));
     }
 }

@@ -76,7 +76,7 @@ namespace HaptoFlow.Editor
             }
             asked = wanted;
             askedSketch = held && !same;
-            task.Ask(Request());
+            task.Submit(Request());
         }
 
         /// <summary>Takes over what was finished meanwhile.</summary>
@@ -128,7 +128,7 @@ namespace HaptoFlow.Editor
             return new PreviewRequest(Model.File, Stroke, mixes)
             {
                 Sliders = SliderCatalog.Of(modelAsset).Sliders,
-                Active = state.Heard,
+                Active = state.PlayedIndex,
                 Tier = Model.TierOrDefault(state.Tier),
                 Seed = unchecked((ulong)state.Seed),
                 Effects = state.Effects,

@@ -37,7 +37,7 @@ namespace HaptoFlow.Editor
                 if (GUILayout.Button(Apply))
                 {
                     said = SceneMaterial.Apply(
-                        state.HeardMix(model.Labels), state.Material(state.Heard).Learnt, Selection.objects);
+                        state.PlayedMix(model.Labels), state.Material(state.PlayedIndex).Learnt, Selection.objects);
                 }
             }
             return said;
@@ -56,7 +56,7 @@ namespace HaptoFlow.Editor
                     : "Select an object of the scene or a Haptic Material first";
             }
             state.Take(mix, learnt);
-            return $"Took {state.HeardMix(model.Labels).Title} from {selected!.name}{remark}";
+            return $"Took {state.PlayedMix(model.Labels).Title} from {selected!.name}{remark}";
         }
     }
 }

@@ -58,7 +58,7 @@ namespace HaptoFlow.Editor
             }
             float before = EditorGUIUtility.labelWidth;
             EditorGUIUtility.labelWidth = PreviewControls.LabelWidth;
-            MaterialChoice material = state.Material(state.Heard);
+            MaterialChoice material = state.Material(state.PlayedIndex);
             DrawSlider(FeatureScale, material.FeatureScale, MaterialDescription.SmallestFeatureScale,
                 MaterialDescription.LargestFeatureScale, value => material.FeatureScale = value);
             DrawSlider(Tone, material.ToneDbPerOctave, -MaterialDescription.MostToneDbPerOctave,

@@ -10,13 +10,13 @@ namespace HaptoFlow.Editor
     /// <summary>Everything that can be set in the Texture Preview window, undoable.</summary>
     internal sealed class TexturePreviewState : ScriptableObject
     {
-        public const float SlowestMps = 0.002f;
-        public const float FastestMps = 2f;
-        public const float WeakestNewtons = 0.05f;
-        public const float StrongestNewtons = 5f;
-        public const float LongestSeconds = 8f;
-        public const float SoftestLandingMps = 0.01f;
-        public const float HardestLandingMps = 2f;
+        public const float MinimumSpeedMps = 0.002f;
+        public const float MaximumSpeedMps = 2f;
+        public const float MinimumForceNewtons = 0.05f;
+        public const float MaximumForceNewtons = 5f;
+        public const float MaximumSeconds = 8f;
+        public const float MinimumLandingMps = 0.01f;
+        public const float MaximumLandingMps = 2f;
 
         /// <summary>Null for the project's.</summary>
         [field: SerializeField]
@@ -100,7 +100,7 @@ namespace HaptoFlow.Editor
         public bool ShowsSecond => Compares && !ShowsDevice;
 
         /// <summary>The active one among those that are shown.</summary>
-        public int Heard => Compares || ShowsDevice ? Active : 0;
+        public int PlayedIndex => Compares || ShowsDevice ? Active : 0;
 
         public StrokeSettings Settings =>
             new StrokeSettings(SpeedMps, ForceNewtons, DirectionDegrees, ContactSeconds, LandingMps);
@@ -124,7 +124,7 @@ namespace HaptoFlow.Editor
         }
 
         /// <summary>The one of <see cref="Mixes"/> that is heard, or that a device plays.</summary>
-        public LabelMix HeardMix(IReadOnlyList<string> labels) => Mixes(labels)[ShowsDevice ? 0 : Heard];
+        public LabelMix PlayedMix(IReadOnlyList<string> labels) => Mixes(labels)[ShowsDevice ? 0 : PlayedIndex];
 
         /// <summary>Makes a change that can be undone.</summary>
         /// <param name="what">Of the undo's name, for example "Speed".</param>
@@ -138,9 +138,9 @@ namespace HaptoFlow.Editor
         /// <summary>The material that is heard becomes this one; can be undone.</summary>
         /// <param name="learnt">In the place of the mix's first label; null for the label.</param>
         public void Take(LabelMix mix, HapticMaterial? learnt) =>
-            Change("Material", changed => changed.Material(changed.Heard).Take(mix, learnt));
+            Change("Material", changed => changed.Material(changed.PlayedIndex).Take(mix, learnt));
 
         /// <summary>Something was undone or done again.</summary>
-        public void Forget() => ++Version;
+        public void MarkChanged() => ++Version;
     }
 }

@@ -15,8 +15,8 @@ namespace HaptoFlow.Editor
         private const float Height = 888f;
 
         // What may be seen of the window where it is docked into less; the rest is scrolled to.
-        private const float LeastWidth = 480f;
-        private const float LeastHeight = 320f;
+        private const float MinimumWidth = 480f;
+        private const float MinimumHeight = 320f;
 
         private static readonly GUIContent FromRecording = new GUIContent("New Material from Recording\u2026",
             "Learns a material from ten seconds of a recording, and saves it as a Haptic Material.");
@@ -70,7 +70,7 @@ namespace HaptoFlow.Editor
         private void OnEnable()
         {
             titleContent = new GUIContent("Texture Preview");
-            minSize = new Vector2(LeastWidth, LeastHeight);
+            minSize = new Vector2(MinimumWidth, MinimumHeight);
             if (state == null)
             {
                 state = CreateInstance<TexturePreviewState>();
@@ -119,7 +119,7 @@ namespace HaptoFlow.Editor
                 Repaint();
                 return;
             }
-            PreviewRoom room = State.ShowsSliders ? PreviewRoom.WithSliders : PreviewRoom.Usual;
+            PreviewRoom room = State.ShowsSliders ? PreviewRoom.WithSliders : PreviewRoom.Default;
             view = PreviewView.Of(position, room, view);
             PreviewLayout layout = view.Layout;
             var all = new Rect(0f, 0f, (float)layout.Width, (float)layout.Height);
@@ -172,7 +172,7 @@ namespace HaptoFlow.Editor
         internal string? ExportTo(string path)
         {
             Finish();
-            return Session!.Problem ?? WaveExport.Write(path, player!.Heard!.Sound);
+            return Session!.Problem ?? WaveExport.Write(path, player!.PlayedSound!.Sound);
         }
 
         // A dialog in the midst of drawing would upset what is being drawn.
@@ -185,11 +185,11 @@ namespace HaptoFlow.Editor
                 return;
             }
             Finish();
-            if (player!.Heard == null)
+            if (player!.PlayedSound == null)
             {
                 return;
             }
-            string name = WaveExport.FileName(player.Heard.Sound.Material, State.Settings);
+            string name = WaveExport.FileName(player.PlayedSound.Sound.Material, State.Settings);
             string path = EditorUtility.SaveFilePanel("Export WAV", "", name, "wav");
             if (path.Length > 0)
             {
@@ -207,8 +207,8 @@ namespace HaptoFlow.Editor
             }
             try
             {
-                LabelMix mix = State.HeardMix(Session.Model.Labels);
-                HapticMaterial? learnt = State.Material(State.Heard).Learnt;
+                LabelMix mix = State.PlayedMix(Session.Model.Labels);
+                HapticMaterial? learnt = State.Material(State.PlayedIndex).Learnt;
                 string text = mix.MaterialText(Session.Model.File, SliderCatalog.Of(ModelInUse()).Sliders);
                 string label = learnt != null ? learnt.Description.Label : mix.First;
                 HapticMaterial? saved = MaterialAssets.SaveAs(text, label, described =>
@@ -233,7 +233,7 @@ namespace HaptoFlow.Editor
 
         private void OnUndo()
         {
-            State.Forget();
+            State.MarkChanged();
             Repaint();
         }
 
@@ -241,7 +241,7 @@ namespace HaptoFlow.Editor
         private void OnProjectChanged()
         {
             SliderCatalog.Forget();
-            State.Forget();
+            State.MarkChanged();
         }
 
         private void ShowStroke(Box panel)
@@ -252,7 +252,7 @@ namespace HaptoFlow.Editor
             patch!.Handle(Event.current, place.ToRect(), ClockSeconds());
             if (player!.PlayedSeconds is { } seconds)
             {
-                Playhead.DrawTip(place, Session!.Stroke.At(seconds), view!.Palette, State.Heard);
+                Playhead.DrawTip(place, Session!.Stroke.At(seconds), view!.Palette, State.PlayedIndex);
             }
         }
 

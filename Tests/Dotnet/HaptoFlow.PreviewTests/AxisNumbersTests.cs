@@ -4,7 +4,7 @@ using NUnit.Framework;
 
 namespace HaptoFlow.PreviewTests
 {
-    public sealed class ScaleTests
+    public sealed class AxisNumbersTests
     {
         private readonly CultureInfo culture = CultureInfo.CurrentCulture;
 
@@ -14,9 +14,9 @@ namespace HaptoFlow.PreviewTests
         [Test]
         public void TicksAreRoundNumbersWithinTheEnds()
         {
-            Assert.That(Scale.Ticks(0.0, 2.7, 6), Is.EqualTo(new[] { 0.0, 0.5, 1.0, 1.5, 2.0, 2.5 }).Within(1e-12));
-            Assert.That(Scale.Ticks(-60.0, 10.0, 4), Is.EqualTo(new[] { -60.0, -40.0, -20.0, 0.0 }).Within(1e-12));
-            Assert.That(Scale.Ticks(0.0, 0.3, 3), Is.EqualTo(new[] { 0.0, 0.1, 0.2, 0.3 }).Within(1e-12));
+            Assert.That(AxisNumbers.Ticks(0.0, 2.7, 6), Is.EqualTo(new[] { 0.0, 0.5, 1.0, 1.5, 2.0, 2.5 }).Within(1e-12));
+            Assert.That(AxisNumbers.Ticks(-60.0, 10.0, 4), Is.EqualTo(new[] { -60.0, -40.0, -20.0, 0.0 }).Within(1e-12));
+            Assert.That(AxisNumbers.Ticks(0.0, 0.3, 3), Is.EqualTo(new[] { 0.0, 0.1, 0.2, 0.3 }).Within(1e-12));
         }
 
         [TestCase(0.012, 0.02)]
@@ -26,7 +26,7 @@ namespace HaptoFlow.PreviewTests
         [TestCase(0.0, 1.0)]
         [TestCase(double.NaN, 1.0)]
         public void LimitsAreRoundedUpToOneTwoOrFive(double value, double expected) =>
-            Assert.That(Scale.RoundUp(value), Is.EqualTo(expected).Within(1e-12));
+            Assert.That(AxisNumbers.RoundUp(value), Is.EqualTo(expected).Within(1e-12));
 
         [Test]
         public void NumbersLookTheSameInEveryCountry()
@@ -34,11 +34,11 @@ namespace HaptoFlow.PreviewTests
             var comma = (CultureInfo)CultureInfo.InvariantCulture.Clone();
             comma.NumberFormat.NumberDecimalSeparator = ",";
             CultureInfo.CurrentCulture = comma;
-            Assert.That(Scale.Text(-1234.5, 2), Is.EqualTo("\u22121234.5"));
-            Assert.That(Scale.Text(0.25, 1), Is.EqualTo("0.3"));
-            Assert.That(Scale.Fixed(1.0, 2), Is.EqualTo("1.00"));
-            Assert.That(Scale.Fixed(0.12, 2, true), Is.EqualTo("+0.12"));
-            Assert.That(Scale.Fixed(-0.001, 2, true), Is.EqualTo("0.00"), "no sign without a size");
+            Assert.That(AxisNumbers.Text(-1234.5, 2), Is.EqualTo("\u22121234.5"));
+            Assert.That(AxisNumbers.Text(0.25, 1), Is.EqualTo("0.3"));
+            Assert.That(AxisNumbers.Fixed(1.0, 2), Is.EqualTo("1.00"));
+            Assert.That(AxisNumbers.Fixed(0.12, 2, true), Is.EqualTo("+0.12"));
+            Assert.That(AxisNumbers.Fixed(-0.001, 2, true), Is.EqualTo("0.00"), "no sign without a size");
             Assert.That(new LabelMix("wood", "cork", 0.25f).Title, Is.EqualTo("wood 75 % + cork 25 %"));
         }
 

@@ -5,8 +5,8 @@ using System.Globalization;
 
 namespace HaptoFlow.Preview
 {
-    /// <summary>Numbers along an axis.</summary>
-    internal static class Scale
+    /// <summary>Numbers of chart axes.</summary>
+    internal static class AxisNumbers
     {
         /// <summary>Multiples of 1, 2 or 5 times a power of ten from <paramref name="low"/> to
         /// <paramref name="high"/>.</summary>
