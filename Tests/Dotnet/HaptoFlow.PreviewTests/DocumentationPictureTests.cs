@@ -66,7 +66,7 @@ namespace HaptoFlow.PreviewTests
             Assert.That(result.Problem, Is.Null);
             string path = RepositoryFiles.In("Documentation~", "images", "new-material.png");
             using SkiaCanvas picture = WindowPicture.Draw(result, layout, recording.Label, recording.Licence,
-                NewMaterialControls.WordsOf(recording), LearningReportText.Of(learning.Report!));
+                NewMaterialControls.Describe(recording), LearningReportText.Of(learning.Report!));
             picture.Save(path);
             Assert.That(new FileInfo(path).Length, Is.GreaterThan(50_000));
         }

@@ -63,10 +63,10 @@ namespace HaptoFlow.PreviewTests
                 ("Texture", false, () => State.HasTexture),
                 ("Impact", false, () => State.HasImpact),
                 ("Edge", false, () => State.HasEdge),
-                ("Felt Through", (int)PreviewDevice.Motor, () => (int)State.Device),
+                ("Device", (int)PreviewDevice.Motor, () => (int)State.Device),
                 ("Seed", 7, () => State.Seed),
                 ("Loop", true, () => State.Loops),
-                ("Louder", false, () => State.Raises),
+                ("Normalise", false, () => State.Raises),
             };
             Window.Finish();
             foreach ((string label, object value, Func<object> kept) in cases)

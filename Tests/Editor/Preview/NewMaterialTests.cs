@@ -94,7 +94,7 @@ namespace HaptoFlow.PreviewTests
             Assert.That(Window.Session!.Problem, Is.Null);
             Assert.That(Window.Session.Shown!.Sounds, Has.Count.EqualTo(1));
             Assert.That((State.Name, State.Licence), Is.EqualTo(("denim", "CC BY 4.0")));
-            Assert.That(NewMaterialControls.WordsOf(Window.Session.Recording!),
+            Assert.That(NewMaterialControls.Describe(Window.Session.Recording!),
                 Is.EqualTo("Denim: 4.0 s, one axis at 2000 Hz, speed from the file, force from the file."));
             Assert.That(Obstacle(), Is.Null);
         }
@@ -181,7 +181,7 @@ namespace HaptoFlow.PreviewTests
         {
             const string Ruled = "{\"nearest_label\": \"corduroy\", \"turn_degrees\": 29.4}";
             Assert.That(LearningReportText.Of(Ruled),
-                Does.Contain("the first axis lies across the ribs, 29 degrees from the recording's"));
+                Does.Contain("the first axis is perpendicular to the ribs, 29 degrees from the recording's"));
             Assert.That(LearningReportText.TurnDegrees(Ruled), Is.EqualTo(29.4));
             const string Plain = "{\"nearest_label\": \"wood\", \"turn_degrees\": 0}";
             Assert.That(LearningReportText.Of(Plain), Does.Not.Contain("ribs"));

@@ -33,9 +33,9 @@ namespace HaptoFlow.PreviewTests
             Undo.IncrementCurrentGroup();
             Assert.That(Take(step), Is.EqualTo(
                 "Took stone (x2, -3 dB/oct) from Step (rule 1 of \"Rooms\": tag \"Finish\")"));
-            Assert.That(Heard, Is.EqualTo(("stone", 2f, -3f)));
+            Assert.That(Played, Is.EqualTo(("stone", 2f, -3f)));
             Undo.PerformUndo();
-            Assert.That(Heard, Is.EqualTo(("wood", 1f, 0f)));
+            Assert.That(Played, Is.EqualTo(("wood", 1f, 0f)));
         }
 
         [Test]
@@ -101,7 +101,7 @@ namespace HaptoFlow.PreviewTests
             surface.enabled = false;
             Assert.That(Take(table), Does.StartWith("Took stone from Table (rule 1"));
             table.tag = "Untagged";
-            Assert.That(Take(table), Is.EqualTo("Took cork from Table (its Haptic Surface is switched off)"));
+            Assert.That(Take(table), Is.EqualTo("Took cork from Table (its Haptic Surface is disabled)"));
         }
 
         [Test]
@@ -114,7 +114,7 @@ namespace HaptoFlow.PreviewTests
             leg.transform.SetParent(table.transform, false);
             Assert.That(Take(leg), Is.EqualTo("Took cork from Leg"));
             surface.IncludeChildren = false;
-            Assert.That(Take(leg), Is.EqualTo("Leg is not felt (it has no Haptic Surface, and no rule matches)"));
+            Assert.That(Take(leg), Is.EqualTo("Leg has no haptic material (it has no Haptic Surface, and no rule matches)"));
             leg.tag = "Finish";
             Assert.That(Take(leg), Does.StartWith("Took stone from Leg (rule 1"));
         }
@@ -141,17 +141,17 @@ namespace HaptoFlow.PreviewTests
             GameObject door = Box("Door");
             door.GetComponent<Collider>().isTrigger = true;
             int version = State.Version;
-            Assert.That(Take(Box("Ghost")), Is.EqualTo("Ghost is not felt (rule 2 of \"Rooms\": name \"Ghost*\")"));
+            Assert.That(Take(Box("Ghost")), Is.EqualTo("Ghost has no haptic material (rule 2 of \"Rooms\": name \"Ghost*\")"));
             Assert.That(Take(Box("Lamp")), Is.EqualTo(
-                "Lamp is not felt (it has no Haptic Surface, and no rule matches)"));
-            Assert.That(Take(Make("Light")), Is.EqualTo("Light is not felt (it has no collider that can be felt)"));
-            Assert.That(Take(door), Is.EqualTo("Door is not felt (it has no collider that can be felt)"));
+                "Lamp has no haptic material (it has no Haptic Surface, and no rule matches)"));
+            Assert.That(Take(Make("Light")), Is.EqualTo("Light has no haptic material (it has no collider that can be touched)"));
+            Assert.That(Take(door), Is.EqualTo("Door has no haptic material (it has no collider that can be touched)"));
             Assert.That(Take(null), Is.EqualTo("Select an object of the scene or a Haptic Material first"));
             Assert.That(Take(map), Is.EqualTo("Select an object of the scene or a Haptic Material first"));
             Assert.That(State.Version, Is.EqualTo(version));
         }
 
-        private (string, float, float) Heard =>
+        private (string, float, float) Played =>
             (State.First.Label, State.First.FeatureScale, State.First.ToneDbPerOctave);
 
         private string Take(Object? selected) => SceneControls.TakeFrom(selected, State, Window.Session!.Model);

@@ -108,11 +108,11 @@ namespace HaptoFlow.PreviewTests
                 Number(settings.LandingSpeedMps));
             Effects(request.Effects);
             y += 6.0;
-            Choice("Felt Through", request.Device switch
+            Choice("Device", request.Device switch
             {
                 PreviewDevice.Controller => "Controller (frames)",
                 PreviewDevice.Motor => "Motor (160 Hz)",
-                _ => "Actuator (the wave)",
+                _ => "Actuator (waveform)",
             });
             Choice("Quality", request.Tier);
             Box seed = Begin("Seed");
@@ -219,7 +219,7 @@ namespace HaptoFlow.PreviewTests
             Tick(row, false);
             canvas.DrawText("Loop", row.Left + 20.0, row.MiddleY, TextSize, Label);
             Tick(row.Columns(66.0, 18.0), true);
-            canvas.DrawText("Louder", row.Left + 86.0, row.MiddleY, TextSize, Label);
+            canvas.DrawText("Normalise", row.Left + 86.0, row.MiddleY, TextSize, Label);
             double gain = 20.0 * Math.Log10(PreviewPlayer.RaisedPeak / peak);
             canvas.DrawText(AxisNumbers.Text(gain, 0, true) + " dB", row.Left + 140.0, row.MiddleY, Plot.NumberSize, Label);
             y += Row;

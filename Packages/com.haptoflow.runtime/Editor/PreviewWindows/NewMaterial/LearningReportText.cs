@@ -6,10 +6,10 @@ using HaptoFlow.Model;
 
 namespace HaptoFlow.Editor
 {
-    /// <summary>What a fit achieved, in one or two sentences.</summary>
+    /// <summary>Describes the result of learning in one or two sentences.</summary>
     internal static class LearningReportText
     {
-        /// <param name="json">As the library reports; what it does not say is left out.</param>
+        /// <param name="json">The library's report; missing values are left out.</param>
         public static string Of(string json)
         {
             JsonValue? report = Parsed(json);
@@ -28,7 +28,7 @@ namespace HaptoFlow.Editor
             if (report.Find("turn_degrees")?.Content is double turn && Math.Abs(turn) >= 0.5)
             {
                 parts.Add(string.Format(CultureInfo.InvariantCulture,
-                    "the first axis lies across the ribs, {0:0} degrees from the recording's", turn));
+                    "the first axis is perpendicular to the ribs, {0:0} degrees from the recording's", turn));
             }
             Add(parts, report, "seconds", "learnt in {0:0.0} s");
             string text = parts.Count > 0 ? "Learnt. " + Capital(string.Join("; ", parts)) + "." : "Learnt.";
@@ -42,7 +42,7 @@ namespace HaptoFlow.Editor
             return text;
         }
 
-        /// <summary>From the recording's first axis to the material's; 0 where the report does not say.</summary>
+        /// <summary>Angle from the recording's first axis to the material's; 0 if the report has none.</summary>
         public static double TurnDegrees(string json) =>
             Parsed(json)?.Find("turn_degrees")?.Content is double degrees ? degrees : 0.0;
 

@@ -9,52 +9,51 @@ using UnityEngine;
 
 namespace HaptoFlow.Editor
 {
-    /// <summary>The controls of the window that learns materials. Main thread, within OnGUI.</summary>
+    /// <summary>The controls of the New Material window. Main thread, within OnGUI.</summary>
     internal sealed class NewMaterialControls
     {
         private const float LabelWidth = 112f;
         private const float ButtonWidth = 84f;
 
         private static readonly GUIContent Model =
-            new GUIContent("Model", "The model under which the material shall be felt; none for the project's.");
+            new GUIContent("Model", "The model that the material is learnt for. None: the project's model.");
         private static readonly GUIContent Choose = new GUIContent("Choose Recording\u2026",
-            "A CSV table or a WAV file of one material, ten seconds or more. What stands beside it, NAME.json, is " +
-            "read too.");
+            "A CSV table or a WAV file of one material, ten seconds or more. The file NAME.json beside it is read too.");
         private static readonly GUIContent Speed = new GUIContent("Speed [m/s]",
-            "At which it was recorded, where the file does not say it. 0: not known.");
+            "Used if the file has none. 0: unknown.");
         private static readonly GUIContent Force = new GUIContent("Force [N]",
-            "At which it was recorded, where the file does not say it. 0: not known.");
+            "Used if the file has none. 0: unknown.");
         private static readonly GUIContent FullScale = new GUIContent("Full Scale [m/s\u00b2]",
-            "The acceleration that +-1 of a WAV file stands for, where no sidecar says it. 0: not known.");
-        private static readonly GUIContent Name = new GUIContent("Name", "What the material is called.");
+            "Acceleration of a sample of 1 in the WAV file. Used if no sidecar file states it. 0: unknown.");
+        private static readonly GUIContent Name = new GUIContent("Name", "Name of the material.");
         private static readonly GUIContent Category =
-            new GUIContent("Category", "For example cloth or wood; empty for that of the nearest label.");
+            new GUIContent("Category", "For example cloth or wood. Empty: the category of the nearest label.");
         private static readonly GUIContent Licence = new GUIContent("Licence",
-            "Of the recording; the material carries it. Empty for unknown.");
+            "Licence of the recording, stored in the material. Empty: unknown.");
         private static readonly GUIContent Description =
-            new GUIContent("Description", "One or two sentences, or none.");
+            new GUIContent("Description", "One or two sentences; may be empty.");
         private static readonly GUIContent LearnButton = new GUIContent("Learn",
-            "Takes ten to twenty seconds in the background; the editor goes on meanwhile.");
+            "Learns the material in the background, which takes ten to twenty seconds.");
         private static readonly GUIContent CancelButton =
-            new GUIContent("Cancel", "What was learnt before stays.");
-        private static readonly GUIContent Play = new GUIContent("Play", "Plays what is chosen beside it.");
-        private static readonly GUIContent Stop = new GUIContent("Stop", "Silence.");
+            new GUIContent("Cancel", "Stops learning. An earlier result is kept.");
+        private static readonly GUIContent Play = new GUIContent("Play", "Plays the recording or the result, as chosen beside.");
+        private static readonly GUIContent Stop = new GUIContent("Stop", "Stops playback.");
         private static readonly GUIContent[] Sides =
         {
-            new GUIContent("Recording", "Hear the recording."),
-            new GUIContent("Result", "Hear what was learnt, moved as the recording was."),
+            new GUIContent("Recording", "Plays the recording."),
+            new GUIContent("Result", "Plays the learnt material with the motion of the recording."),
         };
-        private static readonly GUIContent Loop = new GUIContent("Loop", "Begins again at the end.");
+        private static readonly GUIContent Loop = new GUIContent("Loop", "Repeats playback.");
         private static readonly GUIContent Match = new GUIContent("Match Levels",
             "Shows and plays the result at the recording's level, so that only the textures differ.");
         private static readonly GUIContent SaveButton = new GUIContent("Save as Haptic Material\u2026",
-            "An asset that carries the material; the model stays as it is.");
+            "Saves the material as an asset. The model does not change.");
         private static readonly GUIContent ExportButton = new GUIContent("Export File\u2026",
-            "A .haptomaterial file, for the command line and other projects.");
+            "Writes a .haptomaterial file, for the command line and other projects.");
 
         private readonly NewMaterialState state;
 
-        // As laid out: what changes in the midst of an event must not bring controls that nobody laid out.
+        // Copies from the last layout event: IMGUI needs the same controls in the events that follow it.
         private bool learns;
         private bool hasResult;
         private string obstacle = "";
@@ -65,16 +64,16 @@ namespace HaptoFlow.Editor
 
         public NewMaterialControls(NewMaterialState state) => this.state = state;
 
-        /// <summary>What a button asks for, done when the event is over.</summary>
-        public event Action? ChooseAsked;
+        /// <summary>Raised by the button of the same name. Handlers must open dialogs after the event.</summary>
+        public event Action? ChoosePressed;
 
-        public event Action? LearnAsked;
+        public event Action? LearnPressed;
 
-        public event Action? SaveAsked;
+        public event Action? SavePressed;
 
-        public event Action? ExportAsked;
+        public event Action? ExportPressed;
 
-        /// <param name="model">In use; null for none.</param>
+        /// <param name="model">The model in use; null for none.</param>
         public void Draw(NewMaterialSession session, NewMaterialPlayer player, HapticModelAsset? model)
         {
             if (Event.current.type == EventType.Layout)
@@ -91,7 +90,7 @@ namespace HaptoFlow.Editor
             }
             if (GUILayout.Button(Choose))
             {
-                ChooseAsked?.Invoke();
+                ChoosePressed?.Invoke();
             }
             if (found.Length > 0)
             {
@@ -119,19 +118,19 @@ namespace HaptoFlow.Editor
             DrawSaving();
         }
 
-        /// <summary>What was read, in one or two sentences.</summary>
-        internal static string WordsOf(Recording recording)
+        /// <summary>Describes a recording in one or two sentences.</summary>
+        internal static string Describe(Recording recording)
         {
             string motion = recording.VelocityMps != null ? "speed from the file"
                 : recording.ConstantVelocityMps is { } velocity
                     ? Text("speed {0:0.###} m/s", Math.Sqrt(velocity.X * velocity.X + velocity.Y * velocity.Y))
-                    : "speed not known";
+                    : "speed unknown";
             string force = recording.ForceNewtons != null ? "force from the file"
                 : recording.ConstantForceNewtons is { } newtons ? Text("force {0:0.###} N", newtons)
-                : "force not known";
-            string words = Text("{0}: {1:0.0} s, {2} at {3:0} Hz, {4}, {5}.", recording.Name, recording.Seconds,
+                : "force unknown";
+            string description = Text("{0}: {1:0.0} s, {2} at {3:0} Hz, {4}, {5}.", recording.Name, recording.Seconds,
                 recording.AxisCount == 1 ? "one axis" : "three axes", recording.SampleRateHz, motion, force);
-            return string.Join(" ", new[] { words }.Concat(recording.Remarks));
+            return string.Join(" ", new[] { description }.Concat(recording.Remarks));
         }
 
         private void LayOut(NewMaterialSession session, HapticModelAsset? model)
@@ -141,7 +140,7 @@ namespace HaptoFlow.Editor
             obstacle = session.Obstacle(model) ?? "";
             problem = session.Problem ?? "";
             found = session.Recording != null
-                ? WordsOf(session.Recording)
+                ? Describe(session.Recording)
                 : state.Path.Length > 0 ? Path.GetFileName(state.Path) : "";
             if (reportOf != state.Report)
             {
@@ -183,7 +182,7 @@ namespace HaptoFlow.Editor
             {
                 if (GUILayout.Button(LearnButton))
                 {
-                    LearnAsked?.Invoke();
+                    LearnPressed?.Invoke();
                 }
             }
             if (obstacle.Length > 0)
@@ -220,21 +219,21 @@ namespace HaptoFlow.Editor
             {
                 if (GUILayout.Button(SaveButton))
                 {
-                    SaveAsked?.Invoke();
+                    SavePressed?.Invoke();
                 }
                 if (GUILayout.Button(ExportButton))
                 {
-                    ExportAsked?.Invoke();
+                    ExportPressed?.Invoke();
                 }
             }
         }
 
-        private void DrawNumber(GUIContent title, float value, float highest, bool isKnown,
+        private void DrawNumber(GUIContent title, float value, float maximum, bool isKnown,
             Action<NewMaterialState, float> change)
         {
             using (new EditorGUI.DisabledScope(isKnown))
             {
-                float entered = Mathf.Clamp(EditorGUILayout.FloatField(title, value), 0f, highest);
+                float entered = Mathf.Clamp(EditorGUILayout.FloatField(title, value), 0f, maximum);
                 if (!entered.Equals(value) && !float.IsNaN(entered))
                 {
                     state.Change(title.text.Split(' ')[0], changed => change(changed, entered));

@@ -7,8 +7,8 @@ using UnityEngine;
 
 namespace HaptoFlow.Editor
 {
-    /// <summary>Reads the recording, learns from it and renders the result, all in the background; takes over what was
-    /// finished. Main thread.</summary>
+    /// <summary>Reads the recording, learns from it and renders the result, all in the background, and holds the latest
+    /// results. Main thread.</summary>
     internal sealed class NewMaterialSession : IDisposable
     {
         private readonly NewMaterialState state;
@@ -16,7 +16,7 @@ namespace HaptoFlow.Editor
         private readonly LatestTask<RecordingFile.Request, RecordingFile> reading;
         private readonly LatestTask<ComparisonRequest, ComparisonResult> comparing;
         private RecordingFile? file;
-        private (string Path, float FullScale) asked;
+        private (string Path, float FullScale) requested;
         private (Recording, string Material, bool Matches, int Active, byte[])? compared;
         private (Recording? File, float Speed, float Force) completedOf;
         private HapticLearning? learning;
@@ -29,42 +29,41 @@ namespace HaptoFlow.Editor
             comparing = new LatestTask<ComparisonRequest, ComparisonResult>(worker.Do);
         }
 
-        /// <summary>As the file has it, with the speed and the force that were entered; null where there is none.
-        /// </summary>
+        /// <summary>The recording with the speed and the force that were entered; null without one.</summary>
         public Recording? Recording { get; private set; }
 
-        /// <summary>As the file has it; null where there is none.</summary>
+        /// <summary>The recording as the file has it; null without one.</summary>
         public Recording? FromFile => file?.Recording;
 
-        /// <summary>Null until the first is finished.</summary>
+        /// <summary>The latest comparison; null until the first is finished.</summary>
         public ComparisonResult? Shown { get; private set; }
 
-        /// <summary>Null while nothing is being learnt.</summary>
+        /// <summary>The running learning; null if none runs.</summary>
         public HapticLearning? Learning => learning;
 
-        /// <summary>Something is being read or rendered.</summary>
+        /// <summary>True while a recording is read or rendered.</summary>
         public bool IsBusy => reading.IsBusy || comparing.IsBusy;
 
-        /// <summary>What went wrong, for people; null where nothing did.</summary>
+        /// <summary>An error message; null without an error.</summary>
         public string? Problem => file?.Problem ?? failure ?? Shown?.Problem;
 
-        /// <summary>Why nothing can be learnt now; null where something can.</summary>
+        /// <summary>What is missing before learning can start; null if nothing is.</summary>
         /// <param name="model">Null for none.</param>
         public string? Obstacle(HapticModelAsset? model) => model == null
             ? "Choose a model: the project has none."
             : Recording == null
                 ? "Choose a recording: a CSV table or a WAV file of ten seconds of one material."
                 : !Recording.KnowsMotion
-                    ? "Enter the speed and the force at which it was recorded: the file does not say them."
+                    ? "Enter the speed and the force of the recording: the file does not state them."
                     : state.Name.Trim().Length == 0 ? "Enter a name." : null;
 
-        /// <summary>Asks for what is set where it is not what was asked for last.</summary>
-        /// <param name="model">The model to learn for; null where there is none.</param>
+        /// <summary>Reads and renders again if the settings have changed since the last call.</summary>
+        /// <param name="model">The model to learn for; null for none.</param>
         public void Refresh(HapticModelAsset? model)
         {
-            if (asked != (state.Path, state.FullScaleMps2))
+            if (requested != (state.Path, state.FullScaleMps2))
             {
-                asked = (state.Path, state.FullScaleMps2);
+                requested = (state.Path, state.FullScaleMps2);
                 failure = null;
                 Read();
             }
@@ -73,11 +72,11 @@ namespace HaptoFlow.Editor
             {
                 return;
             }
-            (Recording, string, bool, int, byte[]) wanted =
+            (Recording, string, bool, int, byte[]) current =
                 (Recording, state.Material, state.MatchesLevels, state.Active, model.File);
-            if (!wanted.Equals(compared))
+            if (!current.Equals(compared))
             {
-                compared = wanted;
+                compared = current;
                 comparing.Submit(new ComparisonRequest(model.File, Recording)
                 {
                     Material = state.Material,
@@ -88,7 +87,7 @@ namespace HaptoFlow.Editor
             }
         }
 
-        /// <summary>Begins to learn; returns at once.</summary>
+        /// <summary>Starts learning in the background.</summary>
         public void Learn(HapticModelAsset model)
         {
             if (learning != null || Obstacle(model) != null)
@@ -112,11 +111,11 @@ namespace HaptoFlow.Editor
             }
         }
 
-        /// <summary>What was learnt before stays.</summary>
+        /// <summary>Stops learning; an earlier result is kept.</summary>
         public void Cancel() => learning?.Cancel();
 
-        /// <summary>Takes over what was finished meanwhile.</summary>
-        /// <returns>Something else is shown now.</returns>
+        /// <summary>Takes finished results.</summary>
+        /// <returns>True if the window must be drawn again.</returns>
         public bool Poll()
         {
             try
@@ -132,14 +131,14 @@ namespace HaptoFlow.Editor
             }
             catch (Exception error)
             {
-                // A defect: the window goes on, and says so.
+                // An unexpected exception is a defect; the window shows it and stays usable.
                 failure = "The comparison failed: " + error.Message;
                 Debug.LogException(error);
                 return true;
             }
         }
 
-        /// <summary>Waits until nothing is under way any more; for tests.</summary>
+        /// <summary>Blocks until nothing runs any more; for tests.</summary>
         public void Finish(Action refresh)
         {
             do
@@ -154,7 +153,8 @@ namespace HaptoFlow.Editor
             while (IsBusy || learning != null);
         }
 
-        /// <summary>Cancels and waits for what is under way: native calls must not outlive the scripts.</summary>
+        /// <summary>Cancels everything and blocks until it ends, because native calls must not outlive a domain reload.
+        /// </summary>
         public void Dispose()
         {
             learning?.Cancel();
@@ -176,7 +176,7 @@ namespace HaptoFlow.Editor
                 state.Path, state.FullScaleMps2 > 0f ? state.FullScaleMps2 : (double?)null));
         }
 
-        /// <summary>What the file says of itself fills what nobody entered.</summary>
+        /// <summary>Fills empty settings from the file.</summary>
         private void Take(RecordingFile read)
         {
             file = read;
@@ -192,12 +192,12 @@ namespace HaptoFlow.Editor
 
         private void Complete()
         {
-            (Recording?, float, float) wanted = (FromFile, state.SpeedMps, state.ForceNewtons);
-            if (wanted.Equals(completedOf))
+            (Recording?, float, float) current = (FromFile, state.SpeedMps, state.ForceNewtons);
+            if (current.Equals(completedOf))
             {
                 return;
             }
-            completedOf = wanted;
+            completedOf = current;
             Recording = FromFile?.With(state.SpeedMps > 0f ? state.SpeedMps : (double?)null,
                 state.ForceNewtons > 0f ? state.ForceNewtons : (double?)null);
         }

@@ -5,30 +5,30 @@ using UnityEngine;
 
 namespace HaptoFlow.Editor
 {
-    /// <summary>Everything that can be set in the window that learns materials, undoable; what was learnt is kept here
-    /// too, so that neither a reload of the scripts nor an error loses it.</summary>
+    /// <summary>The settings of the New Material window, with undo. Also holds the learnt material, which thus survives
+    /// domain reloads and errors.</summary>
     internal sealed class NewMaterialState : ScriptableObject
     {
         public const float MaximumSpeedMps = 10f;
         public const float MaximumForceNewtons = 100f;
 
-        /// <summary>Null for the project's.</summary>
+        /// <summary>Null for the project's model.</summary>
         [field: SerializeField]
         public HapticModelAsset? Model { get; set; }
 
-        /// <summary>Of the recording's file; empty until one is chosen.</summary>
+        /// <summary>Path of the recording's file; empty until one is chosen.</summary>
         [field: SerializeField]
         public string Path { get; set; } = "";
 
-        /// <summary>In m/s, where the recording does not say; 0 for unknown.</summary>
+        /// <summary>Used if the recording has no speed; 0 for unknown.</summary>
         [field: SerializeField]
         public float SpeedMps { get; set; }
 
-        /// <summary>In N, where the recording does not say; 0 for unknown.</summary>
+        /// <summary>Used if the recording has no force; 0 for unknown.</summary>
         [field: SerializeField]
         public float ForceNewtons { get; set; }
 
-        /// <summary>Of a WAV file without sidecar: the acceleration of +-1; 0 for unknown.</summary>
+        /// <summary>Acceleration of a sample of 1 in a WAV file without sidecar; 0 for unknown.</summary>
         [field: SerializeField]
         public float FullScaleMps2 { get; set; }
 
@@ -38,37 +38,37 @@ namespace HaptoFlow.Editor
         [field: SerializeField]
         public string Category { get; set; } = "";
 
-        /// <summary>Of the recording; empty where nobody knows.</summary>
+        /// <summary>Licence of the recording; empty for unknown.</summary>
         [field: SerializeField]
         public string Licence { get; set; } = "";
 
         [field: SerializeField]
         public string Description { get; set; } = "";
 
-        /// <summary>The text of the material that was learnt; empty for none yet.</summary>
+        /// <summary>The text of the learnt material's file; empty before one was learnt.</summary>
         [field: SerializeField]
         public string Material { get; set; } = "";
 
-        /// <summary>What the fit achieved, as JSON; empty for none yet.</summary>
+        /// <summary>The library's report on learning, as JSON; empty before a material was learnt.</summary>
         [field: SerializeField]
         public string Report { get; set; } = "";
 
-        /// <summary>The result is shown and played at the recording's level.</summary>
+        /// <summary>True to show and play the result at the recording's level.</summary>
         [field: SerializeField]
         public bool MatchesLevels { get; set; }
 
-        /// <summary>Which is heard: 0 for the recording, 1 for the result.</summary>
+        /// <summary>Index of the sound that is played: 0 for the recording, 1 for the result.</summary>
         [field: SerializeField]
         public int Active { get; set; } = 1;
 
         [field: SerializeField]
         public bool Loops { get; set; }
 
-        /// <summary>Another number whenever something may be different.</summary>
+        /// <summary>Changes whenever a setting may have changed.</summary>
         public int Version { get; private set; }
 
         /// <summary>Makes a change that can be undone.</summary>
-        /// <param name="what">Of the undo's name, for example "Speed".</param>
+        /// <param name="what">Completes the name of the undo step, for example "Speed".</param>
         public void Change(string what, Action<NewMaterialState> change)
         {
             Undo.RecordObject(this, "New Material " + what);
@@ -76,7 +76,7 @@ namespace HaptoFlow.Editor
             ++Version;
         }
 
-        /// <summary>Something was undone or done again.</summary>
+        /// <summary>Call this after an undo or redo.</summary>
         public void MarkChanged() => ++Version;
     }
 }

@@ -7,18 +7,18 @@ using UnityEngine;
 
 namespace HaptoFlow.Editor
 {
-    /// <summary>Window > HaptoFlow > New Material from Recording: a material learnt from ten seconds, heard beside its
-    /// recording, saved as a Haptic Material. Everything slow happens in the background.</summary>
+    /// <summary>Window > HaptoFlow > New Material from Recording: learns a material from a recording of ten seconds,
+    /// compares both, and saves the material as an asset. Learning and rendering run in the background.</summary>
     internal sealed class NewMaterialWindow : EditorWindow
     {
         private const float Width = 1200f;
         private const float Height = 760f;
 
-        // What may be seen of the window where it is docked into less; the rest is scrolled to.
+        // A smaller window scrolls.
         private const float MinimumWidth = 480f;
         private const float MinimumHeight = 320f;
 
-        private static readonly string[] Forms = { "Recordings", "csv,wav" };
+        private static readonly string[] FileFilters = { "Recordings", "csv,wav" };
 
         [SerializeField]
         private NewMaterialState? state;
@@ -29,7 +29,7 @@ namespace HaptoFlow.Editor
         private PreviewView? view;
         private Vector2 scroll;
 
-        /// <summary>For whoever drives the window.</summary>
+        /// <summary>For scripts and tests that control the window.</summary>
         internal NewMaterialState State => state!;
 
         /// <summary>Null while the window is closed.</summary>
@@ -63,11 +63,11 @@ namespace HaptoFlow.Editor
             picture = new EditorPicture(DrawCharts);
             player = new NewMaterialPlayer(state, Session);
             controls = new NewMaterialControls(state);
-            // Dialogs in the midst of drawing would upset what is being drawn.
-            controls.ChooseAsked += () => EditorApplication.delayCall += Choose;
-            controls.LearnAsked += Learn;
-            controls.SaveAsked += () => EditorApplication.delayCall += Save;
-            controls.ExportAsked += () => EditorApplication.delayCall += Export;
+            // A modal dialog within OnGUI would disturb the layout, so that it opens after the event.
+            controls.ChoosePressed += () => EditorApplication.delayCall += Choose;
+            controls.LearnPressed += Learn;
+            controls.SavePressed += () => EditorApplication.delayCall += Save;
+            controls.ExportPressed += () => EditorApplication.delayCall += Export;
             Undo.undoRedoPerformed += OnUndo;
             EditorApplication.update += Step;
             AssemblyReloadEvents.beforeAssemblyReload += Release;
@@ -114,7 +114,7 @@ namespace HaptoFlow.Editor
             }
         }
 
-        /// <summary>Once an editor update: asks for what is set, takes over what is finished.</summary>
+        /// <summary>Called at each editor update: submits changes, takes results, and continues playback.</summary>
         internal void Step()
         {
             if (Session == null)
@@ -129,7 +129,7 @@ namespace HaptoFlow.Editor
             }
         }
 
-        /// <summary>Waits until nothing is under way any more.</summary>
+        /// <summary>Blocks until nothing runs any more.</summary>
         internal void Finish()
         {
             Session!.Finish(() => Session.Refresh(ModelInUse()));
@@ -137,7 +137,7 @@ namespace HaptoFlow.Editor
             Repaint();
         }
 
-        /// <summary>Takes a recording's file; can be undone.</summary>
+        /// <summary>Chooses a recording's file. Can be undone.</summary>
         internal void Take(string path) => State.Change("Recording", changed =>
         {
             changed.Path = path;
@@ -160,7 +160,7 @@ namespace HaptoFlow.Editor
         private void Choose()
         {
             string folder = State.Path.Length > 0 ? Path.GetDirectoryName(State.Path) ?? "" : "";
-            string path = EditorUtility.OpenFilePanelWithFilters("Choose Recording", folder, Forms);
+            string path = EditorUtility.OpenFilePanelWithFilters("Choose Recording", folder, FileFilters);
             if (path.Length > 0)
             {
                 Take(path);
@@ -195,7 +195,7 @@ namespace HaptoFlow.Editor
             }
         }
 
-        /// <summary>Felt where the material cannot be.</summary>
+        /// <summary>The label to use where the learnt material is not available.</summary>
         private string NearestLabel()
         {
             const string unknown = "wood";
@@ -217,7 +217,7 @@ namespace HaptoFlow.Editor
             shown.Panel.Draw(canvas, view!.Palette, view.Layout.Charts, shown.Active);
         }
 
-        /// <summary>Lets go of everything that Unity or the native library would keep.</summary>
+        /// <summary>Frees everything that would outlive a domain reload.</summary>
         private void Release()
         {
             player?.Stop();

@@ -5,38 +5,35 @@ using HaptoFlow.Recordings;
 
 namespace HaptoFlow.Editor
 {
-    /// <summary>A recording's file, read in the background.</summary>
+    /// <summary>The result of reading a recording's file in the background.</summary>
     internal sealed class RecordingFile
     {
-        private RecordingFile(Request request, Recording? recording, string? problem)
+        private RecordingFile(Recording? recording, string? problem)
         {
-            Asked = request;
             Recording = recording;
             Problem = problem;
         }
 
-        public Request Asked { get; }
-
-        /// <summary>Null where it cannot be read.</summary>
+        /// <summary>Null if the file cannot be read.</summary>
         public Recording? Recording { get; }
 
-        /// <summary>What was wrong with the file and what was expected; null where nothing was.</summary>
+        /// <summary>What is wrong with the file and what was expected; null on success.</summary>
         public string? Problem { get; }
 
-        /// <summary>For <see cref="LatestTask{TRequest,TResult}"/>.</summary>
+        /// <summary>Reads a file; the work of a <see cref="LatestTask{TRequest,TResult}"/>.</summary>
         public static RecordingFile Read(Request request, CancellationToken token)
         {
             try
             {
-                return new RecordingFile(request, RecordingReader.Read(request.Path, request.FullScaleMps2), null);
+                return new RecordingFile(RecordingReader.Read(request.Path, request.FullScaleMps2), null);
             }
             catch (HaptoFlowException error)
             {
-                return new RecordingFile(request, null, error.Message + ".");
+                return new RecordingFile(null, error.Message + ".");
             }
         }
 
-        /// <summary>Which file, and what nobody wrote beside it.</summary>
+        /// <summary>A file to read, and its full scale if it was entered.</summary>
         internal sealed class Request
         {
             public Request(string path, double? fullScaleMps2)

@@ -5,7 +5,8 @@ using UnityEngine;
 
 namespace HaptoFlow.Editor
 {
-    /// <summary>Plays the recording or the result, and goes on with what takes its place. Main thread.</summary>
+    /// <summary>Plays the recording or the result, and continues with its replacement at the same position. Main thread.
+    /// </summary>
     internal sealed class NewMaterialPlayer
     {
         private readonly NewMaterialState state;
@@ -21,7 +22,7 @@ namespace HaptoFlow.Editor
             this.session = session;
         }
 
-        /// <summary>Null where nothing is there to be heard.</summary>
+        /// <summary>The chosen sound; null if there is none.</summary>
         public AnalysedSound? PlayedSound => session.Shown == null || session.Shown.Sounds.Count == 0
             ? null
             : session.Shown.Sounds[Math.Min(state.Active, session.Shown.Sounds.Count - 1)];
@@ -30,11 +31,11 @@ namespace HaptoFlow.Editor
 
         public bool IsAvailable => speaker.IsAvailable;
 
-        /// <summary>Where the playhead is; null while nothing plays.</summary>
+        /// <summary>Position of playback; null while nothing plays.</summary>
         public double? PlayedSeconds =>
             speaker.IsPlaying ? speaker.PositionSamples / (double)PreviewSound.RateHz : (double?)null;
 
-        /// <summary>Both are raised by as much, until the louder one fills the speakers' range.</summary>
+        /// <summary>Gain of both sounds, at which the louder one nearly reaches full scale.</summary>
         public float Gain
         {
             get
@@ -67,8 +68,8 @@ namespace HaptoFlow.Editor
             speaker.Stop();
         }
 
-        /// <summary>Once an editor update.</summary>
-        /// <returns>Something moves: the window is to be drawn again.</returns>
+        /// <summary>Call this at each editor update.</summary>
+        /// <returns>True if the window must be drawn again.</returns>
         public bool Step()
         {
             bool wasPlaying = speaker.IsPlaying;

@@ -6,28 +6,28 @@ using UnityEngine;
 
 namespace HaptoFlow.Editor
 {
-    /// <summary>Plays what is shown, and goes on with what takes its place. Main thread.</summary>
+    /// <summary>Plays the active sound, and continues with its replacement at the same position. Main thread.</summary>
     internal sealed class PreviewPlayer
     {
-        /// <summary>The louder of the materials is raised to this; the other one by as much.</summary>
+        /// <summary>Peak of the louder sound after normalising.</summary>
         public const float RaisedPeak = 0.9f;
 
-        private static readonly GUIContent Play = new GUIContent("Play", "Space plays and stops.");
-        private static readonly GUIContent Stopping = new GUIContent("Stop", "Space plays and stops.");
+        private static readonly GUIContent Play = new GUIContent("Play", "Plays or stops. Key Space.");
+        private static readonly GUIContent Stopping = new GUIContent("Stop", "Plays or stops. Key Space.");
         private static readonly GUIContent Loop =
-            new GUIContent("Loop", "Begins again at the end. Changes are heard while it plays.");
-        private static readonly GUIContent Raise = new GUIContent("Louder",
-            "Raises both materials by as much, until the louder one fills the speakers' range. What is exported " +
-            "stays as it is.");
+            new GUIContent("Loop", "Repeats playback, with changes as soon as they are rendered.");
+        private static readonly GUIContent Raise = new GUIContent("Normalise",
+            "Plays both sounds with the gain at which the louder one nearly reaches full scale. Exported files are " +
+            "not affected.");
         private static readonly GUIContent[] Sides =
         {
-            new GUIContent("A", "Hear material A. Key A."), new GUIContent("B", "Hear material B. Key B."),
+            new GUIContent("A", "Plays material A. Key A."), new GUIContent("B", "Plays material B. Key B."),
         };
         private static readonly GUIContent ExportButton =
             new GUIContent("Export WAV\u2026",
-                $"48 kHz, 32-bit float; +-1 is {PreviewSound.FullScaleMps2:0} m/s^2. Ctrl or Cmd + E.");
+                $"48 kHz, 32-bit float; a sample of 1 is {PreviewSound.FullScaleMps2:0} m/s^2. Ctrl or Cmd + E.");
         private static readonly GUIContent Measure =
-            new GUIContent("Measure", "Measures the milliseconds of the table again, on this machine.");
+            new GUIContent("Measure", "Times the tiers again on this machine.");
 
         private readonly TexturePreviewState state;
         private readonly PreviewSession session;
@@ -44,19 +44,19 @@ namespace HaptoFlow.Editor
             this.session = session;
         }
 
-        /// <summary>The active material's; null where nothing was rendered.</summary>
+        /// <summary>The active sound; null if nothing was rendered.</summary>
         public AnalysedSound? PlayedSound =>
             session.Shown != null && state.PlayedIndex < session.Shown.Sounds.Count
                 ? session.Shown.Sounds[state.PlayedIndex]
                 : null;
 
-        /// <summary>Where the playhead is; null while nothing plays.</summary>
+        /// <summary>Position of playback; null while nothing plays.</summary>
         public double? PlayedSeconds =>
             speaker.IsPlaying ? speaker.PositionSamples / (double)PreviewSound.RateHz : (double?)null;
 
         public bool IsPlaying => speaker.IsPlaying;
 
-        /// <summary>What is multiplied into the samples for the speakers.</summary>
+        /// <summary>Gain of playback.</summary>
         public float Gain
         {
             get
@@ -86,7 +86,7 @@ namespace HaptoFlow.Editor
             }
         }
 
-        /// <summary>Plays as soon as what is set is rendered.</summary>
+        /// <summary>Plays as soon as the present settings are rendered.</summary>
         public void PlayWhenReady() => waits = true;
 
         public void Stop()
@@ -96,8 +96,8 @@ namespace HaptoFlow.Editor
             speaker.Stop();
         }
 
-        /// <summary>Once an editor update.</summary>
-        /// <returns>Something moves: the window is to be drawn again.</returns>
+        /// <summary>Call this at each editor update.</summary>
+        /// <returns>True if the window must be drawn again.</returns>
         public bool Step()
         {
             if (waits && session.IsFinal && PlayedSound != null)
@@ -155,7 +155,7 @@ namespace HaptoFlow.Editor
 
         private void DrawSwitch(GUIContent title, bool value, Action<TexturePreviewState, bool> change)
         {
-            bool entered = GUILayout.Toggle(value, title, GUILayout.Width(64f));
+            bool entered = GUILayout.Toggle(value, title, GUILayout.Width(84f));
             if (entered != value)
             {
                 state.Change(title.text, changed => change(changed, entered));
@@ -163,7 +163,7 @@ namespace HaptoFlow.Editor
         }
 
         private string Remark() => !speaker.IsAvailable
-            ? "this editor plays no clips: export instead"
+            ? "this editor cannot play clips; export instead"
             : session.IsBusy
                 ? "rendering\u2026"
                 : Gain > 1f ? AxisNumbers.Text(20.0 * Math.Log10(Gain), 0, true) + " dB" : "";

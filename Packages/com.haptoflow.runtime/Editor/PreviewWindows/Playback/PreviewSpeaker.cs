@@ -8,9 +8,9 @@ using Object = UnityEngine.Object;
 
 namespace HaptoFlow.Editor
 {
-    /// <summary>Plays to the speakers through what the Inspector of an AudioClip plays through: outside of play mode
-    /// too, and without a scene's listener. Unity keeps that to itself (UnityEditor.AudioUtil, the same in 2022.3 and
-    /// 6000.0), so it is looked up by name. Main thread.</summary>
+    /// <summary>Plays sounds in edit mode and without an AudioListener, as the Inspector of an AudioClip does. Unity's
+    /// class for this, UnityEditor.AudioUtil, is internal, so that it is called by reflection; its methods are the same
+    /// in 2022.3 and 6000.0. Main thread.</summary>
     internal sealed class PreviewSpeaker
     {
         private const BindingFlags Any = BindingFlags.Static | BindingFlags.Public | BindingFlags.NonPublic;
@@ -30,18 +30,18 @@ namespace HaptoFlow.Editor
             position = Find(player, "GetPreviewClipSamplePosition", typeof(int));
         }
 
-        /// <summary>Whether this editor lets clips be played.</summary>
+        /// <summary>True if this editor has the methods.</summary>
         public bool IsAvailable => play != null && stop != null && isPlaying != null && position != null;
 
-        /// <summary>What this speaker was given last still sounds.</summary>
+        /// <summary>True while the sound that was started last plays.</summary>
         public bool IsPlaying => clip != null && (bool)isPlaying!.Invoke(null, null);
 
-        /// <summary>Of what sounds.</summary>
+        /// <summary>Position of playback; 0 while nothing plays.</summary>
         public int PositionSamples => IsPlaying ? (int)position!.Invoke(null, null) : 0;
 
-        /// <summary>In the place of what sounds.</summary>
-        /// <param name="gain">Samples are held within +-1 behind it.</param>
-        /// <param name="startSample">Where to begin; beyond the end, at the beginning.</param>
+        /// <summary>Plays a sound in place of the present one.</summary>
+        /// <param name="gain">The products are limited to -1 to 1.</param>
+        /// <param name="startSample">Start position; a position past the end counts as 0.</param>
         public void Play(PreviewSound sound, float gain, int startSample, bool loops)
         {
             Stop();
@@ -60,7 +60,7 @@ namespace HaptoFlow.Editor
             play!.Invoke(null, new object[] { clip, startSample < samples.Length ? startSample : 0, loops });
         }
 
-        /// <summary>Silence, and no clip left behind.</summary>
+        /// <summary>Stops playback and destroys the clip.</summary>
         public void Stop()
         {
             if (clip == null)

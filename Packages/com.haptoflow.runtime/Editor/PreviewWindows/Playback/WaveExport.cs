@@ -7,10 +7,10 @@ using HaptoFlow.Preview;
 
 namespace HaptoFlow.Editor
 {
-    /// <summary>Writes what is heard to a file.</summary>
+    /// <summary>Writes sounds to WAV files.</summary>
     internal static class WaveExport
     {
-        /// <summary>For example "wood 0.12 mps 1.5 N".</summary>
+        /// <summary>A proposed file name, for example "wood 0.12 mps 1.5 N".</summary>
         public static string FileName(LabelMix material, StrokeSettings settings)
         {
             string name = string.Format(CultureInfo.InvariantCulture, "{0} {1:0.###} mps {2:0.##} N", material.Title,
@@ -18,9 +18,9 @@ namespace HaptoFlow.Editor
             return string.Concat(name.Select(letter => Path.GetInvalidFileNameChars().Contains(letter) ? '-' : letter));
         }
 
-        /// <summary>48 kHz, 32-bit float, one channel, +-1 is <see cref="PreviewSound.FullScaleMps2"/>: as rendered,
-        /// without the speakers' gain.</summary>
-        /// <returns>What went wrong; null where nothing did.</returns>
+        /// <summary>Writes the samples as rendered, without the gain of playback: 48 kHz, 32-bit float, one channel, in
+        /// units of <see cref="PreviewSound.FullScaleMps2"/>.</summary>
+        /// <returns>An error message; null on success.</returns>
         public static string? Write(string path, PreviewSound sound)
         {
             try

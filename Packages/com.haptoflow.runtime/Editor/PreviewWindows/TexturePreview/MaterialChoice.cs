@@ -6,7 +6,7 @@ using UnityEngine;
 
 namespace HaptoFlow.Editor
 {
-    /// <summary>A material as it was chosen in the window.</summary>
+    /// <summary>A material chosen in the Texture Preview window.</summary>
     [Serializable]
     internal sealed class MaterialChoice
     {
@@ -19,23 +19,24 @@ namespace HaptoFlow.Editor
         [SerializeField]
         private float toneDbPerOctave;
 
-        /// <summary>Empty until one is chosen.</summary>
+        /// <summary>Empty until a label is chosen.</summary>
         [field: SerializeField]
         public string Label { get; set; } = "";
 
-        /// <summary>Empty for none.</summary>
+        /// <summary>Label of the blend's second material; empty for none.</summary>
         [field: SerializeField]
         public string SecondLabel { get; set; } = "";
 
-        /// <summary>0: the first label alone. 1: the second alone.</summary>
+        /// <summary>Share of the second label in the blend, 0 to 1.</summary>
         [field: SerializeField]
         public float Share { get; set; } = 0.5f;
 
-        /// <summary>Where the sliders are that move the material. Not to be changed: set another array.</summary>
+        /// <summary>Positions of the sliders; empty if they are all 0. Set a new array instead of changing elements.
+        /// </summary>
         [field: SerializeField]
         public float[] Moves { get; set; } = Array.Empty<float>();
 
-        /// <summary>How many times as large the features are, 0.25 to 4; anything else is limited to that.</summary>
+        /// <summary>Feature scale, limited to 0.25 to 4.</summary>
         public float FeatureScale
         {
             get => featureScale;
@@ -43,7 +44,7 @@ namespace HaptoFlow.Editor
                 value, MaterialDescription.SmallestFeatureScale, MaterialDescription.LargestFeatureScale);
         }
 
-        /// <summary>Tilt of the spectrum about 150 Hz, -12 to 12; anything else is limited to that.</summary>
+        /// <summary>Tone: tilt of the spectrum about 150 Hz, limited to -12 to 12.</summary>
         public float ToneDbPerOctave
         {
             get => toneDbPerOctave;
@@ -51,50 +52,49 @@ namespace HaptoFlow.Editor
                 value, -MaterialDescription.MostToneDbPerOctave, MaterialDescription.MostToneDbPerOctave);
         }
 
-        /// <summary>No slider changes the material.</summary>
+        /// <summary>True if every slider has its default, feature scale and tone included.</summary>
         public bool IsAtRest => SliderSet.IsAtRest(Moves) && featureScale.Equals(1f) && toneDbPerOctave.Equals(0f);
 
-        /// <summary>A material that was learnt, in the place of the label; null for the label.</summary>
+        /// <summary>A learnt material that replaces the label; null for the label.</summary>
         public HapticMaterial? Learnt
         {
             get => learnt != null && learnt.IsLearnt ? learnt : null;
             set => learnt = value;
         }
 
-        /// <summary>Another label, or another learnt material: no slider moves it; scale and tone are the mix's.
-        /// </summary>
+        /// <summary>Chooses the material of a mix, with its feature scale and tone; the other sliders are reset.</summary>
         public void Take(LabelMix mix, HapticMaterial? material)
         {
             Label = mix.First;
             SecondLabel = mix.Second;
             Share = mix.Second.Length > 0 ? mix.Share : 0.5f;
             Learnt = material;
-            Rest();
+            ResetSliders();
             FeatureScale = mix.FeatureScale;
             ToneDbPerOctave = mix.ToneDbPerOctave;
         }
 
-        /// <summary>A label of the model; the sliders are at rest.</summary>
+        /// <summary>Chooses a label of the model, and resets the sliders.</summary>
         public void Choose(string label)
         {
             Label = label;
             Learnt = null;
-            Rest();
+            ResetSliders();
         }
 
-        /// <summary>No slider changes the material any more.</summary>
-        public void Rest()
+        /// <summary>Resets every slider.</summary>
+        public void ResetSliders()
         {
             Moves = Array.Empty<float>();
             FeatureScale = 1f;
             ToneDbPerOctave = 0f;
         }
 
-        /// <summary>The label; where none is chosen, the one of that index among the model's.</summary>
+        /// <summary>The chosen label, or the model's label of an index if none is chosen.</summary>
         public string LabelOr(IReadOnlyList<string> labels, int index) =>
             Label.Length > 0 ? Label : index < labels.Count ? labels[index] : labels.Count > 0 ? labels[0] : "wood";
 
-        /// <summary>The label or the learnt material, for people.</summary>
+        /// <summary>Name of the learnt material or of the label, for display.</summary>
         public string NameOr(IReadOnlyList<string> labels, int index) =>
             Learnt != null ? Learnt.name : LabelOr(labels, index);
 

@@ -6,7 +6,7 @@ using UnityEngine;
 
 namespace HaptoFlow.Editor
 {
-    /// <summary>Makes strokes of what the pointer does on the patch. Main thread.</summary>
+    /// <summary>Records strokes that the user draws on the patch. Main thread.</summary>
     internal sealed class PatchInput
     {
         private static readonly int ControlHint = "HaptoFlow.TexturePreview.Patch".GetHashCode();
@@ -16,13 +16,13 @@ namespace HaptoFlow.Editor
 
         public PatchInput(TexturePreviewState state) => this.state = state;
 
-        /// <summary>A stroke was drawn to its end.</summary>
+        /// <summary>Raised when the pointer is released.</summary>
         public event Action? Ended;
 
-        /// <summary>With Shift a touch is added to the stroke instead of beginning another. A pen's pressure is the
-        /// force, half of it being the force that is set; a mouse presses with the force that is set.</summary>
-        /// <param name="patch">Where the patch is on the screen.</param>
-        /// <param name="clockSeconds">Of a clock that runs with the events.</param>
+        /// <summary>Handles an event. With Shift, a touch is added to the stroke; otherwise a new stroke starts. A mouse
+        /// presses with the force that is set, a pen at half its maximum pressure.</summary>
+        /// <param name="patch">Place of the patch on the screen.</param>
+        /// <param name="clockSeconds">Time of the event.</param>
         public void Handle(Event input, Rect patch, double clockSeconds)
         {
             int control = GUIUtility.GetControlID(ControlHint, FocusType.Passive, patch);

@@ -8,7 +8,7 @@ using UnityEngine;
 
 namespace HaptoFlow.Editor
 {
-    /// <summary>The window's controls for material and stroke. Main thread, within OnGUI.</summary>
+    /// <summary>Controls for materials, stroke, effects, device and quality. Main thread, within OnGUI.</summary>
     internal sealed class PreviewControls
     {
         public const float LabelWidth = 96f;
@@ -20,52 +20,52 @@ namespace HaptoFlow.Editor
 
         private static readonly string[] DeviceNames =
         {
-            "Actuator (the wave)", "Controller (frames)", "Motor (160 Hz)",
+            "Actuator (waveform)", "Controller (frames)", "Motor (160 Hz)",
         };
 
         private static readonly GUIContent[] EffectTitles =
         {
-            new GUIContent("Texture", "The tip feels the material's texture while it slides."),
-            new GUIContent("Impact", "The tip feels a landing, as hard as it was fast."),
-            new GUIContent("Edge", "The tip feels rims."),
+            new GUIContent("Texture", "Vibration of the material while the tip slides."),
+            new GUIContent("Impact", "Transient at touch-down; its strength follows the approach speed."),
+            new GUIContent("Edge", "Transient at each edge of the geometry."),
         };
 
         private static readonly GUIContent Effects = new GUIContent("Effects",
-            "What the surface asks for. Impact is the blow of a landing, edge the tick of a rim.");
-        private static readonly GUIContent Device = new GUIContent("Felt Through",
-            "What plays the wave. A controller or a motor is shown beside the wave that was wanted: switch between A " +
-            "and B to hear both.");
+            "Effects of the surface.");
+        private static readonly GUIContent Device = new GUIContent("Device",
+            "The device that plays the waveform. The simulated output of a controller or a motor is shown as B beside " +
+            "the waveform.");
         private static readonly GUIContent Landing = new GUIContent("Landing [m/s]",
-            "Into the surface, at each touch-down: a finger-high drop lands with 1 m/s.");
+            "Normal speed at each touch-down. A drop from 5 cm ends with 1 m/s.");
 
         private static readonly GUIContent Model =
-            new GUIContent("Model", "The .haptoflow model to preview; none for the project's.");
+            new GUIContent("Model", "The .haptoflow model to preview. None: the project's model.");
         private static readonly GUIContent First = new GUIContent("Material A", "A label of the model.");
         private static readonly GUIContent Second =
-            new GUIContent("Material B", "A label of the model to compare with.");
-        private static readonly GUIContent Blend = new GUIContent("Blend with", "A second label in the material.");
+            new GUIContent("Material B", "A label of the model, to compare with A.");
+        private static readonly GUIContent Blend = new GUIContent("Blend with", "A second label to blend with the first.");
         private static readonly GUIContent Share =
-            new GUIContent("Share", "0: the first label alone. 1: the second label alone.");
+            new GUIContent("Share", "Share of the second label in the blend. 0: only the first. 1: only the second.");
         private static readonly GUIContent Compare =
-            new GUIContent("Compare", "Shows a second material beside the first, on the same scales.");
+            new GUIContent("Compare", "Shows a second material beside the first, with the same axes.");
         private static readonly GUIContent StrokeChoice =
-            new GUIContent("Stroke", "How the tip moves. Drawing on the patch makes another one.");
+            new GUIContent("Stroke", "Motion of the tip. A stroke drawn on the patch replaces it.");
         private static readonly GUIContent Speed =
-            new GUIContent("Speed [m/s]", "Along the surface. Left and right arrow keys change it.");
+            new GUIContent("Speed [m/s]", "Tangential speed. Left and right arrow keys change it.");
         private static readonly GUIContent Force = new GUIContent("Force [N]",
-            "Into the surface. Up and down arrow keys change it. For a pen, the force of half its pressure.");
+            "Normal force. Up and down arrow keys change it. A pen has this force at half its maximum pressure.");
         private static readonly GUIContent Direction = new GUIContent("Direction [\u00b0]",
-            "0: along the surface's first axis, to the right. 90: along the second, upwards.");
+            "0: the surface's first axis, to the right. 90: the second axis, upwards.");
         private static readonly GUIContent Contact =
-            new GUIContent("Contact [s]", "From the first touch-down to the last lift-off.");
+            new GUIContent("Contact [s]", "Time from the first touch-down to the last lift-off.");
         private static readonly GUIContent Quality =
-            new GUIContent("Quality", "The tier that renders. What each costs stands in the table.");
+            new GUIContent("Quality", "The tier that renders. The table shows the time and accuracy of each.");
         private static readonly GUIContent Seed =
-            new GUIContent("Seed", "The same seed makes the same noise every time.");
+            new GUIContent("Seed", "Seed of the noise generator. The same seed gives the same samples.");
 
         private readonly TexturePreviewState state;
 
-        // As laid out: what changes in the midst of an event must not bring controls that nobody laid out.
+        // Copies from the last layout event: IMGUI needs the same controls in the events that follow it.
         private readonly bool[] blends = new bool[2];
         private bool compares;
 
@@ -161,7 +161,7 @@ namespace HaptoFlow.Editor
             int device = EditorGUILayout.Popup(Device, (int)state.Device, DeviceNames);
             if (device != (int)state.Device)
             {
-                state.Change("Felt Through", changed => changed.Device = (PreviewDevice)device);
+                state.Change("Device", changed => changed.Device = (PreviewDevice)device);
             }
         }
 
@@ -181,10 +181,10 @@ namespace HaptoFlow.Editor
             }
         }
 
-        private void DrawSlider(GUIContent title, float value, float lowest, float highest,
+        private void DrawSlider(GUIContent title, float value, float minimum, float maximum,
             Action<TexturePreviewState, float> change)
         {
-            float entered = EditorGUILayout.Slider(title, value, lowest, highest);
+            float entered = EditorGUILayout.Slider(title, value, minimum, maximum);
             if (!entered.Equals(value))
             {
                 state.Change(title.text.Split(' ')[0], changed => change(changed, entered));

@@ -5,30 +5,30 @@ using UnityEngine;
 
 namespace HaptoFlow.Editor
 {
-    /// <summary>What keys do in the window while no text is being edited.</summary>
+    /// <summary>Keyboard shortcuts of the window, while no text is being edited.</summary>
     internal static class PreviewKeys
     {
-        public const string Help = "Space plays. A and B switch. Left and right change the speed, up and down the " +
-            "force. Ctrl or Cmd + E exports.";
+        public const string Help = "Space: play or stop. A, B: switch material. Left, right: speed. Up, down: force. " +
+            "Ctrl or Cmd + E: export.";
 
-        // Steps that sound alike wherever they start: four to the double.
+        // A constant ratio: four steps double the value.
         private static readonly float Step = (float)Math.Pow(2.0, 0.25);
 
-        /// <returns>The key meant something, and is used up.</returns>
+        /// <returns>True if the key is a shortcut; the event is then used.</returns>
         public static bool Handle(Event input, TexturePreviewState state, Action play, Action export)
         {
             if (input.type != EventType.KeyDown || EditorGUIUtility.editingTextField)
             {
                 return false;
             }
-            Action? wanted = input.control || input.command || input.alt
+            Action? action = input.control || input.command || input.alt
                 ? WithModifier(input, export)
                 : Plain(input.keyCode, state, play);
-            if (wanted == null)
+            if (action == null)
             {
                 return false;
             }
-            wanted();
+            action();
             input.Use();
             return true;
         }

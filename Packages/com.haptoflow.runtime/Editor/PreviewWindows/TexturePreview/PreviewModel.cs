@@ -6,7 +6,7 @@ using HaptoFlow.Model;
 
 namespace HaptoFlow.Editor
 {
-    /// <summary>What the window knows of a model without the native library. Main thread.</summary>
+    /// <summary>Labels and tiers of a model, read without the native library. Main thread.</summary>
     internal sealed class PreviewModel
     {
         private static readonly string[] Playable = { "draft", "standard", "fine" };
@@ -21,22 +21,22 @@ namespace HaptoFlow.Editor
             DefaultTier = header?.DefaultTier.Name ?? "standard";
         }
 
-        /// <summary>Empty where there is no model.</summary>
+        /// <summary>Empty without a model.</summary>
         public byte[] File { get; }
 
-        /// <summary>In the model's order; empty where it cannot be read.</summary>
+        /// <summary>In the model's order; empty if it cannot be read.</summary>
         public IReadOnlyList<string> Labels { get; }
 
-        /// <summary>Tiers that an engine can play.</summary>
+        /// <summary>Names of the tiers that an engine can play.</summary>
         public IReadOnlyList<string> Tiers { get; }
 
         public string DefaultTier { get; }
 
-        /// <summary>The tier of that name, or the model's default where it has none: a window may have been saved with
+        /// <summary>The name itself if the model has such a tier, else its default. A window's state may name a tier of
         /// another model.</summary>
         public string TierOrDefault(string name) => Tiers.Contains(name) ? name : DefaultTier;
 
-        /// <summary>Why there is nothing to preview; null where there is.</summary>
+        /// <summary>Why the model cannot be previewed; null if it can.</summary>
         public string? Problem { get; }
 
         public static PreviewModel Of(HapticModelAsset? asset)
@@ -44,8 +44,8 @@ namespace HaptoFlow.Editor
             if (asset == null)
             {
                 return new PreviewModel(Array.Empty<byte>(), null,
-                    "There is no model to preview. Choose one above or in Project Settings > HaptoFlow, or install " +
-                    "the package again: it brings one.");
+                    "There is no model to preview. Choose one above or in Project Settings > HaptoFlow, or reinstall the " +
+                    "package, which contains one.");
             }
             try
             {

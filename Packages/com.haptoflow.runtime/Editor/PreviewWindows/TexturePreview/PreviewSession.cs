@@ -6,8 +6,8 @@ using UnityEngine;
 
 namespace HaptoFlow.Editor
 {
-    /// <summary>Keeps what is shown in step with what is set: asks for it in the background and takes it over. Main
-    /// thread.</summary>
+    /// <summary>Requests previews of the window's state in the background, and holds the latest result. Main thread.
+    /// </summary>
     internal sealed class PreviewSession : IDisposable
     {
         private readonly TexturePreviewState state;
@@ -15,8 +15,8 @@ namespace HaptoFlow.Editor
         private readonly LatestTask<PreviewRequest, PreviewResult> task;
         private (StrokePreset, StrokeSettings, DrawnPoint[])? strokeSource;
         private Stroke stroke = DrawnStroke.Of(Array.Empty<DrawnPoint>());
-        private (int Version, PreviewModel Model, int Measurement)? asked;
-        private bool askedSketch;
+        private (int Version, PreviewModel Model, int Measurement)? requested;
+        private bool requestedSketch;
         private HapticModelAsset? modelAsset;
         private int measurement = 1;
         private string? failure;
@@ -29,16 +29,16 @@ namespace HaptoFlow.Editor
 
         public PreviewModel Model { get; private set; } = PreviewModel.Of(null);
 
-        /// <summary>Null until the first is finished.</summary>
+        /// <summary>The latest result; null until the first is finished.</summary>
         public PreviewResult? Shown { get; private set; }
 
-        /// <summary>What is set is not shown yet.</summary>
+        /// <summary>True while a preview is being made.</summary>
         public bool IsBusy => task.IsBusy;
 
-        /// <summary>What is shown is what is set, with the noise of the seed.</summary>
+        /// <summary>True if the result belongs to the present state and is not a sketch.</summary>
         public bool IsFinal => Shown != null && !IsBusy && !Shown.Request.IsSketch;
 
-        /// <summary>Why nothing sounds; null where something does, or will.</summary>
+        /// <summary>Why there is no sound; null if there is one, or will be.</summary>
         public string? Problem => Model.Problem ?? failure ?? Shown?.Problem;
 
         public Stroke Stroke
@@ -57,10 +57,10 @@ namespace HaptoFlow.Editor
             }
         }
 
-        /// <summary>Asks for what is set where it is not what was asked for last.</summary>
-        /// <param name="asset">The model to preview; null where there is none.</param>
-        /// <param name="held">A control is held down: a sketch will do until it is released.</param>
-        public void Refresh(HapticModelAsset? asset, bool held)
+        /// <summary>Submits a request if the state has changed since the last one.</summary>
+        /// <param name="asset">The model to preview; null for none.</param>
+        /// <param name="isDragging">True while a control is dragged: a sketch is rendered until it is released.</param>
+        public void Refresh(HapticModelAsset? asset, bool isDragging)
         {
             HapticModelAsset? present = asset != null ? asset : null;
             if (!ReferenceEquals(present, modelAsset) || (present != null && present.File != Model.File))
@@ -68,19 +68,19 @@ namespace HaptoFlow.Editor
                 modelAsset = present;
                 Model = PreviewModel.Of(present);
             }
-            (int, PreviewModel, int) wanted = (state.Version, Model, measurement);
-            bool same = wanted.Equals(asked);
-            if (same && (!askedSketch || held))
+            (int, PreviewModel, int) current = (state.Version, Model, measurement);
+            bool same = current.Equals(requested);
+            if (same && (!requestedSketch || isDragging))
             {
                 return;
             }
-            asked = wanted;
-            askedSketch = held && !same;
+            requested = current;
+            requestedSketch = isDragging && !same;
             task.Submit(Request());
         }
 
-        /// <summary>Takes over what was finished meanwhile.</summary>
-        /// <returns>Something else is shown now.</returns>
+        /// <summary>Takes the finished result.</summary>
+        /// <returns>True if there is a new result or problem.</returns>
         public bool Poll()
         {
             try
@@ -95,14 +95,14 @@ namespace HaptoFlow.Editor
             }
             catch (Exception error)
             {
-                // A defect: the window goes on, and says so.
+                // An unexpected exception is a defect; the window shows it and stays usable.
                 failure = "The preview failed: " + error.Message;
                 Debug.LogException(error);
             }
             return true;
         }
 
-        /// <summary>Waits until what was asked for is shown.</summary>
+        /// <summary>Blocks until every submitted request is finished.</summary>
         public void Finish()
         {
             while (task.IsBusy)
@@ -112,10 +112,10 @@ namespace HaptoFlow.Editor
             }
         }
 
-        /// <summary>Measures the milliseconds anew with the next request.</summary>
+        /// <summary>Times the tiers again with the next request.</summary>
         public void MeasureAgain() => ++measurement;
 
-        /// <summary>Waits for what is under way: native calls must not outlive the scripts.</summary>
+        /// <summary>Blocks until the running request ends, because native calls must not outlive a domain reload.</summary>
         public void Dispose()
         {
             task.Dispose();
@@ -133,7 +133,7 @@ namespace HaptoFlow.Editor
                 Seed = unchecked((ulong)state.Seed),
                 Effects = state.Effects,
                 Device = state.Device,
-                IsSketch = askedSketch,
+                IsSketch = requestedSketch,
                 Measurement = measurement,
             };
         }

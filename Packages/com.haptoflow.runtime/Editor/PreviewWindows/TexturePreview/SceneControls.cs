@@ -5,21 +5,21 @@ using UnityEngine;
 
 namespace HaptoFlow.Editor
 {
-    /// <summary>The window's controls for the way from the scene and back. Main thread, within OnGUI.</summary>
+    /// <summary>Controls that copy the material from the scene and to it. Main thread, within OnGUI.</summary>
     internal static class SceneControls
     {
         private static readonly GUIContent Material = new GUIContent("Take from",
-            "Drop a Haptic Material here: the material that is heard becomes what it describes.");
+            "Drop a Haptic Material here to preview it in place of the active material.");
         private static readonly GUIContent Take = new GUIContent("Take from Selection",
-            "The material that is heard becomes that of the selected Haptic Material, or what the selected object " +
-            "feels like: by its Haptic Surface, else by a rule.");
+            "Previews the material of the selection in place of the active one: that of a Haptic Material, or of an " +
+            "object by its Haptic Surface or by a rule.");
         private static readonly GUIContent Apply = new GUIContent("Apply to Selection",
-            "The selected objects and Haptic Materials become the material that is heard. Can be undone.");
+            "Assigns the active material to the selected objects and Haptic Materials. Can be undone.");
 
-        /// <returns>What was done, for people; null where nothing was.</returns>
+        /// <returns>A message about what was done; null if nothing was.</returns>
         public static string? Draw(TexturePreviewState state, PreviewModel model)
         {
-            string? said = null;
+            string? message = null;
             float before = EditorGUIUtility.labelWidth;
             EditorGUIUtility.labelWidth = PreviewControls.LabelWidth;
             Object? dropped = EditorGUILayout.ObjectField(Material, null, typeof(HapticMaterial), false);
@@ -32,19 +32,19 @@ namespace HaptoFlow.Editor
             {
                 if (GUILayout.Button(Take))
                 {
-                    said = TakeFrom(Selection.activeObject, state, model);
+                    message = TakeFrom(Selection.activeObject, state, model);
                 }
                 if (GUILayout.Button(Apply))
                 {
-                    said = SceneMaterial.Apply(
+                    message = SceneMaterial.Apply(
                         state.PlayedMix(model.Labels), state.Material(state.PlayedIndex).Learnt, Selection.objects);
                 }
             }
-            return said;
+            return message;
         }
 
-        /// <summary>The material that is heard becomes what is felt of an object; can be undone.</summary>
-        /// <returns>What was taken and why, or why nothing was, for people.</returns>
+        /// <summary>Previews the material of an object in place of the active one. Can be undone.</summary>
+        /// <returns>A message about what was taken and why, or why nothing was.</returns>
         public static string TakeFrom(Object? selected, TexturePreviewState state, PreviewModel model)
         {
             SelectedMaterial found = SelectedMaterial.Of(selected);
@@ -52,7 +52,7 @@ namespace HaptoFlow.Editor
             if (!SceneMaterial.TryRead(found.Described, out LabelMix mix, out HapticMaterial? learnt))
             {
                 return remark.Length > 0
-                    ? selected!.name + " is not felt" + remark
+                    ? selected!.name + " has no haptic material" + remark
                     : "Select an object of the scene or a Haptic Material first";
             }
             state.Take(mix, learnt);

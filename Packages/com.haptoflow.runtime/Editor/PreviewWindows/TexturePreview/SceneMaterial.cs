@@ -7,12 +7,12 @@ using UnityEngine;
 
 namespace HaptoFlow.Editor
 {
-    /// <summary>Labels to and from the scene: surfaces, untagged objects with colliders, Haptic Material assets. One
-    /// step of undo for all. Main thread.</summary>
+    /// <summary>Reads the material of scene objects and Haptic Material assets, and assigns it to them in one undo step.
+    /// Main thread.</summary>
     internal static class SceneMaterial
     {
-        /// <summary>What a surface, a Haptic Material asset or an object that is felt is made of.</summary>
-        /// <param name="learnt">In the place of the mix's first label; null for the label.</param>
+        /// <summary>The material of a surface, of a Haptic Material asset, or of an object that has one by a rule.</summary>
+        /// <param name="learnt">A learnt material that replaces the mix's first label; null for the label.</param>
         /// <returns>False for anything else.</returns>
         public static bool TryRead(Object? source, out LabelMix mix, out HapticMaterial? learnt)
         {
@@ -41,16 +41,15 @@ namespace HaptoFlow.Editor
             return true;
         }
 
-        /// <summary>Makes objects of a material: a surface is changed, an object with a collider becomes one, a Haptic
-        /// Material asset changes for everything that shares it. A surface that shared an asset no longer does.
-        /// </summary>
-        /// <param name="learnt">In the place of the mix's first label; null for the label.</param>
-        /// <returns>What was done, for people.</returns>
+        /// <summary>Assigns a material to objects. An object with a collider gets a Haptic Surface if it has none. A
+        /// surface no longer uses a shared asset; an asset changes for every surface that shares it.</summary>
+        /// <param name="learnt">A learnt material that replaces the mix's first label; null for the label.</param>
+        /// <returns>A message about what was done.</returns>
         public static string Apply(LabelMix mix, HapticMaterial? learnt, IReadOnlyCollection<Object> selected)
         {
             if (mix.Moves.Count > 0)
             {
-                return "Save what the sliders made as a Haptic Material first";
+                return "Save the changed material as a Haptic Material first";
             }
             Undo.IncrementCurrentGroup();
             Undo.SetCurrentGroupName("Apply " + mix.Title);
@@ -64,8 +63,8 @@ namespace HaptoFlow.Editor
             Undo.CollapseUndoOperations(group);
             string remark = left.Count == 0
                 ? ""
-                : $"; not to {Names(left)}: no collider that can be felt, no object of an open scene, or a " +
-                    "material that carries another";
+                : $"; not to {Names(left)}: without a usable collider, not in an open scene, or a Haptic Material of " +
+                    "another learnt material";
             return done.Count == 0 && left.Count == 0
                 ? "Select objects of the scene, or Haptic Materials, first"
                 : $"Applied {mix.Title} to {(done.Count == 0 ? "nothing" : Names(done))}{remark}";
@@ -75,7 +74,7 @@ namespace HaptoFlow.Editor
         {
             if (target is HapticMaterial material)
             {
-                // One that carries what was learnt is that, and nothing else.
+                // A Haptic Material with a learnt material cannot become another one.
                 if (material.IsLearnt && learnt != material)
                 {
                     return false;
@@ -83,7 +82,7 @@ namespace HaptoFlow.Editor
                 Write(target, "description", mix, material.IsLearnt ? null : learnt);
                 return true;
             }
-            // Prefabs that are selected as assets are opened to be changed.
+            // Prefab assets are changed in prefab mode only.
             if (!(target is GameObject owner) || EditorUtility.IsPersistent(owner))
             {
                 return false;

@@ -5,8 +5,8 @@ using UnityEngine;
 
 namespace HaptoFlow.Editor
 {
-    /// <summary>What a selected object is made of: a Haptic Material, a surface, or an object that is felt by a surface
-    /// or by a rule. Main thread.</summary>
+    /// <summary>Finds the material of a selected object: a Haptic Material, a surface, or an object with a material by
+    /// its surface or by a rule. Main thread.</summary>
     internal readonly struct SelectedMaterial
     {
         private SelectedMaterial(Object? described, string remark = "")
@@ -15,11 +15,11 @@ namespace HaptoFlow.Editor
             Remark = remark;
         }
 
-        /// <summary>The surface or the Haptic Material that describes it; null where nothing is felt.</summary>
+        /// <summary>The surface or the Haptic Material with the description; null if the object has none.</summary>
         public Object? Described { get; }
 
-        /// <summary>For people: by which rule, and of which part; where nothing is felt, why. Empty where there is
-        /// nothing to say.</summary>
+        /// <summary>For display: the rule and the part of the object that were used, or why there is no material. Empty
+        /// without a remark.</summary>
         public string Remark { get; }
 
         public static SelectedMaterial Of(Object? selected)
@@ -32,8 +32,7 @@ namespace HaptoFlow.Editor
             return new SelectedMaterial(describes ? selected : null);
         }
 
-        /// <summary>The object's own surface first, then what its colliders feel like; a surface that is off describes
-        /// what no rule does.</summary>
+        /// <summary>In this order: the object's own surface, the material of its colliders, a disabled surface.</summary>
         private static SelectedMaterial OfObject(GameObject owner)
         {
             bool hasOwn = owner.TryGetComponent(out HapticSurface own);
@@ -56,7 +55,7 @@ namespace HaptoFlow.Editor
             if (described != null)
             {
                 return new SelectedMaterial(
-                    described, described.isActiveAndEnabled ? "" : "its Haptic Surface is switched off");
+                    described, described.isActiveAndEnabled ? "" : "its Haptic Surface is disabled");
             }
             return new SelectedMaterial(null, WhyNot(answers));
         }
@@ -100,7 +99,7 @@ namespace HaptoFlow.Editor
         {
             if (answers.Count == 0)
             {
-                return "it has no collider that can be felt";
+                return "it has no collider that can be touched";
             }
             ColliderAnswer first = answers.FirstOrDefault(
                 answer => answer.ByRules.Parts.Any(part => part.Map is object)) ?? answers.First();

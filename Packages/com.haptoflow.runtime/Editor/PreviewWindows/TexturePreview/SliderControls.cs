@@ -7,39 +7,39 @@ using UnityEngine;
 
 namespace HaptoFlow.Editor
 {
-    /// <summary>The window's sliders: they move the material that is heard, and what comes of it is saved as an asset.
-    /// Main thread, within OnGUI.</summary>
+    /// <summary>Sliders that change the active material, and the button that saves it as an asset. Main thread, within
+    /// OnGUI.</summary>
     internal sealed class SliderControls
     {
         private static readonly GUIContent Title = new GUIContent("Sliders",
-            "They change the material that is heard: its features, its tone, and its place among the model's labels.");
+            "Change the active material: its feature scale, its tone, and its embedding.");
         private static readonly GUIContent Reset =
-            new GUIContent("Reset", "All sliders rest: nothing is moved, the feature scale is 1, the tone 0.");
+            new GUIContent("Reset", "Resets all sliders: the feature scale to 1, the others to 0.");
         private static readonly GUIContent Save = new GUIContent("Save as Haptic Material\u2026",
-            "An asset that carries the moved material, its feature scale and its tone; the model stays as it is.");
+            "Saves the changed material as an asset, with its feature scale and tone. The model does not change.");
         private static readonly GUIContent FeatureScale = new GUIContent("Feature Scale",
-            "The material's features, its ribs included, are this many times as large. The level stays as it is.");
+            "Scales the size of the material's features, its ribs included. The level does not change.");
         private static readonly GUIContent Tone = new GUIContent("Tone [dB/oct]",
-            "The spectrum is tilted about 150 Hz: above 0 it is brighter, below 0 darker.");
+            "Tilts the spectrum about 150 Hz. Above 0, high frequencies are stronger.");
         private static readonly Dictionary<string, string> Tooltips = new Dictionary<string, string>
         {
-            ["coarseness"] = "Above 0 the grain is coarser, below 0 finer.",
-            ["hardness"] = "Above 0 it is harder, below 0 softer.",
-            ["regularity"] = "Above 0 it is more regular, below 0 more random.",
-            ["stickiness"] = "Above 0 the tip sticks and slips more, below 0 less.",
-            ["level"] = "Above 0 it is stronger, below 0 weaker.",
+            ["coarseness"] = "Above 0 the texture is coarser, below 0 finer.",
+            ["hardness"] = "Above 0 the material is harder, below 0 softer.",
+            ["regularity"] = "Above 0 the texture is more regular, below 0 more random.",
+            ["stickiness"] = "Above 0 there is more stick-slip, below 0 less.",
+            ["level"] = "Above 0 the vibration is stronger, below 0 weaker.",
         };
 
         private readonly TexturePreviewState state;
         private readonly Dictionary<string, GUIContent> titles = new Dictionary<string, GUIContent>();
 
-        // As laid out: what changes in the midst of an event must not bring controls that nobody laid out.
+        // Copies from the last layout event: IMGUI needs the same controls in the events that follow it.
         private bool shows;
         private SliderCatalog? catalog;
 
         public SliderControls(TexturePreviewState state) => this.state = state;
 
-        /// <param name="save">Asks where to, when the event is over.</param>
+        /// <param name="save">Called when the save button is pressed; must open its dialog after the event.</param>
         public void Draw(HapticModelAsset? model, Action save)
         {
             if (Event.current.type == EventType.Layout)
@@ -88,9 +88,9 @@ namespace HaptoFlow.Editor
             });
         }
 
-        private void DrawSlider(GUIContent title, float present, float lowest, float highest, Action<float> change)
+        private void DrawSlider(GUIContent title, float present, float minimum, float maximum, Action<float> change)
         {
-            float entered = EditorGUILayout.Slider(title, present, lowest, highest);
+            float entered = EditorGUILayout.Slider(title, present, minimum, maximum);
             if (!entered.Equals(present))
             {
                 state.Change(title.text, _ => change(entered));
@@ -104,7 +104,7 @@ namespace HaptoFlow.Editor
             {
                 if (GUILayout.Button(Reset, GUILayout.Width(64f)))
                 {
-                    state.Change("Reset of Sliders", _ => material.Rest());
+                    state.Change("Reset Sliders", _ => material.ResetSliders());
                 }
                 if (GUILayout.Button(Save))
                 {

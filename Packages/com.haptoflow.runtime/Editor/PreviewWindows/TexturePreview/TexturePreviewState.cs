@@ -7,7 +7,7 @@ using UnityEngine;
 
 namespace HaptoFlow.Editor
 {
-    /// <summary>Everything that can be set in the Texture Preview window, undoable.</summary>
+    /// <summary>The settings of the Texture Preview window, with undo.</summary>
     internal sealed class TexturePreviewState : ScriptableObject
     {
         public const float MinimumSpeedMps = 0.002f;
@@ -18,7 +18,7 @@ namespace HaptoFlow.Editor
         public const float MinimumLandingMps = 0.01f;
         public const float MaximumLandingMps = 2f;
 
-        /// <summary>Null for the project's.</summary>
+        /// <summary>Null for the project's model.</summary>
         [field: SerializeField]
         public HapticModelAsset? Model { get; set; }
 
@@ -28,11 +28,11 @@ namespace HaptoFlow.Editor
         [field: SerializeField]
         public MaterialChoice Second { get; private set; } = new MaterialChoice();
 
-        /// <summary>The second material is shown beside the first.</summary>
+        /// <summary>True to show the second material beside the first.</summary>
         [field: SerializeField]
         public bool Compares { get; set; } = true;
 
-        /// <summary>Which material is heard and exported: 0 or 1.</summary>
+        /// <summary>Index of the material that is played and exported, if two are shown.</summary>
         [field: SerializeField]
         public int Active { get; set; }
 
@@ -63,43 +63,43 @@ namespace HaptoFlow.Editor
         [field: SerializeField]
         public bool HasEdge { get; set; } = true;
 
-        /// <summary>What the wave is felt through.</summary>
+        /// <summary>The device whose output is previewed.</summary>
         [field: SerializeField]
         public PreviewDevice Device { get; set; }
 
-        /// <summary>Not to be changed: set another array.</summary>
+        /// <summary>Points of the drawn stroke. Set a new array instead of changing elements.</summary>
         [field: SerializeField]
         public DrawnPoint[] Drawn { get; set; } = Array.Empty<DrawnPoint>();
 
-        /// <summary>Empty for the model's default.</summary>
+        /// <summary>Name of the tier; empty for the model's default.</summary>
         [field: SerializeField]
         public string Tier { get; set; } = "";
 
-        /// <summary>Key of all noise.</summary>
+        /// <summary>Key of the noise generator.</summary>
         [field: SerializeField]
         public int Seed { get; set; } = 1;
 
-        /// <summary>Raised until the louder of the two fills the speakers' range.</summary>
+        /// <summary>True to play both sounds with the gain at which the louder one nearly reaches full scale.</summary>
         [field: SerializeField]
         public bool Raises { get; set; } = true;
 
         [field: SerializeField]
         public bool Loops { get; set; }
 
-        /// <summary>The sliders are unfolded.</summary>
+        /// <summary>True if the sliders are unfolded.</summary>
         [field: SerializeField]
         public bool ShowsSliders { get; set; }
 
-        /// <summary>Another number whenever something may be different.</summary>
+        /// <summary>Changes whenever a setting may have changed.</summary>
         public int Version { get; private set; }
 
-        /// <summary>A device's rendering takes the second material's place.</summary>
+        /// <summary>True if a device's output is shown in place of the second material.</summary>
         public bool ShowsDevice => Device != PreviewDevice.Actuator;
 
-        /// <summary>The second material is shown.</summary>
+        /// <summary>True if the second material is shown.</summary>
         public bool ShowsSecond => Compares && !ShowsDevice;
 
-        /// <summary>The active one among those that are shown.</summary>
+        /// <summary>Index of the sound that is played, among those that are shown.</summary>
         public int PlayedIndex => Compares || ShowsDevice ? Active : 0;
 
         public StrokeSettings Settings =>
@@ -123,11 +123,11 @@ namespace HaptoFlow.Editor
             return ShowsSecond ? new[] { first, Second.Mix(labels, 1) } : new[] { first };
         }
 
-        /// <summary>The one of <see cref="Mixes"/> that is heard, or that a device plays.</summary>
+        /// <summary>The one of <see cref="Mixes"/> that is played, directly or by the device.</summary>
         public LabelMix PlayedMix(IReadOnlyList<string> labels) => Mixes(labels)[ShowsDevice ? 0 : PlayedIndex];
 
         /// <summary>Makes a change that can be undone.</summary>
-        /// <param name="what">Of the undo's name, for example "Speed".</param>
+        /// <param name="what">Completes the name of the undo step, for example "Speed".</param>
         public void Change(string what, Action<TexturePreviewState> change)
         {
             Undo.RecordObject(this, "Texture Preview " + what);
@@ -135,12 +135,12 @@ namespace HaptoFlow.Editor
             ++Version;
         }
 
-        /// <summary>The material that is heard becomes this one; can be undone.</summary>
-        /// <param name="learnt">In the place of the mix's first label; null for the label.</param>
+        /// <summary>Replaces the active material. Can be undone.</summary>
+        /// <param name="learnt">A learnt material that replaces the mix's first label; null for the label.</param>
         public void Take(LabelMix mix, HapticMaterial? learnt) =>
             Change("Material", changed => changed.Material(changed.PlayedIndex).Take(mix, learnt));
 
-        /// <summary>Something was undone or done again.</summary>
+        /// <summary>Call this after an undo or redo, or when an asset has changed.</summary>
         public void MarkChanged() => ++Version;
     }
 }

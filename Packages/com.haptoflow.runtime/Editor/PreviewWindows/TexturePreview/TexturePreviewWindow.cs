@@ -7,19 +7,19 @@ using Object = UnityEngine.Object;
 
 namespace HaptoFlow.Editor
 {
-    /// <summary>Window > HaptoFlow > Texture Preview: every texture heard and seen without a headset. Everything slow
-    /// happens in the background; the main thread takes over what was finished.</summary>
+    /// <summary>Window > HaptoFlow > Texture Preview: renders, plays and draws the vibration of materials without a
+    /// headset. Rendering and analysis run in the background.</summary>
     internal sealed class TexturePreviewWindow : EditorWindow
     {
         private const float Width = 1200f;
         private const float Height = 888f;
 
-        // What may be seen of the window where it is docked into less; the rest is scrolled to.
+        // A smaller window scrolls.
         private const float MinimumWidth = 480f;
         private const float MinimumHeight = 320f;
 
         private static readonly GUIContent FromRecording = new GUIContent("New Material from Recording\u2026",
-            "Learns a material from ten seconds of a recording, and saves it as a Haptic Material.");
+            "Learns a material from a recording of ten seconds, and saves it as a Haptic Material.");
 
         [SerializeField]
         private TexturePreviewState? state;
@@ -33,7 +33,7 @@ namespace HaptoFlow.Editor
         private PreviewView? view;
         private Vector2 scroll;
 
-        /// <summary>For whoever drives the window.</summary>
+        /// <summary>For scripts and tests that control the window.</summary>
         internal TexturePreviewState State => state!;
 
         /// <summary>Null while the window is closed.</summary>
@@ -42,7 +42,7 @@ namespace HaptoFlow.Editor
         /// <summary>Null while the window is closed.</summary>
         internal PreviewPlayer? Player => player;
 
-        /// <summary>Of strokes that are drawn.</summary>
+        /// <summary>Clock for drawn strokes.</summary>
         internal Func<double> ClockSeconds { get; set; } = () => EditorApplication.timeSinceStartup;
 
         [MenuItem("Window/HaptoFlow/Texture Preview", false, 2100)]
@@ -57,7 +57,7 @@ namespace HaptoFlow.Editor
             }
         }
 
-        /// <summary>Opens the window on what a surface or a Haptic Material asset is made of.</summary>
+        /// <summary>Opens the window with the material of a surface or of a Haptic Material asset.</summary>
         internal static void Open(Object described)
         {
             Open();
@@ -115,7 +115,7 @@ namespace HaptoFlow.Editor
             }
             if (PreviewKeys.Handle(Event.current, State, player!.Toggle, ExportLater))
             {
-                // What a key changes may need controls that were not laid out.
+                // The change may need controls that this event did not lay out.
                 Repaint();
                 return;
             }
@@ -128,9 +128,9 @@ namespace HaptoFlow.Editor
             using (new GUILayout.AreaScope(layout.Controls.ToRect()))
             {
                 controls!.Draw(Session.Model);
-                if (SceneControls.Draw(State, Session.Model) is { } said)
+                if (SceneControls.Draw(State, Session.Model) is { } message)
                 {
-                    ShowNotification(new GUIContent(said));
+                    ShowNotification(new GUIContent(message));
                 }
                 player.DrawButtons(ExportLater);
                 sliders!.Draw(ModelInUse(), SaveLater);
@@ -143,7 +143,7 @@ namespace HaptoFlow.Editor
             ShowCharts(layout.Charts);
         }
 
-        /// <summary>Once an editor update: asks for what is set, takes over what is finished.</summary>
+        /// <summary>Called at each editor update: submits changes, takes results, and continues playback.</summary>
         internal void Step()
         {
             if (Session == null)
@@ -158,7 +158,7 @@ namespace HaptoFlow.Editor
             }
         }
 
-        /// <summary>Waits until what is set is shown.</summary>
+        /// <summary>Blocks until the present settings are rendered.</summary>
         internal void Finish()
         {
             Session!.Refresh(ModelInUse(), false);
@@ -167,15 +167,15 @@ namespace HaptoFlow.Editor
             Repaint();
         }
 
-        /// <summary>Writes what is heard to a file.</summary>
-        /// <returns>What went wrong; null where nothing did.</returns>
+        /// <summary>Writes the active sound to a WAV file.</summary>
+        /// <returns>An error message; null on success.</returns>
         internal string? ExportTo(string path)
         {
             Finish();
             return Session!.Problem ?? WaveExport.Write(path, player!.PlayedSound!.Sound);
         }
 
-        // A dialog in the midst of drawing would upset what is being drawn.
+        // A modal dialog within OnGUI would disturb the layout, so that it opens after the event.
         private void ExportLater() => EditorApplication.delayCall += Export;
 
         private void Export()
@@ -237,7 +237,7 @@ namespace HaptoFlow.Editor
             Repaint();
         }
 
-        /// <summary>A learnt material, or the file of the sliders, may be another.</summary>
+        /// <summary>A learnt material or the file of the sliders may have changed.</summary>
         private void OnProjectChanged()
         {
             SliderCatalog.Forget();
@@ -246,7 +246,7 @@ namespace HaptoFlow.Editor
 
         private void ShowStroke(Box panel)
         {
-            // The drawn stroke follows the pointer at once; its sound is rendered later.
+            // While a stroke is drawn, the picture follows the pointer; the sound is rendered later.
             strokePicture!.OnGUI(Session!.Stroke, view!);
             Box place = PreviewLayout.Patch(panel);
             patch!.Handle(Event.current, place.ToRect(), ClockSeconds());
@@ -283,7 +283,7 @@ namespace HaptoFlow.Editor
                 shown.Request.Tier);
         }
 
-        /// <summary>Lets go of everything that Unity or the native library would keep.</summary>
+        /// <summary>Frees everything that would outlive a domain reload.</summary>
         private void Release()
         {
             player?.Stop();
