@@ -24,7 +24,7 @@ namespace HaptoFlow.PreviewTests
             seconds => amplitude * Math.Sin(2.0 * Math.PI * hertz * seconds);
 
         [Test]
-        public void TheTransformIsTheSumOfItsDefinition()
+        public void TheTransformEqualsItsDefiningSum()
         {
             var random = new Random(1);
             double[] real = Enumerable.Range(0, 64).Select(_ => random.NextDouble() - 0.5).ToArray();
@@ -41,11 +41,11 @@ namespace HaptoFlow.PreviewTests
         [TestCase(0)]
         [TestCase(1)]
         [TestCase(48)]
-        public void OnlyPowersOfTwoAreTransformed(int length) =>
+        public void OnlyPowersOfTwoAreAccepted(int length) =>
             Assert.That(() => new Fourier(length), Throws.ArgumentException);
 
         [Test]
-        public void TwoWindowsAtOnceAreTheTwoWindowsOneByOne()
+        public void TwoWindowsInOneTransformEqualTwoTransforms()
         {
             var random = new Random(2);
             float[] samples = Enumerable.Range(0, 3000).Select(_ => (float)(random.NextDouble() - 0.5)).ToArray();
@@ -57,13 +57,13 @@ namespace HaptoFlow.PreviewTests
             density.Of(samples, 100, 1700, first, second);
             density.Of(samples, 100, 5000, alone, none);
             Assert.That(first, Is.EqualTo(alone).Within(1e-9));
-            Assert.That(none, Is.All.EqualTo(0.0).Within(1e-12), "beyond the end there is silence");
+            Assert.That(none, Is.All.EqualTo(0.0).Within(1e-12), "samples past the end are zero");
             density.Of(samples, 1700, 1700, alone, none);
             Assert.That(second, Is.EqualTo(alone).Within(1e-9));
         }
 
         [Test]
-        public void TheDensityOfASineSumsUpToItsPowerAndPeaksAtItsFrequency()
+        public void TheDensityOfASineHasItsPowerAndItsPeak()
         {
             Spectrum spectrum = Spectrum.Of(Sound(Sine(4.0, 250.0)), CancellationToken.None);
             double power = Enumerable.Range(0, spectrum.Bins)
@@ -75,7 +75,7 @@ namespace HaptoFlow.PreviewTests
         }
 
         [Test]
-        public void TheSpectrumCountsTheTouchNotTheAirAroundIt()
+        public void TheSpectrumIgnoresTimeWithoutContact()
         {
             Func<double, double> sine = Sine(4.0, 250.0);
             double Level(double contactSeconds) => Spectrum.Of(
@@ -96,7 +96,7 @@ namespace HaptoFlow.PreviewTests
         }
 
         [Test]
-        public void ABandHoldsItsHighestBinHoweverNarrow()
+        public void ANarrowBandContainsItsHighestBin()
         {
             Spectrum spectrum = Spectrum.Of(Sound(Sine(1.0, 300.0)), CancellationToken.None);
             double highest = SpectrumChart.Highest(spectrum);
@@ -105,7 +105,7 @@ namespace HaptoFlow.PreviewTests
         }
 
         [Test]
-        public void TheSpectrogramShowsEachToneInItsTime()
+        public void TheSpectrogramShowsEachSineAtItsTime()
         {
             PreviewSound sound = Sound(seconds => Sine(1.0, seconds < 1.0 ? 100.0 : 700.0)(seconds));
             Spectrogram spectrogram = Spectrogram.Of(sound, CancellationToken.None);
@@ -118,11 +118,11 @@ namespace HaptoFlow.PreviewTests
 
             Assert.That(Loudest(0.5), Is.EqualTo(100.0).Within(spectrogram.HertzPerRow));
             Assert.That(Loudest(1.5), Is.EqualTo(700.0).Within(spectrogram.HertzPerRow));
-            Assert.That(spectrogram.Columns, Is.EqualTo(230).Within(2), "one every 10 ms");
+            Assert.That(spectrogram.Columns, Is.EqualTo(230).Within(2), "the hop is 10 ms");
         }
 
         [Test]
-        public void SilenceHasNoLevelAndAPictureAllTheSame()
+        public void SilenceHasALevelOfMinusInfinity()
         {
             PreviewSound silence = Sound(_ => 0.0);
             Spectrum spectrum = Spectrum.Of(silence, CancellationToken.None);
@@ -132,7 +132,7 @@ namespace HaptoFlow.PreviewTests
         }
 
         [Test]
-        public void RmsIsThatOfTheTouch()
+        public void RmsCountsOnlySamplesDuringContact()
         {
             Func<double, double> sine = Sine(3.0, 200.0);
             PreviewSound sound = Sound(time => time < 0.1 || time > 2.1 ? 0.0 : sine(time));
@@ -153,7 +153,7 @@ namespace HaptoFlow.PreviewTests
         [TestCase(-3.0, 0.0)]
         [TestCase(-2.9, 10.0)]
         [TestCase(-41.0, -30.0)]
-        public void TheTopOfAPictureIsTheNextTenAtLeastThreeAbove(double highest, double expected) =>
+        public void TheLevelAxisEndsAtAMultipleOfTenAtLeastThreeAbove(double highest, double expected) =>
             Assert.That(Levels.Top(highest), Is.EqualTo(expected));
     }
 }

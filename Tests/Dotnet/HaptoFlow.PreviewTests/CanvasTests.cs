@@ -33,7 +33,7 @@ namespace HaptoFlow.PreviewTests
         }
 
         [Test]
-        public void ATextStandsWhereItsAlignmentAndTheMiddleOfItsCapitalsSay()
+        public void ATextIsAlignedHorizontallyAndByTheMiddleOfItsCapitals()
         {
             using var canvas = new SkiaCanvas(300.0, 40.0);
             canvas.DrawText("HIH", 100.0, 20.0, 20.0, White);

@@ -22,7 +22,7 @@ namespace HaptoFlow.PreviewTests
         [Test, Explicit, Category("DocumentationPicture")]
         [TestCase("output-controller.png", nameof(PreviewDevice.Controller))]
         [TestCase("output-motor.png", nameof(PreviewDevice.Motor))]
-        public void WhatADeviceMakesOfTheWaveIsDrawnForTheDocumentation(string file, string device) =>
+        public void TheOutputOfADeviceIsDrawnForTheDocumentation(string file, string device) =>
             Draw(file, StrokePreset.Taps, new StrokeSettings(0.12, 1.0, 0.0, 1.6, 0.3), 0.5,
                 new[] { new LabelMix("concrete") }, request =>
                 {

@@ -25,7 +25,7 @@ namespace HaptoFlow.PreviewTests
         }
 
         [Test]
-        public void AStraightLineAtOneSpeedHasThatVelocity()
+        public void ADrawnStraightLineHasTheVelocityOfThePointer()
         {
             Stroke stroke = DrawnStroke.Of(Drawn(0.8, time => (0.01 + 0.09 * time, 0.07 - 0.05 * time)).Points);
             StrokeState[] touched = stroke.States.Where(state => state.Touching).ToArray();
@@ -37,7 +37,7 @@ namespace HaptoFlow.PreviewTests
         }
 
         [Test]
-        public void ACurveIsFollowedWithinAFewPercentOfItsSpeed()
+        public void ADrawnCurveHasItsSpeedWithinAFewPercent()
         {
             Stroke stroke = DrawnStroke.Of(Drawn(1.5, time =>
                 (0.06 + 0.02 * Math.Cos(5.0 * time), 0.04 + 0.02 * Math.Sin(5.0 * time))).Points);
@@ -46,7 +46,7 @@ namespace HaptoFlow.PreviewTests
         }
 
         [Test]
-        public void APointerThatRestsAndGoesOnRestsInTheStrokeAsWell()
+        public void APauseOfThePointerIsAPauseOfTheStroke()
         {
             var drawn = new DrawnStroke();
             drawn.Begin(0.0, 0.02, 0.02, 1.0, Nothing);
@@ -72,13 +72,13 @@ namespace HaptoFlow.PreviewTests
             Stroke stroke = DrawnStroke.Of(second.Points);
             Assert.That(stroke.States[^1].TouchCounter, Is.EqualTo(2u));
             StrokeState[] later = stroke.States.Where(state => state.Touching && state.TouchCounter == 2).ToArray();
-            Assert.That(later[0].Continues, Is.False, "no line leads through the air");
+            Assert.That(later[0].Continues, Is.False, "no line is drawn between touches");
             Assert.That(later.Select(state => state.ForceNewtons), Is.All.EqualTo(2.0).Within(1e-6));
             Assert.That(later[0].XMetres, Is.EqualTo(0.08).Within(0.002));
         }
 
         [Test]
-        public void WhatGoesBeyondThePatchStaysAtItsEdge()
+        public void PointsOutsideThePatchMoveToItsEdge()
         {
             var drawn = new DrawnStroke();
             drawn.Begin(0.0, -1.0, 5.0, -3.0, Nothing);
@@ -89,7 +89,7 @@ namespace HaptoFlow.PreviewTests
         }
 
         [Test]
-        public void EventsOfTheSameTimeAndAfterTwentySecondsAreLeftOut()
+        public void EventsAtTheSameTimeAndAfterTwentySecondsAreIgnored()
         {
             var drawn = new DrawnStroke();
             drawn.Begin(3.0, 0.02, 0.02, 1.0, Nothing);
@@ -100,7 +100,7 @@ namespace HaptoFlow.PreviewTests
         }
 
         [Test]
-        public void NothingDrawnIsAStrokeThroughTheAir()
+        public void AStrokeWithoutPointsHasNoContact()
         {
             Stroke stroke = DrawnStroke.Of(Nothing);
             Assert.That(stroke.States, Is.Not.Empty);

@@ -10,7 +10,7 @@ namespace HaptoFlow.PreviewTests
     public sealed class LatestTaskTests
     {
         [Test]
-        public void OfRequestsThatComeWhileWorkIsUnderWayOnlyTheNewestIsDone()
+        public void OnlyTheNewestWaitingRequestIsRun()
         {
             using var gate = new SemaphoreSlim(0);
             var begun = new ConcurrentQueue<string>();
@@ -35,10 +35,10 @@ namespace HaptoFlow.PreviewTests
         }
 
         [Test]
-        public void WhatTheWorkThrowsComesOutOfPollAndTheNextRequestIsServed()
+        public void PollThrowsTheExceptionOfTheWorkAndTheNextRequestRuns()
         {
             using var task = new LatestTask<string, string>((request, _) =>
-                request == "bad" ? throw new FormatException("as bad as asked for") : request);
+                request == "bad" ? throw new FormatException("bad request") : request);
             task.Submit("bad");
             task.Submit("good");
             task.Wait();
@@ -48,7 +48,7 @@ namespace HaptoFlow.PreviewTests
         }
 
         [Test]
-        public void TheEndCancelsWhatIsUnderWayAndWaitsForIt()
+        public void DisposeCancelsTheRunningRequestAndWaitsForIt()
         {
             using var begun = new ManualResetEventSlim();
             bool ended = false;
@@ -61,7 +61,7 @@ namespace HaptoFlow.PreviewTests
                 return request;
             });
             task.Submit("endless");
-            task.Submit("never begun");
+            task.Submit("never run");
             begun.Wait();
             task.Dispose();
             Assert.That(Volatile.Read(ref ended), Is.True);

@@ -5,10 +5,10 @@ using HaptoFlow.Preview;
 
 namespace HaptoFlow.PreviewTests
 {
-    /// <summary>A header whose tiers were measured, and times of a machine that does not exist.</summary>
+    /// <summary>A header with invented accuracy, and invented times.</summary>
     internal static class MeasuredModel
     {
-        /// <summary>What a tier's accuracy is in a header.</summary>
+        /// <summary>Matches the accuracy of a tier in a header.</summary>
         public static readonly Regex Figures = new Regex("\"accuracy\":\\s*\\{[^}]*\\}");
 
         private static readonly string[] Accuracies =

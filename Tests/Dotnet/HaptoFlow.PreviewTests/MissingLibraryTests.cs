@@ -8,13 +8,13 @@ using NUnit.Framework;
 
 namespace HaptoFlow.PreviewTests
 {
-    /// <summary>A second copy of the assemblies, for which nobody leads to the native libraries.</summary>
+    /// <summary>Loads a second copy of the assemblies, for which no resolver finds the native libraries.</summary>
     public sealed class MissingLibraryTests
     {
         private const BindingFlags Any = BindingFlags.Instance | BindingFlags.Public | BindingFlags.NonPublic;
 
         [Test]
-        public void WithoutTheNativeLibraryThereIsAMessageAndTheTableOfTheHeader()
+        public void AMissingNativeLibraryIsReportedAndTheTableIsShown()
         {
             var context = new AssemblyLoadContext("without native libraries", true);
             context.LoadFromAssemblyPath(typeof(HapticModel).Assembly.Location);

@@ -7,7 +7,7 @@ using HaptoFlow.Tests.Support;
 
 namespace HaptoFlow.PreviewTests
 {
-    /// <summary>The default model, as it is and with things changed.</summary>
+    /// <summary>The default model and changed copies of it.</summary>
     internal static class ModelFiles
     {
         private const int PrefixBytes = 32;
@@ -22,8 +22,7 @@ namespace HaptoFlow.PreviewTests
             return file;
         }
 
-        /// <summary>The default model's header, changed as text, in a file that holds nothing else: enough for whoever
-        /// reads only the header.</summary>
+        /// <summary>The default model's header, changed as text, in a file without tensors.</summary>
         public static ModelHeader HeaderWith(Func<string, string> change)
         {
             int length = BinaryPrimitives.ReadInt32LittleEndian(Default.AsSpan(12));

@@ -12,8 +12,7 @@ using UnityShim;
 
 namespace HaptoFlow.PreviewTests
 {
-    /// <summary>What only the shim can show of the window that learns materials: what is drawn and pressed, dialogs,
-    /// sound, and what is left behind.</summary>
+    /// <summary>Tests of the New Material window that need the shim: controls, dialogs, playback, clean-up.</summary>
     public sealed class NewMaterialScreenTests
     {
         private NewMaterialWindow window = null!;
@@ -62,7 +61,7 @@ namespace HaptoFlow.PreviewTests
 
         private static string Doormat() => RepositoryFiles.In("Samples~", "Workshop", "Recordings", "doormat.wav.bytes");
 
-        /// <summary>The sample's recording as a user has it: a .wav with its sidecar.</summary>
+        /// <summary>The recording of the Workshop sample as a .wav file with its sidecar files.</summary>
         private static string Wave(bool withSidecar = true)
         {
             string folder = Path.Combine(Environment.CurrentDirectory, "Recordings");
@@ -78,7 +77,7 @@ namespace HaptoFlow.PreviewTests
         private static string Text() => MaterialText.OfLabel(ProjectSettingsAsset.DefaultModel()!.File, "jute");
 
         [Test]
-        public void NothingCanBeLearntPlayedOrSavedBeforeARecordingIsChosenAndTheWindowSaysSo()
+        public void ButtonsAreDisabledUntilARecordingIsChosen()
         {
             IReadOnlyList<Drawn> drawn = Screen();
             foreach (string caption in new[] { "Learn", "Play", "Save as Haptic Material\u2026", "Export File\u2026" })
@@ -89,7 +88,7 @@ namespace HaptoFlow.PreviewTests
         }
 
         [Test]
-        public void EveryFieldChangesWhatItSaysAndCanBeUndone()
+        public void EveryFieldChangesItsSettingWithUndo()
         {
             window.Take(Wave(false));
             window.Finish();
@@ -117,7 +116,7 @@ namespace HaptoFlow.PreviewTests
         }
 
         [Test]
-        public void AWavFileWithoutSidecarAsksForItsScaleAndThenForItsMotion()
+        public void AWavFileWithoutSidecarNeedsFullScaleSpeedAndForce()
         {
             WindowHost.AnswerToOpen = () => Wave(false);
             Press("Choose Recording\u2026");
@@ -134,7 +133,7 @@ namespace HaptoFlow.PreviewTests
         }
 
         [Test]
-        public void WhatTheFileSaysCannotBeEntered()
+        public void ValuesOfTheFileCannotBeEdited()
         {
             window.Take(Wave());
             window.Finish();
@@ -143,7 +142,7 @@ namespace HaptoFlow.PreviewTests
         }
 
         [Test]
-        public void WhileItLearnsABarStandsInThePlaceOfTheButtonAndCancelBringsItBack()
+        public void AProgressBarReplacesTheLearnButtonDuringLearning()
         {
             window.Take(Wave());
             window.Finish();
@@ -154,11 +153,11 @@ namespace HaptoFlow.PreviewTests
             Press("Cancel");
             window.Finish();
             Assert.That(Button("Learn").Enabled, Is.True);
-            Assert.That(Screen().Where(item => item.Value == "Error"), Is.Empty, "nobody is told what they did themselves");
+            Assert.That(Screen().Where(item => item.Value == "Error"), Is.Empty, "cancelling is not an error");
         }
 
         [Test]
-        public void AReloadOfTheScriptsEndsALearningAndKeepsWhatWasSet()
+        public void ADomainReloadEndsLearningAndKeepsTheSettings()
         {
             window.Take(Wave());
             window.Finish();
@@ -166,7 +165,7 @@ namespace HaptoFlow.PreviewTests
             Press("Learn");
             HapticLearning learning = window.Session!.Learning!;
             WindowHost.Reload(window);
-            Assert.That(learning.IsCompleted, Is.True, "native code must not outlive the scripts");
+            Assert.That(learning.IsCompleted, Is.True, "native code must not outlive a domain reload");
             Assert.That(window.Session!.Learning, Is.Null);
             Assert.That((State.Name, State.Material), Is.EqualTo(("doormat", Text())));
             window.Finish();
@@ -174,7 +173,7 @@ namespace HaptoFlow.PreviewTests
         }
 
         [Test]
-        public void NothingIsLeftBehindByAClosedWindow()
+        public void AClosedWindowFreesTexturesAndClips()
         {
             int before = MediaCount.Alive;
             window.Take(Wave());
@@ -192,7 +191,7 @@ namespace HaptoFlow.PreviewTests
         }
 
         [Test]
-        public void RecordingAndResultArePlayedEachAndSwitchingGoesOnAtTheSamePlace()
+        public void SwitchingBetweenRecordingAndResultKeepsThePosition()
         {
             window.Take(Wave());
             State.Change("Material", changed => changed.Material = Text());
@@ -210,7 +209,7 @@ namespace HaptoFlow.PreviewTests
         }
 
         [Test]
-        public void AResultIsSavedAsAnAssetThatCarriesItAndExportedAsTheSameText()
+        public void TheAssetAndTheExportedFileContainTheLearntMaterial()
         {
             window.Take(Wave());
             State.Change("Material", changed => changed.Material = Text());
@@ -226,7 +225,7 @@ namespace HaptoFlow.PreviewTests
             Assert.That(File.ReadAllText("Assets/jute.haptomaterial"), Is.EqualTo(Text()));
             WindowHost.AnswerToSave = null;
             Press("Save as Haptic Material\u2026");
-            Assert.That(State.Material, Is.EqualTo(Text()), "a dialog that is cancelled changes nothing");
+            Assert.That(State.Material, Is.EqualTo(Text()), "a cancelled dialog changes nothing");
         }
     }
 }

@@ -149,7 +149,7 @@ namespace HaptoFlow.PreviewTests
         }
 
         [Test]
-        public void AnEmptyPatchSaysDrawAStroke()
+        public void AnEmptyPatchShowsAHint()
         {
             using SkiaCanvas canvas = Stroke(Palette.Light, DrawnStroke.Of(Array.Empty<DrawnPoint>()), 2.0);
             Save("stroke-empty", canvas);

@@ -11,7 +11,7 @@ namespace HaptoFlow.PreviewTests
         private static readonly Dictionary<string, TierTiming> Untimed = new Dictionary<string, TierTiming>();
 
         [Test]
-        public void FiguresOfTheHeaderStandBesideTheTimesOfThisMachine()
+        public void ARowHasTheAccuracyOfTheHeaderAndTheTimeOfThisMachine()
         {
             ModelHeader header = MeasuredModel.Header();
             IReadOnlyList<QualityRow> rows = QualityRow.Of(header, MeasuredModel.Timings());
@@ -24,7 +24,7 @@ namespace HaptoFlow.PreviewTests
         }
 
         [Test]
-        public void WhatTheHeaderDoesNotTellIsNotInvented()
+        public void ValuesMissingInTheHeaderAreNull()
         {
             ModelHeader header = ModelFiles.HeaderWith(json => MeasuredModel.Figures.Replace(json, "\"accuracy\": {}"));
             QualityRow row = QualityRow.Of(header, Untimed)[0];

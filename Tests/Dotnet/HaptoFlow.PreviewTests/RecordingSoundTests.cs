@@ -11,7 +11,7 @@ using NUnit.Framework;
 
 namespace HaptoFlow.PreviewTests
 {
-    /// <summary>A recording as it is shown and played beside what was learnt from it.</summary>
+    /// <summary>Recordings converted for comparison with the material learnt from them.</summary>
     public sealed class RecordingSoundTests
     {
         private static Recording Made(double rateHz, double seconds, Func<double, double[]> axes)
@@ -37,7 +37,7 @@ namespace HaptoFlow.PreviewTests
         [TestCase(3333.3)]
         [TestCase(8000.0)]
         [TestCase(44100.0)]
-        public void AToneKeepsItsLevelAndItsFrequencyAtEveryRateAndGravityIsNotHeard(double rateHz)
+        public void ARecordedSineKeepsItsLevelAndFrequencyWithoutGravity(double rateHz)
         {
             PreviewSound sound = Sound(Made(rateHz, 1.0, time => new[] { 9.81 + Wave(150.0, time) }));
             Assert.That(sound.Samples, Has.Length.EqualTo(48000).Within(60));
@@ -50,11 +50,11 @@ namespace HaptoFlow.PreviewTests
         }
 
         [Test]
-        public void WhatIsAboveAThousandHertzIsLeftOut() => Assert.That(
+        public void FrequenciesAboveOneKilohertzAreRemoved() => Assert.That(
             Sound(Made(8000.0, 1.0, time => new[] { Wave(1600.0, time) })).RmsMps2, Is.LessThan(0.1));
 
         [Test]
-        public void ThreeAxesKeepTheirEnergyTogether()
+        public void CombiningThreeAxesKeepsTheirEnergy()
         {
             var random = new Random(5);
             var noise = Enumerable.Range(0, 3).Select(_ => Enumerable.Range(0, 8000)
@@ -62,12 +62,12 @@ namespace HaptoFlow.PreviewTests
             PreviewSound three = Sound(Made(2000.0, 4.0, time => noise
                 .Select(axis => axis[Math.Min(7999, (int)Math.Round(2000.0 * time))]).ToArray()));
             double energy = noise.Sum(axis => axis.Average(value => value * value));
-            // Where axes cancel, neighbouring frames disagree: overlap-add loses up to 1 dB.
+            // Where the axes cancel, the phases of overlapping frames differ, and overlap-add loses up to 1 dB.
             Assert.That(20.0 * Math.Log10(three.RmsMps2 / Math.Sqrt(energy)), Is.InRange(-1.5, 0.3));
         }
 
         [Test]
-        public void OneAxisOfThreeComesBackAsItWas()
+        public void VibrationOnOneOfThreeAxesIsUnchanged()
         {
             PreviewSound one = Sound(Made(2000.0, 1.0, time => new[] { Wave(90.0, time) }));
             PreviewSound three = Sound(Made(2000.0, 1.0, time => new[] { 0.0, Wave(90.0, time), 0.0 }));
@@ -76,7 +76,7 @@ namespace HaptoFlow.PreviewTests
         }
 
         [Test]
-        public void TheStrokeIsTheRecordingsOwnMotionAndALongOneIsCutAtTenSeconds()
+        public void TheStrokeIsTheRecordedMotionOfUpToTenSeconds()
         {
             Recording recording = Made(1000.0, 12.0, time => new[] { Wave(100.0, time) });
             Stroke stroke = RecordingSound.StrokeOf(recording);
@@ -87,7 +87,7 @@ namespace HaptoFlow.PreviewTests
         }
 
         [Test]
-        public void AStrokeAlongTheMaterialsAxesIsTheRecordingsTurnedAndAsFast()
+        public void AStrokeAlongTheMaterialsAxesHasTheSpeedOfTheRecording()
         {
             Recording recording = Made(1000.0, 2.0, time => new[] { Wave(100.0, time) });
             Stroke stroke = RecordingSound.StrokeOf(recording, 90.0);
@@ -97,7 +97,7 @@ namespace HaptoFlow.PreviewTests
         }
 
         [Test]
-        public void TheResultIsRenderedWithTheRecordingsMotionAndMatchedLevelsAreOneLevel()
+        public void TheResultHasTheRecordingsMotionAndItsLevelIfMatched()
         {
             using var worker = new ComparisonWorker();
             Recording recording = RecordingReader.Read(
@@ -123,7 +123,7 @@ namespace HaptoFlow.PreviewTests
         }
 
         [Test]
-        public void TheSamplesRecordingIsReadWithItsMotionAndItsLicence()
+        public void TheRecordingOfTheWorkshopSampleHasMotionAndLicence()
         {
             Recording recording = RecordingReader.Read(Path.Combine(Workshop(), "doormat.wav.bytes"));
             Assert.That((recording.AxisCount, recording.SampleCount), Is.EqualTo((3, 21000)));

@@ -7,7 +7,7 @@ using NUnit.Framework;
 
 namespace HaptoFlow.PreviewTests
 {
-    /// <summary>The real native library, ONNX Runtime and default model.</summary>
+    /// <summary>Previews rendered with the real native library, ONNX Runtime and the default model.</summary>
     public sealed class RenderingTests
     {
         private static readonly Stroke Slide =
@@ -32,7 +32,7 @@ namespace HaptoFlow.PreviewTests
         private float[] Samples(PreviewRequest request) => Do(request).Sounds[0].Sound.Samples;
 
         [Test]
-        public void AStrokeSoundsWhileItTouchesAndIsSilentBeforeAndAfter()
+        public void AStrokeIsSilentBeforeAndAfterContact()
         {
             PreviewSound sound = Do(Request(new LabelMix("sandpaper"))).Sounds[0].Sound;
             Assert.That(sound.Samples.Length, Is.EqualTo((int)Math.Round(48000.0 * Slide.DurationSeconds)));
@@ -45,7 +45,7 @@ namespace HaptoFlow.PreviewTests
         }
 
         [Test]
-        public void TheLevelIsAboutWhatTheModelExpectsForTheMotion()
+        public void TheRmsIsCloseToTheModelsLevelLaw()
         {
             double heard = Do(Request(new LabelMix("sandpaper"))).Sounds[0].Sound.RmsMps2;
             using OnnxRuntime runtime = OnnxRuntime.Open();
@@ -59,7 +59,7 @@ namespace HaptoFlow.PreviewTests
 
         [TestCase(nameof(StrokePreset.Taps), HapticEffects.Impact)]
         [TestCase(nameof(StrokePreset.Rims), HapticEffects.Edge)]
-        public void AnEffectIsHeardWhereItIsAskedForAndNowhereElse(string name, HapticEffects effect)
+        public void AnEffectIsRenderedOnlyIfTheSurfaceHasIt(string name, HapticEffects effect)
         {
             StrokePreset preset = Enum.Parse<StrokePreset>(name);
             Stroke stroke = PresetStrokes.Make(preset, new StrokeSettings(0.2, 1.0, 0.0, 1.0, 0.5));
@@ -74,7 +74,7 @@ namespace HaptoFlow.PreviewTests
         }
 
         [Test]
-        public void AMotorIsShownBesideTheWaveAndPlaysItsOwnFrequencyWhereTheWaveIsFelt()
+        public void AMotorPlaysItsOwnFrequencyWithTheLevelOfTheWaveform()
         {
             PreviewRequest request = Request(new LabelMix("sandpaper"));
             request.Device = PreviewDevice.Motor;
@@ -92,7 +92,7 @@ namespace HaptoFlow.PreviewTests
         }
 
         [Test]
-        public void TheSameSeedMakesTheSameSamplesAndAnotherSeedOthers()
+        public void TheSeedDeterminesTheSamples()
         {
             float[] first = Samples(Request(new LabelMix("cotton")));
             using var other = new PreviewWorker();
@@ -104,7 +104,7 @@ namespace HaptoFlow.PreviewTests
         }
 
         [Test]
-        public void TheSameMaterialTwiceSoundsTheSameAndTwoMaterialsDoNot()
+        public void EqualMaterialsHaveEqualSamples()
         {
             PreviewResult same = Do(Request(new LabelMix("wood"), new LabelMix("wood")));
             Assert.That(same.Sounds[1].Sound.Samples, Is.EqualTo(same.Sounds[0].Sound.Samples));
@@ -114,7 +114,7 @@ namespace HaptoFlow.PreviewTests
         }
 
         [Test]
-        public void WhatIsShownAlreadyIsNotRenderedAgain()
+        public void AKnownSoundIsNotRenderedAgain()
         {
             AnalysedSound first = Do(Request(new LabelMix("wood"))).Sounds[0];
             int made = worker.EnginesCreated;
@@ -125,7 +125,7 @@ namespace HaptoFlow.PreviewTests
         }
 
         [Test]
-        public void SketchesShareAnEngineAndTheRealThingGetsAFreshOne()
+        public void SketchesShareAnEngineAndOtherRequestsGetAFreshOne()
         {
             PreviewRequest sketch = Request(new LabelMix("wood"));
             sketch.IsSketch = true;
@@ -142,7 +142,7 @@ namespace HaptoFlow.PreviewTests
         }
 
         [Test]
-        public void MillisecondsAreMeasuredOnceForEachTierOfTheModel()
+        public void EveryTierIsTimedOncePerMeasurement()
         {
             PreviewRequest request = Request(new LabelMix("wood"));
             Assert.That(Do(request).Qualities.Select(row => row.Timing), Is.All.Null);
@@ -170,16 +170,16 @@ namespace HaptoFlow.PreviewTests
         }
 
         [Test]
-        public void AnUnknownLabelIsAProblemThatNamesTheLabelsThereAre()
+        public void AnUnknownLabelIsReportedWithTheKnownOnes()
         {
             PreviewResult result = Do(Request(new LabelMix("granite")));
             Assert.That(result.Problem, Does.Contain("\"granite\"").And.Contain("wood, plywood"));
             Assert.That(result.Qualities, Has.Count.EqualTo(ModelFiles.HeaderWith(json => json).Tiers.Count),
-                "the header can be read all the same");
+                "the header can be read");
         }
 
         [Test]
-        public void AnUnknownTierIsAProblem()
+        public void AnUnknownTierIsReported()
         {
             PreviewRequest request = Request(new LabelMix("wood"));
             request.Tier = "superb";

@@ -7,7 +7,7 @@ using NUnit.Framework;
 
 namespace HaptoFlow.PreviewTests
 {
-    /// <summary>What the preview makes of a material's feature scale and tone, with the real native library.</summary>
+    /// <summary>Feature scale and tone in the preview, with the real native library.</summary>
     public sealed class ScaleAndToneTests
     {
         // Corduroy's ribs are 2.5 mm apart.
@@ -28,7 +28,7 @@ namespace HaptoFlow.PreviewTests
         private static LabelMix Mix(string label, float featureScale = 1f, float toneDbPerOctave = 0f) =>
             new LabelMix(label, "", 0f, "", null, featureScale, toneDbPerOctave);
 
-        private PreviewSound[] Heard(params LabelMix[] materials)
+        private PreviewSound[] Render(params LabelMix[] materials)
         {
             PreviewResult result = worker.Do(new PreviewRequest(ModelFiles.Default, Slide, materials)
             {
@@ -39,28 +39,28 @@ namespace HaptoFlow.PreviewTests
         }
 
         [Test]
-        public void FeaturesTwiceAsLargeHalveTheFrequencyOfRibsAndKeepTheLevel()
+        public void FeatureScaleTwoHalvesTheFrequencyOfRibsAndKeepsTheLevel()
         {
-            PreviewSound[] heard = Heard(Mix("corduroy"), Mix("corduroy", 2f));
-            double[] plain = { PowerAt(heard[0], RibHz), PowerAt(heard[0], 0.5 * RibHz) };
-            double[] large = { PowerAt(heard[1], RibHz), PowerAt(heard[1], 0.5 * RibHz) };
+            PreviewSound[] sounds = Render(Mix("corduroy"), Mix("corduroy", 2f));
+            double[] plain = { PowerAt(sounds[0], RibHz), PowerAt(sounds[0], 0.5 * RibHz) };
+            double[] large = { PowerAt(sounds[1], RibHz), PowerAt(sounds[1], 0.5 * RibHz) };
             Assert.That(plain[0], Is.GreaterThan(4.0 * plain[1]));
             Assert.That(large[1], Is.GreaterThan(4.0 * plain[1]));
-            Assert.That(20.0 * Math.Log10(heard[1].RmsMps2 / heard[0].RmsMps2), Is.EqualTo(0.0).Within(2.0));
+            Assert.That(20.0 * Math.Log10(sounds[1].RmsMps2 / sounds[0].RmsMps2), Is.EqualTo(0.0).Within(2.0));
         }
 
         [TestCase(6f)]
         [TestCase(-6f)]
-        public void ATiltOfSoManyDecibelsAnOctaveIsHeardBetweenFrequenciesTwoOctavesApart(float tone)
+        public void ToneTiltsTheSpectrumByItsDecibelsPerOctave(float tone)
         {
-            PreviewSound[] heard = Heard(Mix("sandpaper"), Mix("sandpaper", 1f, tone));
+            PreviewSound[] sounds = Render(Mix("sandpaper"), Mix("sandpaper", 1f, tone));
             double Raised(double hertz) =>
-                10.0 * Math.Log10(BandPower(heard[1], hertz) / BandPower(heard[0], hertz));
+                10.0 * Math.Log10(BandPower(sounds[1], hertz) / BandPower(sounds[0], hertz));
             Assert.That(Raised(300.0) - Raised(75.0), Is.EqualTo(2.0 * tone).Within(1.5));
         }
 
         [Test]
-        public void ScaleOneAndToneZeroAreTheBytesOfAStateThatSaysNeither()
+        public void FeatureScaleOneAndToneZeroDoNotChangeASample()
         {
             ModelHeader header = ModelHeader.Read(ModelFiles.Default);
             var names = new LabelNames(header.Labels.Select(label => label.Name));
@@ -72,18 +72,18 @@ namespace HaptoFlow.PreviewTests
                 Effects = HapticEffects.Texture,
             };
             float[] expected = StrokeRenderer.Render(engine, Slide, silent, CancellationToken.None);
-            Assert.That(Heard(Mix("corduroy"))[0].Samples.SequenceEqual(expected), Is.True);
+            Assert.That(Render(Mix("corduroy"))[0].Samples.SequenceEqual(expected), Is.True);
         }
 
         [Test]
-        public void WhatIsKeptOfTheLastRequestIsNotTakenForAnotherScaleOrTone()
+        public void ASoundIsNotReusedForAnotherFeatureScaleOrTone()
         {
-            float[] plain = Heard(Mix("corduroy"))[0].Samples;
-            float[] large = Heard(Mix("corduroy", 2f))[0].Samples;
-            float[] bright = Heard(Mix("corduroy", 2f, 3f))[0].Samples;
+            float[] plain = Render(Mix("corduroy"))[0].Samples;
+            float[] large = Render(Mix("corduroy", 2f))[0].Samples;
+            float[] bright = Render(Mix("corduroy", 2f, 3f))[0].Samples;
             Assert.That(large.SequenceEqual(plain), Is.False);
             Assert.That(bright.SequenceEqual(large), Is.False);
-            Assert.That(Heard(Mix("corduroy"))[0].Samples.SequenceEqual(plain), Is.True);
+            Assert.That(Render(Mix("corduroy"))[0].Samples.SequenceEqual(plain), Is.True);
         }
 
         [TestCase(1f, 0f, "corduroy")]
@@ -91,14 +91,14 @@ namespace HaptoFlow.PreviewTests
         [TestCase(0.25f, 0f, "corduroy (x0.25)")]
         [TestCase(1f, -4.5f, "corduroy (-4.5 dB/oct)")]
         [TestCase(2f, 3f, "corduroy (x2, +3 dB/oct)")]
-        public void TheTitleSaysScaleAndToneOnlyWhereTheyChangeSomething(float scale, float tone, string title) =>
+        public void TheTitleNamesFeatureScaleAndToneUnlessTheyAreDefaults(float scale, float tone, string title) =>
             Assert.That(Mix("corduroy", scale, tone).Title, Is.EqualTo(title));
 
         [Test]
-        public void TheTitleOfABlendSaysThemOfTheWhole() => Assert.That(
+        public void TheTitleOfABlendEndsWithFeatureScaleAndTone() => Assert.That(
             new LabelMix("wood", "cork", 0.4f, "", null, 0.5f).Title, Is.EqualTo("wood 60 % + cork 40 % (x0.5)"));
 
-        /// <summary>Mean power of a third of an octave.</summary>
+        /// <summary>Mean power in a third of an octave.</summary>
         private static double BandPower(PreviewSound sound, double hertz)
         {
             double sum = 0.0;
@@ -109,7 +109,7 @@ namespace HaptoFlow.PreviewTests
             return sum;
         }
 
-        /// <summary>Of the second in the middle of the stroke.</summary>
+        /// <summary>Spectrum of one second in the middle of the stroke.</summary>
         private static double PowerAt(PreviewSound sound, double hertz)
         {
             const int count = PreviewSound.RateHz;

@@ -7,7 +7,7 @@ using NUnit.Framework;
 
 namespace HaptoFlow.PreviewTests
 {
-    /// <summary>Sliders move an embedding, never further than the labels' own spread.</summary>
+    /// <summary>Sliders change an embedding within the range of the labels' embeddings.</summary>
     public sealed class SliderSetTests
     {
         private static readonly SliderSet Sliders = SliderSet.Read(SliderFiles.For(ModelFiles.Default));
@@ -16,7 +16,7 @@ namespace HaptoFlow.PreviewTests
             MaterialFile.Read(MaterialText.OfLabel(ModelFiles.Default, name));
 
         [Test]
-        public void AtRestNothingMoves()
+        public void SlidersAtZeroChangeNothing()
         {
             foreach (string label in new[] { "wood", "glass", "carpet" })
             {
@@ -27,7 +27,7 @@ namespace HaptoFlow.PreviewTests
         }
 
         [Test]
-        public void ASliderMovesAlongItsDirectionWhereThereIsRoom()
+        public void ASliderChangesTheEmbeddingAlongItsDirection()
         {
             MaterialFile wood = Label("wood");
             double[] moved = Sliders.Moved(wood.Embedding, new[] { 0.5f });
@@ -39,7 +39,7 @@ namespace HaptoFlow.PreviewTests
         }
 
         [Test]
-        public void NoMaterialLeavesTheSpreadOfTheLabelsWhateverIsEntered([Values(-1f, 1f, 1000f, -1000f)] float value)
+        public void SlidersKeepMaterialsInTheRangeOfTheLabels([Values(-1f, 1f, 1000f, -1000f)] float value)
         {
             JsonValue file = JsonValue.Parse(SliderFiles.For(ModelFiles.Default));
             foreach (ModelLabel label in ModelHeader.Read(ModelFiles.Default).Labels)
@@ -52,12 +52,12 @@ namespace HaptoFlow.PreviewTests
                     Assert.That(place, Is.InRange(file["lowest"][axis].AsNumber() - 1e-6, file["highest"][axis].AsNumber() + 1e-6));
                 }
                 Assert.That(moved.Skip(MaterialFile.TextureNumbers),
-                    Is.EqualTo(material.Embedding.Skip(MaterialFile.TextureNumbers)), "wave vectors stay");
+                    Is.EqualTo(material.Embedding.Skip(MaterialFile.TextureNumbers)), "wave vectors do not change");
             }
         }
 
         [Test]
-        public void AMaterialBeyondTheSpreadIsNotPulledBackAndGoesNoFurther()
+        public void AMaterialOutsideTheRangeOfTheLabelsStaysWhereItIs()
         {
             JsonValue file = JsonValue.Parse(SliderFiles.For(ModelFiles.Default));
             double[] axis = file["axes"][0].AsArray().Select(each => each.AsNumber()).ToArray();
@@ -72,7 +72,7 @@ namespace HaptoFlow.PreviewTests
         }
 
         [Test]
-        public void TheLevelAddsDecibelsWithinWhatAMaterialFileMayHold()
+        public void TheLevelSliderStaysInTheRangeOfAMaterialFile()
         {
             MaterialFile louder = MaterialFile.Read(Sliders.Moved(Label("wood"), new[] { 0f, 0f, 0.5f }, "louder"));
             Assert.That((louder.Name, louder.LevelOffsetDecibels), Is.EqualTo(("louder", 3.0)));
@@ -89,7 +89,7 @@ namespace HaptoFlow.PreviewTests
         [TestCase("\"direction\":[", "\"direction\":[0,", "'sliders[0].direction'")]
         [TestCase("\"lowest\":[", "\"lowest\":[0,", "'lowest'")]
         [TestCase("\"mean\"", "\"means\"", "'mean' is missing")]
-        public void AFileThatIsNoneIsRefusedByItsKey(string part, string instead, string message)
+        public void AnInvalidFileIsRefusedWithTheNameOfItsKey(string part, string instead, string message)
         {
             string text = SliderFiles.For(ModelFiles.Default);
             Assert.That(text, Does.Contain(part));
@@ -98,7 +98,7 @@ namespace HaptoFlow.PreviewTests
         }
 
         [Test]
-        public void AMovedLabelIsRenderedAndSixDecibelsAreSixDecibels()
+        public void TheLevelSliderRaisesTheRmsByItsDecibels()
         {
             using var worker = new PreviewWorker();
             PreviewResult Render(float[] moves) => worker.Do(new PreviewRequest(ModelFiles.Default,
@@ -118,7 +118,7 @@ namespace HaptoFlow.PreviewTests
         }
 
         [Test]
-        public void ManyPositionsOfTheSlidersStayWithinOneEnginesMaterials()
+        public void ManySliderPositionsNeedOneEngine()
         {
             using var worker = new PreviewWorker();
             Stroke stroke = PresetStrokes.Make(StrokePreset.Slide, new StrokeSettings(0.1, 1.0, 0.0, 0.1));

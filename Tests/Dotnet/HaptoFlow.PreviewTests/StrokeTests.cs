@@ -15,7 +15,7 @@ namespace HaptoFlow.PreviewTests
         private static StrokeState[] Touched(Stroke stroke) => stroke.States.Where(state => state.Touching).ToArray();
 
         [Test]
-        public void EveryPresetBeginsAndEndsInTheAirAndStaysOnThePatch(
+        public void EveryPresetStaysOnThePatchAndStartsAndEndsWithoutContact(
             [ValueSource(nameof(Presets))] StrokePreset preset, [Values(0.005, 0.1, 2.0)] double speedMps,
             [Values(0.0, 45.0, 90.0, 200.0)] double degrees)
         {
@@ -33,7 +33,7 @@ namespace HaptoFlow.PreviewTests
         }
 
         [Test]
-        public void TheVelocityOfEveryPresetIsHowItsPlaceChanges(
+        public void TheVelocityOfEveryPresetIsTheDerivativeOfItsPosition(
             [ValueSource(nameof(Presets))] StrokePreset preset, [Values(0.0, 130.0)] double degrees)
         {
             Stroke stroke = PresetStrokes.Make(preset, new StrokeSettings(0.05, 1.0, degrees, 2.0));
@@ -43,7 +43,7 @@ namespace HaptoFlow.PreviewTests
                 StrokeState before = stroke.States[index - 1];
                 StrokeState now = stroke.States[index];
                 StrokeState after = stroke.States[index + 1];
-                // The time stands still in the air, and steps over the edge are no motion.
+                // Time without contact and wraps at the edge do not count as motion.
                 if (!before.Touching || !now.Continues || !after.Continues)
                 {
                     continue;
@@ -59,25 +59,25 @@ namespace HaptoFlow.PreviewTests
         [TestCase(StrokePreset.Slide)]
         [TestCase(StrokePreset.Spiral)]
         [TestCase(StrokePreset.Pressing)]
-        public void StrokesOfOneSpeedHaveThatSpeedAllTheTime(StrokePreset preset)
+        public void StrokesOfConstantSpeedHaveThatSpeed(StrokePreset preset)
         {
             Stroke stroke = PresetStrokes.Make(preset, Usual);
             Assert.That(Touched(stroke).Select(state => state.SpeedMps), Is.All.EqualTo(0.1).Within(1e-9));
         }
 
         [Test]
-        public void ASlideGoesInItsDirectionAndComesInAgainAtTheOtherSide()
+        public void ASlideWrapsAtTheEdgesOfThePatch()
         {
             StrokeState[] states = Touched(PresetStrokes.Make(StrokePreset.Slide, Usual));
             Assert.That(states.Select(state => Math.Atan2(state.VelocityYMps, state.VelocityXMps)),
                 Is.All.EqualTo(Math.PI / 6.0).Within(1e-9));
             int steps = states.Skip(1).Count(state => !state.Continues);
             Assert.That(steps, Is.GreaterThan(0), "200 mm do not fit on the patch");
-            Assert.That(states.Select(state => state.TouchCounter), Is.All.EqualTo(1u), "and it is still one touch");
+            Assert.That(states.Select(state => state.TouchCounter), Is.All.EqualTo(1u), "wrapping does not end the touch");
         }
 
         [Test]
-        public void BackAndForthTurnsAtLeastFourTimesHoweverSlow([Values(0.005, 0.1, 2.0)] double speedMps)
+        public void ASlowBackAndForthStrokeTurnsAtLeastFourTimes([Values(0.005, 0.1, 2.0)] double speedMps)
         {
             StrokeState[] states = Touched(
                 PresetStrokes.Make(StrokePreset.BackAndForth, new StrokeSettings(speedMps, 1.0, 0.0, 2.0)));
@@ -88,7 +88,7 @@ namespace HaptoFlow.PreviewTests
         }
 
         [Test]
-        public void ASpiralLooksInEveryDirectionAndGrows()
+        public void ASpiralGrowsThroughEveryDirection()
         {
             StrokeState[] states = Touched(
                 PresetStrokes.Make(StrokePreset.Spiral, new StrokeSettings(0.3, 1.0, 0.0, 2.0)));
@@ -102,7 +102,7 @@ namespace HaptoFlow.PreviewTests
         }
 
         [Test]
-        public void AnAcceleratingStrokeGoesFromRestToTheSpeedInAStraightLineOfTime()
+        public void TheSpeedOfAnAcceleratingStrokeRisesLinearly()
         {
             StrokeState[] states = Touched(PresetStrokes.Make(StrokePreset.Accelerating, Usual));
             Assert.That(states[0].SpeedMps, Is.LessThan(0.002));
@@ -111,7 +111,7 @@ namespace HaptoFlow.PreviewTests
         }
 
         [Test]
-        public void APressingStrokeGoesFromNoForceToTheForce()
+        public void TheForceOfAPressingStrokeRisesFromZero()
         {
             StrokeState[] states = Touched(PresetStrokes.Make(StrokePreset.Pressing, Usual));
             Assert.That(states[0].ForceNewtons, Is.LessThan(0.02));
@@ -120,11 +120,11 @@ namespace HaptoFlow.PreviewTests
         }
 
         [Test]
-        public void TapsAreTouchesOfTheirOwn()
+        public void EachTapIsATouch()
         {
             Stroke stroke = PresetStrokes.Make(StrokePreset.Taps, Usual);
             uint touches = stroke.States[^1].TouchCounter;
-            Assert.That(touches, Is.EqualTo(7u), "one every 320 ms for 2 s");
+            Assert.That(touches, Is.EqualTo(7u), "a tap every 320 ms for 2 s");
             for (uint touch = 1; touch <= touches; ++touch)
             {
                 int states = Touched(stroke).Count(state => state.TouchCounter == touch);
@@ -133,7 +133,7 @@ namespace HaptoFlow.PreviewTests
         }
 
         [Test]
-        public void RimsComeEvery250MillisecondsAndNoOtherStrokeHasAny()
+        public void OnlyTheRimsStrokeHasRimsEvery250Milliseconds()
         {
             Stroke stroke = PresetStrokes.Make(StrokePreset.Rims, Usual);
             Assert.That(stroke.States[stroke.States.Count - 1].EdgeCounter, Is.EqualTo(8u), "2 s of contact");
@@ -142,18 +142,18 @@ namespace HaptoFlow.PreviewTests
         }
 
         [Test]
-        public void ALandingHasTheSpeedThatIsSet()
+        public void ATouchDownHasTheSpeedThatIsSet()
         {
             Stroke stroke = PresetStrokes.Make(StrokePreset.Taps, new StrokeSettings(0.1, 1.0, 0.0, 1.0, 0.7));
             Assert.That(stroke.States[20].ContactOn(default).ApproachSpeedMps, Is.EqualTo(0.7f));
         }
 
         [Test]
-        public void AStrokeThatIsDrawnCannotBeMadeFromSettings() => Assert.That(
+        public void ADrawnStrokeCannotBeMadeFromSettings() => Assert.That(
             () => PresetStrokes.Make(StrokePreset.Drawn, Usual), Throws.ArgumentException);
 
         [Test]
-        public void WhatIsPublishedInTheAirHasNeitherSpeedNorForce()
+        public void SpeedAndForceAreZeroWithoutContact()
         {
             ContactState air = PresetStrokes.Make(StrokePreset.Slide, Usual).States[0].ContactOn(default);
             Assert.That(air.Touching, Is.False);
@@ -161,7 +161,7 @@ namespace HaptoFlow.PreviewTests
         }
 
         [Test]
-        public void TheStateAtATimeIsTheLastThatWasPublished()
+        public void TheStateAtATimeIsTheLatestUpdate()
         {
             Stroke stroke = PresetStrokes.Make(StrokePreset.Slide, Usual);
             Assert.That(stroke.At(-1.0).TimeSeconds, Is.Zero);

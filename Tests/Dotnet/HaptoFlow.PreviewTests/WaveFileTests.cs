@@ -20,7 +20,7 @@ namespace HaptoFlow.PreviewTests
         }
 
         [Test]
-        public void NoSamplesAreAFileAllTheSame() =>
+        public void ASoundWithoutSamplesIsAValidFile() =>
             Assert.That(new WaveReader(WaveFile.Bytes(Array.Empty<float>(), 48000)).Samples(), Is.Empty);
     }
 }

@@ -11,7 +11,7 @@ using UnityShim;
 
 namespace HaptoFlow.PreviewTests
 {
-    /// <summary>What only the shim can show: what is drawn and entered, and what is left behind.</summary>
+    /// <summary>Tests of the Texture Preview window that need the shim: drawing, controls, clean-up.</summary>
     public sealed class WindowScreenTests : PreviewWindowTest
     {
         private IReadOnlyList<Drawn> Screen() => WindowHost.Draw(Window);
@@ -48,7 +48,7 @@ namespace HaptoFlow.PreviewTests
         }
 
         [Test]
-        public void EveryControlChangesWhatItSaysAndCanBeUndone()
+        public void EveryControlChangesItsSettingWithUndo()
         {
             State.Compares = true;
             var cases = new (string Label, object Value, Func<object> Kept)[]
@@ -81,18 +81,18 @@ namespace HaptoFlow.PreviewTests
         }
 
         [Test]
-        public void TheSlidersUnfoldMoveWhatIsHeardAndReset()
+        public void UnfoldedSlidersChangeTheMaterialAndReset()
         {
             Window.Finish();
             Assert.That(Screen().Select(item => item.Label), Does.Not.Contain("Coarseness"));
             Enter("Sliders", true);
             Drawn reset = Screen().Single(item => item.Label == "Reset");
-            Assert.That(reset.Enabled, Is.False, "nothing was moved");
+            Assert.That(reset.Enabled, Is.False, "nothing was changed");
             Undo.IncrementCurrentGroup();
             Enter("Coarseness", 0.5f);
             Assert.That(State.First.Moves, Is.EqualTo(new[] { 0.5f, 0f, 0f, 0f, 0f }));
             Enter("Level", -5f);
-            Assert.That(State.First.Moves[4], Is.EqualTo(-1f), "no further than the slider goes");
+            Assert.That(State.First.Moves[4], Is.EqualTo(-1f), "limited to the range of the slider");
             Undo.IncrementCurrentGroup();
             Press("Reset");
             Assert.That(State.First.Moves, Is.Empty);
@@ -101,7 +101,7 @@ namespace HaptoFlow.PreviewTests
         }
 
         [Test]
-        public void FeatureScaleAndToneAreAmongTheSlidersAndChangeWhatIsHeardWithinTheirRanges()
+        public void FeatureScaleAndToneSlidersChangeTheSoundWithinTheirRanges()
         {
             Window.Finish();
             float[] before = Samples;
@@ -125,7 +125,7 @@ namespace HaptoFlow.PreviewTests
         }
 
         [Test]
-        public void ResetAndAnotherLabelPutScaleAndToneBackAndReloadingKeepsThem()
+        public void ResetAndAnotherLabelResetFeatureScaleAndTone()
         {
             Enter("Sliders", true);
             Enter("Feature Scale", 2f);
@@ -142,7 +142,7 @@ namespace HaptoFlow.PreviewTests
         }
 
         [Test]
-        public void AModelWithoutSlidersOfItsOwnHasScaleAndToneAllTheSame()
+        public void AModelWithoutSlidersHasFeatureScaleAndTone()
         {
             const string path = "Assets/HaptoFlowScaleTests.haptoflow";
             const string beside = "Assets/HaptoFlowScaleTests.sliders.json";
@@ -169,7 +169,7 @@ namespace HaptoFlow.PreviewTests
         }
 
         [Test]
-        public void ASavedMaterialKeepsScaleAndToneAndSoundsAsItDid()
+        public void ASavedMaterialKeepsFeatureScaleAndTone()
         {
             WindowHost.AnswerToSave = name => "Assets/" + name;
             Enter("Sliders", true);
@@ -190,7 +190,7 @@ namespace HaptoFlow.PreviewTests
         }
 
         [Test]
-        public void ALabelThatWasOnlyScaledIsSavedAndOneAtRestIsNot()
+        public void OnlyAChangedLabelCanBeSaved()
         {
             WindowHost.AnswerToSave = name => "Assets/" + name;
             Window.Finish();
@@ -206,7 +206,7 @@ namespace HaptoFlow.PreviewTests
         }
 
         [Test]
-        public void AMovedMaterialIsSavedFromTheWindowAndHeardFromThenOn()
+        public void AChangedMaterialIsSavedAndPreviewedFromThenOn()
         {
             WindowHost.AnswerToSave = name => "Assets/" + name;
             Enter("Sliders", true);
@@ -224,7 +224,7 @@ namespace HaptoFlow.PreviewTests
         }
 
         [Test]
-        public void TheSecondMaterialAndTheShareAppearWithTheNextLayout()
+        public void SecondMaterialAndShareAppearAtTheNextLayout()
         {
             Enter("Compare", true);
             Assert.That(Screen().Select(item => item.Label), Does.Contain("Material B").And.Not.Contain("Share"));
@@ -235,7 +235,7 @@ namespace HaptoFlow.PreviewTests
         }
 
         [Test]
-        public void WhatIsHeardIsAppliedToTheSelectionByAButtonAndTakenBackByUndo()
+        public void TheApplyButtonAssignsTheActiveMaterialWithUndo()
         {
             HapticSurface table = Make("Table").AddComponent<HapticSurface>();
             table.Material.Label = "stone";
@@ -254,7 +254,7 @@ namespace HaptoFlow.PreviewTests
         }
 
         [Test]
-        public void AHapticMaterialThatIsDroppedIsTaken()
+        public void ADroppedHapticMaterialIsPreviewed()
         {
             HapticMaterial asset = Keep(ScriptableObject.CreateInstance<HapticMaterial>());
             asset.Description.Label = "leather";
@@ -267,7 +267,7 @@ namespace HaptoFlow.PreviewTests
         }
 
         [Test]
-        public void QualitiesAreThoseOfTheModel()
+        public void TheQualityListHasTheTiersOfTheModel()
         {
             Window.Finish();
             Enter("Quality", 0);
@@ -276,7 +276,7 @@ namespace HaptoFlow.PreviewTests
         }
 
         [Test]
-        public void AQualityThatTheModelLacksIsItsDefault()
+        public void AQualityThatTheModelLacksIsReplacedByItsDefault()
         {
             Window.Finish();
             State.Tier = "exquisite";
@@ -284,7 +284,7 @@ namespace HaptoFlow.PreviewTests
         }
 
         [Test]
-        public void TheButtonsForAAndBRestWhereThereIsNoB()
+        public void TheButtonsAAndBAreDisabledWithoutASecondMaterial()
         {
             Window.Finish();
             Assert.That(Screen().Single(item => item.Label == "B").Enabled, Is.False);
@@ -293,7 +293,7 @@ namespace HaptoFlow.PreviewTests
         }
 
         [Test]
-        public void AProblemIsAHelpBoxInTheWindow()
+        public void AProblemIsShownInAHelpBox()
         {
             State.First.Label = "granite";
             Window.Finish();
@@ -322,7 +322,7 @@ namespace HaptoFlow.PreviewTests
         }
 
         [Test]
-        public void KeysBelongToTheTextThatIsBeingEdited()
+        public void KeysAreIgnoredWhileTextIsEdited()
         {
             EditorGUIUtility.editingTextField = true;
             Assert.That(Key(KeyCode.Space), Is.False);
@@ -331,7 +331,7 @@ namespace HaptoFlow.PreviewTests
         }
 
         [Test]
-        public void NothingIsLeftBehindByAClosedWindow()
+        public void AClosedWindowFreesTexturesAndClips()
         {
             int before = MediaCount.Alive;
             Window.Finish();
@@ -346,7 +346,7 @@ namespace HaptoFlow.PreviewTests
         }
 
         [Test]
-        public void AReloadOfTheScriptsClosesTheEngineAndTheWindowGoesOn()
+        public void TheWindowWorksAfterADomainReload()
         {
             int before = MediaCount.Alive;
             Window.Finish();
@@ -354,19 +354,19 @@ namespace HaptoFlow.PreviewTests
             PreviewSession old = Window.Session!;
             State.Change("Seed", state => state.Seed = 5);
             Window.Step();
-            Assert.That(old.IsBusy, Is.True, "reloaded while it renders");
+            Assert.That(old.IsBusy, Is.True, "the reload happens during rendering");
             WindowHost.Reload(Window);
             Assert.That(old.IsBusy, Is.False);
             Assert.That(Window.Session, Is.Not.SameAs(old));
             Assert.That(MediaCount.Alive, Is.EqualTo(before));
-            Assert.That(State.Seed, Is.EqualTo(5), "what was set stays set");
+            Assert.That(State.Seed, Is.EqualTo(5), "settings survive");
             WindowHost.Update();
             Window.Finish();
             Assert.That(Samples, Is.Not.EqualTo(wood));
         }
 
         [Test]
-        public void TexturesAreMadeAgainOnlyWhenTheSoundIsAnother()
+        public void TexturesAreReplacedOnlyWhenTheSoundChanges()
         {
             Window.Finish();
             Screen();
@@ -375,7 +375,7 @@ namespace HaptoFlow.PreviewTests
             Screen();
             Window.position = new Rect(0f, 0f, 1500f, 900f);
             Screen();
-            Assert.That(Images(), Is.EqualTo(first), "the size does not matter to a texture");
+            Assert.That(Images(), Is.EqualTo(first), "textures do not depend on the size");
             State.Change("Seed", state => state.Seed = 2);
             Window.Finish();
             Screen();

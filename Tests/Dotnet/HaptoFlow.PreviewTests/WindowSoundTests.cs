@@ -8,7 +8,7 @@ using UnityShim;
 
 namespace HaptoFlow.PreviewTests
 {
-    /// <summary>What only the shim can show: what sounds, and what is saved where.</summary>
+    /// <summary>Tests of the Texture Preview window that need the shim: playback and export.</summary>
     public sealed class WindowSoundTests : PreviewWindowTest
     {
         private void Press(string caption)
@@ -21,7 +21,7 @@ namespace HaptoFlow.PreviewTests
         public void Forget() => WindowHost.AnswerToSave = null;
 
         [Test]
-        public void PlayPlaysWhatIsHeardRaisedForTheSpeakersAndStopStops()
+        public void PlayStartsTheNormalisedActiveSoundAndStopEndsIt()
         {
             Window.Finish();
             Press("Play");
@@ -39,7 +39,7 @@ namespace HaptoFlow.PreviewTests
         }
 
         [Test]
-        public void WithoutLouderTheSpeakersGetWhatIsExported()
+        public void WithoutNormaliseTheExportedSamplesArePlayed()
         {
             State.Raises = false;
             Window.Finish();
@@ -51,7 +51,7 @@ namespace HaptoFlow.PreviewTests
         }
 
         [Test]
-        public void BothMaterialsAreRaisedByAsMuch()
+        public void BothMaterialsAreNormalisedWithTheSameGain()
         {
             State.Compares = true;
             Window.Finish();
@@ -64,7 +64,7 @@ namespace HaptoFlow.PreviewTests
         }
 
         [Test]
-        public void SwitchingWhileItPlaysGoesOnAtTheSamePlace()
+        public void SwitchingMaterialsDuringPlaybackKeepsThePosition()
         {
             State.Compares = true;
             Window.Finish();
@@ -80,7 +80,7 @@ namespace HaptoFlow.PreviewTests
         }
 
         [Test]
-        public void AtTheEndItStopsAndALoopBeginsAgain()
+        public void PlaybackStopsAtTheEndUnlessItLoops()
         {
             Window.Finish();
             Key(KeyCode.Space);
@@ -97,7 +97,7 @@ namespace HaptoFlow.PreviewTests
         }
 
         [Test]
-        public void ADrawnStrokeIsPlayedWhenItIsRendered()
+        public void ADrawnStrokeIsPlayedAsSoonAsItIsRendered()
         {
             double clock = 0.0;
             Window.ClockSeconds = () => clock += 0.02;
@@ -120,7 +120,7 @@ namespace HaptoFlow.PreviewTests
         }
 
         [Test]
-        public void ExportAsksWhereWithANameThatTellsWhat()
+        public void ExportProposesAFileNameFromMaterialAndStroke()
         {
             string proposed = "";
             string path = TemporaryFile();
@@ -130,7 +130,7 @@ namespace HaptoFlow.PreviewTests
                 return path;
             };
             Assert.That(Key(KeyCode.E, EventModifiers.Control), Is.True);
-            Assert.That(proposed, Is.Empty, "no dialog while the window is being drawn");
+            Assert.That(proposed, Is.Empty, "the dialog opens after the event");
             WindowHost.Update();
             Assert.That(proposed, Is.EqualTo("wood 0.12 mps 1.5 N.wav"));
             Assert.That(new WaveReader(File.ReadAllBytes(path)).Samples(), Is.EqualTo(Samples));
@@ -138,7 +138,7 @@ namespace HaptoFlow.PreviewTests
         }
 
         [Test]
-        public void AnExportThatIsCancelledWritesNothing()
+        public void ACancelledExportWritesNothing()
         {
             string[] before = Directory.GetFiles(".", "*", SearchOption.AllDirectories);
             Press("Export WAV\u2026");

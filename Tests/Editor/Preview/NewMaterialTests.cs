@@ -15,7 +15,7 @@ using Object = UnityEngine.Object;
 
 namespace HaptoFlow.PreviewTests
 {
-    /// <summary>The window that learns a material from a recording.</summary>
+    /// <summary>The New Material window, with the real native library.</summary>
     public sealed class NewMaterialTests
     {
         private readonly List<Object> made = new List<Object>();
@@ -54,7 +54,7 @@ namespace HaptoFlow.PreviewTests
             ProjectSettingsAsset.Forget();
         }
 
-        /// <summary>Band-limited noise of four seconds, louder where the tip is faster.</summary>
+        /// <summary>A recording of band-limited noise whose level follows the speed.</summary>
         internal string Table(string name, string motion = ",speed_mps,force_newtons", double seconds = 4.0)
         {
             var random = new System.Random(7);
@@ -86,7 +86,7 @@ namespace HaptoFlow.PreviewTests
         private string? Obstacle() => Window.Session!.Obstacle(ProjectSettingsAsset.DefaultModel());
 
         [Test]
-        public void ARecordingIsReadInTheBackgroundShownAndNamedByItsFile()
+        public void ARecordingIsReadInTheBackgroundAndNamedAfterItsFile()
         {
             File("Denim.json", "{\"licence\": \"CC BY 4.0\"}");
             Window.Take(Table("Denim.csv"));
@@ -100,7 +100,7 @@ namespace HaptoFlow.PreviewTests
         }
 
         [Test]
-        public void SpeedAndForceAreAskedForWhereTheFileDoesNotSayThem()
+        public void SpeedAndForceMustBeEnteredIfTheFileHasNone()
         {
             Window.Take(Table("a.csv", ""));
             Window.Finish();
@@ -114,7 +114,7 @@ namespace HaptoFlow.PreviewTests
         }
 
         [Test]
-        public void AFileThatIsNoneIsNamedWithItsRemedyAndNothingThatWasEnteredIsLost()
+        public void AnInvalidFileIsReportedAndTheSettingsAreKept()
         {
             Window.Take(Table("good.csv"));
             Window.Finish();
@@ -130,7 +130,7 @@ namespace HaptoFlow.PreviewTests
         }
 
         [Test]
-        public void WhatWasLearntStandsBesideTheRecordingAndUndoTakesItAway()
+        public void TheLearntMaterialIsShownBesideTheRecordingWithUndo()
         {
             Window.Take(Table("a.csv"));
             Window.Finish();
@@ -150,14 +150,14 @@ namespace HaptoFlow.PreviewTests
         }
 
         [Test]
-        public void ALearningIsFollowedToItsEndAndSavedAsAMaterialOfTheProjectsModel()
+        public void ALearntMaterialIsSavedForTheProjectsModel()
         {
             Window.Take(Table("denim.csv", ",speed_mps,force_newtons", 10.0));
             Window.Finish();
             Window.Learn();
             HapticLearning learning = Window.Session!.Learning!;
             Window.Learn();
-            Assert.That(Window.Session.Learning, Is.SameAs(learning), "one at a time");
+            Assert.That(Window.Session.Learning, Is.SameAs(learning), "only one learning runs at a time");
             Window.Finish();
             Assert.That(Window.Session.Problem, Is.Null);
             Assert.That(learning.Share, Is.GreaterThan(0f));
@@ -177,7 +177,7 @@ namespace HaptoFlow.PreviewTests
         }
 
         [Test]
-        public void TheReportSaysHowAMaterialWithRibsLiesToItsRecordingAndNothingOfOneWithout()
+        public void TheReportStatesTheAngleOfRibs()
         {
             const string Ruled = "{\"nearest_label\": \"corduroy\", \"turn_degrees\": 29.4}";
             Assert.That(LearningReportText.Of(Ruled),
@@ -189,7 +189,7 @@ namespace HaptoFlow.PreviewTests
         }
 
         [Test]
-        public void ALearningThatIsCancelledAtOnceLeavesWhatWasLearntBefore()
+        public void CancellingKeepsTheMaterialLearntBefore()
         {
             Window.Take(Table("denim.csv", ",speed_mps,force_newtons", 10.0));
             Window.Finish();
@@ -203,7 +203,7 @@ namespace HaptoFlow.PreviewTests
         }
 
         [Test]
-        public void ARecordingOfNothingButRestIsRefusedInTheWindow()
+        public void ARecordingWithoutMotionIsRefused()
         {
             var text = new StringBuilder("time_s,acceleration_mps2,speed_mps,force_newtons\n");
             for (int index = 0; index < 20000; ++index)

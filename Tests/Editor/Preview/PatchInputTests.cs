@@ -42,7 +42,7 @@ namespace HaptoFlow.PreviewTests
             });
         }
 
-        /// <summary>From left to right at 0.1 m/s.</summary>
+        /// <summary>Draws from left to right at 0.1 m/s.</summary>
         private void Draw(double yMetres, PointerType pointer = PointerType.Mouse, float pressure = 0f,
             EventModifiers modifiers = EventModifiers.None)
         {
@@ -69,7 +69,7 @@ namespace HaptoFlow.PreviewTests
         }
 
         [Test]
-        public void WhileThePointerIsDownSketchesAreShownAndAfterwardsTheRealThing()
+        public void ASketchIsShownWhileAStrokeIsDrawn()
         {
             Pointer(EventType.MouseDown, 0.02, 0.04);
             Pointer(EventType.MouseDrag, 0.03, 0.04);
@@ -85,14 +85,14 @@ namespace HaptoFlow.PreviewTests
         }
 
         [Test]
-        public void HalfOfAPensPressureIsTheForceThatIsSet()
+        public void APenAtHalfPressureHasTheForceThatIsSet()
         {
             Draw(0.04, PointerType.Pen, 0.75f);
             Assert.That(Window.Session!.Stroke.MaximumForceNewtons, Is.EqualTo(2.25).Within(1e-5));
         }
 
         [Test]
-        public void ShiftAddsATouchAndADragWithoutItBeginsAnew()
+        public void ShiftAddsATouchToTheDrawnStroke()
         {
             Draw(0.02);
             Draw(0.06, modifiers: EventModifiers.Shift);
@@ -102,7 +102,7 @@ namespace HaptoFlow.PreviewTests
         }
 
         [Test]
-        public void ADragIsUndoneAtOnce()
+        public void ADrawnStrokeIsUndoneInOneStep()
         {
             Draw(0.04);
             Undo.PerformUndo();
@@ -111,7 +111,7 @@ namespace HaptoFlow.PreviewTests
         }
 
         [Test]
-        public void WhatBeginsBesideThePatchDrawsNothing()
+        public void ADragThatStartsBesideThePatchDrawsNothing()
         {
             Assert.That(Pointer(EventType.MouseDown, -0.01, 0.04), Is.False);
             Pointer(EventType.MouseDrag, 0.05, 0.04);

@@ -7,13 +7,13 @@ using UnityEngine;
 
 namespace HaptoFlow.PreviewTests
 {
-    /// <summary>From the preview to the scene and back.</summary>
+    /// <summary>Copies materials from the preview to the scene and back.</summary>
     public sealed class SceneMaterialTests : PreviewWindowTest
     {
         private static readonly LabelMix Mix = new LabelMix("rubber", "jute", 0.25f);
 
         [Test]
-        public void ASelectedSurfaceIsMadeOfWhatIsHeardAndKeepsStiffnessAndStrength()
+        public void ApplyingAMaterialKeepsStiffnessAndStrength()
         {
             HapticSurface table = Surface("Table");
             table.Material.StiffnessNewtonsPerMetre = 700f;
@@ -25,7 +25,7 @@ namespace HaptoFlow.PreviewTests
         }
 
         [Test]
-        public void AnUntaggedObjectWithAColliderBecomesASurfaceAndOneWithoutIsNamed()
+        public void AnObjectWithAColliderBecomesASurfaceAndOneWithoutIsReported()
         {
             GameObject box = Make("Box");
             box.AddComponent<BoxCollider>();
@@ -37,7 +37,7 @@ namespace HaptoFlow.PreviewTests
         }
 
         [Test]
-        public void OneUndoTakesTheWholeSelectionBack()
+        public void ApplyingToASelectionIsUndoneInOneStep()
         {
             HapticSurface table = Surface("Table");
             table.Material.Label = "wood";
@@ -54,7 +54,7 @@ namespace HaptoFlow.PreviewTests
         }
 
         [Test]
-        public void ASurfaceThatSharesAnAssetIsChangedAloneAndTheAssetStays()
+        public void ApplyingToASurfaceDoesNotChangeItsSharedAsset()
         {
             HapticMaterial asset = Asset("leather");
             HapticSurface first = Surface("First");
@@ -70,11 +70,11 @@ namespace HaptoFlow.PreviewTests
         }
 
         [Test]
-        public void WithNothingSelectedNothingChangesAndTheRemedyIsSaid() => Assert.That(
+        public void ApplyingToAnEmptySelectionIsReported() => Assert.That(
             SceneMaterial.Apply(Mix, null, new Object[0]), Does.StartWith("Select objects of the scene"));
 
         [Test]
-        public void WhatASharedMaterialSaysCountsWhenASurfaceIsTaken()
+        public void TheSharedMaterialOfASurfaceIsTaken()
         {
             HapticSurface table = Surface("Table");
             table.Material.Label = "wood";
@@ -83,7 +83,7 @@ namespace HaptoFlow.PreviewTests
         }
 
         [Test]
-        public void ScaleAndToneOfASurfaceAreTakenHeardAndAppliedToAnother()
+        public void FeatureScaleAndToneAreCopiedFromOneSurfaceToAnother()
         {
             HapticSurface table = Surface("Table");
             table.Material.Label = "corduroy";
@@ -100,7 +100,7 @@ namespace HaptoFlow.PreviewTests
         }
 
         [Test]
-        public void ScaleAndToneOfAHapticMaterialAreTakenAndOneThatSaysNeitherPutsThemBack()
+        public void FeatureScaleAndToneOfAnAssetAreTaken()
         {
             HapticMaterial asset = Asset("leather");
             asset.Description.FeatureScale = 0.5f;
@@ -112,7 +112,7 @@ namespace HaptoFlow.PreviewTests
         }
 
         [Test]
-        public void ScaleAndToneAreAppliedToAHapticMaterialAndTakenBackByUndo()
+        public void ApplyingFeatureScaleAndToneToAnAssetCanBeUndone()
         {
             HapticMaterial asset = Asset("leather");
             Undo.IncrementCurrentGroup();
@@ -123,7 +123,7 @@ namespace HaptoFlow.PreviewTests
         }
 
         [Test]
-        public void AChildTakesTheSurfaceAboveIt()
+        public void AChildHasTheMaterialOfItsParentsSurface()
         {
             HapticSurface table = Surface("Table");
             table.Material.Label = "stone";
@@ -136,7 +136,7 @@ namespace HaptoFlow.PreviewTests
         }
 
         [Test]
-        public void TheWindowOpensOnASurfaceAndSoundsLikeIt()
+        public void TheWindowOpensWithTheMaterialOfASurface()
         {
             HapticSurface table = Surface("Table");
             table.Material.Label = "wood";
@@ -149,7 +149,7 @@ namespace HaptoFlow.PreviewTests
         }
 
         [Test]
-        public void WhileTheSecondMaterialIsHeardItIsTheOneThatIsTaken()
+        public void TheActiveMaterialIsTheOneThatIsReplaced()
         {
             State.Compares = true;
             State.Active = 1;

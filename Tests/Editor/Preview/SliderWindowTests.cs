@@ -27,12 +27,12 @@ namespace HaptoFlow.PreviewTests
         }
 
         [Test]
-        public void ThePackagesModelHasTheFiveSlidersThatAreDocumented() => Assert.That(
+        public void TheDefaultModelHasTheFiveDocumentedSliders() => Assert.That(
             SliderCatalog.Of(ProjectSettingsAsset.DefaultModel()).Sliders!.Sliders.Select(slider => slider.Name),
             Is.EqualTo(new[] { "coarseness", "hardness", "regularity", "stickiness", "level" }));
 
         [Test]
-        public void EverySliderChangesWhatIsHeardAndUndoGivesItBack()
+        public void EverySliderChangesTheSoundWithUndo()
         {
             Window.Finish();
             float[] before = Samples;
@@ -50,7 +50,7 @@ namespace HaptoFlow.PreviewTests
         }
 
         [Test]
-        public void ALearntMaterialIsTakenAndHeardAsTheLabelItCameFrom()
+        public void AMaterialFileOfALabelSoundsLikeTheLabel()
         {
             HapticMaterial material = Keep(HapticMaterial.Create(Text("glass"), "fur"));
             TexturePreviewWindow.Open(material);
@@ -65,7 +65,7 @@ namespace HaptoFlow.PreviewTests
         }
 
         [Test]
-        public void AMaterialThatIsDestroyedWhileItIsHeardLeavesItsLabel()
+        public void ADestroyedMaterialIsReplacedByItsLabel()
         {
             HapticMaterial material = HapticMaterial.Create(Text("glass"), "fur");
             TexturePreviewWindow.Open(material);
@@ -78,7 +78,7 @@ namespace HaptoFlow.PreviewTests
         }
 
         [Test]
-        public void AMaterialOfAnotherModelIsRefusedInTheWindow()
+        public void AMaterialOfAnotherModelIsReported()
         {
             string foreign = Text("glass").Replace(ModelSpace.Of(DefaultFile()).Id, "0badcafe");
             TexturePreviewWindow.Open(Keep(HapticMaterial.Create(foreign, "fur")));
@@ -87,7 +87,7 @@ namespace HaptoFlow.PreviewTests
         }
 
         [Test]
-        public void ALearntMaterialIsAppliedToASurfaceAndTakenBackByUndo()
+        public void ApplyingALearntMaterialToAnObjectCanBeUndone()
         {
             HapticMaterial material = Keep(HapticMaterial.Create(Text("glass"), "fur"));
             GameObject table = Make("Table");
@@ -104,18 +104,18 @@ namespace HaptoFlow.PreviewTests
         }
 
         [Test]
-        public void WhatTheSlidersMadeIsSavedBeforeItIsApplied()
+        public void AChangedMaterialMustBeSavedBeforeItIsApplied()
         {
             HapticSurface table = Make("Table").AddComponent<HapticSurface>();
             table.Material.Label = "stone";
             string said = SceneMaterial.Apply(
                 new LabelMix("wood", "", 0f, "", new[] { 0.5f }), null, new Object[] { table.gameObject });
-            Assert.That(said, Does.Contain("Save what the sliders made"));
+            Assert.That(said, Does.Contain("Save the changed material"));
             Assert.That(table.Material.Label, Is.EqualTo("stone"));
         }
 
         [Test]
-        public void ASavedMaterialCarriesWhatWasMovedAndUndoGivesAnOverwrittenOneBack()
+        public void OverwritingASavedMaterialCanBeUndone()
         {
             SliderSet sliders = SliderCatalog.Of(ProjectSettingsAsset.DefaultModel()).Sliders!;
             string moved = new LabelMix("wood", "", 0f, "", Moves("hardness", 0.5f)).MaterialText(DefaultFile(), sliders);
@@ -131,7 +131,7 @@ namespace HaptoFlow.PreviewTests
         }
 
         [Test]
-        public void AModelWithoutSlidersOfItsOwnSaysWhyAndOneWithAFileBesideItHasThem()
+        public void AModelHasTheSlidersOfTheFileBesideItIfTheyAreForIt()
         {
             const string path = "Assets/HaptoFlowSliderTests.haptoflow";
             const string beside = "Assets/HaptoFlowSliderTests.sliders.json";

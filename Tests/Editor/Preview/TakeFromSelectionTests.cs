@@ -7,13 +7,14 @@ using UnityEngine;
 
 namespace HaptoFlow.PreviewTests
 {
-    /// <summary>What "Take from Selection" takes, also from objects that are felt by a rule, and what it says.</summary>
+    /// <summary>What "Take from Selection" takes, also from objects that are felt by a rule, and what it says.
+    /// </summary>
     public sealed class TakeFromSelectionTests : PreviewWindowTest
     {
         private HapticMaterialMap map = null!;
 
         [SetUp]
-        public void GiveTheSceneAMap()
+        public void AddAMapToTheScene()
         {
             map = Keep(ScriptableObject.CreateInstance<HapticMaterialMap>());
             map.name = "Rooms";
@@ -24,7 +25,7 @@ namespace HaptoFlow.PreviewTests
         }
 
         [Test]
-        public void AnObjectThatIsFeltByARuleGivesItsMaterialWithScaleAndToneAndTheRuleIsSaid()
+        public void TheMaterialOfARuleIsTakenAndTheRuleIsNamed()
         {
             map.Rules[0].Material!.Description.FeatureScale = 2f;
             map.Rules[0].Material!.Description.ToneDbPerOctave = -3f;
@@ -39,14 +40,14 @@ namespace HaptoFlow.PreviewTests
         }
 
         [Test]
-        public void WhatNoRuleMatchesGivesTheDefaultOfTheMap()
+        public void AnObjectWithoutARuleHasTheDefaultOfTheMap()
         {
             map.DefaultMaterial = Material("glass");
             Assert.That(Take(Box("Lamp")), Is.EqualTo("Took glass from Lamp (default of \"Rooms\")"));
         }
 
         [Test]
-        public void ALearntMaterialOfARuleIsTakenAsTheMaterialThatItIs()
+        public void ALearntMaterialOfARuleIsTaken()
         {
             HapticMaterial learnt = Keep(HapticMaterial.Create(MaterialText.OfLabel(DefaultFile(), "glass"), "fur"));
             map.Insert(0, HapticMaterialRule.ForName("Pane", learnt));
@@ -55,7 +56,7 @@ namespace HaptoFlow.PreviewTests
         }
 
         [Test]
-        public void OfSeveralPartsTheFirstThatIsFeltIsTakenAndSaid()
+        public void TheFirstPartWithAMaterialIsTakenAndNamed()
         {
             var mesh = Keep(new Mesh
             {
@@ -75,11 +76,11 @@ namespace HaptoFlow.PreviewTests
             tray.AddComponent<MeshCollider>().sharedMesh = mesh;
             Assert.That(Take(tray), Does.StartWith("Took cork from Tray (submesh 2 of 3; rule 3 of \"Rooms\""));
             map.Insert(0, HapticMaterialRule.ForName("Tray", Material("fur")));
-            Assert.That(Take(tray), Does.StartWith("Took fur from Tray (rule 1"), "all parts go by one rule");
+            Assert.That(Take(tray), Does.StartWith("Took fur from Tray (rule 1"), "one rule applies to all parts");
         }
 
         [Test]
-        public void AColliderBelowTheSelectedObjectIsTakenAndNamed()
+        public void TheMaterialOfAChildColliderIsTakenAndTheChildIsNamed()
         {
             GameObject house = Make("House");
             GameObject step = Box("Step");
@@ -91,7 +92,7 @@ namespace HaptoFlow.PreviewTests
         }
 
         [Test]
-        public void ASurfaceWinsOverTheRulesUntilItIsSwitchedOff()
+        public void AnEnabledSurfaceTakesPrecedenceOverTheRules()
         {
             GameObject table = Box("Table");
             table.tag = "Finish";
@@ -105,7 +106,7 @@ namespace HaptoFlow.PreviewTests
         }
 
         [Test]
-        public void ASurfaceThatDoesNotReachItsChildrenLeavesThemToTheRules()
+        public void ChildrenOfASurfaceThatExcludesThemFollowTheRules()
         {
             GameObject table = Make("Table");
             HapticSurface surface = table.AddComponent<HapticSurface>();
@@ -120,7 +121,7 @@ namespace HaptoFlow.PreviewTests
         }
 
         [Test]
-        public void AMaskIsSaidAndWhereARuleHasNothingElseItsFirstMaterialIsTaken()
+        public void ARuleWithOnlyAMaskGivesTheFirstMaterialOfTheMask()
         {
             HapticMaskMap mask = Keep(ScriptableObject.CreateInstance<HapticMaskMap>());
             mask.name = "Paint";
@@ -136,7 +137,7 @@ namespace HaptoFlow.PreviewTests
         }
 
         [Test]
-        public void WhatIsNotFeltSaysWhyAndChangesNothing()
+        public void AnObjectWithoutMaterialIsReported()
         {
             GameObject door = Box("Door");
             door.GetComponent<Collider>().isTrigger = true;

@@ -9,8 +9,7 @@ using UnityEngine;
 
 namespace HaptoFlow.PreviewTests
 {
-    /// <summary>The window, driven by what designers do, with the real native library and the package's model.
-    /// </summary>
+    /// <summary>The Texture Preview window, with the real native library and the default model.</summary>
     public sealed class TexturePreviewTests : PreviewWindowTest
     {
         [Test]
@@ -26,7 +25,7 @@ namespace HaptoFlow.PreviewTests
         }
 
         [Test]
-        public void UndoBringsTheOldLabelAndItsSoundBack()
+        public void UndoRestoresTheLabelAndItsSound()
         {
             Window.Finish();
             float[] wood = Samples;
@@ -48,11 +47,11 @@ namespace HaptoFlow.PreviewTests
             Assert.That(Window.Session.Shown, Is.Not.Null);
             Assert.That(Window.Session.IsBusy, Is.False);
             Window.Step();
-            Assert.That(Window.Session.IsBusy, Is.False, "what is shown is not asked for again");
+            Assert.That(Window.Session.IsBusy, Is.False, "nothing has changed");
         }
 
         [Test]
-        public void WhileAControlIsHeldASketchIsShownAndWhenItIsReleasedTheRealThing()
+        public void ASketchIsShownWhileAControlIsDragged()
         {
             GUIUtility.hotControl = 1;
             State.Change("Speed", state => state.SpeedMps = 0.2f);
@@ -68,7 +67,7 @@ namespace HaptoFlow.PreviewTests
         }
 
         [Test]
-        public void AnExportedFileHoldsTheSamplesThatAreHeard()
+        public void AnExportedFileContainsTheActiveSound()
         {
             string path = TemporaryFile();
             Assert.That(Window.ExportTo(path), Is.Null);
@@ -80,7 +79,7 @@ namespace HaptoFlow.PreviewTests
         }
 
         [Test]
-        public void AFileThatCannotBeWrittenIsSaidSo() => Assert.That(
+        public void AFileThatCannotBeWrittenIsReported() => Assert.That(
             Window.ExportTo(Path.Combine("Temp", "no", "such", "folder", "a.wav")), Is.Not.Null.And.Not.Empty);
 
         [Test]
@@ -91,14 +90,14 @@ namespace HaptoFlow.PreviewTests
             Assert.That(Key(KeyCode.B), Is.True);
             Window.Finish();
             Assert.That(Window.Player!.PlayedSound!.Sound.Material, Is.EqualTo(new LabelMix("sandpaper")));
-            Assert.That(Window.Session!.Shown!.Sounds, Has.Count.EqualTo(2), "B is heard, so B is shown");
+            Assert.That(Window.Session!.Shown!.Sounds, Has.Count.EqualTo(2), "the active material is shown");
             Assert.That(Key(KeyCode.A), Is.True);
             Window.Finish();
             Assert.That(Samples, Is.EqualTo(wood));
         }
 
         [Test]
-        public void ArrowKeysChangeSpeedAndForceInEvenStepsAndKeepToTheirRange()
+        public void ArrowKeysChangeSpeedAndForceWithinTheirRanges()
         {
             Key(KeyCode.RightArrow);
             Key(KeyCode.RightArrow);
@@ -119,7 +118,7 @@ namespace HaptoFlow.PreviewTests
         }
 
         [Test]
-        public void KeysThatMeanNothingAreLeftToOthers()
+        public void OtherKeysAreNotUsed()
         {
             Assert.That(Key(KeyCode.E), Is.False);
             Assert.That(Key(KeyCode.A, EventModifiers.Alt), Is.False);
@@ -127,7 +126,7 @@ namespace HaptoFlow.PreviewTests
         }
 
         [Test]
-        public void ADamagedModelIsSaidSoAndAGoodOneHelps()
+        public void ADamagedModelIsReportedUntilAnotherIsChosen()
         {
             byte[] damaged = (byte[])DefaultFile().Clone();
             damaged[100] ^= 1;
@@ -143,7 +142,7 @@ namespace HaptoFlow.PreviewTests
         }
 
         [Test]
-        public void DamageBehindTheHeaderIsSaidSoToo()
+        public void DamageAfterTheHeaderIsReported()
         {
             byte[] damaged = (byte[])DefaultFile().Clone();
             damaged[damaged.Length - 100] ^= 1;
@@ -155,7 +154,7 @@ namespace HaptoFlow.PreviewTests
         }
 
         [Test]
-        public void ALabelThatTheModelLacksIsSaidSo()
+        public void ALabelThatTheModelLacksIsReported()
         {
             State.Change("Label", state => state.First.Label = "granite");
             Window.Finish();
@@ -163,7 +162,7 @@ namespace HaptoFlow.PreviewTests
         }
 
         [Test]
-        public void WithoutAChoiceTheModelsFirstLabelsAndItsOwnQualityAreTaken()
+        public void TheFirstLabelsAndTheDefaultTierAreUsedByDefault()
         {
             State.First.Label = "";
             State.Second.Label = "";
@@ -194,7 +193,7 @@ namespace HaptoFlow.PreviewTests
         }
 
         [Test]
-        public void TheTableHasTheMillisecondsOfThisMachine()
+        public void TheTableHasATimeForEveryTier()
         {
             Window.Finish();
             int tiers = ProjectSettingsAsset.DefaultModel()!.Header.Tiers.Count;
@@ -203,7 +202,7 @@ namespace HaptoFlow.PreviewTests
         }
 
         [Test]
-        public void AClosedWindowLetsGoAndOpensAgainAsItShould()
+        public void AClosedWindowCanBeOpenedAgain()
         {
             Window.Finish();
             Close();

@@ -34,8 +34,8 @@ namespace HaptoFlow.PreviewTests
             this.controls = controls;
         }
 
-        /// <param name="settings">What the stroke of the result was made from.</param>
-        /// <param name="playedSeconds">Where the playhead is.</param>
+        /// <param name="settings">Settings of the stroke of the result.</param>
+        /// <param name="playedSeconds">Position of the playhead.</param>
         public static SkiaCanvas Draw(PreviewResult result, PreviewLayout layout, StrokeSettings settings,
             string preset, double playedSeconds)
         {
@@ -50,9 +50,9 @@ namespace HaptoFlow.PreviewTests
             return canvas;
         }
 
-        /// <summary>The window that learns materials.</summary>
-        /// <param name="recording">What was read, in words.</param>
-        /// <param name="report">What the fit achieved, in words.</param>
+        /// <summary>The New Material window.</summary>
+        /// <param name="recording">Description of the recording.</param>
+        /// <param name="report">Description of the result.</param>
         public static SkiaCanvas Draw(ComparisonResult result, PreviewLayout layout, string name, string licence,
             string recording, string report)
         {
@@ -74,7 +74,7 @@ namespace HaptoFlow.PreviewTests
             canvas.FillRectangle(new Box(0.0, 0.0, width, Tab), Colour.Of(0x282828));
             canvas.FillRectangle(new Box(4.0, 2.0, 128.0, Tab), Palette.Window, 3.0);
             canvas.DrawText(title, 68.0, 12.0, TextSize, Label, TextAlign.Centre);
-            canvas.DrawText("Drawn by a test with the window's own code: not a screenshot of Unity", width - 12.0, 12.0,
+            canvas.DrawText("Charts drawn by the window's own code in a test; not a screenshot of Unity", width - 12.0, 12.0,
                 TextSize, Label, TextAlign.Right);
             return canvas;
         }
@@ -129,7 +129,7 @@ namespace HaptoFlow.PreviewTests
             Buttons(new[] { "New Material from Recording\u2026" }, new[] { controls.Width }, -1);
         }
 
-        /// <summary>Unfolded where something was moved.</summary>
+        /// <summary>Unfolded if a slider is not at 0.</summary>
         private void Sliders(PreviewRequest request)
         {
             LabelMix heard = request.Materials[^1];
@@ -221,11 +221,11 @@ namespace HaptoFlow.PreviewTests
             Tick(row.Columns(66.0, 18.0), true);
             canvas.DrawText("Normalise", row.Left + 86.0, row.MiddleY, TextSize, Label);
             double gain = 20.0 * Math.Log10(PreviewPlayer.RaisedPeak / peak);
-            canvas.DrawText(AxisNumbers.Text(gain, 0, true) + " dB", row.Left + 140.0, row.MiddleY, Plot.NumberSize, Label);
+            canvas.DrawText(AxisNumbers.Text(gain, 0, true) + " dB", row.Left + 160.0, row.MiddleY, Plot.NumberSize, Label);
             y += Row;
         }
 
-        /// <summary>Wrapped between words.</summary>
+        /// <summary>Draws a text, wrapped between words.</summary>
         private void Words(string text)
         {
             string line = "";

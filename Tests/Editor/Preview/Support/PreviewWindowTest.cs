@@ -9,7 +9,7 @@ using UnityEngine;
 
 namespace HaptoFlow.PreviewTests
 {
-    /// <summary>An open Texture Preview window with a short stroke in the cheapest quality, closed after each test.
+    /// <summary>Opens a Texture Preview window with a short stroke at draft quality, and closes it after each test.
     /// </summary>
     public abstract class PreviewWindowTest
     {
@@ -19,7 +19,7 @@ namespace HaptoFlow.PreviewTests
 
         internal TexturePreviewState State => Window.State;
 
-        /// <summary>The samples of the material that is heard.</summary>
+        /// <summary>The samples of the active sound.</summary>
         internal float[] Samples => Window.Player!.PlayedSound!.Sound.Samples;
 
         [SetUp]
@@ -69,7 +69,7 @@ namespace HaptoFlow.PreviewTests
 #endif
         }
 
-        /// <summary>A model of these bytes, gone after the test.</summary>
+        /// <summary>A model of these bytes, destroyed after the test.</summary>
         internal HapticModelAsset Model(byte[] file)
         {
             HapticModelAsset asset = HapticModelAsset.Create(file);
@@ -80,7 +80,7 @@ namespace HaptoFlow.PreviewTests
 
         internal GameObject Make(string name) => Keep(new GameObject(name));
 
-        /// <summary>Gone after the test.</summary>
+        /// <summary>Destroys an object after the test.</summary>
         internal T Keep<T>(T each)
             where T : Object
         {
@@ -93,7 +93,7 @@ namespace HaptoFlow.PreviewTests
         internal bool Key(KeyCode key, EventModifiers modifiers = EventModifiers.None) =>
             Window.SendEvent(new Event { type = EventType.KeyDown, keyCode = key, modifiers = modifiers });
 
-        /// <summary>A file that does not exist yet, in the project's folder for temporary things.</summary>
+        /// <summary>Path of a new file in the project's Temp folder.</summary>
         internal static string TemporaryFile()
         {
             Directory.CreateDirectory("Temp");

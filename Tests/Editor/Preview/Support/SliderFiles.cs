@@ -6,8 +6,8 @@ using HaptoFlow.Model;
 
 namespace HaptoFlow.PreviewTests
 {
-    /// <summary>Files of sliders made of a model's own labels: a slider of 1 leads a third of the way from one label
-    /// towards another.</summary>
+    /// <summary>Makes files of sliders from a model's labels: a position of 1 adds a third of the difference of two
+    /// labels.</summary>
     internal static class SliderFiles
     {
         public static string For(byte[] modelFile, string? space = null)
@@ -56,7 +56,7 @@ namespace HaptoFlow.PreviewTests
         private static double[] Scaled(double[] numbers, double factor) =>
             numbers.Select(number => factor * number).ToArray();
 
-        /// <summary>By Gram and Schmidt.</summary>
+        /// <summary>Orthonormal vectors by the method of Gram and Schmidt.</summary>
         private static IEnumerable<double[]> Orthonormal(IEnumerable<double[]> directions)
         {
             var found = new List<double[]>();

@@ -7,8 +7,7 @@ using NUnit.Framework;
 
 namespace HaptoFlow.PreviewTests
 {
-    /// <summary>Reads a RIFF WAVE file chunk by chunk, by the format's rules, not by knowledge of who wrote it.
-    /// </summary>
+    /// <summary>Reads RIFF WAVE files by the format's rules, independently of the writer under test.</summary>
     internal sealed class WaveReader
     {
         private readonly Dictionary<string, byte[]> chunks = new Dictionary<string, byte[]>();

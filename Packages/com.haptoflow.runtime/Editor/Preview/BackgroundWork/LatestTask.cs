@@ -5,8 +5,8 @@ using System.Threading.Tasks;
 
 namespace HaptoFlow.Preview
 {
-    /// <summary>Works on one request at a time in the background. Of the requests submitted meanwhile only the newest is
-    /// kept. Call all methods from one thread.</summary>
+    /// <summary>Works on one request at a time in the background. Of the requests submitted meanwhile only the newest
+    /// is kept. Call all methods from one thread.</summary>
     internal sealed class LatestTask<TRequest, TResult> : IDisposable
         where TRequest : class
         where TResult : class

@@ -61,8 +61,8 @@ namespace HaptoFlow.Preview
 
         public PreviewRequest Request { get; }
 
-        /// <summary>As many as the request has materials, and one more if a device renders the first; none if there is a
-        /// problem.</summary>
+        /// <summary>As many as the request has materials, and one more if a device renders the first; none if there is
+        /// a problem.</summary>
         public IReadOnlyList<AnalysedSound> Sounds { get; }
 
         /// <summary>Draws the sounds.</summary>

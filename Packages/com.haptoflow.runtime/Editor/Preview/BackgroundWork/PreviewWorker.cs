@@ -20,8 +20,8 @@ namespace HaptoFlow.Preview
         /// <summary>Number of engines created so far.</summary>
         public int EnginesCreated => engines.Created;
 
-        /// <summary>Makes the result of a request. A missing library, a damaged model or an unknown label is reported as
-        /// the result's problem.</summary>
+        /// <summary>Makes the result of a request. A missing library, a damaged model or an unknown label is reported
+        /// as the result's problem.</summary>
         /// <exception cref="OperationCanceledException">The token was cancelled.</exception>
         public PreviewResult Do(PreviewRequest request, CancellationToken token)
         {
@@ -151,8 +151,8 @@ namespace HaptoFlow.Preview
                 effects = request.Effects;
             }
 
-            /// <summary>True if a sound of this key can be used for another one. A sketch can only be used for a sketch.
-            /// </summary>
+            /// <summary>True if a sound of this key can be used for another one. A sketch can only be used for a
+            /// sketch.</summary>
             public bool Serves(in SoundKey wanted) =>
                 ReferenceEquals(modelFile, wanted.modelFile) && ReferenceEquals(stroke, wanted.stroke) &&
                 material.Equals(wanted.material) && tier == wanted.tier && seed == wanted.seed &&

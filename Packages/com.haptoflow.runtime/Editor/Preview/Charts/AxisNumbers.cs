@@ -8,8 +8,8 @@ namespace HaptoFlow.Preview
     /// <summary>Numbers of chart axes.</summary>
     internal static class AxisNumbers
     {
-        /// <summary>Multiples of 1, 2 or 5 times a power of ten from <paramref name="low"/> to
-        /// <paramref name="high"/>.</summary>
+        /// <summary>Multiples of 1, 2 or 5 times a power of ten from <paramref name="low"/> to <paramref name="high"/>.
+        /// </summary>
         /// <param name="maximum">Number of intervals.</param>
         public static IReadOnlyList<double> Ticks(double low, double high, int maximum)
         {

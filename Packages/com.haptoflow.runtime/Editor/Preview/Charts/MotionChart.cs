@@ -7,7 +7,8 @@ namespace HaptoFlow.Preview
     /// <summary>Draws speed and force of a stroke over time; both are zero while the tip does not touch.</summary>
     internal static class MotionChart
     {
-        /// <param name="frame">The plot area; the axis of speed stands left of it, of force right, of time below.</param>
+        /// <param name="frame">The plot area; the axis of speed stands left of it, of force right, of time below.
+        /// </param>
         public static void Draw(ICanvas canvas, Palette palette, Box frame, Stroke stroke)
         {
             double fastest = AxisNumbers.RoundUp(stroke.MaximumSpeedMps);
@@ -21,7 +22,8 @@ namespace HaptoFlow.Preview
                 double y = plot.Y(share);
                 canvas.DrawHorizontalHairline(frame.Left, frame.Right, Math.Min(y, frame.Bottom - 1.0), palette.Grid);
                 plot.RowText(AxisNumbers.Text(share * fastest, 4), y, frame.Left - 6.0, TextAlign.Right, palette.Speed);
-                plot.RowText(AxisNumbers.Text(share * strongest, 4), y, frame.Right + 6.0, TextAlign.Left, palette.Force);
+                plot.RowText(
+                    AxisNumbers.Text(share * strongest, 4), y, frame.Right + 6.0, TextAlign.Left, palette.Force);
             }
             List<(double X, double Y)> force = Curve(plot, stroke, state => state.ForceNewtons / strongest);
             canvas.FillArea(force.ConvertAll(point => (point.X, point.Y, plot.Frame.Bottom)),

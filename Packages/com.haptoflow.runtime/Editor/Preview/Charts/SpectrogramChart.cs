@@ -21,7 +21,8 @@ namespace HaptoFlow.Preview
             var plot = new Plot(canvas, palette, frame, (0.0, durationSeconds), (0.0, Spectrum.MaximumHz));
             foreach (double hertz in AxisHz)
             {
-                plot.RowText(AxisNumbers.Text(hertz, 0), plot.Y(hertz), frame.Left - 6.0, TextAlign.Right, palette.Soft);
+                plot.RowText(
+                    AxisNumbers.Text(hertz, 0), plot.Y(hertz), frame.Left - 6.0, TextAlign.Right, palette.Soft);
             }
             plot.ColumnTexts(AxisNumbers.Ticks(0.0, durationSeconds, 6), value => AxisNumbers.Text(value, 2), "s");
             canvas.DrawImage(image, plot.Frame);

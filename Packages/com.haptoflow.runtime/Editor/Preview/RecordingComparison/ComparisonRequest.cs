@@ -24,7 +24,8 @@ namespace HaptoFlow.Preview
         /// <summary>The text of the learnt material's file; empty before one was learnt.</summary>
         public string Material { get; set; } = "";
 
-        /// <summary>Angle from the recording's first axis to the material's, which is perpendicular to its ribs.</summary>
+        /// <summary>Angle from the recording's first axis to the material's, which is perpendicular to its ribs.
+        /// </summary>
         public double TurnDegrees { get; set; }
 
         /// <summary>True to play the result at the recording's level.</summary>

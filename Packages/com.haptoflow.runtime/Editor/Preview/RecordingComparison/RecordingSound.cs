@@ -61,7 +61,8 @@ namespace HaptoFlow.Preview
             }, seconds, true);
         }
 
-        /// <summary>Removes gravity and slow motion by a first-order high-pass filter, run forward and backward.</summary>
+        /// <summary>Removes gravity and slow motion by a first-order high-pass filter, run forward and backward.
+        /// </summary>
         private static float[] WithoutDrift(ReadOnlySpan<float> samples, int axes, double rateHz)
         {
             float[] result = samples.ToArray();

@@ -72,7 +72,8 @@ namespace HaptoFlow.Preview
 
         public IReadOnlyList<MaterialSlider> Sliders { get; }
 
-        /// <exception cref="HaptoFlowException">The text is not a file of sliders; the message names the key.</exception>
+        /// <exception cref="HaptoFlowException">The text is not a file of sliders; the message names the key.
+        /// </exception>
         public static SliderSet Read(string text)
         {
             try
@@ -89,8 +90,8 @@ namespace HaptoFlow.Preview
         /// <summary>True if every slider is at 0.</summary>
         public static bool IsAtRest(IReadOnlyList<float> values) => values.All(value => value.Equals(0f));
 
-        /// <summary>Applies the sliders to a material. The embedding stays within the range of the model's labels, or of
-        /// the material itself if that is outside.</summary>
+        /// <summary>Applies the sliders to a material. The embedding stays within the range of the model's labels, or
+        /// of the material itself if that is outside.</summary>
         /// <param name="values">Position of each slider; missing ones are 0.</param>
         /// <param name="name">Name of the new material.</param>
         /// <returns>The text of a material file.</returns>

@@ -4,8 +4,8 @@ using System.Collections.Generic;
 
 namespace HaptoFlow.Preview
 {
-    /// <summary>Creates the engine that previews are rendered with, and keeps it as long as model, quality and seed stay
-    /// the same. One thread at a time, never the main thread: loading and inference take long.</summary>
+    /// <summary>Creates the engine that previews are rendered with, and keeps it as long as model, quality and seed
+    /// stay the same. One thread at a time, never the main thread: loading and inference take long.</summary>
     internal sealed class PreviewEngines : IDisposable
     {
         // The command line's default lead, so that both render the same samples.

@@ -48,8 +48,8 @@ namespace HaptoFlow.Preview
             return new Spectrum(sum, density.HertzPerBin);
         }
 
-        /// <summary>Level at a frequency, dB re 1 (m/s^2)^2/Hz; the density is interpolated linearly between bins. Minus
-        /// infinity for silence.</summary>
+        /// <summary>Level at a frequency, dB re 1 (m/s^2)^2/Hz; the density is interpolated linearly between bins.
+        /// Minus infinity for silence.</summary>
         public double Decibels(double hertz)
         {
             double place = Math.Max(0.0, Math.Min(Bins - 1.0, hertz / HertzPerBin));

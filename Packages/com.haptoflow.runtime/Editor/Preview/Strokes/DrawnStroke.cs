@@ -29,7 +29,8 @@ namespace HaptoFlow.Preview
         // The runtime estimates velocity from tracked positions over the same window.
         private const double VelocityWindowSeconds = 0.035;
 
-        // A resting pointer sends no events. After a gap of RestSeconds, motion began EventSeconds before the new event.
+        // A resting pointer sends no events. After a gap of RestSeconds, the motion began EventSeconds before the new
+        // event.
         private const float RestSeconds = 0.03f;
         private const float EventSeconds = 0.008f;
         private const float PauseSeconds = 0.15f;

@@ -67,8 +67,8 @@ namespace HaptoFlow.Preview
         private static double Room(double x, double y) => 0.86 * Math.Min(
             CentreX / Math.Max(1e-9, Math.Abs(x)), CentreY / Math.Max(1e-9, Math.Abs(y)));
 
-        /// <summary>Adds touch-down and lift-off, during which the force ramps for 20 ms, and time without contact before
-        /// and after.</summary>
+        /// <summary>Adds touch-down and lift-off, during which the force ramps for 20 ms, and time without contact
+        /// before and after.</summary>
         private static Func<double, PathPoint> Touching(Func<double, PathPoint> motion, StrokeSettings settings) =>
             seconds =>
             {

@@ -3,8 +3,8 @@ using System;
 
 namespace HaptoFlow.Preview
 {
-    /// <summary>An Archimedean spiral r = k phi at constant speed. Its length up to phi is
-    /// k / 2 (phi sqrt(1 + phi^2) + asinh phi).</summary>
+    /// <summary>An Archimedean spiral r = k phi at constant speed. Its length up to phi is k / 2 (phi sqrt(1 + phi^2) +
+    /// asinh phi).</summary>
     internal sealed class SpiralPath
     {
         private const double InnerMetres = 0.006;

@@ -39,7 +39,8 @@ namespace HaptoFlow.Preview
         /// <summary>Increases by one at each touch-down.</summary>
         public uint TouchCounter { get; }
 
-        /// <summary>True if the previous state belongs to the same touch and the path did not wrap in between.</summary>
+        /// <summary>True if the previous state belongs to the same touch and the path did not wrap in between.
+        /// </summary>
         public bool Continues { get; }
 
         /// <summary>Normal speed at the touch-down.</summary>

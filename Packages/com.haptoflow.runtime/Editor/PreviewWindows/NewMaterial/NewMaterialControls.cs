@@ -18,7 +18,8 @@ namespace HaptoFlow.Editor
         private static readonly GUIContent Model =
             new GUIContent("Model", "The model that the material is learnt for. None: the project's model.");
         private static readonly GUIContent Choose = new GUIContent("Choose Recording\u2026",
-            "A CSV table or a WAV file of one material, ten seconds or more. The file NAME.json beside it is read too.");
+            "A CSV table or a WAV file of one material, ten seconds or more. The file NAME.json beside it is read " +
+            "too.");
         private static readonly GUIContent Speed = new GUIContent("Speed [m/s]",
             "Used if the file has none. 0: unknown.");
         private static readonly GUIContent Force = new GUIContent("Force [N]",
@@ -36,7 +37,7 @@ namespace HaptoFlow.Editor
             "Learns the material in the background, which takes ten to twenty seconds.");
         private static readonly GUIContent CancelButton =
             new GUIContent("Cancel", "Stops learning. An earlier result is kept.");
-        private static readonly GUIContent Play = new GUIContent("Play", "Plays the recording or the result, as chosen beside.");
+        private static readonly GUIContent Play = new GUIContent("Play", "Plays the chosen sound.");
         private static readonly GUIContent Stop = new GUIContent("Stop", "Stops playback.");
         private static readonly GUIContent[] Sides =
         {

@@ -98,7 +98,8 @@ namespace HaptoFlow.Editor
             view = PreviewView.Of(position, PreviewRoom.WithoutStroke, view);
             PreviewLayout layout = view.Layout;
             var all = new Rect(0f, 0f, (float)layout.Width, (float)layout.Height);
-            using var scrolled = new GUI.ScrollViewScope(new Rect(0f, 0f, position.width, position.height), scroll, all);
+            var window = new Rect(0f, 0f, position.width, position.height);
+            using var scrolled = new GUI.ScrollViewScope(window, scroll, all);
             scroll = scrolled.scrollPosition;
             using (new GUILayout.AreaScope(layout.Controls.ToRect()))
             {

@@ -5,8 +5,8 @@ using UnityEngine;
 
 namespace HaptoFlow.Editor
 {
-    /// <summary>Plays the recording or the result, and continues with its replacement at the same position. Main thread.
-    /// </summary>
+    /// <summary>Plays the recording or the result, and continues with its replacement at the same position. Main
+    /// thread.</summary>
     internal sealed class NewMaterialPlayer
     {
         private readonly NewMaterialState state;

@@ -62,7 +62,8 @@ namespace HaptoFlow.Editor
             set => learnt = value;
         }
 
-        /// <summary>Chooses the material of a mix, with its feature scale and tone; the other sliders are reset.</summary>
+        /// <summary>Chooses the material of a mix, with its feature scale and tone; the other sliders are reset.
+        /// </summary>
         public void Take(LabelMix mix, HapticMaterial? material)
         {
             Label = mix.First;

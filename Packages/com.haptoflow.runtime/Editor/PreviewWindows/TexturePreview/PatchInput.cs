@@ -19,8 +19,8 @@ namespace HaptoFlow.Editor
         /// <summary>Raised when the pointer is released.</summary>
         public event Action? Ended;
 
-        /// <summary>Handles an event. With Shift, a touch is added to the stroke; otherwise a new stroke starts. A mouse
-        /// presses with the force that is set, a pen at half its maximum pressure.</summary>
+        /// <summary>Handles an event. With Shift, a touch is added to the stroke; otherwise a new stroke starts. A
+        /// mouse presses with the force that is set, a pen at half its maximum pressure.</summary>
         /// <param name="patch">Place of the patch on the screen.</param>
         /// <param name="clockSeconds">Time of the event.</param>
         public void Handle(Event input, Rect patch, double clockSeconds)

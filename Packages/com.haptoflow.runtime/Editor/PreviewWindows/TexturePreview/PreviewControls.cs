@@ -33,8 +33,8 @@ namespace HaptoFlow.Editor
         private static readonly GUIContent Effects = new GUIContent("Effects",
             "Effects of the surface.");
         private static readonly GUIContent Device = new GUIContent("Device",
-            "The device that plays the waveform. The simulated output of a controller or a motor is shown as B beside " +
-            "the waveform.");
+            "The device that plays the waveform. The simulated output of a controller or a motor is shown as B " +
+            "beside the waveform.");
         private static readonly GUIContent Landing = new GUIContent("Landing [m/s]",
             "Normal speed at each touch-down. A drop from 5 cm ends with 1 m/s.");
 
@@ -43,7 +43,8 @@ namespace HaptoFlow.Editor
         private static readonly GUIContent First = new GUIContent("Material A", "A label of the model.");
         private static readonly GUIContent Second =
             new GUIContent("Material B", "A label of the model, to compare with A.");
-        private static readonly GUIContent Blend = new GUIContent("Blend with", "A second label to blend with the first.");
+        private static readonly GUIContent Blend =
+            new GUIContent("Blend with", "A second label to blend with the first.");
         private static readonly GUIContent Share =
             new GUIContent("Share", "Share of the second label in the blend. 0: only the first. 1: only the second.");
         private static readonly GUIContent Compare =

@@ -44,8 +44,8 @@ namespace HaptoFlow.Editor
             if (asset == null)
             {
                 return new PreviewModel(Array.Empty<byte>(), null,
-                    "There is no model to preview. Choose one above or in Project Settings > HaptoFlow, or reinstall the " +
-                    "package, which contains one.");
+                    "There is no model to preview. Choose one above or in Project Settings > HaptoFlow, or reinstall " +
+                    "the package, which contains one.");
             }
             try
             {

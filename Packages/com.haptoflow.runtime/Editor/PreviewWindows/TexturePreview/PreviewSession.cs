@@ -115,7 +115,8 @@ namespace HaptoFlow.Editor
         /// <summary>Times the tiers again with the next request.</summary>
         public void MeasureAgain() => ++measurement;
 
-        /// <summary>Blocks until the running request ends, because native calls must not outlive a domain reload.</summary>
+        /// <summary>Blocks until the running request ends, because native calls must not outlive a domain reload.
+        /// </summary>
         public void Dispose()
         {
             task.Dispose();
