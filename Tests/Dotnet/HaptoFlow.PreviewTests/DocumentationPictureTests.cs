@@ -1,4 +1,5 @@
 using System;
+using System.Diagnostics;
 using System.IO;
 using System.Threading;
 using HaptoFlow.Editor;
@@ -13,7 +14,6 @@ namespace HaptoFlow.PreviewTests
     {
         // The pictures show measured milliseconds: run these tests on an idle machine with
         //   dotnet test Tests/Dotnet/HaptoFlow.PreviewTests --filter TestCategory=DocumentationPicture
-        // and then write the model's hash into each picture with node scripts/pack/stamp_picture.mjs FILE...
         [Test, Explicit, Category("DocumentationPicture")]
         public void TheWindowIsDrawnForTheDocumentation() =>
             Draw("texture-preview.png", StrokePreset.Spiral, new StrokeSettings(0.12, 1.5, 30.0, 2.4), 1.3,
@@ -67,7 +67,17 @@ namespace HaptoFlow.PreviewTests
             string path = RepositoryFiles.In("Documentation~", "images", "new-material.png");
             using SkiaCanvas picture = WindowPicture.Draw(result, layout, recording.Label, recording.Licence,
                 NewMaterialControls.Describe(recording), LearningReportText.Of(learning.Report!));
+            Save(picture, path);
+        }
+
+        /// <summary>Saves a picture with the hash of the model in it.</summary>
+        private static void Save(SkiaCanvas picture, string path)
+        {
             picture.Save(path);
+            using Process stamp = Process.Start(
+                "node", new[] { RepositoryFiles.In("scripts", "pack", "stamp_picture.mjs"), path });
+            stamp.WaitForExit();
+            Assert.That(stamp.ExitCode, Is.Zero);
             Assert.That(new FileInfo(path).Length, Is.GreaterThan(50_000));
         }
 
@@ -87,8 +97,7 @@ namespace HaptoFlow.PreviewTests
             string path = RepositoryFiles.In("Documentation~", "images", file);
             using SkiaCanvas picture =
                 WindowPicture.Draw(result, layout, settings, preset.ToString(), playedSeconds);
-            picture.Save(path);
-            Assert.That(new FileInfo(path).Length, Is.GreaterThan(50_000));
+            Save(picture, path);
         }
     }
 }

@@ -7,8 +7,7 @@ using UnityEngine;
 
 namespace HaptoFlow.PreviewTests
 {
-    /// <summary>What "Take from Selection" takes, also from objects that are felt by a rule, and what it says.
-    /// </summary>
+    /// <summary>The button "Take from Selection": its material and its message.</summary>
     public sealed class TakeFromSelectionTests : PreviewWindowTest
     {
         private HapticMaterialMap map = null!;

@@ -16,6 +16,9 @@ namespace HaptoFlow.Editor
         // Points closer to each other than this are left out of polylines.
         private const float PointDistance = 0.25f;
 
+        // Handles.DrawLines multiplies the opacity of its colour by this.
+        private const float LineOpacity = 0.75f;
+
         private readonly Action<ICanvas> draw;
         private readonly List<Action> commands = new List<Action>();
         private readonly Dictionary<ColourImage, Texture2D> textures = new Dictionary<ColourImage, Texture2D>();
@@ -46,10 +49,12 @@ namespace HaptoFlow.Editor
                 shownContent = content;
                 shownView = view;
             }
+            Color before = Handles.color;
             foreach (Action command in commands)
             {
                 command();
             }
+            Handles.color = before;
         }
 
         /// <summary>Destroys the textures.</summary>
@@ -104,6 +109,7 @@ namespace HaptoFlow.Editor
         {
             Vector3[] lines = PixelColumns(edges);
             Color color = colour.ToColor();
+            color.a /= LineOpacity;
             commands.Add(() =>
             {
                 Handles.color = color;
