@@ -64,14 +64,14 @@ namespace HaptoFlow.PreviewTests
             return canvas;
         }
 
-        private static int Count(SkiaCanvas canvas, Box box, Predicate<Colour> wanted)
+        private static int Count(SkiaCanvas canvas, Box box, Predicate<Colour> matches)
         {
             int count = 0;
             for (var y = (int)(box.Top * canvas.PixelsPerPoint); y < (int)(box.Bottom * canvas.PixelsPerPoint); ++y)
             {
                 for (var x = (int)(box.Left * canvas.PixelsPerPoint); x < (int)(box.Right * canvas.PixelsPerPoint); ++x)
                 {
-                    count += wanted(canvas[x, y]) ? 1 : 0;
+                    count += matches(canvas[x, y]) ? 1 : 0;
                 }
             }
             return count;
@@ -130,7 +130,7 @@ namespace HaptoFlow.PreviewTests
             Box box = SoundPanel.SpectrogramBox(canvas.Whole, 0, 2).Inside(2.0);
             Box air = box.Columns(0.0, 8.0);
             Box touch = box.Columns(0.1 * box.Width, 0.8 * box.Width);
-            Assert.That(Count(canvas, air, colour => colour.Red > 60), Is.Zero, "the spectrogram is dark before the touch");
+            Assert.That(Count(canvas, air, colour => colour.Red > 60), Is.Zero, "it is dark before the touch");
             Assert.That(Count(canvas, touch, colour => colour.Red > 60), Is.GreaterThan(2000));
         }
 

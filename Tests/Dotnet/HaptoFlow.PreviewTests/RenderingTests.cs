@@ -47,14 +47,14 @@ namespace HaptoFlow.PreviewTests
         [Test]
         public void TheRmsIsCloseToTheModelsLevelLaw()
         {
-            double heard = Do(Request(new LabelMix("sandpaper"))).Sounds[0].Sound.RmsMps2;
+            double rms = Do(Request(new LabelMix("sandpaper"))).Sounds[0].Sound.RmsMps2;
             using OnnxRuntime runtime = OnnxRuntime.Open();
             using HapticModel model = HapticModel.Open(ModelFiles.Default);
             using var generator = new HapticGenerator(runtime, model, "draft");
             int label = model.Labels.Single(each => each.Name == "sandpaper").Index;
             var level = new float[1];
             generator.Levels(model.Embedding(label), new[] { 0.12f, 0f, 1f }, level);
-            Assert.That(20.0 * Math.Log10(heard / level[0]), Is.EqualTo(0.0).Within(2.5));
+            Assert.That(20.0 * Math.Log10(rms / level[0]), Is.EqualTo(0.0).Within(2.5));
         }
 
         [TestCase(nameof(StrokePreset.Taps), HapticEffects.Impact)]

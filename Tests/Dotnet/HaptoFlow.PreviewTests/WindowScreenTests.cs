@@ -37,10 +37,11 @@ namespace HaptoFlow.PreviewTests
         }
 
         private static Texture2D[] Images() =>
-            ScreenPaint.All.Select(each => each.Image).Where(each => each != null && each.name != "UnityWhite").ToArray()!;
+            ScreenPaint.All.Select(each => each.Image)
+                .Where(image => image != null && image.name != "UnityWhite").ToArray()!;
 
         [SetUp]
-        public void Forget()
+        public void Reset()
         {
             Event.current = new Event { type = EventType.Repaint };
             EditorSession.DarkSkin = true;

@@ -18,7 +18,7 @@ namespace HaptoFlow.PreviewTests
         }
 
         [SetUp]
-        public void Forget() => WindowHost.AnswerToSave = null;
+        public void Reset() => WindowHost.AnswerToSave = null;
 
         [Test]
         public void PlayStartsTheNormalisedActiveSoundAndStopEndsIt()

@@ -30,10 +30,10 @@ namespace HaptoFlow.PreviewTests
             GameObject box = Make("Box");
             box.AddComponent<BoxCollider>();
             GameObject light = Make("Light");
-            string said = SceneMaterial.Apply(Mix, null, new Object[] { box, light });
+            string message = SceneMaterial.Apply(Mix, null, new Object[] { box, light });
             Assert.That(Read(box.GetComponent<HapticSurface>()), Is.EqualTo(Mix));
             Assert.That(light.TryGetComponent(out HapticSurface _), Is.False);
-            Assert.That(said, Does.StartWith("Applied rubber 75 % + jute 25 % to Box; not to Light"));
+            Assert.That(message, Does.StartWith("Applied rubber 75 % + jute 25 % to Box; not to Light"));
         }
 
         [Test]
@@ -93,8 +93,9 @@ namespace HaptoFlow.PreviewTests
             Window.Finish();
             Assert.That(Window.Player!.PlayedSound!.Sound.Title, Is.EqualTo("corduroy (x2, +3 dB/oct)"));
             HapticSurface shelf = Surface("Shelf");
-            string said = SceneMaterial.Apply(Window.Player.PlayedSound.Sound.Material, null, new Object[] { shelf.gameObject });
-            Assert.That(said, Is.EqualTo("Applied corduroy (x2, +3 dB/oct) to Shelf"));
+            string message = SceneMaterial.Apply(
+                Window.Player.PlayedSound.Sound.Material, null, new Object[] { shelf.gameObject });
+            Assert.That(message, Is.EqualTo("Applied corduroy (x2, +3 dB/oct) to Shelf"));
             Assert.That((shelf.Material.FeatureScale, shelf.Material.ToneDbPerOctave), Is.EqualTo((2f, 3f)));
             Assert.That(Read(shelf), Is.EqualTo(Read(table)));
         }

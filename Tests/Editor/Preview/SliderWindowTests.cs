@@ -93,8 +93,8 @@ namespace HaptoFlow.PreviewTests
             GameObject table = Make("Table");
             table.AddComponent<BoxCollider>();
             Undo.IncrementCurrentGroup();
-            string said = SceneMaterial.Apply(new LabelMix("glass"), material, new Object[] { table });
-            Assert.That(said, Is.EqualTo("Applied glass to Table"));
+            string message = SceneMaterial.Apply(new LabelMix("glass"), material, new Object[] { table });
+            Assert.That(message, Is.EqualTo("Applied glass to Table"));
             MaterialDescription own = table.GetComponent<HapticSurface>().Material;
             Assert.That((own.Learnt, own.Label), Is.EqualTo((material, "fur")));
             Assert.That(SceneMaterial.TryRead(table, out _, out HapticMaterial? read), Is.True);
@@ -108,9 +108,9 @@ namespace HaptoFlow.PreviewTests
         {
             HapticSurface table = Make("Table").AddComponent<HapticSurface>();
             table.Material.Label = "stone";
-            string said = SceneMaterial.Apply(
+            string message = SceneMaterial.Apply(
                 new LabelMix("wood", "", 0f, "", new[] { 0.5f }), null, new Object[] { table.gameObject });
-            Assert.That(said, Does.Contain("Save the changed material"));
+            Assert.That(message, Does.Contain("Save the changed material"));
             Assert.That(table.Material.Label, Is.EqualTo("stone"));
         }
 
@@ -118,7 +118,8 @@ namespace HaptoFlow.PreviewTests
         public void OverwritingASavedMaterialCanBeUndone()
         {
             SliderSet sliders = SliderCatalog.Of(ProjectSettingsAsset.DefaultModel()).Sliders!;
-            string moved = new LabelMix("wood", "", 0f, "", Moves("hardness", 0.5f)).MaterialText(DefaultFile(), sliders);
+            string moved =
+                new LabelMix("wood", "", 0f, "", Moves("hardness", 0.5f)).MaterialText(DefaultFile(), sliders);
             HapticMaterial asset = MaterialAssets.Save(Saved, moved, "wood");
             Assert.That(AssetDatabase.LoadAssetAtPath<HapticMaterial>(Saved), Is.SameAs(asset));
             Assert.That((asset.IsLearnt, asset.Description.Label), Is.EqualTo((true, "wood")));

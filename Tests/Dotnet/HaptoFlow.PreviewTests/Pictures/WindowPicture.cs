@@ -74,8 +74,8 @@ namespace HaptoFlow.PreviewTests
             canvas.FillRectangle(new Box(0.0, 0.0, width, Tab), Colour.Of(0x282828));
             canvas.FillRectangle(new Box(4.0, 2.0, 128.0, Tab), Palette.Window, 3.0);
             canvas.DrawText(title, 68.0, 12.0, TextSize, Label, TextAlign.Centre);
-            canvas.DrawText("Charts drawn by the window's own code in a test; not a screenshot of Unity", width - 12.0, 12.0,
-                TextSize, Label, TextAlign.Right);
+            canvas.DrawText("Charts drawn by the window's own code in a test; not a screenshot of Unity",
+                width - 12.0, 12.0, TextSize, Label, TextAlign.Right);
             return canvas;
         }
 
@@ -132,8 +132,8 @@ namespace HaptoFlow.PreviewTests
         /// <summary>Unfolded if a slider is not at 0.</summary>
         private void Sliders(PreviewRequest request)
         {
-            LabelMix heard = request.Materials[^1];
-            float[] moves = heard.Moves.ToArray();
+            LabelMix material = request.Materials[^1];
+            float[] moves = material.Moves.ToArray();
             double middle = controls.Top + y + 9.0;
             double left = controls.Left + 4.0;
             canvas.DrawPolyline(moves.Length > 0
@@ -143,14 +143,15 @@ namespace HaptoFlow.PreviewTests
             y += Row;
             if (moves.Length > 0)
             {
-                Slider("Feature Scale", (heard.FeatureScale - 0.25) / 3.75, Number(heard.FeatureScale));
-                Slider("Tone [dB/oct]", (heard.ToneDbPerOctave + 12.0) / 24.0, Number(heard.ToneDbPerOctave));
+                Slider("Feature Scale", (material.FeatureScale - 0.25) / 3.75, Number(material.FeatureScale));
+                Slider("Tone [dB/oct]", (material.ToneDbPerOctave + 12.0) / 24.0, Number(material.ToneDbPerOctave));
             }
             for (int index = 0; index < moves.Length; ++index)
             {
                 MaterialSlider slider = request.Sliders!.Sliders[index];
                 Slider(char.ToUpperInvariant(slider.Name[0]) + slider.Name.Substring(1),
-                    (moves[index] - slider.Lowest) / (slider.Highest - slider.Lowest), Number(Math.Round(moves[index], 3)));
+                    (moves[index] - slider.Lowest) / (slider.Highest - slider.Lowest),
+                    Number(Math.Round(moves[index], 3)));
             }
             if (moves.Length > 0)
             {
@@ -221,7 +222,8 @@ namespace HaptoFlow.PreviewTests
             Tick(row.Columns(66.0, 18.0), true);
             canvas.DrawText("Normalise", row.Left + 86.0, row.MiddleY, TextSize, Label);
             double gain = 20.0 * Math.Log10(PreviewPlayer.RaisedPeak / peak);
-            canvas.DrawText(AxisNumbers.Text(gain, 0, true) + " dB", row.Left + 160.0, row.MiddleY, Plot.NumberSize, Label);
+            canvas.DrawText(
+                AxisNumbers.Text(gain, 0, true) + " dB", row.Left + 160.0, row.MiddleY, Plot.NumberSize, Label);
             y += Row;
         }
 
@@ -261,7 +263,7 @@ namespace HaptoFlow.PreviewTests
             }
         }
 
-        private void Effects(HapticEffects asked)
+        private void Effects(HapticEffects effects)
         {
             Box row = Begin("Effects");
             double width = row.Width / 3.0;
@@ -273,7 +275,7 @@ namespace HaptoFlow.PreviewTests
                      })
             {
                 var box = new Box(left, row.Top, width, row.Height);
-                Tick(box, (asked & effect) != 0);
+                Tick(box, (effects & effect) != 0);
                 canvas.DrawText(name, box.Left + 20.0, box.MiddleY, TextSize, Label);
                 left += width;
             }

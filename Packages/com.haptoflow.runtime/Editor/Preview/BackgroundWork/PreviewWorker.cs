@@ -58,7 +58,8 @@ namespace HaptoFlow.Preview
             PreviewRequest request, LabelMix material, LabelNames names, CancellationToken token)
         {
             var key = new SoundKey(request, material);
-            AnalysedSound? known = kept.Where(each => each.Key.Serves(key)).Select(each => each.Sound).FirstOrDefault();
+            AnalysedSound? known =
+                kept.Where(each => each.Key.CanServe(key)).Select(each => each.Sound).FirstOrDefault();
             if (known != null)
             {
                 return known;
@@ -153,11 +154,11 @@ namespace HaptoFlow.Preview
 
             /// <summary>True if a sound of this key can be used for another one. A sketch can only be used for a
             /// sketch.</summary>
-            public bool Serves(in SoundKey wanted) =>
-                ReferenceEquals(modelFile, wanted.modelFile) && ReferenceEquals(stroke, wanted.stroke) &&
-                material.Equals(wanted.material) && tier == wanted.tier && seed == wanted.seed &&
-                effects == wanted.effects &&
-                (!isSketch || wanted.isSketch);
+            public bool CanServe(in SoundKey requested) =>
+                ReferenceEquals(modelFile, requested.modelFile) && ReferenceEquals(stroke, requested.stroke) &&
+                material.Equals(requested.material) && tier == requested.tier && seed == requested.seed &&
+                effects == requested.effects &&
+                (!isSketch || requested.isSketch);
         }
     }
 }

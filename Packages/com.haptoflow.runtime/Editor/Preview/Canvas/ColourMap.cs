@@ -21,8 +21,8 @@ namespace HaptoFlow.Preview
         /// <param name="share">0 to 1; NaN counts as 0.</param>
         public static Colour At(double share)
         {
-            double held = share > 0.0 ? Math.Min(1.0, share) : 0.0;
-            return Table[(int)(held * (Table.Length - 1) + 0.5)];
+            double limited = share > 0.0 ? Math.Min(1.0, share) : 0.0;
+            return Table[(int)(limited * (Table.Length - 1) + 0.5)];
         }
 
         private static ColourImage MakeColumn()

@@ -55,8 +55,8 @@ namespace HaptoFlow.Preview
         /// <summary>Draws a number beside the plot area, within its height.</summary>
         public void RowText(string text, double y, double x, TextAlign align, Colour colour)
         {
-            double held = Math.Max(Frame.Top + 4.0, Math.Min(Frame.Bottom - 4.0, y));
-            canvas.DrawText(text, x, held, NumberSize, colour, align);
+            double limited = Math.Max(Frame.Top + 4.0, Math.Min(Frame.Bottom - 4.0, y));
+            canvas.DrawText(text, x, limited, NumberSize, colour, align);
         }
 
         /// <summary>Draws vertical grid lines.</summary>
@@ -79,8 +79,8 @@ namespace HaptoFlow.Preview
                 string number = text(values[index]);
                 string label = index == values.Count - 1 ? number + " " + unit : number;
                 double width = canvas.MeasureText(label, NumberSize);
-                double wanted = X(values[index]) - 0.5 * canvas.MeasureText(number, NumberSize);
-                double left = Math.Max(Frame.Left, Math.Min(Frame.Right - width, wanted));
+                double centred = X(values[index]) - 0.5 * canvas.MeasureText(number, NumberSize);
+                double left = Math.Max(Frame.Left, Math.Min(Frame.Right - width, centred));
                 if (left + width <= end)
                 {
                     canvas.DrawText(label, left, Frame.Bottom + 10.0, NumberSize, palette.Soft);

@@ -13,9 +13,9 @@ namespace HaptoFlow.Preview
         /// <summary>A round number for the upper edge that holds a peak with little room above, in m/s^2.</summary>
         public static double Limit(double peakMps2)
         {
-            double held = Math.Max(0.01, peakMps2);
-            double power = Math.Pow(10.0, Math.Floor(Math.Log10(held)));
-            return power * Array.Find(Limits, limit => limit * power >= held);
+            double limited = Math.Max(0.01, peakMps2);
+            double power = Math.Pow(10.0, Math.Floor(Math.Log10(limited)));
+            return power * Array.Find(Limits, limit => limit * power >= limited);
         }
 
         /// <param name="frame">The plot area; the axis numbers stand left of it.</param>

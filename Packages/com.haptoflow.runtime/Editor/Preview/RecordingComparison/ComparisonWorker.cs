@@ -50,9 +50,9 @@ namespace HaptoFlow.Preview
 
         private PreviewSound Result(ComparisonRequest request, CancellationToken token)
         {
-            (byte[], Recording, string, double) wanted =
+            (byte[], Recording, string, double) requested =
                 (request.ModelFile, request.Recording, request.Material, request.TurnDegrees);
-            if (result == null || !rendered.Equals(wanted))
+            if (result == null || !rendered.Equals(requested))
             {
                 MaterialFile material = MaterialFile.Read(request.Material);
                 HapticEngine engine = engines.Engine(request.ModelFile, HapticQuality.Standard, Seed, true);
@@ -64,7 +64,7 @@ namespace HaptoFlow.Preview
                 Stroke stroke = RecordingSound.StrokeOf(request.Recording, request.TurnDegrees);
                 float[] samples = StrokeRenderer.Render(engine, stroke, surface, token);
                 result = new PreviewSound(new LabelMix(material.Name), stroke, samples);
-                rendered = wanted;
+                rendered = requested;
             }
             return result;
         }

@@ -123,11 +123,11 @@ namespace HaptoFlow.Preview
             for (int axis = 0; axis < axes.Length; ++axis)
             {
                 double own = Coordinate(embedding, axis);
-                double wanted = Coordinate(moved, axis);
-                double held = Math.Max(Math.Min(lowest[axis], own), Math.Min(Math.Max(highest[axis], own), wanted));
+                double target = Coordinate(moved, axis);
+                double limited = Math.Max(Math.Min(lowest[axis], own), Math.Min(Math.Max(highest[axis], own), target));
                 for (int number = 0; number < MaterialFile.TextureNumbers; ++number)
                 {
-                    moved[number] += (held - wanted) * axes[axis][number];
+                    moved[number] += (limited - target) * axes[axis][number];
                 }
             }
             return moved;

@@ -44,10 +44,10 @@ namespace HaptoFlow.Editor
             var maps = new SceneMaps();
             ColliderAnswer[] answers = SceneColliders.Below(new[] { owner }).Select(maps.Ask)
                 .OrderBy(answer => answer.Collider.gameObject == owner ? 0 : 1).ToArray();
-            ColliderAnswer? felt = answers.FirstOrDefault(answer => answer.CanBeFelt);
-            if (felt != null)
+            ColliderAnswer? touchable = answers.FirstOrDefault(answer => answer.CanBeFelt);
+            if (touchable != null)
             {
-                return felt.Surface is object ? new SelectedMaterial(felt.Surface) : OfRule(owner, felt);
+                return touchable.Surface is object ? new SelectedMaterial(touchable.Surface) : OfRule(owner, touchable);
             }
             HapticSurface? described = hasOwn ? own
                 : answers.Length == 0 ? SurfaceRegistry.OwnerOf(owner.transform)
@@ -63,22 +63,22 @@ namespace HaptoFlow.Editor
 
         private static SelectedMaterial OfRule(GameObject owner, ColliderAnswer answer)
         {
-            FeltCollider felt = answer.ByRules;
+            FeltCollider mapped = answer.ByRules;
             int index = 0;
-            while (!felt.Parts[index].CanBeFelt)
+            while (!mapped.Parts[index].CanBeFelt)
             {
                 ++index;
             }
-            FeltPart part = felt.Parts[index];
+            FeltPart part = mapped.Parts[index];
             var remarks = new List<string>();
             if (answer.Collider.gameObject != owner)
             {
                 remarks.Add(answer.Collider.name);
             }
-            if (!felt.IsUniform)
+            if (!mapped.IsUniform)
             {
-                string kind = felt.Facts.Terrain is object ? "layer" : "submesh";
-                remarks.Add($"{kind} {index + 1} of {felt.Parts.Count}");
+                string kind = mapped.Facts.Terrain is object ? "layer" : "submesh";
+                remarks.Add($"{kind} {index + 1} of {mapped.Parts.Count}");
             }
             remarks.Add(part.Explain());
             if (part.Mask is object)

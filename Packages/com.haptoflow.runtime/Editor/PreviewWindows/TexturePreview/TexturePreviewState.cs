@@ -109,9 +109,9 @@ namespace HaptoFlow.Editor
         {
             get
             {
-                HapticEffects asked = (HasTexture ? HapticEffects.Texture : 0) |
+                HapticEffects effects = (HasTexture ? HapticEffects.Texture : 0) |
                     (HasImpact ? HapticEffects.Impact : 0) | (HasEdge ? HapticEffects.Edge : 0);
-                return asked == HapticEffects.Unspecified ? HapticEffects.Nothing : asked;
+                return effects == HapticEffects.Unspecified ? HapticEffects.Nothing : effects;
             }
         }
 
