@@ -51,21 +51,25 @@ namespace HaptoFlow.Preview
             edges.Add((x + pixel, top, bottom));
         }
 
+        /// <summary>Extremes and RMS of the samples of a column, in m/s^2.</summary>
         private static (double Low, double High, double Rms) Column(PreviewSound sound, int column, int columns)
         {
-            long begin = (long)sound.Samples.Length * column / columns;
-            long end = Math.Max(begin + 1, (long)sound.Samples.Length * (column + 1) / columns);
-            double low = double.MaxValue;
-            double high = double.MinValue;
+            float[] samples = sound.Samples;
+            var begin = (int)((long)samples.Length * column / columns);
+            var next = (int)((long)samples.Length * (column + 1) / columns);
+            int end = Math.Min(samples.Length, Math.Max(begin + 1, next));
+            float low = float.MaxValue;
+            float high = float.MinValue;
             double squares = 0.0;
-            for (long index = begin; index < end && index < sound.Samples.Length; ++index)
+            for (int index = begin; index < end; ++index)
             {
-                double value = PreviewSound.FullScaleMps2 * sound.Samples[index];
-                low = Math.Min(low, value);
-                high = Math.Max(high, value);
-                squares += value * value;
+                float sample = samples[index];
+                low = sample < low ? sample : low;
+                high = sample > high ? sample : high;
+                squares += sample * sample;
             }
-            return (low, high, Math.Sqrt(squares / (end - begin)));
+            const double unit = PreviewSound.FullScaleMps2;
+            return (unit * low, unit * high, unit * Math.Sqrt(squares / (end - begin)));
         }
     }
 }
