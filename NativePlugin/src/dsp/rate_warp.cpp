@@ -49,9 +49,6 @@ bool RateWarp::isTransparent() const noexcept {
     return state_.isDirect() && state_.target == 1.0;
 }
 
-double RateWarp::latencyInputSamples() const noexcept {
-    return state_.reach();
-}
 
 std::size_t RateWarp::inputNeeded(std::size_t outputCount) const noexcept {
     State ahead = state_;

@@ -37,15 +37,13 @@ public:
     [[nodiscard]] double ratio() const noexcept { return state_.ratio; }
     /// True while the output is a plain delay of the input.
     [[nodiscard]] bool isTransparent() const noexcept;
-    /// By how many input samples the kernel reads ahead of the read position: 0 while direct, else 10 r.
-    [[nodiscard]] double latencyInputSamples() const noexcept;
+
     /// How many input samples the next `process` of `outputCount` samples will consume. Bounded by 4 a sample plus 41.
     [[nodiscard]] std::size_t inputNeeded(std::size_t outputCount) const noexcept;
     /// `input` holds exactly inputNeeded(output.size()) samples; missing ones count as 0, surplus ones are ignored.
     void process(std::span<const float> input, std::span<float> output) noexcept;
 
-    /// Input samples consumed since construction or reset.
-    [[nodiscard]] std::uint64_t consumedSamples() const noexcept { return state_.consumed; }
+
     /// Input sample (counted from 0 after construction or reset) that the next output is centred on; negative while
     /// the first ones have not come through.
     [[nodiscard]] double readPosition() const noexcept;

@@ -1,7 +1,5 @@
 #include "effects/actuator_profile.hpp"
 
-#include "effects/built_in_profiles.hpp"
-
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
@@ -269,11 +267,6 @@ std::string ActuatorProfile::toJson() const {
 std::optional<ActuatorProfile> ActuatorProfile::builtIn(std::string_view name) {
     const auto found = std::ranges::find(builtInProfiles(), name, &BuiltInProfile::name);
     return found == builtInProfiles().end() ? std::nullopt : std::optional(parse(found->json));
-}
-
-std::span<const std::string_view> ActuatorProfile::builtInNames() noexcept {
-    static constexpr std::array<std::string_view, 2> names{"flat", "voice-coil"};
-    return names;
 }
 
 double ActuatorProfile::magnitudeDecibelsAt(double hz) const noexcept {

@@ -10,6 +10,15 @@
 
 namespace haptoflow::effects {
 
+/// The text of a profile that is compiled in.
+struct BuiltInProfile {
+    std::string_view name;
+    std::string_view json;
+};
+
+/// The files of NativePlugin/profiles; CMake generates the source file.
+[[nodiscard]] std::span<const BuiltInProfile> builtInProfiles() noexcept;
+
 /// A profile was refused. The message is one line that names the key, what was expected there and what was found.
 class ProfileError : public std::runtime_error {
 public:
@@ -60,9 +69,8 @@ struct ActuatorProfile {
     /// The profile as JSON that `parse` reads.
     [[nodiscard]] std::string toJson() const;
 
-    /// A profile that HaptoFlow brings along; none where the name is not one of `builtInNames`.
+    /// The built-in profile of that name, or none.
     [[nodiscard]] static std::optional<ActuatorProfile> builtIn(std::string_view name);
-    [[nodiscard]] static std::span<const std::string_view> builtInNames() noexcept;
 
     [[nodiscard]] bool operator==(const ActuatorProfile&) const = default;
 

@@ -17,7 +17,7 @@ enum class CarrierShape {
 
 struct CarrierRendering {
     CarrierShape shape = CarrierShape::held;
-    double sampleRateHz = 2000.0;
+    double sampleRateHz = WaveFeatures::sampleRateHz;
     /// Time constant with which the motor itself follows a change of amplitude; 0 for at once.
     double riseSeconds = 0.0;
 };

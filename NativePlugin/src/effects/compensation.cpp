@@ -1,6 +1,7 @@
 #include "effects/compensation.hpp"
 
-#include "effects/minimum_phase.hpp"
+#include "dsp/limiter.hpp"
+#include "dsp/sample_rates.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -88,7 +89,7 @@ std::vector<double> gainsFor(const std::vector<double>& actuatorDecibels, double
     for (std::size_t point = 0; point < points; ++point) {
         const double magnitude = asFactor(actuatorDecibels[point] - levelDecibels);
         const double inverse = magnitude / (magnitude * magnitude + bound);
-        gains[point] = shareOf(hzAt(point), bandHz) * std::max(inDecibels(inverse), -Compensation::largestCutDecibels);
+        gains[point] = shareOf(hzAt(point), bandHz) * std::max(inDecibels(inverse), -Compensation::maximumCutDecibels);
     }
     return gains;
 }
@@ -111,7 +112,7 @@ double findLevel(const std::vector<double>& actuatorDecibels, double boostDecibe
     double loudest = lowest;
     double loudestPower = 0.0;
     double powerBelow = 0.0;
-    for (double level = lowest - step; level < highest + Compensation::largestCutDecibels; level += step) {
+    for (double level = lowest - step; level < highest + Compensation::maximumCutDecibels; level += step) {
         const double here = power(level);
         if (here > 1.0 && powerBelow <= 1.0) {
             crossing = level - step;
@@ -155,10 +156,7 @@ double largestGain(const ParallelFilter& filter, double sampleRateHz) {
 }
 
 void requireSettings(double sampleRateHz, const CompensationSettings& settings) {
-    if (!(sampleRateHz >= Compensation::lowestRateHz && sampleRateHz <= Compensation::highestRateHz)) {
-        throw std::invalid_argument("the sample rate is " + std::to_string(sampleRateHz) +
-                                    " Hz; expected 8000 to 192000 Hz");
-    }
+    (void)dsp::requireOutputRate(sampleRateHz);
     if (!(settings.largestBoostDecibels >= 0.0 && settings.largestBoostDecibels <= 24.0)) {
         throw std::invalid_argument("the largest boost is " + std::to_string(settings.largestBoostDecibels) +
                                     " dB; expected 0 to 24 dB");
@@ -199,7 +197,7 @@ Compensation::Compensation(const ActuatorProfile& profile, double sampleRateHz, 
     const double excess = std::max(largestGain(*filter_, sampleRateHz) - settings.largestBoostDecibels, 0.0);
     const double power = broadbandPower([this](std::size_t point) { return std::abs(filter_->response(hzAt(point))); });
     filter_->scale(asFactor(-excess) / std::sqrt(std::max(power, 1.0)));
-    tailSeconds_ = filter_->tailSeconds(tailPeakMps2, silentMps2);
+    tailSeconds_ = filter_->tailSeconds(dsp::SoftLimiter::defaultFullScaleMps2, imperceptibleMps2);
     measureLatency();
 }
 
@@ -228,7 +226,7 @@ void Compensation::process(std::span<float> samplesMps2) noexcept {
         return;
     }
     filter_->process(samplesMps2);
-    isIdle_ = isSilent && filter_->envelope() < silentMps2;
+    isIdle_ = isSilent && filter_->envelope() < imperceptibleMps2;
     if (isIdle_) {
         filter_->reset();
     }

@@ -20,7 +20,7 @@ struct CompensationSettings {
 /// Makes an actuator play what was meant: the regularised inverse of its magnitude, minimum-phase.
 ///
 /// - The boost is bounded, and where the actuator gives next to nothing it falls again: no power goes where nothing
-///   would be felt. Nothing is lowered by more than `largestCutDecibels`.
+///   would be felt. Nothing is lowered by more than `maximumCutDecibels`.
 /// - An octave outside of the band the gain is back at 0 dB. A profile without a point in the band changes
 ///   nothing.
 /// - Level: white noise and pink noise of 20 to 1000 Hz leave with at most the power that they came with, so that a
@@ -32,13 +32,7 @@ struct CompensationSettings {
 /// Fields of the contact: none. The sections and their cost are the same at every rate.
 class Compensation final : public Effect {
 public:
-    static constexpr double lowestRateHz = 8000.0;
-    static constexpr double highestRateHz = 192000.0;
-    static constexpr double largestCutDecibels = 24.0;
-    /// Below this it has ended, as DecayingSinusoid.
-    static constexpr double silentMps2 = 1e-4;
-    /// The input that the declared tail is for, m/s^2: the default full scale.
-    static constexpr double tailPeakMps2 = 200.0;
+    static constexpr double maximumCutDecibels = 24.0;
 
     /// Designs the filter: some milliseconds, on a thread that can wait; allocates. Throws std::invalid_argument for a
     /// rate outside 8-192 kHz and for settings out of their range.

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "effects/effect.hpp"
+
 #include <span>
 
 namespace haptoflow::effects {
@@ -8,8 +10,6 @@ namespace haptoflow::effects {
 /// Audio thread: allocates nothing, waits for nothing.
 class DecayingSinusoid {
 public:
-    /// Below this it has ended: a hundredth of what a fingertip feels at its most sensitive.
-    static constexpr double silentMps2 = 1e-4;
 
     /// Rings from the next sample on, whatever rang before. Frequencies beyond 0.45 of the rate, and anything that is
     /// not finite or not above 0, ring not at all.
@@ -18,7 +18,7 @@ public:
     /// Adds the next samples.
     void addTo(std::span<float> samplesMps2) noexcept;
 
-    [[nodiscard]] bool isIdle() const noexcept { return envelopeMps2_ < silentMps2; }
+    [[nodiscard]] bool isIdle() const noexcept { return envelopeMps2_ < imperceptibleMps2; }
     /// What its amplitude has decayed to.
     [[nodiscard]] double envelopeMps2() const noexcept { return envelopeMps2_; }
 

@@ -1,26 +1,16 @@
 #include "effects/delay.hpp"
 
+#include "dsp/sample_rates.hpp"
+
 #include <algorithm>
 #include <bit>
 #include <cmath>
 #include <numbers>
-#include <stdexcept>
-#include <string>
 
 namespace haptoflow::effects {
-namespace {
-
-double checkedRateHz(double rateHz) {
-    if (!(rateHz >= 8000.0 && rateHz <= 192000.0)) {
-        throw std::invalid_argument("the sample rate is " + std::to_string(rateHz) + " Hz; expected 8000 to 192000");
-    }
-    return rateHz;
-}
-
-}  // namespace
 
 Delay::Delay(double sampleRateHz)
-    : sampleRateHz_(checkedRateHz(sampleRateHz)),
+    : sampleRateHz_(dsp::requireOutputRate(sampleRateHz)),
       longest_(static_cast<std::size_t>(std::llround(highestSeconds * sampleRateHz))),
       line_(std::bit_ceil(longest_ + 1), 0.0F),
       fade_(static_cast<std::size_t>(std::lround(fadeSeconds * sampleRateHz))),
@@ -96,11 +86,7 @@ float Delay::nextOfFade() noexcept {
 void Delay::process(std::span<float> samplesMps2) noexcept {
     for (float& sample : samplesMps2) {
         startFadeIfAsked();
-        if (!std::isfinite(sample)) {
-            ++nonFiniteCount_;
-            sample = 0.0F;
-        }
-        write(sample);
+        write(std::isfinite(sample) ? sample : 0.0F);
         sample = faded_ < fade_.size() ? nextOfFade() : tap(current_);
     }
 }

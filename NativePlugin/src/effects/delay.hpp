@@ -44,8 +44,7 @@ public:
     void reset() noexcept override;
     /// True only while the line holds nothing but silence, up to the longest delay.
     [[nodiscard]] bool isIdle() const noexcept override;
-    /// Samples replaced by 0 because they were not finite.
-    [[nodiscard]] std::uint64_t nonFiniteCount() const noexcept { return nonFiniteCount_; }
+
 
 private:
     void write(float sample) noexcept;
@@ -68,7 +67,7 @@ private:
     std::size_t previous_ = 0;
     /// Steps of the fade done; its length when none is under way.
     std::size_t faded_;
-    std::uint64_t nonFiniteCount_ = 0;
+
     std::atomic<double> declaredSeconds_{0.0};
 };
 

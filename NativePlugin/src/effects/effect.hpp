@@ -6,6 +6,9 @@
 
 namespace haptoflow::effects {
 
+/// An amplitude of m/s^2 that counts as silence: a hundredth of a fingertip's lowest detection threshold.
+inline constexpr double imperceptibleMps2 = 1e-4;
+
 /// What a voice's signal can go through, in this order, but for the last two. `texture` is what the network generates,
 /// and `tone` what a material or surface does to its spectrum, before anything else; the engine makes both. `signal` is
 /// a study's sine, which stands for texture, impact and edge.

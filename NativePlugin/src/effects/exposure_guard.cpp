@@ -1,10 +1,11 @@
 #include "effects/exposure_guard.hpp"
 
+#include "dsp/sample_rates.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <stdexcept>
-#include <string>
 
 namespace haptoflow::effects {
 namespace {
@@ -20,18 +21,11 @@ constexpr double largestMps2 = 1e4;
 // Of a pause, however long: enough for a hundredth of a second each in pauses of 40 s.
 constexpr std::uint64_t mostPauseSteps = 4096;
 
-double checkedRateHz(double rateHz) {
-    if (!(rateHz >= 8000.0 && rateHz <= 192000.0)) {
-        throw std::invalid_argument("the sample rate is " + std::to_string(rateHz) + " Hz; expected 8000 to 192000");
-    }
-    return rateHz;
-}
 
 const ExposureLaw& checkedLaw(const ExposureLaw& law) {
     if (!law.isValid()) {
         throw std::invalid_argument(
-            "the exposure law has a value that is not finite or not above 0, or a lowest gain "
-            "above 1");
+            "the exposure law has a value that is not finite or not above 0, or a minimum gain above 1");
     }
     return law;
 }
@@ -51,7 +45,7 @@ bool ExposureLaw::isValid() const noexcept {
 
 ExposureGuard::ExposureGuard(double sampleRateHz, const ExposureLaw& law)
     : law_(checkedLaw(law)),
-      tickSamples_(static_cast<std::size_t>(std::lround(checkedRateHz(sampleRateHz) / ticksPerSecond))),
+      tickSamples_(static_cast<std::size_t>(std::lround(dsp::requireOutputRate(sampleRateHz) / ticksPerSecond))),
       tickSeconds_(static_cast<double>(tickSamples_) / sampleRateHz),
       shortTermShare_(1.0 - std::exp(-tickSeconds_ / law.shortTermSeconds)),
       recentShare_(1.0 - std::exp(-tickSeconds_ / recentSeconds)),
@@ -199,22 +193,6 @@ void ExposureGuard::continueFrom(const ExposureGuard& before) noexcept {
     publish();
 }
 
-void ExposureGuard::forgetExposure() noexcept {
-    shortTermSquare_ = 0.0;
-    recentSquare_ = 0.0;
-    recentWeight_ = 0.0;
-    slotEnergies_.fill(0.0);
-    slotSeconds_ = 0.0;
-    energy_ = 0.0;
-    squares_ = 0.0;
-    weightedSquares_ = 0.0;
-    gainDb_ = 0.0;
-    gainFrom_ = 1.0;
-    gainTo_ = 1.0;
-    reason_ = ExposureReason::none;
-    loweredSeconds_ = 0.0;
-    publish();
-}
 
 void ExposureGuard::publish() noexcept {
     publishedReason_.store(reason_, std::memory_order_relaxed);

@@ -87,8 +87,7 @@ public:
     void passSilence(std::uint64_t samples) noexcept;
     /// The same hand at another rate: takes over what `before` has measured, and its gain.
     void continueFrom(const ExposureGuard& before) noexcept;
-    /// Another hand: forgets all exposure and lowers nothing.
-    void forgetExposure() noexcept;
+
 
     /// Any thread. Each value is of the latest hundredth of a second, or of the one before.
     [[nodiscard]] ExposureReport report() const noexcept;

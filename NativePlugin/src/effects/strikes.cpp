@@ -28,7 +28,7 @@ void Strikes::strike(double speedMps, const ImpactResponse& response) noexcept {
 }
 
 void Strikes::ring(double speedMps, const ImpactResponse& response) noexcept {
-    ++struck_;
+
     for (const ImpactResponse::Mode& mode : response.modes) {
         const double amplitude = std::min(static_cast<double>(mode.gainPerSecond) * speedMps, largestAmplitudeMps2);
         const double decay = std::max(static_cast<double>(mode.decayPerSecond), slowestDecayPerSecond) * decayFactor_;
@@ -42,7 +42,8 @@ void Strikes::ring(double speedMps, const ImpactResponse& response) noexcept {
 
 void Strikes::planRebound(double speedMps, const ImpactResponse& response) noexcept {
     rebound_ = {};
-    const double restitution = std::clamp(static_cast<double>(response.restitution), 0.0, 0.9);
+    const double restitution =
+        std::clamp(static_cast<double>(response.restitution), 0.0, ImpactResponse::maximumRestitution);
     if (reboundsLeft_ == 0 || !(restitution > 0.0)) {
         reboundsLeft_ = 0;
         return;
@@ -57,8 +58,9 @@ void Strikes::planRebound(double speedMps, const ImpactResponse& response) noexc
 
 EffectDeclaration Strikes::declaration() const noexcept {
     // ln(largest / silent) / slowest decay, after the last rebound's flight.
-    const double ringSeconds = std::log(largestAmplitudeMps2 / DecayingSinusoid::silentMps2) / slowestDecayPerSecond;
-    const double flightsSeconds = static_cast<double>(rebounds) * 2.0 * 0.9 * highestSpeedMps / returnAccelerationMps2;
+    const double ringSeconds = std::log(largestAmplitudeMps2 / imperceptibleMps2) / slowestDecayPerSecond;
+    const double flightsSeconds = static_cast<double>(rebounds) * 2.0 * ImpactResponse::maximumRestitution *
+                                  highestSpeedMps / returnAccelerationMps2;
     return {.kind = kind_,
             .reads = contact_field::touch | contact_field::material |
                      (kind_ == EffectKind::impact ? contact_field::approachSpeed : contact_field::velocity),

@@ -20,7 +20,8 @@ struct ImpactResponse {
     };
     static constexpr std::size_t modeCount = 2;
     std::array<Mode, modeCount> modes{};
-    /// Share of the speed that is left after a rebound, 0 to 0.9; 0 for no rebounds.
+    static constexpr double maximumRestitution = 0.9;
+    /// Share of the speed that a rebound keeps, 0 to 0.9; 0 for no rebounds.
     float restitution = 0.0F;
 };
 
@@ -45,8 +46,7 @@ public:
     void process(std::span<float> samplesMps2) noexcept override;
     void reset() noexcept override;
     [[nodiscard]] bool isIdle() const noexcept override { return isIdle_; }
-    /// Blows so far, rebounds included.
-    [[nodiscard]] std::uint64_t struck() const noexcept { return struck_; }
+
 
 private:
     struct Rebound {
@@ -66,7 +66,7 @@ private:
     std::size_t reboundsLeft_ = 0;
     // Cached, since it is read several times in every block, also by voices without landings and edges.
     bool isIdle_ = true;
-    std::uint64_t struck_ = 0;
+
 };
 
 }  // namespace haptoflow::effects

@@ -10,7 +10,7 @@
 namespace haptoflow::effects {
 namespace {
 
-constexpr double binHz = 15.625;
+constexpr double binHz = WaveFeatures::sampleRateHz / static_cast<double>(ThresholdFilter::taps);
 constexpr std::size_t windowFall = 16;
 constexpr std::size_t fastSamples = 8;
 constexpr std::size_t slowLag = 10;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "dsp/sample_rates.hpp"
 #include "effects/threshold_filter.hpp"
 
 #include <array>
@@ -73,7 +74,7 @@ struct WaveFeatureOptions {
 /// and the work for a sample and for a frame is bounded. Samples that are not finite are taken as 0.
 class WaveFeatures {
 public:
-    static constexpr double sampleRateHz = 2000.0;
+    static constexpr double sampleRateHz = dsp::waveformRateHz;
     /// A frame is ready this many samples after its end: the threshold's filter and the transients need them.
     static constexpr std::size_t lookaheadSamples = 8;
     static constexpr double latencySeconds = static_cast<double>(lookaheadSamples) / sampleRateHz;
@@ -97,7 +98,7 @@ public:
     void reset() noexcept;
 
 private:
-    static constexpr std::size_t historySamples = 128;
+    static constexpr std::size_t historySamples = ThresholdFilter::taps;
     static constexpr std::size_t bins = historySamples / 2;
     using History = std::array<double, historySamples>;
 

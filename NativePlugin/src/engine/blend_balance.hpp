@@ -1,5 +1,6 @@
 #pragma once
 
+#include "engine/contact_state.hpp"
 #include "engine/rib_phase.hpp"
 #include "inference/segment_generator.hpp"
 
@@ -13,7 +14,7 @@ namespace haptoflow::engine {
 
 /// What a blend consists of, for the worker. Empty for a single material.
 struct BlendParts {
-    static constexpr std::size_t capacity = 4;
+    static constexpr std::size_t capacity = MaterialBlend::capacity;
     struct Part {
         /// Shares of all parts sum to 1.
         float share = 0.0F;

@@ -9,6 +9,7 @@ namespace haptoflow::engine {
 namespace {
 
 using effects::ImpactResponse;
+static_assert(ImpactResponse::modeCount == model::Impact::maximumModes);
 
 /// A sum of one mode over labels.
 struct MeanMode {

@@ -2,6 +2,7 @@
 
 #include "dsp/tone_cepstrum.hpp"
 #include "engine/level_grid.hpp"
+#include "engine/seed_retrieval.hpp"
 #include "model/material_file.hpp"
 #include "model/model_file.hpp"
 
@@ -14,16 +15,6 @@
 namespace haptoflow::engine {
 
 inline constexpr std::array<float, model::embeddingSize> noEmbedding{};
-
-/// A recorded waveform from which a touch may begin.
-struct Seed {
-    std::array<double, 2> velocityMps{};
-    double forceNewtons = 0.0;
-    std::array<double, 2> ribPhase{};
-    std::span<const float, model::seedSamples> samples;
-    /// Of the material that it was recorded from: its wave vectors are what the rib phase counts along.
-    std::span<const float, model::embeddingSize> embedding;
-};
 
 /// A tone over speed, ready to be mixed. Immutable.
 class ToneTable {

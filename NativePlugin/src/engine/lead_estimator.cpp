@@ -25,7 +25,7 @@ std::int64_t LeadEstimator::samples(std::int64_t blockAdvance) const noexcept {
         }
         needed = std::max((known == window ? second : highest) + 1, blockAdvance);
     }
-    return std::clamp(needed, smallest, largest);
+    return std::clamp(needed, minimumSamples, maximumSamples);
 }
 
 }  // namespace haptoflow::engine

@@ -1,6 +1,9 @@
 #pragma once
 
+#include "dsp/sample_rates.hpp"
+
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 
@@ -11,9 +14,16 @@ namespace haptoflow::engine {
 /// segment: inference, scheduling, the blocks of the callback and their bursts. Worker thread.
 class LeadEstimator {
 public:
-    static constexpr std::int64_t smallest = 2;
-    /// 50 ms; a segment that needs longer is late.
-    static constexpr std::int64_t largest = 100;
+    static constexpr std::int64_t minimumSamples = 2;
+    /// 50 ms. A segment that takes longer is late.
+    static constexpr double maximumMs = 50.0;
+    static constexpr std::int64_t maximumSamples = 100;
+    static_assert(maximumMs * dsp::waveformRateHz == maximumSamples * 1000.0);
+
+    /// Waveform samples in a lead stated in milliseconds, rounded up.
+    [[nodiscard]] static std::int64_t samplesOf(double milliseconds) noexcept {
+        return static_cast<std::int64_t>(std::ceil(milliseconds * dsp::waveformRateHz / 1000.0));
+    }
 
     /// What one segment needed, at a reading rate of 1.
     void observe(std::int64_t advancedSamples) noexcept;

@@ -1,7 +1,7 @@
 #include "engine/live_engine.hpp"
 
 #include "dsp/denormals.hpp"
-#include "engine/thread_priority.hpp"
+#include "engine/worker_thread.hpp"
 #include "inference/inference_error.hpp"
 
 #include <algorithm>
@@ -15,7 +15,7 @@
 namespace haptoflow::engine {
 namespace {
 
-constexpr double largestLeadMs = 50.0;
+
 constexpr double callbackLookMs = 2.0;
 // Beyond these a float no longer tells neighbouring samples apart.
 constexpr float smallestFullScaleMps2 = 1e-3F;
@@ -26,7 +26,7 @@ const LiveEngineSettings& checked(const LiveEngineSettings& settings) {
         throw std::invalid_argument("update rate is " + std::to_string(settings.updateRateHz) +
                                     " Hz; expected 1 to 10000 Hz");
     }
-    if (settings.fixedLeadMs && !(*settings.fixedLeadMs >= 0.0 && *settings.fixedLeadMs <= largestLeadMs)) {
+    if (settings.fixedLeadMs && !(*settings.fixedLeadMs >= 0.0 && *settings.fixedLeadMs <= LeadEstimator::maximumMs)) {
         throw std::invalid_argument("lead is " + std::to_string(*settings.fixedLeadMs) + " ms; expected 0 to 50 ms");
     }
     if (!(settings.quality.budgetMs > 0.0)) {
@@ -91,8 +91,7 @@ std::shared_ptr<LiveVoice> LiveEngine::addVoice(double outputRateHz) {
     settings.planner.seed = settings_.seed;
     settings.planner.voice = voicesMade_.fetch_add(1);
     if (settings_.fixedLeadMs) {
-        settings.planner.fixedLeadSamples =
-            static_cast<std::int64_t>(std::ceil(*settings_.fixedLeadMs * inference::waveformRateHz / 1000.0));
+        settings.planner.fixedLeadSamples = LeadEstimator::samplesOf(*settings_.fixedLeadMs);
     }
     settings.outputRateHz = outputRateHz;
     settings.fullScaleMps2 = settings_.fullScaleMps2;

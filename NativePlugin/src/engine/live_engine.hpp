@@ -6,7 +6,7 @@
 #include "engine/mailbox.hpp"
 #include "engine/material_library.hpp"
 #include "engine/quality_control.hpp"
-#include "engine/wake_signal.hpp"
+#include "engine/worker_thread.hpp"
 #include "inference/segment_generator.hpp"
 #include "model/model_file.hpp"
 
@@ -27,7 +27,7 @@ struct LiveEngineSettings {
     /// Places of the tiers, the least accurate first; empty for their own order.
     std::vector<std::size_t> tiersByAccuracy{};
     /// Contact states a second, by which the budget and the pace of measuring go.
-    double updateRateHz = 72.0;
+    double updateRateHz = defaultUpdateRateHz;
     float fullScaleMps2 = dsp::SoftLimiter::defaultFullScaleMps2;
     /// Key of all noise.
     std::uint64_t seed = 1;

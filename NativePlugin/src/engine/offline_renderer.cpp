@@ -92,8 +92,7 @@ private:
 LiveVoiceSettings voiceSettings(const OfflineSettings& settings) {
     LiveVoiceSettings voice;
     voice.planner.seed = settings.seed;
-    voice.planner.fixedLeadSamples =
-        static_cast<std::int64_t>(std::ceil(settings.leadMs * inference::waveformRateHz / 1000.0));
+    voice.planner.fixedLeadSamples = LeadEstimator::samplesOf(settings.leadMs);
     // Every contact state is asked for, however close it follows.
     voice.planner.shortestHopSamples = 0;
     voice.outputRateHz = settings.outputRateHz;
@@ -252,7 +251,7 @@ private:
 
 OfflineFigures renderOffline(const model::ModelFile& model, inference::SegmentGenerator& generator,
                              const ContactStateSource& next, const OfflineSettings& settings, OfflineSink& sink) {
-    if (!(settings.leadMs >= 0.0 && settings.leadMs <= 50.0)) {
+    if (!(settings.leadMs >= 0.0 && settings.leadMs <= LeadEstimator::maximumMs)) {
         throw std::invalid_argument("the lead must be 0 to 50 ms");
     }
     if (!(settings.tailSeconds >= 0.0 && settings.tailSeconds <= 10.0)) {

@@ -8,7 +8,7 @@ namespace haptoflow::engine {
 namespace {
 
 constexpr float quietestMps2 = 1e-9F;
-constexpr std::size_t batchSize = 256;
+using inference::levelBatch;
 constexpr std::array<float, inference::segmentSamples> silence{};
 
 }  // namespace
@@ -18,11 +18,11 @@ std::vector<float> tabulateLevels(const LevelGrid& grid,
                                   inference::LevelEstimator& estimator, const inference::LoadLimits& limits) {
     std::vector<float> logLevels(embeddings.size() * LevelGrid::points);
     std::vector<inference::SegmentRequest> requests;
-    std::vector<float> levels(batchSize);
-    for (std::size_t first = 0; first < logLevels.size(); first += batchSize) {
+    std::vector<float> levels(levelBatch);
+    for (std::size_t first = 0; first < logLevels.size(); first += levelBatch) {
         limits.check();
         requests.clear();
-        for (std::size_t point = first; point < std::min(first + batchSize, logLevels.size()); ++point) {
+        for (std::size_t point = first; point < std::min(first + levelBatch, logLevels.size()); ++point) {
             inference::SegmentRequest request{.embedding = {},
                                               .motion = grid.motionOf(point % LevelGrid::points),
                                               .previous = silence,

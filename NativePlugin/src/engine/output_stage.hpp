@@ -10,12 +10,6 @@ namespace haptoflow::engine {
 /// What a voice needs for one output rate. It allocates when it is made, so a new rate brings a new one, made
 /// elsewhere than in the callback.
 struct OutputStage {
-    static constexpr double lowestRateHz = 8000.0;
-    static constexpr double highestRateHz = 192000.0;
-    /// False for NaN too.
-    [[nodiscard]] static constexpr bool supports(double rateHz) noexcept {
-        return rateHz >= lowestRateHz && rateHz <= highestRateHz;
-    }
 
     /// Throws std::invalid_argument for a rate outside 8-192 kHz.
     explicit OutputStage(double outputRateHz)

@@ -25,11 +25,16 @@ private:
     std::atomic<std::size_t> count_{0};
 };
 
+/// Contact states a second.
+inline constexpr double defaultUpdateRateHz = 72.0;
+/// Share of the time between two contact states that inference may take.
+inline constexpr double defaultBudgetShare = 0.25;
+
 struct QualitySettings {
     /// Empty for auto; otherwise the tier that stays.
     std::optional<std::size_t> fixedTier;
     /// What one round of inference may take, all touching voices together.
-    double budgetMs = 3.47;
+    double budgetMs = 1000.0 * defaultBudgetShare / defaultUpdateRateHz;
 };
 
 /// Decides which tier of the model generates the next segments. Automatic quality first measures every tier. A tier

@@ -61,16 +61,5 @@ SeamStatistics SeamMeter::statistics() const {
     return statistics;
 }
 
-SeamStatistics measureSeams(std::span<const float> waveform, std::span<const std::int64_t> seams,
-                            std::size_t spliceSamples) {
-    SeamMeter meter(spliceSamples);
-    for (const std::int64_t seam : seams) {
-        if (seam < static_cast<std::int64_t>(waveform.size())) {
-            meter.addSeam(seam);
-        }
-    }
-    meter.addSamples(waveform);
-    return meter.statistics();
-}
 
 }  // namespace haptoflow::engine

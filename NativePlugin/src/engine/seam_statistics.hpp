@@ -53,8 +53,5 @@ private:
     std::uint64_t otherSteps_ = 0;
 };
 
-/// The same of a whole waveform; `seams` are the take-over samples, indices into it, ascending.
-[[nodiscard]] SeamStatistics measureSeams(std::span<const float> waveform, std::span<const std::int64_t> seams,
-                                          std::size_t spliceSamples);
 
 }  // namespace haptoflow::engine

@@ -13,9 +13,6 @@ void count(std::atomic<std::uint64_t>& counter, std::uint64_t by = 1) noexcept {
     counter.fetch_add(by, std::memory_order_relaxed);
 }
 
-float unitRange(float value) noexcept {
-    return std::isfinite(value) ? std::clamp(value, 0.0F, 1.0F) : 0.0F;
-}
 
 }  // namespace
 
@@ -80,8 +77,8 @@ void VoiceRenderer::readContact() noexcept {
 
 void VoiceRenderer::readControls() noexcept {
     const VoiceControls& controls = channels_.controls;
-    voice_.setStrength(unitRange(controls.strength.load(std::memory_order_relaxed)));
-    voice_.setCeiling(unitRange(controls.ceiling.load(std::memory_order_relaxed)));
+    voice_.setStrength(controls.strength.load(std::memory_order_relaxed));
+    voice_.setCeiling(controls.ceiling.load(std::memory_order_relaxed));
     signal_ = controls.signal.load(std::memory_order_relaxed);
     voice_.effects().setSignal(signal_);
     voice_.effects().setDelaySeconds(controls.delaySeconds.load(std::memory_order_relaxed));
@@ -100,7 +97,7 @@ void VoiceRenderer::readPanic() noexcept {
 }
 
 void VoiceRenderer::noteRate(double rateHz) noexcept {
-    const bool isSupported = OutputStage::supports(rateHz);
+    const bool isSupported = dsp::isOutputRate(rateHz);
     channels_.deviceRateHz.store(rateHz, std::memory_order_relaxed);
     channels_.isRateSupported.store(isSupported, std::memory_order_relaxed);
     if (!isSupported) {
@@ -133,7 +130,7 @@ SoundConditions VoiceRenderer::conditions(double rateHz) const noexcept {
 
 void VoiceRenderer::decide(double rateHz) noexcept {
     Silence wanted = silenceFor(conditions(rateHz));
-    const bool isPreparable = OutputStage::supports(rateHz);
+    const bool isPreparable = dsp::isOutputRate(rateHz);
     if (wanted == Silence::rate && isPreparable) {
         fallSilent(wanted);
         if (!voice_.isSilent()) {

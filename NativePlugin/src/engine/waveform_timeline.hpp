@@ -41,7 +41,7 @@ struct TimelineView {
 /// Allocates nothing; one thread.
 class WaveformTimeline {
 public:
-    static constexpr std::size_t seedSamples = 2 * inference::segmentSamples;
+    static constexpr std::size_t seedSamples = model::seedSamples;
 
     /// Touch-down: 200 samples of `seed` (400, m/s^2) become the past unplayed, 200 follow from the head on. Where an
     /// earlier touch still has samples there, a splice hands over.

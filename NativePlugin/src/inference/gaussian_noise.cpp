@@ -1,7 +1,5 @@
 #include "inference/gaussian_noise.hpp"
 
-#include "inference/philox.hpp"
-
 #include <array>
 #include <bit>
 #include <cmath>

@@ -1,7 +1,6 @@
 #include "inference/onnx_runtime.hpp"
 
 #include "inference/inference_error.hpp"
-#include "inference/shared_library.hpp"
 
 #include <onnxruntime_c_api.h>
 
@@ -10,6 +9,15 @@
 #include <mutex>
 #include <utility>
 #include <vector>
+
+#ifdef _WIN32
+#ifndef NOMINMAX
+#define NOMINMAX
+#endif
+#include <windows.h>
+#else
+#include <dlfcn.h>
+#endif
 
 namespace haptoflow::inference {
 namespace {
@@ -62,6 +70,49 @@ private:
     std::mutex mutex_;
     std::vector<std::weak_ptr<LogSink>> sinks_;
 };
+
+[[noreturn]] void refuse(const std::filesystem::path& path, const std::string& reason) {
+    const std::u8string name = path.u8string();
+    throw RuntimeUnavailable(std::string(name.begin(), name.end()) + ": " + reason);
+}
+
+/// Opens the library at `path` and returns the address of `symbol` in it. The library stays loaded until the process
+/// ends: ONNX Runtime keeps threads and thread-local state that do not survive being unloaded. Throws
+/// RuntimeUnavailable naming the path.
+#ifdef _WIN32
+
+[[nodiscard]] void* loadSymbol(const std::filesystem::path& path, const char* symbol) {
+    // The altered search path makes the library's own neighbours, not the program's, answer for what it needs.
+    const DWORD flags = path.is_absolute() ? LOAD_WITH_ALTERED_SEARCH_PATH : 0;
+    HMODULE library = LoadLibraryExW(path.c_str(), nullptr, flags);
+    if (library == nullptr) {
+        refuse(path, "cannot be loaded (Windows error " + std::to_string(GetLastError()) + ")");
+    }
+    void* address = reinterpret_cast<void*>(GetProcAddress(library, symbol));
+    if (address == nullptr) {
+        FreeLibrary(library);
+        refuse(path, std::string("has no function ") + symbol);
+    }
+    return address;
+}
+
+#else
+
+[[nodiscard]] void* loadSymbol(const std::filesystem::path& path, const char* symbol) {
+    void* library = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL | RTLD_NODELETE);
+    if (library == nullptr) {
+        const char* reason = dlerror();
+        refuse(path, std::string("cannot be loaded: ") + (reason != nullptr ? reason : "unknown reason"));
+    }
+    void* address = dlsym(library, symbol);
+    if (address == nullptr) {
+        dlclose(library);
+        refuse(path, std::string("has no function ") + symbol);
+    }
+    return address;
+}
+
+#endif
 
 }  // namespace
 

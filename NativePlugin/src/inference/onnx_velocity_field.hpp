@@ -1,7 +1,7 @@
 #pragma once
 
 #include "inference/onnx_graph.hpp"
-#include "inference/velocity_field.hpp"
+#include "inference/solver.hpp"
 #include "model/model_file.hpp"
 
 #include <cstddef>

@@ -22,10 +22,6 @@ void checkSolverSettings(const SolverSettings& settings) {
     }
 }
 
-int fieldEvaluations(const SolverSettings& settings) noexcept {
-    return settings.kind == SolverKind::euler ? settings.steps : 2 * settings.steps;
-}
-
 void Solver::integrate(VelocityField& field, const SolverSettings& settings, std::span<float> point) {
     checkSolverSettings(settings);
     velocity_.resize(point.size());

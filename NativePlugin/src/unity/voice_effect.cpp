@@ -23,16 +23,16 @@ void VoiceEffect::process(const AudioBlock& block, const BlockContext& context) 
     const bool hasGap = missedBlocks(context.tick, block.frames);
     if (startAnew_.exchange(false, std::memory_order_relaxed)) {
         route_ = wanted;
-        gain_.jump(context.isSounding ? strength : 0.0F);
+        gain_.jumpTo(context.isSounding ? strength : 0.0F);
     } else if (hasGap) {
-        gain_.jump(0.0F);
+        gain_.jumpTo(0.0F);
     }
 
     std::uint32_t done = 0;
     if (!context.isSounding || wanted != route_) {
         if (!gain_.isSettledAt(0.0F)) {
             done = std::min(block.frames, framesIn(stopSeconds, context.sampleRateHz));
-            gain_.head(0.0F, done);
+            gain_.moveTo(0.0F, done);
             play(target(block, 0, done), context.sampleRateHz);
         }
         claim_.giveBack();
@@ -50,9 +50,9 @@ void VoiceEffect::process(const AudioBlock& block, const BlockContext& context) 
     }
     if (gain_.target() != strength) {
         if (voiceSounds()) {
-            gain_.head(strength, framesIn(glideSeconds, context.sampleRateHz));
+            gain_.moveTo(strength, framesIn(glideSeconds, context.sampleRateHz));
         } else {
-            gain_.jump(strength);
+            gain_.jumpTo(strength);
         }
     }
     play(rest, context.sampleRateHz);
@@ -80,19 +80,19 @@ capi::ChannelTarget VoiceEffect::target(const AudioBlock& block, std::uint32_t f
 void VoiceEffect::play(const capi::ChannelTarget& target, double sampleRateHz) noexcept {
     if (!target.isValid()) {
         claim_.giveBack();
-        gain_.jump(0.0F);
+        gain_.jumpTo(0.0F);
         return;
     }
     const capi::VoiceTable::Use voice = capi::voices().useAt(route_.place);
     if (voice && !claim_.hold(route_.place, target.frameCount, sampleRateHz)) {
         voice->refusedCalls.fetch_add(1, std::memory_order_relaxed);
         silence(target, sampleRateHz);
-        gain_.jump(0.0F);
+        gain_.jumpTo(0.0F);
         return;
     }
     // A place without a voice needs no ramp when one opens there: voices begin in silence.
     if (capi::renderInto(voice, target, sampleRateHz) == HAPTOFLOW_BUSY) {
-        gain_.jump(0.0F);
+        gain_.jumpTo(0.0F);
         return;
     }
     applyGain(target);

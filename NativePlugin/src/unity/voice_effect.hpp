@@ -1,7 +1,8 @@
 #pragma once
 
 #include "capi/voice_rendering.hpp"
-#include "unity/gain_ramp.hpp"
+#include "dsp/gain_ramp.hpp"
+
 #include "unity/pass_through.hpp"
 #include "unity/voice_claim.hpp"
 #include "unity/voice_parameters.hpp"
@@ -49,7 +50,7 @@ private:
     VoiceParameters parameters_;
     std::atomic<bool> startAnew_{true};
     VoiceClaim claim_;
-    GainRamp gain_;
+    dsp::GainRamp gain_;
     Route route_;
     std::uint64_t nextTick_ = 0;
     bool ticksFollow_ = false;

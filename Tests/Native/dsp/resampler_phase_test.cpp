@@ -121,7 +121,7 @@ TEST(ResamplerPhaseTest, RatesItCannotServeAreRefusedWithTheRange) {
                               std::numeric_limits<double>::infinity()}) {
         EXPECT_THROW(WaveformResampler{rate}, std::invalid_argument) << rate;
     }
-    EXPECT_THROW(WaveformResampler(48000.0, 100.0), std::invalid_argument);
+
     try {
         WaveformResampler resampler(7000.0);
         FAIL() << "7 kHz was taken";

@@ -305,7 +305,7 @@ TEST(CompensationTest, WhatIsSaidToBeIdleHasNothingLeftThatCouldBeFelt) {
         wasIdle = compensation.isIdle();
     }
     EXPECT_TRUE(wasIdle);
-    EXPECT_LE(loudestSinceIdle, static_cast<float>(Compensation::silentMps2));
+    EXPECT_LE(loudestSinceIdle, static_cast<float>(imperceptibleMps2));
 }
 
 TEST(CompensationTest, AFlatActuatorChangesNoByte) {

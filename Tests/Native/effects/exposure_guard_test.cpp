@@ -253,21 +253,25 @@ TEST(ExposureGuardTest, TheActuatorsGainScalesWhatIsCounted) {
 TEST(ExposureGuardTest, TheLawIsTheSameAtEveryRate) {
     ExposureLaw law = shortDay();
     law.shortTermSeconds = 4.0;
-    ExposureGuard reference(48000.0, law);
-    Session expected(reference, 48000.0);
-    for (const double rate : {8000.0, 11025.0, 44100.0, 192000.0}) {
+    const auto reportsAt = [&law](double rate) {
         ExposureGuard guard(rate, law);
         Session session(guard, rate);
-        reference.forgetExposure();
+        std::vector<ExposureReport> reports;
         for (int step = 0; step < 6; ++step) {
-            const std::vector<Tone> tones{{20.0 + 30.0 * step, 40.0 * (step + 1)}};
-            session.play(2.0, tones);
-            expected.play(2.0, tones);
-            EXPECT_NEAR(guard.report().shortTermMps2 / reference.report().shortTermMps2, 1.0, 0.01) << rate;
-            EXPECT_NEAR(guard.report().dailyMps2 / reference.report().dailyMps2, 1.0, 0.01) << rate;
-            EXPECT_NEAR(20.0 * std::log10(guard.report().gain / reference.report().gain), 0.0, 0.1) << rate;
+            session.play(2.0, {{20.0 + 30.0 * step, 40.0 * (step + 1)}});
+            reports.push_back(guard.report());
         }
-        EXPECT_LT(guard.report().gain, 0.7);
+        return reports;
+    };
+    const std::vector<ExposureReport> expected = reportsAt(48000.0);
+    for (const double rate : {8000.0, 11025.0, 44100.0, 192000.0}) {
+        const std::vector<ExposureReport> reports = reportsAt(rate);
+        for (std::size_t step = 0; step < reports.size(); ++step) {
+            EXPECT_NEAR(reports[step].shortTermMps2 / expected[step].shortTermMps2, 1.0, 0.01) << rate;
+            EXPECT_NEAR(reports[step].dailyMps2 / expected[step].dailyMps2, 1.0, 0.01) << rate;
+            EXPECT_NEAR(20.0 * std::log10(reports[step].gain / expected[step].gain), 0.0, 0.1) << rate;
+        }
+        EXPECT_LT(reports.back().gain, 0.7);
     }
 }
 
@@ -320,10 +324,7 @@ TEST(ExposureGuardTest, AResetKeepsWhatTheHandHasReceived) {
     guard.reset();
     EXPECT_EQ(guard.report().gain, before.gain);
     EXPECT_EQ(guard.report().dailyMps2, before.dailyMps2);
-    guard.forgetExposure();
-    EXPECT_EQ(guard.report().gain, 1.0);
-    EXPECT_EQ(guard.report().dailyMps2, 0.0);
-    EXPECT_EQ(guard.report().reason, ExposureReason::none);
+
 }
 
 TEST(ExposureGuardTest, NoSampleThatIsNotFiniteGetsThroughOrIntoTheDose) {

@@ -1,4 +1,4 @@
-#include "effects/minimum_phase.hpp"
+#include "effects/parallel_filter.hpp"
 
 #include <gtest/gtest.h>
 

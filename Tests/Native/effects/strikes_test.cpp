@@ -76,7 +76,7 @@ TEST(StrikesTest, ReboundsComeAfterTheirFlightsSofterEachTime) {
     EXPECT_LT(peakFrom(0.015, 0.0199), 0.01 * first);
     EXPECT_NEAR(peakFrom(0.0199, 0.0299) / first, 0.5, 0.01);
     EXPECT_NEAR(peakFrom(0.0301, 0.04) / first, 0.25, 0.01);
-    EXPECT_EQ(strikes.struck(), 3U);
+    EXPECT_LT(peakFrom(0.05, 0.096), 0.01 * first) << "after two rebounds there is no third";
     EXPECT_TRUE(strikes.isIdle());
 }
 
@@ -85,7 +85,7 @@ TEST(StrikesTest, NothingRunsOnOnceABlowHasDecayed) {
     EXPECT_TRUE(strikes.isIdle());
     strikes.strike(2.0, ringing(100.0F, 40.0F, 1000.0F));
     EXPECT_FALSE(strikes.isIdle());
-    const double decaySeconds = std::log(2000.0 / DecayingSinusoid::silentMps2) / 40.0;
+    const double decaySeconds = std::log(2000.0 / imperceptibleMps2) / 40.0;
     next(strikes, static_cast<std::size_t>((decaySeconds + 0.01) * rateHz));
     EXPECT_TRUE(strikes.isIdle());
     EXPECT_EQ(next(strikes, 256), std::vector<float>(256, 0.0F));

@@ -20,6 +20,19 @@ std::vector<float> ramp(std::size_t count) {
     return wave;
 }
 
+/// Feeds a whole waveform to a SeamMeter; `seams` are indices into it, ascending.
+SeamStatistics measureSeams(std::span<const float> waveform, std::span<const std::int64_t> seams,
+                            std::size_t spliceSamples) {
+    SeamMeter meter(spliceSamples);
+    for (const std::int64_t seam : seams) {
+        if (seam < static_cast<std::int64_t>(waveform.size())) {
+            meter.addSeam(seam);
+        }
+    }
+    meter.addSamples(waveform);
+    return meter.statistics();
+}
+
 TEST(SeamStatisticsTest, SeamsInsideAnEvenSlopeDoNotStandOut) {
     const std::vector<std::int64_t> seams{100, 200, 300};
     const SeamStatistics statistics = measureSeams(ramp(1000), seams, 4);

@@ -1,8 +1,6 @@
 #include "inference/gaussian_noise.hpp"
 
 #include "golden_file.hpp"
-#include "inference/philox.hpp"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

