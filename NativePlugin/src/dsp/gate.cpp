@@ -18,8 +18,8 @@ std::uint64_t wholeSamples(double seconds, double sampleRateHz) {
 }
 
 
-/// Half a period of the raised cosine: 0 at the first point, 1 at the last. Linear interpolation between its points
-/// errs by (pi / 1024)^2 / 16, below 1e-6.
+/// Half a period of a raised cosine, from 0 to 1. The error of linear interpolation between its points is
+/// (pi / 1024)^2 / 16, below 1e-6.
 using Curve = std::array<float, 1025>;
 
 const Curve& raisedCosine() {

@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::size_t kernelLength = MinimumPhaseKernel::lengthInputSamples;
 constexpr double rateResolution = 1048576.0;  // 2^20 per Hz
-// Rates with more distinct phases interpolate between this many: error below (pi / 512)^2 / 8, -106 dB.
+// Rates with more distinct phases interpolate between this many; the error is below (pi / 512)^2 / 8, -106 dB.
 constexpr std::size_t maximumPhases = 512;
 
 // Eight fixed partial sums: the compiler can vectorise them without changing the order of additions, so every machine

@@ -7,7 +7,7 @@
 
 namespace haptoflow::dsp {
 
-/// Reads a 2 kHz waveform at any output rate from 8 to 192 kHz: polyphase, minimum-phase Kaiser design.
+/// Converts a 2 kHz waveform to an output rate from 8 to 192 kHz with a polyphase, minimum-phase Kaiser filter.
 ///
 /// The passband, 0-900 Hz, is flat within 0.1 dB; images (above 1,100 Hz) are below -80 dB. The group delay is 1.2 ms
 /// up to 200 Hz, 1.5 ms at 500 Hz, 2.6 ms at 800 Hz and 4.1 ms at 900 Hz; a linear-phase filter of the same magnitude

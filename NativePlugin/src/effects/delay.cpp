@@ -60,7 +60,7 @@ void Delay::write(float sample) noexcept {
     silent_ = sample == 0.0F ? std::min(silent_ + 1, longest_ + 1) : 0;
 }
 
-// What was written before the last reset is still in memory, but no longer held.
+// Samples written before the last reset are still in memory but must not be read.
 float Delay::tap(std::size_t delaySamples) const noexcept {
     return delaySamples < held_ ? line_[(newest_ - delaySamples) & (line_.size() - 1)] : 0.0F;
 }

@@ -12,14 +12,14 @@ namespace {
 
 constexpr double ticksPerSecond = 100.0;
 constexpr double recentSeconds = 60.0;
-// After 10 s of play.
-constexpr double leastRecentWeight = 0.1535;
-// Below this weighted mean square nothing plays: a millimetre per second squared.
+// The weight after 10 s of play.
+constexpr double minimumRecentWeight = 0.1535;
+// Weighted mean square of 1 mm/s^2 RMS; a quieter signal counts as silence.
 constexpr double silentMeanSquare = 1e-6;
-// No hand is shaken harder; a broken sample must not weigh for hours.
-constexpr double largestMps2 = 1e4;
-// Of a pause, however long: enough for a hundredth of a second each in pauses of 40 s.
-constexpr std::uint64_t mostPauseSteps = 4096;
+// No actuator shakes a hand harder. The limit keeps a single corrupt sample from dominating the dose for hours.
+constexpr double maximumMps2 = 1e4;
+// Maximum number of steps for a pause of any length; with it, pauses up to 40 s are resolved to hundredths of a second.
+constexpr std::uint64_t maximumPauseSteps = 4096;
 
 
 const ExposureLaw& checkedLaw(const ExposureLaw& law) {
@@ -53,7 +53,7 @@ ExposureGuard::ExposureGuard(double sampleRateHz, const ExposureLaw& law)
 
 void ExposureGuard::setActuatorGain(double gain) noexcept {
     if (std::isfinite(gain) && gain > 0.0) {
-        // What has played lately foretells what will: so much louder or softer now.
+        // The recent level predicts the coming level, which changes with the gain.
         const double change = gain / law_.actuatorGain;
         recentSquare_ *= change * change;
         law_.actuatorGain = gain;
@@ -71,7 +71,7 @@ void ExposureGuard::process(std::span<float> samplesMps2) noexcept {
 
 float ExposureGuard::passThrough(float sample) noexcept {
     const float finite = std::isfinite(sample) ? sample : 0.0F;
-    const double atHand = std::clamp(static_cast<double>(finite) * law_.actuatorGain, -largestMps2, largestMps2);
+    const double atHand = std::clamp(static_cast<double>(finite) * law_.actuatorGain, -maximumMps2, maximumMps2);
     const double weighted = weighting_.next(atHand);
     squares_ += atHand * atHand;
     weightedSquares_ += weighted * weighted;
@@ -127,8 +127,8 @@ double ExposureGuard::shortTermTarget() const noexcept {
 double ExposureGuard::doseTarget() const noexcept {
     const double left = law_.dailyMps2 * law_.dailyMps2 * law_.dailySeconds - energy_;
     const double allowed = std::max(0.0, left) / law_.reserveSeconds;
-    // Of the time that has played so far, not of the silence before it, and of 10 s at least.
-    const double recent = recentSquare_ / std::max(recentWeight_, leastRecentWeight);
+    // The mean over the time that has played, at least 10 s, without the silence before it.
+    const double recent = recentSquare_ / std::max(recentWeight_, minimumRecentWeight);
     return recent > allowed ? std::sqrt(allowed / recent) : 1.0;
 }
 
@@ -163,9 +163,9 @@ void ExposureGuard::passSilence(std::uint64_t samples) noexcept {
     tickPosition_ = static_cast<std::size_t>((samples - untilTick) % tickSamples_);
 }
 
-// Long pauses in coarser steps: the gain only rises in silence, and no faster than it may.
+// Long pauses take coarser steps, which is safe: in silence the gain only rises, at the limited rate.
 void ExposureGuard::passTicks(std::uint64_t ticks) noexcept {
-    const std::uint64_t step = ticks / mostPauseSteps + 1;
+    const std::uint64_t step = ticks / maximumPauseSteps + 1;
     while (ticks > 0) {
         const std::uint64_t now = std::min(step, ticks);
         const double seconds = static_cast<double>(now) * tickSeconds_;

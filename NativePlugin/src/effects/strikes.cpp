@@ -6,11 +6,11 @@
 namespace haptoflow::effects {
 namespace {
 
-// What presses a tip that has bounced back to the surface: a hand, not gravity alone.
+// Acceleration that returns a rebounding tip to the surface. It exceeds gravity because the hand presses the stylus.
 constexpr double returnAccelerationMps2 = 25.0;
-// The slowest decay that a model file may state, and the largest amplitude that can ring.
-constexpr double slowestDecayPerSecond = 10.0;
-constexpr double largestAmplitudeMps2 = 1e5;
+// The minimum decay that a model file may state, and the maximum amplitude of a mode.
+constexpr double minimumDecayPerSecond = 10.0;
+constexpr double maximumAmplitudeMps2 = 1e5;
 
 }  // namespace
 
@@ -30,8 +30,8 @@ void Strikes::strike(double speedMps, const ImpactResponse& response) noexcept {
 void Strikes::ring(double speedMps, const ImpactResponse& response) noexcept {
 
     for (const ImpactResponse::Mode& mode : response.modes) {
-        const double amplitude = std::min(static_cast<double>(mode.gainPerSecond) * speedMps, largestAmplitudeMps2);
-        const double decay = std::max(static_cast<double>(mode.decayPerSecond), slowestDecayPerSecond) * decayFactor_;
+        const double amplitude = std::min(static_cast<double>(mode.gainPerSecond) * speedMps, maximumAmplitudeMps2);
+        const double decay = std::max(static_cast<double>(mode.decayPerSecond), minimumDecayPerSecond) * decayFactor_;
         const auto quietest = std::ranges::min_element(ringing_, {}, &DecayingSinusoid::envelopeMps2);
         if (amplitude > quietest->envelopeMps2()) {
             quietest->start(mode.frequencyHz, decay, amplitude, sampleRateHz_);
@@ -57,8 +57,8 @@ void Strikes::planRebound(double speedMps, const ImpactResponse& response) noexc
 }
 
 EffectDeclaration Strikes::declaration() const noexcept {
-    // ln(largest / silent) / slowest decay, after the last rebound's flight.
-    const double ringSeconds = std::log(largestAmplitudeMps2 / imperceptibleMps2) / slowestDecayPerSecond;
+    // The time in which the strongest and slowest mode decays to silence, after the last rebound's flight.
+    const double ringSeconds = std::log(maximumAmplitudeMps2 / imperceptibleMps2) / minimumDecayPerSecond;
     const double flightsSeconds = static_cast<double>(rebounds) * 2.0 * ImpactResponse::maximumRestitution *
                                   highestSpeedMps / returnAccelerationMps2;
     return {.kind = kind_,

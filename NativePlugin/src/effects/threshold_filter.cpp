@@ -13,7 +13,7 @@ namespace {
 
 using dsp::waveformRateHz;
 
-// Fine enough that the cepstrum of a curve over 60 dB does not fold back on itself.
+// Large enough to avoid aliasing in the cepstrum of a curve that spans 60 dB.
 constexpr std::size_t gridSize = 1024;
 
 double groupDelay(std::span<const double> impulseResponse, double frequencyHz) {
@@ -35,8 +35,8 @@ const ThresholdFilter& ThresholdFilter::shared() {
     return filter;
 }
 
-// The cepstrum c of log |H|, folded onto positive times, is that of the minimum-phase response with the same magnitude;
-// its exponential follows from n h(n) = sum k c'(k) h(n - k).
+// Folding the cepstrum of log |H| onto positive time gives the cepstrum c' of the minimum-phase response with the same
+// magnitude. The response follows from n h(n) = sum k c'(k) h(n - k).
 ThresholdFilter::ThresholdFilter() {
     std::vector<double> logMagnitude(gridSize / 2 + 1);
     for (std::size_t i = 0; i < logMagnitude.size(); ++i) {

@@ -113,7 +113,7 @@ void Voice::setTone(const dsp::ToneKernel* kernel) noexcept {
     const bool isRunning = tone_.isActive();
     if (isTextureSilent()) {
         tone_.reset(kernel);
-    } else if (!tone_.isHeadingFor(kernel)) {
+    } else if (!tone_.isTarget(kernel)) {
         std::array<float, inference::segmentSamples> past{};
         timeline_.history(timeline_.head(), past);
         tone_.setTone(kernel, std::span(past).last<dsp::ToneFilter::memorySamples>());

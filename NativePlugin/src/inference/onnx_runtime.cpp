@@ -22,28 +22,28 @@
 namespace haptoflow::inference {
 namespace {
 
-// What cannot be done without exists since 1.16; asking for that version lets older libraries load, too.
-constexpr std::uint32_t oldestApi = 16;
-// Since 1.22 a load can be cancelled.
-constexpr std::uint32_t newestApi = 22;
+// Version 16 of the function table has everything that is required.
+constexpr std::uint32_t minimumApi = 16;
+// Version 22 can cancel a load.
+constexpr std::uint32_t maximumApi = 22;
 
 using GetApiBase = const OrtApiBase*(ORT_API_CALL*)();
 
-/// The function table that a version such as "1.29.0" is known to have. A library that is asked for a newer one than it
-/// has complains on the standard error stream.
+/// Version of the function table to request from a library of a version such as "1.29.0". Requesting a newer table than
+/// the library has would make it write to the standard error stream.
 std::uint32_t apiOfVersion(const std::string& version) {
     std::uint32_t minor = 0;
     if (version.starts_with("1.")) {
         (void)std::from_chars(version.data() + 2, version.data() + version.size(), minor);
     }
-    return std::clamp(minor, oldestApi, newestApi);
+    return std::clamp(minor, minimumApi, maximumApi);
 }
 
-/// The sinks of libraries older than 1.17, whose sessions cannot have a log of their own.
+/// The log of libraries older than 1.17, which have one log per process instead of one per session.
 class SharedLog {
 public:
     static SharedLog& instance() {
-        // Never destroyed: the library may write while the process ends.
+        // Never destroyed, because the library may write while the process ends.
         static auto* log = new SharedLog;
         return *log;
     }
@@ -82,7 +82,7 @@ private:
 #ifdef _WIN32
 
 [[nodiscard]] void* loadSymbol(const std::filesystem::path& path, const char* symbol) {
-    // The altered search path makes the library's own neighbours, not the program's, answer for what it needs.
+    // With the altered search path, dependencies are found beside the library and not beside the program.
     const DWORD flags = path.is_absolute() ? LOAD_WITH_ALTERED_SEARCH_PATH : 0;
     HMODULE library = LoadLibraryExW(path.c_str(), nullptr, flags);
     if (library == nullptr) {
@@ -132,8 +132,8 @@ Runtime::Runtime(const OrtApiBase* base, std::shared_ptr<LogSink> log) : log_(st
     version_ = base->GetVersionString();
     apiVersion_ = apiOfVersion(version_);
     api_ = base->GetApi(apiVersion_);
-    if (api_ == nullptr && apiVersion_ > oldestApi) {
-        apiVersion_ = oldestApi;
+    if (api_ == nullptr && apiVersion_ > minimumApi) {
+        apiVersion_ = minimumApi;
         api_ = base->GetApi(apiVersion_);
     }
     if (api_ == nullptr) {
@@ -151,7 +151,7 @@ Runtime::Runtime(const OrtApiBase* base, std::shared_ptr<LogSink> log) : log_(st
 }
 
 OrtStatus* Runtime::createEnvironment() {
-    // From 1.17 on each session writes into the log of its own runtime, whoever made the environment.
+    // From 1.17 on, each session writes to the log of its own runtime, independent of the environment.
     if (log_ == nullptr || apiVersion_ >= 17) {
         return api_->CreateEnv(ORT_LOGGING_LEVEL_ERROR, "haptoflow", &environment_);
     }

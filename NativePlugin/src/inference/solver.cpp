@@ -18,7 +18,7 @@ void advance(std::span<const float> point, float factor, std::span<const float> 
 
 void checkSolverSettings(const SolverSettings& settings) {
     if (settings.steps < 1 || settings.steps > maximumSolverSteps) {
-        throw std::invalid_argument("a solver takes 1 to 16 steps, not " + std::to_string(settings.steps));
+        throw std::invalid_argument("the solver has " + std::to_string(settings.steps) + " steps; expected 1 to 16");
     }
 }
 

@@ -9,7 +9,7 @@ std::uint32_t framesIn(double seconds, double sampleRateHz) noexcept {
     return std::max(1U, static_cast<std::uint32_t>(seconds * sampleRateHz));
 }
 
-/// Zeros into the target's channels.
+/// Writes zeros to the target's channels.
 void silence(const capi::ChannelTarget& target, double sampleRateHz) noexcept {
     (void)capi::renderInto(capi::VoiceTable::Use{}, target, sampleRateHz);
 }
@@ -20,7 +20,7 @@ void VoiceEffect::process(const AudioBlock& block, const BlockContext& context) 
     passThrough(block);
     const Route wanted = parameters_.route();
     const float strength = parameters_.strength();
-    const bool hasGap = missedBlocks(context.tick, block.frames);
+    const bool hasGap = updateTick(context.tick, block.frames);
     if (startAnew_.exchange(false, std::memory_order_relaxed)) {
         route_ = wanted;
         gain_.jumpTo(context.isSounding ? strength : 0.0F);
@@ -49,7 +49,7 @@ void VoiceEffect::process(const AudioBlock& block, const BlockContext& context) 
         return;
     }
     if (gain_.target() != strength) {
-        if (voiceSounds()) {
+        if (isVoiceSounding()) {
             gain_.moveTo(strength, framesIn(glideSeconds, context.sampleRateHz));
         } else {
             gain_.jumpTo(strength);
@@ -58,8 +58,8 @@ void VoiceEffect::process(const AudioBlock& block, const BlockContext& context) 
     play(rest, context.sampleRateHz);
 }
 
-bool VoiceEffect::missedBlocks(std::uint64_t tick, std::uint32_t frames) noexcept {
-    // Only after blocks that did follow one another: a host that counts differently must not fade every block.
+bool VoiceEffect::updateTick(std::uint64_t tick, std::uint32_t frames) noexcept {
+    // A gap counts only after consecutive blocks, so that a host that counts differently does not fade every block.
     const bool follows = tick == nextTick_;
     const bool hasGap = ticksFollow_ && !follows;
     ticksFollow_ = follows;
@@ -67,7 +67,7 @@ bool VoiceEffect::missedBlocks(std::uint64_t tick, std::uint32_t frames) noexcep
     return hasGap;
 }
 
-bool VoiceEffect::voiceSounds() const noexcept {
+bool VoiceEffect::isVoiceSounding() const noexcept {
     const capi::VoiceTable::Use voice = capi::voices().useAt(route_.place);
     return voice && voice->voice->channels.audible.load(std::memory_order_acquire);
 }
@@ -90,7 +90,7 @@ void VoiceEffect::play(const capi::ChannelTarget& target, double sampleRateHz) n
         gain_.jumpTo(0.0F);
         return;
     }
-    // A place without a voice needs no ramp when one opens there: voices begin in silence.
+    // A voice that opens at an empty place needs no ramp, because it starts with silence.
     if (capi::renderInto(voice, target, sampleRateHz) == HAPTOFLOW_BUSY) {
         gain_.jumpTo(0.0F);
         return;

@@ -169,13 +169,13 @@ TEST(CompensationTest, NothingIsRaisedAboveTheLargestBoostWhateverTheProfile) {
     for (const double boost : {0.0, 3.0, 12.0, 24.0}) {
         for (int round = 0; round < 12; ++round) {
             const double extent = std::array{6.0, 20.0, 60.0, 200.0}[static_cast<std::size_t>(round) % 4];
-            const Compensation compensation(randomProfile(random, extent), rateHz, {.largestBoostDecibels = boost});
+            const Compensation compensation(randomProfile(random, extent), rateHz, {.maximumBoostDecibels = boost});
             for (double hz = 2.0; hz < 23000.0; hz *= 1.01) {
                 ASSERT_LE(compensation.gainDecibels(hz), boost + 0.1) << boost << " dB, at " << hz << " Hz";
             }
         }
     }
-    const Compensation coil(voiceCoil(), rateHz, {.largestBoostDecibels = 3.0});
+    const Compensation coil(voiceCoil(), rateHz, {.maximumBoostDecibels = 3.0});
     EXPECT_GT(coil.gainDecibels(50.0), 1.0);
 }
 
@@ -359,7 +359,7 @@ TEST(CompensationTest, EveryProfileGivesABoundedFilterAtEveryRate) {
     for (int round = 0; round < 30; ++round) {
         const ActuatorProfile profile = randomProfile(random, 200.0);
         const double rate = rates[static_cast<std::size_t>(round) % rates.size()];
-        Compensation compensation(profile, rate, {.largestBoostDecibels = 24.0});
+        Compensation compensation(profile, rate, {.maximumBoostDecibels = 24.0});
         std::vector<float> samples = noise(static_cast<std::size_t>(rate), 50.0F, 8);
         run(compensation, samples);
         for (const float sample : samples) {
@@ -406,7 +406,7 @@ TEST(CompensationTest, RatesAndSettingsOutOfRangeAreRefused) {
         EXPECT_THROW(Compensation(voiceCoil(), rate), std::invalid_argument) << rate;
     }
     for (const double boost : {-1.0, 24.1, nan}) {
-        EXPECT_THROW(Compensation(voiceCoil(), rateHz, {.largestBoostDecibels = boost}), std::invalid_argument);
+        EXPECT_THROW(Compensation(voiceCoil(), rateHz, {.maximumBoostDecibels = boost}), std::invalid_argument);
     }
     for (const std::array<double, 2> band :
          {std::array{19.0, 500.0}, {40.0, 1001.0}, {400.0, 60.0}, {nan, 400.0}, {60.0, nan}, {60.0, 60.0}}) {
