@@ -15,8 +15,9 @@ using effects::EffectKind;
 
 constexpr effects::EffectMask surfaceEffects =
     effects::maskOf(EffectKind::texture) | effects::maskOf(EffectKind::impact) | effects::maskOf(EffectKind::edge);
-// An edge is a blow at this share of the speed along the surface where it is as high as the second figure, or where the
-// level changes by the third: a step as high as a stylus's tip is wide, and a change from smooth to rough.
+// A full edge is a blow at this share of the speed along the surface. An edge is full if its height reaches the width
+// of a stylus tip, or if the level changes by 20 dB, as from a smooth to a rough material; smaller edges are in
+// proportion.
 constexpr double edgeShareOfSpeed = 0.2;
 constexpr double fullEdgeMetres = 0.002;
 constexpr double fullEdgeDb = 20.0;
@@ -53,13 +54,13 @@ ContactAction ContactPublisher::publish(ContactState state) noexcept {
         ribs_ = waveVectorsOf(material.embedding);
     }
     onsets_ += action == ContactAction::onset || action == ContactAction::tap ? 1 : 0;
-    // With every state that slides, not only at touch-down: the callback may have to resume with any of them.
+    // Every sliding state carries a seed, because the callback may resume with any of them.
     if (follower_.sliding() || action == ContactAction::tap) {
         retrieve(contact, material);
     }
     noteSpeed(state, isNewTouch);
     if (isNewTouch) {
-        // The counter stays the same where a surface without label interrupts a touch: that touch has landed already.
+        // An unchanged counter means that a surface without a label interrupted the touch, which has landed before.
         if (state.touchCounter != lastTouchCounter_) {
             noteImpact(contact);
         }
@@ -84,9 +85,9 @@ void ContactPublisher::postToAudio(const Contact& contact) noexcept {
         tone = resolveTone(contact.ingredients, std::hypot(motion[0], motion[1]),
                            static_cast<double>(contact.state.toneDbPerOctave), tiltOfOne_);
     }
-    const effects::EffectMask asked =
+    const effects::EffectMask requested =
         (contact.state.effects & surfaceEffects) | (tone ? effects::maskOf(EffectKind::tone) : effects::EffectMask{0});
-    channels_.counters.askedFor.store(contact.state.touching ? asked : 0, std::memory_order_relaxed);
+    channels_.counters.askedFor.store(contact.state.touching ? requested : 0, std::memory_order_relaxed);
 
     AudioMessage& audio = channels_.toAudio.draft();
     audio.onset = onsets_;
@@ -171,7 +172,7 @@ void ContactPublisher::noteImpact(const Contact& contact) noexcept {
 void ContactPublisher::noteTransition(const Contact& contact) noexcept {
     const ContactState& state = contact.state;
     if (!state.touching) {
-        // The tip has slid off what it touched: that surface's edge, at the speed that the tip had there.
+        // The tip has slid off the last surface: strike that surface's edge at the tip's last speed.
         strikeEdge(last_, contact.before, heightShare(state));
         return;
     }
@@ -216,7 +217,7 @@ void ContactPublisher::retrieve(const Contact& contact, const Material& material
     }
     const float levelMps2 = contact.ingredients.levelMps2(contact.ranged.levelMotion);
     std::ranges::transform(seed->samples, seedMps2_.begin(), [levelMps2](float sample) { return sample * levelMps2; });
-    // The seed sounds as recorded: it goes on over its ribs by its own velocity, whatever the hand's is.
+    // The seed plays as recorded, so its rib phase advances with its own velocity and not with the tip's.
     seedRibs_.vectors = waveVectorsOf(material.embedding);
     seedRibs_.phase = phasesFor(seedRibs_.vectors, waveVectorsOf(seed->embedding), seed->ribPhase);
     seedRibs_.turnsPerSample = ribTurnsPerSample(material.embedding, seed->velocityMps[0], seed->velocityMps[1]);

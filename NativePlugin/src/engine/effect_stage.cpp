@@ -11,7 +11,7 @@ namespace {
 
 using effects::EffectKind;
 
-// An edge is over before the next one can come: ribs and rims follow each other faster than landings.
+// Edges decay faster than landings, because ribs and rims follow each other faster.
 constexpr double edgeDecayFactor = 3.0;
 constexpr double handOverSeconds = 0.01;
 
@@ -102,7 +102,7 @@ std::unique_ptr<Processors> EffectStage::takeUsed() noexcept {
 
 void EffectStage::open() noexcept {
     if (gate_.isClosed()) {
-        // Blows begin at zero by themselves, and a ramp would take their attack.
+        // Blows start at zero by themselves, and a ramp would remove their attack.
         gate_.openAtOnce();
     } else {
         gate_.open();
@@ -206,7 +206,7 @@ void EffectStage::runSources(std::span<float> samplesMps2, EffectFigures& figure
 }
 
 void EffectStage::addSources(std::span<float> samplesMps2, EffectFigures& figures) noexcept {
-    // Without processors the texture has its own gate already: only what is added here is silenced here.
+    // The texture has its own gate. Without processors, this gate applies only to the sources added here.
     if (areSourcesIdle()) {
         return;
     }
@@ -238,7 +238,7 @@ void EffectStage::runProcessors(std::span<float> samplesMps2, EffectFigures& fig
         return static_cast<float>(fadeLeft_ - std::min(fadeLeft_, sample)) / static_cast<float>(fadeSamples_);
     };
     if (processors_->delay != nullptr) {
-        // Fade the input in: a new delay would otherwise play an abrupt beginning when its time has passed.
+        // Fade the input in, because a new delay would otherwise play an abrupt start after its delay time.
         for (std::size_t i = 0; i < samplesMps2.size(); ++i) {
             samplesMps2[i] *= 1.0F - shareAt(i);
         }

@@ -8,7 +8,7 @@
 namespace haptoflow::engine {
 namespace {
 
-/// What the run took; nothing where it failed, and then `failure` says why.
+/// Runs the generator and returns the time it took. If it fails, returns nothing and sets `failure` to the reason.
 std::optional<std::uint64_t> nanosecondsOf(inference::SegmentGenerator& generator,
                                            std::span<const inference::SegmentRequest> requests,
                                            std::span<float> segments, std::string& failure) {
@@ -60,7 +60,7 @@ void InferenceRound::balanceBlends(inference::SegmentGenerator& generator) {
     segments_.resize(requests_.size() * inference::segmentSamples);
     std::string failure;
     if (!nanosecondsOf(generator, requests_, segments_, failure)) {
-        // Nothing of it is heard: the blends keep the gains that they have.
+        // The segments of the parts are not played, so a failure only leaves the gains unchanged.
         return;
     }
     std::span<const float> segments = segments_;
@@ -90,7 +90,7 @@ void InferenceRound::generate(inference::SegmentGenerator& generator, RoundResul
             spent = nanosecondsOf(generator, std::span(requests_).subspan(i, 1), segment, result.failure);
         }
         if (!spent) {
-            // Nothing goes out; the running segment goes on to its end and fades there.
+            // No segment is sent; the running one plays to its end and fades there.
             wanting_[i]->planner.fail();
             result.failed = true;
             continue;

@@ -16,10 +16,10 @@ namespace haptoflow::engine {
 namespace {
 
 
-constexpr double callbackLookMs = 2.0;
-// Beyond these a float no longer tells neighbouring samples apart.
-constexpr float smallestFullScaleMps2 = 1e-3F;
-constexpr float largestFullScaleMps2 = 1e6F;
+constexpr double callbackPollMs = 2.0;
+// Outside this range, the precision of a float no longer separates neighbouring samples.
+constexpr float minimumFullScaleMps2 = 1e-3F;
+constexpr float maximumFullScaleMps2 = 1e6F;
 
 const LiveEngineSettings& checked(const LiveEngineSettings& settings) {
     if (!(settings.updateRateHz >= 1.0 && settings.updateRateHz <= 10000.0)) {
@@ -32,7 +32,7 @@ const LiveEngineSettings& checked(const LiveEngineSettings& settings) {
     if (!(settings.quality.budgetMs > 0.0)) {
         throw std::invalid_argument("the budget for inference must be above 0 ms");
     }
-    if (!(settings.fullScaleMps2 >= smallestFullScaleMps2 && settings.fullScaleMps2 <= largestFullScaleMps2)) {
+    if (!(settings.fullScaleMps2 >= minimumFullScaleMps2 && settings.fullScaleMps2 <= maximumFullScaleMps2)) {
         throw std::invalid_argument("full_scale_mps2 is " + std::to_string(settings.fullScaleMps2) +
                                     "; expected 0.001 to 1000000 m/s^2");
     }
@@ -50,7 +50,7 @@ std::shared_ptr<const model::ModelFile> checked(std::shared_ptr<const model::Mod
 inference::SegmentGenerator& firstLoaded(const EngineTiers& tiers) {
     const auto found = std::ranges::find_if(tiers, [](const auto& tier) { return tier != nullptr; });
     if (found == tiers.end()) {
-        throw std::invalid_argument("an engine needs at least one tier that is loaded");
+        throw std::invalid_argument("an engine needs at least one loaded tier");
     }
     return **found;
 }
@@ -65,7 +65,7 @@ LiveEngine::LiveEngine(std::shared_ptr<const model::ModelFile> model, EngineTier
       library_(std::make_unique<MaterialLibrary>(*model_, firstLoaded(tiers_), limits)),
       quality_(tiers_.size(), settings.quality, startTier, settings.tiersByAccuracy) {
     if (!isLoaded(settings_.quality)) {
-        throw std::invalid_argument("quality: a tier that is not loaded");
+        throw std::invalid_argument("quality: the tier is not loaded");
     }
     showQuality();
     if (settings_.hasWorker) {
@@ -172,7 +172,7 @@ void LiveEngine::noteFailure(const char* text) noexcept {
         const std::lock_guard lock(failureMutex_);
         lastFailure_ = text;
     } catch (const std::exception&) {
-        // Without memory for the text the counters still tell of the failure.
+        // Without memory for the text, the counters still record the failure.
     }
 }
 
@@ -194,16 +194,16 @@ void LiveEngine::work() noexcept {
             }
         }
     } catch (const std::exception& error) {
-        // Out of memory, or a lock that the system refuses: the voices see that nobody generates any more.
+        // Out of memory, or the system refused a lock: the voices fall silent because the worker has ended.
         noteFailure(error.what());
     }
     alive_.store(false, std::memory_order_release);
 }
 
 bool LiveEngine::sleep() {
-    // The callback wakes nobody.
+    // The callback cannot wake the worker, so the worker polls.
     if (looksAgain_) {
-        (void)signal_.waitFor(callbackLookMs);
+        (void)signal_.waitFor(callbackPollMs);
         return true;
     }
     if (quality_.tierToMeasure()) {
@@ -223,7 +223,7 @@ void LiveEngine::measureOnce(std::size_t tier) {
                                       .noise = silence};
     std::ranges::copy(model_->embedding(0), request.embedding.begin());
     std::array<float, inference::segmentSamples> segment{};
-    // A tier that cannot run is never chosen: it costs more than any budget.
+    // A tier that cannot run gets a time above any budget, so that it is never chosen.
     double milliseconds = 1e9;
     const auto began = std::chrono::steady_clock::now();
     try {
@@ -239,12 +239,12 @@ void LiveEngine::measureOnce(std::size_t tier) {
 
 void LiveEngine::setQuality(const QualitySettings& quality) {
     if (!(quality.budgetMs > 0.0) || (quality.fixedTier && *quality.fixedTier >= tiers_.size())) {
-        throw std::invalid_argument("quality: a tier that the model has, and a budget above 0 ms");
+        throw std::invalid_argument("quality: expected a tier of the model and a budget above 0 ms");
     }
     {
         const std::lock_guard lock(qualityMutex_);
         if (!isLoaded(quality)) {
-            throw std::invalid_argument("quality: a tier that is not loaded");
+            throw std::invalid_argument("quality: the tier is not loaded");
         }
         wantedQuality_.draft() = quality;
         wantedQuality_.post();

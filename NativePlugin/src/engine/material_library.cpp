@@ -13,13 +13,13 @@
 namespace haptoflow::engine {
 namespace {
 
-// The numbers behind these are wave vectors, which say nothing about how a material sounds.
-constexpr std::size_t learntNumbers = model::embeddingSize - 2 * inference::ribCount;
+// Size of an embedding without its wave vectors, which are not part of the similarity of materials.
+constexpr std::size_t learntSize = model::embeddingSize - 2 * inference::ribCount;
 
 double distance(std::span<const float, model::embeddingSize> first,
                 std::span<const float, model::embeddingSize> second) {
     double squares = 0.0;
-    for (std::size_t i = 0; i < learntNumbers; ++i) {
+    for (std::size_t i = 0; i < learntSize; ++i) {
         const double gap = static_cast<double>(first[i]) - static_cast<double>(second[i]);
         squares += gap * gap;
     }
@@ -66,15 +66,15 @@ MaterialLibrary::MaterialLibrary(const model::ModelFile& model, inference::Level
 }
 
 KnownMaterial MaterialLibrary::knownLabel(std::size_t label) const {
-    const model::Label& said = model_.header().labels[label];
-    KnownMaterial known{.label = &said,
+    const model::Label& entry = model_.header().labels[label];
+    KnownMaterial known{.label = &entry,
                         .embedding = model_.embedding(label),
                         .grid = &levels_.grid(),
                         .graphLevels = levels_.table(label),
                         .tone = {},
                         .seeds = {}};
-    if (said.tone) {
-        known.tone.emplace(*said.tone);
+    if (entry.tone) {
+        known.tone.emplace(*entry.tone);
     }
     return known;
 }
@@ -156,13 +156,13 @@ const KnownMaterial* MaterialLibrary::find(std::uint32_t index) const noexcept {
         return &labels_[index];
     }
     const std::size_t place = index - labels_.size();
-    // Sequentially consistent, like entering: a replacement that saw nobody inside is seen here.
+    // Sequentially consistent, like the counter of readers: if `replace` saw no reader, this load sees its replacement.
     const Registered* registered = place < maximumRegistered ? visible_[place].load() : nullptr;
     return registered == nullptr ? nullptr : &registered->known;
 }
 
 void MaterialLibrary::waitForReaders() noexcept {
-    // Twice, because a reader may have learnt the open phase and not have entered it yet.
+    // Twice, because a reader may have loaded the open phase before it increments the counter.
     for (int times = 0; times < 2; ++times) {
         const std::uint32_t closed = openPhase_.fetch_xor(1U);
         while (readers_[closed].load() != 0) {

@@ -7,7 +7,8 @@
 namespace haptoflow::engine {
 namespace {
 
-constexpr float quietestMps2 = 1e-9F;
+// Keeps the logarithm finite.
+constexpr float minimumMps2 = 1e-9F;
 using inference::levelBatch;
 constexpr std::array<float, inference::segmentSamples> silence{};
 
@@ -33,7 +34,7 @@ std::vector<float> tabulateLevels(const LevelGrid& grid,
         const auto answers = std::span(levels).first(requests.size());
         estimator.levels(requests, answers);
         std::ranges::transform(answers, logLevels.begin() + static_cast<std::ptrdiff_t>(first),
-                               [](float level) { return std::log(std::max(level, quietestMps2)); });
+                               [](float level) { return std::log(std::max(level, minimumMps2)); });
     }
     return logLevels;
 }

@@ -7,8 +7,8 @@
 
 namespace haptoflow::engine {
 
-/// What a voice needs for one output rate. It allocates when it is made, so a new rate brings a new one, made
-/// elsewhere than in the callback.
+/// The parts of a voice that depend on the output rate. Construction allocates, so another thread than the callback's
+/// makes one for each new rate.
 struct OutputStage {
 
     /// Throws std::invalid_argument for a rate outside 8-192 kHz.
@@ -21,7 +21,7 @@ struct OutputStage {
 
     double rateHz;
     dsp::WaveformResampler resampler;
-    /// Of the texture alone.
+    /// Gate of the texture only.
     dsp::Gate gate;
     EffectStage effects;
     dsp::LevelSmoother strength;

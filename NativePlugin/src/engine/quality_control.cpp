@@ -10,7 +10,7 @@
 namespace haptoflow::engine {
 namespace {
 
-std::vector<std::size_t> inTheirOwnOrder(std::size_t tiers) {
+std::vector<std::size_t> modelOrder(std::size_t tiers) {
     std::vector<std::size_t> order(tiers);
     std::iota(order.begin(), order.end(), std::size_t{0});
     return order;
@@ -44,12 +44,13 @@ QualityControl::QualityControl(std::size_t tiers, const QualitySettings& setting
     : settings_(settings),
       times_(tiers),
       firstMedianMs_(tiers),
-      byAccuracy_(byAccuracy.empty() ? inTheirOwnOrder(tiers) : std::move(byAccuracy)),
+      byAccuracy_(byAccuracy.empty() ? modelOrder(tiers) : std::move(byAccuracy)),
       tier_(settings.fixedTier.value_or(startTier)) {
     if (tier_ >= tiers) {
-        throw std::invalid_argument("quality control: tier " + std::to_string(tier_) + " of " + std::to_string(tiers));
+        throw std::invalid_argument("quality control: tier " + std::to_string(tier_) + "; expected 0 to " +
+                                    std::to_string(tiers - 1));
     }
-    if (!std::ranges::is_permutation(byAccuracy_, inTheirOwnOrder(tiers))) {
+    if (!std::ranges::is_permutation(byAccuracy_, modelOrder(tiers))) {
         throw std::invalid_argument("quality control: the order of accuracy must name each of the " +
                                     std::to_string(tiers) + " tiers once");
     }
@@ -132,7 +133,7 @@ void QualityControl::ran(double milliseconds, std::size_t voices) noexcept {
         return;
     }
     if (voices > voices_) {
-        // Rather before the overruns than after them.
+        // Step down before the additional voice causes overruns.
         voices_ = voices;
         const std::size_t before = tier_;
         while (!tierToMeasure() && rankOf(tier_) > rankOf(fittingTier()) && fasterTier()) {
@@ -166,7 +167,7 @@ void QualityControl::stepDown() noexcept {
     }
     tier_ = *faster;
     ++stepsDown_;
-    patienceRounds_ = std::min(2 * patienceRounds_, longestPatienceRounds);
+    patienceRounds_ = std::min(2 * patienceRounds_, maximumPatienceRounds);
 }
 
 void QualityControl::considerStepUp(std::size_t voices) noexcept {

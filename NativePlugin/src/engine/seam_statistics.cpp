@@ -9,7 +9,7 @@ SeamMeter::SeamMeter(std::size_t spliceSamples)
     : spliceSamples_(static_cast<std::int64_t>(std::max<std::size_t>(spliceSamples, 1))) {}
 
 void SeamMeter::addSeam(std::int64_t sample) {
-    // The first sample of a waveform has none before it to step from.
+    // The first sample of a waveform has no predecessor, so a seam there has no step.
     if (sample >= std::max<std::int64_t>(next_, 1)) {
         open_.push_back({.begin = sample});
     }

@@ -103,7 +103,8 @@ void nameThisThread(const char* name) noexcept {
 
 namespace {
 
-// A wall clock that is set back would make 2 ms an hour; not every C library can wait by another.
+// Prefer a monotonic clock: with the wall clock, a clock change could turn 2 ms into an hour. Not every C library
+// offers the choice.
 #if defined(__GLIBC__)
 constexpr clockid_t waitClock = CLOCK_MONOTONIC;
 
@@ -173,7 +174,7 @@ bool WakeSignal::waitFor(double milliseconds) noexcept {
 #if defined(__linux__)
 
 bool raiseThisThreadsPriority() noexcept {
-    // On Linux and Android niceness belongs to the thread; -10 is what Android calls urgent display.
+    // On Linux and Android, niceness applies to a thread; -10 is Android's "urgent display".
     constexpr int urgent = -10;
     const auto thread = static_cast<id_t>(syscall(SYS_gettid));
     return setpriority(PRIO_PROCESS, thread, urgent) == 0;

@@ -4,19 +4,19 @@
 
 namespace haptoflow::engine {
 
-/// Wakes one sleeping thread. `post` never waits for anybody, but may enter the kernel: not for an audio callback.
+/// Wakes one sleeping thread. `post` does not wait but may enter the kernel: not on the audio thread.
 class WakeSignal {
 public:
-    /// Throws std::system_error where the system has no semaphore left.
+    /// Throws std::system_error if the system has no semaphore left.
     WakeSignal();
     WakeSignal(const WakeSignal&) = delete;
     WakeSignal& operator=(const WakeSignal&) = delete;
     ~WakeSignal();
 
     void post() noexcept;
-    /// Sleeps until a post; any number of posts before it count as one.
+    /// Sleeps until a post. Several posts before the call count as one.
     void wait() noexcept;
-    /// The same, but at most so long; false when time ran out.
+    /// Like `wait`, but for at most this time. Returns false if there was no post.
     bool waitFor(double milliseconds) noexcept;
 
 private:
@@ -24,12 +24,12 @@ private:
     std::unique_ptr<Semaphore> semaphore_;
 };
 
-/// Asks the system to schedule the calling thread before ordinary ones, as far as the process may; where it may not,
-/// nothing changes. Returns whether the system agreed. Takes no real-time priority: inference is long, and a real-time
-/// thread that is busy starves the audio thread that it works for.
+/// Raises the calling thread's priority above that of ordinary threads, if the process has permission. Returns whether
+/// the system allowed it. Does not use a real-time priority, because inference takes long and a busy real-time thread
+/// would delay the audio thread.
 bool raiseThisThreadsPriority() noexcept;
 
-/// Names the calling thread for debuggers and profilers; at most 15 characters are kept.
+/// Names the calling thread for debuggers and profilers. At most 15 characters are kept.
 void nameThisThread(const char* name) noexcept;
 
 }  // namespace haptoflow::engine
