@@ -11,10 +11,10 @@
 namespace haptoflow::engine {
 namespace {
 
-// What has to be covered beyond the next update, so that one that comes late finds the voice still sounding.
+// Waveform covered beyond the next update, so that the voice still sounds if that update is late.
 constexpr double reserveSamples = 40.0;
-// A tenth of a second at the pace of looking: a device that has stopped is not waited for.
-constexpr int mostLooks = 50;
+// A tenth of a second of polling. The planner does not wait longer for a device that has stopped.
+constexpr int maximumLooks = 50;
 constexpr auto segmentLength = static_cast<std::int64_t>(inference::segmentSamples);
 
 std::int64_t scaled(std::int64_t samples, double readingRate) noexcept {
@@ -44,7 +44,7 @@ bool SegmentPlanner::wake() noexcept {
     const bool isNewStream = playhead.stream != stream_;
     const std::int64_t head = playhead.timeline.head;
     const bool replaces = !isNewStream && head == lastHead_;
-    // A full queue belongs to a callback that does not take.
+    // A full queue means that the callback takes no segments.
     if (!isPlaying || (replaces && !mayReplace()) || channels_.segments.room() < 2) {
         return false;
     }
@@ -85,14 +85,14 @@ void SegmentPlanner::skipUntil(std::uint64_t slides) noexcept {
 }
 
 bool SegmentPlanner::mayReplace() const noexcept {
-    // Between two long blocks the clock stands, but hands do not: a newer contact then gets a segment for the same
-    // place, as often as hops would fit into the block. A clock that stands for good asks for nothing more.
+    // During a long block the clock stands still while new contact states arrive. Each may get a segment for the same
+    // start, as often as the minimum hop fits into the block. The limit also ends the inference for a stopped clock.
     const Playhead& playhead = channels_.playhead.current();
     return settings_.shortestHopSamples > 0 && replacements_ + 1 < playhead.blockAdvance / settings_.shortestHopSamples;
 }
 
 bool SegmentPlanner::looksAgain() noexcept {
-    if (!awaitsCallback() || looks_ >= mostLooks) {
+    if (!awaitsCallback() || looks_ >= maximumLooks) {
         return false;
     }
     ++looks_;
@@ -100,8 +100,8 @@ bool SegmentPlanner::looksAgain() noexcept {
 }
 
 bool SegmentPlanner::awaitsCallback() const noexcept {
-    // Whatever kept `wake` from generating for it passes when the callback moves on: an onset that is not played yet, a
-    // clock that stands still, a hop that would be too short, a full queue.
+    // Every reason for which `wake` did not generate ends when the callback runs: an onset that has not been played
+    // yet, a clock that stands still, a hop that would be too short, a full queue.
     const WorkerMessage& contact = channels_.toWorker.current();
     return contact.sliding && contact.slides != settledSlides_;
 }
@@ -172,10 +172,10 @@ bool SegmentPlanner::deliver(std::span<float, inference::segmentSamples> segment
 
     const std::int64_t head = playhead.timeline.head;
     const auto lead = static_cast<double>(leadSamples(playhead.blockAdvance, contact.readingRate));
-    const double wanted = static_cast<double>(hop_) + lead + reserveSamples * contact.readingRate;
+    const double needed = static_cast<double>(hop_) + lead + reserveSamples * contact.readingRate;
     const std::int64_t next = plannedStart_ + segmentLength;
     const std::int64_t furthest = static_cast<std::int64_t>(TimelineView::aheadSamples) - segmentLength;
-    if (static_cast<double>(next - head) >= wanted || next - head > furthest || channels_.segments.room() < 2) {
+    if (static_cast<double>(next - head) >= needed || next - head > furthest || channels_.segments.room() < 2) {
         return false;
     }
     prepare(next);
@@ -199,8 +199,8 @@ std::unique_ptr<Processors> SegmentPlanner::processorsFor(double rateHz) const {
 void SegmentPlanner::serveProcessors() noexcept {
     delete channels_.usedProcessors.exchange(nullptr, std::memory_order_acq_rel);
     const double rateHz = channels_.stageRateHz.load(std::memory_order_acquire);
-    const std::uint64_t wanted = channels_.wantedProcessors.load(std::memory_order_acquire);
-    const bool isServed = madeVersion_ == wanted && madeRateHz_ == rateHz;
+    const std::uint64_t wantedVersion = channels_.wantedProcessors.load(std::memory_order_acquire);
+    const bool isServed = madeVersion_ == wantedVersion && madeRateHz_ == rateHz;
     if (rateHz == 0.0 || isServed || !channels_.lacksProcessors.load(std::memory_order_acquire)) {
         return;
     }
@@ -212,7 +212,7 @@ void SegmentPlanner::serveProcessors() noexcept {
             delete channels_.freshProcessors.exchange(made.release(), std::memory_order_acq_rel);
         }
     } catch (const std::exception&) {
-        // Without memory the voice goes on as it is, and asks again with its next state.
+        // Out of memory: the voice keeps its present processors and requests the new ones again with its next state.
         return;
     }
 }
@@ -232,7 +232,7 @@ void SegmentPlanner::serveOutputRate() noexcept {
         }
         delete channels_.freshOutput.exchange(stage.release(), std::memory_order_acq_rel);
     } catch (const std::exception&) {
-        // Not a rate that audio runs at, or no memory; the callback asks again.
+        // The rate is not supported, or out of memory; the callback requests a stage again.
         return;
     }
 }
