@@ -17,7 +17,6 @@ std::uint64_t wholeSamples(double seconds, double sampleRateHz) {
     return std::max<std::uint64_t>(1, static_cast<std::uint64_t>(seconds * sampleRateHz + 1e-6));
 }
 
-
 /// Half a period of a raised cosine, from 0 to 1. The error of linear interpolation between its points is
 /// (pi / 1024)^2 / 16, below 1e-6.
 using Curve = std::array<float, 1025>;

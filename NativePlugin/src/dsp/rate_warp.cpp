@@ -49,7 +49,6 @@ bool RateWarp::isTransparent() const noexcept {
     return state_.isDirect() && state_.target == 1.0;
 }
 
-
 std::size_t RateWarp::inputNeeded(std::size_t outputCount) const noexcept {
     State ahead = state_;
     for (std::size_t i = 0; i < outputCount; ++i) {

@@ -35,29 +35,29 @@ void ToneFilter::setTone(const ToneKernel* kernel, std::span<const float, memory
         active_ = true;
     } else {
         // Start from the present kernel, which may be in the middle of an earlier change.
-        const float left = remainingShare(fadeLeft_);
+        const float left = remainingShare(fadeRemaining_);
         for (std::size_t tap = 0; tap < toneTaps; ++tap) {
             from_[tap] = to_[tap] + left * (from_[tap] - to_[tap]);
         }
     }
     hasTone_ = kernel != nullptr;
     to_ = orUnitImpulse(kernel);
-    fadeLeft_ = fadeSamples;
+    fadeRemaining_ = fadeSamples;
 }
 
 void ToneFilter::reset(const ToneKernel* kernel) noexcept {
     hasTone_ = kernel != nullptr;
     active_ = hasTone_;
     to_ = orUnitImpulse(kernel);
-    fadeLeft_ = 0;
+    fadeRemaining_ = 0;
     memory_.fill(0.0F);
 }
 
 void ToneFilter::settle() noexcept {
-    if (fadeLeft_ > 0) {
-        --fadeLeft_;
+    if (fadeRemaining_ > 0) {
+        --fadeRemaining_;
     }
-    active_ = hasTone_ || fadeLeft_ > 0;
+    active_ = hasTone_ || fadeRemaining_ > 0;
 }
 
 void ToneFilter::process(std::span<float> samples) noexcept {
@@ -73,7 +73,7 @@ void ToneFilter::process(std::span<float> samples) noexcept {
         }
         std::ranges::copy_backward(std::span(memory_).first(memorySamples - 1), memory_.end());
         memory_[0] = sample;
-        sample = fadeLeft_ > 0 ? target + remainingShare(fadeLeft_) * (before - target) : target;
+        sample = fadeRemaining_ > 0 ? target + remainingShare(fadeRemaining_) * (before - target) : target;
         settle();
     }
 }

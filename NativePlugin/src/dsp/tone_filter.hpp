@@ -35,7 +35,7 @@ private:
     bool hasTone_ = false;
     ToneKernel from_{};
     ToneKernel to_{};
-    std::size_t fadeLeft_ = 0;
+    std::size_t fadeRemaining_ = 0;
     /// Past input samples, the newest first.
     std::array<float, memorySamples> memory_{};
 };

@@ -39,7 +39,6 @@ private:
     void push(float sample) noexcept;
     [[nodiscard]] float interpolate() const noexcept;
 
-
     std::size_t latencyInputSamples_;
     std::uint64_t step_;  // input samples per output sample = step_ / period_
     std::uint64_t period_;

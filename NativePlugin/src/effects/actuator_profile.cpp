@@ -163,7 +163,7 @@ private:
 };
 
 json parseText(std::string_view text) {
-    if (text.size() > ActuatorProfile::largestTextBytes) {
+    if (text.size() > ActuatorProfile::maximumTextBytes) {
         throw ProfileError("is larger than 1 MiB; expected an actuator profile (JSON)");
     }
     try {
@@ -222,17 +222,17 @@ ActuatorProfile ActuatorProfile::parse(std::string_view text) {
         profile.ratedLevelMps2 = root.at("rated_level_mps2").number(1e-9, 1e9, "m/s^2");
     }
     const Node frequencies = root.at("frequency_hz");
-    profile.frequencyHz = frequencies.numbers(2, mostPoints, lowestFrequencyHz, highestFrequencyHz, "Hz");
+    profile.frequencyHz = frequencies.numbers(2, mostPoints, minimumFrequencyHz, maximumFrequencyHz, "Hz");
     requireRising(frequencies, profile.frequencyHz);
     const std::size_t points = profile.frequencyHz.size();
     profile.magnitudeDecibels =
-        root.at("magnitude_db").numbers(points, points, -largestMagnitudeDecibels, largestMagnitudeDecibels, "dB");
+        root.at("magnitude_db").numbers(points, points, -maximumMagnitudeDecibels, maximumMagnitudeDecibels, "dB");
     if (root.has("phase_degrees")) {
         profile.phaseDegrees = root.at("phase_degrees").numbers(points, points, -1e6, 1e6, "degrees");
     }
     if (root.has("resonances_hz")) {
         profile.resonancesHz =
-            root.at("resonances_hz").numbers(0, maximumResonances, lowestFrequencyHz, highestFrequencyHz, "Hz");
+            root.at("resonances_hz").numbers(0, maximumResonances, minimumFrequencyHz, maximumFrequencyHz, "Hz");
     }
     if (root.has("measurement")) {
         profile.measurement = readMeasurement(root.at("measurement"));

@@ -42,11 +42,11 @@ struct ActuatorMeasurement {
 /// Documentation~ (actuator-profile.md, actuator-profile.schema.json). Any thread may read; parsing allocates.
 struct ActuatorProfile {
     static constexpr int formatVersion = 1;
-    static constexpr std::size_t largestTextBytes = std::size_t{1} << 20U;
+    static constexpr std::size_t maximumTextBytes = std::size_t{1} << 20U;
     static constexpr std::size_t mostPoints = 4096;
-    static constexpr double lowestFrequencyHz = 0.1;
-    static constexpr double highestFrequencyHz = 1e5;
-    static constexpr double largestMagnitudeDecibels = 200.0;
+    static constexpr double minimumFrequencyHz = 0.1;
+    static constexpr double maximumFrequencyHz = 1e5;
+    static constexpr double maximumMagnitudeDecibels = 200.0;
 
     std::string name;
     /// Source of the figures.

@@ -10,7 +10,6 @@ namespace haptoflow::effects {
 /// per sample. Audio thread: allocates nothing, waits for nothing.
 class DecayingSinusoid {
 public:
-
     /// Replaces the present sinusoid from the next sample on. A frequency above 0.45 of the rate, or an argument that
     /// is not finite and above 0, gives silence.
     void start(double frequencyHz, double decayPerSecond, double amplitudeMps2, double sampleRateHz) noexcept;

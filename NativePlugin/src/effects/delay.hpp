@@ -44,16 +44,15 @@ public:
     /// True only while the whole line, up to the maximum delay, holds silence.
     [[nodiscard]] bool isIdle() const noexcept override;
 
-
 private:
     void write(float sample) noexcept;
     [[nodiscard]] float tap(std::size_t delaySamples) const noexcept;
-    void startFadeIfAsked() noexcept;
-    [[nodiscard]] float nextOfFade() noexcept;
+    void startFadeIfRequested() noexcept;
+    [[nodiscard]] float nextFadeSample() noexcept;
     void declare() noexcept;
 
     double sampleRateHz_;
-    std::size_t longest_;
+    std::size_t maximumSamples_;
     std::vector<float> line_;
     std::vector<float> fade_;
     /// Index of the newest sample.
@@ -62,7 +61,7 @@ private:
     /// length of the maximum delay.
     std::size_t held_ = 0;
     std::size_t silent_;
-    std::size_t asked_ = 0;
+    std::size_t requested_ = 0;
     std::size_t current_ = 0;
     std::size_t previous_ = 0;
     /// Completed steps of the crossfade; its length if none is in progress.

@@ -21,7 +21,6 @@ constexpr double maximumMps2 = 1e4;
 // Maximum number of steps for a pause of any length; with it, pauses up to 40 s are resolved to hundredths of a second.
 constexpr std::uint64_t maximumPauseSteps = 4096;
 
-
 const ExposureLaw& checkedLaw(const ExposureLaw& law) {
     if (!law.isValid()) {
         throw std::invalid_argument(
@@ -40,7 +39,7 @@ bool ExposureLaw::isValid() const noexcept {
     const auto isPositive = [](double value) { return std::isfinite(value) && value > 0.0; };
     return isPositive(actuatorGain) && isPositive(shortTermMps2) && isPositive(shortTermSeconds) &&
            isPositive(dailyMps2) && isPositive(dailySeconds) && isPositive(reserveSeconds) &&
-           isPositive(slewDbPerSecond) && isPositive(lowestGain) && lowestGain <= 1.0;
+           isPositive(slewDbPerSecond) && isPositive(minimumGain) && minimumGain <= 1.0;
 }
 
 ExposureGuard::ExposureGuard(double sampleRateHz, const ExposureLaw& law)
@@ -135,7 +134,7 @@ double ExposureGuard::doseTarget() const noexcept {
 void ExposureGuard::moveGain(double seconds) noexcept {
     const double shortTerm = shortTermTarget();
     const double dose = doseTarget();
-    const double targetDb = decibels(std::max(law_.lowestGain, std::min(shortTerm, dose)));
+    const double targetDb = decibels(std::max(law_.minimumGain, std::min(shortTerm, dose)));
     const double stepDb = law_.slewDbPerSecond * seconds;
     gainDb_ = std::min(0.0, std::clamp(targetDb, gainDb_ - stepDb, gainDb_ + stepDb));
     gainFrom_ = gainTo_;
@@ -159,12 +158,12 @@ void ExposureGuard::passSilence(std::uint64_t samples) noexcept {
         return;
     }
     finishTick();
-    passTicks((samples - untilTick) / tickSamples_);
+    skipTicks((samples - untilTick) / tickSamples_);
     tickPosition_ = static_cast<std::size_t>((samples - untilTick) % tickSamples_);
 }
 
 // Long pauses take coarser steps, which is safe: in silence the gain only rises, at the limited rate.
-void ExposureGuard::passTicks(std::uint64_t ticks) noexcept {
+void ExposureGuard::skipTicks(std::uint64_t ticks) noexcept {
     const std::uint64_t step = ticks / maximumPauseSteps + 1;
     while (ticks > 0) {
         const std::uint64_t now = std::min(step, ticks);
@@ -192,7 +191,6 @@ void ExposureGuard::continueFrom(const ExposureGuard& before) noexcept {
     loweredSeconds_ = before.loweredSeconds_;
     publish();
 }
-
 
 void ExposureGuard::publish() noexcept {
     publishedReason_.store(reason_, std::memory_order_relaxed);

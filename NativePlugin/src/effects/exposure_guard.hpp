@@ -28,7 +28,7 @@ struct ExposureLaw {
     /// Maximum rate of change of the gain, in both directions.
     double slewDbPerSecond = 1.0;
     /// Minimum gain of the guard.
-    double lowestGain = 0.01;
+    double minimumGain = 0.01;
 
     /// False if a value is not finite and above 0, or if the minimum gain is above 1.
     [[nodiscard]] bool isValid() const noexcept;
@@ -87,7 +87,6 @@ public:
     /// Takes over the measured exposure and the gain of `before`, which ran at another rate for the same hand.
     void continueFrom(const ExposureGuard& before) noexcept;
 
-
     /// Any thread. Each value belongs to the latest hundredth of a second or to the one before.
     [[nodiscard]] ExposureReport report() const noexcept;
 
@@ -106,7 +105,7 @@ private:
     void measure(double meanSquare, double weightedMeanSquare) noexcept;
     void advanceSlots(double seconds) noexcept;
     void moveGain(double seconds) noexcept;
-    void passTicks(std::uint64_t ticks) noexcept;
+    void skipTicks(std::uint64_t ticks) noexcept;
     [[nodiscard]] double shortTermTarget() const noexcept;
     [[nodiscard]] double doseTarget() const noexcept;
     void publish() noexcept;

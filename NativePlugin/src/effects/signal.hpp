@@ -10,8 +10,8 @@ namespace haptoflow::effects {
 
 /// A sinusoid for studies, played instead of the texture. An amplitude of 0 means no signal.
 struct SignalSettings {
-    static constexpr double lowestHz = 20.0;
-    static constexpr double highestHz = 500.0;
+    static constexpr double minimumHz = 20.0;
+    static constexpr double maximumHz = 500.0;
     static constexpr double largestMps2 = 60.0;
 
     float frequencyHz = 0.0F;

@@ -21,14 +21,13 @@ void Strikes::strike(double speedMps, const ImpactResponse& response) noexcept {
     if (!(speedMps > 0.0)) {
         return;
     }
-    const double speed = std::min(speedMps, highestSpeedMps);
+    const double speed = std::min(speedMps, maximumStrikeMps);
     ring(speed, response);
     reboundsLeft_ = rebounds;
     planRebound(speed, response);
 }
 
 void Strikes::ring(double speedMps, const ImpactResponse& response) noexcept {
-
     for (const ImpactResponse::Mode& mode : response.modes) {
         const double amplitude = std::min(static_cast<double>(mode.gainPerSecond) * speedMps, maximumAmplitudeMps2);
         const double decay = std::max(static_cast<double>(mode.decayPerSecond), minimumDecayPerSecond) * decayFactor_;
@@ -60,7 +59,7 @@ EffectDeclaration Strikes::declaration() const noexcept {
     // The time in which the strongest and slowest mode decays to silence, after the last rebound's flight.
     const double ringSeconds = std::log(maximumAmplitudeMps2 / imperceptibleMps2) / minimumDecayPerSecond;
     const double flightsSeconds = static_cast<double>(rebounds) * 2.0 * ImpactResponse::maximumRestitution *
-                                  highestSpeedMps / returnAccelerationMps2;
+                                  maximumStrikeMps / returnAccelerationMps2;
     return {.kind = kind_,
             .reads = contact_field::touch | contact_field::material |
                      (kind_ == EffectKind::impact ? contact_field::approachSpeed : contact_field::velocity),

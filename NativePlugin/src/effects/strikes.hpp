@@ -32,7 +32,7 @@ struct ImpactResponse {
 class Strikes final : public Effect {
 public:
     /// Speeds are clamped to this.
-    static constexpr double highestSpeedMps = 5.0;
+    static constexpr double maximumStrikeMps = 5.0;
     static constexpr std::size_t capacity = 8;
     static constexpr std::size_t rebounds = 2;
 
@@ -46,7 +46,6 @@ public:
     void process(std::span<float> samplesMps2) noexcept override;
     void reset() noexcept override;
     [[nodiscard]] bool isIdle() const noexcept override { return isIdle_; }
-
 
 private:
     struct Rebound {
@@ -66,7 +65,6 @@ private:
     std::size_t reboundsLeft_ = 0;
     // Cached, because every voice reads it several times per block.
     bool isIdle_ = true;
-
 };
 
 }  // namespace haptoflow::effects

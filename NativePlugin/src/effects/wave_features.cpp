@@ -71,7 +71,7 @@ void WaveFeatures::reset() noexcept {
     fastEnergy_ = 0.0;
     hasOnset_ = false;
     onset_ = 0;
-    quietUntil_ = 0;
+    refractoryUntil_ = 0;
 }
 
 void WaveFeatures::setDeviceRange(double minFrequencyHz, double maxFrequencyHz) noexcept {
@@ -116,7 +116,7 @@ void WaveFeatures::take(double mps2) noexcept {
     thresholds_[at] = filtered();
     ++taken_;
     followEnergy();
-    lookForOnset();
+    detectOnset();
 }
 
 double WaveFeatures::filtered() const noexcept {
@@ -140,15 +140,15 @@ void WaveFeatures::followEnergy() noexcept {
     slowEnergy_ += slowShare_ * (squareBefore(slowLag) - slowEnergy_);
 }
 
-void WaveFeatures::lookForOnset() noexcept {
-    if (taken_ < quietUntil_ || hasOnset_) {
+void WaveFeatures::detectOnset() noexcept {
+    if (taken_ < refractoryUntil_ || hasOnset_) {
         return;
     }
     const bool isFelt = fastEnergy_ > 0.5 * options_.onsetThresholds * options_.onsetThresholds;
     if (isFelt && fastEnergy_ > options_.onsetEnergyRatio * slowEnergy_) {
         hasOnset_ = true;
         onset_ = onsetBefore(taken_);
-        quietUntil_ = taken_ + refractorySamples_;
+        refractoryUntil_ = taken_ + refractorySamples_;
     }
 }
 

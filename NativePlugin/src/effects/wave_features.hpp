@@ -112,7 +112,7 @@ private:
     void take(double mps2) noexcept;
     [[nodiscard]] double filtered() const noexcept;
     void followEnergy() noexcept;
-    void lookForOnset() noexcept;
+    void detectOnset() noexcept;
     [[nodiscard]] std::uint64_t onsetBefore(std::uint64_t end) const noexcept;
     [[nodiscard]] std::uint64_t frameStart(std::uint64_t frame) const noexcept;
     [[nodiscard]] bool isFrameDue() const noexcept;
@@ -141,7 +141,7 @@ private:
     double fastEnergy_ = 0.0;
     bool hasOnset_ = false;
     std::uint64_t onset_ = 0;
-    std::uint64_t quietUntil_ = 0;
+    std::uint64_t refractoryUntil_ = 0;
 };
 
 }  // namespace haptoflow::effects

@@ -13,7 +13,7 @@ ContactAction ContactFollower::update(const ContactState& state) noexcept {
     touching_ = state.touching;
     const bool wasSliding = sliding_;
     const float threshold = wasSliding && !newTouch ? slideEndMps : slideStartMps;
-    const bool hasTexture = state.asksFor(effects::EffectKind::texture);
+    const bool hasTexture = state.hasEffect(effects::EffectKind::texture);
     sliding_ = hasTexture && state.touching && speed >= threshold;
     if (sliding_) {
         return wasSliding && !newTouch ? ContactAction::slide : ContactAction::onset;

@@ -41,7 +41,7 @@ ContactAction ContactPublisher::publish(ContactState state) noexcept {
     const std::uint64_t touchesBefore = follower_.touches();
     const ContactAction action = follower_.update(state);
     const bool isNewTouch = follower_.touches() != touchesBefore;
-    const MaterialLibrary::Reading reading(library_);
+    const MaterialLibrary::ReadScope reading(library_);
     Contact contact{.state = state,
                     .ingredients = reading.ingredients(state.material),
                     .before = reading.ingredients(last_.material),
@@ -83,7 +83,7 @@ void ContactPublisher::postToAudio(const Contact& contact) noexcept {
     std::optional<dsp::ToneCepstrum> tone;
     if (!contact.hasSignal) {
         tone = resolveTone(contact.ingredients, std::hypot(motion[0], motion[1]),
-                           static_cast<double>(contact.state.toneDbPerOctave), tiltOfOne_);
+                           static_cast<double>(contact.state.toneDbPerOctave), tiltPerDecibel_);
     }
     const effects::EffectMask requested =
         (contact.state.effects & surfaceEffects) | (tone ? effects::maskOf(EffectKind::tone) : effects::EffectMask{0});
@@ -161,7 +161,7 @@ void ContactPublisher::remember(const Contact& contact) noexcept {
 
 void ContactPublisher::noteImpact(const Contact& contact) noexcept {
     const ContactState& state = contact.state;
-    if (!state.asksFor(EffectKind::impact) || !(state.approachSpeedMps > 0.0F)) {
+    if (!state.hasEffect(EffectKind::impact) || !(state.approachSpeedMps > 0.0F)) {
         return;
     }
     ++impact_.counter;
@@ -200,7 +200,7 @@ double ContactPublisher::levelShare(const Contact& contact) const noexcept {
 void ContactPublisher::strikeEdge(const ContactState& state, const Ingredients& ingredients, double share) noexcept {
     const double speedMps = std::ranges::max(newestSpeedsMps_);
     const double blowMps = edgeShareOfSpeed * speedMps * std::min(share, 1.0);
-    if (!state.asksFor(EffectKind::edge) || !(blowMps > 0.0)) {
+    if (!state.hasEffect(EffectKind::edge) || !(blowMps > 0.0)) {
         return;
     }
     ++edge_.counter;

@@ -53,7 +53,7 @@ private:
 
     const MaterialLibrary& library_;
     VoiceChannels& channels_;
-    const dsp::ToneCepstrum tiltOfOne_ = designTilt();
+    const dsp::ToneCepstrum tiltPerDecibel_ = designTilt();
     ContactFollower follower_;
     std::uint32_t onsets_ = 0;
     std::uint64_t slides_ = 0;

@@ -47,7 +47,7 @@ struct ContactState {
     /// Tilt of the spectrum about 150 Hz: above 0 brighter, below 0 darker.
     float toneDbPerOctave = 0.0F;
 
-    [[nodiscard]] bool asksFor(effects::EffectKind kind) const noexcept {
+    [[nodiscard]] bool hasEffect(effects::EffectKind kind) const noexcept {
         return (effects & effects::maskOf(kind)) != 0;
     }
 };

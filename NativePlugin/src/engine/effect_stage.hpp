@@ -70,11 +70,11 @@ public:
     void endSignal() noexcept { signal_.end(); }
     [[nodiscard]] bool isSignalOn() const noexcept { return signal_.isOn(); }
     /// Starts a crossfade of 10 ms from the present processors to `fresh`. Not allowed during an earlier crossfade, nor
-    /// before `takeUsed` has returned the processors that it replaced.
+    /// before `takeReplaced` has returned the processors that it replaced.
     void exchange(std::unique_ptr<Processors> fresh) noexcept;
-    [[nodiscard]] bool isHandingOver() const noexcept { return fadeLeft_ > 0; }
+    [[nodiscard]] bool isHandingOver() const noexcept { return fadeRemaining_ > 0; }
     /// Ends the crossfade at once; for a silent voice.
-    void finishHandOver() noexcept { fadeLeft_ = 0; }
+    void finishHandOver() noexcept { fadeRemaining_ = 0; }
     /// Continues the exposure measured by the guard of `before`, a stage at another rate for the same hand. Does
     /// nothing unless both stages have a guard.
     void adoptExposure(const EffectStage& before) noexcept;
@@ -87,7 +87,7 @@ public:
     /// Null if there is none. Any thread may read its report during the stage's lifetime.
     [[nodiscard]] const effects::ExposureGuard* exposureGuard() const noexcept { return guard_.get(); }
     /// The processors replaced by the last crossfade; null during a crossfade or if there are none.
-    [[nodiscard]] std::unique_ptr<Processors> takeUsed() noexcept;
+    [[nodiscard]] std::unique_ptr<Processors> takeReplaced() noexcept;
 
     /// `open` lets sound through, from silence without a ramp; `close` silences everything within 5 ms.
     void open() noexcept;
@@ -122,16 +122,16 @@ private:
     effects::Signal signal_;
     dsp::Gate gate_;
     std::unique_ptr<Processors> processors_;
-    std::unique_ptr<Processors> leaving_;
+    std::unique_ptr<Processors> replaced_;
     // An exchange of processors keeps these two, because a new delay would lose the signal in the old one and a new
     // guard the measured exposure. A delay that is switched on or off is crossfaded as a member of its Processors.
     std::unique_ptr<effects::Delay> delay_;
     std::unique_ptr<effects::ExposureGuard> guard_;
     std::size_t fadeSamples_;
-    std::size_t fadeLeft_ = 0;
+    std::size_t fadeRemaining_ = 0;
     // Gain of a guard that was switched off, and the number of samples in which it returns to 1.
-    float leftGain_ = 1.0F;
-    std::size_t leftGainSamples_ = 0;
+    float releasedGain_ = 1.0F;
+    std::size_t releasedGainSamples_ = 0;
 };
 
 }  // namespace haptoflow::engine

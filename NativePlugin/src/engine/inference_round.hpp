@@ -19,7 +19,7 @@ struct RoundResult {
     bool failed = false;
     std::string failure;
     /// A voice waits for the callback, so the worker must check again soon.
-    bool looksAgain = false;
+    bool mustPoll = false;
     double milliseconds = 0.0;
 };
 
@@ -35,7 +35,7 @@ private:
     void generate(inference::SegmentGenerator& generator, RoundResult& result);
     void balanceBlends(inference::SegmentGenerator& generator);
 
-    std::vector<LiveVoice*> wanting_;
+    std::vector<LiveVoice*> pending_;
     std::vector<LiveVoice*> balancing_;
     std::vector<inference::SegmentRequest> requests_;
     std::vector<float> segments_;

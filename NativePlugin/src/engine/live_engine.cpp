@@ -15,7 +15,6 @@
 namespace haptoflow::engine {
 namespace {
 
-
 constexpr double callbackPollMs = 2.0;
 // Outside this range, the precision of a float no longer separates neighbouring samples.
 constexpr float minimumFullScaleMps2 = 1e-3F;
@@ -67,7 +66,7 @@ LiveEngine::LiveEngine(std::shared_ptr<const model::ModelFile> model, EngineTier
     if (!isLoaded(settings_.quality)) {
         throw std::invalid_argument("quality: the tier is not loaded");
     }
-    showQuality();
+    publishQuality();
     if (settings_.hasWorker) {
         worker_ = std::thread([this] { work(); });
     }
@@ -89,7 +88,7 @@ void LiveEngine::stop() noexcept {
 std::shared_ptr<LiveVoice> LiveEngine::addVoice(double outputRateHz) {
     LiveVoiceSettings settings;
     settings.planner.seed = settings_.seed;
-    settings.planner.voice = voicesMade_.fetch_add(1);
+    settings.planner.voice = voiceCount_.fetch_add(1);
     if (settings_.fixedLeadMs) {
         settings.planner.fixedLeadSamples = LeadEstimator::samplesOf(*settings_.fixedLeadMs);
     }
@@ -120,9 +119,9 @@ void LiveEngine::gatherVoices() {
 ContactAction LiveEngine::publish(LiveVoice& voice, const ContactState& state) noexcept {
     const ContactAction action = voice.publisher.publish(state);
     const VoiceChannels& channels = voice.channels;
-    const bool wantsOutput = channels.wantedRateHz.load(std::memory_order_relaxed) != 0.0 ||
+    const bool wantsOutput = channels.requestedRateHz.load(std::memory_order_relaxed) != 0.0 ||
                              channels.lacksProcessors.load(std::memory_order_relaxed) ||
-                             channels.usedProcessors.load(std::memory_order_relaxed) != nullptr;
+                             channels.replacedProcessors.load(std::memory_order_relaxed) != nullptr;
     if (action != ContactAction::rest || wantsOutput) {
         signal_.post();
     }
@@ -137,8 +136,8 @@ void LiveEngine::changeProcessors(LiveVoice& voice, const std::function<bool(Pro
 
 RoundResult LiveEngine::step() {
     const dsp::ScopedFlushDenormals flush;
-    if (wantedQuality_.fetch()) {
-        quality_.setSettings(wantedQuality_.current());
+    if (requestedQuality_.fetch()) {
+        quality_.setSettings(requestedQuality_.current());
     }
     const std::size_t tier = quality_.tier();
     gatherVoices();
@@ -152,14 +151,14 @@ RoundResult LiveEngine::step() {
             ++figures_.failedRounds;
             noteFailure(result.failure.c_str());
         } else {
-            quality_.ran(result.milliseconds, result.voices);
+            quality_.recordRound(result.milliseconds, result.voices);
         }
     }
-    showQuality();
+    publishQuality();
     return result;
 }
 
-void LiveEngine::showQuality() noexcept {
+void LiveEngine::publishQuality() noexcept {
     figures_.tier = quality_.tier();
     figures_.measuring = quality_.tierToMeasure().has_value();
     figures_.stepsDown = quality_.stepsDown();
@@ -190,7 +189,7 @@ void LiveEngine::work() noexcept {
             if (!stopping_.load(std::memory_order_acquire)) {
                 ++figures_.wakes;
                 const RoundResult result = step();
-                looksAgain_ = result.looksAgain;
+                mustPoll_ = result.mustPoll;
             }
         }
     } catch (const std::exception& error) {
@@ -202,7 +201,7 @@ void LiveEngine::work() noexcept {
 
 bool LiveEngine::sleep() {
     // The callback cannot wake the worker, so the worker polls.
-    if (looksAgain_) {
+    if (mustPoll_) {
         (void)signal_.waitFor(callbackPollMs);
         return true;
     }
@@ -233,8 +232,8 @@ void LiveEngine::measureOnce(std::size_t tier) {
     } catch (const inference::InferenceError& error) {
         noteFailure(error.what());
     }
-    quality_.measured(tier, milliseconds);
-    showQuality();
+    quality_.recordMeasurement(tier, milliseconds);
+    publishQuality();
 }
 
 void LiveEngine::setQuality(const QualitySettings& quality) {
@@ -246,8 +245,8 @@ void LiveEngine::setQuality(const QualitySettings& quality) {
         if (!isLoaded(quality)) {
             throw std::invalid_argument("quality: the tier is not loaded");
         }
-        wantedQuality_.draft() = quality;
-        wantedQuality_.post();
+        requestedQuality_.draft() = quality;
+        requestedQuality_.post();
     }
     signal_.post();
 }

@@ -138,7 +138,7 @@ private:
     [[nodiscard]] bool sleep();
     void measureOnce(std::size_t tier);
     void gatherVoices();
-    void showQuality() noexcept;
+    void publishQuality() noexcept;
     void noteFailure(const char* text) noexcept;
     [[nodiscard]] bool isLoaded(const QualitySettings& quality) const;
 
@@ -151,11 +151,11 @@ private:
     // Held while the list is changed or copied, never during a round.
     std::mutex voicesMutex_;
     std::vector<std::shared_ptr<LiveVoice>> voices_;
-    std::atomic<std::uint32_t> voicesMade_{0};
+    std::atomic<std::uint32_t> voiceCount_{0};
 
     // Several threads may set the quality; the worker fetches the newest without waiting.
     mutable std::mutex qualityMutex_;
-    Mailbox<QualitySettings> wantedQuality_;
+    Mailbox<QualitySettings> requestedQuality_;
 
     mutable std::mutex failureMutex_;
     std::string lastFailure_;
@@ -166,7 +166,7 @@ private:
     std::vector<LiveVoice*> roundVoices_;
     InferenceRound round_;
     QualityControl quality_;
-    bool looksAgain_ = false;
+    bool mustPoll_ = false;
 
     std::atomic<bool> alive_{true};
     std::atomic<bool> stopping_{false};

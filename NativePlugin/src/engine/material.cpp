@@ -95,7 +95,7 @@ WaveVectors assignRibs(const Ingredients& ingredients, const WaveVectors& before
 }
 
 std::optional<dsp::ToneCepstrum> resolveTone(const Ingredients& ingredients, double speedMps, double tiltDbPerOctave,
-                                             const dsp::ToneCepstrum& tiltOfOne) noexcept {
+                                             const dsp::ToneCepstrum& tiltPerDecibel) noexcept {
     const bool hasTone =
         std::ranges::any_of(ingredients.all(), [](const Ingredient& each) { return each.material->tone.has_value(); });
     if (!hasTone && tiltDbPerOctave == 0.0) {
@@ -112,7 +112,7 @@ std::optional<dsp::ToneCepstrum> resolveTone(const Ingredients& ingredients, dou
             add(each.material->tone->at(speedMps), each.weight / total);
         }
     }
-    add(tiltOfOne, tiltDbPerOctave);
+    add(tiltPerDecibel, tiltDbPerOctave);
     return tone;
 }
 

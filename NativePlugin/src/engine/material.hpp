@@ -31,7 +31,7 @@ struct Material {
 /// Hz. Empty if no material has a tone and the tilt is 0.
 [[nodiscard]] std::optional<dsp::ToneCepstrum> resolveTone(const Ingredients& ingredients, double speedMps,
                                                            double tiltDbPerOctave,
-                                                           const dsp::ToneCepstrum& tiltOfOne) noexcept;
+                                                           const dsp::ToneCepstrum& tiltPerDecibel) noexcept;
 
 /// Cepstrum of a tilt of 1 dB/octave. Allocates.
 [[nodiscard]] dsp::ToneCepstrum designTilt();

@@ -52,7 +52,7 @@ MaterialLibrary::MaterialLibrary(const model::ModelFile& model, inference::Level
                                  const inference::LoadLimits& limits)
     : model_(model), levels_(model, levels, limits) {
     for (std::size_t label = 0; label < model.header().labels.size(); ++label) {
-        labels_.push_back(knownLabel(label));
+        labels_.push_back(prepareLabel(label));
     }
     const auto& seeds = model.header().seeds;
     for (std::size_t seed = 0; seed < seeds.size(); ++seed) {
@@ -65,23 +65,23 @@ MaterialLibrary::MaterialLibrary(const model::ModelFile& model, inference::Level
     }
 }
 
-KnownMaterial MaterialLibrary::knownLabel(std::size_t label) const {
+PreparedMaterial MaterialLibrary::prepareLabel(std::size_t label) const {
     const model::Label& entry = model_.header().labels[label];
-    KnownMaterial known{.label = &entry,
-                        .embedding = model_.embedding(label),
-                        .grid = &levels_.grid(),
-                        .graphLevels = levels_.table(label),
-                        .tone = {},
-                        .seeds = {}};
+    PreparedMaterial known{.label = &entry,
+                           .embedding = model_.embedding(label),
+                           .grid = &levels_.grid(),
+                           .graphLevels = levels_.table(label),
+                           .tone = {},
+                           .seeds = {}};
     if (entry.tone) {
         known.tone.emplace(*entry.tone);
     }
     return known;
 }
 
-const KnownMaterial& MaterialLibrary::nearestLabel(std::span<const float, model::embeddingSize> embedding) const {
+const PreparedMaterial& MaterialLibrary::nearestLabel(std::span<const float, model::embeddingSize> embedding) const {
     return *std::ranges::min_element(
-        labels_, {}, [embedding](const KnownMaterial& label) { return distance(label.embedding, embedding); });
+        labels_, {}, [embedding](const PreparedMaterial& label) { return distance(label.embedding, embedding); });
 }
 
 std::unique_ptr<const MaterialLibrary::Registered> MaterialLibrary::prepare(model::MaterialFile material,
@@ -89,7 +89,7 @@ std::unique_ptr<const MaterialLibrary::Registered> MaterialLibrary::prepare(mode
     model::requireSpace(material, model_.header());
     auto made = std::make_unique<Registered>();
     made->file = std::move(material);
-    KnownMaterial& known = made->known;
+    PreparedMaterial& known = made->known;
     known.label = &made->file.label;
     known.embedding = made->file.embedding;
     known.grid = &levels_.grid();
@@ -151,7 +151,7 @@ std::size_t MaterialLibrary::placeOf(std::size_t index) const {
     return index - labels_.size();
 }
 
-const KnownMaterial* MaterialLibrary::find(std::uint32_t index) const noexcept {
+const PreparedMaterial* MaterialLibrary::find(std::uint32_t index) const noexcept {
     if (index < labels_.size()) {
         return &labels_[index];
     }
@@ -171,20 +171,20 @@ void MaterialLibrary::waitForReaders() noexcept {
     }
 }
 
-MaterialLibrary::Reading::Reading(const MaterialLibrary& library) noexcept
+MaterialLibrary::ReadScope::ReadScope(const MaterialLibrary& library) noexcept
     : library_(library), readers_(library.readers_[library.openPhase_.load()]) {
     readers_.fetch_add(1);
 }
 
-MaterialLibrary::Reading::~Reading() {
+MaterialLibrary::ReadScope::~ReadScope() {
     readers_.fetch_sub(1);
 }
 
-Ingredients MaterialLibrary::Reading::ingredients(const MaterialBlend& blend) const noexcept {
+Ingredients MaterialLibrary::ReadScope::ingredients(const MaterialBlend& blend) const noexcept {
     Ingredients found;
     for (std::size_t i = 0; i < std::min(blend.count, MaterialBlend::capacity); ++i) {
         const LabelWeight entry = blend.entries[i];
-        const KnownMaterial* material = library_.find(entry.label);
+        const PreparedMaterial* material = library_.find(entry.label);
         if (material == nullptr || !(entry.weight > 0.0F)) {
             continue;
         }

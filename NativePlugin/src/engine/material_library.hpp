@@ -1,8 +1,8 @@
 #pragma once
 
 #include "engine/contact_state.hpp"
-#include "engine/known_material.hpp"
 #include "engine/onset_levels.hpp"
+#include "engine/prepared_material.hpp"
 #include "inference/load_limits.hpp"
 #include "inference/segment_generator.hpp"
 #include "model/material_file.hpp"
@@ -21,7 +21,7 @@ namespace haptoflow::engine {
 
 /// One material of a blend and its weight.
 struct Ingredient {
-    const KnownMaterial* material = nullptr;
+    const PreparedMaterial* material = nullptr;
     /// Index in contact states.
     std::uint32_t index = 0;
     double weight = 0.0;
@@ -72,12 +72,12 @@ public:
     [[nodiscard]] const model::ModelFile& model() const noexcept { return model_; }
 
     /// Must exist while ingredients are in use. Wait-free.
-    class Reading {
+    class ReadScope {
     public:
-        explicit Reading(const MaterialLibrary& library) noexcept;
-        Reading(const Reading&) = delete;
-        Reading& operator=(const Reading&) = delete;
-        ~Reading();
+        explicit ReadScope(const MaterialLibrary& library) noexcept;
+        ReadScope(const ReadScope&) = delete;
+        ReadScope& operator=(const ReadScope&) = delete;
+        ~ReadScope();
 
         /// Skips indices without a material; a blend without any weight becomes the first label.
         [[nodiscard]] Ingredients ingredients(const MaterialBlend& blend) const noexcept;
@@ -88,24 +88,24 @@ public:
     };
 
 private:
-    /// Owns the data that its KnownMaterial views.
+    /// Owns the data that its PreparedMaterial views.
     struct Registered {
         model::MaterialFile file;
         std::vector<float> graphLevels;
-        KnownMaterial known;
+        PreparedMaterial known;
     };
 
-    [[nodiscard]] KnownMaterial knownLabel(std::size_t label) const;
+    [[nodiscard]] PreparedMaterial prepareLabel(std::size_t label) const;
     [[nodiscard]] std::unique_ptr<const Registered> prepare(model::MaterialFile material,
                                                             const LevelSource& levels) const;
-    [[nodiscard]] const KnownMaterial& nearestLabel(std::span<const float, model::embeddingSize> embedding) const;
-    [[nodiscard]] const KnownMaterial* find(std::uint32_t index) const noexcept;
+    [[nodiscard]] const PreparedMaterial& nearestLabel(std::span<const float, model::embeddingSize> embedding) const;
+    [[nodiscard]] const PreparedMaterial* find(std::uint32_t index) const noexcept;
     [[nodiscard]] std::size_t placeOf(std::size_t index) const;
     void waitForReaders() noexcept;
 
     const model::ModelFile& model_;
     OnsetLevels levels_;
-    std::vector<KnownMaterial> labels_;
+    std::vector<PreparedMaterial> labels_;
 
     // Held while a material is registered or replaced or a label is shown.
     mutable std::mutex mutex_;

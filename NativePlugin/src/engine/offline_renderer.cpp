@@ -95,7 +95,7 @@ LiveVoiceSettings voiceSettings(const OfflineSettings& settings) {
     voice.planner.seed = settings.seed;
     voice.planner.fixedLeadSamples = LeadEstimator::samplesOf(settings.leadMs);
     // Every contact state gets a segment, however close it follows another.
-    voice.planner.shortestHopSamples = 0;
+    voice.planner.minimumHopSamples = 0;
     voice.outputRateHz = settings.outputRateHz;
     voice.fullScaleMps2 = settings.fullScaleMps2;
     return voice;

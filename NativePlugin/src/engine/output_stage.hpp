@@ -10,7 +10,6 @@ namespace haptoflow::engine {
 /// The parts of a voice that depend on the output rate. Construction allocates, so another thread than the callback's
 /// makes one for each new rate.
 struct OutputStage {
-
     /// Throws std::invalid_argument for a rate outside 8-192 kHz.
     explicit OutputStage(double outputRateHz)
         : rateHz(outputRateHz),

@@ -68,7 +68,7 @@ std::optional<std::size_t> QualityControl::tierToMeasure() const noexcept {
     return std::nullopt;
 }
 
-void QualityControl::measured(std::size_t tier, double milliseconds) noexcept {
+void QualityControl::recordMeasurement(std::size_t tier, double milliseconds) noexcept {
     if (tier >= times_.size()) {
         return;
     }
@@ -91,7 +91,7 @@ std::size_t QualityControl::rankOf(std::size_t tier) const noexcept {
     return static_cast<std::size_t>(std::ranges::find(byAccuracy_, tier) - byAccuracy_.begin());
 }
 
-bool QualityControl::isKnownToOutrun(std::size_t tier, std::size_t other) const noexcept {
+bool QualityControl::isMeasuredAsFastAs(std::size_t tier, std::size_t other) const noexcept {
     return firstMedianMs_[tier] && firstMedianMs_[other] && *firstMedianMs_[tier] <= *firstMedianMs_[other];
 }
 
@@ -105,7 +105,7 @@ void QualityControl::note(std::size_t tier, double milliseconds) noexcept {
 std::optional<std::size_t> QualityControl::fasterTier() const noexcept {
     for (std::size_t rank = rankOf(tier_); rank > 0; --rank) {
         const std::size_t tier = byAccuracy_[rank - 1];
-        if (!isKnownToOutrun(tier_, tier)) {
+        if (!isMeasuredAsFastAs(tier_, tier)) {
             return tier;
         }
     }
@@ -115,7 +115,7 @@ std::optional<std::size_t> QualityControl::fasterTier() const noexcept {
 std::optional<std::size_t> QualityControl::betterTier() const noexcept {
     for (std::size_t rank = rankOf(tier_) + 1; rank < byAccuracy_.size(); ++rank) {
         const std::size_t tier = byAccuracy_[rank];
-        const auto outruns = [&](std::size_t other) { return isKnownToOutrun(other, tier); };
+        const auto outruns = [&](std::size_t other) { return isMeasuredAsFastAs(other, tier); };
         const auto better = byAccuracy_.begin() + static_cast<std::ptrdiff_t>(rank) + 1;
         if (std::none_of(better, byAccuracy_.end(), outruns)) {
             return tier;
@@ -124,7 +124,7 @@ std::optional<std::size_t> QualityControl::betterTier() const noexcept {
     return std::nullopt;
 }
 
-void QualityControl::ran(double milliseconds, std::size_t voices) noexcept {
+void QualityControl::recordRound(double milliseconds, std::size_t voices) noexcept {
     if (voices == 0) {
         return;
     }

@@ -58,9 +58,9 @@ public:
     /// The next tier to measure; empty if all are measured.
     [[nodiscard]] std::optional<std::size_t> tierToMeasure() const noexcept;
     /// Records a measuring run of one segment. After the last one, automatic quality takes its first decision.
-    void measured(std::size_t tier, double milliseconds) noexcept;
+    void recordMeasurement(std::size_t tier, double milliseconds) noexcept;
     /// Records a live round of the present tier for `voices` voices.
-    void ran(double milliseconds, std::size_t voices) noexcept;
+    void recordRound(double milliseconds, std::size_t voices) noexcept;
     void setSettings(const QualitySettings& settings) noexcept;
 
     [[nodiscard]] double budgetMs() const noexcept { return settings_.budgetMs; }
@@ -84,7 +84,7 @@ private:
     /// fast.
     [[nodiscard]] std::optional<std::size_t> betterTier() const noexcept;
     [[nodiscard]] std::size_t rankOf(std::size_t tier) const noexcept;
-    [[nodiscard]] bool isKnownToOutrun(std::size_t tier, std::size_t other) const noexcept;
+    [[nodiscard]] bool isMeasuredAsFastAs(std::size_t tier, std::size_t other) const noexcept;
     void note(std::size_t tier, double milliseconds) noexcept;
     void stepDown() noexcept;
     void considerStepUp(std::size_t voices) noexcept;

@@ -61,5 +61,4 @@ SeamStatistics SeamMeter::statistics() const {
     return statistics;
 }
 
-
 }  // namespace haptoflow::engine

@@ -54,5 +54,4 @@ private:
     std::uint64_t otherSteps_ = 0;
 };
 
-
 }  // namespace haptoflow::engine

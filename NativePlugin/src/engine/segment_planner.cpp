@@ -14,7 +14,7 @@ namespace {
 // Waveform covered beyond the next update, so that the voice still sounds if that update is late.
 constexpr double reserveSamples = 40.0;
 // A tenth of a second of polling. The planner does not wait longer for a device that has stopped.
-constexpr int maximumLooks = 50;
+constexpr int maximumPolls = 50;
 constexpr auto segmentLength = static_cast<std::int64_t>(inference::segmentSamples);
 
 std::int64_t scaled(std::int64_t samples, double readingRate) noexcept {
@@ -51,13 +51,13 @@ bool SegmentPlanner::wake() noexcept {
     restorePast();
     const std::int64_t lead = leadSamples(playhead.blockAdvance, contact.readingRate);
     const std::int64_t start = std::min(head + lead, std::max(mirror_.coveredUntil(), head));
-    if (!isNewStream && !replaces && start < lastStart_ + settings_.shortestHopSamples) {
+    if (!isNewStream && !replaces && start < lastStart_ + settings_.minimumHopSamples) {
         return false;
     }
     replacements_ = replaces ? replacements_ + 1 : 0;
     skipUntil(contact.slides - 1);
     settledSlides_ = contact.slides;
-    looks_ = 0;
+    polls_ = 0;
     if (isNewStream) {
         ribs_.begin(playhead.streamStart, playhead.seedRibs);
     }
@@ -88,14 +88,14 @@ bool SegmentPlanner::mayReplace() const noexcept {
     // During a long block the clock stands still while new contact states arrive. Each may get a segment for the same
     // start, as often as the minimum hop fits into the block. The limit also ends the inference for a stopped clock.
     const Playhead& playhead = channels_.playhead.current();
-    return settings_.shortestHopSamples > 0 && replacements_ + 1 < playhead.blockAdvance / settings_.shortestHopSamples;
+    return settings_.minimumHopSamples > 0 && replacements_ + 1 < playhead.blockAdvance / settings_.minimumHopSamples;
 }
 
-bool SegmentPlanner::looksAgain() noexcept {
-    if (!awaitsCallback() || looks_ >= maximumLooks) {
+bool SegmentPlanner::mustPoll() noexcept {
+    if (!awaitsCallback() || polls_ >= maximumPolls) {
         return false;
     }
-    ++looks_;
+    ++polls_;
     return true;
 }
 
@@ -186,20 +186,20 @@ void SegmentPlanner::fail() noexcept {
     channels_.counters.failures.fetch_add(1, std::memory_order_relaxed);
 }
 
-ProcessorSettings SegmentPlanner::wantedProcessors() const {
+ProcessorSettings SegmentPlanner::requestedProcessors() const {
     const std::lock_guard lock(channels_.processorMutex);
     return channels_.processorSettings;
 }
 
 std::unique_ptr<Processors> SegmentPlanner::processorsFor(double rateHz) const {
     const VoiceControls& controls = channels_.controls;
-    return makeProcessors(wantedProcessors(), rateHz, controls.delaySeconds, controls.actuatorGain);
+    return makeProcessors(requestedProcessors(), rateHz, controls.delaySeconds, controls.actuatorGain);
 }
 
 void SegmentPlanner::serveProcessors() noexcept {
-    delete channels_.usedProcessors.exchange(nullptr, std::memory_order_acq_rel);
+    delete channels_.replacedProcessors.exchange(nullptr, std::memory_order_acq_rel);
     const double rateHz = channels_.stageRateHz.load(std::memory_order_acquire);
-    const std::uint64_t wantedVersion = channels_.wantedProcessors.load(std::memory_order_acquire);
+    const std::uint64_t wantedVersion = channels_.requestedProcessors.load(std::memory_order_acquire);
     const bool isServed = madeVersion_ == wantedVersion && madeRateHz_ == rateHz;
     if (rateHz == 0.0 || isServed || !channels_.lacksProcessors.load(std::memory_order_acquire)) {
         return;
@@ -219,8 +219,8 @@ void SegmentPlanner::serveProcessors() noexcept {
 
 void SegmentPlanner::serveOutputRate() noexcept {
     serveProcessors();
-    delete channels_.usedOutput.exchange(nullptr, std::memory_order_acq_rel);
-    const double rateHz = channels_.wantedRateHz.exchange(0.0, std::memory_order_acq_rel);
+    delete channels_.replacedOutput.exchange(nullptr, std::memory_order_acq_rel);
+    const double rateHz = channels_.requestedRateHz.exchange(0.0, std::memory_order_acq_rel);
     if (rateHz == 0.0) {
         return;
     }

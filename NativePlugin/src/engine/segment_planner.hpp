@@ -21,7 +21,7 @@ struct PlannerSettings {
     /// Lead in waveform samples at a reading rate of 1; empty for an estimated lead.
     std::optional<std::int64_t> fixedLeadSamples;
     /// Minimum number of samples between the starts of two segments: 5 ms.
-    std::int64_t shortestHopSamples = 10;
+    std::int64_t minimumHopSamples = 10;
 };
 
 /// The part of a voice that runs on the worker: decides which segment is needed next, from which past it continues and
@@ -36,7 +36,7 @@ public:
     /// True while the newest contact slides, has no segment yet and waits for the callback to play its onset or to
     /// advance. The worker must then check again soon, because nothing wakes it. Each call that returns true counts
     /// against a limit, which starts anew with a generated segment.
-    [[nodiscard]] bool looksAgain() noexcept;
+    [[nodiscard]] bool mustPoll() noexcept;
     /// Valid until `deliver` or the next `wake`.
     [[nodiscard]] const inference::SegmentRequest& request() const noexcept { return request_; }
     /// Sends the requested segment to the callback; adjusts the level of a blend. Returns true if the same contact
@@ -53,7 +53,7 @@ public:
     void serveOutputRate() noexcept;
 
 private:
-    [[nodiscard]] ProcessorSettings wantedProcessors() const;
+    [[nodiscard]] ProcessorSettings requestedProcessors() const;
     [[nodiscard]] std::unique_ptr<Processors> processorsFor(double rateHz) const;
     void serveProcessors() noexcept;
     [[nodiscard]] bool mayReplace() const noexcept;
@@ -89,7 +89,7 @@ private:
 
     // Number of sliding states that got a segment or were counted as skipped.
     std::uint64_t settledSlides_ = 0;
-    int looks_ = 0;
+    int polls_ = 0;
     std::uint64_t stream_ = 0;
     std::int64_t lastStart_ = 0;
     std::int64_t lastHead_ = 0;

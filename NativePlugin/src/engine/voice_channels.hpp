@@ -123,7 +123,7 @@ struct EffectCounters {
 
 /// Number of times that a contact state switched a signal on (or off), and the time from that state to the output frame
 /// at which the change begins. Written by the callback; any thread reads.
-struct SignalTurns {
+struct SignalTransitions {
     std::atomic<std::uint64_t> count{0};
     std::atomic<double> lastSeconds{0.0};
     std::atomic<double> meanSeconds{0.0};
@@ -135,8 +135,8 @@ struct SignalTurns {
 struct VoiceCounters {
     /// By effects::EffectKind, without the texture, which the other counters describe.
     std::array<EffectCounters, effects::effectKinds> effects{};
-    SignalTurns signalStarts;
-    SignalTurns signalStops;
+    SignalTransitions signalStarts;
+    SignalTransitions signalStops;
     /// Effects of the newest contact state and processors of the voice.
     std::atomic<effects::EffectMask> askedFor{0};
     std::atomic<std::uint64_t> updates{0};
@@ -203,16 +203,16 @@ struct VoiceChannels {
     bool changeProcessors(const std::function<bool(ProcessorSettings&)>& change);
 
     /// Rate of the output stage that the callback requests; 0 if it needs none.
-    std::atomic<double> wantedRateHz{0.0};
+    std::atomic<double> requestedRateHz{0.0};
     /// The stage made by the worker for the callback, and the stage that it replaced, for the worker to delete.
     std::atomic<OutputStage*> freshOutput{nullptr};
-    std::atomic<OutputStage*> usedOutput{nullptr};
+    std::atomic<OutputStage*> replacedOutput{nullptr};
 
     /// Processor settings of the voice. Any thread except the callback's changes them under the mutex.
     std::mutex processorMutex;
     ProcessorSettings processorSettings;
     /// ProcessorSettings::version for the callback, and whether the callback's processors have another version.
-    std::atomic<std::uint64_t> wantedProcessors{0};
+    std::atomic<std::uint64_t> requestedProcessors{0};
     std::atomic<bool> lacksProcessors{false};
     /// Rate of the callback's output stage.
     std::atomic<double> stageRateHz{0.0};
@@ -224,20 +224,20 @@ struct VoiceChannels {
     std::atomic<double> exposureLoweredSeconds{0.0};
     /// Processors made by the worker for the callback, and those that they replaced, for the worker to delete.
     std::atomic<Processors*> freshProcessors{nullptr};
-    std::atomic<Processors*> usedProcessors{nullptr};
+    std::atomic<Processors*> replacedProcessors{nullptr};
 
     VoiceChannels() = default;
     VoiceChannels(const VoiceChannels&) = delete;
     VoiceChannels& operator=(const VoiceChannels&) = delete;
     ~VoiceChannels() {
         delete freshOutput.load();
-        delete usedOutput.load();
+        delete replacedOutput.load();
         delete freshProcessors.load();
-        delete usedProcessors.load();
+        delete replacedProcessors.load();
     }
 };
 
-inline void SignalTurns::note(double seconds) noexcept {
+inline void SignalTransitions::note(double seconds) noexcept {
     const std::uint64_t turns = count.load(std::memory_order_relaxed) + 1;
     const double before = meanSeconds.load(std::memory_order_relaxed);
     lastSeconds.store(seconds, std::memory_order_relaxed);
@@ -250,7 +250,7 @@ inline bool VoiceChannels::changeProcessors(const std::function<bool(ProcessorSe
     if (!change(processorSettings)) {
         return false;
     }
-    wantedProcessors.store(++processorSettings.version, std::memory_order_release);
+    requestedProcessors.store(++processorSettings.version, std::memory_order_release);
     lacksProcessors.store(true, std::memory_order_release);
     return true;
 }

@@ -13,7 +13,6 @@ void count(std::atomic<std::uint64_t>& counter, std::uint64_t by = 1) noexcept {
     counter.fetch_add(by, std::memory_order_relaxed);
 }
 
-
 }  // namespace
 
 VoiceRenderer::VoiceRenderer(VoiceChannels& channels, const std::atomic<bool>& workerAlive, double outputRateHz,
@@ -102,7 +101,7 @@ void VoiceRenderer::noteRate(double rateHz) noexcept {
     channels_.isRateSupported.store(isSupported, std::memory_order_relaxed);
     if (!isSupported) {
         count(channels_.counters.unsupportedRateBlocks);
-        channels_.wantedRateHz.store(0.0, std::memory_order_release);
+        channels_.requestedRateHz.store(0.0, std::memory_order_release);
     }
 }
 
@@ -211,7 +210,7 @@ void VoiceRenderer::readBlows() noexcept {
 
 void VoiceRenderer::readSignal() noexcept {
     const bool isMoving = channels_.toAudio.current().isMoving;
-    const bool hasTurned = std::exchange(wasMoving_, isMoving) != isMoving;
+    const bool hasChanged = std::exchange(wasMoving_, isMoving) != isMoving;
     // A silence also ends the signal, which starts anew afterwards.
     if (silence_ != Silence::none && silence_ != Silence::rest) {
         return;
@@ -225,18 +224,18 @@ void VoiceRenderer::readSignal() noexcept {
     } else {
         voice_.effects().endSignal();
     }
-    if (hasTurned) {
-        noteSignalTurn(isWanted ? channels_.counters.signalStarts : channels_.counters.signalStops);
+    if (hasChanged) {
+        noteSignalTransition(isWanted ? channels_.counters.signalStarts : channels_.counters.signalStops);
     }
 }
 
-void VoiceRenderer::noteSignalTurn(SignalTurns& turns) noexcept {
+void VoiceRenderer::noteSignalTransition(SignalTransitions& turns) noexcept {
     const double sinceSeconds = channels_.toAudio.current().movingSinceSeconds;
     turns.note(std::max(0.0, channels_.clock() - sinceSeconds) + voice_.effects().delaySeconds());
 }
 
 void VoiceRenderer::takeProcessors() noexcept {
-    const std::uint64_t wantedVersion = channels_.wantedProcessors.load(std::memory_order_acquire);
+    const std::uint64_t wantedVersion = channels_.requestedProcessors.load(std::memory_order_acquire);
     const bool lacks = wantedVersion != voice_.effects().version();
     // Store only changes, because the worker reads other data on the same cache line.
     if (channels_.stageRateHz.load(std::memory_order_relaxed) != voice_.outputRateHz()) {
@@ -246,7 +245,7 @@ void VoiceRenderer::takeProcessors() noexcept {
         channels_.lacksProcessors.store(lacks, std::memory_order_release);
     }
     // Only one used set at a time waits for the worker to delete it.
-    if (channels_.usedProcessors.load(std::memory_order_acquire) != nullptr) {
+    if (channels_.replacedProcessors.load(std::memory_order_acquire) != nullptr) {
         return;
     }
     EffectStage& stage = voice_.effects();
@@ -254,7 +253,7 @@ void VoiceRenderer::takeProcessors() noexcept {
     if (isSilent) {
         stage.finishHandOver();
     }
-    std::unique_ptr<Processors> used = stage.takeUsed();
+    std::unique_ptr<Processors> used = stage.takeReplaced();
     if (used == nullptr && !stage.isHandingOver()) {
         // Only this thread takes them, so this cheap check suffices to avoid the costly exchange.
         if (channels_.freshProcessors.load(std::memory_order_relaxed) == nullptr) {
@@ -271,7 +270,7 @@ void VoiceRenderer::takeProcessors() noexcept {
             used = std::move(fresh);
         }
     }
-    channels_.usedProcessors.store(used.release(), std::memory_order_release);
+    channels_.replacedProcessors.store(used.release(), std::memory_order_release);
 }
 
 void VoiceRenderer::takeSegments() noexcept {
@@ -297,19 +296,19 @@ void VoiceRenderer::takeSegments() noexcept {
 void VoiceRenderer::requestOutput(double rateHz) noexcept {
     // Only one used stage at a time waits for the worker to delete it; until then, the voice keeps its present stage.
     // The request makes the next published state wake the worker.
-    if (channels_.usedOutput.load(std::memory_order_acquire) != nullptr) {
-        channels_.wantedRateHz.store(rateHz, std::memory_order_release);
+    if (channels_.replacedOutput.load(std::memory_order_acquire) != nullptr) {
+        channels_.requestedRateHz.store(rateHz, std::memory_order_release);
         return;
     }
     std::unique_ptr<OutputStage> fresh(channels_.freshOutput.exchange(nullptr, std::memory_order_acq_rel));
     if (fresh == nullptr) {
-        channels_.wantedRateHz.store(rateHz, std::memory_order_release);
+        channels_.requestedRateHz.store(rateHz, std::memory_order_release);
         return;
     }
     const bool fits = fresh->rateHz == rateHz;
     std::unique_ptr<OutputStage> used = fits ? voice_.exchangeOutput(std::move(fresh)) : std::move(fresh);
-    channels_.wantedRateHz.store(fits ? 0.0 : rateHz, std::memory_order_release);
-    channels_.usedOutput.store(used.release(), std::memory_order_release);
+    channels_.requestedRateHz.store(fits ? 0.0 : rateHz, std::memory_order_release);
+    channels_.replacedOutput.store(used.release(), std::memory_order_release);
     if (fits) {
         count(channels_.counters.rateChanges);
     }

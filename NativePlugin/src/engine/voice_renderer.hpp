@@ -49,7 +49,7 @@ private:
     void begin() noexcept;
     void readBlows() noexcept;
     void readSignal() noexcept;
-    void noteSignalTurn(SignalTurns& turns) noexcept;
+    void noteSignalTransition(SignalTransitions& turns) noexcept;
     void takeProcessors() noexcept;
     void reportEffects() noexcept;
     void reportExposure() noexcept;

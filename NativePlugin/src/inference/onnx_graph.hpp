@@ -32,7 +32,7 @@ public:
     void setBatch(std::size_t batch);
 
     /// Whether the graph has the input at this position of the signature.
-    [[nodiscard]] bool reads(std::size_t input) const { return present_.at(input); }
+    [[nodiscard]] bool hasInput(std::size_t input) const { return present_.at(input); }
     /// Buffer of the input at this position of the signature, batch * its size numbers. May be written even if the
     /// graph lacks the input, and then has no effect.
     [[nodiscard]] std::span<float> input(std::size_t input);

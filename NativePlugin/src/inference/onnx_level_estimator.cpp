@@ -11,7 +11,6 @@
 
 namespace haptoflow::inference {
 
-
 OnnxLevelEstimator::OnnxLevelEstimator(std::shared_ptr<const Runtime> runtime, const model::ModelFile& model,
                                        const model::Tier& tier, const LoadLimits& limits)
     : graph_(loadLevel(std::move(runtime), model, tier, levelBatch, limits)) {}

@@ -114,7 +114,7 @@ TEST(ActuatorProfileTest, HostileTextIsRefusedInOneLine) {
                                    "{",
                                    "NaN",
                                    deep,
-                                   std::string(ActuatorProfile::largestTextBytes + 1, ' '),
+                                   std::string(ActuatorProfile::maximumTextBytes + 1, ' '),
                                    manyPoints + "]}",
                                    with("-3", "NaN"),
                                    with("-3", "Infinity"),

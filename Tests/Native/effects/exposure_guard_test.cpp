@@ -225,7 +225,7 @@ TEST(ExposureGuardTest, NothingIsLoweredBeyondTheLowestGain) {
     ExposureGuard guard(voiceRateHz, law);
     Session session(guard);
     session.play(120.0, fullScale);
-    EXPECT_NEAR(guard.report().gain, law.lowestGain, 1e-9);
+    EXPECT_NEAR(guard.report().gain, law.minimumGain, 1e-9);
     // From there, not from below it, the level comes back, once the gain was corrected: 40 dB in 40 s.
     guard.setActuatorGain(1.0);
     guard.passSilence(static_cast<std::uint64_t>(480.0 * voiceRateHz));
@@ -351,7 +351,7 @@ TEST(ExposureGuardTest, LawsAndRatesThatMakeNoSenseAreRefused) {
     law.dailyMps2 = 0.0;
     EXPECT_THROW(ExposureGuard(voiceRateHz, law), std::invalid_argument);
     law = {};
-    law.lowestGain = 1.5;
+    law.minimumGain = 1.5;
     EXPECT_THROW(ExposureGuard(voiceRateHz, law), std::invalid_argument);
     law = {};
     law.slewDbPerSecond = std::numeric_limits<double>::quiet_NaN();
@@ -389,7 +389,7 @@ TEST(ExposureGuardTest, TenMinutesOfRandomLevelsGainsAndPausesStayWithinTheLaw) 
                 break;
         }
         const ExposureReport report = guard.report();
-        ASSERT_GE(report.gain, law.lowestGain * (1.0 - 1e-9));
+        ASSERT_GE(report.gain, law.minimumGain * (1.0 - 1e-9));
         ASSERT_LE(report.gain, 1.0);
         ASSERT_TRUE(std::isfinite(report.dailyMps2));
         ASSERT_EQ(report.reason == ExposureReason::none, report.gain == 1.0);

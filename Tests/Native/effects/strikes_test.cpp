@@ -57,7 +57,7 @@ TEST(StrikesTest, TheAmplitudeIsProportionalToTheSpeedFromOneCentimetreToTwoMetr
     for (const double speedMps : {0.01, 0.03, 0.1, 0.3, 0.7, 2.0}) {
         EXPECT_NEAR(peakAt(speedMps) / (speedMps * atOne), 1.0, 1e-4) << speedMps;
     }
-    EXPECT_DOUBLE_EQ(peakAt(7.0), peakAt(Strikes::highestSpeedMps));
+    EXPECT_DOUBLE_EQ(peakAt(7.0), peakAt(Strikes::maximumStrikeMps));
 }
 
 TEST(StrikesTest, ReboundsComeAfterTheirFlightsSofterEachTime) {

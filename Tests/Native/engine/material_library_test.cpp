@@ -227,9 +227,9 @@ TEST(MaterialLibraryTest, WhatPublishersReadStaysWholeWhileMaterialsAreReplacedA
     for (int reader = 0; reader < 3; ++reader) {
         readers.emplace_back([&] {
             while (!ended) {
-                const MaterialLibrary::Reading reading(small.library);
+                const MaterialLibrary::ReadScope reading(small.library);
                 const Ingredients found = reading.ingredients(testing::blendOf({{2, 1.0F}}));
-                const KnownMaterial& material = *found.heaviest().material;
+                const PreparedMaterial& material = *found.heaviest().material;
                 const float first = material.embedding[0];
                 const auto letter = static_cast<char>('a' + static_cast<int>(first) % 26);
                 const bool isWhole = std::ranges::all_of(material.embedding, [first](float v) { return v == first; }) &&

@@ -84,7 +84,7 @@ protected:
     PowerLaw graph_;
     /// Level of a blend at a motion.
     [[nodiscard]] float levelOf(std::initializer_list<LabelWeight> entries, const std::array<float, 3>& motion) const {
-        return MaterialLibrary::Reading(library_).ingredients(testing::blendOf(entries)).levelMps2(motion);
+        return MaterialLibrary::ReadScope(library_).ingredients(testing::blendOf(entries)).levelMps2(motion);
     }
     MaterialLibrary library_{model_, graph_};
 };

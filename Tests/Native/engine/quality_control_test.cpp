@@ -17,14 +17,14 @@ QualityControl measuredControl(double first, double second, double third) {
     QualityControl control(3, {.fixedTier = std::nullopt, .budgetMs = budgetMs}, 1);
     const std::array<double, 3> times{first, second, third};
     while (const auto tier = control.tierToMeasure()) {
-        control.measured(*tier, times.at(*tier));
+        control.recordMeasurement(*tier, times.at(*tier));
     }
     return control;
 }
 
 void runRounds(QualityControl& control, int rounds, double milliseconds, std::size_t voices = 1) {
     for (int round = 0; round < rounds; ++round) {
-        control.ran(milliseconds, voices);
+        control.recordRound(milliseconds, voices);
     }
 }
 
@@ -54,7 +54,7 @@ TEST(QualityControlTest, EachTierIsMeasuredTwentyTimesBeforeItDecides) {
     int runs = 0;
     while (const auto tier = control.tierToMeasure()) {
         EXPECT_EQ(control.tier(), 0U);
-        control.measured(*tier, 0.1);
+        control.recordMeasurement(*tier, 0.1);
         ++runs;
     }
     EXPECT_EQ(runs, 40);
@@ -65,7 +65,7 @@ TEST(QualityControlTest, RareOverrunsChangeNothingAndThreeCloseTogetherStepDown)
     QualityControl control = measuredControl(0.2, 0.5, 1.5);
     for (int i = 0; i < 20; ++i) {
         runRounds(control, 40, 1.5);
-        control.ran(9.0, 1);
+        control.recordRound(9.0, 1);
     }
     EXPECT_EQ(control.tier(), 2U);
     runRounds(control, 3, 9.0);
@@ -87,7 +87,7 @@ TEST(QualityControlTest, ItStepsUpAgainOnlyAfterALongQuietTimeAndLongerAfterEach
         const std::size_t fallen = control.tier();
         int rounds = 0;
         while (control.tier() == fallen && rounds < 100000) {
-            control.ran(0.5, 1);
+            control.recordRound(0.5, 1);
             ++rounds;
         }
         return rounds;
@@ -112,11 +112,11 @@ TEST(QualityControlTest, ItDoesNotStepUpToWhatWouldNotFitForSoManyVoices) {
 TEST(QualityControlTest, MoreVoicesThanTheTierFitsForStepItDownBeforeAnythingOverruns) {
     QualityControl control = measuredControl(0.2, 0.5, 1.5);
     ASSERT_EQ(control.tier(), 2U);
-    control.ran(1.5, 1);
+    control.recordRound(1.5, 1);
     EXPECT_EQ(control.tier(), 2U);
-    control.ran(2.5, 3);
+    control.recordRound(2.5, 3);
     EXPECT_EQ(control.tier(), 1U) << "three of 1.5 ms are more than 3 ms";
-    control.ran(2.5, 12);
+    control.recordRound(2.5, 12);
     EXPECT_EQ(control.tier(), 0U) << "twelve of 0.5 ms";
 }
 
@@ -133,7 +133,7 @@ QualityControl controlByAccuracy(double first, double second, double third) {
     QualityControl control(3, {.fixedTier = std::nullopt, .budgetMs = budgetMs}, 1, {0, 2, 1});
     const std::array<double, 3> times{first, second, third};
     while (const auto tier = control.tierToMeasure()) {
-        control.measured(*tier, times.at(*tier));
+        control.recordMeasurement(*tier, times.at(*tier));
     }
     return control;
 }
@@ -180,7 +180,7 @@ TEST(QualityControlTest, TooSlowAMachineGetsTheFastestTierWhereverItStands) {
     QualityControl control(3, {.fixedTier = std::nullopt, .budgetMs = budgetMs}, 0, {0, 1, 2});
     const std::array<double, 3> times{40.0, 20.0, 80.0};
     while (const auto tier = control.tierToMeasure()) {
-        control.measured(*tier, times.at(*tier));
+        control.recordMeasurement(*tier, times.at(*tier));
     }
     EXPECT_EQ(control.tier(), 1U);
 }

@@ -25,7 +25,7 @@ protected:
         MaterialBlend blend;
         blend.entries[0] = {.label = static_cast<std::uint32_t>(label), .weight = 1.0F};
         blend.count = 1;
-        const Material material = resolveMaterial(MaterialLibrary::Reading(library_).ingredients(blend));
+        const Material material = resolveMaterial(MaterialLibrary::ReadScope(library_).ingredients(blend));
         std::vector<inference::SegmentRequest> requests;
         std::vector<double> result;
         for (const auto& motion : motions) {

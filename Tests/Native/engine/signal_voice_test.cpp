@@ -233,8 +233,8 @@ TEST_F(SignalVoiceTest, LatencyIsCountedFromTheFirstStateThatAsksForTheChangeToT
     device_.publish(sliding(0.16F));
     nowSeconds = 101.010;
     device_.renderBlock();
-    const SignalTurns& starts = device_.counters().signalStarts;
-    const SignalTurns& stops = device_.counters().signalStops;
+    const SignalTransitions& starts = device_.counters().signalStarts;
+    const SignalTransitions& stops = device_.counters().signalStops;
     EXPECT_EQ(starts.count, 1U);
     EXPECT_NEAR(starts.lastSeconds, 0.010, 1e-9);
     nowSeconds = 102.0;

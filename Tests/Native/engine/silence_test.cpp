@@ -120,7 +120,7 @@ TEST_F(SilenceTest, ARateThatNoOutputRunsAtIsCountedNamedAndAsksTheWorkerForNoth
         EXPECT_EQ(device.counters().unsupportedRateBlocks, 3U) << impossible;
         EXPECT_EQ(reason(device), Silence::rate) << impossible;
         EXPECT_FALSE(device.voice().channels.isRateSupported) << impossible;
-        EXPECT_EQ(device.voice().channels.wantedRateHz.load(), 0.0) << "nothing wakes the worker";
+        EXPECT_EQ(device.voice().channels.requestedRateHz.load(), 0.0) << "nothing wakes the worker";
         device.run(0.1, slide);
         EXPECT_EQ(reason(device), Silence::none) << "back at a rate that it runs at";
         EXPECT_TRUE(device.voice().channels.isRateSupported);

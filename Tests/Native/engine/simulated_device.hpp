@@ -80,7 +80,7 @@ public:
                 for (std::size_t block = 0; block < settings_.burstBlocks; ++block) {
                     renderBlock();
                 }
-                if (voice_.planner.looksAgain()) {
+                if (voice_.planner.mustPoll()) {
                     wakeWorker();
                 }
             }

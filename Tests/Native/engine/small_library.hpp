@@ -23,7 +23,7 @@ struct SmallLibrary {
 
     /// What a blend is made of; valid while nothing is replaced.
     [[nodiscard]] Ingredients ingredients(const MaterialBlend& blend) const {
-        return MaterialLibrary::Reading(library).ingredients(blend);
+        return MaterialLibrary::ReadScope(library).ingredients(blend);
     }
     [[nodiscard]] Ingredients ingredients(std::initializer_list<LabelWeight> entries) const {
         return ingredients(blendOf(entries));

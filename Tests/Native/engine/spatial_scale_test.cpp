@@ -91,15 +91,15 @@ protected:
     /// Turns of the ribs from segment to segment over samples from segment to segment.
     [[nodiscard]] double turnsPerSample(const SimulatedDevice& device, std::size_t segment) const {
         const double turns =
-            static_cast<double>(asked_[segment].phase) - static_cast<double>(asked_[segment - 1].phase);
+            static_cast<double>(requested_[segment].phase) - static_cast<double>(requested_[segment - 1].phase);
         const auto hop = static_cast<double>(device.waveform.seams[segment] - device.waveform.seams[segment - 1]);
         return (turns - std::floor(turns)) / hop;
     }
 
     model::ModelFile model_ = ruledModel();
-    std::vector<Asked> asked_;
+    std::vector<Asked> requested_;
     FakeGenerator generator_{[this](const inference::SegmentRequest& request, std::span<float> segment) {
-        asked_.push_back({request.ribPhase[0], request.motion, request.levelMotion.value_or(request.motion)});
+        requested_.push_back({request.ribPhase[0], request.motion, request.levelMotion.value_or(request.motion)});
         std::ranges::copy(request.noise, segment.begin());
     }};
 };
@@ -107,15 +107,15 @@ protected:
 TEST_F(SpatialScaleTest, AScaleOfTwoHalvesThePitchOfRibsExactlyAndOneOfAHalfDoublesIt) {
     // 0.1 m/s over 0.2 ribs a millimetre: 20 ribs a second, 0.01 a sample.
     for (const auto& [scale, turns] : {std::pair{1.0F, 0.01}, {2.0F, 0.005}, {0.5F, 0.02}, {4.0F, 0.0025}}) {
-        asked_.clear();
+        requested_.clear();
         SimulatedDevice device(model_, generator_);
         device.run(0.5, [scale = scale](double) { return scaled(scale); });
         ASSERT_GT(device.waveform.seams.size(), 10U);
         for (std::size_t segment = 5; segment < device.waveform.seams.size(); ++segment) {
             EXPECT_NEAR(turnsPerSample(device, segment), turns, 1e-6) << "scale " << scale;
         }
-        EXPECT_FLOAT_EQ(asked_.back().motion[0], 0.1F / scale);
-        EXPECT_FLOAT_EQ(asked_.back().levelMotion[0], 0.1F);
+        EXPECT_FLOAT_EQ(requested_.back().motion[0], 0.1F / scale);
+        EXPECT_FLOAT_EQ(requested_.back().levelMotion[0], 0.1F);
     }
 }
 
@@ -125,7 +125,7 @@ TEST_F(SpatialScaleTest, AScaleThatChangesWithinATouchLeavesThePhaseOfTheRibsCon
     ASSERT_EQ(device.counters().dropped + device.counters().late, 0U);
     for (std::size_t segment = 2; segment < device.waveform.seams.size(); ++segment) {
         // From one segment to the next the ribs go on as the earlier one said.
-        const double expected = 0.2 * static_cast<double>(asked_[segment - 1].motion[0]) * 1000.0 / 2000.0;
+        const double expected = 0.2 * static_cast<double>(requested_[segment - 1].motion[0]) * 1000.0 / 2000.0;
         EXPECT_NEAR(turnsPerSample(device, segment), expected, 1e-5) << segment;
     }
 }

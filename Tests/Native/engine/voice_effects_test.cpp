@@ -453,7 +453,7 @@ protected:
         }
         delete device.voice().channels.freshProcessors.exchange(fresh.release());
     }
-    static void collect(SimulatedDevice& device) { delete device.voice().channels.usedProcessors.exchange(nullptr); }
+    static void collect(SimulatedDevice& device) { delete device.voice().channels.replacedProcessors.exchange(nullptr); }
 
     int alive_ = 0;
     std::uint64_t version_ = 0;
@@ -496,7 +496,7 @@ TEST_F(ProcessorsTest, AtRestTheyAreTakenAtOnceAndDoNotRun) {
 void ask(SimulatedDevice& device, const std::function<void(ProcessorSettings&)>& change) {
     VoiceChannels& channels = device.voice().channels;
     change(channels.processorSettings);
-    channels.wantedProcessors = ++channels.processorSettings.version;
+    channels.requestedProcessors = ++channels.processorSettings.version;
     channels.lacksProcessors = true;
     device.voice().planner.serveOutputRate();
 }

@@ -1,4 +1,4 @@
-#include "engine/known_material.hpp"
+#include "engine/prepared_material.hpp"
 
 #include "inference/segment_generator.hpp"
 
@@ -24,7 +24,7 @@ dsp::ToneCepstrum ToneTable::at(double speedMps) const noexcept {
     return cepstrum;
 }
 
-double KnownMaterial::logLevel(const std::array<float, 3>& motion) const noexcept {
+double PreparedMaterial::logLevel(const std::array<float, 3>& motion) const noexcept {
     const double offset = label->levelOffsetDb * dsp::nepersPerDecibel;
     if (!label->level) {
         return grid->at(*graphLevels, motion) + offset;
@@ -33,7 +33,7 @@ double KnownMaterial::logLevel(const std::array<float, 3>& motion) const noexcep
     return std::clamp(own + offset, -inference::maximumLogLevel, inference::maximumLogLevel);
 }
 
-double KnownMaterial::forceExponent() const noexcept {
+double PreparedMaterial::forceExponent() const noexcept {
     return label->level ? label->level->forceExponent : label->forceLevelExponent;
 }
 

@@ -32,7 +32,7 @@ private:
 
 /// A label of the model or a registered material, prepared for contact states. Views the data it was made from.
 /// Immutable.
-struct KnownMaterial {
+struct PreparedMaterial {
     const model::Label* label = nullptr;
     std::span<const float, model::embeddingSize> embedding = noEmbedding;
     const LevelGrid* grid = nullptr;
