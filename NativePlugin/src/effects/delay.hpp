@@ -66,7 +66,6 @@ private:
     std::size_t previous_ = 0;
     /// Completed steps of the crossfade; its length if none is in progress.
     std::size_t faded_;
-
     std::atomic<double> declaredSeconds_{0.0};
 };
 

@@ -2,7 +2,6 @@
 
 #include "capi/voice_rendering.hpp"
 #include "dsp/gain_ramp.hpp"
-
 #include "unity/pass_through.hpp"
 #include "unity/voice_claim.hpp"
 #include "unity/voice_parameters.hpp"

@@ -20,7 +20,7 @@ float denormalTimesALot() {
     return denormal * lot;
 }
 
-TEST(DenormalsTest, ResultsAndOperandsAreFlushedInsideAndRestoredAfter) {
+TEST(DenormalsTest, DenormalResultsAndOperandsAreFlushedOnlyWithinTheScope) {
     if (!ScopedFlushDenormals::isSupported) {
         GTEST_SKIP() << "this processor has no mode for it";
     }

@@ -46,7 +46,7 @@ std::size_t settle(Player& player, double ratio) {
     return count;
 }
 
-TEST(RateWarpTest, AtRatioOneTheOutputIsTheInputBitForBitWithoutDelay) {
+TEST(RateWarpTest, AtRatioOneTheOutputEqualsTheInputWithoutDelay) {
     Player player{.waveform = whiteNoise(1000, 10.0, 71)};
     const std::vector<float> output = player.play(900);
     EXPECT_TRUE(player.warp.isTransparent());
@@ -56,7 +56,7 @@ TEST(RateWarpTest, AtRatioOneTheOutputIsTheInputBitForBitWithoutDelay) {
     EXPECT_EQ(player.position, output.size()) << "nothing is read ahead";
 }
 
-TEST(RateWarpTest, LeavingRatioOneReadsAheadAndNeitherRepeatsNorSkipsASample) {
+TEST(RateWarpTest, WhenTheRatioLeavesOneNoSampleIsRepeatedOrSkipped) {
     // A straight line shows every jump of the read position: output and position must agree to the kernel's ripple.
     Player player{};
     for (int i = 0; i < 4000; ++i) {
@@ -74,7 +74,7 @@ TEST(RateWarpTest, LeavingRatioOneReadsAheadAndNeitherRepeatsNorSkipsASample) {
     EXPECT_DOUBLE_EQ(player.warp.readPosition(), static_cast<double>(player.position)) << "the delay is gone again";
 }
 
-TEST(RateWarpTest, PrimedItGoesOnAsIfItHadPlayedThePastAtAnyLaterRatio) {
+TEST(RateWarpTest, APrimedWarpContinuesAsIfItHadPlayedThePast) {
     const std::vector<float> waveform = whiteNoise(2000, 1.0, 81);
     Player played{.waveform = waveform};
     (void)played.play(200);
@@ -88,7 +88,7 @@ TEST(RateWarpTest, PrimedItGoesOnAsIfItHadPlayedThePastAtAnyLaterRatio) {
     }
 }
 
-TEST(RateWarpTest, BackFromAnyRatioTheOutputIsTheInputBitForBitAgain) {
+TEST(RateWarpTest, AfterReturningToRatioOneTheOutputEqualsTheInputAgain) {
     Uniform uniform(72);
     Player player{.waveform = whiteNoise(400000, 10.0, 73)};
     for (int round = 0; round < 40; ++round) {
@@ -106,7 +106,7 @@ TEST(RateWarpTest, BackFromAnyRatioTheOutputIsTheInputBitForBitAgain) {
     }
 }
 
-TEST(RateWarpTest, AToneComesOutAtItsFrequencyTimesTheRatioAtItsOwnAmplitude) {
+TEST(RateWarpTest, ATonesFrequencyIsMultipliedByTheRatioAndItsAmplitudeIsKept) {
     // Output frequencies are whole hertz, so that one second holds whole periods.
     for (const double ratio : {1.2, 1.5, 2.0, 2.5, 3.3, 4.0}) {
         for (const std::size_t outputHz : {30U, 200U, 400U, 600U}) {
@@ -124,7 +124,7 @@ TEST(RateWarpTest, AToneComesOutAtItsFrequencyTimesTheRatioAtItsOwnAmplitude) {
     }
 }
 
-TEST(RateWarpTest, WhatWouldLandAboveHalfTheRateIsGoneInsteadOfFoldedDown) {
+TEST(RateWarpTest, FrequenciesThatWouldAliasAreRemoved) {
     for (const double ratio : {1.2, 1.7, 2.5, 4.0}) {
         const double lowestHz = std::ceil(1000.0 / ratio);
         Player player{.waveform = wholeHertzNoise(10, static_cast<int>(lowestHz) + 1, 999, 2000, 74)};
@@ -135,7 +135,7 @@ TEST(RateWarpTest, WhatWouldLandAboveHalfTheRateIsGoneInsteadOfFoldedDown) {
     }
 }
 
-TEST(RateWarpTest, NoiseUpToHalfTheRateAtRatioTwoAndAHalfShowsOnlyItsOwnLowerPart) {
+TEST(RateWarpTest, NoiseAtRatioTwoAndAHalfShowsNoAliases) {
     // With only every 10th hertz occupied, lines land on multiples of 25 Hz; whatever lies between has folded.
     std::vector<float> waveform(20000, 0.0F);
     Uniform uniform(75);
@@ -185,7 +185,7 @@ TEST(RateWarpTest, SweepingTheRatioUpAndDownAddsNoClick) {
     }
 }
 
-TEST(RateWarpTest, EveryOutputIsTheWaveformAtTheReadPositionWhichMovesWithoutAJerk) {
+TEST(RateWarpTest, EveryOutputIsTheWaveformAtASmoothlyMovingReadPosition) {
     constexpr double frequency = 100.0;
     Player player{.waveform = tone(40000, frequency, 1.0, rateHz)};
     (void)player.play(50);
@@ -210,7 +210,7 @@ TEST(RateWarpTest, EveryOutputIsTheWaveformAtTheReadPositionWhichMovesWithoutAJe
     EXPECT_TRUE(player.warp.isTransparent());
 }
 
-TEST(RateWarpTest, AnyPartitionIntoBlocksGivesTheSameBits) {
+TEST(RateWarpTest, TheBlockLengthsDoNotChangeTheOutput) {
     Player whole{.waveform = whiteNoise(10000, 1.0, 76)};
     Player blocks{.waveform = whole.waveform};
     for (const double ratio : {1.0, 3.7, 1.3, 1.0}) {
@@ -227,7 +227,7 @@ TEST(RateWarpTest, AnyPartitionIntoBlocksGivesTheSameBits) {
     }
 }
 
-TEST(RateWarpTest, ConsumptionKeepsStepWithTheRatioAndTheReadPositionTrailsByTenTimesIt) {
+TEST(RateWarpTest, TheWarpConsumesAtTheRatioAndReadsTenTimesTheRatioBehind) {
     Player player{.waveform = whiteNoise(20000, 1.0, 77)};
     settle(player, 2.5);
     const std::size_t before = player.position;

@@ -45,7 +45,7 @@ SeamPower seamPower(double share, std::size_t length) {
     return power;
 }
 
-TEST(SpliceTest, TheLevelHoldsAcrossTheSeamForUnrelatedHalfRelatedAndAlikeWaveforms) {
+TEST(SpliceTest, TheLevelIsConstantAcrossTheSeamForAnyCorrelation) {
     for (const double share : {0.0, 0.5, 0.9}) {
         for (const std::size_t length : {1U, 2U, 4U}) {
             const SeamPower power = seamPower(share, length);
@@ -57,7 +57,7 @@ TEST(SpliceTest, TheLevelHoldsAcrossTheSeamForUnrelatedHalfRelatedAndAlikeWavefo
     }
 }
 
-TEST(SpliceTest, IdenticalWaveformsPassUnchangedBitForBit) {
+TEST(SpliceTest, IdenticalWaveformsPassUnchanged) {
     const std::vector<float> waveform = whiteNoise(40, 37.3, 5);
     Splice splice;
     splice.begin(waveform, waveform, 4);
@@ -66,7 +66,7 @@ TEST(SpliceTest, IdenticalWaveformsPassUnchangedBitForBit) {
     }
 }
 
-TEST(SpliceTest, AfterItsLastSampleTheSuccessorSoundsAloneBitForBit) {
+TEST(SpliceTest, AfterTheSpliceTheSuccessorPassesUnchanged) {
     const std::vector<float> old = whiteNoise(40, 1.0, 6);
     const std::vector<float> successor = whiteNoise(40, 1.0, 7);
     Splice splice;
@@ -79,7 +79,7 @@ TEST(SpliceTest, AfterItsLastSampleTheSuccessorSoundsAloneBitForBit) {
     EXPECT_EQ(splice.next(1e9F, successor[4]), successor[4]);
 }
 
-TEST(SpliceTest, LengthZeroHandsOverAtOnceAndLongerThanFourIsFour) {
+TEST(SpliceTest, ALengthOfZeroSwitchesAtOnceAndTheLengthIsLimitedToFour) {
     const std::vector<float> old(40, 1.0F);
     const std::vector<float> successor(40, 2.0F);
     Splice splice;
@@ -98,7 +98,7 @@ TEST(SpliceTest, LengthZeroHandsOverAtOnceAndLongerThanFourIsFour) {
     EXPECT_EQ(length, 2) << "no further than the continuation reaches";
 }
 
-TEST(SpliceTest, SilenceOnEitherSideStaysFiniteAndNeverRaisesTheOther) {
+TEST(SpliceTest, SilenceOnEitherSideGivesFiniteGainsOfAtMostOne) {
     const std::vector<float> silence(40, 0.0F);
     const std::vector<float> loud = whiteNoise(40, 50.0, 8);
     for (const auto& [old, successor] : {std::pair{silence, silence}, {silence, loud}, {loud, silence}}) {
@@ -114,7 +114,7 @@ TEST(SpliceTest, SilenceOnEitherSideStaysFiniteAndNeverRaisesTheOther) {
     }
 }
 
-TEST(SpliceTest, CorrelationIsOneForScaledCopiesZeroForOppositesAndIgnoresWhatLiesBeyond32Samples) {
+TEST(SpliceTest, TheCorrelationIsOneForScaledCopiesAndZeroForOppositesWithin32Samples) {
     std::vector<float> waveform = whiteNoise(64, 1.0, 9);
     std::vector<float> louder = waveform;
     std::vector<float> opposite = waveform;
@@ -130,7 +130,7 @@ TEST(SpliceTest, CorrelationIsOneForScaledCopiesZeroForOppositesAndIgnoresWhatLi
     EXPECT_EQ(spliceCorrelation(waveform, louder), before);
 }
 
-TEST(SpliceTest, ANonFiniteSampleLeavesTheGainsFinite) {
+TEST(SpliceTest, ANonFiniteSampleGivesFiniteGains) {
     std::vector<float> old = whiteNoise(40, 1.0, 10);
     const std::vector<float> successor = whiteNoise(40, 1.0, 11);
     for (const float bad : {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity()}) {

@@ -42,20 +42,20 @@ std::array<float, ToneFilter::memorySamples> silence() {
     return {};
 }
 
-TEST(ToneCepstrumTest, TheKernelHasTheGainThatWasAskedFor) {
+TEST(ToneCepstrumTest, TheKernelHasTheRequestedGain) {
     const ToneKernel kernel = toneKernel(toneCepstrum(rising));
     for (double frequencyHz = 30.0; frequencyHz < 950.0; frequencyHz *= 1.1) {
         EXPECT_NEAR(responseDb(kernel, frequencyHz), rising(frequencyHz), 0.4) << frequencyHz;
     }
 }
 
-TEST(ToneCepstrumTest, NoGainIsTheIdentity) {
+TEST(ToneCepstrumTest, AGainOfZeroDecibelsGivesTheUnitImpulse) {
     const ToneKernel kernel = toneKernel(toneCepstrum([](double) { return 0.0; }));
     EXPECT_NEAR(kernel[0], 1.0F, 1e-6F);
     EXPECT_TRUE(std::all_of(kernel.begin() + 1, kernel.end(), [](float tap) { return std::abs(tap) < 1e-6F; }));
 }
 
-TEST(ToneCepstrumTest, TheKernelIsMinimumPhaseSoThatNoOtherOfItsGainComesEarlier) {
+TEST(ToneCepstrumTest, TheKernelIsMinimumPhase) {
     const ToneKernel kernel = toneKernel(toneCepstrum(rising));
     // Of all filters of one magnitude, the minimum-phase one has the largest first tap, which is the mean of the
     // logarithmic gain over frequency.
@@ -66,7 +66,7 @@ TEST(ToneCepstrumTest, TheKernelIsMinimumPhaseSoThatNoOtherOfItsGainComesEarlier
     EXPECT_NEAR(20.0 * std::log10(static_cast<double>(kernel[0])), mean, 0.1);
 }
 
-TEST(ToneCepstrumTest, GainsInDecibelsAddWhereCepstraDo) {
+TEST(ToneCepstrumTest, AddingCepstraAddsGainsInDecibels) {
     const ToneCepstrum first = toneCepstrum(rising);
     const ToneCepstrum second = toneCepstrum([](double frequencyHz) { return frequencyHz < 200.0 ? 3.0 : -2.0; });
     ToneCepstrum sum{};
@@ -76,7 +76,7 @@ TEST(ToneCepstrumTest, GainsInDecibelsAddWhereCepstraDo) {
     EXPECT_NEAR(responseDb(kernel, 600.0), rising(600.0) - 1.0, 0.5);
 }
 
-TEST(ToneFilterTest, WithoutAToneNothingIsChangedAndNothingRuns) {
+TEST(ToneFilterTest, WithoutAToneTheFilterIsInactiveAndChangesNothing) {
     ToneFilter filter;
     std::vector<float> samples = tone(100.0, 500);
     const std::vector<float> before = samples;
@@ -87,7 +87,7 @@ TEST(ToneFilterTest, WithoutAToneNothingIsChangedAndNothingRuns) {
     EXPECT_FALSE(filter.isActive());
 }
 
-TEST(ToneFilterTest, ATonePassesWithTheGainOfItsFrequency) {
+TEST(ToneFilterTest, ASinusoidGetsTheTonesGainAtItsFrequency) {
     const ToneKernel kernel = toneKernel(toneCepstrum(rising));
     for (const double frequencyHz : {60.0, 150.0, 400.0, 800.0}) {
         ToneFilter filter;
@@ -102,7 +102,7 @@ TEST(ToneFilterTest, ATonePassesWithTheGainOfItsFrequency) {
     }
 }
 
-TEST(ToneFilterTest, InPiecesOfAnyLengthItIsTheSameFilter) {
+TEST(ToneFilterTest, TheBlockLengthsDoNotChangeTheFilteredSignal) {
     const ToneKernel kernel = toneKernel(toneCepstrum(rising));
     ToneFilter whole;
     ToneFilter parts;
@@ -138,7 +138,7 @@ float largestStep(std::span<const ToneKernel* const> kernels, std::size_t period
     return largest;
 }
 
-TEST(ToneFilterTest, AChangeOfToneIsNoClickHoweverOftenItComes) {
+TEST(ToneFilterTest, ChangesOfToneDoNotClickHoweverFrequent) {
     const ToneKernel quiet = toneKernel(toneCepstrum([](double) { return -12.0; }));
     const ToneKernel loud = toneKernel(toneCepstrum([](double) { return 6.0; }));
     const std::array<const ToneKernel*, 4> changing{&quiet, &loud, nullptr, &loud};
@@ -148,7 +148,7 @@ TEST(ToneFilterTest, AChangeOfToneIsNoClickHoweverOftenItComes) {
     }
 }
 
-TEST(ToneFilterTest, SwitchedOffItGlidesOutAndThenRunsNoMore) {
+TEST(ToneFilterTest, AToneThatIsSwitchedOffFadesAndTheFilterBecomesInactive) {
     const ToneKernel kernel = toneKernel(toneCepstrum(rising));
     ToneFilter filter;
     filter.reset(&kernel);
@@ -162,7 +162,7 @@ TEST(ToneFilterTest, SwitchedOffItGlidesOutAndThenRunsNoMore) {
     EXPECT_EQ(rest.back(), 1.0F);
 }
 
-TEST(ToneFilterTest, SwitchedOnWithinAWaveItGoesOnFromWhatWasPlayed) {
+TEST(ToneFilterTest, AToneThatIsSwitchedOnContinuesFromThePlayedSamples) {
     const ToneKernel kernel = toneKernel(toneCepstrum(rising));
     ToneFilter always;
     always.reset(&kernel);

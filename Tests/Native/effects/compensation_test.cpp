@@ -125,7 +125,7 @@ TEST(CompensationTest, TheCompensatedVoiceCoilIsFlatWithinThreeDecibelsFrom60To4
     }
 }
 
-TEST(CompensationTest, AnyActuatorIsFlatWithinThreeDecibelsWhereTheBoostSuffices) {
+TEST(CompensationTest, AnActuatorIsFlatWithinThreeDecibelsWhereTheBoostSuffices) {
     std::mt19937 random(5);
     for (int round = 0; round < 40; ++round) {
         const double low = std::uniform_real_distribution<double>(70.0, 200.0)(random);
@@ -156,7 +156,7 @@ TEST(CompensationTest, TheResponseIsTheSameAtEveryRate) {
     }
 }
 
-TEST(CompensationTest, WhatItSaysOfItsGainIsWhatItDoes) {
+TEST(CompensationTest, TheReportedGainMatchesTheMeasuredGain) {
     const Compensation compensation(voiceCoil(), rateHz);
     const MeasuredResponse response(voiceCoil(), rateHz);
     for (double hz = 15.0; hz <= 10000.0; hz *= 1.2) {
@@ -164,7 +164,7 @@ TEST(CompensationTest, WhatItSaysOfItsGainIsWhatItDoes) {
     }
 }
 
-TEST(CompensationTest, NothingIsRaisedAboveTheLargestBoostWhateverTheProfile) {
+TEST(CompensationTest, TheGainNeverExceedsTheMaximumBoostForAnyProfile) {
     std::mt19937 random(11);
     for (const double boost : {0.0, 3.0, 12.0, 24.0}) {
         for (int round = 0; round < 12; ++round) {
@@ -179,7 +179,7 @@ TEST(CompensationTest, NothingIsRaisedAboveTheLargestBoostWhateverTheProfile) {
     EXPECT_GT(coil.gainDecibels(50.0), 1.0);
 }
 
-TEST(CompensationTest, NoPowerIsSpentWhereTheActuatorGivesNothing) {
+TEST(CompensationTest, FrequenciesWithoutActuatorOutputAreNotBoosted) {
     const ActuatorProfile deaf =
         profileOf({20.0, 60.0, 80.0, 100.0, 120.0, 300.0, 1200.0}, {-90.0, -90.0, -90.0, -10.0, 0.0, -3.0, -6.0});
     const Compensation compensation(deaf, rateHz);
@@ -187,7 +187,7 @@ TEST(CompensationTest, NoPowerIsSpentWhereTheActuatorGivesNothing) {
     EXPECT_GT(compensation.gainDecibels(100.0), 0.0);
 }
 
-TEST(CompensationTest, OutsideOfTheBandTheGainIsBackAtZero) {
+TEST(CompensationTest, TheGainIsZeroDecibelsOutsideTheBand) {
     std::mt19937 random(3);
     for (int round = 0; round < 20; ++round) {
         const ActuatorProfile profile = round == 0 ? voiceCoil() : randomProfile(random, 10.0);
@@ -228,7 +228,7 @@ TEST(CompensationTest, ABroadbandTextureKeepsItsPowerAndClipsNoMoreOften) {
     }
 }
 
-TEST(CompensationTest, TheFirstSampleInIsInTheFirstSampleOut) {
+TEST(CompensationTest, TheFirstOutputSampleContainsTheFirstInputSample) {
     for (const double rate : rates) {
         Compensation compensation(voiceCoil(), rate);
         std::vector<float> samples(8);
@@ -238,7 +238,7 @@ TEST(CompensationTest, TheFirstSampleInIsInTheFirstSampleOut) {
     }
 }
 
-TEST(CompensationTest, NoToneOfTheBandComesLaterThanDeclared) {
+TEST(CompensationTest, NoToneInTheBandExceedsTheDeclaredLatency) {
     std::mt19937 random(23);
     for (int round = 0; round < 5; ++round) {
         const ActuatorProfile profile = round == 0 ? voiceCoil() : randomProfile(random, 6.0);
@@ -272,7 +272,7 @@ TEST(CompensationTest, NoToneOfTheBandComesLaterThanDeclared) {
     }
 }
 
-TEST(CompensationTest, ItHasEndedWithinItsDeclaredTail) {
+TEST(CompensationTest, TheOutputEndsWithinTheDeclaredTail) {
     for (const double rate : rates) {
         Compensation compensation(voiceCoil(), rate);
         EXPECT_TRUE(compensation.isIdle());
@@ -290,7 +290,7 @@ TEST(CompensationTest, ItHasEndedWithinItsDeclaredTail) {
     }
 }
 
-TEST(CompensationTest, WhatIsSaidToBeIdleHasNothingLeftThatCouldBeFelt) {
+TEST(CompensationTest, AnIdleCompensationHasNoPerceptibleOutputLeft) {
     Compensation compensation(voiceCoil(), 192000.0);
     std::vector<float> samples = noise(4000, 30.0F, 9);
     run(compensation, samples);
@@ -308,7 +308,7 @@ TEST(CompensationTest, WhatIsSaidToBeIdleHasNothingLeftThatCouldBeFelt) {
     EXPECT_LE(loudestSinceIdle, static_cast<float>(imperceptibleMps2));
 }
 
-TEST(CompensationTest, AFlatActuatorChangesNoByte) {
+TEST(CompensationTest, AFlatActuatorLeavesEverySampleUnchanged) {
     for (const double offset : {0.0, -30.0, 12.0}) {
         Compensation compensation(profileOf({20.0, 1200.0}, {offset, offset}), rateHz);
         EXPECT_TRUE(compensation.isTransparent()) << offset;
@@ -323,7 +323,7 @@ TEST(CompensationTest, AFlatActuatorChangesNoByte) {
     EXPECT_TRUE(Compensation(*ActuatorProfile::builtIn("flat"), 8000.0).isTransparent());
 }
 
-TEST(CompensationTest, AGainOfTheWholeProfileChangesNothingButTheLevel) {
+TEST(CompensationTest, AConstantGainOfTheProfileChangesOnlyTheLevel) {
     ActuatorProfile louder = voiceCoil();
     std::ranges::for_each(louder.magnitudeDecibels, [](double& decibels) { decibels += 37.0; });
     const Compensation one(voiceCoil(), rateHz);
@@ -334,7 +334,7 @@ TEST(CompensationTest, AGainOfTheWholeProfileChangesNothingButTheLevel) {
     }
 }
 
-TEST(CompensationTest, SamplesThatAreNotFiniteOrHugeDoNotStay) {
+TEST(CompensationTest, NonFiniteAndHugeSamplesHaveNoLastingEffect) {
     constexpr float nan = std::numeric_limits<float>::quiet_NaN();
     constexpr float infinity = std::numeric_limits<float>::infinity();
     for (const double rate : rates) {
@@ -372,7 +372,7 @@ TEST(CompensationTest, EveryProfileGivesABoundedFilterAtEveryRate) {
     }
 }
 
-TEST(CompensationTest, TheOutputDoesNotDependOnHowItIsCutIntoBlocks) {
+TEST(CompensationTest, TheBlockLengthsDoNotChangeTheCompensation) {
     const std::vector<float> before = noise(9600, 20.0F, 12);
     std::vector<float> whole = before;
     Compensation once(voiceCoil(), rateHz);
@@ -385,7 +385,7 @@ TEST(CompensationTest, TheOutputDoesNotDependOnHowItIsCutIntoBlocks) {
     }
 }
 
-TEST(CompensationTest, AResetForgetsAllSignal) {
+TEST(CompensationTest, AResetClearsAllSignal) {
     Compensation compensation(voiceCoil(), rateHz);
     const std::vector<float> input = noise(960, 20.0F, 13);
     std::vector<float> first = input;
@@ -400,7 +400,7 @@ TEST(CompensationTest, AResetForgetsAllSignal) {
     EXPECT_EQ(again, first);
 }
 
-TEST(CompensationTest, RatesAndSettingsOutOfRangeAreRefused) {
+TEST(CompensationTest, RatesAndSettingsOutOfRangeAreRejected) {
     constexpr double nan = std::numeric_limits<double>::quiet_NaN();
     for (const double rate : {0.0, 7999.0, 192001.0, -48000.0, nan, std::numeric_limits<double>::infinity()}) {
         EXPECT_THROW(Compensation(voiceCoil(), rate), std::invalid_argument) << rate;
@@ -414,14 +414,14 @@ TEST(CompensationTest, RatesAndSettingsOutOfRangeAreRefused) {
     }
 }
 
-TEST(CompensationTest, ItDeclaresThatItReadsNothingOfTheContact) {
+TEST(CompensationTest, TheDeclarationNamesNoContactFields) {
     const Compensation compensation(voiceCoil(), rateHz);
     EXPECT_EQ(compensation.declaration().kind, EffectKind::compensation);
     EXPECT_EQ(compensation.declaration().reads, contact_field::none);
     EXPECT_EQ(compensation.declaration().memoryBytes, sizeof(Compensation));
 }
 
-TEST(CompensationTest, NothingAllocatesOnceItIsMade) {
+TEST(CompensationTest, ProcessingAllocatesNothingAfterConstruction) {
     Compensation compensation(voiceCoil(), rateHz);
     std::vector<float> samples = noise(512, 20.0F, 14);
     const std::size_t before = haptoflow::testing::allocationCount();

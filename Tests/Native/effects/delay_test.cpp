@@ -45,7 +45,7 @@ double largestStep(const std::vector<float>& samples) {
     return largest;
 }
 
-TEST(DelayTest, AnImpulseComesOutTheRoundedNumberOfSamplesLaterAtEveryRate) {
+TEST(DelayTest, AnImpulseIsDelayedByTheRoundedNumberOfSamplesAtEveryRate) {
     for (const double lineRateHz : everyRateHz) {
         for (const double seconds : {0.0, 1.4 / lineRateHz, 1.6 / lineRateHz, 0.0103, 0.1303, 0.5}) {
             Delay delay(lineRateHz);
@@ -62,7 +62,7 @@ TEST(DelayTest, AnImpulseComesOutTheRoundedNumberOfSamplesLaterAtEveryRate) {
     }
 }
 
-TEST(DelayTest, ADelayOfZeroPassesTheSignalBitForBit) {
+TEST(DelayTest, ADelayOfZeroLeavesTheSignalUnchanged) {
     Delay delay(48000.0);
     std::mt19937 random(3);
     std::normal_distribution<float> noise(0.0F, 30.0F);
@@ -79,7 +79,7 @@ TEST(DelayTest, ADelayOfZeroPassesTheSignalBitForBit) {
     EXPECT_TRUE(std::signbit(samples[18]));
 }
 
-TEST(DelayTest, HowTheSignalIsCutIntoBlocksChangesNothing) {
+TEST(DelayTest, TheBlockLengthsDoNotChangeTheResult) {
     const std::vector<float> sent = sineWave(170.0, 44100.0, 44100);
     std::vector<float> whole = sent;
     std::vector<float> cut = sent;
@@ -96,7 +96,7 @@ TEST(DelayTest, HowTheSignalIsCutIntoBlocksChangesNothing) {
     EXPECT_EQ(whole, cut);
 }
 
-TEST(DelayTest, AChangeWhileSoundingFadesWithoutAClickAndThenIsExact) {
+TEST(DelayTest, AChangeWhileSoundingCrossfadesWithoutAClickAndIsThenExact) {
     for (const double lineRateHz : everyRateHz) {
         for (const auto& [before, after] : {std::pair{0.0, 0.2}, {0.2, 0.0}, {0.5, 0.01}, {0.05, 0.051}}) {
             Delay delay(lineRateHz);
@@ -141,7 +141,7 @@ TEST(DelayTest, AFadeStaysBetweenItsTwoTaps) {
     }
 }
 
-TEST(DelayTest, ChangesDuringAFadeWaitForItsEndAndTheNewestWins) {
+TEST(DelayTest, ChangesDuringAFadeWaitForItsEndAndOnlyTheNewestCounts) {
     constexpr double lineRateHz = 10000.0;
     Delay waiting(lineRateHz);
     Delay reference(lineRateHz);
@@ -164,7 +164,7 @@ TEST(DelayTest, ChangesDuringAFadeWaitForItsEndAndTheNewestWins) {
     EXPECT_EQ(samples, expected);
 }
 
-TEST(DelayTest, GoingBackDuringAFadeIsAChangeToo) {
+TEST(DelayTest, AReturnToTheOldDelayDuringAFadeAlsoWaits) {
     Delay delay(10000.0);
     std::vector<float> samples = sineWave(90.0, 10000.0, 4000);
     const std::vector<float> sent = samples;
@@ -207,7 +207,7 @@ TEST(DelayTest, IsIdleOnlyOnceTheLineHoldsNothingButSilence) {
     EXPECT_TRUE(delay.isIdle());
 }
 
-TEST(DelayTest, WhatAnIdleLineSkipsIsNotMissed) {
+TEST(DelayTest, SkippingAnIdleLineDoesNotChangeTheDelay) {
     // The engine does not run an idle stage: the first impulse after a pause is as late as any other.
     Delay delay(8000.0);
     delay.setDelaySeconds(0.1);
@@ -223,7 +223,7 @@ TEST(DelayTest, WhatAnIdleLineSkipsIsNotMissed) {
     EXPECT_EQ(std::ranges::count_if(second, [](float sample) { return sample != 0.0F; }), 1);
 }
 
-TEST(DelayTest, AResetForgetsTheSignalAndKeepsTheDelay) {
+TEST(DelayTest, AResetClearsTheSignalAndKeepsTheDelay) {
     Delay delay(8000.0);
     delay.setDelaySeconds(0.1);
     std::vector<float> samples(4000, 5.0F);
@@ -259,7 +259,7 @@ TEST(DelayTest, DeclaresItsDelayAsLatencyAndTail) {
     EXPECT_DOUBLE_EQ(delay.declaration().tailSeconds, 0.1);
 }
 
-TEST(DelayTest, NothingThatIsNotFiniteStaysInTheLine) {
+TEST(DelayTest, NonFiniteSamplesDoNotEnterTheLine) {
     Delay delay(8000.0);
     delay.setDelaySeconds(0.01);
     std::vector<float> samples(4000, 1.0F);
@@ -271,10 +271,9 @@ TEST(DelayTest, NothingThatIsNotFiniteStaysInTheLine) {
     for (const float sample : samples) {
         ASSERT_TRUE(std::isfinite(sample));
     }
-
 }
 
-TEST(DelayTest, RatesOutsideWhatVoicesPlayAtAreRefused) {
+TEST(DelayTest, RatesOutsideTheOutputRangeAreRejected) {
     for (const double lineRateHz : {0.0, 7999.0, 192001.0, std::numeric_limits<double>::quiet_NaN()}) {
         EXPECT_THROW(Delay{lineRateHz}, std::invalid_argument) << lineRateHz;
     }
@@ -312,7 +311,7 @@ TEST(DelayTest, TenMinutesOfRandomChangesStayBoundedAndFreeOfClicks) {
     EXPECT_LE(peak, 1.000001);
 }
 
-TEST(DelayTest, NothingAllocatesOnceMade) {
+TEST(DelayTest, NoAllocationOccursAfterConstruction) {
     Delay delay(192000.0);
     std::vector<float> samples(1024, 0.5F);
     const std::size_t before = haptoflow::testing::allocationCount();

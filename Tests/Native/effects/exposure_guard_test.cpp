@@ -95,7 +95,7 @@ const std::vector<Tone> wholeSet{{160.0, 43.6}, {25.0, 12.0}};       // 32 m/s^2
 const std::vector<Tone> loudestStroke{{160.0, 70.7}, {25.0, 22.6}};  // 52.5 m/s^2, weighted 11.5
 const std::vector<Tone> fullScale{{160.0, 200.0}};
 
-TEST(ExposureGuardTest, AnHourOfSlidingOverTheLoudestLabelsIsNotTouched) {
+TEST(ExposureGuardTest, AnHourOfSlidingOverTheLoudestLabelsIsNotReduced) {
     ExposureGuard guard(voiceRateHz);
     Session session(guard);
     session.play(3600.0, wholeSet);
@@ -105,14 +105,14 @@ TEST(ExposureGuardTest, AnHourOfSlidingOverTheLoudestLabelsIsNotTouched) {
     EXPECT_NEAR(guard.report().dailyMps2, 6.3 * std::sqrt(1.0 / 8.0), 0.1);
 }
 
-TEST(ExposureGuardTest, TenMinutesOfTheLoudestStrokeAreNotTouched) {
+TEST(ExposureGuardTest, TenMinutesOfTheLoudestStrokeAreNotReduced) {
     ExposureGuard guard(voiceRateHz);
     Session session(guard);
     session.play(600.0, loudestStroke);
     EXPECT_TRUE(session.untouched);
 }
 
-TEST(ExposureGuardTest, MinutesAtFullScaleAreBroughtDownToTheShortTermLimitAndItSaysWhy) {
+TEST(ExposureGuardTest, MinutesAtFullScaleAreReducedToTheShortTermLimitWithThatReason) {
     ExposureGuard guard(voiceRateHz);
     Session session(guard);
     session.play(55.0, fullScale);
@@ -129,7 +129,7 @@ TEST(ExposureGuardTest, MinutesAtFullScaleAreBroughtDownToTheShortTermLimitAndIt
     EXPECT_LE(session.steepestDbPerSecond, 1.21) << "a block of 50 ms may end within a hundredth";
 }
 
-TEST(ExposureGuardTest, AWeightedLevelThatUsesUpTheDayIsBroughtDownAndItSaysWhy) {
+TEST(ExposureGuardTest, ALevelThatUsesUpTheDailyDoseIsReducedWithThatReason) {
     ExposureGuard guard(voiceRateHz);
     Session session(guard);
     // 20 m/s^2 at 16 Hz: 14.1 unweighted, far from the first limit, 12.7 weighted. 600 s before the end of the day's
@@ -142,7 +142,7 @@ TEST(ExposureGuardTest, AWeightedLevelThatUsesUpTheDayIsBroughtDownAndItSaysWhy)
     EXPECT_LE(session.steepestDbPerSecond, 1.21);
 }
 
-TEST(ExposureGuardTest, ALevelThatWouldUseUpTheDayInMinutesIsLoweredWithinSecondsButNotAfterOneBlow) {
+TEST(ExposureGuardTest, AVeryHighLevelIsReducedWithinSecondsButNotAfterOneBlow) {
     ExposureGuard guard(voiceRateHz);
     Session session(guard);
     // Weighted 40 m/s^2: a hundred seconds of it are a day's dose.
@@ -153,7 +153,7 @@ TEST(ExposureGuardTest, ALevelThatWouldUseUpTheDayInMinutesIsLoweredWithinSecond
     EXPECT_EQ(guard.report().reason, ExposureReason::dose);
 }
 
-TEST(ExposureGuardTest, TheGainMovesInAStraightLineWithinEachHundredth) {
+TEST(ExposureGuardTest, TheGainMovesLinearlyWithinEachHundredthOfASecond) {
     ExposureLaw law;
     law.shortTermSeconds = 0.2;
     ExposureGuard guard(voiceRateHz, law);
@@ -175,7 +175,7 @@ TEST(ExposureGuardTest, TheDailyExposureApproachesItsLimitAndDoesNotPassIt) {
     EXPECT_GT(session.highestDailyMps2, 2.4);
 }
 
-TEST(ExposureGuardTest, ThePartOfTheDayThatIsPastIsGivenBack) {
+TEST(ExposureGuardTest, ExposureOlderThanEightHoursNoLongerCounts) {
     ExposureGuard guard(voiceRateHz, shortDay());
     Session session(guard);
     session.play(60.0, {{16.0, 20.0}});
@@ -191,7 +191,7 @@ TEST(ExposureGuardTest, ThePartOfTheDayThatIsPastIsGivenBack) {
     EXPECT_TRUE(session.untouched);
 }
 
-TEST(ExposureGuardTest, APauseDoesNotBringBackALevelWhoseDoseIsSpent) {
+TEST(ExposureGuardTest, APauseDoesNotRestoreTheLevelWhileTheDoseIsUsedUp) {
     ExposureGuard guard(voiceRateHz, shortDay());
     Session session(guard);
     session.play(120.0, {{16.0, 20.0}});
@@ -201,7 +201,7 @@ TEST(ExposureGuardTest, APauseDoesNotBringBackALevelWhoseDoseIsSpent) {
     EXPECT_LT(guard.report().gain, 1.3 * before);
 }
 
-TEST(ExposureGuardTest, ItRecoversAsSlowlyAsItLowers) {
+TEST(ExposureGuardTest, TheGainRecoversAsSlowlyAsItFalls) {
     ExposureLaw law;
     law.shortTermSeconds = 2.0;
     law.dailyMps2 = 1000.0;
@@ -218,7 +218,7 @@ TEST(ExposureGuardTest, ItRecoversAsSlowlyAsItLowers) {
     EXPECT_LE(session.steepestDbPerSecond, 1.21);
 }
 
-TEST(ExposureGuardTest, NothingIsLoweredBeyondTheLowestGain) {
+TEST(ExposureGuardTest, TheGainNeverFallsBelowTheMinimum) {
     ExposureLaw law = shortDay();
     law.shortTermSeconds = 2.0;
     law.actuatorGain = 1000.0;
@@ -233,7 +233,7 @@ TEST(ExposureGuardTest, NothingIsLoweredBeyondTheLowestGain) {
     EXPECT_EQ(guard.report().gain, 1.0);
 }
 
-TEST(ExposureGuardTest, TheActuatorsGainScalesWhatIsCounted) {
+TEST(ExposureGuardTest, TheActuatorsGainScalesTheMeasuredExposure) {
     ExposureGuard weak(voiceRateHz);
     ExposureGuard strong(voiceRateHz);
     weak.setActuatorGain(0.25);
@@ -250,7 +250,7 @@ TEST(ExposureGuardTest, TheActuatorsGainScalesWhatIsCounted) {
     EXPECT_NEAR(strong.report().dailyMps2 / weak.report().dailyMps2, 2.0, 1e-6);
 }
 
-TEST(ExposureGuardTest, TheLawIsTheSameAtEveryRate) {
+TEST(ExposureGuardTest, TheResultIsTheSameAtEveryRate) {
     ExposureLaw law = shortDay();
     law.shortTermSeconds = 4.0;
     const auto reportsAt = [&law](double rate) {
@@ -275,7 +275,7 @@ TEST(ExposureGuardTest, TheLawIsTheSameAtEveryRate) {
     }
 }
 
-TEST(ExposureGuardTest, HowTheSignalIsCutIntoBlocksChangesNothing) {
+TEST(ExposureGuardTest, TheBlockLengthsDoNotChangeTheResult) {
     ExposureLaw law = shortDay();
     law.shortTermSeconds = 0.5;
     law.slewDbPerSecond = 20.0;
@@ -298,7 +298,7 @@ TEST(ExposureGuardTest, HowTheSignalIsCutIntoBlocksChangesNothing) {
     }
 }
 
-TEST(ExposureGuardTest, SilenceThatWasNotRunCountsAsIfItHadBeen) {
+TEST(ExposureGuardTest, PassedSilenceCountsLikeProcessedSilence) {
     ExposureGuard run(voiceRateHz, shortDay());
     ExposureGuard passed(voiceRateHz, shortDay());
     Session first(run);
@@ -315,7 +315,7 @@ TEST(ExposureGuardTest, SilenceThatWasNotRunCountsAsIfItHadBeen) {
     }
 }
 
-TEST(ExposureGuardTest, AResetKeepsWhatTheHandHasReceived) {
+TEST(ExposureGuardTest, AResetKeepsTheExposure) {
     ExposureGuard guard(voiceRateHz, shortDay());
     Session session(guard);
     session.play(60.0, {{16.0, 20.0}});
@@ -324,10 +324,9 @@ TEST(ExposureGuardTest, AResetKeepsWhatTheHandHasReceived) {
     guard.reset();
     EXPECT_EQ(guard.report().gain, before.gain);
     EXPECT_EQ(guard.report().dailyMps2, before.dailyMps2);
-
 }
 
-TEST(ExposureGuardTest, NoSampleThatIsNotFiniteGetsThroughOrIntoTheDose) {
+TEST(ExposureGuardTest, NonFiniteSamplesBecomeZeroAndDoNotCount) {
     ExposureGuard guard(voiceRateHz);
     std::vector<float> samples(8000, 1.0F);
     samples[5] = std::numeric_limits<float>::quiet_NaN();
@@ -346,7 +345,7 @@ TEST(ExposureGuardTest, NoSampleThatIsNotFiniteGetsThroughOrIntoTheDose) {
     EXPECT_GT(guard.report().gain, 0.0);
 }
 
-TEST(ExposureGuardTest, LawsAndRatesThatMakeNoSenseAreRefused) {
+TEST(ExposureGuardTest, InvalidLawsAndRatesAreRejected) {
     ExposureLaw law;
     law.dailyMps2 = 0.0;
     EXPECT_THROW(ExposureGuard(voiceRateHz, law), std::invalid_argument);
@@ -360,7 +359,7 @@ TEST(ExposureGuardTest, LawsAndRatesThatMakeNoSenseAreRefused) {
     EXPECT_THROW(ExposureGuard(std::numeric_limits<double>::quiet_NaN()), std::invalid_argument);
 }
 
-TEST(ExposureGuardTest, TenMinutesOfRandomLevelsGainsAndPausesStayWithinTheLaw) {
+TEST(ExposureGuardTest, TenMinutesOfRandomLevelsGainsAndPausesStayWithinTheLimits) {
     ExposureLaw law = shortDay();
     law.shortTermSeconds = 20.0;
     law.slewDbPerSecond = 20.0;

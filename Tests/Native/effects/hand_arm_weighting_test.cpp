@@ -33,7 +33,7 @@ double measuredWeight(double frequencyHz, double sampleRateHz) {
     return std::sqrt(2.0 * squares / static_cast<double>(count));
 }
 
-TEST(HandArmWeightingTest, WeightsEveryThirdOctaveAsIso5349TableA2AtEveryRate) {
+TEST(HandArmWeightingTest, TheWeightingMatchesTableA2OfIso5349AtEveryRate) {
     for (const double sampleRateHz : {8000.0, 24000.0, 44100.0, 48000.0, 192000.0}) {
         for (const Factor& factor : isoTable) {
             // The bilinear transform bends what lies near half the rate: at 8 kHz 2 % at 800 Hz, 8 % at 1.26 kHz.
@@ -44,7 +44,7 @@ TEST(HandArmWeightingTest, WeightsEveryThirdOctaveAsIso5349TableA2AtEveryRate) {
     }
 }
 
-TEST(HandArmWeightingTest, AConstantOffsetWeighsNothing) {
+TEST(HandArmWeightingTest, AConstantOffsetIsRemoved) {
     HandArmWeighting weighting(48000.0);
     double weighted = 1.0;
     for (int i = 0; i < 480000; ++i) {
@@ -53,7 +53,7 @@ TEST(HandArmWeightingTest, AConstantOffsetWeighsNothing) {
     EXPECT_NEAR(weighted, 0.0, 1e-6);
 }
 
-TEST(HandArmWeightingTest, AResetForgetsWhatCameBefore) {
+TEST(HandArmWeightingTest, AResetClearsTheState) {
     HandArmWeighting used(48000.0);
     HandArmWeighting fresh(48000.0);
     for (int i = 0; i < 1000; ++i) {

@@ -33,7 +33,7 @@ float peakOf(const std::vector<float>& samples) {
     return std::ranges::max(samples, {}, [](float sample) { return std::abs(sample); });
 }
 
-TEST(StrikesTest, ABlowIsADecayingSinusoidFromTheNextSampleOn) {
+TEST(StrikesTest, ABlowIsADecayingSinusoidThatStartsWithTheNextSample) {
     for (const double rate : {8000.0, 44100.0, 48000.0, 192000.0}) {
         Strikes strikes(EffectKind::impact, rate);
         strikes.strike(0.2, ringing(180.0F, 90.0F, 600.0F));
@@ -60,7 +60,7 @@ TEST(StrikesTest, TheAmplitudeIsProportionalToTheSpeedFromOneCentimetreToTwoMetr
     EXPECT_DOUBLE_EQ(peakAt(7.0), peakAt(Strikes::maximumStrikeMps));
 }
 
-TEST(StrikesTest, ReboundsComeAfterTheirFlightsSofterEachTime) {
+TEST(StrikesTest, ReboundsFollowTheirFlightTimesAndGetWeaker) {
     ImpactResponse response = ringing(400.0F, 2000.0F, 500.0F);
     response.restitution = 0.5F;
     Strikes strikes(EffectKind::impact, rateHz);
@@ -80,7 +80,7 @@ TEST(StrikesTest, ReboundsComeAfterTheirFlightsSofterEachTime) {
     EXPECT_TRUE(strikes.isIdle());
 }
 
-TEST(StrikesTest, NothingRunsOnOnceABlowHasDecayed) {
+TEST(StrikesTest, TheSourceIsIdleAfterABlowHasDecayed) {
     Strikes strikes(EffectKind::impact, rateHz);
     EXPECT_TRUE(strikes.isIdle());
     strikes.strike(2.0, ringing(100.0F, 40.0F, 1000.0F));
@@ -91,7 +91,7 @@ TEST(StrikesTest, NothingRunsOnOnceABlowHasDecayed) {
     EXPECT_EQ(next(strikes, 256), std::vector<float>(256, 0.0F));
 }
 
-TEST(StrikesTest, NoBlowRingsLongerThanItsDeclaredTail) {
+TEST(StrikesTest, NoBlowSoundsLongerThanTheDeclaredTail) {
     for (const float decay : {0.0F, 10.0F, 500.0F}) {
         ImpactResponse response = ringing(60.0F, decay, std::numeric_limits<float>::max());
         response.restitution = 1.0F;
@@ -102,7 +102,7 @@ TEST(StrikesTest, NoBlowRingsLongerThanItsDeclaredTail) {
     }
 }
 
-TEST(StrikesTest, ManyBlowsAtOnceStayBoundedAndTheLoudestAreKept) {
+TEST(StrikesTest, ManyBlowsAtOnceAreBoundedAndTheLoudestAreKept) {
     Strikes strikes(EffectKind::impact, rateHz);
     strikes.strike(1.0, ringing(150.0F, 50.0F, 400.0F));
     for (int blow = 0; blow < 200; ++blow) {
@@ -113,7 +113,7 @@ TEST(StrikesTest, ManyBlowsAtOnceStayBoundedAndTheLoudestAreKept) {
     EXPECT_LT(peak, 400.0F * 1.1F);
 }
 
-TEST(StrikesTest, WhatIsNoBlowMakesNoSound) {
+TEST(StrikesTest, InvalidBlowsMakeNoSound) {
     constexpr float nan = std::numeric_limits<float>::quiet_NaN();
     constexpr float infinity = std::numeric_limits<float>::infinity();
     Strikes strikes(EffectKind::impact, rateHz);
@@ -132,7 +132,7 @@ TEST(StrikesTest, WhatIsNoBlowMakesNoSound) {
     }
 }
 
-TEST(StrikesTest, AResetSilencesAtOnceAndForgetsRebounds) {
+TEST(StrikesTest, AResetSilencesAtOnceAndCancelsRebounds) {
     ImpactResponse response = ringing(150.0F, 50.0F, 400.0F);
     response.restitution = 0.8F;
     Strikes strikes(EffectKind::impact, rateHz);
@@ -143,7 +143,7 @@ TEST(StrikesTest, AResetSilencesAtOnceAndForgetsRebounds) {
     EXPECT_EQ(next(strikes, 48000), std::vector<float>(48000, 0.0F));
 }
 
-TEST(StrikesTest, ASourceAddsToWhatIsThere) {
+TEST(StrikesTest, ASourceAddsToTheInput) {
     Strikes alone(EffectKind::edge, rateHz, 3.0);
     Strikes added(EffectKind::edge, rateHz, 3.0);
     alone.strike(0.3, ringing(220.0F, 80.0F, 300.0F));

@@ -66,7 +66,7 @@ protected:
     model::ModelFile added_ = withDenim(shipped_);
 };
 
-TEST_F(AddedLabelTest, TheSpaceStaysAndNoByteOfTheOtherLabelsSoundChanges) {
+TEST_F(AddedLabelTest, AnAddedLabelDoesNotChangeTheOutputOfOtherLabels) {
     EXPECT_EQ(model::spaceOf(added_.header()), model::spaceOf(shipped_.header()));
     for (const std::uint32_t label : {0U, 8U, 13U}) {
         const std::vector<float> before = rendered(shipped_, label, label + 1);
@@ -75,7 +75,7 @@ TEST_F(AddedLabelTest, TheSpaceStaysAndNoByteOfTheOtherLabelsSoundChanges) {
     }
 }
 
-TEST_F(AddedLabelTest, ItsOwnLevelIsWhatItSoundsAt) {
+TEST_F(AddedLabelTest, AnAddedLabelSoundsAtItsOwnLevel) {
     const auto denim = static_cast<std::uint32_t>(shipped_.header().labels.size());
     const std::vector<float> own = rendered(added_, denim, denim);
     // At 0.112 m/s and 1 N the table says e^1.08 m/s^2 and 3 dB more; the tone adds between 1 and 9 dB.

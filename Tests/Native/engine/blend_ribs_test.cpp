@@ -45,29 +45,29 @@ protected:
     SmallLibrary small_ = ruledLibrary();
 };
 
-TEST_F(BlendRibsTest, HalfPlainAndHalfRuledKeepsTheRibsWhole) {
+TEST_F(BlendRibsTest, ABlendOfAPlainAndARuledLabelKeepsTheWaveVector) {
     EXPECT_EQ(ribsOf({{0, 0.5F}, {1, 0.5F}}), (WaveVectors{coarse, none}));
     EXPECT_EQ(ribsOf({{0, 0.9F}, {1, 0.1F}}), (WaveVectors{coarse, none}));
     EXPECT_EQ(ribsOf({{0, 0.5F}, {2, 0.5F}}), (WaveVectors{fine, across}));
 }
 
-TEST_F(BlendRibsTest, OfMoreRibsThanSlotsThoseOfTheHeaviestMaterialComeFirst) {
+TEST_F(BlendRibsTest, TheHeaviestMaterialsWaveVectorsAreKeptIfSlotsAreMissing) {
     EXPECT_EQ(ribsOf({{1, 0.6F}, {2, 0.4F}}), (WaveVectors{coarse, fine}));
     EXPECT_EQ(ribsOf({{1, 0.4F}, {2, 0.6F}}), (WaveVectors{fine, across}));
 }
 
-TEST_F(BlendRibsTest, OneMaterialAloneHasItsOwnSlots) {
+TEST_F(BlendRibsTest, ASingleMaterialKeepsItsOwnSlots) {
     EXPECT_EQ(ribsOf({{1, 0.4F}}, {none, coarse}), (WaveVectors{coarse, none}));
     EXPECT_EQ(ribsOf({{2, 1.0F}}, {across, coarse}), (WaveVectors{fine, across}));
 }
 
-TEST_F(BlendRibsTest, RibsThatStayKeepTheirSlot) {
+TEST_F(BlendRibsTest, RemainingWaveVectorsKeepTheirSlot) {
     const WaveVectors first = ribsOf({{1, 0.6F}, {2, 0.4F}});
     EXPECT_EQ(ribsOf({{2, 0.6F}, {1, 0.4F}}, first), (WaveVectors{across, fine}))
         << "the fine ribs stay in the second slot, and those across take the free one";
 }
 
-TEST_F(BlendRibsTest, APhaseGoesWithItsRibsFromSlotToSlot) {
+TEST_F(BlendRibsTest, APhaseFollowsItsWaveVectorToAnotherSlot) {
     const RibTurns phases{0.1, 0.6};
     EXPECT_EQ(phasesFor({fine, none}, {coarse, fine}, phases), (RibTurns{0.6, 0.6}));
     EXPECT_EQ(phasesFor({across, fine}, {fine, across}, phases), (RibTurns{0.6, 0.1}));
@@ -75,7 +75,7 @@ TEST_F(BlendRibsTest, APhaseGoesWithItsRibsFromSlotToSlot) {
     EXPECT_EQ(phasesFor({across, none}, {coarse, none}, phases), phases) << "ribs that are new go on in their slot";
 }
 
-TEST_F(BlendRibsTest, WhileAWeightSweepsFromOneRuledLabelToAnotherNoPhaseJumps) {
+TEST_F(BlendRibsTest, NoPhaseJumpsDuringASweepBetweenTwoRuledLabels) {
     RibTrack track;
     track.begin(0, {.phase = {0.3, 0.0}, .turnsPerSample = {0.01, 0.0}, .vectors = {coarse, none}});
     constexpr std::int64_t hop = 28;

@@ -105,7 +105,7 @@ std::span<const float> firstSound(std::span<const float> output, std::size_t fra
     return output.subspan(begin, std::min(frames, output.size() - begin));
 }
 
-TEST_P(InterruptionTest, WhatResumesSoundsAtTheLevelOfTheStateThatItResumesWith) {
+TEST_P(InterruptionTest, AResumedTouchHasTheLevelOfItsFirstState) {
     // The level of the first 30 ms is the seed's; later it is the network's.
     SimulatedDevice device(model_, generator_);
     const std::size_t end = interrupt(device);
@@ -119,7 +119,7 @@ TEST_P(InterruptionTest, WhatResumesSoundsAtTheLevelOfTheStateThatItResumesWith)
     EXPECT_EQ(device.counters().underruns, underrunsBefore);
 }
 
-TEST_P(InterruptionTest, AGainSetInTheSilenceHoldsFromTheFirstSampleOn) {
+TEST_P(InterruptionTest, AStrengthSetInSilenceAppliesFromTheFirstSample) {
     SimulatedDevice device(model_, generator_);
     const std::size_t end = interrupt(device);
     device.controls().strength = 0.0F;
@@ -127,7 +127,7 @@ TEST_P(InterruptionTest, AGainSetInTheSilenceHoldsFromTheFirstSampleOn) {
     EXPECT_EQ(testing::peak(std::span<const float>(device.output).subspan(end)), 0.0F);
 }
 
-TEST_P(InterruptionTest, ACeilingSetInTheSilenceHoldsFromTheFirstSampleOn) {
+TEST_P(InterruptionTest, ACeilingSetInSilenceAppliesFromTheFirstSample) {
     SimulatedDevice device(model_, generator_, {.fullScaleMps2 = 0.01F});
     const std::size_t end = interrupt(device);
     device.controls().ceiling = 0.1F;
@@ -137,7 +137,7 @@ TEST_P(InterruptionTest, ACeilingSetInTheSilenceHoldsFromTheFirstSampleOn) {
     EXPECT_GT(loudest, 0.05F);
 }
 
-TEST_P(InterruptionTest, APanicInTheSilenceKeepsTheTouchSilentAndTheNextOneSounds) {
+TEST_P(InterruptionTest, AfterAPanicInSilenceOnlyTheNextTouchSounds) {
     SimulatedDevice device(model_, generator_);
     const std::size_t end = interrupt(device);
     device.voice().channels.panic();
@@ -150,7 +150,7 @@ TEST_P(InterruptionTest, APanicInTheSilenceKeepsTheTouchSilentAndTheNextOneSound
     EXPECT_GT(testing::peak(std::span<const float>(device.output).subspan(again)), 1e-4F);
 }
 
-TEST_P(InterruptionTest, ResumingIsCountedApartFromTouches) {
+TEST_P(InterruptionTest, ResumptionsAreCountedSeparatelyFromTouches) {
     SimulatedDevice device(model_, generator_);
     (void)interrupt(device);
     device.run(0.2, [this](double) { return motion().after; });
@@ -164,7 +164,7 @@ INSTANTIATE_TEST_SUITE_P(Of, InterruptionTest,
                          ::testing::Combine(::testing::ValuesIn(interruptions()), ::testing::ValuesIn(motions())),
                          [](const auto& test) { return std::get<0>(test.param).name + std::get<1>(test.param).name; });
 
-TEST(StrengthTest, SetToZeroBeforeTheVeryFirstTouchNothingSounds) {
+TEST(StrengthTest, AStrengthOfZeroBeforeTheFirstTouchSilencesIt) {
     const model::ModelFile model = testing::smallModel();
     MotionGenerator generator;
     SimulatedDevice device(model, generator);
@@ -175,7 +175,7 @@ TEST(StrengthTest, SetToZeroBeforeTheVeryFirstTouchNothingSounds) {
     EXPECT_EQ(testing::peak(device.output), 0.0F);
 }
 
-TEST(StrengthTest, WhileTheVoiceSoundsItGlidesWithoutAClick) {
+TEST(StrengthTest, AChangeOfStrengthWhileSoundingDoesNotClick) {
     const model::ModelFile model = testing::smallModel();
     FakeGenerator tone(testing::continueTone);
     SimulatedDevice device(model, tone);

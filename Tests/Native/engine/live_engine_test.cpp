@@ -52,7 +52,7 @@ protected:
     std::shared_ptr<const model::ModelFile> model_ = std::make_shared<const model::ModelFile>(testing::smallModel());
 };
 
-TEST_F(LiveEngineTest, SteppedByHandItServesAllTouchingVoicesInOneBatchAndTheOthersNotAtAll) {
+TEST_F(LiveEngineTest, AStepGeneratesForAllTouchingVoicesInOneBatch) {
     auto generator = std::make_unique<FakeGenerator>(testing::continueTone);
     FakeGenerator& seen = *generator;
     EngineTiers tiers;
@@ -81,7 +81,7 @@ TEST_F(LiveEngineTest, SteppedByHandItServesAllTouchingVoicesInOneBatchAndTheOth
     EXPECT_EQ(engine.statistics().segments, 30U);
 }
 
-TEST_F(LiveEngineTest, WhileNothingTouchesTheWorkerSleepsAndInfersNothing) {
+TEST_F(LiveEngineTest, WithoutTouchesTheWorkerSleepsAndInfersNothing) {
     const auto engine = this->engine(settings(true));
     const auto voice = engine->addVoice(48000.0);
     const std::uint64_t wakes = engine->statistics().wakes;
@@ -94,7 +94,7 @@ TEST_F(LiveEngineTest, WhileNothingTouchesTheWorkerSleepsAndInfersNothing) {
     EXPECT_EQ(engine->statistics().rounds, 0U);
 }
 
-TEST_F(LiveEngineTest, ATouchIsGeneratedForByTheWorkerAndEndsWithIt) {
+TEST_F(LiveEngineTest, TheWorkerGeneratesForATouchAndTheVoiceFallsSilentWithoutIt) {
     const auto engine = this->engine(settings(true));
     const auto voice = engine->addVoice(48000.0);
     const VoiceCounters& counters = voice->channels.counters;
@@ -112,7 +112,7 @@ TEST_F(LiveEngineTest, ATouchIsGeneratedForByTheWorkerAndEndsWithIt) {
     engine->removeVoice(*voice);
 }
 
-TEST_F(LiveEngineTest, ManyVoicesPublishersAndCallbacksAtOnceLeaveEveryWaveWhole) {
+TEST_F(LiveEngineTest, ManyConcurrentVoicesPublishersAndCallbacksKeepEveryWaveIntact) {
     const auto engine = this->engine(settings(true));
     constexpr int count = 4;
     std::atomic<bool> done{false};
@@ -176,7 +176,7 @@ TEST_F(LiveEngineTest, ManyVoicesPublishersAndCallbacksAtOnceLeaveEveryWaveWhole
     }
 }
 
-TEST_F(LiveEngineTest, AutomaticQualityMeasuresEveryTierWhileNothingTouchesAndThenDecides) {
+TEST_F(LiveEngineTest, AutomaticQualityMeasuresEveryTierAtRestAndThenDecides) {
     LiveEngineSettings automatic = settings(true);
     automatic.quality.fixedTier.reset();
     automatic.quality.budgetMs = 1000.0;
@@ -195,7 +195,7 @@ TEST_F(LiveEngineTest, AutomaticQualityMeasuresEveryTierWhileNothingTouchesAndTh
     }
 }
 
-TEST_F(LiveEngineTest, TwoChangesOfTheOutputRateAtRestAreBothServedBeforeTheNextTouch) {
+TEST_F(LiveEngineTest, TwoRateChangesAtRestAreHandledBeforeTheNextTouch) {
     const auto engine = this->engine(settings(true));
     const auto voice = engine->addVoice(48000.0);
     std::vector<float> block(256);
@@ -213,7 +213,7 @@ TEST_F(LiveEngineTest, TwoChangesOfTheOutputRateAtRestAreBothServedBeforeTheNext
     EXPECT_GT(testing::peak(block), 0.0F) << "the seed in the very next block";
 }
 
-TEST_F(LiveEngineTest, AVoiceWhoseDeviceHasStoppedDoesNotKeepTheWorkerFromLookingAfterTheOthers) {
+TEST_F(LiveEngineTest, AVoiceWithAStoppedDeviceDoesNotBlockOtherVoices) {
     const auto engine = this->engine(settings(true));
     const auto unheard = engine->addVoice(48000.0);
     const auto heard = engine->addVoice(48000.0);
@@ -229,7 +229,7 @@ TEST_F(LiveEngineTest, AVoiceWhoseDeviceHasStoppedDoesNotKeepTheWorkerFromLookin
     EXPECT_TRUE(renderUntil(*heard, [&] { return heard->channels.counters.inferences > 0; }));
 }
 
-TEST_F(LiveEngineTest, OneVoiceThatTheNetworkFailsForDoesNotSilenceTheOthers) {
+TEST_F(LiveEngineTest, AFailureOfOneVoiceDoesNotSilenceTheOthers) {
     auto generator =
         std::make_unique<FakeGenerator>([](const inference::SegmentRequest& request, std::span<float> out) {
             if (request.motion[2] > 1.5F) {
@@ -280,7 +280,7 @@ public:
     std::atomic<bool> isInside{false};
 };
 
-TEST_F(LiveEngineTest, WhileTheNetworkRunsVoicesComeGoAndAreReadAndQualityChangesWithoutWaitingForIt) {
+TEST_F(LiveEngineTest, VoicesAndQualityChangeWithoutWaitingForInference) {
     auto generator = std::make_unique<HeldGenerator>();
     HeldGenerator& held = *generator;
     EngineTiers tiers;
@@ -314,7 +314,7 @@ TEST_F(LiveEngineTest, WhileTheNetworkRunsVoicesComeGoAndAreReadAndQualityChange
     EXPECT_EQ(engine.statistics().voices, 0U);
 }
 
-TEST_F(LiveEngineTest, TheNewestFailureOfARoundIsKeptInWords) {
+TEST_F(LiveEngineTest, TheMessageOfTheNewestFailureIsKept) {
     auto generator = std::make_unique<FakeGenerator>([](const inference::SegmentRequest& request, std::span<float>) {
         throw inference::InferenceError("no segment for " + std::to_string(request.motion[2]) + " N");
     });
@@ -334,14 +334,14 @@ TEST_F(LiveEngineTest, TheNewestFailureOfARoundIsKeptInWords) {
     EXPECT_EQ(engine.statistics().failedRounds, 2U);
 }
 
-TEST_F(LiveEngineTest, StatisticsSayWhetherTheWorkerLives) {
+TEST_F(LiveEngineTest, TheStatisticsShowWhetherTheWorkerRuns) {
     const auto engine = this->engine(settings(true));
     EXPECT_TRUE(engine->statistics().workerAlive);
     engine->stop();
     EXPECT_FALSE(engine->statistics().workerAlive);
 }
 
-TEST_F(LiveEngineTest, SettingsOutOfRangeAreRefused) {
+TEST_F(LiveEngineTest, SettingsOutOfRangeAreRejected) {
     LiveEngineSettings bad = settings(false);
     bad.updateRateHz = 0.0;
     EXPECT_THROW((void)engine(bad), std::invalid_argument);

@@ -32,7 +32,7 @@ std::span<const float> from(const SimulatedDevice& device, std::size_t frame) {
     return std::span<const float>(device.output).subspan(frame);
 }
 
-TEST_F(LiveVoiceTest, AtTouchDownTheSeedSoundsInTheVeryNextBlock) {
+TEST_F(LiveVoiceTest, TheSeedSoundsInTheFirstBlockAfterTouchDown) {
     SimulatedDevice device(model_, tone_);
     device.renderBlock();
     EXPECT_EQ(testing::peak(device.output), 0.0F);
@@ -43,7 +43,7 @@ TEST_F(LiveVoiceTest, AtTouchDownTheSeedSoundsInTheVeryNextBlock) {
     EXPECT_EQ(device.counters().onsets, 1U);
 }
 
-TEST_F(LiveVoiceTest, OnsetDoesNotWaitForInferenceAndTheSeedLastsUntilTheFirstSegment) {
+TEST_F(LiveVoiceTest, TheSeedSoundsUntilTheFirstSegmentArrives) {
     testing::DeviceSettings settings;
     settings.latencySeconds = [](double) { return 0.05; };
     SimulatedDevice device(model_, tone_, settings);
@@ -52,7 +52,7 @@ TEST_F(LiveVoiceTest, OnsetDoesNotWaitForInferenceAndTheSeedLastsUntilTheFirstSe
     EXPECT_GT(device.counters().inferences, 5U);
 }
 
-TEST_F(LiveVoiceTest, ATapThatCameAndWentBetweenTwoBlocksIsHeardForTenMillisecondsAndEnds) {
+TEST_F(LiveVoiceTest, ATapBetweenTwoBlocksSoundsForTenMilliseconds) {
     SimulatedDevice device(model_, tone_);
     device.run(0.1, [](double) { return testing::lifted(0); });
     ContactState tap = testing::sliding();
@@ -68,7 +68,7 @@ TEST_F(LiveVoiceTest, ATapThatCameAndWentBetweenTwoBlocksIsHeardForTenMillisecon
     EXPECT_EQ(device.counters().taps, 1U);
 }
 
-TEST_F(LiveVoiceTest, ATapThatOnlyTheTouchCounterTellsOfIsHeard) {
+TEST_F(LiveVoiceTest, ATapKnownOnlyFromTheTouchCounterSounds) {
     SimulatedDevice device(model_, tone_);
     device.run(0.1, [](double) { return testing::lifted(0); });
     ContactState afterwards = testing::sliding();
@@ -82,7 +82,7 @@ TEST_F(LiveVoiceTest, ATapThatOnlyTheTouchCounterTellsOfIsHeard) {
     EXPECT_LT(testing::peak(from(device, begin + 768)), silence);
 }
 
-TEST_F(LiveVoiceTest, NothingOfAnEarlierTouchSoundsAfterANewOne) {
+TEST_F(LiveVoiceTest, NoSegmentOfAnEarlierTouchSoundsAfterANewOne) {
     // Segments of the first touch are all threes, which no seed has, and one is still under way when the second begins.
     FakeGenerator threes(
         [](const inference::SegmentRequest&, std::span<float> segment) { std::ranges::fill(segment, 3.0F); });
@@ -105,7 +105,7 @@ TEST_F(LiveVoiceTest, NothingOfAnEarlierTouchSoundsAfterANewOne) {
     EXPECT_EQ(std::ranges::count(heard, 3.0F), 0) << "the seed, and nothing else";
 }
 
-TEST_F(LiveVoiceTest, AfterLiftOffThereIsSilenceWithinOneBlockAndFiveMilliseconds) {
+TEST_F(LiveVoiceTest, AfterLiftOffTheVoiceIsSilentWithinABlockAndFiveMilliseconds) {
     for (const std::size_t block : {64U, 128U, 256U, 512U, 1024U}) {
         testing::DeviceSettings settings;
         settings.blockFrames = block;
@@ -119,7 +119,7 @@ TEST_F(LiveVoiceTest, AfterLiftOffThereIsSilenceWithinOneBlockAndFiveMillisecond
     }
 }
 
-TEST_F(LiveVoiceTest, AContactThatNobodyRenewsFallsSilentAfterATenthOfASecondAndIsFeltAgainWhenItIs) {
+TEST_F(LiveVoiceTest, AStaleContactFallsSilentAfter100MillisecondsAndResumesWithANewState) {
     SimulatedDevice device(model_, tone_);
     device.run(0.4, slide);
     device.publish(testing::sliding());
@@ -133,7 +133,7 @@ TEST_F(LiveVoiceTest, AContactThatNobodyRenewsFallsSilentAfterATenthOfASecondAnd
     EXPECT_GT(testing::peak(from(device, again)), 0.5F / 60.0F);
 }
 
-TEST_F(LiveVoiceTest, PauseMuteAndWorkerDeathSilenceWithinOneBlockAndFiveMilliseconds) {
+TEST_F(LiveVoiceTest, PauseMuteAndAnEndedWorkerSilenceWithinABlockAndFiveMilliseconds) {
     const std::vector<std::function<void(SimulatedDevice&, bool)>> switches{
         [](SimulatedDevice& device, bool off) { device.controls().paused = off; },
         [](SimulatedDevice& device, bool off) { device.controls().muted = off; },
@@ -156,7 +156,7 @@ TEST_F(LiveVoiceTest, PauseMuteAndWorkerDeathSilenceWithinOneBlockAndFiveMillise
     }
 }
 
-TEST_F(LiveVoiceTest, PanicIsSilentAtTheEndOfTheNextBlockAndStaysSoUntilANewTouch) {
+TEST_F(LiveVoiceTest, APanicSilencesByTheEndOfTheNextBlockUntilANewTouch) {
     for (const std::size_t block : {64U, 256U}) {
         testing::DeviceSettings settings;
         settings.blockFrames = block;
@@ -183,7 +183,7 @@ TEST_F(LiveVoiceTest, PanicIsSilentAtTheEndOfTheNextBlockAndStaysSoUntilANewTouc
     }
 }
 
-TEST_F(LiveVoiceTest, SlidingThatStopsCostsNoInferenceAndResumesAtOnce) {
+TEST_F(LiveVoiceTest, ARestingTipNeedsNoInferenceAndResumesAtOnce) {
     SimulatedDevice device(model_, tone_);
     device.run(0.4, slide);
     device.run(0.1, [](double) { return testing::sliding(0.0F); });
@@ -200,7 +200,7 @@ TEST_F(LiveVoiceTest, SlidingThatStopsCostsNoInferenceAndResumesAtOnce) {
     EXPECT_GT(testing::peak(from(device, again)), 0.2F / 60.0F);
 }
 
-TEST_F(LiveVoiceTest, WithoutTouchNothingIsInferredAndOnlyZerosAreWritten) {
+TEST_F(LiveVoiceTest, WithoutTouchNothingIsInferredAndTheOutputIsZero) {
     SimulatedDevice device(model_, tone_);
     device.run(2.0, [](double) { return testing::lifted(0); });
     EXPECT_EQ(tone_.generated, 0);
@@ -209,7 +209,7 @@ TEST_F(LiveVoiceTest, WithoutTouchNothingIsInferredAndOnlyZerosAreWritten) {
     EXPECT_TRUE(std::ranges::all_of(device.output, [](float sample) { return sample == 0.0F; }));
 }
 
-TEST_F(LiveVoiceTest, TheSplicesOfASteadySlideLeaveNoTraceInTheWave) {
+TEST_F(LiveVoiceTest, TheSplicesOfASteadySlideAreInaudible) {
     SimulatedDevice device(model_, tone_);
     device.run(2.0, slide);
     const auto& wave = device.waveform.samples;
@@ -225,7 +225,7 @@ TEST_F(LiveVoiceTest, TheSplicesOfASteadySlideLeaveNoTraceInTheWave) {
 
 class StallTest : public LiveVoiceTest, public ::testing::WithParamInterface<double> {};
 
-TEST_P(StallTest, ALateWorkerNeverMakesAStepAndTheVoiceRecovers) {
+TEST_P(StallTest, ALateWorkerMakesNoStepAndTheVoiceRecovers) {
     const double stall = GetParam();
     testing::DeviceSettings settings;
     settings.latencySeconds = [stall](double now) { return std::fmod(now, 1.0) < 0.014 && now > 0.5 ? stall : 0.002; };
@@ -248,7 +248,7 @@ TEST_P(StallTest, ALateWorkerNeverMakesAStepAndTheVoiceRecovers) {
 INSTANTIATE_TEST_SUITE_P(Milliseconds, StallTest, ::testing::Values(0.005, 0.02, 0.08, 0.1, 0.5),
                          [](const auto& stall) { return std::to_string(static_cast<int>(1000.0 * stall.param)); });
 
-TEST_F(LiveVoiceTest, RandomStallsNeverMakeAStep) {
+TEST_F(LiveVoiceTest, RandomStallsMakeNoStep) {
     std::mt19937 random(3);
     std::uniform_real_distribution<double> share(0.0, 1.0);
     testing::DeviceSettings settings;
@@ -266,7 +266,7 @@ struct Blocks {
 
 class LeadTest : public LiveVoiceTest, public ::testing::WithParamInterface<Blocks> {};
 
-TEST_P(LeadTest, TheLearntLeadIsJustLongEnoughThatHardlyAnySegmentComesLate) {
+TEST_P(LeadTest, TheEstimatedLeadIsShortAndFewSegmentsAreLate) {
     testing::DeviceSettings settings;
     settings.blockFrames = GetParam().frames;
     settings.burstBlocks = GetParam().burst;
@@ -285,7 +285,7 @@ INSTANTIATE_TEST_SUITE_P(Device, LeadTest,
                              return std::to_string(blocks.param.frames) + "x" + std::to_string(blocks.param.burst);
                          });
 
-TEST_F(LiveVoiceTest, AnotherOutputRateCostsAFadeAndNothingElse) {
+TEST_F(LiveVoiceTest, AChangeOfTheOutputRateCausesOnlyAFade) {
     SimulatedDevice device(model_, tone_);
     device.run(0.5, slide);
     const std::uint64_t onsets = device.counters().onsets;
@@ -313,7 +313,7 @@ struct Device {
 
 class DeviceChangeTest : public LiveVoiceTest, public ::testing::WithParamInterface<Device> {};
 
-TEST_P(DeviceChangeTest, AtAnyMomentOfATouchItCostsAFadeAndNothingElse) {
+TEST_P(DeviceChangeTest, ADeviceChangeAtAnyMomentOfATouchCausesOnlyAFade) {
     const auto touchOfATenth = [](double time) {
         return std::optional(time >= 0.05 && time < 0.15 ? testing::sliding() : testing::lifted(time < 0.05 ? 0 : 1));
     };
@@ -344,7 +344,7 @@ INSTANTIATE_TEST_SUITE_P(To, DeviceChangeTest,
                                     std::to_string(device.param.blockFrames);
                          });
 
-TEST_F(LiveVoiceTest, ARateThatNoOutputRunsAtIsSilentAndHarmless) {
+TEST_F(LiveVoiceTest, AnUnsupportedRateIsSilentAndHarmless) {
     SimulatedDevice device(model_, tone_);
     device.run(0.3, slide);
     for (const double impossible : {1.0, -5.0, 1e9}) {
@@ -359,7 +359,7 @@ TEST_F(LiveVoiceTest, ARateThatNoOutputRunsAtIsSilentAndHarmless) {
     }
 }
 
-TEST_F(LiveVoiceTest, TheBlockLengthMayChangeAtAnyMoment) {
+TEST_F(LiveVoiceTest, TheBlockLengthMayChangeAtAnyTime) {
     SimulatedDevice device(model_, tone_);
     std::size_t block = 1;
     for (int i = 0; i < 60; ++i) {
@@ -371,7 +371,7 @@ TEST_F(LiveVoiceTest, TheBlockLengthMayChangeAtAnyMoment) {
     EXPECT_LE(testing::largestStep(std::span<const float>(device.waveform.samples).subspan(400)), 0.33F + 0.5F);
 }
 
-TEST_F(LiveVoiceTest, StrengthGlidesAndTheCeilingHoldsWhateverTheNetworkReturns) {
+TEST_F(LiveVoiceTest, TheStrengthChangesSmoothlyAndTheCeilingHoldsForAnyNetworkOutput) {
     FakeGenerator loud([](const inference::SegmentRequest& request, std::span<float> segment) {
         for (std::size_t i = 0; i < segment.size(); ++i) {
             segment[i] = 1000.0F * request.noise[i];
@@ -387,7 +387,7 @@ TEST_F(LiveVoiceTest, StrengthGlidesAndTheCeilingHoldsWhateverTheNetworkReturns)
     EXPECT_EQ(testing::peak(from(device, device.output.size() - 2400)), 0.0F);
 }
 
-TEST_F(LiveVoiceTest, AFailedRunPublishesNothingIsCountedAndTheVoiceFadesWhereItsSegmentEnds) {
+TEST_F(LiveVoiceTest, AfterAFailedRunTheVoiceFadesAtTheEndOfItsSegment) {
     int calls = 0;
     FakeGenerator failing([&calls](const inference::SegmentRequest& request, std::span<float> segment) {
         if (++calls > 20 && calls <= 40) {
@@ -403,7 +403,7 @@ TEST_F(LiveVoiceTest, AFailedRunPublishesNothingIsCountedAndTheVoiceFadesWhereIt
     EXPECT_GT(testing::peak(from(device, device.output.size() - 4800)), 0.9F / 60.0F);
 }
 
-TEST_F(LiveVoiceTest, UpdatesFasterThanHopsAreSkippedAndTheNewestWins) {
+TEST_F(LiveVoiceTest, UpdatesWithinAHopAreSkippedInFavourOfTheNewest) {
     testing::DeviceSettings settings;
     settings.updateHz = 1000.0;
     settings.latencySeconds = [](double) { return 0.0003; };
@@ -414,7 +414,7 @@ TEST_F(LiveVoiceTest, UpdatesFasterThanHopsAreSkippedAndTheNewestWins) {
     EXPECT_EQ(device.counters().underruns, 0U);
 }
 
-TEST_F(LiveVoiceTest, AStateThatComesTooSoonBehindAnotherIsGeneratedForAHopLaterInsteadOfAFrameLater) {
+TEST_F(LiveVoiceTest, AStateTooSoonAfterAnotherGetsItsSegmentAHopLater) {
     // The network answers with the speed that it was asked for; each time the newest speed comes 2 ms behind a state.
     FakeGenerator speed([](const inference::SegmentRequest& request, std::span<float> segment) {
         std::ranges::fill(segment, 10.0F * request.motion[0]);
@@ -438,7 +438,7 @@ TEST_F(LiveVoiceTest, AStateThatComesTooSoonBehindAnotherIsGeneratedForAHopLater
     }
 }
 
-TEST_F(LiveVoiceTest, EveryTouchingStateIsEitherGeneratedForOrCountedAsSkipped) {
+TEST_F(LiveVoiceTest, EveryTouchingStateGetsASegmentOrIsCountedAsSkipped) {
     SimulatedDevice device(model_, tone_);
     std::uint64_t touching = 0;
     const auto touch = [&](double seconds, std::uint32_t number) {
@@ -466,7 +466,7 @@ TEST_F(LiveVoiceTest, EveryTouchingStateIsEitherGeneratedForOrCountedAsSkipped) 
     EXPECT_LE(device.counters().skipped, 30U);
 }
 
-TEST_F(LiveVoiceTest, AfterLongBlocksALeadOfShortOnesIsShortAgainInTheSameTouch) {
+TEST_F(LiveVoiceTest, TheLeadShortensAgainAfterLongBlocksWithinATouch) {
     testing::DeviceSettings settings;
     settings.blockFrames = 2048;
     SimulatedDevice device(model_, tone_, settings);
@@ -477,7 +477,7 @@ TEST_F(LiveVoiceTest, AfterLongBlocksALeadOfShortOnesIsShortAgainInTheSameTouch)
     EXPECT_LT(device.counters().leadSamples, 20U);
 }
 
-TEST_F(LiveVoiceTest, APanicEndsWithItsBlockEvenWhereTheContactGoesStaleAtItsSecondFrame) {
+TEST_F(LiveVoiceTest, APanicSilencesItsBlockEvenIfTheContactBecomesStaleInIt) {
     SimulatedDevice device(model_, tone_);
     device.run(0.5, slide);
     const float ordinaryStep = testing::largestStep(device.output);
@@ -493,7 +493,7 @@ TEST_F(LiveVoiceTest, APanicEndsWithItsBlockEvenWhereTheContactGoesStaleAtItsSec
     EXPECT_LE(std::abs(block.front() - rest.back()), 3.0F * ordinaryStep);
 }
 
-TEST_F(LiveVoiceTest, ADeviceThatStopsAskingStopsInferenceToo) {
+TEST_F(LiveVoiceTest, AStoppedDeviceEndsInference) {
     SimulatedDevice device(model_, tone_);
     device.run(0.3, slide);
     const std::uint64_t inferences = device.counters().inferences;
@@ -503,7 +503,7 @@ TEST_F(LiveVoiceTest, ADeviceThatStopsAskingStopsInferenceToo) {
     EXPECT_LE(device.counters().inferences, inferences + 1);
 }
 
-TEST_F(LiveVoiceTest, BetweenTwoLongBlocksEveryNewStateGetsASegmentAndTheNewestIsTheOneHeard) {
+TEST_F(LiveVoiceTest, DuringALongBlockEveryStateGetsASegmentAndTheNewestSounds) {
     // Pairs of blocks 43 ms apart, states every 14. The network answers with the speed that it was asked for.
     FakeGenerator speed([](const inference::SegmentRequest& request, std::span<float> segment) {
         std::ranges::fill(segment, 10.0F * request.motion[0]);
@@ -525,7 +525,7 @@ TEST_F(LiveVoiceTest, BetweenTwoLongBlocksEveryNewStateGetsASegmentAndTheNewestI
     EXPECT_FLOAT_EQ(device.waveform.samples.back(), 2.0F);
 }
 
-TEST_F(LiveVoiceTest, ReadFourTimesFasterTheVoiceStillNeverRunsDry) {
+TEST_F(LiveVoiceTest, AtAReadingRateOfFourTheVoiceHasNoUnderruns) {
     for (const double updateHz : {30.0, 72.0, 120.0}) {
         testing::DeviceSettings settings;
         settings.updateHz = updateHz;

@@ -63,7 +63,7 @@ protected:
     FakeGenerator tone_{testing::continueTone};
 };
 
-TEST_F(LongRunTest, AVoiceWhoseClockStandsADayOnSoundsAsANewOneDoesToTheLastBit) {
+TEST_F(LongRunTest, AVoiceWithAClockOneDayAheadSoundsLikeANewVoice) {
     SimulatedDevice device(model_, tone_, settings());
     // Nothing but reading advances the clock of a voice: a day of it is put there, and an odd number of samples, so
     // that the ring stands elsewhere.
@@ -79,7 +79,7 @@ TEST_F(LongRunTest, AVoiceWhoseClockStandsADayOnSoundsAsANewOneDoesToTheLastBit)
     EXPECT_EQ(device.counters().underruns, 0U);
 }
 
-TEST_F(LongRunTest, AVoiceThatSoundedForLongSoundsAsANewOneDoesToTheLastBit) {
+TEST_F(LongRunTest, AVoiceAfterALongTouchSoundsLikeANewVoice) {
     SimulatedDevice device(model_, tone_, settings());
     const auto seconds = static_cast<int>(soundingSeconds());
     for (int second = 0; second < seconds; ++second) {
@@ -95,7 +95,7 @@ TEST_F(LongRunTest, AVoiceThatSoundedForLongSoundsAsANewOneDoesToTheLastBit) {
     EXPECT_EQ(device.counters().underruns, 0U);
 }
 
-TEST_F(LongRunTest, AStrokeRenderedOfflineADayLaterSoundsTheSameToTheLastBit) {
+TEST_F(LongRunTest, AStrokeRenderedOfflineADayLaterGivesTheSameBits) {
     const auto renderFrom = [this](double startSeconds) {
         std::vector<ContactState> states;
         for (int update = 0; update < 144; ++update) {

@@ -43,7 +43,7 @@ void withoutLevel(json& material) {
     material.erase("level_offset_db");
 }
 
-TEST(MaterialLibraryTest, ARegisteredMaterialIsNamedByAnIndexBehindTheLabels) {
+TEST(MaterialLibraryTest, ARegisteredMaterialHasAnIndexAfterTheLabels) {
     SmallLibrary small;
     EXPECT_EQ(small.library.add(materialOf(small.model), small.levels()), 2U);
     EXPECT_EQ(small.library.add(materialOf(small.model, [](json& text) { text["name"] = "jeans"; }), small.levels()),
@@ -56,7 +56,7 @@ TEST(MaterialLibraryTest, ARegisteredMaterialIsNamedByAnIndexBehindTheLabels) {
     EXPECT_EQ(small.ingredients({{4, 1.0F}}).heaviest().index, 0U) << "nothing is registered there yet";
 }
 
-TEST(MaterialLibraryTest, AMaterialOfAnotherModelIsRefusedAndTakesNoPlace) {
+TEST(MaterialLibraryTest, AMaterialOfAnotherModelIsRejectedAndTakesNoIndex) {
     SmallLibrary small;
     const auto foreign = [&] { return materialOf(small.model, [](json& text) { text["space"] = "00000000"; }); };
     EXPECT_THROW((void)small.library.add(foreign(), small.levels()), model::MaterialMismatch);
@@ -66,7 +66,7 @@ TEST(MaterialLibraryTest, AMaterialOfAnotherModelIsRefusedAndTakesNoPlace) {
     EXPECT_EQ(nameOf(small.library, 2), "denim");
 }
 
-TEST(MaterialLibraryTest, AFullLibraryRefusesMoreAndAnIndexOfNoMaterialIsNone) {
+TEST(MaterialLibraryTest, AFullLibraryAndInvalidIndicesAreRejected) {
     SmallLibrary small;
     for (std::size_t count = 0; count < MaterialLibrary::maximumRegistered; ++count) {
         EXPECT_EQ(small.library.add(materialOf(small.model), small.levels()), 2U + count);
@@ -78,7 +78,7 @@ TEST(MaterialLibraryTest, AFullLibraryRefusesMoreAndAnIndexOfNoMaterialIsNone) {
     }
 }
 
-TEST(MaterialLibraryTest, AReplacedMaterialIsFeltWithTheNextLook) {
+TEST(MaterialLibraryTest, AReplacedMaterialIsUsedAtTheNextLookup) {
     SmallLibrary small;
     (void)small.library.add(materialOf(small.model), small.levels());
     small.library.replace(2, materialOf(small.model, [](json& text) { text["embedding"][5] = -2.0; }), small.levels());
@@ -86,7 +86,7 @@ TEST(MaterialLibraryTest, AReplacedMaterialIsFeltWithTheNextLook) {
     EXPECT_EQ(small.library.registeredCount(), 1U);
 }
 
-TEST(MaterialLibraryTest, AMaterialWithoutALevelOfItsOwnHasTheGraphsAndOneWithDoesNotAskTheGraph) {
+TEST(MaterialLibraryTest, OnlyAMaterialWithoutItsOwnLevelUsesTheLevelGraph) {
     SmallLibrary small;
     (void)small.library.add(materialOf(small.model, withoutLevel), small.levels());
     const std::array<float, 3> motion{0.1F, 0.0F, 2.0F};
@@ -96,7 +96,7 @@ TEST(MaterialLibraryTest, AMaterialWithoutALevelOfItsOwnHasTheGraphsAndOneWithDo
     });
 }
 
-TEST(MaterialLibraryTest, AnOwnLevelIsInterpolatedInLogSpeedContinuedByItsExponentsAndRaisedByItsOffset) {
+TEST(MaterialLibraryTest, AnOwnLevelIsInterpolatedExtrapolatedAndOffset) {
     SmallLibrary small;
     (void)small.library.add(materialOf(small.model), small.levels());
     const auto levelAt = [&](float speedMps, float newtons) {
@@ -113,7 +113,7 @@ TEST(MaterialLibraryTest, AnOwnLevelIsInterpolatedInLogSpeedContinuedByItsExpone
     EXPECT_TRUE(std::isfinite(levelAt(0.0F, 0.0F)));
 }
 
-TEST(MaterialLibraryTest, ABlendsLevelIsTheMeanOfItsMaterialsInDecibelsWhoeverGivesThem) {
+TEST(MaterialLibraryTest, ABlendsLevelIsTheMeanOfItsMaterialsInDecibels) {
     SmallLibrary small;
     (void)small.library.add(materialOf(small.model), small.levels());
     const std::array<float, 3> motion{0.1F, 0.0F, 1.0F};
@@ -123,7 +123,7 @@ TEST(MaterialLibraryTest, ABlendsLevelIsTheMeanOfItsMaterialsInDecibelsWhoeverGi
                 std::pow(own, 0.25F) * std::pow(graph, 0.75F), 1e-4F);
 }
 
-TEST(MaterialLibraryTest, WithoutSeedsAMaterialTakesThoseOfTheNearestLabelWaveVectorsLeftAside) {
+TEST(MaterialLibraryTest, AMaterialWithoutSeedsUsesThoseOfTheNearestLabel) {
     SmallLibrary small;
     const auto without = [&](float numbers, float wave) {
         return materialOf(small.model, [numbers, wave](json& text) {
@@ -143,7 +143,7 @@ TEST(MaterialLibraryTest, WithoutSeedsAMaterialTakesThoseOfTheNearestLabelWaveVe
     EXPECT_EQ(own[0].ribPhase[0], 0.25);
 }
 
-TEST(MaterialLibraryTest, LevelsAndKernelsAreThoseOfTheGoldenFiles) {
+TEST(MaterialLibraryTest, LevelsAndKernelsMatchTheGoldenFiles) {
     const json golden = haptoflow::testing::readGolden("material/expected.json");
     for (const auto& [modelPath, name] :
          {std::pair<std::string, std::string>{HAPTOFLOW_TEST_GOLDEN_DIR "/model/tiny.haptoflow", "ribbed"},
@@ -183,7 +183,7 @@ TEST(MaterialLibraryTest, LevelsAndKernelsAreThoseOfTheGoldenFiles) {
     }
 }
 
-TEST(MaterialLibraryTest, ATiltIsSoManyDecibelsAnOctaveAbout150HzOnTopOfTheMaterialsTone) {
+TEST(MaterialLibraryTest, ATiltAddsToTheMaterialsToneAbout150Hz) {
     SmallLibrary small;
     (void)small.library.add(materialOf(small.model), small.levels());
     const dsp::ToneCepstrum tilt = designTilt();
@@ -210,7 +210,7 @@ TEST(MaterialLibraryTest, ATiltIsSoManyDecibelsAnOctaveAbout150HzOnTopOfTheMater
     }
 }
 
-TEST(MaterialLibraryTest, WhatPublishersReadStaysWholeWhileMaterialsAreReplacedAsFastAsTheyCan) {
+TEST(MaterialLibraryTest, PublishersReadConsistentMaterialsDuringConcurrentReplacement) {
     SmallLibrary small;
     // Each generation of a material is one number throughout: a reader that saw half of one would see two.
     const auto generation = [&small](int number) {

@@ -51,7 +51,7 @@ std::vector<ContactState> slide(double seconds, double updatesHz = 72.0) {
     return states;
 }
 
-TEST(OfflineRendererTest, SameStatesAndSeedGiveTheSameSamplesAndAnotherSeedOthers) {
+TEST(OfflineRendererTest, TheSamplesDependOnlyOnStatesAndSeed) {
     const model::ModelFile model = testing::smallModel();
     FakeGenerator generator(whiteNoise);
     const std::vector<ContactState> states = slide(0.5);
@@ -80,7 +80,7 @@ public:
     std::size_t largestPiece = 0;
 };
 
-TEST(OfflineRendererTest, AStreamedRenderComesInPiecesOfOneUpdateAndMeasuresTheSame) {
+TEST(OfflineRendererTest, AStreamedRenderArrivesPerUpdateAndHasTheSameStatistics) {
     const model::ModelFile model = testing::smallModel();
     FakeGenerator generator(whiteNoise);
     const std::vector<ContactState> states = slide(5.0);
@@ -118,7 +118,7 @@ TEST(OfflineRendererTest, TouchesWithoutASoundAreCounted) {
     EXPECT_EQ(render.silentTouches, 1U);
 }
 
-TEST(OfflineRendererTest, EverySegmentGoesOnFromTheCommittedSamplesBeforeIt) {
+TEST(OfflineRendererTest, EverySegmentContinuesTheCommittedSamples) {
     const model::ModelFile model = testing::smallModel();
     FakeGenerator generator(continueTone);
     // The seed alternates from sample to sample; the first segment turns it into the tone that its last two samples
@@ -133,7 +133,7 @@ TEST(OfflineRendererTest, EverySegmentGoesOnFromTheCommittedSamplesBeforeIt) {
     EXPECT_EQ(render.underruns, 0U);
 }
 
-TEST(OfflineRendererTest, WithoutTouchNothingIsGeneratedAndNothingSounds) {
+TEST(OfflineRendererTest, WithoutTouchNothingIsGeneratedAndTheOutputIsZero) {
     const model::ModelFile model = testing::smallModel();
     FakeGenerator generator(whiteNoise);
     std::vector<ContactState> states = slide(1.0);
@@ -147,7 +147,7 @@ TEST(OfflineRendererTest, WithoutTouchNothingIsGeneratedAndNothingSounds) {
     EXPECT_TRUE(render.waveformMps2.empty());
 }
 
-TEST(OfflineRendererTest, ATipThatRestsOnTheSurfaceCostsNoInference) {
+TEST(OfflineRendererTest, ATipAtRestOnTheSurfaceNeedsNoInference) {
     const model::ModelFile model = testing::smallModel();
     FakeGenerator generator(whiteNoise);
     std::vector<ContactState> states = slide(1.0);
@@ -159,7 +159,7 @@ TEST(OfflineRendererTest, ATipThatRestsOnTheSurfaceCostsNoInference) {
     EXPECT_EQ(render.skipped, states.size());
 }
 
-TEST(OfflineRendererTest, AFailedRunPublishesNothingIsCountedAndFadesInsteadOfBreakingOff) {
+TEST(OfflineRendererTest, AfterAFailedRunTheOutputFadesAndTheFailureIsCounted) {
     const model::ModelFile model = testing::smallModel();
     int calls = 0;
     FakeGenerator generator([&calls](const inference::SegmentRequest& request, std::span<float> segment) {
@@ -174,7 +174,7 @@ TEST(OfflineRendererTest, AFailedRunPublishesNothingIsCountedAndFadesInsteadOfBr
     EXPECT_EQ(render.nonFinite, 0U);
 }
 
-TEST(OfflineRendererTest, UpdatesThatStopForATenthOfASecondSilenceTheVoiceAndSlidingResumes) {
+TEST(OfflineRendererTest, MissingUpdatesSilenceTheVoiceUntilSlidingResumes) {
     const model::ModelFile model = testing::smallModel();
     FakeGenerator generator(continueTone);
     std::vector<ContactState> states = slide(1.0);
@@ -192,7 +192,7 @@ TEST(OfflineRendererTest, UpdatesThatStopForATenthOfASecondSilenceTheVoiceAndSli
     EXPECT_NE(render.samples[quietTo + 480], 0.0F);
 }
 
-TEST(OfflineRendererTest, RuinedStatesAreSanitisedAndCountedAndTheOutputStaysFinite) {
+TEST(OfflineRendererTest, InvalidStatesAreSanitisedAndCountedAndTheOutputIsFinite) {
     const model::ModelFile model = testing::smallModel();
     FakeGenerator generator(whiteNoise);
     std::vector<ContactState> states = slide(1.0);
@@ -220,7 +220,7 @@ TEST_P(UpdateRateTest, EveryUpdateOfASlideGivesOneSegmentAndNoUnderrun) {
 INSTANTIATE_TEST_SUITE_P(Hertz, UpdateRateTest, ::testing::Values(30.0, 45.0, 72.0, 90.0, 120.0, 500.0, 1000.0),
                          [](const auto& rate) { return std::to_string(static_cast<int>(rate.param)); });
 
-TEST(OfflineRendererTest, TheLeadDecidesWhenANewLabelIsFirstHeard) {
+TEST(OfflineRendererTest, ANewLabelIsAudibleAfterTheLead) {
     const model::ModelFile model = testing::smallModel();
     // Silent until the label changes, then constant: the first sample that is not zero shows the switch.
     const auto answer = [&model](const inference::SegmentRequest& request, std::span<float> segment) {
@@ -245,7 +245,7 @@ TEST(OfflineRendererTest, TheLeadDecidesWhenANewLabelIsFirstHeard) {
     }
 }
 
-TEST(OfflineRendererTest, SettingsOutOfRangeAreRefused) {
+TEST(OfflineRendererTest, SettingsOutOfRangeAreRejected) {
     const model::ModelFile model = testing::smallModel();
     FakeGenerator generator(whiteNoise);
     const std::vector<ContactState> states = slide(0.1);

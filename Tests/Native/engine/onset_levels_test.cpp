@@ -89,7 +89,7 @@ protected:
     MaterialLibrary library_{model_, graph_};
 };
 
-TEST_F(OnsetLevelsTest, EverywhereInTheRangeTheTableIsWithinHalfADecibelOfTheGraph) {
+TEST_F(OnsetLevelsTest, TheTableIsWithinHalfADecibelOfTheGraph) {
     std::mt19937 random(5);
     std::uniform_real_distribution<double> share(0.0, 1.0);
     for (int trial = 0; trial < 2000; ++trial) {
@@ -112,7 +112,7 @@ TEST_F(OnsetLevelsTest, ABlendLiesBetweenItsLabelsInDecibels) {
     EXPECT_NEAR(mixed, std::sqrt(first * second), 1e-4F);
 }
 
-TEST_F(OnsetLevelsTest, BeyondTheRangeAndAtRestItStaysAtTheEdge) {
+TEST_F(OnsetLevelsTest, BeyondTheRangeAndAtRestTheLevelIsThatOfTheEdge) {
     const auto oak = [this](const std::array<float, 3>& motion) {
         return levelOf({{.label = 0, .weight = 1.0F}}, motion);
     };
@@ -120,7 +120,7 @@ TEST_F(OnsetLevelsTest, BeyondTheRangeAndAtRestItStaysAtTheEdge) {
     EXPECT_EQ(oak({0.01F, 0.0F, 0.1F}), oak({0.0F, 0.0F, 0.0F}));
 }
 
-TEST_F(OnsetLevelsTest, UnknownLabelsAreLeftOutAndABlendOfNoneIsTheFirst) {
+TEST_F(OnsetLevelsTest, UnknownLabelsAreSkippedAndAnEmptyBlendIsTheFirstLabel) {
     const std::array<float, 3> motion{0.1F, 0.0F, 1.0F};
     const float first = levelOf({{.label = 0, .weight = 1.0F}}, motion);
     EXPECT_EQ(levelOf({}, motion), first);
@@ -128,17 +128,17 @@ TEST_F(OnsetLevelsTest, UnknownLabelsAreLeftOutAndABlendOfNoneIsTheFirst) {
     EXPECT_EQ(levelOf({{.label = 1, .weight = 0.0F}}, motion), first);
 }
 
-TEST(OnsetLevelsCostTest, TheGraphIsAsked640TimesForEachEmbeddingHoweverManyThereAre) {
+TEST(OnsetLevelsCostTest, TheGraphIsEvaluatedAt640PointsForEachEmbedding) {
     EXPECT_EQ(levelsAskedFor(2, 2), 2U * 640U);
     EXPECT_EQ(levelsAskedFor(64, 64), 64U * 640U);
     EXPECT_EQ(levelsAskedFor(4096, 4096), 4096U * 640U);
 }
 
-TEST(OnsetLevelsCostTest, LabelsOfTheSameEmbeddingCostNothingMore) {
+TEST(OnsetLevelsCostTest, LabelsWithTheSameEmbeddingNeedNoFurtherEvaluations) {
     EXPECT_EQ(levelsAskedFor(4096, 16), 16U * 640U);
 }
 
-TEST(OnsetLevelsCostTest, LabelsOfTheSameEmbeddingHaveTheSameLevelAndOthersTheirOwn) {
+TEST(OnsetLevelsCostTest, LabelsWithTheSameEmbeddingHaveTheSameLevel) {
     PowerLaw graph;
     const model::ModelFile model = modelWithLabels(40, 8);
     const OnsetLevels levels(model, graph);
@@ -153,7 +153,7 @@ TEST(OnsetLevelsCostTest, LabelsOfTheSameEmbeddingHaveTheSameLevelAndOthersTheir
     }
 }
 
-TEST(OnsetLevelsCostTest, ACancellationEndsItWithinOneBatch) {
+TEST(OnsetLevelsCostTest, ACancellationEndsTheTabulationWithinOneBatch) {
     PowerLaw graph;
     const auto cancellation = std::make_shared<inference::Cancellation>();
     graph.whenAsked = [&] {

@@ -28,7 +28,7 @@ void runRounds(QualityControl& control, int rounds, double milliseconds, std::si
     }
 }
 
-TEST(RunTimesTest, PercentilesAreThoseOfTheLastRuns) {
+TEST(RunTimesTest, PercentilesCoverOnlyTheLastRuns) {
     RunTimes times;
     EXPECT_EQ(times.percentile(0.99), 0.0);
     for (int run = 1; run <= 100; ++run) {
@@ -42,14 +42,14 @@ TEST(RunTimesTest, PercentilesAreThoseOfTheLastRuns) {
     EXPECT_EQ(times.percentile(0.99), 7.0) << "the first hundred are forgotten";
 }
 
-TEST(QualityControlTest, TheMostAccurateTierThatFitsTheBudgetIsTaken) {
+TEST(QualityControlTest, TheMostAccurateTierThatFitsTheBudgetIsChosen) {
     EXPECT_EQ(measuredControl(0.2, 0.5, 1.5).tier(), 2U);
     EXPECT_EQ(measuredControl(0.2, 0.5, 3.5).tier(), 1U);
     EXPECT_EQ(measuredControl(2.0, 4.0, 8.0).tier(), 0U);
     EXPECT_EQ(measuredControl(20.0, 40.0, 80.0).tier(), 0U) << "too slow a machine still gets the cheapest";
 }
 
-TEST(QualityControlTest, EachTierIsMeasuredTwentyTimesBeforeItDecides) {
+TEST(QualityControlTest, EachTierIsMeasuredTwentyTimesBeforeTheFirstDecision) {
     QualityControl control(2, {.fixedTier = std::nullopt, .budgetMs = budgetMs}, 0);
     int runs = 0;
     while (const auto tier = control.tierToMeasure()) {
@@ -61,7 +61,7 @@ TEST(QualityControlTest, EachTierIsMeasuredTwentyTimesBeforeItDecides) {
     EXPECT_EQ(control.tier(), 1U);
 }
 
-TEST(QualityControlTest, RareOverrunsChangeNothingAndThreeCloseTogetherStepDown) {
+TEST(QualityControlTest, OnlyThreeOverrunsCloseTogetherCauseAStepDown) {
     QualityControl control = measuredControl(0.2, 0.5, 1.5);
     for (int i = 0; i < 20; ++i) {
         runRounds(control, 40, 1.5);
@@ -73,14 +73,14 @@ TEST(QualityControlTest, RareOverrunsChangeNothingAndThreeCloseTogetherStepDown)
     EXPECT_EQ(control.stepsDown(), 1U);
 }
 
-TEST(QualityControlTest, BelowTheCheapestTierThereIsNothing) {
+TEST(QualityControlTest, TheFirstTierDoesNotStepDown) {
     QualityControl control = measuredControl(0.2, 0.5, 1.5);
     runRounds(control, 100, 50.0);
     EXPECT_EQ(control.tier(), 0U);
     EXPECT_EQ(control.stepsDown(), 2U);
 }
 
-TEST(QualityControlTest, ItStepsUpAgainOnlyAfterALongQuietTimeAndLongerAfterEachFall) {
+TEST(QualityControlTest, AStepUpNeedsALongTimeWithoutOverrunsThatGrowsWithEachStepDown) {
     QualityControl control = measuredControl(0.2, 0.5, 1.5);
     const auto quietRoundsUntilUp = [&control] {
         runRounds(control, 3, 9.0);
@@ -99,7 +99,7 @@ TEST(QualityControlTest, ItStepsUpAgainOnlyAfterALongQuietTimeAndLongerAfterEach
     EXPECT_EQ(control.stepsUp(), 2U);
 }
 
-TEST(QualityControlTest, ItDoesNotStepUpToWhatWouldNotFitForSoManyVoices) {
+TEST(QualityControlTest, NoStepUpOccursToATierThatDoesNotFitAllVoices) {
     QualityControl control = measuredControl(0.2, 0.5, 1.5);
     runRounds(control, 3, 9.0, 4);
     ASSERT_EQ(control.tier(), 1U);
@@ -109,7 +109,7 @@ TEST(QualityControlTest, ItDoesNotStepUpToWhatWouldNotFitForSoManyVoices) {
     EXPECT_EQ(control.tier(), 2U);
 }
 
-TEST(QualityControlTest, MoreVoicesThanTheTierFitsForStepItDownBeforeAnythingOverruns) {
+TEST(QualityControlTest, AdditionalVoicesCauseAStepDownBeforeAnOverrun) {
     QualityControl control = measuredControl(0.2, 0.5, 1.5);
     ASSERT_EQ(control.tier(), 2U);
     control.recordRound(1.5, 1);
@@ -120,7 +120,7 @@ TEST(QualityControlTest, MoreVoicesThanTheTierFitsForStepItDownBeforeAnythingOve
     EXPECT_EQ(control.tier(), 0U) << "twelve of 0.5 ms";
 }
 
-TEST(QualityControlTest, AFixedTierStaysWhateverItCosts) {
+TEST(QualityControlTest, AFixedTierStaysDespiteOverruns) {
     QualityControl control(3, {.fixedTier = 2, .budgetMs = budgetMs}, 0);
     EXPECT_EQ(control.tierToMeasure(), std::nullopt);
     runRounds(control, 1000, 50.0);
@@ -138,13 +138,13 @@ QualityControl controlByAccuracy(double first, double second, double third) {
     return control;
 }
 
-TEST(QualityControlTest, TheMostAccurateIsTheOneThatWasMeasuredSoAndNotTheLast) {
+TEST(QualityControlTest, TheOrderOfAccuracyDecidesAndNotTheModelsOrder) {
     EXPECT_EQ(controlByAccuracy(0.2, 0.5, 1.5).tier(), 1U);
     EXPECT_EQ(controlByAccuracy(0.2, 3.5, 1.5).tier(), 2U) << "the second most accurate, where the first does not fit";
     EXPECT_EQ(controlByAccuracy(0.2, 3.5, 3.5).tier(), 0U);
 }
 
-TEST(QualityControlTest, AStepDownGoesToATierThatIsFaster) {
+TEST(QualityControlTest, AStepDownSkipsTiersThatAreNotFaster) {
     QualityControl control = controlByAccuracy(0.2, 0.5, 1.5);
     runRounds(control, 3, 9.0);
     EXPECT_EQ(control.tier(), 0U) << "the tier between them is slower than the one that was too slow";
@@ -154,7 +154,7 @@ TEST(QualityControlTest, AStepDownGoesToATierThatIsFaster) {
     EXPECT_EQ(control.stepsDown(), 1U);
 }
 
-TEST(QualityControlTest, AStepUpPassesATierThatIsSlowerAndLessAccurateThanAnother) {
+TEST(QualityControlTest, AStepUpSkipsATierThatIsSlowerAndLessAccurateThanAnother) {
     QualityControl control = controlByAccuracy(0.2, 0.5, 1.5);
     runRounds(control, 3, 9.0);
     ASSERT_EQ(control.tier(), 0U);
@@ -163,7 +163,7 @@ TEST(QualityControlTest, AStepUpPassesATierThatIsSlowerAndLessAccurateThanAnothe
     EXPECT_EQ(control.stepsUp(), 1U);
 }
 
-TEST(QualityControlTest, WhichTierIsFasterIsToldByTimesOfTheSameLoad) {
+TEST(QualityControlTest, TiersAreComparedByTimesMeasuredUnderTheSameLoad) {
     QualityControl control = measuredControl(0.2, 0.5, 3.5);
     ASSERT_EQ(control.tier(), 1U);
     runRounds(control, 3, 9.0);
@@ -176,7 +176,7 @@ TEST(QualityControlTest, WhichTierIsFasterIsToldByTimesOfTheSameLoad) {
     EXPECT_EQ(control.tier(), 0U);
 }
 
-TEST(QualityControlTest, TooSlowAMachineGetsTheFastestTierWhereverItStands) {
+TEST(QualityControlTest, ATooSlowMachineGetsTheFastestTier) {
     QualityControl control(3, {.fixedTier = std::nullopt, .budgetMs = budgetMs}, 0, {0, 1, 2});
     const std::array<double, 3> times{40.0, 20.0, 80.0};
     while (const auto tier = control.tierToMeasure()) {
@@ -185,13 +185,13 @@ TEST(QualityControlTest, TooSlowAMachineGetsTheFastestTierWhereverItStands) {
     EXPECT_EQ(control.tier(), 1U);
 }
 
-TEST(QualityControlTest, AnOrderThatIsNotOneOfItsTiersIsRefused) {
+TEST(QualityControlTest, AnInvalidOrderOfAccuracyIsRejected) {
     for (const std::vector<std::size_t>& order : {std::vector<std::size_t>{0, 1}, {0, 1, 1}, {0, 1, 3}, {0, 1, 2, 3}}) {
         EXPECT_THROW(QualityControl(3, {.fixedTier = 0, .budgetMs = budgetMs}, 0, order), std::invalid_argument);
     }
 }
 
-TEST(QualityControlTest, QualityMayBeChangedAtAnyTime) {
+TEST(QualityControlTest, TheQualityCanBeChangedAtAnyTime) {
     QualityControl control = measuredControl(0.2, 0.5, 1.5);
     control.setSettings({.fixedTier = 0, .budgetMs = budgetMs});
     EXPECT_EQ(control.tier(), 0U);
@@ -200,11 +200,11 @@ TEST(QualityControlTest, QualityMayBeChangedAtAnyTime) {
     EXPECT_THROW(QualityControl(3, {.fixedTier = 3, .budgetMs = budgetMs}, 0), std::invalid_argument);
 }
 
-TEST(LeadEstimatorTest, BeforeAnythingIsKnownItAllowsTwoBlocksAndFourMilliseconds) {
+TEST(LeadEstimatorTest, WithoutObservationsTheLeadIsTwoBlocksAndFourMilliseconds) {
     EXPECT_EQ(LeadEstimator{}.samples(11), 30);
 }
 
-TEST(LeadEstimatorTest, OneStallDoesNotLengthenItAndTwoDo) {
+TEST(LeadEstimatorTest, OneStallDoesNotLengthenTheLeadButTwoDo) {
     LeadEstimator lead;
     for (int i = 0; i < 200; ++i) {
         lead.observe(12);
@@ -220,7 +220,7 @@ TEST(LeadEstimatorTest, OneStallDoesNotLengthenItAndTwoDo) {
     EXPECT_EQ(lead.samples(11), 13) << "and is forgotten again";
 }
 
-TEST(LeadEstimatorTest, ItIsNeverShorterThanABlockNorLongerThanFiftyMilliseconds) {
+TEST(LeadEstimatorTest, TheLeadIsAtLeastABlockAndAtMostFiftyMilliseconds) {
     LeadEstimator lead;
     for (int i = 0; i < 200; ++i) {
         lead.observe(0);

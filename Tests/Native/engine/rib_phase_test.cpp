@@ -141,7 +141,7 @@ protected:
     }
 };
 
-TEST_F(RibPhaseTest, AStrokeAtOneSpeedCrossesTheSeedsRibsWithoutAJumpAtAnyUpdateRate) {
+TEST_F(RibPhaseTest, AtConstantSpeedTheRibsContinueTheSeedsWithoutAJump) {
     for (const double updateHz : {30.0, 72.0, 120.0}) {
         for (const double latency : {0.002, 0.012, 0.045}) {
             DeviceSettings settings;
@@ -156,7 +156,7 @@ TEST_F(RibPhaseTest, AStrokeAtOneSpeedCrossesTheSeedsRibsWithoutAJumpAtAnyUpdate
     }
 }
 
-TEST_F(RibPhaseTest, PhasesAreTurnsFromZeroToBelowOne) {
+TEST_F(RibPhaseTest, PhasesAreInTheRangeFromZeroToBelowOne) {
     SimulatedDevice device(model_, generator_);
     device.run(3.0, [](double t) { return onLabel(0, t < 1.5 ? 0.37F : -0.29F); });
     ASSERT_GT(phases_.size(), 100U);
@@ -166,7 +166,7 @@ TEST_F(RibPhaseTest, PhasesAreTurnsFromZeroToBelowOne) {
     }
 }
 
-TEST_F(RibPhaseTest, AStrokeThatTurnsBackMeetsTheSameRibsBackwards) {
+TEST_F(RibPhaseTest, AReversedStrokeCrossesTheSameRibsBackwards) {
     SimulatedDevice device(model_, generator_);
     device.run(1.0, slide);
     device.run(0.9, [](double) { return onLabel(0, -static_cast<float>(seedSpeedMps)); });
@@ -204,7 +204,7 @@ TEST_F(RibPhaseTest, TheSecondWaveVectorHasItsOwnPhase) {
     EXPECT_NEAR(turns / static_cast<double>(phases_.size() - 1), 0.4 * 50.0 / 72.0, 0.01);
 }
 
-TEST_F(RibPhaseTest, AnotherSpeedAtEveryUpdateNeverMakesThePhaseJump) {
+TEST_F(RibPhaseTest, SpeedChangesAtEveryUpdateMakeNoPhaseJump) {
     for (const std::size_t blockFrames : {64U, 256U, 1024U}) {
         for (const double updateHz : {30.0, 72.0, 120.0}) {
             SCOPED_TRACE(std::to_string(blockFrames) + " frames, " + std::to_string(updateHz) + " Hz");
@@ -223,7 +223,7 @@ TEST_F(RibPhaseTest, AnotherSpeedAtEveryUpdateNeverMakesThePhaseJump) {
     }
 }
 
-TEST_F(RibPhaseTest, ASegmentThatReplacesAnotherGoesOnFromTheOneBeforeBoth) {
+TEST_F(RibPhaseTest, AReplacementSegmentContinuesThePhaseBeforeTheReplacedOne) {
     // Several states come while one long block plays, each with another speed; only the last of them sounds. Beyond
     // the range the lead is longer, so that a later state may take over earlier.
     for (const float fastMps : {0.15F, 1.1F}) {
@@ -242,7 +242,7 @@ TEST_F(RibPhaseTest, ASegmentThatReplacesAnotherGoesOnFromTheOneBeforeBoth) {
     }
 }
 
-TEST_F(RibPhaseTest, ChainedSegmentsGoOnWithThePhaseOfTheOneBefore) {
+TEST_F(RibPhaseTest, ChainedSegmentsContinueThePhase) {
     DeviceSettings settings;
     settings.updateHz = 11.0;
     settings.fixedLeadSamples = 60;
@@ -253,7 +253,7 @@ TEST_F(RibPhaseTest, ChainedSegmentsGoOnWithThePhaseOfTheOneBefore) {
     EXPECT_LT(testing::largestStep(device.waveform.samples), largestStepWithoutAJump);
 }
 
-TEST_F(RibPhaseTest, BeyondTheRangeThePhaseFollowsTheMotionThatTheNetworkIsAskedFor) {
+TEST_F(RibPhaseTest, BeyondTheRangeThePhaseFollowsTheClampedMotion) {
     // Twice as fast as the range: read faster in waveform time, where the network hears of 0.4 m/s.
     SimulatedDevice device(model_, generator_);
     device.run(1.0, [](double) { return onLabel(0, 0.8F); });
@@ -265,7 +265,7 @@ TEST_F(RibPhaseTest, BeyondTheRangeThePhaseFollowsTheMotionThatTheNetworkIsAsked
     EXPECT_LT(largestError(played.first(1500), phaseThere + 4 * 0.04, 0.04), 5e-3);
 }
 
-TEST_F(RibPhaseTest, AnotherLabelOrBlendWithinATouchNeverMakesThePhaseJump) {
+TEST_F(RibPhaseTest, ALabelChangeWithinATouchMakesNoPhaseJump) {
     SimulatedDevice device(model_, generator_);
     device.run(3.0, [](double t) {
         ContactState state = onLabel(t < 0.5 || t > 2.5 ? 0 : 1);
@@ -282,7 +282,7 @@ TEST_F(RibPhaseTest, AnotherLabelOrBlendWithinATouchNeverMakesThePhaseJump) {
     EXPECT_LT(testing::largestStep(device.waveform.samples), largestStepWithoutAJump);
 }
 
-TEST_F(RibPhaseTest, ABlendKeepsThePitchOfItsHeaviestRibsInsteadOfAMeanOfTwo) {
+TEST_F(RibPhaseTest, ABlendKeepsThePitchOfItsHeaviestMaterial) {
     SimulatedDevice device(model_, generator_);
     device.run(1.5, [](double) {
         ContactState state = onLabel(0);
@@ -299,7 +299,7 @@ TEST_F(RibPhaseTest, ABlendKeepsThePitchOfItsHeaviestRibsInsteadOfAMeanOfTwo) {
     EXPECT_LT(largestError(played.first(2000), phaseThere + 4 * turns, turns), 5e-3);
 }
 
-TEST_F(RibPhaseTest, ATouchDownBeginsWithThePhaseOfItsSeedHoweverTheTipMoves) {
+TEST_F(RibPhaseTest, ATouchBeginsWithThePhaseOfItsSeed) {
     SimulatedDevice device(model_, generator_);
     device.run(0.3, [](double) { return onLabel(1, 0.03F); });
     const auto first = static_cast<double>(device.waveform.seams.front());
@@ -308,7 +308,7 @@ TEST_F(RibPhaseTest, ATouchDownBeginsWithThePhaseOfItsSeedHoweverTheTipMoves) {
     EXPECT_NEAR(phases_.front()[1], 0.125F, 1e-6F) << "the seed does not move along the second wave vector";
 }
 
-TEST_F(RibPhaseTest, ATouchThatResumesBeginsWithThePhaseOfItsSeedAgain) {
+TEST_F(RibPhaseTest, AResumedTouchBeginsWithThePhaseOfItsSeed) {
     SimulatedDevice device(model_, generator_);
     device.run(0.537, slide);
     device.controls().muted = true;
@@ -339,7 +339,7 @@ TEST_F(RibPhaseTest, ASecondTouchBeginsWithThePhaseOfItsSeed) {
     EXPECT_LT(largestError(played, otherSeedPhase, 0.0175), 3e-3);
 }
 
-TEST_F(RibPhaseTest, AFailedRunIsNoPartOfTheWay) {
+TEST_F(RibPhaseTest, AFailedRunDoesNotAdvanceThePhase) {
     int asked = 0;
     FakeGenerator failing([&](const SegmentRequest& request, std::span<float> segment) {
         if (++asked % 3 == 0) {
@@ -366,7 +366,7 @@ TEST_F(RibPhaseTest, SeedsWithoutAPhaseBeginAtZero) {
     EXPECT_NEAR(phases_.front()[0], expected - std::floor(expected), 1e-4);
 }
 
-TEST_F(RibPhaseTest, TheLiveVoiceAndTheOfflineRendererCrossTheSameRibs) {
+TEST_F(RibPhaseTest, LiveVoiceAndOfflineRendererHaveTheSameRibPhases) {
     const auto hand = [](double t) {
         ContactState state = onLabel(0, 0.1F + 0.06F * static_cast<float>(std::sin(2.0 * std::numbers::pi * t)));
         state.timeSeconds = t;
@@ -395,7 +395,7 @@ TEST_F(RibPhaseTest, TheLiveVoiceAndTheOfflineRendererCrossTheSameRibs) {
               largestStepWithoutAJump);
 }
 
-TEST_F(RibPhaseTest, VoicesOfOneBatchHaveEachTheirOwnPhase) {
+TEST_F(RibPhaseTest, EachVoiceOfABatchHasItsOwnPhase) {
     const auto model = std::make_shared<const model::ModelFile>(ribModel());
     std::vector<std::vector<std::array<float, 2>>> rounds;
     class Recording final : public inference::SegmentGenerator {

@@ -33,14 +33,14 @@ SeamStatistics measureSeams(std::span<const float> waveform, std::span<const std
     return meter.statistics();
 }
 
-TEST(SeamStatisticsTest, SeamsInsideAnEvenSlopeDoNotStandOut) {
+TEST(SeamStatisticsTest, SeamsInAConstantSlopeAreNotOutliers) {
     const std::vector<std::int64_t> seams{100, 200, 300};
     const SeamStatistics statistics = measureSeams(ramp(1000), seams, 4);
     EXPECT_EQ(statistics.seams, 3U);
     EXPECT_NEAR(statistics.jumpRatio, 1.0, 1e-3);
 }
 
-TEST(SeamStatisticsTest, AStepAtEverySeamShowsInRatioAndShare) {
+TEST(SeamStatisticsTest, AStepAtEverySeamRaisesJumpRatioAndOutlierShare) {
     std::vector<float> wave = ramp(20000);
     std::vector<std::int64_t> seams;
     for (std::int64_t seam = 500; seam < 20000; seam += 5000) {
@@ -54,7 +54,7 @@ TEST(SeamStatisticsTest, AStepAtEverySeamShowsInRatioAndShare) {
     EXPECT_EQ(statistics.outlierShare, 1.0);
 }
 
-TEST(SeamStatisticsTest, PieceByPieceTheFiguresAreThoseOfTheWhole) {
+TEST(SeamStatisticsTest, PiecesGiveTheSameStatisticsAsTheWhole) {
     std::vector<float> wave = ramp(5000);
     std::vector<std::int64_t> seams;
     for (std::int64_t seam = 10; seam < 4990; seam += 37) {
@@ -77,7 +77,7 @@ TEST(SeamStatisticsTest, PieceByPieceTheFiguresAreThoseOfTheWhole) {
     EXPECT_GT(whole.outlierShare, 0.0);
 }
 
-TEST(SeamStatisticsTest, ASeamThatWasToldButNotPlayedYetDoesNotCount) {
+TEST(SeamStatisticsTest, AnAnnouncedSeamThatWasNotPlayedDoesNotCount) {
     SeamMeter meter(4);
     meter.addSeam(0);
     meter.addSeam(3);
@@ -86,7 +86,7 @@ TEST(SeamStatisticsTest, ASeamThatWasToldButNotPlayedYetDoesNotCount) {
     EXPECT_EQ(meter.statistics().seams, 1U);
 }
 
-TEST(ValueHistogramTest, PercentilesAreRightToATenthOfAPercent) {
+TEST(ValueHistogramTest, PercentilesAreExactToATenthOfAPercent) {
     ValueHistogram histogram;
     std::vector<float> values;
     for (int i = 0; i < 10000; ++i) {
@@ -102,7 +102,7 @@ TEST(ValueHistogramTest, PercentilesAreRightToATenthOfAPercent) {
     EXPECT_NEAR(static_cast<double>(histogram.countAbove(values[4999])), 5000.0, 1.0);
 }
 
-TEST(ValueHistogramTest, NumbersThatAreNoneCountAsZeroAndAnEmptyOneGivesZero) {
+TEST(ValueHistogramTest, NaNCountsAsZeroAndAnEmptyHistogramGivesZero) {
     ValueHistogram histogram;
     EXPECT_EQ(histogram.valueAtShare(0.5), 0.0F);
     for (const float value : {-1.0F, 0.0F, -0.0F, std::numeric_limits<float>::quiet_NaN()}) {
@@ -115,7 +115,7 @@ TEST(ValueHistogramTest, NumbersThatAreNoneCountAsZeroAndAnEmptyOneGivesZero) {
     EXPECT_EQ(histogram.count(), 5U);
 }
 
-TEST(SeamStatisticsTest, WithoutAWaveOrSeamsEverythingIsZero) {
+TEST(SeamStatisticsTest, WithoutAWaveOrSeamsTheStatisticsAreZero) {
     const SeamStatistics none = measureSeams({}, {}, 4);
     EXPECT_EQ(none.seams, 0U);
     EXPECT_EQ(none.jumpRatio, 0.0);

@@ -72,7 +72,7 @@ protected:
     inline static double nowSeconds = 0.0;
 };
 
-TEST_F(SignalVoiceTest, SoundsAtItsAmplitudeWhateverForceAndSpeedAreAsSoonAsTheTipMovesAt5MmPerSecond) {
+TEST_F(SignalVoiceTest, TheSignalSoundsFrom5MmPerSecondIndependentOfForceAndSpeed) {
     setSignal(tone200);
     play(0.05, sliding(0.0049F));
     EXPECT_EQ(testing::peak(played()), 0.0F);
@@ -84,7 +84,7 @@ TEST_F(SignalVoiceTest, SoundsAtItsAmplitudeWhateverForceAndSpeedAreAsSoonAsTheT
     }
 }
 
-TEST_F(SignalVoiceTest, NeitherTextureNorImpactNorEdgeNorToneIsMadeAndNothingIsInferred) {
+TEST_F(SignalVoiceTest, ASignalReplacesTextureImpactEdgeAndToneWithoutInference) {
     setSignal(tone200);
     for (std::uint32_t touch = 1; touch < 8; ++touch) {
         ContactState state = everything(0.2F, touch);
@@ -108,7 +108,7 @@ TEST_F(SignalVoiceTest, NeitherTextureNorImpactNorEdgeNorToneIsMadeAndNothingIsI
     EXPECT_GT(of(EffectKind::signal).samples, 7U * 4800U / 2U);
 }
 
-TEST_F(SignalVoiceTest, WithoutOneNoSampleChangesAndNothingIsCounted) {
+TEST_F(SignalVoiceTest, WithoutASignalNoSampleChangesAndNothingIsCounted) {
     SimulatedDevice plain(model_, generator_);
     const auto hand = [](double seconds) { return seconds < 0.4 ? sliding() : lifted(); };
     plain.run(0.6, hand);
@@ -119,7 +119,7 @@ TEST_F(SignalVoiceTest, WithoutOneNoSampleChangesAndNothingIsCounted) {
     EXPECT_EQ(device_.counters().signalStarts.count, 0U);
 }
 
-TEST_F(SignalVoiceTest, BeginsAndEndsWithin2MsOfTheBlockThatKnowsOfItWithoutAStep) {
+TEST_F(SignalVoiceTest, TheSignalBeginsAndEndsWithin2MsOfItsBlockWithoutAStep) {
     setSignal(tone200);
     device_.publish(lifted(0));
     device_.renderBlock();
@@ -138,7 +138,7 @@ TEST_F(SignalVoiceTest, BeginsAndEndsWithin2MsOfTheBlockThatKnowsOfItWithoutASte
     EXPECT_LT(static_cast<double>(testing::largestStep(device_.output)), steepest);
 }
 
-TEST_F(SignalVoiceTest, SetWhileTheTextureSoundsItTakesOverWithoutAStepAndGivesItBackWithTheNextState) {
+TEST_F(SignalVoiceTest, ASignalReplacesASoundingTextureWithoutAStep) {
     play(0.3, sliding());
     const std::uint64_t onsets = device_.counters().onsets;
     setSignal(tone200);
@@ -161,7 +161,7 @@ TEST_F(SignalVoiceTest, SetWhileTheTextureSoundsItTakesOverWithoutAStepAndGivesI
     EXPECT_LT(static_cast<double>(testing::largestStep(device_.output)), steepest);
 }
 
-TEST_F(SignalVoiceTest, MutePausePanicAndMissingStatesSilenceItAndItComesBackWhereTheyEnd) {
+TEST_F(SignalVoiceTest, MutePausePanicAndMissingStatesInterruptTheSignal) {
     setSignal(tone200);
     const auto isSilent = [this] { return testing::peak(played(0.02)) == 0.0F; };
     const auto sounds = [this] { return isTone(played(0.02), 200.0, 6.0 / fullScaleMps2); };
@@ -199,7 +199,7 @@ TEST_F(SignalVoiceTest, MutePausePanicAndMissingStatesSilenceItAndItComesBackWhe
     EXPECT_EQ(device_.counters().signalStops.count, 0U);
 }
 
-TEST_F(SignalVoiceTest, AfterAMuteALandingHasItsWholeAttackAgain) {
+TEST_F(SignalVoiceTest, AnImpactAfterAMuteHasItsFullAttack) {
     SimulatedDevice fresh(model_, generator_);
     fresh.publish(lifted(0));
     fresh.renderBlock();
@@ -222,7 +222,7 @@ TEST_F(SignalVoiceTest, AfterAMuteALandingHasItsWholeAttackAgain) {
     EXPECT_GT(testing::peak(std::span<const float>(device_.output).subspan(before)), 0.0F);
 }
 
-TEST_F(SignalVoiceTest, LatencyIsCountedFromTheFirstStateThatAsksForTheChangeToTheBlockThatMakesIt) {
+TEST_F(SignalVoiceTest, TheLatencyIsMeasuredFromTheStateToTheBlockOfTheChange) {
     setSignal(tone200);
     nowSeconds = 100.0;
     device_.publish(sliding(0.001F));
@@ -259,7 +259,7 @@ TEST_F(SignalVoiceTest, LatencyIsCountedFromTheFirstStateThatAsksForTheChangeToT
     EXPECT_EQ(stops.count, 1U);
 }
 
-TEST_F(SignalVoiceTest, ADelayComesOnTopOfTheLatencyAndOfWhatIsHeard) {
+TEST_F(SignalVoiceTest, ADelayAddsToTheLatencyAndToTheOutput) {
     device_.controls().delaySeconds = 0.05;
     device_.voice().channels.changeProcessors([](ProcessorSettings& settings) { return settings.hasDelay = true; });
     setSignal(tone200);
@@ -288,7 +288,7 @@ TEST_F(SignalVoiceTest, ADelayComesOnTopOfTheLatencyAndOfWhatIsHeard) {
     EXPECT_NEAR(device_.counters().signalStops.lastSeconds, 0.05, 1e-9);
 }
 
-TEST_F(SignalVoiceTest, AnotherRateOfTheDeviceGivesTheSameToneAfterTheChange) {
+TEST_F(SignalVoiceTest, TheSignalIsTheSameAfterARateChange) {
     setSignal(tone200);
     play(0.1, sliding());
     device_.setRate(96000.0);
@@ -303,7 +303,7 @@ TEST_F(SignalVoiceTest, AnotherRateOfTheDeviceGivesTheSameToneAfterTheChange) {
     EXPECT_NEAR(testing::peak(later), 0.1F, 1e-4F);
 }
 
-TEST_F(SignalVoiceTest, StrengthAndCeilingHoldForItAsForEverything) {
+TEST_F(SignalVoiceTest, StrengthAndCeilingApplyToTheSignal) {
     setSignal({.frequencyHz = 100.0F, .amplitudeMps2 = 60.0F});
     device_.controls().strength = 0.25F;
     play(0.2, sliding());

@@ -25,7 +25,7 @@ protected:
     static Silence reason(SimulatedDevice& device) { return device.voice().channels.silence.load(); }
 };
 
-TEST_F(SilenceTest, EveryReasonIsTheOneThatShowsAndSoundHasNone) {
+TEST_F(SilenceTest, EachReasonForSilenceIsReportedAndSoundHasNone) {
     SimulatedDevice device(model_, tone_);
     EXPECT_EQ(reason(device), Silence::rest) << "before the first block";
     device.run(0.2, slide);
@@ -59,7 +59,7 @@ TEST_F(SilenceTest, EveryReasonIsTheOneThatShowsAndSoundHasNone) {
     EXPECT_EQ(reason(device), Silence::closing);
 }
 
-TEST_F(SilenceTest, OfSeveralReasonsTheOneThatLastsLongestShowsAndEachGivesWayToTheNext) {
+TEST_F(SilenceTest, OfSeveralReasonsTheMostPersistentIsReported) {
     SimulatedDevice device(model_, tone_);
     device.run(0.2, slide);
     device.voice().channels.panic();
@@ -82,7 +82,7 @@ TEST_F(SilenceTest, OfSeveralReasonsTheOneThatLastsLongestShowsAndEachGivesWayTo
     EXPECT_EQ(next([] {}), Silence::panic);
 }
 
-TEST_F(SilenceTest, AnyMixtureOfControlsIsFiniteBoundedAndSilentUnlessNoReasonHolds) {
+TEST_F(SilenceTest, AnyCombinationOfControlsIsBoundedAndSilentIfAReasonHolds) {
     SimulatedDevice device(model_, tone_);
     device.run(0.2, slide);
     std::uint32_t number = 1;
@@ -107,7 +107,7 @@ TEST_F(SilenceTest, AnyMixtureOfControlsIsFiniteBoundedAndSilentUnlessNoReasonHo
     }
 }
 
-TEST_F(SilenceTest, ARateThatNoOutputRunsAtIsCountedNamedAndAsksTheWorkerForNothing) {
+TEST_F(SilenceTest, AnUnsupportedRateIsCountedAndDoesNotWakeTheWorker) {
     for (const double impossible : {0.0, 1.0, -5.0, 7999.0, 192001.0, 1e9, std::numeric_limits<double>::quiet_NaN(),
                                     std::numeric_limits<double>::infinity()}) {
         SimulatedDevice device(model_, tone_);
@@ -127,7 +127,7 @@ TEST_F(SilenceTest, ARateThatNoOutputRunsAtIsCountedNamedAndAsksTheWorkerForNoth
     }
 }
 
-TEST_F(SilenceTest, ATapAtARateThatNoOutputRunsAtIsOverWhenTheRateIsServedAgain) {
+TEST_F(SilenceTest, ATapAtAnUnsupportedRateIsNotPlayedLater) {
     SimulatedDevice device(model_, tone_);
     device.run(0.05, [](double) { return testing::lifted(0); });
     device.setRate(1.0e6);
@@ -145,14 +145,14 @@ TEST_F(SilenceTest, ATapAtARateThatNoOutputRunsAtIsOverWhenTheRateIsServedAgain)
     EXPECT_GT(testing::peak(std::span<const float>(device.output).subspan(next)), 0.2F / 60.0F);
 }
 
-TEST_F(SilenceTest, AVoiceIsNotMadeForARateThatNoOutputRunsAt) {
+TEST_F(SilenceTest, CreatingAVoiceForAnUnsupportedRateIsRejected) {
     FakeGenerator tone(testing::continueTone);
     for (const double impossible : {0.0, 7999.0, 192001.0, std::numeric_limits<double>::quiet_NaN()}) {
         EXPECT_THROW(SimulatedDevice(model_, tone, {.rateHz = impossible}), std::invalid_argument) << impossible;
     }
 }
 
-TEST_F(SilenceTest, AnOnsetReadsNoMoreOfTheWaveformThanItsBlockAndTheResamplersDelay) {
+TEST_F(SilenceTest, AnOnsetReadsOnlyItsBlockAndTheResamplersDelay) {
     // What an onset costs: the filters' histories are filled directly, not by rendering what nobody hears.
     for (const double rateHz : {8000.0, 48000.0, 192000.0}) {
         SimulatedDevice device(model_, tone_, {.rateHz = rateHz, .blockFrames = 64});
@@ -163,7 +163,7 @@ TEST_F(SilenceTest, AnOnsetReadsNoMoreOfTheWaveformThanItsBlockAndTheResamplersD
     }
 }
 
-TEST_F(SilenceTest, ATapInAVoicesFirstPublishedStateIsFelt) {
+TEST_F(SilenceTest, ATapInTheFirstPublishedStateSounds) {
     SimulatedDevice device(model_, tone_);
     ContactState afterwards = testing::sliding();
     afterwards.touching = false;
@@ -174,7 +174,7 @@ TEST_F(SilenceTest, ATapInAVoicesFirstPublishedStateIsFelt) {
     EXPECT_EQ(device.counters().taps, 1U);
 }
 
-TEST_F(SilenceTest, AFirstStateThatOnlyTellsOfEarlierTouchesIsSilent) {
+TEST_F(SilenceTest, AFirstStateWithOnlyEarlierTouchesIsSilent) {
     SimulatedDevice device(model_, tone_);
     device.publish(testing::lifted(9));
     device.renderBlock();
@@ -182,7 +182,7 @@ TEST_F(SilenceTest, AFirstStateThatOnlyTellsOfEarlierTouchesIsSilent) {
     EXPECT_EQ(device.counters().taps, 0U);
 }
 
-TEST_F(SilenceTest, CrossingTheEdgeOfTheRangeBackAndForthNeverClicks) {
+TEST_F(SilenceTest, CrossingTheEdgeOfTheRangeDoesNotClick) {
     // The model's range ends at 0.4 m/s; beyond it the waveform is read faster, inside it the path is direct.
     SimulatedDevice device(model_, tone_);
     device.run(0.3, slide);

@@ -20,7 +20,7 @@ using testing::FakeGenerator;
 using testing::SimulatedDevice;
 using testing::sliding;
 
-TEST(SpatialScaleStateTest, ScaleAndTiltAreLimitedAndCountedAndAScaleOfZeroIsOne) {
+TEST(SpatialScaleStateTest, ScaleAndTiltAreClampedAndAScaleOfZeroMeansOne) {
     ContactState state;
     state.spatialScale = 0.0F;
     EXPECT_EQ(sanitise(state), 0U);
@@ -43,7 +43,7 @@ TEST(SpatialScaleStateTest, ScaleAndTiltAreLimitedAndCountedAndAScaleOfZeroIsOne
     EXPECT_EQ(state.toneDbPerOctave, 0.0F);
 }
 
-TEST(SpatialScaleLawTest, TheNetworkIsAskedAtTheSpeedOverTheScaleAndTheLevelAtTheSpeed) {
+TEST(SpatialScaleLawTest, TheNetworkUsesTheScaledSpeedAndTheLevelTheActualSpeed) {
     const testing::SmallLibrary small;
     const Material oak = resolveMaterial(small.ingredients({{0, 1.0F}}));
     const model::ModelHeader& header = small.model.header();
@@ -104,7 +104,7 @@ protected:
     }};
 };
 
-TEST_F(SpatialScaleTest, AScaleOfTwoHalvesThePitchOfRibsExactlyAndOneOfAHalfDoublesIt) {
+TEST_F(SpatialScaleTest, TheRibPitchIsDividedByTheScale) {
     // 0.1 m/s over 0.2 ribs a millimetre: 20 ribs a second, 0.01 a sample.
     for (const auto& [scale, turns] : {std::pair{1.0F, 0.01}, {2.0F, 0.005}, {0.5F, 0.02}, {4.0F, 0.0025}}) {
         requested_.clear();
@@ -119,7 +119,7 @@ TEST_F(SpatialScaleTest, AScaleOfTwoHalvesThePitchOfRibsExactlyAndOneOfAHalfDoub
     }
 }
 
-TEST_F(SpatialScaleTest, AScaleThatChangesWithinATouchLeavesThePhaseOfTheRibsContinuous) {
+TEST_F(SpatialScaleTest, AChangeOfScaleWithinATouchMakesNoPhaseJump) {
     SimulatedDevice device(model_, generator_);
     device.run(1.0, [](double seconds) { return scaled(seconds < 0.3 ? 1.0F : seconds < 0.6 ? 2.0F : 0.5F); });
     ASSERT_EQ(device.counters().dropped + device.counters().late, 0U);

@@ -67,7 +67,7 @@ protected:
     FakeGenerator generator_{testing::continueTone};
 };
 
-TEST_F(ToneVoiceTest, WhereNobodyAsksForAToneNothingRunsAndNothingIsCounted) {
+TEST_F(ToneVoiceTest, WithoutAToneTheFilterDoesNotRun) {
     SimulatedDevice plain(model_, generator_);
     (void)registered(plain, 12.0);
     plain.run(1.0, [](double) { return on(0); });
@@ -76,7 +76,7 @@ TEST_F(ToneVoiceTest, WhereNobodyAsksForAToneNothingRunsAndNothingIsCounted) {
     EXPECT_EQ(plain.counters().askedFor & effects::maskOf(EffectKind::tone), 0U);
 }
 
-TEST_F(ToneVoiceTest, AMaterialsToneIsHeardByEverySinkFromTheFirstSampleOfTheSeedAndTheTimelineStaysUntouched) {
+TEST_F(ToneVoiceTest, AMaterialsToneAppliesFromTheSeedsFirstSampleAndNotToTheTimeline) {
     SimulatedDevice plain(model_, generator_);
     SimulatedDevice toned(model_, generator_);
     const std::uint32_t soft = registered(plain, 0.0);
@@ -96,7 +96,7 @@ TEST_F(ToneVoiceTest, AMaterialsToneIsHeardByEverySinkFromTheFirstSampleOfTheSee
     EXPECT_NE(toned.counters().askedFor & effects::maskOf(EffectKind::tone), 0U);
 }
 
-TEST_F(ToneVoiceTest, ATiltBrightensTheTextureByAsMuchAsItSaysAtTheToneThatSounds) {
+TEST_F(ToneVoiceTest, ATiltChangesTheGainAtTheSoundingFrequency) {
     SimulatedDevice plain(model_, generator_);
     SimulatedDevice dark(model_, generator_);
     plain.run(1.0, [](double) { return sliding(); });
@@ -111,7 +111,7 @@ TEST_F(ToneVoiceTest, ATiltBrightensTheTextureByAsMuchAsItSaysAtTheToneThatSound
     EXPECT_NEAR(20.0 * std::log10(rms(tilted.last(1000)) / rms(played.last(1000))), 6.0 * octaves, 0.5);
 }
 
-TEST_F(ToneVoiceTest, AToneThatComesChangesAndGoesWithinATouchIsNoClick) {
+TEST_F(ToneVoiceTest, ChangesOfToneWithinATouchDoNotClick) {
     SimulatedDevice voice(model_, generator_);
     const std::uint32_t loud = registered(voice, 12.0);
     const std::uint32_t soft = registered(voice, -12.0);
@@ -123,7 +123,7 @@ TEST_F(ToneVoiceTest, AToneThatComesChangesAndGoesWithinATouchIsNoClick) {
     EXPECT_LT(testing::largestStep(heard.subspan(220)), 1.6F);
 }
 
-TEST_F(ToneVoiceTest, ANewTouchBeginsWithTheToneOfItsOwnPastAndNotOfTheTouchBefore) {
+TEST_F(ToneVoiceTest, ANewTouchDoesNotUseTheToneOfTheTouchBefore) {
     SimulatedDevice once(model_, generator_);
     SimulatedDevice twice(model_, generator_);
     const std::uint32_t first = registered(once, 12.0);
@@ -148,7 +148,7 @@ TEST_F(ToneVoiceTest, ANewTouchBeginsWithTheToneOfItsOwnPastAndNotOfTheTouchBefo
     }
 }
 
-TEST_F(ToneVoiceTest, BeyondTheTrainedRangeTheToneIsAppliedBeforeTheRangeLawsGain) {
+TEST_F(ToneVoiceTest, BeyondTheRangeTheToneIsAppliedBeforeTheRangeLaw) {
     SimulatedDevice plain(model_, generator_);
     SimulatedDevice toned(model_, generator_);
     const std::uint32_t soft = registered(plain, 0.0);

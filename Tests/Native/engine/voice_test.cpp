@@ -31,7 +31,7 @@ std::vector<float> renderSamples(Voice& voice, std::size_t count) {
     return samples;
 }
 
-TEST(VoiceTest, UntouchedItWritesZerosAndItsClockStandsStill) {
+TEST(VoiceTest, WithoutTouchTheVoiceWritesZerosAndItsClockStandsStill) {
     Voice voice(playedRateHz, 60.0F);
     const std::int64_t head = voice.timeline().head();
     const std::vector<float> heard = renderSamples(voice, 4800);
@@ -40,7 +40,7 @@ TEST(VoiceTest, UntouchedItWritesZerosAndItsClockStandsStill) {
     EXPECT_TRUE(voice.isSilent());
 }
 
-TEST(VoiceTest, AtTouchDownTheSeedSoundsAtOnceAndInStep) {
+TEST(VoiceTest, TheSeedSoundsAtOnceWithAConstantDelay) {
     Voice voice(playedRateHz, 60.0F);
     voice.onset(toneSeed(6.0F));
     const std::vector<float> heard = renderSamples(voice, 1440);
@@ -66,7 +66,7 @@ TEST(VoiceTest, AtTouchDownTheSeedSoundsAtOnceAndInStep) {
     EXPECT_NEAR(std::sqrt(squares / 800.0), 0.1, 0.003);
 }
 
-TEST(VoiceTest, ReleasedItIsSilentWithinFiveMillisecondsWithoutAClick) {
+TEST(VoiceTest, AReleasedVoiceIsSilentWithinFiveMillisecondsWithoutAClick) {
     Voice voice(playedRateHz, 60.0F);
     voice.onset(toneSeed(6.0F));
     std::vector<float> heard = renderSamples(voice, 2000);
@@ -79,7 +79,7 @@ TEST(VoiceTest, ReleasedItIsSilentWithinFiveMillisecondsWithoutAClick) {
     EXPECT_TRUE(voice.isSilent());
 }
 
-TEST(VoiceTest, ATouchWhileTheLastOneStillFadesStartsWithoutAStep) {
+TEST(VoiceTest, ATouchDuringAFadeStartsWithoutAStep) {
     Voice voice(playedRateHz, 60.0F);
     voice.onset(toneSeed(6.0F));
     std::vector<float> heard = renderSamples(voice, 1777);
@@ -111,7 +111,7 @@ TEST(VoiceTest, TheOutputDoesNotDependOnTheBlockLength) {
     EXPECT_TRUE(std::equal(heard.begin(), heard.end(), expected.begin()));
 }
 
-TEST(VoiceTest, ASeedThatIsNotFiniteSoundsAsSilenceAndIsCounted) {
+TEST(VoiceTest, ANonFiniteSeedGivesSilenceAndIsCounted) {
     Voice voice(playedRateHz, 60.0F);
     std::array<float, 400> seed = toneSeed(6.0F);
     seed[300] = std::nanf("");
@@ -125,7 +125,7 @@ TEST(VoiceTest, ASeedThatIsNotFiniteSoundsAsSilenceAndIsCounted) {
     EXPECT_GT(testing::peak(renderSamples(voice, 960)), 0.1F) << "the next touch is whole";
 }
 
-TEST(VoiceTest, InsideTheRangeTheFiltersTakeAtMostOneAndAHalfMilliseconds) {
+TEST(VoiceTest, InsideTheRangeTheFiltersDelayByAtMostOneAndAHalfMilliseconds) {
     // A step in the waveform at a known sample: half of it has come through so much later.
     Voice voice(playedRateHz, 60.0F);
     voice.onset(std::array<float, 400>{});
@@ -143,7 +143,7 @@ TEST(VoiceTest, InsideTheRangeTheFiltersTakeAtMostOneAndAHalfMilliseconds) {
     EXPECT_LE(seconds - readAt, 0.0015);
 }
 
-TEST(VoiceTest, ReadFasterTheToneRisesByThatFactor) {
+TEST(VoiceTest, AHigherReadingRateRaisesTheFrequency) {
     Voice voice(playedRateHz, 60.0F);
     voice.setRangeLaw(1.0, 2.0);
     voice.onset(toneSeed(6.0F));

@@ -34,7 +34,7 @@ std::vector<float> readSamples(WaveformTimeline& timeline, std::size_t count) {
     return samples;
 }
 
-TEST(WaveformTimelineTest, AtTouchDownTheSeedsSecondHalfSoundsAndItsFirstHalfIsThePast) {
+TEST(WaveformTimelineTest, TheSeedsSecondHalfSoundsAndItsFirstHalfIsThePast) {
     WaveformTimeline timeline;
     const Seed seed = countingSeed();
     timeline.open(seed);
@@ -46,7 +46,7 @@ TEST(WaveformTimelineTest, AtTouchDownTheSeedsSecondHalfSoundsAndItsFirstHalfIsT
     EXPECT_TRUE(std::equal(heard.begin(), heard.end(), seed.begin() + 200));
 }
 
-TEST(WaveformTimelineTest, ASegmentThatGoesOnAsTheRunningOneDoesLeavesNoTrace) {
+TEST(WaveformTimelineTest, ASegmentThatContinuesTheRunningOneChangesNothing) {
     WaveformTimeline timeline;
     const Seed seed = countingSeed();
     timeline.open(seed);
@@ -95,7 +95,7 @@ std::vector<float> heardAfterReplacing(std::int64_t ahead, int replaced, bool is
     return readSamples(timeline, 150);
 }
 
-TEST(WaveformTimelineTest, OfSegmentsForOnePlaceOnlyTheLastIsSplicedWithWhatRanBeforeThem) {
+TEST(WaveformTimelineTest, OfSegmentsWithOneStartOnlyTheLastIsSplicedWithTheWaveBefore) {
     for (const std::int64_t ahead : {0, 1, 70}) {
         const std::vector<float> last = heardAfterReplacing(ahead, 1, false);
         EXPECT_EQ(heardAfterReplacing(ahead, 2, false), last) << ahead;
@@ -104,7 +104,7 @@ TEST(WaveformTimelineTest, OfSegmentsForOnePlaceOnlyTheLastIsSplicedWithWhatRanB
     }
 }
 
-TEST(WaveformTimelineTest, ASegmentForAPlaceThatHasSoundedIsSplicedWithWhatSounds) {
+TEST(WaveformTimelineTest, ASegmentForAPlayedStartIsSplicedWithThePlayedWave) {
     WaveformTimeline timeline;
     timeline.open(countingSeed());
     const std::int64_t start = timeline.head();
@@ -116,7 +116,7 @@ TEST(WaveformTimelineTest, ASegmentForAPlaceThatHasSoundedIsSplicedWithWhatSound
     }
 }
 
-TEST(WaveformTimelineTest, AfterClearingNothingOfAnEarlierSpliceComesBack) {
+TEST(WaveformTimelineTest, ClearingRemovesEarlierSplices) {
     WaveformTimeline timeline;
     timeline.open(countingSeed());
     timeline.commit(timeline.head(), constantSegment(5.0F));
@@ -125,7 +125,7 @@ TEST(WaveformTimelineTest, AfterClearingNothingOfAnEarlierSpliceComesBack) {
     EXPECT_EQ(readSamples(timeline, 10), std::vector<float>(10, 7.0F));
 }
 
-TEST(WaveformTimelineTest, ThePastOfASegmentHoldsTheSamplesNotYetPlayed) {
+TEST(WaveformTimelineTest, TheHistoryIncludesCommittedSamplesNotYetPlayed) {
     WaveformTimeline timeline;
     timeline.open(countingSeed());
     Segment past{};
@@ -134,7 +134,7 @@ TEST(WaveformTimelineTest, ThePastOfASegmentHoldsTheSamplesNotYetPlayed) {
     EXPECT_EQ(past.back(), 230.0F);
 }
 
-TEST(WaveformTimelineTest, ALateSegmentLosesWhatTheHeadHasPassed) {
+TEST(WaveformTimelineTest, ALateSegmentLosesTheSamplesThatTheHeadHasPassed) {
     WaveformTimeline timeline;
     timeline.open(countingSeed());
     const std::int64_t start = timeline.head() + 10;
@@ -149,7 +149,7 @@ TEST(WaveformTimelineTest, ALateSegmentLosesWhatTheHeadHasPassed) {
     EXPECT_EQ(heard[10], 1025.0F);
 }
 
-TEST(WaveformTimelineTest, ASegmentThatIsPastAltogetherChangesNothing) {
+TEST(WaveformTimelineTest, ASegmentWhollyInThePastIsRejected) {
     WaveformTimeline timeline;
     timeline.open(countingSeed());
     const std::int64_t start = timeline.head() - 60;
@@ -159,13 +159,13 @@ TEST(WaveformTimelineTest, ASegmentThatIsPastAltogetherChangesNothing) {
     EXPECT_EQ(timeline.coveredUntil(), covered);
 }
 
-TEST(WaveformTimelineTest, ASegmentBeyondTheCommittedSamplesIsRefusedSinceItWouldLeaveAHole) {
+TEST(WaveformTimelineTest, ASegmentThatWouldLeaveAGapIsRejected) {
     WaveformTimeline timeline;
     timeline.open(countingSeed());
     EXPECT_EQ(timeline.commit(timeline.coveredUntil() + 1, constantSegment(1.0F)), -1);
 }
 
-TEST(WaveformTimelineTest, WithoutANewSegmentTheWaveFadesInFiveMillisecondsAndTheMissingSamplesAreCounted) {
+TEST(WaveformTimelineTest, WithoutANewSegmentTheWaveFadesAndMissingSamplesAreCounted) {
     WaveformTimeline timeline;
     Seed seed{};
     seed.fill(1.0F);
@@ -179,7 +179,7 @@ TEST(WaveformTimelineTest, WithoutANewSegmentTheWaveFadesInFiveMillisecondsAndTh
     EXPECT_EQ(timeline.uncoveredSamples(), 60U);
 }
 
-TEST(WaveformTimelineTest, AfterAnUnderrunTheNextSegmentRisesInsteadOfJumping) {
+TEST(WaveformTimelineTest, AfterAnUnderrunTheNextSegmentFadesIn) {
     WaveformTimeline timeline;
     Seed seed{};
     seed.fill(1.0F);
@@ -194,7 +194,7 @@ TEST(WaveformTimelineTest, AfterAnUnderrunTheNextSegmentRisesInsteadOfJumping) {
     EXPECT_EQ(heard.back(), 1.0F);
 }
 
-TEST(WaveformTimelineTest, TheClockCountsWhatIsReadAndGoesOnOverADayOfSegments) {
+TEST(WaveformTimelineTest, TheClockIsExactOverADayOfSegments) {
     WaveformTimeline timeline;
     timeline.open(countingSeed());
     const std::int64_t origin = timeline.head();
@@ -208,7 +208,7 @@ TEST(WaveformTimelineTest, TheClockCountsWhatIsReadAndGoesOnOverADayOfSegments) 
     EXPECT_EQ(readSamples(timeline, 100).back(), 2.0F);
 }
 
-TEST(WaveformTimelineTest, ClearedThePastIsSilence) {
+TEST(WaveformTimelineTest, AClearedTimelineHasASilentPast) {
     WaveformTimeline timeline;
     timeline.open(countingSeed());
     timeline.clear();

@@ -45,12 +45,12 @@ std::string failureOf(const model::ModelFile& model, const LoadLimits& limits = 
     return {};
 }
 
-TEST(LoadLimitsTest, AGraphWithALoopIsRefusedInsteadOfRun) {
+TEST(LoadLimitsTest, AGraphWithALoopIsRejectedWithoutRunning) {
     EXPECT_THAT(failureOf<model::ModelError>(tinyWithLevel(model::testing::loopingLevel())),
                 ::testing::StartsWith("tier \"draft\", graph \"level\": uses the operator \"Loop\""));
 }
 
-TEST(LoadLimitsTest, ATierWhoseProbeRunTakesTooLongIsRefusedByName) {
+TEST(LoadLimitsTest, ATierWhoseProbeRunTakesTooLongIsRejectedByName) {
     const LoadLimits limits{.probeLimitMs = 20.0};
     EXPECT_THAT(failureOf<TierTooSlow>(tinyWithLevel(model::testing::slowLevel()), limits),
                 ::testing::StartsWith("tier \"draft\", graph \"level\": a run of 256 took longer than 640 ms"));
@@ -67,13 +67,13 @@ Bytes inflatedLevel() {
         .written();
 }
 
-TEST(LoadLimitsTest, AConstantThatAsksForMoreMemoryThanATierMayHaveIsRefused) {
+TEST(LoadLimitsTest, AConstantThatNeedsTooMuchMemoryIsRejected) {
     const Bytes graph = inflatedLevel();
     EXPECT_THAT(failureOf<model::ModelError>(tinyWithLevel(graph)),
                 ::testing::StartsWith("tier \"draft\", graph \"level\": a run of 256 with at most 1088 MiB failed"));
 }
 
-TEST(LoadLimitsTest, ATensorThatDoublesAndDoublesIsRefused) {
+TEST(LoadLimitsTest, ATensorThatGrowsExponentiallyIsRejected) {
     auto writer = levelGraph();
     std::string last = "weighted";
     for (int step = 0; step < 34; ++step) {
@@ -86,7 +86,7 @@ TEST(LoadLimitsTest, ATensorThatDoublesAndDoublesIsRefused) {
     EXPECT_THAT(failureOf<model::ModelError>(tinyWithLevel(graph)), ::testing::HasSubstr("MiB failed"));
 }
 
-TEST(LoadLimitsTest, AGraphThatOnlyTakesOneRequestIsRefusedBeforeAnybodyAsksForTwo) {
+TEST(LoadLimitsTest, AGraphThatAcceptsOnlyOneRequestIsRejectedWhileLoading) {
     // Through a fraction, so that nothing but a run finds out.
     const Bytes graph = levelGraph()
                             .constant(floatTensor("shape", {2}, {1.0F, 1.0F}))
@@ -98,13 +98,13 @@ TEST(LoadLimitsTest, AGraphThatOnlyTakesOneRequestIsRefusedBeforeAnybodyAsksForT
     EXPECT_THAT(failureOf<model::ModelError>(tinyWithLevel(graph)), ::testing::HasSubstr("a run of 256"));
 }
 
-TEST(LoadLimitsTest, ACancelledLoadLoadsNothing) {
+TEST(LoadLimitsTest, ACancelledLoadThrows) {
     const auto cancellation = std::make_shared<Cancellation>();
     cancellation->cancel();
     EXPECT_EQ(failureOf<LoadCancelled>(tinyModel(), {.cancellation = cancellation}), "the load was cancelled");
 }
 
-TEST(LoadLimitsTest, ALoadThatWouldTakeHalfAMinuteEndsWhenItIsCancelled) {
+TEST(LoadLimitsTest, ALongLoadEndsWhenItIsCancelled) {
     const model::ModelFile slow = tinyWithLevel(model::testing::slowLevel());
     const auto cancellation = std::make_shared<Cancellation>();
     std::thread canceller([&] {
@@ -116,7 +116,7 @@ TEST(LoadLimitsTest, ALoadThatWouldTakeHalfAMinuteEndsWhenItIsCancelled) {
     canceller.join();
 }
 
-TEST(LoadLimitsTest, ACancellationWhoseLoadIsDoneChangesNothing) {
+TEST(LoadLimitsTest, ACancellationAfterTheLoadHasNoEffect) {
     const auto cancellation = std::make_shared<Cancellation>();
     OnnxSegmentGenerator generator = loadDraft(tinyModel(), {.cancellation = cancellation});
     cancellation->cancel();
@@ -124,7 +124,7 @@ TEST(LoadLimitsTest, ACancellationWhoseLoadIsDoneChangesNothing) {
     EXPECT_NO_THROW(generator.generate(goldenBatch().requests(), segments));
 }
 
-TEST(LoadLimitsTest, TwoLoadsAtOnceEachHaveTheirOwnLimits) {
+TEST(LoadLimitsTest, TwoConcurrentLoadsHaveSeparateLimits) {
     const model::ModelFile slow = tinyWithLevel(model::testing::slowLevel());
     std::thread other([&] {
         for (int load = 0; load < 5; ++load) {
@@ -135,7 +135,7 @@ TEST(LoadLimitsTest, TwoLoadsAtOnceEachHaveTheirOwnLimits) {
     other.join();
 }
 
-TEST(LoadLimitsTest, LevelsAreTabulatedInRunsOf256WhateverTheBatchOfSegments) {
+TEST(LoadLimitsTest, LevelsAreTabulatedInRunsOf256ForAnyBatchSize) {
     OnnxSegmentGenerator generator = loadDraft(tinyModel());
     const std::vector<SegmentRequest> requests(640, goldenBatch().requests().front());
     std::vector<float> levels(requests.size());
@@ -144,7 +144,7 @@ TEST(LoadLimitsTest, LevelsAreTabulatedInRunsOf256WhateverTheBatchOfSegments) {
     EXPECT_THAT(levels, ::testing::Each(levels.front()));
 }
 
-TEST(CancellationTest, AnActionRunsOnceWhenTheCancellationComes) {
+TEST(CancellationTest, AnActionRunsOnceOnCancellation) {
     Cancellation cancellation;
     int runs = 0;
     const CancellationAction action(&cancellation, [&] { ++runs; });
@@ -154,7 +154,7 @@ TEST(CancellationTest, AnActionRunsOnceWhenTheCancellationComes) {
     EXPECT_EQ(runs, 1);
 }
 
-TEST(CancellationTest, AnActionThatComesLateRunsAtOnceAndOneThatIsGoneNever) {
+TEST(CancellationTest, ALateActionRunsAtOnceAndADestroyedActionNever) {
     Cancellation cancellation;
     int gone = 0;
     {
@@ -169,7 +169,7 @@ TEST(CancellationTest, AnActionThatComesLateRunsAtOnceAndOneThatIsGoneNever) {
     EXPECT_EQ(late, 1);
 }
 
-TEST(TimeLimitTest, ItsActionRunsOnceTheTimeHasPassedAndNotBefore) {
+TEST(TimeLimitTest, TheActionRunsAfterTheTimeHasPassed) {
     std::atomic<int> runs{0};
     {
         const TimeLimit limit(largestProbeLimitMs, [&] { ++runs; });
@@ -215,7 +215,7 @@ private:
     }
 };
 
-TEST(OldRuntimeTest, WithoutWhatCameLaterATierLoadsAndAnswersTheSame) {
+TEST(OldRuntimeTest, ATierGivesTheSameResultWithVersion116) {
     const auto answer = [](OnnxSegmentGenerator generator) {
         std::vector<float> segments(3 * segmentSamples);
         generator.generate(goldenBatch().requests(), segments);
@@ -226,7 +226,7 @@ TEST(OldRuntimeTest, WithoutWhatCameLaterATierLoadsAndAnswersTheSame) {
     EXPECT_EQ(answer(loadDraft(tinyModel(), {}, OldRuntime::open())), answer(loadDraft(tinyModel())));
 }
 
-TEST(OldRuntimeTest, ALoadIsCancelledBetweenItsGraphs) {
+TEST(OldRuntimeTest, ALoadCanBeCancelledBetweenItsGraphs) {
     const auto cancellation = std::make_shared<Cancellation>();
     cancellation->cancel();
     EXPECT_THROW((void)loadDraft(tinyModel(), {.cancellation = cancellation}, OldRuntime::open()), LoadCancelled);
@@ -270,7 +270,7 @@ private:
     }
 };
 
-TEST(LoadLimitsTest, ACancellationWhileOnnxRuntimeLoadsAGraphReachesIt) {
+TEST(LoadLimitsTest, ACancellationIsForwardedToALoadingOnnxRuntime) {
     if (testRuntime()->apiVersion() < 22) {
         GTEST_SKIP() << "this ONNX Runtime cannot cancel a load";
     }
@@ -290,7 +290,7 @@ struct Heard {
     std::vector<std::string> messages;
 };
 
-TEST(OldRuntimeTest, ItsOneLogForTheProcessReachesTheCallback) {
+TEST(OldRuntimeTest, TheProcessWideLogReachesTheCallback) {
     Heard heard;
     const auto log = std::make_shared<LogSink>(Heard::callback, &heard);
     const auto runtime = OldRuntime::open(log);
@@ -304,7 +304,7 @@ TEST(OldRuntimeTest, ItsOneLogForTheProcessReachesTheCallback) {
     EXPECT_EQ(heard.messages.size(), 1U);
 }
 
-TEST(LogTest, WhatOnnxRuntimeSaysOfAFailingGraphReachesTheCallbackOfItsRuntimeAlone) {
+TEST(LogTest, TheLogOfAFailingGraphReachesOnlyTheCallbackOfItsRuntime) {
     Heard heard;
     Heard others;
     const auto log = std::make_shared<LogSink>(Heard::callback, &heard);

@@ -59,7 +59,7 @@ float weighted(const std::array<float, 2>& phase) {
     return firstRibWeight * phase[0] + secondRibWeight * phase[1];
 }
 
-TEST(RibPhaseInputTest, EveryKindOfTierGetsThePhaseOfEachRequestOfABatch) {
+TEST(RibPhaseInputTest, EveryKindOfTierReceivesThePhaseOfEachRequest) {
     const model::ModelFile model = ribModel();
     const auto requests = requestsWithPhases();
     for (const char* tier : {"draft", "standard", "direct", "latent"}) {
@@ -75,7 +75,7 @@ TEST(RibPhaseInputTest, EveryKindOfTierGetsThePhaseOfEachRequestOfABatch) {
     }
 }
 
-TEST(RibPhaseInputTest, AGraphWithoutTheInputLoadsAndTakesNoNoticeOfThePhase) {
+TEST(RibPhaseInputTest, AGraphWithoutTheInputLoadsAndIgnoresThePhase) {
     const auto requests = requestsWithPhases();
     for (const char* tier : {"draft", "standard", "direct", "latent"}) {
         OnnxSegmentGenerator generator(testRuntime(), tinyModel(), tier, {SolverKind::euler, 2}, 4);
@@ -83,7 +83,7 @@ TEST(RibPhaseInputTest, AGraphWithoutTheInputLoadsAndTakesNoNoticeOfThePhase) {
     }
 }
 
-TEST(RibPhaseInputTest, AnInputOfAnotherShapeIsRefusedByTierGraphAndShape) {
+TEST(RibPhaseInputTest, TheErrorForAnotherShapeNamesTierGraphAndShape) {
     for (const auto& [tier, blob, output] :
          {std::array{"standard", "flow_field", "velocity"}, std::array{"draft", "average_field", "velocity"},
           std::array{"direct", "direct_field", "segment"}}) {
@@ -99,7 +99,7 @@ TEST(RibPhaseInputTest, AnInputOfAnotherShapeIsRefusedByTierGraphAndShape) {
     }
 }
 
-TEST(RibPhaseInputTest, ALevelGraphCannotAskForThePhase) {
+TEST(RibPhaseInputTest, ALevelGraphWithThePhaseInputIsRejected) {
     const auto model = model::ModelFile::parse(withGraphs(tinyModel(), {{"level", ribField("log_level", {1})}}));
     EXPECT_THROW((void)OnnxSegmentGenerator(testRuntime(), model, "standard", {SolverKind::euler, 1}, 1),
                  model::ModelError);

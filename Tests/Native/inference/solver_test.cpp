@@ -77,13 +77,13 @@ TEST(SolverTest, HeunConvergesWithTheSecondPowerOfTheStep) {
     EXPECT_NEAR(convergenceOrder(SolverKind::heun), 2.0, 0.1);
 }
 
-TEST(SolverTest, OneStepOfDecayIsWhatTheFormulasSay) {
+TEST(SolverTest, OneStepOfDecayMatchesTheFormulas) {
     EXPECT_FLOAT_EQ(integrateOne(decay, {SolverKind::euler, 1}, 2.0F), 0.0F);
     EXPECT_FLOAT_EQ(integrateOne(decay, {SolverKind::midpoint, 1}, 2.0F), 1.0F);
     EXPECT_FLOAT_EQ(integrateOne(decay, {SolverKind::heun, 1}, 2.0F), 1.0F);
 }
 
-TEST(SolverTest, OneStepTellsMidpointFromHeunInACurvedTimeField) {
+TEST(SolverTest, MidpointAndHeunDifferInAFieldThatIsCurvedInTime) {
     const Formula parabola = [](auto /*point*/, float time, std::span<float> velocity) {
         velocity[0] = 3.0F * time * time;
     };
@@ -94,7 +94,7 @@ TEST(SolverTest, OneStepTellsMidpointFromHeunInACurvedTimeField) {
     EXPECT_NEAR(integrateOne(parabola, {SolverKind::heun, 16}, 5.0F), 6.0F, 4e-3);
 }
 
-TEST(SolverTest, SecondOrderSolversAreExactWhereTheVelocityGrowsEvenlyWithTime) {
+TEST(SolverTest, SecondOrderSolversAreExactForAVelocityLinearInTime) {
     const Formula ramp = [](auto /*point*/, float time, std::span<float> velocity) { velocity[0] = 2.0F * time; };
     EXPECT_FLOAT_EQ(integrateOne(ramp, {SolverKind::midpoint, 1}, 0.0F), 1.0F);
     EXPECT_FLOAT_EQ(integrateOne(ramp, {SolverKind::heun, 1}, 0.0F), 1.0F);
@@ -110,7 +110,7 @@ TEST(SolverTest, EverySolverIsExactInAConstantField) {
     }
 }
 
-TEST(SolverTest, ARotationArrivesAQuarterTurnLater) {
+TEST(SolverTest, ARotationEndsAfterAQuarterTurn) {
     for (const SolverKind kind : {SolverKind::midpoint, SolverKind::heun}) {
         FormulaField field(rotate);
         Solver solver;
@@ -121,7 +121,7 @@ TEST(SolverTest, ARotationArrivesAQuarterTurnLater) {
     }
 }
 
-TEST(SolverTest, EulerAsksAtTheStartOfEachStepForItsInterval) {
+TEST(SolverTest, EulerEvaluatesAtTheStartOfEachStepWithItsInterval) {
     FormulaField field(decay);
     std::array<float, 1> point{1.0F};
     Solver().integrate(field, {SolverKind::euler, 4}, point);
@@ -129,14 +129,14 @@ TEST(SolverTest, EulerAsksAtTheStartOfEachStepForItsInterval) {
     EXPECT_THAT(field.intervals, ::testing::Each(0.25F));
 }
 
-TEST(SolverTest, MidpointAsksAtTheStartAndInTheMiddle) {
+TEST(SolverTest, MidpointEvaluatesAtTheStartAndInTheMiddle) {
     FormulaField field(decay);
     std::array<float, 1> point{1.0F};
     Solver().integrate(field, {SolverKind::midpoint, 2}, point);
     EXPECT_THAT(field.times, ::testing::ElementsAre(0.0F, 0.25F, 0.5F, 0.75F));
 }
 
-TEST(SolverTest, HeunAsksAtBothEndsAndReachesOneExactly) {
+TEST(SolverTest, HeunEvaluatesAtBothEndsAndReachesOneExactly) {
     FormulaField field(decay);
     std::array<float, 1> point{1.0F};
     Solver().integrate(field, {SolverKind::heun, 3}, point);
@@ -145,7 +145,7 @@ TEST(SolverTest, HeunAsksAtBothEndsAndReachesOneExactly) {
     EXPECT_EQ(field.times[1], field.times[2]);
 }
 
-TEST(SolverTest, CountsItsEvaluationsTruthfully) {
+TEST(SolverTest, EverySolverUsesTheExpectedNumberOfEvaluations) {
     for (const SolverKind kind : {SolverKind::euler, SolverKind::midpoint, SolverKind::heun}) {
         FormulaField field(decay);
         std::array<float, 1> point{1.0F};
@@ -154,7 +154,7 @@ TEST(SolverTest, CountsItsEvaluationsTruthfully) {
     }
 }
 
-TEST(SolverTest, ServesPointsOfDifferentSizesOneAfterTheOther) {
+TEST(SolverTest, ASolverAcceptsPointsOfDifferentSizes) {
     Solver solver;
     FormulaField field(decay);
     for (const std::size_t size : {1U, 600U, 200U}) {
@@ -164,7 +164,7 @@ TEST(SolverTest, ServesPointsOfDifferentSizesOneAfterTheOther) {
     }
 }
 
-TEST(SolverTest, RefusesStepsOutsideOneToSixteen) {
+TEST(SolverTest, StepsOutsideOneToSixteenAreRejected) {
     FormulaField field(decay);
     std::array<float, 1> point{1.0F};
     for (const int steps : {-1, 0, 17}) {

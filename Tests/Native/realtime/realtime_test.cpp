@@ -66,7 +66,7 @@ void disturb(haptoflow_voice voice, Pace& pace) {
     }
 }
 
-TEST(RealTimeTest, TheWatchesSeeWhatTheyAreMeantToSee) {
+TEST(RealTimeTest, ForbiddenCallsAndSystemCallsAreDetected) {
     const std::uint64_t before = forbiddenCalls();
     std::mutex mutex;
     {
@@ -88,7 +88,7 @@ TEST(RealTimeTest, TheWatchesSeeWhatTheyAreMeantToSee) {
     EXPECT_EQ(lastTrappedSystemCall(), SYS_getppid);
 }
 
-TEST(RealTimeTest, TheWatchesSeeInsideTheLibraryToo) {
+TEST(RealTimeTest, ForbiddenCallsInsideTheLibraryAreDetected) {
     const OpenEngine open(capi::testing::tinyModelPath);
     haptoflow_engine_statistics statistics{};
     statistics.struct_size = sizeof(statistics);
@@ -100,7 +100,7 @@ TEST(RealTimeTest, TheWatchesSeeInsideTheLibraryToo) {
     EXPECT_GT(forbiddenCalls(), before) << "it takes a lock, as its documentation says";
 }
 
-TEST(RealTimeTest, TheFirstCallIntoTheLibraryMayComeFromTheAudioThread) {
+TEST(RealTimeTest, TheFirstCallMayComeFromTheAudioThread) {
     // Each test is a process of its own: a mixer group with the effect may play before any voice was ever made.
     std::array<float, 64> block{};
     block.fill(1.0F);
@@ -166,7 +166,7 @@ struct Heard {
     }
 };
 
-TEST(RealTimeTest, InNoCallbackUnderLoadIsThereAnAllocationALockOrASystemCall) {
+TEST(RealTimeTest, NoCallbackUnderLoadAllocatesLocksOrEntersTheKernel) {
     const OpenEngine open(capi::testing::defaultModelPath, true);
     Heard heard;
     std::array<float, 128> block{};
@@ -178,7 +178,7 @@ TEST(RealTimeTest, InNoCallbackUnderLoadIsThereAnAllocationALockOrASystemCall) {
     EXPECT_GT(heard.loudest, 0.001F);
 }
 
-TEST(RealTimeTest, InNoCallbackOfTheMixerEffectUnderLoadIsThereAnAllocationALockOrASystemCall) {
+TEST(RealTimeTest, NoCallbackOfTheMixerEffectUnderLoadAllocatesLocksOrEntersTheKernel) {
     const OpenEngine open(capi::testing::defaultModelPath, true);
     const unity::testing::UnityHost host;
     unity::testing::HostedEffect effect(host.effect("HaptoFlow Voice"));

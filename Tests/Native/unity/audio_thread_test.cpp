@@ -16,7 +16,7 @@ bool isWithinFullScale(const Sound& sound) {
     return std::ranges::all_of(sound.samples, [](float sample) { return std::abs(sample) <= 1.0F; });
 }
 
-TEST_F(AudioThreadTest, ProcessingAllocatesNothingWhateverHappens) {
+TEST_F(AudioThreadTest, ProcessingNeverAllocates) {
     HostedEffect effect(definition());
     const AudioEffectDefinition& callbacks = definition();
     AudioEffectState& state = effect.state();
@@ -54,7 +54,7 @@ TEST_F(AudioThreadTest, ProcessingAllocatesNothingWhateverHappens) {
     EXPECT_GT(counter.calls(), 0U) << "the counter does not count";
 }
 
-TEST_F(AudioThreadTest, TheLibrarysOwnAllocationsAreCounted) {
+TEST_F(AudioThreadTest, AllocationsInsideTheLibraryAreCounted) {
     AudioEffectState state{};
     state.structSize = sizeof(state);
     const AllocationCounter counter;
@@ -63,7 +63,7 @@ TEST_F(AudioThreadTest, TheLibrarysOwnAllocationsAreCounted) {
     EXPECT_EQ(definition().release(&state), resultOk);
 }
 
-TEST_F(AudioThreadTest, ParametersMayBeSetAndResetFromAnotherThreadMeanwhile) {
+TEST_F(AudioThreadTest, ParametersCanBeSetFromAnotherThread) {
     SteppedVoice second(runtime_, model_);
     HostedEffect effect(definition());
     std::atomic<bool> isDone{false};
@@ -100,7 +100,7 @@ TEST_F(AudioThreadTest, ParametersMayBeSetAndResetFromAnotherThreadMeanwhile) {
     EXPECT_EQ(effect.get("Strength"), 0.5F);
 }
 
-TEST_F(AudioThreadTest, VoicesMayComeAndGoWhileAnEffectPlays) {
+TEST_F(AudioThreadTest, VoicesCanOpenAndCloseWhileAnEffectPlays) {
     HostedEffect effect(definition());
     effect.set("Voice", voice_.place() + 1.0F);
     std::atomic<bool> isDone{false};

@@ -11,7 +11,7 @@ using ::testing::Each;
 
 using RoutingTest = VoiceEffectTest;
 
-TEST_F(RoutingTest, TheRoutedChannelCarriesWhatTheCInterfaceWouldHaveWrittenAndTheOtherItsInput) {
+TEST_F(RoutingTest, TheRoutedChannelCarriesTheVoiceAndTheOtherItsInput) {
     SteppedVoice same(runtime_, model_);
     HostedEffect effect(definition());
     effect.set("Voice", voice_.place());
@@ -30,7 +30,7 @@ TEST_F(RoutingTest, TheRoutedChannelCarriesWhatTheCInterfaceWouldHaveWrittenAndT
     EXPECT_GT(voice_.statistics().inferences, 15U);
 }
 
-TEST_F(RoutingTest, WithoutAChannelOfItsOwnTheVoiceIsOnAllOfThem) {
+TEST_F(RoutingTest, WithoutAChannelTheVoiceIsOnAllChannels) {
     SteppedVoice same(runtime_, model_);
     HostedEffect effect(definition());
     const Sound heard = play(voice_, effect, 10, 6);
@@ -40,7 +40,7 @@ TEST_F(RoutingTest, WithoutAChannelOfItsOwnTheVoiceIsOnAllOfThem) {
     }
 }
 
-TEST_F(RoutingTest, TheLengthOfTheBlocksChangesNothing) {
+TEST_F(RoutingTest, TheBlockLengthDoesNotChangeTheOutput) {
     SteppedVoice same(runtime_, model_);
     HostedEffect effect(definition());
     Sound heard(0, 2);
@@ -68,7 +68,7 @@ TEST_F(RoutingTest, ABlockOfAnyLengthIsFilled) {
     EXPECT_EQ(voice_.statistics().rendered_frames, 20000U);
 }
 
-TEST_F(RoutingTest, APlaceWithoutAVoiceIsSilentOnTheRoutedChannelOnly) {
+TEST_F(RoutingTest, AnEmptyPlaceSilencesOnlyTheRoutedChannel) {
     HostedEffect effect(definition());
     effect.set("Voice", 40.0F);
     effect.set("Channel", 0.0F);
@@ -79,7 +79,7 @@ TEST_F(RoutingTest, APlaceWithoutAVoiceIsSilentOnTheRoutedChannelOnly) {
     EXPECT_EQ(voice_.statistics().rendered_frames, 0U);
 }
 
-TEST_F(RoutingTest, AChannelThatTheOutputLacksPlaysNothingAndCostsNothing) {
+TEST_F(RoutingTest, AMissingChannelPlaysNothingAndRendersNothing) {
     HostedEffect effect(definition());
     effect.set("Channel", 5.0F);
     voice_.slide();
@@ -88,7 +88,7 @@ TEST_F(RoutingTest, AChannelThatTheOutputLacksPlaysNothingAndCostsNothing) {
     EXPECT_EQ(voice_.statistics().rendered_frames, 0U);
 }
 
-TEST_F(RoutingTest, NeitherMoreThan64ChannelsNorNoneAreAVoicesOutput) {
+TEST_F(RoutingTest, OnlyOneTo64ChannelsCarryAVoice) {
     HostedEffect effect(definition());
     const Sound in = Sound::pattern(16, 65);
     EXPECT_EQ(effect.process(in, 65).samples, in.samples);
@@ -106,7 +106,7 @@ struct ChannelCounts {
 constexpr auto channelCounts =
     std::to_array<ChannelCounts>({{0, 2}, {1, 1}, {1, 2}, {2, 1}, {2, 2}, {2, 8}, {6, 2}, {8, 8}});
 
-TEST(ChannelCountsTest, OutputChannelsAreTheInputsOfTheSameIndexAlsoWhereBothAreOneBuffer) {
+TEST(ChannelCountsTest, ChannelsPassByIndexEvenInPlace) {
     const UnityHost host;
     for (const auto [inChannels, outChannels] : channelCounts) {
         HostedEffect effect(host.effect("HaptoFlow Voice"));
@@ -124,7 +124,7 @@ TEST(ChannelCountsTest, OutputChannelsAreTheInputsOfTheSameIndexAlsoWhereBothAre
     }
 }
 
-TEST_F(RoutingTest, TheVoiceIsTheSameWhateverComesInAndHoweverManyChannelsGoOut) {
+TEST_F(RoutingTest, TheVoiceDoesNotDependOnTheInputOrTheNumberOfChannels) {
     SteppedVoice same(runtime_, model_);
     HostedEffect effect(definition());
     effect.set("Channel", 0.0F);
@@ -136,7 +136,7 @@ TEST_F(RoutingTest, TheVoiceIsTheSameWhateverComesInAndHoweverManyChannelsGoOut)
     }
 }
 
-TEST_F(RoutingTest, AnInputBufferThatIsNotThereIsSilence) {
+TEST_F(RoutingTest, AMissingInputBufferCountsAsSilence) {
     HostedEffect effect(definition());
     effect.set("Channel", 0.0F);
     Sound out = Sound::pattern(32, 2);
@@ -144,7 +144,7 @@ TEST_F(RoutingTest, AnInputBufferThatIsNotThereIsSilence) {
     EXPECT_THAT(out.samples, Each(0.0F));
 }
 
-TEST_F(RoutingTest, HalfTheStrengthIsHalfTheVoice) {
+TEST_F(RoutingTest, AStrengthOfOneHalfHalvesTheVoice) {
     SteppedVoice same(runtime_, model_);
     HostedEffect effect(definition());
     effect.set("Strength", 0.5F);
@@ -157,7 +157,7 @@ TEST_F(RoutingTest, HalfTheStrengthIsHalfTheVoice) {
     EXPECT_EQ(heard.channel(1), expected);
 }
 
-TEST_F(RoutingTest, AnotherStrengthIsReachedInAStraightLineWithin10Ms) {
+TEST_F(RoutingTest, TheStrengthChangesLinearlyWithin10Ms) {
     SteppedVoice same(runtime_, model_);
     HostedEffect effect(definition());
     (void)play(voice_, effect, 5);
@@ -171,7 +171,7 @@ TEST_F(RoutingTest, AnotherStrengthIsReachedInAStraightLineWithin10Ms) {
     }
 }
 
-TEST_F(RoutingTest, AnotherSampleRateIsTakenUpOnceTheWorkerHasPreparedForIt) {
+TEST_F(RoutingTest, ANewSampleRateAppliesAfterTheWorkerHasPreparedIt) {
     HostedEffect effect(definition());
     (void)play(voice_, effect, 5);
     effect.setSampleRate(24000);

@@ -12,7 +12,7 @@ using ::testing::Each;
 
 using SeveralEffectsTest = VoiceEffectTest;
 
-TEST_F(SeveralEffectsTest, EachEffectCarriesItsOwnVoice) {
+TEST_F(SeveralEffectsTest, EachEffectPlaysItsOwnVoice) {
     SteppedVoice second(runtime_, model_);
     SteppedVoice same(runtime_, model_);
     HostedEffect left(definition());
@@ -26,7 +26,7 @@ TEST_F(SeveralEffectsTest, EachEffectCarriesItsOwnVoice) {
     }
 }
 
-TEST_F(SeveralEffectsTest, OfTwoOnOneVoiceTheFirstPlaysItWholeAndTheSecondIsSilentAndCounted) {
+TEST_F(SeveralEffectsTest, OfTwoEffectsOnOneVoiceOnlyTheFirstPlaysIt) {
     SteppedVoice same(runtime_, model_);
     HostedEffect first(definition());
     HostedEffect second(definition());
@@ -39,7 +39,7 @@ TEST_F(SeveralEffectsTest, OfTwoOnOneVoiceTheFirstPlaysItWholeAndTheSecondIsSile
     EXPECT_EQ(voice_.statistics().rendered_frames, 30 * frameOfAudio);
 }
 
-TEST_F(SeveralEffectsTest, TheSecondTakesOverAtOnceWhereTheFirstIsReleasedPausedOrSentElsewhere) {
+TEST_F(SeveralEffectsTest, TheSecondEffectTakesOverWhenTheFirstGivesTheVoiceBack) {
     using First = std::optional<HostedEffect>;
     struct Reason {
         const char* name;
@@ -73,7 +73,7 @@ TEST_F(SeveralEffectsTest, TheSecondTakesOverAtOnceWhereTheFirstIsReleasedPaused
     }
 }
 
-TEST_F(SeveralEffectsTest, TheSecondTakesOver100MsAfterTheFirstWasLastCalled) {
+TEST_F(SeveralEffectsTest, TheSecondEffectTakesOver100MsAfterTheLastCallOfTheFirst) {
     HostedEffect first(definition());
     HostedEffect second(definition());
     (void)play(voice_, first, 3);
@@ -83,7 +83,7 @@ TEST_F(SeveralEffectsTest, TheSecondTakesOver100MsAfterTheFirstWasLastCalled) {
     EXPECT_THAT(play(voice_, first, 1).channel(0), Each(0.0F)) << "the voice is the second's now";
 }
 
-TEST_F(SeveralEffectsTest, AVoiceThatClosesLeavesSilenceAndTheNextAtItsPlaceIsHeard) {
+TEST_F(SeveralEffectsTest, AClosedVoiceLeavesSilenceAndTheNextVoiceAtItsPlaceSounds) {
     HostedEffect effect(definition());
     std::optional<SteppedVoice> second(std::in_place, runtime_, model_);
     const float place = second->place();
@@ -97,7 +97,7 @@ TEST_F(SeveralEffectsTest, AVoiceThatClosesLeavesSilenceAndTheNextAtItsPlaceIsHe
     EXPECT_EQ(play(*second, effect, 5).channel(0), reference(same, 5)) << "no ramp: a voice begins in silence itself";
 }
 
-TEST_F(SeveralEffectsTest, EffectsComeAndGoWithoutAVoiceNoticing) {
+TEST_F(SeveralEffectsTest, CreatingAndReleasingEffectsDoesNotAffectAVoice) {
     SteppedVoice same(runtime_, model_);
     for (int i = 0; i < 20; ++i) {
         HostedEffect effect(definition());

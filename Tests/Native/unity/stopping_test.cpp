@@ -34,7 +34,7 @@ protected:
 
 class StoppingFlagsTest : public StoppingTest, public ::testing::WithParamInterface<std::uint32_t> {};
 
-TEST_P(StoppingFlagsTest, TheRoutedChannelFallsSilentTheOthersGoOnAndTheVoicesClockStandsStill) {
+TEST_P(StoppingFlagsTest, TheRoutedChannelFallsSilentAndTheVoicesClockStops) {
     effect.setFlags(GetParam());
     voice_.slide();
     (void)effect.process(frameOfAudio);
@@ -50,7 +50,7 @@ TEST_P(StoppingFlagsTest, TheRoutedChannelFallsSilentTheOthersGoOnAndTheVoicesCl
     EXPECT_EQ(rendered(), atRest);
 }
 
-TEST_P(StoppingFlagsTest, TheVoiceFadesWithin5MsAndIsRenderedNoFurther) {
+TEST_P(StoppingFlagsTest, TheVoiceFadesWithin5MsAndIsThenNotRendered) {
     SteppedVoice same(runtime_, model_);
     (void)reference(same, 10);
     const std::uint64_t before = rendered();
@@ -65,7 +65,7 @@ TEST_P(StoppingFlagsTest, TheVoiceFadesWithin5MsAndIsRenderedNoFurther) {
     EXPECT_EQ(rendered(), before + stopFrames);
 }
 
-TEST_F(StoppingTest, AStrengthSetWhileTheVoiceIsSilentHoldsFromTheFirstSampleOfTheNextTouch) {
+TEST_F(StoppingTest, AStrengthSetInSilenceAppliesFromTheNextTouch) {
     voice_.lift();
     (void)effect.process(frameOfAudio);
     effect.set("Strength", 0.0F);
@@ -80,7 +80,7 @@ TEST_F(StoppingTest, AStrengthSetWhileTheVoiceIsSilentHoldsFromTheFirstSampleOfT
     EXPECT_GT(peak(std::span(heard).first(120)), 0.5F * peak(heard));
 }
 
-TEST_P(StoppingFlagsTest, ABlockShorterThanTheFadeEndsInSilenceAllTheSame) {
+TEST_P(StoppingFlagsTest, ABlockShorterThanTheFadeEndsInSilence) {
     effect.setFlags(GetParam());
     const std::vector<float> heard = effect.process(32).channel(1);
     EXPECT_LE(largestStepFrom(last, heard), usualStep + peak(heard) * 2.0F * fadeStep(32) + 1e-6F);
@@ -88,7 +88,7 @@ TEST_P(StoppingFlagsTest, ABlockShorterThanTheFadeEndsInSilenceAllTheSame) {
     EXPECT_THAT(effect.process(32).channel(1), Each(0.0F));
 }
 
-TEST_P(StoppingFlagsTest, AnEffectThatBeginsSilentNeverTouchesTheVoice) {
+TEST_P(StoppingFlagsTest, AnEffectThatStartsSilentDoesNotRenderTheVoice) {
     effect.reset();
     effect.setFlags(GetParam());
     const std::uint64_t before = rendered();
@@ -96,7 +96,7 @@ TEST_P(StoppingFlagsTest, AnEffectThatBeginsSilentNeverTouchesTheVoice) {
     EXPECT_EQ(rendered(), before);
 }
 
-TEST_P(StoppingFlagsTest, WhatGoesOnRisesFromSilence) {
+TEST_P(StoppingFlagsTest, AResumedEffectFadesInFromSilence) {
     effect.setFlags(GetParam());
     voice_.slide();
     (void)effect.process(frameOfAudio);
@@ -119,7 +119,7 @@ INSTANTIATE_TEST_SUITE_P(Flags, StoppingFlagsTest,
                              }
                          });
 
-TEST_F(StoppingTest, ATouchWithoutNewsSinceThePauseEndsByTheVoicesOwnStaleRule) {
+TEST_F(StoppingTest, ATouchWithoutNewStatesSinceThePauseBecomesStale) {
     effect.setFlags(flagPlaying | flagPaused);
     for (int i = 0; i < 50; ++i) {
         (void)effect.process(frameOfAudio);
@@ -133,7 +133,7 @@ TEST_F(StoppingTest, ATouchWithoutNewsSinceThePauseEndsByTheVoicesOwnStaleRule) 
     EXPECT_THAT(effect.process(frameOfAudio).channel(1), Each(0.0F));
 }
 
-TEST_F(StoppingTest, AGroupThatUnitySuspendedResumesFromSilence) {
+TEST_F(StoppingTest, ASuspendedGroupResumesFromSilence) {
     for (int i = 0; i < 3; ++i) {
         effect.suspend(30 * frameOfAudio + 17);
         const std::uint64_t before = rendered();
@@ -144,7 +144,7 @@ TEST_F(StoppingTest, AGroupThatUnitySuspendedResumesFromSilence) {
     }
 }
 
-TEST_F(StoppingTest, AHostWhoseTicksDoNotCountSamplesIsNotTakenForOneThatSuspends) {
+TEST_F(StoppingTest, TicksThatDoNotCountSamplesAreNotTreatedAsSuspension) {
     SteppedVoice same(runtime_, model_);
     (void)reference(same, 10);
     effect.reset();
@@ -157,7 +157,7 @@ TEST_F(StoppingTest, AHostWhoseTicksDoNotCountSamplesIsNotTakenForOneThatSuspend
     }
 }
 
-TEST_F(StoppingTest, AfterAResetTheNextBlockIsAtFullStrengthAtOnce) {
+TEST_F(StoppingTest, AfterAResetTheNextBlockHasFullStrength) {
     SteppedVoice same(runtime_, model_);
     (void)reference(same, 10);
     effect.set("Strength", 0.5F);
@@ -169,7 +169,7 @@ TEST_F(StoppingTest, AfterAResetTheNextBlockIsAtFullStrengthAtOnce) {
     EXPECT_EQ(play(voice_, effect, 1).channel(1), expected);
 }
 
-TEST_F(StoppingTest, ToAnotherChannelTheVoiceFadesOutOfTheOneAndIntoTheOther) {
+TEST_F(StoppingTest, AChangeOfChannelFadesOutAndIn) {
     effect.set("Channel", 0.0F);
     voice_.slide();
     const Sound in = Sound::pattern(frameOfAudio, 2);
@@ -187,14 +187,14 @@ TEST_F(StoppingTest, ToAnotherChannelTheVoiceFadesOutOfTheOneAndIntoTheOther) {
     EXPECT_GT(peak(std::span(left).subspan(stopFrames)), 1e-4F);
 }
 
-TEST_F(StoppingTest, OnAChannelThatTheOutputLostAndHasAgainTheVoiceRisesFromSilence) {
+TEST_F(StoppingTest, OnARegainedChannelTheVoiceFadesInFromSilence) {
     (void)effect.process(frameOfAudio, 1);
     const std::vector<float> heard = play(voice_, effect, 2).channel(1);
     EXPECT_LE(largestStepFrom(0.0F, heard), usualStep + fadeStep(frameOfAudio) * peak(heard) + 1e-6F);
     EXPECT_GT(peak(heard), 1e-3F);
 }
 
-TEST_F(StoppingTest, FromOneVoiceToAnotherThereIsSilenceBetween) {
+TEST_F(StoppingTest, AChangeOfVoicePassesThroughSilence) {
     SteppedVoice other(runtime_, model_);
     effect.set("Voice", other.place());
     voice_.slide();
@@ -206,7 +206,7 @@ TEST_F(StoppingTest, FromOneVoiceToAnotherThereIsSilenceBetween) {
     EXPECT_EQ(other.statistics().rendered_frames, frameOfAudio - stopFrames);
 }
 
-TEST_F(StoppingTest, AtNoStrengthTheVoicesClockGoesOn) {
+TEST_F(StoppingTest, AtZeroStrengthTheVoicesClockContinues) {
     effect.set("Strength", 0.0F);
     (void)play(voice_, effect, 1);
     const std::uint64_t before = rendered();
