@@ -7,7 +7,7 @@
 namespace haptoflow::dsp {
 namespace {
 
-// Volatile operands: the compiler would otherwise fold the arithmetic under its own rules.
+// Volatile operands keep the compiler from evaluating the arithmetic at compile time.
 float halfOfTheSmallestNormal() {
     volatile float smallest = std::numeric_limits<float>::min();
     volatile float half = 0.5F;

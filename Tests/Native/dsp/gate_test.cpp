@@ -57,7 +57,7 @@ TEST(GateTest, AChangeOfDirectionAtAnySampleMakesNoStepLargerThanTheSteepestRamp
     for (const double rate : everyRate) {
         Gate gate(rate);
         Uniform uniform(31);
-        // The opening ramp's steepest slope: pi / 2 over 2 ms.
+        // The steepest slope of the opening ramp is pi / 2 over 2 ms.
         const double largest = std::numbers::pi / 2.0 / static_cast<double>(samplesIn(0.002, rate)) + 1e-6;
         double previous = 0.0;
         bool sawOpen = false;

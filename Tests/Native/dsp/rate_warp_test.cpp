@@ -22,7 +22,7 @@ using testing::wholeHertzNoise;
 
 constexpr double rateHz = 2000.0;
 
-/// Feeds a warp from a waveform, block after block, as the callback does.
+/// Feeds a waveform to a warp block by block, as the callback does.
 struct Player {
     RateWarp warp{};
     std::vector<float> waveform;
@@ -53,11 +53,11 @@ TEST(RateWarpTest, AtRatioOneTheOutputEqualsTheInputWithoutDelay) {
     for (std::size_t i = 0; i < output.size(); ++i) {
         ASSERT_EQ(output[i], player.waveform[i]);
     }
-    EXPECT_EQ(player.position, output.size()) << "nothing is read ahead";
+    EXPECT_EQ(player.position, output.size()) << "no sample is read ahead";
 }
 
 TEST(RateWarpTest, WhenTheRatioLeavesOneNoSampleIsRepeatedOrSkipped) {
-    // A straight line shows every jump of the read position: output and position must agree to the kernel's ripple.
+    // With a straight line as input, the output must equal the read position within the kernel's ripple.
     Player player{};
     for (int i = 0; i < 4000; ++i) {
         player.waveform.push_back(static_cast<float>(i));
@@ -71,7 +71,7 @@ TEST(RateWarpTest, WhenTheRatioLeavesOneNoSampleIsRepeatedOrSkipped) {
         }
     }
     ASSERT_TRUE(player.warp.isTransparent());
-    EXPECT_DOUBLE_EQ(player.warp.readPosition(), static_cast<double>(player.position)) << "the delay is gone again";
+    EXPECT_DOUBLE_EQ(player.warp.readPosition(), static_cast<double>(player.position)) << "the delay is 0 again";
 }
 
 TEST(RateWarpTest, APrimedWarpContinuesAsIfItHadPlayedThePast) {
@@ -136,7 +136,8 @@ TEST(RateWarpTest, FrequenciesThatWouldAliasAreRemoved) {
 }
 
 TEST(RateWarpTest, NoiseAtRatioTwoAndAHalfShowsNoAliases) {
-    // With only every 10th hertz occupied, lines land on multiples of 25 Hz; whatever lies between has folded.
+    // The input has lines at multiples of 10 Hz only, so output lines at other frequencies than multiples of 25 Hz are
+    // aliases.
     std::vector<float> waveform(20000, 0.0F);
     Uniform uniform(75);
     for (int frequency = 10; frequency < 1000; frequency += 10) {
@@ -146,7 +147,8 @@ TEST(RateWarpTest, NoiseAtRatioTwoAndAHalfShowsNoAliases) {
                 std::sin(phase + 2.0 * std::numbers::pi * frequency * static_cast<double>(i) / rateHz));
         }
     }
-    // Shifts every alias off the grid: 2,000 - 2.5 f is a multiple of 25 too, so occupy 10 k + 3 Hz besides.
+    // An alias of such a line, at 2,000 - 2.5 f, is also a multiple of 25 Hz. Adding lines at 10 k + 3 Hz makes aliases
+    // visible.
     const std::vector<float> shifted = tone(waveform.size(), 603.0, 1.0, rateHz);
     for (std::size_t i = 0; i < waveform.size(); ++i) {
         waveform[i] += shifted[i];
@@ -176,7 +178,7 @@ TEST(RateWarpTest, SweepingTheRatioUpAndDownAddsNoClick) {
         }
     }
     ASSERT_TRUE(player.warp.isTransparent());
-    // No tone from 50 to 200 Hz has a second difference above (2 pi 200 / 2000)^2; the sweep itself adds a little.
+    // A tone from 50 to 200 Hz has second differences of at most (2 pi 200 / 2000)^2; the sweep adds 5 %.
     const double largest = std::pow(2.0 * std::numbers::pi * 200.0 / rateHz, 2.0) * 1.05;
     for (std::size_t i = 40; i + 1 < output.size(); ++i) {
         const double second = static_cast<double>(output[i + 1]) - 2.0 * output[i] + output[i - 1];
@@ -200,7 +202,7 @@ TEST(RateWarpTest, EveryOutputIsTheWaveformAtASmoothlyMovingReadPosition) {
             const double next = player.warp.readPosition();
             ASSERT_GE(next - position, 1.0 - 1e-9);
             ASSERT_LE(next - position, 4.0 + 1e-9);
-            // 10 ms time constant: 5 % of the largest distance, 3, in a sample.
+            // With a time constant of 10 ms, the ratio moves per sample by 5 % of the largest distance, 3.
             ASSERT_LE(std::abs(next - position - step), 0.151) << "output " << i << " on the way to ratio " << ratio;
             step = next - position;
             position = next;

@@ -67,7 +67,7 @@ TEST(ResamplerPhaseTest, ADayOfOutputConsumesExactlyADayOfInput) {
 }
 
 TEST(ResamplerPhaseTest, TenMinutesInBlocksReachTheSamePhaseAsOneCall) {
-    // 11,025 Hz has the longest cycle of the usual rates; 12,345.678 Hz interpolates between phases.
+    // 11,025 Hz has the longest phase cycle of the common rates; 12,345.678 Hz interpolates between phases.
     for (const double rate : {11025.0, 12345.678}) {
         WaveformResampler resampler(rate);
         const std::vector<float> silence(200, 0.0F);
@@ -82,8 +82,8 @@ TEST(ResamplerPhaseTest, TenMinutesInBlocksReachTheSamePhaseAsOneCall) {
             consumed += needed;
         }
         EXPECT_EQ(consumed, WaveformResampler(rate).inputNeeded(produced)) << rate;
-        // Against real arithmetic: the rate is rounded to 2^-20 Hz, which moves ten minutes by less than 1/1000 of a
-        // sample.
+        // Compared with real arithmetic, because rounding the rate to 2^-20 Hz shifts ten minutes by less than 1/1000
+        // of a sample.
         const double position = static_cast<double>(produced - 1) * 2000.0 / rate;
         EXPECT_NEAR(static_cast<double>(consumed) - 0.5, position, 0.501) << rate;
     }
@@ -124,7 +124,7 @@ TEST(ResamplerPhaseTest, UnsupportedRatesAreRejectedWithTheRangeInTheMessage) {
 
     try {
         WaveformResampler resampler(7000.0);
-        FAIL() << "7 kHz was taken";
+        FAIL() << "7 kHz was accepted";
     } catch (const std::invalid_argument& error) {
         EXPECT_NE(std::string(error.what()).find("8000"), std::string::npos) << error.what();
     }

@@ -29,7 +29,7 @@ std::vector<float> resample(const std::vector<float>& input, double outputRateHz
 }
 
 std::vector<float> resampleWithSoxr(const std::vector<float>& input, std::size_t outputRateHz) {
-    // Its default lets the passband droop by 0.01 dB, which would be the largest difference found.
+    // Without roll-off, because the default's passband droop of 0.01 dB would dominate the difference.
     const soxr_quality_spec_t quality = soxr_quality_spec(SOXR_VHQ, SOXR_ROLLOFF_NONE);
     const soxr_io_spec_t format = soxr_io_spec(SOXR_FLOAT32_I, SOXR_FLOAT32_I);
     std::vector<float> output(input.size() * outputRateHz / inputRateHz + 1024);
@@ -124,7 +124,7 @@ TEST(ResamplerSpectrumTest, AStepSettlesWithinThreeMilliseconds) {
     const std::vector<float> input(400, 1.0F);
     const std::vector<float> output = resample(input, 48000.0, 4800);
     const auto halfway = std::find_if(output.begin(), output.end(), [](float value) { return value >= 0.5F; });
-    EXPECT_LE(halfway - output.begin(), 48 * 3 / 2) << "samples at 48 kHz until half of the step, 1.5 ms allowed";
+    EXPECT_LE(halfway - output.begin(), 48 * 3 / 2) << "half of the step must be reached within 1.5 ms";
 }
 
 TEST(ResamplerSpectrumTest, TheReportedGroupDelayMatchesTheDelayOfATonePacket) {

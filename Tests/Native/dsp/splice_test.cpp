@@ -19,8 +19,8 @@ struct SeamPower {
     double seam = 0.0;
 };
 
-// Mean power of unit-level signals outside the seam and over its samples, over many seams; `share` of the successor
-// is the continuation's own waveform, so that share is their correlation.
+// Mean power of unit-level signals outside the seam and within it, over many seams. The successor contains `share` of
+// the continuation, so that `share` is their correlation.
 SeamPower seamPower(double share, std::size_t length) {
     SeamPower power;
     constexpr std::size_t seams = 20000;
@@ -50,8 +50,8 @@ TEST(SpliceTest, TheLevelIsConstantAcrossTheSeamForAnyCorrelation) {
         for (const std::size_t length : {1U, 2U, 4U}) {
             const SeamPower power = seamPower(share, length);
             const double change = 10.0 * std::log10(power.seam / power.before);
-            // What the clamp at 0 costs: chance likeness within 32 samples lowers the gain, chance unlikeness cannot
-            // raise it.
+            // The tolerance allows for the clamp at 0: a random positive correlation within 32 samples lowers the gain,
+            // and a negative one cannot raise it.
             EXPECT_NEAR(change, 0.0, 0.4) << "correlation " << share << ", " << length << " samples";
         }
     }
@@ -95,7 +95,7 @@ TEST(SpliceTest, ALengthOfZeroSwitchesAtOnceAndTheLengthIsLimitedToFour) {
     for (length = 0; splice.active(); ++length) {
         (void)splice.next(1.0F, 2.0F);
     }
-    EXPECT_EQ(length, 2) << "no further than the continuation reaches";
+    EXPECT_EQ(length, 2) << "limited to the length of the continuation";
 }
 
 TEST(SpliceTest, SilenceOnEitherSideGivesFiniteGainsOfAtMostOne) {
@@ -109,7 +109,7 @@ TEST(SpliceTest, SilenceOnEitherSideGivesFiniteGainsOfAtMostOne) {
             ASSERT_TRUE(std::isfinite(value));
             const double share = static_cast<double>(i + 1) / 5.0;
             EXPECT_NEAR(value, (1.0 - share) * old[i] + share * successor[i], 1e-5)
-                << "gains above a plain crossfade's";
+                << "the gains exceed those of a linear crossfade";
         }
     }
 }

@@ -24,7 +24,7 @@ double responseDb(const ToneKernel& kernel, double frequencyHz) {
     return 20.0 * std::log10(std::abs(sum));
 }
 
-/// From -8 dB at 50 Hz to 8 dB at 800 Hz, in the logarithm of frequency.
+/// Gain that rises from -8 dB at 50 Hz to 8 dB at 800 Hz, linearly over the logarithm of frequency.
 double rising(double frequencyHz) {
     return -8.0 + 16.0 * std::log(std::clamp(frequencyHz, 50.0, 800.0) / 50.0) / std::log(16.0);
 }
@@ -57,8 +57,8 @@ TEST(ToneCepstrumTest, AGainOfZeroDecibelsGivesTheUnitImpulse) {
 
 TEST(ToneCepstrumTest, TheKernelIsMinimumPhase) {
     const ToneKernel kernel = toneKernel(toneCepstrum(rising));
-    // Of all filters of one magnitude, the minimum-phase one has the largest first tap, which is the mean of the
-    // logarithmic gain over frequency.
+    // Of all filters with one magnitude, the minimum-phase filter has the largest first tap. Its logarithm is the mean
+    // of the logarithmic gain over frequency.
     double mean = 0.0;
     for (int bin = 0; bin < 1000; ++bin) {
         mean += rising(static_cast<double>(bin) + 0.5) / 1000.0;
@@ -117,7 +117,7 @@ TEST(ToneFilterTest, TheBlockLengthsDoNotChangeTheFilteredSignal) {
     EXPECT_EQ(found, expected);
 }
 
-/// The largest step between neighbours of a 50 Hz tone whose kernel changes every `period` samples.
+/// The largest step between neighbouring samples of a 50 Hz tone while the kernel changes every `period` samples.
 float largestStep(std::span<const ToneKernel* const> kernels, std::size_t period) {
     ToneFilter filter;
     std::vector<float> samples = tone(50.0, 2000);
@@ -142,7 +142,7 @@ TEST(ToneFilterTest, ChangesOfToneDoNotClickHoweverFrequent) {
     const ToneKernel quiet = toneKernel(toneCepstrum([](double) { return -12.0; }));
     const ToneKernel loud = toneKernel(toneCepstrum([](double) { return 6.0; }));
     const std::array<const ToneKernel*, 4> changing{&quiet, &loud, nullptr, &loud};
-    // At 6 dB a tone of 50 Hz changes by 0.32 from sample to sample; gliding over 20 samples adds 0.09.
+    // At 6 dB, a tone of 50 Hz changes by up to 0.32 between samples; the change of kernel over 20 samples adds 0.09.
     for (const std::size_t period : {std::size_t{5}, std::size_t{13}, std::size_t{20}, std::size_t{97}}) {
         EXPECT_LT(largestStep(changing, period), 0.45F) << period;
     }

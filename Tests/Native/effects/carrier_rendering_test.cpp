@@ -112,7 +112,7 @@ TEST(CarrierRenderingTest, FramesFeltInNeitherWaveAreSkippedAndMissingFramesCoun
     const IntensityErrorSummary missing = summarise(intensityErrors(wave, {}));
     EXPECT_GT(missing.feltFrames, 190U);
     EXPECT_LT(missing.meanDb, -30.0);
-    EXPECT_TRUE(std::isfinite(missing.meanDb)) << "no quieter than what is just felt";
+    EXPECT_TRUE(std::isfinite(missing.meanDb)) << "the played intensity counts as at least 1";
 }
 
 TEST(CarrierRenderingTest, ACarrierHasItsFramesAmplitudeFrequencyAndLengthAtEveryRate) {
@@ -142,7 +142,7 @@ TEST(CarrierRenderingTest, ACarrierNeverJumps) {
         for (std::size_t i = 1; i < wave.size(); ++i) {
             largest = std::max(largest, std::abs(wave[i] - wave[i - 1]));
         }
-        // The steepest sinusoid, and an edge of half a millisecond.
+        // The steepest sinusoid plus an amplitude edge of half a millisecond.
         EXPECT_LT(static_cast<double>(largest), 2.0 * std::numbers::pi * 400.0 / 48000.0 + 1.0 / 24.0 + 1e-3);
     }
 }

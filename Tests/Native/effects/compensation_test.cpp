@@ -52,10 +52,10 @@ void run(Compensation& compensation, std::vector<float>& samples, std::size_t bl
     }
 }
 
-/// The response as what `process` makes of one sample, over two seconds.
+/// The response measured with an impulse through `process`, over two seconds.
 class MeasuredResponse {
 public:
-    // So large that what counts as silent lies far below its end.
+    // So large that the end of the impulse response lies far above the level that counts as silent.
     static constexpr double impulse = 1e5;
 
     MeasuredResponse(const ActuatorProfile& profile, double sampleRateHz, const CompensationSettings& settings = {})
@@ -89,7 +89,7 @@ std::vector<float> noise(std::size_t count, float amplitude, unsigned seed) {
     return samples;
 }
 
-/// Noise of up to 1 kHz with the same power at each frequency, as a texture has it at the output rate.
+/// White noise up to 1 kHz, as in a texture at the output rate.
 std::vector<float> textureNoise(std::size_t count, float amplitude, unsigned seed) {
     std::vector<float> samples = noise(count, amplitude, seed);
     for (int pass = 0; pass < 4; ++pass) {
@@ -121,7 +121,7 @@ TEST(CompensationTest, TheCompensatedVoiceCoilIsFlatWithinThreeDecibelsFrom60To4
             EXPECT_NEAR(played, level, 3.0) << rate << " Hz, at " << hz << " Hz";
             uncompensated = std::max(uncompensated, std::abs(coil.magnitudeDecibelsAt(hz) - level));
         }
-        EXPECT_GT(uncompensated, 6.0) << "nothing was to be compensated";
+        EXPECT_GT(uncompensated, 6.0) << "the profile has nothing to compensate";
     }
 }
 
@@ -246,7 +246,7 @@ TEST(CompensationTest, NoToneInTheBandExceedsTheDeclaredLatency) {
         const double latency = compensation.declaration().latencySeconds;
         EXPECT_GE(latency, 0.0);
         for (double hz = 50.0; hz <= 900.0; hz *= 1.3) {
-            // The centroid of the energy of a burst of 40 periods under a smooth window.
+            // The energy centroid of a tone burst of 40 periods with a smooth window.
             const auto length = static_cast<std::size_t>(40.0 / hz * rateHz);
             std::vector<float> samples(2 * length);
             const auto centroid = [&samples] {

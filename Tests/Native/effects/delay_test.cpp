@@ -107,7 +107,7 @@ TEST(DelayTest, AChangeWhileSoundingCrossfadesWithoutAClickAndIsThenExact) {
             playThrough(delay, samples, 0, second);
             delay.setDelaySeconds(after);
             playThrough(delay, samples, second, second);
-            // The steepest that the sine itself is, and the fade between two taps at most 2 apart.
+            // The steepest step of the sinusoid, plus the crossfade between two taps that differ by at most 2.
             const double sineStep = 2.0 * std::numbers::pi * 63.0 / lineRateHz;
             const double fadeStep = std::numbers::pi / (Delay::fadeSeconds * lineRateHz);
             EXPECT_LE(largestStep(
@@ -157,7 +157,7 @@ TEST(DelayTest, ChangesDuringAFadeWaitForItsEndAndOnlyTheNewestCounts) {
     playThrough(waiting, samples, 10050, 50);
     waiting.setDelaySeconds(0.02);
     playThrough(waiting, samples, 10100, 9900);
-    // As if the newest had been asked for when the fade ended.
+    // The expected output is that of a change requested at the end of the fade.
     playThrough(reference, expected, 10000, fade);
     reference.setDelaySeconds(0.02);
     playThrough(reference, expected, 10000 + fade, 10000 - fade);
@@ -200,15 +200,15 @@ TEST(DelayTest, IsIdleOnlyOnceTheLineHoldsNothingButSilence) {
     std::vector<float> samples(8000, 0.0F);
     samples[0] = 1.0F;
     playThrough(delay, samples, 0, 1);
-    EXPECT_FALSE(delay.isIdle()) << "a longer delay would still bring the impulse";
+    EXPECT_FALSE(delay.isIdle()) << "with a longer delay the impulse would still sound";
     playThrough(delay, samples, 1, 4000);
-    EXPECT_FALSE(delay.isIdle()) << "the longest delay brings it with the next sample";
+    EXPECT_FALSE(delay.isIdle()) << "with the maximum delay the impulse is the next sample";
     playThrough(delay, samples, 4001, 1);
     EXPECT_TRUE(delay.isIdle());
 }
 
 TEST(DelayTest, SkippingAnIdleLineDoesNotChangeTheDelay) {
-    // The engine does not run an idle stage: the first impulse after a pause is as late as any other.
+    // The engine does not run an idle effect. The first impulse after a pause must still have the full delay.
     Delay delay(8000.0);
     delay.setDelaySeconds(0.1);
     std::vector<float> first(9000, 0.0F);
@@ -249,7 +249,7 @@ TEST(DelayTest, DeclaresItsDelayAsLatencyAndTail) {
     EXPECT_DOUBLE_EQ(delay.declaration().latencySeconds, 0.3);
     EXPECT_DOUBLE_EQ(delay.declaration().tailSeconds, 0.3);
     EXPECT_GE(delay.declaration().memoryBytes, 24000 * sizeof(float));
-    // While it fades to a shorter one the longer one still sounds.
+    // During the crossfade to a shorter delay, the longer one still sounds.
     std::vector<float> samples = sineWave(100.0, 48000.0, 48000);
     playThrough(delay, samples, 0, 40000);
     delay.setDelaySeconds(0.1);

@@ -17,7 +17,7 @@ namespace {
 
 constexpr double voiceRateHz = 8000.0;
 
-/// A day of eight minutes, so that hours pass in seconds.
+/// A law with a reference time of eight minutes instead of eight hours, to shorten the tests.
 ExposureLaw shortDay() {
     ExposureLaw law;
     law.dailySeconds = 480.0;
@@ -30,7 +30,7 @@ struct Tone {
     double amplitudeMps2;
 };
 
-/// Plays tones through a guard, block by block, and remembers what it did.
+/// Plays tones through a guard block by block and records its gain and exposure.
 class Session {
 public:
     explicit Session(ExposureGuard& guard, double sampleRateHz = voiceRateHz) : guard_(guard), rateHz_(sampleRateHz) {}
@@ -68,7 +68,7 @@ public:
     double highestDailyMps2 = 0.0;
 
 private:
-    // A rotating phasor: a sine call for each of a hundred million samples would be most of the test.
+    // A rotating phasor, because calling std::sin for a hundred million samples would dominate the test's time.
     void add(const Tone& tone, std::vector<float>& samples) const {
         const double turn = 2.0 * std::numbers::pi * tone.frequencyHz / rateHz_;
         const double start = std::fmod(tone.frequencyHz * static_cast<double>(at_) / rateHz_, 1.0);
@@ -90,7 +90,7 @@ private:
     double lastGain_ = 1.0;
 };
 
-// As loud as the shipped strokes on the loudest labels with 3 N: root mean square and weighted level.
+// Tones with the unweighted and weighted levels of the shipped strokes on the loudest labels at 3 N.
 const std::vector<Tone> wholeSet{{160.0, 43.6}, {25.0, 12.0}};       // 32 m/s^2, weighted 6.3
 const std::vector<Tone> loudestStroke{{160.0, 70.7}, {25.0, 22.6}};  // 52.5 m/s^2, weighted 11.5
 const std::vector<Tone> fullScale{{160.0, 200.0}};
@@ -126,14 +126,14 @@ TEST(ExposureGuardTest, MinutesAtFullScaleAreReducedToTheShortTermLimitWithThatR
     EXPECT_NEAR(session.lastRmsMps2, expected, 0.02 * expected);
     session.play(1500.0, fullScale);
     EXPECT_LT(session.lastRmsMps2, 61.0);
-    EXPECT_LE(session.steepestDbPerSecond, 1.21) << "a block of 50 ms may end within a hundredth";
+    EXPECT_LE(session.steepestDbPerSecond, 1.21) << "a block of 50 ms may end within a hundredth of a second";
 }
 
 TEST(ExposureGuardTest, ALevelThatUsesUpTheDailyDoseIsReducedWithThatReason) {
     ExposureGuard guard(voiceRateHz);
     Session session(guard);
-    // 20 m/s^2 at 16 Hz: 14.1 unweighted, far from the first limit, 12.7 weighted. 600 s before the end of the day's
-    // 180000 m^2/s^3 it has used 84000 of them, after 520 s.
+    // 20 m/s^2 at 16 Hz has an RMS of 14.1 m/s^2 unweighted, far below the first limit, and 12.7 m/s^2 weighted. Of the
+    // daily dose of 180000 m^2/s^3, 84000 are used after 520 s; the rest would last for less than 600 s.
     session.play(500.0, {{16.0, 20.0}});
     EXPECT_TRUE(session.untouched);
     session.play(60.0, {{16.0, 20.0}});
@@ -145,7 +145,7 @@ TEST(ExposureGuardTest, ALevelThatUsesUpTheDailyDoseIsReducedWithThatReason) {
 TEST(ExposureGuardTest, AVeryHighLevelIsReducedWithinSecondsButNotAfterOneBlow) {
     ExposureGuard guard(voiceRateHz);
     Session session(guard);
-    // Weighted 40 m/s^2: a hundred seconds of it are a day's dose.
+    // At a weighted 40 m/s^2, a hundred seconds use up the daily dose.
     session.play(1.0, {{16.0, 63.0}});
     EXPECT_TRUE(session.untouched);
     session.play(4.0, {{16.0, 63.0}});
@@ -171,7 +171,7 @@ TEST(ExposureGuardTest, TheDailyExposureApproachesItsLimitAndDoesNotPassIt) {
     ExposureGuard guard(voiceRateHz, shortDay());
     Session session(guard);
     session.play(1000.0, {{16.0, 20.0}});
-    EXPECT_LE(session.highestDailyMps2, 2.5 * 1.1) << "beyond what sounds while the gain moves";
+    EXPECT_LE(session.highestDailyMps2, 2.5 * 1.1) << "the dose limit was exceeded by more than the sound while the gain moves";
     EXPECT_GT(session.highestDailyMps2, 2.4);
 }
 
@@ -226,7 +226,7 @@ TEST(ExposureGuardTest, TheGainNeverFallsBelowTheMinimum) {
     Session session(guard);
     session.play(120.0, fullScale);
     EXPECT_NEAR(guard.report().gain, law.minimumGain, 1e-9);
-    // From there, not from below it, the level comes back, once the gain was corrected: 40 dB in 40 s.
+    // After the actuator's gain is corrected, the gain returns from the minimum of -40 dB at 1 dB/s.
     guard.setActuatorGain(1.0);
     guard.passSilence(static_cast<std::uint64_t>(480.0 * voiceRateHz));
     guard.passSilence(static_cast<std::uint64_t>(46.0 * voiceRateHz));

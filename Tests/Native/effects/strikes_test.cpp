@@ -66,7 +66,7 @@ TEST(StrikesTest, ReboundsFollowTheirFlightTimesAndGetWeaker) {
     Strikes strikes(EffectKind::impact, rateHz);
     strikes.strike(0.5, response);
     const std::vector<float> heard = next(strikes, 9600, 100);
-    // Flights of 2 v / 25 m/s^2: 20 ms with the 0.25 m/s that are left, then 10 ms.
+    // A flight takes 2 v / (25 m/s^2): 20 ms at the remaining 0.25 m/s, then 10 ms.
     const auto peakFrom = [&](double fromSeconds, double untilSeconds) {
         return static_cast<double>(
             peakOf(std::vector<float>(heard.begin() + static_cast<std::ptrdiff_t>(fromSeconds * rateHz),
@@ -109,7 +109,7 @@ TEST(StrikesTest, ManyBlowsAtOnceAreBoundedAndTheLoudestAreKept) {
         strikes.strike(0.001, ringing(300.0F, 50.0F, 400.0F));
     }
     const float peak = peakOf(next(strikes, 4800));
-    EXPECT_GT(peak, 300.0F) << "the loud one was thrown out";
+    EXPECT_GT(peak, 300.0F) << "the loud blow was replaced";
     EXPECT_LT(peak, 400.0F * 1.1F);
 }
 

@@ -61,7 +61,7 @@ TEST(WaveDecimationTest, AnImpulseIsDelayedByThreeSamplesOfTheNewRate) {
     std::vector<float> result;
     for (int i = 0; i < 64; ++i) {
         float sample = 0.0F;
-        // The fourth sample completes the first of the new rate.
+        // The fourth input sample completes the first output sample.
         if (decimation.take(i == 3 ? 1.0F : 0.0F, sample)) {
             result.push_back(sample);
         }

@@ -37,7 +37,7 @@ std::vector<WaveFrame> allFrames(WaveFeatures& features, const std::vector<float
     return frames;
 }
 
-/// Frames of a wave once the first and the last 64 ms are past.
+/// Frames of a wave without its first and last 64 ms.
 std::vector<WaveFrame> steadyFrames(const std::vector<float>& wave, const WaveFeatureOptions& options) {
     WaveFeatures features(options);
     std::vector<WaveFrame> frames = allFrames(features, wave, 28);
@@ -126,7 +126,7 @@ TEST(WaveFeaturesTest, TheCentroidLiesBetweenTwoTonesAndIsClampedToTheDevice) {
     options.minFrequencyHz = 170.0;
     options.maxFrequencyHz = 180.0;
     for (const WaveFrame& frame : steadyFrames(wave, options)) {
-        ASSERT_NEAR(static_cast<double>(frame.centroidHz), 150.0, 5.0) << "equally far above their thresholds";
+        ASSERT_NEAR(static_cast<double>(frame.centroidHz), 150.0, 5.0) << "both tones are equally far above their thresholds";
         ASSERT_EQ(frame.frequencyHz, 170.0F);
     }
 }
@@ -281,7 +281,7 @@ TEST(WaveFeaturesTest, SteadyVibrationHasOneOnsetAtItsStartAndNoneAfterIt) {
     for (const double frequencyHz : {40.0, 63.0, 100.0, 160.0, 250.0, 400.0}) {
         EXPECT_EQ(transientsOf(featureSine(frequencyHz, 5.0, 20.0)).size(), 1U) << frequencyHz;
     }
-    EXPECT_LE(transientsOf(featureNoise(5.0, 60.0, 4)).size(), 3U) << "one in half a minute of noise";
+    EXPECT_LE(transientsOf(featureNoise(5.0, 60.0, 4)).size(), 3U) << "at most three transients in a minute of noise";
 }
 
 TEST(WaveFeaturesTest, SilenceHasNoIntensityAndKeepsTheLastFrequency) {
@@ -383,7 +383,7 @@ TEST(WaveFeaturesTest, TenMinutesAtAVaryingFrameRateGiveBoundedAndCompleteFrames
     std::uint64_t next = 0;
     double phase = 0.0;
     while (samples < 1200000) {
-        // Unity frames of 5 to 30 ms, and now and then a hitch of 200 ms.
+        // Unity frames of 5 to 30 ms with an occasional hitch of 200 ms.
         std::vector<float> wave(random() % 200 == 0 ? 400 : 10 + random() % 50);
         const double frequencyHz = 20.0 + 600.0 * unit(random);
         const double amplitude = random() % 4 == 0 ? 0.0 : 300.0 * unit(random);

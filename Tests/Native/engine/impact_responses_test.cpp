@@ -50,7 +50,7 @@ TEST(ImpactResponsesTest, ABlendsResponseLiesBetweenItsLabelsAndUnknownLabelsAre
     EXPECT_FLOAT_EQ(frequencyOf({{0, 0.0F}, {1, 0.7F}}), 400.0F);
     EXPECT_NEAR(frequencyOf({{0, 0.5F}, {1, 0.5F}}), 200.0F, 1e-3F);
     EXPECT_FLOAT_EQ(frequencyOf({{0, 0.5F}, {99, 0.5F}}), 100.0F);
-    EXPECT_FLOAT_EQ(frequencyOf({}), 100.0F) << "none is the first label";
+    EXPECT_FLOAT_EQ(frequencyOf({}), 100.0F) << "an empty blend is the first label";
 }
 
 TEST(ImpactResponsesTest, AModeThatOneLabelLacksIsWeakerInTheBlend) {

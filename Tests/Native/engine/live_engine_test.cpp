@@ -1,4 +1,4 @@
-// Real threads: the worker, publishers and audio callbacks of several voices at once.
+// Tests with real threads: the worker, and publishers and audio callbacks of several voices.
 #include "engine/live_engine.hpp"
 
 #include "fake_generators.hpp"
@@ -38,7 +38,7 @@ protected:
         return std::make_unique<LiveEngine>(model_, std::move(ready), 0, settings);
     }
 
-    /// Renders until the condition holds, at most about ten seconds of wall time.
+    /// Renders until the condition holds, for at most about ten seconds of wall time.
     template <typename Condition>
     static bool renderUntil(LiveVoice& voice, Condition condition) {
         std::vector<float> block(256);
@@ -108,7 +108,7 @@ TEST_F(LiveEngineTest, TheWorkerGeneratesForATouchAndTheVoiceFallsSilentWithoutI
     voice->renderer.render(block, 48000.0);
     engine->publish(*voice, testing::sliding());
     voice->renderer.render(block, 48000.0);
-    EXPECT_EQ(testing::peak(block), 0.0F) << "nobody generates any more";
+    EXPECT_EQ(testing::peak(block), 0.0F) << "the worker has ended";
     engine->removeVoice(*voice);
 }
 
@@ -129,7 +129,7 @@ TEST_F(LiveEngineTest, ManyConcurrentVoicesPublishersAndCallbacksKeepEveryWaveIn
             while (!done) {
                 voice.renderer.render(block, 48000.0);
                 peaks[i] = std::max(peaks[i].load(), testing::peak(block));
-                // Less than a millisecond is none at all where MinGW's threads sleep: two thousand seconds a second.
+                // At least a millisecond, because MinGW's threads do not sleep for shorter times.
                 std::this_thread::sleep_for(std::chrono::milliseconds(1));
             }
         });
@@ -157,7 +157,7 @@ TEST_F(LiveEngineTest, ManyConcurrentVoicesPublishersAndCallbacksKeepEveryWaveIn
     const auto hasLived = [](const std::shared_ptr<LiveVoice>& voice) {
         return voice->channels.counters.inferences > 20 && voice->channels.counters.onsets > 3;
     };
-    // A second, and on a slow machine as long as it takes.
+    // About a second; longer on a slow machine.
     for (int tenth = 0; tenth < 300 && (tenth < 12 || !std::ranges::all_of(voices, hasLived)); ++tenth) {
         std::this_thread::sleep_for(std::chrono::milliseconds(100));
     }
@@ -210,7 +210,7 @@ TEST_F(LiveEngineTest, TwoRateChangesAtRestAreHandledBeforeTheNextTouch) {
     }
     engine->publish(*voice, testing::sliding());
     voice->renderer.render(block, 48000.0);
-    EXPECT_GT(testing::peak(block), 0.0F) << "the seed in the very next block";
+    EXPECT_GT(testing::peak(block), 0.0F) << "the seed must sound in the next block";
 }
 
 TEST_F(LiveEngineTest, AVoiceWithAStoppedDeviceDoesNotBlockOtherVoices) {
@@ -223,7 +223,7 @@ TEST_F(LiveEngineTest, AVoiceWithAStoppedDeviceDoesNotBlockOtherVoices) {
         std::this_thread::sleep_for(std::chrono::milliseconds(1));
     }
     ASSERT_EQ(unheard->channels.counters.inferences, 0U);
-    // The worker sees the contact before the callback does: only a second look can find that its onset is playing.
+    // The worker reads the contact before the callback, so only a later poll can find that the onset is playing.
     engine->publish(*heard, testing::sliding());
     std::this_thread::sleep_for(std::chrono::milliseconds(20));
     EXPECT_TRUE(renderUntil(*heard, [&] { return heard->channels.counters.inferences > 0; }));
@@ -242,7 +242,7 @@ TEST_F(LiveEngineTest, AFailureOfOneVoiceDoesNotSilenceTheOthers) {
     LiveEngine engine(model_, std::move(tiers), 0, settings(false));
     const std::array voices{engine.addVoice(48000.0), engine.addVoice(48000.0), engine.addVoice(48000.0)};
     std::vector<float> block(256);
-    // As long as the seeds last: without a segment behind it, the second voice ends there.
+    // For the duration of the seeds. Without a segment after it, the second voice ends there.
     for (int update = 0; update < 4; ++update) {
         for (std::size_t i = 0; i < voices.size(); ++i) {
             engine.publish(*voices[i], testing::sliding(0.1F, i == 1 ? 2.0F : 1.0F));
@@ -262,7 +262,7 @@ TEST_F(LiveEngineTest, AFailureOfOneVoiceDoesNotSilenceTheOthers) {
     EXPECT_EQ(voices[1]->channels.counters.inferenceNanoseconds, 0U);
 }
 
-/// Generates only when it is let, and says when it has begun.
+/// Blocks in `generate` until released, and reports that it has begun.
 class HeldGenerator final : public inference::SegmentGenerator {
 public:
     void generate(std::span<const inference::SegmentRequest> requests, std::span<float> segments) override {
@@ -300,7 +300,7 @@ TEST_F(LiveEngineTest, VoicesAndQualityChangeWithoutWaitingForInference) {
         engine.setQuality({.fixedTier = 0, .budgetMs = 5.0});
         engine.publish(*another, testing::sliding());
         engine.removeVoice(*another);
-        // The voice that the round in progress generates for, down to its memory.
+        // Remove the voice of the round in progress and release its memory.
         engine.removeVoice(*voice);
         voice.reset();
         isDone = true;
@@ -308,7 +308,7 @@ TEST_F(LiveEngineTest, VoicesAndQualityChangeWithoutWaitingForInference) {
     for (int i = 0; i < 10000 && !isDone; ++i) {
         std::this_thread::sleep_for(std::chrono::milliseconds(1));
     }
-    EXPECT_TRUE(isDone) << "somebody waited for the network";
+    EXPECT_TRUE(isDone) << "a call waited for the network";
     held.isHeld = false;
     user.join();
     EXPECT_EQ(engine.statistics().voices, 0U);

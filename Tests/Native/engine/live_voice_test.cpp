@@ -17,7 +17,7 @@ using testing::FakeGenerator;
 using testing::SimulatedDevice;
 
 constexpr double rateHz = 48000.0;
-/// -60 dB of what the seed's amplitude gives at full scale 60.
+/// 60 dB below the seed's amplitude at a full scale of 60.
 constexpr float silence = 1e-3F / 60.0F;
 
 class LiveVoiceTest : public ::testing::Test {
@@ -64,7 +64,7 @@ TEST_F(LiveVoiceTest, ATapBetweenTwoBlocksSoundsForTenMilliseconds) {
         device.renderBlock();
     }
     EXPECT_GT(testing::peak(from(device, begin)), 0.2F / 60.0F);
-    EXPECT_LT(testing::peak(from(device, begin + 768)), silence) << "10 ms, a block, and 5 ms to fade";
+    EXPECT_LT(testing::peak(from(device, begin + 768)), silence) << "10 ms, a block and a fade of 5 ms";
     EXPECT_EQ(device.counters().taps, 1U);
 }
 
@@ -83,7 +83,8 @@ TEST_F(LiveVoiceTest, ATapKnownOnlyFromTheTouchCounterSounds) {
 }
 
 TEST_F(LiveVoiceTest, NoSegmentOfAnEarlierTouchSoundsAfterANewOne) {
-    // Segments of the first touch are all threes, which no seed has, and one is still under way when the second begins.
+    // Segments of the first touch consist of the value 3, which no seed contains, and one is still being generated when
+    // the second touch begins.
     FakeGenerator threes(
         [](const inference::SegmentRequest&, std::span<float> segment) { std::ranges::fill(segment, 3.0F); });
     testing::DeviceSettings settings;
@@ -99,10 +100,10 @@ TEST_F(LiveVoiceTest, NoSegmentOfAnEarlierTouchSoundsAfterANewOne) {
     device.publish(second);
     const std::size_t begin = device.waveform.samples.size();
     device.run(0.015, [&second](double) { return second; });
-    EXPECT_GE(device.counters().dropped, droppedBefore + 1) << "the segment of the first touch";
+    EXPECT_GE(device.counters().dropped, droppedBefore + 1) << "the segment of the first touch must be dropped";
     const auto heard = std::span<const float>(device.waveform.samples).subspan(begin);
     EXPECT_GT(heard.size(), 10U);
-    EXPECT_EQ(std::ranges::count(heard, 3.0F), 0) << "the seed, and nothing else";
+    EXPECT_EQ(std::ranges::count(heard, 3.0F), 0) << "only the seed may sound";
 }
 
 TEST_F(LiveVoiceTest, AfterLiftOffTheVoiceIsSilentWithinABlockAndFiveMilliseconds) {
@@ -148,7 +149,7 @@ TEST_F(LiveVoiceTest, PauseMuteAndAnEndedWorkerSilenceWithinABlockAndFiveMillise
         EXPECT_LT(testing::peak(from(device, begin + 256 + 240)), silence);
         const std::uint64_t inferences = device.counters().inferences;
         device.run(0.2, slide);
-        EXPECT_EQ(device.counters().inferences, inferences) << "silent, a voice costs no inference";
+        EXPECT_EQ(device.counters().inferences, inferences) << "a silent voice needs no inference";
         turn(device, false);
         const std::size_t again = device.output.size();
         device.run(0.2, slide);
@@ -169,7 +170,7 @@ TEST_F(LiveVoiceTest, APanicSilencesByTheEndOfTheNextBlockUntilANewTouch) {
         EXPECT_LT(testing::peak(from(device, begin + block)), silence) << block;
         EXPECT_LT(testing::largestStep(from(device, begin - 1)),
                   ordinaryStep + 1.0F / 60.0F / static_cast<float>(block));
-        // Sliding that stops and resumes is the same touch.
+        // Sliding that stops and resumes belongs to the same touch.
         device.run(0.1, [](double) { return testing::sliding(0.0F); });
         device.run(0.1, slide);
         EXPECT_LT(testing::peak(from(device, begin + block)), silence);
@@ -231,7 +232,7 @@ TEST_P(StallTest, ALateWorkerMakesNoStepAndTheVoiceRecovers) {
     settings.latencySeconds = [stall](double now) { return std::fmod(now, 1.0) < 0.014 && now > 0.5 ? stall : 0.002; };
     SimulatedDevice device(model_, tone_, settings);
     device.run(4.9, slide);
-    // The tone's own steepest step, a fade of 10 samples, and a splice of 4 from one phase to another.
+    // The tone's steepest step, a fade of 10 samples, and a splice of 4 samples between two phases.
     const auto steady = std::span<const float>(device.waveform.samples).subspan(400);
     EXPECT_LE(testing::largestStep(steady), 0.32F + 2.0F / 4.0F);
     EXPECT_LE(testing::peak(device.output), 1.0F);
@@ -294,7 +295,7 @@ TEST_F(LiveVoiceTest, AChangeOfTheOutputRateCausesOnlyAFade) {
     const std::size_t begin = device.output.size();
     device.run(0.5, slide);
     EXPECT_EQ(device.counters().rateChanges, 1U);
-    EXPECT_EQ(device.counters().onsets, onsets) << "the touch goes on";
+    EXPECT_EQ(device.counters().onsets, onsets) << "the touch continues";
     EXPECT_LE(testing::largestStep(from(device, begin - 1)), 3.0F * ordinaryStep);
     const auto settled = from(device, begin + 2400);
     EXPECT_GT(testing::peak(settled), 0.9F / 60.0F);
@@ -319,7 +320,7 @@ TEST_P(DeviceChangeTest, ADeviceChangeAtAnyMomentOfATouchCausesOnlyAFade) {
     };
     const double slowestHz = std::min(rateHz, GetParam().rateHz);
     const double steepest = haptoflow::testing::steepestStep(slowestHz);
-    // Every block from before the touch-down until after the lift-off, and moments within them.
+    // Times from before the touch-down until after the lift-off, at the start of blocks and within them.
     for (double change = 0.045; change < 0.18; change += 0.0021) {
         SimulatedDevice device(model_, tone_);
         device.run(change, touchOfATenth);
@@ -409,13 +410,13 @@ TEST_F(LiveVoiceTest, UpdatesWithinAHopAreSkippedInFavourOfTheNewest) {
     settings.latencySeconds = [](double) { return 0.0003; };
     SimulatedDevice device(model_, tone_, settings);
     device.run(1.0, slide);
-    EXPECT_LE(device.counters().inferences, 205U) << "a hop is 5 ms at least";
+    EXPECT_LE(device.counters().inferences, 205U) << "a hop takes at least 5 ms";
     EXPECT_GE(device.counters().skipped, 700U);
     EXPECT_EQ(device.counters().underruns, 0U);
 }
 
 TEST_F(LiveVoiceTest, AStateTooSoonAfterAnotherGetsItsSegmentAHopLater) {
-    // The network answers with the speed that it was asked for; each time the newest speed comes 2 ms behind a state.
+    // The network outputs the requested speed. In each round, a state with a new speed follows another state by 2 ms.
     FakeGenerator speed([](const inference::SegmentRequest& request, std::span<float> segment) {
         std::ranges::fill(segment, 10.0F * request.motion[0]);
     });
@@ -431,7 +432,7 @@ TEST_F(LiveVoiceTest, AStateTooSoonAfterAnotherGetsItsSegmentAHopLater) {
             device.run(0.002, [](double) { return std::nullopt; });
             device.publish(testing::sliding(mps));
             const double lead = device.counters().leadSamples / 2000.0;
-            // A hop, a look of the worker, the lead, a block, and what the generator takes.
+            // A hop, a polling interval of the worker, the lead, two blocks and the time of the generator.
             device.run(0.005 + 0.002 + lead + 2.0 * blockSeconds + 0.002, [](double) { return std::nullopt; });
             EXPECT_FLOAT_EQ(device.waveform.samples.back(), 10.0F * mps) << block << ", step " << step;
         }
@@ -460,9 +461,9 @@ TEST_F(LiveVoiceTest, EveryTouchingStateGetsASegmentOrIsCountedAsSkipped) {
     lift(1);
     touch(0.3, 2);
     lift(2);
-    // One state may have two segments, one behind the other; none may have neither.
+    // A state may have two consecutive segments, but every state must have a segment or be counted.
     EXPECT_GE(device.counters().skipped + device.counters().inferences, touching);
-    EXPECT_GE(device.counters().skipped, 20U) << "published while muted";
+    EXPECT_GE(device.counters().skipped, 20U) << "the states published while muted";
     EXPECT_LE(device.counters().skipped, 30U);
 }
 
@@ -481,7 +482,7 @@ TEST_F(LiveVoiceTest, APanicSilencesItsBlockEvenIfTheContactBecomesStaleInIt) {
     SimulatedDevice device(model_, tone_);
     device.run(0.5, slide);
     const float ordinaryStep = testing::largestStep(device.output);
-    // A state is fresh for 4,800 frames.
+    // A state becomes stale after 4,800 frames.
     device.publish(testing::sliding());
     std::vector<float> rest(4799);
     device.voice().renderer.render(rest, 48000.0);
@@ -504,7 +505,7 @@ TEST_F(LiveVoiceTest, AStoppedDeviceEndsInference) {
 }
 
 TEST_F(LiveVoiceTest, DuringALongBlockEveryStateGetsASegmentAndTheNewestSounds) {
-    // Pairs of blocks 43 ms apart, states every 14. The network answers with the speed that it was asked for.
+    // Pairs of blocks every 43 ms, states every 14 ms. The network outputs the requested speed.
     FakeGenerator speed([](const inference::SegmentRequest& request, std::span<float> segment) {
         std::ranges::fill(segment, 10.0F * request.motion[0]);
     });
@@ -530,7 +531,7 @@ TEST_F(LiveVoiceTest, AtAReadingRateOfFourTheVoiceHasNoUnderruns) {
         testing::DeviceSettings settings;
         settings.updateHz = updateHz;
         SimulatedDevice device(model_, tone_, settings);
-        // The model's range ends at 0.4 m/s.
+        // The trained range ends at 0.4 m/s.
         device.run(2.0, [](double) { return testing::sliding(19.0F); });
         EXPECT_EQ(device.counters().underruns, 0U) << updateHz;
     }

@@ -1,4 +1,4 @@
-// Engines that have some of their model's tiers loaded, and get others later.
+// Engines with some of their model's tiers loaded, and others added later.
 #include "engine/live_engine.hpp"
 
 #include "fake_generators.hpp"
@@ -34,7 +34,7 @@ protected:
         settings.hasWorker = false;
         return settings;
     }
-    /// A contact state, what sounds until the next, and the inference for it.
+    /// Publishes a contact state, renders until the next one and runs a round.
     static void update(LiveEngine& engine, LiveVoice& voice) {
         std::vector<float> block(256);
         engine.publish(voice, testing::sliding());
@@ -84,7 +84,7 @@ TEST_F(LoadedTiersTest, ATierAddedLaterTakesOverWithTheNextSegment) {
     EXPECT_TRUE(engine.hasTier(2));
     EXPECT_FALSE(engine.hasTier(1));
     update(engine, *voice);
-    EXPECT_EQ(generatedBy(2), 0) << "nobody asked for it yet";
+    EXPECT_EQ(generatedBy(2), 0) << "the tier is not in use yet";
     engine.setQuality({.fixedTier = 2});
     update(engine, *voice);
     EXPECT_EQ(generatedBy(0), 2);

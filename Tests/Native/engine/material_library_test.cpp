@@ -23,7 +23,7 @@ namespace {
 using nlohmann::json;
 using testing::SmallLibrary;
 
-/// A valid material of the small model, or of another, as a test changes it.
+/// A valid material file for a model, changed by the test.
 model::MaterialFile materialOf(const model::ModelFile& model, const std::function<void(json&)>& change = {}) {
     json text = model::testing::validMaterial(model::spaceOf(model.header()));
     if (change) {
@@ -53,7 +53,7 @@ TEST(MaterialLibraryTest, ARegisteredMaterialHasAnIndexAfterTheLabels) {
     const Ingredients alone = small.ingredients({{2, 1.0F}});
     EXPECT_EQ(alone.heaviest().index, 2U);
     EXPECT_EQ(resolveMaterial(alone).embedding[63], 0.5F);
-    EXPECT_EQ(small.ingredients({{4, 1.0F}}).heaviest().index, 0U) << "nothing is registered there yet";
+    EXPECT_EQ(small.ingredients({{4, 1.0F}}).heaviest().index, 0U) << "no material is registered at that index yet";
 }
 
 TEST(MaterialLibraryTest, AMaterialOfAnotherModelIsRejectedAndTakesNoIndex) {
@@ -105,7 +105,7 @@ TEST(MaterialLibraryTest, AnOwnLevelIsInterpolatedExtrapolatedAndOffset) {
     const double offset = 3.0 * std::numbers::ln10 / 20.0;
     EXPECT_NEAR(levelAt(0.1F, 1.0F), 1.0 + offset, 1e-6);
     EXPECT_NEAR(levelAt(0.1F, 4.0F), 1.0 + offset + 0.5 * std::log(4.0), 1e-6);
-    EXPECT_NEAR(levelAt(0.1F, 0.0F), 1.0 + offset + 0.5 * std::log(0.02), 1e-6) << "the force has a floor";
+    EXPECT_NEAR(levelAt(0.1F, 0.0F), 1.0 + offset + 0.5 * std::log(0.02), 1e-6) << "the force has a minimum";
     const double middle = std::sqrt(0.0505 * 0.1005) - 0.0005;
     EXPECT_NEAR(levelAt(static_cast<float>(middle), 1.0F), 0.5 + offset, 1e-5);
     EXPECT_NEAR(levelAt(0.4F, 1.0F), 1.5 + offset + 0.5 * std::log(0.4005 / 0.2005), 1e-6);
@@ -132,7 +132,7 @@ TEST(MaterialLibraryTest, AMaterialWithoutSeedsUsesThoseOfTheNearestLabel) {
             text["embedding"].insert(text["embedding"].end(), 4, wave);
         });
     };
-    // "oak" has numbers from 0 to 0.63, "metal mesh" from 0.64 on.
+    // The embedding of "oak" has values from 0 to 0.63, that of "metal mesh" from 0.64 on.
     (void)small.library.add(without(0.3F, 1.2F), small.levels());
     (void)small.library.add(without(1.0F, 0.0F), small.levels());
     (void)small.library.add(materialOf(small.model), small.levels());
@@ -212,7 +212,8 @@ TEST(MaterialLibraryTest, ATiltAddsToTheMaterialsToneAbout150Hz) {
 
 TEST(MaterialLibraryTest, PublishersReadConsistentMaterialsDuringConcurrentReplacement) {
     SmallLibrary small;
-    // Each generation of a material is one number throughout: a reader that saw half of one would see two.
+    // All values of a material equal the number of its generation, so a reader of a partly replaced material would find
+    // two different values.
     const auto generation = [&small](int number) {
         return materialOf(small.model, [number](json& text) {
             text["embedding"] = std::vector<double>(64, number);

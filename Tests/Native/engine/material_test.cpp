@@ -71,7 +71,7 @@ TEST(ContactStateTest, EveryInvalidFieldOfAStateBecomesFiniteAndIsCounted) {
 TEST(SeedRetrievalTest, TheSeedRecordedNearestToTheMotionIsChosen) {
     const testing::SmallLibrary small;
     const auto& seeds = small.ingredients({{0, 1.0F}}).heaviest().material->seeds;
-    // "oak" has seeds at (0.1, -0.05) m/s and 1 N, and at (0.2, -0.05) m/s and 2 N.
+    // "oak" has seeds recorded at (0.1, -0.05) m/s and 1 N, and at (0.2, -0.05) m/s and 2 N.
     EXPECT_EQ(retrieveSeed(seeds, {0.09F, -0.04F, 1.0F}), &seeds[0]);
     EXPECT_EQ(retrieveSeed(seeds, {0.3F, -0.05F, 2.5F}), &seeds[1]);
 }

@@ -15,7 +15,7 @@
 namespace haptoflow::engine {
 namespace {
 
-/// Levels as a level graph gives them: powers of speed and force, a figure of eight over direction.
+/// Levels like those of a level graph: powers of speed and force with a variation over direction.
 double level(double vx, double vy, double newtons, double first) {
     const double speed = std::hypot(vx, vy);
     const double along = std::cos(2.0 * std::atan2(vy, vx));
@@ -43,7 +43,7 @@ public:
     std::function<void()> whenAsked;
 };
 
-/// The small model with so many labels, each with one of so many material embeddings.
+/// The small model with `labels` labels that share `embeddings` embeddings.
 model::ModelFile modelWithLabels(std::size_t labels, std::size_t embeddings) {
     model::testing::ModelBuilder builder;
     const nlohmann::json first = builder.header["labels"][0];
@@ -62,11 +62,11 @@ model::ModelFile modelWithLabels(std::size_t labels, std::size_t embeddings) {
     return model::ModelFile::parse(builder.build());
 }
 
-/// How often the level graph is asked for a model's levels.
+/// Number of evaluations of the level graph for a model's levels.
 std::size_t levelsAskedFor(std::size_t labels, std::size_t embeddings) {
     PowerLaw graph;
     const OnsetLevels levels(modelWithLabels(labels, embeddings), graph);
-    EXPECT_LE(graph.calls, graph.asked / 256 + 1) << "all but the last call are full batches";
+    EXPECT_LE(graph.calls, graph.asked / 256 + 1) << "all calls except the last are full batches";
     return graph.asked;
 }
 
@@ -82,7 +82,7 @@ protected:
 
     model::ModelFile model_ = testing::smallModel();
     PowerLaw graph_;
-    /// Level of a blend at a motion.
+    /// The level of a blend at a motion.
     [[nodiscard]] float levelOf(std::initializer_list<LabelWeight> entries, const std::array<float, 3>& motion) const {
         return MaterialLibrary::ReadScope(library_).ingredients(testing::blendOf(entries)).levelMps2(motion);
     }

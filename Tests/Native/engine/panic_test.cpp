@@ -72,9 +72,9 @@ TEST_F(PanicTest, ANewTouchInTheSameBlockSoundsAfterTheOldOneIsSilent) {
     device.publish(touch(2, 1));
     const std::size_t begin = device.output.size();
     device.renderBlock();
-    EXPECT_EQ(device.output.back(), 0.0F) << "the old touch is over at the end of its block";
+    EXPECT_EQ(device.output.back(), 0.0F) << "the old touch must end with its block";
     device.renderBlock();
-    EXPECT_GT(testing::peak(from(device, begin + 256)), audible) << "the new one sounds with the next";
+    EXPECT_GT(testing::peak(from(device, begin + 256)), audible) << "the new touch must sound with the next block";
     EXPECT_LE(testing::largestStep(from(device, begin - 1)), 3.0F * ordinaryStep);
 }
 
@@ -137,7 +137,7 @@ TEST_F(PanicTest, AnEmptyBlockDoesNotEndAPanic) {
     device.voice().renderer.render({}, 48000.0);
     const std::size_t begin = device.output.size();
     device.renderBlock();
-    EXPECT_LE(testing::largestStep(from(device, begin - 1)), 3.0F * ordinaryStep) << "a fade, not a cut";
+    EXPECT_LE(testing::largestStep(from(device, begin - 1)), 3.0F * ordinaryStep) << "the output must fade without a step";
     EXPECT_EQ(device.output.back(), 0.0F);
 }
 

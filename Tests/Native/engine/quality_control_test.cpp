@@ -12,7 +12,7 @@ namespace {
 
 constexpr double budgetMs = 3.0;
 
-/// Three tiers, measured at so many milliseconds each.
+/// A control with three tiers, measured at these times in milliseconds.
 QualityControl measuredControl(double first, double second, double third) {
     QualityControl control(3, {.fixedTier = std::nullopt, .budgetMs = budgetMs}, 1);
     const std::array<double, 3> times{first, second, third};
@@ -39,14 +39,14 @@ TEST(RunTimesTest, PercentilesCoverOnlyTheLastRuns) {
     for (int run = 0; run < 128; ++run) {
         times.add(7.0);
     }
-    EXPECT_EQ(times.percentile(0.99), 7.0) << "the first hundred are forgotten";
+    EXPECT_EQ(times.percentile(0.99), 7.0) << "the first hundred runs no longer count";
 }
 
 TEST(QualityControlTest, TheMostAccurateTierThatFitsTheBudgetIsChosen) {
     EXPECT_EQ(measuredControl(0.2, 0.5, 1.5).tier(), 2U);
     EXPECT_EQ(measuredControl(0.2, 0.5, 3.5).tier(), 1U);
     EXPECT_EQ(measuredControl(2.0, 4.0, 8.0).tier(), 0U);
-    EXPECT_EQ(measuredControl(20.0, 40.0, 80.0).tier(), 0U) << "too slow a machine still gets the cheapest";
+    EXPECT_EQ(measuredControl(20.0, 40.0, 80.0).tier(), 0U) << "a machine that is too slow gets the fastest tier";
 }
 
 TEST(QualityControlTest, EachTierIsMeasuredTwentyTimesBeforeTheFirstDecision) {
@@ -104,7 +104,7 @@ TEST(QualityControlTest, NoStepUpOccursToATierThatDoesNotFitAllVoices) {
     runRounds(control, 3, 9.0, 4);
     ASSERT_EQ(control.tier(), 1U);
     runRounds(control, 5000, 2.0, 4);
-    EXPECT_EQ(control.tier(), 1U) << "four voices of 1.5 ms are more than the budget";
+    EXPECT_EQ(control.tier(), 1U) << "four voices at 1.5 ms exceed the budget";
     runRounds(control, 5000, 0.5, 1);
     EXPECT_EQ(control.tier(), 2U);
 }
@@ -115,9 +115,9 @@ TEST(QualityControlTest, AdditionalVoicesCauseAStepDownBeforeAnOverrun) {
     control.recordRound(1.5, 1);
     EXPECT_EQ(control.tier(), 2U);
     control.recordRound(2.5, 3);
-    EXPECT_EQ(control.tier(), 1U) << "three of 1.5 ms are more than 3 ms";
+    EXPECT_EQ(control.tier(), 1U) << "three voices at 1.5 ms exceed 3 ms";
     control.recordRound(2.5, 12);
-    EXPECT_EQ(control.tier(), 0U) << "twelve of 0.5 ms";
+    EXPECT_EQ(control.tier(), 0U) << "twelve voices at 0.5 ms exceed 3 ms";
 }
 
 TEST(QualityControlTest, AFixedTierStaysDespiteOverruns) {
@@ -125,10 +125,11 @@ TEST(QualityControlTest, AFixedTierStaysDespiteOverruns) {
     EXPECT_EQ(control.tierToMeasure(), std::nullopt);
     runRounds(control, 1000, 50.0);
     EXPECT_EQ(control.tier(), 2U);
-    EXPECT_EQ(control.times(2).percentile(0.5), 50.0) << "what it costs is known all the same";
+    EXPECT_EQ(control.times(2).percentile(0.5), 50.0) << "the time is recorded although the tier is fixed";
 }
 
-/// Three tiers whose third is less accurate than the second, measured at so many milliseconds each.
+/// A control with three tiers, of which the third is less accurate than the second, measured at these times in
+/// milliseconds.
 QualityControl controlByAccuracy(double first, double second, double third) {
     QualityControl control(3, {.fixedTier = std::nullopt, .budgetMs = budgetMs}, 1, {0, 2, 1});
     const std::array<double, 3> times{first, second, third};
@@ -140,14 +141,14 @@ QualityControl controlByAccuracy(double first, double second, double third) {
 
 TEST(QualityControlTest, TheOrderOfAccuracyDecidesAndNotTheModelsOrder) {
     EXPECT_EQ(controlByAccuracy(0.2, 0.5, 1.5).tier(), 1U);
-    EXPECT_EQ(controlByAccuracy(0.2, 3.5, 1.5).tier(), 2U) << "the second most accurate, where the first does not fit";
+    EXPECT_EQ(controlByAccuracy(0.2, 3.5, 1.5).tier(), 2U) << "the most accurate tier does not fit, so the second most accurate is chosen";
     EXPECT_EQ(controlByAccuracy(0.2, 3.5, 3.5).tier(), 0U);
 }
 
 TEST(QualityControlTest, AStepDownSkipsTiersThatAreNotFaster) {
     QualityControl control = controlByAccuracy(0.2, 0.5, 1.5);
     runRounds(control, 3, 9.0);
-    EXPECT_EQ(control.tier(), 0U) << "the tier between them is slower than the one that was too slow";
+    EXPECT_EQ(control.tier(), 0U) << "the tier between them is slower than the present one";
     EXPECT_EQ(control.stepsDown(), 1U);
     runRounds(control, 100, 9.0);
     EXPECT_EQ(control.tier(), 0U);
@@ -168,7 +169,7 @@ TEST(QualityControlTest, TiersAreComparedByTimesMeasuredUnderTheSameLoad) {
     ASSERT_EQ(control.tier(), 1U);
     runRounds(control, 3, 9.0);
     ASSERT_EQ(control.tier(), 0U);
-    // Another program slows the fast tier down for as long as its times are kept, and rests.
+    // Another program slows the fast tier down until all its stored times are affected, and then stops.
     runRounds(control, 128, 1.9);
     runRounds(control, 800, 0.2);
     ASSERT_EQ(control.tier(), 1U);
@@ -217,7 +218,7 @@ TEST(LeadEstimatorTest, OneStallDoesNotLengthenTheLeadButTwoDo) {
     for (int i = 0; i < 128; ++i) {
         lead.observe(12);
     }
-    EXPECT_EQ(lead.samples(11), 13) << "and is forgotten again";
+    EXPECT_EQ(lead.samples(11), 13) << "the stalls no longer count";
 }
 
 TEST(LeadEstimatorTest, TheLeadIsAtLeastABlockAndAtMostFiftyMilliseconds) {

@@ -10,7 +10,7 @@
 #include <numbers>
 #include <span>
 
-// A signal that stands for the texture: when it sounds, what does not run meanwhile, and how its latency is counted.
+// A signal that replaces the texture: when it sounds, what does not run meanwhile, and how its latency is measured.
 
 namespace haptoflow::engine {
 namespace {
@@ -37,13 +37,13 @@ protected:
         begin_ = device_.output.size();
         device_.run(seconds, [&](double) { return state; });
     }
-    /// What the last `play` rendered, from that second of it on.
+    /// The output of the last `play` from a time on.
     [[nodiscard]] std::span<const float> played(double fromSeconds = 0.0) const {
         const auto skipped = static_cast<std::size_t>(fromSeconds * 48000.0);
         return std::span<const float>(device_.output).subspan(begin_ + skipped);
     }
     [[nodiscard]] static bool isTone(std::span<const float> samples, double frequencyHz, double amplitude) {
-        // Of sin(x) + sin(x + 2 d) = 2 cos(d) sin(x + d), whatever the phase.
+        // From sin(x) + sin(x + 2 d) = 2 cos(d) sin(x + d), for any phase.
         const double factor = 2.0 * std::cos(2.0 * std::numbers::pi * frequencyHz / 48000.0);
         for (std::size_t i = 2; i < samples.size(); ++i) {
             const double expected = factor * static_cast<double>(samples[i - 1]) - static_cast<double>(samples[i - 2]);
@@ -155,7 +155,7 @@ TEST_F(SignalVoiceTest, ASignalReplacesASoundingTextureWithoutAStep) {
     EXPECT_EQ(device_.counters().onsets, onsets + 1);
     EXPECT_TRUE(isTone(played(0.1), testing::toneHz, 1.0 / 60.0) || testing::peak(played(0.1)) > 0.01F);
     EXPECT_EQ(device_.counters().signalStarts.count + device_.counters().signalStops.count, 0U)
-        << "no contact state turned it";
+        << "no contact state switched the signal";
     const double steepest = 0.1 * 2.0 * std::numbers::pi * (200.0 + 0.25 / 0.002) / 48000.0 +
                             haptoflow::testing::steepestStep(48000.0) / 60.0;
     EXPECT_LT(static_cast<double>(testing::largestStep(device_.output)), steepest);
@@ -195,7 +195,7 @@ TEST_F(SignalVoiceTest, MutePausePanicAndMissingStatesInterruptTheSignal) {
     EXPECT_TRUE(sounds());
     const double steepest = 0.1 * 2.0 * std::numbers::pi * (200.0 + 0.25 / 0.002) / 48000.0;
     EXPECT_LT(static_cast<double>(testing::largestStep(device_.output)), steepest);
-    EXPECT_EQ(device_.counters().signalStarts.count, 1U) << "the others were no contact state's";
+    EXPECT_EQ(device_.counters().signalStarts.count, 1U) << "the other changes were not caused by a contact state";
     EXPECT_EQ(device_.counters().signalStops.count, 0U);
 }
 
@@ -251,7 +251,7 @@ TEST_F(SignalVoiceTest, TheLatencyIsMeasuredFromTheStateToTheBlockOfTheChange) {
     EXPECT_NEAR(starts.lastSeconds, 0.030, 1e-9);
     EXPECT_NEAR(starts.meanSeconds, 0.020, 1e-9);
     EXPECT_NEAR(stops.meanSeconds, 0.020, 1e-9);
-    // There and back between two blocks is no turn.
+    // Two changes between two blocks cancel each other and do not count.
     device_.publish(lifted());
     device_.publish(sliding(0.2F));
     device_.renderBlock();

@@ -94,7 +94,7 @@ TEST_F(SilenceTest, AnyCombinationOfControlsIsBoundedAndSilentIfAReasonHolds) {
         if ((mixture & 16U) != 0) {
             device.voice().channels.panic();
         }
-        // In the same block: another touch on another label, with a jump of pose.
+        // A new touch on another label with a jump of pose begins in the same block.
         number += (mixture & 32U) != 0 ? 1 : 0;
         ContactState state = testing::sliding((mixture & 32U) != 0 ? -19.0F : 0.1F, 2.0F);
         state.touchCounter = number;
@@ -120,9 +120,9 @@ TEST_F(SilenceTest, AnUnsupportedRateIsCountedAndDoesNotWakeTheWorker) {
         EXPECT_EQ(device.counters().unsupportedRateBlocks, 3U) << impossible;
         EXPECT_EQ(reason(device), Silence::rate) << impossible;
         EXPECT_FALSE(device.voice().channels.isRateSupported) << impossible;
-        EXPECT_EQ(device.voice().channels.requestedRateHz.load(), 0.0) << "nothing wakes the worker";
+        EXPECT_EQ(device.voice().channels.requestedRateHz.load(), 0.0) << "the worker is not woken";
         device.run(0.1, slide);
-        EXPECT_EQ(reason(device), Silence::none) << "back at a rate that it runs at";
+        EXPECT_EQ(reason(device), Silence::none) << "back at a supported rate";
         EXPECT_TRUE(device.voice().channels.isRateSupported);
     }
 }
@@ -136,7 +136,7 @@ TEST_F(SilenceTest, ATapAtAnUnsupportedRateIsNotPlayedLater) {
     device.run(0.05, [](double) { return testing::lifted(1); });
     device.setRate(48000.0);
     device.run(0.1, [](double) { return testing::lifted(1); });
-    EXPECT_EQ(testing::peak(device.output), 0.0F) << "nobody wants to feel it later";
+    EXPECT_EQ(testing::peak(device.output), 0.0F) << "the tap is not played later";
     EXPECT_EQ(device.counters().taps, 0U);
     const std::size_t next = device.output.size();
     ContactState touch = testing::sliding();
@@ -153,7 +153,7 @@ TEST_F(SilenceTest, CreatingAVoiceForAnUnsupportedRateIsRejected) {
 }
 
 TEST_F(SilenceTest, AnOnsetReadsOnlyItsBlockAndTheResamplersDelay) {
-    // What an onset costs: the filters' histories are filled directly, not by rendering what nobody hears.
+    // The filters' histories are filled directly, without rendering samples that are not played.
     for (const double rateHz : {8000.0, 48000.0, 192000.0}) {
         SimulatedDevice device(model_, tone_, {.rateHz = rateHz, .blockFrames = 64});
         device.publish(testing::sliding());
@@ -183,13 +183,14 @@ TEST_F(SilenceTest, AFirstStateWithOnlyEarlierTouchesIsSilent) {
 }
 
 TEST_F(SilenceTest, CrossingTheEdgeOfTheRangeDoesNotClick) {
-    // The model's range ends at 0.4 m/s; beyond it the waveform is read faster, inside it the path is direct.
+    // The trained range ends at 0.4 m/s. Beyond it the waveform is read faster; inside it the output equals the input.
     SimulatedDevice device(model_, tone_);
     device.run(0.3, slide);
     const std::size_t begin = device.output.size();
     device.run(3.0, [](double now) { return testing::sliding(std::fmod(now, 0.1) < 0.05 ? 0.39F : 0.6F); });
     const auto crossing = std::span<const float>(device.output).subspan(begin);
-    // The tone of 100 Hz is read at most 1.5 times faster and grows by the law of level; a click is steeper by far.
+    // The 100 Hz tone is read at most 1.5 times faster and its level follows the range law; a click would be much
+    // steeper.
     const double steepest = 2.0 * std::numbers::pi * 1.5 * testing::toneHz / 48000.0 * testing::peak(crossing);
     EXPECT_LE(testing::largestStep(crossing), 1.6 * steepest);
     EXPECT_EQ(device.counters().underruns, 0U);

@@ -17,11 +17,11 @@ inline MaterialBlend blendOf(std::initializer_list<LabelWeight> entries) {
     return blend;
 }
 
-/// A model with a library whose levels a generator gives.
+/// A model and its material library, with the levels of a generator.
 struct SmallLibrary {
     explicit SmallLibrary(model::ModelFile file = smallModel()) : model(std::move(file)) {}
 
-    /// What a blend is made of; valid while nothing is replaced.
+    /// The materials of a blend; valid until a material is replaced.
     [[nodiscard]] Ingredients ingredients(const MaterialBlend& blend) const {
         return MaterialLibrary::ReadScope(library).ingredients(blend);
     }

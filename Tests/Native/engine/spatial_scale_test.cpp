@@ -10,8 +10,8 @@
 #include <limits>
 #include <vector>
 
-// The spatial scale of a surface: features so many times as large, which sound like a speed so much lower at the level
-// of the speed as it is.
+// The spatial scale of a surface: features that are larger by a factor are generated for a speed divided by it, at the
+// level of the actual speed.
 
 namespace haptoflow::engine {
 namespace {
@@ -54,10 +54,10 @@ TEST(SpatialScaleLawTest, TheNetworkUsesTheScaledSpeedAndTheLevelTheActualSpeed)
     EXPECT_FLOAT_EQ(larger.levelMotion[1], -0.06F);
     EXPECT_EQ(larger.levelGain, 1.0);
     EXPECT_EQ(larger.readingRate, 1.0);
-    // The small model is trained up to 0.4 m/s, and reads faster with the square root of the speed beyond.
+    // The small model's range ends at 0.4 m/s; beyond it the reading rate grows with the square root of the speed.
     const RangedMotion smaller = applyRangeLaw(header, oak, {0.4F, 0.0F}, 1.0F, 0.25F);
     EXPECT_FLOAT_EQ(smaller.motion[0], 0.4F);
-    EXPECT_NEAR(smaller.levelGain, 1.0, 1e-6) << "the speed itself is within the range";
+    EXPECT_NEAR(smaller.levelGain, 1.0, 1e-6) << "the actual speed is within the range";
     EXPECT_NEAR(smaller.readingRate, 2.0, 1e-6);
     const RangedMotion fast = applyRangeLaw(header, oak, {0.8F, 0.0F}, 1.0F, 2.0F);
     EXPECT_NEAR(fast.readingRate, 1.0, 1e-6) << "half the speed is within the range";
@@ -66,7 +66,7 @@ TEST(SpatialScaleLawTest, TheNetworkUsesTheScaledSpeedAndTheLevelTheActualSpeed)
 
 class SpatialScaleTest : public ::testing::Test {
 protected:
-    /// Ribs of 0.2 a millimetre across the first axis.
+    /// A model with ribs of 0.2 cycles per millimetre along the first axis.
     static model::ModelFile ruledModel() {
         model::testing::ModelBuilder builder;
         std::vector<float> embedding(2 * model::embeddingSize, 0.5F);
@@ -88,7 +88,7 @@ protected:
         std::array<float, 3> levelMotion{};
     };
 
-    /// Turns of the ribs from segment to segment over samples from segment to segment.
+    /// Turns of the rib phase per sample between two segments.
     [[nodiscard]] double turnsPerSample(const SimulatedDevice& device, std::size_t segment) const {
         const double turns =
             static_cast<double>(requested_[segment].phase) - static_cast<double>(requested_[segment - 1].phase);
@@ -105,7 +105,7 @@ protected:
 };
 
 TEST_F(SpatialScaleTest, TheRibPitchIsDividedByTheScale) {
-    // 0.1 m/s over 0.2 ribs a millimetre: 20 ribs a second, 0.01 a sample.
+    // At 0.1 m/s and 0.2 cycles per millimetre, the tip crosses 20 ribs per second, 0.01 per sample.
     for (const auto& [scale, turns] : {std::pair{1.0F, 0.01}, {2.0F, 0.005}, {0.5F, 0.02}, {4.0F, 0.0025}}) {
         requested_.clear();
         SimulatedDevice device(model_, generator_);
@@ -124,7 +124,7 @@ TEST_F(SpatialScaleTest, AChangeOfScaleWithinATouchMakesNoPhaseJump) {
     device.run(1.0, [](double seconds) { return scaled(seconds < 0.3 ? 1.0F : seconds < 0.6 ? 2.0F : 0.5F); });
     ASSERT_EQ(device.counters().dropped + device.counters().late, 0U);
     for (std::size_t segment = 2; segment < device.waveform.seams.size(); ++segment) {
-        // From one segment to the next the ribs go on as the earlier one said.
+        // The phase advances between segments at the rate of the earlier one.
         const double expected = 0.2 * static_cast<double>(requested_[segment - 1].motion[0]) * 1000.0 / 2000.0;
         EXPECT_NEAR(turnsPerSample(device, segment), expected, 1e-5) << segment;
     }

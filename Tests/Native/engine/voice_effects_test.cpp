@@ -190,7 +190,7 @@ TEST_F(VoiceEffectsTest, MutePauseAndStalenessSilenceAnImpactWithinFiveMilliseco
         device.controls().muted = reason == 0;
         device.controls().paused = reason == 1;
         if (reason == 2) {
-            // 100 ms without a state; the ring of 0.1 s would go on.
+            // 100 ms without a state; the impact would sound longer.
             renderBlocks(device, 19);
         }
         const std::size_t begin = device.output.size();
@@ -219,7 +219,7 @@ TEST_F(VoiceEffectsTest, ARateChangeFadesAnImpactAndTheNextOneSounds) {
     EXPECT_EQ(of(device, EffectKind::impact).events, 2U);
 }
 
-/// Crosses from one label to another, and back, every 100 ms.
+/// A state that alternates between two labels every 100 ms.
 ContactState crossing(double seconds, float speedMps, EffectMask mask) {
     ContactState state = testing::sliding(speedMps);
     state.effects = mask;
@@ -227,7 +227,7 @@ ContactState crossing(double seconds, float speedMps, EffectMask mask) {
     return state;
 }
 
-/// Makes nothing, and calls the model's first label ten times as loud as the others.
+/// Generates silence, and gives the model's first label ten times the level of the others.
 class LoudFirstLabel final : public inference::SegmentGenerator {
 public:
     explicit LoudFirstLabel(const model::ModelFile& model) : model_(model) {}
@@ -257,12 +257,12 @@ TEST_F(VoiceEffectsTest, AChangeOfLevelGivesAnEdgeInProportionToTheSpeed) {
 
 TEST_F(VoiceEffectsTest, WithoutALevelChangeHeightOrSpeedThereIsNoEdge) {
     SimulatedDevice device(model_, tone_);
-    // The labels of this generator are equally loud.
+    // All labels of this generator have the same level.
     device.run(0.5, [](double seconds) { return crossing(seconds, 0.2F, edge); });
-    // At rest nothing is crossed, whatever the label becomes.
+    // At rest, a change of label gives no edge.
     device.run(0.5, [](double seconds) {
         ContactState state = crossing(seconds, 0.0F, edge);
-        // The newest speeds are those of some states more.
+        // The newest speeds still contain those of some earlier states.
         state.edgeCounter = seconds < 0.58 ? 0U : static_cast<std::uint32_t>(seconds / 0.05);
         state.edgeHeightMetres = 0.01F;
         return state;
@@ -300,7 +300,7 @@ TEST_F(VoiceEffectsTest, ALandingWithinATouchGivesAnImpactAndTheTextureContinues
         return state;
     };
     device.run(0.3, slide);
-    // The touch-down itself is the first blow.
+    // The touch-down is the first impact.
     EXPECT_EQ(of(device, EffectKind::impact).events, 1U);
     landings = 1;
     device.run(0.3, slide);
@@ -340,7 +340,7 @@ TEST_F(VoiceEffectsTest, SlidingOffARimGivesAnEdgeAtTheLastSpeed) {
 }
 
 TEST_F(VoiceEffectsTest, OnARoundedRimTheEdgeUsesTheSpeedBeforeIt) {
-    // For a few states the normal points ahead there, and nothing of the tip's motion lies along the surface.
+    // On the rim, the normal points along the motion for a few states, so the speed along the surface is zero.
     const auto peakAt = [this](float speedMps, bool leaves) {
         SimulatedDevice device(model_, tone_);
         device.run(0.2, [speedMps](double) {
@@ -425,7 +425,7 @@ TEST_F(VoiceEffectsTest, TenMinutesOfBlowsAndInterruptionsStayBoundedAndEndInSil
     EXPECT_EQ(testing::peak(device.output), 0.0F);
 }
 
-/// Turns the signal upside down, and counts its own lives.
+/// Inverts the signal and counts its instances.
 class Inverter final : public effects::Effect {
 public:
     explicit Inverter(int& alive, float gain = -1.0F) : alive_(alive), gain_(gain) { ++alive_; }
@@ -479,7 +479,7 @@ TEST_F(ProcessorsTest, ProcessorsAreSwitchedOnAndOffWithoutAClick) {
     const std::uint64_t runs = of(device, EffectKind::compensation).runs;
     EXPECT_GT(runs, 100U);
     device.run(0.3, slide);
-    EXPECT_EQ(of(device, EffectKind::compensation).runs, runs) << "switched off means never run";
+    EXPECT_EQ(of(device, EffectKind::compensation).runs, runs) << "a processor that is switched off must not run";
 }
 
 TEST_F(ProcessorsTest, AtRestProcessorsAreTakenAtOnceAndDoNotRun) {
@@ -494,7 +494,7 @@ TEST_F(ProcessorsTest, AtRestProcessorsAreTakenAtOnceAndDoNotRun) {
     EXPECT_EQ(testing::peak(device.output), 0.0F);
 }
 
-/// As LiveEngine::changeProcessors does.
+/// Changes the processors like LiveEngine::changeProcessors.
 void ask(SimulatedDevice& device, const std::function<void(ProcessorSettings&)>& change) {
     VoiceChannels& channels = device.voice().channels;
     change(channels.processorSettings);
@@ -517,7 +517,7 @@ TEST_F(ProcessorsTest, ADelayDelaysAnImpactByExactSamples) {
         }
     }
     constexpr std::size_t later = 2400;
-    // The hand-over is done by then.
+    // The crossfade has ended by then.
     for (std::size_t i = 512; i + later < direct.output.size(); ++i) {
         ASSERT_FLOAT_EQ(delayed.output[i + later], direct.output[i]) << i;
     }
@@ -530,7 +530,7 @@ TEST_F(ProcessorsTest, LiftOffActsBeforeTheDelayAndPanicAfterIt) {
     device.run(0.6, [](double) { return testing::sliding(); });
     const std::size_t lifted = device.output.size();
     device.run(0.3, [](double) { return testing::lifted(1); });
-    EXPECT_GT(testing::peak(from(device, lifted + 9000)), 0.5F / 60.0F) << "what was stroked still comes";
+    EXPECT_GT(testing::peak(from(device, lifted + 9000)), 0.5F / 60.0F) << "the delayed texture must still sound";
     EXPECT_LT(testing::peak(from(device, lifted + 9600 + 240 + 512)), silence);
     ContactState again = testing::sliding();
     again.touchCounter = 2;
@@ -560,7 +560,7 @@ TEST_F(ProcessorsTest, ProcessorChangesAtAnyTimeDoNotClick) {
         });
         device.run(0.003 * static_cast<double>((draw >> 16) % 20), slide);
     }
-    EXPECT_LT(testing::largestStep(device.output), 4.2F * tone) << "12 dB of boost is a factor of 4";
+    EXPECT_LT(testing::largestStep(device.output), 4.2F * tone) << "a boost of 12 dB is a factor of 4";
     for (const EffectKind kind : {EffectKind::delay, EffectKind::compensation, EffectKind::exposureGuard}) {
         EXPECT_GT(of(device, kind).prepared, 20U);
         EXPECT_GT(of(device, kind).runs, 100U);
@@ -651,7 +651,7 @@ TEST_F(ProcessorsTest, AfterARateChangeTheProcessorsApplyFromTheFirstSound) {
     EXPECT_GT(before, 0.0);
     device.setRate(24000.0);
     device.run(0.3, slide);
-    EXPECT_GE(device.voice().channels.exposureDailyMps2, before) << "the same hand";
+    EXPECT_GE(device.voice().channels.exposureDailyMps2, before) << "the exposure of the same hand continues";
     const std::uint64_t runs = of(device, EffectKind::exposureGuard).runs;
     device.run(0.1, slide);
     EXPECT_GT(of(device, EffectKind::exposureGuard).runs, runs);

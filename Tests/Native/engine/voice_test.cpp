@@ -15,7 +15,7 @@ namespace {
 
 constexpr double playedRateHz = 48000.0;
 
-/// 120 Hz of a level, the seed's own phase zero at its middle, where it starts to sound.
+/// A seed of 120 Hz at a level, with phase zero at its middle, where it starts to sound.
 std::array<float, 400> toneSeed(float levelMps2) {
     std::array<float, 400> seed{};
     for (std::size_t i = 0; i < seed.size(); ++i) {
@@ -44,7 +44,7 @@ TEST(VoiceTest, TheSeedSoundsAtOnceWithAConstantDelay) {
     Voice voice(playedRateHz, 60.0F);
     voice.onset(toneSeed(6.0F));
     const std::vector<float> heard = renderSamples(voice, 1440);
-    // Beyond the 2 ms ramp the output is the seed, late by less than a millisecond.
+    // After the ramp of 2 ms, the output is the seed with a delay below a millisecond.
     double best = 0.0;
     std::size_t bestDelay = 0;
     for (std::size_t delay = 0; delay < 240; ++delay) {
@@ -58,7 +58,7 @@ TEST(VoiceTest, TheSeedSoundsAtOnceWithAConstantDelay) {
             bestDelay = delay;
         }
     }
-    EXPECT_LE(bestDelay, 48U) << "samples at 48 kHz";
+    EXPECT_LE(bestDelay, 48U) << "the delay in samples at 48 kHz";
     double squares = 0.0;
     for (std::size_t i = 400; i < 1200; ++i) {
         squares += static_cast<double>(heard[i]) * static_cast<double>(heard[i]);
@@ -92,7 +92,7 @@ TEST(VoiceTest, ATouchDuringAFadeStartsWithoutAStep) {
         const std::vector<float> sounding = renderSamples(voice, 733);
         heard.insert(heard.end(), sounding.begin(), sounding.end());
     }
-    // A seam inside the waveform is a 4-sample splice at 2 kHz: steeper than the tone, far from a step.
+    // A seam in the waveform is a splice of 4 samples at 2 kHz, which is steeper than the tone but not a step.
     EXPECT_LE(testing::largestStep(heard), 6.0F * ordinaryStep);
 }
 
@@ -122,11 +122,11 @@ TEST(VoiceTest, ANonFiniteSeedGivesSilenceAndIsCounted) {
     voice.release();
     (void)renderSamples(voice, 480);
     voice.onset(toneSeed(6.0F));
-    EXPECT_GT(testing::peak(renderSamples(voice, 960)), 0.1F) << "the next touch is whole";
+    EXPECT_GT(testing::peak(renderSamples(voice, 960)), 0.1F) << "the next touch must sound normally";
 }
 
 TEST(VoiceTest, InsideTheRangeTheFiltersDelayByAtMostOneAndAHalfMilliseconds) {
-    // A step in the waveform at a known sample: half of it has come through so much later.
+    // A step in the waveform at a known sample. The delay is the time until half of the step has been output.
     Voice voice(playedRateHz, 60.0F);
     voice.onset(std::array<float, 400>{});
     std::vector<float> heard = renderSamples(voice, 480);
@@ -139,7 +139,7 @@ TEST(VoiceTest, InsideTheRangeTheFiltersDelayByAtMostOneAndAHalfMilliseconds) {
     heard.insert(heard.end(), later.begin(), later.end());
     const auto half = std::ranges::find_if(heard, [](float sample) { return sample >= 0.05F; });
     const double seconds = static_cast<double>(half - heard.begin()) / playedRateHz;
-    EXPECT_GE(seconds, readAt - 0.0005) << "not before it was read";
+    EXPECT_GE(seconds, readAt - 0.0005) << "the step cannot be output before it was read";
     EXPECT_LE(seconds - readAt, 0.0015);
 }
 
@@ -161,7 +161,7 @@ TEST(VoiceTest, AHigherReadingRateRaisesTheFrequency) {
     for (std::size_t i = 700; i < 1900; ++i) {
         crossings += (heard[i - 1] < 0.0F) != (heard[i] < 0.0F) ? 1 : 0;
     }
-    // 240 Hz cross zero 480 times a second.
+    // A tone of 240 Hz has 480 zero crossings per second.
     EXPECT_NEAR(crossings, 12, 1);
 }
 

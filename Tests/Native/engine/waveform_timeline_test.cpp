@@ -63,7 +63,7 @@ TEST(WaveformTimelineTest, ASegmentThatContinuesTheRunningOneChangesNothing) {
     }
 }
 
-/// A wave that resembles no other with another number, but for the first sample, which all of them share.
+/// Waves with different numbers are uncorrelated except for their first sample, which all of them share.
 Segment unlikeSegment(int number) {
     Segment segment{};
     for (std::size_t i = 0; i < segment.size(); ++i) {
@@ -73,7 +73,7 @@ Segment unlikeSegment(int number) {
     return segment;
 }
 
-/// A second within a touch whose callback reads nothing until `replaced` segments have come for one place.
+/// A second of a touch in which the callback reads nothing until `replaced` segments have arrived for one start.
 std::vector<float> heardAfterReplacing(std::int64_t ahead, int replaced, bool isViewedBetween) {
     WaveformTimeline timeline;
     Seed seed{};
@@ -100,7 +100,7 @@ TEST(WaveformTimelineTest, OfSegmentsWithOneStartOnlyTheLastIsSplicedWithTheWave
         const std::vector<float> last = heardAfterReplacing(ahead, 1, false);
         EXPECT_EQ(heardAfterReplacing(ahead, 2, false), last) << ahead;
         EXPECT_EQ(heardAfterReplacing(ahead, 12, false), last) << ahead;
-        EXPECT_EQ(heardAfterReplacing(ahead, 12, true), last) << ahead << ", planned with on another thread";
+        EXPECT_EQ(heardAfterReplacing(ahead, 12, true), last) << ahead << ", viewed by another thread";
     }
 }
 

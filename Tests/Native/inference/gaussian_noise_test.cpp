@@ -102,7 +102,7 @@ TEST(GaussianNoiseTest, TheNoiseFollowsTheNormalDistribution) {
         const double above = static_cast<double>(index + 1) / static_cast<double>(sorted.size());
         distance = std::max({distance, std::fabs(expected - below), std::fabs(expected - above)});
     }
-    // The Kolmogorov-Smirnov distance that one in a thousand fair samples of this size exceeds.
+    // The Kolmogorov-Smirnov distance that a sample of this size exceeds with a probability of 1/1000.
     EXPECT_LT(distance, 1.95 / std::sqrt(static_cast<double>(manyNumbers)));
 }
 
@@ -136,7 +136,7 @@ TEST(GaussianNoiseTest, ConsecutiveSegmentsDoNotRepeat) {
     }
     std::sort(firstValues.begin(), firstValues.end());
     const auto repeated = std::adjacent_find(firstValues.begin(), firstValues.end());
-    // Ten thousand floats collide about twice by chance where they are dense; runs of three would be a defect.
+    // Among ten thousand floats, about two equal values occur by chance; runs of three would be an error.
     EXPECT_TRUE(repeated == firstValues.end() || repeated + 2 == firstValues.end() || *repeated != *(repeated + 2));
     EXPECT_NEAR(moment(firstValues, 2), 1.0, 0.06);
 }

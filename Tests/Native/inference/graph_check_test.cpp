@@ -5,7 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-// Models whose graphs are not what the format says; the graphs lie in tiny.haptoflow, where no tier names them.
+// Models whose graphs do not match the format. The graphs are blobs of tiny.haptoflow that no tier uses.
 
 namespace haptoflow::inference::testing {
 namespace {

@@ -14,7 +14,7 @@
 #include <chrono>
 #include <thread>
 
-// Loading a tier within limits of operators, time and memory, and ending it early.
+// Limits of operators, time and memory while loading a tier, and cancellation.
 
 namespace haptoflow::inference::testing {
 namespace {
@@ -56,7 +56,7 @@ TEST(LoadLimitsTest, ATierWhoseProbeRunTakesTooLongIsRejectedByName) {
                 ::testing::StartsWith("tier \"draft\", graph \"level\": a run of 256 took longer than 640 ms"));
 }
 
-/// A few bytes that ask for 14 GB.
+/// A graph of a few bytes that needs 14 GB.
 Bytes inflatedLevel() {
     return levelGraph()
         .constant(integerTensor("size", {60'000, 60'000}))
@@ -87,7 +87,7 @@ TEST(LoadLimitsTest, ATensorThatGrowsExponentiallyIsRejected) {
 }
 
 TEST(LoadLimitsTest, AGraphThatAcceptsOnlyOneRequestIsRejectedWhileLoading) {
-    // Through a fraction, so that nothing but a run finds out.
+    // Through a fraction, so that the error shows only in a run.
     const Bytes graph = levelGraph()
                             .constant(floatTensor("shape", {2}, {1.0F, 1.0F}))
                             .apply("Floor", {"shape"}, {"floor"})
@@ -183,14 +183,14 @@ TEST(TimeLimitTest, TheActionRunsAfterTheTimeHasPassed) {
     EXPECT_LE(runs, 1);
 }
 
-/// The test's ONNX Runtime as if it were version 1.16: nothing newer can be asked for.
+/// The test's ONNX Runtime presented as version 1.16, without newer functions.
 class OldRuntime {
 public:
     static std::shared_ptr<const Runtime> open(const std::shared_ptr<LogSink>& log = nullptr) {
         const auto newest = testRuntime();
         real() = newest->api();
         real().CreateEnvWithCustomLogger = createEnvironment;
-        // What came after 1.16 is not there.
+        // Functions added after 1.16 are missing.
         real().SetUserLoggingFunction = nullptr;
         real().SessionOptionsSetLoadCancellationFlag = nullptr;
         static const OrtApiBase base{
@@ -232,7 +232,7 @@ TEST(OldRuntimeTest, ALoadCanBeCancelledBetweenItsGraphs) {
     EXPECT_THROW((void)loadDraft(tinyModel(), {.cancellation = cancellation}, OldRuntime::open()), LoadCancelled);
 }
 
-/// The test's ONNX Runtime, in which the cancellation comes while it loads a graph.
+/// The test's ONNX Runtime with a cancellation during the loading of a graph.
 class RuntimeCancelledWhileLoading {
 public:
     static std::shared_ptr<const Runtime> open(const std::shared_ptr<Cancellation>& cancellation) {
@@ -272,7 +272,7 @@ private:
 
 TEST(LoadLimitsTest, ACancellationIsForwardedToALoadingOnnxRuntime) {
     if (testRuntime()->apiVersion() < 22) {
-        GTEST_SKIP() << "this ONNX Runtime cannot cancel a load";
+        GTEST_SKIP() << "this version of ONNX Runtime cannot cancel a load";
     }
     const auto cancellation = std::make_shared<Cancellation>();
     const auto runtime = RuntimeCancelledWhileLoading::open(cancellation);

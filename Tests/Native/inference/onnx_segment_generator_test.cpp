@@ -24,7 +24,7 @@ std::vector<float> generate(OnnxSegmentGenerator& generator, std::span<const Seg
     return segments;
 }
 
-/// Largest difference, in units of the segment's own level.
+/// The largest difference, relative to the segment's level.
 double unitScaleDifference(const std::vector<float>& left, const std::vector<float>& right,
                            const std::vector<float>& levelsMps2) {
     EXPECT_EQ(left.size(), right.size());
@@ -192,7 +192,7 @@ TEST(OnnxSegmentGeneratorTest, NonFiniteNoiseIsAnErrorThatDoesNotAffectTheNextBa
 TEST(OnnxSegmentGeneratorTest, TheErrorForAnUnknownTierListsTheTiers) {
     try {
         (void)makeGenerator("ultra", {});
-        FAIL() << "a tier that is not there was accepted";
+        FAIL() << "a missing tier was accepted";
     } catch (const std::invalid_argument& error) {
         EXPECT_THAT(error.what(), HasSubstr("\"ultra\""));
         EXPECT_THAT(error.what(), HasSubstr("\"draft\" \"standard\" \"fine\""));

@@ -16,7 +16,7 @@ namespace {
 
 using Formula = std::function<void(std::span<const float>, float, std::span<float>)>;
 
-/// A field given by a formula; remembers when it was asked, and for which interval.
+/// A field given by a formula that records the times and intervals of its evaluations.
 class FormulaField : public VelocityField {
 public:
     explicit FormulaField(Formula formula) : formula_(std::move(formula)) {}
@@ -41,7 +41,7 @@ void decay(std::span<const float> point, float /*time*/, std::span<float> veloci
     }
 }
 
-/// A quarter turn: (1, 0) arrives at (0, 1).
+/// A rotation by a quarter turn: (1, 0) becomes (0, 1).
 void rotate(std::span<const float> point, float /*time*/, std::span<float> velocity) {
     const auto rate = static_cast<float>(std::numbers::pi / 2.0);
     velocity[0] = -rate * point[1];
@@ -60,7 +60,7 @@ double decayError(SolverKind kind, int steps) {
     return std::fabs(static_cast<double>(integrateOne(decay, {kind, steps}, 1.0F)) - std::exp(-1.0));
 }
 
-/// What halving the step does to the error, as a power of two.
+/// The order of convergence: the binary logarithm of the error's reduction when the step is halved.
 double convergenceOrder(SolverKind kind) {
     return std::log2(decayError(kind, 8) / decayError(kind, 16));
 }

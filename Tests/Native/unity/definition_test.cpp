@@ -41,7 +41,7 @@ TEST(DefinitionTest, TheDefinitionStatesItsLayout) {
     EXPECT_EQ(definition.apiVersion, 0x010402U);
     EXPECT_EQ(definition.pluginVersion, HAPTOFLOW_TEST_VERSION_MAJOR * 0x10000U +
                                             HAPTOFLOW_TEST_VERSION_MINOR * 0x100U + HAPTOFLOW_TEST_VERSION_PATCH);
-    EXPECT_EQ(definition.channels, 0U) << "a number of channels makes it a generator";
+    EXPECT_EQ(definition.channels, 0U) << "with a number of channels, it would be a generator";
     EXPECT_EQ(definition.flags, 0U);
 }
 
@@ -134,7 +134,7 @@ TEST(DefinitionTest, WithoutAnEffectInstanceTheInputPassesThrough) {
 TEST(DefinitionTest, AnOlderHostsStateIsAcceptedAndATooShortStateIsRejected) {
     const UnityHost host;
     const AudioEffectDefinition& effect = *host.definitions()[0];
-    // The host's own field and all behind it are missing; what is there must stay as it is.
+    // The host's own field and all fields after it are missing; the existing fields must not change.
     for (const std::uint32_t size : {56U, 80U, 200U}) {
         AudioEffectState state{};
         state.structSize = size;

@@ -65,8 +65,8 @@ TEST_F(SeveralEffectsTest, TheSecondEffectTakesOverWhenTheFirstGivesTheVoiceBack
         }
         const std::vector<float> heard = play(voice_, second, 2).channel(0);
         EXPECT_GT(peak(heard), 1e-3F) << reason.name;
-        EXPECT_LT(std::abs(heard.front()), 1e-3F) << "it has to rise from silence: " << reason.name;
-        // For the next reason.
+        EXPECT_LT(std::abs(heard.front()), 1e-3F) << "it must fade in from silence: " << reason.name;
+        // Prepares the next case.
         second.set("Voice", 41.0F);
         (void)second.process(frameOfAudio);
         second.set("Voice", 0.0F);
@@ -77,10 +77,10 @@ TEST_F(SeveralEffectsTest, TheSecondEffectTakesOver100MsAfterTheLastCallOfTheFir
     HostedEffect first(definition());
     HostedEffect second(definition());
     (void)play(voice_, first, 3);
-    // The first of these blocks only shows the second effect where the first one stands.
+    // In the first of these blocks, the second effect only reads the claim of the first.
     EXPECT_THAT(play(voice_, second, 10).channel(0), Each(0.0F));
     EXPECT_GT(peak(play(voice_, second, 3).channel(0)), 1e-3F);
-    EXPECT_THAT(play(voice_, first, 1).channel(0), Each(0.0F)) << "the voice is the second's now";
+    EXPECT_THAT(play(voice_, first, 1).channel(0), Each(0.0F)) << "the second effect now has the voice";
 }
 
 TEST_F(SeveralEffectsTest, AClosedVoiceLeavesSilenceAndTheNextVoiceAtItsPlaceSounds) {
@@ -94,7 +94,7 @@ TEST_F(SeveralEffectsTest, AClosedVoiceLeavesSilenceAndTheNextVoiceAtItsPlaceSou
     second.emplace(runtime_, model_);
     ASSERT_EQ(second->place(), place);
     SteppedVoice same(runtime_, model_);
-    EXPECT_EQ(play(*second, effect, 5).channel(0), reference(same, 5)) << "no ramp: a voice begins in silence itself";
+    EXPECT_EQ(play(*second, effect, 5).channel(0), reference(same, 5)) << "no ramp is needed, because a voice starts with silence";
 }
 
 TEST_F(SeveralEffectsTest, CreatingAndReleasingEffectsDoesNotAffectAVoice) {

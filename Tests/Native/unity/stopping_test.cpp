@@ -11,7 +11,7 @@ using ::testing::Each;
 
 constexpr std::size_t stopFrames = 240;
 
-/// The effect on channel 1 of two, with a voice that has been sliding for a while.
+/// The effect on the second of two channels, with a voice that is already sliding.
 class StoppingTest : public VoiceEffectTest {
 protected:
     StoppingTest() {
@@ -24,7 +24,7 @@ protected:
 
     [[nodiscard]] std::uint64_t rendered() const { return voice_.statistics().rendered_frames; }
 
-    /// What a straight fade over so many frames adds to the voice's own steps.
+    /// The step that a linear fade over `frames` frames adds to the voice's own steps.
     static float fadeStep(std::size_t frames) { return 1.0F / static_cast<float>(frames); }
 
     HostedEffect effect{definition()};
@@ -73,7 +73,7 @@ TEST_F(StoppingTest, AStrengthSetInSilenceAppliesFromTheNextTouch) {
     EXPECT_THAT(effect.process(frameOfAudio).channel(1), Each(0.0F));
     voice_.lift();
     (void)effect.process(frameOfAudio);
-    // And up again: the touch begins at full strength instead of rising to it.
+    // After returning to full strength, the touch starts at full strength without a ramp.
     effect.set("Strength", 1.0F);
     voice_.slide();
     const std::vector<float> heard = effect.process(frameOfAudio).channel(1);
