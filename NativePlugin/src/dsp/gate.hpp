@@ -21,7 +21,7 @@ public:
     void open() noexcept { opening_ = true; }
     /// Starts closing: the next sample is already attenuated, and the output is silent within `closeSeconds`.
     void close() noexcept { opening_ = false; }
-    /// Closes at once, without a ramp: for a stream that starts anew.
+    /// Closes at once, without a ramp: for a new stream.
     void reset() noexcept;
     /// Opens fully at once, without a ramp: for a signal that starts at zero by itself.
     void openAtOnce() noexcept;

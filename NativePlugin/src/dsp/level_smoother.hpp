@@ -18,7 +18,7 @@ public:
 
     /// Starts a ramp that reaches `gain` after one ramp time. Ignores a non-finite gain and the present target.
     void setTarget(float gain) noexcept;
-    /// Takes the value `gain` at once, for a stream that starts anew. Ignores a non-finite gain.
+    /// Takes the value `gain` at once, for a new stream. Ignores a non-finite gain.
     void reset(float gain) noexcept;
     [[nodiscard]] float target() const noexcept { return ramp_.target(); }
     [[nodiscard]] bool isSettled() const noexcept { return ramp_.isSettled(); }

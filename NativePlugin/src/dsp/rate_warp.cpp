@@ -61,8 +61,8 @@ std::size_t RateWarp::inputNeeded(std::size_t outputCount) const noexcept {
 void RateWarp::process(std::span<const float> input, std::span<float> output) noexcept {
     std::size_t next = 0;
     for (float& sample : output) {
-        const std::uint64_t wanted = state_.consumedAfterNext();
-        for (; state_.consumed < wanted; ++state_.consumed, ++next) {
+        const std::uint64_t needed = state_.consumedAfterNext();
+        for (; state_.consumed < needed; ++state_.consumed, ++next) {
             history_[state_.consumed % historyLength] = next < input.size() ? input[next] : 0.0F;
         }
         sample = interpolate();

@@ -18,7 +18,7 @@ public:
     /// Starts the change to `kernel` (null for no tone). `past` holds the samples played last; they fill the filter's
     /// memory if it was not running.
     void setTone(const ToneKernel* kernel, std::span<const float, memorySamples> past) noexcept;
-    /// Changes to `kernel` at once and clears the memory, for a waveform that begins anew.
+    /// Changes to `kernel` at once and clears the memory, for a new waveform.
     void reset(const ToneKernel* kernel) noexcept;
 
     /// False if `process` would change nothing.

@@ -211,7 +211,7 @@ void VoiceRenderer::readBlows() noexcept {
 void VoiceRenderer::readSignal() noexcept {
     const bool isMoving = channels_.toAudio.current().isMoving;
     const bool hasChanged = std::exchange(wasMoving_, isMoving) != isMoving;
-    // A silence also ends the signal, which starts anew afterwards.
+    // A silence also ends the signal, which restarts afterwards.
     if (silence_ != Silence::none && silence_ != Silence::rest) {
         return;
     }

@@ -18,25 +18,25 @@ void silence(const capi::ChannelTarget& target, double sampleRateHz) noexcept {
 
 void VoiceEffect::process(const AudioBlock& block, const BlockContext& context) noexcept HAPTOFLOW_NONBLOCKING {
     passThrough(block);
-    const Route wanted = parameters_.route();
+    const Route newRoute = parameters_.route();
     const float strength = parameters_.strength();
     const bool hasGap = updateTick(context.tick, block.frames);
     if (startAnew_.exchange(false, std::memory_order_relaxed)) {
-        route_ = wanted;
+        route_ = newRoute;
         gain_.jumpTo(context.isSounding ? strength : 0.0F);
     } else if (hasGap) {
         gain_.jumpTo(0.0F);
     }
 
     std::uint32_t done = 0;
-    if (!context.isSounding || wanted != route_) {
+    if (!context.isSounding || newRoute != route_) {
         if (!gain_.isSettledAt(0.0F)) {
             done = std::min(block.frames, framesIn(stopSeconds, context.sampleRateHz));
             gain_.moveTo(0.0F, done);
             play(target(block, 0, done), context.sampleRateHz);
         }
         claim_.giveBack();
-        route_ = wanted;
+        route_ = newRoute;
     }
     if (done == block.frames) {
         return;

@@ -180,9 +180,9 @@ TEST(CompensationTest, TheGainNeverExceedsTheMaximumBoostForAnyProfile) {
 }
 
 TEST(CompensationTest, FrequenciesWithoutActuatorOutputAreNotBoosted) {
-    const ActuatorProfile deaf =
+    const ActuatorProfile silentBelow100Hz =
         profileOf({20.0, 60.0, 80.0, 100.0, 120.0, 300.0, 1200.0}, {-90.0, -90.0, -90.0, -10.0, 0.0, -3.0, -6.0});
-    const Compensation compensation(deaf, rateHz);
+    const Compensation compensation(silentBelow100Hz, rateHz);
     EXPECT_LT(compensation.gainDecibels(60.0), -6.0);
     EXPECT_GT(compensation.gainDecibels(100.0), 0.0);
 }

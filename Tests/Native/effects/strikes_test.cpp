@@ -37,12 +37,12 @@ TEST(StrikesTest, ABlowIsADecayingSinusoidThatStartsWithTheNextSample) {
     for (const double rate : {8000.0, 44100.0, 48000.0, 192000.0}) {
         Strikes strikes(EffectKind::impact, rate);
         strikes.strike(0.2, ringing(180.0F, 90.0F, 600.0F));
-        const std::vector<float> heard = next(strikes, static_cast<std::size_t>(0.1 * rate), 61);
-        for (std::size_t i = 0; i < heard.size(); ++i) {
+        const std::vector<float> output = next(strikes, static_cast<std::size_t>(0.1 * rate), 61);
+        for (std::size_t i = 0; i < output.size(); ++i) {
             const double seconds = static_cast<double>(i) / rate;
             const double expected =
                 120.0 * std::exp(-90.0 * seconds) * std::sin(2.0 * std::numbers::pi * 180.0 * seconds);
-            ASSERT_NEAR(static_cast<double>(heard[i]), expected, 1e-3) << "rate " << rate << ", sample " << i;
+            ASSERT_NEAR(static_cast<double>(output[i]), expected, 1e-3) << "rate " << rate << ", sample " << i;
         }
     }
 }
@@ -65,12 +65,12 @@ TEST(StrikesTest, ReboundsFollowTheirFlightTimesAndGetWeaker) {
     response.restitution = 0.5F;
     Strikes strikes(EffectKind::impact, rateHz);
     strikes.strike(0.5, response);
-    const std::vector<float> heard = next(strikes, 9600, 100);
+    const std::vector<float> output = next(strikes, 9600, 100);
     // A flight takes 2 v / (25 m/s^2): 20 ms at the remaining 0.25 m/s, then 10 ms.
     const auto peakFrom = [&](double fromSeconds, double untilSeconds) {
         return static_cast<double>(
-            peakOf(std::vector<float>(heard.begin() + static_cast<std::ptrdiff_t>(fromSeconds * rateHz),
-                                      heard.begin() + static_cast<std::ptrdiff_t>(untilSeconds * rateHz))));
+            peakOf(std::vector<float>(output.begin() + static_cast<std::ptrdiff_t>(fromSeconds * rateHz),
+                                      output.begin() + static_cast<std::ptrdiff_t>(untilSeconds * rateHz))));
     };
     const double first = peakFrom(0.0, 0.01);
     EXPECT_LT(peakFrom(0.015, 0.0199), 0.01 * first);

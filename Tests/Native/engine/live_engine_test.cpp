@@ -215,18 +215,18 @@ TEST_F(LiveEngineTest, TwoRateChangesAtRestAreHandledBeforeTheNextTouch) {
 
 TEST_F(LiveEngineTest, AVoiceWithAStoppedDeviceDoesNotBlockOtherVoices) {
     const auto engine = this->engine(settings(true));
-    const auto unheard = engine->addVoice(48000.0);
-    const auto heard = engine->addVoice(48000.0);
+    const auto stoppedVoice = engine->addVoice(48000.0);
+    const auto activeVoice = engine->addVoice(48000.0);
     std::vector<float> block(256);
     for (int update = 0; update < 200; ++update) {
-        engine->publish(*unheard, testing::sliding());
+        engine->publish(*stoppedVoice, testing::sliding());
         std::this_thread::sleep_for(std::chrono::milliseconds(1));
     }
-    ASSERT_EQ(unheard->channels.counters.inferences, 0U);
+    ASSERT_EQ(stoppedVoice->channels.counters.inferences, 0U);
     // The worker reads the contact before the callback, so only a later poll can find that the onset is playing.
-    engine->publish(*heard, testing::sliding());
+    engine->publish(*activeVoice, testing::sliding());
     std::this_thread::sleep_for(std::chrono::milliseconds(20));
-    EXPECT_TRUE(renderUntil(*heard, [&] { return heard->channels.counters.inferences > 0; }));
+    EXPECT_TRUE(renderUntil(*activeVoice, [&] { return activeVoice->channels.counters.inferences > 0; }));
 }
 
 TEST_F(LiveEngineTest, AFailureOfOneVoiceDoesNotSilenceTheOthers) {

@@ -101,9 +101,9 @@ TEST_F(LiveVoiceTest, NoSegmentOfAnEarlierTouchSoundsAfterANewOne) {
     const std::size_t begin = device.waveform.samples.size();
     device.run(0.015, [&second](double) { return second; });
     EXPECT_GE(device.counters().dropped, droppedBefore + 1) << "the segment of the first touch must be dropped";
-    const auto heard = std::span<const float>(device.waveform.samples).subspan(begin);
-    EXPECT_GT(heard.size(), 10U);
-    EXPECT_EQ(std::ranges::count(heard, 3.0F), 0) << "only the seed may sound";
+    const auto output = std::span<const float>(device.waveform.samples).subspan(begin);
+    EXPECT_GT(output.size(), 10U);
+    EXPECT_EQ(std::ranges::count(output, 3.0F), 0) << "only the seed may sound";
 }
 
 TEST_F(LiveVoiceTest, AfterLiftOffTheVoiceIsSilentWithinABlockAndFiveMilliseconds) {

@@ -22,8 +22,8 @@ constexpr double daySeconds = 86'400.0;
 /// Time for which a voice with a reading rate of four sounds before the comparison, from
 /// HAPTOFLOW_TEST_SOUNDING_SECONDS; the soak test sets a quarter of a day.
 double soundingSeconds() {
-    const char* asked = std::getenv("HAPTOFLOW_TEST_SOUNDING_SECONDS");
-    return asked != nullptr ? std::strtod(asked, nullptr) : 60.0;
+    const char* setting = std::getenv("HAPTOFLOW_TEST_SOUNDING_SECONDS");
+    return setting != nullptr ? std::strtod(setting, nullptr) : 60.0;
 }
 
 class LongRunTest : public ::testing::Test {
@@ -53,9 +53,9 @@ protected:
     /// The output of a new voice.
     std::vector<float> ofANewVoice() {
         SimulatedDevice fresh(model_, tone_, settings());
-        std::vector<float> heard = touch(fresh, 1);
-        EXPECT_GT(testing::peak(heard), 0.5F / 60.0F);
-        return heard;
+        std::vector<float> output = touch(fresh, 1);
+        EXPECT_GT(testing::peak(output), 0.5F / 60.0F);
+        return output;
     }
 
     model::ModelFile model_ = testing::smallModel();

@@ -92,7 +92,7 @@ TEST(MaterialLibraryTest, OnlyAMaterialWithoutItsOwnLevelUsesTheLevelGraph) {
     const std::array<float, 3> motion{0.1F, 0.0F, 2.0F};
     EXPECT_NEAR(small.ingredients({{2, 1.0F}}).levelMps2(motion), testing::MotionGenerator::levelMps2(motion), 0.1F);
     (void)small.library.add(materialOf(small.model), []() -> inference::LevelEstimator& {
-        throw std::logic_error("asked for a level graph that nobody needs");
+        throw std::logic_error("the level graph must not be used");
     });
 }
 

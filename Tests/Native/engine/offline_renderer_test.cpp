@@ -238,11 +238,11 @@ TEST(OfflineRendererTest, ANewLabelIsAudibleAfterTheLead) {
         const auto from = static_cast<std::size_t>(states[30].timeSeconds * 48000.0);
         const auto first = std::find_if(render.samples.begin() + static_cast<std::ptrdiff_t>(from),
                                         render.samples.end(), [](float sample) { return sample > 1e-3F; });
-        const double heardMs = 1000.0 * static_cast<double>(first - render.samples.begin()) / 48000.0;
+        const double audibleMs = 1000.0 * static_cast<double>(first - render.samples.begin()) / 48000.0;
         const double changedMs = 1000.0 * states[36].timeSeconds;
         // The tolerance covers 5 ms of reading ahead and up to 2 ms for splice and resampler.
-        EXPECT_GE(heardMs - changedMs, leadMs);
-        EXPECT_LE(heardMs - changedMs, leadMs + 9.0);
+        EXPECT_GE(audibleMs - changedMs, leadMs);
+        EXPECT_LE(audibleMs - changedMs, leadMs + 9.0);
     }
 }
 

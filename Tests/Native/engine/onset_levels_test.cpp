@@ -27,7 +27,7 @@ public:
     void generate(std::span<const inference::SegmentRequest>, std::span<float>) override {}
     void levels(std::span<const inference::SegmentRequest> requests, std::span<float> levelsMps2) override {
         ++calls;
-        asked += requests.size();
+        requestCount += requests.size();
         if (whenAsked) {
             whenAsked();
         }
@@ -39,7 +39,7 @@ public:
     }
 
     std::size_t calls = 0;
-    std::size_t asked = 0;
+    std::size_t requestCount = 0;
     std::function<void()> whenAsked;
 };
 
@@ -66,8 +66,8 @@ model::ModelFile modelWithLabels(std::size_t labels, std::size_t embeddings) {
 std::size_t levelsAskedFor(std::size_t labels, std::size_t embeddings) {
     PowerLaw graph;
     const OnsetLevels levels(modelWithLabels(labels, embeddings), graph);
-    EXPECT_LE(graph.calls, graph.asked / 256 + 1) << "all calls except the last are full batches";
-    return graph.asked;
+    EXPECT_LE(graph.calls, graph.requestCount / 256 + 1) << "all calls except the last are full batches";
+    return graph.requestCount;
 }
 
 double decibels(double ratio) {

@@ -251,7 +251,8 @@ TEST_F(RibPhaseTest, ChainedSegmentsContinueThePhase) {
     settings.fixedLeadSamples = 60;
     SimulatedDevice device(model_, generator_, settings);
     device.run(3.0, [](double t) { return onLabel(0, t < 1.5 ? 0.1F : 0.06F); });
-    ASSERT_GT(device.counters().inferences, 3 * 11 + 20U) << "the updates have segments and further segments chained to them";
+    ASSERT_GT(device.counters().inferences, 3 * 11 + 20U)
+        << "the updates have segments and further segments chained to them";
     expectEachPhaseToFollow(device, seedPhase, 0.01);
     EXPECT_LT(testing::largestStep(device.waveform.samples), largestStepWithoutAJump);
 }
@@ -308,7 +309,8 @@ TEST_F(RibPhaseTest, ATouchBeginsWithThePhaseOfItsSeed) {
     const auto first = static_cast<double>(device.waveform.seams.front());
     const double expected = otherSeedPhase + 0.0175 * first;
     EXPECT_NEAR(phases_.front()[0], expected - std::floor(expected), 1e-5);
-    EXPECT_NEAR(phases_.front()[1], 0.125F, 1e-6F) << "the seed was recorded without motion along the second wave vector";
+    EXPECT_NEAR(phases_.front()[1], 0.125F, 1e-6F)
+        << "the seed was recorded without motion along the second wave vector";
 }
 
 TEST_F(RibPhaseTest, AResumedTouchBeginsWithThePhaseOfItsSeed) {
@@ -343,9 +345,9 @@ TEST_F(RibPhaseTest, ASecondTouchBeginsWithThePhaseOfItsSeed) {
 }
 
 TEST_F(RibPhaseTest, AFailedRunDoesNotAdvanceThePhase) {
-    int asked = 0;
+    int runs = 0;
     FakeGenerator failing([&](const SegmentRequest& request, std::span<float> segment) {
-        if (++asked % 3 == 0) {
+        if (++runs % 3 == 0) {
             throw inference::InferenceError("a test says so");
         }
         ribsOf(request, segment);

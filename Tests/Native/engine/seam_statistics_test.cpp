@@ -63,11 +63,11 @@ TEST(SeamStatisticsTest, PiecesGiveTheSameStatisticsAsTheWhole) {
     }
     const SeamStatistics whole = measureSeams(wave, seams, 4);
     SeamMeter meter(4);
-    std::size_t told = 0;
+    std::size_t announced = 0;
     for (std::size_t begin = 0; begin < wave.size(); begin += 13) {
         const std::size_t end = std::min(begin + 13, wave.size());
-        for (; told < seams.size() && seams[told] < static_cast<std::int64_t>(end) + 50; ++told) {
-            meter.addSeam(seams[told]);
+        for (; announced < seams.size() && seams[announced] < static_cast<std::int64_t>(end) + 50; ++announced) {
+            meter.addSeam(seams[announced]);
         }
         meter.addSamples(std::span(wave).subspan(begin, end - begin));
     }

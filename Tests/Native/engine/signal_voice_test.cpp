@@ -272,10 +272,10 @@ TEST_F(SignalVoiceTest, ADelayAddsToTheLatencyAndToTheOutput) {
         device_.renderBlock();
     }
     EXPECT_NEAR(device_.counters().signalStarts.lastSeconds, 0.053, 1e-9);
-    const std::span<const float> heard = std::span<const float>(device_.output).subspan(start);
-    EXPECT_EQ(testing::peak(heard.first(2400)), 0.0F);
-    EXPECT_GT(testing::peak(heard.subspan(2400, 40)), 0.0F);
-    EXPECT_TRUE(isTone(heard.subspan(2400 + 96), 200.0, 6.0 / fullScaleMps2));
+    const std::span<const float> output = std::span<const float>(device_.output).subspan(start);
+    EXPECT_EQ(testing::peak(output.first(2400)), 0.0F);
+    EXPECT_GT(testing::peak(output.subspan(2400, 40)), 0.0F);
+    EXPECT_TRUE(isTone(output.subspan(2400 + 96), 200.0, 6.0 / fullScaleMps2));
     nowSeconds = 2.0;
     device_.publish(lifted());
     const std::size_t end = device_.output.size();

@@ -117,10 +117,10 @@ TEST_F(ToneVoiceTest, ChangesOfToneWithinATouchDoNotClick) {
     const std::uint32_t soft = registered(voice, -12.0);
     const std::array<std::uint32_t, 4> labels{0, loud, soft, loud};
     voice.run(2.0, [&](double seconds) { return on(labels[static_cast<std::size_t>(seconds * 7.3) % labels.size()]); });
-    const std::span<const float> heard(voice.waveform.samples);
+    const std::span<const float> output(voice.waveform.samples);
     // At 12 dB, a 100 Hz tone of amplitude 1 changes by up to 1.25 between samples; the change from -12 dB over 20
     // samples adds 0.19. The first 200 samples are the seed, a square wave.
-    EXPECT_LT(testing::largestStep(heard.subspan(220)), 1.6F);
+    EXPECT_LT(testing::largestStep(output.subspan(220)), 1.6F);
 }
 
 TEST_F(ToneVoiceTest, ANewTouchDoesNotUseTheToneOfTheTouchBefore) {

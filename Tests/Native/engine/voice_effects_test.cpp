@@ -580,8 +580,8 @@ TEST_F(ProcessorsTest, TheDelaysSignalSurvivesAChangeOfOtherProcessors) {
         const std::size_t changed = device.output.size();
         device.run(0.19, slide);
         for (std::size_t window = changed; window + 480 < device.output.size(); window += 480) {
-            const std::span<const float> heard(device.output.data() + window, 480);
-            EXPECT_GT(testing::peak(heard), 0.05F / 60.0F) << isCompensated << ", " << window - changed;
+            const std::span<const float> output(device.output.data() + window, 480);
+            EXPECT_GT(testing::peak(output), 0.05F / 60.0F) << isCompensated << ", " << window - changed;
         }
     }
 }

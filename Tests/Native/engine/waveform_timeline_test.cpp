@@ -42,8 +42,8 @@ TEST(WaveformTimelineTest, TheSeedsSecondHalfSoundsAndItsFirstHalfIsThePast) {
     Segment past{};
     timeline.history(timeline.head(), past);
     EXPECT_TRUE(std::equal(past.begin(), past.end(), seed.begin()));
-    const std::vector<float> heard = readSamples(timeline, 150);
-    EXPECT_TRUE(std::equal(heard.begin(), heard.end(), seed.begin() + 200));
+    const std::vector<float> output = readSamples(timeline, 150);
+    EXPECT_TRUE(std::equal(output.begin(), output.end(), seed.begin() + 200));
 }
 
 TEST(WaveformTimelineTest, ASegmentThatContinuesTheRunningOneChangesNothing) {
@@ -57,9 +57,9 @@ TEST(WaveformTimelineTest, ASegmentThatContinuesTheRunningOneChangesNothing) {
     const std::int64_t start = timeline.head() + 50;
     EXPECT_EQ(timeline.commit(start, continuation), start);
 
-    const std::vector<float> heard = readSamples(timeline, 200);
-    for (std::size_t i = 0; i < heard.size(); ++i) {
-        ASSERT_EQ(heard[i], static_cast<float>(i) + 201.0F) << "sample " << i;
+    const std::vector<float> output = readSamples(timeline, 200);
+    for (std::size_t i = 0; i < output.size(); ++i) {
+        ASSERT_EQ(output[i], static_cast<float>(i) + 201.0F) << "sample " << i;
     }
 }
 
@@ -74,7 +74,7 @@ Segment unlikeSegment(int number) {
 }
 
 /// A second of a touch in which the callback reads nothing until `replaced` segments have arrived for one start.
-std::vector<float> heardAfterReplacing(std::int64_t ahead, int replaced, bool isViewedBetween) {
+std::vector<float> playedAfterReplacing(std::int64_t ahead, int replaced, bool isViewedBetween) {
     WaveformTimeline timeline;
     Seed seed{};
     std::ranges::copy(unlikeSegment(50), seed.begin());
@@ -97,10 +97,10 @@ std::vector<float> heardAfterReplacing(std::int64_t ahead, int replaced, bool is
 
 TEST(WaveformTimelineTest, OfSegmentsWithOneStartOnlyTheLastIsSplicedWithTheWaveBefore) {
     for (const std::int64_t ahead : {0, 1, 70}) {
-        const std::vector<float> last = heardAfterReplacing(ahead, 1, false);
-        EXPECT_EQ(heardAfterReplacing(ahead, 2, false), last) << ahead;
-        EXPECT_EQ(heardAfterReplacing(ahead, 12, false), last) << ahead;
-        EXPECT_EQ(heardAfterReplacing(ahead, 12, true), last) << ahead << ", viewed by another thread";
+        const std::vector<float> last = playedAfterReplacing(ahead, 1, false);
+        EXPECT_EQ(playedAfterReplacing(ahead, 2, false), last) << ahead;
+        EXPECT_EQ(playedAfterReplacing(ahead, 12, false), last) << ahead;
+        EXPECT_EQ(playedAfterReplacing(ahead, 12, true), last) << ahead << ", viewed by another thread";
     }
 }
 
@@ -145,8 +145,8 @@ TEST(WaveformTimelineTest, ALateSegmentLosesTheSamplesThatTheHeadHasPassed) {
     }
     EXPECT_EQ(timeline.commit(start, late), timeline.head());
     EXPECT_EQ(timeline.coveredUntil(), start + 200);
-    const std::vector<float> heard = readSamples(timeline, 20);
-    EXPECT_EQ(heard[10], 1025.0F);
+    const std::vector<float> output = readSamples(timeline, 20);
+    EXPECT_EQ(output[10], 1025.0F);
 }
 
 TEST(WaveformTimelineTest, ASegmentWhollyInThePastIsRejected) {
@@ -170,12 +170,12 @@ TEST(WaveformTimelineTest, WithoutANewSegmentTheWaveFadesAndMissingSamplesAreCou
     Seed seed{};
     seed.fill(1.0F);
     timeline.open(seed);
-    const std::vector<float> heard = readSamples(timeline, 260);
-    EXPECT_EQ(heard[189], 1.0F);
-    for (std::size_t i = 190; i < heard.size(); ++i) {
-        ASSERT_LE(std::abs(heard[i] - heard[i - 1]), 0.1001F) << "sample " << i;
+    const std::vector<float> output = readSamples(timeline, 260);
+    EXPECT_EQ(output[189], 1.0F);
+    for (std::size_t i = 190; i < output.size(); ++i) {
+        ASSERT_LE(std::abs(output[i] - output[i - 1]), 0.1001F) << "sample " << i;
     }
-    EXPECT_EQ(heard[201], 0.0F);
+    EXPECT_EQ(output[201], 0.0F);
     EXPECT_EQ(timeline.uncoveredSamples(), 60U);
 }
 
@@ -186,12 +186,12 @@ TEST(WaveformTimelineTest, AfterAnUnderrunTheNextSegmentFadesIn) {
     timeline.open(seed);
     readSamples(timeline, 230);
     EXPECT_EQ(timeline.commit(timeline.head() - 5, constantSegment(1.0F)), timeline.head());
-    const std::vector<float> heard = readSamples(timeline, 30);
-    EXPECT_LE(heard[0], 0.1001F);
-    for (std::size_t i = 1; i < heard.size(); ++i) {
-        ASSERT_LE(std::abs(heard[i] - heard[i - 1]), 0.1001F) << "sample " << i;
+    const std::vector<float> output = readSamples(timeline, 30);
+    EXPECT_LE(output[0], 0.1001F);
+    for (std::size_t i = 1; i < output.size(); ++i) {
+        ASSERT_LE(std::abs(output[i] - output[i - 1]), 0.1001F) << "sample " << i;
     }
-    EXPECT_EQ(heard.back(), 1.0F);
+    EXPECT_EQ(output.back(), 1.0F);
 }
 
 TEST(WaveformTimelineTest, TheClockIsExactOverADayOfSegments) {

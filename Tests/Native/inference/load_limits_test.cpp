@@ -281,44 +281,45 @@ TEST(LoadLimitsTest, ACancellationIsForwardedToALoadingOnnxRuntime) {
     EXPECT_EQ(RuntimeCancelledWhileLoading::sessionsMade(), 0);
 }
 
-struct Heard {
+struct LogRecord {
     static void callback(void* context, int severity, const char* message) {
-        static_cast<Heard*>(context)->severities.push_back(severity);
-        static_cast<Heard*>(context)->messages.emplace_back(message);
+        static_cast<LogRecord*>(context)->severities.push_back(severity);
+        static_cast<LogRecord*>(context)->messages.emplace_back(message);
     }
     std::vector<int> severities;
     std::vector<std::string> messages;
 };
 
 TEST(OldRuntimeTest, TheProcessWideLogReachesTheCallback) {
-    Heard heard;
-    const auto log = std::make_shared<LogSink>(Heard::callback, &heard);
+    LogRecord record;
+    const auto log = std::make_shared<LogSink>(LogRecord::callback, &record);
     const auto runtime = OldRuntime::open(log);
     ASSERT_NE(OldRuntime::logger(), nullptr);
     OldRuntime::logger()(nullptr, ORT_LOGGING_LEVEL_ERROR, "onnxruntime", "haptoflow", "here", "made by the test");
     OldRuntime::logger()(nullptr, ORT_LOGGING_LEVEL_INFO, "onnxruntime", "haptoflow", "here", "chatter");
-    EXPECT_THAT(heard.messages, ::testing::ElementsAre("onnxruntime: made by the test"));
-    EXPECT_THAT(heard.severities, ::testing::ElementsAre(3));
+    EXPECT_THAT(record.messages, ::testing::ElementsAre("onnxruntime: made by the test"));
+    EXPECT_THAT(record.severities, ::testing::ElementsAre(3));
     log->close();
     OldRuntime::logger()(nullptr, ORT_LOGGING_LEVEL_ERROR, "onnxruntime", "haptoflow", "here", "too late");
-    EXPECT_EQ(heard.messages.size(), 1U);
+    EXPECT_EQ(record.messages.size(), 1U);
 }
 
 TEST(LogTest, TheLogOfAFailingGraphReachesOnlyTheCallbackOfItsRuntime) {
-    Heard heard;
-    Heard others;
-    const auto log = std::make_shared<LogSink>(Heard::callback, &heard);
+    LogRecord record;
+    LogRecord others;
+    const auto log = std::make_shared<LogSink>(LogRecord::callback, &record);
     const auto runtime = Runtime::open(HAPTOFLOW_TEST_ONNXRUNTIME, log);
-    const auto other = Runtime::open(HAPTOFLOW_TEST_ONNXRUNTIME, std::make_shared<LogSink>(Heard::callback, &others));
+    const auto other =
+        Runtime::open(HAPTOFLOW_TEST_ONNXRUNTIME, std::make_shared<LogSink>(LogRecord::callback, &others));
     const model::ModelFile failing = tinyWithLevel(inflatedLevel());
     EXPECT_THROW((void)loadDraft(failing, {}, runtime), model::ModelError);
-    EXPECT_THAT(heard.messages, ::testing::Contains(::testing::HasSubstr("ConstantOfShape")));
-    EXPECT_THAT(heard.severities, ::testing::Each(::testing::Ge(2)));
+    EXPECT_THAT(record.messages, ::testing::Contains(::testing::HasSubstr("ConstantOfShape")));
+    EXPECT_THAT(record.severities, ::testing::Each(::testing::Ge(2)));
     EXPECT_THAT(others.messages, ::testing::IsEmpty());
     log->close();
-    const std::size_t before = heard.messages.size();
+    const std::size_t before = record.messages.size();
     EXPECT_THROW((void)loadDraft(failing, {}, runtime), model::ModelError);
-    EXPECT_EQ(heard.messages.size(), before);
+    EXPECT_EQ(record.messages.size(), before);
 }
 
 }  // namespace

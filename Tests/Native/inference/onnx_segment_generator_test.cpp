@@ -129,10 +129,10 @@ TEST(OnnxSegmentGeneratorTest, TheSolverCanBeChangedBetweenBatches) {
 
 TEST(OnnxSegmentGeneratorTest, AnAverageVelocityTierAlwaysUsesEuler) {
     const auto requests = goldenBatch().requests();
-    OnnxSegmentGenerator asked = makeGenerator("draft", {SolverKind::heun, 3});
+    OnnxSegmentGenerator heun = makeGenerator("draft", {SolverKind::heun, 3});
     OnnxSegmentGenerator plain = makeGenerator("draft", {SolverKind::euler, 3});
-    EXPECT_EQ(generate(asked, requests), generate(plain, requests));
-    EXPECT_EQ(asked.runCounts().field, 3U);
+    EXPECT_EQ(generate(heun, requests), generate(plain, requests));
+    EXPECT_EQ(heun.runCounts().field, 3U);
 }
 
 TEST(OnnxSegmentGeneratorTest, ADirectTierIsEvaluatedOnce) {

@@ -154,7 +154,7 @@ void watchUnderLoad(const OpenEngine& open, const Callback& callback) {
 }
 
 /// Results that the audio thread records.
-struct Heard {
+struct OutputRecord {
     std::atomic<bool> isFinite{true};
     std::atomic<float> loudest{0.0F};
 
@@ -168,14 +168,14 @@ struct Heard {
 
 TEST(RealTimeTest, NoCallbackUnderLoadAllocatesLocksOrEntersTheKernel) {
     const OpenEngine open(capi::testing::defaultModelPath, true);
-    Heard heard;
+    OutputRecord record;
     std::array<float, 128> block{};
     watchUnderLoad(open, [&](std::uint32_t frames, std::uint32_t rateHz) {
         (void)haptoflow_voice_render(open.voice, block.data(), frames, 1, 0, rateHz);
-        heard.note(std::span(block).first(frames));
+        record.note(std::span(block).first(frames));
     });
-    EXPECT_TRUE(heard.isFinite);
-    EXPECT_GT(heard.loudest, 0.001F);
+    EXPECT_TRUE(record.isFinite);
+    EXPECT_GT(record.loudest, 0.001F);
 }
 
 TEST(RealTimeTest, NoCallbackOfTheMixerEffectUnderLoadAllocatesLocksOrEntersTheKernel) {
@@ -188,7 +188,7 @@ TEST(RealTimeTest, NoCallbackOfTheMixerEffectUnderLoadAllocatesLocksOrEntersTheK
     effect.set("Channel", 1.0F);
     const unity::AudioEffectDefinition& definition = effect.definition();
     const int strength = effect.indexOf("Strength");
-    Heard heard;
+    OutputRecord record;
     std::array<float, 256> silence{};
     std::array<float, 256> block{};
     std::uint64_t calls = 0;
@@ -203,10 +203,10 @@ TEST(RealTimeTest, NoCallbackOfTheMixerEffectUnderLoadAllocatesLocksOrEntersTheK
         state.previousTick = state.currentTick;
         // Occasionally the group was suspended.
         state.currentTick += calls % 1'700 == 0 ? 4 * frames : frames;
-        heard.note(std::span(block).first(std::size_t{2} * frames));
+        record.note(std::span(block).first(std::size_t{2} * frames));
     });
-    EXPECT_TRUE(heard.isFinite);
-    EXPECT_GT(heard.loudest, 0.001F);
+    EXPECT_TRUE(record.isFinite);
+    EXPECT_GT(record.loudest, 0.001F);
 }
 
 }  // namespace

@@ -79,14 +79,14 @@ TEST_F(AudioThreadTest, ParametersCanBeSetFromAnotherThread) {
             std::this_thread::yield();
         }
     });
-    float loudestHeard = 0.0F;
+    float loudestOutput = 0.0F;
     bool isBounded = true;
     for (int i = 0; i < 400; ++i) {
         voice_.slide();
         second.slide();
-        const Sound heard = effect.process(128);
-        loudestHeard = std::max(loudestHeard, peak(heard.samples));
-        isBounded = isBounded && isWithinFullScale(heard);
+        const Sound output = effect.process(128);
+        loudestOutput = std::max(loudestOutput, peak(output.samples));
+        isBounded = isBounded && isWithinFullScale(output);
         if (i % 4 == 0) {
             voice_.generate();
             second.generate();
@@ -95,7 +95,7 @@ TEST_F(AudioThreadTest, ParametersCanBeSetFromAnotherThread) {
     isDone = true;
     mainThread.join();
     EXPECT_TRUE(isBounded);
-    EXPECT_GT(loudestHeard, 1e-3F);
+    EXPECT_GT(loudestOutput, 1e-3F);
     effect.set("Strength", 0.5F);
     EXPECT_EQ(effect.get("Strength"), 0.5F);
 }
@@ -107,8 +107,8 @@ TEST_F(AudioThreadTest, VoicesCanOpenAndCloseWhileAnEffectPlays) {
     bool isBounded = true;
     std::thread audioThread([&] {
         while (!isDone.load()) {
-            const Sound heard = effect.process(64);
-            isBounded = isBounded && isWithinFullScale(heard);
+            const Sound output = effect.process(64);
+            isBounded = isBounded && isWithinFullScale(output);
         }
     });
     std::uint64_t rendered = 0;

@@ -31,9 +31,9 @@ TEST_F(SeveralEffectsTest, OfTwoEffectsOnOneVoiceOnlyTheFirstPlaysIt) {
     HostedEffect first(definition());
     HostedEffect second(definition());
     for (int i = 0; i < 30; ++i) {
-        const std::vector<float> heard = play(voice_, first, 1).channel(0);
+        const std::vector<float> played = play(voice_, first, 1).channel(0);
         EXPECT_THAT(second.process(frameOfAudio).channel(0), Each(0.0F));
-        ASSERT_EQ(heard, reference(same, 1)) << i;
+        ASSERT_EQ(played, reference(same, 1)) << i;
     }
     EXPECT_EQ(voice_.statistics().refused_calls, 30U);
     EXPECT_EQ(voice_.statistics().rendered_frames, 30 * frameOfAudio);
@@ -63,9 +63,9 @@ TEST_F(SeveralEffectsTest, TheSecondEffectTakesOverWhenTheFirstGivesTheVoiceBack
         if (first) {
             (void)play(voice_, *first, 1, reason.channelsAfter);
         }
-        const std::vector<float> heard = play(voice_, second, 2).channel(0);
-        EXPECT_GT(peak(heard), 1e-3F) << reason.name;
-        EXPECT_LT(std::abs(heard.front()), 1e-3F) << "it must fade in from silence: " << reason.name;
+        const std::vector<float> played = play(voice_, second, 2).channel(0);
+        EXPECT_GT(peak(played), 1e-3F) << reason.name;
+        EXPECT_LT(std::abs(played.front()), 1e-3F) << "it must fade in from silence: " << reason.name;
         // Prepares the next case.
         second.set("Voice", 41.0F);
         (void)second.process(frameOfAudio);
@@ -94,7 +94,8 @@ TEST_F(SeveralEffectsTest, AClosedVoiceLeavesSilenceAndTheNextVoiceAtItsPlaceSou
     second.emplace(runtime_, model_);
     ASSERT_EQ(second->place(), place);
     SteppedVoice same(runtime_, model_);
-    EXPECT_EQ(play(*second, effect, 5).channel(0), reference(same, 5)) << "no ramp is needed, because a voice starts with silence";
+    EXPECT_EQ(play(*second, effect, 5).channel(0), reference(same, 5))
+        << "no ramp is needed, because a voice starts with silence";
 }
 
 TEST_F(SeveralEffectsTest, CreatingAndReleasingEffectsDoesNotAffectAVoice) {

@@ -89,25 +89,25 @@ protected:
 
     /// Plays display frames of sliding, one block each.
     static Sound play(SteppedVoice& voice, HostedEffect& effect, int displayFrames, std::size_t channels = 2) {
-        Sound heard(0, channels);
+        Sound output(0, channels);
         for (int i = 0; i < displayFrames; ++i) {
             voice.slide();
-            heard.append(effect.process(frameOfAudio, channels));
+            output.append(effect.process(frameOfAudio, channels));
             voice.generate();
         }
-        return heard;
+        return output;
     }
     /// The expected result, rendered by the C interface into one channel.
     static std::vector<float> reference(SteppedVoice& voice, int displayFrames) {
-        Sound heard(0, 1);
+        Sound output(0, 1);
         for (int i = 0; i < displayFrames; ++i) {
             voice.slide();
             Sound block(frameOfAudio, 1);
             voice.renderInto(block, 0);
-            heard.append(block);
+            output.append(block);
             voice.generate();
         }
-        return heard.samples;
+        return output.samples;
     }
 
     UnityHost host_;

@@ -16,9 +16,9 @@ class StoppingTest : public VoiceEffectTest {
 protected:
     StoppingTest() {
         effect.set("Channel", 1.0F);
-        const std::vector<float> heard = play(voice_, effect, 10).channel(1);
-        usualStep = largestStepFrom(0.0F, heard);
-        last = heard.back();
+        const std::vector<float> output = play(voice_, effect, 10).channel(1);
+        usualStep = largestStepFrom(0.0F, output);
+        last = output.back();
         EXPECT_GT(usualStep, 1e-4F);
     }
 
@@ -42,9 +42,9 @@ TEST_P(StoppingFlagsTest, TheRoutedChannelFallsSilentAndTheVoicesClockStops) {
     for (int i = 0; i < 5; ++i) {
         voice_.slide();
         const Sound in = Sound::pattern(frameOfAudio, 2);
-        const Sound heard = effect.process(in, 2);
-        EXPECT_THAT(heard.channel(1), Each(0.0F));
-        EXPECT_EQ(heard.channel(0), in.channel(0));
+        const Sound output = effect.process(in, 2);
+        EXPECT_THAT(output.channel(1), Each(0.0F));
+        EXPECT_EQ(output.channel(0), in.channel(0));
         voice_.generate();
     }
     EXPECT_EQ(rendered(), atRest);
@@ -56,12 +56,12 @@ TEST_P(StoppingFlagsTest, TheVoiceFadesWithin5MsAndIsThenNotRendered) {
     const std::uint64_t before = rendered();
     effect.setFlags(GetParam());
     voice_.slide();
-    const std::vector<float> heard = effect.process(frameOfAudio).channel(1);
+    const std::vector<float> output = effect.process(frameOfAudio).channel(1);
     const std::vector<float> whole = reference(same, 1);
     for (std::size_t i = 0; i < stopFrames; ++i) {
-        ASSERT_NEAR(heard[i], whole[i] * (1.0F - static_cast<float>(i + 1) / stopFrames), 1e-6F) << i;
+        ASSERT_NEAR(output[i], whole[i] * (1.0F - static_cast<float>(i + 1) / stopFrames), 1e-6F) << i;
     }
-    EXPECT_THAT(std::span(heard).subspan(stopFrames), Each(0.0F));
+    EXPECT_THAT(std::span(output).subspan(stopFrames), Each(0.0F));
     EXPECT_EQ(rendered(), before + stopFrames);
 }
 
@@ -76,15 +76,15 @@ TEST_F(StoppingTest, AStrengthSetInSilenceAppliesFromTheNextTouch) {
     // After returning to full strength, the touch starts at full strength without a ramp.
     effect.set("Strength", 1.0F);
     voice_.slide();
-    const std::vector<float> heard = effect.process(frameOfAudio).channel(1);
-    EXPECT_GT(peak(std::span(heard).first(120)), 0.5F * peak(heard));
+    const std::vector<float> output = effect.process(frameOfAudio).channel(1);
+    EXPECT_GT(peak(std::span(output).first(120)), 0.5F * peak(output));
 }
 
 TEST_P(StoppingFlagsTest, ABlockShorterThanTheFadeEndsInSilence) {
     effect.setFlags(GetParam());
-    const std::vector<float> heard = effect.process(32).channel(1);
-    EXPECT_LE(largestStepFrom(last, heard), usualStep + peak(heard) * 2.0F * fadeStep(32) + 1e-6F);
-    EXPECT_EQ(heard.back(), 0.0F);
+    const std::vector<float> output = effect.process(32).channel(1);
+    EXPECT_LE(largestStepFrom(last, output), usualStep + peak(output) * 2.0F * fadeStep(32) + 1e-6F);
+    EXPECT_EQ(output.back(), 0.0F);
     EXPECT_THAT(effect.process(32).channel(1), Each(0.0F));
 }
 
@@ -101,9 +101,9 @@ TEST_P(StoppingFlagsTest, AResumedEffectFadesInFromSilence) {
     voice_.slide();
     (void)effect.process(frameOfAudio);
     effect.setFlags(flagPlaying);
-    const std::vector<float> heard = play(voice_, effect, 4).channel(1);
-    EXPECT_LE(largestStepFrom(0.0F, heard), usualStep + fadeStep(frameOfAudio) * peak(heard) + 1e-6F);
-    EXPECT_GT(peak(heard), 1e-3F);
+    const std::vector<float> output = play(voice_, effect, 4).channel(1);
+    EXPECT_LE(largestStepFrom(0.0F, output), usualStep + fadeStep(frameOfAudio) * peak(output) + 1e-6F);
+    EXPECT_GT(peak(output), 1e-3F);
 }
 
 INSTANTIATE_TEST_SUITE_P(Flags, StoppingFlagsTest,
@@ -137,9 +137,9 @@ TEST_F(StoppingTest, ASuspendedGroupResumesFromSilence) {
     for (int i = 0; i < 3; ++i) {
         effect.suspend(30 * frameOfAudio + 17);
         const std::uint64_t before = rendered();
-        const std::vector<float> heard = play(voice_, effect, 4).channel(1);
-        EXPECT_LE(largestStepFrom(0.0F, heard), usualStep + fadeStep(frameOfAudio) * peak(heard) + 1e-6F);
-        EXPECT_GT(peak(heard), 1e-3F);
+        const std::vector<float> output = play(voice_, effect, 4).channel(1);
+        EXPECT_LE(largestStepFrom(0.0F, output), usualStep + fadeStep(frameOfAudio) * peak(output) + 1e-6F);
+        EXPECT_GT(peak(output), 1e-3F);
         EXPECT_EQ(rendered(), before + 4 * frameOfAudio);
     }
 }
@@ -151,9 +151,9 @@ TEST_F(StoppingTest, TicksThatDoNotCountSamplesAreNotTreatedAsSuspension) {
     for (std::size_t i = 0; i < 10; ++i) {
         effect.suspend(3 * i + 1);
         voice_.slide();
-        const std::vector<float> heard = effect.process(frameOfAudio).channel(1);
+        const std::vector<float> output = effect.process(frameOfAudio).channel(1);
         voice_.generate();
-        ASSERT_EQ(heard, reference(same, 1)) << i;
+        ASSERT_EQ(output, reference(same, 1)) << i;
     }
 }
 
@@ -173,13 +173,13 @@ TEST_F(StoppingTest, AChangeOfChannelFadesOutAndIn) {
     effect.set("Channel", 0.0F);
     voice_.slide();
     const Sound in = Sound::pattern(frameOfAudio, 2);
-    const Sound heard = effect.process(in, 2);
+    const Sound output = effect.process(in, 2);
     for (std::size_t i = 0; i < frameOfAudio; ++i) {
         const std::size_t passing = i < stopFrames ? 0 : 1;
-        ASSERT_EQ(heard.samples[2 * i + passing], in.samples[2 * i + passing]) << i;
+        ASSERT_EQ(output.samples[2 * i + passing], in.samples[2 * i + passing]) << i;
     }
-    const std::vector<float> left = heard.channel(0);
-    const std::vector<float> right = heard.channel(1);
+    const std::vector<float> left = output.channel(0);
+    const std::vector<float> right = output.channel(1);
     const float margin = usualStep + fadeStep(stopFrames) * peak(right) + 1e-6F;
     EXPECT_LE(largestStepFrom(last, std::span(right).first(stopFrames)), margin);
     EXPECT_EQ(right[stopFrames - 1], 0.0F);
@@ -189,9 +189,9 @@ TEST_F(StoppingTest, AChangeOfChannelFadesOutAndIn) {
 
 TEST_F(StoppingTest, OnARegainedChannelTheVoiceFadesInFromSilence) {
     (void)effect.process(frameOfAudio, 1);
-    const std::vector<float> heard = play(voice_, effect, 2).channel(1);
-    EXPECT_LE(largestStepFrom(0.0F, heard), usualStep + fadeStep(frameOfAudio) * peak(heard) + 1e-6F);
-    EXPECT_GT(peak(heard), 1e-3F);
+    const std::vector<float> output = play(voice_, effect, 2).channel(1);
+    EXPECT_LE(largestStepFrom(0.0F, output), usualStep + fadeStep(frameOfAudio) * peak(output) + 1e-6F);
+    EXPECT_GT(peak(output), 1e-3F);
 }
 
 TEST_F(StoppingTest, AChangeOfVoicePassesThroughSilence) {
@@ -200,8 +200,8 @@ TEST_F(StoppingTest, AChangeOfVoicePassesThroughSilence) {
     voice_.slide();
     other.slide();
     const std::uint64_t before = rendered();
-    const std::vector<float> heard = effect.process(frameOfAudio).channel(1);
-    EXPECT_EQ(heard[stopFrames - 1], 0.0F);
+    const std::vector<float> output = effect.process(frameOfAudio).channel(1);
+    EXPECT_EQ(output[stopFrames - 1], 0.0F);
     EXPECT_EQ(rendered(), before + stopFrames);
     EXPECT_EQ(other.statistics().rendered_frames, frameOfAudio - stopFrames);
 }
