@@ -89,7 +89,6 @@ const std::map<std::string, inference::SolverKind>& solverNames() {
     return names;
 }
 
-
 const model::Tier& chooseTier(const model::ModelFile& model, const std::string& quality) {
     if (quality.empty()) {
         return model.header().tiers[model.header().defaultTier];

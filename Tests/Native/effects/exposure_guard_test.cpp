@@ -171,7 +171,8 @@ TEST(ExposureGuardTest, TheDailyExposureApproachesItsLimitAndDoesNotPassIt) {
     ExposureGuard guard(voiceRateHz, shortDay());
     Session session(guard);
     session.play(1000.0, {{16.0, 20.0}});
-    EXPECT_LE(session.highestDailyMps2, 2.5 * 1.1) << "the dose limit was exceeded by more than the sound while the gain moves";
+    EXPECT_LE(session.highestDailyMps2, 2.5 * 1.1)
+        << "the dose limit was exceeded by more than the sound while the gain moves";
     EXPECT_GT(session.highestDailyMps2, 2.4);
 }
 

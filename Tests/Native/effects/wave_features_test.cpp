@@ -126,7 +126,8 @@ TEST(WaveFeaturesTest, TheCentroidLiesBetweenTwoTonesAndIsClampedToTheDevice) {
     options.minFrequencyHz = 170.0;
     options.maxFrequencyHz = 180.0;
     for (const WaveFrame& frame : steadyFrames(wave, options)) {
-        ASSERT_NEAR(static_cast<double>(frame.centroidHz), 150.0, 5.0) << "both tones are equally far above their thresholds";
+        ASSERT_NEAR(static_cast<double>(frame.centroidHz), 150.0, 5.0)
+            << "both tones are equally far above their thresholds";
         ASSERT_EQ(frame.frequencyHz, 170.0F);
     }
 }

@@ -137,7 +137,8 @@ TEST_F(PanicTest, AnEmptyBlockDoesNotEndAPanic) {
     device.voice().renderer.render({}, 48000.0);
     const std::size_t begin = device.output.size();
     device.renderBlock();
-    EXPECT_LE(testing::largestStep(from(device, begin - 1)), 3.0F * ordinaryStep) << "the output must fade without a step";
+    EXPECT_LE(testing::largestStep(from(device, begin - 1)), 3.0F * ordinaryStep)
+        << "the output must fade without a step";
     EXPECT_EQ(device.output.back(), 0.0F);
 }
 

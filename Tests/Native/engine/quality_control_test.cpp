@@ -141,7 +141,8 @@ QualityControl controlByAccuracy(double first, double second, double third) {
 
 TEST(QualityControlTest, TheOrderOfAccuracyDecidesAndNotTheModelsOrder) {
     EXPECT_EQ(controlByAccuracy(0.2, 0.5, 1.5).tier(), 1U);
-    EXPECT_EQ(controlByAccuracy(0.2, 3.5, 1.5).tier(), 2U) << "the most accurate tier does not fit, so the second most accurate is chosen";
+    EXPECT_EQ(controlByAccuracy(0.2, 3.5, 1.5).tier(), 2U)
+        << "the most accurate tier does not fit, so the second most accurate is chosen";
     EXPECT_EQ(controlByAccuracy(0.2, 3.5, 3.5).tier(), 0U);
 }
 
