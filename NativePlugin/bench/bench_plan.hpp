@@ -1,5 +1,7 @@
 #pragma once
 
+#include "engine/quality_control.hpp"
+
 #include <algorithm>
 #include <cstddef>
 #include <string_view>
@@ -8,7 +10,7 @@
 namespace haptoflow::bench {
 
 inline constexpr double outputRateHz = 48000.0;
-inline constexpr double updateRateHz = 72.0;
+inline constexpr double updateRateHz = engine::defaultUpdateRateHz;
 /// The block length whose figures stand for the others where one is asked for.
 inline constexpr std::size_t usualBlockFrames = 256;
 

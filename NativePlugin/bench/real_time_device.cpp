@@ -1,7 +1,7 @@
 #include "bench/real_time_device.hpp"
 
 #include "bench/bench_clock.hpp"
-#include "engine/thread_priority.hpp"
+#include "engine/worker_thread.hpp"
 
 #include <cmath>
 #include <utility>

@@ -199,7 +199,7 @@ double microsecondsPerBlock(effects::Compensation& compensation, std::vector<flo
 
 void describeCompensation(const ActuatorProfile& profile, effects::Compensation& compensation,
                           const effects::CompensationSettings& settings) {
-    std::cout << "\nCompensation, at most +" << fixedDecimals(settings.largestBoostDecibels, 1) << " dB\n";
+    std::cout << "\nCompensation, at most +" << fixedDecimals(settings.maximumBoostDecibels, 1) << " dB\n";
     if (compensation.isTransparent()) {
         std::cout << "  none: the profile asks for no change\n";
         return;
@@ -369,7 +369,7 @@ void addShow(CLI::App& actuator, CommandOutcome& outcome) {
     command->add_option("profile", options->profile, "A profile's file, or a built-in one: flat, voice-coil")
         ->required()
         ->type_name("PROFILE");
-    command->add_option("--boost", options->compensation.largestBoostDecibels, "Bound of the compensation")
+    command->add_option("--boost", options->compensation.maximumBoostDecibels, "Bound of the compensation")
         ->check(decimalBetween(0.0, 24.0, "dB"))
         ->capture_default_str();
     command->add_option("--plot", options->plotPath, "Actuator, compensation and both together as a picture")

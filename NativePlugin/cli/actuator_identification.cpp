@@ -2,7 +2,7 @@
 
 #include "decimal_number.hpp"
 #include "dsp/fourier_transform.hpp"
-#include "effects/minimum_phase.hpp"
+#include "effects/parallel_filter.hpp"
 #include "exit_codes.hpp"
 
 #include <algorithm>

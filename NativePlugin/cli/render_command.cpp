@@ -5,6 +5,7 @@
 #include "engine/offline_renderer.hpp"
 #include "exit_codes.hpp"
 #include "inference/onnx_segment_generator.hpp"
+#include "inference/tier_graphs.hpp"
 #include "model/model_file.hpp"
 #include "model_location.hpp"
 #include "near_words.hpp"
@@ -88,22 +89,6 @@ const std::map<std::string, inference::SolverKind>& solverNames() {
     return names;
 }
 
-std::string nameOf(inference::SolverKind kind) {
-    return std::ranges::find(solverNames(), kind, [](const auto& entry) { return entry.second; })->first;
-}
-
-inference::SolverKind kindOf(model::TierSolver solver) {
-    switch (solver) {
-        case model::TierSolver::euler:
-            return inference::SolverKind::euler;
-        case model::TierSolver::heun:
-            return inference::SolverKind::heun;
-        case model::TierSolver::midpoint:
-            break;
-    }
-    return inference::SolverKind::midpoint;
-}
-
 const model::Tier& chooseTier(const model::ModelFile& model, const std::string& quality) {
     if (quality.empty()) {
         return model.header().tiers[model.header().defaultTier];
@@ -125,7 +110,7 @@ const model::Tier& chooseTier(const model::ModelFile& model, const std::string& 
 /// The solver that the options ask for, where it is one that the tier obeys.
 inference::SolverSettings chooseSolver(const model::Tier& tier, const std::string& solver, std::optional<int> steps) {
     if (!steps) {
-        return {.kind = kindOf(tier.solver), .steps = tier.steps};
+        return inference::defaultSolver(tier);
     }
     if (tier.kind == model::TierKind::direct) {
         throw UsageError("--solver and --steps have no effect on the tier '" + tier.name +
@@ -380,7 +365,7 @@ void runRender(const RenderOptions& options) {
                                  .tier = tier.name,
                                  .solver = !isSolved ? ""
                                            : isEuler ? "euler"
-                                                     : nameOf(solver.kind),
+                                                     : std::string(model::solverName(solver.kind)),
                                  .steps = solver.steps,
                                  .outputRateHz = options.engine.outputRateHz,
                                  .missedTouches = missedTouches},

@@ -16,8 +16,8 @@ using namespace haptoflow::capi;
 namespace {
 
 constexpr uint32_t usualBatchVoices = 8;
-constexpr double usualUpdateRateHz = 72.0;
-constexpr double usualBudgetShare = 0.25;
+constexpr double usualUpdateRateHz = engine::defaultUpdateRateHz;
+constexpr double usualBudgetShare = engine::defaultBudgetShare;
 constexpr double usualFullScaleMps2 = HAPTOFLOW_DEFAULT_FULL_SCALE_MPS2;
 static_assert(usualFullScaleMps2 == dsp::SoftLimiter::defaultFullScaleMps2);
 

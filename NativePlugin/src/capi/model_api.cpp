@@ -36,13 +36,13 @@ const Element& elementAt(const std::vector<Element>& elements, uint32_t index, c
     return elements[index];
 }
 
-haptoflow_solver solverOf(model::TierSolver solver) {
+haptoflow_solver solverOf(model::SolverKind solver) {
     switch (solver) {
-        case model::TierSolver::euler:
+        case model::SolverKind::euler:
             return HAPTOFLOW_SOLVER_EULER;
-        case model::TierSolver::heun:
+        case model::SolverKind::heun:
             return HAPTOFLOW_SOLVER_HEUN;
-        case model::TierSolver::midpoint:
+        case model::SolverKind::midpoint:
             break;
     }
     return HAPTOFLOW_SOLVER_MIDPOINT;

@@ -233,7 +233,7 @@ haptoflow_status haptoflow_voice_set_signal(haptoflow_voice voice, double freque
         }
         Settings settings;
         if (amplitude_mps2 > 0.0) {
-            if (!(frequency_hz >= Settings::lowestHz && frequency_hz <= Settings::highestHz)) {
+            if (!(frequency_hz >= Settings::minimumHz && frequency_hz <= Settings::maximumHz)) {
                 throw std::invalid_argument("frequency_hz is " + std::to_string(frequency_hz) + "; expected 20 to 500");
             }
             settings = {static_cast<float>(frequency_hz), static_cast<float>(amplitude_mps2)};

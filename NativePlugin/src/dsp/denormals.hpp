@@ -8,8 +8,8 @@
 
 namespace haptoflow::dsp {
 
-/// Flushes denormal floats to zero on the calling thread for as long as it lives, then restores what it found.
-/// x86: results and operands (MXCSR FTZ and DAZ); 64-bit ARM: both (FPCR FZ); elsewhere it does nothing.
+/// Flushes denormal floats to zero on the calling thread until destruction, then restores the previous mode. Applies to
+/// results and operands on x86 (MXCSR FTZ and DAZ) and 64-bit ARM (FPCR FZ); does nothing on other processors.
 class [[nodiscard]] ScopedFlushDenormals {
 public:
 #if defined(__SSE2__) || defined(_M_X64)

@@ -7,8 +7,8 @@ namespace haptoflow::dsp {
 
 enum class Direction { forward, inverse };
 
-/// The discrete Fourier transform in place; the inverse is divided by the length. For design and analysis: allocates.
-/// Throws std::invalid_argument unless the length is a power of two.
+/// Discrete Fourier transform in place; the inverse divides by the length. Allocates: for filter design and analysis,
+/// not for the audio thread. Throws std::invalid_argument unless the length is a power of two.
 void fourierTransform(std::vector<std::complex<double>>& values, Direction direction);
 
 }  // namespace haptoflow::dsp

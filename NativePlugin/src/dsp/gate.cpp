@@ -1,11 +1,11 @@
 #include "dsp/gate.hpp"
 
+#include "dsp/sample_rates.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
-#include <stdexcept>
-#include <string>
 
 namespace haptoflow::dsp {
 namespace {
@@ -13,20 +13,12 @@ namespace {
 constexpr double openSeconds = 0.002;
 
 std::uint64_t wholeSamples(double seconds, double sampleRateHz) {
-    // The nudge keeps 0.005 s x 2,000 Hz from becoming 9 samples by rounding.
+    // The small addition keeps rounding from turning 0.005 s at 2,000 Hz into 9 samples.
     return std::max<std::uint64_t>(1, static_cast<std::uint64_t>(seconds * sampleRateHz + 1e-6));
 }
 
-double checkedRate(double sampleRateHz) {
-    if (!(sampleRateHz >= 500.0 && sampleRateHz <= 768000.0)) {
-        throw std::invalid_argument("gate sample rate is " + std::to_string(sampleRateHz) +
-                                    " Hz; expected 500 to 768000 Hz");
-    }
-    return sampleRateHz;
-}
-
-/// Half a period of the raised cosine: 0 at the first point, 1 at the last. Linear interpolation between its points
-/// errs by (pi / 1024)^2 / 16, below 1e-6.
+/// Half a period of a raised cosine, from 0 to 1. The error of linear interpolation between its points is
+/// (pi / 1024)^2 / 16, below 1e-6.
 using Curve = std::array<float, 1025>;
 
 const Curve& raisedCosine() {
@@ -45,7 +37,7 @@ const Curve& raisedCosine() {
 
 Gate::Gate(double sampleRateHz, double closeSeconds)
     : curve_(raisedCosine()),
-      openSamples_(wholeSamples(openSeconds, checkedRate(sampleRateHz))),
+      openSamples_(wholeSamples(openSeconds, requireSampleRate(sampleRateHz))),
       closeSamples_(wholeSamples(closeSeconds, sampleRateHz)) {}
 
 void Gate::reset() noexcept {

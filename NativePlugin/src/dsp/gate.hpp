@@ -5,29 +5,29 @@
 
 namespace haptoflow::dsp {
 
-/// Opens within 2 ms and closes within 5 ms (or as long as it is told) on a raised cosine, and may be turned round at
-/// any sample without a step. Closed means zeros, bit for bit, whatever comes in; fully open means the signal
-/// untouched. All on the audio thread: allocates nothing, waits for nothing. For a turn inside a block, process up to
-/// it first.
+/// Opens within 2 ms and closes within `closeSeconds` along a raised cosine. It can change direction at any sample
+/// without a step. A closed gate outputs exact zeros for any input, an open one passes the signal unchanged. To change
+/// direction inside a block, process the samples before the change first. Audio thread: allocates nothing, waits for
+/// nothing.
 class Gate {
 public:
-    static constexpr double usualCloseSeconds = 0.005;
+    static constexpr double defaultCloseSeconds = 0.005;
 
-    /// Starts closed. Throws std::invalid_argument unless `sampleRateHz` is 500-768,000. `closeSeconds` is above 0.
-    explicit Gate(double sampleRateHz, double closeSeconds = usualCloseSeconds);
+    /// Starts closed. `closeSeconds` is above 0. Throws std::invalid_argument unless `sampleRateHz` is the waveform
+    /// rate or an output rate.
+    explicit Gate(double sampleRateHz, double closeSeconds = defaultCloseSeconds);
 
-    /// From the next sample on.
+    /// Starts opening with the next sample.
     void open() noexcept { opening_ = true; }
-    /// From the next sample on; that sample is already quieter, and silence comes 5 ms later at most (or what it was
-    /// told).
+    /// Starts closing: the next sample is already attenuated, and the output is silent within `closeSeconds`.
     void close() noexcept { opening_ = false; }
-    /// Closed at once, without a ramp: for a stream that starts anew.
+    /// Closes at once, without a ramp: for a new stream.
     void reset() noexcept;
-    /// Fully open at once, without a ramp: for what begins at zero by itself.
+    /// Opens fully at once, without a ramp: for a signal that starts at zero by itself.
     void openAtOnce() noexcept;
 
     [[nodiscard]] bool isOpening() const noexcept { return opening_; }
-    /// True once silence is reached and nothing has asked for opening since.
+    /// True once the output is silent, until the next `open`.
     [[nodiscard]] bool isClosed() const noexcept { return !opening_ && position_ == 0; }
     /// Advances by one sample and returns its gain in [0, 1].
     [[nodiscard]] float nextGain() noexcept;
@@ -37,11 +37,12 @@ public:
 private:
     [[nodiscard]] std::uint64_t fullyOpen() const noexcept { return openSamples_ * closeSamples_; }
 
-    // Made at construction, so that the audio thread never computes it.
+    // Computed before the audio thread uses it.
     std::span<const float> curve_;
     std::uint64_t openSamples_;
     std::uint64_t closeSamples_;
-    // Integer, in 1 / (open * close samples): both ramps land exactly, in any mix of turns.
+    // In units of 1 / (open samples * close samples). An integer, so that both ramps end exactly, whatever the changes
+    // of direction.
     std::uint64_t position_ = 0;
     bool opening_ = false;
 };

@@ -6,7 +6,7 @@
 namespace haptoflow::dsp {
 namespace {
 
-// The standard library's cyl_bessel_i is missing from libc++ (Android, Apple), hence the series.
+// A power series, because libc++ (Android, Apple) has no std::cyl_bessel_i.
 double besselI0(double x) noexcept {
     const double quarterSquare = 0.25 * x * x;
     double term = 1.0;

@@ -1,36 +1,35 @@
 #pragma once
 
-#include <cstddef>
+#include "dsp/gain_ramp.hpp"
+
+#include <cstdint>
 #include <span>
 
 namespace haptoflow::dsp {
 
-/// A gain that moves to its target in a straight line, so that no change of strength or level is heard as a click.
-/// All on the audio thread: allocates nothing, waits for nothing. A target that comes from another thread is read
-/// from its atomic once a block and handed over here.
+/// A gain that takes the same time for every change, so that no change of strength or level clicks. Audio thread:
+/// allocates nothing, waits for nothing. Another thread sets a target through an atomic, which the audio thread reads
+/// once a block and passes to `setTarget`.
 class LevelSmoother {
 public:
-    /// Throws std::invalid_argument unless `sampleRateHz` is above 0, `rampSeconds` is 0-1 and `initialGain` is finite.
+    /// Throws std::invalid_argument unless `sampleRateHz` is the waveform rate or an output rate, `rampSeconds` is 0-1
+    /// and `initialGain` is finite.
     explicit LevelSmoother(double sampleRateHz, double rampSeconds = 0.01, float initialGain = 1.0F);
 
-    /// Heads for `gain`, to arrive one ramp time from now; a non-finite one is ignored. Setting the target it already
-    /// heads for changes nothing.
+    /// Starts a ramp that reaches `gain` after one ramp time. Ignores a non-finite gain and the present target.
     void setTarget(float gain) noexcept;
-    /// Takes on `gain` at once, for a stream that starts anew; a non-finite one is ignored.
+    /// Takes the value `gain` at once, for a new stream. Ignores a non-finite gain.
     void reset(float gain) noexcept;
-    [[nodiscard]] float target() const noexcept { return target_; }
-    [[nodiscard]] bool isSettled() const noexcept { return remaining_ == 0; }
-    /// Advances by one sample and returns its gain. Arrives exactly.
-    [[nodiscard]] float next() noexcept;
-    /// Multiplies in place; a settled gain of 1 leaves the samples as they are.
+    [[nodiscard]] float target() const noexcept { return ramp_.target(); }
+    [[nodiscard]] bool isSettled() const noexcept { return ramp_.isSettled(); }
+    /// Advances by one sample and returns its gain. The last gain of a ramp is exactly the target.
+    [[nodiscard]] float next() noexcept { return ramp_.next(); }
+    /// Multiplies in place. A settled gain of 1 leaves every sample unchanged.
     void process(std::span<float> samples) noexcept;
 
 private:
-    std::size_t rampSamples_;
-    std::size_t remaining_ = 0;
-    double current_;
-    double step_ = 0.0;
-    float target_;
+    std::uint32_t rampSamples_;
+    GainRamp ramp_;
 };
 
 }  // namespace haptoflow::dsp

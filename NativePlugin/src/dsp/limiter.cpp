@@ -30,8 +30,8 @@ void SoftLimiter::setCeiling(float ceiling) noexcept {
     }
 }
 
-// With knee k, ceiling c and u = (x - k) / (c - k) the curve is k + (c - k) u / (1 + u): slope 1 at the knee, asymptote
-// c. This form of it survives x = infinity; the clamp catches the last bit's rounding at either end.
+// With knee k, ceiling c and u = (x - k) / (c - k), the curve is k + (c - k) u / (1 + u): slope 1 at the knee,
+// asymptote c. This form is valid for x = infinity; the clamp corrects rounding of the last bit at both ends.
 float SoftLimiter::bend(float aboveKnee) const noexcept {
     const float headroom = ceiling_ - kneeStart_;
     const float distance = headroom * headroom / (headroom + (aboveKnee - kneeStart_));

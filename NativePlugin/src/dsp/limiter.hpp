@@ -5,32 +5,33 @@
 
 namespace haptoflow::dsp {
 
-/// Takes m/s^2 to the output's +-1: exactly linear to a knee at 0.7 of the ceiling, above it a smooth, monotone
-/// approach to the ceiling that never gets there, however large the input. Memoryless, so it adds no delay. Audio
-/// thread: allocates nothing, waits for nothing.
+/// Converts m/s^2 to the output's +-1. The curve is exactly linear up to a knee at 0.7 of the ceiling; above the knee
+/// it approaches the ceiling monotonically and never reaches it. It has no memory and adds no delay. Audio thread:
+/// allocates nothing, waits for nothing.
 class SoftLimiter {
 public:
-    /// Where the knee begins, as a share of the ceiling.
+    /// Start of the knee, as a share of the ceiling.
     static constexpr float knee = 0.7F;
-    /// People's strokes over all labels of the shipped model leave less than one sample in a thousand above the knee
-    /// (Training/results/default/full-scale.json). The header, C#, Python and JavaScript say the same; a test compares.
+    /// At this full scale, less than one sample in a thousand lies above the knee when recorded strokes are rendered
+    /// over all labels of the shipped model (Training/results/default/full-scale.json). The C header, C#, Python and
+    /// JavaScript repeat the value; a test compares them.
     static constexpr float defaultFullScaleMps2 = 200.0F;
 
-    /// `fullScaleMps2` is the acceleration that would be 1 without a knee. Throws std::invalid_argument unless it is
-    /// finite and above 0.
+    /// `fullScaleMps2` is the acceleration that the linear part of the curve maps to 1. Throws std::invalid_argument
+    /// unless it is finite and above 0.
     explicit SoftLimiter(float fullScaleMps2 = defaultFullScaleMps2);
 
-    /// Largest magnitude of the output, clamped to 0-1, from the next sample on; a non-finite one is ignored.
+    /// Sets the limit of the output's magnitude, clamped to 0-1, from the next sample on. Ignores a non-finite value.
     void setCeiling(float ceiling) noexcept;
 
-    /// The limited value of one sample; 0 for NaN and infinities, uncounted.
+    /// The limited value of one sample; 0 for NaN and infinities. Does not count.
     [[nodiscard]] float limit(float mps2) const noexcept;
     /// Limits in place and counts.
     void process(std::span<float> samples) noexcept;
 
-    /// How many samples `process` has replaced by 0 because they were not finite.
+    /// Number of non-finite samples that `process` replaced by 0.
     [[nodiscard]] std::uint64_t nonFiniteCount() const noexcept { return nonFiniteCount_; }
-    /// How many samples `process` has bent, that is, found above the knee.
+    /// Number of samples that `process` found above the knee.
     [[nodiscard]] std::uint64_t limitedCount() const noexcept { return limitedCount_; }
 
 private:

@@ -13,13 +13,13 @@ namespace {
 
 using Complex = std::complex<double>;
 
-// Cubic interpolation of a grid this much finer than the input errs by less than -110 dB.
+// With this grid the error of cubic interpolation is below -110 dB.
 constexpr std::size_t gridPerInputSample = 32;
 constexpr std::size_t halfLength = 27;
 constexpr double attenuationDecibels = 84.0;
-// 18 times the kernel: cepstral aliasing stays below the stopband.
+// 18 times the kernel's length, so that cepstral aliasing stays below the stopband.
 constexpr std::size_t transformLength = std::size_t{1} << 15;
-// Bounds the logarithm at the stopband's zeros.
+// Keeps the logarithm finite at the zeros of the stopband.
 constexpr double magnitudeFloor = 1e-6;
 
 std::vector<Complex> linearPhasePrototype() {
@@ -40,8 +40,8 @@ const MinimumPhaseKernel& MinimumPhaseKernel::shared() {
     return kernel;
 }
 
-// A. V. Oppenheim and R. W. Schafer, "Discrete-Time Signal Processing", the chapter on homomorphic filtering:
-// folding the cepstrum of log |H| onto positive time gives the minimum-phase filter of the same magnitude.
+// Folding the cepstrum of log |H| onto positive time gives the minimum-phase filter of the same magnitude:
+// A. V. Oppenheim and R. W. Schafer, "Discrete-Time Signal Processing", chapter on homomorphic filtering.
 MinimumPhaseKernel::MinimumPhaseKernel() {
     std::vector<Complex> values = linearPhasePrototype();
     fourierTransform(values, Direction::forward);

@@ -8,14 +8,14 @@
 namespace haptoflow::dsp {
 namespace {
 
-constexpr std::size_t pointsPerSample = 256;  // linear interpolation errs by (0.8 pi / 256)^2 / 8, -98 dB
+constexpr std::size_t pointsPerSample = 256;  // error of linear interpolation: (0.8 pi / 256)^2 / 8, -98 dB
 constexpr auto halfLength = static_cast<double>(RateWarp::halfKernelSamples);
 constexpr double attenuationDecibels = 65.0;
 constexpr double closedCutoff = 0.8;  // of half the rate
 constexpr double closedFromRatio = 1.2;
 constexpr double slewPerSample = 0.05;  // 10 ms at 2 kHz
 constexpr double settledDistance = 1e-9;
-// On its way to 1 the ratio heads for this much more, until the read position meets a sample.
+// On the way to 1 the ratio aims this much above 1 until the read position meets a sample.
 constexpr double landingExcess = 0.01;
 constexpr double landingLimit = 0.02;
 
@@ -27,7 +27,7 @@ double smoothStep(double x) noexcept {
 }  // namespace
 
 RateWarp::RateWarp() {
-    // Two rows past the end: interpolation at the rim reads one beyond.
+    // Two points past the end, because interpolation at the edge reads one further.
     kernel_.resize(halfKernelSamples * pointsPerSample + 2);
     const double beta = kaiserBeta(attenuationDecibels);
     for (std::size_t i = 0; i < kernel_.size(); ++i) {
@@ -49,10 +49,6 @@ bool RateWarp::isTransparent() const noexcept {
     return state_.isDirect() && state_.target == 1.0;
 }
 
-double RateWarp::latencyInputSamples() const noexcept {
-    return state_.reach();
-}
-
 std::size_t RateWarp::inputNeeded(std::size_t outputCount) const noexcept {
     State ahead = state_;
     for (std::size_t i = 0; i < outputCount; ++i) {
@@ -65,8 +61,8 @@ std::size_t RateWarp::inputNeeded(std::size_t outputCount) const noexcept {
 void RateWarp::process(std::span<const float> input, std::span<float> output) noexcept {
     std::size_t next = 0;
     for (float& sample : output) {
-        const std::uint64_t wanted = state_.consumedAfterNext();
-        for (; state_.consumed < wanted; ++state_.consumed, ++next) {
+        const std::uint64_t needed = state_.consumedAfterNext();
+        for (; state_.consumed < needed; ++state_.consumed, ++next) {
             history_[state_.consumed % historyLength] = next < input.size() ? input[next] : 0.0F;
         }
         sample = interpolate();
@@ -103,7 +99,7 @@ std::uint64_t RateWarp::State::consumedAfterNext() const noexcept {
 void RateWarp::State::advance() noexcept {
     const double toNextSample = fraction > 0.0 ? 1.0 - fraction : 0.0;
     if (target == 1.0 && ratio - 1.0 <= landingLimit && ratio - 1.0 >= toNextSample) {
-        // Another step of this size would pass a sample: step onto it and stay.
+        // The next step of this size would pass an input sample: stop on that sample at a ratio of 1.
         whole += fraction > 0.0 ? 2 : 1;
         fraction = 0.0;
         ratio = 1.0;

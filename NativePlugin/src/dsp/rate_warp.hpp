@@ -8,54 +8,53 @@
 
 namespace haptoflow::dsp {
 
-/// Plays a waveform r times faster, r in [1, 4], at its own sample rate (2 kHz in, 2 kHz out), low-passed so that what
-/// would land above half the rate is gone instead of folded down.
+/// Plays a waveform r times faster, 1 <= r <= 4, with the same sample rate of 2 kHz at input and output. A low-pass
+/// removes the frequencies that would alias.
 ///
-/// With output frequencies g = r f: from r = 1.2 on, gain within 0.1 dB to g = 600 Hz, -6 dB at 800 Hz, aliases below
-/// -60 dB. For r in (1, 1.2) the edge slides down from the full band, and aliases stay above 800 Hz.
-/// At r = 1 the path is direct: the output is the input, bit for bit, without delay. When r leaves 1 the warp consumes
-/// 10 r input samples ahead, which its kernel needs, and when r returns it consumes nothing until the read position has
-/// caught up. The read position itself never jumps, so neither change-over clicks.
-/// r follows its target with a 10 ms time constant; on its way back to 1 it dwells just above until the read position
-/// meets an input sample, at most 100 output samples.
-/// Audio thread: `process` allocates nothing, waits for nothing, and does not depend on how it is cut into blocks as
-/// long as targets change at the same samples.
+/// With output frequencies g = r f: for r >= 1.2 the gain is within 0.1 dB up to g = 600 Hz and -6 dB at 800 Hz, and
+/// aliases are below -60 dB. Between r = 1 and 1.2 the cut-off moves down from the full band; aliases stay above 800
+/// Hz.
+///
+/// At r = 1 the output equals the input bit for bit, without delay. When r leaves 1, the warp consumes 10 r input
+/// samples in advance, which its kernel needs; when r returns to 1, it consumes nothing until the read position has
+/// caught up. The read position never jumps, so neither transition clicks. r follows its target with a time constant of
+/// 10 ms. On the way back to 1 it stays just above 1, for at most 100 output samples, until the read position meets an
+/// input sample.
+///
+/// The output does not depend on how the stream is cut into blocks, as long as targets change at the same samples.
+/// Audio thread: `process` allocates nothing and waits for nothing.
 class RateWarp {
 public:
     static constexpr double maximumRatio = 4.0;
-    /// Half the kernel's length, in output samples: 5 ms at 2 kHz, and the delay while r is above 1.
+    /// Half the kernel's length in output samples, 5 ms at 2 kHz; also the delay while r is above 1.
     static constexpr std::size_t halfKernelSamples = 10;
-    /// The longest past that `prime` takes.
+    /// Number of past samples that `prime` can use.
     static constexpr std::size_t historyLength = 128;
 
     /// Allocates: not on the audio thread.
     RateWarp();
 
-    /// Where r is to go; clamped to [1, 4], a non-finite target is ignored.
+    /// Sets the target of r, clamped to [1, 4]. Ignores a non-finite value.
     void setTargetRatio(double ratio) noexcept;
-    /// r as of the next output sample.
+    /// r at the next output sample.
     [[nodiscard]] double ratio() const noexcept { return state_.ratio; }
-    /// True while the output is a plain delay of the input.
+    /// True while the output equals the input.
     [[nodiscard]] bool isTransparent() const noexcept;
-    /// By how many input samples the kernel reads ahead of the read position: 0 while direct, else 10 r.
-    [[nodiscard]] double latencyInputSamples() const noexcept;
-    /// How many input samples the next `process` of `outputCount` samples will consume. Bounded by 4 a sample plus 41.
+    /// Number of input samples that the next `process` of `outputCount` samples consumes: at most 4 outputCount + 41.
     [[nodiscard]] std::size_t inputNeeded(std::size_t outputCount) const noexcept;
-    /// `input` holds exactly inputNeeded(output.size()) samples; missing ones count as 0, surplus ones are ignored.
+    /// `input` holds inputNeeded(output.size()) samples; missing ones count as 0, surplus ones are ignored.
     void process(std::span<const float> input, std::span<float> output) noexcept;
 
-    /// Input samples consumed since construction or reset.
-    [[nodiscard]] std::uint64_t consumedSamples() const noexcept { return state_.consumed; }
-    /// Input sample (counted from 0 after construction or reset) that the next output is centred on; negative while
-    /// the first ones have not come through.
+    /// The input sample, counted from 0 at construction or reset, on which the next output is centred. Negative at the
+    /// start.
     [[nodiscard]] double readPosition() const noexcept;
-    /// Forgets the past; r and its target become 1.
+    /// Clears the history and sets r and its target to 1.
     void reset() noexcept;
-    /// Starts anew as if `past` (at most `historyLength` samples, oldest first) had just been played at r = 1.
+    /// Restarts as if `past` (at most `historyLength` samples, oldest first) had just been played at r = 1.
     void prime(std::span<const float> past) noexcept;
 
 private:
-    // What moves, apart from the samples: `inputNeeded` runs a copy of it ahead.
+    // Everything that changes except the samples; `inputNeeded` advances a copy.
     struct State {
         double ratio = 1.0;
         double target = 1.0;
@@ -69,7 +68,7 @@ private:
         void advance() noexcept;
     };
     struct KernelPoint {
-        float open;    // cut-off at half the rate: exactly a unit impulse at r = 1
+        float open;    // cut-off at half the rate: a unit impulse at r = 1
         float closed;  // cut-off at 0.4 of the rate
     };
 
@@ -77,7 +76,7 @@ private:
     [[nodiscard]] float interpolate() const noexcept;
 
     State state_;
-    std::vector<KernelPoint> kernel_;  // one side, over 0..halfKernelSamples output samples
+    std::vector<KernelPoint> kernel_;  // one side of it, from 0 to halfKernelSamples output samples
     std::array<float, historyLength> history_{};
 };
 

@@ -6,7 +6,7 @@
 namespace haptoflow::dsp {
 namespace {
 
-// Mean square of 1e-4 m/s^2, a hundredth of what a fingertip feels at its most sensitive.
+// Mean square of an amplitude of 1e-4 m/s^2, a hundredth of a fingertip's lowest detection threshold.
 constexpr double silentMeanSquare = 1e-8;
 
 }  // namespace
@@ -28,7 +28,7 @@ double spliceCorrelation(std::span<const float> continuation, std::span<const fl
         return 1.0;
     }
     const double correlation = product / std::sqrt(continuationEnergy * successorEnergy);
-    // Written so that a NaN, from a non-finite sample, counts as uncorrelated.
+    // In this form a NaN, which a non-finite sample causes, counts as uncorrelated.
     return correlation > 0.0 ? std::min(correlation, 1.0) : 0.0;
 }
 
@@ -44,8 +44,8 @@ float Splice::next(float continuation, float successor) noexcept {
     }
     const double a = static_cast<double>(index_ + 1) / static_cast<double>(length_ + 1);
     ++index_;
-    // The root's argument equals (1-a)^2 + a^2 + 2 a (1-a) rho, in a form that is exactly 1 at rho = 1; likewise the
-    // sum is written around the difference, which is exactly 0 for identical samples.
+    // The argument of the root equals (1-a)^2 + a^2 + 2 a (1-a) rho, written so that it is exactly 1 at rho = 1. The
+    // sum uses the difference because that is exactly 0 for identical samples.
     const double norm = std::sqrt(1.0 - 2.0 * a * (1.0 - a) * (1.0 - correlation_));
     const double difference = static_cast<double>(continuation) - static_cast<double>(successor);
     return static_cast<float>((static_cast<double>(successor) + (1.0 - a) * difference) / norm);

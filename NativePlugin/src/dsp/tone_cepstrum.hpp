@@ -3,25 +3,30 @@
 #include <array>
 #include <cstddef>
 #include <functional>
+#include <numbers>
 
 namespace haptoflow::dsp {
 
+/// Natural logarithm of the amplitude ratio that 1 dB stands for.
+inline constexpr double nepersPerDecibel = std::numbers::ln10 / 20.0;
+
 inline constexpr std::size_t toneTaps = 64;
 
-/// The impulse response of a tone: a minimum-phase filter for samples at 2 kHz.
+/// Impulse response of a tone: a minimum-phase filter at the waveform rate.
 using ToneKernel = std::array<float, toneTaps>;
 
-/// The beginning of the complex cepstrum of a minimum-phase filter. What multiplies magnitudes adds cepstra, and a mean
-/// of gains in dB is the mean of their cepstra: tones are mixed and composed here, and made kernels afterwards.
+/// The first coefficients of a minimum-phase filter's complex cepstrum. Adding cepstra multiplies the filters'
+/// magnitudes, and a mean of cepstra is the filter with the mean gain in dB; so tones are mixed as cepstra and turned
+/// into kernels afterwards.
 using ToneCepstrum = std::array<double, toneTaps>;
 
 /// Gain in dB at a frequency in Hz.
 using ToneGain = std::function<double(double frequencyHz)>;
 
-/// The cepstrum of the tone whose gain is `gainDb`, asked at 129 frequencies from 0 to 1,000 Hz. Allocates.
+/// Cepstrum of the tone with the gain `gainDb`, which is evaluated at 129 frequencies from 0 to 1,000 Hz. Allocates.
 [[nodiscard]] ToneCepstrum toneCepstrum(const ToneGain& gainDb);
 
-/// The kernel of a cepstrum; it passes what it leaves alone undelayed. Allocates nothing.
+/// Kernel of a cepstrum. A gain of 0 dB at all frequencies gives a unit impulse without delay. Allocates nothing.
 [[nodiscard]] ToneKernel toneKernel(const ToneCepstrum& cepstrum) noexcept;
 
 }  // namespace haptoflow::dsp

@@ -5,59 +5,59 @@
 namespace haptoflow::dsp {
 namespace {
 
-constexpr ToneKernel plain = [] {
+constexpr ToneKernel unitImpulse = [] {
     ToneKernel kernel{};
     kernel[0] = 1.0F;
     return kernel;
 }();
 
-const ToneKernel& orPlain(const ToneKernel* kernel) noexcept {
-    return kernel == nullptr ? plain : *kernel;
+const ToneKernel& orUnitImpulse(const ToneKernel* kernel) noexcept {
+    return kernel == nullptr ? unitImpulse : *kernel;
 }
 
-float shareLeft(std::size_t fadeLeft) noexcept {
+float remainingShare(std::size_t fadeLeft) noexcept {
     return static_cast<float>(fadeLeft) / static_cast<float>(ToneFilter::fadeSamples);
 }
 
 }  // namespace
 
-bool ToneFilter::isHeadingFor(const ToneKernel* kernel) const noexcept {
+bool ToneFilter::isTarget(const ToneKernel* kernel) const noexcept {
     return hasTone_ == (kernel != nullptr) && (kernel == nullptr || to_ == *kernel);
 }
 
 void ToneFilter::setTone(const ToneKernel* kernel, std::span<const float, memorySamples> past) noexcept {
-    if (isHeadingFor(kernel)) {
+    if (isTarget(kernel)) {
         return;
     }
     if (!active_) {
-        from_ = plain;
+        from_ = unitImpulse;
         std::ranges::reverse_copy(past, memory_.begin());
         active_ = true;
     } else {
-        // From where it is now, however far the last change has come.
-        const float left = shareLeft(fadeLeft_);
+        // Start from the present kernel, which may be in the middle of an earlier change.
+        const float left = remainingShare(fadeRemaining_);
         for (std::size_t tap = 0; tap < toneTaps; ++tap) {
             from_[tap] = to_[tap] + left * (from_[tap] - to_[tap]);
         }
     }
     hasTone_ = kernel != nullptr;
-    to_ = orPlain(kernel);
-    fadeLeft_ = fadeSamples;
+    to_ = orUnitImpulse(kernel);
+    fadeRemaining_ = fadeSamples;
 }
 
 void ToneFilter::reset(const ToneKernel* kernel) noexcept {
     hasTone_ = kernel != nullptr;
     active_ = hasTone_;
-    to_ = orPlain(kernel);
-    fadeLeft_ = 0;
+    to_ = orUnitImpulse(kernel);
+    fadeRemaining_ = 0;
     memory_.fill(0.0F);
 }
 
 void ToneFilter::settle() noexcept {
-    if (fadeLeft_ > 0) {
-        --fadeLeft_;
+    if (fadeRemaining_ > 0) {
+        --fadeRemaining_;
     }
-    active_ = hasTone_ || fadeLeft_ > 0;
+    active_ = hasTone_ || fadeRemaining_ > 0;
 }
 
 void ToneFilter::process(std::span<float> samples) noexcept {
@@ -65,15 +65,15 @@ void ToneFilter::process(std::span<float> samples) noexcept {
         if (!active_) {
             return;
         }
-        float heard = to_[0] * sample;
+        float target = to_[0] * sample;
         float before = from_[0] * sample;
         for (std::size_t tap = 0; tap < memorySamples; ++tap) {
-            heard += to_[tap + 1] * memory_[tap];
+            target += to_[tap + 1] * memory_[tap];
             before += from_[tap + 1] * memory_[tap];
         }
         std::ranges::copy_backward(std::span(memory_).first(memorySamples - 1), memory_.end());
         memory_[0] = sample;
-        sample = fadeLeft_ > 0 ? heard + shareLeft(fadeLeft_) * (before - heard) : heard;
+        sample = fadeRemaining_ > 0 ? target + remainingShare(fadeRemaining_) * (before - target) : target;
         settle();
     }
 }

@@ -8,35 +8,35 @@
 
 namespace haptoflow::dsp {
 
-/// Applies a tone to a waveform at 2 kHz. Another kernel takes over within 10 ms, in a straight line from tap to tap.
-/// Without a tone nothing runs. Allocates nothing, waits for nothing; audio thread.
+/// Applies a tone to a waveform at 2 kHz. A change of kernel takes 10 ms, during which each tap moves linearly. Without
+/// a tone the filter does not run. Audio thread: allocates nothing, waits for nothing.
 class ToneFilter {
 public:
     static constexpr std::size_t memorySamples = toneTaps - 1;
     static constexpr std::size_t fadeSamples = 20;
 
-    /// Null for no tone. Glides there while `past` is what has just been played: its newest samples, of which the
-    /// filter's memory is made where it has not been running.
+    /// Starts the change to `kernel` (null for no tone). `past` holds the samples played last; they fill the filter's
+    /// memory if it was not running.
     void setTone(const ToneKernel* kernel, std::span<const float, memorySamples> past) noexcept;
-    /// The same at once, for a waveform that begins anew; the memory is silence.
+    /// Changes to `kernel` at once and clears the memory, for a new waveform.
     void reset(const ToneKernel* kernel) noexcept;
 
-    /// False where `process` would change nothing.
+    /// False if `process` would change nothing.
     [[nodiscard]] bool isActive() const noexcept { return active_; }
-    /// Whether `kernel` is what the filter is, or is gliding to.
-    [[nodiscard]] bool isHeadingFor(const ToneKernel* kernel) const noexcept;
+    /// Whether the filter has `kernel` or is changing to it.
+    [[nodiscard]] bool isTarget(const ToneKernel* kernel) const noexcept;
     void process(std::span<float> samples) noexcept;
 
 private:
     void settle() noexcept;
 
     bool active_ = false;
-    /// Whether what it heads for is a tone at all.
+    /// Whether the target is a tone.
     bool hasTone_ = false;
     ToneKernel from_{};
     ToneKernel to_{};
-    std::size_t fadeLeft_ = 0;
-    /// The newest first.
+    std::size_t fadeRemaining_ = 0;
+    /// Past input samples, the newest first.
     std::array<float, memorySamples> memory_{};
 };
 

@@ -4,28 +4,20 @@
 #include <array>
 #include <cmath>
 #include <numeric>
-#include <stdexcept>
-#include <string>
 
 #include "dsp/minimum_phase_kernel.hpp"
+#include "dsp/sample_rates.hpp"
 
 namespace haptoflow::dsp {
 namespace {
 
 constexpr std::size_t kernelLength = MinimumPhaseKernel::lengthInputSamples;
 constexpr double rateResolution = 1048576.0;  // 2^20 per Hz
-// Rates with more distinct phases interpolate between this many: error below (pi / 512)^2 / 8, -106 dB.
+// Rates with more distinct phases interpolate between this many; the error is below (pi / 512)^2 / 8, -106 dB.
 constexpr std::size_t maximumPhases = 512;
 
-double checkedRate(const char* name, double rateHz, double lowest, double highest) {
-    if (!(rateHz >= lowest && rateHz <= highest)) {
-        throw std::invalid_argument(std::string(name) + " is " + std::to_string(rateHz) + " Hz; expected " +
-                                    std::to_string(lowest) + " to " + std::to_string(highest) + " Hz");
-    }
-    return rateHz;
-}
-
-// Fixed lanes: the compiler may vectorise without being allowed to reorder, so every machine sums alike.
+// Eight fixed partial sums: the compiler can vectorise them without changing the order of additions, so every machine
+// gets the same result.
 float dotProduct(const float* taps, const float* samples) noexcept {
     constexpr std::size_t lanes = 8;
     static_assert(kernelLength % lanes == 0);
@@ -40,12 +32,10 @@ float dotProduct(const float* taps, const float* samples) noexcept {
 
 }  // namespace
 
-WaveformResampler::WaveformResampler(double outputRateHz, double inputRateHz)
-    : inputRateHz_(checkedRate("input rate", inputRateHz, 500.0, 8000.0)),
-      latencyInputSamples_(static_cast<std::size_t>(std::lround(MinimumPhaseKernel::shared().groupDelay(0.0)))),
-      step_(static_cast<std::uint64_t>(std::llround(inputRateHz * rateResolution))),
-      period_(static_cast<std::uint64_t>(
-          std::llround(checkedRate("output rate", outputRateHz, 8000.0, 192000.0) * rateResolution))),
+WaveformResampler::WaveformResampler(double outputRateHz)
+    : latencyInputSamples_(static_cast<std::size_t>(std::lround(MinimumPhaseKernel::shared().groupDelay(0.0)))),
+      step_(static_cast<std::uint64_t>(std::llround(waveformRateHz * rateResolution))),
+      period_(static_cast<std::uint64_t>(std::llround(requireOutputRate(outputRateHz) * rateResolution))),
       history_(2 * kernelLength) {
     const std::uint64_t common = std::gcd(step_, period_);
     step_ /= common;
@@ -67,7 +57,7 @@ WaveformResampler::WaveformResampler(double outputRateHz, double inputRateHz)
 }
 
 double WaveformResampler::groupDelaySeconds(double frequencyHz) const noexcept {
-    return MinimumPhaseKernel::shared().groupDelay(frequencyHz / inputRateHz_) / inputRateHz_;
+    return MinimumPhaseKernel::shared().groupDelay(frequencyHz / waveformRateHz) / waveformRateHz;
 }
 
 std::size_t WaveformResampler::inputNeeded(std::size_t outputCount) const noexcept {

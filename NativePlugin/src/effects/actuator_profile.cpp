@@ -1,7 +1,5 @@
 #include "effects/actuator_profile.hpp"
 
-#include "effects/built_in_profiles.hpp"
-
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
@@ -20,10 +18,10 @@ namespace {
 
 using nlohmann::json;
 
-constexpr std::size_t largestNameBytes = 128;
-constexpr std::size_t largestProvenanceBytes = 4096;
-constexpr std::size_t mostResonances = 64;
-constexpr std::size_t deepestNesting = 8;
+constexpr std::size_t maximumNameBytes = 128;
+constexpr std::size_t maximumProvenanceBytes = 4096;
+constexpr std::size_t maximumResonances = 64;
+constexpr std::size_t maximumNesting = 8;
 
 std::string inWords(double value) {
     std::ostringstream stream;
@@ -40,7 +38,7 @@ std::string inWords(const json& value) {
     return text.size() > 40 ? text.substr(0, 40) + "..." : text;
 }
 
-/// A value and its path, so that every refusal names the key.
+/// A JSON value with its path, so that every error names the key.
 class Node {
 public:
     Node(const json& value, std::string path) : value_(&value), path_(std::move(path)) {}
@@ -86,11 +84,12 @@ public:
         return value;
     }
 
-    [[nodiscard]] std::vector<double> numbers(std::size_t fewest, std::size_t most, double lowest, double highest,
+    [[nodiscard]] std::vector<double> numbers(std::size_t minimum, std::size_t maximum, double lowest, double highest,
                                               const std::string& unit) const {
-        if (!value_->is_array() || value_->size() < fewest || value_->size() > most) {
+        if (!value_->is_array() || value_->size() < minimum || value_->size() > maximum) {
             refuse("an array of " +
-                   (fewest == most ? std::to_string(most) : std::to_string(fewest) + " to " + std::to_string(most)) +
+                   (minimum == maximum ? std::to_string(maximum)
+                                       : std::to_string(minimum) + " to " + std::to_string(maximum)) +
                    " numbers");
         }
         std::vector<double> result;
@@ -102,8 +101,8 @@ public:
         return result;
     }
 
-    [[nodiscard]] std::string text(std::size_t mostBytes) const {
-        const std::string expected = "text of 1 to " + std::to_string(mostBytes) + " bytes in one line";
+    [[nodiscard]] std::string text(std::size_t maximumBytes) const {
+        const std::string expected = "text of 1 to " + std::to_string(maximumBytes) + " bytes in one line";
         if (!value_->is_string()) {
             refuse(expected);
         }
@@ -112,7 +111,7 @@ public:
             const auto code = static_cast<unsigned char>(character);
             return code < 0x20 || code == 0x7F;
         });
-        if (content.empty() || content.size() > mostBytes || !isPlain) {
+        if (content.empty() || content.size() > maximumBytes || !isPlain) {
             refuse(expected);
         }
         return content;
@@ -132,7 +131,7 @@ private:
     std::string path_;
 };
 
-/// The JSON library keeps the last of two equal keys, and would build whatever depth it is given.
+/// Rejects duplicate keys, of which the JSON library would keep the last, and deep nesting, which it does not limit.
 class Limits {
 public:
     bool operator()(int /*depth*/, json::parse_event_t event, json& parsed) {
@@ -140,8 +139,8 @@ public:
             case json::parse_event_t::object_start:
             case json::parse_event_t::array_start:
                 open_.emplace_back();
-                if (open_.size() > deepestNesting) {
-                    throw ProfileError("nests deeper than " + std::to_string(deepestNesting) + " levels");
+                if (open_.size() > maximumNesting) {
+                    throw ProfileError("nests deeper than " + std::to_string(maximumNesting) + " levels");
                 }
                 break;
             case json::parse_event_t::object_end:
@@ -150,7 +149,7 @@ public:
                 break;
             case json::parse_event_t::key:
                 if (!open_.back().insert(parsed.get<std::string>()).second) {
-                    throw ProfileError("key " + inWords(parsed) + " stands twice in the same object; keep one");
+                    throw ProfileError("key " + inWords(parsed) + " occurs twice in the same object; keep one");
                 }
                 break;
             case json::parse_event_t::value:
@@ -164,7 +163,7 @@ private:
 };
 
 json parseText(std::string_view text) {
-    if (text.size() > ActuatorProfile::largestTextBytes) {
+    if (text.size() > ActuatorProfile::maximumTextBytes) {
         throw ProfileError("is larger than 1 MiB; expected an actuator profile (JSON)");
     }
     try {
@@ -216,24 +215,24 @@ ActuatorProfile ActuatorProfile::parse(std::string_view text) {
                         "magnitude_db", "phase_degrees", "resonances_hz", "measurement"});
     requireVersion(root.at("format_version"));
     ActuatorProfile profile;
-    profile.name = root.at("name").text(largestNameBytes);
-    profile.provenance = root.at("provenance").text(largestProvenanceBytes);
+    profile.name = root.at("name").text(maximumNameBytes);
+    profile.provenance = root.at("provenance").text(maximumProvenanceBytes);
     profile.isApproximate = root.has("approximate") && root.at("approximate").boolean();
     if (root.has("rated_level_mps2") && !root.at("rated_level_mps2").isNull()) {
         profile.ratedLevelMps2 = root.at("rated_level_mps2").number(1e-9, 1e9, "m/s^2");
     }
     const Node frequencies = root.at("frequency_hz");
-    profile.frequencyHz = frequencies.numbers(2, mostPoints, lowestFrequencyHz, highestFrequencyHz, "Hz");
+    profile.frequencyHz = frequencies.numbers(2, mostPoints, minimumFrequencyHz, maximumFrequencyHz, "Hz");
     requireRising(frequencies, profile.frequencyHz);
     const std::size_t points = profile.frequencyHz.size();
     profile.magnitudeDecibels =
-        root.at("magnitude_db").numbers(points, points, -largestMagnitudeDecibels, largestMagnitudeDecibels, "dB");
+        root.at("magnitude_db").numbers(points, points, -maximumMagnitudeDecibels, maximumMagnitudeDecibels, "dB");
     if (root.has("phase_degrees")) {
         profile.phaseDegrees = root.at("phase_degrees").numbers(points, points, -1e6, 1e6, "degrees");
     }
     if (root.has("resonances_hz")) {
         profile.resonancesHz =
-            root.at("resonances_hz").numbers(0, mostResonances, lowestFrequencyHz, highestFrequencyHz, "Hz");
+            root.at("resonances_hz").numbers(0, maximumResonances, minimumFrequencyHz, maximumFrequencyHz, "Hz");
     }
     if (root.has("measurement")) {
         profile.measurement = readMeasurement(root.at("measurement"));
@@ -258,7 +257,7 @@ std::string ActuatorProfile::toJson() const {
                                    {"distortion_percent", measurement->distortionPercent},
                                    {"signal_to_noise_db", measurement->signalToNoiseDecibels}};
     }
-    // A key a line: long rows of numbers stay rows.
+    // One key per line, so that each array of numbers stays on one line.
     std::string text;
     for (const auto& [key, value] : document.items()) {
         text += (text.empty() ? "{\n  " : ",\n  ") + json(key).dump() + ": " + value.dump();
@@ -269,11 +268,6 @@ std::string ActuatorProfile::toJson() const {
 std::optional<ActuatorProfile> ActuatorProfile::builtIn(std::string_view name) {
     const auto found = std::ranges::find(builtInProfiles(), name, &BuiltInProfile::name);
     return found == builtInProfiles().end() ? std::nullopt : std::optional(parse(found->json));
-}
-
-std::span<const std::string_view> ActuatorProfile::builtInNames() noexcept {
-    static constexpr std::array<std::string_view, 2> names{"flat", "voice-coil"};
-    return names;
 }
 
 double ActuatorProfile::magnitudeDecibelsAt(double hz) const noexcept {

@@ -1,6 +1,7 @@
 #include "effects/compensation.hpp"
 
-#include "effects/minimum_phase.hpp"
+#include "dsp/limiter.hpp"
+#include "dsp/sample_rates.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -18,9 +19,10 @@ constexpr double lowestHz = 5.0;
 constexpr double pointsPerOctave = 24.0;
 constexpr std::size_t points = 289;
 constexpr double transitionOctaves = 1.0;
-// A notch narrower than this is the measurement's, or moves with temperature and grip: it is not filled.
+// The compensation does not fill notches narrower than this: they are measurement artefacts or shift with temperature
+// and grip.
 constexpr double smoothingOctaves = 1.0 / 6.0;
-// What is smaller is not worth a filter.
+// If all gains are smaller than this, no filter is built.
 constexpr double transparentDecibels = 0.05;
 constexpr double broadbandLowestHz = 20.0;
 constexpr double broadbandHighestHz = 1000.0;
@@ -37,7 +39,7 @@ double asFactor(double decibels) {
     return std::pow(10.0, decibels / 20.0);
 }
 
-/// The mean power that a response leaves of broadband noise, the larger of white and pink; 1 is no change.
+/// Mean power gain of a response for broadband noise: the larger of the gains for white and for pink noise.
 template <typename Gain>
 double broadbandPower(const Gain& gainAt) {
     double pink = 0.0;
@@ -72,23 +74,23 @@ std::vector<double> smoothedDecibels(const ActuatorProfile& profile) {
     return smoothed;
 }
 
-/// 1 in the band, 0 from an octave outside on, a raised cosine between.
+/// Weight of the compensation: 1 in the band, 0 an octave or more outside it, a raised cosine between.
 double shareOf(double hz, const std::array<double, 2>& bandHz) {
     const double octavesOutside = std::max({std::log2(bandHz[0] / hz), std::log2(hz / bandHz[1]), 0.0});
     const double way = std::min(octavesOutside / transitionOctaves, 1.0);
     return 0.5 + 0.5 * std::cos(std::numbers::pi * way);
 }
 
-/// The gains, in dB, that level an actuator of these magnitudes to `levelDecibels`.
+/// The gains in dB that level an actuator with these magnitudes to `levelDecibels`.
 std::vector<double> gainsFor(const std::vector<double>& actuatorDecibels, double levelDecibels, double boostDecibels,
                              const std::array<double, 2>& bandHz) {
-    // Tikhonov: p / (p^2 + b) has its maximum, 1 / (2 sqrt(b)), at p = sqrt(b).
+    // Tikhonov regularisation: p / (p^2 + b) has its maximum, 1 / (2 sqrt(b)), at p = sqrt(b).
     const double bound = 0.25 / std::pow(asFactor(boostDecibels), 2.0);
     std::vector<double> gains(points);
     for (std::size_t point = 0; point < points; ++point) {
         const double magnitude = asFactor(actuatorDecibels[point] - levelDecibels);
         const double inverse = magnitude / (magnitude * magnitude + bound);
-        gains[point] = shareOf(hzAt(point), bandHz) * std::max(inDecibels(inverse), -Compensation::largestCutDecibels);
+        gains[point] = shareOf(hzAt(point), bandHz) * std::max(inDecibels(inverse), -Compensation::maximumCutDecibels);
     }
     return gains;
 }
@@ -99,31 +101,31 @@ double powerAt(const std::vector<double>& actuatorDecibels, double levelDecibels
     return broadbandPower([&gains](std::size_t point) { return asFactor(gains[point]); });
 }
 
-/// The highest level to which the actuator can be raised before broadband noise gets louder; where no level makes it
-/// louder, the one that takes least from it. The power does not only rise with the level: what has been boosted to the
-/// bound, and what is given up, falls again.
+/// The highest level to which the actuator can be raised without increasing the power of broadband noise. If no level
+/// increases it, the level with the smallest loss. The power is not monotone in the level: once frequencies reach the
+/// maximum boost or are given up, it falls again.
 double findLevel(const std::vector<double>& actuatorDecibels, double boostDecibels,
                  const std::array<double, 2>& bandHz) {
     constexpr double step = 0.5;
     const auto power = [&](double level) { return powerAt(actuatorDecibels, level, boostDecibels, bandHz); };
     const auto [lowest, highest] = std::ranges::minmax(actuatorDecibels);
     std::optional<double> crossing;
-    double loudest = lowest;
-    double loudestPower = 0.0;
+    double levelOfMaximum = lowest;
+    double maximumPower = 0.0;
     double powerBelow = 0.0;
-    for (double level = lowest - step; level < highest + Compensation::largestCutDecibels; level += step) {
+    for (double level = lowest - step; level < highest + Compensation::maximumCutDecibels; level += step) {
         const double here = power(level);
         if (here > 1.0 && powerBelow <= 1.0) {
             crossing = level - step;
         }
-        if (here >= loudestPower) {
-            loudest = level;
-            loudestPower = here;
+        if (here >= maximumPower) {
+            levelOfMaximum = level;
+            maximumPower = here;
         }
         powerBelow = here;
     }
     if (!crossing) {
-        return loudest;
+        return levelOfMaximum;
     }
     double below = *crossing;
     double above = below + step;
@@ -155,12 +157,9 @@ double largestGain(const ParallelFilter& filter, double sampleRateHz) {
 }
 
 void requireSettings(double sampleRateHz, const CompensationSettings& settings) {
-    if (!(sampleRateHz >= Compensation::lowestRateHz && sampleRateHz <= Compensation::highestRateHz)) {
-        throw std::invalid_argument("the sample rate is " + std::to_string(sampleRateHz) +
-                                    " Hz; expected 8000 to 192000 Hz");
-    }
-    if (!(settings.largestBoostDecibels >= 0.0 && settings.largestBoostDecibels <= 24.0)) {
-        throw std::invalid_argument("the largest boost is " + std::to_string(settings.largestBoostDecibels) +
+    (void)dsp::requireOutputRate(sampleRateHz);
+    if (!(settings.maximumBoostDecibels >= 0.0 && settings.maximumBoostDecibels <= 24.0)) {
+        throw std::invalid_argument("the largest boost is " + std::to_string(settings.maximumBoostDecibels) +
                                     " dB; expected 0 to 24 dB");
     }
     const auto [low, high] = settings.bandHz;
@@ -180,9 +179,9 @@ Compensation::Compensation(const ActuatorProfile& profile, double sampleRateHz, 
         return;
     }
     const std::vector<double> actuator = smoothedDecibels(profile);
-    levelDecibels_ = findLevel(actuator, settings.largestBoostDecibels, bandHz_);
-    // The fit may overshoot the bound a little: then it is given a lower one.
-    double bound = settings.largestBoostDecibels;
+    levelDecibels_ = findLevel(actuator, settings.maximumBoostDecibels, bandHz_);
+    // If the fitted filter exceeds the maximum boost, fit again with a lower bound.
+    double bound = settings.maximumBoostDecibels;
     for (int attempt = 0; attempt < 4; ++attempt) {
         const std::vector<double> gains = gainsFor(actuator, levelDecibels_, bound, bandHz_);
         if (std::ranges::all_of(gains, [](double gain) { return std::abs(gain) < transparentDecibels; })) {
@@ -190,16 +189,16 @@ Compensation::Compensation(const ActuatorProfile& profile, double sampleRateHz, 
             return;
         }
         filter_.emplace(minimumPhaseResponse(gains, sampleRateHz), sampleRateHz);
-        const double excess = largestGain(*filter_, sampleRateHz) - settings.largestBoostDecibels;
+        const double excess = largestGain(*filter_, sampleRateHz) - settings.maximumBoostDecibels;
         if (excess <= 0.0) {
             break;
         }
         bound = std::max(bound - excess, 0.0);
     }
-    const double excess = std::max(largestGain(*filter_, sampleRateHz) - settings.largestBoostDecibels, 0.0);
+    const double excess = std::max(largestGain(*filter_, sampleRateHz) - settings.maximumBoostDecibels, 0.0);
     const double power = broadbandPower([this](std::size_t point) { return std::abs(filter_->response(hzAt(point))); });
     filter_->scale(asFactor(-excess) / std::sqrt(std::max(power, 1.0)));
-    tailSeconds_ = filter_->tailSeconds(tailPeakMps2, silentMps2);
+    tailSeconds_ = filter_->tailSeconds(dsp::SoftLimiter::defaultFullScaleMps2, imperceptibleMps2);
     measureLatency();
 }
 
@@ -228,7 +227,7 @@ void Compensation::process(std::span<float> samplesMps2) noexcept {
         return;
     }
     filter_->process(samplesMps2);
-    isIdle_ = isSilent && filter_->envelope() < silentMps2;
+    isIdle_ = isSilent && filter_->envelope() < imperceptibleMps2;
     if (isIdle_) {
         filter_->reset();
     }

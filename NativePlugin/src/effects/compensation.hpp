@@ -11,37 +11,31 @@
 namespace haptoflow::effects {
 
 struct CompensationSettings {
-    /// No frequency is raised by more than this, 0 to 24 dB.
-    double largestBoostDecibels = 12.0;
-    /// Where the actuator is compensated, rising, 20 to 1000 Hz. The part that the profile does not cover is left out.
+    /// Maximum gain at any frequency, 0 to 24 dB.
+    double maximumBoostDecibels = 12.0;
+    /// Lower and upper edge of the compensated band, within 20 to 1000 Hz. Frequencies outside the profile are left
+    /// out.
     std::array<double, 2> bandHz{50.0, 1000.0};
 };
 
-/// Makes an actuator play what was meant: the regularised inverse of its magnitude, minimum-phase.
+/// Compensates an actuator's frequency response with a minimum-phase, regularised inverse of its magnitude.
 ///
-/// - The boost is bounded, and where the actuator gives next to nothing it falls again: no power goes where nothing
-///   would be felt. Nothing is lowered by more than `largestCutDecibels`.
-/// - An octave outside of the band the gain is back at 0 dB. A profile without a point in the band changes
-///   nothing.
-/// - Level: white noise and pink noise of 20 to 1000 Hz leave with at most the power that they came with, so that a
-///   broadband texture keeps its headroom. A texture whose energy lies where the actuator is weak gets louder, by the
-///   bounded boost at most; the limiter behind is for that.
-/// - No look-ahead and no bulk delay. The group delay that its response brings is declared as latency, the largest in
-///   the band; an actuator that is minimum-phase itself takes it back where it is compensated in full.
+/// - Gain: the boost is limited, and it decreases where the actuator has almost no output, so that no power is spent
+///   where nothing would be felt. No frequency is attenuated by more than `maximumCutDecibels`.
+/// - Band: an octave outside the band the gain is 0 dB. A profile without a point in the band changes nothing.
+/// - Level: white noise and pink noise from 20 to 1000 Hz do not gain power, so a broadband texture keeps its headroom.
+///   A texture with its energy where the actuator is weak gets louder, by the maximum boost at most; the limiter after
+///   this effect handles that case.
+/// - Delay: there is no look-ahead and no bulk delay. The declared latency is the largest group delay in the band. An
+///   actuator that is itself minimum-phase cancels this delay where it is fully compensated.
 ///
-/// Fields of the contact: none. The sections and their cost are the same at every rate.
+/// Reads no field of the contact. The number of filter sections and the cost per sample are the same at every rate.
 class Compensation final : public Effect {
 public:
-    static constexpr double lowestRateHz = 8000.0;
-    static constexpr double highestRateHz = 192000.0;
-    static constexpr double largestCutDecibels = 24.0;
-    /// Below this it has ended, as DecayingSinusoid.
-    static constexpr double silentMps2 = 1e-4;
-    /// The input that the declared tail is for, m/s^2: the default full scale.
-    static constexpr double tailPeakMps2 = 200.0;
+    static constexpr double maximumCutDecibels = 24.0;
 
-    /// Designs the filter: some milliseconds, on a thread that can wait; allocates. Throws std::invalid_argument for a
-    /// rate outside 8-192 kHz and for settings out of their range.
+    /// Designs the filter, which takes some milliseconds and allocates: not on the audio thread. Throws
+    /// std::invalid_argument for a rate outside 8-192 kHz and for settings out of range.
     Compensation(const ActuatorProfile& profile, double sampleRateHz, const CompensationSettings& settings = {});
 
     [[nodiscard]] EffectDeclaration declaration() const noexcept override;
@@ -49,14 +43,14 @@ public:
     void reset() noexcept override;
     [[nodiscard]] bool isIdle() const noexcept override;
 
-    /// True where the profile asks for no change: `process` leaves every sample as it is.
+    /// True if the profile needs no compensation: `process` leaves every sample unchanged.
     [[nodiscard]] bool isTransparent() const noexcept { return !filter_.has_value(); }
-    /// What it does at a frequency, as realised. Any thread.
+    /// Gain and group delay of the realised filter at a frequency. Any thread.
     [[nodiscard]] double gainDecibels(double frequencyHz) const noexcept;
     [[nodiscard]] double groupDelaySeconds(double frequencyHz) const noexcept;
     /// The magnitude, in the profile's decibels, to which the actuator is levelled in the band.
     [[nodiscard]] double levelDecibels() const noexcept { return levelDecibels_; }
-    /// The band after what the profile does not cover was left out.
+    /// The part of the band that the profile covers.
     [[nodiscard]] std::array<double, 2> bandHz() const noexcept { return bandHz_; }
 
 private:

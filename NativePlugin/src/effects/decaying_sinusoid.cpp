@@ -17,7 +17,7 @@ void DecayingSinusoid::start(double frequencyHz, double decayPerSecond, double a
     decay_ = std::exp(-decayPerSecond / sampleRateHz);
     feedback_ = 2.0 * decay_ * std::cos(turn);
     damping_ = decay_ * decay_;
-    // As if it had rung before: the next sample is the sine's value 0, the one before it lies a step behind.
+    // The two past values of the same sinusoid, so that the next sample is its zero crossing.
     newest_ = -amplitudeMps2 * std::sin(turn) / decay_;
     previous_ = -amplitudeMps2 * std::sin(2.0 * turn) / damping_;
     envelopeMps2_ = amplitudeMps2;

@@ -1,25 +1,24 @@
 #pragma once
 
+#include "effects/effect.hpp"
+
 #include <span>
 
 namespace haptoflow::effects {
 
-/// One ringing mode: amplitude e^(-decay t) sin(2 pi frequency t), by a recursion of two multiplications a sample.
-/// Audio thread: allocates nothing, waits for nothing.
+/// One vibration mode, amplitude e^(-decay t) sin(2 pi frequency t), computed by a recursion with two multiplications
+/// per sample. Audio thread: allocates nothing, waits for nothing.
 class DecayingSinusoid {
 public:
-    /// Below this it has ended: a hundredth of what a fingertip feels at its most sensitive.
-    static constexpr double silentMps2 = 1e-4;
-
-    /// Rings from the next sample on, whatever rang before. Frequencies beyond 0.45 of the rate, and anything that is
-    /// not finite or not above 0, ring not at all.
+    /// Replaces the present sinusoid from the next sample on. A frequency above 0.45 of the rate, or an argument that
+    /// is not finite and above 0, gives silence.
     void start(double frequencyHz, double decayPerSecond, double amplitudeMps2, double sampleRateHz) noexcept;
     void stop() noexcept { *this = DecayingSinusoid(); }
-    /// Adds the next samples.
+    /// Adds the next samples of the sinusoid to `samplesMps2`.
     void addTo(std::span<float> samplesMps2) noexcept;
 
-    [[nodiscard]] bool isIdle() const noexcept { return envelopeMps2_ < silentMps2; }
-    /// What its amplitude has decayed to.
+    [[nodiscard]] bool isIdle() const noexcept { return envelopeMps2_ < imperceptibleMps2; }
+    /// The present amplitude of the decaying envelope.
     [[nodiscard]] double envelopeMps2() const noexcept { return envelopeMps2_; }
 
 private:

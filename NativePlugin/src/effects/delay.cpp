@@ -1,30 +1,20 @@
 #include "effects/delay.hpp"
 
+#include "dsp/sample_rates.hpp"
+
 #include <algorithm>
 #include <bit>
 #include <cmath>
 #include <numbers>
-#include <stdexcept>
-#include <string>
 
 namespace haptoflow::effects {
-namespace {
-
-double checkedRateHz(double rateHz) {
-    if (!(rateHz >= 8000.0 && rateHz <= 192000.0)) {
-        throw std::invalid_argument("the sample rate is " + std::to_string(rateHz) + " Hz; expected 8000 to 192000");
-    }
-    return rateHz;
-}
-
-}  // namespace
 
 Delay::Delay(double sampleRateHz)
-    : sampleRateHz_(checkedRateHz(sampleRateHz)),
-      longest_(static_cast<std::size_t>(std::llround(highestSeconds * sampleRateHz))),
-      line_(std::bit_ceil(longest_ + 1), 0.0F),
+    : sampleRateHz_(dsp::requireOutputRate(sampleRateHz)),
+      maximumSamples_(static_cast<std::size_t>(std::llround(highestSeconds * sampleRateHz))),
+      line_(std::bit_ceil(maximumSamples_ + 1), 0.0F),
       fade_(static_cast<std::size_t>(std::lround(fadeSeconds * sampleRateHz))),
-      silent_(longest_ + 1),
+      silent_(maximumSamples_ + 1),
       faded_(fade_.size()) {
     for (std::size_t i = 0; i < fade_.size(); ++i) {
         const double share = static_cast<double>(i + 1) / static_cast<double>(fade_.size());
@@ -37,16 +27,16 @@ void Delay::setDelaySeconds(double seconds) noexcept {
         return;
     }
     const double within = std::clamp(seconds, 0.0, highestSeconds);
-    asked_ = std::min(longest_, static_cast<std::size_t>(std::llround(within * sampleRateHz_)));
+    requested_ = std::min(maximumSamples_, static_cast<std::size_t>(std::llround(within * sampleRateHz_)));
     if (isIdle()) {
-        current_ = asked_;
+        current_ = requested_;
         faded_ = fade_.size();
         declare();
     }
 }
 
 double Delay::delaySeconds() const noexcept {
-    return static_cast<double>(asked_) / sampleRateHz_;
+    return static_cast<double>(requested_) / sampleRateHz_;
 }
 
 EffectDeclaration Delay::declaration() const noexcept {
@@ -66,25 +56,25 @@ void Delay::declare() noexcept {
 void Delay::write(float sample) noexcept {
     newest_ = (newest_ + 1) & (line_.size() - 1);
     line_[newest_] = sample;
-    held_ = std::min(held_ + 1, longest_ + 1);
-    silent_ = sample == 0.0F ? std::min(silent_ + 1, longest_ + 1) : 0;
+    held_ = std::min(held_ + 1, maximumSamples_ + 1);
+    silent_ = sample == 0.0F ? std::min(silent_ + 1, maximumSamples_ + 1) : 0;
 }
 
-// What was written before the last reset is still in memory, but no longer held.
+// Samples written before the last reset are still in memory but must not be read.
 float Delay::tap(std::size_t delaySamples) const noexcept {
     return delaySamples < held_ ? line_[(newest_ - delaySamples) & (line_.size() - 1)] : 0.0F;
 }
 
-void Delay::startFadeIfAsked() noexcept {
-    if (faded_ == fade_.size() && asked_ != current_) {
+void Delay::startFadeIfRequested() noexcept {
+    if (faded_ == fade_.size() && requested_ != current_) {
         previous_ = current_;
-        current_ = asked_;
+        current_ = requested_;
         faded_ = 0;
         declare();
     }
 }
 
-float Delay::nextOfFade() noexcept {
+float Delay::nextFadeSample() noexcept {
     const float weight = fade_[faded_];
     const float out = weight * tap(current_) + (1.0F - weight) * tap(previous_);
     if (++faded_ == fade_.size()) {
@@ -95,26 +85,22 @@ float Delay::nextOfFade() noexcept {
 
 void Delay::process(std::span<float> samplesMps2) noexcept {
     for (float& sample : samplesMps2) {
-        startFadeIfAsked();
-        if (!std::isfinite(sample)) {
-            ++nonFiniteCount_;
-            sample = 0.0F;
-        }
-        write(sample);
-        sample = faded_ < fade_.size() ? nextOfFade() : tap(current_);
+        startFadeIfRequested();
+        write(std::isfinite(sample) ? sample : 0.0F);
+        sample = faded_ < fade_.size() ? nextFadeSample() : tap(current_);
     }
 }
 
 void Delay::reset() noexcept {
     held_ = 0;
-    silent_ = longest_ + 1;
-    current_ = asked_;
+    silent_ = maximumSamples_ + 1;
+    current_ = requested_;
     faded_ = fade_.size();
     declare();
 }
 
 bool Delay::isIdle() const noexcept {
-    return silent_ > longest_;
+    return silent_ > maximumSamples_;
 }
 
 }  // namespace haptoflow::effects

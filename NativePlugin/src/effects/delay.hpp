@@ -10,65 +10,62 @@
 
 namespace haptoflow::effects {
 
-/// Everything comes a settable time later, for studies of latency and for slow displays.
+/// Delays the signal by a settable time, for studies of latency and for slow displays.
 ///
-/// The delay is a whole number of samples, the nearest to what is asked for: an impulse comes out exactly that much
-/// later, and a delay of 0 passes the signal bit for bit.
+/// The delay is rounded to a whole number of samples. A delay of 0 passes the signal unchanged, bit for bit.
 ///
-/// A change while something sounds fades from the old tap of the line to the new one with a raised cosine of 20 ms:
-///   out = w(t) new + (1 - w(t)) old,   w(t) = (1 - cos(pi t / 20 ms)) / 2.
-/// The weights add up to 1 because nothing is known of how the two taps correlate, which changes with every frequency
-/// and delay. So the output lies between the two taps at every sample, whatever their correlation: it is never louder
-/// than the louder one. Weights of equal power would exceed it by 3 dB where the taps are alike, as they are after a
-/// small change; these dip by 3 dB for an instant where the taps are unrelated. Changes that come during a fade wait
-/// for its end; the newest wins. While the line holds only silence a change takes effect at once.
+/// A change of the delay crossfades from the old tap of the line to the new one along a raised cosine of 20 ms:
+///   out = w(t) new + (1 - w(t)) old, w(t) = (1 - cos(pi t / 20 ms)) / 2. The correlation of the two taps is unknown,
+///   because it depends on the frequencies and on the delay. Weights that add up to 1 keep the output between the two
+///   taps at every sample, so it is never louder than the louder tap. Equal-power weights would exceed it by 3 dB where
+///   the taps are alike, as after a small change; these weights dip by 3 dB where the taps are uncorrelated. A change
+///   during a crossfade waits for its end; of several, the newest counts. While the line holds only silence, a change
+///   takes effect at once.
 ///
-/// Audio thread but for construction and `declaration`. Allocates nothing, waits for nothing. Samples that are not
-/// finite go in as 0 and are counted.
+/// Non-finite samples enter the line as 0. Construction and `declaration` excepted, everything runs on the audio
+/// thread: allocates nothing, waits for nothing.
 class Delay final : public Effect {
 public:
     static constexpr double highestSeconds = 0.5;
     static constexpr double fadeSeconds = 0.02;
 
-    /// Prepares for the longest delay. Throws std::invalid_argument unless `sampleRateHz` is 8000 to 192000.
+    /// Allocates the line for the maximum delay. Throws std::invalid_argument for a rate outside 8-192 kHz.
     explicit Delay(double sampleRateHz);
 
-    /// From the next sample on; clamped to 0-0.5 s, NaN is ignored. May be called before every block.
+    /// Sets the delay from the next sample on, clamped to 0-0.5 s. Ignores NaN. May be called before every block.
     void setDelaySeconds(double seconds) noexcept;
-    /// What was asked for last, to the nearest sample; a fade to it may be waiting or under way.
+    /// The delay set last, rounded to a sample. The crossfade to it may still be waiting or in progress.
     [[nodiscard]] double delaySeconds() const noexcept;
 
-    /// Latency and tail are the delay; while it fades, the longer one of the two.
+    /// Latency and tail equal the delay; during a crossfade, the longer of the two delays.
     [[nodiscard]] EffectDeclaration declaration() const noexcept override;
     void process(std::span<float> samplesMps2) noexcept override;
     void reset() noexcept override;
-    /// True only while the line holds nothing but silence, up to the longest delay.
+    /// True only while the whole line, up to the maximum delay, holds silence.
     [[nodiscard]] bool isIdle() const noexcept override;
-    /// Samples replaced by 0 because they were not finite.
-    [[nodiscard]] std::uint64_t nonFiniteCount() const noexcept { return nonFiniteCount_; }
 
 private:
     void write(float sample) noexcept;
     [[nodiscard]] float tap(std::size_t delaySamples) const noexcept;
-    void startFadeIfAsked() noexcept;
-    [[nodiscard]] float nextOfFade() noexcept;
+    void startFadeIfRequested() noexcept;
+    [[nodiscard]] float nextFadeSample() noexcept;
     void declare() noexcept;
 
     double sampleRateHz_;
-    std::size_t longest_;
+    std::size_t maximumSamples_;
     std::vector<float> line_;
     std::vector<float> fade_;
-    /// Where the newest sample lies.
+    /// Index of the newest sample.
     std::size_t newest_ = 0;
-    /// Samples since the line held nothing but silence, and since it last got a sound; both stop at the longest delay.
+    /// Samples written since the last reset, and silent samples written since the last sound; both stop counting at the
+    /// length of the maximum delay.
     std::size_t held_ = 0;
     std::size_t silent_;
-    std::size_t asked_ = 0;
+    std::size_t requested_ = 0;
     std::size_t current_ = 0;
     std::size_t previous_ = 0;
-    /// Steps of the fade done; its length when none is under way.
+    /// Completed steps of the crossfade; its length if none is in progress.
     std::size_t faded_;
-    std::uint64_t nonFiniteCount_ = 0;
     std::atomic<double> declaredSeconds_{0.0};
 };
 

@@ -1,37 +1,30 @@
 #include "effects/exposure_guard.hpp"
 
+#include "dsp/sample_rates.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <stdexcept>
-#include <string>
 
 namespace haptoflow::effects {
 namespace {
 
 constexpr double ticksPerSecond = 100.0;
 constexpr double recentSeconds = 60.0;
-// After 10 s of play.
-constexpr double leastRecentWeight = 0.1535;
-// Below this weighted mean square nothing plays: a millimetre per second squared.
+// The weight after 10 s of play.
+constexpr double minimumRecentWeight = 0.1535;
+// Weighted mean square of 1 mm/s^2 RMS; a quieter signal counts as silence.
 constexpr double silentMeanSquare = 1e-6;
-// No hand is shaken harder; a broken sample must not weigh for hours.
-constexpr double largestMps2 = 1e4;
-// Of a pause, however long: enough for a hundredth of a second each in pauses of 40 s.
-constexpr std::uint64_t mostPauseSteps = 4096;
-
-double checkedRateHz(double rateHz) {
-    if (!(rateHz >= 8000.0 && rateHz <= 192000.0)) {
-        throw std::invalid_argument("the sample rate is " + std::to_string(rateHz) + " Hz; expected 8000 to 192000");
-    }
-    return rateHz;
-}
+// No actuator shakes a hand harder. The limit keeps a single corrupt sample from dominating the dose for hours.
+constexpr double maximumMps2 = 1e4;
+// Maximum number of steps for a pause of any length; with it, pauses up to 40 s are resolved to hundredths of a second.
+constexpr std::uint64_t maximumPauseSteps = 4096;
 
 const ExposureLaw& checkedLaw(const ExposureLaw& law) {
     if (!law.isValid()) {
         throw std::invalid_argument(
-            "the exposure law has a value that is not finite or not above 0, or a lowest gain "
-            "above 1");
+            "the exposure law has a value that is not finite or not above 0, or a minimum gain above 1");
     }
     return law;
 }
@@ -46,12 +39,12 @@ bool ExposureLaw::isValid() const noexcept {
     const auto isPositive = [](double value) { return std::isfinite(value) && value > 0.0; };
     return isPositive(actuatorGain) && isPositive(shortTermMps2) && isPositive(shortTermSeconds) &&
            isPositive(dailyMps2) && isPositive(dailySeconds) && isPositive(reserveSeconds) &&
-           isPositive(slewDbPerSecond) && isPositive(lowestGain) && lowestGain <= 1.0;
+           isPositive(slewDbPerSecond) && isPositive(minimumGain) && minimumGain <= 1.0;
 }
 
 ExposureGuard::ExposureGuard(double sampleRateHz, const ExposureLaw& law)
     : law_(checkedLaw(law)),
-      tickSamples_(static_cast<std::size_t>(std::lround(checkedRateHz(sampleRateHz) / ticksPerSecond))),
+      tickSamples_(static_cast<std::size_t>(std::lround(dsp::requireOutputRate(sampleRateHz) / ticksPerSecond))),
       tickSeconds_(static_cast<double>(tickSamples_) / sampleRateHz),
       shortTermShare_(1.0 - std::exp(-tickSeconds_ / law.shortTermSeconds)),
       recentShare_(1.0 - std::exp(-tickSeconds_ / recentSeconds)),
@@ -59,7 +52,7 @@ ExposureGuard::ExposureGuard(double sampleRateHz, const ExposureLaw& law)
 
 void ExposureGuard::setActuatorGain(double gain) noexcept {
     if (std::isfinite(gain) && gain > 0.0) {
-        // What has played lately foretells what will: so much louder or softer now.
+        // The recent level predicts the coming level, which changes with the gain.
         const double change = gain / law_.actuatorGain;
         recentSquare_ *= change * change;
         law_.actuatorGain = gain;
@@ -77,7 +70,7 @@ void ExposureGuard::process(std::span<float> samplesMps2) noexcept {
 
 float ExposureGuard::passThrough(float sample) noexcept {
     const float finite = std::isfinite(sample) ? sample : 0.0F;
-    const double atHand = std::clamp(static_cast<double>(finite) * law_.actuatorGain, -largestMps2, largestMps2);
+    const double atHand = std::clamp(static_cast<double>(finite) * law_.actuatorGain, -maximumMps2, maximumMps2);
     const double weighted = weighting_.next(atHand);
     squares_ += atHand * atHand;
     weightedSquares_ += weighted * weighted;
@@ -133,15 +126,15 @@ double ExposureGuard::shortTermTarget() const noexcept {
 double ExposureGuard::doseTarget() const noexcept {
     const double left = law_.dailyMps2 * law_.dailyMps2 * law_.dailySeconds - energy_;
     const double allowed = std::max(0.0, left) / law_.reserveSeconds;
-    // Of the time that has played so far, not of the silence before it, and of 10 s at least.
-    const double recent = recentSquare_ / std::max(recentWeight_, leastRecentWeight);
+    // The mean over the time that has played, at least 10 s, without the silence before it.
+    const double recent = recentSquare_ / std::max(recentWeight_, minimumRecentWeight);
     return recent > allowed ? std::sqrt(allowed / recent) : 1.0;
 }
 
 void ExposureGuard::moveGain(double seconds) noexcept {
     const double shortTerm = shortTermTarget();
     const double dose = doseTarget();
-    const double targetDb = decibels(std::max(law_.lowestGain, std::min(shortTerm, dose)));
+    const double targetDb = decibels(std::max(law_.minimumGain, std::min(shortTerm, dose)));
     const double stepDb = law_.slewDbPerSecond * seconds;
     gainDb_ = std::min(0.0, std::clamp(targetDb, gainDb_ - stepDb, gainDb_ + stepDb));
     gainFrom_ = gainTo_;
@@ -165,13 +158,13 @@ void ExposureGuard::passSilence(std::uint64_t samples) noexcept {
         return;
     }
     finishTick();
-    passTicks((samples - untilTick) / tickSamples_);
+    skipTicks((samples - untilTick) / tickSamples_);
     tickPosition_ = static_cast<std::size_t>((samples - untilTick) % tickSamples_);
 }
 
-// Long pauses in coarser steps: the gain only rises in silence, and no faster than it may.
-void ExposureGuard::passTicks(std::uint64_t ticks) noexcept {
-    const std::uint64_t step = ticks / mostPauseSteps + 1;
+// Long pauses take coarser steps, which is safe: in silence the gain only rises, at the limited rate.
+void ExposureGuard::skipTicks(std::uint64_t ticks) noexcept {
+    const std::uint64_t step = ticks / maximumPauseSteps + 1;
     while (ticks > 0) {
         const std::uint64_t now = std::min(step, ticks);
         const double seconds = static_cast<double>(now) * tickSeconds_;
@@ -196,23 +189,6 @@ void ExposureGuard::continueFrom(const ExposureGuard& before) noexcept {
     gainTo_ = before.gainTo_;
     reason_ = before.reason_;
     loweredSeconds_ = before.loweredSeconds_;
-    publish();
-}
-
-void ExposureGuard::forgetExposure() noexcept {
-    shortTermSquare_ = 0.0;
-    recentSquare_ = 0.0;
-    recentWeight_ = 0.0;
-    slotEnergies_.fill(0.0);
-    slotSeconds_ = 0.0;
-    energy_ = 0.0;
-    squares_ = 0.0;
-    weightedSquares_ = 0.0;
-    gainDb_ = 0.0;
-    gainFrom_ = 1.0;
-    gainTo_ = 1.0;
-    reason_ = ExposureReason::none;
-    loweredSeconds_ = 0.0;
     publish();
 }
 

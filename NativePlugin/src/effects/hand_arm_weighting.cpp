@@ -14,7 +14,7 @@ constexpr double transitionQuality = 0.64;
 struct Analogue {
     double frequencyHz;
     double quality;
-    /// Of (s / w)^2, s / w and 1 in the numerator.
+    /// Coefficients of (s / w)^2, s / w and 1 in the numerator.
     double squared;
     double linear;
     double constant;

@@ -10,16 +10,16 @@ namespace haptoflow::effects {
 ///   high-pass      s^2 / (s^2 + w1 s / Q1 + w1^2)                  f1 = 6.310 Hz, Q1 = 1 / sqrt 2
 ///   low-pass       w2^2 / (s^2 + w2 s / Q1 + w2^2)                 f2 = 1258.9 Hz
 ///   a-v transition (1 + s / w3) / (1 + s / (Q2 w3) + (s / w3)^2)   f3 = f4 = 15.915 Hz, Q2 = 0.64
-/// each made digital by the bilinear transform, warped to be exact at its own frequency. So below about 16 Hz it weighs
-/// acceleration, above it velocity: 0.958 at 12.5 Hz, 0.101 at 160 Hz, 0.0135 at 1 kHz (table A.2).
+/// each discretised by the bilinear transform, prewarped to be exact at its own frequency. The weighting follows
+/// acceleration below about 16 Hz and velocity above: 0.958 at 12.5 Hz, 0.101 at 160 Hz, 0.0135 at 1 kHz (table A.2).
 ///
-/// Any one thread; allocates nothing.
+/// Used by one thread at a time; allocates nothing.
 class HandArmWeighting {
 public:
-    /// For 8 to 192 kHz.
+    /// `sampleRateHz` is 8 to 192 kHz.
     explicit HandArmWeighting(double sampleRateHz) noexcept;
 
-    /// Weighs the next sample.
+    /// Filters the next sample.
     [[nodiscard]] double next(double mps2) noexcept;
     void reset() noexcept;
 

@@ -11,9 +11,9 @@ namespace {
 using Complex = std::complex<double>;
 
 constexpr double twoPi = 2.0 * std::numbers::pi;
-constexpr double largestInput = 1e6;
+constexpr double maximumInput = 1e6;
 constexpr std::size_t unknowns = 2 * ParallelFilter::sections + 1;
-// Keeps the fit from answering one section with its neighbour; moves the response by less than 0.01 dB.
+// Keeps the fit from cancelling a section with its neighbour; changes the response by less than 0.01 dB.
 constexpr double ridge = 1e-8;
 
 double poleHz(std::size_t section) {
@@ -22,7 +22,8 @@ double poleHz(std::size_t section) {
            std::pow(ParallelFilter::highestPoleHz / ParallelFilter::lowestPoleHz, static_cast<double>(section) / last);
 }
 
-/// Half way to the poles on either side, and some more: neighbours that overlap leave less ripple between them.
+/// Bandwidth from half way to the lower pole to half way to the upper one, widened so that neighbours overlap, which
+/// reduces the ripple between them.
 double poleBandwidthHz(std::size_t section) {
     constexpr double overlap = 1.4;
     static const double half = std::sqrt(poleHz(1) / poleHz(0));
@@ -32,7 +33,7 @@ double poleBandwidthHz(std::size_t section) {
 using Vector = std::array<double, unknowns>;
 using Matrix = std::vector<Vector>;
 
-/// Solves a symmetric, positive definite system by Cholesky's factorisation, in place.
+/// Solves a symmetric positive definite system by Cholesky factorisation, in place.
 Vector solve(Matrix matrix, Vector right) {
     for (std::size_t row = 0; row < unknowns; ++row) {
         for (std::size_t column = 0; column <= row; ++column) {
@@ -59,7 +60,45 @@ Vector solve(Matrix matrix, Vector right) {
     return right;
 }
 
+/// The integral of ln coth(u / 2) from 0 to x, an odd function.
+double weightUpTo(double x) {
+    const double distance = std::abs(x);
+    double integral = 0.0;
+    if (distance > 0.5) {
+        integral = std::numbers::pi * std::numbers::pi / 4.0;
+        for (int order = 1; order < 80; order += 2) {
+            integral -= 2.0 * std::exp(-order * distance) / (order * order);
+        }
+    } else if (distance > 0.0) {
+        integral = distance * (std::log(2.0 / distance) + 1.0) + std::pow(distance, 3.0) / 36.0 -
+                   7.0 * std::pow(distance, 5.0) / 7200.0;
+    }
+    return std::copysign(integral, x);
+}
+
 }  // namespace
+
+// H. W. Bode, "Network Analysis and Feedback Amplifier Design", 1945: the phase is the slope of the log magnitude over
+// log frequency, averaged with the weight ln coth(|u| / 2). The slope is constant between two points, so the weight is
+// integrated exactly there.
+std::vector<double> minimumPhaseRadians(std::span<const double> logMagnitude, double octavesPerPoint) {
+    const double step = octavesPerPoint * std::numbers::ln2;
+    const std::size_t count = logMagnitude.size();
+    std::vector<double> weights(2 * count);
+    for (std::size_t cell = 0; cell < weights.size(); ++cell) {
+        const double from = (static_cast<double>(cell) - static_cast<double>(count)) * step;
+        weights[cell] = weightUpTo(from + step) - weightUpTo(from);
+    }
+    std::vector<double> phase(count);
+    for (std::size_t point = 0; point < count; ++point) {
+        double sum = 0.0;
+        for (std::size_t cell = 0; cell + 1 < count; ++cell) {
+            sum += (logMagnitude[cell + 1] - logMagnitude[cell]) / step * weights[cell + count - point];
+        }
+        phase[point] = sum / std::numbers::pi;
+    }
+    return phase;
+}
 
 ParallelFilter::ParallelFilter(std::span<const ResponsePoint> points, double sampleRateHz)
     : sampleRateHz_(sampleRateHz) {
@@ -71,8 +110,8 @@ ParallelFilter::ParallelFilter(std::span<const ResponsePoint> points, double sam
         back1_[section] = -2.0 * radius_[section] * cosine_[section];
         back2_[section] = radius_[section] * radius_[section];
     }
-    // The basis: 1, and for each section 1 / A and (1 - 1/z) / A, which stay apart from one another however close the
-    // poles are to 1.
+    // The basis functions: 1, and 1 / A and (1 - 1/z) / A for each section. They stay linearly independent even if the
+    // poles are close to 1.
     std::vector<std::array<Complex, unknowns>> rows;
     Vector norm{};
     for (const ResponsePoint& point : points) {
@@ -152,7 +191,7 @@ void ParallelFilter::process(std::span<float> samples) noexcept {
     static_assert(sections % lanes == 0);
     for (float& sample : samples) {
         const double input =
-            std::isfinite(sample) ? std::clamp(static_cast<double>(sample), -largestInput, largestInput) : 0.0;
+            std::isfinite(sample) ? std::clamp(static_cast<double>(sample), -maximumInput, maximumInput) : 0.0;
         std::array<double, lanes> sums{};
         for (std::size_t group = 0; group < sections; group += lanes) {
             for (std::size_t lane = 0; lane < lanes; ++lane) {
@@ -172,7 +211,7 @@ void ParallelFilter::reset() noexcept {
     state2_ = {};
 }
 
-// With no input a section goes on as y(n) = r^n (y(0) cos n t + b sin n t): its amplitude is sqrt(y(0)^2 + b^2).
+// Without input, a section's output is y(n) = r^n (y(0) cos n t + b sin n t); its amplitude is sqrt(y(0)^2 + b^2).
 double ParallelFilter::ringing(std::size_t section, double first, double second) const noexcept {
     return std::hypot(first, (first * cosine_[section] + second / radius_[section]) / sine_[section]);
 }

@@ -49,7 +49,7 @@ void Signal::process(std::span<float> samplesMps2) noexcept {
         sine_ = cosine_ * turnSine_ + sine_ * turnCosine_;
         cosine_ = cosine;
     }
-    // Rounding moves the point off the circle; one step of Newton's method brings it back.
+    // One step of Newton's method corrects the radius, which drifts by rounding.
     const double back = 1.5 - 0.5 * (cosine_ * cosine_ + sine_ * sine_);
     cosine_ *= back;
     sine_ *= back;

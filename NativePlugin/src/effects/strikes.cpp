@@ -6,11 +6,11 @@
 namespace haptoflow::effects {
 namespace {
 
-// What presses a tip that has bounced back to the surface: a hand, not gravity alone.
+// Acceleration that returns a rebounding tip to the surface. It exceeds gravity because the hand presses the stylus.
 constexpr double returnAccelerationMps2 = 25.0;
-// The slowest decay that a model file may state, and the largest amplitude that can ring.
-constexpr double slowestDecayPerSecond = 10.0;
-constexpr double largestAmplitudeMps2 = 1e5;
+// The minimum decay that a model file may state, and the maximum amplitude of a mode.
+constexpr double minimumDecayPerSecond = 10.0;
+constexpr double maximumAmplitudeMps2 = 1e5;
 
 }  // namespace
 
@@ -21,17 +21,16 @@ void Strikes::strike(double speedMps, const ImpactResponse& response) noexcept {
     if (!(speedMps > 0.0)) {
         return;
     }
-    const double speed = std::min(speedMps, highestSpeedMps);
+    const double speed = std::min(speedMps, maximumStrikeMps);
     ring(speed, response);
     reboundsLeft_ = rebounds;
     planRebound(speed, response);
 }
 
 void Strikes::ring(double speedMps, const ImpactResponse& response) noexcept {
-    ++struck_;
     for (const ImpactResponse::Mode& mode : response.modes) {
-        const double amplitude = std::min(static_cast<double>(mode.gainPerSecond) * speedMps, largestAmplitudeMps2);
-        const double decay = std::max(static_cast<double>(mode.decayPerSecond), slowestDecayPerSecond) * decayFactor_;
+        const double amplitude = std::min(static_cast<double>(mode.gainPerSecond) * speedMps, maximumAmplitudeMps2);
+        const double decay = std::max(static_cast<double>(mode.decayPerSecond), minimumDecayPerSecond) * decayFactor_;
         const auto quietest = std::ranges::min_element(ringing_, {}, &DecayingSinusoid::envelopeMps2);
         if (amplitude > quietest->envelopeMps2()) {
             quietest->start(mode.frequencyHz, decay, amplitude, sampleRateHz_);
@@ -42,7 +41,8 @@ void Strikes::ring(double speedMps, const ImpactResponse& response) noexcept {
 
 void Strikes::planRebound(double speedMps, const ImpactResponse& response) noexcept {
     rebound_ = {};
-    const double restitution = std::clamp(static_cast<double>(response.restitution), 0.0, 0.9);
+    const double restitution =
+        std::clamp(static_cast<double>(response.restitution), 0.0, ImpactResponse::maximumRestitution);
     if (reboundsLeft_ == 0 || !(restitution > 0.0)) {
         reboundsLeft_ = 0;
         return;
@@ -56,9 +56,10 @@ void Strikes::planRebound(double speedMps, const ImpactResponse& response) noexc
 }
 
 EffectDeclaration Strikes::declaration() const noexcept {
-    // ln(largest / silent) / slowest decay, after the last rebound's flight.
-    const double ringSeconds = std::log(largestAmplitudeMps2 / DecayingSinusoid::silentMps2) / slowestDecayPerSecond;
-    const double flightsSeconds = static_cast<double>(rebounds) * 2.0 * 0.9 * highestSpeedMps / returnAccelerationMps2;
+    // The time in which the strongest and slowest mode decays to silence, after the last rebound's flight.
+    const double ringSeconds = std::log(maximumAmplitudeMps2 / imperceptibleMps2) / minimumDecayPerSecond;
+    const double flightsSeconds = static_cast<double>(rebounds) * 2.0 * ImpactResponse::maximumRestitution *
+                                  maximumStrikeMps / returnAccelerationMps2;
     return {.kind = kind_,
             .reads = contact_field::touch | contact_field::material |
                      (kind_ == EffectKind::impact ? contact_field::approachSpeed : contact_field::velocity),

@@ -8,45 +8,44 @@
 
 namespace haptoflow::effects {
 
-/// How a material answers a blow: a sum of decaying sinusoids whose amplitudes are proportional to the speed of the
-/// blow (Okamura, Cutkosky, Dennerlein 2001: a(t) = A(v) e^(-Bt) sin(2 pi f t)).
+/// Response of a material to a blow: a sum of decaying sinusoids with amplitudes proportional to the speed of the blow
+/// (Okamura, Cutkosky, Dennerlein 2001: a(t) = A(v) e^(-Bt) sin(2 pi f t)).
 struct ImpactResponse {
     struct Mode {
-        /// 0 for none.
+        /// 0 for an unused mode.
         float frequencyHz = 0.0F;
         float decayPerSecond = 0.0F;
-        /// m/s^2 for each m/s of the blow.
+        /// m/s^2 per m/s of the blow.
         float gainPerSecond = 0.0F;
     };
     static constexpr std::size_t modeCount = 2;
     std::array<Mode, modeCount> modes{};
-    /// Share of the speed that is left after a rebound, 0 to 0.9; 0 for no rebounds.
+    static constexpr double maximumRestitution = 0.9;
+    /// Share of the speed that a rebound keeps, 0 to 0.9; 0 for no rebounds.
     float restitution = 0.0F;
 };
 
-/// A source of blows: the landing of a tip (kind impact) or its crossing of an edge (kind edge).
+/// Renders blows: the landing of a tip (kind impact) or the crossing of an edge (kind edge).
 ///
-/// Blows that overlap ring together; where there is no room for one more, it takes the place of the one that has become
-/// the quietest. Audio thread but for construction.
+/// Overlapping blows add up. If all sinusoids are in use, a new one replaces the quietest. Construction excepted,
+/// everything runs on the audio thread.
 class Strikes final : public Effect {
 public:
     /// Speeds are clamped to this.
-    static constexpr double highestSpeedMps = 5.0;
+    static constexpr double maximumStrikeMps = 5.0;
     static constexpr std::size_t capacity = 8;
     static constexpr std::size_t rebounds = 2;
 
-    /// `decayFactor` multiplies the responses' decay: an edge is shorter than a landing.
+    /// `decayFactor` multiplies the decay of the responses, which makes edges shorter than landings.
     Strikes(EffectKind kind, double sampleRateHz, double decayFactor = 1.0) noexcept;
 
-    /// A blow with the next sample, and its rebounds after it. A speed that is not above 0 is none.
+    /// Starts a blow with the next sample; its rebounds follow. Ignores a speed that is not above 0.
     void strike(double speedMps, const ImpactResponse& response) noexcept;
 
     [[nodiscard]] EffectDeclaration declaration() const noexcept override;
     void process(std::span<float> samplesMps2) noexcept override;
     void reset() noexcept override;
     [[nodiscard]] bool isIdle() const noexcept override { return isIdle_; }
-    /// Blows so far, rebounds included.
-    [[nodiscard]] std::uint64_t struck() const noexcept { return struck_; }
 
 private:
     struct Rebound {
@@ -64,9 +63,8 @@ private:
     std::array<DecayingSinusoid, capacity> ringing_{};
     Rebound rebound_{};
     std::size_t reboundsLeft_ = 0;
-    // Cached, since it is read several times in every block, also by voices without landings and edges.
+    // Cached, because every voice reads it several times per block.
     bool isIdle_ = true;
-    std::uint64_t struck_ = 0;
 };
 
 }  // namespace haptoflow::effects

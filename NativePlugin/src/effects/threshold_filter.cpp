@@ -1,5 +1,6 @@
 #include "effects/threshold_filter.hpp"
 
+#include "dsp/sample_rates.hpp"
 #include "effects/perceived_intensity.hpp"
 
 #include <cmath>
@@ -10,15 +11,16 @@
 namespace haptoflow::effects {
 namespace {
 
-constexpr double rateHz = 2000.0;
-// Fine enough that the cepstrum of a curve over 60 dB does not fold back on itself.
+using dsp::waveformRateHz;
+
+// Large enough to avoid aliasing in the cepstrum of a curve that spans 60 dB.
 constexpr std::size_t gridSize = 1024;
 
 double groupDelay(std::span<const double> impulseResponse, double frequencyHz) {
     std::complex<double> sum = 0.0;
     std::complex<double> moment = 0.0;
     for (std::size_t i = 0; i < impulseResponse.size(); ++i) {
-        const double angle = -2.0 * std::numbers::pi * frequencyHz / rateHz * static_cast<double>(i);
+        const double angle = -2.0 * std::numbers::pi * frequencyHz / waveformRateHz * static_cast<double>(i);
         const std::complex<double> term = impulseResponse[i] * std::polar(1.0, angle);
         sum += term;
         moment += static_cast<double>(i) * term;
@@ -33,12 +35,12 @@ const ThresholdFilter& ThresholdFilter::shared() {
     return filter;
 }
 
-// The cepstrum c of log |H|, folded onto positive times, is that of the minimum-phase response with the same magnitude;
-// its exponential follows from n h(n) = sum k c'(k) h(n - k).
+// Folding the cepstrum of log |H| onto positive time gives the cepstrum c' of the minimum-phase response with the same
+// magnitude. The response follows from n h(n) = sum k c'(k) h(n - k).
 ThresholdFilter::ThresholdFilter() {
     std::vector<double> logMagnitude(gridSize / 2 + 1);
     for (std::size_t i = 0; i < logMagnitude.size(); ++i) {
-        const double frequencyHz = rateHz * static_cast<double>(i) / static_cast<double>(gridSize);
+        const double frequencyHz = waveformRateHz * static_cast<double>(i) / static_cast<double>(gridSize);
         logMagnitude[i] = -std::log(detectionThresholdMps2(frequencyHz));
     }
     std::array<double, taps> folded{};

@@ -46,7 +46,7 @@ bool WaveDecimation::take(float sample, float& decimated) noexcept {
         return false;
     }
     untilNext_ = factor_;
-    // The kernel is symmetric, so the order of time does not matter to it; the oldest sample is at place_.
+    // place_ is the oldest sample. The kernel is symmetric, so the direction of time does not matter.
     const auto seam = newest_.begin() + static_cast<std::ptrdiff_t>(place_);
     const auto behind = kernel_.begin() + (newest_.end() - seam);
     decimated = std::inner_product(seam, newest_.end(), kernel_.begin(), 0.0F);

@@ -5,18 +5,20 @@
 
 namespace haptoflow::effects {
 
-/// Every `factor`-th sample of a wave behind a low-pass: a sinc under a Kaiser window, 6 dB down at half the new rate,
-/// flat to a quarter of it and 50 dB down from three quarters on. Any one thread; allocates in its constructor only.
+/// Low-pass filters a wave and keeps every `factor`-th sample. The filter is a Kaiser-windowed sinc: flat to a quarter
+/// of the new rate, -6 dB at half of it, -50 dB from three quarters on. Used by one thread at a time; only the
+/// constructor allocates.
 class WaveDecimation {
 public:
     static constexpr std::size_t largestFactor = 96;
-    /// The delay of the filter, in samples of the new rate.
+    /// Delay of the filter in samples of the new rate.
     static constexpr std::size_t delaySamples = 3;
 
-    /// 1 to largestFactor; 1 passes every sample on as it is and without delay. Throws std::invalid_argument.
+    /// `factor` is 1 to largestFactor; 1 passes every sample unchanged and without delay. Throws std::invalid_argument.
     explicit WaveDecimation(std::size_t factor);
 
-    /// Takes a sample of the old rate, 0 for one that is not finite; true where it completes one of the new rate.
+    /// Takes a sample at the old rate; a non-finite one counts as 0. Returns true if it completes a sample at the new
+    /// rate, and then writes that to `decimated`.
     [[nodiscard]] bool take(float sample, float& decimated) noexcept;
     void reset() noexcept;
 

@@ -10,7 +10,7 @@
 namespace haptoflow::effects {
 namespace {
 
-constexpr double binHz = 15.625;
+constexpr double binHz = WaveFeatures::sampleRateHz / static_cast<double>(ThresholdFilter::taps);
 constexpr std::size_t windowFall = 16;
 constexpr std::size_t fastSamples = 8;
 constexpr std::size_t slowLag = 10;
@@ -18,9 +18,9 @@ constexpr double slowSeconds = 0.03;
 constexpr std::size_t onsetSearchSamples = 16;
 constexpr double onsetShareOfPeak = 0.25;
 constexpr std::size_t transientSamples = 16;
-// Beyond every device and wave; keeps squares finite whatever comes in.
-constexpr double largestMps2 = 1e6;
-// Of r^2: below it nothing can be felt, and its spectrum says nothing.
+// Larger than in any real wave; keeps squares finite for any input.
+constexpr double maximumMps2 = 1e6;
+// Value of r^2 below which nothing is felt and the spectrum is meaningless.
 constexpr double imperceptible = 1e-6;
 constexpr double firstCentroidHz = 160.0;
 
@@ -71,7 +71,7 @@ void WaveFeatures::reset() noexcept {
     fastEnergy_ = 0.0;
     hasOnset_ = false;
     onset_ = 0;
-    quietUntil_ = 0;
+    refractoryUntil_ = 0;
 }
 
 void WaveFeatures::setDeviceRange(double minFrequencyHz, double maxFrequencyHz) noexcept {
@@ -106,7 +106,7 @@ WaveFeatures::Progress WaveFeatures::process(std::span<const float> waveMps2, st
             return progress;
         }
         const float sample = waveMps2[progress.samples++];
-        take(std::isfinite(sample) ? std::clamp(static_cast<double>(sample), -largestMps2, largestMps2) : 0.0);
+        take(std::isfinite(sample) ? std::clamp(static_cast<double>(sample), -maximumMps2, maximumMps2) : 0.0);
     }
 }
 
@@ -116,7 +116,7 @@ void WaveFeatures::take(double mps2) noexcept {
     thresholds_[at] = filtered();
     ++taken_;
     followEnergy();
-    lookForOnset();
+    detectOnset();
 }
 
 double WaveFeatures::filtered() const noexcept {
@@ -140,15 +140,15 @@ void WaveFeatures::followEnergy() noexcept {
     slowEnergy_ += slowShare_ * (squareBefore(slowLag) - slowEnergy_);
 }
 
-void WaveFeatures::lookForOnset() noexcept {
-    if (taken_ < quietUntil_ || hasOnset_) {
+void WaveFeatures::detectOnset() noexcept {
+    if (taken_ < refractoryUntil_ || hasOnset_) {
         return;
     }
     const bool isFelt = fastEnergy_ > 0.5 * options_.onsetThresholds * options_.onsetThresholds;
     if (isFelt && fastEnergy_ > options_.onsetEnergyRatio * slowEnergy_) {
         hasOnset_ = true;
         onset_ = onsetBefore(taken_);
-        quietUntil_ = taken_ + refractorySamples_;
+        refractoryUntil_ = taken_ + refractorySamples_;
     }
 }
 
@@ -211,8 +211,8 @@ WaveFeatures::Spectrum WaveFeatures::spectrumOfHistory() const noexcept {
     return spectrum;
 }
 
-// Over [start, end), delayed by the filter and lengthened on both sides to whole half periods, of what is held; what
-// follows an onset is no part of a frame before it.
+// Mean square of the filtered wave over [start, end), shifted by the filter's delay and lengthened on both sides to
+// whole half periods, as far as the history reaches. A frame before an onset excludes everything after that onset.
 double WaveFeatures::meanSquare(std::uint64_t start, std::uint64_t end, double centroidHz) const noexcept {
     const double halfPeriod = 0.5 * sampleRateHz / centroidHz;
     const auto frameLength = static_cast<double>(end - start);
@@ -248,7 +248,8 @@ WaveTransient WaveFeatures::transientWithin(std::uint64_t start, std::uint64_t e
         differences += (value - last) * (value - last);
         last = value;
     }
-    // Of a sinusoid, neighbours add up to 2 cos(turn / 2) and differ by 2 sin(turn / 2), a quarter period apart.
+    // For a sinusoid, the sum of neighbouring samples has the amplitude 2 cos(turn / 2) and their difference
+    // 2 sin(turn / 2).
     const double turn = 2.0 * std::atan2(std::sqrt(differences), std::sqrt(sums));
     const double ownHz = turn / (2.0 * std::numbers::pi) * sampleRateHz;
     const double frequencyHz = clampedToDevice(ownHz);

@@ -8,12 +8,12 @@
 namespace haptoflow::engine {
 namespace {
 
-// Long enough for the level of a random texture to be known within a few tenths of a decibel.
+// Averaging time that gives the level of a random texture within a few tenths of a decibel.
 constexpr double memorySeconds = 2.0;
-// Before anything is known, so long counts as having been heard at the right level.
+// Initial weight of the assumption that the level is right.
 constexpr double priorSeconds = 0.1;
-constexpr double largestLogGain = 0.7;
-// Apart from the segments that are heard, which count from 0.
+constexpr double maximumLogGain = 0.7;
+// Noise keys above those of the voice's own segments, which count from 0.
 constexpr std::uint64_t firstSegment = std::uint64_t{1} << 63U;
 
 double meanSquare(std::span<const float> samples) noexcept {
@@ -106,12 +106,12 @@ void BlendBalance::take(std::span<const float> segments) noexcept {
 }
 
 float BlendBalance::gain() const noexcept {
-    double wanted = 0.0;
+    double target = 0.0;
     for (const Shadow& shadow : std::span(shadows_).first(count_)) {
-        wanted += static_cast<double>(shadow.part.share) * shadow.power.logarithm();
+        target += static_cast<double>(shadow.part.share) * shadow.power.logarithm();
     }
     return static_cast<float>(
-        std::exp(std::clamp(0.5 * (wanted - blend_.logarithm()), -largestLogGain, largestLogGain)));
+        std::exp(std::clamp(0.5 * (target - blend_.logarithm()), -maximumLogGain, maximumLogGain)));
 }
 
 void BlendBalance::level(std::span<float, inference::segmentSamples> segmentMps2, float levelMps2) noexcept {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "engine/contact_state.hpp"
 #include "engine/rib_phase.hpp"
 #include "inference/segment_generator.hpp"
 
@@ -11,11 +12,11 @@
 
 namespace haptoflow::engine {
 
-/// What a blend consists of, for the worker. Empty for a single material.
+/// The materials of a blend, for the worker. Empty for a single material.
 struct BlendParts {
-    static constexpr std::size_t capacity = 4;
+    static constexpr std::size_t capacity = MaterialBlend::capacity;
     struct Part {
-        /// Shares of all parts sum to 1.
+        /// The shares of all parts add up to 1.
         float share = 0.0F;
         std::array<float, inference::embeddingSize> embedding{};
     };
@@ -25,30 +26,31 @@ struct BlendParts {
     [[nodiscard]] std::span<const Part> all() const noexcept { return std::span(parts).first(count); }
 };
 
-/// Keeps the level of a blend between those of its materials. A network was taught materials, not blends of them: it is
-/// up to 2 dB louder or softer than it was asked to be, by other amounts for the blend than for its parts. While a
-/// voice plays a blend, its parts are generated along with it, unheard and a quarter as often, and the blend gets the
-/// gain that makes it as much too loud as they are, on average. Worker thread.
+/// Keeps the level of a blend between the levels of its materials. The network was trained on materials, not on blends;
+/// its output is up to 2 dB louder or softer than requested, and the error of a blend differs from that of its parts.
+/// While a voice plays a blend, this class also generates its parts, without playing them and a quarter as often. The
+/// blend gets the gain that makes its mean level error equal to that of the parts. Worker thread.
 class BlendBalance {
 public:
-    /// Samples from one segment of the parts to the next.
+    /// Waveform samples between two segments of the parts.
     static constexpr std::int64_t stepSamples = 100;
 
-    /// `seed` and `voice` key the parts' noise.
+    /// `seed` and `voice` key the noise of the parts.
     BlendBalance(std::uint64_t seed, std::uint32_t voice) noexcept : seed_(seed), voice_(voice) {}
 
-    /// What the voice plays from now on, at a motion; `sample` is where its next segment takes over.
+    /// Sets the blend and the motion of the voice's next segment, which takes over at `sample`.
     void follow(const BlendParts& blend, const std::array<float, 3>& motion, std::int64_t sample) noexcept;
-    /// Adds what has to be generated now, if anything. The requests view this object until `take`.
+    /// Appends requests for the parts if a step has passed. The requests view this object until `take`.
     void request(std::vector<inference::SegmentRequest>& requests);
+    /// Number of requests appended by `request` and not yet taken.
     [[nodiscard]] std::size_t requested() const noexcept { return requested_; }
-    /// The requested segments, one after the other.
+    /// Takes the requested segments, one after the other.
     void take(std::span<const float> segments) noexcept;
-    /// Weighs in a segment of the blend that was asked for at `levelMps2`, and gives it the gain.
+    /// Measures a segment of the blend that was generated for `levelMps2` and applies the gain to it.
     void level(std::span<float, inference::segmentSamples> segmentMps2, float levelMps2) noexcept;
 
 private:
-    /// A mean square of what should be 1, over the newest seconds.
+    /// Mean square, over the last seconds, of a signal with a nominal mean square of 1.
     class RunningPower {
     public:
         void add(double power, double seconds) noexcept;
@@ -58,6 +60,7 @@ private:
         double seconds_ = 0.0;
         double mean_ = 1.0;
     };
+    /// State of a part that is generated without being played.
     struct Shadow {
         BlendParts::Part part;
         RibTurns phase{};
@@ -66,7 +69,7 @@ private:
         RunningPower power;
     };
 
-    /// What is known of a part; nothing yet of a new one.
+    /// The state of a part; a fresh one if the part is new.
     [[nodiscard]] Shadow shadowOf(const BlendParts::Part& part) const noexcept;
     [[nodiscard]] float gain() const noexcept;
 

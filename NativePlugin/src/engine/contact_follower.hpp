@@ -6,22 +6,22 @@
 
 namespace haptoflow::engine {
 
-/// What a voice has to do about a published contact state.
+/// The voice's response to a published contact state.
 enum class ContactAction {
-    /// Nothing touches, nothing sounds.
+    /// The tip does not slide: no texture.
     rest,
-    /// A touch begins, or sliding resumes: a seed sounds.
+    /// A touch begins, or sliding resumes: a seed starts.
     onset,
-    /// The tip slid over the surface and left it since the last state: a seed sounds and ends.
+    /// A touch began and ended since the last state: a seed sounds briefly.
     tap,
-    /// Sliding goes on: the next segment is wanted.
+    /// Sliding continues: the next segment is generated.
     slide,
-    /// Contact or sliding ended: silence within 5 ms.
+    /// Contact or sliding ended: the texture is silent within 5 ms.
     release,
 };
 
-/// Follows one stylus's contact states. A tip that touches but does not slide is silent: texture comes from sliding,
-/// and only on surfaces that ask for it.
+/// Derives actions from the contact states of one stylus. Texture sounds only while the tip slides, and only on
+/// surfaces with the texture effect.
 class ContactFollower {
 public:
     /// Sliding begins at 4 mm/s and ends below 2 mm/s.
@@ -30,7 +30,7 @@ public:
 
     [[nodiscard]] ContactAction update(const ContactState& state) noexcept;
     [[nodiscard]] bool sliding() const noexcept { return sliding_; }
-    /// Touch-downs so far, however the caller numbers its touches.
+    /// Number of touch-downs so far, independent of the caller's touch counter.
     [[nodiscard]] std::uint64_t touches() const noexcept { return touches_; }
 
 private:

@@ -15,8 +15,9 @@ using effects::EffectKind;
 
 constexpr effects::EffectMask surfaceEffects =
     effects::maskOf(EffectKind::texture) | effects::maskOf(EffectKind::impact) | effects::maskOf(EffectKind::edge);
-// An edge is a blow at this share of the speed along the surface where it is as high as the second figure, or where the
-// level changes by the third: a step as high as a stylus's tip is wide, and a change from smooth to rough.
+// A full edge is a blow at this share of the speed along the surface. An edge is full if its height reaches the width
+// of a stylus tip, or if the level changes by 20 dB, as from a smooth to a rough material; smaller edges are in
+// proportion.
 constexpr double edgeShareOfSpeed = 0.2;
 constexpr double fullEdgeMetres = 0.002;
 constexpr double fullEdgeDb = 20.0;
@@ -40,7 +41,7 @@ ContactAction ContactPublisher::publish(ContactState state) noexcept {
     const std::uint64_t touchesBefore = follower_.touches();
     const ContactAction action = follower_.update(state);
     const bool isNewTouch = follower_.touches() != touchesBefore;
-    const MaterialLibrary::Reading reading(library_);
+    const MaterialLibrary::ReadScope reading(library_);
     Contact contact{.state = state,
                     .ingredients = reading.ingredients(state.material),
                     .before = reading.ingredients(last_.material),
@@ -53,13 +54,13 @@ ContactAction ContactPublisher::publish(ContactState state) noexcept {
         ribs_ = waveVectorsOf(material.embedding);
     }
     onsets_ += action == ContactAction::onset || action == ContactAction::tap ? 1 : 0;
-    // With every state that slides, not only at touch-down: the callback may have to resume with any of them.
+    // Every sliding state carries a seed, because the callback may resume with any of them.
     if (follower_.sliding() || action == ContactAction::tap) {
         retrieve(contact, material);
     }
     noteSpeed(state, isNewTouch);
     if (isNewTouch) {
-        // The counter stays the same where a surface without label interrupts a touch: that touch has landed already.
+        // An unchanged counter means that a surface without a label interrupted the touch, which has landed before.
         if (state.touchCounter != lastTouchCounter_) {
             noteImpact(contact);
         }
@@ -82,11 +83,11 @@ void ContactPublisher::postToAudio(const Contact& contact) noexcept {
     std::optional<dsp::ToneCepstrum> tone;
     if (!contact.hasSignal) {
         tone = resolveTone(contact.ingredients, std::hypot(motion[0], motion[1]),
-                           static_cast<double>(contact.state.toneDbPerOctave), tiltOfOne_);
+                           static_cast<double>(contact.state.toneDbPerOctave), tiltPerDecibel_);
     }
-    const effects::EffectMask asked =
+    const effects::EffectMask requested =
         (contact.state.effects & surfaceEffects) | (tone ? effects::maskOf(EffectKind::tone) : effects::EffectMask{0});
-    channels_.counters.askedFor.store(contact.state.touching ? asked : 0, std::memory_order_relaxed);
+    channels_.counters.askedFor.store(contact.state.touching ? requested : 0, std::memory_order_relaxed);
 
     AudioMessage& audio = channels_.toAudio.draft();
     audio.onset = onsets_;
@@ -160,7 +161,7 @@ void ContactPublisher::remember(const Contact& contact) noexcept {
 
 void ContactPublisher::noteImpact(const Contact& contact) noexcept {
     const ContactState& state = contact.state;
-    if (!state.asksFor(EffectKind::impact) || !(state.approachSpeedMps > 0.0F)) {
+    if (!state.hasEffect(EffectKind::impact) || !(state.approachSpeedMps > 0.0F)) {
         return;
     }
     ++impact_.counter;
@@ -171,7 +172,7 @@ void ContactPublisher::noteImpact(const Contact& contact) noexcept {
 void ContactPublisher::noteTransition(const Contact& contact) noexcept {
     const ContactState& state = contact.state;
     if (!state.touching) {
-        // The tip has slid off what it touched: that surface's edge, at the speed that the tip had there.
+        // The tip has slid off the last surface: strike that surface's edge at the tip's last speed.
         strikeEdge(last_, contact.before, heightShare(state));
         return;
     }
@@ -199,7 +200,7 @@ double ContactPublisher::levelShare(const Contact& contact) const noexcept {
 void ContactPublisher::strikeEdge(const ContactState& state, const Ingredients& ingredients, double share) noexcept {
     const double speedMps = std::ranges::max(newestSpeedsMps_);
     const double blowMps = edgeShareOfSpeed * speedMps * std::min(share, 1.0);
-    if (!state.asksFor(EffectKind::edge) || !(blowMps > 0.0)) {
+    if (!state.hasEffect(EffectKind::edge) || !(blowMps > 0.0)) {
         return;
     }
     ++edge_.counter;
@@ -216,7 +217,7 @@ void ContactPublisher::retrieve(const Contact& contact, const Material& material
     }
     const float levelMps2 = contact.ingredients.levelMps2(contact.ranged.levelMotion);
     std::ranges::transform(seed->samples, seedMps2_.begin(), [levelMps2](float sample) { return sample * levelMps2; });
-    // The seed sounds as recorded: it goes on over its ribs by its own velocity, whatever the hand's is.
+    // The seed plays as recorded, so its rib phase advances with its own velocity and not with the tip's.
     seedRibs_.vectors = waveVectorsOf(material.embedding);
     seedRibs_.phase = phasesFor(seedRibs_.vectors, waveVectorsOf(seed->embedding), seed->ribPhase);
     seedRibs_.turnsPerSample = ribTurnsPerSample(material.embedding, seed->velocityMps[0], seed->velocityMps[1]);

@@ -12,20 +12,20 @@
 
 namespace haptoflow::engine {
 
-/// The main thread's end of a voice: turns contact states into messages to callback and worker. Wait-free, allocates
-/// nothing; one thread at a time. The library must outlive it.
+/// The part of a voice that runs on the main thread: converts contact states to messages for the callback and the
+/// worker. Wait-free, allocates nothing; used by one thread at a time. The library must outlive it.
 class ContactPublisher {
 public:
-    /// A signal sounds from this speed on.
+    /// Minimum speed at which a signal sounds.
     static constexpr float signalSpeedMps = 0.005F;
 
     ContactPublisher(const MaterialLibrary& library, VoiceChannels& channels);
 
-    /// Returns what the state means for the voice. The state is sanitised first, and what had to be changed counted.
+    /// Publishes a state and returns the voice's action. The state is sanitised first; changed fields are counted.
     ContactAction publish(ContactState state) noexcept;
 
 private:
-    /// A state with what its materials, and those of the last state that touched, are.
+    /// A state with its materials and those of the last touching state.
     struct Contact {
         const ContactState& state;
         Ingredients ingredients;
@@ -39,11 +39,12 @@ private:
     void noteImpact(const Contact& contact) noexcept;
     void noteTransition(const Contact& contact) noexcept;
     void noteSpeed(const ContactState& state, bool isNewTouch) noexcept;
-    /// Of the surface of `state`, with the largest of the newest speeds.
+    /// Strikes an edge of the surface of `state` at the largest of the newest speeds. `share` is the share of a full
+    /// edge.
     void strikeEdge(const ContactState& state, const Ingredients& ingredients, double share) noexcept;
     void remember(const Contact& contact) noexcept;
-    /// How much of a full edge the newest one is, by its height or by the change of level from the label before; may be
-    /// above 1.
+    /// The newest edge as a share of a full edge, by its height or by the change of level from the last label; may
+    /// exceed 1.
     [[nodiscard]] double heightShare(const ContactState& state) const noexcept;
     [[nodiscard]] double levelShare(const Contact& contact) const noexcept;
     void retrieve(const Contact& contact, const Material& material) noexcept;
@@ -52,7 +53,7 @@ private:
 
     const MaterialLibrary& library_;
     VoiceChannels& channels_;
-    const dsp::ToneCepstrum tiltOfOne_ = designTilt();
+    const dsp::ToneCepstrum tiltPerDecibel_ = designTilt();
     ContactFollower follower_;
     std::uint32_t onsets_ = 0;
     std::uint64_t slides_ = 0;
@@ -66,13 +67,13 @@ private:
     std::uint32_t lastTouchCounter_ = 0;
     std::uint32_t lastEdgeCounter_ = 0;
     std::uint32_t lastLandingCounter_ = 0;
-    // The speeds of this touch's newest states. Where the tip rounds a rim, the surface's normal points along the
-    // motion for a few states, and the speed along the surface is near 0.
+    // Speeds of the newest states of this touch. The largest is used for edges: on a rounded rim, the surface normal
+    // points along the motion for a few states, so that the speed along the surface is near 0.
     std::array<double, 4> newestSpeedsMps_{};
-    // The last state that touched.
+    // The last touching state.
     ContactState last_;
     std::uint32_t lastLabel_ = 0;
-    // Of this touch's newest state.
+    // Wave vectors of the newest touching state.
     WaveVectors ribs_{};
 };
 

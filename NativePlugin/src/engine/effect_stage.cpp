@@ -11,7 +11,7 @@ namespace {
 
 using effects::EffectKind;
 
-// An edge is over before the next one can come: ribs and rims follow each other faster than landings.
+// Edges decay faster than landings, because ribs and rims follow each other faster.
 constexpr double edgeDecayFactor = 3.0;
 constexpr double handOverSeconds = 0.01;
 
@@ -76,33 +76,33 @@ void EffectStage::exchange(std::unique_ptr<Processors> fresh) noexcept {
     settleDelay();
     if (fresh->exposureGuard == nullptr || guard_ == nullptr) {
         if (guard_ != nullptr) {
-            leftGain_ = static_cast<float>(guard_->report().gain);
-            leftGainSamples_ = fadeSamples_;
+            releasedGain_ = static_cast<float>(guard_->report().gain);
+            releasedGainSamples_ = fadeSamples_;
         }
         std::swap(guard_, fresh->exposureGuard);
     }
-    leaving_ = std::exchange(processors_, std::move(fresh));
+    replaced_ = std::exchange(processors_, std::move(fresh));
     if (delay_ != nullptr && processors_->delay != nullptr) {
         processors_->spareDelay = std::move(processors_->delay);
     } else if (delay_ != nullptr) {
-        leaving_->delay = std::move(delay_);
+        replaced_->delay = std::move(delay_);
     }
-    fadeLeft_ = fadeSamples_;
+    fadeRemaining_ = fadeSamples_;
 }
 
 void EffectStage::settleDelay() noexcept {
-    if (fadeLeft_ == 0 && delay_ == nullptr && processors_ != nullptr) {
+    if (fadeRemaining_ == 0 && delay_ == nullptr && processors_ != nullptr) {
         delay_ = std::move(processors_->delay);
     }
 }
 
-std::unique_ptr<Processors> EffectStage::takeUsed() noexcept {
-    return fadeLeft_ == 0 ? std::move(leaving_) : nullptr;
+std::unique_ptr<Processors> EffectStage::takeReplaced() noexcept {
+    return fadeRemaining_ == 0 ? std::move(replaced_) : nullptr;
 }
 
 void EffectStage::open() noexcept {
     if (gate_.isClosed()) {
-        // Blows begin at zero by themselves, and a ramp would take their attack.
+        // Blows start at zero by themselves, and a ramp would remove their attack.
         gate_.openAtOnce();
     } else {
         gate_.open();
@@ -118,7 +118,7 @@ void EffectStage::close() noexcept {
 
 bool EffectStage::isIdle() const noexcept {
     return (delay_ == nullptr || delay_->isIdle()) && areSourcesIdle() && allIdle(processors_.get()) &&
-           (fadeLeft_ == 0 || allIdle(leaving_.get()));
+           (fadeRemaining_ == 0 || allIdle(replaced_.get()));
 }
 
 void EffectStage::adoptExposure(const EffectStage& before) noexcept {
@@ -170,9 +170,9 @@ void EffectStage::reset() noexcept {
         delay_->reset();
     }
     resetAll(processors_.get());
-    resetAll(leaving_.get());
-    fadeLeft_ = 0;
-    leftGainSamples_ = 0;
+    resetAll(replaced_.get());
+    fadeRemaining_ = 0;
+    releasedGainSamples_ = 0;
     gate_.reset();
 }
 
@@ -206,7 +206,7 @@ void EffectStage::runSources(std::span<float> samplesMps2, EffectFigures& figure
 }
 
 void EffectStage::addSources(std::span<float> samplesMps2, EffectFigures& figures) noexcept {
-    // Without processors the texture has its own gate already: only what is added here is silenced here.
+    // The texture has its own gate. Without processors, this gate applies only to the sources added here.
     if (areSourcesIdle()) {
         return;
     }
@@ -220,25 +220,25 @@ void EffectStage::addSources(std::span<float> samplesMps2, EffectFigures& figure
 }
 
 bool EffectStage::hasProcessors() const noexcept {
-    bool has = fadeLeft_ > 0 || guard_ != nullptr || delay_ != nullptr || leftGainSamples_ > 0;
+    bool has = fadeRemaining_ > 0 || guard_ != nullptr || delay_ != nullptr || releasedGainSamples_ > 0;
     forEach(processors_.get(), [&has](const effects::Effect&, EffectKind) { has = true; });
     return has;
 }
 
 void EffectStage::runProcessors(std::span<float> samplesMps2, EffectFigures& figures) noexcept {
-    if (fadeLeft_ == 0) {
+    if (fadeRemaining_ == 0) {
         runAll(processors_.get(), samplesMps2, figures);
         return;
     }
     std::array<float, blockSamples> before{};
     const std::span<float> old = std::span(before).first(samplesMps2.size());
     std::ranges::copy(samplesMps2, old.begin());
-    runAll(leaving_.get(), old, figures);
+    runAll(replaced_.get(), old, figures);
     const auto shareAt = [this](std::size_t sample) {
-        return static_cast<float>(fadeLeft_ - std::min(fadeLeft_, sample)) / static_cast<float>(fadeSamples_);
+        return static_cast<float>(fadeRemaining_ - std::min(fadeRemaining_, sample)) / static_cast<float>(fadeSamples_);
     };
     if (processors_->delay != nullptr) {
-        // Fade the input in: a new delay would otherwise play an abrupt beginning when its time has passed.
+        // Fade the input in, because a new delay would otherwise play an abrupt start after its delay time.
         for (std::size_t i = 0; i < samplesMps2.size(); ++i) {
             samplesMps2[i] *= 1.0F - shareAt(i);
         }
@@ -247,7 +247,7 @@ void EffectStage::runProcessors(std::span<float> samplesMps2, EffectFigures& fig
     for (std::size_t i = 0; i < samplesMps2.size(); ++i) {
         samplesMps2[i] += shareAt(i) * (old[i] - samplesMps2[i]);
     }
-    fadeLeft_ -= std::min(fadeLeft_, samplesMps2.size());
+    fadeRemaining_ -= std::min(fadeRemaining_, samplesMps2.size());
 }
 
 void EffectStage::runGuard(std::span<float> samplesMps2, EffectFigures& figures) noexcept {
@@ -255,12 +255,12 @@ void EffectStage::runGuard(std::span<float> samplesMps2, EffectFigures& figures)
         run(*guard_, EffectKind::exposureGuard, samplesMps2, figures);
     }
     for (float& sample : samplesMps2) {
-        if (leftGainSamples_ == 0) {
+        if (releasedGainSamples_ == 0) {
             return;
         }
-        const float share = static_cast<float>(leftGainSamples_) / static_cast<float>(fadeSamples_);
-        sample *= 1.0F + share * (leftGain_ - 1.0F);
-        --leftGainSamples_;
+        const float share = static_cast<float>(releasedGainSamples_) / static_cast<float>(fadeSamples_);
+        sample *= 1.0F + share * (releasedGain_ - 1.0F);
+        --releasedGainSamples_;
     }
 }
 

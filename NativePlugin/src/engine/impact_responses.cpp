@@ -9,8 +9,9 @@ namespace haptoflow::engine {
 namespace {
 
 using effects::ImpactResponse;
+static_assert(ImpactResponse::modeCount == model::Impact::maximumModes);
 
-/// A sum of one mode over labels.
+/// Weighted sums of one mode over the labels of a blend.
 struct MeanMode {
     double weight = 0.0;
     double logFrequency = 0.0;
@@ -27,7 +28,7 @@ struct MeanMode {
         gain += share * static_cast<double>(mode.gainPerSecond);
     }
 
-    /// `total`: of all labels, also of those without this mode, which make it softer.
+    /// `total` is the weight of all labels. Labels without this mode make it weaker.
     [[nodiscard]] ImpactResponse::Mode mode(double total) const noexcept {
         if (!(weight > 0.0)) {
             return {};

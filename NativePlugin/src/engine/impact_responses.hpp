@@ -6,13 +6,13 @@
 
 namespace haptoflow::engine {
 
-/// How a label answers a blow: as the model says, else by the law for its stiffness k in N/m: one mode of
-/// f = 5 sqrt(k) Hz (25 to 450), which decays by 60 + 0.15 f a second and begins with 0.15 * 2 pi f m/s^2 for each m/s.
-/// A tip of mass m that strikes a spring at v answers with v sqrt(k / m) sin(sqrt(k / m) t); the constants put rubber,
-/// wood and stone at about 90, 170 and 320 Hz, and leave to the hand what it damps.
+/// Impact response of a label: the model's, or else one mode computed from the stiffness k in N/m, with the frequency f
+/// = 5 sqrt(k) Hz (25 to 450 Hz), a decay of 60 + 0.15 f per second and an amplitude of 0.15 * 2 pi f m/s^2 per m/s.
+/// The form follows from a mass m that strikes a spring at speed v: v sqrt(k / m) sin(sqrt(k / m) t). The constants
+/// give about 90, 170 and 320 Hz for rubber, wood and stone and account for the damping by the hand.
 [[nodiscard]] effects::ImpactResponse impactResponse(const model::Label& label) noexcept;
 
-/// Of a blend: the weighted mean, of frequencies and decays as logarithms.
+/// Impact response of a blend: the weighted mean of its materials; frequencies and decays are averaged as logarithms.
 [[nodiscard]] effects::ImpactResponse impactResponse(const Ingredients& ingredients) noexcept;
 
 }  // namespace haptoflow::engine

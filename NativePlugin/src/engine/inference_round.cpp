@@ -8,7 +8,7 @@
 namespace haptoflow::engine {
 namespace {
 
-/// What the run took; nothing where it failed, and then `failure` says why.
+/// Runs the generator and returns the time it took. If it fails, returns nothing and sets `failure` to the reason.
 std::optional<std::uint64_t> nanosecondsOf(inference::SegmentGenerator& generator,
                                            std::span<const inference::SegmentRequest> requests,
                                            std::span<float> segments, std::string& failure) {
@@ -26,20 +26,20 @@ std::optional<std::uint64_t> nanosecondsOf(inference::SegmentGenerator& generato
 }  // namespace
 
 RoundResult InferenceRound::run(std::span<LiveVoice* const> voices, inference::SegmentGenerator& generator) {
-    wanting_.clear();
+    pending_.clear();
     RoundResult result;
     for (LiveVoice* voice : voices) {
         voice->planner.serveOutputRate();
         if (voice->planner.wake()) {
-            wanting_.push_back(voice);
+            pending_.push_back(voice);
         } else {
-            result.looksAgain = voice->planner.looksAgain() || result.looksAgain;
+            result.mustPoll = voice->planner.mustPoll() || result.mustPoll;
         }
     }
-    result.voices = wanting_.size();
+    result.voices = pending_.size();
     const auto began = std::chrono::steady_clock::now();
-    balancing_.assign(wanting_.begin(), wanting_.end());
-    while (!wanting_.empty()) {
+    balancing_.assign(pending_.begin(), pending_.end());
+    while (!pending_.empty()) {
         generate(generator, result);
     }
     balanceBlends(generator);
@@ -60,7 +60,7 @@ void InferenceRound::balanceBlends(inference::SegmentGenerator& generator) {
     segments_.resize(requests_.size() * inference::segmentSamples);
     std::string failure;
     if (!nanosecondsOf(generator, requests_, segments_, failure)) {
-        // Nothing of it is heard: the blends keep the gains that they have.
+        // The segments of the parts are not played, so a failure only leaves the gains unchanged.
         return;
     }
     std::span<const float> segments = segments_;
@@ -74,35 +74,35 @@ void InferenceRound::balanceBlends(inference::SegmentGenerator& generator) {
 
 void InferenceRound::generate(inference::SegmentGenerator& generator, RoundResult& result) {
     requests_.clear();
-    for (const LiveVoice* voice : wanting_) {
+    for (const LiveVoice* voice : pending_) {
         requests_.push_back(voice->planner.request());
     }
     segments_.resize(requests_.size() * inference::segmentSamples);
     const std::optional<std::uint64_t> together = nanosecondsOf(generator, requests_, segments_, result.failure);
     std::size_t kept = 0;
-    for (std::size_t i = 0; i < wanting_.size(); ++i) {
+    for (std::size_t i = 0; i < pending_.size(); ++i) {
         const std::span<float, inference::segmentSamples> segment(segments_.data() + i * inference::segmentSamples,
                                                                   inference::segmentSamples);
         std::optional<std::uint64_t> spent = together;
         if (spent) {
-            *spent /= wanting_.size();
-        } else if (wanting_.size() > 1) {
+            *spent /= pending_.size();
+        } else if (pending_.size() > 1) {
             spent = nanosecondsOf(generator, std::span(requests_).subspan(i, 1), segment, result.failure);
         }
         if (!spent) {
-            // Nothing goes out; the running segment goes on to its end and fades there.
-            wanting_[i]->planner.fail();
+            // No segment is sent; the running one plays to its end and fades there.
+            pending_[i]->planner.fail();
             result.failed = true;
             continue;
         }
-        wanting_[i]->channels.counters.inferenceNanoseconds.fetch_add(*spent, std::memory_order_relaxed);
+        pending_[i]->channels.counters.inferenceNanoseconds.fetch_add(*spent, std::memory_order_relaxed);
         ++result.segments;
-        if (wanting_[i]->planner.deliver(segment)) {
-            wanting_[kept] = wanting_[i];
+        if (pending_[i]->planner.deliver(segment)) {
+            pending_[kept] = pending_[i];
             ++kept;
         }
     }
-    wanting_.resize(kept);
+    pending_.resize(kept);
 }
 
 }  // namespace haptoflow::engine

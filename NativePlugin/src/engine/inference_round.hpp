@@ -10,32 +10,32 @@
 
 namespace haptoflow::engine {
 
-/// What one round of inference did.
+/// Result of one round of inference.
 struct RoundResult {
-    /// Voices that wanted a segment; 0 where nothing was run.
+    /// Number of voices that needed a segment; 0 if nothing was run.
     std::size_t voices = 0;
     std::size_t segments = 0;
-    /// At least one voice's run failed; the newest failure's text.
+    /// Whether the run of a voice failed, and the message of the newest failure.
     bool failed = false;
     std::string failure;
-    /// A voice waits for the callback: look again soon.
-    bool looksAgain = false;
+    /// A voice waits for the callback, so the worker must check again soon.
+    bool mustPoll = false;
     double milliseconds = 0.0;
 };
 
-/// One look at all voices: those that want a segment get one, all in the same batch, and then those that need another
-/// behind it. Worker thread; keeps its buffers from round to round.
+/// Generates segments for all voices that need one, in one batch, and then further segments for those that need more
+/// than one. Worker thread; keeps its buffers between rounds.
 class InferenceRound {
 public:
-    /// Where a batch fails, each of its voices is run alone: what the graph cannot do for one leaves that one without a
-    /// new segment, counted, and not the others.
+    /// If a batch fails, its voices are run one by one, so that only the voice for which the graph fails gets no
+    /// segment.
     RoundResult run(std::span<LiveVoice* const> voices, inference::SegmentGenerator& generator);
 
 private:
     void generate(inference::SegmentGenerator& generator, RoundResult& result);
     void balanceBlends(inference::SegmentGenerator& generator);
 
-    std::vector<LiveVoice*> wanting_;
+    std::vector<LiveVoice*> pending_;
     std::vector<LiveVoice*> balancing_;
     std::vector<inference::SegmentRequest> requests_;
     std::vector<float> segments_;

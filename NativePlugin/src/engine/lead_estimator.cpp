@@ -11,7 +11,7 @@ void LeadEstimator::observe(std::int64_t advancedSamples) noexcept {
 
 std::int64_t LeadEstimator::samples(std::int64_t blockAdvance) const noexcept {
     const std::size_t known = std::min(count_, window);
-    std::int64_t needed = 2 * blockAdvance + guessedInference;
+    std::int64_t needed = 2 * blockAdvance + initialInferenceSamples;
     if (known >= 8) {
         std::int64_t highest = 0;
         std::int64_t second = 0;
@@ -25,7 +25,7 @@ std::int64_t LeadEstimator::samples(std::int64_t blockAdvance) const noexcept {
         }
         needed = std::max((known == window ? second : highest) + 1, blockAdvance);
     }
-    return std::clamp(needed, smallest, largest);
+    return std::clamp(needed, minimumSamples, maximumSamples);
 }
 
 }  // namespace haptoflow::engine

@@ -10,7 +10,7 @@ namespace {
 constexpr double slowestMps = 0.002;
 constexpr double weakestNewtons = 0.02;
 
-/// Where a place on an axis lies between two neighbouring points.
+/// Position between two neighbouring points of an axis.
 struct Between {
     std::size_t lower;
     std::size_t upper;

@@ -8,17 +8,17 @@
 
 namespace haptoflow::engine {
 
-/// Where the level of what the network is asked for comes from.
+/// Source of a segment's level.
 struct LevelRequest {
-    /// RMS in m/s^2 to be used instead of the level graph's; empty for the graph's.
+    /// RMS in m/s^2 that replaces the level graph's; empty for the graph's.
     std::optional<float> levelMps2;
-    /// What the level graph is asked for, and the gain on its answer.
+    /// Motion input of the level graph, and a gain on its result.
     std::array<float, 3> motion{};
     float gain = 1.0F;
 };
 
-/// A single material that has no level of its own gets the graph's, everything else the mean of what its materials say:
-/// the graph's answer to a mean of embeddings may lie beyond the levels of both.
+/// A single material without its own level uses the level graph. A blend uses the mean of its materials' levels,
+/// because the graph's level for a mean of embeddings can lie outside the range of their levels.
 [[nodiscard]] LevelRequest requestLevel(const Ingredients& ingredients, const RangedMotion& ranged) noexcept;
 
 }  // namespace haptoflow::engine

@@ -1,7 +1,7 @@
 #include "engine/live_engine.hpp"
 
 #include "dsp/denormals.hpp"
-#include "engine/thread_priority.hpp"
+#include "engine/worker_thread.hpp"
 #include "inference/inference_error.hpp"
 
 #include <algorithm>
@@ -15,24 +15,23 @@
 namespace haptoflow::engine {
 namespace {
 
-constexpr double largestLeadMs = 50.0;
-constexpr double callbackLookMs = 2.0;
-// Beyond these a float no longer tells neighbouring samples apart.
-constexpr float smallestFullScaleMps2 = 1e-3F;
-constexpr float largestFullScaleMps2 = 1e6F;
+constexpr double callbackPollMs = 2.0;
+// Outside this range, the precision of a float no longer separates neighbouring samples.
+constexpr float minimumFullScaleMps2 = 1e-3F;
+constexpr float maximumFullScaleMps2 = 1e6F;
 
 const LiveEngineSettings& checked(const LiveEngineSettings& settings) {
     if (!(settings.updateRateHz >= 1.0 && settings.updateRateHz <= 10000.0)) {
         throw std::invalid_argument("update rate is " + std::to_string(settings.updateRateHz) +
                                     " Hz; expected 1 to 10000 Hz");
     }
-    if (settings.fixedLeadMs && !(*settings.fixedLeadMs >= 0.0 && *settings.fixedLeadMs <= largestLeadMs)) {
+    if (settings.fixedLeadMs && !(*settings.fixedLeadMs >= 0.0 && *settings.fixedLeadMs <= LeadEstimator::maximumMs)) {
         throw std::invalid_argument("lead is " + std::to_string(*settings.fixedLeadMs) + " ms; expected 0 to 50 ms");
     }
     if (!(settings.quality.budgetMs > 0.0)) {
         throw std::invalid_argument("the budget for inference must be above 0 ms");
     }
-    if (!(settings.fullScaleMps2 >= smallestFullScaleMps2 && settings.fullScaleMps2 <= largestFullScaleMps2)) {
+    if (!(settings.fullScaleMps2 >= minimumFullScaleMps2 && settings.fullScaleMps2 <= maximumFullScaleMps2)) {
         throw std::invalid_argument("full_scale_mps2 is " + std::to_string(settings.fullScaleMps2) +
                                     "; expected 0.001 to 1000000 m/s^2");
     }
@@ -50,7 +49,7 @@ std::shared_ptr<const model::ModelFile> checked(std::shared_ptr<const model::Mod
 inference::SegmentGenerator& firstLoaded(const EngineTiers& tiers) {
     const auto found = std::ranges::find_if(tiers, [](const auto& tier) { return tier != nullptr; });
     if (found == tiers.end()) {
-        throw std::invalid_argument("an engine needs at least one tier that is loaded");
+        throw std::invalid_argument("an engine needs at least one loaded tier");
     }
     return **found;
 }
@@ -65,9 +64,9 @@ LiveEngine::LiveEngine(std::shared_ptr<const model::ModelFile> model, EngineTier
       library_(std::make_unique<MaterialLibrary>(*model_, firstLoaded(tiers_), limits)),
       quality_(tiers_.size(), settings.quality, startTier, settings.tiersByAccuracy) {
     if (!isLoaded(settings_.quality)) {
-        throw std::invalid_argument("quality: a tier that is not loaded");
+        throw std::invalid_argument("quality: the tier is not loaded");
     }
-    showQuality();
+    publishQuality();
     if (settings_.hasWorker) {
         worker_ = std::thread([this] { work(); });
     }
@@ -89,10 +88,9 @@ void LiveEngine::stop() noexcept {
 std::shared_ptr<LiveVoice> LiveEngine::addVoice(double outputRateHz) {
     LiveVoiceSettings settings;
     settings.planner.seed = settings_.seed;
-    settings.planner.voice = voicesMade_.fetch_add(1);
+    settings.planner.voice = voiceCount_.fetch_add(1);
     if (settings_.fixedLeadMs) {
-        settings.planner.fixedLeadSamples =
-            static_cast<std::int64_t>(std::ceil(*settings_.fixedLeadMs * inference::waveformRateHz / 1000.0));
+        settings.planner.fixedLeadSamples = LeadEstimator::samplesOf(*settings_.fixedLeadMs);
     }
     settings.outputRateHz = outputRateHz;
     settings.fullScaleMps2 = settings_.fullScaleMps2;
@@ -121,9 +119,9 @@ void LiveEngine::gatherVoices() {
 ContactAction LiveEngine::publish(LiveVoice& voice, const ContactState& state) noexcept {
     const ContactAction action = voice.publisher.publish(state);
     const VoiceChannels& channels = voice.channels;
-    const bool wantsOutput = channels.wantedRateHz.load(std::memory_order_relaxed) != 0.0 ||
+    const bool wantsOutput = channels.requestedRateHz.load(std::memory_order_relaxed) != 0.0 ||
                              channels.lacksProcessors.load(std::memory_order_relaxed) ||
-                             channels.usedProcessors.load(std::memory_order_relaxed) != nullptr;
+                             channels.replacedProcessors.load(std::memory_order_relaxed) != nullptr;
     if (action != ContactAction::rest || wantsOutput) {
         signal_.post();
     }
@@ -138,8 +136,8 @@ void LiveEngine::changeProcessors(LiveVoice& voice, const std::function<bool(Pro
 
 RoundResult LiveEngine::step() {
     const dsp::ScopedFlushDenormals flush;
-    if (wantedQuality_.fetch()) {
-        quality_.setSettings(wantedQuality_.current());
+    if (requestedQuality_.fetch()) {
+        quality_.setSettings(requestedQuality_.current());
     }
     const std::size_t tier = quality_.tier();
     gatherVoices();
@@ -153,14 +151,14 @@ RoundResult LiveEngine::step() {
             ++figures_.failedRounds;
             noteFailure(result.failure.c_str());
         } else {
-            quality_.ran(result.milliseconds, result.voices);
+            quality_.recordRound(result.milliseconds, result.voices);
         }
     }
-    showQuality();
+    publishQuality();
     return result;
 }
 
-void LiveEngine::showQuality() noexcept {
+void LiveEngine::publishQuality() noexcept {
     figures_.tier = quality_.tier();
     figures_.measuring = quality_.tierToMeasure().has_value();
     figures_.stepsDown = quality_.stepsDown();
@@ -173,7 +171,7 @@ void LiveEngine::noteFailure(const char* text) noexcept {
         const std::lock_guard lock(failureMutex_);
         lastFailure_ = text;
     } catch (const std::exception&) {
-        // Without memory for the text the counters still tell of the failure.
+        // Without memory for the text, the counters still record the failure.
     }
 }
 
@@ -191,20 +189,20 @@ void LiveEngine::work() noexcept {
             if (!stopping_.load(std::memory_order_acquire)) {
                 ++figures_.wakes;
                 const RoundResult result = step();
-                looksAgain_ = result.looksAgain;
+                mustPoll_ = result.mustPoll;
             }
         }
     } catch (const std::exception& error) {
-        // Out of memory, or a lock that the system refuses: the voices see that nobody generates any more.
+        // Out of memory, or the system refused a lock: the voices fall silent because the worker has ended.
         noteFailure(error.what());
     }
     alive_.store(false, std::memory_order_release);
 }
 
 bool LiveEngine::sleep() {
-    // The callback wakes nobody.
-    if (looksAgain_) {
-        (void)signal_.waitFor(callbackLookMs);
+    // The callback cannot wake the worker, so the worker polls.
+    if (mustPoll_) {
+        (void)signal_.waitFor(callbackPollMs);
         return true;
     }
     if (quality_.tierToMeasure()) {
@@ -224,7 +222,7 @@ void LiveEngine::measureOnce(std::size_t tier) {
                                       .noise = silence};
     std::ranges::copy(model_->embedding(0), request.embedding.begin());
     std::array<float, inference::segmentSamples> segment{};
-    // A tier that cannot run is never chosen: it costs more than any budget.
+    // A tier that cannot run gets a time above any budget, so that it is never chosen.
     double milliseconds = 1e9;
     const auto began = std::chrono::steady_clock::now();
     try {
@@ -234,21 +232,21 @@ void LiveEngine::measureOnce(std::size_t tier) {
     } catch (const inference::InferenceError& error) {
         noteFailure(error.what());
     }
-    quality_.measured(tier, milliseconds);
-    showQuality();
+    quality_.recordMeasurement(tier, milliseconds);
+    publishQuality();
 }
 
 void LiveEngine::setQuality(const QualitySettings& quality) {
     if (!(quality.budgetMs > 0.0) || (quality.fixedTier && *quality.fixedTier >= tiers_.size())) {
-        throw std::invalid_argument("quality: a tier that the model has, and a budget above 0 ms");
+        throw std::invalid_argument("quality: expected a tier of the model and a budget above 0 ms");
     }
     {
         const std::lock_guard lock(qualityMutex_);
         if (!isLoaded(quality)) {
-            throw std::invalid_argument("quality: a tier that is not loaded");
+            throw std::invalid_argument("quality: the tier is not loaded");
         }
-        wantedQuality_.draft() = quality;
-        wantedQuality_.post();
+        requestedQuality_.draft() = quality;
+        requestedQuality_.post();
     }
     signal_.post();
 }

@@ -6,7 +6,7 @@
 #include "engine/mailbox.hpp"
 #include "engine/material_library.hpp"
 #include "engine/quality_control.hpp"
-#include "engine/wake_signal.hpp"
+#include "engine/worker_thread.hpp"
 #include "inference/segment_generator.hpp"
 #include "model/model_file.hpp"
 
@@ -24,20 +24,20 @@ namespace haptoflow::engine {
 
 struct LiveEngineSettings {
     QualitySettings quality{};
-    /// Places of the tiers, the least accurate first; empty for their own order.
+    /// Indices of the tiers, the least accurate first; empty for the model's order.
     std::vector<std::size_t> tiersByAccuracy{};
-    /// Contact states a second, by which the budget and the pace of measuring go.
-    double updateRateHz = 72.0;
+    /// Contact states per second; sets the interval of measuring runs.
+    double updateRateHz = defaultUpdateRateHz;
     float fullScaleMps2 = dsp::SoftLimiter::defaultFullScaleMps2;
     /// Key of all noise.
     std::uint64_t seed = 1;
-    /// Empty for a lead that each voice learns; otherwise 0 to 50 ms.
+    /// 0 to 50 ms; empty if each voice estimates its lead.
     std::optional<double> fixedLeadMs;
-    /// Without a worker the caller steps.
+    /// Without a worker, the caller calls `step`.
     bool hasWorker = true;
 };
 
-/// The model's tiers, ready to run, in its own order; null where one was not loaded.
+/// The model's tiers in the model's order; null for a tier that is not loaded.
 using EngineTiers = std::vector<std::unique_ptr<inference::SegmentGenerator>>;
 
 struct TierTimes {
@@ -46,12 +46,12 @@ struct TierTimes {
     double percentile99Ms = 0.0;
 };
 
-/// What the engine has done, for people to look at.
+/// Statistics of an engine, for display.
 struct EngineStatistics {
     std::uint64_t rounds = 0;
     std::uint64_t segments = 0;
     std::uint64_t failedRounds = 0;
-    /// How often the worker woke, for whatever reason.
+    /// Number of times that the worker woke up.
     std::uint64_t wakes = 0;
     std::size_t voices = 0;
     std::size_t tier = 0;
@@ -61,18 +61,17 @@ struct EngineStatistics {
     double budgetMs = 0.0;
     double lastRoundMs = 0.0;
     bool workerAlive = true;
-    /// The system did not let the worker run at a raised priority.
+    /// The system refused the worker a raised priority.
     bool priorityRefused = false;
 };
 
-/// All voices of one model, and the one thread that generates for them. The thread sleeps while nothing is published.
-/// The worker holds no lock while the network runs: adding, removing and reading never wait for inference.
+/// All voices of one model, and the worker thread that generates their segments. The worker sleeps while nothing is
+/// published. It holds no lock during inference, so adding, removing and reading voices never waits for inference.
 class LiveEngine {
 public:
-    /// `tiers` in the model's order; at least one. Those that `settings` want must be loaded: all for
-    /// automatic quality, else the one. Runs the level graph of the first loaded for MaterialLibrary. Throws
-    /// std::invalid_argument for settings out of range or a tier that is not loaded, inference::InferenceError,
-    /// inference::LoadCancelled, std::system_error.
+    /// `tiers` holds at least one loaded tier. Automatic quality needs all tiers, a fixed quality its own. Runs the
+    /// level graph of the first loaded tier for MaterialLibrary. Throws std::invalid_argument for settings out of range
+    /// or a tier that is not loaded, inference::InferenceError, inference::LoadCancelled, std::system_error.
     LiveEngine(std::shared_ptr<const model::ModelFile> model, EngineTiers tiers, std::size_t startTier,
                const LiveEngineSettings& settings, const inference::LoadLimits& limits = {});
     LiveEngine(const LiveEngine&) = delete;
@@ -80,45 +79,45 @@ public:
     /// Ends the worker after its present round. Voices fall silent within a block and 5 ms.
     ~LiveEngine();
 
-    /// Ends the worker for good; may be called twice.
+    /// Ends the worker permanently. May be called twice.
     void stop() noexcept;
 
-    /// Takes part from the next round on. The voice must go before the engine.
+    /// Adds a voice, which takes part from the next round on. The voice must be destroyed before the engine.
     [[nodiscard]] std::shared_ptr<LiveVoice> addVoice(double outputRateHz);
-    /// Takes part in no round after the present one, which keeps the voice alive until it ends.
+    /// Removes a voice. A round in progress keeps it alive until the round ends.
     void removeVoice(const LiveVoice& voice) noexcept;
 
-    /// Publishes on one of this engine's voices and wakes the worker where it has something to do. Wait-free.
+    /// Publishes a contact state on a voice of this engine and wakes the worker if needed. Wait-free.
     ContactAction publish(LiveVoice& voice, const ContactState& state) noexcept;
-    /// `change` edits what the voice asks for and says whether that is another thing than before; the worker then
-    /// prepares it. Any thread but the audio callback's.
+    /// `change` edits the voice's settings and returns whether they have changed; the worker then prepares the new
+    /// processors. Any thread except the audio callback's.
     void changeProcessors(LiveVoice& voice, const std::function<bool(ProcessorSettings&)>& change);
 
-    /// One round by hand, for an engine without worker. Not while the worker runs.
+    /// Runs one round on the calling thread, for an engine without a worker.
     RoundResult step();
 
-    /// True from the first `stop` on.
+    /// True after the first call of `stop`.
     [[nodiscard]] bool isStopping() const noexcept { return stopping_.load(std::memory_order_acquire); }
 
-    /// From the next round on. Throws std::invalid_argument for a tier that the model does not have or that is not
-    /// loaded.
+    /// Takes effect with the next round. Throws std::invalid_argument for a tier that the model does not have or that
+    /// is not loaded.
     void setQuality(const QualitySettings& quality);
-    /// Puts a tier into its place in the model's order, for a later setQuality; one that is there already stays.
+    /// Adds a loaded tier for a later setQuality. Does nothing if the tier is already loaded.
     void addTier(std::size_t tier, std::unique_ptr<inference::SegmentGenerator> generator);
     [[nodiscard]] bool hasTier(std::size_t tier) const;
-    /// Any thread; waits for nobody and allocates nothing.
+    /// Any thread; wait-free, allocates nothing.
     [[nodiscard]] EngineStatistics statistics() const noexcept;
     [[nodiscard]] std::size_t tierCount() const noexcept { return tiers_.size(); }
-    /// Any thread; waits for nobody and allocates nothing.
+    /// Any thread; wait-free, allocates nothing.
     [[nodiscard]] TierTimes tierTimes(std::size_t tier) const noexcept;
-    /// The newest failure of a round or of the worker; empty before the first. Any thread.
+    /// Message of the newest failure of a round or of the worker; empty before the first. Any thread.
     [[nodiscard]] std::string lastFailure() const;
     [[nodiscard]] const model::ModelFile& model() const noexcept { return *model_; }
-    /// Registering there waits for nobody's inference.
+    /// Registering a material there does not wait for inference.
     [[nodiscard]] MaterialLibrary& materials() noexcept { return *library_; }
 
 private:
-    /// What the worker shows of its quality control.
+    /// Statistics that the worker writes and any thread reads.
     struct Figures {
         std::atomic<std::uint64_t> rounds{0};
         std::atomic<std::uint64_t> segments{0};
@@ -135,39 +134,39 @@ private:
     };
 
     void work() noexcept;
-    /// False where time for a measuring run has come.
+    /// Returns false when it is time for a measuring run.
     [[nodiscard]] bool sleep();
     void measureOnce(std::size_t tier);
     void gatherVoices();
-    void showQuality() noexcept;
+    void publishQuality() noexcept;
     void noteFailure(const char* text) noexcept;
     [[nodiscard]] bool isLoaded(const QualitySettings& quality) const;
 
     std::shared_ptr<const model::ModelFile> model_;
-    // Places are filled under qualityMutex_, before the worker is told of them; what was filled stays.
+    // Entries are filled under qualityMutex_ before the worker uses them, and never change afterwards.
     EngineTiers tiers_;
     LiveEngineSettings settings_;
     std::unique_ptr<MaterialLibrary> library_;
 
-    // Held to change or copy the list, never during a round.
+    // Held while the list is changed or copied, never during a round.
     std::mutex voicesMutex_;
     std::vector<std::shared_ptr<LiveVoice>> voices_;
-    std::atomic<std::uint32_t> voicesMade_{0};
+    std::atomic<std::uint32_t> voiceCount_{0};
 
-    // Several threads may ask; the worker takes the newest without waiting.
+    // Several threads may set the quality; the worker fetches the newest without waiting.
     mutable std::mutex qualityMutex_;
-    Mailbox<QualitySettings> wantedQuality_;
+    Mailbox<QualitySettings> requestedQuality_;
 
     mutable std::mutex failureMutex_;
     std::string lastFailure_;
     Figures figures_;
 
-    // Whoever steps only: the worker, or the caller of `step`.
+    // Used only by the thread that runs rounds: the worker, or the caller of `step`.
     std::vector<std::shared_ptr<LiveVoice>> roundOwners_;
     std::vector<LiveVoice*> roundVoices_;
     InferenceRound round_;
     QualityControl quality_;
-    bool looksAgain_ = false;
+    bool mustPoll_ = false;
 
     std::atomic<bool> alive_{true};
     std::atomic<bool> stopping_{false};

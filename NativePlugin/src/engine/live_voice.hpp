@@ -14,8 +14,8 @@ struct LiveVoiceSettings {
     float fullScaleMps2 = dsp::SoftLimiter::defaultFullScaleMps2;
 };
 
-/// One stylus tip's voice: three ends for three threads, and what they share. What `library` and `workerAlive` name
-/// must outlive it.
+/// The voice of one stylus tip: a publisher for the main thread, a renderer for the audio callback, a planner for the
+/// worker, and the channels between them. `library` and `workerAlive` must outlive it.
 struct LiveVoice {
     /// Throws std::invalid_argument for settings out of range.
     LiveVoice(const MaterialLibrary& library, const std::atomic<bool>& workerAlive, const LiveVoiceSettings& settings)

@@ -6,9 +6,9 @@
 
 namespace haptoflow::engine {
 
-/// Hands the newest message from one thread to another: a triple buffer. Both sides are wait-free, neither ever sees a
-/// half-written message, and a message that nobody fetched is overwritten by the next.
-/// One thread writes, one thread reads; the message type must not allocate when assigned.
+/// Passes the newest message from one writing to one reading thread through a triple buffer. Both sides are wait-free,
+/// a message is never read half-written, and a message that was not fetched is replaced by the next. The message type
+/// must not allocate when assigned.
 template <typename Message>
 class Mailbox {
 public:
@@ -17,15 +17,15 @@ public:
     Mailbox& operator=(const Mailbox&) = delete;
     ~Mailbox() = default;
 
-    /// Writer: the message to fill. It holds what was written some posts ago: fill all of it.
+    /// Writer: the message to fill. It contains an old message, so every field must be written.
     [[nodiscard]] Message& draft() noexcept { return slots_[writing_]; }
-    /// Writer: makes the draft the newest message.
+    /// Writer: publishes the draft as the newest message.
     void post() noexcept {
         const auto offered = static_cast<std::uint8_t>(writing_ | freshBit);
         writing_ = static_cast<std::uint8_t>(exchanged_.exchange(offered, std::memory_order_acq_rel) & indexBits);
     }
 
-    /// Reader: takes the newest message where there is one that was not fetched yet; says whether there was.
+    /// Reader: fetches the newest message. Returns false if there is none since the last fetch.
     bool fetch() noexcept {
         if ((exchanged_.load(std::memory_order_relaxed) & freshBit) == 0) {
             return false;
@@ -33,7 +33,7 @@ public:
         reading_ = static_cast<std::uint8_t>(exchanged_.exchange(reading_, std::memory_order_acq_rel) & indexBits);
         return true;
     }
-    /// Reader: the message fetched last; a default one before the first.
+    /// Reader: the message fetched last; default-constructed before the first fetch.
     [[nodiscard]] const Message& current() const noexcept { return slots_[reading_]; }
 
 private:

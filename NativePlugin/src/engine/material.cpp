@@ -7,11 +7,11 @@
 namespace haptoflow::engine {
 
 std::uint32_t sanitise(ContactState& state) noexcept {
-    constexpr float fastestMps = 20.0F;
-    constexpr float strongestNewtons = 1000.0F;
-    constexpr float smallestScale = 0.25F;
-    constexpr float largestScale = 4.0F;
-    constexpr float steepestTilt = 12.0F;
+    constexpr float maximumMps = 20.0F;
+    constexpr float maximumNewtons = 1000.0F;
+    constexpr float minimumScale = 0.25F;
+    constexpr float maximumScale = 4.0F;
+    constexpr float maximumTilt = 12.0F;
     std::uint32_t changes = 0;
     const auto limit = [&changes](float& value, float lowest, float highest) {
         const float inRange = std::isfinite(value) ? std::clamp(value, lowest, highest) : 0.0F;
@@ -21,10 +21,10 @@ std::uint32_t sanitise(ContactState& state) noexcept {
         }
     };
     for (float& component : state.velocityMps) {
-        limit(component, -fastestMps, fastestMps);
+        limit(component, -maximumMps, maximumMps);
     }
-    limit(state.forceNewtons, 0.0F, strongestNewtons);
-    limit(state.approachSpeedMps, -fastestMps, fastestMps);
+    limit(state.forceNewtons, 0.0F, maximumNewtons);
+    limit(state.approachSpeedMps, -maximumMps, maximumMps);
     limit(state.edgeHeightMetres, 0.0F, 1.0F);
     if (state.material.count > MaterialBlend::capacity) {
         state.material.count = MaterialBlend::capacity;
@@ -39,8 +39,8 @@ std::uint32_t sanitise(ContactState& state) noexcept {
         state.spatialScale = 1.0F;
         ++changes;
     }
-    limit(state.spatialScale, smallestScale, largestScale);
-    limit(state.toneDbPerOctave, -steepestTilt, steepestTilt);
+    limit(state.spatialScale, minimumScale, maximumScale);
+    limit(state.toneDbPerOctave, -maximumTilt, maximumTilt);
     if (!std::isfinite(state.timeSeconds)) {
         state.timeSeconds = 0.0;
         ++changes;
@@ -95,7 +95,7 @@ WaveVectors assignRibs(const Ingredients& ingredients, const WaveVectors& before
 }
 
 std::optional<dsp::ToneCepstrum> resolveTone(const Ingredients& ingredients, double speedMps, double tiltDbPerOctave,
-                                             const dsp::ToneCepstrum& tiltOfOne) noexcept {
+                                             const dsp::ToneCepstrum& tiltPerDecibel) noexcept {
     const bool hasTone =
         std::ranges::any_of(ingredients.all(), [](const Ingredient& each) { return each.material->tone.has_value(); });
     if (!hasTone && tiltDbPerOctave == 0.0) {
@@ -112,7 +112,7 @@ std::optional<dsp::ToneCepstrum> resolveTone(const Ingredients& ingredients, dou
             add(each.material->tone->at(speedMps), each.weight / total);
         }
     }
-    add(tiltOfOne, tiltDbPerOctave);
+    add(tiltPerDecibel, tiltDbPerOctave);
     return tone;
 }
 

@@ -10,30 +10,30 @@
 
 namespace haptoflow::engine {
 
-/// A blend as the network and the range law take it: weighted means of what the materials say.
+/// A blend in the form that the network and the range law use: weighted means over its materials.
 struct Material {
-    /// Its wave vectors are not means: see assignRibs.
+    /// The wave vectors in it are not means: see assignRibs.
     std::array<float, model::embeddingSize> embedding{};
     double speedLevelExponent = 0.0;
     double forceLevelExponent = 0.0;
     double frequencyExponent = 0.0;
 };
 
-/// `before` are the wave vectors of the voice's last material: those that stay keep their slots.
+/// `before` holds the wave vectors of the voice's last material; wave vectors that occur in both keep their slots.
 [[nodiscard]] Material resolveMaterial(const Ingredients& ingredients, const WaveVectors& before = {}) noexcept;
 
-/// The wave vectors of a material, one a slot. Those of a blend are whole wave vectors of its materials, the heaviest
-/// material's first, as many as there are slots: a mean of two would be ribs of another pitch. One that was there
-/// before keeps its slot, so that its phase goes on.
+/// The wave vectors of a material or blend, one per slot. A blend takes whole wave vectors of its materials in the
+/// order of their weights until all slots are used; a mean of two wave vectors would be ribs with another pitch. A wave
+/// vector that is among `before` keeps its slot, so that its phase continues.
 [[nodiscard]] WaveVectors assignRibs(const Ingredients& ingredients, const WaveVectors& before) noexcept;
 
-/// The tone of a blend at a speed, tilted by `tiltDbPerOctave` about 150 Hz; the mean of the materials' gains in dB.
-/// Nothing where nobody asks for a tone.
+/// The tone of a blend at a speed: the mean of its materials' gains in dB plus a tilt of `tiltDbPerOctave` about 150
+/// Hz. Empty if no material has a tone and the tilt is 0.
 [[nodiscard]] std::optional<dsp::ToneCepstrum> resolveTone(const Ingredients& ingredients, double speedMps,
                                                            double tiltDbPerOctave,
-                                                           const dsp::ToneCepstrum& tiltOfOne) noexcept;
+                                                           const dsp::ToneCepstrum& tiltPerDecibel) noexcept;
 
-/// The cepstrum of a tilt by 1 dB an octave. Allocates.
+/// Cepstrum of a tilt of 1 dB/octave. Allocates.
 [[nodiscard]] dsp::ToneCepstrum designTilt();
 
 }  // namespace haptoflow::engine

@@ -13,13 +13,13 @@
 namespace haptoflow::engine {
 namespace {
 
-// The numbers behind these are wave vectors, which say nothing about how a material sounds.
-constexpr std::size_t learntNumbers = model::embeddingSize - 2 * inference::ribCount;
+// Size of an embedding without its wave vectors, which are not part of the similarity of materials.
+constexpr std::size_t learntSize = model::embeddingSize - 2 * inference::ribCount;
 
 double distance(std::span<const float, model::embeddingSize> first,
                 std::span<const float, model::embeddingSize> second) {
     double squares = 0.0;
-    for (std::size_t i = 0; i < learntNumbers; ++i) {
+    for (std::size_t i = 0; i < learntSize; ++i) {
         const double gap = static_cast<double>(first[i]) - static_cast<double>(second[i]);
         squares += gap * gap;
     }
@@ -52,7 +52,7 @@ MaterialLibrary::MaterialLibrary(const model::ModelFile& model, inference::Level
                                  const inference::LoadLimits& limits)
     : model_(model), levels_(model, levels, limits) {
     for (std::size_t label = 0; label < model.header().labels.size(); ++label) {
-        labels_.push_back(knownLabel(label));
+        labels_.push_back(prepareLabel(label));
     }
     const auto& seeds = model.header().seeds;
     for (std::size_t seed = 0; seed < seeds.size(); ++seed) {
@@ -65,23 +65,23 @@ MaterialLibrary::MaterialLibrary(const model::ModelFile& model, inference::Level
     }
 }
 
-KnownMaterial MaterialLibrary::knownLabel(std::size_t label) const {
-    const model::Label& said = model_.header().labels[label];
-    KnownMaterial known{.label = &said,
-                        .embedding = model_.embedding(label),
-                        .grid = &levels_.grid(),
-                        .graphLevels = levels_.table(label),
-                        .tone = {},
-                        .seeds = {}};
-    if (said.tone) {
-        known.tone.emplace(*said.tone);
+PreparedMaterial MaterialLibrary::prepareLabel(std::size_t label) const {
+    const model::Label& entry = model_.header().labels[label];
+    PreparedMaterial known{.label = &entry,
+                           .embedding = model_.embedding(label),
+                           .grid = &levels_.grid(),
+                           .graphLevels = levels_.table(label),
+                           .tone = {},
+                           .seeds = {}};
+    if (entry.tone) {
+        known.tone.emplace(*entry.tone);
     }
     return known;
 }
 
-const KnownMaterial& MaterialLibrary::nearestLabel(std::span<const float, model::embeddingSize> embedding) const {
+const PreparedMaterial& MaterialLibrary::nearestLabel(std::span<const float, model::embeddingSize> embedding) const {
     return *std::ranges::min_element(
-        labels_, {}, [embedding](const KnownMaterial& label) { return distance(label.embedding, embedding); });
+        labels_, {}, [embedding](const PreparedMaterial& label) { return distance(label.embedding, embedding); });
 }
 
 std::unique_ptr<const MaterialLibrary::Registered> MaterialLibrary::prepare(model::MaterialFile material,
@@ -89,7 +89,7 @@ std::unique_ptr<const MaterialLibrary::Registered> MaterialLibrary::prepare(mode
     model::requireSpace(material, model_.header());
     auto made = std::make_unique<Registered>();
     made->file = std::move(material);
-    KnownMaterial& known = made->known;
+    PreparedMaterial& known = made->known;
     known.label = &made->file.label;
     known.embedding = made->file.embedding;
     known.grid = &levels_.grid();
@@ -151,18 +151,18 @@ std::size_t MaterialLibrary::placeOf(std::size_t index) const {
     return index - labels_.size();
 }
 
-const KnownMaterial* MaterialLibrary::find(std::uint32_t index) const noexcept {
+const PreparedMaterial* MaterialLibrary::find(std::uint32_t index) const noexcept {
     if (index < labels_.size()) {
         return &labels_[index];
     }
     const std::size_t place = index - labels_.size();
-    // Sequentially consistent, like entering: a replacement that saw nobody inside is seen here.
+    // Sequentially consistent, like the counter of readers: if `replace` saw no reader, this load sees its replacement.
     const Registered* registered = place < maximumRegistered ? visible_[place].load() : nullptr;
     return registered == nullptr ? nullptr : &registered->known;
 }
 
 void MaterialLibrary::waitForReaders() noexcept {
-    // Twice, because a reader may have learnt the open phase and not have entered it yet.
+    // Twice, because a reader may have loaded the open phase before it increments the counter.
     for (int times = 0; times < 2; ++times) {
         const std::uint32_t closed = openPhase_.fetch_xor(1U);
         while (readers_[closed].load() != 0) {
@@ -171,20 +171,20 @@ void MaterialLibrary::waitForReaders() noexcept {
     }
 }
 
-MaterialLibrary::Reading::Reading(const MaterialLibrary& library) noexcept
+MaterialLibrary::ReadScope::ReadScope(const MaterialLibrary& library) noexcept
     : library_(library), readers_(library.readers_[library.openPhase_.load()]) {
     readers_.fetch_add(1);
 }
 
-MaterialLibrary::Reading::~Reading() {
+MaterialLibrary::ReadScope::~ReadScope() {
     readers_.fetch_sub(1);
 }
 
-Ingredients MaterialLibrary::Reading::ingredients(const MaterialBlend& blend) const noexcept {
+Ingredients MaterialLibrary::ReadScope::ingredients(const MaterialBlend& blend) const noexcept {
     Ingredients found;
     for (std::size_t i = 0; i < std::min(blend.count, MaterialBlend::capacity); ++i) {
         const LabelWeight entry = blend.entries[i];
-        const KnownMaterial* material = library_.find(entry.label);
+        const PreparedMaterial* material = library_.find(entry.label);
         if (material == nullptr || !(entry.weight > 0.0F)) {
             continue;
         }

@@ -9,14 +9,15 @@
 #include <cmath>
 #include <optional>
 #include <stdexcept>
+#include <string>
 #include <vector>
 
 namespace haptoflow::engine {
 namespace {
 
-constexpr double longestTailSeconds = 3.0;
+constexpr double maximumTailSeconds = 3.0;
 
-/// Keeps what the voice plays until it is taken. Told by the voice's callback, whose buffers here are kept and reused.
+/// Collects the waveform that the voice plays until `hand` passes it on. Keeps its buffers.
 class Recorder final : public WaveformSink {
 public:
     void played(std::int64_t start, std::span<const float> samplesMps2) noexcept override {
@@ -27,7 +28,7 @@ public:
     }
     void tookOver(std::int64_t sample) noexcept override { seams_.push_back(sample); }
 
-    /// Hands on what came since the last time.
+    /// Passes on everything collected since the last call.
     void hand(OfflineSink& sink, SeamMeter& meter) {
         if (!origin_) {
             return;
@@ -49,7 +50,7 @@ private:
     std::optional<std::int64_t> origin_;
 };
 
-/// Counts touches, and those that ended without a sound.
+/// Counts touches and those without any sound.
 class TouchCounter {
 public:
     void begin(std::uint32_t touch) noexcept {
@@ -59,18 +60,18 @@ public:
             ++touches_;
         }
     }
-    void heard() noexcept { isHeard_ = true; }
+    void noteSound() noexcept { hasSound_ = true; }
     void end() noexcept {
-        silent_ += touch_ && !isHeard_ ? 1U : 0U;
+        silent_ += touch_ && !hasSound_ ? 1U : 0U;
         touch_.reset();
-        isHeard_ = false;
+        hasSound_ = false;
     }
     [[nodiscard]] std::uint64_t touches() const noexcept { return touches_; }
     [[nodiscard]] std::uint64_t silent() const noexcept { return silent_; }
 
 private:
     std::optional<std::uint32_t> touch_;
-    bool isHeard_ = false;
+    bool hasSound_ = false;
     std::uint64_t touches_ = 0;
     std::uint64_t silent_ = 0;
 };
@@ -92,16 +93,15 @@ private:
 LiveVoiceSettings voiceSettings(const OfflineSettings& settings) {
     LiveVoiceSettings voice;
     voice.planner.seed = settings.seed;
-    voice.planner.fixedLeadSamples =
-        static_cast<std::int64_t>(std::ceil(settings.leadMs * inference::waveformRateHz / 1000.0));
-    // Every contact state is asked for, however close it follows.
-    voice.planner.shortestHopSamples = 0;
+    voice.planner.fixedLeadSamples = LeadEstimator::samplesOf(settings.leadMs);
+    // Every contact state gets a segment, however close it follows another.
+    voice.planner.minimumHopSamples = 0;
     voice.outputRateHz = settings.outputRateHz;
     voice.fullScaleMps2 = settings.fullScaleMps2;
     return voice;
 }
 
-/// The three ends of a live voice, taken in turn by one thread.
+/// Runs publisher, renderer and planner of a live voice in turn on one thread.
 class OfflineRenderer {
 public:
     OfflineRenderer(const model::ModelFile& model, inference::SegmentGenerator& generator,
@@ -156,12 +156,12 @@ private:
         recorder_.hand(sink_, seams_);
     }
 
-    /// What rings on: the blow of a last landing, an actuator's compensation, a delay. The tip stays lifted: a voice
-    /// without news would be silenced.
+    /// Renders until effects that still sound (an impact, a compensation, a delay) have ended. Publishes lifted states,
+    /// because a stale voice would be silenced.
     void renderTail(double seconds, const ContactState& liftedOff) {
         constexpr double stepSeconds = 0.05;
-        const double longestSeconds = seconds + longestTailSeconds;
-        while (seconds < longestSeconds && voice_.channels.audible.load(std::memory_order_relaxed)) {
+        const double maximumSeconds = seconds + maximumTailSeconds;
+        while (seconds < maximumSeconds && voice_.channels.audible.load(std::memory_order_relaxed)) {
             publish(liftedOff);
             seconds += stepSeconds;
             renderUntil(seconds);
@@ -173,12 +173,12 @@ private:
             return;
         }
         voice_.channels.controls.delaySeconds = settings_.delaySeconds;
-        voice_.channels.changeProcessors([this](ProcessorSettings& asked) {
-            asked.actuator = settings_.actuator;
-            asked.hasDelay = settings_.delaySeconds > 0.0;
+        voice_.channels.changeProcessors([this](ProcessorSettings& processors) {
+            processors.actuator = settings_.actuator;
+            processors.hasDelay = settings_.delaySeconds > 0.0;
             return true;
         });
-        // The callback's end says at which rate, the worker's end makes them, and the callback's end takes them.
+        // The renderer states its rate, the planner makes the processors, and the renderer takes them.
         voice_.renderer.render({}, settings_.outputRateHz);
         LiveVoice* const voices[] = {&voice_};
         (void)round_.run(voices, generator_);
@@ -192,13 +192,13 @@ private:
             figures_.peak = std::max(figures_.peak, static_cast<double>(std::abs(sample)));
         }
         if (std::ranges::any_of(block_, [](float sample) { return sample != 0.0F; })) {
-            touches_.heard();
+            touches_.noteSound();
         }
     }
 
     void publish(const ContactState& state) {
         voice_.publisher.publish(state);
-        // The callback's end takes note of the contact, so that the worker's end finds its stream begun.
+        // An empty block makes the renderer begin the stream, which the planner needs.
         voice_.renderer.render({}, settings_.outputRateHz);
         LiveVoice* const voices[] = {&voice_};
         const RoundResult round = round_.run(voices, generator_);
@@ -252,14 +252,14 @@ private:
 
 OfflineFigures renderOffline(const model::ModelFile& model, inference::SegmentGenerator& generator,
                              const ContactStateSource& next, const OfflineSettings& settings, OfflineSink& sink) {
-    if (!(settings.leadMs >= 0.0 && settings.leadMs <= 50.0)) {
-        throw std::invalid_argument("the lead must be 0 to 50 ms");
+    if (!(settings.leadMs >= 0.0 && settings.leadMs <= LeadEstimator::maximumMs)) {
+        throw std::invalid_argument("lead is " + std::to_string(settings.leadMs) + " ms; expected 0 to 50 ms");
     }
     if (!(settings.tailSeconds >= 0.0 && settings.tailSeconds <= 10.0)) {
-        throw std::invalid_argument("the tail must be 0 to 10 s");
+        throw std::invalid_argument("tail is " + std::to_string(settings.tailSeconds) + " s; expected 0 to 10 s");
     }
     if (!(settings.delaySeconds >= 0.0 && settings.delaySeconds <= effects::Delay::highestSeconds)) {
-        throw std::invalid_argument("the delay must be 0 to 0.5 s");
+        throw std::invalid_argument("delay is " + std::to_string(settings.delaySeconds) + " s; expected 0 to 0.5 s");
     }
     return OfflineRenderer(model, generator, settings, sink).run(next);
 }

@@ -22,22 +22,22 @@ namespace haptoflow::engine {
 
 struct OfflineSettings {
     double outputRateHz = 48000.0;
-    /// From a contact state to the first sample generated from it; stands for the live engine's measured lead.
+    /// Time from a contact state to the first sample generated from it; replaces the lead that a live voice estimates.
     double leadMs = 8.0;
-    /// Key of all noise: same model, states and seed give the same samples.
+    /// Key of all noise: the same model, states and seed give the same samples.
     std::uint64_t seed = 1;
     float fullScaleMps2 = dsp::SoftLimiter::defaultFullScaleMps2;
-    /// Rendered after the last state, for what still has to fade; longer where effects ring on.
+    /// Time rendered after the last state; longer if effects still sound.
     double tailSeconds = 0.1;
-    /// What the render is compensated for; null for nothing.
+    /// Profile of the actuator to compensate; null for no compensation.
     std::shared_ptr<const effects::ActuatorProfile> actuator = nullptr;
     /// 0 to 0.5.
     double delaySeconds = 0.0;
-    /// Registered in this order, behind the model's labels.
+    /// Registered in this order after the model's labels.
     std::vector<model::MaterialFile> materials{};
 };
 
-/// What a render's own engine counted and measured. Fixed in size, however long the render.
+/// Statistics of a render. Their size does not depend on the length of the render.
 struct OfflineFigures {
     SeamStatistics seamStatistics;
     /// Output samples, at outputRateHz.
@@ -46,7 +46,7 @@ struct OfflineFigures {
     /// Wall time of a segment's inference, within 0.1 %.
     double inferenceMsMedian = 0.0;
     double inferenceMsP99 = 0.0;
-    /// Touches in the states, and those of them without a sample that is not zero.
+    /// Touches in the states, and the number of those whose samples are all zero.
     std::uint64_t touches = 0;
     std::uint64_t silentTouches = 0;
     std::uint64_t onsets = 0;
@@ -56,17 +56,17 @@ struct OfflineFigures {
     std::uint64_t sanitised = 0;
     std::uint64_t nonFinite = 0;
     std::uint64_t limited = 0;
-    /// By effects::EffectKind: landings and edges that sounded, and samples that each effect worked on. Of the texture
-    /// there is nothing here.
+    /// By effects::EffectKind, without the texture: impacts and edges that sounded, and samples that each effect
+    /// processed.
     std::array<std::uint64_t, effects::effectKinds> effectEvents{};
     std::array<std::uint64_t, effects::effectKinds> effectSamples{};
-    /// RMS in m/s^2 while the voice sounds, as it leaves the limiter.
+    /// RMS in m/s^2 of the limiter's output over the samples that are not zero.
     double rmsMps2 = 0.0;
     /// Largest magnitude of the output, +-1.
     double peak = 0.0;
 };
 
-/// Where a render goes, piece by piece.
+/// Receives a render piece by piece.
 class OfflineSink {
 public:
     OfflineSink() = default;
@@ -75,28 +75,28 @@ public:
     virtual ~OfflineSink() = default;
     /// Output, +-1 at outputRateHz.
     virtual void output(std::span<const float> samples) = 0;
-    /// What was played in waveform time (2 kHz, m/s^2), before level law, resampling, gate and limiter.
+    /// The waveform that was played (2 kHz, m/s^2), before range law, resampling, gate and limiter.
     virtual void waveform(std::span<const float> samplesMps2) = 0;
 };
 
-/// The next contact state, times ascending; nothing at the end.
+/// Returns the next contact state, in the order of time; nothing at the end.
 using ContactStateSource = std::function<std::optional<ContactState>()>;
 
-/// Renders contact states (the first is time 0 of the output) without threads, by the same voice, timeline and
-/// generator as live, in memory that does not grow with the length. Throws std::invalid_argument for settings out of
-/// range, model::MaterialMismatch, and what `next` and `sink` throw.
+/// Renders contact states without threads, with the same voice, timeline and generator as live. The first state is time
+/// 0 of the output. Memory does not grow with the length. Throws std::invalid_argument for settings out of range,
+/// model::MaterialMismatch, and what `next` and `sink` throw.
 OfflineFigures renderOffline(const model::ModelFile& model, inference::SegmentGenerator& generator,
                              const ContactStateSource& next, const OfflineSettings& settings, OfflineSink& sink);
 
-/// A render that is kept whole.
+/// A complete render in memory.
 struct OfflineRender : OfflineFigures {
     /// Output, +-1 at outputRateHz.
     std::vector<float> samples;
-    /// What was played in waveform time (2 kHz, m/s^2).
+    /// The waveform that was played (2 kHz, m/s^2).
     std::vector<float> waveformMps2;
 };
 
-/// The same of states that are there already.
+/// Renders `states` into memory.
 [[nodiscard]] OfflineRender renderOffline(const model::ModelFile& model, inference::SegmentGenerator& generator,
                                           std::span<const ContactState> states, const OfflineSettings& settings);
 

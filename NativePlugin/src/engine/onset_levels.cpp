@@ -7,8 +7,9 @@
 namespace haptoflow::engine {
 namespace {
 
-constexpr float quietestMps2 = 1e-9F;
-constexpr std::size_t batchSize = 256;
+// Keeps the logarithm finite.
+constexpr float minimumMps2 = 1e-9F;
+using inference::levelBatch;
 constexpr std::array<float, inference::segmentSamples> silence{};
 
 }  // namespace
@@ -18,11 +19,11 @@ std::vector<float> tabulateLevels(const LevelGrid& grid,
                                   inference::LevelEstimator& estimator, const inference::LoadLimits& limits) {
     std::vector<float> logLevels(embeddings.size() * LevelGrid::points);
     std::vector<inference::SegmentRequest> requests;
-    std::vector<float> levels(batchSize);
-    for (std::size_t first = 0; first < logLevels.size(); first += batchSize) {
+    std::vector<float> levels(levelBatch);
+    for (std::size_t first = 0; first < logLevels.size(); first += levelBatch) {
         limits.check();
         requests.clear();
-        for (std::size_t point = first; point < std::min(first + batchSize, logLevels.size()); ++point) {
+        for (std::size_t point = first; point < std::min(first + levelBatch, logLevels.size()); ++point) {
             inference::SegmentRequest request{.embedding = {},
                                               .motion = grid.motionOf(point % LevelGrid::points),
                                               .previous = silence,
@@ -33,7 +34,7 @@ std::vector<float> tabulateLevels(const LevelGrid& grid,
         const auto answers = std::span(levels).first(requests.size());
         estimator.levels(requests, answers);
         std::ranges::transform(answers, logLevels.begin() + static_cast<std::ptrdiff_t>(first),
-                               [](float level) { return std::log(std::max(level, quietestMps2)); });
+                               [](float level) { return std::log(std::max(level, minimumMps2)); });
     }
     return logLevels;
 }

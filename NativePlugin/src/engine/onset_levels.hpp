@@ -12,28 +12,28 @@
 
 namespace haptoflow::engine {
 
-/// The level graph's answers at the points of the grid for each of `embeddings`, one table after the other. Throws
-/// inference::InferenceError, inference::LoadCancelled.
+/// Logarithms of the level graph's levels at the points of the grid for each of `embeddings`, one table after the
+/// other. Throws inference::InferenceError, inference::LoadCancelled.
 [[nodiscard]] std::vector<float> tabulateLevels(
     const LevelGrid& grid, std::span<const std::span<const float, model::embeddingSize>> embeddings,
     inference::LevelEstimator& estimator, const inference::LoadLimits& limits = {});
 
-/// The model's level for every label, tabulated, so that a touch-down can level its seed without running a graph.
+/// Tables of the model's level for every label, which give the level of a seed at touch-down without running a graph.
 /// Immutable after construction: any thread.
 class OnsetLevels {
 public:
-    /// Asks the level graph 640 times for each material embedding that a label names; labels that name the same one
-    /// share its table. Throws inference::InferenceError, inference::LoadCancelled.
+    /// Evaluates the level graph at 640 points for each embedding that labels use; labels with the same embedding share
+    /// a table. Throws inference::InferenceError, inference::LoadCancelled.
     OnsetLevels(const model::ModelFile& model, inference::LevelEstimator& estimator,
                 const inference::LoadLimits& limits = {});
 
     [[nodiscard]] const LevelGrid& grid() const noexcept { return grid_; }
-    /// Of a label of the model.
+    /// Table of a label of the model.
     [[nodiscard]] LevelGrid::Table table(std::size_t label) const noexcept;
 
 private:
     LevelGrid grid_;
-    /// Of each label, where its levels begin.
+    /// Offset of each label's table in `logLevels_`.
     std::vector<std::size_t> tables_;
     std::vector<float> logLevels_;
 };

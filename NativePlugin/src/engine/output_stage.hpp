@@ -7,16 +7,9 @@
 
 namespace haptoflow::engine {
 
-/// What a voice needs for one output rate. It allocates when it is made, so a new rate brings a new one, made
-/// elsewhere than in the callback.
+/// The parts of a voice that depend on the output rate. Construction allocates, so another thread than the callback's
+/// makes one for each new rate.
 struct OutputStage {
-    static constexpr double lowestRateHz = 8000.0;
-    static constexpr double highestRateHz = 192000.0;
-    /// False for NaN too.
-    [[nodiscard]] static constexpr bool supports(double rateHz) noexcept {
-        return rateHz >= lowestRateHz && rateHz <= highestRateHz;
-    }
-
     /// Throws std::invalid_argument for a rate outside 8-192 kHz.
     explicit OutputStage(double outputRateHz)
         : rateHz(outputRateHz),
@@ -27,7 +20,7 @@ struct OutputStage {
 
     double rateHz;
     dsp::WaveformResampler resampler;
-    /// Of the texture alone.
+    /// Gate of the texture only.
     dsp::Gate gate;
     EffectStage effects;
     dsp::LevelSmoother strength;

@@ -8,17 +8,17 @@
 
 namespace haptoflow::engine {
 
-/// Which processors a voice asks for.
+/// The processors that a voice uses.
 struct ProcessorSettings {
-    /// One more at each change; 0 while nothing was ever asked for.
+    /// Increases by 1 at each change; 0 if there was never a change.
     std::uint64_t version = 0;
     bool hasDelay = false;
     bool hasExposureGuard = false;
-    /// What is compensated; null for none.
+    /// Profile of the actuator to compensate; null for no compensation.
     std::shared_ptr<const effects::ActuatorProfile> actuator;
 };
 
-/// Designs and allocates: milliseconds, on a thread that can wait. Null where nothing was ever asked for. Throws
+/// Designs and allocates the processors, which takes milliseconds: not on the audio thread. Null for version 0. Throws
 /// std::invalid_argument for a rate outside 8-192 kHz, std::bad_alloc.
 [[nodiscard]] std::unique_ptr<Processors> makeProcessors(const ProcessorSettings& settings, double rateHz,
                                                          double delaySeconds, double actuatorGain);

@@ -10,7 +10,7 @@
 namespace haptoflow::engine {
 namespace {
 
-std::vector<std::size_t> inTheirOwnOrder(std::size_t tiers) {
+std::vector<std::size_t> modelOrder(std::size_t tiers) {
     std::vector<std::size_t> order(tiers);
     std::iota(order.begin(), order.end(), std::size_t{0});
     return order;
@@ -44,12 +44,13 @@ QualityControl::QualityControl(std::size_t tiers, const QualitySettings& setting
     : settings_(settings),
       times_(tiers),
       firstMedianMs_(tiers),
-      byAccuracy_(byAccuracy.empty() ? inTheirOwnOrder(tiers) : std::move(byAccuracy)),
+      byAccuracy_(byAccuracy.empty() ? modelOrder(tiers) : std::move(byAccuracy)),
       tier_(settings.fixedTier.value_or(startTier)) {
     if (tier_ >= tiers) {
-        throw std::invalid_argument("quality control: tier " + std::to_string(tier_) + " of " + std::to_string(tiers));
+        throw std::invalid_argument("quality control: tier " + std::to_string(tier_) + "; expected 0 to " +
+                                    std::to_string(tiers - 1));
     }
-    if (!std::ranges::is_permutation(byAccuracy_, inTheirOwnOrder(tiers))) {
+    if (!std::ranges::is_permutation(byAccuracy_, modelOrder(tiers))) {
         throw std::invalid_argument("quality control: the order of accuracy must name each of the " +
                                     std::to_string(tiers) + " tiers once");
     }
@@ -67,7 +68,7 @@ std::optional<std::size_t> QualityControl::tierToMeasure() const noexcept {
     return std::nullopt;
 }
 
-void QualityControl::measured(std::size_t tier, double milliseconds) noexcept {
+void QualityControl::recordMeasurement(std::size_t tier, double milliseconds) noexcept {
     if (tier >= times_.size()) {
         return;
     }
@@ -90,7 +91,7 @@ std::size_t QualityControl::rankOf(std::size_t tier) const noexcept {
     return static_cast<std::size_t>(std::ranges::find(byAccuracy_, tier) - byAccuracy_.begin());
 }
 
-bool QualityControl::isKnownToOutrun(std::size_t tier, std::size_t other) const noexcept {
+bool QualityControl::isMeasuredAsFastAs(std::size_t tier, std::size_t other) const noexcept {
     return firstMedianMs_[tier] && firstMedianMs_[other] && *firstMedianMs_[tier] <= *firstMedianMs_[other];
 }
 
@@ -104,7 +105,7 @@ void QualityControl::note(std::size_t tier, double milliseconds) noexcept {
 std::optional<std::size_t> QualityControl::fasterTier() const noexcept {
     for (std::size_t rank = rankOf(tier_); rank > 0; --rank) {
         const std::size_t tier = byAccuracy_[rank - 1];
-        if (!isKnownToOutrun(tier_, tier)) {
+        if (!isMeasuredAsFastAs(tier_, tier)) {
             return tier;
         }
     }
@@ -114,7 +115,7 @@ std::optional<std::size_t> QualityControl::fasterTier() const noexcept {
 std::optional<std::size_t> QualityControl::betterTier() const noexcept {
     for (std::size_t rank = rankOf(tier_) + 1; rank < byAccuracy_.size(); ++rank) {
         const std::size_t tier = byAccuracy_[rank];
-        const auto outruns = [&](std::size_t other) { return isKnownToOutrun(other, tier); };
+        const auto outruns = [&](std::size_t other) { return isMeasuredAsFastAs(other, tier); };
         const auto better = byAccuracy_.begin() + static_cast<std::ptrdiff_t>(rank) + 1;
         if (std::none_of(better, byAccuracy_.end(), outruns)) {
             return tier;
@@ -123,7 +124,7 @@ std::optional<std::size_t> QualityControl::betterTier() const noexcept {
     return std::nullopt;
 }
 
-void QualityControl::ran(double milliseconds, std::size_t voices) noexcept {
+void QualityControl::recordRound(double milliseconds, std::size_t voices) noexcept {
     if (voices == 0) {
         return;
     }
@@ -132,7 +133,7 @@ void QualityControl::ran(double milliseconds, std::size_t voices) noexcept {
         return;
     }
     if (voices > voices_) {
-        // Rather before the overruns than after them.
+        // Step down before the additional voice causes overruns.
         voices_ = voices;
         const std::size_t before = tier_;
         while (!tierToMeasure() && rankOf(tier_) > rankOf(fittingTier()) && fasterTier()) {
@@ -166,7 +167,7 @@ void QualityControl::stepDown() noexcept {
     }
     tier_ = *faster;
     ++stepsDown_;
-    patienceRounds_ = std::min(2 * patienceRounds_, longestPatienceRounds);
+    patienceRounds_ = std::min(2 * patienceRounds_, maximumPatienceRounds);
 }
 
 void QualityControl::considerStepUp(std::size_t voices) noexcept {

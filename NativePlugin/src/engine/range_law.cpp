@@ -1,15 +1,16 @@
 #include "engine/range_law.hpp"
 
+#include "dsp/rate_warp.hpp"
+
 #include <algorithm>
 #include <cmath>
 
 namespace haptoflow::engine {
 namespace {
 
-constexpr double largestGain = 16.0;
-constexpr double largestReadingRate = 4.0;
+constexpr double maximumGain = 16.0;
 
-/// value / edge where that is above 1.
+/// value / edge, at least 1.
 double excess(double value, double edge) {
     return edge > 0.0 ? std::max(1.0, value / edge) : 1.0;
 }
@@ -35,9 +36,10 @@ RangedMotion applyRangeLaw(const model::ModelHeader& header, const Material& mat
     RangedMotion ranged;
     ranged.motion = clamped(vx / scale, vy / scale);
     ranged.levelMotion = clamped(vx, vy);
-    ranged.levelGain = std::min(largestGain, std::pow(speedExcess, material.speedLevelExponent) *
+    ranged.levelGain = std::min(maximumGain, std::pow(speedExcess, material.speedLevelExponent) *
                                                  std::pow(forceExcess, material.forceLevelExponent));
-    ranged.readingRate = std::clamp(std::pow(featureExcess, material.frequencyExponent), 1.0, largestReadingRate);
+    ranged.readingRate =
+        std::clamp(std::pow(featureExcess, material.frequencyExponent), 1.0, dsp::RateWarp::maximumRatio);
     return ranged;
 }
 

@@ -7,20 +7,20 @@
 
 namespace haptoflow::engine {
 
-/// What the network is asked for, and what is done to its answer, where the hand leaves the recorded range.
+/// A motion clamped to the trained range, with the gain and the reading rate that extend the result beyond it.
 struct RangedMotion {
-    /// vx, vy in m/s and force in N, inside the recorded range: what the network is asked for, and what the level is.
+    /// Inputs of the network and of the level: vx, vy in m/s and force in N, inside the trained range.
     std::array<float, 3> motion{};
     std::array<float, 3> levelMotion{};
-    /// (v / v_edge)^p (F / F_edge)^q, 1 inside the range.
+    /// (v / v_edge)^p (F / F_edge)^q; 1 inside the range.
     double levelGain = 1.0;
-    /// How much faster the waveform is read: min(4, (v / v_edge)^gamma), 1 inside the range.
+    /// Speed at which the waveform is read: min(4, (v / v_edge)^gamma); 1 inside the range.
     double readingRate = 1.0;
 };
 
-/// Clamps the motion to the model's range and continues level and frequency beyond it by the label's own exponents.
-/// Continuous in speed and force; the gain is limited to 16. Features `spatialScale` times as large are those of a
-/// speed so much lower; the level is that of the speed as it is.
+/// Clamps the motion to the trained range and extends level and frequency beyond it with the label's exponents.
+/// Continuous in speed and force; the gain is limited to 16. The network's motion uses the speed divided by
+/// `spatialScale`, the level the actual speed.
 [[nodiscard]] RangedMotion applyRangeLaw(const model::ModelHeader& header, const Material& material,
                                          const std::array<float, 2>& velocityMps, float forceNewtons,
                                          float spatialScale = 1.0F) noexcept;

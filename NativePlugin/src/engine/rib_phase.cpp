@@ -9,12 +9,13 @@ namespace {
 
 constexpr double millimetresPerMetre = 1000.0;
 
-/// The slot of `vectors` that holds `wanted`, the slot `own` before others; empty for none.
-std::optional<std::size_t> slotOf(const WaveVectors& vectors, const WaveVector& wanted, std::size_t own) noexcept {
-    if (vectors[own] == wanted) {
-        return own;
+/// The slot of `vectors` that holds `vector`; if several do, preferably `preferred`. Empty if none does.
+std::optional<std::size_t> slotOf(const WaveVectors& vectors, const WaveVector& vector,
+                                  std::size_t preferred) noexcept {
+    if (vectors[preferred] == vector) {
+        return preferred;
     }
-    const auto found = std::ranges::find(vectors, wanted);
+    const auto found = std::ranges::find(vectors, vector);
     return found == vectors.end() ? std::nullopt : std::optional(static_cast<std::size_t>(found - vectors.begin()));
 }
 

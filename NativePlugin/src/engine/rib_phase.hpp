@@ -9,10 +9,10 @@
 
 namespace haptoflow::engine {
 
-/// For each wave vector of a material, turns along it.
+/// A number of turns (rib periods) for each wave vector of a material.
 using RibTurns = std::array<double, inference::ribCount>;
 
-/// The ribs of a surface: how many cross a millimetre of way, along each of the surface's two axes.
+/// Spatial frequency of ribs along the surface's two axes, in cycles per millimetre.
 struct WaveVector {
     float x = 0.0F;
     float y = 0.0F;
@@ -22,39 +22,37 @@ struct WaveVector {
 };
 using WaveVectors = std::array<WaveVector, inference::ribCount>;
 
-/// The last numbers of an embedding.
+/// Read and write the wave vectors of an embedding, which are its last numbers.
 [[nodiscard]] WaveVectors waveVectorsOf(std::span<const float, inference::embeddingSize> embedding) noexcept;
 void setWaveVectors(std::span<float, inference::embeddingSize> embedding, const WaveVectors& vectors) noexcept;
-/// The same wave vectors, each that is among `before` in the slot that it has there.
+/// Reorders `vectors` so that each wave vector that is also among `before` has the slot that it has there.
 [[nodiscard]] WaveVectors keepingSlots(const WaveVectors& vectors, const WaveVectors& before) noexcept;
-/// For each slot of `vectors` the phase of its wave vector, which may stand in another slot of `from`; that of the same
-/// slot where it stands in none.
+/// For each slot of `vectors`, the phase of that wave vector in `from`, where it may have another slot. A wave vector
+/// that is not in `from` gets the phase of the same slot.
 [[nodiscard]] RibTurns phasesFor(const WaveVectors& vectors, const WaveVectors& from, const RibTurns& phases) noexcept;
 
-/// How far a tip travels along each wave vector of a material in one waveform sample; signed. The wave vectors, in
-/// cycles per millimetre, are the last numbers of `embedding`.
+/// Signed turns along each wave vector of `embedding` per waveform sample at a velocity.
 [[nodiscard]] RibTurns ribTurnsPerSample(std::span<const float, inference::embeddingSize> embedding, double vxMps,
                                          double vyMps) noexcept;
 
-/// The ribs that a seed crosses: its phase at the first sample that sounds, and how it goes on from there.
+/// Rib phase of a seed at its first audible sample, and its advance per sample.
 struct SeedRibs {
     RibTurns phase{};
     RibTurns turnsPerSample{};
     WaveVectors vectors{};
 };
 
-/// How far a tip has travelled along the ribs since its stream began, in waveform time. The way is made of pieces, one
-/// for each segment that was sent, of one motion each. Allocates nothing; one thread.
+/// Rib phases of a stream in waveform time. The path consists of pieces with constant motion, one per segment sent.
+/// Allocates nothing; used by one thread.
 class RibTrack {
 public:
-    /// A stream begins at that sample with a seed.
+    /// Begins a stream with a seed at the sample `start`.
     void begin(std::int64_t start, const SeedRibs& seed) noexcept;
-    /// The phases of `vectors` at a sample, in turns from 0 to below 1, from the newest piece that begins there or
-    /// before.
+    /// Phases of `vectors` at a sample, in turns in [0, 1), from the newest piece that starts at or before it.
     [[nodiscard]] std::array<float, inference::ribCount> at(std::int64_t sample,
                                                             const WaveVectors& vectors) const noexcept;
-    /// From `start` on the tip goes on like this over ribs of these wave vectors; pieces that began there or later are
-    /// taken back.
+    /// Adds a piece from `start` on with this advance along these wave vectors. Removes pieces that start there or
+    /// later.
     void add(std::int64_t start, const WaveVectors& vectors, const RibTurns& turnsPerSample) noexcept;
 
 private:
@@ -64,13 +62,13 @@ private:
         RibTurns turnsPerSample{};
         WaveVectors vectors{};
     };
-    // Only pieces ahead of the read head can be taken back. A timeline reaches 600 samples ahead and hops take 10, so
-    // these are enough; beyond them the oldest is forgotten, which no later segment asks for.
+    // Only pieces ahead of the read head can be removed. A timeline reaches 600 samples ahead and a hop takes at least
+    // 10, so this is enough; when full, the oldest piece is dropped, which no later segment needs.
     static constexpr std::size_t capacity = 64;
 
     [[nodiscard]] RibTurns turnsAt(std::int64_t sample, const WaveVectors& vectors) const noexcept;
 
-    // Starts rise from piece to piece.
+    // In the order of their starts.
     std::array<Piece, capacity> pieces_{};
     std::size_t count_ = 1;
 };

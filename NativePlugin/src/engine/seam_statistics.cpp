@@ -9,7 +9,7 @@ SeamMeter::SeamMeter(std::size_t spliceSamples)
     : spliceSamples_(static_cast<std::int64_t>(std::max<std::size_t>(spliceSamples, 1))) {}
 
 void SeamMeter::addSeam(std::int64_t sample) {
-    // The first sample of a waveform has none before it to step from.
+    // The first sample of a waveform has no predecessor, so a seam there has no step.
     if (sample >= std::max<std::int64_t>(next_, 1)) {
         open_.push_back({.begin = sample});
     }
@@ -59,18 +59,6 @@ SeamStatistics SeamMeter::statistics() const {
                                          (otherSquares_ / static_cast<double>(otherSteps_)));
     }
     return statistics;
-}
-
-SeamStatistics measureSeams(std::span<const float> waveform, std::span<const std::int64_t> seams,
-                            std::size_t spliceSamples) {
-    SeamMeter meter(spliceSamples);
-    for (const std::int64_t seam : seams) {
-        if (seam < static_cast<std::int64_t>(waveform.size())) {
-            meter.addSeam(seam);
-        }
-    }
-    meter.addSamples(waveform);
-    return meter.statistics();
 }
 
 }  // namespace haptoflow::engine

@@ -9,26 +9,27 @@
 
 namespace haptoflow::engine {
 
-/// How well the seams between segments hide in the waveform around them.
+/// How much the seams between segments differ from the rest of the waveform.
 struct SeamStatistics {
     std::size_t seams = 0;
-    /// Share of seams with a sample difference above the wave's own 99.9th percentile of sample differences.
+    /// Share of seams with a sample difference above the 99.9th percentile of all sample differences.
     double outlierShare = 0.0;
-    /// RMS of the sample differences in the seams over the RMS of all others.
+    /// RMS of the sample differences in seams divided by the RMS of all others.
     double jumpRatio = 0.0;
 };
 
-/// Measures seams while the waveform (2 kHz, as played, before resampling) comes in, in memory that does not grow with
-/// it. A seam is the step onto the take-over sample and, where a splice follows, the steps inside it. Sizes within
-/// 0.1 % of the percentile count as equal to it.
+/// Measures seams in a waveform (2 kHz, as played, before resampling) that arrives piece by piece; memory does not grow
+/// with its length. A seam is the step to the sample at which a segment takes over and the steps inside its splice.
+/// Differences within 0.1 % of the percentile count as equal to it.
 class SeamMeter {
 public:
     explicit SeamMeter(std::size_t spliceSamples);
 
-    /// A segment takes over at that sample, an index into the waveform; ascending, and told before the sample is added.
+    /// Announces that a segment takes over at a sample, an index into the waveform. Call in ascending order and before
+    /// that sample is added.
     void addSeam(std::int64_t sample);
     void addSamples(std::span<const float> waveform);
-    /// Of everything added so far.
+    /// Statistics of everything added so far.
     [[nodiscard]] SeamStatistics statistics() const;
 
 private:
@@ -42,7 +43,7 @@ private:
     std::int64_t spliceSamples_;
     std::int64_t next_ = 0;
     float last_ = 0.0F;
-    // Those whose splice is not over.
+    // Seams whose splice has not ended.
     std::deque<Seam> open_;
     ValueHistogram differences_;
     ValueHistogram largestOfSeams_;
@@ -52,9 +53,5 @@ private:
     std::uint64_t seamSteps_ = 0;
     std::uint64_t otherSteps_ = 0;
 };
-
-/// The same of a whole waveform; `seams` are the take-over samples, indices into it, ascending.
-[[nodiscard]] SeamStatistics measureSeams(std::span<const float> waveform, std::span<const std::int64_t> seams,
-                                          std::size_t spliceSamples);
 
 }  // namespace haptoflow::engine

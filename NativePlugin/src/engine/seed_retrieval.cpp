@@ -6,7 +6,7 @@
 namespace haptoflow::engine {
 namespace {
 
-// Below these, conditions are alike to the hand.
+// Added to speed and force before taking logarithms, because smaller differences cannot be felt.
 constexpr double restMps = 0.002;
 constexpr double restNewtons = 0.05;
 constexpr double forceShare = 0.5;

@@ -1,15 +1,25 @@
 #pragma once
 
-#include "engine/known_material.hpp"
+#include "model/model_header.hpp"
 
 #include <array>
 #include <span>
 
 namespace haptoflow::engine {
 
-/// The seed whose conditions are nearest to the motion: in the logarithms of speed and force, and in direction along
-/// the line of motion. Null where there is none. Source: HaptoFlow, section 4.1 (first previous waveform retrieved from
-/// the training recordings).
+/// A recorded waveform that is played at touch-down, with the motion at which it was recorded.
+struct Seed {
+    std::array<double, 2> velocityMps{};
+    double forceNewtons = 0.0;
+    std::array<double, 2> ribPhase{};
+    std::span<const float, model::seedSamples> samples;
+    /// Embedding of the recorded material; the rib phase refers to its wave vectors.
+    std::span<const float, model::embeddingSize> embedding;
+};
+
+/// The seed recorded at the motion nearest to `motion`, compared by the logarithms of speed and force and by the
+/// direction of the line of motion (forwards and backwards are equal). Null if there is none. Source: HaptoFlow,
+/// section 4.1 (first previous waveform retrieved from the training recordings).
 [[nodiscard]] const Seed* retrieveSeed(std::span<const Seed> seeds, const std::array<float, 3>& motion) noexcept;
 
 }  // namespace haptoflow::engine

@@ -11,10 +11,10 @@
 namespace haptoflow::engine {
 namespace {
 
-// What has to be covered beyond the next update, so that one that comes late finds the voice still sounding.
+// Waveform covered beyond the next update, so that the voice still sounds if that update is late.
 constexpr double reserveSamples = 40.0;
-// A tenth of a second at the pace of looking: a device that has stopped is not waited for.
-constexpr int mostLooks = 50;
+// A tenth of a second of polling. The planner does not wait longer for a device that has stopped.
+constexpr int maximumPolls = 50;
 constexpr auto segmentLength = static_cast<std::int64_t>(inference::segmentSamples);
 
 std::int64_t scaled(std::int64_t samples, double readingRate) noexcept {
@@ -44,20 +44,20 @@ bool SegmentPlanner::wake() noexcept {
     const bool isNewStream = playhead.stream != stream_;
     const std::int64_t head = playhead.timeline.head;
     const bool replaces = !isNewStream && head == lastHead_;
-    // A full queue belongs to a callback that does not take.
+    // A full queue means that the callback takes no segments.
     if (!isPlaying || (replaces && !mayReplace()) || channels_.segments.room() < 2) {
         return false;
     }
     restorePast();
     const std::int64_t lead = leadSamples(playhead.blockAdvance, contact.readingRate);
     const std::int64_t start = std::min(head + lead, std::max(mirror_.coveredUntil(), head));
-    if (!isNewStream && !replaces && start < lastStart_ + settings_.shortestHopSamples) {
+    if (!isNewStream && !replaces && start < lastStart_ + settings_.minimumHopSamples) {
         return false;
     }
     replacements_ = replaces ? replacements_ + 1 : 0;
     skipUntil(contact.slides - 1);
     settledSlides_ = contact.slides;
-    looks_ = 0;
+    polls_ = 0;
     if (isNewStream) {
         ribs_.begin(playhead.streamStart, playhead.seedRibs);
     }
@@ -85,23 +85,23 @@ void SegmentPlanner::skipUntil(std::uint64_t slides) noexcept {
 }
 
 bool SegmentPlanner::mayReplace() const noexcept {
-    // Between two long blocks the clock stands, but hands do not: a newer contact then gets a segment for the same
-    // place, as often as hops would fit into the block. A clock that stands for good asks for nothing more.
+    // During a long block the clock stands still while new contact states arrive. Each may get a segment for the same
+    // start, as often as the minimum hop fits into the block. The limit also ends the inference for a stopped clock.
     const Playhead& playhead = channels_.playhead.current();
-    return settings_.shortestHopSamples > 0 && replacements_ + 1 < playhead.blockAdvance / settings_.shortestHopSamples;
+    return settings_.minimumHopSamples > 0 && replacements_ + 1 < playhead.blockAdvance / settings_.minimumHopSamples;
 }
 
-bool SegmentPlanner::looksAgain() noexcept {
-    if (!awaitsCallback() || looks_ >= mostLooks) {
+bool SegmentPlanner::mustPoll() noexcept {
+    if (!awaitsCallback() || polls_ >= maximumPolls) {
         return false;
     }
-    ++looks_;
+    ++polls_;
     return true;
 }
 
 bool SegmentPlanner::awaitsCallback() const noexcept {
-    // Whatever kept `wake` from generating for it passes when the callback moves on: an onset that is not played yet, a
-    // clock that stands still, a hop that would be too short, a full queue.
+    // Every reason for which `wake` did not generate ends when the callback runs: an onset that has not been played
+    // yet, a clock that stands still, a hop that would be too short, a full queue.
     const WorkerMessage& contact = channels_.toWorker.current();
     return contact.sliding && contact.slides != settledSlides_;
 }
@@ -172,10 +172,10 @@ bool SegmentPlanner::deliver(std::span<float, inference::segmentSamples> segment
 
     const std::int64_t head = playhead.timeline.head;
     const auto lead = static_cast<double>(leadSamples(playhead.blockAdvance, contact.readingRate));
-    const double wanted = static_cast<double>(hop_) + lead + reserveSamples * contact.readingRate;
+    const double needed = static_cast<double>(hop_) + lead + reserveSamples * contact.readingRate;
     const std::int64_t next = plannedStart_ + segmentLength;
     const std::int64_t furthest = static_cast<std::int64_t>(TimelineView::aheadSamples) - segmentLength;
-    if (static_cast<double>(next - head) >= wanted || next - head > furthest || channels_.segments.room() < 2) {
+    if (static_cast<double>(next - head) >= needed || next - head > furthest || channels_.segments.room() < 2) {
         return false;
     }
     prepare(next);
@@ -186,21 +186,21 @@ void SegmentPlanner::fail() noexcept {
     channels_.counters.failures.fetch_add(1, std::memory_order_relaxed);
 }
 
-ProcessorSettings SegmentPlanner::wantedProcessors() const {
+ProcessorSettings SegmentPlanner::requestedProcessors() const {
     const std::lock_guard lock(channels_.processorMutex);
     return channels_.processorSettings;
 }
 
 std::unique_ptr<Processors> SegmentPlanner::processorsFor(double rateHz) const {
     const VoiceControls& controls = channels_.controls;
-    return makeProcessors(wantedProcessors(), rateHz, controls.delaySeconds, controls.actuatorGain);
+    return makeProcessors(requestedProcessors(), rateHz, controls.delaySeconds, controls.actuatorGain);
 }
 
 void SegmentPlanner::serveProcessors() noexcept {
-    delete channels_.usedProcessors.exchange(nullptr, std::memory_order_acq_rel);
+    delete channels_.replacedProcessors.exchange(nullptr, std::memory_order_acq_rel);
     const double rateHz = channels_.stageRateHz.load(std::memory_order_acquire);
-    const std::uint64_t wanted = channels_.wantedProcessors.load(std::memory_order_acquire);
-    const bool isServed = madeVersion_ == wanted && madeRateHz_ == rateHz;
+    const std::uint64_t wantedVersion = channels_.requestedProcessors.load(std::memory_order_acquire);
+    const bool isServed = madeVersion_ == wantedVersion && madeRateHz_ == rateHz;
     if (rateHz == 0.0 || isServed || !channels_.lacksProcessors.load(std::memory_order_acquire)) {
         return;
     }
@@ -212,15 +212,15 @@ void SegmentPlanner::serveProcessors() noexcept {
             delete channels_.freshProcessors.exchange(made.release(), std::memory_order_acq_rel);
         }
     } catch (const std::exception&) {
-        // Without memory the voice goes on as it is, and asks again with its next state.
+        // Out of memory: the voice keeps its present processors and requests the new ones again with its next state.
         return;
     }
 }
 
 void SegmentPlanner::serveOutputRate() noexcept {
     serveProcessors();
-    delete channels_.usedOutput.exchange(nullptr, std::memory_order_acq_rel);
-    const double rateHz = channels_.wantedRateHz.exchange(0.0, std::memory_order_acq_rel);
+    delete channels_.replacedOutput.exchange(nullptr, std::memory_order_acq_rel);
+    const double rateHz = channels_.requestedRateHz.exchange(0.0, std::memory_order_acq_rel);
     if (rateHz == 0.0) {
         return;
     }
@@ -232,7 +232,7 @@ void SegmentPlanner::serveOutputRate() noexcept {
         }
         delete channels_.freshOutput.exchange(stage.release(), std::memory_order_acq_rel);
     } catch (const std::exception&) {
-        // Not a rate that audio runs at, or no memory; the callback asks again.
+        // The rate is not supported, or out of memory; the callback requests a stage again.
         return;
     }
 }

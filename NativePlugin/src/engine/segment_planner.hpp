@@ -18,41 +18,42 @@ struct PlannerSettings {
     /// Key of the voice's noise.
     std::uint64_t seed = 1;
     std::uint32_t voice = 0;
-    /// Empty for a lead that is learnt; otherwise this many waveform samples, at a reading rate of 1.
+    /// Lead in waveform samples at a reading rate of 1; empty for an estimated lead.
     std::optional<std::int64_t> fixedLeadSamples;
-    /// A new segment takes over at least so many samples after the one before: 5 ms.
-    std::int64_t shortestHopSamples = 10;
+    /// Minimum number of samples between the starts of two segments: 5 ms.
+    std::int64_t minimumHopSamples = 10;
 };
 
-/// The worker's end of a voice: which segment it needs next, from which past, and where that takes over. The running
-/// segment's unplayed part is in that past, and so are segments that the callback has not taken yet.
-/// Worker thread; allocates nothing.
+/// The part of a voice that runs on the worker: decides which segment is needed next, from which past it continues and
+/// where it takes over. The past includes the unplayed part of the running segment and segments that the callback has
+/// not taken yet. Worker thread; allocates nothing except in `serveOutputRate`.
 class SegmentPlanner {
 public:
     SegmentPlanner(VoiceChannels& channels, const PlannerSettings& settings) noexcept;
 
-    /// Looks at the newest contact and playhead. True where a segment is wanted; `request` then says which.
+    /// Reads the newest contact and playhead. Returns whether a segment is needed; `request` then describes it.
     [[nodiscard]] bool wake() noexcept;
-    /// True while the newest contact slides, has no segment yet and waits for the callback to play its onset or to move
-    /// on: look again soon, nobody will call. Not for ever: each true is one look, and a generated segment begins the
-    /// count anew.
-    [[nodiscard]] bool looksAgain() noexcept;
+    /// True while the newest contact slides, has no segment yet and waits for the callback to play its onset or to
+    /// advance. The worker must then check again soon, because nothing wakes it. Each call that returns true counts
+    /// against a limit, which starts anew with a generated segment.
+    [[nodiscard]] bool mustPoll() noexcept;
     /// Valid until `deliver` or the next `wake`.
     [[nodiscard]] const inference::SegmentRequest& request() const noexcept { return request_; }
-    /// The segment that was asked for, on its way to the callback; that of a blend is levelled here. True where the
-    /// same contact needs another behind it: read faster, or updated rarely, one segment does not last until the next.
+    /// Sends the requested segment to the callback; adjusts the level of a blend. Returns true if the same contact
+    /// needs a further segment, because at a high reading rate or a low update rate one does not last until the next
+    /// update.
     [[nodiscard]] bool deliver(std::span<float, inference::segmentSamples> segmentMps2) noexcept;
-    /// Of a voice that plays a blend: what has to be generated beside its segments.
+    /// Level balance of the voice's blend, which needs segments of its own.
     [[nodiscard]] BlendBalance& balance() noexcept { return balance_; }
-    /// The run failed: nothing goes out.
+    /// Counts a failed run; no segment is sent.
     void fail() noexcept;
 
-    /// The worker makes and deletes output stages and processors for the callback. Allocates. Never throws: a rate that
-    /// no stage can be made for leaves the voice silent.
+    /// Makes and deletes output stages and processors for the callback. Allocates. Does not throw: if no stage can be
+    /// made for a rate, the voice stays silent.
     void serveOutputRate() noexcept;
 
 private:
-    [[nodiscard]] ProcessorSettings wantedProcessors() const;
+    [[nodiscard]] ProcessorSettings requestedProcessors() const;
     [[nodiscard]] std::unique_ptr<Processors> processorsFor(double rateHz) const;
     void serveProcessors() noexcept;
     [[nodiscard]] bool mayReplace() const noexcept;
@@ -66,9 +67,9 @@ private:
     VoiceChannels& channels_;
     PlannerSettings settings_;
     LeadEstimator lead_;
-    // What the callback will have committed once it has taken all that was sent.
+    // The callback's timeline as it will be after it has taken all segments sent.
     WaveformTimeline mirror_;
-    // Of the present stream.
+    // Rib phases of the present stream.
     RibTrack ribs_;
     BlendBalance balance_;
 
@@ -82,18 +83,18 @@ private:
     std::uint64_t sequence_ = 0;
     std::uint64_t segments_ = 0;
 
-    // Of the newest processors that were made.
+    // Version and rate of the newest processors made.
     std::uint64_t madeVersion_ = 0;
     double madeRateHz_ = 0.0;
 
-    // Sliding states that were generated for or counted as skipped.
+    // Number of sliding states that got a segment or were counted as skipped.
     std::uint64_t settledSlides_ = 0;
-    int looks_ = 0;
+    int polls_ = 0;
     std::uint64_t stream_ = 0;
     std::int64_t lastStart_ = 0;
     std::int64_t lastHead_ = 0;
     std::int64_t hop_ = 0;
-    // Segments after the first for one place of the head.
+    // Number of segments after the first for the present position of the head.
     std::int64_t replacements_ = 0;
     std::int64_t plannedStart_ = 0;
 

@@ -4,41 +4,41 @@
 
 namespace haptoflow::engine {
 
-/// Why a voice is silent. The numbers are those of haptoflow_silence.
+/// Why a voice is silent. The values equal those of haptoflow_silence.
 enum class Silence : std::int32_t {
-    /// The voice sounds.
+    /// The voice is not silent.
     none = 0,
-    /// Nothing touches, or the tip does not slide.
+    /// The tip does not touch or does not slide.
     rest = 1,
-    /// No contact state came for 100 ms.
+    /// No contact state was published for 100 ms.
     stale = 2,
     muted = 3,
     paused = 4,
     /// A panic silenced this touch.
     panic = 5,
-    /// The device runs at a rate that the voice is not prepared for yet, or never will be.
+    /// The device's rate is not supported, or the voice is not prepared for it yet.
     rate = 6,
-    /// The voice, or its engine, is being closed.
+    /// The voice or its engine is being closed.
     closing = 7,
-    /// The thread that generates has ended.
+    /// The worker thread has ended.
     workerDead = 8,
 };
 
-/// What decides whether a voice may sound.
+/// Conditions under which a voice may sound.
 struct SoundConditions {
-    /// The newest contact slides, or a tap has not been played to its end.
+    /// The newest contact slides, or a tap is still being played.
     bool isTouched = false;
     bool isStale = false;
     bool isMuted = false;
     bool isPaused = false;
-    /// A panic was called during this touch.
+    /// A panic occurred during this touch.
     bool isPanicked = false;
     bool isRateServed = true;
     bool isClosing = false;
     bool isWorkerAlive = true;
 };
 
-/// The reason that lasts longest where several hold, so that a person who removes it makes progress.
+/// If several reasons hold, returns the most persistent one, because removing a shorter one first would have no effect.
 [[nodiscard]] constexpr Silence silenceFor(const SoundConditions& conditions) noexcept {
     if (conditions.isClosing) {
         return Silence::closing;

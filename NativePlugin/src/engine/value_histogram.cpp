@@ -6,8 +6,8 @@
 namespace haptoflow::engine {
 namespace {
 
-// The bits of a float that is not negative, read as a whole number, ascend with the float: its exponent and the first
-// ten bits of its fraction are the bin.
+// For non-negative floats, the order of the bit patterns equals the order of the values. The bin is the exponent and
+// the first ten bits of the fraction.
 constexpr unsigned droppedBits = 13;
 constexpr std::size_t binCount = std::size_t{1} << (31U - droppedBits);
 

@@ -6,19 +6,19 @@
 
 namespace haptoflow::engine {
 
-/// Percentiles of a stream of values in a fixed 2 MiB, however many there are: values that differ by less than 0.1 %
-/// may share a bin. Not for the audio thread: making one allocates.
+/// Percentiles of a stream of values in a fixed 2 MiB. Values that differ by less than 0.1 % may share a bin.
+/// Construction allocates: not on the audio thread.
 class ValueHistogram {
 public:
     ValueHistogram();
 
-    /// Negative values and values that are not numbers count as 0.
+    /// Negative values and NaN count as 0.
     void add(float value) noexcept;
     [[nodiscard]] std::uint64_t count() const noexcept { return count_; }
-    /// The value at rank `share` x (count - 1), rounded down, share from 0 to 1; 0 where there is none. What was put in
-    /// is at least this and at most 0.1 % more.
+    /// The value at rank `share` * (count - 1), rounded down, with `share` from 0 to 1; 0 if the histogram is empty.
+    /// The result is the lower end of the bin, at most 0.1 % below the actual value.
     [[nodiscard]] float valueAtShare(double share) const noexcept;
-    /// How many values lie in bins above that of `value`.
+    /// Number of values in bins above that of `value`.
     [[nodiscard]] std::uint64_t countAbove(float value) const noexcept;
 
 private:

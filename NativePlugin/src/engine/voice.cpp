@@ -80,14 +80,14 @@ void Voice::prime() noexcept {
     timeline_.history(timeline_.head(), waveform);
     applyTone(waveform);
     level_.process(waveform);
-    // What the resampler delays is read ahead now, so that the seed's first sample is the next one to sound.
+    // Read ahead by the resampler's delay, so that the seed's first sample is the next to sound.
     const std::size_t ahead = output_->resampler.latencyInputSamples();
     std::ranges::copy(std::span(waveform).subspan(ahead), waveform.begin());
     readWaveform(std::span(waveform).last(ahead));
 
     warp_.prime(std::span(waveform).last(dsp::RateWarp::historyLength));
     output_->resampler.prime(waveform);
-    // Only now: read faster, the filters would swallow most of a seed before it is heard.
+    // Only now, because at a higher reading rate the filters would consume most of a seed before it sounds.
     warp_.setTargetRatio(readingRate_);
 }
 
@@ -113,7 +113,7 @@ void Voice::setTone(const dsp::ToneKernel* kernel) noexcept {
     const bool isRunning = tone_.isActive();
     if (isTextureSilent()) {
         tone_.reset(kernel);
-    } else if (!tone_.isHeadingFor(kernel)) {
+    } else if (!tone_.isTarget(kernel)) {
         std::array<float, inference::segmentSamples> past{};
         timeline_.history(timeline_.head(), past);
         tone_.setTone(kernel, std::span(past).last<dsp::ToneFilter::memorySamples>());
@@ -148,7 +148,7 @@ void Voice::readWaveform(std::span<float> out) noexcept {
 }
 
 void Voice::produce(std::span<float> out) noexcept {
-    // At the lowest output rate a block needs 17 samples at 2 kHz, and the warp at most 4 for each plus 41.
+    // At the minimum output rate a block needs 17 samples at 2 kHz, and the warp consumes at most 4 for each plus 41.
     std::array<float, 32> steady{};
     std::array<float, 160> waveform{};
     const std::size_t steadyCount = std::min(output_->resampler.inputNeeded(out.size()), steady.size());
@@ -176,8 +176,8 @@ void Voice::render(std::span<float> out) noexcept {
             output_->gate.process(block);
         }
         output_->effects.addSources(block, figures_);
-        // Strength comes before the processors: the guard has to measure what is played, and a delayed sound keeps the
-        // strength that it was made with.
+        // Strength comes before the processors, so that the guard measures the level that is played and a delayed sound
+        // keeps its strength.
         output_->strength.process(block);
         output_->effects.process(block, figures_);
         limiter_.process(block);

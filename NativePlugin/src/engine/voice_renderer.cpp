@@ -13,10 +13,6 @@ void count(std::atomic<std::uint64_t>& counter, std::uint64_t by = 1) noexcept {
     counter.fetch_add(by, std::memory_order_relaxed);
 }
 
-float unitRange(float value) noexcept {
-    return std::isfinite(value) ? std::clamp(value, 0.0F, 1.0F) : 0.0F;
-}
-
 }  // namespace
 
 VoiceRenderer::VoiceRenderer(VoiceChannels& channels, const std::atomic<bool>& workerAlive, double outputRateHz,
@@ -25,7 +21,7 @@ VoiceRenderer::VoiceRenderer(VoiceChannels& channels, const std::atomic<bool>& w
 
 void VoiceRenderer::render(std::span<float> out, double rateHz) noexcept {
     const dsp::ScopedFlushDenormals flush;
-    // The contact first: gains that were set before it was published are then seen with it.
+    // Read the contact first, so that settings made before it was published take effect with it.
     readContact();
     readControls();
     readPanic();
@@ -51,16 +47,16 @@ void VoiceRenderer::render(std::span<float> out, double rateHz) noexcept {
     contactAgeFrames_ += out.size();
     count(channels_.counters.renderedFrames, out.size());
     channels_.audible.store(!voice_.isSilent(), std::memory_order_release);
-    // After a landing the tip rests, and what it struck still rings; and while a signal sounds, the texture rests.
-    const bool ringsAtRest = silence_ == Silence::rest && !voice_.isSilent();
-    channels_.silence.store(ringsAtRest ? Silence::none : silence_, std::memory_order_relaxed);
+    // While the texture rests, an impact or a signal may still sound.
+    const bool soundsAtRest = silence_ == Silence::rest && !voice_.isSilent();
+    channels_.silence.store(soundsAtRest ? Silence::none : silence_, std::memory_order_relaxed);
     report(uncoveredBefore, sounded);
 }
 
 void VoiceRenderer::noteBlock(std::size_t frames) noexcept {
-    // Devices may alternate between block lengths, so a shorter one counts only after many blocks.
-    constexpr int remembered = 64;
-    if (++blocksNoted_ >= remembered) {
+    // Devices may alternate between block lengths, so the maximum decreases only after many blocks.
+    constexpr int window = 64;
+    if (++blocksNoted_ >= window) {
         blocksNoted_ = 0;
         longestBlock_ = {0, longestBlock_[0]};
     }
@@ -80,8 +76,8 @@ void VoiceRenderer::readContact() noexcept {
 
 void VoiceRenderer::readControls() noexcept {
     const VoiceControls& controls = channels_.controls;
-    voice_.setStrength(unitRange(controls.strength.load(std::memory_order_relaxed)));
-    voice_.setCeiling(unitRange(controls.ceiling.load(std::memory_order_relaxed)));
+    voice_.setStrength(controls.strength.load(std::memory_order_relaxed));
+    voice_.setCeiling(controls.ceiling.load(std::memory_order_relaxed));
     signal_ = controls.signal.load(std::memory_order_relaxed);
     voice_.effects().setSignal(signal_);
     voice_.effects().setDelaySeconds(controls.delaySeconds.load(std::memory_order_relaxed));
@@ -95,17 +91,17 @@ void VoiceRenderer::readPanic() noexcept {
     }
     seenPanics_ = panics;
     silencedTouch_ = channels_.controls.silencedTouch.load(std::memory_order_relaxed);
-    // Where nothing sounds there is nothing to stop, and a touch that began after the panic may sound at once.
+    // A silent voice has nothing to stop, and a touch that began after the panic may sound at once.
     stopsWithBlock_ = stopsWithBlock_ || !voice_.isSilent();
 }
 
 void VoiceRenderer::noteRate(double rateHz) noexcept {
-    const bool isSupported = OutputStage::supports(rateHz);
+    const bool isSupported = dsp::isOutputRate(rateHz);
     channels_.deviceRateHz.store(rateHz, std::memory_order_relaxed);
     channels_.isRateSupported.store(isSupported, std::memory_order_relaxed);
     if (!isSupported) {
         count(channels_.counters.unsupportedRateBlocks);
-        channels_.wantedRateHz.store(0.0, std::memory_order_release);
+        channels_.requestedRateHz.store(0.0, std::memory_order_release);
     }
 }
 
@@ -132,29 +128,29 @@ SoundConditions VoiceRenderer::conditions(double rateHz) const noexcept {
 }
 
 void VoiceRenderer::decide(double rateHz) noexcept {
-    Silence wanted = silenceFor(conditions(rateHz));
-    const bool isPreparable = OutputStage::supports(rateHz);
-    if (wanted == Silence::rate && isPreparable) {
-        fallSilent(wanted);
+    Silence silence = silenceFor(conditions(rateHz));
+    const bool isPreparable = dsp::isOutputRate(rateHz);
+    if (silence == Silence::rate && isPreparable) {
+        fallSilent(silence);
         if (!voice_.isSilent()) {
             return;
         }
         requestOutput(rateHz);
-        wanted = silenceFor(conditions(rateHz));
+        silence = silenceFor(conditions(rateHz));
     }
-    if (wanted == Silence::none && signal_.isSet()) {
-        wanted = Silence::rest;
+    if (silence == Silence::none && signal_.isSet()) {
+        silence = Silence::rest;
     }
     const AudioMessage& contact = channels_.toAudio.current();
-    if (wanted == Silence::none) {
+    if (silence == Silence::none) {
         if (!isSounding() || contact.onset != playedOnset_) {
             begin();
         }
         return;
     }
-    fallSilent(wanted);
-    // A touch that came and went while the voice had to be silent is over, unless the worker is preparing for a rate.
-    if (!contact.sliding && (wanted != Silence::rate || !isPreparable)) {
+    fallSilent(silence);
+    // A touch that began and ended during a silence is not played later, unless the voice only waits for a rate.
+    if (!contact.sliding && (silence != Silence::rate || !isPreparable)) {
         playedOnset_ = contact.onset;
     }
 }
@@ -192,11 +188,11 @@ void VoiceRenderer::begin() noexcept {
 
 void VoiceRenderer::readBlows() noexcept {
     const AudioMessage& contact = channels_.toAudio.current();
-    const bool landed = contact.impact.counter != seenImpacts_;
-    const bool crossed = contact.edge.counter != seenEdges_;
+    const bool hasLanded = contact.impact.counter != seenImpacts_;
+    const bool hasCrossedEdge = contact.edge.counter != seenEdges_;
     seenImpacts_ = contact.impact.counter;
     seenEdges_ = contact.edge.counter;
-    // What came while the voice had to be silent is over.
+    // Blows that occurred during a silence are not played later.
     if (silence_ != Silence::none && silence_ != Silence::rest) {
         return;
     }
@@ -204,18 +200,18 @@ void VoiceRenderer::readBlows() noexcept {
     if (contact.touch <= silencedTouch_ || signal_.isSet()) {
         return;
     }
-    if (landed) {
+    if (hasLanded) {
         voice_.strikeImpact(static_cast<double>(contact.impact.speedMps), contact.impact.response);
     }
-    if (crossed) {
+    if (hasCrossedEdge) {
         voice_.strikeEdge(static_cast<double>(contact.edge.speedMps), contact.edge.response);
     }
 }
 
 void VoiceRenderer::readSignal() noexcept {
     const bool isMoving = channels_.toAudio.current().isMoving;
-    const bool hasTurned = std::exchange(wasMoving_, isMoving) != isMoving;
-    // What has to be silent is silenced with everything else, and begins anew afterwards.
+    const bool hasChanged = std::exchange(wasMoving_, isMoving) != isMoving;
+    // A silence also ends the signal, which restarts afterwards.
     if (silence_ != Silence::none && silence_ != Silence::rest) {
         return;
     }
@@ -228,28 +224,28 @@ void VoiceRenderer::readSignal() noexcept {
     } else {
         voice_.effects().endSignal();
     }
-    if (hasTurned) {
-        noteSignalTurn(isWanted ? channels_.counters.signalStarts : channels_.counters.signalStops);
+    if (hasChanged) {
+        noteSignalTransition(isWanted ? channels_.counters.signalStarts : channels_.counters.signalStops);
     }
 }
 
-void VoiceRenderer::noteSignalTurn(SignalTurns& turns) noexcept {
+void VoiceRenderer::noteSignalTransition(SignalTransitions& turns) noexcept {
     const double sinceSeconds = channels_.toAudio.current().movingSinceSeconds;
     turns.note(std::max(0.0, channels_.clock() - sinceSeconds) + voice_.effects().delaySeconds());
 }
 
 void VoiceRenderer::takeProcessors() noexcept {
-    const std::uint64_t wanted = channels_.wantedProcessors.load(std::memory_order_acquire);
-    const bool lacks = wanted != voice_.effects().version();
-    // Store only changes: the worker reads other data on the same cache line.
+    const std::uint64_t wantedVersion = channels_.requestedProcessors.load(std::memory_order_acquire);
+    const bool lacks = wantedVersion != voice_.effects().version();
+    // Store only changes, because the worker reads other data on the same cache line.
     if (channels_.stageRateHz.load(std::memory_order_relaxed) != voice_.outputRateHz()) {
         channels_.stageRateHz.store(voice_.outputRateHz(), std::memory_order_release);
     }
     if (channels_.lacksProcessors.load(std::memory_order_relaxed) != lacks) {
         channels_.lacksProcessors.store(lacks, std::memory_order_release);
     }
-    // The worker deletes one used set at a time.
-    if (channels_.usedProcessors.load(std::memory_order_acquire) != nullptr) {
+    // Only one used set at a time waits for the worker to delete it.
+    if (channels_.replacedProcessors.load(std::memory_order_acquire) != nullptr) {
         return;
     }
     EffectStage& stage = voice_.effects();
@@ -257,9 +253,9 @@ void VoiceRenderer::takeProcessors() noexcept {
     if (isSilent) {
         stage.finishHandOver();
     }
-    std::unique_ptr<Processors> used = stage.takeUsed();
+    std::unique_ptr<Processors> used = stage.takeReplaced();
     if (used == nullptr && !stage.isHandingOver()) {
-        // Only this thread takes what the worker has put there, so the costly exchange needs no second check.
+        // Only this thread takes them, so this cheap check suffices to avoid the costly exchange.
         if (channels_.freshProcessors.load(std::memory_order_relaxed) == nullptr) {
             return;
         }
@@ -267,18 +263,18 @@ void VoiceRenderer::takeProcessors() noexcept {
         if (fresh->rateHz == voice_.outputRateHz()) {
             voice_.exchangeProcessors(std::move(fresh));
             if (isSilent) {
-                // A silent voice has nothing to fade from, and a landing in this block must keep its attack.
+                // A silent voice needs no crossfade, and an impact in this block must keep its attack.
                 stage.finishHandOver();
             }
         } else {
             used = std::move(fresh);
         }
     }
-    channels_.usedProcessors.store(used.release(), std::memory_order_release);
+    channels_.replacedProcessors.store(used.release(), std::memory_order_release);
 }
 
 void VoiceRenderer::takeSegments() noexcept {
-    // Bounded: a worker that went wild could otherwise keep the callback here.
+    // The number is limited, so that a worker that keeps sending cannot hold up the callback.
     for (std::size_t taken = 0; taken < SegmentQueue::capacity; ++taken) {
         const QueuedSegment* segment = channels_.segments.front();
         if (segment == nullptr) {
@@ -286,8 +282,8 @@ void VoiceRenderer::takeSegments() noexcept {
         }
         takenSequence_ = segment->sequence;
         headAtTake_[takenSequence_ % headAtTake_.size()] = voice_.timeline().head();
-        const bool isMine = isSounding() && segment->stream == stream_;
-        const std::int64_t takeOver = isMine ? voice_.commit(segment->start, segment->samplesMps2) : -1;
+        const bool isCurrent = isSounding() && segment->stream == stream_;
+        const std::int64_t takeOver = isCurrent ? voice_.commit(segment->start, segment->samplesMps2) : -1;
         if (takeOver < 0) {
             count(channels_.counters.dropped);
         } else if (takeOver > segment->start) {
@@ -298,21 +294,21 @@ void VoiceRenderer::takeSegments() noexcept {
 }
 
 void VoiceRenderer::requestOutput(double rateHz) noexcept {
-    // The worker deletes one used stage at a time; until it has fetched that one, the voice keeps its present stage.
-    // Asking for a rate also gets the worker woken.
-    if (channels_.usedOutput.load(std::memory_order_acquire) != nullptr) {
-        channels_.wantedRateHz.store(rateHz, std::memory_order_release);
+    // Only one used stage at a time waits for the worker to delete it; until then, the voice keeps its present stage.
+    // The request makes the next published state wake the worker.
+    if (channels_.replacedOutput.load(std::memory_order_acquire) != nullptr) {
+        channels_.requestedRateHz.store(rateHz, std::memory_order_release);
         return;
     }
     std::unique_ptr<OutputStage> fresh(channels_.freshOutput.exchange(nullptr, std::memory_order_acq_rel));
     if (fresh == nullptr) {
-        channels_.wantedRateHz.store(rateHz, std::memory_order_release);
+        channels_.requestedRateHz.store(rateHz, std::memory_order_release);
         return;
     }
     const bool fits = fresh->rateHz == rateHz;
     std::unique_ptr<OutputStage> used = fits ? voice_.exchangeOutput(std::move(fresh)) : std::move(fresh);
-    channels_.wantedRateHz.store(fits ? 0.0 : rateHz, std::memory_order_release);
-    channels_.usedOutput.store(used.release(), std::memory_order_release);
+    channels_.requestedRateHz.store(fits ? 0.0 : rateHz, std::memory_order_release);
+    channels_.replacedOutput.store(used.release(), std::memory_order_release);
     if (fits) {
         count(channels_.counters.rateChanges);
     }
@@ -343,7 +339,7 @@ void VoiceRenderer::sound(std::span<float> out) noexcept {
 }
 
 void VoiceRenderer::reportEffects() noexcept {
-    // Without effects nothing has changed, and thirty stores in every block would cost measurable time.
+    // Skip unchanged figures, because thirty stores in every block take measurable time.
     if (voice_.effectFigures().changes == reportedEffectChanges_) {
         return;
     }

@@ -11,26 +11,26 @@
 
 namespace haptoflow::engine {
 
-/// The callback's end of a voice: takes the newest contact, commits segments, decides whether the voice sounds,
-/// renders. Wait-free: no allocation, no lock, no system call, nothing unbounded. One thread at a time.
+/// The part of a voice that runs in the audio callback: takes the newest contact, commits segments, decides whether the
+/// voice sounds, and renders. No allocation, no lock, no system call; bounded time. Used by one thread at a time.
 ///
-/// Its state is `silence_`: none while the texture sounds, else the reason why it does not. A block begins with one
-/// decision between the two; within a block only a contact that goes stale and a tap that ends change it.
+/// `silence_` is the state: none while the texture sounds, otherwise the reason for its silence. It is decided at the
+/// beginning of each block. Within a block, it changes only if the contact becomes stale or a tap ends.
 class VoiceRenderer {
 public:
-    /// A contact that nobody renewed for this long is stale: the stylus, or its application, is gone.
+    /// Time without a contact state after which the contact is stale.
     static constexpr double staleSeconds = 0.1;
-    /// How long a tap sounds whose end came along with its beginning.
+    /// Duration of a tap that began and ended between two states.
     static constexpr double tapSeconds = 0.01;
 
-    /// `workerAlive` is false once the thread that generates has ended; the voice then falls silent. Allocates. Throws
+    /// `workerAlive` becomes false when the worker thread has ended; the voice then falls silent. Allocates. Throws
     /// std::invalid_argument for a rate outside 8-192 kHz or a full scale that is not above 0.
     VoiceRenderer(VoiceChannels& channels, const std::atomic<bool>& workerAlive, double outputRateHz,
                   float fullScaleMps2);
 
-    /// Writes the next samples, +-1. At a rate that it has no output stage for, it fades and stays silent until the
-    /// worker has made one; a touch that still goes on then resumes. At a rate outside 8-192 kHz no stage can be made:
-    /// it stays silent and counts the block.
+    /// Writes the next samples, +-1. At a new rate, the voice fades and stays silent until the worker has made an
+    /// output stage; a touch that still lasts then resumes. At a rate outside 8-192 kHz it stays silent and counts the
+    /// block.
     void render(std::span<float> out, double rateHz) noexcept;
 
     [[nodiscard]] const Voice& voice() const noexcept { return voice_; }
@@ -49,7 +49,7 @@ private:
     void begin() noexcept;
     void readBlows() noexcept;
     void readSignal() noexcept;
-    void noteSignalTurn(SignalTurns& turns) noexcept;
+    void noteSignalTransition(SignalTransitions& turns) noexcept;
     void takeProcessors() noexcept;
     void reportEffects() noexcept;
     void reportExposure() noexcept;
@@ -66,18 +66,18 @@ private:
     Voice voice_;
 
     Silence silence_ = Silence::rest;
-    // Generations of playback: one more at each touch and each resumption, so that older segments are dropped.
+    // Increases by 1 at each onset and each resumption, so that segments of earlier streams are dropped.
     std::uint64_t stream_ = 0;
     std::int64_t streamStart_ = 0;
     SeedRibs seedRibs_{};
     std::uint32_t playedOnset_ = 0;
     std::uint64_t tapFramesLeft_ = 0;
-    // Of BlowMessage::counter.
+    // Last values of BlowMessage::counter.
     std::uint32_t seenImpacts_ = 0;
     std::uint32_t seenEdges_ = 0;
 
     effects::SignalSettings signal_;
-    // AudioMessage::isMoving of the block before.
+    // AudioMessage::isMoving at the last block.
     bool wasMoving_ = false;
 
     bool hasContact_ = false;
@@ -85,12 +85,12 @@ private:
 
     std::uint32_t seenPanics_ = 0;
     std::uint64_t silencedTouch_ = 0;
-    // A panic was noticed, and the block that has to end in silence is still to be written.
+    // After a panic, until the block that ends in silence has been written.
     bool stopsWithBlock_ = false;
 
     std::uint64_t takenSequence_ = 0;
     std::array<std::int64_t, SegmentQueue::capacity> headAtTake_{};
-    // Of the blocks noted last and of those before them, in waveform samples at a reading rate of 1.
+    // Longest block of the present window and of the one before, in waveform samples at a reading rate of 1.
     std::array<std::int64_t, 2> longestBlock_{};
     int blocksNoted_ = 0;
     bool reportedRunning_ = false;

@@ -14,8 +14,8 @@ constexpr auto aheadLimit = static_cast<std::int64_t>(TimelineView::aheadSamples
 
 void WaveformTimeline::open(std::span<const float, seedSamples> seedMps2) noexcept {
     overwrite(head_, seedMps2.last<inference::segmentSamples>());
-    // Behind the head the past is the seed's, though something else may have sounded there: it is what the first
-    // generated segment has to go on from.
+    // Before the head, the seed's past replaces the samples that were played, because the first generated segment
+    // continues the seed.
     copyIn(head_ - segmentLength, seedMps2.first<inference::segmentSamples>());
 }
 
@@ -38,7 +38,7 @@ std::int64_t WaveformTimeline::commit(std::int64_t start,
     const std::int64_t takeOver = std::max(start, head_);
     const std::int64_t late = takeOver - start;
     const std::int64_t end = start + segmentLength;
-    // A segment from further ahead than what is committed would leave a hole.
+    // A segment that starts after the last committed sample would leave a gap.
     if (late >= segmentLength || takeOver > std::max(coveredUntil_, head_) || end - head_ > aheadLimit) {
         return -1;
     }
@@ -47,17 +47,17 @@ std::int64_t WaveformTimeline::commit(std::int64_t start,
 }
 
 Continuation WaveformTimeline::continuationFrom(std::int64_t start) const noexcept {
-    constexpr auto most = static_cast<std::int64_t>(dsp::Splice::correlationSamples);
+    constexpr auto maximum = static_cast<std::int64_t>(dsp::Splice::correlationSamples);
     Continuation continuation;
     continuation.start = start;
-    continuation.count = static_cast<std::size_t>(std::clamp<std::int64_t>(coveredUntil_ - start, 0, most));
+    continuation.count = static_cast<std::size_t>(std::clamp<std::int64_t>(coveredUntil_ - start, 0, maximum));
     copyOut(start, std::span(continuation.samplesMps2).first(continuation.count));
     return continuation;
 }
 
 void WaveformTimeline::overwrite(std::int64_t start, std::span<const float> samples) noexcept {
-    // A new splice starts from the wave before the first one. Splicing spliced samples again would apply the gains
-    // twice and raise the level of the seam.
+    // A second segment for the same start is spliced with the wave before the first one. Splicing spliced samples would
+    // apply the gains twice and raise the level of the seam.
     if (start != beforeLastSegment_.start) {
         beforeLastSegment_ = continuationFrom(start);
     }
@@ -89,7 +89,7 @@ void WaveformTimeline::read(std::span<float> out) noexcept {
             sample = 0.0F;
             endGain_ = 0.0F;
             ++uncoveredSamples_;
-            // What is later taken as the past must be what sounded.
+            // The past must contain the samples that were played.
             at(head_) = 0.0F;
             coveredUntil_ = head_ + 1;
         } else {

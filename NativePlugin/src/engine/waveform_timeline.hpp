@@ -10,10 +10,10 @@
 
 namespace haptoflow::engine {
 
-/// The first samples of the wave that would have gone on from `start` if no segment had taken over there: what a splice
-/// fades out of.
+/// The first samples of the wave that would have continued from `start` if no segment had taken over there. A splice
+/// fades out of them.
 struct Continuation {
-    /// -1: no segment has taken over anywhere.
+    /// -1 if no segment has taken over yet.
     std::int64_t start = -1;
     std::size_t count = 0;
     std::array<float, dsp::Splice::correlationSamples> samplesMps2{};
@@ -21,9 +21,9 @@ struct Continuation {
     [[nodiscard]] std::span<const float> known() const noexcept { return std::span(samplesMps2).first(count); }
 };
 
-/// What is committed of a timeline, for another thread to plan with.
+/// A copy of the committed samples of a timeline, with which another thread plans.
 struct TimelineView {
-    /// Room for the past, and for what may be committed ahead of the head.
+    /// Capacity before and after the head.
     static constexpr std::size_t pastSamples = inference::segmentSamples;
     static constexpr std::size_t aheadSamples = 3 * inference::segmentSamples;
 
@@ -34,47 +34,47 @@ struct TimelineView {
     std::array<float, pastSamples + aheadSamples> samplesMps2{};
 };
 
-/// One voice's waveform in waveform time: 2 kHz samples since the voice opened, advanced by reading and nothing else.
+/// The waveform of a voice. Waveform time counts 2 kHz samples since the voice was opened and advances only by reading.
 ///
-/// Committed are the samples from 200 behind the head to `coveredUntil()`. A segment takes over at the sample that it
-/// was generated for; what the running one still had behind it is discarded (the paper's overwriting buffer).
-/// Allocates nothing; one thread.
+/// The samples from 200 before the head to `coveredUntil()` are committed. A segment takes over at the sample for which
+/// it was generated and replaces the rest of the running segment (the paper's overwriting buffer). Allocates nothing;
+/// used by one thread.
 class WaveformTimeline {
 public:
-    static constexpr std::size_t seedSamples = 2 * inference::segmentSamples;
+    static constexpr std::size_t seedSamples = model::seedSamples;
 
-    /// Touch-down: 200 samples of `seed` (400, m/s^2) become the past unplayed, 200 follow from the head on. Where an
-    /// earlier touch still has samples there, a splice hands over.
+    /// Touch-down: the first 200 samples of the seed become the past without being played, the other 200 follow from
+    /// the head on. If samples of an earlier touch are still committed there, they are spliced with the seed.
     void open(std::span<const float, seedSamples> seedMps2) noexcept;
-    /// `segment` (200, m/s^2) takes over at `start` and is spliced with the wave that ran there before. It replaces a
-    /// segment that took over at the same sample if nothing of that one has been read: the splice is then made with the
-    /// wave before both. A segment that comes late loses the samples that the head has passed. One that lies wholly in
-    /// the past, would leave a hole, or reaches further than a view changes nothing. Returns the sample at which the
-    /// segment took over, or -1.
+    /// Commits `segment` (m/s^2), which takes over at `start` and is spliced with the wave committed there. If another
+    /// segment took over at the same sample and nothing of it has been read, `segment` replaces it and is spliced with
+    /// the wave before both. A late segment loses the samples that the head has passed. A segment that lies wholly in
+    /// the past, would leave a gap or reaches beyond the capacity of a view is rejected. Returns the sample at which
+    /// the segment took over, or -1.
     std::int64_t commit(std::int64_t start, std::span<const float, inference::segmentSamples> segment) noexcept;
-    /// The 200 committed samples before `start`; zeros where none were committed. `start` within 200 of the head.
+    /// Writes the 200 committed samples before `start`, with zeros for missing ones. `start` is within 200 of the head.
     void history(std::int64_t start, std::span<float, inference::segmentSamples> out) const noexcept;
-    /// Reads and advances. Beyond the last committed sample it reads zeros; the last 5 ms before that point fade.
+    /// Reads and advances. After the last committed sample it reads zeros; the 5 ms before that point fade out.
     void read(std::span<float> out) noexcept;
-    /// Drops everything that was not read; the clock goes on.
+    /// Drops everything that was not read. The clock keeps its value.
     void clear() noexcept;
 
-    /// Writes what is committed, as far as the view reaches.
+    /// Copies the committed samples within the view's capacity.
     void view(TimelineView& out) const noexcept;
-    /// Becomes the timeline that was viewed, as far as histories and commits can tell.
+    /// Sets the state from a view, so that `history` and `commit` behave like those of the viewed timeline.
     void restore(const TimelineView& from) noexcept;
 
-    /// The next sample to be read.
+    /// The next sample to read.
     [[nodiscard]] std::int64_t head() const noexcept { return head_; }
     /// The first sample that no segment covers.
     [[nodiscard]] std::int64_t coveredUntil() const noexcept { return coveredUntil_; }
-    /// Samples read for which no segment was there.
+    /// Number of samples read that no segment covered.
     [[nodiscard]] std::uint64_t uncoveredSamples() const noexcept { return uncoveredSamples_; }
 
 private:
     static constexpr std::int64_t capacity = 1024;
 
-    // Samples are never negative, and the capacity is a power of two.
+    // Samples are never negative.
     [[nodiscard]] static std::size_t indexOf(std::int64_t sample) noexcept {
         return static_cast<std::size_t>(sample) % static_cast<std::size_t>(capacity);
     }
@@ -86,7 +86,7 @@ private:
     [[nodiscard]] Continuation continuationFrom(std::int64_t start) const noexcept;
 
     std::array<float, capacity> ring_{};
-    // Starts where a whole past fits before it, so that no index is negative.
+    // Starts one segment after 0, so that the past has no negative index.
     std::int64_t head_ = inference::segmentSamples;
     std::int64_t coveredUntil_ = inference::segmentSamples;
     float endGain_ = 1.0F;

@@ -8,7 +8,7 @@ namespace haptoflow::inference {
 
 class CancellationAction;
 
-/// Asks whoever loads to stop. Any thread.
+/// A request to stop loading a model. Any thread.
 class Cancellation {
 public:
     Cancellation() = default;
@@ -16,7 +16,7 @@ public:
     Cancellation& operator=(const Cancellation&) = delete;
     ~Cancellation() = default;
 
-    /// Runs the actions that are registered; further calls do nothing.
+    /// Runs the registered actions. Further calls do nothing.
     void cancel() noexcept;
     [[nodiscard]] bool isCancelled() const noexcept;
 
@@ -28,14 +28,14 @@ private:
     bool isCancelled_ = false;
 };
 
-/// While it lives, its action runs once when the cancellation comes, on the thread that cancels; at once where it came
-/// already. The action must neither block nor throw. A null cancellation never comes.
+/// Registers an action for its lifetime. The action runs once, on the thread that calls `cancel`, or in the constructor
+/// if the cancellation was requested before. It must neither block nor throw. A null cancellation never runs it.
 class CancellationAction {
 public:
     CancellationAction(const Cancellation* cancellation, std::function<void()> action);
     CancellationAction(const CancellationAction&) = delete;
     CancellationAction& operator=(const CancellationAction&) = delete;
-    /// Waits for the action where it is running.
+    /// Waits for a running action.
     ~CancellationAction();
 
 private:

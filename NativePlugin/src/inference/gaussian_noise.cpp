@@ -1,7 +1,5 @@
 #include "inference/gaussian_noise.hpp"
 
-#include "inference/philox.hpp"
-
 #include <array>
 #include <bit>
 #include <cmath>
@@ -11,8 +9,8 @@
 namespace haptoflow::inference {
 namespace {
 
-// The C library's log, sin and cos differ in their last bit between platforms, which would make a render differ. The
-// series below use +, -, *, / only, and std::sqrt is correctly rounded everywhere.
+// The last bit of the C library's log, sin and cos differs between platforms, and so would a render. The series below
+// use only +, -, *, / and std::sqrt, which are correctly rounded everywhere.
 
 /// Natural logarithm of a positive normal number, from 2 artanh((m - 1) / (m + 1)) with m in [sqrt(1/2), sqrt(2)).
 double portableLog(double value) noexcept {
@@ -37,8 +35,8 @@ struct Direction {
     double sine = 0.0;
 };
 
-/// The unit vector at 2 pi (turns - 1/8); the constant rotation does not matter for a random direction and keeps the
-/// series inside +-pi/4.
+/// Unit vector at the angle 2 pi (turns - 1/8). The offset does not matter for a random direction and keeps the
+/// argument of the series within +-pi/4.
 Direction portableDirection(double turns) noexcept {
     const auto quadrant = static_cast<int>(turns * 4.0);
     const double angle = (turns * 4.0 - quadrant - 0.5) * (std::numbers::pi / 2.0);
@@ -62,7 +60,7 @@ Direction portableDirection(double turns) noexcept {
     }
 }
 
-/// The middle of one of 2^52 equal parts of (0, 1).
+/// A number in (0, 1): the middle of one of 2^52 equal intervals.
 double openUnit(std::uint32_t high, std::uint32_t low) noexcept {
     const std::uint64_t bits = (std::uint64_t{high} << 32U | low) >> 12U;
     return (static_cast<double>(bits) + 0.5) * 0x1p-52;

@@ -1,21 +1,36 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 
 namespace haptoflow::inference {
 
-/// Names one block of noise. Equal keys give equal noise; different keys give independent noise.
+/// Philox-4x32 with ten rounds: 128 random bits for a 128-bit counter and a 64-bit key.
+[[nodiscard]] constexpr std::array<std::uint32_t, 4> philox(std::array<std::uint32_t, 4> counter,
+                                                            std::array<std::uint32_t, 2> key) noexcept {
+    for (int round = 0; round < 10; ++round) {
+        const std::uint64_t even = std::uint64_t{0xD2511F53} * counter[0];
+        const std::uint64_t odd = std::uint64_t{0xCD9E8D57} * counter[2];
+        counter = {static_cast<std::uint32_t>(odd >> 32U) ^ counter[1] ^ key[0], static_cast<std::uint32_t>(odd),
+                   static_cast<std::uint32_t>(even >> 32U) ^ counter[3] ^ key[1], static_cast<std::uint32_t>(even)};
+        key[0] += 0x9E3779B9U;
+        key[1] += 0xBB67AE85U;
+    }
+    return counter;
+}
+
+/// Key of one block of noise. Equal keys give equal noise; different keys give independent noise.
 struct NoiseKey {
     std::uint64_t seed = 0;
     std::uint32_t voice = 0;
     std::uint64_t segment = 0;
 };
 
-/// Fills `noise` with standard normal numbers that depend on `key` and the position alone, so that any segment's
-/// noise can be made again without making those before it. The bytes are the same on every platform: Philox-4x32-10
-/// (Salmon et al., "Parallel random numbers: as easy as 1, 2, 3", 2011) and a Box-Muller transform that uses only
-/// operations which IEEE 754 rounds correctly. Any thread; no allocation. At most 2^33 numbers.
+/// Fills `noise` with standard normal numbers that depend only on `key` and the position, so that the noise of a
+/// segment can be generated without that of the segments before it. The bytes are the same on every platform, because
+/// it uses Philox-4x32-10 (Salmon et al., "Parallel random numbers: as easy as 1, 2, 3", 2011) and a Box-Muller
+/// transform with only correctly rounded IEEE 754 operations. Any thread; no allocation. At most 2^33 numbers.
 void fillStandardNormal(const NoiseKey& key, std::span<float> noise) noexcept;
 
 }  // namespace haptoflow::inference

@@ -8,20 +8,20 @@
 
 namespace haptoflow::inference {
 
-/// Generous: an emulated machine takes 54 ms where a desktop takes 0.2.
-inline constexpr double usualProbeLimitMs = 10'000.0;
+/// Far above the 0.2 ms that a desktop takes; an emulated machine takes 54 ms.
+inline constexpr double defaultProbeLimitMs = 10'000.0;
 inline constexpr double largestProbeLimitMs = 3'600'000.0;
-/// Requests in one probe run that the limit is meant for; longer batches have in proportion longer.
+/// Batch size for which the limit is stated; the limit of larger batches is proportionally longer.
 inline constexpr std::size_t probeBatch = 8;
 
-/// What ends the loading of a tier before its time.
+/// Conditions under which the loading of a tier stops early.
 struct LoadLimits {
-    /// Null for a load that nobody cancels.
+    /// Null if the load cannot be cancelled.
     std::shared_ptr<const Cancellation> cancellation{};
-    /// What one probe run of a graph may take, above 0 to largestProbeLimitMs.
-    double probeLimitMs = usualProbeLimitMs;
+    /// Time limit of one probe run of a graph, above 0 to largestProbeLimitMs.
+    double probeLimitMs = defaultProbeLimitMs;
 
-    /// Throws LoadCancelled.
+    /// Throws LoadCancelled if the cancellation was requested.
     void check() const {
         if (cancellation != nullptr && cancellation->isCancelled()) {
             throw LoadCancelled("the load was cancelled");

@@ -13,7 +13,7 @@ void LogSink::write(LogSeverity severity, const char* category, const char* mess
             callback_(context_, static_cast<int>(severity), (std::string(category) + ": " + message).c_str());
         }
     } catch (const std::exception&) {
-        // Out of memory while telling of something else.
+        // Out of memory: the message is lost.
     }
 }
 

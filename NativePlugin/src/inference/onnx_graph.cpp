@@ -15,9 +15,10 @@
 namespace haptoflow::inference {
 namespace {
 
+// Memory limit of a session: a constant, an amount per request of the batch, and copies of the weights, which exist as
+// read from the file, as tensors and packed for the processor.
 constexpr std::size_t memoryOfAnyGraph = std::size_t{64} << 20U;
 constexpr std::size_t memoryOfRequest = std::size_t{4} << 20U;
-// Weights as they lie in the file, in memory, and packed for the processor.
 constexpr std::size_t copiesOfWeights = 4;
 
 }  // namespace
@@ -39,7 +40,8 @@ OnnxGraph::OnnxGraph(std::shared_ptr<const Runtime> runtime, std::span<const std
             inputs_.emplace_back(tensor.size() * maximumBatch_);
         }
         output_.resize(signature_.output.size() * maximumBatch_);
-        // As it stands first: a run can be limited and ended, the folding of constants while loading cannot.
+        // First without optimisation, because a run can be limited in time and cancelled, and the folding of constants
+        // while loading cannot.
         probe(graph, Optimisation::none, maximumBatch_, limits);
         probe(graph, Optimisation::all, 1, limits);
     } catch (const InferenceError& error) {
@@ -52,7 +54,7 @@ void OnnxGraph::probe(std::span<const std::byte> graph, Optimisation optimisatio
     const OrtApi& api = runtime_->api();
     const std::size_t memoryBytes = memoryOfAnyGraph + memoryOfRequest * maximumBatch_ + copiesOfWeights * graph.size();
     binding_.reset();
-    // Before the next one takes as much memory.
+    // Release the old session before the new one takes as much memory.
     session_.reset();
     session_ = createSession(*runtime_, graph, optimisation, memoryBytes, limits);
     present_ = matchSignature(*runtime_, *session_, signature_, name_);
@@ -99,7 +101,7 @@ void OnnxGraph::bind(const TensorSignature& tensor, std::size_t batch, std::vect
                                            shape.data(), shape.size(), ONNX_TENSOR_ELEMENT_DATA_TYPE_FLOAT, &created),
         tensor.name);
     const OrtHandle<OrtValue> value(created, api.ReleaseValue);
-    // The binding holds a reference of its own.
+    // The binding keeps its own reference to the value.
     runtime_->check(isInput ? api.BindInput(binding_.get(), tensor.name.c_str(), created)
                             : api.BindOutput(binding_.get(), tensor.name.c_str(), created),
                     tensor.name);
@@ -107,13 +109,13 @@ void OnnxGraph::bind(const TensorSignature& tensor, std::size_t batch, std::vect
 
 void OnnxGraph::setBatch(std::size_t batch) {
     if (batch < 1 || batch > maximumBatch_) {
-        throw std::invalid_argument("a batch of 1 to " + std::to_string(maximumBatch_) + ", not " +
-                                    std::to_string(batch));
+        throw std::invalid_argument("the batch is " + std::to_string(batch) + "; expected 1 to " +
+                                    std::to_string(maximumBatch_));
     }
     if (batch == batch_) {
         return;
     }
-    // Stays 0 when binding fails half way, so that the next call binds everything again.
+    // If binding throws, this stays 0, so that the next call binds everything again.
     batch_ = 0;
     runtime_->api().ClearBoundInputs(binding_.get());
     runtime_->api().ClearBoundOutputs(binding_.get());

@@ -18,23 +18,23 @@ struct OrtValue;
 
 namespace haptoflow::inference {
 
-/// An ONNX graph with one output, ready to run on one thread. Its inputs and its output are buffers that stay where
-/// they are: fill the inputs, run, read the output. One user at a time; `run` allocates inside ONNX Runtime.
+/// An ONNX graph with one output, ready to run on one thread. Fill the inputs, call `run`, read the output; the buffers
+/// stay at the same addresses. Used by one thread at a time; ONNX Runtime allocates in `run`.
 class OnnxGraph {
 public:
-    /// Reads the graph's operators before ONNX Runtime does, loads it, compares it with `signature` and runs it with
-    /// maximumBatch requests and with one. Throws model::ModelError (inconsistent) that begins with `name` where the
-    /// graph is not what the format says, TierTooSlow, LoadCancelled.
+    /// Checks the graph's operators, loads it, compares it with `signature` and runs it with maximumBatch requests and
+    /// with one. Throws model::ModelError (inconsistent), whose message begins with `name`, if the graph does not match
+    /// the format; TierTooSlow; LoadCancelled.
     OnnxGraph(std::shared_ptr<const Runtime> runtime, std::span<const std::byte> graph, std::string name,
               GraphSignature signature, std::size_t maximumBatch, const LoadLimits& limits);
 
-    /// Rebinds the buffers where `batch` (1 to maximumBatch) differs from the last one.
+    /// Sets the batch size, 1 to maximumBatch. Throws std::invalid_argument.
     void setBatch(std::size_t batch);
 
-    /// Whether the graph reads the input at this position of the signature.
-    [[nodiscard]] bool reads(std::size_t input) const { return present_.at(input); }
-    /// The input at this position of the signature, batch * its size numbers. Writable even where the graph leaves
-    /// the input out; it is then read by nobody.
+    /// Whether the graph has the input at this position of the signature.
+    [[nodiscard]] bool hasInput(std::size_t input) const { return present_.at(input); }
+    /// Buffer of the input at this position of the signature, batch * its size numbers. May be written even if the
+    /// graph lacks the input, and then has no effect.
     [[nodiscard]] std::span<float> input(std::size_t input);
     /// batch * the output's size numbers, valid after `run`.
     [[nodiscard]] std::span<const float> output() const noexcept;
@@ -42,12 +42,12 @@ public:
     /// Throws InferenceError.
     void run();
 
-    /// How often the graph has run since it was loaded; the run that proves it at loading is not counted.
+    /// Number of runs since loading; the probe runs are not counted.
     [[nodiscard]] std::uint64_t runs() const noexcept { return runs_; }
 
 private:
     void bind(const TensorSignature& tensor, std::size_t batch, std::vector<float>& buffer, bool isInput);
-    /// Loads the graph with the given optimisation and runs it once with so many requests, within the limits.
+    /// Loads the graph with the given optimisation and runs it once with `batch` requests within the limits.
     void probe(std::span<const std::byte> graph, Optimisation optimisation, std::size_t batch,
                const LoadLimits& limits);
     void execute(const OrtRunOptions* options, const std::string& what);

@@ -10,12 +10,6 @@
 #include <utility>
 
 namespace haptoflow::inference {
-namespace {
-
-constexpr float quietestLogLevel = -20.0F;
-constexpr float loudestLogLevel = 20.0F;
-
-}  // namespace
 
 OnnxLevelEstimator::OnnxLevelEstimator(std::shared_ptr<const Runtime> runtime, const model::ModelFile& model,
                                        const model::Tier& tier, const LoadLimits& limits)
@@ -53,12 +47,13 @@ void OnnxLevelEstimator::estimate(std::span<const SegmentRequest> requests, std:
             continue;
         }
         const float logLevel = graph_.output()[index];
-        if (!std::isfinite(logLevel) || logLevel > loudestLogLevel) {
+        if (!std::isfinite(logLevel) || logLevel > static_cast<float>(maximumLogLevel)) {
             throw InferenceError("the level graph returned a logarithm of " + std::to_string(logLevel) +
                                  "; expected a number up to 20");
         }
-        // Below, the segment is silent for any hand, and dividing by the level would overflow.
-        levelsMps2[index] = std::exp(std::max(logLevel, quietestLogLevel)) * requests[index].levelGain;
+        // Lower levels cannot be felt, and dividing the previous waveform by them would overflow.
+        levelsMps2[index] =
+            std::exp(std::max(logLevel, static_cast<float>(-maximumLogLevel))) * requests[index].levelGain;
     }
 }
 

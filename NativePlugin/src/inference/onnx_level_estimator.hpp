@@ -13,18 +13,15 @@
 
 namespace haptoflow::inference {
 
-/// Levels that one run of the level graph gives, whatever the batch of the segments: tables ask for thousands.
-inline constexpr std::size_t levelBatch = 256;
-
-/// A tier's level graph behind ONNX Runtime. One user at a time; allocates.
+/// A tier's level graph, run by ONNX Runtime. Used by one thread at a time; allocates.
 class OnnxLevelEstimator final : public LevelEstimator {
 public:
-    /// Loads, checks and runs the graph; the model may go afterwards. Throws what OnnxGraph's constructor throws.
+    /// Loads, checks and runs the graph. The model need not outlive it. Throws what OnnxGraph's constructor throws.
     OnnxLevelEstimator(std::shared_ptr<const Runtime> runtime, const model::ModelFile& model, const model::Tier& tier,
                        const LoadLimits& limits = {});
 
-    /// Runs nothing where every request has a level of its own. Throws InferenceError where the graph fails or returns
-    /// what no level can be, std::invalid_argument for a span of another size.
+    /// Does not run the graph if every request has its own level. Throws InferenceError if the graph fails or returns
+    /// an impossible level, std::invalid_argument if the spans differ in size.
     void levels(std::span<const SegmentRequest> requests, std::span<float> levelsMps2) override;
 
     [[nodiscard]] std::uint64_t runs() const noexcept { return graph_.runs(); }

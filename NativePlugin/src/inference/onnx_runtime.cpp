@@ -1,7 +1,6 @@
 #include "inference/onnx_runtime.hpp"
 
 #include "inference/inference_error.hpp"
-#include "inference/shared_library.hpp"
 
 #include <onnxruntime_c_api.h>
 
@@ -11,31 +10,40 @@
 #include <utility>
 #include <vector>
 
+#ifdef _WIN32
+#ifndef NOMINMAX
+#define NOMINMAX
+#endif
+#include <windows.h>
+#else
+#include <dlfcn.h>
+#endif
+
 namespace haptoflow::inference {
 namespace {
 
-// What cannot be done without exists since 1.16; asking for that version lets older libraries load, too.
-constexpr std::uint32_t oldestApi = 16;
-// Since 1.22 a load can be cancelled.
-constexpr std::uint32_t newestApi = 22;
+// Version 16 of the function table has everything that is required.
+constexpr std::uint32_t minimumApi = 16;
+// Version 22 can cancel a load.
+constexpr std::uint32_t maximumApi = 22;
 
 using GetApiBase = const OrtApiBase*(ORT_API_CALL*)();
 
-/// The function table that a version such as "1.29.0" is known to have. A library that is asked for a newer one than it
-/// has complains on the standard error stream.
+/// Version of the function table to request from a library of a version such as "1.29.0". Requesting a newer table than
+/// the library has would make it write to the standard error stream.
 std::uint32_t apiOfVersion(const std::string& version) {
     std::uint32_t minor = 0;
     if (version.starts_with("1.")) {
         (void)std::from_chars(version.data() + 2, version.data() + version.size(), minor);
     }
-    return std::clamp(minor, oldestApi, newestApi);
+    return std::clamp(minor, minimumApi, maximumApi);
 }
 
-/// The sinks of libraries older than 1.17, whose sessions cannot have a log of their own.
+/// The log of libraries older than 1.17, which have one log per process instead of one per session.
 class SharedLog {
 public:
     static SharedLog& instance() {
-        // Never destroyed: the library may write while the process ends.
+        // Never destroyed, because the library may write while the process ends.
         static auto* log = new SharedLog;
         return *log;
     }
@@ -63,6 +71,49 @@ private:
     std::vector<std::weak_ptr<LogSink>> sinks_;
 };
 
+[[noreturn]] void refuse(const std::filesystem::path& path, const std::string& reason) {
+    const std::u8string name = path.u8string();
+    throw RuntimeUnavailable(std::string(name.begin(), name.end()) + ": " + reason);
+}
+
+/// Opens the library at `path` and returns the address of `symbol` in it. The library stays loaded until the process
+/// ends: ONNX Runtime keeps threads and thread-local state that do not survive being unloaded. Throws
+/// RuntimeUnavailable naming the path.
+#ifdef _WIN32
+
+[[nodiscard]] void* loadSymbol(const std::filesystem::path& path, const char* symbol) {
+    // With the altered search path, dependencies are found beside the library and not beside the program.
+    const DWORD flags = path.is_absolute() ? LOAD_WITH_ALTERED_SEARCH_PATH : 0;
+    HMODULE library = LoadLibraryExW(path.c_str(), nullptr, flags);
+    if (library == nullptr) {
+        refuse(path, "cannot be loaded (Windows error " + std::to_string(GetLastError()) + ")");
+    }
+    void* address = reinterpret_cast<void*>(GetProcAddress(library, symbol));
+    if (address == nullptr) {
+        FreeLibrary(library);
+        refuse(path, std::string("has no function ") + symbol);
+    }
+    return address;
+}
+
+#else
+
+[[nodiscard]] void* loadSymbol(const std::filesystem::path& path, const char* symbol) {
+    void* library = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL | RTLD_NODELETE);
+    if (library == nullptr) {
+        const char* reason = dlerror();
+        refuse(path, std::string("cannot be loaded: ") + (reason != nullptr ? reason : "unknown reason"));
+    }
+    void* address = dlsym(library, symbol);
+    if (address == nullptr) {
+        dlclose(library);
+        refuse(path, std::string("has no function ") + symbol);
+    }
+    return address;
+}
+
+#endif
+
 }  // namespace
 
 std::shared_ptr<const Runtime> Runtime::fromApiBase(const OrtApiBase* base, std::shared_ptr<LogSink> log) {
@@ -81,8 +132,8 @@ Runtime::Runtime(const OrtApiBase* base, std::shared_ptr<LogSink> log) : log_(st
     version_ = base->GetVersionString();
     apiVersion_ = apiOfVersion(version_);
     api_ = base->GetApi(apiVersion_);
-    if (api_ == nullptr && apiVersion_ > oldestApi) {
-        apiVersion_ = oldestApi;
+    if (api_ == nullptr && apiVersion_ > minimumApi) {
+        apiVersion_ = minimumApi;
         api_ = base->GetApi(apiVersion_);
     }
     if (api_ == nullptr) {
@@ -100,7 +151,7 @@ Runtime::Runtime(const OrtApiBase* base, std::shared_ptr<LogSink> log) : log_(st
 }
 
 OrtStatus* Runtime::createEnvironment() {
-    // From 1.17 on each session writes into the log of its own runtime, whoever made the environment.
+    // From 1.17 on, each session writes to the log of its own runtime, independent of the environment.
     if (log_ == nullptr || apiVersion_ >= 17) {
         return api_->CreateEnv(ORT_LOGGING_LEVEL_ERROR, "haptoflow", &environment_);
     }

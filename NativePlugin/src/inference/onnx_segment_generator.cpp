@@ -29,20 +29,20 @@ const model::Tier& requireTier(const model::ModelFile& model, std::string_view n
 
 std::size_t requireBatch(std::size_t batch) {
     if (batch < 1 || batch > largestBatch) {
-        throw std::invalid_argument("a maximum batch of 1 to 256, not " + std::to_string(batch));
+        throw std::invalid_argument("the maximum batch is " + std::to_string(batch) + "; expected 1 to 256");
     }
     return batch;
 }
 
 void requireSize(std::size_t found, std::size_t expected, const char* what) {
     if (found != expected) {
-        throw std::invalid_argument(std::string(what) + " for " + std::to_string(expected) + " numbers, not " +
+        throw std::invalid_argument(std::string(what) + " for " + std::to_string(expected) + " numbers; found " +
                                     std::to_string(found));
     }
 }
 
-/// A latent point has more numbers than a request brings noise for; the rest comes from a generator keyed by the
-/// noise itself, so that equal requests stay equal.
+/// Key for the noise of a latent point, which has more numbers than a request's noise. It is derived from that noise,
+/// so that equal requests give equal segments.
 NoiseKey keyOfNoise(std::span<const float> noise) {
     std::uint64_t hash = 0xCBF29CE484222325U;
     for (const float value : noise) {
@@ -103,7 +103,7 @@ void OnnxSegmentGenerator::levels(std::span<const SegmentRequest> requests, std:
 void OnnxSegmentGenerator::evaluateField(std::span<const SegmentRequest> requests, float time, float interval,
                                          std::span<float> velocities) {
     if (decoder_) {
-        throw std::invalid_argument("the field of a latent tier does not start at a segment's noise");
+        throw std::invalid_argument("the field of a latent tier cannot be evaluated at a segment's noise");
     }
     requireSize(velocities.size(), requests.size() * segmentSamples, "velocities need room");
     inBatches(requests.size(), maximumBatch_, [&](std::size_t first, std::size_t count) {

@@ -21,7 +21,7 @@ namespace haptoflow::inference {
 
 inline constexpr std::size_t largestBatch = 256;
 
-/// How often each graph has run; what proves that nothing is computed that nobody asked for.
+/// Number of runs of each graph. Tests use it to show that nothing is computed needlessly.
 struct RunCounts {
     std::uint64_t level = 0;
     std::uint64_t field = 0;
@@ -29,26 +29,27 @@ struct RunCounts {
     std::uint64_t decoder = 0;
 };
 
-/// One tier of a model behind ONNX Runtime. Requests beyond `maximumBatch` go through in several batches; up to it,
-/// every evaluation of the field is one Run for all of them. Worker thread; one user at a time; allocates.
+/// One tier of a model, run by ONNX Runtime. Up to `maximumBatch` requests are evaluated together, with one run per
+/// evaluation of the field; more requests are split into several batches. Worker thread; used by one thread at a time;
+/// allocates.
 class OnnxSegmentGenerator final : public SegmentGenerator {
 public:
-    /// Loads, checks and runs the tier's graphs; the model may go afterwards. Throws std::invalid_argument for a tier
-    /// that the model does not have, settings out of range or a batch outside 1 to largestBatch, model::ModelError
-    /// (inconsistent) where a graph is not what the format says, TierTooSlow, LoadCancelled.
+    /// Loads, checks and runs the tier's graphs. The model need not outlive the generator. Throws std::invalid_argument
+    /// for a tier that the model does not have, solver settings out of range or a batch outside 1 to largestBatch;
+    /// model::ModelError (inconsistent) if a graph does not match the format; TierTooSlow; LoadCancelled.
     OnnxSegmentGenerator(std::shared_ptr<const Runtime> runtime, const model::ModelFile& model, std::string_view tier,
                          SolverSettings solver, std::size_t maximumBatch, const LoadLimits& limits = {});
 
-    /// Takes effect with the next batch. Kind `average-velocity` is always stepped by Euler, kind `direct` is evaluated
-    /// once whatever the settings say. Throws std::invalid_argument for settings out of range.
+    /// Takes effect with the next batch. Tiers of kind `average-velocity` always use Euler steps; tiers of kind
+    /// `direct` are evaluated once and ignore the settings. Throws std::invalid_argument for settings out of range.
     void setSolver(SolverSettings solver);
     [[nodiscard]] SolverSettings solver() const noexcept { return settings_; }
 
     void generate(std::span<const SegmentRequest> requests, std::span<float> segments) override;
     void levels(std::span<const SegmentRequest> requests, std::span<float> levelsMps2) override;
 
-    /// The field's value in unit scale where the solver would start: at the requests' noise, at `time`. Raw tiers only
-    /// (std::invalid_argument otherwise). This is what shows that graph and training agree, before any solver.
+    /// The field's value in unit scale at the solver's starting point, the requests' noise, and at `time`. Tests use it
+    /// to compare the graph with training, without a solver. Throws std::invalid_argument for a latent tier.
     void evaluateField(std::span<const SegmentRequest> requests, float time, float interval,
                        std::span<float> velocities);
 

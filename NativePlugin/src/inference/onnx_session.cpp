@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::uint32_t apiWithSessionLog = 17;
 constexpr std::uint32_t apiWithLoadCancellation = 22;
-constexpr auto lookAgain = std::chrono::milliseconds(1);
+constexpr auto retryInterval = std::chrono::milliseconds(1);
 
 void ORT_API_CALL writeLog(void* sink, OrtLoggingLevel severity, const char* category, const char* /*log*/,
                            const char* /*location*/, const char* message) {
@@ -25,7 +25,7 @@ OrtHandle<OrtSessionOptions> createOptions(const Runtime& runtime, Optimisation 
     OrtSessionOptions* created = nullptr;
     runtime.check(api.CreateSessionOptions(&created), "session options");
     OrtHandle<OrtSessionOptions> options(created, api.ReleaseSessionOptions);
-    // A voice's update is far shorter than waking a second thread, and a spinning pool would burn a core.
+    // One thread: a voice's update is far shorter than waking a second thread, and a spinning pool would occupy a core.
     runtime.check(api.SetIntraOpNumThreads(created, 1), "session options");
     runtime.check(api.SetInterOpNumThreads(created, 1), "session options");
     const auto configure = [&](const char* key, const char* value) {
@@ -33,7 +33,7 @@ OrtHandle<OrtSessionOptions> createOptions(const Runtime& runtime, Optimisation 
     };
     configure("session.intra_op.allow_spinning", "0");
     configure("session.inter_op.allow_spinning", "0");
-    // Only what was read as ONNX is run, not the runtime's own format.
+    // Accept only ONNX, which was checked before, and not the runtime's own format.
     configure("session.load_model_format", "ONNX");
     configure("session.use_env_allocators", usesSharedArena ? "1" : "0");
     runtime.check(api.SetSessionGraphOptimizationLevel(
@@ -46,19 +46,19 @@ OrtHandle<OrtSessionOptions> createOptions(const Runtime& runtime, Optimisation 
     return options;
 }
 
-/// While it lives, sessions that ask the environment for memory get an arena of limited size; each keeps it. The
-/// environment is the whole process's, therefore one at a time.
+/// During its lifetime, a session created with the environment's allocators gets a memory arena of limited size, which
+/// the session then keeps. The environment belongs to the whole process, so only one LimitedArena exists at a time.
 class LimitedArena {
 public:
     LimitedArena(const Runtime& runtime, std::size_t memoryBytes, const LoadLimits& limits)
         : runtime_(runtime), lock_(mutex(), std::defer_lock), memory_(createMemoryInfo(runtime)) {
-        // Not a timed mutex: the thread sanitizer of GCC 12 does not see its lock.
+        // No timed mutex, because the thread sanitizer of GCC 12 does not recognise its lock.
         while (!lock_.try_lock()) {
             limits.check();
-            std::this_thread::sleep_for(lookAgain);
+            std::this_thread::sleep_for(retryInterval);
         }
         const OrtApi& api = runtime_.api();
-        // Regions as large as what is asked for: doubling ones would count what nobody uses.
+        // Regions of the requested size, because the unused part of doubling regions would count against the limit.
         const std::array<const char*, 2> keys{"max_mem", "arena_extend_strategy"};
         const std::array<std::size_t, 2> values{memoryBytes, 1};
         OrtArenaCfg* created = nullptr;
@@ -74,7 +74,7 @@ public:
         }
     }
 
-    /// False where the application has given the environment an arena of its own: sessions then have an unlimited one.
+    /// False if the application has registered its own arena with the environment; sessions then have an unlimited one.
     [[nodiscard]] bool isRegistered() const noexcept { return isRegistered_; }
 
 private:

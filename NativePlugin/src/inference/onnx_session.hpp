@@ -17,17 +17,17 @@ template <typename Type>
 using OrtHandle = std::unique_ptr<Type, void (*)(Type*)>;
 
 enum class Optimisation {
-    /// The graph as it stands: nothing is computed while it loads.
+    /// Runs the graph unchanged; nothing is computed while it loads.
     none,
-    /// Constants folded, operators fused.
+    /// Folds constants and fuses operators.
     all,
 };
 
 [[nodiscard]] OrtHandle<OrtMemoryInfo> createMemoryInfo(const Runtime& runtime);
 [[nodiscard]] OrtHandle<OrtIoBinding> createBinding(const Runtime& runtime, OrtSession& session);
 
-/// A session of one thread whose tensors, weights included, take at most `memoryBytes`: what needs more fails, when it
-/// loads or when it runs. Throws InferenceError, LoadCancelled.
+/// A session with one thread whose tensors, weights included, take at most `memoryBytes`. A graph that needs more fails
+/// while loading or running. Throws InferenceError, LoadCancelled.
 [[nodiscard]] OrtHandle<OrtSession> createSession(const Runtime& runtime, std::span<const std::byte> graph,
                                                   Optimisation optimisation, std::size_t memoryBytes,
                                                   const LoadLimits& limits);

@@ -69,9 +69,10 @@ private:
     void requireShape(const std::vector<std::int64_t>& found, const TensorSignature& expected,
                       const std::string& who) const {
         const bool sameRank = found.size() == expected.shape.size() + 1;
-        // A dimension that the graph leaves open (-1) takes what it is given; the run itself settles it.
-        if (!sameRank || !std::equal(expected.shape.begin(), expected.shape.end(), found.begin() + 1,
-                                     [](std::int64_t wanted, std::int64_t has) { return has < 0 || has == wanted; })) {
+        // A dimension that the graph leaves open (-1) accepts any size here; the probe run checks it.
+        if (!sameRank ||
+            !std::equal(expected.shape.begin(), expected.shape.end(), found.begin() + 1,
+                        [](std::int64_t size, std::int64_t actual) { return actual < 0 || actual == size; })) {
             refuse(who + " has the shape " + describe(found, "").erase(1, found.empty() ? 0 : 1) + "; expected " +
                    describe(expected.shape, "B"));
         }

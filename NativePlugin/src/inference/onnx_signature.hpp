@@ -10,7 +10,7 @@ struct OrtSession;
 
 namespace haptoflow::inference {
 
-/// A float32 tensor of a graph: its name and its dimensions behind the batch.
+/// Name and dimensions of a float32 tensor of a graph, without the batch dimension.
 struct TensorSignature {
     std::string name;
     std::vector<std::int64_t> shape;
@@ -19,15 +19,15 @@ struct TensorSignature {
     [[nodiscard]] std::size_t size() const noexcept;
 };
 
-/// What the format expects of a graph: it may leave out inputs, but not have others.
+/// The inputs and the output that the format defines for a graph. A graph may lack inputs but not have others.
 struct GraphSignature {
     std::vector<TensorSignature> inputs;
     TensorSignature output;
 };
 
-/// Compares a session's inputs and outputs with `expected`: names, float32, the number of dimensions, a batch that is
-/// free, and the dimensions behind it. Returns, for each expected input, whether the graph has it. Throws
-/// model::ModelError (inconsistent) that begins with `graphName`.
+/// Compares a session's inputs and outputs with `expected`: names, element type, number of dimensions, a variable batch
+/// dimension, and the other dimensions. Returns, for each expected input, whether the graph has it. Throws
+/// model::ModelError (inconsistent); the message begins with `graphName`.
 [[nodiscard]] std::vector<bool> matchSignature(const Runtime& runtime, const OrtSession& session,
                                                const GraphSignature& expected, const std::string& graphName);
 

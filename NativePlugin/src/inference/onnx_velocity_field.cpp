@@ -10,7 +10,7 @@ OnnxVelocityField::OnnxVelocityField(std::shared_ptr<const Runtime> runtime, con
                                      const model::Tier& tier, std::size_t maximumBatch, const LoadLimits& limits)
     : field_(loadField(runtime, model, tier, maximumBatch, limits)),
       takesInterval_(tier.kind == model::TierKind::averageVelocity) {
-    if (tier.representation == model::TierRepresentation::latent && field_.reads(field_input::previous)) {
+    if (tier.representation == model::TierRepresentation::latent && field_.hasInput(field_input::previous)) {
         encoder_.emplace(loadEncoder(runtime, model, tier, maximumBatch, limits));
     }
 }
@@ -39,7 +39,7 @@ void OnnxVelocityField::setPrevious(std::span<const float> waveforms) {
         std::ranges::copy(waveforms, encoder_->input(0).begin());
         encoder_->run();
         std::ranges::copy(encoder_->output(), field_.input(field_input::previous).begin());
-    } else if (field_.reads(field_input::previous)) {
+    } else if (field_.hasInput(field_input::previous)) {
         std::ranges::copy(waveforms, field_.input(field_input::previous).begin());
     }
 }

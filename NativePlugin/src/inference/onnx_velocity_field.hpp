@@ -1,7 +1,7 @@
 #pragma once
 
 #include "inference/onnx_graph.hpp"
-#include "inference/velocity_field.hpp"
+#include "inference/solver.hpp"
 #include "model/model_file.hpp"
 
 #include <cstddef>
@@ -11,8 +11,8 @@
 
 namespace haptoflow::inference {
 
-/// The field graph of a tier under the conditions of one batch: previous waveforms, embeddings, motions. For a tier
-/// of kind `direct`, `evaluate` returns the point that the graph maps to instead of a velocity.
+/// The field graph of a tier with the inputs of one batch: previous waveforms, embeddings, motions, rib phases. For a
+/// tier of kind `direct`, `evaluate` returns the generated point instead of a velocity.
 class OnnxVelocityField final : public VelocityField {
 public:
     /// Throws what OnnxGraph's constructor throws.
@@ -20,11 +20,12 @@ public:
                       std::size_t maximumBatch, const LoadLimits& limits);
 
     void setBatch(std::size_t batch);
-    /// The conditions of the batch, to be filled before `evaluate`: batch * 64, batch * 3, batch * 2.
+    /// Inputs of the batch, to be filled before `evaluate`: batch * 64, batch * 3 and batch * 2 numbers.
     [[nodiscard]] std::span<float> embeddings();
     [[nodiscard]] std::span<float> motions();
     [[nodiscard]] std::span<float> ribPhases();
-    /// batch * 200 numbers in unit scale; a latent tier encodes them here, once for all steps. Throws InferenceError.
+    /// Sets the previous waveforms, batch * 200 numbers in unit scale. A latent tier encodes them here, once for all
+    /// steps. Throws InferenceError.
     void setPrevious(std::span<const float> waveforms);
 
     /// Throws InferenceError.

@@ -18,12 +18,8 @@ void advance(std::span<const float> point, float factor, std::span<const float> 
 
 void checkSolverSettings(const SolverSettings& settings) {
     if (settings.steps < 1 || settings.steps > maximumSolverSteps) {
-        throw std::invalid_argument("a solver takes 1 to 16 steps, not " + std::to_string(settings.steps));
+        throw std::invalid_argument("the solver has " + std::to_string(settings.steps) + " steps; expected 1 to 16");
     }
-}
-
-int fieldEvaluations(const SolverSettings& settings) noexcept {
-    return settings.kind == SolverKind::euler ? settings.steps : 2 * settings.steps;
 }
 
 void Solver::integrate(VelocityField& field, const SolverSettings& settings, std::span<float> point) {

@@ -59,15 +59,7 @@ OnnxGraph loadDecoder(std::shared_ptr<const Runtime> runtime, const model::Model
 }
 
 SolverSettings defaultSolver(const model::Tier& tier) noexcept {
-    switch (tier.solver) {
-        case model::TierSolver::euler:
-            return {SolverKind::euler, tier.steps};
-        case model::TierSolver::heun:
-            return {SolverKind::heun, tier.steps};
-        case model::TierSolver::midpoint:
-            break;
-    }
-    return {SolverKind::midpoint, tier.steps};
+    return {tier.solver, tier.steps};
 }
 
 }  // namespace haptoflow::inference

@@ -9,7 +9,7 @@
 
 namespace haptoflow::inference {
 
-/// Positions of the inputs in the signatures below.
+/// Positions of the inputs in the signatures of the graphs.
 namespace field_input {
 inline constexpr std::size_t noisy = 0;
 inline constexpr std::size_t time = 1;
@@ -17,7 +17,7 @@ inline constexpr std::size_t previous = 2;
 inline constexpr std::size_t embedding = 3;
 inline constexpr std::size_t motion = 4;
 inline constexpr std::size_t ribPhase = 5;
-/// Kind `average-velocity` only.
+/// Only in tiers of kind `average-velocity`.
 inline constexpr std::size_t interval = 6;
 }  // namespace field_input
 namespace level_input {
@@ -25,11 +25,10 @@ inline constexpr std::size_t embedding = 0;
 inline constexpr std::size_t motion = 1;
 }  // namespace level_input
 
-/// Numbers in one point of the tier's field: 200, or those of one latent.
+/// Size of a point of the tier's field: 200, or the size of a latent.
 [[nodiscard]] std::size_t pointSize(const model::Tier& tier);
 
-/// The graphs of one tier, loaded and checked against the format. Each throws what OnnxGraph's
-/// constructor throws.
+/// Load a graph of a tier and check it against the format. Each throws what OnnxGraph's constructor throws.
 [[nodiscard]] OnnxGraph loadField(std::shared_ptr<const Runtime> runtime, const model::ModelFile& model,
                                   const model::Tier& tier, std::size_t maximumBatch, const LoadLimits& limits);
 [[nodiscard]] OnnxGraph loadLevel(std::shared_ptr<const Runtime> runtime, const model::ModelFile& model,
@@ -40,7 +39,7 @@ inline constexpr std::size_t motion = 1;
 [[nodiscard]] OnnxGraph loadDecoder(std::shared_ptr<const Runtime> runtime, const model::ModelFile& model,
                                     const model::Tier& tier, std::size_t maximumBatch, const LoadLimits& limits);
 
-/// The solver that the tier names as its own.
+/// Solver and number of steps that the model states for the tier.
 [[nodiscard]] SolverSettings defaultSolver(const model::Tier& tier) noexcept;
 
 }  // namespace haptoflow::inference

@@ -8,7 +8,7 @@ namespace haptoflow::inference {
 TimeLimit::TimeLimit(double milliseconds, std::function<void()> action) {
     const auto end = std::chrono::steady_clock::now() +
                      std::chrono::microseconds(static_cast<std::chrono::microseconds::rep>(1000.0 * milliseconds));
-    watcher_ = std::thread([this, end, act = std::move(action)] {
+    timer_ = std::thread([this, end, act = std::move(action)] {
         std::unique_lock lock(mutex_);
         if (!changed_.wait_until(lock, end, [this] { return isOver_; })) {
             hasPassed_ = true;
@@ -23,7 +23,7 @@ TimeLimit::~TimeLimit() {
         isOver_ = true;
     }
     changed_.notify_all();
-    watcher_.join();
+    timer_.join();
 }
 
 bool TimeLimit::hasPassed() const {

@@ -7,14 +7,15 @@
 
 namespace haptoflow::inference {
 
-/// Runs an action on a thread of its own if it still lives after a time. For loading only: it starts a thread.
+/// Runs an action on its own thread once a time has passed, unless it was destroyed before. For loading only, because
+/// it starts a thread.
 class TimeLimit {
 public:
     /// The action must neither block nor throw. Throws std::system_error.
     TimeLimit(double milliseconds, std::function<void()> action);
     TimeLimit(const TimeLimit&) = delete;
     TimeLimit& operator=(const TimeLimit&) = delete;
-    /// Waits for the action where it is running; afterwards it never runs.
+    /// Waits for a running action. Afterwards the action never runs.
     ~TimeLimit();
 
     [[nodiscard]] bool hasPassed() const;
@@ -24,7 +25,7 @@ private:
     std::condition_variable changed_;
     bool isOver_ = false;
     bool hasPassed_ = false;
-    std::thread watcher_;
+    std::thread timer_;
 };
 
 }  // namespace haptoflow::inference

@@ -68,8 +68,8 @@ SeedEntry readSeed(const HeaderNode& node, const NameIndex& labelNames) {
 }
 
 void checkFixedValues(const HeaderNode& root) {
-    (void)root.at("sample_rate_hz").number(2000.0, 2000.0);
-    (void)root.at("segment_samples").integer(200, 200);
+    (void)root.at("sample_rate_hz").number(dsp::waveformRateHz, dsp::waveformRateHz);
+    (void)root.at("segment_samples").integer(dsp::segmentSamples, dsp::segmentSamples);
     (void)root.at("embedding_size").integer(embeddingSize, embeddingSize);
     const HeaderNode unit = root.at("normalisation").at("unit");
     if (unit.text(nameBytes) != "m/s^2") {

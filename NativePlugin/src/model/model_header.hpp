@@ -1,5 +1,6 @@
 #pragma once
 
+#include "dsp/sample_rates.hpp"
 #include "model/material_tables.hpp"
 
 #include <array>
@@ -17,7 +18,8 @@ inline constexpr std::size_t maximumTiers = 64;
 inline constexpr std::size_t maximumBlobs = 1024;
 inline constexpr std::size_t maximumSeeds = 65'536;
 inline constexpr std::size_t embeddingSize = 64;
-inline constexpr std::size_t seedSamples = 400;
+/// A seed holds the segment that sounds and, before it, the segment that counts as its past.
+inline constexpr std::size_t seedSamples = 2 * dsp::segmentSamples;
 
 struct Provenance {
     std::string statement;
@@ -73,7 +75,7 @@ struct Label {
 };
 
 enum class TierKind { flow, averageVelocity, direct };
-enum class TierSolver { euler, midpoint, heun };
+enum class SolverKind { euler, midpoint, heun };
 enum class TierRepresentation { raw, latent };
 
 struct Tier {
@@ -84,7 +86,7 @@ struct Tier {
     std::string level;
     std::string encoder;
     std::string decoder;
-    TierSolver solver = TierSolver::midpoint;
+    SolverKind solver = SolverKind::midpoint;
     int steps = 1;
     std::int64_t parameters = 0;
     TierRepresentation representation = TierRepresentation::raw;
@@ -148,6 +150,6 @@ struct ModelHeader {
 
 /// "flow", "average-velocity" or "direct"; and so on: the words of the file.
 [[nodiscard]] std::string_view kindName(TierKind kind) noexcept;
-[[nodiscard]] std::string_view solverName(TierSolver solver) noexcept;
+[[nodiscard]] std::string_view solverName(SolverKind solver) noexcept;
 
 }  // namespace haptoflow::model

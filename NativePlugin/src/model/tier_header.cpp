@@ -18,8 +18,8 @@ using Word = std::pair<std::string_view, Value>;
 
 constexpr std::array<Word<TierKind>, 3> kindWords = {
     {{"flow", TierKind::flow}, {"average-velocity", TierKind::averageVelocity}, {"direct", TierKind::direct}}};
-constexpr std::array<Word<TierSolver>, 3> solverWords = {
-    {{"euler", TierSolver::euler}, {"midpoint", TierSolver::midpoint}, {"heun", TierSolver::heun}}};
+constexpr std::array<Word<SolverKind>, 3> solverWords = {
+    {{"euler", SolverKind::euler}, {"midpoint", SolverKind::midpoint}, {"heun", SolverKind::heun}}};
 constexpr std::array<Word<TierRepresentation>, 2> representationWords = {
     {{"raw", TierRepresentation::raw}, {"latent", TierRepresentation::latent}}};
 
@@ -124,7 +124,7 @@ std::string_view kindName(TierKind kind) noexcept {
     return findWord(kindWords, kind);
 }
 
-std::string_view solverName(TierSolver solver) noexcept {
+std::string_view solverName(SolverKind solver) noexcept {
     return findWord(solverWords, solver);
 }
 

@@ -11,8 +11,8 @@
 namespace haptoflow::unity {
 namespace {
 
-// All of the state that is read or written here; the oldest host has it.
-constexpr std::size_t neededState = offsetof(AudioEffectState, internal);
+// Size of the part of the state that is used here. Every version of Unity provides it.
+constexpr std::size_t requiredStateSize = offsetof(AudioEffectState, internal);
 
 constexpr std::uint32_t versionNumber(std::string_view version) {
     std::uint32_t number = 0;
@@ -29,7 +29,7 @@ constexpr std::uint32_t versionNumber(std::string_view version) {
 }
 
 bool isUsable(const AudioEffectState* state) noexcept {
-    return state != nullptr && state->structSize >= neededState;
+    return state != nullptr && state->structSize >= requiredStateSize;
 }
 
 VoiceEffect* effectOf(const AudioEffectState* state) noexcept {
@@ -129,9 +129,9 @@ AudioEffectDefinition makeDefinition() noexcept {
 }  // namespace
 }  // namespace haptoflow::unity
 
-/// Unity calls this once it has loaded the library, whose file name must begin with `audioplugin`. Points
-/// *definitions at the effects' definitions, which live as long as the library, and returns their number.
-// NOLINTNEXTLINE(readability-identifier-naming): Unity looks it up by this name.
+/// Unity calls this function after it has loaded the library, whose file name must begin with `audioplugin`. Sets
+/// *definitions to the effects' definitions, which live as long as the library, and returns their number.
+// NOLINTNEXTLINE(readability-identifier-naming): Unity looks the function up by this name.
 extern "C" HAPTOFLOW_API int UnityGetAudioEffectDefinitions(haptoflow::unity::AudioEffectDefinition*** definitions) {
     if (definitions == nullptr) {
         return 0;

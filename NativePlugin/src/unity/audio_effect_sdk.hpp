@@ -10,31 +10,31 @@
 #define HAPTOFLOW_UNITY_CALLBACK
 #endif
 
-/// What Unity's Native Audio Plugin SDK, version 1.4.2, lays down between the editor or player and an effect. The
-/// layout is Unity's, the names are this project's.
+/// Binary interface of Unity's Native Audio Plugin SDK, version 1.4.2, between Unity and an audio effect. The layout is
+/// Unity's; the names are this project's.
 namespace haptoflow::unity {
 
 inline constexpr std::uint32_t audioPluginApiVersion = 0x010402;
 
-/// What every callback returns.
+/// Return values of the callbacks.
 inline constexpr int resultOk = 0;
 inline constexpr int resultUnsupported = 1;
 
-/// AudioEffectState::flags. `playing` is also set while Unity is paused; `muted` is only set by the editor.
+/// Bits of AudioEffectState::flags. `playing` is also set while Unity is paused; only the editor sets `muted`.
 inline constexpr std::uint32_t flagPlaying = 1;
 inline constexpr std::uint32_t flagPaused = 2;
 inline constexpr std::uint32_t flagMuted = 4;
 
-/// Made by Unity, one for each instance of an effect; 80 bytes or more. Fields behind `internal` came later: no older
-/// host has them, and `structSize` tells.
+/// State of an effect instance, allocated by Unity; 80 bytes or more. Older hosts lack the fields after `internal`,
+/// which `structSize` shows.
 struct AudioEffectState {
     std::uint32_t structSize;
     std::uint32_t sampleRateHz;
-    /// Counts samples; the first one of the present block.
+    /// Sample count at the start of the present block.
     std::uint64_t currentTick;
     std::uint64_t previousTick;
     float* sideChainBuffer;
-    /// The effect's own.
+    /// Belongs to the effect.
     void* effectData;
     std::uint32_t flags;
     void* internal;
@@ -52,7 +52,7 @@ struct AudioParameterDefinition {
     float minimum;
     float maximum;
     float defaultValue;
-    /// For display only: 100 for a share that is shown in per cent.
+    /// For display only: 100 shows a share in per cent.
     float displayScale;
     float displayExponent;
 };
@@ -72,7 +72,7 @@ struct AudioEffectDefinition {
     std::uint32_t parameterStructSize;
     std::uint32_t apiVersion;
     std::uint32_t pluginVersion;
-    /// 0 for an effect, which takes whatever comes.
+    /// 0 for an effect, which accepts any number of channels.
     std::uint32_t channels;
     std::uint32_t parameterCount;
     std::uint64_t flags;

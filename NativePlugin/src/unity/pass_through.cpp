@@ -24,7 +24,7 @@ void passThrough(const AudioBlock& block) noexcept {
             std::memmove(block.out, block.in, frames * block.outChannels * sizeof(float));
         }
     } else if (block.inChannels < block.outChannels) {
-        // From the back: in place, the output grows over input that is still to be read.
+        // Start at the last frame: if the buffers are the same, the longer output frames overwrite later input.
         for (std::size_t frame = frames; frame > 0; --frame) {
             passFrame(block, frame - 1);
         }

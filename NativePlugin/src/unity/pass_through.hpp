@@ -5,10 +5,10 @@
 
 namespace haptoflow::unity {
 
-/// One call of Unity's: interleaved frames in and out. `in` and `out` may be the same memory, also where the numbers of
+/// Interleaved input and output frames of one callback. `in` and `out` may be the same memory, even if the numbers of
 /// channels differ.
 struct AudioBlock {
-    /// Null for none.
+    /// Null for no input.
     const float* in;
     float* out;
     std::uint32_t frames;
@@ -16,7 +16,7 @@ struct AudioBlock {
     std::uint32_t outChannels;
 };
 
-/// Output channel n becomes input channel n, bit for bit; channels that the input lacks become silent.
+/// Copies input channel n to output channel n. Output channels without an input channel become silent.
 void passThrough(const AudioBlock& block) noexcept;
 
 }  // namespace haptoflow::unity

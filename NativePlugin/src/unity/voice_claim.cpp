@@ -6,13 +6,13 @@
 namespace haptoflow::unity {
 namespace {
 
-// Of each place: the claim that has it (0 for none) in the upper half, how often it was used in the lower one.
+// For each place, the claim that holds it (0 for none) in the upper half and its use count in the lower half.
 using Holder = std::atomic<std::uint64_t>;
 static_assert(Holder::is_always_lock_free);
 constinit std::array<Holder, capi::VoiceTable::capacity> holders{};
 constinit std::atomic<std::uint32_t> claimsMade{0};
 
-constexpr std::uint64_t usedOnceMore(std::uint64_t holder, std::uint32_t claim) {
+constexpr std::uint64_t withUseCounted(std::uint64_t holder, std::uint32_t claim) {
     return (std::uint64_t{claim} << 32) | static_cast<std::uint32_t>(holder + 1);
 }
 
@@ -41,7 +41,7 @@ bool VoiceClaim::hold(std::size_t place, std::uint32_t frames, double sampleRate
         }
     }
     unchangedFrames_ = 0;
-    return holders[place].compare_exchange_strong(holder, usedOnceMore(holder, self_));
+    return holders[place].compare_exchange_strong(holder, withUseCounted(holder, self_));
 }
 
 void VoiceClaim::giveBack() noexcept {

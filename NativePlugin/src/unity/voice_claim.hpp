@@ -7,9 +7,10 @@
 
 namespace haptoflow::unity {
 
-/// An effect's claim to be the one that renders the voice at a place. Rendering moves the voice's clock, so two effects
-/// that took turns would each play every other block of it. The first to ask has the place; another gets it once it is
-/// given back, or was not used for 100 ms, as by an effect that Unity no longer calls. Wait-free.
+/// An effect's exclusive right to render the voice at a place. Rendering advances the voice's clock, so of two effects
+/// on one voice, each would play only every other block. The first effect to ask gets the place. Another effect gets it
+/// after it was given back or has not been used for 100 ms, for example because Unity no longer calls the first effect.
+/// Wait-free.
 class VoiceClaim {
 public:
     static constexpr double abandonedSeconds = 0.1;
@@ -19,8 +20,8 @@ public:
     VoiceClaim& operator=(const VoiceClaim&) = delete;
     ~VoiceClaim() { giveBack(); }
 
-    /// Before each rendering of that many frames. True where this effect may render the voice at `place`, which is in
-    /// range; another place that it had is given back.
+    /// Call before rendering `frames` frames. Returns whether this effect may render the voice at `place`, which must
+    /// be in range. Gives back any other place.
     [[nodiscard]] bool hold(std::size_t place, std::uint32_t frames, double sampleRateHz) noexcept;
     void giveBack() noexcept;
 
@@ -29,7 +30,7 @@ private:
 
     std::uint32_t self_;
     std::size_t place_ = nowhere;
-    // As found at the last asking, and for how many frames it has been the same.
+    // Value of the place at the last call, and the number of frames for which it has not changed.
     std::uint64_t found_ = 0;
     std::uint64_t unchangedFrames_ = 0;
 };

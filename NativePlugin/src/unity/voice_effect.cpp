@@ -9,7 +9,7 @@ std::uint32_t framesIn(double seconds, double sampleRateHz) noexcept {
     return std::max(1U, static_cast<std::uint32_t>(seconds * sampleRateHz));
 }
 
-/// Zeros into the target's channels.
+/// Writes zeros to the target's channels.
 void silence(const capi::ChannelTarget& target, double sampleRateHz) noexcept {
     (void)capi::renderInto(capi::VoiceTable::Use{}, target, sampleRateHz);
 }
@@ -18,25 +18,25 @@ void silence(const capi::ChannelTarget& target, double sampleRateHz) noexcept {
 
 void VoiceEffect::process(const AudioBlock& block, const BlockContext& context) noexcept HAPTOFLOW_NONBLOCKING {
     passThrough(block);
-    const Route wanted = parameters_.route();
+    const Route newRoute = parameters_.route();
     const float strength = parameters_.strength();
-    const bool hasGap = missedBlocks(context.tick, block.frames);
+    const bool hasGap = updateTick(context.tick, block.frames);
     if (startAnew_.exchange(false, std::memory_order_relaxed)) {
-        route_ = wanted;
-        gain_.jump(context.isSounding ? strength : 0.0F);
+        route_ = newRoute;
+        gain_.jumpTo(context.isSounding ? strength : 0.0F);
     } else if (hasGap) {
-        gain_.jump(0.0F);
+        gain_.jumpTo(0.0F);
     }
 
     std::uint32_t done = 0;
-    if (!context.isSounding || wanted != route_) {
+    if (!context.isSounding || newRoute != route_) {
         if (!gain_.isSettledAt(0.0F)) {
             done = std::min(block.frames, framesIn(stopSeconds, context.sampleRateHz));
-            gain_.head(0.0F, done);
+            gain_.moveTo(0.0F, done);
             play(target(block, 0, done), context.sampleRateHz);
         }
         claim_.giveBack();
-        route_ = wanted;
+        route_ = newRoute;
     }
     if (done == block.frames) {
         return;
@@ -49,17 +49,17 @@ void VoiceEffect::process(const AudioBlock& block, const BlockContext& context) 
         return;
     }
     if (gain_.target() != strength) {
-        if (voiceSounds()) {
-            gain_.head(strength, framesIn(glideSeconds, context.sampleRateHz));
+        if (isVoiceSounding()) {
+            gain_.moveTo(strength, framesIn(glideSeconds, context.sampleRateHz));
         } else {
-            gain_.jump(strength);
+            gain_.jumpTo(strength);
         }
     }
     play(rest, context.sampleRateHz);
 }
 
-bool VoiceEffect::missedBlocks(std::uint64_t tick, std::uint32_t frames) noexcept {
-    // Only after blocks that did follow one another: a host that counts differently must not fade every block.
+bool VoiceEffect::updateTick(std::uint64_t tick, std::uint32_t frames) noexcept {
+    // A gap counts only after consecutive blocks, so that a host that counts differently does not fade every block.
     const bool follows = tick == nextTick_;
     const bool hasGap = ticksFollow_ && !follows;
     ticksFollow_ = follows;
@@ -67,7 +67,7 @@ bool VoiceEffect::missedBlocks(std::uint64_t tick, std::uint32_t frames) noexcep
     return hasGap;
 }
 
-bool VoiceEffect::voiceSounds() const noexcept {
+bool VoiceEffect::isVoiceSounding() const noexcept {
     const capi::VoiceTable::Use voice = capi::voices().useAt(route_.place);
     return voice && voice->voice->channels.audible.load(std::memory_order_acquire);
 }
@@ -80,19 +80,19 @@ capi::ChannelTarget VoiceEffect::target(const AudioBlock& block, std::uint32_t f
 void VoiceEffect::play(const capi::ChannelTarget& target, double sampleRateHz) noexcept {
     if (!target.isValid()) {
         claim_.giveBack();
-        gain_.jump(0.0F);
+        gain_.jumpTo(0.0F);
         return;
     }
     const capi::VoiceTable::Use voice = capi::voices().useAt(route_.place);
     if (voice && !claim_.hold(route_.place, target.frameCount, sampleRateHz)) {
         voice->refusedCalls.fetch_add(1, std::memory_order_relaxed);
         silence(target, sampleRateHz);
-        gain_.jump(0.0F);
+        gain_.jumpTo(0.0F);
         return;
     }
-    // A place without a voice needs no ramp when one opens there: voices begin in silence.
+    // A voice that opens at an empty place needs no ramp, because it starts with silence.
     if (capi::renderInto(voice, target, sampleRateHz) == HAPTOFLOW_BUSY) {
-        gain_.jump(0.0F);
+        gain_.jumpTo(0.0F);
         return;
     }
     applyGain(target);

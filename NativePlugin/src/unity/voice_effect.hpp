@@ -1,7 +1,7 @@
 #pragma once
 
 #include "capi/voice_rendering.hpp"
-#include "unity/gain_ramp.hpp"
+#include "dsp/gain_ramp.hpp"
 #include "unity/pass_through.hpp"
 #include "unity/voice_claim.hpp"
 #include "unity/voice_parameters.hpp"
@@ -11,36 +11,39 @@
 
 namespace haptoflow::unity {
 
-/// What Unity says about a block besides its samples.
+/// Properties of a block besides its samples, from Unity's state.
 struct BlockContext {
     double sampleRateHz;
-    /// Counts samples; the first of the block.
+    /// Sample count at the start of the block.
     std::uint64_t tick;
-    /// Unity is playing, neither paused nor muted.
+    /// True if Unity is playing and neither paused nor muted.
     bool isSounding;
 };
 
-/// One instance of the mixer effect: the voice in its channels, the input in the others. While nothing is to sound the
-/// voice is not rendered: its clock stands still, and nothing is inferred for it.
+/// One instance of the mixer effect. It writes the voice to its channels and passes the input through on the others.
+/// While the effect is paused, muted or stopped, the voice is not rendered, so that its clock stands still and no
+/// inference runs for it.
 class VoiceEffect {
 public:
-    /// Silence, from wherever the voice is.
+    /// Duration of the fade to silence.
     static constexpr double stopSeconds = 0.005;
-    /// To another strength while the voice sounds, and back from silence.
+    /// Duration of a change of strength while the voice sounds, and of the fade from silence.
     static constexpr double glideSeconds = 0.01;
 
     [[nodiscard]] VoiceParameters& parameters() noexcept { return parameters_; }
 
-    /// The next block starts anew, at full strength and without a ramp. Any thread.
+    /// Makes the next block start at full strength without a ramp. Any thread.
     void reset() noexcept { startAnew_.store(true, std::memory_order_relaxed); }
 
-    /// Audio thread: no allocation, no lock, no system call, nothing unbounded.
+    /// Audio thread: no allocation, no lock, no system call; bounded time.
     void process(const AudioBlock& block, const BlockContext& context) noexcept HAPTOFLOW_NONBLOCKING;
 
 private:
-    [[nodiscard]] bool missedBlocks(std::uint64_t tick, std::uint32_t frames) noexcept;
-    /// Whether its newest block ended in sound: a gain that glides must not start one from the gain before a silence.
-    [[nodiscard]] bool voiceSounds() const noexcept;
+    /// Stores the position of the block and returns whether blocks are missing before it.
+    [[nodiscard]] bool updateTick(std::uint64_t tick, std::uint32_t frames) noexcept;
+    /// Whether the voice's newest block ended with sound. Only then may a new strength glide: from silence, a glide
+    /// would start at the old strength.
+    [[nodiscard]] bool isVoiceSounding() const noexcept;
     [[nodiscard]] capi::ChannelTarget target(const AudioBlock& block, std::uint32_t first,
                                              std::uint32_t count) const noexcept;
     void play(const capi::ChannelTarget& target, double sampleRateHz) noexcept;
@@ -49,7 +52,7 @@ private:
     VoiceParameters parameters_;
     std::atomic<bool> startAnew_{true};
     VoiceClaim claim_;
-    GainRamp gain_;
+    dsp::GainRamp gain_;
     Route route_;
     std::uint64_t nextTick_ = 0;
     bool ticksFollow_ = false;

@@ -14,12 +14,12 @@ enum Index : std::size_t { strengthIndex, voiceIndex, channelIndex };
 
 constexpr float highestChannel = 7.0F;
 
-// Not constant only because Unity takes a pointer to what is not.
+// Not const, because Unity's interface takes a pointer to non-const.
 constinit std::array<AudioParameterDefinition, VoiceParameters::parameterCount> parameterDefinitions{{
     {.name = {"Strength"},
      .unit = {"%"},
-     .description = "How much of the voice this effect lets through. Glides within 10 ms. It comes behind the voice's "
-                    "own strength and limiter, so it makes a vibration weaker, never stronger.",
+     .description = "Gain on the voice. Changes take 10 ms. The gain is applied after the voice's own strength and "
+                    "limiter, so it can only weaken a vibration.",
      .minimum = 0.0F,
      .maximum = 1.0F,
      .defaultValue = 1.0F,
@@ -27,8 +27,8 @@ constinit std::array<AudioParameterDefinition, VoiceParameters::parameterCount> 
      .displayExponent = 1.0F},
     {.name = {"Voice"},
      .unit = {"place"},
-     .description = "Which stylus is felt: the place of its voice among those that are open, counted from 0. With one "
-                    "stylus it is 0. While no voice is open at that place, the channel is silent.",
+     .description = "Selects the stylus: the place of its voice among the open voices, counted from 0. With one stylus "
+                    "it is 0. If no voice is open at that place, the channel is silent.",
      .minimum = 0.0F,
      .maximum = static_cast<float>(HAPTOFLOW_MAXIMUM_VOICES - 1),
      .defaultValue = 0.0F,
@@ -36,8 +36,8 @@ constinit std::array<AudioParameterDefinition, VoiceParameters::parameterCount> 
      .displayExponent = 1.0F},
     {.name = {"Channel"},
      .unit = {"index"},
-     .description = "Which channel the voice overwrites: the one that the actuator's amplifier is wired to. 0 is left, "
-                    "1 is right, -1 is all of them. The other channels pass as they are; a channel that the output "
+     .description = "Output channel that the voice overwrites: the one wired to the actuator's amplifier. 0 is left, 1 "
+                    "is right, -1 is all channels. Other channels pass through unchanged. A channel that the output "
                     "lacks plays nothing.",
      .minimum = static_cast<float>(HAPTOFLOW_ALL_CHANNELS),
      .maximum = highestChannel,
@@ -46,7 +46,8 @@ constinit std::array<AudioParameterDefinition, VoiceParameters::parameterCount> 
      .displayExponent = 1.0F},
 }};
 
-/// `prefix`, a whole number, `suffix`; cut where the text ends. Not by printf, which knows decimal commas and locks.
+/// Writes `prefix`, a whole number and `suffix`, truncated to the size of the text. printf depends on the locale and
+/// may lock.
 void writeText(char* text, std::string_view prefix, long number, std::string_view suffix) noexcept {
     char* const end = text + VoiceParameters::textSize - 1;
     text = std::copy(prefix.begin(), prefix.end(), text);

@@ -10,9 +10,9 @@
 
 namespace haptoflow::unity {
 
-/// Which voice goes where.
+/// The voice that an effect plays, and its output channel.
 struct Route {
-    /// Of the voice, among the process's voices.
+    /// Place of the voice among the process's voices.
     std::size_t place = 0;
     /// HAPTOFLOW_ALL_CHANNELS or an index.
     std::int32_t channel = 0;
@@ -20,23 +20,24 @@ struct Route {
     [[nodiscard]] bool operator==(const Route&) const = default;
 };
 
-/// What the mixer's inspector, snapshots and exposed parameters set. The main thread writes, the audio thread reads;
-/// neither waits.
+/// Parameters of the effect, which the mixer's inspector, snapshots and exposed parameters set. The main thread writes
+/// and the audio thread reads, both without waiting.
 class VoiceParameters {
 public:
-    /// With the zero byte. Unity says nothing of the size of its buffer; the engine below it, FMOD, promises this much.
+    /// Size of a value's text with the zero byte. Unity does not document the size of its buffer; FMOD, which it uses,
+    /// guarantees this much.
     static constexpr std::size_t textSize = 16;
     static constexpr std::size_t parameterCount = 3;
 
     VoiceParameters() noexcept;
 
-    /// In the order of their indices; lives as long as the library.
+    /// Definitions in the order of the indices. They live as long as the library.
     [[nodiscard]] static std::span<AudioParameterDefinition> definitions() noexcept;
 
-    /// Limits to the parameter's range, places and channels to whole numbers. False for an index that is none and for
-    /// NaN: nothing is changed.
+    /// Clamps `value` to the parameter's range and rounds places and channels. Returns false, without a change, for an
+    /// invalid index or NaN.
     [[nodiscard]] bool set(int index, float value) noexcept;
-    /// Either pointer may be null; `text` has room for textSize. False for an index that is none.
+    /// Either pointer may be null; `text` has room for textSize bytes. Returns false for an invalid index.
     [[nodiscard]] bool get(int index, float* value, char* text) const noexcept;
 
     [[nodiscard]] float strength() const noexcept;

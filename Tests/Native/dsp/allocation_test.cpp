@@ -25,7 +25,7 @@ static_assert(noexcept(std::declval<SoftLimiter&>().process(Samples{})));
 static_assert(noexcept(std::declval<LevelSmoother&>().process(Samples{})));
 static_assert(noexcept(std::declval<Splice&>().begin(Input{}, Input{}, 4)));
 
-TEST(AllocationTest, AWholeCallbacksWorthOfCallsAllocatesNothing) {
+TEST(AllocationTest, ACompleteCallbackAllocatesNothing) {
     const std::vector<float> waveform = testing::whiteNoise(4000, 100.0, 61);
     std::vector<float> warped(200);
     std::vector<float> output(4800);

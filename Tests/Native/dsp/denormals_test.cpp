@@ -7,7 +7,7 @@
 namespace haptoflow::dsp {
 namespace {
 
-// Volatile operands: the compiler would otherwise fold the arithmetic under its own rules.
+// Volatile operands keep the compiler from evaluating the arithmetic at compile time.
 float halfOfTheSmallestNormal() {
     volatile float smallest = std::numeric_limits<float>::min();
     volatile float half = 0.5F;
@@ -20,7 +20,7 @@ float denormalTimesALot() {
     return denormal * lot;
 }
 
-TEST(DenormalsTest, ResultsAndOperandsAreFlushedInsideAndRestoredAfter) {
+TEST(DenormalsTest, DenormalResultsAndOperandsAreFlushedOnlyWithinTheScope) {
     if (!ScopedFlushDenormals::isSupported) {
         GTEST_SKIP() << "this processor has no mode for it";
     }

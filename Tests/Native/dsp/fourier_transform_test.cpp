@@ -12,7 +12,7 @@
 namespace haptoflow::dsp {
 namespace {
 
-TEST(FourierTransformTest, ItIsTheSumThatDefinesItAndTheInverseUndoesIt) {
+TEST(FourierTransformTest, TheResultEqualsTheDefiningSumAndTheInverseRestoresTheInput) {
     std::mt19937 random(1);
     std::uniform_real_distribution<double> uniform(-1.0, 1.0);
     std::vector<std::complex<double>> values(64);
@@ -34,7 +34,7 @@ TEST(FourierTransformTest, ItIsTheSumThatDefinesItAndTheInverseUndoesIt) {
     }
 }
 
-TEST(FourierTransformTest, LengthsThatAreNoPowerOfTwoAreRefused) {
+TEST(FourierTransformTest, LengthsThatAreNotAPowerOfTwoAreRejected) {
     for (const std::size_t length : {0U, 3U, 100U}) {
         std::vector<std::complex<double>> values(length);
         EXPECT_THROW(fourierTransform(values, Direction::forward), std::invalid_argument) << length;

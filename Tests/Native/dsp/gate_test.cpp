@@ -53,11 +53,11 @@ TEST(GateTest, TheClosingRampIsARaisedCosine) {
     }
 }
 
-TEST(GateTest, NoTurnAtAnySampleMakesAStepLargerThanTheSteepestRamp) {
+TEST(GateTest, AChangeOfDirectionAtAnySampleMakesNoStepLargerThanTheSteepestRamp) {
     for (const double rate : everyRate) {
         Gate gate(rate);
         Uniform uniform(31);
-        // The opening ramp's steepest slope: pi / 2 over 2 ms.
+        // The steepest slope of the opening ramp is pi / 2 over 2 ms.
         const double largest = std::numbers::pi / 2.0 / static_cast<double>(samplesIn(0.002, rate)) + 1e-6;
         double previous = 0.0;
         bool sawOpen = false;
@@ -78,7 +78,7 @@ TEST(GateTest, NoTurnAtAnySampleMakesAStepLargerThanTheSteepestRamp) {
     }
 }
 
-TEST(GateTest, FromAnywhereItIsClosedFiveMillisecondsAfterTheWord) {
+TEST(GateTest, TheGateIsClosedFiveMillisecondsAfterCloseFromAnyPosition) {
     for (const double rate : everyRate) {
         Uniform uniform(32);
         for (int round = 0; round < 200; ++round) {
@@ -97,7 +97,7 @@ TEST(GateTest, FromAnywhereItIsClosedFiveMillisecondsAfterTheWord) {
     }
 }
 
-TEST(GateTest, ClosedIsSilentBitForBitEvenForNotANumber) {
+TEST(GateTest, AClosedGateOutputsExactZerosEvenForNaN) {
     Gate gate(48000.0);
     std::vector<float> samples = whiteNoise(100, 10.0, 33);
     samples[3] = std::numeric_limits<float>::quiet_NaN();
@@ -109,7 +109,7 @@ TEST(GateTest, ClosedIsSilentBitForBitEvenForNotANumber) {
     }
 }
 
-TEST(GateTest, FullyOpenLeavesTheSignalUntouched) {
+TEST(GateTest, AnOpenGateLeavesTheSignalUnchanged) {
     Gate gate(48000.0);
     gate.open();
     std::vector<float> samples = whiteNoise(1000, 10.0, 34);
@@ -130,7 +130,7 @@ TEST(GateTest, ResetClosesAtOnce) {
     EXPECT_EQ(gate.nextGain(), 0.0F);
 }
 
-TEST(GateTest, ARateItCannotServeIsRefused) {
+TEST(GateTest, UnsupportedRatesAreRejected) {
     EXPECT_THROW(Gate{0.0}, std::invalid_argument);
     EXPECT_THROW(Gate{std::numeric_limits<double>::quiet_NaN()}, std::invalid_argument);
 }

@@ -15,7 +15,7 @@ namespace {
 using testing::Uniform;
 using testing::whiteNoise;
 
-TEST(LevelSmootherTest, ArrivesExactlyAfterItsRampAndInAStraightLine) {
+TEST(LevelSmootherTest, TheGainReachesItsTargetExactlyAndLinearlyWithinTheRamp) {
     LevelSmoother smoother(48000.0, 0.01, 1.0F);
     smoother.setTarget(0.3F);
     for (int i = 1; i < 480; ++i) {
@@ -43,7 +43,7 @@ TEST(LevelSmootherTest, NewTargetsAtAnySampleNeverMakeAStepLargerThanTheRangeOve
     }
 }
 
-TEST(LevelSmootherTest, SettingTheSameTargetEveryBlockDoesNotPutOffItsArrival) {
+TEST(LevelSmootherTest, SettingTheSameTargetAgainDoesNotRestartTheRamp) {
     LevelSmoother smoother(48000.0, 0.01, 0.0F);
     for (int i = 0; i < 480; ++i) {
         smoother.setTarget(1.0F);
@@ -61,7 +61,7 @@ TEST(LevelSmootherTest, ANonFiniteTargetIsIgnored) {
     EXPECT_EQ(smoother.next(), 1.0F);
 }
 
-TEST(LevelSmootherTest, ProcessMultipliesSampleBySampleAndUnityLeavesTheSignalUntouched) {
+TEST(LevelSmootherTest, ProcessMultipliesSampleBySampleAndAUnityGainChangesNothing) {
     std::vector<float> samples = whiteNoise(300, 10.0, 52);
     const std::vector<float> original = samples;
     LevelSmoother smoother(2000.0);
@@ -78,7 +78,7 @@ TEST(LevelSmootherTest, ProcessMultipliesSampleBySampleAndUnityLeavesTheSignalUn
     EXPECT_EQ(samples.back(), original.back() * 0.5F);
 }
 
-TEST(LevelSmootherTest, ResetTakesOnAGainAtOnce) {
+TEST(LevelSmootherTest, ResetSetsTheGainAtOnce) {
     LevelSmoother smoother(48000.0);
     smoother.setTarget(0.0F);
     smoother.reset(0.25F);
@@ -86,7 +86,7 @@ TEST(LevelSmootherTest, ResetTakesOnAGainAtOnce) {
     EXPECT_TRUE(smoother.isSettled());
 }
 
-TEST(LevelSmootherTest, SettingsItCannotServeAreRefused) {
+TEST(LevelSmootherTest, InvalidSettingsAreRejected) {
     EXPECT_THROW(LevelSmoother(0.0), std::invalid_argument);
     EXPECT_THROW(LevelSmoother(48000.0, -0.1), std::invalid_argument);
     EXPECT_THROW(LevelSmoother(48000.0, 0.01, std::numeric_limits<float>::quiet_NaN()), std::invalid_argument);

@@ -17,7 +17,7 @@ using testing::Uniform;
 constexpr float infinity = std::numeric_limits<float>::infinity();
 constexpr float notANumber = std::numeric_limits<float>::quiet_NaN();
 
-TEST(LimiterTest, BelowTheKneeItIsExactlyLinear) {
+TEST(LimiterTest, BelowTheKneeTheCurveIsExactlyLinear) {
     const SoftLimiter limiter(60.0F);
     Uniform uniform(41);
     for (int i = 0; i < 10000; ++i) {
@@ -28,7 +28,7 @@ TEST(LimiterTest, BelowTheKneeItIsExactlyLinear) {
     EXPECT_EQ(limiter.limit(0.0F), 0.0F);
 }
 
-TEST(LimiterTest, AboveTheKneeItNeverFallsAndNeverReachesOne) {
+TEST(LimiterTest, AboveTheKneeTheCurveIsMonotoneAndStaysBelowOne) {
     const SoftLimiter limiter(1.0F);
     float previous = limiter.limit(0.6F);
     for (float input = 0.6F; input < 1e30F; input *= 1.0001F) {
@@ -42,7 +42,7 @@ TEST(LimiterTest, AboveTheKneeItNeverFallsAndNeverReachesOne) {
     EXPECT_LT(SoftLimiter(1e-30F).limit(1e30F), 1.0F) << "the quotient overflows to infinity";
 }
 
-TEST(LimiterTest, UnderACeilingTheKneeEndsAtTheCeilingInsteadOfMeetingAHardClip) {
+TEST(LimiterTest, TheCurveApproachesALowerCeilingSmoothlyWithoutAHardClip) {
     for (const float ceiling : {1e-6F, 0.03F, 0.25F, 0.5F, 0.9F, 1.0F}) {
         SoftLimiter limiter(1.0F);
         limiter.setCeiling(ceiling);
@@ -63,7 +63,7 @@ TEST(LimiterTest, UnderACeilingTheKneeEndsAtTheCeilingInsteadOfMeetingAHardClip)
     }
 }
 
-TEST(LimiterTest, ACeilingOfZeroIsSilenceAndOneOutsideZeroToOneIsClamped) {
+TEST(LimiterTest, ACeilingOfZeroSilencesAndCeilingsOutsideZeroToOneAreClamped) {
     SoftLimiter limiter(1.0F);
     limiter.setCeiling(0.0F);
     EXPECT_EQ(limiter.limit(0.0F), 0.0F);
@@ -78,7 +78,7 @@ TEST(LimiterTest, ACeilingOfZeroIsSilenceAndOneOutsideZeroToOneIsClamped) {
     EXPECT_EQ(limiter.limit(0.6F), 0.0F);
 }
 
-TEST(LimiterTest, ItKeepsTellingLoudFromLouderFarAboveTheKnee) {
+TEST(LimiterTest, FarAboveTheKneeALouderInputStillGivesALouderOutput) {
     const SoftLimiter limiter(60.0F);
     for (float input = 40.0F; input < 6000.0F; input *= 1.05F) {
         ASSERT_GT(limiter.limit(input * 1.05F), limiter.limit(input)) << "at " << input << " m/s^2";
@@ -96,7 +96,7 @@ TEST(LimiterTest, ValueAndSlopeAreContinuousAtTheKnee) {
     EXPECT_NEAR(above, 1.0, 5e-3);
 }
 
-TEST(LimiterTest, ItIsOdd) {
+TEST(LimiterTest, TheCurveIsOdd) {
     const SoftLimiter limiter(60.0F);
     for (float input = 0.01F; input < 1e8F; input *= 1.01F) {
         ASSERT_EQ(limiter.limit(-input), -limiter.limit(input));
@@ -119,7 +119,7 @@ TEST(LimiterTest, NonFiniteSamplesBecomeZeroAndAreCounted) {
     EXPECT_EQ(limiter.nonFiniteCount(), 3U);
 }
 
-TEST(LimiterTest, AFullScaleThatIsNoPositiveNumberIsRefused) {
+TEST(LimiterTest, AFullScaleThatIsNotPositiveIsRejected) {
     for (const float fullScale : {0.0F, -60.0F, notANumber, infinity}) {
         EXPECT_THROW(SoftLimiter{fullScale}, std::invalid_argument) << fullScale;
     }

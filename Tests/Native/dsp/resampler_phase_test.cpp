@@ -16,7 +16,7 @@ using testing::whiteNoise;
 constexpr double everyOutputRate[] = {8000.0,  11025.0, 16000.0,  22050.0, 24000.0,  44100.0,
                                       48000.0, 96000.0, 192000.0, 44101.0, 47999.97, 12345.678};
 
-TEST(ResamplerPhaseTest, AnyPartitionIntoBlocksGivesTheSameBitsAndConsumesWhatInputNeededSaid) {
+TEST(ResamplerPhaseTest, TheBlockLengthsDoNotChangeTheOutputAndInputNeededIsExact) {
     for (const double rate : everyOutputRate) {
         const std::vector<float> input = whiteNoise(600, 1.0, 21);
         WaveformResampler whole(rate);
@@ -42,7 +42,7 @@ TEST(ResamplerPhaseTest, AnyPartitionIntoBlocksGivesTheSameBitsAndConsumesWhatIn
     }
 }
 
-TEST(ResamplerPhaseTest, OneInputSampleIsConsumedExactlyWhenTheReadPositionReachesIt) {
+TEST(ResamplerPhaseTest, AnInputSampleIsConsumedWhenTheReadPositionReachesIt) {
     for (const double rate : everyOutputRate) {
         WaveformResampler resampler(rate);
         std::size_t consumed = 0;
@@ -59,15 +59,15 @@ TEST(ResamplerPhaseTest, OneInputSampleIsConsumedExactlyWhenTheReadPositionReach
     }
 }
 
-TEST(ResamplerPhaseTest, ADayOfOutputConsumesADayOfInputToTheSample) {
+TEST(ResamplerPhaseTest, ADayOfOutputConsumesExactlyADayOfInput) {
     for (const double rate : {8000.0, 11025.0, 22050.0, 44100.0, 48000.0}) {
         const WaveformResampler resampler(rate);
         EXPECT_EQ(resampler.inputNeeded(static_cast<std::size_t>(rate) * 86400U), 172800000U) << rate;
     }
 }
 
-TEST(ResamplerPhaseTest, TenMinutesInBlocksLeaveThePhaseWhereOneCallWouldPutIt) {
-    // 11,025 Hz has the longest cycle of the usual rates; 12,345.678 Hz interpolates between phases.
+TEST(ResamplerPhaseTest, TenMinutesInBlocksReachTheSamePhaseAsOneCall) {
+    // 11,025 Hz has the longest phase cycle of the common rates; 12,345.678 Hz interpolates between phases.
     for (const double rate : {11025.0, 12345.678}) {
         WaveformResampler resampler(rate);
         const std::vector<float> silence(200, 0.0F);
@@ -82,14 +82,14 @@ TEST(ResamplerPhaseTest, TenMinutesInBlocksLeaveThePhaseWhereOneCallWouldPutIt) 
             consumed += needed;
         }
         EXPECT_EQ(consumed, WaveformResampler(rate).inputNeeded(produced)) << rate;
-        // Against real arithmetic: the rate is rounded to 2^-20 Hz, which moves ten minutes by less than 1/1000 of a
-        // sample.
+        // Compared with real arithmetic, because rounding the rate to 2^-20 Hz shifts ten minutes by less than 1/1000
+        // of a sample.
         const double position = static_cast<double>(produced - 1) * 2000.0 / rate;
         EXPECT_NEAR(static_cast<double>(consumed) - 0.5, position, 0.501) << rate;
     }
 }
 
-TEST(ResamplerPhaseTest, AfterResetItStartsFromSilenceLikeANewOne) {
+TEST(ResamplerPhaseTest, AfterAResetTheResamplerBehavesLikeANewOne) {
     const std::vector<float> input = whiteNoise(100, 1.0, 23);
     WaveformResampler fresh(44100.0);
     WaveformResampler used(44100.0);
@@ -116,15 +116,15 @@ TEST(ResamplerPhaseTest, MissingInputCountsAsSilence) {
     EXPECT_EQ(output, expected);
 }
 
-TEST(ResamplerPhaseTest, RatesItCannotServeAreRefusedWithTheRange) {
+TEST(ResamplerPhaseTest, UnsupportedRatesAreRejectedWithTheRangeInTheMessage) {
     for (const double rate : {0.0, -48000.0, 7999.0, 192001.0, std::numeric_limits<double>::quiet_NaN(),
                               std::numeric_limits<double>::infinity()}) {
         EXPECT_THROW(WaveformResampler{rate}, std::invalid_argument) << rate;
     }
-    EXPECT_THROW(WaveformResampler(48000.0, 100.0), std::invalid_argument);
+
     try {
         WaveformResampler resampler(7000.0);
-        FAIL() << "7 kHz was taken";
+        FAIL() << "7 kHz was accepted";
     } catch (const std::invalid_argument& error) {
         EXPECT_NE(std::string(error.what()).find("8000"), std::string::npos) << error.what();
     }

@@ -29,7 +29,7 @@ std::vector<float> resample(const std::vector<float>& input, double outputRateHz
 }
 
 std::vector<float> resampleWithSoxr(const std::vector<float>& input, std::size_t outputRateHz) {
-    // Its default lets the passband droop by 0.01 dB, which would be the largest difference found.
+    // Without roll-off, because the default's passband droop of 0.01 dB would dominate the difference.
     const soxr_quality_spec_t quality = soxr_quality_spec(SOXR_VHQ, SOXR_ROLLOFF_NONE);
     const soxr_io_spec_t format = soxr_io_spec(SOXR_FLOAT32_I, SOXR_FLOAT32_I);
     std::vector<float> output(input.size() * outputRateHz / inputRateHz + 1024);
@@ -79,7 +79,7 @@ TEST_P(ResamplerSpectrumTest, PassbandIsFlatWithinATenthOfADecibelAndImagesLieBe
     EXPECT_LT(decibels(image), -80.0);
 }
 
-TEST_P(ResamplerSpectrumTest, AgreesWithLibsoxrOnNoiseToMinus80DecibelsOnceTheKernelsPhaseIsApplied) {
+TEST_P(ResamplerSpectrumTest, AgreesWithLibsoxrToMinus80DecibelsAfterPhaseCorrection) {
     const std::size_t rate = GetParam();
     const std::vector<float> input = wholeHertzNoise(5, 1, 900, inputRateHz, 12);
     const auto ours = lineSpectrum(resample(input, static_cast<double>(rate), 3 * rate), 2 * rate, rate);
@@ -98,7 +98,7 @@ INSTANTIATE_TEST_SUITE_P(Rates, ResamplerSpectrumTest,
                          ::testing::Values(8000, 11025, 16000, 22050, 24000, 44100, 48000, 96000, 192000),
                          [](const auto& rate) { return std::to_string(rate.param) + "Hz"; });
 
-TEST(ResamplerSpectrumTest, ARateWithMorePhasesThanTheTableHoldsKeepsItsImagesBelowMinus80Decibels) {
+TEST(ResamplerSpectrumTest, ImagesStayBelowMinus80DecibelsAtARateWithMorePhasesThanTheTable) {
     constexpr std::size_t rate = 35721;  // shares no factor with 2,000: 35,721 distinct phases
     const std::vector<float> input = wholeHertzNoise(3, 1, 999, inputRateHz, 13);
     const auto lines = lineSpectrum(resample(input, rate, 2 * rate), rate, rate);
@@ -112,7 +112,7 @@ TEST(ResamplerSpectrumTest, ARateWithMorePhasesThanTheTableHoldsKeepsItsImagesBe
     }
 }
 
-TEST(ResamplerSpectrumTest, AConstantComesOutAtItsOwnLevel) {
+TEST(ResamplerSpectrumTest, AConstantKeepsItsLevel) {
     const std::vector<float> input(4000, 3.0F);
     const std::vector<float> output = resample(input, 48000.0, 48000);
     for (std::size_t i = 48000 / 2; i < output.size(); ++i) {
@@ -120,14 +120,14 @@ TEST(ResamplerSpectrumTest, AConstantComesOutAtItsOwnLevel) {
     }
 }
 
-TEST(ResamplerSpectrumTest, AStepIsAlmostThereWithinThreeMilliseconds) {
+TEST(ResamplerSpectrumTest, AStepSettlesWithinThreeMilliseconds) {
     const std::vector<float> input(400, 1.0F);
     const std::vector<float> output = resample(input, 48000.0, 4800);
     const auto halfway = std::find_if(output.begin(), output.end(), [](float value) { return value >= 0.5F; });
-    EXPECT_LE(halfway - output.begin(), 48 * 3 / 2) << "samples at 48 kHz until half of the step, 1.5 ms allowed";
+    EXPECT_LE(halfway - output.begin(), 48 * 3 / 2) << "half of the step must be reached within 1.5 ms";
 }
 
-TEST(ResamplerSpectrumTest, TheGroupDelayItReportsIsTheOneATonePacketShows) {
+TEST(ResamplerSpectrumTest, TheReportedGroupDelayMatchesTheDelayOfATonePacket) {
     const WaveformResampler resampler(48000.0);
     for (const double frequency : {160.0, 320.0, 640.0}) {
         std::vector<float> packet(800);

@@ -19,8 +19,8 @@ struct SeamPower {
     double seam = 0.0;
 };
 
-// Mean power of unit-level signals outside the seam and over its samples, over many seams; `share` of the successor
-// is the continuation's own waveform, so that share is their correlation.
+// Mean power of unit-level signals outside the seam and within it, over many seams. The successor contains `share` of
+// the continuation, so that `share` is their correlation.
 SeamPower seamPower(double share, std::size_t length) {
     SeamPower power;
     constexpr std::size_t seams = 20000;
@@ -45,19 +45,19 @@ SeamPower seamPower(double share, std::size_t length) {
     return power;
 }
 
-TEST(SpliceTest, TheLevelHoldsAcrossTheSeamForUnrelatedHalfRelatedAndAlikeWaveforms) {
+TEST(SpliceTest, TheLevelIsConstantAcrossTheSeamForAnyCorrelation) {
     for (const double share : {0.0, 0.5, 0.9}) {
         for (const std::size_t length : {1U, 2U, 4U}) {
             const SeamPower power = seamPower(share, length);
             const double change = 10.0 * std::log10(power.seam / power.before);
-            // What the clamp at 0 costs: chance likeness within 32 samples lowers the gain, chance unlikeness cannot
-            // raise it.
+            // The tolerance allows for the clamp at 0: a random positive correlation within 32 samples lowers the gain,
+            // and a negative one cannot raise it.
             EXPECT_NEAR(change, 0.0, 0.4) << "correlation " << share << ", " << length << " samples";
         }
     }
 }
 
-TEST(SpliceTest, IdenticalWaveformsPassUnchangedBitForBit) {
+TEST(SpliceTest, IdenticalWaveformsPassUnchanged) {
     const std::vector<float> waveform = whiteNoise(40, 37.3, 5);
     Splice splice;
     splice.begin(waveform, waveform, 4);
@@ -66,7 +66,7 @@ TEST(SpliceTest, IdenticalWaveformsPassUnchangedBitForBit) {
     }
 }
 
-TEST(SpliceTest, AfterItsLastSampleTheSuccessorSoundsAloneBitForBit) {
+TEST(SpliceTest, AfterTheSpliceTheSuccessorPassesUnchanged) {
     const std::vector<float> old = whiteNoise(40, 1.0, 6);
     const std::vector<float> successor = whiteNoise(40, 1.0, 7);
     Splice splice;
@@ -79,7 +79,7 @@ TEST(SpliceTest, AfterItsLastSampleTheSuccessorSoundsAloneBitForBit) {
     EXPECT_EQ(splice.next(1e9F, successor[4]), successor[4]);
 }
 
-TEST(SpliceTest, LengthZeroHandsOverAtOnceAndLongerThanFourIsFour) {
+TEST(SpliceTest, ALengthOfZeroSwitchesAtOnceAndTheLengthIsLimitedToFour) {
     const std::vector<float> old(40, 1.0F);
     const std::vector<float> successor(40, 2.0F);
     Splice splice;
@@ -95,10 +95,10 @@ TEST(SpliceTest, LengthZeroHandsOverAtOnceAndLongerThanFourIsFour) {
     for (length = 0; splice.active(); ++length) {
         (void)splice.next(1.0F, 2.0F);
     }
-    EXPECT_EQ(length, 2) << "no further than the continuation reaches";
+    EXPECT_EQ(length, 2) << "limited to the length of the continuation";
 }
 
-TEST(SpliceTest, SilenceOnEitherSideStaysFiniteAndNeverRaisesTheOther) {
+TEST(SpliceTest, SilenceOnEitherSideGivesFiniteGainsOfAtMostOne) {
     const std::vector<float> silence(40, 0.0F);
     const std::vector<float> loud = whiteNoise(40, 50.0, 8);
     for (const auto& [old, successor] : {std::pair{silence, silence}, {silence, loud}, {loud, silence}}) {
@@ -109,12 +109,12 @@ TEST(SpliceTest, SilenceOnEitherSideStaysFiniteAndNeverRaisesTheOther) {
             ASSERT_TRUE(std::isfinite(value));
             const double share = static_cast<double>(i + 1) / 5.0;
             EXPECT_NEAR(value, (1.0 - share) * old[i] + share * successor[i], 1e-5)
-                << "gains above a plain crossfade's";
+                << "the gains exceed those of a linear crossfade";
         }
     }
 }
 
-TEST(SpliceTest, CorrelationIsOneForScaledCopiesZeroForOppositesAndIgnoresWhatLiesBeyond32Samples) {
+TEST(SpliceTest, TheCorrelationIsOneForScaledCopiesAndZeroForOppositesWithin32Samples) {
     std::vector<float> waveform = whiteNoise(64, 1.0, 9);
     std::vector<float> louder = waveform;
     std::vector<float> opposite = waveform;
@@ -130,7 +130,7 @@ TEST(SpliceTest, CorrelationIsOneForScaledCopiesZeroForOppositesAndIgnoresWhatLi
     EXPECT_EQ(spliceCorrelation(waveform, louder), before);
 }
 
-TEST(SpliceTest, ANonFiniteSampleLeavesTheGainsFinite) {
+TEST(SpliceTest, ANonFiniteSampleGivesFiniteGains) {
     std::vector<float> old = whiteNoise(40, 1.0, 10);
     const std::vector<float> successor = whiteNoise(40, 1.0, 11);
     for (const float bad : {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity()}) {

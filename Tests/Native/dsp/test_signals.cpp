@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-// Its header leaves <cmath> to the caller.
+// This header needs <cmath> but does not include it.
 #include <kissfft/kissfft.hh>
 
 namespace haptoflow::dsp::testing {

@@ -8,7 +8,7 @@
 
 namespace haptoflow::dsp::testing {
 
-/// Uniform in [lowest, highest); the same sequence on every standard library.
+/// Uniform numbers in [lowest, highest); the sequence is the same with every standard library.
 class Uniform {
 public:
     explicit Uniform(std::uint32_t seed) : engine_(seed) {}
@@ -28,13 +28,13 @@ std::vector<float> whiteNoise(std::size_t count, double amplitude, std::uint32_t
 /// amplitude sin(2 pi frequency n / rate).
 std::vector<float> tone(std::size_t count, double frequencyHz, double amplitude, double sampleRateHz);
 
-/// Noise of period one second: a unit sine of random phase at every whole hertz from `lowestHz` to `highestHz`. Over
-/// one period its spectrum is exact, with no window and no leakage.
+/// Noise with a period of one second: a unit sinusoid with random phase at every whole hertz from `lowestHz` to
+/// `highestHz`. The spectrum of one period is exact without a window.
 std::vector<float> wholeHertzNoise(std::size_t seconds, int lowestHz, int highestHz, std::size_t sampleRateHz,
                                    std::uint32_t seed);
 
-/// Complex amplitude of every line of `count` samples from `first`: 1 for a unit sine that fits them; lines
-/// 0..count/2.
+/// Complex amplitudes of the spectral lines 0 to count/2 of `count` samples from `first`; 1 for a unit sinusoid with
+/// whole periods.
 std::vector<std::complex<double>> lineSpectrum(const std::vector<float>& samples, std::size_t first, std::size_t count);
 
 double decibels(double amplitudeRatio);

@@ -24,7 +24,7 @@ double responseDb(const ToneKernel& kernel, double frequencyHz) {
     return 20.0 * std::log10(std::abs(sum));
 }
 
-/// From -8 dB at 50 Hz to 8 dB at 800 Hz, in the logarithm of frequency.
+/// Gain that rises from -8 dB at 50 Hz to 8 dB at 800 Hz, linearly over the logarithm of frequency.
 double rising(double frequencyHz) {
     return -8.0 + 16.0 * std::log(std::clamp(frequencyHz, 50.0, 800.0) / 50.0) / std::log(16.0);
 }
@@ -42,23 +42,23 @@ std::array<float, ToneFilter::memorySamples> silence() {
     return {};
 }
 
-TEST(ToneCepstrumTest, TheKernelHasTheGainThatWasAskedFor) {
+TEST(ToneCepstrumTest, TheKernelHasTheRequestedGain) {
     const ToneKernel kernel = toneKernel(toneCepstrum(rising));
     for (double frequencyHz = 30.0; frequencyHz < 950.0; frequencyHz *= 1.1) {
         EXPECT_NEAR(responseDb(kernel, frequencyHz), rising(frequencyHz), 0.4) << frequencyHz;
     }
 }
 
-TEST(ToneCepstrumTest, NoGainIsTheIdentity) {
+TEST(ToneCepstrumTest, AGainOfZeroDecibelsGivesTheUnitImpulse) {
     const ToneKernel kernel = toneKernel(toneCepstrum([](double) { return 0.0; }));
     EXPECT_NEAR(kernel[0], 1.0F, 1e-6F);
     EXPECT_TRUE(std::all_of(kernel.begin() + 1, kernel.end(), [](float tap) { return std::abs(tap) < 1e-6F; }));
 }
 
-TEST(ToneCepstrumTest, TheKernelIsMinimumPhaseSoThatNoOtherOfItsGainComesEarlier) {
+TEST(ToneCepstrumTest, TheKernelIsMinimumPhase) {
     const ToneKernel kernel = toneKernel(toneCepstrum(rising));
-    // Of all filters of one magnitude, the minimum-phase one has the largest first tap, which is the mean of the
-    // logarithmic gain over frequency.
+    // Of all filters with one magnitude, the minimum-phase filter has the largest first tap. Its logarithm is the mean
+    // of the logarithmic gain over frequency.
     double mean = 0.0;
     for (int bin = 0; bin < 1000; ++bin) {
         mean += rising(static_cast<double>(bin) + 0.5) / 1000.0;
@@ -66,7 +66,7 @@ TEST(ToneCepstrumTest, TheKernelIsMinimumPhaseSoThatNoOtherOfItsGainComesEarlier
     EXPECT_NEAR(20.0 * std::log10(static_cast<double>(kernel[0])), mean, 0.1);
 }
 
-TEST(ToneCepstrumTest, GainsInDecibelsAddWhereCepstraDo) {
+TEST(ToneCepstrumTest, AddingCepstraAddsGainsInDecibels) {
     const ToneCepstrum first = toneCepstrum(rising);
     const ToneCepstrum second = toneCepstrum([](double frequencyHz) { return frequencyHz < 200.0 ? 3.0 : -2.0; });
     ToneCepstrum sum{};
@@ -76,7 +76,7 @@ TEST(ToneCepstrumTest, GainsInDecibelsAddWhereCepstraDo) {
     EXPECT_NEAR(responseDb(kernel, 600.0), rising(600.0) - 1.0, 0.5);
 }
 
-TEST(ToneFilterTest, WithoutAToneNothingIsChangedAndNothingRuns) {
+TEST(ToneFilterTest, WithoutAToneTheFilterIsInactiveAndChangesNothing) {
     ToneFilter filter;
     std::vector<float> samples = tone(100.0, 500);
     const std::vector<float> before = samples;
@@ -87,7 +87,7 @@ TEST(ToneFilterTest, WithoutAToneNothingIsChangedAndNothingRuns) {
     EXPECT_FALSE(filter.isActive());
 }
 
-TEST(ToneFilterTest, ATonePassesWithTheGainOfItsFrequency) {
+TEST(ToneFilterTest, ASinusoidGetsTheTonesGainAtItsFrequency) {
     const ToneKernel kernel = toneKernel(toneCepstrum(rising));
     for (const double frequencyHz : {60.0, 150.0, 400.0, 800.0}) {
         ToneFilter filter;
@@ -102,7 +102,7 @@ TEST(ToneFilterTest, ATonePassesWithTheGainOfItsFrequency) {
     }
 }
 
-TEST(ToneFilterTest, InPiecesOfAnyLengthItIsTheSameFilter) {
+TEST(ToneFilterTest, TheBlockLengthsDoNotChangeTheFilteredSignal) {
     const ToneKernel kernel = toneKernel(toneCepstrum(rising));
     ToneFilter whole;
     ToneFilter parts;
@@ -117,7 +117,7 @@ TEST(ToneFilterTest, InPiecesOfAnyLengthItIsTheSameFilter) {
     EXPECT_EQ(found, expected);
 }
 
-/// The largest step between neighbours of a 50 Hz tone whose kernel changes every `period` samples.
+/// The largest step between neighbouring samples of a 50 Hz tone while the kernel changes every `period` samples.
 float largestStep(std::span<const ToneKernel* const> kernels, std::size_t period) {
     ToneFilter filter;
     std::vector<float> samples = tone(50.0, 2000);
@@ -138,17 +138,17 @@ float largestStep(std::span<const ToneKernel* const> kernels, std::size_t period
     return largest;
 }
 
-TEST(ToneFilterTest, AChangeOfToneIsNoClickHoweverOftenItComes) {
+TEST(ToneFilterTest, ChangesOfToneDoNotClickHoweverFrequent) {
     const ToneKernel quiet = toneKernel(toneCepstrum([](double) { return -12.0; }));
     const ToneKernel loud = toneKernel(toneCepstrum([](double) { return 6.0; }));
     const std::array<const ToneKernel*, 4> changing{&quiet, &loud, nullptr, &loud};
-    // At 6 dB a tone of 50 Hz changes by 0.32 from sample to sample; gliding over 20 samples adds 0.09.
+    // At 6 dB, a tone of 50 Hz changes by up to 0.32 between samples; the change of kernel over 20 samples adds 0.09.
     for (const std::size_t period : {std::size_t{5}, std::size_t{13}, std::size_t{20}, std::size_t{97}}) {
         EXPECT_LT(largestStep(changing, period), 0.45F) << period;
     }
 }
 
-TEST(ToneFilterTest, SwitchedOffItGlidesOutAndThenRunsNoMore) {
+TEST(ToneFilterTest, AToneThatIsSwitchedOffFadesAndTheFilterBecomesInactive) {
     const ToneKernel kernel = toneKernel(toneCepstrum(rising));
     ToneFilter filter;
     filter.reset(&kernel);
@@ -162,7 +162,7 @@ TEST(ToneFilterTest, SwitchedOffItGlidesOutAndThenRunsNoMore) {
     EXPECT_EQ(rest.back(), 1.0F);
 }
 
-TEST(ToneFilterTest, SwitchedOnWithinAWaveItGoesOnFromWhatWasPlayed) {
+TEST(ToneFilterTest, AToneThatIsSwitchedOnContinuesFromThePlayedSamples) {
     const ToneKernel kernel = toneKernel(toneCepstrum(rising));
     ToneFilter always;
     always.reset(&kernel);

@@ -54,7 +54,7 @@ TEST(ActuatorProfileTest, EveryFieldIsReadAndWrittenAgain) {
     }
 }
 
-TEST(ActuatorProfileTest, WhatIsOptionalMayBeLeftOut) {
+TEST(ActuatorProfileTest, OptionalKeysMayBeMissing) {
     const ActuatorProfile profile = ActuatorProfile::parse(valid);
     EXPECT_FALSE(profile.isApproximate);
     EXPECT_FALSE(profile.ratedLevelMps2.has_value());
@@ -63,7 +63,7 @@ TEST(ActuatorProfileTest, WhatIsOptionalMayBeLeftOut) {
     EXPECT_EQ(ActuatorProfile::parse(profile.toJson()).toJson(), profile.toJson());
 }
 
-TEST(ActuatorProfileTest, TheMagnitudeIsReadOnStraightLinesOverTheLogarithmOfFrequency) {
+TEST(ActuatorProfileTest, TheMagnitudeIsInterpolatedOverTheLogarithmOfFrequency) {
     const ActuatorProfile profile = ActuatorProfile::parse(valid);
     EXPECT_NEAR(profile.magnitudeDecibelsAt(std::sqrt(50.0 * 100.0)), -5.0, 1e-12);
     EXPECT_NEAR(profile.magnitudeDecibelsAt(200.0 / std::exp2(1.0 / 3.0)), -2.0, 1e-12);
@@ -73,7 +73,7 @@ TEST(ActuatorProfileTest, TheMagnitudeIsReadOnStraightLinesOverTheLogarithmOfFre
     EXPECT_EQ(profile.magnitudeDecibelsAt(std::nan("")), -10.0);
 }
 
-TEST(ActuatorProfileTest, ARefusalNamesTheKeyAndWhatWasExpected) {
+TEST(ActuatorProfileTest, AnErrorNamesTheKeyAndTheExpectedValue) {
     EXPECT_THAT(refusalOf(with("-3]", "-300]")),
                 AllOf(HasSubstr("key \"magnitude_db[2]\""), HasSubstr("from -200 to 200 dB, found -300")));
     EXPECT_THAT(refusalOf(with("-3]", "\"loud\"]")), HasSubstr("found \"loud\""));
@@ -95,14 +95,14 @@ TEST(ActuatorProfileTest, ARefusalNamesTheKeyAndWhatWasExpected) {
     EXPECT_THAT(refusalOf(with("}", ", \"measurement\": {}}")), HasSubstr("missing key \"sample_rate_hz\""));
 }
 
-TEST(ActuatorProfileTest, ANewerVersionSaysSo) {
+TEST(ActuatorProfileTest, ANewerFormatVersionIsNamedInTheError) {
     EXPECT_THAT(refusalOf(with("\"format_version\": 1", "\"format_version\": 2")),
                 AllOf(HasSubstr("is 2; this HaptoFlow reads 1"), HasSubstr("update HaptoFlow")));
     EXPECT_THAT(refusalOf(with("\"format_version\": 1", "\"format_version\": 1.5")), HasSubstr("1"));
     EXPECT_THAT(refusalOf(with("\"format_version\": 1", "\"format_version\": \"1\"")), HasSubstr("format_version"));
 }
 
-TEST(ActuatorProfileTest, HostileTextIsRefusedInOneLine) {
+TEST(ActuatorProfileTest, InvalidTextIsRejectedWithAOneLineMessage) {
     std::string manyPoints = R"({"format_version": 1, "name": "n", "provenance": "p", "frequency_hz": [1)";
     for (int point = 2; point < 6000; ++point) {
         manyPoints += "," + std::to_string(point);
@@ -114,7 +114,7 @@ TEST(ActuatorProfileTest, HostileTextIsRefusedInOneLine) {
                                    "{",
                                    "NaN",
                                    deep,
-                                   std::string(ActuatorProfile::largestTextBytes + 1, ' '),
+                                   std::string(ActuatorProfile::maximumTextBytes + 1, ' '),
                                    manyPoints + "]}",
                                    with("-3", "NaN"),
                                    with("-3", "Infinity"),
@@ -133,7 +133,7 @@ TEST(ActuatorProfileTest, HostileTextIsRefusedInOneLine) {
     }
 }
 
-TEST(ActuatorProfileTest, AnyChangeOfAByteIsReadOrRefusedAndNeverGivesAnUnusableProfile) {
+TEST(ActuatorProfileTest, AProfileWithAChangedByteIsRejectedOrUsable) {
     std::mt19937 random(7);
     for (int round = 0; round < 4000; ++round) {
         std::string text = valid;
@@ -151,9 +151,8 @@ TEST(ActuatorProfileTest, AnyChangeOfAByteIsReadOrRefusedAndNeverGivesAnUnusable
     }
 }
 
-TEST(ActuatorProfileTest, TheBuiltInProfilesAreFlatAndAnApproximateVoiceCoilAsThePaperDescribesIt) {
-    EXPECT_THAT(ActuatorProfile::builtInNames(), ElementsAre("flat", "voice-coil"));
-    for (const std::string_view name : ActuatorProfile::builtInNames()) {
+TEST(ActuatorProfileTest, TheBuiltInProfilesAreFlatAndThePapersApproximateVoiceCoil) {
+    for (const std::string_view name : {"flat", "voice-coil"}) {
         const auto profile = ActuatorProfile::builtIn(name);
         ASSERT_TRUE(profile.has_value()) << name;
         EXPECT_EQ(profile->name, name);

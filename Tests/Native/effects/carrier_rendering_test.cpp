@@ -49,7 +49,7 @@ std::vector<WaveFrame> constantFrames(std::size_t count, float amplitude, float 
     return frames;
 }
 
-TEST(CarrierRenderingTest, ASinusoidOfEveryFrequencyIsRenderedAsIntenseAsItWas) {
+TEST(CarrierRenderingTest, ARenderedSinusoidKeepsItsIntensityAtEveryFrequency) {
     for (const CarrierShape shape : {CarrierShape::held, CarrierShape::linear}) {
         for (double frequencyHz = 40.0; frequencyHz <= 400.0; frequencyHz += 20.0) {
             const std::vector<float> wave = featureSine(frequencyHz, 5.0, 1.0);
@@ -64,7 +64,7 @@ TEST(CarrierRenderingTest, ASinusoidOfEveryFrequencyIsRenderedAsIntenseAsItWas) 
     }
 }
 
-TEST(CarrierRenderingTest, NoiseIsRenderedAsIntenseAsItWas) {
+TEST(CarrierRenderingTest, RenderedNoiseKeepsItsIntensity) {
     for (const std::vector<float>& wave : {textureNoise(5.0, 10.0, 1), textureNoise(60.0, 10.0, 2),
                                            featureNoise(5.0, 10.0, 3), textureNoise(0.5, 10.0, 4)}) {
         for (const CarrierShape shape : {CarrierShape::held, CarrierShape::linear}) {
@@ -79,7 +79,7 @@ TEST(CarrierRenderingTest, NoiseIsRenderedAsIntenseAsItWas) {
     }
 }
 
-TEST(CarrierRenderingTest, ADecayingSinusoidIsRenderedAsIntenseAsItWasFrameByFrame) {
+TEST(CarrierRenderingTest, ARenderedDecayingSinusoidKeepsItsIntensityInEachFrame) {
     for (const double frequencyHz : {80.0, 150.0, 250.0}) {
         for (std::size_t start = 200; start < 210; ++start) {
             const IntensityErrorSummary error =
@@ -90,7 +90,7 @@ TEST(CarrierRenderingTest, ADecayingSinusoidIsRenderedAsIntenseAsItWasFrameByFra
     }
 }
 
-TEST(CarrierRenderingTest, TheErrorSaysByHowMuchARenderingIsTooStrong) {
+TEST(CarrierRenderingTest, TheErrorIsTheExcessIntensityInDecibels) {
     const std::vector<float> wave = featureSine(160.0, 20.0, 1.0);
     for (const double factor : {0.5, 1.0, 2.0}) {
         std::vector<float> played = wave;
@@ -104,7 +104,7 @@ TEST(CarrierRenderingTest, TheErrorSaysByHowMuchARenderingIsTooStrong) {
     }
 }
 
-TEST(CarrierRenderingTest, WhatIsFeltInNeitherWaveIsLeftOutAndWhatIsMissingCounts) {
+TEST(CarrierRenderingTest, FramesFeltInNeitherWaveAreSkippedAndMissingFramesCount) {
     const std::vector<float> faint = featureSine(160.0, 0.01, 1.0);
     EXPECT_TRUE(intensityErrors(faint, faint).empty());
     EXPECT_EQ(summarise({}).feltFrames, 0U);
@@ -112,7 +112,7 @@ TEST(CarrierRenderingTest, WhatIsFeltInNeitherWaveIsLeftOutAndWhatIsMissingCount
     const IntensityErrorSummary missing = summarise(intensityErrors(wave, {}));
     EXPECT_GT(missing.feltFrames, 190U);
     EXPECT_LT(missing.meanDb, -30.0);
-    EXPECT_TRUE(std::isfinite(missing.meanDb)) << "no quieter than what is just felt";
+    EXPECT_TRUE(std::isfinite(missing.meanDb)) << "the played intensity counts as at least 1";
 }
 
 TEST(CarrierRenderingTest, ACarrierHasItsFramesAmplitudeFrequencyAndLengthAtEveryRate) {
@@ -142,12 +142,12 @@ TEST(CarrierRenderingTest, ACarrierNeverJumps) {
         for (std::size_t i = 1; i < wave.size(); ++i) {
             largest = std::max(largest, std::abs(wave[i] - wave[i - 1]));
         }
-        // The steepest sinusoid, and an edge of half a millisecond.
+        // The steepest sinusoid plus an amplitude edge of half a millisecond.
         EXPECT_LT(static_cast<double>(largest), 2.0 * std::numbers::pi * 400.0 / 48000.0 + 1.0 / 24.0 + 1e-3);
     }
 }
 
-TEST(CarrierRenderingTest, ASlowMotorComesUpWithItsTimeConstant) {
+TEST(CarrierRenderingTest, ASlowMotorRisesWithItsTimeConstant) {
     const std::vector<float> wave =
         renderCarrier(constantFrames(40, 1.0F, 200.0F), {.sampleRateHz = 48000.0, .riseSeconds = 0.02});
     const auto peakUntil = [&](double seconds) {
@@ -161,7 +161,7 @@ TEST(CarrierRenderingTest, ASlowMotorComesUpWithItsTimeConstant) {
     EXPECT_NEAR(peakUntil(0.2), 1.0, 0.01);
 }
 
-TEST(CarrierRenderingTest, NothingIsRenderedFromNothing) {
+TEST(CarrierRenderingTest, NoFramesGiveAnEmptyRendering) {
     EXPECT_TRUE(renderCarrier({}).empty());
     EXPECT_TRUE(renderCarrier(constantFrames(3, 1.0F, 100.0F), {.sampleRateHz = 0.0}).empty());
     EXPECT_TRUE(framesOf({}).empty());

@@ -52,10 +52,10 @@ void run(Compensation& compensation, std::vector<float>& samples, std::size_t bl
     }
 }
 
-/// The response as what `process` makes of one sample, over two seconds.
+/// The response measured with an impulse through `process`, over two seconds.
 class MeasuredResponse {
 public:
-    // So large that what counts as silent lies far below its end.
+    // So large that the end of the impulse response lies far above the level that counts as silent.
     static constexpr double impulse = 1e5;
 
     MeasuredResponse(const ActuatorProfile& profile, double sampleRateHz, const CompensationSettings& settings = {})
@@ -89,7 +89,7 @@ std::vector<float> noise(std::size_t count, float amplitude, unsigned seed) {
     return samples;
 }
 
-/// Noise of up to 1 kHz with the same power at each frequency, as a texture has it at the output rate.
+/// White noise up to 1 kHz, as in a texture at the output rate.
 std::vector<float> textureNoise(std::size_t count, float amplitude, unsigned seed) {
     std::vector<float> samples = noise(count, amplitude, seed);
     for (int pass = 0; pass < 4; ++pass) {
@@ -121,11 +121,11 @@ TEST(CompensationTest, TheCompensatedVoiceCoilIsFlatWithinThreeDecibelsFrom60To4
             EXPECT_NEAR(played, level, 3.0) << rate << " Hz, at " << hz << " Hz";
             uncompensated = std::max(uncompensated, std::abs(coil.magnitudeDecibelsAt(hz) - level));
         }
-        EXPECT_GT(uncompensated, 6.0) << "nothing was to be compensated";
+        EXPECT_GT(uncompensated, 6.0) << "the profile has nothing to compensate";
     }
 }
 
-TEST(CompensationTest, AnyActuatorIsFlatWithinThreeDecibelsWhereTheBoostSuffices) {
+TEST(CompensationTest, AnActuatorIsFlatWithinThreeDecibelsWhereTheBoostSuffices) {
     std::mt19937 random(5);
     for (int round = 0; round < 40; ++round) {
         const double low = std::uniform_real_distribution<double>(70.0, 200.0)(random);
@@ -156,7 +156,7 @@ TEST(CompensationTest, TheResponseIsTheSameAtEveryRate) {
     }
 }
 
-TEST(CompensationTest, WhatItSaysOfItsGainIsWhatItDoes) {
+TEST(CompensationTest, TheReportedGainMatchesTheMeasuredGain) {
     const Compensation compensation(voiceCoil(), rateHz);
     const MeasuredResponse response(voiceCoil(), rateHz);
     for (double hz = 15.0; hz <= 10000.0; hz *= 1.2) {
@@ -164,30 +164,30 @@ TEST(CompensationTest, WhatItSaysOfItsGainIsWhatItDoes) {
     }
 }
 
-TEST(CompensationTest, NothingIsRaisedAboveTheLargestBoostWhateverTheProfile) {
+TEST(CompensationTest, TheGainNeverExceedsTheMaximumBoostForAnyProfile) {
     std::mt19937 random(11);
     for (const double boost : {0.0, 3.0, 12.0, 24.0}) {
         for (int round = 0; round < 12; ++round) {
             const double extent = std::array{6.0, 20.0, 60.0, 200.0}[static_cast<std::size_t>(round) % 4];
-            const Compensation compensation(randomProfile(random, extent), rateHz, {.largestBoostDecibels = boost});
+            const Compensation compensation(randomProfile(random, extent), rateHz, {.maximumBoostDecibels = boost});
             for (double hz = 2.0; hz < 23000.0; hz *= 1.01) {
                 ASSERT_LE(compensation.gainDecibels(hz), boost + 0.1) << boost << " dB, at " << hz << " Hz";
             }
         }
     }
-    const Compensation coil(voiceCoil(), rateHz, {.largestBoostDecibels = 3.0});
+    const Compensation coil(voiceCoil(), rateHz, {.maximumBoostDecibels = 3.0});
     EXPECT_GT(coil.gainDecibels(50.0), 1.0);
 }
 
-TEST(CompensationTest, NoPowerIsSpentWhereTheActuatorGivesNothing) {
-    const ActuatorProfile deaf =
+TEST(CompensationTest, FrequenciesWithoutActuatorOutputAreNotBoosted) {
+    const ActuatorProfile silentBelow100Hz =
         profileOf({20.0, 60.0, 80.0, 100.0, 120.0, 300.0, 1200.0}, {-90.0, -90.0, -90.0, -10.0, 0.0, -3.0, -6.0});
-    const Compensation compensation(deaf, rateHz);
+    const Compensation compensation(silentBelow100Hz, rateHz);
     EXPECT_LT(compensation.gainDecibels(60.0), -6.0);
     EXPECT_GT(compensation.gainDecibels(100.0), 0.0);
 }
 
-TEST(CompensationTest, OutsideOfTheBandTheGainIsBackAtZero) {
+TEST(CompensationTest, TheGainIsZeroDecibelsOutsideTheBand) {
     std::mt19937 random(3);
     for (int round = 0; round < 20; ++round) {
         const ActuatorProfile profile = round == 0 ? voiceCoil() : randomProfile(random, 10.0);
@@ -228,7 +228,7 @@ TEST(CompensationTest, ABroadbandTextureKeepsItsPowerAndClipsNoMoreOften) {
     }
 }
 
-TEST(CompensationTest, TheFirstSampleInIsInTheFirstSampleOut) {
+TEST(CompensationTest, TheFirstOutputSampleContainsTheFirstInputSample) {
     for (const double rate : rates) {
         Compensation compensation(voiceCoil(), rate);
         std::vector<float> samples(8);
@@ -238,7 +238,7 @@ TEST(CompensationTest, TheFirstSampleInIsInTheFirstSampleOut) {
     }
 }
 
-TEST(CompensationTest, NoToneOfTheBandComesLaterThanDeclared) {
+TEST(CompensationTest, NoToneInTheBandExceedsTheDeclaredLatency) {
     std::mt19937 random(23);
     for (int round = 0; round < 5; ++round) {
         const ActuatorProfile profile = round == 0 ? voiceCoil() : randomProfile(random, 6.0);
@@ -246,7 +246,7 @@ TEST(CompensationTest, NoToneOfTheBandComesLaterThanDeclared) {
         const double latency = compensation.declaration().latencySeconds;
         EXPECT_GE(latency, 0.0);
         for (double hz = 50.0; hz <= 900.0; hz *= 1.3) {
-            // The centroid of the energy of a burst of 40 periods under a smooth window.
+            // The energy centroid of a tone burst of 40 periods with a smooth window.
             const auto length = static_cast<std::size_t>(40.0 / hz * rateHz);
             std::vector<float> samples(2 * length);
             const auto centroid = [&samples] {
@@ -272,7 +272,7 @@ TEST(CompensationTest, NoToneOfTheBandComesLaterThanDeclared) {
     }
 }
 
-TEST(CompensationTest, ItHasEndedWithinItsDeclaredTail) {
+TEST(CompensationTest, TheOutputEndsWithinTheDeclaredTail) {
     for (const double rate : rates) {
         Compensation compensation(voiceCoil(), rate);
         EXPECT_TRUE(compensation.isIdle());
@@ -290,7 +290,7 @@ TEST(CompensationTest, ItHasEndedWithinItsDeclaredTail) {
     }
 }
 
-TEST(CompensationTest, WhatIsSaidToBeIdleHasNothingLeftThatCouldBeFelt) {
+TEST(CompensationTest, AnIdleCompensationHasNoPerceptibleOutputLeft) {
     Compensation compensation(voiceCoil(), 192000.0);
     std::vector<float> samples = noise(4000, 30.0F, 9);
     run(compensation, samples);
@@ -305,10 +305,10 @@ TEST(CompensationTest, WhatIsSaidToBeIdleHasNothingLeftThatCouldBeFelt) {
         wasIdle = compensation.isIdle();
     }
     EXPECT_TRUE(wasIdle);
-    EXPECT_LE(loudestSinceIdle, static_cast<float>(Compensation::silentMps2));
+    EXPECT_LE(loudestSinceIdle, static_cast<float>(imperceptibleMps2));
 }
 
-TEST(CompensationTest, AFlatActuatorChangesNoByte) {
+TEST(CompensationTest, AFlatActuatorLeavesEverySampleUnchanged) {
     for (const double offset : {0.0, -30.0, 12.0}) {
         Compensation compensation(profileOf({20.0, 1200.0}, {offset, offset}), rateHz);
         EXPECT_TRUE(compensation.isTransparent()) << offset;
@@ -323,7 +323,7 @@ TEST(CompensationTest, AFlatActuatorChangesNoByte) {
     EXPECT_TRUE(Compensation(*ActuatorProfile::builtIn("flat"), 8000.0).isTransparent());
 }
 
-TEST(CompensationTest, AGainOfTheWholeProfileChangesNothingButTheLevel) {
+TEST(CompensationTest, AConstantGainOfTheProfileChangesOnlyTheLevel) {
     ActuatorProfile louder = voiceCoil();
     std::ranges::for_each(louder.magnitudeDecibels, [](double& decibels) { decibels += 37.0; });
     const Compensation one(voiceCoil(), rateHz);
@@ -334,7 +334,7 @@ TEST(CompensationTest, AGainOfTheWholeProfileChangesNothingButTheLevel) {
     }
 }
 
-TEST(CompensationTest, SamplesThatAreNotFiniteOrHugeDoNotStay) {
+TEST(CompensationTest, NonFiniteAndHugeSamplesHaveNoLastingEffect) {
     constexpr float nan = std::numeric_limits<float>::quiet_NaN();
     constexpr float infinity = std::numeric_limits<float>::infinity();
     for (const double rate : rates) {
@@ -359,7 +359,7 @@ TEST(CompensationTest, EveryProfileGivesABoundedFilterAtEveryRate) {
     for (int round = 0; round < 30; ++round) {
         const ActuatorProfile profile = randomProfile(random, 200.0);
         const double rate = rates[static_cast<std::size_t>(round) % rates.size()];
-        Compensation compensation(profile, rate, {.largestBoostDecibels = 24.0});
+        Compensation compensation(profile, rate, {.maximumBoostDecibels = 24.0});
         std::vector<float> samples = noise(static_cast<std::size_t>(rate), 50.0F, 8);
         run(compensation, samples);
         for (const float sample : samples) {
@@ -372,7 +372,7 @@ TEST(CompensationTest, EveryProfileGivesABoundedFilterAtEveryRate) {
     }
 }
 
-TEST(CompensationTest, TheOutputDoesNotDependOnHowItIsCutIntoBlocks) {
+TEST(CompensationTest, TheBlockLengthsDoNotChangeTheCompensation) {
     const std::vector<float> before = noise(9600, 20.0F, 12);
     std::vector<float> whole = before;
     Compensation once(voiceCoil(), rateHz);
@@ -385,7 +385,7 @@ TEST(CompensationTest, TheOutputDoesNotDependOnHowItIsCutIntoBlocks) {
     }
 }
 
-TEST(CompensationTest, AResetForgetsAllSignal) {
+TEST(CompensationTest, AResetClearsAllSignal) {
     Compensation compensation(voiceCoil(), rateHz);
     const std::vector<float> input = noise(960, 20.0F, 13);
     std::vector<float> first = input;
@@ -400,13 +400,13 @@ TEST(CompensationTest, AResetForgetsAllSignal) {
     EXPECT_EQ(again, first);
 }
 
-TEST(CompensationTest, RatesAndSettingsOutOfRangeAreRefused) {
+TEST(CompensationTest, RatesAndSettingsOutOfRangeAreRejected) {
     constexpr double nan = std::numeric_limits<double>::quiet_NaN();
     for (const double rate : {0.0, 7999.0, 192001.0, -48000.0, nan, std::numeric_limits<double>::infinity()}) {
         EXPECT_THROW(Compensation(voiceCoil(), rate), std::invalid_argument) << rate;
     }
     for (const double boost : {-1.0, 24.1, nan}) {
-        EXPECT_THROW(Compensation(voiceCoil(), rateHz, {.largestBoostDecibels = boost}), std::invalid_argument);
+        EXPECT_THROW(Compensation(voiceCoil(), rateHz, {.maximumBoostDecibels = boost}), std::invalid_argument);
     }
     for (const std::array<double, 2> band :
          {std::array{19.0, 500.0}, {40.0, 1001.0}, {400.0, 60.0}, {nan, 400.0}, {60.0, nan}, {60.0, 60.0}}) {
@@ -414,14 +414,14 @@ TEST(CompensationTest, RatesAndSettingsOutOfRangeAreRefused) {
     }
 }
 
-TEST(CompensationTest, ItDeclaresThatItReadsNothingOfTheContact) {
+TEST(CompensationTest, TheDeclarationNamesNoContactFields) {
     const Compensation compensation(voiceCoil(), rateHz);
     EXPECT_EQ(compensation.declaration().kind, EffectKind::compensation);
     EXPECT_EQ(compensation.declaration().reads, contact_field::none);
     EXPECT_EQ(compensation.declaration().memoryBytes, sizeof(Compensation));
 }
 
-TEST(CompensationTest, NothingAllocatesOnceItIsMade) {
+TEST(CompensationTest, ProcessingAllocatesNothingAfterConstruction) {
     Compensation compensation(voiceCoil(), rateHz);
     std::vector<float> samples = noise(512, 20.0F, 14);
     const std::size_t before = haptoflow::testing::allocationCount();

@@ -13,7 +13,7 @@ struct Factor {
     double weight;
 };
 
-// ISO 5349-1:2001, table A.2, rounded as printed there; one-third octaves at their exact middle frequencies.
+// Factors of ISO 5349-1:2001, table A.2, as printed, at the exact centre frequencies of the one-third octaves.
 constexpr Factor isoTable[] = {{6.31, 0.727},   {7.943, 0.873},  {10.0, 0.951},    {12.59, 0.958},   {15.85, 0.896},
                                {19.95, 0.782},  {25.12, 0.647},  {31.62, 0.519},   {39.81, 0.411},   {50.12, 0.324},
                                {63.1, 0.256},   {79.43, 0.202},  {100.0, 0.160},   {125.9, 0.127},   {158.5, 0.101},
@@ -33,10 +33,10 @@ double measuredWeight(double frequencyHz, double sampleRateHz) {
     return std::sqrt(2.0 * squares / static_cast<double>(count));
 }
 
-TEST(HandArmWeightingTest, WeightsEveryThirdOctaveAsIso5349TableA2AtEveryRate) {
+TEST(HandArmWeightingTest, TheWeightingMatchesTableA2OfIso5349AtEveryRate) {
     for (const double sampleRateHz : {8000.0, 24000.0, 44100.0, 48000.0, 192000.0}) {
         for (const Factor& factor : isoTable) {
-            // The bilinear transform bends what lies near half the rate: at 8 kHz 2 % at 800 Hz, 8 % at 1.26 kHz.
+            // The bilinear transform deviates near half the rate: at 8 kHz, by 2 % at 800 Hz and by 8 % at 1.26 kHz.
             const double tolerance = factor.frequencyHz * 13.0 > sampleRateHz ? 0.09 : 0.012;
             EXPECT_NEAR(measuredWeight(factor.frequencyHz, sampleRateHz) / factor.weight, 1.0, tolerance)
                 << factor.frequencyHz << " Hz at " << sampleRateHz << " Hz";
@@ -44,7 +44,7 @@ TEST(HandArmWeightingTest, WeightsEveryThirdOctaveAsIso5349TableA2AtEveryRate) {
     }
 }
 
-TEST(HandArmWeightingTest, AConstantOffsetWeighsNothing) {
+TEST(HandArmWeightingTest, AConstantOffsetIsRemoved) {
     HandArmWeighting weighting(48000.0);
     double weighted = 1.0;
     for (int i = 0; i < 480000; ++i) {
@@ -53,7 +53,7 @@ TEST(HandArmWeightingTest, AConstantOffsetWeighsNothing) {
     EXPECT_NEAR(weighted, 0.0, 1e-6);
 }
 
-TEST(HandArmWeightingTest, AResetForgetsWhatCameBefore) {
+TEST(HandArmWeightingTest, AResetClearsTheState) {
     HandArmWeighting used(48000.0);
     HandArmWeighting fresh(48000.0);
     for (int i = 0; i < 1000; ++i) {

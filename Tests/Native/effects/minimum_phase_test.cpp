@@ -1,4 +1,4 @@
-#include "effects/minimum_phase.hpp"
+#include "effects/parallel_filter.hpp"
 
 #include <gtest/gtest.h>
 
@@ -16,7 +16,7 @@ TEST(MinimumPhaseTest, ThePhaseOfAResonanceFollowsFromItsMagnitude) {
     for (int point = 0; point < 400; ++point) {
         const double hz = 1.0 * std::exp2(point / perOctave);
         const std::complex<double> s(0.0, hz / 160.0);
-        // Flat far away on either side: a boost of 12 dB at 160 Hz.
+        // A boost of 12 dB at 160 Hz, flat far from it.
         const std::complex<double> response = (s * s + s * 0.8 + 1.0) / (s * s + s * 0.2 + 1.0);
         magnitude.push_back(std::log(std::abs(response)));
         phase.push_back(std::arg(response));

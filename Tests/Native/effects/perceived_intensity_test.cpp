@@ -14,7 +14,7 @@ double displacementMicrometres(double frequencyHz) {
     return 1e6 * detectionThresholdMps2(frequencyHz) / (turn * turn);
 }
 
-TEST(PerceivedIntensityTest, TheThresholdMeetsWhatIsPublished) {
+TEST(PerceivedIntensityTest, TheThresholdAgreesWithPublishedConstraints) {
     EXPECT_NEAR(displacementMicrometres(10.0), 26.0, 1.0) << "Israr, Choi and Tan 2006";
     double mostSensitiveHz = 0.0;
     double leastDisplacementHz = 0.0;
@@ -67,7 +67,7 @@ TEST(PerceivedIntensityTest, TheInverseGivesBackEveryAmplitude) {
     }
 }
 
-TEST(PerceivedIntensityTest, IntensityGrowsWithAmplitudeAndContoursAboveTheLastStayParallel) {
+TEST(PerceivedIntensityTest, IntensityGrowsWithAmplitudeAndHighContoursAreParallel) {
     for (const double frequencyHz : {30.0, 60.0, 160.0, 250.0}) {
         double last = 0.0;
         for (double amplitude = 1e-3; amplitude < 1000.0; amplitude *= 1.1) {
@@ -82,7 +82,7 @@ TEST(PerceivedIntensityTest, IntensityGrowsWithAmplitudeAndContoursAboveTheLastS
     EXPECT_NEAR(farAbove / atContour, 1.0, 1e-9);
 }
 
-TEST(PerceivedIntensityTest, WhatIsNoVibrationHasNoIntensity) {
+TEST(PerceivedIntensityTest, AnAmplitudeOfZeroOrLessHasNoIntensity) {
     constexpr double nan = std::numeric_limits<double>::quiet_NaN();
     for (const double amplitude : {0.0, -1.0, nan}) {
         EXPECT_EQ(intensityOfSinusoid(amplitude, 100.0), 0.0);

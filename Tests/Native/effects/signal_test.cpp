@@ -35,7 +35,7 @@ protected:
     }
 };
 
-TEST_F(SignalTest, IsTheSineThatWasAskedForAtEveryRateBehindA2MsRaisedCosine) {
+TEST_F(SignalTest, TheSignalIsTheRequestedSinusoidAfterA2MsRampAtEveryRate) {
     for (const double rate : {8000.0, 44100.0, 48000.0, 96000.0, 192000.0}) {
         Signal signal(rate);
         signal.set({.frequencyHz = 200.0F, .amplitudeMps2 = 6.0F});
@@ -50,7 +50,7 @@ TEST_F(SignalTest, IsTheSineThatWasAskedForAtEveryRateBehindA2MsRaisedCosine) {
     }
 }
 
-TEST_F(SignalTest, EndsWithin2MsWithoutAStepAndIsThenIdleAndAddsNothing) {
+TEST_F(SignalTest, TheSignalEndsWithin2MsWithoutAStepAndIsThenIdle) {
     Signal signal(rateHz);
     signal.set({.frequencyHz = 200.0F, .amplitudeMps2 = 1.0F});
     EXPECT_TRUE(signal.isIdle());
@@ -67,7 +67,7 @@ TEST_F(SignalTest, EndsWithin2MsWithoutAStepAndIsThenIdleAndAddsNothing) {
     EXPECT_LT(static_cast<double>(testing::largestStep(samples)), steepest);
 }
 
-TEST_F(SignalTest, TurnedRoundWhileItEndsItGoesOnInPhase) {
+TEST_F(SignalTest, ASignalThatRestartsWhileItEndsContinuesInPhase) {
     Signal signal(rateHz);
     signal.set({.frequencyHz = 100.0F, .amplitudeMps2 = 1.0F});
     signal.begin();
@@ -83,7 +83,7 @@ TEST_F(SignalTest, TurnedRoundWhileItEndsItGoesOnInPhase) {
     }
 }
 
-TEST_F(SignalTest, OutOfSilenceItBeginsAtPhaseZeroAgainWhateverWasBefore) {
+TEST_F(SignalTest, ASignalStartsAtPhaseZeroFromSilence) {
     Signal signal(rateHz);
     signal.set({.frequencyHz = 250.0F, .amplitudeMps2 = 2.0F});
     signal.begin();
@@ -98,7 +98,7 @@ TEST_F(SignalTest, OutOfSilenceItBeginsAtPhaseZeroAgainWhateverWasBefore) {
     EXPECT_EQ(play(signal, 777), first);
 }
 
-TEST_F(SignalTest, AFrequencyAndAnAmplitudeThatChangeWhileItSoundsMakeNoStep) {
+TEST_F(SignalTest, ChangesOfFrequencyAndAmplitudeMakeNoStep) {
     Signal signal(rateHz);
     std::vector<float> samples;
     signal.begin();
@@ -112,7 +112,7 @@ TEST_F(SignalTest, AFrequencyAndAnAmplitudeThatChangeWhileItSoundsMakeNoStep) {
     EXPECT_NEAR(testing::peak(samples), 1.0F, 0.05F);
 }
 
-TEST_F(SignalTest, SettingsThatAreNoneLeaveWhatSoundsAsItWas) {
+TEST_F(SignalTest, UnsetSettingsDoNotChangeASoundingSignal) {
     Signal signal(rateHz);
     Signal same(rateHz);
     for (Signal* each : {&signal, &same}) {
@@ -124,7 +124,7 @@ TEST_F(SignalTest, SettingsThatAreNoneLeaveWhatSoundsAsItWas) {
     EXPECT_EQ(play(signal, 300), play(same, 300));
 }
 
-TEST_F(SignalTest, AfterAnHourItIsAsLoudAndAsHighAsAtFirst) {
+TEST_F(SignalTest, AfterAnHourTheAmplitudeAndTheFrequencyAreUnchanged) {
     Signal signal(8000.0);
     signal.set({.frequencyHz = 200.0F, .amplitudeMps2 = 1.0F});
     signal.begin();
@@ -139,7 +139,7 @@ TEST_F(SignalTest, AfterAnHourItIsAsLoudAndAsHighAsAtFirst) {
     }
 }
 
-TEST_F(SignalTest, NothingItDoesOnTheAudioThreadAllocates) {
+TEST_F(SignalTest, TheAudioThreadFunctionsAllocateNothing) {
     Signal signal(rateHz);
     std::array<float, 64> block{};
     const std::size_t before = haptoflow::testing::allocationCount();
@@ -156,7 +156,7 @@ TEST_F(SignalTest, NothingItDoesOnTheAudioThreadAllocates) {
     EXPECT_EQ(haptoflow::testing::allocationCount(), before);
 }
 
-TEST_F(SignalTest, DeclaresWhatItReadsAndThatItDelaysNothing) {
+TEST_F(SignalTest, TheDeclarationNamesItsContactFieldsAndNoLatency) {
     const Signal signal(rateHz);
     const EffectDeclaration declaration = signal.declaration();
     EXPECT_EQ(declaration.kind, EffectKind::signal);

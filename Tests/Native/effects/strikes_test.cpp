@@ -33,16 +33,16 @@ float peakOf(const std::vector<float>& samples) {
     return std::ranges::max(samples, {}, [](float sample) { return std::abs(sample); });
 }
 
-TEST(StrikesTest, ABlowIsADecayingSinusoidFromTheNextSampleOn) {
+TEST(StrikesTest, ABlowIsADecayingSinusoidThatStartsWithTheNextSample) {
     for (const double rate : {8000.0, 44100.0, 48000.0, 192000.0}) {
         Strikes strikes(EffectKind::impact, rate);
         strikes.strike(0.2, ringing(180.0F, 90.0F, 600.0F));
-        const std::vector<float> heard = next(strikes, static_cast<std::size_t>(0.1 * rate), 61);
-        for (std::size_t i = 0; i < heard.size(); ++i) {
+        const std::vector<float> output = next(strikes, static_cast<std::size_t>(0.1 * rate), 61);
+        for (std::size_t i = 0; i < output.size(); ++i) {
             const double seconds = static_cast<double>(i) / rate;
             const double expected =
                 120.0 * std::exp(-90.0 * seconds) * std::sin(2.0 * std::numbers::pi * 180.0 * seconds);
-            ASSERT_NEAR(static_cast<double>(heard[i]), expected, 1e-3) << "rate " << rate << ", sample " << i;
+            ASSERT_NEAR(static_cast<double>(output[i]), expected, 1e-3) << "rate " << rate << ", sample " << i;
         }
     }
 }
@@ -57,41 +57,41 @@ TEST(StrikesTest, TheAmplitudeIsProportionalToTheSpeedFromOneCentimetreToTwoMetr
     for (const double speedMps : {0.01, 0.03, 0.1, 0.3, 0.7, 2.0}) {
         EXPECT_NEAR(peakAt(speedMps) / (speedMps * atOne), 1.0, 1e-4) << speedMps;
     }
-    EXPECT_DOUBLE_EQ(peakAt(7.0), peakAt(Strikes::highestSpeedMps));
+    EXPECT_DOUBLE_EQ(peakAt(7.0), peakAt(Strikes::maximumStrikeMps));
 }
 
-TEST(StrikesTest, ReboundsComeAfterTheirFlightsSofterEachTime) {
+TEST(StrikesTest, ReboundsFollowTheirFlightTimesAndGetWeaker) {
     ImpactResponse response = ringing(400.0F, 2000.0F, 500.0F);
     response.restitution = 0.5F;
     Strikes strikes(EffectKind::impact, rateHz);
     strikes.strike(0.5, response);
-    const std::vector<float> heard = next(strikes, 9600, 100);
-    // Flights of 2 v / 25 m/s^2: 20 ms with the 0.25 m/s that are left, then 10 ms.
+    const std::vector<float> output = next(strikes, 9600, 100);
+    // A flight takes 2 v / (25 m/s^2): 20 ms at the remaining 0.25 m/s, then 10 ms.
     const auto peakFrom = [&](double fromSeconds, double untilSeconds) {
         return static_cast<double>(
-            peakOf(std::vector<float>(heard.begin() + static_cast<std::ptrdiff_t>(fromSeconds * rateHz),
-                                      heard.begin() + static_cast<std::ptrdiff_t>(untilSeconds * rateHz))));
+            peakOf(std::vector<float>(output.begin() + static_cast<std::ptrdiff_t>(fromSeconds * rateHz),
+                                      output.begin() + static_cast<std::ptrdiff_t>(untilSeconds * rateHz))));
     };
     const double first = peakFrom(0.0, 0.01);
     EXPECT_LT(peakFrom(0.015, 0.0199), 0.01 * first);
     EXPECT_NEAR(peakFrom(0.0199, 0.0299) / first, 0.5, 0.01);
     EXPECT_NEAR(peakFrom(0.0301, 0.04) / first, 0.25, 0.01);
-    EXPECT_EQ(strikes.struck(), 3U);
+    EXPECT_LT(peakFrom(0.05, 0.096), 0.01 * first) << "after two rebounds there is no third";
     EXPECT_TRUE(strikes.isIdle());
 }
 
-TEST(StrikesTest, NothingRunsOnOnceABlowHasDecayed) {
+TEST(StrikesTest, TheSourceIsIdleAfterABlowHasDecayed) {
     Strikes strikes(EffectKind::impact, rateHz);
     EXPECT_TRUE(strikes.isIdle());
     strikes.strike(2.0, ringing(100.0F, 40.0F, 1000.0F));
     EXPECT_FALSE(strikes.isIdle());
-    const double decaySeconds = std::log(2000.0 / DecayingSinusoid::silentMps2) / 40.0;
+    const double decaySeconds = std::log(2000.0 / imperceptibleMps2) / 40.0;
     next(strikes, static_cast<std::size_t>((decaySeconds + 0.01) * rateHz));
     EXPECT_TRUE(strikes.isIdle());
     EXPECT_EQ(next(strikes, 256), std::vector<float>(256, 0.0F));
 }
 
-TEST(StrikesTest, NoBlowRingsLongerThanItsDeclaredTail) {
+TEST(StrikesTest, NoBlowSoundsLongerThanTheDeclaredTail) {
     for (const float decay : {0.0F, 10.0F, 500.0F}) {
         ImpactResponse response = ringing(60.0F, decay, std::numeric_limits<float>::max());
         response.restitution = 1.0F;
@@ -102,18 +102,18 @@ TEST(StrikesTest, NoBlowRingsLongerThanItsDeclaredTail) {
     }
 }
 
-TEST(StrikesTest, ManyBlowsAtOnceStayBoundedAndTheLoudestAreKept) {
+TEST(StrikesTest, ManyBlowsAtOnceAreBoundedAndTheLoudestAreKept) {
     Strikes strikes(EffectKind::impact, rateHz);
     strikes.strike(1.0, ringing(150.0F, 50.0F, 400.0F));
     for (int blow = 0; blow < 200; ++blow) {
         strikes.strike(0.001, ringing(300.0F, 50.0F, 400.0F));
     }
     const float peak = peakOf(next(strikes, 4800));
-    EXPECT_GT(peak, 300.0F) << "the loud one was thrown out";
+    EXPECT_GT(peak, 300.0F) << "the loud blow was replaced";
     EXPECT_LT(peak, 400.0F * 1.1F);
 }
 
-TEST(StrikesTest, WhatIsNoBlowMakesNoSound) {
+TEST(StrikesTest, InvalidBlowsMakeNoSound) {
     constexpr float nan = std::numeric_limits<float>::quiet_NaN();
     constexpr float infinity = std::numeric_limits<float>::infinity();
     Strikes strikes(EffectKind::impact, rateHz);
@@ -132,7 +132,7 @@ TEST(StrikesTest, WhatIsNoBlowMakesNoSound) {
     }
 }
 
-TEST(StrikesTest, AResetSilencesAtOnceAndForgetsRebounds) {
+TEST(StrikesTest, AResetSilencesAtOnceAndCancelsRebounds) {
     ImpactResponse response = ringing(150.0F, 50.0F, 400.0F);
     response.restitution = 0.8F;
     Strikes strikes(EffectKind::impact, rateHz);
@@ -143,7 +143,7 @@ TEST(StrikesTest, AResetSilencesAtOnceAndForgetsRebounds) {
     EXPECT_EQ(next(strikes, 48000), std::vector<float>(48000, 0.0F));
 }
 
-TEST(StrikesTest, ASourceAddsToWhatIsThere) {
+TEST(StrikesTest, ASourceAddsToTheInput) {
     Strikes alone(EffectKind::edge, rateHz, 3.0);
     Strikes added(EffectKind::edge, rateHz, 3.0);
     alone.strike(0.3, ringing(220.0F, 80.0F, 300.0F));

@@ -33,7 +33,7 @@ double amplitudeOf(const std::vector<float>& wave) {
     return std::sqrt(2.0 * power / static_cast<double>(wave.size() - 100));
 }
 
-TEST(WaveDecimationTest, WhatIsFeltPassesAndWhatWouldFoldIsHeldBack) {
+TEST(WaveDecimationTest, PerceptibleFrequenciesPassAndAliasesAreSuppressed) {
     for (const std::size_t factor : {2U, 3U, 4U, 24U}) {
         WaveDecimation decimation(factor);
         for (const double frequencyHz : {10.0, 60.0, 250.0, 500.0}) {
@@ -47,7 +47,7 @@ TEST(WaveDecimationTest, WhatIsFeltPassesAndWhatWouldFoldIsHeldBack) {
     }
 }
 
-TEST(WaveDecimationTest, AFactorOfOneChangesNoSample) {
+TEST(WaveDecimationTest, AFactorOfOneLeavesTheWaveUnchanged) {
     WaveDecimation decimation(1);
     for (const float sample : {0.0F, 0.3F, -7.0F}) {
         float same = 99.0F;
@@ -56,12 +56,12 @@ TEST(WaveDecimationTest, AFactorOfOneChangesNoSample) {
     }
 }
 
-TEST(WaveDecimationTest, AnImpulseComesThreeSamplesOfTheNewRateLater) {
+TEST(WaveDecimationTest, AnImpulseIsDelayedByThreeSamplesOfTheNewRate) {
     WaveDecimation decimation(4);
     std::vector<float> result;
     for (int i = 0; i < 64; ++i) {
         float sample = 0.0F;
-        // The fourth sample completes the first of the new rate.
+        // The fourth input sample completes the first output sample.
         if (decimation.take(i == 3 ? 1.0F : 0.0F, sample)) {
             result.push_back(sample);
         }
@@ -71,7 +71,7 @@ TEST(WaveDecimationTest, AnImpulseComesThreeSamplesOfTheNewRateLater) {
     }
 }
 
-TEST(WaveDecimationTest, FactorsOutOfRangeAreRefusedAndSamplesAllocateNothing) {
+TEST(WaveDecimationTest, FactorsOutOfRangeAreRejectedAndSamplesAllocateNothing) {
     EXPECT_THROW(WaveDecimation(0), std::invalid_argument);
     EXPECT_THROW(WaveDecimation(97), std::invalid_argument);
     WaveDecimation decimation(8);

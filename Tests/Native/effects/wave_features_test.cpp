@@ -37,7 +37,7 @@ std::vector<WaveFrame> allFrames(WaveFeatures& features, const std::vector<float
     return frames;
 }
 
-/// Frames of a wave once the first and the last 64 ms are past.
+/// Frames of a wave without its first and last 64 ms.
 std::vector<WaveFrame> steadyFrames(const std::vector<float>& wave, const WaveFeatureOptions& options) {
     WaveFeatures features(options);
     std::vector<WaveFrame> frames = allFrames(features, wave, 28);
@@ -67,7 +67,7 @@ double decibelsBetween(double value, double reference) {
     return 20.0 * std::log10(value / reference);
 }
 
-TEST(ThresholdFilterTest, WeighsEveryFrequencyByTheInverseOfItsThreshold) {
+TEST(ThresholdFilterTest, TheFilterWeightsEachFrequencyByTheInverseOfItsThreshold) {
     for (double frequencyHz = 30.0; frequencyHz <= 400.0; frequencyHz += 5.0) {
         std::complex<double> sum = 0.0;
         for (std::size_t i = 0; i < ThresholdFilter::taps; ++i) {
@@ -102,7 +102,7 @@ TEST(WaveFeaturesTest, ASinusoidHasTheIntensityAndTheCarrierOfItsOwnFrequencyAnd
     }
 }
 
-TEST(WaveFeaturesTest, AMotorOfOneFrequencyGetsTheAmplitudeThatFeelsAsIntense) {
+TEST(WaveFeaturesTest, AMotorWithOneFrequencyGetsTheAmplitudeOfEqualIntensity) {
     WaveFeatureOptions options;
     options.minFrequencyHz = 160.0;
     options.maxFrequencyHz = 160.0;
@@ -126,12 +126,13 @@ TEST(WaveFeaturesTest, TheCentroidLiesBetweenTwoTonesAndIsClampedToTheDevice) {
     options.minFrequencyHz = 170.0;
     options.maxFrequencyHz = 180.0;
     for (const WaveFrame& frame : steadyFrames(wave, options)) {
-        ASSERT_NEAR(static_cast<double>(frame.centroidHz), 150.0, 5.0) << "equally far above their thresholds";
+        ASSERT_NEAR(static_cast<double>(frame.centroidHz), 150.0, 5.0)
+            << "both tones are equally far above their thresholds";
         ASSERT_EQ(frame.frequencyHz, 170.0F);
     }
 }
 
-TEST(WaveFeaturesTest, HowTheWaveIsCutChangesNothing) {
+TEST(WaveFeaturesTest, TheBlockLengthsDoNotChangeTheFrames) {
     std::vector<float> wave = featureNoise(5.0, 2.0, 1);
     for (std::size_t i = 1000; i < 1200; ++i) {
         wave[i] *= 30.0F;
@@ -153,7 +154,7 @@ TEST(WaveFeaturesTest, HowTheWaveIsCutChangesNothing) {
     }
 }
 
-TEST(WaveFeaturesTest, FramesTileTheWaveEvenWhereTheyAreNoWholeNumberOfSamples) {
+TEST(WaveFeaturesTest, FramesOfAFractionalLengthCoverTheWaveWithoutGaps) {
     for (const double frameSeconds : {0.002, 0.0053, 1.0 / 72.0, 1.0 / 90.0, 0.032}) {
         WaveFeatureOptions options;
         options.frameSeconds = frameSeconds;
@@ -180,7 +181,7 @@ TEST(WaveFeaturesTest, AFrameIsReadyTheDeclaredLatencyAfterItsEnd) {
     EXPECT_DOUBLE_EQ(WaveFeatures::latencySeconds, 0.004);
 }
 
-TEST(WaveFeaturesTest, NothingIsLostWhereThereIsNoRoomForAFrame) {
+TEST(WaveFeaturesTest, NoSampleIsLostIfAFrameDoesNotFit) {
     const std::vector<float> wave = featureNoise(5.0, 1.0, 2);
     WaveFeatures roomy;
     const std::vector<WaveFrame> expected = allFrames(roomy, wave, wave.size());
@@ -225,7 +226,7 @@ TEST(WaveFeaturesTest, AnOnsetIsFoundOnceAndWithinAMillisecondWhereverItFallsInA
     }
 }
 
-TEST(WaveFeaturesTest, NothingIsFeltBeforeATap) {
+TEST(WaveFeaturesTest, TheFramesBeforeATapHaveNoPerceptibleIntensity) {
     for (const double frameSeconds : {0.004, 0.005, 0.008, 0.014}) {
         WaveFeatureOptions options;
         options.frameSeconds = frameSeconds;
@@ -241,7 +242,7 @@ TEST(WaveFeaturesTest, NothingIsFeltBeforeATap) {
     }
 }
 
-TEST(WaveFeaturesTest, ATapOnATextureIsAnOnsetAtItsExactTime) {
+TEST(WaveFeaturesTest, ATapOnATextureIsDetectedAtItsExactTime) {
     for (const double frequencyHz : {80.0, 180.0, 300.0}) {
         for (std::size_t start = 2000; start < 2020; ++start) {
             std::vector<float> wave = testing::textureNoise(4.0, 1.5, 3);
@@ -281,7 +282,7 @@ TEST(WaveFeaturesTest, SteadyVibrationHasOneOnsetAtItsStartAndNoneAfterIt) {
     for (const double frequencyHz : {40.0, 63.0, 100.0, 160.0, 250.0, 400.0}) {
         EXPECT_EQ(transientsOf(featureSine(frequencyHz, 5.0, 20.0)).size(), 1U) << frequencyHz;
     }
-    EXPECT_LE(transientsOf(featureNoise(5.0, 60.0, 4)).size(), 3U) << "one in half a minute of noise";
+    EXPECT_LE(transientsOf(featureNoise(5.0, 60.0, 4)).size(), 3U) << "at most three transients in a minute of noise";
 }
 
 TEST(WaveFeaturesTest, SilenceHasNoIntensityAndKeepsTheLastFrequency) {
@@ -302,7 +303,7 @@ TEST(WaveFeaturesTest, AnOffsetAndSlowMovementAreNotFelt) {
     }
 }
 
-TEST(WaveFeaturesTest, ADeviceThatIsReplacedIsFollowedFromTheNextFrameOn) {
+TEST(WaveFeaturesTest, ANewDeviceRangeAppliesFromTheNextFrameOn) {
     WaveFeatures features;
     std::vector<WaveFrame> frames(400);
     const std::vector<float> wave = featureSine(300.0, 5.0, 0.5);
@@ -317,7 +318,7 @@ TEST(WaveFeaturesTest, ADeviceThatIsReplacedIsFollowedFromTheNextFrameOn) {
     }
 }
 
-TEST(WaveFeaturesTest, AResetForgetsTheWave) {
+TEST(WaveFeaturesTest, AResetClearsTheHistory) {
     WaveFeatures used;
     std::vector<WaveFrame> before(2000);
     static_cast<void>(used.process(featureNoise(50.0, 3.0, 5), before));
@@ -334,7 +335,7 @@ TEST(WaveFeaturesTest, AResetForgetsTheWave) {
     }
 }
 
-TEST(WaveFeaturesTest, WhatIsNotFiniteCountsAsZeroAndEverythingStaysFinite) {
+TEST(WaveFeaturesTest, NonFiniteSamplesCountAsZeroAndTheFramesAreFinite) {
     std::vector<float> wave = featureNoise(5.0, 1.0, 6);
     std::vector<float> zeros = wave;
     for (const std::size_t at : {3U, 500U, 501U, 900U}) {
@@ -356,7 +357,7 @@ TEST(WaveFeaturesTest, WhatIsNotFiniteCountsAsZeroAndEverythingStaysFinite) {
     }
 }
 
-TEST(WaveFeaturesTest, OptionsOutOfRangeAreRefused) {
+TEST(WaveFeaturesTest, OptionsOutOfRangeAreRejected) {
     const auto refused = [](auto change) {
         WaveFeatureOptions options;
         change(options);
@@ -374,7 +375,7 @@ TEST(WaveFeaturesTest, OptionsOutOfRangeAreRefused) {
     refused([](WaveFeatureOptions& options) { options.refractorySeconds = std::nan(""); });
 }
 
-TEST(WaveFeaturesTest, TenMinutesAtAFrameRateThatVariesStayBoundedAndComplete) {
+TEST(WaveFeaturesTest, TenMinutesAtAVaryingFrameRateGiveBoundedAndCompleteFrames) {
     WaveFeatures features;
     std::mt19937 random(23);
     std::uniform_real_distribution<double> unit(0.0, 1.0);
@@ -383,7 +384,7 @@ TEST(WaveFeaturesTest, TenMinutesAtAFrameRateThatVariesStayBoundedAndComplete) {
     std::uint64_t next = 0;
     double phase = 0.0;
     while (samples < 1200000) {
-        // Unity frames of 5 to 30 ms, and now and then a hitch of 200 ms.
+        // Unity frames of 5 to 30 ms with an occasional hitch of 200 ms.
         std::vector<float> wave(random() % 200 == 0 ? 400 : 10 + random() % 50);
         const double frequencyHz = 20.0 + 600.0 * unit(random);
         const double amplitude = random() % 4 == 0 ? 0.0 : 300.0 * unit(random);

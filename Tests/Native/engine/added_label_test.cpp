@@ -1,4 +1,4 @@
-// A label added to the shipped model, with a level and a tone of its own: what it does to the others, and to itself.
+// A label with its own level and tone is added to the shipped model.
 #include "engine/offline_renderer.hpp"
 #include "inference/onnx_runtime.hpp"
 #include "inference/onnx_segment_generator.hpp"
@@ -17,7 +17,7 @@
 namespace haptoflow::engine {
 namespace {
 
-/// The shipped model with one more label: wood's embedding, moved a little, and what a material file says.
+/// The shipped model with one more label, which has a slightly changed embedding of wood and its own level and tone.
 model::ModelFile withDenim(const model::ModelFile& shipped) {
     model::testing::ModelBuilder builder;
     builder.header = nlohmann::json::parse(shipped.headerText());
@@ -66,7 +66,7 @@ protected:
     model::ModelFile added_ = withDenim(shipped_);
 };
 
-TEST_F(AddedLabelTest, TheSpaceStaysAndNoByteOfTheOtherLabelsSoundChanges) {
+TEST_F(AddedLabelTest, AnAddedLabelDoesNotChangeTheOutputOfOtherLabels) {
     EXPECT_EQ(model::spaceOf(added_.header()), model::spaceOf(shipped_.header()));
     for (const std::uint32_t label : {0U, 8U, 13U}) {
         const std::vector<float> before = rendered(shipped_, label, label + 1);
@@ -75,10 +75,10 @@ TEST_F(AddedLabelTest, TheSpaceStaysAndNoByteOfTheOtherLabelsSoundChanges) {
     }
 }
 
-TEST_F(AddedLabelTest, ItsOwnLevelIsWhatItSoundsAt) {
+TEST_F(AddedLabelTest, AnAddedLabelSoundsAtItsOwnLevel) {
     const auto denim = static_cast<std::uint32_t>(shipped_.header().labels.size());
     const std::vector<float> own = rendered(added_, denim, denim);
-    // At 0.112 m/s and 1 N the table says e^1.08 m/s^2 and 3 dB more; the tone adds between 1 and 9 dB.
+    // At 0.112 m/s and 1 N, the level is e^1.08 m/s^2 plus 3 dB; the tone adds 1 to 9 dB.
     const double decibels = haptoflow::testing::levelDecibels(std::span(own).first(48000)) + 20.0 * std::log10(200.0);
     EXPECT_GT(decibels, 20.0 * std::log10(std::exp(1.08)) + 3.0 - 4.0);
     EXPECT_LT(decibels, 20.0 * std::log10(std::exp(1.08)) + 3.0 + 9.0);

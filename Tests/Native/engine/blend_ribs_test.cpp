@@ -7,7 +7,7 @@
 #include <array>
 #include <vector>
 
-// The wave vectors of a blend: whole ones of its materials, never means, and each keeps its phase.
+// A blend has whole wave vectors of its materials, not means, and each keeps its phase.
 
 namespace haptoflow::engine {
 namespace {
@@ -19,7 +19,7 @@ constexpr WaveVector coarse{0.2F, 0.0F};
 constexpr WaveVector fine{0.35F, 0.0F};
 constexpr WaveVector across{0.0F, 0.7F};
 
-/// Labels of these wave vectors: a plain one, one with `coarse`, one with `fine` and `across`.
+/// A library of three labels: without ribs, with `coarse`, and with `fine` and `across`.
 SmallLibrary ruledLibrary() {
     model::testing::ModelBuilder builder;
     nlohmann::json third = builder.header["labels"][0];
@@ -45,37 +45,37 @@ protected:
     SmallLibrary small_ = ruledLibrary();
 };
 
-TEST_F(BlendRibsTest, HalfPlainAndHalfRuledKeepsTheRibsWhole) {
+TEST_F(BlendRibsTest, ABlendOfAPlainAndARuledLabelKeepsTheWaveVector) {
     EXPECT_EQ(ribsOf({{0, 0.5F}, {1, 0.5F}}), (WaveVectors{coarse, none}));
     EXPECT_EQ(ribsOf({{0, 0.9F}, {1, 0.1F}}), (WaveVectors{coarse, none}));
     EXPECT_EQ(ribsOf({{0, 0.5F}, {2, 0.5F}}), (WaveVectors{fine, across}));
 }
 
-TEST_F(BlendRibsTest, OfMoreRibsThanSlotsThoseOfTheHeaviestMaterialComeFirst) {
+TEST_F(BlendRibsTest, TheHeaviestMaterialsWaveVectorsAreKeptIfSlotsAreMissing) {
     EXPECT_EQ(ribsOf({{1, 0.6F}, {2, 0.4F}}), (WaveVectors{coarse, fine}));
     EXPECT_EQ(ribsOf({{1, 0.4F}, {2, 0.6F}}), (WaveVectors{fine, across}));
 }
 
-TEST_F(BlendRibsTest, OneMaterialAloneHasItsOwnSlots) {
+TEST_F(BlendRibsTest, ASingleMaterialKeepsItsOwnSlots) {
     EXPECT_EQ(ribsOf({{1, 0.4F}}, {none, coarse}), (WaveVectors{coarse, none}));
     EXPECT_EQ(ribsOf({{2, 1.0F}}, {across, coarse}), (WaveVectors{fine, across}));
 }
 
-TEST_F(BlendRibsTest, RibsThatStayKeepTheirSlot) {
+TEST_F(BlendRibsTest, RemainingWaveVectorsKeepTheirSlot) {
     const WaveVectors first = ribsOf({{1, 0.6F}, {2, 0.4F}});
     EXPECT_EQ(ribsOf({{2, 0.6F}, {1, 0.4F}}, first), (WaveVectors{across, fine}))
-        << "the fine ribs stay in the second slot, and those across take the free one";
+        << "the fine ribs keep the second slot, and the ribs across take the free one";
 }
 
-TEST_F(BlendRibsTest, APhaseGoesWithItsRibsFromSlotToSlot) {
+TEST_F(BlendRibsTest, APhaseFollowsItsWaveVectorToAnotherSlot) {
     const RibTurns phases{0.1, 0.6};
     EXPECT_EQ(phasesFor({fine, none}, {coarse, fine}, phases), (RibTurns{0.6, 0.6}));
     EXPECT_EQ(phasesFor({across, fine}, {fine, across}, phases), (RibTurns{0.6, 0.1}));
     EXPECT_EQ(phasesFor({coarse, fine}, {coarse, fine}, phases), phases);
-    EXPECT_EQ(phasesFor({across, none}, {coarse, none}, phases), phases) << "ribs that are new go on in their slot";
+    EXPECT_EQ(phasesFor({across, none}, {coarse, none}, phases), phases) << "new ribs get the phase of their slot";
 }
 
-TEST_F(BlendRibsTest, WhileAWeightSweepsFromOneRuledLabelToAnotherNoPhaseJumps) {
+TEST_F(BlendRibsTest, NoPhaseJumpsDuringASweepBetweenTwoRuledLabels) {
     RibTrack track;
     track.begin(0, {.phase = {0.3, 0.0}, .turnsPerSample = {0.01, 0.0}, .vectors = {coarse, none}});
     constexpr std::int64_t hop = 28;
@@ -99,7 +99,7 @@ TEST_F(BlendRibsTest, WhileAWeightSweepsFromOneRuledLabelToAnotherNoPhaseJumps) 
                 ASSERT_NEAR(gap, std::round(gap), 1e-4) << "rib " << rib << " at a share of " << share;
             }
             isKnown[rib] = true;
-            // At 0.1 m/s along x and 0.05 m/s along y.
+            // The tip moves at 0.1 m/s along x and 0.05 m/s along y.
             const double turns =
                 (static_cast<double>(all[rib].x) * 100.0 + static_cast<double>(all[rib].y) * 50.0) / 2000.0;
             travelled[rib] = phase + turns * static_cast<double>(hop);

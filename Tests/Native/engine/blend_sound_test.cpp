@@ -1,4 +1,4 @@
-// Blends of the shipped model in closed loop: what a hand feels between two materials.
+// Blends of the shipped model, rendered in closed loop.
 #include "engine/offline_renderer.hpp"
 #include "inference/onnx_runtime.hpp"
 #include "inference/onnx_segment_generator.hpp"
@@ -24,7 +24,7 @@ protected:
         return {static_cast<std::uint32_t>(model_.findLabel(label) - model_.header().labels.data()), weight};
     }
 
-    /// What is played in waveform time while a tip slides over a blend, the touch-down left out.
+    /// The waveform played while a tip slides over a blend, without the touch-down.
     std::vector<float> played(const std::vector<LabelWeight>& blend, std::array<float, 2> velocityMps, double seconds) {
         std::vector<ContactState> states;
         for (int update = 0; update < static_cast<int>(seconds * 72.0); ++update) {
@@ -51,7 +51,7 @@ protected:
         return state;
     }
 
-    /// The power of the line within 2 % of a frequency, and that of the whole.
+    /// The share of the power within 2 % of a frequency.
     static double shareOfLine(const std::vector<float>& wave, double frequencyHz) {
         double line = 0.0;
         double whole = 0.0;
@@ -74,7 +74,7 @@ protected:
         inference::Runtime::open(HAPTOFLOW_TEST_ONNXRUNTIME), model_, "draft", {inference::SolverKind::euler, 1}, 4};
 };
 
-TEST_F(BlendSoundTest, NoPairOfLabelsIsLouderOrSofterThanBothByMoreThanHalfADecibel) {
+TEST_F(BlendSoundTest, EveryBlendLiesWithinHalfADecibelOfItsLabels) {
     const std::size_t labels = model_.header().labels.size();
     for (const float speedMps : {0.03F, 0.3F}) {
         const std::array<float, 2> velocity{0.8F * speedMps, 0.6F * speedMps};
@@ -96,20 +96,20 @@ TEST_F(BlendSoundTest, NoPairOfLabelsIsLouderOrSofterThanBothByMoreThanHalfADeci
     }
 }
 
-TEST_F(BlendSoundTest, HalfWoodAndHalfCorduroyKeepsThePitchOfTheRibsAndMakesThemWeaker) {
-    // 0.15 m/s over ribs 2.5 mm apart: 60 Hz; a mean of wave vectors would put them at 30 Hz.
+TEST_F(BlendSoundTest, ABlendOfWoodAndCorduroyHasWeakerRibsOfTheSamePitch) {
+    // 0.15 m/s over ribs with a period of 2.5 mm gives 60 Hz. A mean of wave vectors would give 30 Hz.
     const std::array<float, 2> velocity{0.15F, 0.0F};
     const double pure = shareOfLine(played({part("corduroy", 1.0F)}, velocity, 4.0), 60.0);
     const std::vector<float> blend = played({part("wood", 0.5F), part("corduroy", 0.5F)}, velocity, 4.0);
     const double half = shareOfLine(blend, 60.0);
     const double wood = shareOfLine(played({part("wood", 1.0F)}, velocity, 4.0), 60.0);
-    EXPECT_GT(half, 2.0 * wood) << "the ribs are there";
-    EXPECT_LT(half, 0.8 * pure) << "and weaker";
-    EXPECT_GT(half, 3.0 * shareOfLine(blend, 30.0)) << "and nowhere else";
+    EXPECT_GT(half, 2.0 * wood) << "the ribs are present";
+    EXPECT_LT(half, 0.8 * pure) << "the ribs are weaker";
+    EXPECT_GT(half, 3.0 * shareOfLine(blend, 30.0)) << "there are no ribs at half the pitch";
 }
 
-TEST_F(BlendSoundTest, TwoRuledLabelsKeepBothPitches) {
-    // 0.15 m/s over corduroy (60 Hz) and along the mesh's first threads (125 Hz).
+TEST_F(BlendSoundTest, ABlendOfTwoRuledLabelsHasBothPitches) {
+    // At 0.15 m/s, corduroy has 60 Hz and the mesh's first wave vector 125 Hz.
     const std::array<float, 2> velocity{0.15F, 0.0F};
     const std::vector<float> blend = played({part("corduroy", 0.55F), part("metal mesh", 0.45F)}, velocity, 4.0);
     const double mean = 0.5 * (60.0 + 125.0);
@@ -117,7 +117,7 @@ TEST_F(BlendSoundTest, TwoRuledLabelsKeepBothPitches) {
     EXPECT_GT(shareOfLine(blend, 125.0), shareOfLine(blend, mean));
 }
 
-TEST_F(BlendSoundTest, WhileTheWeightSweepsFromWoodToCorduroyNothingClicks) {
+TEST_F(BlendSoundTest, ASweepFromWoodToCorduroyDoesNotClick) {
     const std::array<float, 2> velocity{0.15F, 0.0F};
     std::vector<ContactState> states;
     for (int update = 0; update <= 288; ++update) {
@@ -132,7 +132,7 @@ TEST_F(BlendSoundTest, WhileTheWeightSweepsFromWoodToCorduroyNothingClicks) {
         states.push_back(stateOf(update, velocity, blend));
     }
     const std::vector<float> sweep = render(states);
-    // From sample to sample no more than within the louder of the two by itself.
+    // The steps between samples must not exceed those of the louder label.
     const std::vector<float> corduroy = played({part("corduroy", 1.0F)}, velocity, 4.0);
     EXPECT_LT(haptoflow::testing::largestStep(sweep), 1.3F * haptoflow::testing::largestStep(corduroy));
 }

@@ -13,7 +13,7 @@ ContactState sliding(float speedMps, std::uint32_t touchCounter = 1) {
     return state;
 }
 
-TEST(ContactFollowerTest, SlidingBeginsWithAnOnsetGoesOnAndEndsWithARelease) {
+TEST(ContactFollowerTest, SlidingGivesAnOnsetThenSlidesThenARelease) {
     ContactFollower follower;
     EXPECT_EQ(follower.update(ContactState{}), ContactAction::rest);
     EXPECT_EQ(follower.update(sliding(0.05F)), ContactAction::onset);
@@ -34,7 +34,7 @@ TEST(ContactFollowerTest, ATipThatRestsOnTheSurfaceIsSilent) {
     EXPECT_EQ(follower.update(sliding(0.003F)), ContactAction::rest);
 }
 
-TEST(ContactFollowerTest, AroundTheThresholdSlidingDoesNotFlicker) {
+TEST(ContactFollowerTest, AroundTheThresholdTheActionDoesNotFlicker) {
     ContactFollower follower;
     EXPECT_EQ(follower.update(sliding(0.0045F)), ContactAction::onset);
     for (int i = 0; i < 20; ++i) {

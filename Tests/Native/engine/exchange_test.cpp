@@ -17,7 +17,7 @@ struct Message {
     std::array<std::uint64_t, 64> copies{};
 };
 
-TEST(MailboxTest, TheNewestMessageIsFetchedOnceAndOlderOnesAreGone) {
+TEST(MailboxTest, OnlyTheNewestMessageIsFetchedAndOnlyOnce) {
     Mailbox<int> mailbox;
     EXPECT_FALSE(mailbox.fetch());
     for (const int number : {1, 2, 3}) {
@@ -30,7 +30,7 @@ TEST(MailboxTest, TheNewestMessageIsFetchedOnceAndOlderOnesAreGone) {
     EXPECT_EQ(mailbox.current(), 3);
 }
 
-TEST(MailboxTest, AReaderBesideAWriterNeverSeesAHalfWrittenOrAnOlderMessage) {
+TEST(MailboxTest, AConcurrentReaderNeverGetsAHalfWrittenOrOlderMessage) {
     Mailbox<Message> mailbox;
     constexpr std::uint64_t count = 20000;
     std::thread writer([&mailbox] {
@@ -57,7 +57,7 @@ TEST(MailboxTest, AReaderBesideAWriterNeverSeesAHalfWrittenOrAnOlderMessage) {
     EXPECT_TRUE(isWhole);
 }
 
-TEST(SegmentQueueTest, SegmentsComeOutInOrderAndAFullQueueRefuses) {
+TEST(SegmentQueueTest, SegmentsKeepTheirOrderAndAFullQueueRejects) {
     SegmentQueue queue;
     EXPECT_EQ(queue.front(), nullptr);
     QueuedSegment segment;
@@ -75,7 +75,7 @@ TEST(SegmentQueueTest, SegmentsComeOutInOrderAndAFullQueueRefuses) {
     EXPECT_EQ(queue.front(), nullptr);
 }
 
-TEST(SegmentQueueTest, BetweenTwoThreadsNoSegmentIsLostOrTorn) {
+TEST(SegmentQueueTest, NoSegmentIsLostOrTornBetweenTwoThreads) {
     SegmentQueue queue;
     constexpr std::uint64_t count = 20000;
     std::thread writer([&queue] {

@@ -13,7 +13,7 @@
 
 namespace haptoflow::engine::testing {
 
-/// Answers every request with a function of it, and remembers how often it was asked.
+/// Generates segments with a function of the request and counts its calls.
 class FakeGenerator final : public inference::SegmentGenerator {
 public:
     using Answer = std::function<void(const inference::SegmentRequest&, std::span<float>)>;
@@ -37,8 +37,8 @@ private:
     float levelMps2_;
 };
 
-/// A tone whose amplitude, and whose level at touch-down, is 10 m/s^2 for each m/s and N: what sounds tells the motion
-/// that it was made for.
+/// A tone with an amplitude, and a level at touch-down, of 10 m/s^2 per m/s and N, so that the output shows the motion
+/// of the request.
 class MotionGenerator final : public inference::SegmentGenerator {
 public:
     [[nodiscard]] static float levelMps2(const std::array<float, 3>& motion) {
@@ -60,13 +60,13 @@ public:
 
 inline constexpr double toneHz = 100.0;
 
-/// Goes on with a 100 Hz tone of amplitude 1 from where the past stopped: phase and direction come from the last two
-/// samples; out of silence it begins at zero.
+/// Continues a 100 Hz tone of amplitude 1, with the phase and direction of the last two samples; after silence, it
+/// starts at phase zero.
 inline void continueTone(const inference::SegmentRequest& request, std::span<float> segment) {
     const double step = 2.0 * std::numbers::pi * toneHz / inference::waveformRateHz;
     const double before = request.previous[inference::segmentSamples - 2];
     const double last = request.previous[inference::segmentSamples - 1];
-    // Of sin(p) and sin(p - step) the phase p.
+    // The phase p from sin(p) and sin(p - step).
     const double cosine = (last * std::cos(step) - before) / std::sin(step);
     const double phase = std::abs(last) + std::abs(cosine) < 1e-6 ? 0.0 : std::atan2(last, cosine);
     for (std::size_t i = 0; i < segment.size(); ++i) {

@@ -15,7 +15,7 @@ model::Label labelOf(double stiffness) {
     return label;
 }
 
-TEST(ImpactResponsesTest, WithoutAWordOfTheModelWhatIsHarderRingsHigherWithinTheTactileBand) {
+TEST(ImpactResponsesTest, WithoutModelDataStifferLabelsHaveHigherFrequencies) {
     float before = 0.0F;
     for (const double stiffness : {100.0, 350.0, 1200.0, 4000.0}) {
         const effects::ImpactResponse response = impactResponse(labelOf(stiffness));
@@ -28,7 +28,7 @@ TEST(ImpactResponsesTest, WithoutAWordOfTheModelWhatIsHarderRingsHigherWithinThe
     EXPECT_FLOAT_EQ(impactResponse(labelOf(1e6)).modes[0].frequencyHz, 450.0F);
 }
 
-TEST(ImpactResponsesTest, WhatTheModelSaysHolds) {
+TEST(ImpactResponsesTest, TheModelsImpactResponseIsUsed) {
     model::Label label = labelOf(800.0);
     label.impact = model::Impact{.modes = {{{90.0, 70.0, 110.0}, {}}}, .restitution = 0.1};
     const effects::ImpactResponse response = impactResponse(label);
@@ -38,7 +38,7 @@ TEST(ImpactResponsesTest, WhatTheModelSaysHolds) {
     EXPECT_FLOAT_EQ(response.restitution, 0.1F);
 }
 
-TEST(ImpactResponsesTest, ABlendLiesBetweenItsLabelsAndWhatTheModelDoesNotHaveIsLeftOut) {
+TEST(ImpactResponsesTest, ABlendsResponseLiesBetweenItsLabelsAndUnknownLabelsAreSkipped) {
     model::testing::ModelBuilder builder;
     builder.header["labels"][0]["stiffness_newtons_per_metre"] = 400.0;
     builder.header["labels"][1]["stiffness_newtons_per_metre"] = 6400.0;
@@ -50,10 +50,10 @@ TEST(ImpactResponsesTest, ABlendLiesBetweenItsLabelsAndWhatTheModelDoesNotHaveIs
     EXPECT_FLOAT_EQ(frequencyOf({{0, 0.0F}, {1, 0.7F}}), 400.0F);
     EXPECT_NEAR(frequencyOf({{0, 0.5F}, {1, 0.5F}}), 200.0F, 1e-3F);
     EXPECT_FLOAT_EQ(frequencyOf({{0, 0.5F}, {99, 0.5F}}), 100.0F);
-    EXPECT_FLOAT_EQ(frequencyOf({}), 100.0F) << "none is the first label";
+    EXPECT_FLOAT_EQ(frequencyOf({}), 100.0F) << "an empty blend is the first label";
 }
 
-TEST(ImpactResponsesTest, AModeThatOneLabelOfABlendLacksIsSofter) {
+TEST(ImpactResponsesTest, AModeThatOneLabelLacksIsWeakerInTheBlend) {
     model::testing::ModelBuilder builder;
     const nlohmann::json mode = {{"frequency_hz", 90.0}, {"decay_per_second", 70.0}, {"gain_per_second", 100.0}};
     const nlohmann::json ring = {{"frequency_hz", 600.0}, {"decay_per_second", 500.0}, {"gain_per_second", 40.0}};

@@ -17,12 +17,12 @@ using testing::FakeGenerator;
 using testing::MotionGenerator;
 using testing::SimulatedDevice;
 
-/// A touch that goes on while something keeps it silent: what keeps it so, and what ends that.
+/// An interruption of the sound of a continuing touch: how it begins and how it ends.
 struct Interruption {
     std::string name;
     std::function<void(SimulatedDevice&)> begin;
     std::function<void(SimulatedDevice&)> end;
-    /// Whether states are published meanwhile.
+    /// Whether states are published during the interruption.
     bool isPublished = true;
 };
 
@@ -44,7 +44,7 @@ const std::vector<Interruption>& interruptions() {
     return all;
 }
 
-/// The state before and after: a change of level alone, and one of label and pose with it.
+/// The states before and after the interruption: a change of level only, or of level, label and pose.
 struct Motion {
     std::string name;
     ContactState before;
@@ -76,7 +76,8 @@ protected:
     [[nodiscard]] const Interruption& interruption() const { return std::get<0>(GetParam()); }
     [[nodiscard]] const Motion& motion() const { return std::get<1>(GetParam()); }
 
-    /// Slides, is interrupted for 150 ms in which the motion changes, and goes on. Returns where it goes on.
+    /// Slides, interrupts for 150 ms while the motion changes, and resumes. Returns the index of the first resumed
+    /// sample.
     std::size_t interrupt(SimulatedDevice& device) const {
         device.run(0.4, [this](double) { return motion().before; });
         interruption().begin(device);
@@ -90,7 +91,7 @@ protected:
         });
         const std::size_t end = device.output.size();
         EXPECT_LT(testing::peak(std::span<const float>(device.output).subspan(end - 1000)), 1e-9F)
-            << "the interruption is a silence";
+            << "the interruption must be silent";
         interruption().end(device);
         return end;
     }
@@ -105,11 +106,11 @@ std::span<const float> firstSound(std::span<const float> output, std::size_t fra
     return output.subspan(begin, std::min(frames, output.size() - begin));
 }
 
-TEST_P(InterruptionTest, WhatResumesSoundsAtTheLevelOfTheStateThatItResumesWith) {
-    // The level of the first 30 ms is the seed's; later it is the network's.
+TEST_P(InterruptionTest, AResumedTouchHasTheLevelOfItsFirstState) {
+    // The first 30 ms have the level of the seed, later samples that of the network.
     SimulatedDevice device(model_, generator_);
     const std::size_t end = interrupt(device);
-    // Read four times faster, a segment does not last until a contact is stale: that much of a hitch may run dry.
+    // At a reading rate of four, a segment ends before a contact is stale, so some underruns are allowed.
     const std::uint64_t underrunsBefore = device.counters().underruns;
     device.run(0.4, [this](double) { return motion().after; });
     const auto resumed = std::span<const float>(device.output).subspan(end);
@@ -119,7 +120,7 @@ TEST_P(InterruptionTest, WhatResumesSoundsAtTheLevelOfTheStateThatItResumesWith)
     EXPECT_EQ(device.counters().underruns, underrunsBefore);
 }
 
-TEST_P(InterruptionTest, AGainSetInTheSilenceHoldsFromTheFirstSampleOn) {
+TEST_P(InterruptionTest, AStrengthSetInSilenceAppliesFromTheFirstSample) {
     SimulatedDevice device(model_, generator_);
     const std::size_t end = interrupt(device);
     device.controls().strength = 0.0F;
@@ -127,7 +128,7 @@ TEST_P(InterruptionTest, AGainSetInTheSilenceHoldsFromTheFirstSampleOn) {
     EXPECT_EQ(testing::peak(std::span<const float>(device.output).subspan(end)), 0.0F);
 }
 
-TEST_P(InterruptionTest, ACeilingSetInTheSilenceHoldsFromTheFirstSampleOn) {
+TEST_P(InterruptionTest, ACeilingSetInSilenceAppliesFromTheFirstSample) {
     SimulatedDevice device(model_, generator_, {.fullScaleMps2 = 0.01F});
     const std::size_t end = interrupt(device);
     device.controls().ceiling = 0.1F;
@@ -137,7 +138,7 @@ TEST_P(InterruptionTest, ACeilingSetInTheSilenceHoldsFromTheFirstSampleOn) {
     EXPECT_GT(loudest, 0.05F);
 }
 
-TEST_P(InterruptionTest, APanicInTheSilenceKeepsTheTouchSilentAndTheNextOneSounds) {
+TEST_P(InterruptionTest, AfterAPanicInSilenceOnlyTheNextTouchSounds) {
     SimulatedDevice device(model_, generator_);
     const std::size_t end = interrupt(device);
     device.voice().channels.panic();
@@ -150,11 +151,11 @@ TEST_P(InterruptionTest, APanicInTheSilenceKeepsTheTouchSilentAndTheNextOneSound
     EXPECT_GT(testing::peak(std::span<const float>(device.output).subspan(again)), 1e-4F);
 }
 
-TEST_P(InterruptionTest, ResumingIsCountedApartFromTouches) {
+TEST_P(InterruptionTest, ResumptionsAreCountedSeparatelyFromTouches) {
     SimulatedDevice device(model_, generator_);
     (void)interrupt(device);
     device.run(0.2, [this](double) { return motion().after; });
-    // A tip that rests ends a slide, and the next one is an onset of its own.
+    // A resting tip ends the slide, so the next slide is a new onset.
     const bool isRest = interruption().name == "RestingTip";
     EXPECT_EQ(device.counters().onsets, isRest ? 2U : 1U);
     EXPECT_EQ(device.counters().resumptions, isRest ? 0U : 1U);
@@ -164,7 +165,7 @@ INSTANTIATE_TEST_SUITE_P(Of, InterruptionTest,
                          ::testing::Combine(::testing::ValuesIn(interruptions()), ::testing::ValuesIn(motions())),
                          [](const auto& test) { return std::get<0>(test.param).name + std::get<1>(test.param).name; });
 
-TEST(StrengthTest, SetToZeroBeforeTheVeryFirstTouchNothingSounds) {
+TEST(StrengthTest, AStrengthOfZeroBeforeTheFirstTouchSilencesIt) {
     const model::ModelFile model = testing::smallModel();
     MotionGenerator generator;
     SimulatedDevice device(model, generator);
@@ -175,7 +176,7 @@ TEST(StrengthTest, SetToZeroBeforeTheVeryFirstTouchNothingSounds) {
     EXPECT_EQ(testing::peak(device.output), 0.0F);
 }
 
-TEST(StrengthTest, WhileTheVoiceSoundsItGlidesWithoutAClick) {
+TEST(StrengthTest, AChangeOfStrengthWhileSoundingDoesNotClick) {
     const model::ModelFile model = testing::smallModel();
     FakeGenerator tone(testing::continueTone);
     SimulatedDevice device(model, tone);
@@ -183,11 +184,11 @@ TEST(StrengthTest, WhileTheVoiceSoundsItGlidesWithoutAClick) {
     const float ordinaryStep = testing::largestStep(device.output);
     const std::size_t begin = device.output.size();
     device.controls().strength = 0.0F;
-    // The glide, and in the same block another label and a jump of pose.
+    // The strength, the label and the pose change in the same block.
     device.run(0.1, [](double) { return moving(-0.1F, 0.5F, 1); });
     const auto gliding = std::span<const float>(device.output).subspan(begin - 1);
     EXPECT_LE(testing::largestStep(gliding), 1.3F * ordinaryStep);
-    EXPECT_EQ(testing::peak(gliding.subspan(481)), 0.0F) << "10 ms";
+    EXPECT_EQ(testing::peak(gliding.subspan(481)), 0.0F) << "the change must end after 10 ms";
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Real threads: the worker, publishers and audio callbacks of several voices at once.
+// Tests with real threads: the worker, and publishers and audio callbacks of several voices.
 #include "engine/live_engine.hpp"
 
 #include "fake_generators.hpp"
@@ -38,7 +38,7 @@ protected:
         return std::make_unique<LiveEngine>(model_, std::move(ready), 0, settings);
     }
 
-    /// Renders until the condition holds, at most about ten seconds of wall time.
+    /// Renders until the condition holds, for at most about ten seconds of wall time.
     template <typename Condition>
     static bool renderUntil(LiveVoice& voice, Condition condition) {
         std::vector<float> block(256);
@@ -52,7 +52,7 @@ protected:
     std::shared_ptr<const model::ModelFile> model_ = std::make_shared<const model::ModelFile>(testing::smallModel());
 };
 
-TEST_F(LiveEngineTest, SteppedByHandItServesAllTouchingVoicesInOneBatchAndTheOthersNotAtAll) {
+TEST_F(LiveEngineTest, AStepGeneratesForAllTouchingVoicesInOneBatch) {
     auto generator = std::make_unique<FakeGenerator>(testing::continueTone);
     FakeGenerator& seen = *generator;
     EngineTiers tiers;
@@ -81,7 +81,7 @@ TEST_F(LiveEngineTest, SteppedByHandItServesAllTouchingVoicesInOneBatchAndTheOth
     EXPECT_EQ(engine.statistics().segments, 30U);
 }
 
-TEST_F(LiveEngineTest, WhileNothingTouchesTheWorkerSleepsAndInfersNothing) {
+TEST_F(LiveEngineTest, WithoutTouchesTheWorkerSleepsAndInfersNothing) {
     const auto engine = this->engine(settings(true));
     const auto voice = engine->addVoice(48000.0);
     const std::uint64_t wakes = engine->statistics().wakes;
@@ -94,7 +94,7 @@ TEST_F(LiveEngineTest, WhileNothingTouchesTheWorkerSleepsAndInfersNothing) {
     EXPECT_EQ(engine->statistics().rounds, 0U);
 }
 
-TEST_F(LiveEngineTest, ATouchIsGeneratedForByTheWorkerAndEndsWithIt) {
+TEST_F(LiveEngineTest, TheWorkerGeneratesForATouchAndTheVoiceFallsSilentWithoutIt) {
     const auto engine = this->engine(settings(true));
     const auto voice = engine->addVoice(48000.0);
     const VoiceCounters& counters = voice->channels.counters;
@@ -108,11 +108,11 @@ TEST_F(LiveEngineTest, ATouchIsGeneratedForByTheWorkerAndEndsWithIt) {
     voice->renderer.render(block, 48000.0);
     engine->publish(*voice, testing::sliding());
     voice->renderer.render(block, 48000.0);
-    EXPECT_EQ(testing::peak(block), 0.0F) << "nobody generates any more";
+    EXPECT_EQ(testing::peak(block), 0.0F) << "the worker has ended";
     engine->removeVoice(*voice);
 }
 
-TEST_F(LiveEngineTest, ManyVoicesPublishersAndCallbacksAtOnceLeaveEveryWaveWhole) {
+TEST_F(LiveEngineTest, ManyConcurrentVoicesPublishersAndCallbacksKeepEveryWaveIntact) {
     const auto engine = this->engine(settings(true));
     constexpr int count = 4;
     std::atomic<bool> done{false};
@@ -129,7 +129,7 @@ TEST_F(LiveEngineTest, ManyVoicesPublishersAndCallbacksAtOnceLeaveEveryWaveWhole
             while (!done) {
                 voice.renderer.render(block, 48000.0);
                 peaks[i] = std::max(peaks[i].load(), testing::peak(block));
-                // Less than a millisecond is none at all where MinGW's threads sleep: two thousand seconds a second.
+                // At least a millisecond, because MinGW's threads do not sleep for shorter times.
                 std::this_thread::sleep_for(std::chrono::milliseconds(1));
             }
         });
@@ -157,7 +157,7 @@ TEST_F(LiveEngineTest, ManyVoicesPublishersAndCallbacksAtOnceLeaveEveryWaveWhole
     const auto hasLived = [](const std::shared_ptr<LiveVoice>& voice) {
         return voice->channels.counters.inferences > 20 && voice->channels.counters.onsets > 3;
     };
-    // A second, and on a slow machine as long as it takes.
+    // About a second; longer on a slow machine.
     for (int tenth = 0; tenth < 300 && (tenth < 12 || !std::ranges::all_of(voices, hasLived)); ++tenth) {
         std::this_thread::sleep_for(std::chrono::milliseconds(100));
     }
@@ -176,7 +176,7 @@ TEST_F(LiveEngineTest, ManyVoicesPublishersAndCallbacksAtOnceLeaveEveryWaveWhole
     }
 }
 
-TEST_F(LiveEngineTest, AutomaticQualityMeasuresEveryTierWhileNothingTouchesAndThenDecides) {
+TEST_F(LiveEngineTest, AutomaticQualityMeasuresEveryTierAtRestAndThenDecides) {
     LiveEngineSettings automatic = settings(true);
     automatic.quality.fixedTier.reset();
     automatic.quality.budgetMs = 1000.0;
@@ -195,7 +195,7 @@ TEST_F(LiveEngineTest, AutomaticQualityMeasuresEveryTierWhileNothingTouchesAndTh
     }
 }
 
-TEST_F(LiveEngineTest, TwoChangesOfTheOutputRateAtRestAreBothServedBeforeTheNextTouch) {
+TEST_F(LiveEngineTest, TwoRateChangesAtRestAreHandledBeforeTheNextTouch) {
     const auto engine = this->engine(settings(true));
     const auto voice = engine->addVoice(48000.0);
     std::vector<float> block(256);
@@ -210,26 +210,26 @@ TEST_F(LiveEngineTest, TwoChangesOfTheOutputRateAtRestAreBothServedBeforeTheNext
     }
     engine->publish(*voice, testing::sliding());
     voice->renderer.render(block, 48000.0);
-    EXPECT_GT(testing::peak(block), 0.0F) << "the seed in the very next block";
+    EXPECT_GT(testing::peak(block), 0.0F) << "the seed must sound in the next block";
 }
 
-TEST_F(LiveEngineTest, AVoiceWhoseDeviceHasStoppedDoesNotKeepTheWorkerFromLookingAfterTheOthers) {
+TEST_F(LiveEngineTest, AVoiceWithAStoppedDeviceDoesNotBlockOtherVoices) {
     const auto engine = this->engine(settings(true));
-    const auto unheard = engine->addVoice(48000.0);
-    const auto heard = engine->addVoice(48000.0);
+    const auto stoppedVoice = engine->addVoice(48000.0);
+    const auto activeVoice = engine->addVoice(48000.0);
     std::vector<float> block(256);
     for (int update = 0; update < 200; ++update) {
-        engine->publish(*unheard, testing::sliding());
+        engine->publish(*stoppedVoice, testing::sliding());
         std::this_thread::sleep_for(std::chrono::milliseconds(1));
     }
-    ASSERT_EQ(unheard->channels.counters.inferences, 0U);
-    // The worker sees the contact before the callback does: only a second look can find that its onset is playing.
-    engine->publish(*heard, testing::sliding());
+    ASSERT_EQ(stoppedVoice->channels.counters.inferences, 0U);
+    // The worker reads the contact before the callback, so only a later poll can find that the onset is playing.
+    engine->publish(*activeVoice, testing::sliding());
     std::this_thread::sleep_for(std::chrono::milliseconds(20));
-    EXPECT_TRUE(renderUntil(*heard, [&] { return heard->channels.counters.inferences > 0; }));
+    EXPECT_TRUE(renderUntil(*activeVoice, [&] { return activeVoice->channels.counters.inferences > 0; }));
 }
 
-TEST_F(LiveEngineTest, OneVoiceThatTheNetworkFailsForDoesNotSilenceTheOthers) {
+TEST_F(LiveEngineTest, AFailureOfOneVoiceDoesNotSilenceTheOthers) {
     auto generator =
         std::make_unique<FakeGenerator>([](const inference::SegmentRequest& request, std::span<float> out) {
             if (request.motion[2] > 1.5F) {
@@ -242,7 +242,7 @@ TEST_F(LiveEngineTest, OneVoiceThatTheNetworkFailsForDoesNotSilenceTheOthers) {
     LiveEngine engine(model_, std::move(tiers), 0, settings(false));
     const std::array voices{engine.addVoice(48000.0), engine.addVoice(48000.0), engine.addVoice(48000.0)};
     std::vector<float> block(256);
-    // As long as the seeds last: without a segment behind it, the second voice ends there.
+    // For the duration of the seeds. Without a segment after it, the second voice ends there.
     for (int update = 0; update < 4; ++update) {
         for (std::size_t i = 0; i < voices.size(); ++i) {
             engine.publish(*voices[i], testing::sliding(0.1F, i == 1 ? 2.0F : 1.0F));
@@ -262,7 +262,7 @@ TEST_F(LiveEngineTest, OneVoiceThatTheNetworkFailsForDoesNotSilenceTheOthers) {
     EXPECT_EQ(voices[1]->channels.counters.inferenceNanoseconds, 0U);
 }
 
-/// Generates only when it is let, and says when it has begun.
+/// Blocks in `generate` until released, and reports that it has begun.
 class HeldGenerator final : public inference::SegmentGenerator {
 public:
     void generate(std::span<const inference::SegmentRequest> requests, std::span<float> segments) override {
@@ -280,7 +280,7 @@ public:
     std::atomic<bool> isInside{false};
 };
 
-TEST_F(LiveEngineTest, WhileTheNetworkRunsVoicesComeGoAndAreReadAndQualityChangesWithoutWaitingForIt) {
+TEST_F(LiveEngineTest, VoicesAndQualityChangeWithoutWaitingForInference) {
     auto generator = std::make_unique<HeldGenerator>();
     HeldGenerator& held = *generator;
     EngineTiers tiers;
@@ -300,7 +300,7 @@ TEST_F(LiveEngineTest, WhileTheNetworkRunsVoicesComeGoAndAreReadAndQualityChange
         engine.setQuality({.fixedTier = 0, .budgetMs = 5.0});
         engine.publish(*another, testing::sliding());
         engine.removeVoice(*another);
-        // The voice that the round in progress generates for, down to its memory.
+        // Remove the voice of the round in progress and release its memory.
         engine.removeVoice(*voice);
         voice.reset();
         isDone = true;
@@ -308,13 +308,13 @@ TEST_F(LiveEngineTest, WhileTheNetworkRunsVoicesComeGoAndAreReadAndQualityChange
     for (int i = 0; i < 10000 && !isDone; ++i) {
         std::this_thread::sleep_for(std::chrono::milliseconds(1));
     }
-    EXPECT_TRUE(isDone) << "somebody waited for the network";
+    EXPECT_TRUE(isDone) << "a call waited for the network";
     held.isHeld = false;
     user.join();
     EXPECT_EQ(engine.statistics().voices, 0U);
 }
 
-TEST_F(LiveEngineTest, TheNewestFailureOfARoundIsKeptInWords) {
+TEST_F(LiveEngineTest, TheMessageOfTheNewestFailureIsKept) {
     auto generator = std::make_unique<FakeGenerator>([](const inference::SegmentRequest& request, std::span<float>) {
         throw inference::InferenceError("no segment for " + std::to_string(request.motion[2]) + " N");
     });
@@ -334,14 +334,14 @@ TEST_F(LiveEngineTest, TheNewestFailureOfARoundIsKeptInWords) {
     EXPECT_EQ(engine.statistics().failedRounds, 2U);
 }
 
-TEST_F(LiveEngineTest, StatisticsSayWhetherTheWorkerLives) {
+TEST_F(LiveEngineTest, TheStatisticsShowWhetherTheWorkerRuns) {
     const auto engine = this->engine(settings(true));
     EXPECT_TRUE(engine->statistics().workerAlive);
     engine->stop();
     EXPECT_FALSE(engine->statistics().workerAlive);
 }
 
-TEST_F(LiveEngineTest, SettingsOutOfRangeAreRefused) {
+TEST_F(LiveEngineTest, SettingsOutOfRangeAreRejected) {
     LiveEngineSettings bad = settings(false);
     bad.updateRateHz = 0.0;
     EXPECT_THROW((void)engine(bad), std::invalid_argument);

@@ -17,7 +17,7 @@ using testing::FakeGenerator;
 using testing::SimulatedDevice;
 
 constexpr double rateHz = 48000.0;
-/// -60 dB of what the seed's amplitude gives at full scale 60.
+/// 60 dB below the seed's amplitude at a full scale of 60.
 constexpr float silence = 1e-3F / 60.0F;
 
 class LiveVoiceTest : public ::testing::Test {
@@ -32,7 +32,7 @@ std::span<const float> from(const SimulatedDevice& device, std::size_t frame) {
     return std::span<const float>(device.output).subspan(frame);
 }
 
-TEST_F(LiveVoiceTest, AtTouchDownTheSeedSoundsInTheVeryNextBlock) {
+TEST_F(LiveVoiceTest, TheSeedSoundsInTheFirstBlockAfterTouchDown) {
     SimulatedDevice device(model_, tone_);
     device.renderBlock();
     EXPECT_EQ(testing::peak(device.output), 0.0F);
@@ -43,7 +43,7 @@ TEST_F(LiveVoiceTest, AtTouchDownTheSeedSoundsInTheVeryNextBlock) {
     EXPECT_EQ(device.counters().onsets, 1U);
 }
 
-TEST_F(LiveVoiceTest, OnsetDoesNotWaitForInferenceAndTheSeedLastsUntilTheFirstSegment) {
+TEST_F(LiveVoiceTest, TheSeedSoundsUntilTheFirstSegmentArrives) {
     testing::DeviceSettings settings;
     settings.latencySeconds = [](double) { return 0.05; };
     SimulatedDevice device(model_, tone_, settings);
@@ -52,7 +52,7 @@ TEST_F(LiveVoiceTest, OnsetDoesNotWaitForInferenceAndTheSeedLastsUntilTheFirstSe
     EXPECT_GT(device.counters().inferences, 5U);
 }
 
-TEST_F(LiveVoiceTest, ATapThatCameAndWentBetweenTwoBlocksIsHeardForTenMillisecondsAndEnds) {
+TEST_F(LiveVoiceTest, ATapBetweenTwoBlocksSoundsForTenMilliseconds) {
     SimulatedDevice device(model_, tone_);
     device.run(0.1, [](double) { return testing::lifted(0); });
     ContactState tap = testing::sliding();
@@ -64,11 +64,11 @@ TEST_F(LiveVoiceTest, ATapThatCameAndWentBetweenTwoBlocksIsHeardForTenMillisecon
         device.renderBlock();
     }
     EXPECT_GT(testing::peak(from(device, begin)), 0.2F / 60.0F);
-    EXPECT_LT(testing::peak(from(device, begin + 768)), silence) << "10 ms, a block, and 5 ms to fade";
+    EXPECT_LT(testing::peak(from(device, begin + 768)), silence) << "10 ms, a block and a fade of 5 ms";
     EXPECT_EQ(device.counters().taps, 1U);
 }
 
-TEST_F(LiveVoiceTest, ATapThatOnlyTheTouchCounterTellsOfIsHeard) {
+TEST_F(LiveVoiceTest, ATapKnownOnlyFromTheTouchCounterSounds) {
     SimulatedDevice device(model_, tone_);
     device.run(0.1, [](double) { return testing::lifted(0); });
     ContactState afterwards = testing::sliding();
@@ -82,8 +82,9 @@ TEST_F(LiveVoiceTest, ATapThatOnlyTheTouchCounterTellsOfIsHeard) {
     EXPECT_LT(testing::peak(from(device, begin + 768)), silence);
 }
 
-TEST_F(LiveVoiceTest, NothingOfAnEarlierTouchSoundsAfterANewOne) {
-    // Segments of the first touch are all threes, which no seed has, and one is still under way when the second begins.
+TEST_F(LiveVoiceTest, NoSegmentOfAnEarlierTouchSoundsAfterANewOne) {
+    // Segments of the first touch consist of the value 3, which no seed contains, and one is still being generated when
+    // the second touch begins.
     FakeGenerator threes(
         [](const inference::SegmentRequest&, std::span<float> segment) { std::ranges::fill(segment, 3.0F); });
     testing::DeviceSettings settings;
@@ -99,13 +100,13 @@ TEST_F(LiveVoiceTest, NothingOfAnEarlierTouchSoundsAfterANewOne) {
     device.publish(second);
     const std::size_t begin = device.waveform.samples.size();
     device.run(0.015, [&second](double) { return second; });
-    EXPECT_GE(device.counters().dropped, droppedBefore + 1) << "the segment of the first touch";
-    const auto heard = std::span<const float>(device.waveform.samples).subspan(begin);
-    EXPECT_GT(heard.size(), 10U);
-    EXPECT_EQ(std::ranges::count(heard, 3.0F), 0) << "the seed, and nothing else";
+    EXPECT_GE(device.counters().dropped, droppedBefore + 1) << "the segment of the first touch must be dropped";
+    const auto output = std::span<const float>(device.waveform.samples).subspan(begin);
+    EXPECT_GT(output.size(), 10U);
+    EXPECT_EQ(std::ranges::count(output, 3.0F), 0) << "only the seed may sound";
 }
 
-TEST_F(LiveVoiceTest, AfterLiftOffThereIsSilenceWithinOneBlockAndFiveMilliseconds) {
+TEST_F(LiveVoiceTest, AfterLiftOffTheVoiceIsSilentWithinABlockAndFiveMilliseconds) {
     for (const std::size_t block : {64U, 128U, 256U, 512U, 1024U}) {
         testing::DeviceSettings settings;
         settings.blockFrames = block;
@@ -119,7 +120,7 @@ TEST_F(LiveVoiceTest, AfterLiftOffThereIsSilenceWithinOneBlockAndFiveMillisecond
     }
 }
 
-TEST_F(LiveVoiceTest, AContactThatNobodyRenewsFallsSilentAfterATenthOfASecondAndIsFeltAgainWhenItIs) {
+TEST_F(LiveVoiceTest, AStaleContactFallsSilentAfter100MillisecondsAndResumesWithANewState) {
     SimulatedDevice device(model_, tone_);
     device.run(0.4, slide);
     device.publish(testing::sliding());
@@ -133,7 +134,7 @@ TEST_F(LiveVoiceTest, AContactThatNobodyRenewsFallsSilentAfterATenthOfASecondAnd
     EXPECT_GT(testing::peak(from(device, again)), 0.5F / 60.0F);
 }
 
-TEST_F(LiveVoiceTest, PauseMuteAndWorkerDeathSilenceWithinOneBlockAndFiveMilliseconds) {
+TEST_F(LiveVoiceTest, PauseMuteAndAnEndedWorkerSilenceWithinABlockAndFiveMilliseconds) {
     const std::vector<std::function<void(SimulatedDevice&, bool)>> switches{
         [](SimulatedDevice& device, bool off) { device.controls().paused = off; },
         [](SimulatedDevice& device, bool off) { device.controls().muted = off; },
@@ -148,7 +149,7 @@ TEST_F(LiveVoiceTest, PauseMuteAndWorkerDeathSilenceWithinOneBlockAndFiveMillise
         EXPECT_LT(testing::peak(from(device, begin + 256 + 240)), silence);
         const std::uint64_t inferences = device.counters().inferences;
         device.run(0.2, slide);
-        EXPECT_EQ(device.counters().inferences, inferences) << "silent, a voice costs no inference";
+        EXPECT_EQ(device.counters().inferences, inferences) << "a silent voice needs no inference";
         turn(device, false);
         const std::size_t again = device.output.size();
         device.run(0.2, slide);
@@ -156,7 +157,7 @@ TEST_F(LiveVoiceTest, PauseMuteAndWorkerDeathSilenceWithinOneBlockAndFiveMillise
     }
 }
 
-TEST_F(LiveVoiceTest, PanicIsSilentAtTheEndOfTheNextBlockAndStaysSoUntilANewTouch) {
+TEST_F(LiveVoiceTest, APanicSilencesByTheEndOfTheNextBlockUntilANewTouch) {
     for (const std::size_t block : {64U, 256U}) {
         testing::DeviceSettings settings;
         settings.blockFrames = block;
@@ -169,7 +170,7 @@ TEST_F(LiveVoiceTest, PanicIsSilentAtTheEndOfTheNextBlockAndStaysSoUntilANewTouc
         EXPECT_LT(testing::peak(from(device, begin + block)), silence) << block;
         EXPECT_LT(testing::largestStep(from(device, begin - 1)),
                   ordinaryStep + 1.0F / 60.0F / static_cast<float>(block));
-        // Sliding that stops and resumes is the same touch.
+        // Sliding that stops and resumes belongs to the same touch.
         device.run(0.1, [](double) { return testing::sliding(0.0F); });
         device.run(0.1, slide);
         EXPECT_LT(testing::peak(from(device, begin + block)), silence);
@@ -183,7 +184,7 @@ TEST_F(LiveVoiceTest, PanicIsSilentAtTheEndOfTheNextBlockAndStaysSoUntilANewTouc
     }
 }
 
-TEST_F(LiveVoiceTest, SlidingThatStopsCostsNoInferenceAndResumesAtOnce) {
+TEST_F(LiveVoiceTest, ARestingTipNeedsNoInferenceAndResumesAtOnce) {
     SimulatedDevice device(model_, tone_);
     device.run(0.4, slide);
     device.run(0.1, [](double) { return testing::sliding(0.0F); });
@@ -200,7 +201,7 @@ TEST_F(LiveVoiceTest, SlidingThatStopsCostsNoInferenceAndResumesAtOnce) {
     EXPECT_GT(testing::peak(from(device, again)), 0.2F / 60.0F);
 }
 
-TEST_F(LiveVoiceTest, WithoutTouchNothingIsInferredAndOnlyZerosAreWritten) {
+TEST_F(LiveVoiceTest, WithoutTouchNothingIsInferredAndTheOutputIsZero) {
     SimulatedDevice device(model_, tone_);
     device.run(2.0, [](double) { return testing::lifted(0); });
     EXPECT_EQ(tone_.generated, 0);
@@ -209,7 +210,7 @@ TEST_F(LiveVoiceTest, WithoutTouchNothingIsInferredAndOnlyZerosAreWritten) {
     EXPECT_TRUE(std::ranges::all_of(device.output, [](float sample) { return sample == 0.0F; }));
 }
 
-TEST_F(LiveVoiceTest, TheSplicesOfASteadySlideLeaveNoTraceInTheWave) {
+TEST_F(LiveVoiceTest, TheSplicesOfASteadySlideAreInaudible) {
     SimulatedDevice device(model_, tone_);
     device.run(2.0, slide);
     const auto& wave = device.waveform.samples;
@@ -225,13 +226,13 @@ TEST_F(LiveVoiceTest, TheSplicesOfASteadySlideLeaveNoTraceInTheWave) {
 
 class StallTest : public LiveVoiceTest, public ::testing::WithParamInterface<double> {};
 
-TEST_P(StallTest, ALateWorkerNeverMakesAStepAndTheVoiceRecovers) {
+TEST_P(StallTest, ALateWorkerMakesNoStepAndTheVoiceRecovers) {
     const double stall = GetParam();
     testing::DeviceSettings settings;
     settings.latencySeconds = [stall](double now) { return std::fmod(now, 1.0) < 0.014 && now > 0.5 ? stall : 0.002; };
     SimulatedDevice device(model_, tone_, settings);
     device.run(4.9, slide);
-    // The tone's own steepest step, a fade of 10 samples, and a splice of 4 from one phase to another.
+    // The tone's steepest step, a fade of 10 samples, and a splice of 4 samples between two phases.
     const auto steady = std::span<const float>(device.waveform.samples).subspan(400);
     EXPECT_LE(testing::largestStep(steady), 0.32F + 2.0F / 4.0F);
     EXPECT_LE(testing::peak(device.output), 1.0F);
@@ -248,7 +249,7 @@ TEST_P(StallTest, ALateWorkerNeverMakesAStepAndTheVoiceRecovers) {
 INSTANTIATE_TEST_SUITE_P(Milliseconds, StallTest, ::testing::Values(0.005, 0.02, 0.08, 0.1, 0.5),
                          [](const auto& stall) { return std::to_string(static_cast<int>(1000.0 * stall.param)); });
 
-TEST_F(LiveVoiceTest, RandomStallsNeverMakeAStep) {
+TEST_F(LiveVoiceTest, RandomStallsMakeNoStep) {
     std::mt19937 random(3);
     std::uniform_real_distribution<double> share(0.0, 1.0);
     testing::DeviceSettings settings;
@@ -266,7 +267,7 @@ struct Blocks {
 
 class LeadTest : public LiveVoiceTest, public ::testing::WithParamInterface<Blocks> {};
 
-TEST_P(LeadTest, TheLearntLeadIsJustLongEnoughThatHardlyAnySegmentComesLate) {
+TEST_P(LeadTest, TheEstimatedLeadIsShortAndFewSegmentsAreLate) {
     testing::DeviceSettings settings;
     settings.blockFrames = GetParam().frames;
     settings.burstBlocks = GetParam().burst;
@@ -285,7 +286,7 @@ INSTANTIATE_TEST_SUITE_P(Device, LeadTest,
                              return std::to_string(blocks.param.frames) + "x" + std::to_string(blocks.param.burst);
                          });
 
-TEST_F(LiveVoiceTest, AnotherOutputRateCostsAFadeAndNothingElse) {
+TEST_F(LiveVoiceTest, AChangeOfTheOutputRateCausesOnlyAFade) {
     SimulatedDevice device(model_, tone_);
     device.run(0.5, slide);
     const std::uint64_t onsets = device.counters().onsets;
@@ -294,7 +295,7 @@ TEST_F(LiveVoiceTest, AnotherOutputRateCostsAFadeAndNothingElse) {
     const std::size_t begin = device.output.size();
     device.run(0.5, slide);
     EXPECT_EQ(device.counters().rateChanges, 1U);
-    EXPECT_EQ(device.counters().onsets, onsets) << "the touch goes on";
+    EXPECT_EQ(device.counters().onsets, onsets) << "the touch continues";
     EXPECT_LE(testing::largestStep(from(device, begin - 1)), 3.0F * ordinaryStep);
     const auto settled = from(device, begin + 2400);
     EXPECT_GT(testing::peak(settled), 0.9F / 60.0F);
@@ -313,13 +314,13 @@ struct Device {
 
 class DeviceChangeTest : public LiveVoiceTest, public ::testing::WithParamInterface<Device> {};
 
-TEST_P(DeviceChangeTest, AtAnyMomentOfATouchItCostsAFadeAndNothingElse) {
+TEST_P(DeviceChangeTest, ADeviceChangeAtAnyMomentOfATouchCausesOnlyAFade) {
     const auto touchOfATenth = [](double time) {
         return std::optional(time >= 0.05 && time < 0.15 ? testing::sliding() : testing::lifted(time < 0.05 ? 0 : 1));
     };
     const double slowestHz = std::min(rateHz, GetParam().rateHz);
     const double steepest = haptoflow::testing::steepestStep(slowestHz);
-    // Every block from before the touch-down until after the lift-off, and moments within them.
+    // Times from before the touch-down until after the lift-off, at the start of blocks and within them.
     for (double change = 0.045; change < 0.18; change += 0.0021) {
         SimulatedDevice device(model_, tone_);
         device.run(change, touchOfATenth);
@@ -344,7 +345,7 @@ INSTANTIATE_TEST_SUITE_P(To, DeviceChangeTest,
                                     std::to_string(device.param.blockFrames);
                          });
 
-TEST_F(LiveVoiceTest, ARateThatNoOutputRunsAtIsSilentAndHarmless) {
+TEST_F(LiveVoiceTest, AnUnsupportedRateIsSilentAndHarmless) {
     SimulatedDevice device(model_, tone_);
     device.run(0.3, slide);
     for (const double impossible : {1.0, -5.0, 1e9}) {
@@ -359,7 +360,7 @@ TEST_F(LiveVoiceTest, ARateThatNoOutputRunsAtIsSilentAndHarmless) {
     }
 }
 
-TEST_F(LiveVoiceTest, TheBlockLengthMayChangeAtAnyMoment) {
+TEST_F(LiveVoiceTest, TheBlockLengthMayChangeAtAnyTime) {
     SimulatedDevice device(model_, tone_);
     std::size_t block = 1;
     for (int i = 0; i < 60; ++i) {
@@ -371,7 +372,7 @@ TEST_F(LiveVoiceTest, TheBlockLengthMayChangeAtAnyMoment) {
     EXPECT_LE(testing::largestStep(std::span<const float>(device.waveform.samples).subspan(400)), 0.33F + 0.5F);
 }
 
-TEST_F(LiveVoiceTest, StrengthGlidesAndTheCeilingHoldsWhateverTheNetworkReturns) {
+TEST_F(LiveVoiceTest, TheStrengthChangesSmoothlyAndTheCeilingHoldsForAnyNetworkOutput) {
     FakeGenerator loud([](const inference::SegmentRequest& request, std::span<float> segment) {
         for (std::size_t i = 0; i < segment.size(); ++i) {
             segment[i] = 1000.0F * request.noise[i];
@@ -387,7 +388,7 @@ TEST_F(LiveVoiceTest, StrengthGlidesAndTheCeilingHoldsWhateverTheNetworkReturns)
     EXPECT_EQ(testing::peak(from(device, device.output.size() - 2400)), 0.0F);
 }
 
-TEST_F(LiveVoiceTest, AFailedRunPublishesNothingIsCountedAndTheVoiceFadesWhereItsSegmentEnds) {
+TEST_F(LiveVoiceTest, AfterAFailedRunTheVoiceFadesAtTheEndOfItsSegment) {
     int calls = 0;
     FakeGenerator failing([&calls](const inference::SegmentRequest& request, std::span<float> segment) {
         if (++calls > 20 && calls <= 40) {
@@ -403,19 +404,19 @@ TEST_F(LiveVoiceTest, AFailedRunPublishesNothingIsCountedAndTheVoiceFadesWhereIt
     EXPECT_GT(testing::peak(from(device, device.output.size() - 4800)), 0.9F / 60.0F);
 }
 
-TEST_F(LiveVoiceTest, UpdatesFasterThanHopsAreSkippedAndTheNewestWins) {
+TEST_F(LiveVoiceTest, UpdatesWithinAHopAreSkippedInFavourOfTheNewest) {
     testing::DeviceSettings settings;
     settings.updateHz = 1000.0;
     settings.latencySeconds = [](double) { return 0.0003; };
     SimulatedDevice device(model_, tone_, settings);
     device.run(1.0, slide);
-    EXPECT_LE(device.counters().inferences, 205U) << "a hop is 5 ms at least";
+    EXPECT_LE(device.counters().inferences, 205U) << "a hop takes at least 5 ms";
     EXPECT_GE(device.counters().skipped, 700U);
     EXPECT_EQ(device.counters().underruns, 0U);
 }
 
-TEST_F(LiveVoiceTest, AStateThatComesTooSoonBehindAnotherIsGeneratedForAHopLaterInsteadOfAFrameLater) {
-    // The network answers with the speed that it was asked for; each time the newest speed comes 2 ms behind a state.
+TEST_F(LiveVoiceTest, AStateTooSoonAfterAnotherGetsItsSegmentAHopLater) {
+    // The network outputs the requested speed. In each round, a state with a new speed follows another state by 2 ms.
     FakeGenerator speed([](const inference::SegmentRequest& request, std::span<float> segment) {
         std::ranges::fill(segment, 10.0F * request.motion[0]);
     });
@@ -431,14 +432,14 @@ TEST_F(LiveVoiceTest, AStateThatComesTooSoonBehindAnotherIsGeneratedForAHopLater
             device.run(0.002, [](double) { return std::nullopt; });
             device.publish(testing::sliding(mps));
             const double lead = device.counters().leadSamples / 2000.0;
-            // A hop, a look of the worker, the lead, a block, and what the generator takes.
+            // A hop, a polling interval of the worker, the lead, two blocks and the time of the generator.
             device.run(0.005 + 0.002 + lead + 2.0 * blockSeconds + 0.002, [](double) { return std::nullopt; });
             EXPECT_FLOAT_EQ(device.waveform.samples.back(), 10.0F * mps) << block << ", step " << step;
         }
     }
 }
 
-TEST_F(LiveVoiceTest, EveryTouchingStateIsEitherGeneratedForOrCountedAsSkipped) {
+TEST_F(LiveVoiceTest, EveryTouchingStateGetsASegmentOrIsCountedAsSkipped) {
     SimulatedDevice device(model_, tone_);
     std::uint64_t touching = 0;
     const auto touch = [&](double seconds, std::uint32_t number) {
@@ -460,13 +461,13 @@ TEST_F(LiveVoiceTest, EveryTouchingStateIsEitherGeneratedForOrCountedAsSkipped) 
     lift(1);
     touch(0.3, 2);
     lift(2);
-    // One state may have two segments, one behind the other; none may have neither.
+    // A state may have two consecutive segments, but every state must have a segment or be counted.
     EXPECT_GE(device.counters().skipped + device.counters().inferences, touching);
-    EXPECT_GE(device.counters().skipped, 20U) << "published while muted";
+    EXPECT_GE(device.counters().skipped, 20U) << "the states published while muted";
     EXPECT_LE(device.counters().skipped, 30U);
 }
 
-TEST_F(LiveVoiceTest, AfterLongBlocksALeadOfShortOnesIsShortAgainInTheSameTouch) {
+TEST_F(LiveVoiceTest, TheLeadShortensAgainAfterLongBlocksWithinATouch) {
     testing::DeviceSettings settings;
     settings.blockFrames = 2048;
     SimulatedDevice device(model_, tone_, settings);
@@ -477,11 +478,11 @@ TEST_F(LiveVoiceTest, AfterLongBlocksALeadOfShortOnesIsShortAgainInTheSameTouch)
     EXPECT_LT(device.counters().leadSamples, 20U);
 }
 
-TEST_F(LiveVoiceTest, APanicEndsWithItsBlockEvenWhereTheContactGoesStaleAtItsSecondFrame) {
+TEST_F(LiveVoiceTest, APanicSilencesItsBlockEvenIfTheContactBecomesStaleInIt) {
     SimulatedDevice device(model_, tone_);
     device.run(0.5, slide);
     const float ordinaryStep = testing::largestStep(device.output);
-    // A state is fresh for 4,800 frames.
+    // A state becomes stale after 4,800 frames.
     device.publish(testing::sliding());
     std::vector<float> rest(4799);
     device.voice().renderer.render(rest, 48000.0);
@@ -493,7 +494,7 @@ TEST_F(LiveVoiceTest, APanicEndsWithItsBlockEvenWhereTheContactGoesStaleAtItsSec
     EXPECT_LE(std::abs(block.front() - rest.back()), 3.0F * ordinaryStep);
 }
 
-TEST_F(LiveVoiceTest, ADeviceThatStopsAskingStopsInferenceToo) {
+TEST_F(LiveVoiceTest, AStoppedDeviceEndsInference) {
     SimulatedDevice device(model_, tone_);
     device.run(0.3, slide);
     const std::uint64_t inferences = device.counters().inferences;
@@ -503,8 +504,8 @@ TEST_F(LiveVoiceTest, ADeviceThatStopsAskingStopsInferenceToo) {
     EXPECT_LE(device.counters().inferences, inferences + 1);
 }
 
-TEST_F(LiveVoiceTest, BetweenTwoLongBlocksEveryNewStateGetsASegmentAndTheNewestIsTheOneHeard) {
-    // Pairs of blocks 43 ms apart, states every 14. The network answers with the speed that it was asked for.
+TEST_F(LiveVoiceTest, DuringALongBlockEveryStateGetsASegmentAndTheNewestSounds) {
+    // Pairs of blocks every 43 ms, states every 14 ms. The network outputs the requested speed.
     FakeGenerator speed([](const inference::SegmentRequest& request, std::span<float> segment) {
         std::ranges::fill(segment, 10.0F * request.motion[0]);
     });
@@ -525,12 +526,12 @@ TEST_F(LiveVoiceTest, BetweenTwoLongBlocksEveryNewStateGetsASegmentAndTheNewestI
     EXPECT_FLOAT_EQ(device.waveform.samples.back(), 2.0F);
 }
 
-TEST_F(LiveVoiceTest, ReadFourTimesFasterTheVoiceStillNeverRunsDry) {
+TEST_F(LiveVoiceTest, AtAReadingRateOfFourTheVoiceHasNoUnderruns) {
     for (const double updateHz : {30.0, 72.0, 120.0}) {
         testing::DeviceSettings settings;
         settings.updateHz = updateHz;
         SimulatedDevice device(model_, tone_, settings);
-        // The model's range ends at 0.4 m/s.
+        // The trained range ends at 0.4 m/s.
         device.run(2.0, [](double) { return testing::sliding(19.0F); });
         EXPECT_EQ(device.counters().underruns, 0U) << updateHz;
     }

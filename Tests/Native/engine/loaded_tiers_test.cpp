@@ -1,4 +1,4 @@
-// Engines that have some of their model's tiers loaded, and get others later.
+// Engines with some of their model's tiers loaded, and others added later.
 #include "engine/live_engine.hpp"
 
 #include "fake_generators.hpp"
@@ -34,7 +34,7 @@ protected:
         settings.hasWorker = false;
         return settings;
     }
-    /// A contact state, what sounds until the next, and the inference for it.
+    /// Publishes a contact state, renders until the next one and runs a round.
     static void update(LiveEngine& engine, LiveVoice& voice) {
         std::vector<float> block(256);
         engine.publish(voice, testing::sliding());
@@ -51,7 +51,7 @@ protected:
     std::array<testing::FakeGenerator*, tierCount> seen_{};
 };
 
-TEST_F(LoadedTiersTest, OneTierAloneGeneratesUnderItsPlaceInTheModel) {
+TEST_F(LoadedTiersTest, ASingleLoadedTierKeepsItsIndexInTheModel) {
     for (std::size_t index = 0; index < tierCount; ++index) {
         LiveEngine engine(model_, only(index), 1, settings(index));
         const auto voice = engine.addVoice(48000.0);
@@ -66,7 +66,7 @@ TEST_F(LoadedTiersTest, OneTierAloneGeneratesUnderItsPlaceInTheModel) {
     }
 }
 
-TEST_F(LoadedTiersTest, AQualityThatIsNotLoadedIsRefusedAndThePresentOneGoesOn) {
+TEST_F(LoadedTiersTest, AQualityThatIsNotLoadedIsRejectedAndThePresentOneContinues) {
     LiveEngine engine(model_, only(0), 1, settings(0));
     EXPECT_THROW(engine.setQuality({.fixedTier = 2}), std::invalid_argument);
     EXPECT_THROW(engine.setQuality({.fixedTier = std::nullopt}), std::invalid_argument);
@@ -76,7 +76,7 @@ TEST_F(LoadedTiersTest, AQualityThatIsNotLoadedIsRefusedAndThePresentOneGoesOn) 
     EXPECT_EQ(engine.statistics().tier, 0U);
 }
 
-TEST_F(LoadedTiersTest, ATierThatComesLaterTakesOverWithTheNextSegment) {
+TEST_F(LoadedTiersTest, ATierAddedLaterTakesOverWithTheNextSegment) {
     LiveEngine engine(model_, only(0), 1, settings(0));
     const auto voice = engine.addVoice(48000.0);
     update(engine, *voice);
@@ -84,7 +84,7 @@ TEST_F(LoadedTiersTest, ATierThatComesLaterTakesOverWithTheNextSegment) {
     EXPECT_TRUE(engine.hasTier(2));
     EXPECT_FALSE(engine.hasTier(1));
     update(engine, *voice);
-    EXPECT_EQ(generatedBy(2), 0) << "nobody asked for it yet";
+    EXPECT_EQ(generatedBy(2), 0) << "the tier is not in use yet";
     engine.setQuality({.fixedTier = 2});
     update(engine, *voice);
     EXPECT_EQ(generatedBy(0), 2);
@@ -92,7 +92,7 @@ TEST_F(LoadedTiersTest, ATierThatComesLaterTakesOverWithTheNextSegment) {
     EXPECT_EQ(engine.statistics().tier, 2U);
 }
 
-TEST_F(LoadedTiersTest, ATierThatIsThereIsNotReplacedUnderTheWorker) {
+TEST_F(LoadedTiersTest, ALoadedTierIsNotReplaced) {
     LiveEngine engine(model_, only(0), 1, settings(0));
     testing::FakeGenerator* const first = seen_[0];
     engine.addTier(0, tier(0));
@@ -101,7 +101,7 @@ TEST_F(LoadedTiersTest, ATierThatIsThereIsNotReplacedUnderTheWorker) {
     EXPECT_EQ(first->generated, 1);
 }
 
-TEST_F(LoadedTiersTest, AnEngineWithoutTheTierThatItIsToStartWithIsRefused) {
+TEST_F(LoadedTiersTest, AnEngineWithoutItsStartTierIsRejected) {
     EXPECT_THROW(LiveEngine(model_, only(0), 1, settings(1)), std::invalid_argument);
     EXPECT_THROW(LiveEngine(model_, only(0), 0, settings(std::nullopt)), std::invalid_argument);
     EXPECT_THROW(LiveEngine(model_, EngineTiers(tierCount), 0, settings(0)), std::invalid_argument);

@@ -1,5 +1,4 @@
-// What a day leaves of the precision of time. The simulated device runs in steps of powers of two, so that its own sums
-// are exact however long it runs.
+// Precision of time after a day. The simulated device uses steps of powers of two, so that its own sums stay exact.
 #include "engine/offline_renderer.hpp"
 
 #include "fake_generators.hpp"
@@ -20,11 +19,11 @@ using testing::SimulatedDevice;
 
 constexpr double daySeconds = 86'400.0;
 
-/// HAPTOFLOW_TEST_SOUNDING_SECONDS: how long a voice that is read four times faster sounds before it is compared; the
-/// soak asks for a quarter of a day.
+/// Time for which a voice with a reading rate of four sounds before the comparison, from
+/// HAPTOFLOW_TEST_SOUNDING_SECONDS; the soak test sets a quarter of a day.
 double soundingSeconds() {
-    const char* asked = std::getenv("HAPTOFLOW_TEST_SOUNDING_SECONDS");
-    return asked != nullptr ? std::strtod(asked, nullptr) : 60.0;
+    const char* setting = std::getenv("HAPTOFLOW_TEST_SOUNDING_SECONDS");
+    return setting != nullptr ? std::strtod(setting, nullptr) : 60.0;
 }
 
 class LongRunTest : public ::testing::Test {
@@ -39,7 +38,7 @@ protected:
         return settings;
     }
 
-    /// What is heard of two seconds of sliding and half a second after lift-off.
+    /// The output of two seconds of sliding and half a second after lift-off.
     static std::vector<float> touch(SimulatedDevice& device, std::uint32_t counter) {
         device.output.clear();
         device.run(2.0, [counter](double) {
@@ -51,22 +50,22 @@ protected:
         return device.output;
     }
 
-    /// What a new voice plays.
+    /// The output of a new voice.
     std::vector<float> ofANewVoice() {
         SimulatedDevice fresh(model_, tone_, settings());
-        std::vector<float> heard = touch(fresh, 1);
-        EXPECT_GT(testing::peak(heard), 0.5F / 60.0F);
-        return heard;
+        std::vector<float> output = touch(fresh, 1);
+        EXPECT_GT(testing::peak(output), 0.5F / 60.0F);
+        return output;
     }
 
     model::ModelFile model_ = testing::smallModel();
     FakeGenerator tone_{testing::continueTone};
 };
 
-TEST_F(LongRunTest, AVoiceWhoseClockStandsADayOnSoundsAsANewOneDoesToTheLastBit) {
+TEST_F(LongRunTest, AVoiceWithAClockOneDayAheadSoundsLikeANewVoice) {
     SimulatedDevice device(model_, tone_, settings());
-    // Nothing but reading advances the clock of a voice: a day of it is put there, and an odd number of samples, so
-    // that the ring stands elsewhere.
+    // Only reading advances a voice's clock, so this sets it forward by a day and by an odd number of samples, which
+    // changes the position in the ring.
     auto& timeline = const_cast<WaveformTimeline&>(device.voice().renderer.voice().timeline());
     constexpr std::int64_t day = 86'400LL * 2000 + 333;
     TimelineView view;
@@ -79,7 +78,7 @@ TEST_F(LongRunTest, AVoiceWhoseClockStandsADayOnSoundsAsANewOneDoesToTheLastBit)
     EXPECT_EQ(device.counters().underruns, 0U);
 }
 
-TEST_F(LongRunTest, AVoiceThatSoundedForLongSoundsAsANewOneDoesToTheLastBit) {
+TEST_F(LongRunTest, AVoiceAfterALongTouchSoundsLikeANewVoice) {
     SimulatedDevice device(model_, tone_, settings());
     const auto seconds = static_cast<int>(soundingSeconds());
     for (int second = 0; second < seconds; ++second) {
@@ -88,14 +87,14 @@ TEST_F(LongRunTest, AVoiceThatSoundedForLongSoundsAsANewOneDoesToTheLastBit) {
         device.waveform.samples.clear();
         device.waveform.seams.clear();
     }
-    // Four times 2,000 a second, but for the beginning.
+    // The head advances by four times 2,000 samples a second, except at the beginning.
     EXPECT_GT(device.voice().renderer.voice().timeline().head(), 7900LL * seconds);
     device.run(1.0, [](double) { return testing::lifted(1); });
     EXPECT_EQ(touch(device, 2), ofANewVoice());
     EXPECT_EQ(device.counters().underruns, 0U);
 }
 
-TEST_F(LongRunTest, AStrokeRenderedOfflineADayLaterSoundsTheSameToTheLastBit) {
+TEST_F(LongRunTest, AStrokeRenderedOfflineADayLaterGivesTheSameBits) {
     const auto renderFrom = [this](double startSeconds) {
         std::vector<ContactState> states;
         for (int update = 0; update < 144; ++update) {

@@ -23,7 +23,7 @@ namespace {
 using nlohmann::json;
 using testing::SmallLibrary;
 
-/// A valid material of the small model, or of another, as a test changes it.
+/// A valid material file for a model, changed by the test.
 model::MaterialFile materialOf(const model::ModelFile& model, const std::function<void(json&)>& change = {}) {
     json text = model::testing::validMaterial(model::spaceOf(model.header()));
     if (change) {
@@ -43,7 +43,7 @@ void withoutLevel(json& material) {
     material.erase("level_offset_db");
 }
 
-TEST(MaterialLibraryTest, ARegisteredMaterialIsNamedByAnIndexBehindTheLabels) {
+TEST(MaterialLibraryTest, ARegisteredMaterialHasAnIndexAfterTheLabels) {
     SmallLibrary small;
     EXPECT_EQ(small.library.add(materialOf(small.model), small.levels()), 2U);
     EXPECT_EQ(small.library.add(materialOf(small.model, [](json& text) { text["name"] = "jeans"; }), small.levels()),
@@ -53,10 +53,10 @@ TEST(MaterialLibraryTest, ARegisteredMaterialIsNamedByAnIndexBehindTheLabels) {
     const Ingredients alone = small.ingredients({{2, 1.0F}});
     EXPECT_EQ(alone.heaviest().index, 2U);
     EXPECT_EQ(resolveMaterial(alone).embedding[63], 0.5F);
-    EXPECT_EQ(small.ingredients({{4, 1.0F}}).heaviest().index, 0U) << "nothing is registered there yet";
+    EXPECT_EQ(small.ingredients({{4, 1.0F}}).heaviest().index, 0U) << "no material is registered at that index yet";
 }
 
-TEST(MaterialLibraryTest, AMaterialOfAnotherModelIsRefusedAndTakesNoPlace) {
+TEST(MaterialLibraryTest, AMaterialOfAnotherModelIsRejectedAndTakesNoIndex) {
     SmallLibrary small;
     const auto foreign = [&] { return materialOf(small.model, [](json& text) { text["space"] = "00000000"; }); };
     EXPECT_THROW((void)small.library.add(foreign(), small.levels()), model::MaterialMismatch);
@@ -66,7 +66,7 @@ TEST(MaterialLibraryTest, AMaterialOfAnotherModelIsRefusedAndTakesNoPlace) {
     EXPECT_EQ(nameOf(small.library, 2), "denim");
 }
 
-TEST(MaterialLibraryTest, AFullLibraryRefusesMoreAndAnIndexOfNoMaterialIsNone) {
+TEST(MaterialLibraryTest, AFullLibraryAndInvalidIndicesAreRejected) {
     SmallLibrary small;
     for (std::size_t count = 0; count < MaterialLibrary::maximumRegistered; ++count) {
         EXPECT_EQ(small.library.add(materialOf(small.model), small.levels()), 2U + count);
@@ -78,7 +78,7 @@ TEST(MaterialLibraryTest, AFullLibraryRefusesMoreAndAnIndexOfNoMaterialIsNone) {
     }
 }
 
-TEST(MaterialLibraryTest, AReplacedMaterialIsFeltWithTheNextLook) {
+TEST(MaterialLibraryTest, AReplacedMaterialIsUsedAtTheNextLookup) {
     SmallLibrary small;
     (void)small.library.add(materialOf(small.model), small.levels());
     small.library.replace(2, materialOf(small.model, [](json& text) { text["embedding"][5] = -2.0; }), small.levels());
@@ -86,17 +86,17 @@ TEST(MaterialLibraryTest, AReplacedMaterialIsFeltWithTheNextLook) {
     EXPECT_EQ(small.library.registeredCount(), 1U);
 }
 
-TEST(MaterialLibraryTest, AMaterialWithoutALevelOfItsOwnHasTheGraphsAndOneWithDoesNotAskTheGraph) {
+TEST(MaterialLibraryTest, OnlyAMaterialWithoutItsOwnLevelUsesTheLevelGraph) {
     SmallLibrary small;
     (void)small.library.add(materialOf(small.model, withoutLevel), small.levels());
     const std::array<float, 3> motion{0.1F, 0.0F, 2.0F};
     EXPECT_NEAR(small.ingredients({{2, 1.0F}}).levelMps2(motion), testing::MotionGenerator::levelMps2(motion), 0.1F);
     (void)small.library.add(materialOf(small.model), []() -> inference::LevelEstimator& {
-        throw std::logic_error("asked for a level graph that nobody needs");
+        throw std::logic_error("the level graph must not be used");
     });
 }
 
-TEST(MaterialLibraryTest, AnOwnLevelIsInterpolatedInLogSpeedContinuedByItsExponentsAndRaisedByItsOffset) {
+TEST(MaterialLibraryTest, AnOwnLevelIsInterpolatedExtrapolatedAndOffset) {
     SmallLibrary small;
     (void)small.library.add(materialOf(small.model), small.levels());
     const auto levelAt = [&](float speedMps, float newtons) {
@@ -105,7 +105,7 @@ TEST(MaterialLibraryTest, AnOwnLevelIsInterpolatedInLogSpeedContinuedByItsExpone
     const double offset = 3.0 * std::numbers::ln10 / 20.0;
     EXPECT_NEAR(levelAt(0.1F, 1.0F), 1.0 + offset, 1e-6);
     EXPECT_NEAR(levelAt(0.1F, 4.0F), 1.0 + offset + 0.5 * std::log(4.0), 1e-6);
-    EXPECT_NEAR(levelAt(0.1F, 0.0F), 1.0 + offset + 0.5 * std::log(0.02), 1e-6) << "the force has a floor";
+    EXPECT_NEAR(levelAt(0.1F, 0.0F), 1.0 + offset + 0.5 * std::log(0.02), 1e-6) << "the force has a minimum";
     const double middle = std::sqrt(0.0505 * 0.1005) - 0.0005;
     EXPECT_NEAR(levelAt(static_cast<float>(middle), 1.0F), 0.5 + offset, 1e-5);
     EXPECT_NEAR(levelAt(0.4F, 1.0F), 1.5 + offset + 0.5 * std::log(0.4005 / 0.2005), 1e-6);
@@ -113,7 +113,7 @@ TEST(MaterialLibraryTest, AnOwnLevelIsInterpolatedInLogSpeedContinuedByItsExpone
     EXPECT_TRUE(std::isfinite(levelAt(0.0F, 0.0F)));
 }
 
-TEST(MaterialLibraryTest, ABlendsLevelIsTheMeanOfItsMaterialsInDecibelsWhoeverGivesThem) {
+TEST(MaterialLibraryTest, ABlendsLevelIsTheMeanOfItsMaterialsInDecibels) {
     SmallLibrary small;
     (void)small.library.add(materialOf(small.model), small.levels());
     const std::array<float, 3> motion{0.1F, 0.0F, 1.0F};
@@ -123,7 +123,7 @@ TEST(MaterialLibraryTest, ABlendsLevelIsTheMeanOfItsMaterialsInDecibelsWhoeverGi
                 std::pow(own, 0.25F) * std::pow(graph, 0.75F), 1e-4F);
 }
 
-TEST(MaterialLibraryTest, WithoutSeedsAMaterialTakesThoseOfTheNearestLabelWaveVectorsLeftAside) {
+TEST(MaterialLibraryTest, AMaterialWithoutSeedsUsesThoseOfTheNearestLabel) {
     SmallLibrary small;
     const auto without = [&](float numbers, float wave) {
         return materialOf(small.model, [numbers, wave](json& text) {
@@ -132,7 +132,7 @@ TEST(MaterialLibraryTest, WithoutSeedsAMaterialTakesThoseOfTheNearestLabelWaveVe
             text["embedding"].insert(text["embedding"].end(), 4, wave);
         });
     };
-    // "oak" has numbers from 0 to 0.63, "metal mesh" from 0.64 on.
+    // The embedding of "oak" has values from 0 to 0.63, that of "metal mesh" from 0.64 on.
     (void)small.library.add(without(0.3F, 1.2F), small.levels());
     (void)small.library.add(without(1.0F, 0.0F), small.levels());
     (void)small.library.add(materialOf(small.model), small.levels());
@@ -143,7 +143,7 @@ TEST(MaterialLibraryTest, WithoutSeedsAMaterialTakesThoseOfTheNearestLabelWaveVe
     EXPECT_EQ(own[0].ribPhase[0], 0.25);
 }
 
-TEST(MaterialLibraryTest, LevelsAndKernelsAreThoseOfTheGoldenFiles) {
+TEST(MaterialLibraryTest, LevelsAndKernelsMatchTheGoldenFiles) {
     const json golden = haptoflow::testing::readGolden("material/expected.json");
     for (const auto& [modelPath, name] :
          {std::pair<std::string, std::string>{HAPTOFLOW_TEST_GOLDEN_DIR "/model/tiny.haptoflow", "ribbed"},
@@ -183,7 +183,7 @@ TEST(MaterialLibraryTest, LevelsAndKernelsAreThoseOfTheGoldenFiles) {
     }
 }
 
-TEST(MaterialLibraryTest, ATiltIsSoManyDecibelsAnOctaveAbout150HzOnTopOfTheMaterialsTone) {
+TEST(MaterialLibraryTest, ATiltAddsToTheMaterialsToneAbout150Hz) {
     SmallLibrary small;
     (void)small.library.add(materialOf(small.model), small.levels());
     const dsp::ToneCepstrum tilt = designTilt();
@@ -210,9 +210,10 @@ TEST(MaterialLibraryTest, ATiltIsSoManyDecibelsAnOctaveAbout150HzOnTopOfTheMater
     }
 }
 
-TEST(MaterialLibraryTest, WhatPublishersReadStaysWholeWhileMaterialsAreReplacedAsFastAsTheyCan) {
+TEST(MaterialLibraryTest, PublishersReadConsistentMaterialsDuringConcurrentReplacement) {
     SmallLibrary small;
-    // Each generation of a material is one number throughout: a reader that saw half of one would see two.
+    // All values of a material equal the number of its generation, so a reader of a partly replaced material would find
+    // two different values.
     const auto generation = [&small](int number) {
         return materialOf(small.model, [number](json& text) {
             text["embedding"] = std::vector<double>(64, number);
@@ -227,9 +228,9 @@ TEST(MaterialLibraryTest, WhatPublishersReadStaysWholeWhileMaterialsAreReplacedA
     for (int reader = 0; reader < 3; ++reader) {
         readers.emplace_back([&] {
             while (!ended) {
-                const MaterialLibrary::Reading reading(small.library);
+                const MaterialLibrary::ReadScope reading(small.library);
                 const Ingredients found = reading.ingredients(testing::blendOf({{2, 1.0F}}));
-                const KnownMaterial& material = *found.heaviest().material;
+                const PreparedMaterial& material = *found.heaviest().material;
                 const float first = material.embedding[0];
                 const auto letter = static_cast<char>('a' + static_cast<int>(first) % 26);
                 const bool isWhole = std::ranges::all_of(material.embedding, [first](float v) { return v == first; }) &&

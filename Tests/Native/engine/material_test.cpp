@@ -12,7 +12,7 @@
 namespace haptoflow::engine {
 namespace {
 
-TEST(MaterialTest, ABlendIsTheWeightedMeanOfItsLabelsButForTheWaveVectors) {
+TEST(MaterialTest, ABlendIsTheWeightedMeanOfItsLabelsExceptForTheWaveVectors) {
     const testing::SmallLibrary small;
     const Material mixed = resolveMaterial(small.ingredients({{0, 3.0F}, {1, 1.0F}}));
     const auto oak = small.model.embedding(0);
@@ -23,7 +23,7 @@ TEST(MaterialTest, ABlendIsTheWeightedMeanOfItsLabelsButForTheWaveVectors) {
     EXPECT_EQ(small.ingredients({{0, 3.0F}, {1, 1.0F}}).heaviest().index, 0U);
 }
 
-TEST(MaterialTest, ALabelAloneIsItsEmbeddingBitForBitHoweverOftenAndWithWhateverWeightItIsNamed) {
+TEST(MaterialTest, ASingleLabelGivesItsExactEmbeddingForAnyWeight) {
     const testing::SmallLibrary small;
     for (const float weight : {1.0F, 0.3F, 0.07F}) {
         const Ingredients alone = small.ingredients({{1, weight}, {1, weight / 3.0F}});
@@ -33,7 +33,7 @@ TEST(MaterialTest, ALabelAloneIsItsEmbeddingBitForBitHoweverOftenAndWithWhatever
     }
 }
 
-TEST(MaterialTest, UnknownLabelsAndNegativeWeightsAreLeftOut) {
+TEST(MaterialTest, UnknownLabelsAndNegativeWeightsAreSkipped) {
     const testing::SmallLibrary small;
     const Ingredients left = small.ingredients({{99, 5.0F}, {0, -1.0F}, {1, 0.5F}});
     EXPECT_EQ(left.count, 1U);
@@ -49,7 +49,7 @@ TEST(MaterialTest, ABlendWithoutAnyWeightIsTheFirstLabel) {
     }
 }
 
-TEST(ContactStateTest, EveryFieldOfARuinedStateBecomesFiniteAndIsCounted) {
+TEST(ContactStateTest, EveryInvalidFieldOfAStateBecomesFiniteAndIsCounted) {
     constexpr float nan = std::numeric_limits<float>::quiet_NaN();
     constexpr float infinity = std::numeric_limits<float>::infinity();
     ContactState state;
@@ -68,15 +68,15 @@ TEST(ContactStateTest, EveryFieldOfARuinedStateBecomesFiniteAndIsCounted) {
     EXPECT_EQ(sanitise(state), 0U);
 }
 
-TEST(SeedRetrievalTest, TheSeedRecordedNearestToTheMotionIsTaken) {
+TEST(SeedRetrievalTest, TheSeedRecordedNearestToTheMotionIsChosen) {
     const testing::SmallLibrary small;
     const auto& seeds = small.ingredients({{0, 1.0F}}).heaviest().material->seeds;
-    // "oak" has seeds at (0.1, -0.05) m/s and 1 N, and at (0.2, -0.05) m/s and 2 N.
+    // "oak" has seeds recorded at (0.1, -0.05) m/s and 1 N, and at (0.2, -0.05) m/s and 2 N.
     EXPECT_EQ(retrieveSeed(seeds, {0.09F, -0.04F, 1.0F}), &seeds[0]);
     EXPECT_EQ(retrieveSeed(seeds, {0.3F, -0.05F, 2.5F}), &seeds[1]);
 }
 
-TEST(SeedRetrievalTest, AMaterialWithoutSeedsGivesNone) {
+TEST(SeedRetrievalTest, AMaterialWithoutSeedsGivesNull) {
     EXPECT_EQ(retrieveSeed({}, {0.1F, 0.0F, 1.0F}), nullptr);
 }
 

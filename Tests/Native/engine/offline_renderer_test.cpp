@@ -22,7 +22,7 @@ using inference::segmentSamples;
 using testing::FakeGenerator;
 using testing::whiteNoise;
 
-/// Goes on with a 100 Hz tone from where the past stopped: two past samples determine it.
+/// Continues a 100 Hz tone, which the last two samples determine.
 void continueTone(const inference::SegmentRequest& request, std::span<float> segment) {
     const double factor = 2.0 * std::cos(2.0 * std::numbers::pi * 100.0 / 2000.0);
     double before = request.previous[segmentSamples - 2];
@@ -51,7 +51,7 @@ std::vector<ContactState> slide(double seconds, double updatesHz = 72.0) {
     return states;
 }
 
-TEST(OfflineRendererTest, SameStatesAndSeedGiveTheSameSamplesAndAnotherSeedOthers) {
+TEST(OfflineRendererTest, TheSamplesDependOnlyOnStatesAndSeed) {
     const model::ModelFile model = testing::smallModel();
     FakeGenerator generator(whiteNoise);
     const std::vector<ContactState> states = slide(0.5);
@@ -63,7 +63,7 @@ TEST(OfflineRendererTest, SameStatesAndSeedGiveTheSameSamplesAndAnotherSeedOther
     EXPECT_EQ(first.samples.size(), static_cast<std::size_t>(std::llround((states.back().timeSeconds + 0.1) * 48000)));
 }
 
-/// Keeps only how much came, in how large pieces.
+/// Records only the number of samples and the largest piece.
 class CountingSink final : public OfflineSink {
 public:
     void output(std::span<const float> samples) override {
@@ -80,7 +80,7 @@ public:
     std::size_t largestPiece = 0;
 };
 
-TEST(OfflineRendererTest, AStreamedRenderComesInPiecesOfOneUpdateAndMeasuresTheSame) {
+TEST(OfflineRendererTest, AStreamedRenderArrivesPerUpdateAndHasTheSameStatistics) {
     const model::ModelFile model = testing::smallModel();
     FakeGenerator generator(whiteNoise);
     const std::vector<ContactState> states = slide(5.0);
@@ -93,7 +93,7 @@ TEST(OfflineRendererTest, AStreamedRenderComesInPiecesOfOneUpdateAndMeasuresTheS
     const OfflineFigures streamed = renderOffline(model, generator, source, {}, sink);
     EXPECT_EQ(sink.outputSamples, whole.samples.size());
     EXPECT_EQ(sink.waveformSamples, whole.waveformMps2.size());
-    // The tail of 0.1 s is the largest.
+    // The tail of 0.1 s is the largest piece.
     EXPECT_LE(sink.largestPiece, 4800U);
     EXPECT_EQ(streamed.outputSamples, whole.samples.size());
     EXPECT_EQ(streamed.rmsMps2, whole.rmsMps2);
@@ -107,7 +107,7 @@ TEST(OfflineRendererTest, TouchesWithoutASoundAreCounted) {
     FakeGenerator generator(whiteNoise);
     std::vector<ContactState> states = slide(0.99);
     for (std::size_t i = 0; i < states.size(); ++i) {
-        // Three touches of 20 states with a gap of 4: the second rests.
+        // Three touches of 20 states with gaps of 4 states; the tip rests in the second touch.
         const std::size_t touch = i / 24;
         states[i].touching = i % 24 < 20;
         states[i].touchCounter = static_cast<std::uint32_t>(touch + 1);
@@ -118,11 +118,11 @@ TEST(OfflineRendererTest, TouchesWithoutASoundAreCounted) {
     EXPECT_EQ(render.silentTouches, 1U);
 }
 
-TEST(OfflineRendererTest, EverySegmentGoesOnFromTheCommittedSamplesBeforeIt) {
+TEST(OfflineRendererTest, EverySegmentContinuesTheCommittedSamples) {
     const model::ModelFile model = testing::smallModel();
     FakeGenerator generator(continueTone);
-    // The seed alternates from sample to sample; the first segment turns it into the tone that its last two samples
-    // determine, and from there on the tone must never break.
+    // The seed alternates between two values. The first segment continues its last two samples as a tone, which must
+    // then continue without interruption.
     const OfflineRender render = renderOffline(model, generator, slide(2.0), {});
     ASSERT_GT(render.waveformMps2.size(), 3500U);
     const double factor = 2.0 * std::cos(2.0 * std::numbers::pi * 100.0 / 2000.0);
@@ -133,7 +133,7 @@ TEST(OfflineRendererTest, EverySegmentGoesOnFromTheCommittedSamplesBeforeIt) {
     EXPECT_EQ(render.underruns, 0U);
 }
 
-TEST(OfflineRendererTest, WithoutTouchNothingIsGeneratedAndNothingSounds) {
+TEST(OfflineRendererTest, WithoutTouchNothingIsGeneratedAndTheOutputIsZero) {
     const model::ModelFile model = testing::smallModel();
     FakeGenerator generator(whiteNoise);
     std::vector<ContactState> states = slide(1.0);
@@ -147,7 +147,7 @@ TEST(OfflineRendererTest, WithoutTouchNothingIsGeneratedAndNothingSounds) {
     EXPECT_TRUE(render.waveformMps2.empty());
 }
 
-TEST(OfflineRendererTest, ATipThatRestsOnTheSurfaceCostsNoInference) {
+TEST(OfflineRendererTest, ATipAtRestOnTheSurfaceNeedsNoInference) {
     const model::ModelFile model = testing::smallModel();
     FakeGenerator generator(whiteNoise);
     std::vector<ContactState> states = slide(1.0);
@@ -159,7 +159,7 @@ TEST(OfflineRendererTest, ATipThatRestsOnTheSurfaceCostsNoInference) {
     EXPECT_EQ(render.skipped, states.size());
 }
 
-TEST(OfflineRendererTest, AFailedRunPublishesNothingIsCountedAndFadesInsteadOfBreakingOff) {
+TEST(OfflineRendererTest, AfterAFailedRunTheOutputFadesAndTheFailureIsCounted) {
     const model::ModelFile model = testing::smallModel();
     int calls = 0;
     FakeGenerator generator([&calls](const inference::SegmentRequest& request, std::span<float> segment) {
@@ -174,7 +174,7 @@ TEST(OfflineRendererTest, AFailedRunPublishesNothingIsCountedAndFadesInsteadOfBr
     EXPECT_EQ(render.nonFinite, 0U);
 }
 
-TEST(OfflineRendererTest, UpdatesThatStopForATenthOfASecondSilenceTheVoiceAndSlidingResumes) {
+TEST(OfflineRendererTest, MissingUpdatesSilenceTheVoiceUntilSlidingResumes) {
     const model::ModelFile model = testing::smallModel();
     FakeGenerator generator(continueTone);
     std::vector<ContactState> states = slide(1.0);
@@ -188,11 +188,11 @@ TEST(OfflineRendererTest, UpdatesThatStopForATenthOfASecondSilenceTheVoiceAndSli
     for (std::size_t i = quietFrom; i < quietTo; ++i) {
         ASSERT_EQ(render.samples[i], 0.0F) << "sample " << i;
     }
-    EXPECT_EQ(render.onsets, 1U) << "the same touch";
+    EXPECT_EQ(render.onsets, 1U) << "the resumed slide belongs to the same touch";
     EXPECT_NE(render.samples[quietTo + 480], 0.0F);
 }
 
-TEST(OfflineRendererTest, RuinedStatesAreSanitisedAndCountedAndTheOutputStaysFinite) {
+TEST(OfflineRendererTest, InvalidStatesAreSanitisedAndCountedAndTheOutputIsFinite) {
     const model::ModelFile model = testing::smallModel();
     FakeGenerator generator(whiteNoise);
     std::vector<ContactState> states = slide(1.0);
@@ -220,9 +220,10 @@ TEST_P(UpdateRateTest, EveryUpdateOfASlideGivesOneSegmentAndNoUnderrun) {
 INSTANTIATE_TEST_SUITE_P(Hertz, UpdateRateTest, ::testing::Values(30.0, 45.0, 72.0, 90.0, 120.0, 500.0, 1000.0),
                          [](const auto& rate) { return std::to_string(static_cast<int>(rate.param)); });
 
-TEST(OfflineRendererTest, TheLeadDecidesWhenANewLabelIsFirstHeard) {
+TEST(OfflineRendererTest, ANewLabelIsAudibleAfterTheLead) {
     const model::ModelFile model = testing::smallModel();
-    // Silent until the label changes, then constant: the first sample that is not zero shows the switch.
+    // The network outputs silence until the label changes, then a constant, so that the first non-zero sample shows the
+    // change.
     const auto answer = [&model](const inference::SegmentRequest& request, std::span<float> segment) {
         const bool mesh = request.embedding[3] == model.embedding(1)[3];
         std::ranges::fill(segment, mesh ? 1.0F : 0.0F);
@@ -237,15 +238,15 @@ TEST(OfflineRendererTest, TheLeadDecidesWhenANewLabelIsFirstHeard) {
         const auto from = static_cast<std::size_t>(states[30].timeSeconds * 48000.0);
         const auto first = std::find_if(render.samples.begin() + static_cast<std::ptrdiff_t>(from),
                                         render.samples.end(), [](float sample) { return sample > 1e-3F; });
-        const double heardMs = 1000.0 * static_cast<double>(first - render.samples.begin()) / 48000.0;
+        const double audibleMs = 1000.0 * static_cast<double>(first - render.samples.begin()) / 48000.0;
         const double changedMs = 1000.0 * states[36].timeSeconds;
-        // 5 ms of reading ahead, up to 2 ms of splice and of the resampler's delay.
-        EXPECT_GE(heardMs - changedMs, leadMs);
-        EXPECT_LE(heardMs - changedMs, leadMs + 9.0);
+        // The tolerance covers 5 ms of reading ahead and up to 2 ms for splice and resampler.
+        EXPECT_GE(audibleMs - changedMs, leadMs);
+        EXPECT_LE(audibleMs - changedMs, leadMs + 9.0);
     }
 }
 
-TEST(OfflineRendererTest, SettingsOutOfRangeAreRefused) {
+TEST(OfflineRendererTest, SettingsOutOfRangeAreRejected) {
     const model::ModelFile model = testing::smallModel();
     FakeGenerator generator(whiteNoise);
     const std::vector<ContactState> states = slide(0.1);

@@ -15,7 +15,7 @@
 namespace haptoflow::engine {
 namespace {
 
-/// Levels as a level graph gives them: powers of speed and force, a figure of eight over direction.
+/// Levels like those of a level graph: powers of speed and force with a variation over direction.
 double level(double vx, double vy, double newtons, double first) {
     const double speed = std::hypot(vx, vy);
     const double along = std::cos(2.0 * std::atan2(vy, vx));
@@ -27,7 +27,7 @@ public:
     void generate(std::span<const inference::SegmentRequest>, std::span<float>) override {}
     void levels(std::span<const inference::SegmentRequest> requests, std::span<float> levelsMps2) override {
         ++calls;
-        asked += requests.size();
+        requestCount += requests.size();
         if (whenAsked) {
             whenAsked();
         }
@@ -39,11 +39,11 @@ public:
     }
 
     std::size_t calls = 0;
-    std::size_t asked = 0;
+    std::size_t requestCount = 0;
     std::function<void()> whenAsked;
 };
 
-/// The small model with so many labels, each with one of so many material embeddings.
+/// The small model with `labels` labels that share `embeddings` embeddings.
 model::ModelFile modelWithLabels(std::size_t labels, std::size_t embeddings) {
     model::testing::ModelBuilder builder;
     const nlohmann::json first = builder.header["labels"][0];
@@ -62,12 +62,12 @@ model::ModelFile modelWithLabels(std::size_t labels, std::size_t embeddings) {
     return model::ModelFile::parse(builder.build());
 }
 
-/// How often the level graph is asked for a model's levels.
+/// Number of evaluations of the level graph for a model's levels.
 std::size_t levelsAskedFor(std::size_t labels, std::size_t embeddings) {
     PowerLaw graph;
     const OnsetLevels levels(modelWithLabels(labels, embeddings), graph);
-    EXPECT_LE(graph.calls, graph.asked / 256 + 1) << "all but the last call are full batches";
-    return graph.asked;
+    EXPECT_LE(graph.calls, graph.requestCount / 256 + 1) << "all calls except the last are full batches";
+    return graph.requestCount;
 }
 
 double decibels(double ratio) {
@@ -82,14 +82,14 @@ protected:
 
     model::ModelFile model_ = testing::smallModel();
     PowerLaw graph_;
-    /// Level of a blend at a motion.
+    /// The level of a blend at a motion.
     [[nodiscard]] float levelOf(std::initializer_list<LabelWeight> entries, const std::array<float, 3>& motion) const {
-        return MaterialLibrary::Reading(library_).ingredients(testing::blendOf(entries)).levelMps2(motion);
+        return MaterialLibrary::ReadScope(library_).ingredients(testing::blendOf(entries)).levelMps2(motion);
     }
     MaterialLibrary library_{model_, graph_};
 };
 
-TEST_F(OnsetLevelsTest, EverywhereInTheRangeTheTableIsWithinHalfADecibelOfTheGraph) {
+TEST_F(OnsetLevelsTest, TheTableIsWithinHalfADecibelOfTheGraph) {
     std::mt19937 random(5);
     std::uniform_real_distribution<double> share(0.0, 1.0);
     for (int trial = 0; trial < 2000; ++trial) {
@@ -112,7 +112,7 @@ TEST_F(OnsetLevelsTest, ABlendLiesBetweenItsLabelsInDecibels) {
     EXPECT_NEAR(mixed, std::sqrt(first * second), 1e-4F);
 }
 
-TEST_F(OnsetLevelsTest, BeyondTheRangeAndAtRestItStaysAtTheEdge) {
+TEST_F(OnsetLevelsTest, BeyondTheRangeAndAtRestTheLevelIsThatOfTheEdge) {
     const auto oak = [this](const std::array<float, 3>& motion) {
         return levelOf({{.label = 0, .weight = 1.0F}}, motion);
     };
@@ -120,7 +120,7 @@ TEST_F(OnsetLevelsTest, BeyondTheRangeAndAtRestItStaysAtTheEdge) {
     EXPECT_EQ(oak({0.01F, 0.0F, 0.1F}), oak({0.0F, 0.0F, 0.0F}));
 }
 
-TEST_F(OnsetLevelsTest, UnknownLabelsAreLeftOutAndABlendOfNoneIsTheFirst) {
+TEST_F(OnsetLevelsTest, UnknownLabelsAreSkippedAndAnEmptyBlendIsTheFirstLabel) {
     const std::array<float, 3> motion{0.1F, 0.0F, 1.0F};
     const float first = levelOf({{.label = 0, .weight = 1.0F}}, motion);
     EXPECT_EQ(levelOf({}, motion), first);
@@ -128,17 +128,17 @@ TEST_F(OnsetLevelsTest, UnknownLabelsAreLeftOutAndABlendOfNoneIsTheFirst) {
     EXPECT_EQ(levelOf({{.label = 1, .weight = 0.0F}}, motion), first);
 }
 
-TEST(OnsetLevelsCostTest, TheGraphIsAsked640TimesForEachEmbeddingHoweverManyThereAre) {
+TEST(OnsetLevelsCostTest, TheGraphIsEvaluatedAt640PointsForEachEmbedding) {
     EXPECT_EQ(levelsAskedFor(2, 2), 2U * 640U);
     EXPECT_EQ(levelsAskedFor(64, 64), 64U * 640U);
     EXPECT_EQ(levelsAskedFor(4096, 4096), 4096U * 640U);
 }
 
-TEST(OnsetLevelsCostTest, LabelsOfTheSameEmbeddingCostNothingMore) {
+TEST(OnsetLevelsCostTest, LabelsWithTheSameEmbeddingNeedNoFurtherEvaluations) {
     EXPECT_EQ(levelsAskedFor(4096, 16), 16U * 640U);
 }
 
-TEST(OnsetLevelsCostTest, LabelsOfTheSameEmbeddingHaveTheSameLevelAndOthersTheirOwn) {
+TEST(OnsetLevelsCostTest, LabelsWithTheSameEmbeddingHaveTheSameLevel) {
     PowerLaw graph;
     const model::ModelFile model = modelWithLabels(40, 8);
     const OnsetLevels levels(model, graph);
@@ -153,7 +153,7 @@ TEST(OnsetLevelsCostTest, LabelsOfTheSameEmbeddingHaveTheSameLevelAndOthersTheir
     }
 }
 
-TEST(OnsetLevelsCostTest, ACancellationEndsItWithinOneBatch) {
+TEST(OnsetLevelsCostTest, ACancellationEndsTheTabulationWithinOneBatch) {
     PowerLaw graph;
     const auto cancellation = std::make_shared<inference::Cancellation>();
     graph.whenAsked = [&] {

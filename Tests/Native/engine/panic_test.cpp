@@ -32,7 +32,7 @@ protected:
 
 constexpr float audible = 0.2F / 60.0F;
 
-TEST_F(PanicTest, ATouchThatBeginsAfterItAndBeforeTheNextBlockSoundsAtOnceWhereNothingSounded) {
+TEST_F(PanicTest, ATouchAfterAPanicInSilenceSoundsInTheNextBlock) {
     for (const std::uint32_t number : {0U, 1U, 7U}) {
         SimulatedDevice device(model_, tone_);
         device.run(0.05, [](double) { return testing::lifted(0); });
@@ -44,7 +44,7 @@ TEST_F(PanicTest, ATouchThatBeginsAfterItAndBeforeTheNextBlockSoundsAtOnceWhereN
     }
 }
 
-TEST_F(PanicTest, BeforeTheVeryFirstStateItSwallowsNothing) {
+TEST_F(PanicTest, APanicBeforeTheFirstStateSilencesNothing) {
     for (const std::uint32_t number : {0U, 1U}) {
         SimulatedDevice device(model_, tone_);
         panic(device);
@@ -54,7 +54,7 @@ TEST_F(PanicTest, BeforeTheVeryFirstStateItSwallowsNothing) {
     }
 }
 
-TEST_F(PanicTest, AFirstTouchNumberedZeroIsSilencedLikeAnyOther) {
+TEST_F(PanicTest, AFirstTouchWithCounterZeroIsSilenced) {
     SimulatedDevice device(model_, tone_);
     device.run(0.3, [](double) { return touch(0); });
     ASSERT_GT(testing::peak(device.output), audible);
@@ -64,7 +64,7 @@ TEST_F(PanicTest, AFirstTouchNumberedZeroIsSilencedLikeAnyOther) {
     EXPECT_EQ(testing::peak(from(device, begin + 256)), 0.0F);
 }
 
-TEST_F(PanicTest, ANewTouchOnAnotherLabelInTheSameBlockFollowsTheSilenceThatEndsTheOldOne) {
+TEST_F(PanicTest, ANewTouchInTheSameBlockSoundsAfterTheOldOneIsSilent) {
     SimulatedDevice device(model_, tone_);
     device.run(0.3, [](double) { return touch(1); });
     const float ordinaryStep = testing::largestStep(device.output);
@@ -72,13 +72,13 @@ TEST_F(PanicTest, ANewTouchOnAnotherLabelInTheSameBlockFollowsTheSilenceThatEnds
     device.publish(touch(2, 1));
     const std::size_t begin = device.output.size();
     device.renderBlock();
-    EXPECT_EQ(device.output.back(), 0.0F) << "the old touch is over at the end of its block";
+    EXPECT_EQ(device.output.back(), 0.0F) << "the old touch must end with its block";
     device.renderBlock();
-    EXPECT_GT(testing::peak(from(device, begin + 256)), audible) << "the new one sounds with the next";
+    EXPECT_GT(testing::peak(from(device, begin + 256)), audible) << "the new touch must sound with the next block";
     EXPECT_LE(testing::largestStep(from(device, begin - 1)), 3.0F * ordinaryStep);
 }
 
-TEST_F(PanicTest, ATapThatBeginsAndEndsAfterItIsFelt) {
+TEST_F(PanicTest, ATapAfterAPanicSounds) {
     SimulatedDevice device(model_, tone_);
     device.run(0.3, [](double) { return touch(1); });
     panic(device);
@@ -91,7 +91,7 @@ TEST_F(PanicTest, ATapThatBeginsAndEndsAfterItIsFelt) {
     EXPECT_EQ(device.counters().taps, 1U);
 }
 
-TEST_F(PanicTest, TouchesWithoutACounterAreToldApartByTheirLiftOff) {
+TEST_F(PanicTest, TouchesWithoutACounterAreSeparatedByLiftOff) {
     SimulatedDevice device(model_, tone_);
     device.run(0.3, [](double) { return touch(0); });
     panic(device);
@@ -102,7 +102,7 @@ TEST_F(PanicTest, TouchesWithoutACounterAreToldApartByTheirLiftOff) {
     EXPECT_GT(testing::peak(from(device, begin)), audible);
 }
 
-TEST_F(PanicTest, TwoOfThemWithATouchBetweenSilenceThatTouchToo) {
+TEST_F(PanicTest, ASecondPanicAlsoSilencesTheTouchBetween) {
     SimulatedDevice device(model_, tone_);
     device.run(0.3, [](double) { return touch(1); });
     panic(device);
@@ -116,7 +116,7 @@ TEST_F(PanicTest, TwoOfThemWithATouchBetweenSilenceThatTouchToo) {
     EXPECT_GT(testing::peak(from(device, again)), audible);
 }
 
-TEST_F(PanicTest, ItOutlastsMuteAndPauseThatEndDuringTheTouch) {
+TEST_F(PanicTest, APanicOutlastsMuteAndPauseOfTheSameTouch) {
     SimulatedDevice device(model_, tone_);
     device.run(0.3, [](double) { return touch(1); });
     device.controls().muted = true;
@@ -129,7 +129,7 @@ TEST_F(PanicTest, ItOutlastsMuteAndPauseThatEndDuringTheTouch) {
     EXPECT_EQ(device.voice().channels.silence.load(), Silence::panic);
 }
 
-TEST_F(PanicTest, AnEmptyBlockDoesNotUseItUp) {
+TEST_F(PanicTest, AnEmptyBlockDoesNotEndAPanic) {
     SimulatedDevice device(model_, tone_);
     device.run(0.3, [](double) { return touch(1); });
     const float ordinaryStep = testing::largestStep(device.output);
@@ -137,7 +137,8 @@ TEST_F(PanicTest, AnEmptyBlockDoesNotUseItUp) {
     device.voice().renderer.render({}, 48000.0);
     const std::size_t begin = device.output.size();
     device.renderBlock();
-    EXPECT_LE(testing::largestStep(from(device, begin - 1)), 3.0F * ordinaryStep) << "a fade, not a cut";
+    EXPECT_LE(testing::largestStep(from(device, begin - 1)), 3.0F * ordinaryStep)
+        << "the output must fade without a step";
     EXPECT_EQ(device.output.back(), 0.0F);
 }
 

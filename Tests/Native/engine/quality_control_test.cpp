@@ -12,23 +12,23 @@ namespace {
 
 constexpr double budgetMs = 3.0;
 
-/// Three tiers, measured at so many milliseconds each.
+/// A control with three tiers, measured at these times in milliseconds.
 QualityControl measuredControl(double first, double second, double third) {
     QualityControl control(3, {.fixedTier = std::nullopt, .budgetMs = budgetMs}, 1);
     const std::array<double, 3> times{first, second, third};
     while (const auto tier = control.tierToMeasure()) {
-        control.measured(*tier, times.at(*tier));
+        control.recordMeasurement(*tier, times.at(*tier));
     }
     return control;
 }
 
 void runRounds(QualityControl& control, int rounds, double milliseconds, std::size_t voices = 1) {
     for (int round = 0; round < rounds; ++round) {
-        control.ran(milliseconds, voices);
+        control.recordRound(milliseconds, voices);
     }
 }
 
-TEST(RunTimesTest, PercentilesAreThoseOfTheLastRuns) {
+TEST(RunTimesTest, PercentilesCoverOnlyTheLastRuns) {
     RunTimes times;
     EXPECT_EQ(times.percentile(0.99), 0.0);
     for (int run = 1; run <= 100; ++run) {
@@ -39,33 +39,33 @@ TEST(RunTimesTest, PercentilesAreThoseOfTheLastRuns) {
     for (int run = 0; run < 128; ++run) {
         times.add(7.0);
     }
-    EXPECT_EQ(times.percentile(0.99), 7.0) << "the first hundred are forgotten";
+    EXPECT_EQ(times.percentile(0.99), 7.0) << "the first hundred runs no longer count";
 }
 
-TEST(QualityControlTest, TheMostAccurateTierThatFitsTheBudgetIsTaken) {
+TEST(QualityControlTest, TheMostAccurateTierThatFitsTheBudgetIsChosen) {
     EXPECT_EQ(measuredControl(0.2, 0.5, 1.5).tier(), 2U);
     EXPECT_EQ(measuredControl(0.2, 0.5, 3.5).tier(), 1U);
     EXPECT_EQ(measuredControl(2.0, 4.0, 8.0).tier(), 0U);
-    EXPECT_EQ(measuredControl(20.0, 40.0, 80.0).tier(), 0U) << "too slow a machine still gets the cheapest";
+    EXPECT_EQ(measuredControl(20.0, 40.0, 80.0).tier(), 0U) << "a machine that is too slow gets the fastest tier";
 }
 
-TEST(QualityControlTest, EachTierIsMeasuredTwentyTimesBeforeItDecides) {
+TEST(QualityControlTest, EachTierIsMeasuredTwentyTimesBeforeTheFirstDecision) {
     QualityControl control(2, {.fixedTier = std::nullopt, .budgetMs = budgetMs}, 0);
     int runs = 0;
     while (const auto tier = control.tierToMeasure()) {
         EXPECT_EQ(control.tier(), 0U);
-        control.measured(*tier, 0.1);
+        control.recordMeasurement(*tier, 0.1);
         ++runs;
     }
     EXPECT_EQ(runs, 40);
     EXPECT_EQ(control.tier(), 1U);
 }
 
-TEST(QualityControlTest, RareOverrunsChangeNothingAndThreeCloseTogetherStepDown) {
+TEST(QualityControlTest, OnlyThreeOverrunsCloseTogetherCauseAStepDown) {
     QualityControl control = measuredControl(0.2, 0.5, 1.5);
     for (int i = 0; i < 20; ++i) {
         runRounds(control, 40, 1.5);
-        control.ran(9.0, 1);
+        control.recordRound(9.0, 1);
     }
     EXPECT_EQ(control.tier(), 2U);
     runRounds(control, 3, 9.0);
@@ -73,21 +73,21 @@ TEST(QualityControlTest, RareOverrunsChangeNothingAndThreeCloseTogetherStepDown)
     EXPECT_EQ(control.stepsDown(), 1U);
 }
 
-TEST(QualityControlTest, BelowTheCheapestTierThereIsNothing) {
+TEST(QualityControlTest, TheFirstTierDoesNotStepDown) {
     QualityControl control = measuredControl(0.2, 0.5, 1.5);
     runRounds(control, 100, 50.0);
     EXPECT_EQ(control.tier(), 0U);
     EXPECT_EQ(control.stepsDown(), 2U);
 }
 
-TEST(QualityControlTest, ItStepsUpAgainOnlyAfterALongQuietTimeAndLongerAfterEachFall) {
+TEST(QualityControlTest, AStepUpNeedsALongTimeWithoutOverrunsThatGrowsWithEachStepDown) {
     QualityControl control = measuredControl(0.2, 0.5, 1.5);
     const auto quietRoundsUntilUp = [&control] {
         runRounds(control, 3, 9.0);
         const std::size_t fallen = control.tier();
         int rounds = 0;
         while (control.tier() == fallen && rounds < 100000) {
-            control.ran(0.5, 1);
+            control.recordRound(0.5, 1);
             ++rounds;
         }
         return rounds;
@@ -99,62 +99,64 @@ TEST(QualityControlTest, ItStepsUpAgainOnlyAfterALongQuietTimeAndLongerAfterEach
     EXPECT_EQ(control.stepsUp(), 2U);
 }
 
-TEST(QualityControlTest, ItDoesNotStepUpToWhatWouldNotFitForSoManyVoices) {
+TEST(QualityControlTest, NoStepUpOccursToATierThatDoesNotFitAllVoices) {
     QualityControl control = measuredControl(0.2, 0.5, 1.5);
     runRounds(control, 3, 9.0, 4);
     ASSERT_EQ(control.tier(), 1U);
     runRounds(control, 5000, 2.0, 4);
-    EXPECT_EQ(control.tier(), 1U) << "four voices of 1.5 ms are more than the budget";
+    EXPECT_EQ(control.tier(), 1U) << "four voices at 1.5 ms exceed the budget";
     runRounds(control, 5000, 0.5, 1);
     EXPECT_EQ(control.tier(), 2U);
 }
 
-TEST(QualityControlTest, MoreVoicesThanTheTierFitsForStepItDownBeforeAnythingOverruns) {
+TEST(QualityControlTest, AdditionalVoicesCauseAStepDownBeforeAnOverrun) {
     QualityControl control = measuredControl(0.2, 0.5, 1.5);
     ASSERT_EQ(control.tier(), 2U);
-    control.ran(1.5, 1);
+    control.recordRound(1.5, 1);
     EXPECT_EQ(control.tier(), 2U);
-    control.ran(2.5, 3);
-    EXPECT_EQ(control.tier(), 1U) << "three of 1.5 ms are more than 3 ms";
-    control.ran(2.5, 12);
-    EXPECT_EQ(control.tier(), 0U) << "twelve of 0.5 ms";
+    control.recordRound(2.5, 3);
+    EXPECT_EQ(control.tier(), 1U) << "three voices at 1.5 ms exceed 3 ms";
+    control.recordRound(2.5, 12);
+    EXPECT_EQ(control.tier(), 0U) << "twelve voices at 0.5 ms exceed 3 ms";
 }
 
-TEST(QualityControlTest, AFixedTierStaysWhateverItCosts) {
+TEST(QualityControlTest, AFixedTierStaysDespiteOverruns) {
     QualityControl control(3, {.fixedTier = 2, .budgetMs = budgetMs}, 0);
     EXPECT_EQ(control.tierToMeasure(), std::nullopt);
     runRounds(control, 1000, 50.0);
     EXPECT_EQ(control.tier(), 2U);
-    EXPECT_EQ(control.times(2).percentile(0.5), 50.0) << "what it costs is known all the same";
+    EXPECT_EQ(control.times(2).percentile(0.5), 50.0) << "the time is recorded although the tier is fixed";
 }
 
-/// Three tiers whose third is less accurate than the second, measured at so many milliseconds each.
+/// A control with three tiers, of which the third is less accurate than the second, measured at these times in
+/// milliseconds.
 QualityControl controlByAccuracy(double first, double second, double third) {
     QualityControl control(3, {.fixedTier = std::nullopt, .budgetMs = budgetMs}, 1, {0, 2, 1});
     const std::array<double, 3> times{first, second, third};
     while (const auto tier = control.tierToMeasure()) {
-        control.measured(*tier, times.at(*tier));
+        control.recordMeasurement(*tier, times.at(*tier));
     }
     return control;
 }
 
-TEST(QualityControlTest, TheMostAccurateIsTheOneThatWasMeasuredSoAndNotTheLast) {
+TEST(QualityControlTest, TheOrderOfAccuracyDecidesAndNotTheModelsOrder) {
     EXPECT_EQ(controlByAccuracy(0.2, 0.5, 1.5).tier(), 1U);
-    EXPECT_EQ(controlByAccuracy(0.2, 3.5, 1.5).tier(), 2U) << "the second most accurate, where the first does not fit";
+    EXPECT_EQ(controlByAccuracy(0.2, 3.5, 1.5).tier(), 2U)
+        << "the most accurate tier does not fit, so the second most accurate is chosen";
     EXPECT_EQ(controlByAccuracy(0.2, 3.5, 3.5).tier(), 0U);
 }
 
-TEST(QualityControlTest, AStepDownGoesToATierThatIsFaster) {
+TEST(QualityControlTest, AStepDownSkipsTiersThatAreNotFaster) {
     QualityControl control = controlByAccuracy(0.2, 0.5, 1.5);
     runRounds(control, 3, 9.0);
-    EXPECT_EQ(control.tier(), 0U) << "the tier between them is slower than the one that was too slow";
+    EXPECT_EQ(control.tier(), 0U) << "the tier between them is slower than the present one";
     EXPECT_EQ(control.stepsDown(), 1U);
     runRounds(control, 100, 9.0);
     EXPECT_EQ(control.tier(), 0U);
     EXPECT_EQ(control.stepsDown(), 1U);
 }
 
-TEST(QualityControlTest, AStepUpPassesATierThatIsSlowerAndLessAccurateThanAnother) {
+TEST(QualityControlTest, AStepUpSkipsATierThatIsSlowerAndLessAccurateThanAnother) {
     QualityControl control = controlByAccuracy(0.2, 0.5, 1.5);
     runRounds(control, 3, 9.0);
     ASSERT_EQ(control.tier(), 0U);
@@ -163,12 +165,12 @@ TEST(QualityControlTest, AStepUpPassesATierThatIsSlowerAndLessAccurateThanAnothe
     EXPECT_EQ(control.stepsUp(), 1U);
 }
 
-TEST(QualityControlTest, WhichTierIsFasterIsToldByTimesOfTheSameLoad) {
+TEST(QualityControlTest, TiersAreComparedByTimesMeasuredUnderTheSameLoad) {
     QualityControl control = measuredControl(0.2, 0.5, 3.5);
     ASSERT_EQ(control.tier(), 1U);
     runRounds(control, 3, 9.0);
     ASSERT_EQ(control.tier(), 0U);
-    // Another program slows the fast tier down for as long as its times are kept, and rests.
+    // Another program slows the fast tier down until all its stored times are affected, and then stops.
     runRounds(control, 128, 1.9);
     runRounds(control, 800, 0.2);
     ASSERT_EQ(control.tier(), 1U);
@@ -176,22 +178,22 @@ TEST(QualityControlTest, WhichTierIsFasterIsToldByTimesOfTheSameLoad) {
     EXPECT_EQ(control.tier(), 0U);
 }
 
-TEST(QualityControlTest, TooSlowAMachineGetsTheFastestTierWhereverItStands) {
+TEST(QualityControlTest, ATooSlowMachineGetsTheFastestTier) {
     QualityControl control(3, {.fixedTier = std::nullopt, .budgetMs = budgetMs}, 0, {0, 1, 2});
     const std::array<double, 3> times{40.0, 20.0, 80.0};
     while (const auto tier = control.tierToMeasure()) {
-        control.measured(*tier, times.at(*tier));
+        control.recordMeasurement(*tier, times.at(*tier));
     }
     EXPECT_EQ(control.tier(), 1U);
 }
 
-TEST(QualityControlTest, AnOrderThatIsNotOneOfItsTiersIsRefused) {
+TEST(QualityControlTest, AnInvalidOrderOfAccuracyIsRejected) {
     for (const std::vector<std::size_t>& order : {std::vector<std::size_t>{0, 1}, {0, 1, 1}, {0, 1, 3}, {0, 1, 2, 3}}) {
         EXPECT_THROW(QualityControl(3, {.fixedTier = 0, .budgetMs = budgetMs}, 0, order), std::invalid_argument);
     }
 }
 
-TEST(QualityControlTest, QualityMayBeChangedAtAnyTime) {
+TEST(QualityControlTest, TheQualityCanBeChangedAtAnyTime) {
     QualityControl control = measuredControl(0.2, 0.5, 1.5);
     control.setSettings({.fixedTier = 0, .budgetMs = budgetMs});
     EXPECT_EQ(control.tier(), 0U);
@@ -200,11 +202,11 @@ TEST(QualityControlTest, QualityMayBeChangedAtAnyTime) {
     EXPECT_THROW(QualityControl(3, {.fixedTier = 3, .budgetMs = budgetMs}, 0), std::invalid_argument);
 }
 
-TEST(LeadEstimatorTest, BeforeAnythingIsKnownItAllowsTwoBlocksAndFourMilliseconds) {
+TEST(LeadEstimatorTest, WithoutObservationsTheLeadIsTwoBlocksAndFourMilliseconds) {
     EXPECT_EQ(LeadEstimator{}.samples(11), 30);
 }
 
-TEST(LeadEstimatorTest, OneStallDoesNotLengthenItAndTwoDo) {
+TEST(LeadEstimatorTest, OneStallDoesNotLengthenTheLeadButTwoDo) {
     LeadEstimator lead;
     for (int i = 0; i < 200; ++i) {
         lead.observe(12);
@@ -217,10 +219,10 @@ TEST(LeadEstimatorTest, OneStallDoesNotLengthenItAndTwoDo) {
     for (int i = 0; i < 128; ++i) {
         lead.observe(12);
     }
-    EXPECT_EQ(lead.samples(11), 13) << "and is forgotten again";
+    EXPECT_EQ(lead.samples(11), 13) << "the stalls no longer count";
 }
 
-TEST(LeadEstimatorTest, ItIsNeverShorterThanABlockNorLongerThanFiftyMilliseconds) {
+TEST(LeadEstimatorTest, TheLeadIsAtLeastABlockAndAtMostFiftyMilliseconds) {
     LeadEstimator lead;
     for (int i = 0; i < 200; ++i) {
         lead.observe(0);

@@ -27,7 +27,7 @@ TEST(RangeLawTest, InsideTheRangeNothingChanges) {
     EXPECT_EQ(ranged.readingRate, 1.0);
 }
 
-TEST(RangeLawTest, BeyondTheRangeTheNetworkIsAskedForTheEdgeInTheSameDirection) {
+TEST(RangeLawTest, BeyondTheRangeTheMotionIsClampedInItsDirection) {
     const model::ModelFile model = testing::smallModel();
     const RangedMotion ranged = applyRangeLaw(model.header(), material(0.0, 0.0, 0.0), {1.2F, 1.6F}, 8.0F);
     EXPECT_NEAR(std::hypot(ranged.motion[0], ranged.motion[1]), 0.4, 1e-6);
@@ -49,7 +49,7 @@ TEST(RangeLawTest, LevelAndReadingRateAreLimited) {
     EXPECT_EQ(ranged.readingRate, 4.0);
 }
 
-TEST(RangeLawTest, ASlowSweepAcrossTheBorderHasNoStep) {
+TEST(RangeLawTest, ASlowSweepAcrossTheEdgeOfTheRangeHasNoStep) {
     const model::ModelFile model = testing::smallModel();
     const Material mesh = material(0.97, 0.21, 1.0);
     RangedMotion last = applyRangeLaw(model.header(), mesh, {0.0F, 0.0F}, 0.0F);

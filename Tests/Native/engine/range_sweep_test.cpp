@@ -1,5 +1,5 @@
-// The shipped model and the range law together: what the level does while a hand speeds up, or presses harder, slowly
-// and far beyond what was recorded.
+// The level of the shipped model with the range law while speed or force increases slowly, far beyond the trained
+// range.
 #include "engine/material.hpp"
 #include "engine/range_law.hpp"
 #include "inference/onnx_runtime.hpp"
@@ -20,12 +20,12 @@ constexpr std::array<float, inference::segmentSamples> silence{};
 
 class RangeSweepTest : public ::testing::Test {
 protected:
-    /// Level in decibels, gain of the range law included, for each motion of a sweep over one label.
+    /// Level in decibels, including the range law's gain, for each motion of a sweep over a label.
     std::vector<double> levels(std::size_t label, const std::vector<std::array<float, 3>>& motions) {
         MaterialBlend blend;
         blend.entries[0] = {.label = static_cast<std::uint32_t>(label), .weight = 1.0F};
         blend.count = 1;
-        const Material material = resolveMaterial(MaterialLibrary::Reading(library_).ingredients(blend));
+        const Material material = resolveMaterial(MaterialLibrary::ReadScope(library_).ingredients(blend));
         std::vector<inference::SegmentRequest> requests;
         std::vector<double> result;
         for (const auto& motion : motions) {
@@ -42,7 +42,7 @@ protected:
         return result;
     }
 
-    /// Values from `lowest` to `highest`, each the same share above the one before.
+    /// Geometric series from `lowest` to `highest`.
     static std::vector<double> sweep(double lowest, double highest, std::size_t count) {
         std::vector<double> values(count);
         for (std::size_t i = 0; i < count; ++i) {
@@ -51,7 +51,7 @@ protected:
         return values;
     }
 
-    /// The largest change of slope from one step to the next, in decibels a doubling.
+    /// The largest change of slope between two steps, in decibels per doubling.
     static double largestKink(const std::vector<double>& decibels, double doublingsOfAStep) {
         double largest = 0.0;
         for (std::size_t i = 1; i + 1 < decibels.size(); ++i) {
@@ -62,7 +62,7 @@ protected:
     }
 
     static constexpr std::size_t steps = 160;
-    // From step to step the slope may turn, but not break: a clamp would break it by 3 to 6.
+    // The slope may change gradually. A clamp would change it by 3 to 6 dB per doubling in one step.
     static constexpr double largestAllowedKink = 2.5;
 
     model::ModelFile model_ = model::ModelFile::read(HAPTOFLOW_TEST_DEFAULT_MODEL);

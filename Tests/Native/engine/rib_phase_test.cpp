@@ -15,7 +15,8 @@
 #include <utility>
 #include <vector>
 
-// The phase of ribs belongs to the surface: what a segment is told is how far the tip has travelled along the ribs.
+// The phase of ribs belongs to the surface: each request contains the distance that the tip has travelled along the
+// ribs.
 
 namespace haptoflow::engine {
 namespace {
@@ -28,11 +29,11 @@ using testing::SimulatedDevice;
 constexpr double seedPhase = 0.3;
 constexpr double otherSeedPhase = 0.75;
 constexpr double seedSpeedMps = 0.1;
-/// Cycles per millimetre, so that 0.1 m/s crosses 20 ribs a second.
+/// Cycles per millimetre; at 0.1 m/s, the tip crosses 20 ribs per second.
 constexpr float coarse = 0.2F;
 constexpr float fine = 0.35F;
-/// From one sample to the next, a sine of amplitude sqrt(2) that crosses 35 ribs a second changes by 0.16; where the
-/// rate changes, the splice adds to that. A phase that jumps by a tenth of a turn changes it by up to 0.9.
+/// A sinusoid of amplitude sqrt(2) at 35 ribs per second changes by up to 0.16 between samples; at a change of rate,
+/// the splice adds to that. A phase jump by a tenth of a turn changes it by up to 0.9.
 constexpr float largestStepWithoutAJump = 0.25F;
 
 double turnsPerSample(std::span<const float> waveVector, const std::array<float, 3>& motion) {
@@ -45,7 +46,7 @@ float ribs(double turns) {
     return static_cast<float>(std::numbers::sqrt2 * std::sin(2.0 * std::numbers::pi * turns));
 }
 
-/// What a perfect network makes of a ruled surface: a sine that stands where the request's phase says.
+/// The output of an ideal network for a ruled surface: a sinusoid with the phase of the request.
 void ribsOf(const SegmentRequest& request, std::span<float> segment) {
     const double step = turnsPerSample(std::span(request.embedding).subspan(60, 2), request.motion);
     for (std::size_t i = 0; i < segment.size(); ++i) {
@@ -53,8 +54,8 @@ void ribsOf(const SegmentRequest& request, std::span<float> segment) {
     }
 }
 
-/// Two ruled labels, the second with finer ribs. Each has one seed: its ribs as the tip crosses them at 0.1 m/s along
-/// x, at its own phase.
+/// A model with two ruled labels, the second with finer ribs. Each has one seed: the sinusoid of its ribs at 0.1 m/s
+/// along x, with its own phase.
 model::ModelFile ribModel() {
     model::testing::ModelBuilder builder;
     std::vector<float> embedding(2 * model::embeddingSize, 0.5F);
@@ -98,7 +99,7 @@ protected:
         turns_.push_back(turnsPerSample(std::span(request.embedding).subspan(60, 2), request.motion));
         ribsOf(request, segment);
     }};
-    // Of each request.
+    // The phases of each request.
     std::vector<std::array<float, 2>> phases_;
     std::vector<float> speedsMps_;
     std::vector<double> turns_;
@@ -111,10 +112,11 @@ protected:
 
     static std::optional<ContactState> slide(double) { return onLabel(0); }
 
-    /// Each segment goes on from the newest one that began there or before, the first from the seed.
+    /// Expects the phase of each segment to continue that of the newest segment that started at or before it, and the
+    /// first segment to continue the seed.
     void expectEachPhaseToFollow(const SimulatedDevice& device, double firstPhase, double seedTurns) const {
         const std::vector<std::int64_t>& starts = device.waveform.seams;
-        ASSERT_EQ(device.counters().dropped + device.counters().late, 0U) << "each request has its seam";
+        ASSERT_EQ(device.counters().dropped + device.counters().late, 0U) << "every request must have a seam";
         ASSERT_LE(starts.size(), phases_.size());
         for (std::size_t i = 0; i < starts.size(); ++i) {
             std::size_t before = i;
@@ -130,7 +132,8 @@ protected:
         }
     }
 
-    /// How far what was played is from the ribs that the tip crosses since it came down, at one speed.
+    /// The largest difference between the played waveform and the sinusoid of the ribs since touch-down, at constant
+    /// speed.
     static double largestError(std::span<const float> played, double firstPhase, double turns) {
         double largest = 0.0;
         for (std::size_t i = 0; i < played.size(); ++i) {
@@ -141,7 +144,7 @@ protected:
     }
 };
 
-TEST_F(RibPhaseTest, AStrokeAtOneSpeedCrossesTheSeedsRibsWithoutAJumpAtAnyUpdateRate) {
+TEST_F(RibPhaseTest, AtConstantSpeedTheRibsContinueTheSeedsWithoutAJump) {
     for (const double updateHz : {30.0, 72.0, 120.0}) {
         for (const double latency : {0.002, 0.012, 0.045}) {
             DeviceSettings settings;
@@ -156,7 +159,7 @@ TEST_F(RibPhaseTest, AStrokeAtOneSpeedCrossesTheSeedsRibsWithoutAJumpAtAnyUpdate
     }
 }
 
-TEST_F(RibPhaseTest, PhasesAreTurnsFromZeroToBelowOne) {
+TEST_F(RibPhaseTest, PhasesAreInTheRangeFromZeroToBelowOne) {
     SimulatedDevice device(model_, generator_);
     device.run(3.0, [](double t) { return onLabel(0, t < 1.5 ? 0.37F : -0.29F); });
     ASSERT_GT(phases_.size(), 100U);
@@ -166,12 +169,12 @@ TEST_F(RibPhaseTest, PhasesAreTurnsFromZeroToBelowOne) {
     }
 }
 
-TEST_F(RibPhaseTest, AStrokeThatTurnsBackMeetsTheSameRibsBackwards) {
+TEST_F(RibPhaseTest, AReversedStrokeCrossesTheSameRibsBackwards) {
     SimulatedDevice device(model_, generator_);
     device.run(1.0, slide);
     device.run(0.9, [](double) { return onLabel(0, -static_cast<float>(seedSpeedMps)); });
     const auto back = std::ranges::find_if(speedsMps_, [](float speed) { return speed < 0.0F; });
-    ASSERT_EQ(device.counters().dropped, 0U) << "each request has its seam";
+    ASSERT_EQ(device.counters().dropped, 0U) << "every request must have a seam";
     const auto turn = static_cast<std::size_t>(
         device.waveform.seams.at(static_cast<std::size_t>(std::distance(speedsMps_.begin(), back))));
     const std::vector<float>& played = device.waveform.samples;
@@ -183,19 +186,19 @@ TEST_F(RibPhaseTest, AStrokeThatTurnsBackMeetsTheSameRibsBackwards) {
 
 TEST_F(RibPhaseTest, TheSecondWaveVectorHasItsOwnPhase) {
     SimulatedDevice device(model_, generator_);
-    // Along y, across the second wave vector alone: 0.4 cycles per millimetre at 0.05 m/s.
+    // The tip moves along y, the direction of the second wave vector: 0.4 cycles per millimetre at 0.05 m/s.
     device.run(0.5, [](double) {
         ContactState state = onLabel(0, 0.0F);
         state.velocityMps = {0.0F, 0.05F};
         return state;
     });
     ASSERT_GT(phases_.size(), 20U);
-    // The seed moves along x; from the first segment on the tip does not.
+    // The seed was recorded along x, so the first phase changes only until the first segment.
     for (const auto& phase : phases_) {
         EXPECT_NEAR(phase[0], phases_.front()[0], 1e-4F);
     }
     EXPECT_NEAR(phases_.front()[1], 0.125F, 1e-6F);
-    // 667 of 48,000 frames make 27 or 28 samples, and blocks of 256 frames round that up or down.
+    // 667 frames at 48 kHz are 27 or 28 waveform samples; blocks of 256 frames round that up or down.
     double turns = 0.0;
     for (std::size_t i = 1; i < phases_.size(); ++i) {
         const double step = static_cast<double>(phases_[i][1]) - static_cast<double>(phases_[i - 1][1]);
@@ -204,7 +207,7 @@ TEST_F(RibPhaseTest, TheSecondWaveVectorHasItsOwnPhase) {
     EXPECT_NEAR(turns / static_cast<double>(phases_.size() - 1), 0.4 * 50.0 / 72.0, 0.01);
 }
 
-TEST_F(RibPhaseTest, AnotherSpeedAtEveryUpdateNeverMakesThePhaseJump) {
+TEST_F(RibPhaseTest, SpeedChangesAtEveryUpdateMakeNoPhaseJump) {
     for (const std::size_t blockFrames : {64U, 256U, 1024U}) {
         for (const double updateHz : {30.0, 72.0, 120.0}) {
             SCOPED_TRACE(std::to_string(blockFrames) + " frames, " + std::to_string(updateHz) + " Hz");
@@ -223,9 +226,9 @@ TEST_F(RibPhaseTest, AnotherSpeedAtEveryUpdateNeverMakesThePhaseJump) {
     }
 }
 
-TEST_F(RibPhaseTest, ASegmentThatReplacesAnotherGoesOnFromTheOneBeforeBoth) {
-    // Several states come while one long block plays, each with another speed; only the last of them sounds. Beyond
-    // the range the lead is longer, so that a later state may take over earlier.
+TEST_F(RibPhaseTest, AReplacementSegmentContinuesThePhaseBeforeTheReplacedOne) {
+    // Several states with different speeds are published during one long block, and only the last of them sounds.
+    // Beyond the range the lead is longer, so that a later state can take over earlier.
     for (const float fastMps : {0.15F, 1.1F}) {
         DeviceSettings settings;
         settings.blockFrames = 4096;
@@ -242,19 +245,20 @@ TEST_F(RibPhaseTest, ASegmentThatReplacesAnotherGoesOnFromTheOneBeforeBoth) {
     }
 }
 
-TEST_F(RibPhaseTest, ChainedSegmentsGoOnWithThePhaseOfTheOneBefore) {
+TEST_F(RibPhaseTest, ChainedSegmentsContinueThePhase) {
     DeviceSettings settings;
     settings.updateHz = 11.0;
     settings.fixedLeadSamples = 60;
     SimulatedDevice device(model_, generator_, settings);
     device.run(3.0, [](double t) { return onLabel(0, t < 1.5 ? 0.1F : 0.06F); });
-    ASSERT_GT(device.counters().inferences, 3 * 11 + 20U) << "updates, and segments chained behind them";
+    ASSERT_GT(device.counters().inferences, 3 * 11 + 20U)
+        << "the updates have segments and further segments chained to them";
     expectEachPhaseToFollow(device, seedPhase, 0.01);
     EXPECT_LT(testing::largestStep(device.waveform.samples), largestStepWithoutAJump);
 }
 
-TEST_F(RibPhaseTest, BeyondTheRangeThePhaseFollowsTheMotionThatTheNetworkIsAskedFor) {
-    // Twice as fast as the range: read faster in waveform time, where the network hears of 0.4 m/s.
+TEST_F(RibPhaseTest, BeyondTheRangeThePhaseFollowsTheClampedMotion) {
+    // At twice the maximum speed of the range, the waveform is read faster and the network receives 0.4 m/s.
     SimulatedDevice device(model_, generator_);
     device.run(1.0, [](double) { return onLabel(0, 0.8F); });
     ASSERT_GT(device.waveform.seams.size(), 10U);
@@ -265,7 +269,7 @@ TEST_F(RibPhaseTest, BeyondTheRangeThePhaseFollowsTheMotionThatTheNetworkIsAsked
     EXPECT_LT(largestError(played.first(1500), phaseThere + 4 * 0.04, 0.04), 5e-3);
 }
 
-TEST_F(RibPhaseTest, AnotherLabelOrBlendWithinATouchNeverMakesThePhaseJump) {
+TEST_F(RibPhaseTest, ALabelChangeWithinATouchMakesNoPhaseJump) {
     SimulatedDevice device(model_, generator_);
     device.run(3.0, [](double t) {
         ContactState state = onLabel(t < 0.5 || t > 2.5 ? 0 : 1);
@@ -282,7 +286,7 @@ TEST_F(RibPhaseTest, AnotherLabelOrBlendWithinATouchNeverMakesThePhaseJump) {
     EXPECT_LT(testing::largestStep(device.waveform.samples), largestStepWithoutAJump);
 }
 
-TEST_F(RibPhaseTest, ABlendKeepsThePitchOfItsHeaviestRibsInsteadOfAMeanOfTwo) {
+TEST_F(RibPhaseTest, ABlendKeepsThePitchOfItsHeaviestMaterial) {
     SimulatedDevice device(model_, generator_);
     device.run(1.5, [](double) {
         ContactState state = onLabel(0);
@@ -292,23 +296,24 @@ TEST_F(RibPhaseTest, ABlendKeepsThePitchOfItsHeaviestRibsInsteadOfAMeanOfTwo) {
         return state;
     });
     const auto first = static_cast<std::size_t>(device.waveform.seams.front());
-    // The second label weighs more, so that the seed is its.
+    // The second label has the larger weight, so the seed belongs to it.
     const double phaseThere = otherSeedPhase + 0.0175 * static_cast<double>(first);
     const double turns = 0.0175;
     const std::span<const float> played = std::span<const float>(device.waveform.samples).subspan(first + 4);
     EXPECT_LT(largestError(played.first(2000), phaseThere + 4 * turns, turns), 5e-3);
 }
 
-TEST_F(RibPhaseTest, ATouchDownBeginsWithThePhaseOfItsSeedHoweverTheTipMoves) {
+TEST_F(RibPhaseTest, ATouchBeginsWithThePhaseOfItsSeed) {
     SimulatedDevice device(model_, generator_);
     device.run(0.3, [](double) { return onLabel(1, 0.03F); });
     const auto first = static_cast<double>(device.waveform.seams.front());
     const double expected = otherSeedPhase + 0.0175 * first;
     EXPECT_NEAR(phases_.front()[0], expected - std::floor(expected), 1e-5);
-    EXPECT_NEAR(phases_.front()[1], 0.125F, 1e-6F) << "the seed does not move along the second wave vector";
+    EXPECT_NEAR(phases_.front()[1], 0.125F, 1e-6F)
+        << "the seed was recorded without motion along the second wave vector";
 }
 
-TEST_F(RibPhaseTest, ATouchThatResumesBeginsWithThePhaseOfItsSeedAgain) {
+TEST_F(RibPhaseTest, AResumedTouchBeginsWithThePhaseOfItsSeed) {
     SimulatedDevice device(model_, generator_);
     device.run(0.537, slide);
     device.controls().muted = true;
@@ -339,10 +344,10 @@ TEST_F(RibPhaseTest, ASecondTouchBeginsWithThePhaseOfItsSeed) {
     EXPECT_LT(largestError(played, otherSeedPhase, 0.0175), 3e-3);
 }
 
-TEST_F(RibPhaseTest, AFailedRunIsNoPartOfTheWay) {
-    int asked = 0;
+TEST_F(RibPhaseTest, AFailedRunDoesNotAdvanceThePhase) {
+    int runs = 0;
     FakeGenerator failing([&](const SegmentRequest& request, std::span<float> segment) {
-        if (++asked % 3 == 0) {
+        if (++runs % 3 == 0) {
             throw inference::InferenceError("a test says so");
         }
         ribsOf(request, segment);
@@ -366,7 +371,7 @@ TEST_F(RibPhaseTest, SeedsWithoutAPhaseBeginAtZero) {
     EXPECT_NEAR(phases_.front()[0], expected - std::floor(expected), 1e-4);
 }
 
-TEST_F(RibPhaseTest, TheLiveVoiceAndTheOfflineRendererCrossTheSameRibs) {
+TEST_F(RibPhaseTest, LiveVoiceAndOfflineRendererHaveTheSameRibPhases) {
     const auto hand = [](double t) {
         ContactState state = onLabel(0, 0.1F + 0.06F * static_cast<float>(std::sin(2.0 * std::numbers::pi * t)));
         state.timeSeconds = t;
@@ -384,7 +389,7 @@ TEST_F(RibPhaseTest, TheLiveVoiceAndTheOfflineRendererCrossTheSameRibs) {
     device.run(2.0, hand);
     const std::size_t common = std::min(offline.waveformMps2.size(), device.waveform.samples.size());
     ASSERT_GT(common, 3500U);
-    // A block of 1 ms later, the tip is up to a sixtieth of a rib further.
+    // With blocks of 1 ms, the tip may be up to a sixtieth of a rib further.
     double largest = 0.0;
     for (std::size_t i = 0; i < common; ++i) {
         const double difference = static_cast<double>(offline.waveformMps2[i] - device.waveform.samples[i]);
@@ -395,7 +400,7 @@ TEST_F(RibPhaseTest, TheLiveVoiceAndTheOfflineRendererCrossTheSameRibs) {
               largestStepWithoutAJump);
 }
 
-TEST_F(RibPhaseTest, VoicesOfOneBatchHaveEachTheirOwnPhase) {
+TEST_F(RibPhaseTest, EachVoiceOfABatchHasItsOwnPhase) {
     const auto model = std::make_shared<const model::ModelFile>(ribModel());
     std::vector<std::vector<std::array<float, 2>>> rounds;
     class Recording final : public inference::SegmentGenerator {
@@ -437,7 +442,7 @@ TEST_F(RibPhaseTest, VoicesOfOneBatchHaveEachTheirOwnPhase) {
         }
     }
     ASSERT_EQ(rounds.size(), 20U);
-    // A hop of 40 samples.
+    // A hop has 40 samples.
     const std::array<double, 3> hopTurns{0.4, 0.7, 0.2};
     for (std::size_t round = 2; round < rounds.size(); ++round) {
         ASSERT_EQ(rounds[round].size(), 3U);

@@ -20,14 +20,27 @@ std::vector<float> ramp(std::size_t count) {
     return wave;
 }
 
-TEST(SeamStatisticsTest, SeamsInsideAnEvenSlopeDoNotStandOut) {
+/// Feeds a whole waveform to a SeamMeter; `seams` are indices into it, ascending.
+SeamStatistics measureSeams(std::span<const float> waveform, std::span<const std::int64_t> seams,
+                            std::size_t spliceSamples) {
+    SeamMeter meter(spliceSamples);
+    for (const std::int64_t seam : seams) {
+        if (seam < static_cast<std::int64_t>(waveform.size())) {
+            meter.addSeam(seam);
+        }
+    }
+    meter.addSamples(waveform);
+    return meter.statistics();
+}
+
+TEST(SeamStatisticsTest, SeamsInAConstantSlopeAreNotOutliers) {
     const std::vector<std::int64_t> seams{100, 200, 300};
     const SeamStatistics statistics = measureSeams(ramp(1000), seams, 4);
     EXPECT_EQ(statistics.seams, 3U);
     EXPECT_NEAR(statistics.jumpRatio, 1.0, 1e-3);
 }
 
-TEST(SeamStatisticsTest, AStepAtEverySeamShowsInRatioAndShare) {
+TEST(SeamStatisticsTest, AStepAtEverySeamRaisesJumpRatioAndOutlierShare) {
     std::vector<float> wave = ramp(20000);
     std::vector<std::int64_t> seams;
     for (std::int64_t seam = 500; seam < 20000; seam += 5000) {
@@ -41,7 +54,7 @@ TEST(SeamStatisticsTest, AStepAtEverySeamShowsInRatioAndShare) {
     EXPECT_EQ(statistics.outlierShare, 1.0);
 }
 
-TEST(SeamStatisticsTest, PieceByPieceTheFiguresAreThoseOfTheWhole) {
+TEST(SeamStatisticsTest, PiecesGiveTheSameStatisticsAsTheWhole) {
     std::vector<float> wave = ramp(5000);
     std::vector<std::int64_t> seams;
     for (std::int64_t seam = 10; seam < 4990; seam += 37) {
@@ -50,11 +63,11 @@ TEST(SeamStatisticsTest, PieceByPieceTheFiguresAreThoseOfTheWhole) {
     }
     const SeamStatistics whole = measureSeams(wave, seams, 4);
     SeamMeter meter(4);
-    std::size_t told = 0;
+    std::size_t announced = 0;
     for (std::size_t begin = 0; begin < wave.size(); begin += 13) {
         const std::size_t end = std::min(begin + 13, wave.size());
-        for (; told < seams.size() && seams[told] < static_cast<std::int64_t>(end) + 50; ++told) {
-            meter.addSeam(seams[told]);
+        for (; announced < seams.size() && seams[announced] < static_cast<std::int64_t>(end) + 50; ++announced) {
+            meter.addSeam(seams[announced]);
         }
         meter.addSamples(std::span(wave).subspan(begin, end - begin));
     }
@@ -64,7 +77,7 @@ TEST(SeamStatisticsTest, PieceByPieceTheFiguresAreThoseOfTheWhole) {
     EXPECT_GT(whole.outlierShare, 0.0);
 }
 
-TEST(SeamStatisticsTest, ASeamThatWasToldButNotPlayedYetDoesNotCount) {
+TEST(SeamStatisticsTest, AnAnnouncedSeamThatWasNotPlayedDoesNotCount) {
     SeamMeter meter(4);
     meter.addSeam(0);
     meter.addSeam(3);
@@ -73,7 +86,7 @@ TEST(SeamStatisticsTest, ASeamThatWasToldButNotPlayedYetDoesNotCount) {
     EXPECT_EQ(meter.statistics().seams, 1U);
 }
 
-TEST(ValueHistogramTest, PercentilesAreRightToATenthOfAPercent) {
+TEST(ValueHistogramTest, PercentilesAreExactToATenthOfAPercent) {
     ValueHistogram histogram;
     std::vector<float> values;
     for (int i = 0; i < 10000; ++i) {
@@ -89,7 +102,7 @@ TEST(ValueHistogramTest, PercentilesAreRightToATenthOfAPercent) {
     EXPECT_NEAR(static_cast<double>(histogram.countAbove(values[4999])), 5000.0, 1.0);
 }
 
-TEST(ValueHistogramTest, NumbersThatAreNoneCountAsZeroAndAnEmptyOneGivesZero) {
+TEST(ValueHistogramTest, NaNCountsAsZeroAndAnEmptyHistogramGivesZero) {
     ValueHistogram histogram;
     EXPECT_EQ(histogram.valueAtShare(0.5), 0.0F);
     for (const float value : {-1.0F, 0.0F, -0.0F, std::numeric_limits<float>::quiet_NaN()}) {
@@ -102,7 +115,7 @@ TEST(ValueHistogramTest, NumbersThatAreNoneCountAsZeroAndAnEmptyOneGivesZero) {
     EXPECT_EQ(histogram.count(), 5U);
 }
 
-TEST(SeamStatisticsTest, WithoutAWaveOrSeamsEverythingIsZero) {
+TEST(SeamStatisticsTest, WithoutAWaveOrSeamsTheStatisticsAreZero) {
     const SeamStatistics none = measureSeams({}, {}, 4);
     EXPECT_EQ(none.seams, 0U);
     EXPECT_EQ(none.jumpRatio, 0.0);

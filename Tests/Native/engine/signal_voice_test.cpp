@@ -10,7 +10,7 @@
 #include <numbers>
 #include <span>
 
-// A signal that stands for the texture: when it sounds, what does not run meanwhile, and how its latency is counted.
+// A signal that replaces the texture: when it sounds, what does not run meanwhile, and how its latency is measured.
 
 namespace haptoflow::engine {
 namespace {
@@ -37,13 +37,13 @@ protected:
         begin_ = device_.output.size();
         device_.run(seconds, [&](double) { return state; });
     }
-    /// What the last `play` rendered, from that second of it on.
+    /// The output of the last `play` from a time on.
     [[nodiscard]] std::span<const float> played(double fromSeconds = 0.0) const {
         const auto skipped = static_cast<std::size_t>(fromSeconds * 48000.0);
         return std::span<const float>(device_.output).subspan(begin_ + skipped);
     }
     [[nodiscard]] static bool isTone(std::span<const float> samples, double frequencyHz, double amplitude) {
-        // Of sin(x) + sin(x + 2 d) = 2 cos(d) sin(x + d), whatever the phase.
+        // From sin(x) + sin(x + 2 d) = 2 cos(d) sin(x + d), for any phase.
         const double factor = 2.0 * std::cos(2.0 * std::numbers::pi * frequencyHz / 48000.0);
         for (std::size_t i = 2; i < samples.size(); ++i) {
             const double expected = factor * static_cast<double>(samples[i - 1]) - static_cast<double>(samples[i - 2]);
@@ -72,7 +72,7 @@ protected:
     inline static double nowSeconds = 0.0;
 };
 
-TEST_F(SignalVoiceTest, SoundsAtItsAmplitudeWhateverForceAndSpeedAreAsSoonAsTheTipMovesAt5MmPerSecond) {
+TEST_F(SignalVoiceTest, TheSignalSoundsFrom5MmPerSecondIndependentOfForceAndSpeed) {
     setSignal(tone200);
     play(0.05, sliding(0.0049F));
     EXPECT_EQ(testing::peak(played()), 0.0F);
@@ -84,7 +84,7 @@ TEST_F(SignalVoiceTest, SoundsAtItsAmplitudeWhateverForceAndSpeedAreAsSoonAsTheT
     }
 }
 
-TEST_F(SignalVoiceTest, NeitherTextureNorImpactNorEdgeNorToneIsMadeAndNothingIsInferred) {
+TEST_F(SignalVoiceTest, ASignalReplacesTextureImpactEdgeAndToneWithoutInference) {
     setSignal(tone200);
     for (std::uint32_t touch = 1; touch < 8; ++touch) {
         ContactState state = everything(0.2F, touch);
@@ -108,7 +108,7 @@ TEST_F(SignalVoiceTest, NeitherTextureNorImpactNorEdgeNorToneIsMadeAndNothingIsI
     EXPECT_GT(of(EffectKind::signal).samples, 7U * 4800U / 2U);
 }
 
-TEST_F(SignalVoiceTest, WithoutOneNoSampleChangesAndNothingIsCounted) {
+TEST_F(SignalVoiceTest, WithoutASignalNoSampleChangesAndNothingIsCounted) {
     SimulatedDevice plain(model_, generator_);
     const auto hand = [](double seconds) { return seconds < 0.4 ? sliding() : lifted(); };
     plain.run(0.6, hand);
@@ -119,7 +119,7 @@ TEST_F(SignalVoiceTest, WithoutOneNoSampleChangesAndNothingIsCounted) {
     EXPECT_EQ(device_.counters().signalStarts.count, 0U);
 }
 
-TEST_F(SignalVoiceTest, BeginsAndEndsWithin2MsOfTheBlockThatKnowsOfItWithoutAStep) {
+TEST_F(SignalVoiceTest, TheSignalBeginsAndEndsWithin2MsOfItsBlockWithoutAStep) {
     setSignal(tone200);
     device_.publish(lifted(0));
     device_.renderBlock();
@@ -138,7 +138,7 @@ TEST_F(SignalVoiceTest, BeginsAndEndsWithin2MsOfTheBlockThatKnowsOfItWithoutASte
     EXPECT_LT(static_cast<double>(testing::largestStep(device_.output)), steepest);
 }
 
-TEST_F(SignalVoiceTest, SetWhileTheTextureSoundsItTakesOverWithoutAStepAndGivesItBackWithTheNextState) {
+TEST_F(SignalVoiceTest, ASignalReplacesASoundingTextureWithoutAStep) {
     play(0.3, sliding());
     const std::uint64_t onsets = device_.counters().onsets;
     setSignal(tone200);
@@ -155,13 +155,13 @@ TEST_F(SignalVoiceTest, SetWhileTheTextureSoundsItTakesOverWithoutAStepAndGivesI
     EXPECT_EQ(device_.counters().onsets, onsets + 1);
     EXPECT_TRUE(isTone(played(0.1), testing::toneHz, 1.0 / 60.0) || testing::peak(played(0.1)) > 0.01F);
     EXPECT_EQ(device_.counters().signalStarts.count + device_.counters().signalStops.count, 0U)
-        << "no contact state turned it";
+        << "no contact state switched the signal";
     const double steepest = 0.1 * 2.0 * std::numbers::pi * (200.0 + 0.25 / 0.002) / 48000.0 +
                             haptoflow::testing::steepestStep(48000.0) / 60.0;
     EXPECT_LT(static_cast<double>(testing::largestStep(device_.output)), steepest);
 }
 
-TEST_F(SignalVoiceTest, MutePausePanicAndMissingStatesSilenceItAndItComesBackWhereTheyEnd) {
+TEST_F(SignalVoiceTest, MutePausePanicAndMissingStatesInterruptTheSignal) {
     setSignal(tone200);
     const auto isSilent = [this] { return testing::peak(played(0.02)) == 0.0F; };
     const auto sounds = [this] { return isTone(played(0.02), 200.0, 6.0 / fullScaleMps2); };
@@ -195,11 +195,11 @@ TEST_F(SignalVoiceTest, MutePausePanicAndMissingStatesSilenceItAndItComesBackWhe
     EXPECT_TRUE(sounds());
     const double steepest = 0.1 * 2.0 * std::numbers::pi * (200.0 + 0.25 / 0.002) / 48000.0;
     EXPECT_LT(static_cast<double>(testing::largestStep(device_.output)), steepest);
-    EXPECT_EQ(device_.counters().signalStarts.count, 1U) << "the others were no contact state's";
+    EXPECT_EQ(device_.counters().signalStarts.count, 1U) << "the other changes were not caused by a contact state";
     EXPECT_EQ(device_.counters().signalStops.count, 0U);
 }
 
-TEST_F(SignalVoiceTest, AfterAMuteALandingHasItsWholeAttackAgain) {
+TEST_F(SignalVoiceTest, AnImpactAfterAMuteHasItsFullAttack) {
     SimulatedDevice fresh(model_, generator_);
     fresh.publish(lifted(0));
     fresh.renderBlock();
@@ -222,7 +222,7 @@ TEST_F(SignalVoiceTest, AfterAMuteALandingHasItsWholeAttackAgain) {
     EXPECT_GT(testing::peak(std::span<const float>(device_.output).subspan(before)), 0.0F);
 }
 
-TEST_F(SignalVoiceTest, LatencyIsCountedFromTheFirstStateThatAsksForTheChangeToTheBlockThatMakesIt) {
+TEST_F(SignalVoiceTest, TheLatencyIsMeasuredFromTheStateToTheBlockOfTheChange) {
     setSignal(tone200);
     nowSeconds = 100.0;
     device_.publish(sliding(0.001F));
@@ -233,8 +233,8 @@ TEST_F(SignalVoiceTest, LatencyIsCountedFromTheFirstStateThatAsksForTheChangeToT
     device_.publish(sliding(0.16F));
     nowSeconds = 101.010;
     device_.renderBlock();
-    const SignalTurns& starts = device_.counters().signalStarts;
-    const SignalTurns& stops = device_.counters().signalStops;
+    const SignalTransitions& starts = device_.counters().signalStarts;
+    const SignalTransitions& stops = device_.counters().signalStops;
     EXPECT_EQ(starts.count, 1U);
     EXPECT_NEAR(starts.lastSeconds, 0.010, 1e-9);
     nowSeconds = 102.0;
@@ -251,7 +251,7 @@ TEST_F(SignalVoiceTest, LatencyIsCountedFromTheFirstStateThatAsksForTheChangeToT
     EXPECT_NEAR(starts.lastSeconds, 0.030, 1e-9);
     EXPECT_NEAR(starts.meanSeconds, 0.020, 1e-9);
     EXPECT_NEAR(stops.meanSeconds, 0.020, 1e-9);
-    // There and back between two blocks is no turn.
+    // Two changes between two blocks cancel each other and do not count.
     device_.publish(lifted());
     device_.publish(sliding(0.2F));
     device_.renderBlock();
@@ -259,7 +259,7 @@ TEST_F(SignalVoiceTest, LatencyIsCountedFromTheFirstStateThatAsksForTheChangeToT
     EXPECT_EQ(stops.count, 1U);
 }
 
-TEST_F(SignalVoiceTest, ADelayComesOnTopOfTheLatencyAndOfWhatIsHeard) {
+TEST_F(SignalVoiceTest, ADelayAddsToTheLatencyAndToTheOutput) {
     device_.controls().delaySeconds = 0.05;
     device_.voice().channels.changeProcessors([](ProcessorSettings& settings) { return settings.hasDelay = true; });
     setSignal(tone200);
@@ -272,10 +272,10 @@ TEST_F(SignalVoiceTest, ADelayComesOnTopOfTheLatencyAndOfWhatIsHeard) {
         device_.renderBlock();
     }
     EXPECT_NEAR(device_.counters().signalStarts.lastSeconds, 0.053, 1e-9);
-    const std::span<const float> heard = std::span<const float>(device_.output).subspan(start);
-    EXPECT_EQ(testing::peak(heard.first(2400)), 0.0F);
-    EXPECT_GT(testing::peak(heard.subspan(2400, 40)), 0.0F);
-    EXPECT_TRUE(isTone(heard.subspan(2400 + 96), 200.0, 6.0 / fullScaleMps2));
+    const std::span<const float> output = std::span<const float>(device_.output).subspan(start);
+    EXPECT_EQ(testing::peak(output.first(2400)), 0.0F);
+    EXPECT_GT(testing::peak(output.subspan(2400, 40)), 0.0F);
+    EXPECT_TRUE(isTone(output.subspan(2400 + 96), 200.0, 6.0 / fullScaleMps2));
     nowSeconds = 2.0;
     device_.publish(lifted());
     const std::size_t end = device_.output.size();
@@ -288,7 +288,7 @@ TEST_F(SignalVoiceTest, ADelayComesOnTopOfTheLatencyAndOfWhatIsHeard) {
     EXPECT_NEAR(device_.counters().signalStops.lastSeconds, 0.05, 1e-9);
 }
 
-TEST_F(SignalVoiceTest, AnotherRateOfTheDeviceGivesTheSameToneAfterTheChange) {
+TEST_F(SignalVoiceTest, TheSignalIsTheSameAfterARateChange) {
     setSignal(tone200);
     play(0.1, sliding());
     device_.setRate(96000.0);
@@ -303,7 +303,7 @@ TEST_F(SignalVoiceTest, AnotherRateOfTheDeviceGivesTheSameToneAfterTheChange) {
     EXPECT_NEAR(testing::peak(later), 0.1F, 1e-4F);
 }
 
-TEST_F(SignalVoiceTest, StrengthAndCeilingHoldForItAsForEverything) {
+TEST_F(SignalVoiceTest, StrengthAndCeilingApplyToTheSignal) {
     setSignal({.frequencyHz = 100.0F, .amplitudeMps2 = 60.0F});
     device_.controls().strength = 0.25F;
     play(0.2, sliding());

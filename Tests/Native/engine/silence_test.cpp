@@ -25,7 +25,7 @@ protected:
     static Silence reason(SimulatedDevice& device) { return device.voice().channels.silence.load(); }
 };
 
-TEST_F(SilenceTest, EveryReasonIsTheOneThatShowsAndSoundHasNone) {
+TEST_F(SilenceTest, EachReasonForSilenceIsReportedAndSoundHasNone) {
     SimulatedDevice device(model_, tone_);
     EXPECT_EQ(reason(device), Silence::rest) << "before the first block";
     device.run(0.2, slide);
@@ -59,7 +59,7 @@ TEST_F(SilenceTest, EveryReasonIsTheOneThatShowsAndSoundHasNone) {
     EXPECT_EQ(reason(device), Silence::closing);
 }
 
-TEST_F(SilenceTest, OfSeveralReasonsTheOneThatLastsLongestShowsAndEachGivesWayToTheNext) {
+TEST_F(SilenceTest, OfSeveralReasonsTheMostPersistentIsReported) {
     SimulatedDevice device(model_, tone_);
     device.run(0.2, slide);
     device.voice().channels.panic();
@@ -82,7 +82,7 @@ TEST_F(SilenceTest, OfSeveralReasonsTheOneThatLastsLongestShowsAndEachGivesWayTo
     EXPECT_EQ(next([] {}), Silence::panic);
 }
 
-TEST_F(SilenceTest, AnyMixtureOfControlsIsFiniteBoundedAndSilentUnlessNoReasonHolds) {
+TEST_F(SilenceTest, AnyCombinationOfControlsIsBoundedAndSilentIfAReasonHolds) {
     SimulatedDevice device(model_, tone_);
     device.run(0.2, slide);
     std::uint32_t number = 1;
@@ -94,7 +94,7 @@ TEST_F(SilenceTest, AnyMixtureOfControlsIsFiniteBoundedAndSilentUnlessNoReasonHo
         if ((mixture & 16U) != 0) {
             device.voice().channels.panic();
         }
-        // In the same block: another touch on another label, with a jump of pose.
+        // A new touch on another label with a jump of pose begins in the same block.
         number += (mixture & 32U) != 0 ? 1 : 0;
         ContactState state = testing::sliding((mixture & 32U) != 0 ? -19.0F : 0.1F, 2.0F);
         state.touchCounter = number;
@@ -107,7 +107,7 @@ TEST_F(SilenceTest, AnyMixtureOfControlsIsFiniteBoundedAndSilentUnlessNoReasonHo
     }
 }
 
-TEST_F(SilenceTest, ARateThatNoOutputRunsAtIsCountedNamedAndAsksTheWorkerForNothing) {
+TEST_F(SilenceTest, AnUnsupportedRateIsCountedAndDoesNotWakeTheWorker) {
     for (const double impossible : {0.0, 1.0, -5.0, 7999.0, 192001.0, 1e9, std::numeric_limits<double>::quiet_NaN(),
                                     std::numeric_limits<double>::infinity()}) {
         SimulatedDevice device(model_, tone_);
@@ -120,14 +120,14 @@ TEST_F(SilenceTest, ARateThatNoOutputRunsAtIsCountedNamedAndAsksTheWorkerForNoth
         EXPECT_EQ(device.counters().unsupportedRateBlocks, 3U) << impossible;
         EXPECT_EQ(reason(device), Silence::rate) << impossible;
         EXPECT_FALSE(device.voice().channels.isRateSupported) << impossible;
-        EXPECT_EQ(device.voice().channels.wantedRateHz.load(), 0.0) << "nothing wakes the worker";
+        EXPECT_EQ(device.voice().channels.requestedRateHz.load(), 0.0) << "the worker is not woken";
         device.run(0.1, slide);
-        EXPECT_EQ(reason(device), Silence::none) << "back at a rate that it runs at";
+        EXPECT_EQ(reason(device), Silence::none) << "back at a supported rate";
         EXPECT_TRUE(device.voice().channels.isRateSupported);
     }
 }
 
-TEST_F(SilenceTest, ATapAtARateThatNoOutputRunsAtIsOverWhenTheRateIsServedAgain) {
+TEST_F(SilenceTest, ATapAtAnUnsupportedRateIsNotPlayedLater) {
     SimulatedDevice device(model_, tone_);
     device.run(0.05, [](double) { return testing::lifted(0); });
     device.setRate(1.0e6);
@@ -136,7 +136,7 @@ TEST_F(SilenceTest, ATapAtARateThatNoOutputRunsAtIsOverWhenTheRateIsServedAgain)
     device.run(0.05, [](double) { return testing::lifted(1); });
     device.setRate(48000.0);
     device.run(0.1, [](double) { return testing::lifted(1); });
-    EXPECT_EQ(testing::peak(device.output), 0.0F) << "nobody wants to feel it later";
+    EXPECT_EQ(testing::peak(device.output), 0.0F) << "the tap is not played later";
     EXPECT_EQ(device.counters().taps, 0U);
     const std::size_t next = device.output.size();
     ContactState touch = testing::sliding();
@@ -145,15 +145,15 @@ TEST_F(SilenceTest, ATapAtARateThatNoOutputRunsAtIsOverWhenTheRateIsServedAgain)
     EXPECT_GT(testing::peak(std::span<const float>(device.output).subspan(next)), 0.2F / 60.0F);
 }
 
-TEST_F(SilenceTest, AVoiceIsNotMadeForARateThatNoOutputRunsAt) {
+TEST_F(SilenceTest, CreatingAVoiceForAnUnsupportedRateIsRejected) {
     FakeGenerator tone(testing::continueTone);
     for (const double impossible : {0.0, 7999.0, 192001.0, std::numeric_limits<double>::quiet_NaN()}) {
         EXPECT_THROW(SimulatedDevice(model_, tone, {.rateHz = impossible}), std::invalid_argument) << impossible;
     }
 }
 
-TEST_F(SilenceTest, AnOnsetReadsNoMoreOfTheWaveformThanItsBlockAndTheResamplersDelay) {
-    // What an onset costs: the filters' histories are filled directly, not by rendering what nobody hears.
+TEST_F(SilenceTest, AnOnsetReadsOnlyItsBlockAndTheResamplersDelay) {
+    // The filters' histories are filled directly, without rendering samples that are not played.
     for (const double rateHz : {8000.0, 48000.0, 192000.0}) {
         SimulatedDevice device(model_, tone_, {.rateHz = rateHz, .blockFrames = 64});
         device.publish(testing::sliding());
@@ -163,7 +163,7 @@ TEST_F(SilenceTest, AnOnsetReadsNoMoreOfTheWaveformThanItsBlockAndTheResamplersD
     }
 }
 
-TEST_F(SilenceTest, ATapInAVoicesFirstPublishedStateIsFelt) {
+TEST_F(SilenceTest, ATapInTheFirstPublishedStateSounds) {
     SimulatedDevice device(model_, tone_);
     ContactState afterwards = testing::sliding();
     afterwards.touching = false;
@@ -174,7 +174,7 @@ TEST_F(SilenceTest, ATapInAVoicesFirstPublishedStateIsFelt) {
     EXPECT_EQ(device.counters().taps, 1U);
 }
 
-TEST_F(SilenceTest, AFirstStateThatOnlyTellsOfEarlierTouchesIsSilent) {
+TEST_F(SilenceTest, AFirstStateWithOnlyEarlierTouchesIsSilent) {
     SimulatedDevice device(model_, tone_);
     device.publish(testing::lifted(9));
     device.renderBlock();
@@ -182,14 +182,15 @@ TEST_F(SilenceTest, AFirstStateThatOnlyTellsOfEarlierTouchesIsSilent) {
     EXPECT_EQ(device.counters().taps, 0U);
 }
 
-TEST_F(SilenceTest, CrossingTheEdgeOfTheRangeBackAndForthNeverClicks) {
-    // The model's range ends at 0.4 m/s; beyond it the waveform is read faster, inside it the path is direct.
+TEST_F(SilenceTest, CrossingTheEdgeOfTheRangeDoesNotClick) {
+    // The trained range ends at 0.4 m/s. Beyond it the waveform is read faster; inside it the output equals the input.
     SimulatedDevice device(model_, tone_);
     device.run(0.3, slide);
     const std::size_t begin = device.output.size();
     device.run(3.0, [](double now) { return testing::sliding(std::fmod(now, 0.1) < 0.05 ? 0.39F : 0.6F); });
     const auto crossing = std::span<const float>(device.output).subspan(begin);
-    // The tone of 100 Hz is read at most 1.5 times faster and grows by the law of level; a click is steeper by far.
+    // The 100 Hz tone is read at most 1.5 times faster and its level follows the range law; a click would be much
+    // steeper.
     const double steepest = 2.0 * std::numbers::pi * 1.5 * testing::toneHz / 48000.0 * testing::peak(crossing);
     EXPECT_LE(testing::largestStep(crossing), 1.6 * steepest);
     EXPECT_EQ(device.counters().underruns, 0U);

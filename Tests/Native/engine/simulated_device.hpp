@@ -14,7 +14,7 @@
 
 namespace haptoflow::engine::testing {
 
-/// Sees what is played in waveform time, and where segments took over.
+/// Records the played waveform and the samples at which segments took over.
 class WaveformRecorder final : public WaveformSink {
 public:
     void played(std::int64_t start, std::span<const float> samplesMps2) noexcept override {
@@ -33,20 +33,21 @@ public:
 struct DeviceSettings {
     double rateHz = 48000.0;
     std::size_t blockFrames = 256;
-    /// Blocks that the device asks for one right after the other.
+    /// Number of blocks that the device requests in immediate succession.
     std::size_t burstBlocks = 1;
     double updateHz = 72.0;
-    /// From the worker's look at the contact to its segment being there, as a function of the time of looking.
+    /// Time from the worker's check of the contact to the arrival of the segment, as a function of the time of the
+    /// check.
     std::function<double(double)> latencySeconds = [](double) { return 0.002; };
     float fullScaleMps2 = 60.0F;
     std::optional<std::int64_t> fixedLeadSamples = std::nullopt;
 };
 
-/// Main thread, worker and audio device of one voice on one simulated clock: contact states at their rate, blocks at
-/// theirs, segments as late as the settings say. Deterministic; real threads have tests of their own.
+/// Main thread, worker and audio device of one voice on a simulated clock, with the rates and latencies of the
+/// settings. Deterministic; other tests use real threads.
 class SimulatedDevice {
 public:
-    /// What the hand does at a time; nothing where no state is published then.
+    /// The contact state at a time; nothing if no state is published then.
     using Hand = std::function<std::optional<ContactState>(double)>;
 
     SimulatedDevice(const model::ModelFile& model, inference::SegmentGenerator& generator,
@@ -58,7 +59,7 @@ public:
         voice_.renderer.setSink(&waveform);
     }
 
-    /// Goes on for so long. `output` grows by what was played.
+    /// Runs for a time and appends the played samples to `output`.
     void run(double seconds, const Hand& hand) {
         const double end = now_ + seconds;
         const double period = static_cast<double>(settings_.blockFrames * settings_.burstBlocks) / settings_.rateHz;
@@ -80,7 +81,7 @@ public:
                 for (std::size_t block = 0; block < settings_.burstBlocks; ++block) {
                     renderBlock();
                 }
-                if (voice_.planner.looksAgain()) {
+                if (voice_.planner.mustPoll()) {
                     wakeWorker();
                 }
             }
@@ -123,7 +124,7 @@ private:
 
     void wakeWorker() {
         voice_.planner.serveOutputRate();
-        // Busy: the post stays in the semaphore until the run is over.
+        // The worker is busy; the wake-up waits until the run has ended.
         if (pending_) {
             missedWake_ = true;
             return;
@@ -166,7 +167,7 @@ private:
     std::array<float, inference::segmentSamples> segment_{};
 };
 
-/// A tip that slides over the model's first label.
+/// Contact state of a tip that slides over the model's first label.
 inline ContactState sliding(float speedMps = 0.1F, float forceNewtons = 1.0F) {
     ContactState state;
     state.touching = true;

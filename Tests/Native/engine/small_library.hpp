@@ -17,13 +17,13 @@ inline MaterialBlend blendOf(std::initializer_list<LabelWeight> entries) {
     return blend;
 }
 
-/// A model with a library whose levels a generator gives.
+/// A model and its material library, with the levels of a generator.
 struct SmallLibrary {
     explicit SmallLibrary(model::ModelFile file = smallModel()) : model(std::move(file)) {}
 
-    /// What a blend is made of; valid while nothing is replaced.
+    /// The materials of a blend; valid until a material is replaced.
     [[nodiscard]] Ingredients ingredients(const MaterialBlend& blend) const {
-        return MaterialLibrary::Reading(library).ingredients(blend);
+        return MaterialLibrary::ReadScope(library).ingredients(blend);
     }
     [[nodiscard]] Ingredients ingredients(std::initializer_list<LabelWeight> entries) const {
         return ingredients(blendOf(entries));

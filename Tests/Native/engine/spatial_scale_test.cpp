@@ -10,8 +10,8 @@
 #include <limits>
 #include <vector>
 
-// The spatial scale of a surface: features so many times as large, which sound like a speed so much lower at the level
-// of the speed as it is.
+// The spatial scale of a surface: features that are larger by a factor are generated for a speed divided by it, at the
+// level of the actual speed.
 
 namespace haptoflow::engine {
 namespace {
@@ -20,7 +20,7 @@ using testing::FakeGenerator;
 using testing::SimulatedDevice;
 using testing::sliding;
 
-TEST(SpatialScaleStateTest, ScaleAndTiltAreLimitedAndCountedAndAScaleOfZeroIsOne) {
+TEST(SpatialScaleStateTest, ScaleAndTiltAreClampedAndAScaleOfZeroMeansOne) {
     ContactState state;
     state.spatialScale = 0.0F;
     EXPECT_EQ(sanitise(state), 0U);
@@ -43,7 +43,7 @@ TEST(SpatialScaleStateTest, ScaleAndTiltAreLimitedAndCountedAndAScaleOfZeroIsOne
     EXPECT_EQ(state.toneDbPerOctave, 0.0F);
 }
 
-TEST(SpatialScaleLawTest, TheNetworkIsAskedAtTheSpeedOverTheScaleAndTheLevelAtTheSpeed) {
+TEST(SpatialScaleLawTest, TheNetworkUsesTheScaledSpeedAndTheLevelTheActualSpeed) {
     const testing::SmallLibrary small;
     const Material oak = resolveMaterial(small.ingredients({{0, 1.0F}}));
     const model::ModelHeader& header = small.model.header();
@@ -54,10 +54,10 @@ TEST(SpatialScaleLawTest, TheNetworkIsAskedAtTheSpeedOverTheScaleAndTheLevelAtTh
     EXPECT_FLOAT_EQ(larger.levelMotion[1], -0.06F);
     EXPECT_EQ(larger.levelGain, 1.0);
     EXPECT_EQ(larger.readingRate, 1.0);
-    // The small model is trained up to 0.4 m/s, and reads faster with the square root of the speed beyond.
+    // The small model's range ends at 0.4 m/s; beyond it the reading rate grows with the square root of the speed.
     const RangedMotion smaller = applyRangeLaw(header, oak, {0.4F, 0.0F}, 1.0F, 0.25F);
     EXPECT_FLOAT_EQ(smaller.motion[0], 0.4F);
-    EXPECT_NEAR(smaller.levelGain, 1.0, 1e-6) << "the speed itself is within the range";
+    EXPECT_NEAR(smaller.levelGain, 1.0, 1e-6) << "the actual speed is within the range";
     EXPECT_NEAR(smaller.readingRate, 2.0, 1e-6);
     const RangedMotion fast = applyRangeLaw(header, oak, {0.8F, 0.0F}, 1.0F, 2.0F);
     EXPECT_NEAR(fast.readingRate, 1.0, 1e-6) << "half the speed is within the range";
@@ -66,7 +66,7 @@ TEST(SpatialScaleLawTest, TheNetworkIsAskedAtTheSpeedOverTheScaleAndTheLevelAtTh
 
 class SpatialScaleTest : public ::testing::Test {
 protected:
-    /// Ribs of 0.2 a millimetre across the first axis.
+    /// A model with ribs of 0.2 cycles per millimetre along the first axis.
     static model::ModelFile ruledModel() {
         model::testing::ModelBuilder builder;
         std::vector<float> embedding(2 * model::embeddingSize, 0.5F);
@@ -88,44 +88,44 @@ protected:
         std::array<float, 3> levelMotion{};
     };
 
-    /// Turns of the ribs from segment to segment over samples from segment to segment.
+    /// Turns of the rib phase per sample between two segments.
     [[nodiscard]] double turnsPerSample(const SimulatedDevice& device, std::size_t segment) const {
         const double turns =
-            static_cast<double>(asked_[segment].phase) - static_cast<double>(asked_[segment - 1].phase);
+            static_cast<double>(requested_[segment].phase) - static_cast<double>(requested_[segment - 1].phase);
         const auto hop = static_cast<double>(device.waveform.seams[segment] - device.waveform.seams[segment - 1]);
         return (turns - std::floor(turns)) / hop;
     }
 
     model::ModelFile model_ = ruledModel();
-    std::vector<Asked> asked_;
+    std::vector<Asked> requested_;
     FakeGenerator generator_{[this](const inference::SegmentRequest& request, std::span<float> segment) {
-        asked_.push_back({request.ribPhase[0], request.motion, request.levelMotion.value_or(request.motion)});
+        requested_.push_back({request.ribPhase[0], request.motion, request.levelMotion.value_or(request.motion)});
         std::ranges::copy(request.noise, segment.begin());
     }};
 };
 
-TEST_F(SpatialScaleTest, AScaleOfTwoHalvesThePitchOfRibsExactlyAndOneOfAHalfDoublesIt) {
-    // 0.1 m/s over 0.2 ribs a millimetre: 20 ribs a second, 0.01 a sample.
+TEST_F(SpatialScaleTest, TheRibPitchIsDividedByTheScale) {
+    // At 0.1 m/s and 0.2 cycles per millimetre, the tip crosses 20 ribs per second, 0.01 per sample.
     for (const auto& [scale, turns] : {std::pair{1.0F, 0.01}, {2.0F, 0.005}, {0.5F, 0.02}, {4.0F, 0.0025}}) {
-        asked_.clear();
+        requested_.clear();
         SimulatedDevice device(model_, generator_);
         device.run(0.5, [scale = scale](double) { return scaled(scale); });
         ASSERT_GT(device.waveform.seams.size(), 10U);
         for (std::size_t segment = 5; segment < device.waveform.seams.size(); ++segment) {
             EXPECT_NEAR(turnsPerSample(device, segment), turns, 1e-6) << "scale " << scale;
         }
-        EXPECT_FLOAT_EQ(asked_.back().motion[0], 0.1F / scale);
-        EXPECT_FLOAT_EQ(asked_.back().levelMotion[0], 0.1F);
+        EXPECT_FLOAT_EQ(requested_.back().motion[0], 0.1F / scale);
+        EXPECT_FLOAT_EQ(requested_.back().levelMotion[0], 0.1F);
     }
 }
 
-TEST_F(SpatialScaleTest, AScaleThatChangesWithinATouchLeavesThePhaseOfTheRibsContinuous) {
+TEST_F(SpatialScaleTest, AChangeOfScaleWithinATouchMakesNoPhaseJump) {
     SimulatedDevice device(model_, generator_);
     device.run(1.0, [](double seconds) { return scaled(seconds < 0.3 ? 1.0F : seconds < 0.6 ? 2.0F : 0.5F); });
     ASSERT_EQ(device.counters().dropped + device.counters().late, 0U);
     for (std::size_t segment = 2; segment < device.waveform.seams.size(); ++segment) {
-        // From one segment to the next the ribs go on as the earlier one said.
-        const double expected = 0.2 * static_cast<double>(asked_[segment - 1].motion[0]) * 1000.0 / 2000.0;
+        // The phase advances between segments at the rate of the earlier one.
+        const double expected = 0.2 * static_cast<double>(requested_[segment - 1].motion[0]) * 1000.0 / 2000.0;
         EXPECT_NEAR(turnsPerSample(device, segment), expected, 1e-5) << segment;
     }
 }

@@ -5,8 +5,8 @@
 
 namespace haptoflow::engine::testing {
 
-/// A small model without graphs that would run: labels, ranges and seeds are what the engine's own tests need.
-/// Range: 0.01-0.4 m/s, 0.1-4 N; labels "oak" and "metal mesh".
+/// A small model for tests of the engine, with labels, ranges and seeds but without runnable graphs. Range: 0.01-0.4
+/// m/s, 0.1-4 N; labels "oak" and "metal mesh".
 inline model::ModelFile smallModel() {
     return model::ModelFile::parse(model::testing::ModelBuilder{}.build());
 }

@@ -15,7 +15,7 @@
 #include <span>
 #include <vector>
 
-// Tone in the callback: what a material and a surface do to the spectrum of what was generated.
+// Tone in the callback: the filter of a material and a surface on the generated waveform.
 
 namespace haptoflow::engine {
 namespace {
@@ -27,7 +27,7 @@ using testing::lifted;
 using testing::SimulatedDevice;
 using testing::sliding;
 
-/// A material that is 12 dB louder at every frequency, or whatever `gainDb` says.
+/// A material with a tone of `gainDb` at every frequency.
 model::MaterialFile materialOf(const model::ModelFile& model, double gainDb) {
     json text = model::testing::validMaterial(model::spaceOf(model.header()));
     text["tone"] = {{"speeds_mps", {0.1}}, {"frequencies_hz", {50.0, 500.0}}, {"gains_db", {{gainDb, gainDb}}}};
@@ -67,7 +67,7 @@ protected:
     FakeGenerator generator_{testing::continueTone};
 };
 
-TEST_F(ToneVoiceTest, WhereNobodyAsksForAToneNothingRunsAndNothingIsCounted) {
+TEST_F(ToneVoiceTest, WithoutAToneTheFilterDoesNotRun) {
     SimulatedDevice plain(model_, generator_);
     (void)registered(plain, 12.0);
     plain.run(1.0, [](double) { return on(0); });
@@ -76,7 +76,7 @@ TEST_F(ToneVoiceTest, WhereNobodyAsksForAToneNothingRunsAndNothingIsCounted) {
     EXPECT_EQ(plain.counters().askedFor & effects::maskOf(EffectKind::tone), 0U);
 }
 
-TEST_F(ToneVoiceTest, AMaterialsToneIsHeardByEverySinkFromTheFirstSampleOfTheSeedAndTheTimelineStaysUntouched) {
+TEST_F(ToneVoiceTest, AMaterialsToneAppliesFromTheSeedsFirstSampleAndNotToTheTimeline) {
     SimulatedDevice plain(model_, generator_);
     SimulatedDevice toned(model_, generator_);
     const std::uint32_t soft = registered(plain, 0.0);
@@ -96,7 +96,7 @@ TEST_F(ToneVoiceTest, AMaterialsToneIsHeardByEverySinkFromTheFirstSampleOfTheSee
     EXPECT_NE(toned.counters().askedFor & effects::maskOf(EffectKind::tone), 0U);
 }
 
-TEST_F(ToneVoiceTest, ATiltBrightensTheTextureByAsMuchAsItSaysAtTheToneThatSounds) {
+TEST_F(ToneVoiceTest, ATiltChangesTheGainAtTheSoundingFrequency) {
     SimulatedDevice plain(model_, generator_);
     SimulatedDevice dark(model_, generator_);
     plain.run(1.0, [](double) { return sliding(); });
@@ -111,19 +111,19 @@ TEST_F(ToneVoiceTest, ATiltBrightensTheTextureByAsMuchAsItSaysAtTheToneThatSound
     EXPECT_NEAR(20.0 * std::log10(rms(tilted.last(1000)) / rms(played.last(1000))), 6.0 * octaves, 0.5);
 }
 
-TEST_F(ToneVoiceTest, AToneThatComesChangesAndGoesWithinATouchIsNoClick) {
+TEST_F(ToneVoiceTest, ChangesOfToneWithinATouchDoNotClick) {
     SimulatedDevice voice(model_, generator_);
     const std::uint32_t loud = registered(voice, 12.0);
     const std::uint32_t soft = registered(voice, -12.0);
     const std::array<std::uint32_t, 4> labels{0, loud, soft, loud};
     voice.run(2.0, [&](double seconds) { return on(labels[static_cast<std::size_t>(seconds * 7.3) % labels.size()]); });
-    const std::span<const float> heard(voice.waveform.samples);
-    // At 12 dB, a tone of 100 Hz and amplitude 1 changes by 1.25 from sample to sample; gliding over 20 samples from
-    // -12 dB adds 0.19. The first 200 samples are the seed, which is a square wave here.
-    EXPECT_LT(testing::largestStep(heard.subspan(220)), 1.6F);
+    const std::span<const float> output(voice.waveform.samples);
+    // At 12 dB, a 100 Hz tone of amplitude 1 changes by up to 1.25 between samples; the change from -12 dB over 20
+    // samples adds 0.19. The first 200 samples are the seed, a square wave.
+    EXPECT_LT(testing::largestStep(output.subspan(220)), 1.6F);
 }
 
-TEST_F(ToneVoiceTest, ANewTouchBeginsWithTheToneOfItsOwnPastAndNotOfTheTouchBefore) {
+TEST_F(ToneVoiceTest, ANewTouchDoesNotUseTheToneOfTheTouchBefore) {
     SimulatedDevice once(model_, generator_);
     SimulatedDevice twice(model_, generator_);
     const std::uint32_t first = registered(once, 12.0);
@@ -140,7 +140,7 @@ TEST_F(ToneVoiceTest, ANewTouchBeginsWithTheToneOfItsOwnPastAndNotOfTheTouchBefo
     const std::size_t begin = twice.waveform.samples.size();
     twice.run(0.05, [&](double) { return touch(2, 99); });
     const std::span<const float> again = std::span<const float>(twice.waveform.samples).subspan(begin);
-    // Until the first generated segment takes over, which depends on when a block comes.
+    // Only the samples before the first generated segment, whose start depends on the time of a block.
     constexpr std::size_t compared = 20;
     ASSERT_GT(std::min(again.size(), once.waveform.samples.size()), compared);
     for (std::size_t i = 0; i < compared; ++i) {
@@ -148,7 +148,7 @@ TEST_F(ToneVoiceTest, ANewTouchBeginsWithTheToneOfItsOwnPastAndNotOfTheTouchBefo
     }
 }
 
-TEST_F(ToneVoiceTest, BeyondTheTrainedRangeTheToneIsAppliedBeforeTheRangeLawsGain) {
+TEST_F(ToneVoiceTest, BeyondTheRangeTheToneIsAppliedBeforeTheRangeLaw) {
     SimulatedDevice plain(model_, generator_);
     SimulatedDevice toned(model_, generator_);
     const std::uint32_t soft = registered(plain, 0.0);

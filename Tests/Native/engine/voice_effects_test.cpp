@@ -53,7 +53,7 @@ protected:
     FakeGenerator tone_{testing::continueTone};
 };
 
-TEST_F(VoiceEffectsTest, ALandingAtRestIsFeltAndCostsNoInference) {
+TEST_F(VoiceEffectsTest, AnImpactAtRestSoundsWithoutInference) {
     SimulatedDevice device(model_, tone_);
     device.run(0.05, [](double) { return testing::lifted(0); });
     device.run(0.5, [](double) { return landing(0.3F, texture | impact); });
@@ -64,7 +64,7 @@ TEST_F(VoiceEffectsTest, ALandingAtRestIsFeltAndCostsNoInference) {
     EXPECT_EQ(device.counters().onsets, 0U);
 }
 
-TEST_F(VoiceEffectsTest, ALandingSoundsWithTheFirstSampleOfTheNextBlockWithoutARamp) {
+TEST_F(VoiceEffectsTest, AnImpactStartsWithTheNextBlockWithoutARamp) {
     SimulatedDevice device(model_, tone_);
     device.publish(landing(0.3F, impact));
     device.renderBlock();
@@ -74,7 +74,7 @@ TEST_F(VoiceEffectsTest, ALandingSoundsWithTheFirstSampleOfTheNextBlockWithoutAR
     EXPECT_NEAR(firstRise, 0.3 * static_cast<double>(response.modes[0].gainPerSecond) * std::sin(turn), 0.01);
 }
 
-TEST_F(VoiceEffectsTest, ATapBetweenTwoStatesIsFeltOnce) {
+TEST_F(VoiceEffectsTest, ATapBetweenTwoStatesGivesOneImpact) {
     SimulatedDevice device(model_, tone_);
     device.run(0.05, [](double) { return testing::lifted(0); });
     ContactState gone = landing(0.4F, texture | impact, 1);
@@ -86,7 +86,7 @@ TEST_F(VoiceEffectsTest, ATapBetweenTwoStatesIsFeltOnce) {
     EXPECT_LT(testing::peak(from(device, begin + 40000)), silence);
 }
 
-TEST_F(VoiceEffectsTest, WhatASurfaceDoesNotAskForNeverRuns) {
+TEST_F(VoiceEffectsTest, EffectsThatASurfaceLacksNeverRun) {
     SimulatedDevice device(model_, tone_);
     int update = 0;
     device.run(1.0, [&update](double) {
@@ -102,7 +102,7 @@ TEST_F(VoiceEffectsTest, WhatASurfaceDoesNotAskForNeverRuns) {
     EXPECT_GT(device.counters().inferences, 10U);
 }
 
-TEST_F(VoiceEffectsTest, ASurfaceWithoutTextureCostsNoInferenceHoweverFastTheTipSlides) {
+TEST_F(VoiceEffectsTest, ASurfaceWithoutTextureNeedsNoInference) {
     SimulatedDevice device(model_, tone_);
     device.run(0.5, [](double) {
         ContactState state = testing::sliding(0.4F);
@@ -113,7 +113,7 @@ TEST_F(VoiceEffectsTest, ASurfaceWithoutTextureCostsNoInferenceHoweverFastTheTip
     EXPECT_EQ(testing::peak(device.output), 0.0F);
 }
 
-TEST_F(VoiceEffectsTest, ATextureThatIsSwitchedOffWhileTheTipSlidesFadesAndComesBack) {
+TEST_F(VoiceEffectsTest, ATextureCanBeSwitchedOffAndOnWhileSliding) {
     SimulatedDevice device(model_, tone_);
     const auto with = [](EffectMask mask) {
         return [mask](double) {
@@ -132,7 +132,7 @@ TEST_F(VoiceEffectsTest, ATextureThatIsSwitchedOffWhileTheTipSlidesFadesAndComes
     EXPECT_LT(testing::largestStep(device.output), 0.02F);
 }
 
-TEST_F(VoiceEffectsTest, ALandingOnAnotherSurfaceWhileSlidingAddsToTheTexture) {
+TEST_F(VoiceEffectsTest, AnImpactWhileSlidingAddsToTheTexture) {
     const auto play = [this](float approachSpeedMps) {
         testing::DeviceSettings settings;
         settings.fixedLeadSamples = 16;
@@ -158,7 +158,7 @@ TEST_F(VoiceEffectsTest, ALandingOnAnotherSurfaceWhileSlidingAddsToTheTexture) {
     EXPECT_LT(peak, 1.01 * expected);
 }
 
-TEST_F(VoiceEffectsTest, PanicEndsALandingWithTheBlockAndOnlyTheNextTouchIsFeltAgain) {
+TEST_F(VoiceEffectsTest, APanicSilencesAnImpactAndTheNextTouchSounds) {
     SimulatedDevice device(model_, tone_);
     device.publish(landing(0.5F, impact, 1));
     device.renderBlock();
@@ -174,7 +174,7 @@ TEST_F(VoiceEffectsTest, PanicEndsALandingWithTheBlockAndOnlyTheNextTouchIsFeltA
     EXPECT_GT(testing::peak(from(device, after)), 0.01F);
 }
 
-TEST_F(VoiceEffectsTest, AnIsolatedLandingThatAPanicForestalledIsNotFeltLater) {
+TEST_F(VoiceEffectsTest, AnImpactSilencedByAPanicIsNotPlayedLater) {
     SimulatedDevice device(model_, tone_);
     device.publish(landing(0.5F, impact, 1));
     device.voice().channels.panic();
@@ -182,7 +182,7 @@ TEST_F(VoiceEffectsTest, AnIsolatedLandingThatAPanicForestalledIsNotFeltLater) {
     EXPECT_EQ(testing::peak(device.output), 0.0F);
 }
 
-TEST_F(VoiceEffectsTest, MutedPausedOrStaleALandingEndsWithinFiveMillisecondsAndIsNotPlayedLater) {
+TEST_F(VoiceEffectsTest, MutePauseAndStalenessSilenceAnImpactWithinFiveMilliseconds) {
     for (const int reason : {0, 1, 2}) {
         SimulatedDevice device(model_, tone_);
         device.publish(landing(2.0F, impact));
@@ -190,7 +190,7 @@ TEST_F(VoiceEffectsTest, MutedPausedOrStaleALandingEndsWithinFiveMillisecondsAnd
         device.controls().muted = reason == 0;
         device.controls().paused = reason == 1;
         if (reason == 2) {
-            // 100 ms without a state; the ring of 0.1 s would go on.
+            // 100 ms without a state; the impact would sound longer.
             renderBlocks(device, 19);
         }
         const std::size_t begin = device.output.size();
@@ -206,7 +206,7 @@ TEST_F(VoiceEffectsTest, MutedPausedOrStaleALandingEndsWithinFiveMillisecondsAnd
     }
 }
 
-TEST_F(VoiceEffectsTest, AtAnotherRateALandingFadesAndTheNextOneIsFelt) {
+TEST_F(VoiceEffectsTest, ARateChangeFadesAnImpactAndTheNextOneSounds) {
     SimulatedDevice device(model_, tone_);
     std::uint32_t touch = 1;
     device.run(0.02, [&touch](double) { return landing(0.5F, impact, touch); });
@@ -219,7 +219,7 @@ TEST_F(VoiceEffectsTest, AtAnotherRateALandingFadesAndTheNextOneIsFelt) {
     EXPECT_EQ(of(device, EffectKind::impact).events, 2U);
 }
 
-/// Crosses from one label to another, and back, every 100 ms.
+/// A state that alternates between two labels every 100 ms.
 ContactState crossing(double seconds, float speedMps, EffectMask mask) {
     ContactState state = testing::sliding(speedMps);
     state.effects = mask;
@@ -227,7 +227,7 @@ ContactState crossing(double seconds, float speedMps, EffectMask mask) {
     return state;
 }
 
-/// Makes nothing, and calls the model's first label ten times as loud as the others.
+/// Generates silence, and gives the model's first label ten times the level of the others.
 class LoudFirstLabel final : public inference::SegmentGenerator {
 public:
     explicit LoudFirstLabel(const model::ModelFile& model) : model_(model) {}
@@ -244,7 +244,7 @@ private:
     const model::ModelFile& model_;
 };
 
-TEST_F(VoiceEffectsTest, CrossingToALabelOfAnotherLevelIsFeltByHowFastTheTipIs) {
+TEST_F(VoiceEffectsTest, AChangeOfLevelGivesAnEdgeInProportionToTheSpeed) {
     LoudFirstLabel generator(model_);
     const auto peakAt = [&](float speedMps) {
         SimulatedDevice device(model_, generator);
@@ -255,14 +255,14 @@ TEST_F(VoiceEffectsTest, CrossingToALabelOfAnotherLevelIsFeltByHowFastTheTipIs) 
     EXPECT_NEAR(peakAt(0.2F) / peakAt(0.05F), 4.0, 0.2);
 }
 
-TEST_F(VoiceEffectsTest, WithoutAChangeOfLevelHeightOrSpeedThereIsNoEdge) {
+TEST_F(VoiceEffectsTest, WithoutALevelChangeHeightOrSpeedThereIsNoEdge) {
     SimulatedDevice device(model_, tone_);
-    // The labels of this generator are equally loud.
+    // All labels of this generator have the same level.
     device.run(0.5, [](double seconds) { return crossing(seconds, 0.2F, edge); });
-    // At rest nothing is crossed, whatever the label becomes.
+    // At rest, a change of label gives no edge.
     device.run(0.5, [](double seconds) {
         ContactState state = crossing(seconds, 0.0F, edge);
-        // The newest speeds are those of some states more.
+        // The newest speeds still contain those of some earlier states.
         state.edgeCounter = seconds < 0.58 ? 0U : static_cast<std::uint32_t>(seconds / 0.05);
         state.edgeHeightMetres = 0.01F;
         return state;
@@ -271,7 +271,7 @@ TEST_F(VoiceEffectsTest, WithoutAChangeOfLevelHeightOrSpeedThereIsNoEdge) {
     EXPECT_EQ(testing::peak(device.output), 0.0F);
 }
 
-TEST_F(VoiceEffectsTest, ARimIsFeltByItsHeightUpToTheTipsOwn) {
+TEST_F(VoiceEffectsTest, AnEdgeGrowsWithItsHeightUpToTheTipsWidth) {
     const auto peakAt = [this](float heightMetres) {
         SimulatedDevice device(model_, tone_);
         device.run(0.2, [heightMetres](double seconds) {
@@ -289,7 +289,7 @@ TEST_F(VoiceEffectsTest, ARimIsFeltByItsHeightUpToTheTipsOwn) {
     EXPECT_EQ(peakAt(std::numeric_limits<float>::quiet_NaN()), 0.0);
 }
 
-TEST_F(VoiceEffectsTest, ALandingWithinATouchIsABlowAndTheTextureGoesOn) {
+TEST_F(VoiceEffectsTest, ALandingWithinATouchGivesAnImpactAndTheTextureContinues) {
     SimulatedDevice device(model_, tone_);
     std::uint32_t landings = 0;
     const auto slide = [&landings](double) {
@@ -300,7 +300,7 @@ TEST_F(VoiceEffectsTest, ALandingWithinATouchIsABlowAndTheTextureGoesOn) {
         return state;
     };
     device.run(0.3, slide);
-    // The touch-down itself is the first blow.
+    // The touch-down is the first impact.
     EXPECT_EQ(of(device, EffectKind::impact).events, 1U);
     landings = 1;
     device.run(0.3, slide);
@@ -308,7 +308,7 @@ TEST_F(VoiceEffectsTest, ALandingWithinATouchIsABlowAndTheTextureGoesOn) {
     EXPECT_EQ(device.counters().onsets, 1U);
 }
 
-TEST_F(VoiceEffectsTest, ATouchDownWithALandingCountedBesideItIsOneBlow) {
+TEST_F(VoiceEffectsTest, ATouchDownWithALandingCounterGivesOneImpact) {
     SimulatedDevice device(model_, tone_);
     device.run(0.1, [](double) { return testing::lifted(0); });
     ContactState state = landing(0.3F, impact);
@@ -317,7 +317,7 @@ TEST_F(VoiceEffectsTest, ATouchDownWithALandingCountedBesideItIsOneBlow) {
     EXPECT_EQ(of(device, EffectKind::impact).events, 1U);
 }
 
-TEST_F(VoiceEffectsTest, ATipThatSlidesOffARimIsFeltWithTheSpeedThatItHadThere) {
+TEST_F(VoiceEffectsTest, SlidingOffARimGivesAnEdgeAtTheLastSpeed) {
     const auto peakAt = [this](float speedMps, std::uint32_t edgesAfter) {
         SimulatedDevice device(model_, tone_);
         device.run(0.2, [speedMps](double) {
@@ -339,8 +339,8 @@ TEST_F(VoiceEffectsTest, ATipThatSlidesOffARimIsFeltWithTheSpeedThatItHadThere) 
     EXPECT_EQ(peakAt(0.2F, 0), 0.0);
 }
 
-TEST_F(VoiceEffectsTest, OverTheRoundOfARimTheSpeedIsThatBeforeIt) {
-    // For a few states the normal points ahead there, and nothing of the tip's motion lies along the surface.
+TEST_F(VoiceEffectsTest, OnARoundedRimTheEdgeUsesTheSpeedBeforeIt) {
+    // On the rim, the normal points along the motion for a few states, so the speed along the surface is zero.
     const auto peakAt = [this](float speedMps, bool leaves) {
         SimulatedDevice device(model_, tone_);
         device.run(0.2, [speedMps](double) {
@@ -371,7 +371,7 @@ TEST_F(VoiceEffectsTest, OverTheRoundOfARimTheSpeedIsThatBeforeIt) {
     }
 }
 
-TEST_F(VoiceEffectsTest, AnApproachThatIsNoNumberIsNoLanding) {
+TEST_F(VoiceEffectsTest, AnApproachSpeedOfNaNGivesNoImpact) {
     SimulatedDevice device(model_, tone_);
     std::uint32_t touch = 0;
     for (const float speed : {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity(), -1.0F}) {
@@ -382,7 +382,7 @@ TEST_F(VoiceEffectsTest, AnApproachThatIsNoNumberIsNoLanding) {
     EXPECT_GE(device.counters().sanitised, 2U);
 }
 
-TEST_F(VoiceEffectsTest, TenMinutesOfLandingsEdgesAndInterruptionsStayBoundedAndEndInSilence) {
+TEST_F(VoiceEffectsTest, TenMinutesOfBlowsAndInterruptionsStayBoundedAndEndInSilence) {
     std::mt19937 random(7);
     SimulatedDevice device(model_, tone_);
     std::uint32_t touch = 1;
@@ -425,7 +425,7 @@ TEST_F(VoiceEffectsTest, TenMinutesOfLandingsEdgesAndInterruptionsStayBoundedAnd
     EXPECT_EQ(testing::peak(device.output), 0.0F);
 }
 
-/// Turns the signal upside down, and counts its own lives.
+/// Inverts the signal and counts its instances.
 class Inverter final : public effects::Effect {
 public:
     explicit Inverter(int& alive, float gain = -1.0F) : alive_(alive), gain_(gain) { ++alive_; }
@@ -453,13 +453,15 @@ protected:
         }
         delete device.voice().channels.freshProcessors.exchange(fresh.release());
     }
-    static void collect(SimulatedDevice& device) { delete device.voice().channels.usedProcessors.exchange(nullptr); }
+    static void collect(SimulatedDevice& device) {
+        delete device.voice().channels.replacedProcessors.exchange(nullptr);
+    }
 
     int alive_ = 0;
     std::uint64_t version_ = 0;
 };
 
-TEST_F(ProcessorsTest, TheWholeSignalGoesThroughThemAndBackWithoutAClick) {
+TEST_F(ProcessorsTest, ProcessorsAreSwitchedOnAndOffWithoutAClick) {
     SimulatedDevice device(model_, tone_);
     const auto slide = [](double) { return testing::sliding(); };
     device.run(0.3, slide);
@@ -477,10 +479,10 @@ TEST_F(ProcessorsTest, TheWholeSignalGoesThroughThemAndBackWithoutAClick) {
     const std::uint64_t runs = of(device, EffectKind::compensation).runs;
     EXPECT_GT(runs, 100U);
     device.run(0.3, slide);
-    EXPECT_EQ(of(device, EffectKind::compensation).runs, runs) << "switched off means never run";
+    EXPECT_EQ(of(device, EffectKind::compensation).runs, runs) << "a processor that is switched off must not run";
 }
 
-TEST_F(ProcessorsTest, AtRestTheyAreTakenAtOnceAndDoNotRun) {
+TEST_F(ProcessorsTest, AtRestProcessorsAreTakenAtOnceAndDoNotRun) {
     SimulatedDevice device(model_, tone_);
     for (int offered = 0; offered < 5; ++offered) {
         offer(device, -1.0F);
@@ -492,16 +494,16 @@ TEST_F(ProcessorsTest, AtRestTheyAreTakenAtOnceAndDoNotRun) {
     EXPECT_EQ(testing::peak(device.output), 0.0F);
 }
 
-/// As LiveEngine::changeProcessors does.
+/// Changes the processors like LiveEngine::changeProcessors.
 void ask(SimulatedDevice& device, const std::function<void(ProcessorSettings&)>& change) {
     VoiceChannels& channels = device.voice().channels;
     change(channels.processorSettings);
-    channels.wantedProcessors = ++channels.processorSettings.version;
+    channels.requestedProcessors = ++channels.processorSettings.version;
     channels.lacksProcessors = true;
     device.voice().planner.serveOutputRate();
 }
 
-TEST_F(ProcessorsTest, ADelayMakesALandingComeLaterToTheSample) {
+TEST_F(ProcessorsTest, ADelayDelaysAnImpactByExactSamples) {
     SimulatedDevice direct(model_, tone_);
     SimulatedDevice delayed(model_, tone_);
     delayed.controls().delaySeconds = 0.05;
@@ -515,20 +517,20 @@ TEST_F(ProcessorsTest, ADelayMakesALandingComeLaterToTheSample) {
         }
     }
     constexpr std::size_t later = 2400;
-    // The hand-over is done by then.
+    // The crossfade has ended by then.
     for (std::size_t i = 512; i + later < direct.output.size(); ++i) {
         ASSERT_FLOAT_EQ(delayed.output[i + later], direct.output[i]) << i;
     }
 }
 
-TEST_F(ProcessorsTest, LiftOffClosesTheTextureBeforeTheDelayAndPanicActsBehindIt) {
+TEST_F(ProcessorsTest, LiftOffActsBeforeTheDelayAndPanicAfterIt) {
     SimulatedDevice device(model_, tone_);
     device.controls().delaySeconds = 0.2;
     ask(device, [](ProcessorSettings& settings) { settings.hasDelay = true; });
     device.run(0.6, [](double) { return testing::sliding(); });
     const std::size_t lifted = device.output.size();
     device.run(0.3, [](double) { return testing::lifted(1); });
-    EXPECT_GT(testing::peak(from(device, lifted + 9000)), 0.5F / 60.0F) << "what was stroked still comes";
+    EXPECT_GT(testing::peak(from(device, lifted + 9000)), 0.5F / 60.0F) << "the delayed texture must still sound";
     EXPECT_LT(testing::peak(from(device, lifted + 9600 + 240 + 512)), silence);
     ContactState again = testing::sliding();
     again.touchCounter = 2;
@@ -540,7 +542,7 @@ TEST_F(ProcessorsTest, LiftOffClosesTheTextureBeforeTheDelayAndPanicActsBehindIt
     EXPECT_EQ(testing::peak(from(device, panicked)), 0.0F);
 }
 
-TEST_F(ProcessorsTest, SettingsThatChangeAtAnyMomentWhileSlidingNeverClick) {
+TEST_F(ProcessorsTest, ProcessorChangesAtAnyTimeDoNotClick) {
     std::mt19937 random(11);
     SimulatedDevice device(model_, tone_);
     const auto profile =
@@ -558,14 +560,14 @@ TEST_F(ProcessorsTest, SettingsThatChangeAtAnyMomentWhileSlidingNeverClick) {
         });
         device.run(0.003 * static_cast<double>((draw >> 16) % 20), slide);
     }
-    EXPECT_LT(testing::largestStep(device.output), 4.2F * tone) << "12 dB of boost is a factor of 4";
+    EXPECT_LT(testing::largestStep(device.output), 4.2F * tone) << "a boost of 12 dB is a factor of 4";
     for (const EffectKind kind : {EffectKind::delay, EffectKind::compensation, EffectKind::exposureGuard}) {
         EXPECT_GT(of(device, kind).prepared, 20U);
         EXPECT_GT(of(device, kind).runs, 100U);
     }
 }
 
-TEST_F(ProcessorsTest, WhatIsInTheDelaySurvivesAChangeOfTheOthers) {
+TEST_F(ProcessorsTest, TheDelaysSignalSurvivesAChangeOfOtherProcessors) {
     SimulatedDevice device(model_, tone_);
     const auto profile =
         std::make_shared<const effects::ActuatorProfile>(*effects::ActuatorProfile::builtIn("voice-coil"));
@@ -578,13 +580,13 @@ TEST_F(ProcessorsTest, WhatIsInTheDelaySurvivesAChangeOfTheOthers) {
         const std::size_t changed = device.output.size();
         device.run(0.19, slide);
         for (std::size_t window = changed; window + 480 < device.output.size(); window += 480) {
-            const std::span<const float> heard(device.output.data() + window, 480);
-            EXPECT_GT(testing::peak(heard), 0.05F / 60.0F) << isCompensated << ", " << window - changed;
+            const std::span<const float> output(device.output.data() + window, 480);
+            EXPECT_GT(testing::peak(output), 0.05F / 60.0F) << isCompensated << ", " << window - changed;
         }
     }
 }
 
-TEST_F(ProcessorsTest, ADelayHoldsWhatWasPlayedAtTheStrengthThatItWasPlayedWith) {
+TEST_F(ProcessorsTest, ADelayedSoundKeepsItsStrength) {
     SimulatedDevice device(model_, tone_);
     device.controls().delaySeconds = 0.2;
     ask(device, [](ProcessorSettings& settings) { settings.hasDelay = true; });
@@ -598,7 +600,7 @@ TEST_F(ProcessorsTest, ADelayHoldsWhatWasPlayedAtTheStrengthThatItWasPlayedWith)
     EXPECT_NEAR(after / before, 0.1F, 0.01F);
 }
 
-TEST_F(ProcessorsTest, TheGuardCountsWhatTheStrengthLeaves) {
+TEST_F(ProcessorsTest, TheGuardMeasuresTheLevelAfterTheStrength) {
     const auto shortTermAt = [this](float strength) {
         SimulatedDevice device(model_, tone_);
         device.controls().strength = strength;
@@ -611,7 +613,7 @@ TEST_F(ProcessorsTest, TheGuardCountsWhatTheStrengthLeaves) {
     EXPECT_EQ(shortTermAt(0.0F), 0.0);
 }
 
-TEST_F(ProcessorsTest, AGuardThatIsSwitchedOffRisesWithoutAStepAndLeavesNoReport) {
+TEST_F(ProcessorsTest, AGuardIsSwitchedOffWithoutAStepAndItsReportEnds) {
     SimulatedDevice device(model_, tone_);
     device.controls().actuatorGain = 1000.0;
     ask(device, [](ProcessorSettings& settings) { settings.hasExposureGuard = true; });
@@ -629,7 +631,7 @@ TEST_F(ProcessorsTest, AGuardThatIsSwitchedOffRisesWithoutAStepAndLeavesNoReport
     EXPECT_LT(testing::largestStep(device.output), 1.2F * tone);
 }
 
-TEST_F(VoiceEffectsTest, ATouchThatASurfaceWithoutLabelInterruptedLandsOnce) {
+TEST_F(VoiceEffectsTest, ATouchInterruptedByAnUnlabelledSurfaceGivesOneImpact) {
     SimulatedDevice device(model_, tone_);
     const ContactState touching = landing(0.3F, impact);
     ContactState unfelt = touching;
@@ -640,7 +642,7 @@ TEST_F(VoiceEffectsTest, ATouchThatASurfaceWithoutLabelInterruptedLandsOnce) {
     EXPECT_EQ(of(device, EffectKind::impact).events, 1U);
 }
 
-TEST_F(ProcessorsTest, AtAnotherRateTheVoiceHasWhatItAskedForWithItsFirstSound) {
+TEST_F(ProcessorsTest, AfterARateChangeTheProcessorsApplyFromTheFirstSound) {
     SimulatedDevice device(model_, tone_);
     ask(device, [](ProcessorSettings& settings) { settings.hasExposureGuard = true; });
     const auto slide = [](double) { return testing::sliding(); };
@@ -649,13 +651,13 @@ TEST_F(ProcessorsTest, AtAnotherRateTheVoiceHasWhatItAskedForWithItsFirstSound) 
     EXPECT_GT(before, 0.0);
     device.setRate(24000.0);
     device.run(0.3, slide);
-    EXPECT_GE(device.voice().channels.exposureDailyMps2, before) << "the same hand";
+    EXPECT_GE(device.voice().channels.exposureDailyMps2, before) << "the exposure of the same hand continues";
     const std::uint64_t runs = of(device, EffectKind::exposureGuard).runs;
     device.run(0.1, slide);
     EXPECT_GT(of(device, EffectKind::exposureGuard).runs, runs);
 }
 
-TEST_F(ProcessorsTest, OfAnotherRateTheyAreNotTaken) {
+TEST_F(ProcessorsTest, ProcessorsOfAnotherRateAreNotTaken) {
     SimulatedDevice device(model_, tone_);
     offer(device, -1.0F, 44100.0);
     renderBlocks(device, 2);
@@ -664,7 +666,7 @@ TEST_F(ProcessorsTest, OfAnotherRateTheyAreNotTaken) {
     EXPECT_EQ(alive_, 0);
 }
 
-TEST_F(ProcessorsTest, PanicAndMuteEndInSilenceThroughThemToo) {
+TEST_F(ProcessorsTest, PanicAndMuteSilenceTheProcessorsToo) {
     SimulatedDevice device(model_, tone_);
     offer(device, 0.5F);
     device.run(0.2, [](double) { return testing::sliding(); });

@@ -34,7 +34,7 @@ std::vector<float> readSamples(WaveformTimeline& timeline, std::size_t count) {
     return samples;
 }
 
-TEST(WaveformTimelineTest, AtTouchDownTheSeedsSecondHalfSoundsAndItsFirstHalfIsThePast) {
+TEST(WaveformTimelineTest, TheSeedsSecondHalfSoundsAndItsFirstHalfIsThePast) {
     WaveformTimeline timeline;
     const Seed seed = countingSeed();
     timeline.open(seed);
@@ -42,11 +42,11 @@ TEST(WaveformTimelineTest, AtTouchDownTheSeedsSecondHalfSoundsAndItsFirstHalfIsT
     Segment past{};
     timeline.history(timeline.head(), past);
     EXPECT_TRUE(std::equal(past.begin(), past.end(), seed.begin()));
-    const std::vector<float> heard = readSamples(timeline, 150);
-    EXPECT_TRUE(std::equal(heard.begin(), heard.end(), seed.begin() + 200));
+    const std::vector<float> output = readSamples(timeline, 150);
+    EXPECT_TRUE(std::equal(output.begin(), output.end(), seed.begin() + 200));
 }
 
-TEST(WaveformTimelineTest, ASegmentThatGoesOnAsTheRunningOneDoesLeavesNoTrace) {
+TEST(WaveformTimelineTest, ASegmentThatContinuesTheRunningOneChangesNothing) {
     WaveformTimeline timeline;
     const Seed seed = countingSeed();
     timeline.open(seed);
@@ -57,13 +57,13 @@ TEST(WaveformTimelineTest, ASegmentThatGoesOnAsTheRunningOneDoesLeavesNoTrace) {
     const std::int64_t start = timeline.head() + 50;
     EXPECT_EQ(timeline.commit(start, continuation), start);
 
-    const std::vector<float> heard = readSamples(timeline, 200);
-    for (std::size_t i = 0; i < heard.size(); ++i) {
-        ASSERT_EQ(heard[i], static_cast<float>(i) + 201.0F) << "sample " << i;
+    const std::vector<float> output = readSamples(timeline, 200);
+    for (std::size_t i = 0; i < output.size(); ++i) {
+        ASSERT_EQ(output[i], static_cast<float>(i) + 201.0F) << "sample " << i;
     }
 }
 
-/// A wave that resembles no other with another number, but for the first sample, which all of them share.
+/// Waves with different numbers are uncorrelated except for their first sample, which all of them share.
 Segment unlikeSegment(int number) {
     Segment segment{};
     for (std::size_t i = 0; i < segment.size(); ++i) {
@@ -73,8 +73,8 @@ Segment unlikeSegment(int number) {
     return segment;
 }
 
-/// A second within a touch whose callback reads nothing until `replaced` segments have come for one place.
-std::vector<float> heardAfterReplacing(std::int64_t ahead, int replaced, bool isViewedBetween) {
+/// A second of a touch in which the callback reads nothing until `replaced` segments have arrived for one start.
+std::vector<float> playedAfterReplacing(std::int64_t ahead, int replaced, bool isViewedBetween) {
     WaveformTimeline timeline;
     Seed seed{};
     std::ranges::copy(unlikeSegment(50), seed.begin());
@@ -95,16 +95,16 @@ std::vector<float> heardAfterReplacing(std::int64_t ahead, int replaced, bool is
     return readSamples(timeline, 150);
 }
 
-TEST(WaveformTimelineTest, OfSegmentsForOnePlaceOnlyTheLastIsSplicedWithWhatRanBeforeThem) {
+TEST(WaveformTimelineTest, OfSegmentsWithOneStartOnlyTheLastIsSplicedWithTheWaveBefore) {
     for (const std::int64_t ahead : {0, 1, 70}) {
-        const std::vector<float> last = heardAfterReplacing(ahead, 1, false);
-        EXPECT_EQ(heardAfterReplacing(ahead, 2, false), last) << ahead;
-        EXPECT_EQ(heardAfterReplacing(ahead, 12, false), last) << ahead;
-        EXPECT_EQ(heardAfterReplacing(ahead, 12, true), last) << ahead << ", planned with on another thread";
+        const std::vector<float> last = playedAfterReplacing(ahead, 1, false);
+        EXPECT_EQ(playedAfterReplacing(ahead, 2, false), last) << ahead;
+        EXPECT_EQ(playedAfterReplacing(ahead, 12, false), last) << ahead;
+        EXPECT_EQ(playedAfterReplacing(ahead, 12, true), last) << ahead << ", viewed by another thread";
     }
 }
 
-TEST(WaveformTimelineTest, ASegmentForAPlaceThatHasSoundedIsSplicedWithWhatSounds) {
+TEST(WaveformTimelineTest, ASegmentForAPlayedStartIsSplicedWithThePlayedWave) {
     WaveformTimeline timeline;
     timeline.open(countingSeed());
     const std::int64_t start = timeline.head();
@@ -116,7 +116,7 @@ TEST(WaveformTimelineTest, ASegmentForAPlaceThatHasSoundedIsSplicedWithWhatSound
     }
 }
 
-TEST(WaveformTimelineTest, AfterClearingNothingOfAnEarlierSpliceComesBack) {
+TEST(WaveformTimelineTest, ClearingRemovesEarlierSplices) {
     WaveformTimeline timeline;
     timeline.open(countingSeed());
     timeline.commit(timeline.head(), constantSegment(5.0F));
@@ -125,7 +125,7 @@ TEST(WaveformTimelineTest, AfterClearingNothingOfAnEarlierSpliceComesBack) {
     EXPECT_EQ(readSamples(timeline, 10), std::vector<float>(10, 7.0F));
 }
 
-TEST(WaveformTimelineTest, ThePastOfASegmentHoldsTheSamplesNotYetPlayed) {
+TEST(WaveformTimelineTest, TheHistoryIncludesCommittedSamplesNotYetPlayed) {
     WaveformTimeline timeline;
     timeline.open(countingSeed());
     Segment past{};
@@ -134,7 +134,7 @@ TEST(WaveformTimelineTest, ThePastOfASegmentHoldsTheSamplesNotYetPlayed) {
     EXPECT_EQ(past.back(), 230.0F);
 }
 
-TEST(WaveformTimelineTest, ALateSegmentLosesWhatTheHeadHasPassed) {
+TEST(WaveformTimelineTest, ALateSegmentLosesTheSamplesThatTheHeadHasPassed) {
     WaveformTimeline timeline;
     timeline.open(countingSeed());
     const std::int64_t start = timeline.head() + 10;
@@ -145,11 +145,11 @@ TEST(WaveformTimelineTest, ALateSegmentLosesWhatTheHeadHasPassed) {
     }
     EXPECT_EQ(timeline.commit(start, late), timeline.head());
     EXPECT_EQ(timeline.coveredUntil(), start + 200);
-    const std::vector<float> heard = readSamples(timeline, 20);
-    EXPECT_EQ(heard[10], 1025.0F);
+    const std::vector<float> output = readSamples(timeline, 20);
+    EXPECT_EQ(output[10], 1025.0F);
 }
 
-TEST(WaveformTimelineTest, ASegmentThatIsPastAltogetherChangesNothing) {
+TEST(WaveformTimelineTest, ASegmentWhollyInThePastIsRejected) {
     WaveformTimeline timeline;
     timeline.open(countingSeed());
     const std::int64_t start = timeline.head() - 60;
@@ -159,42 +159,42 @@ TEST(WaveformTimelineTest, ASegmentThatIsPastAltogetherChangesNothing) {
     EXPECT_EQ(timeline.coveredUntil(), covered);
 }
 
-TEST(WaveformTimelineTest, ASegmentBeyondTheCommittedSamplesIsRefusedSinceItWouldLeaveAHole) {
+TEST(WaveformTimelineTest, ASegmentThatWouldLeaveAGapIsRejected) {
     WaveformTimeline timeline;
     timeline.open(countingSeed());
     EXPECT_EQ(timeline.commit(timeline.coveredUntil() + 1, constantSegment(1.0F)), -1);
 }
 
-TEST(WaveformTimelineTest, WithoutANewSegmentTheWaveFadesInFiveMillisecondsAndTheMissingSamplesAreCounted) {
+TEST(WaveformTimelineTest, WithoutANewSegmentTheWaveFadesAndMissingSamplesAreCounted) {
     WaveformTimeline timeline;
     Seed seed{};
     seed.fill(1.0F);
     timeline.open(seed);
-    const std::vector<float> heard = readSamples(timeline, 260);
-    EXPECT_EQ(heard[189], 1.0F);
-    for (std::size_t i = 190; i < heard.size(); ++i) {
-        ASSERT_LE(std::abs(heard[i] - heard[i - 1]), 0.1001F) << "sample " << i;
+    const std::vector<float> output = readSamples(timeline, 260);
+    EXPECT_EQ(output[189], 1.0F);
+    for (std::size_t i = 190; i < output.size(); ++i) {
+        ASSERT_LE(std::abs(output[i] - output[i - 1]), 0.1001F) << "sample " << i;
     }
-    EXPECT_EQ(heard[201], 0.0F);
+    EXPECT_EQ(output[201], 0.0F);
     EXPECT_EQ(timeline.uncoveredSamples(), 60U);
 }
 
-TEST(WaveformTimelineTest, AfterAnUnderrunTheNextSegmentRisesInsteadOfJumping) {
+TEST(WaveformTimelineTest, AfterAnUnderrunTheNextSegmentFadesIn) {
     WaveformTimeline timeline;
     Seed seed{};
     seed.fill(1.0F);
     timeline.open(seed);
     readSamples(timeline, 230);
     EXPECT_EQ(timeline.commit(timeline.head() - 5, constantSegment(1.0F)), timeline.head());
-    const std::vector<float> heard = readSamples(timeline, 30);
-    EXPECT_LE(heard[0], 0.1001F);
-    for (std::size_t i = 1; i < heard.size(); ++i) {
-        ASSERT_LE(std::abs(heard[i] - heard[i - 1]), 0.1001F) << "sample " << i;
+    const std::vector<float> output = readSamples(timeline, 30);
+    EXPECT_LE(output[0], 0.1001F);
+    for (std::size_t i = 1; i < output.size(); ++i) {
+        ASSERT_LE(std::abs(output[i] - output[i - 1]), 0.1001F) << "sample " << i;
     }
-    EXPECT_EQ(heard.back(), 1.0F);
+    EXPECT_EQ(output.back(), 1.0F);
 }
 
-TEST(WaveformTimelineTest, TheClockCountsWhatIsReadAndGoesOnOverADayOfSegments) {
+TEST(WaveformTimelineTest, TheClockIsExactOverADayOfSegments) {
     WaveformTimeline timeline;
     timeline.open(countingSeed());
     const std::int64_t origin = timeline.head();
@@ -208,7 +208,7 @@ TEST(WaveformTimelineTest, TheClockCountsWhatIsReadAndGoesOnOverADayOfSegments) 
     EXPECT_EQ(readSamples(timeline, 100).back(), 2.0F);
 }
 
-TEST(WaveformTimelineTest, ClearedThePastIsSilence) {
+TEST(WaveformTimelineTest, AClearedTimelineHasASilentPast) {
     WaveformTimeline timeline;
     timeline.open(countingSeed());
     timeline.clear();

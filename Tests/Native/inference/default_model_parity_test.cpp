@@ -7,7 +7,7 @@
 #include <cmath>
 #include <cstdlib>
 
-// The default model through ONNX Runtime against the same weights in Python, where they were trained.
+// Compares the default model in ONNX Runtime with the same weights in Python.
 
 namespace haptoflow::inference::testing {
 namespace {

@@ -1,10 +1,8 @@
 #include "inference/gaussian_noise.hpp"
 
-#include "golden_file.hpp"
-#include "inference/philox.hpp"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include "golden_file.hpp"
 
 #include <algorithm>
 #include <array>
@@ -49,7 +47,7 @@ double normalDistribution(double value) {
     return 0.5 * std::erfc(-value / std::sqrt(2.0));
 }
 
-TEST(PhiloxTest, GivesThePublishedWords) {
+TEST(PhiloxTest, PhiloxGivesThePublishedOutput) {
     using Words = std::array<std::uint32_t, 4>;
     EXPECT_EQ(philox({0, 0, 0, 0}, {0, 0}), (Words{0x6627e8d5, 0xe169c58d, 0xbc57ac4c, 0x9b00dbd8}));
     EXPECT_EQ(philox({0xffffffff, 0xffffffff, 0xffffffff, 0xffffffff}, {0xffffffff, 0xffffffff}),
@@ -72,7 +70,7 @@ TEST(GaussianNoiseTest, AgreesWithPythonForEveryGoldenKey) {
     }
 }
 
-TEST(GaussianNoiseTest, ItsFirstBytesNeverChange) {
+TEST(GaussianNoiseTest, TheFirstBytesNeverChange) {
     const auto values = noise({1, 2, 3}, 4);
     std::vector<std::uint32_t> bits;
     std::transform(values.begin(), values.end(), std::back_inserter(bits),
@@ -80,13 +78,13 @@ TEST(GaussianNoiseTest, ItsFirstBytesNeverChange) {
     EXPECT_THAT(bits, ::testing::ElementsAre(0xBF869500U, 0xBE9A04FDU, 0xBE0E8CFAU, 0xBE827762U));
 }
 
-TEST(GaussianNoiseTest, TheSameKeyGivesTheSameNoiseWhateverTheLength) {
+TEST(GaussianNoiseTest, TheSameKeyGivesTheSameNoiseForAnyLength) {
     const auto longer = noise({9, 8, 7}, 201);
     const auto shorter = noise({9, 8, 7}, 77);
     EXPECT_TRUE(std::equal(shorter.begin(), shorter.end(), longer.begin()));
 }
 
-TEST(GaussianNoiseTest, HasMeanZeroVarianceOneAndNormalHigherMoments) {
+TEST(GaussianNoiseTest, TheNoiseHasTheMomentsOfTheNormalDistribution) {
     // Each bound is about four standard errors for a million numbers.
     EXPECT_NEAR(moment(manyValues(), 1), 0.0, 0.004);
     EXPECT_NEAR(moment(manyValues(), 2), 1.0, 0.006);
@@ -94,7 +92,7 @@ TEST(GaussianNoiseTest, HasMeanZeroVarianceOneAndNormalHigherMoments) {
     EXPECT_NEAR(moment(manyValues(), 4), 3.0, 0.04);
 }
 
-TEST(GaussianNoiseTest, FollowsTheNormalDistributionEverywhere) {
+TEST(GaussianNoiseTest, TheNoiseFollowsTheNormalDistribution) {
     std::vector<float> sorted = manyValues();
     std::sort(sorted.begin(), sorted.end());
     double distance = 0.0;
@@ -104,18 +102,18 @@ TEST(GaussianNoiseTest, FollowsTheNormalDistributionEverywhere) {
         const double above = static_cast<double>(index + 1) / static_cast<double>(sorted.size());
         distance = std::max({distance, std::fabs(expected - below), std::fabs(expected - above)});
     }
-    // The Kolmogorov-Smirnov distance that one in a thousand fair samples of this size exceeds.
+    // The Kolmogorov-Smirnov distance that a sample of this size exceeds with a probability of 1/1000.
     EXPECT_LT(distance, 1.95 / std::sqrt(static_cast<double>(manyNumbers)));
 }
 
-TEST(GaussianNoiseTest, ReachesBeyondFourStandardDeviationsAsOftenAsItShould) {
+TEST(GaussianNoiseTest, ValuesBeyondFourStandardDeviationsHaveTheExpectedFrequency) {
     const auto beyond =
         std::count_if(manyValues().begin(), manyValues().end(), [](float value) { return std::fabs(value) > 4.0F; });
     const double expected = 2.0 * normalDistribution(-4.0) * static_cast<double>(manyNumbers);
     EXPECT_NEAR(static_cast<double>(beyond), expected, 4.0 * std::sqrt(expected));
 }
 
-TEST(GaussianNoiseTest, IsUncorrelatedWithItselfAtEveryShortLag) {
+TEST(GaussianNoiseTest, TheNoiseIsUncorrelatedAtEveryShortLag) {
     for (std::size_t lag = 1; lag <= 20; ++lag) {
         EXPECT_NEAR(correlation(manyValues(), manyValues(), lag), 0.0, 0.0045) << lag;
     }
@@ -131,14 +129,14 @@ TEST(GaussianNoiseTest, KeysThatDifferInOneBitGiveUncorrelatedNoise) {
     }
 }
 
-TEST(GaussianNoiseTest, ConsecutiveSegmentsDoNotRepeatEachOther) {
+TEST(GaussianNoiseTest, ConsecutiveSegmentsDoNotRepeat) {
     std::vector<float> firstValues;
     for (std::uint64_t segment = 0; segment < 10'000; ++segment) {
         firstValues.push_back(noise({1, 0, segment}, 1)[0]);
     }
     std::sort(firstValues.begin(), firstValues.end());
     const auto repeated = std::adjacent_find(firstValues.begin(), firstValues.end());
-    // Ten thousand floats collide about twice by chance where they are dense; runs of three would be a defect.
+    // Among ten thousand floats, about two equal values occur by chance; runs of three would be an error.
     EXPECT_TRUE(repeated == firstValues.end() || repeated + 2 == firstValues.end() || *repeated != *(repeated + 2));
     EXPECT_NEAR(moment(firstValues, 2), 1.0, 0.06);
 }

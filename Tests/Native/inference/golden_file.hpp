@@ -8,7 +8,7 @@
 
 namespace haptoflow::testing {
 
-/// A golden JSON file below Tests/Golden; throws, and so fails the test, where it is missing, broken or empty.
+/// Reads a golden JSON file from Tests/Golden. Throws, which fails the test, if it is missing, invalid or empty.
 inline nlohmann::json readGolden(const std::string& name) {
     const std::string path = std::string(HAPTOFLOW_TEST_GOLDEN_DIR "/") + name;
     std::ifstream stream(path);
@@ -22,7 +22,7 @@ inline nlohmann::json readGolden(const std::string& name) {
     return golden;
 }
 
-/// The member `key` of a golden object: an array that must not be empty.
+/// The member `key` of a golden object, which must be a non-empty array.
 inline const nlohmann::json& goldenRows(const nlohmann::json& golden, const char* key) {
     const nlohmann::json& rows = golden.at(key);
     if (!rows.is_array() || rows.empty()) {

@@ -5,7 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-// Models whose graphs are not what the format says; the graphs lie in tiny.haptoflow, where no tier names them.
+// Models whose graphs do not match the format. The graphs are blobs of tiny.haptoflow that no tier uses.
 
 namespace haptoflow::inference::testing {
 namespace {
@@ -42,48 +42,48 @@ void expectRefused(const std::string& fieldBlob, const std::string& levelBlob, c
     }
 }
 
-TEST(GraphCheckTest, AcceptsTheGraphsThatFit) {
+TEST(GraphCheckTest, MatchingGraphsAreAccepted) {
     EXPECT_NO_THROW((void)makeGenerator(modelWith("flow_field", "level")));
 }
 
-TEST(GraphCheckTest, RefusesAnotherNumberOfSamples) {
+TEST(GraphCheckTest, AnotherNumberOfSamplesIsRejected) {
     expectRefused("wrong_shape", "level", "input \"noisy\" has the shape [?,1,199]; expected [B,1,200]");
 }
 
-TEST(GraphCheckTest, RefusesAnotherNumberOfDimensions) {
+TEST(GraphCheckTest, AnotherNumberOfDimensionsIsRejected) {
     expectRefused("wrong_rank", "level", "input \"noisy\" has the shape [?,200]; expected [B,1,200]");
 }
 
-TEST(GraphCheckTest, RefusesAFixedBatch) {
+TEST(GraphCheckTest, AFixedBatchIsRejected) {
     expectRefused("wrong_batch", "level", "fixed batch of 1");
 }
 
-TEST(GraphCheckTest, RefusesAnotherNumberType) {
+TEST(GraphCheckTest, AnotherElementTypeIsRejected) {
     expectRefused("wrong_type", "level", "float32");
 }
 
-TEST(GraphCheckTest, RefusesAnInputThatTheFormatDoesNotKnow) {
+TEST(GraphCheckTest, AnUnknownInputIsRejected) {
     expectRefused("wrong_input", "level", "has an input \"wave\"");
 }
 
-TEST(GraphCheckTest, RefusesAnOutputOfAnotherName) {
+TEST(GraphCheckTest, AnOutputWithAnotherNameIsRejected) {
     expectRefused("wrong_output", "level", "has no output \"velocity\"");
 }
 
-TEST(GraphCheckTest, RefusesAnIntervalInAFlowTier) {
+TEST(GraphCheckTest, AnIntervalInputInAFlowTierIsRejected) {
     expectRefused("average_field", "level", "has an input \"interval\"");
     EXPECT_NO_THROW((void)makeGenerator(modelWith("average_field", "level", "average-velocity")));
 }
 
-TEST(GraphCheckTest, AsksADirectTierForASegment) {
+TEST(GraphCheckTest, ADirectTierNeedsTheOutputSegment) {
     expectRefused("flow_field", "level", "has no output \"segment\"", "direct");
 }
 
-TEST(GraphCheckTest, RefusesALevelGraphThatIsAField) {
+TEST(GraphCheckTest, AFieldAsLevelGraphIsRejected) {
     expectRefused("flow_field", "flow_field", "\"level\"");
 }
 
-TEST(GraphCheckTest, RefusesBytesThatAreNotAGraph) {
+TEST(GraphCheckTest, BytesThatAreNotAGraphAreRejected) {
     expectRefused("not_onnx", "level", "is not an ONNX model");
 }
 
@@ -100,7 +100,7 @@ protected:
     }
 };
 
-TEST_F(NotFiniteTest, AFieldThatReturnsNanIsAnError) {
+TEST_F(NotFiniteTest, AFieldThatReturnsNaNIsAnError) {
     EXPECT_THROW((void)run(modelWith("not_finite_field", "level"), {0.1F, 0.0F, 1.0F}), InferenceError);
 }
 
@@ -108,15 +108,15 @@ TEST_F(NotFiniteTest, ALevelOfMinusInfinityIsAnError) {
     EXPECT_THROW((void)run(modelWith("flow_field", "not_finite_level"), {0.0F, 0.0F, 1.0F}), InferenceError);
 }
 
-TEST_F(NotFiniteTest, ALevelThatIsNanIsAnError) {
+TEST_F(NotFiniteTest, ALevelOfNaNIsAnError) {
     EXPECT_THROW((void)run(modelWith("flow_field", "not_finite_level"), {-1.0F, 0.0F, 1.0F}), InferenceError);
 }
 
-TEST_F(NotFiniteTest, ALevelBeyondAnyVibrationIsAnError) {
+TEST_F(NotFiniteTest, AnImpossiblyHighLevelIsAnError) {
     EXPECT_THROW((void)run(modelWith("flow_field", "not_finite_level"), {1e9F, 0.0F, 1.0F}), InferenceError);
 }
 
-TEST_F(NotFiniteTest, AVanishingLevelIsSilenceNotAnError) {
+TEST_F(NotFiniteTest, AVeryLowLevelGivesSilenceInsteadOfAnError) {
     const auto segment = run(modelWith("flow_field", "not_finite_level"), {1e-30F, 0.0F, 1.0F});
     EXPECT_THAT(segment, ::testing::Each(::testing::AllOf(::testing::Gt(-1e-7F), ::testing::Lt(1e-7F))));
 }

@@ -14,7 +14,7 @@
 #include <chrono>
 #include <thread>
 
-// Loading a tier within limits of operators, time and memory, and ending it early.
+// Limits of operators, time and memory while loading a tier, and cancellation.
 
 namespace haptoflow::inference::testing {
 namespace {
@@ -45,18 +45,18 @@ std::string failureOf(const model::ModelFile& model, const LoadLimits& limits = 
     return {};
 }
 
-TEST(LoadLimitsTest, AGraphWithALoopIsRefusedInsteadOfRun) {
+TEST(LoadLimitsTest, AGraphWithALoopIsRejectedWithoutRunning) {
     EXPECT_THAT(failureOf<model::ModelError>(tinyWithLevel(model::testing::loopingLevel())),
                 ::testing::StartsWith("tier \"draft\", graph \"level\": uses the operator \"Loop\""));
 }
 
-TEST(LoadLimitsTest, ATierWhoseProbeRunTakesTooLongIsRefusedByName) {
+TEST(LoadLimitsTest, ATierWhoseProbeRunTakesTooLongIsRejectedByName) {
     const LoadLimits limits{.probeLimitMs = 20.0};
     EXPECT_THAT(failureOf<TierTooSlow>(tinyWithLevel(model::testing::slowLevel()), limits),
                 ::testing::StartsWith("tier \"draft\", graph \"level\": a run of 256 took longer than 640 ms"));
 }
 
-/// A few bytes that ask for 14 GB.
+/// A graph of a few bytes that needs 14 GB.
 Bytes inflatedLevel() {
     return levelGraph()
         .constant(integerTensor("size", {60'000, 60'000}))
@@ -67,13 +67,13 @@ Bytes inflatedLevel() {
         .written();
 }
 
-TEST(LoadLimitsTest, AConstantThatAsksForMoreMemoryThanATierMayHaveIsRefused) {
+TEST(LoadLimitsTest, AConstantThatNeedsTooMuchMemoryIsRejected) {
     const Bytes graph = inflatedLevel();
     EXPECT_THAT(failureOf<model::ModelError>(tinyWithLevel(graph)),
                 ::testing::StartsWith("tier \"draft\", graph \"level\": a run of 256 with at most 1088 MiB failed"));
 }
 
-TEST(LoadLimitsTest, ATensorThatDoublesAndDoublesIsRefused) {
+TEST(LoadLimitsTest, ATensorThatGrowsExponentiallyIsRejected) {
     auto writer = levelGraph();
     std::string last = "weighted";
     for (int step = 0; step < 34; ++step) {
@@ -86,8 +86,8 @@ TEST(LoadLimitsTest, ATensorThatDoublesAndDoublesIsRefused) {
     EXPECT_THAT(failureOf<model::ModelError>(tinyWithLevel(graph)), ::testing::HasSubstr("MiB failed"));
 }
 
-TEST(LoadLimitsTest, AGraphThatOnlyTakesOneRequestIsRefusedBeforeAnybodyAsksForTwo) {
-    // Through a fraction, so that nothing but a run finds out.
+TEST(LoadLimitsTest, AGraphThatAcceptsOnlyOneRequestIsRejectedWhileLoading) {
+    // Through a fraction, so that the error shows only in a run.
     const Bytes graph = levelGraph()
                             .constant(floatTensor("shape", {2}, {1.0F, 1.0F}))
                             .apply("Floor", {"shape"}, {"floor"})
@@ -98,13 +98,13 @@ TEST(LoadLimitsTest, AGraphThatOnlyTakesOneRequestIsRefusedBeforeAnybodyAsksForT
     EXPECT_THAT(failureOf<model::ModelError>(tinyWithLevel(graph)), ::testing::HasSubstr("a run of 256"));
 }
 
-TEST(LoadLimitsTest, ACancelledLoadLoadsNothing) {
+TEST(LoadLimitsTest, ACancelledLoadThrows) {
     const auto cancellation = std::make_shared<Cancellation>();
     cancellation->cancel();
     EXPECT_EQ(failureOf<LoadCancelled>(tinyModel(), {.cancellation = cancellation}), "the load was cancelled");
 }
 
-TEST(LoadLimitsTest, ALoadThatWouldTakeHalfAMinuteEndsWhenItIsCancelled) {
+TEST(LoadLimitsTest, ALongLoadEndsWhenItIsCancelled) {
     const model::ModelFile slow = tinyWithLevel(model::testing::slowLevel());
     const auto cancellation = std::make_shared<Cancellation>();
     std::thread canceller([&] {
@@ -116,7 +116,7 @@ TEST(LoadLimitsTest, ALoadThatWouldTakeHalfAMinuteEndsWhenItIsCancelled) {
     canceller.join();
 }
 
-TEST(LoadLimitsTest, ACancellationWhoseLoadIsDoneChangesNothing) {
+TEST(LoadLimitsTest, ACancellationAfterTheLoadHasNoEffect) {
     const auto cancellation = std::make_shared<Cancellation>();
     OnnxSegmentGenerator generator = loadDraft(tinyModel(), {.cancellation = cancellation});
     cancellation->cancel();
@@ -124,7 +124,7 @@ TEST(LoadLimitsTest, ACancellationWhoseLoadIsDoneChangesNothing) {
     EXPECT_NO_THROW(generator.generate(goldenBatch().requests(), segments));
 }
 
-TEST(LoadLimitsTest, TwoLoadsAtOnceEachHaveTheirOwnLimits) {
+TEST(LoadLimitsTest, TwoConcurrentLoadsHaveSeparateLimits) {
     const model::ModelFile slow = tinyWithLevel(model::testing::slowLevel());
     std::thread other([&] {
         for (int load = 0; load < 5; ++load) {
@@ -135,7 +135,7 @@ TEST(LoadLimitsTest, TwoLoadsAtOnceEachHaveTheirOwnLimits) {
     other.join();
 }
 
-TEST(LoadLimitsTest, LevelsAreTabulatedInRunsOf256WhateverTheBatchOfSegments) {
+TEST(LoadLimitsTest, LevelsAreTabulatedInRunsOf256ForAnyBatchSize) {
     OnnxSegmentGenerator generator = loadDraft(tinyModel());
     const std::vector<SegmentRequest> requests(640, goldenBatch().requests().front());
     std::vector<float> levels(requests.size());
@@ -144,7 +144,7 @@ TEST(LoadLimitsTest, LevelsAreTabulatedInRunsOf256WhateverTheBatchOfSegments) {
     EXPECT_THAT(levels, ::testing::Each(levels.front()));
 }
 
-TEST(CancellationTest, AnActionRunsOnceWhenTheCancellationComes) {
+TEST(CancellationTest, AnActionRunsOnceOnCancellation) {
     Cancellation cancellation;
     int runs = 0;
     const CancellationAction action(&cancellation, [&] { ++runs; });
@@ -154,7 +154,7 @@ TEST(CancellationTest, AnActionRunsOnceWhenTheCancellationComes) {
     EXPECT_EQ(runs, 1);
 }
 
-TEST(CancellationTest, AnActionThatComesLateRunsAtOnceAndOneThatIsGoneNever) {
+TEST(CancellationTest, ALateActionRunsAtOnceAndADestroyedActionNever) {
     Cancellation cancellation;
     int gone = 0;
     {
@@ -169,7 +169,7 @@ TEST(CancellationTest, AnActionThatComesLateRunsAtOnceAndOneThatIsGoneNever) {
     EXPECT_EQ(late, 1);
 }
 
-TEST(TimeLimitTest, ItsActionRunsOnceTheTimeHasPassedAndNotBefore) {
+TEST(TimeLimitTest, TheActionRunsAfterTheTimeHasPassed) {
     std::atomic<int> runs{0};
     {
         const TimeLimit limit(largestProbeLimitMs, [&] { ++runs; });
@@ -183,14 +183,14 @@ TEST(TimeLimitTest, ItsActionRunsOnceTheTimeHasPassedAndNotBefore) {
     EXPECT_LE(runs, 1);
 }
 
-/// The test's ONNX Runtime as if it were version 1.16: nothing newer can be asked for.
+/// The test's ONNX Runtime presented as version 1.16, without newer functions.
 class OldRuntime {
 public:
     static std::shared_ptr<const Runtime> open(const std::shared_ptr<LogSink>& log = nullptr) {
         const auto newest = testRuntime();
         real() = newest->api();
         real().CreateEnvWithCustomLogger = createEnvironment;
-        // What came after 1.16 is not there.
+        // Functions added after 1.16 are missing.
         real().SetUserLoggingFunction = nullptr;
         real().SessionOptionsSetLoadCancellationFlag = nullptr;
         static const OrtApiBase base{
@@ -215,7 +215,7 @@ private:
     }
 };
 
-TEST(OldRuntimeTest, WithoutWhatCameLaterATierLoadsAndAnswersTheSame) {
+TEST(OldRuntimeTest, ATierGivesTheSameResultWithVersion116) {
     const auto answer = [](OnnxSegmentGenerator generator) {
         std::vector<float> segments(3 * segmentSamples);
         generator.generate(goldenBatch().requests(), segments);
@@ -226,13 +226,13 @@ TEST(OldRuntimeTest, WithoutWhatCameLaterATierLoadsAndAnswersTheSame) {
     EXPECT_EQ(answer(loadDraft(tinyModel(), {}, OldRuntime::open())), answer(loadDraft(tinyModel())));
 }
 
-TEST(OldRuntimeTest, ALoadIsCancelledBetweenItsGraphs) {
+TEST(OldRuntimeTest, ALoadCanBeCancelledBetweenItsGraphs) {
     const auto cancellation = std::make_shared<Cancellation>();
     cancellation->cancel();
     EXPECT_THROW((void)loadDraft(tinyModel(), {.cancellation = cancellation}, OldRuntime::open()), LoadCancelled);
 }
 
-/// The test's ONNX Runtime, in which the cancellation comes while it loads a graph.
+/// The test's ONNX Runtime with a cancellation during the loading of a graph.
 class RuntimeCancelledWhileLoading {
 public:
     static std::shared_ptr<const Runtime> open(const std::shared_ptr<Cancellation>& cancellation) {
@@ -270,9 +270,9 @@ private:
     }
 };
 
-TEST(LoadLimitsTest, ACancellationWhileOnnxRuntimeLoadsAGraphReachesIt) {
+TEST(LoadLimitsTest, ACancellationIsForwardedToALoadingOnnxRuntime) {
     if (testRuntime()->apiVersion() < 22) {
-        GTEST_SKIP() << "this ONNX Runtime cannot cancel a load";
+        GTEST_SKIP() << "this version of ONNX Runtime cannot cancel a load";
     }
     const auto cancellation = std::make_shared<Cancellation>();
     const auto runtime = RuntimeCancelledWhileLoading::open(cancellation);
@@ -281,44 +281,45 @@ TEST(LoadLimitsTest, ACancellationWhileOnnxRuntimeLoadsAGraphReachesIt) {
     EXPECT_EQ(RuntimeCancelledWhileLoading::sessionsMade(), 0);
 }
 
-struct Heard {
+struct LogRecord {
     static void callback(void* context, int severity, const char* message) {
-        static_cast<Heard*>(context)->severities.push_back(severity);
-        static_cast<Heard*>(context)->messages.emplace_back(message);
+        static_cast<LogRecord*>(context)->severities.push_back(severity);
+        static_cast<LogRecord*>(context)->messages.emplace_back(message);
     }
     std::vector<int> severities;
     std::vector<std::string> messages;
 };
 
-TEST(OldRuntimeTest, ItsOneLogForTheProcessReachesTheCallback) {
-    Heard heard;
-    const auto log = std::make_shared<LogSink>(Heard::callback, &heard);
+TEST(OldRuntimeTest, TheProcessWideLogReachesTheCallback) {
+    LogRecord record;
+    const auto log = std::make_shared<LogSink>(LogRecord::callback, &record);
     const auto runtime = OldRuntime::open(log);
     ASSERT_NE(OldRuntime::logger(), nullptr);
     OldRuntime::logger()(nullptr, ORT_LOGGING_LEVEL_ERROR, "onnxruntime", "haptoflow", "here", "made by the test");
     OldRuntime::logger()(nullptr, ORT_LOGGING_LEVEL_INFO, "onnxruntime", "haptoflow", "here", "chatter");
-    EXPECT_THAT(heard.messages, ::testing::ElementsAre("onnxruntime: made by the test"));
-    EXPECT_THAT(heard.severities, ::testing::ElementsAre(3));
+    EXPECT_THAT(record.messages, ::testing::ElementsAre("onnxruntime: made by the test"));
+    EXPECT_THAT(record.severities, ::testing::ElementsAre(3));
     log->close();
     OldRuntime::logger()(nullptr, ORT_LOGGING_LEVEL_ERROR, "onnxruntime", "haptoflow", "here", "too late");
-    EXPECT_EQ(heard.messages.size(), 1U);
+    EXPECT_EQ(record.messages.size(), 1U);
 }
 
-TEST(LogTest, WhatOnnxRuntimeSaysOfAFailingGraphReachesTheCallbackOfItsRuntimeAlone) {
-    Heard heard;
-    Heard others;
-    const auto log = std::make_shared<LogSink>(Heard::callback, &heard);
+TEST(LogTest, TheLogOfAFailingGraphReachesOnlyTheCallbackOfItsRuntime) {
+    LogRecord record;
+    LogRecord others;
+    const auto log = std::make_shared<LogSink>(LogRecord::callback, &record);
     const auto runtime = Runtime::open(HAPTOFLOW_TEST_ONNXRUNTIME, log);
-    const auto other = Runtime::open(HAPTOFLOW_TEST_ONNXRUNTIME, std::make_shared<LogSink>(Heard::callback, &others));
+    const auto other =
+        Runtime::open(HAPTOFLOW_TEST_ONNXRUNTIME, std::make_shared<LogSink>(LogRecord::callback, &others));
     const model::ModelFile failing = tinyWithLevel(inflatedLevel());
     EXPECT_THROW((void)loadDraft(failing, {}, runtime), model::ModelError);
-    EXPECT_THAT(heard.messages, ::testing::Contains(::testing::HasSubstr("ConstantOfShape")));
-    EXPECT_THAT(heard.severities, ::testing::Each(::testing::Ge(2)));
+    EXPECT_THAT(record.messages, ::testing::Contains(::testing::HasSubstr("ConstantOfShape")));
+    EXPECT_THAT(record.severities, ::testing::Each(::testing::Ge(2)));
     EXPECT_THAT(others.messages, ::testing::IsEmpty());
     log->close();
-    const std::size_t before = heard.messages.size();
+    const std::size_t before = record.messages.size();
     EXPECT_THROW((void)loadDraft(failing, {}, runtime), model::ModelError);
-    EXPECT_EQ(heard.messages.size(), before);
+    EXPECT_EQ(record.messages.size(), before);
 }
 
 }  // namespace

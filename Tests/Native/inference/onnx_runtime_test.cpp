@@ -29,35 +29,35 @@ const char* ORT_API_CALL oldVersion() noexcept {
     return "1.2.3";
 }
 
-TEST(OnnxRuntimeTest, OpensTheLibraryByPathAndNamesItsVersion) {
+TEST(OnnxRuntimeTest, TheLibraryIsOpenedByPathAndItsVersionIsReported) {
     const auto runtime = Runtime::open(HAPTOFLOW_TEST_ONNXRUNTIME);
     EXPECT_THAT(runtime->version(), ::testing::MatchesRegex("[0-9]+\\.[0-9]+\\.[0-9]+.*"));
 }
 
-TEST(OnnxRuntimeTest, NamesThePathOfALibraryThatIsNotThere) {
+TEST(OnnxRuntimeTest, TheErrorForAMissingLibraryNamesItsPath) {
     EXPECT_THAT(refusalOf([] { (void)Runtime::open("/nowhere/libonnxruntime.so"); }),
                 ::testing::StartsWith("/nowhere/libonnxruntime.so: cannot be loaded"));
 }
 
-TEST(OnnxRuntimeTest, RefusesAFileThatIsNotALibrary) {
+TEST(OnnxRuntimeTest, AFileThatIsNotALibraryIsRejected) {
     const std::string path = HAPTOFLOW_TEST_GOLDEN_DIR "/model/tiny.haptoflow";
     EXPECT_THAT(refusalOf([&] { (void)Runtime::open(path); }), ::testing::StartsWith(path));
 }
 
-TEST(OnnxRuntimeTest, RefusesAnotherLibrary) {
+TEST(OnnxRuntimeTest, ALibraryOtherThanOnnxRuntimeIsRejected) {
     EXPECT_THAT(refusalOf([] { (void)Runtime::open("libm.so.6"); }), ::testing::HasSubstr("OrtGetApiBase"));
 }
 
-TEST(OnnxRuntimeTest, RefusesANullApiBase) {
+TEST(OnnxRuntimeTest, ANullApiBaseIsRejected) {
     EXPECT_THAT(refusalOf([] { (void)Runtime::fromApiBase(nullptr); }), ::testing::HasSubstr("returned nothing"));
 }
 
-TEST(OnnxRuntimeTest, RefusesAVersionThatDoesNotKnowTheApi) {
+TEST(OnnxRuntimeTest, AVersionWithoutTheRequiredApiIsRejected) {
     const OrtApiBase base{noApi, oldVersion};
     EXPECT_THAT(refusalOf([&] { (void)Runtime::fromApiBase(&base); }), ::testing::HasSubstr("1.2.3 is too old: 1.16"));
 }
 
-TEST(OnnxRuntimeTest, SeveralRuntimesLiveSideBySide) {
+TEST(OnnxRuntimeTest, SeveralRuntimesCanExistAtTheSameTime) {
     auto first = Runtime::open(HAPTOFLOW_TEST_ONNXRUNTIME);
     const auto second = Runtime::open(HAPTOFLOW_TEST_ONNXRUNTIME);
     first.reset();
@@ -66,7 +66,7 @@ TEST(OnnxRuntimeTest, SeveralRuntimesLiveSideBySide) {
     EXPECT_THROW(second->check(status, "a failure"), InferenceError);
 }
 
-TEST(OnnxRuntimeTest, AFailureKeepsWhatWasDoneAndWhy) {
+TEST(OnnxRuntimeTest, AnErrorNamesTheOperationAndTheReason) {
     const auto runtime = Runtime::open(HAPTOFLOW_TEST_ONNXRUNTIME);
     try {
         runtime->check(runtime->api().CreateStatus(ORT_FAIL, "made by the test"), "trying");

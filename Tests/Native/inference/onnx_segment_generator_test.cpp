@@ -24,7 +24,7 @@ std::vector<float> generate(OnnxSegmentGenerator& generator, std::span<const Seg
     return segments;
 }
 
-/// Largest difference, in units of the segment's own level.
+/// The largest difference, relative to the segment's level.
 double unitScaleDifference(const std::vector<float>& left, const std::vector<float>& right,
                            const std::vector<float>& levelsMps2) {
     EXPECT_EQ(left.size(), right.size());
@@ -55,7 +55,7 @@ TEST(OnnxSegmentGeneratorTest, AgreesWithNumpyForEverySolverStepAndTier) {
     }
 }
 
-TEST(OnnxSegmentGeneratorTest, LevelsAgreeWithNumpyAndCostNoFieldRun) {
+TEST(OnnxSegmentGeneratorTest, LevelsAgreeWithNumpyAndNeedNoFieldRun) {
     const nlohmann::json golden = haptoflow::testing::readGolden("model/tiny.expected.json");
     const auto expected = golden.at("cases").at(0).at("levels_mps2").get<std::vector<float>>();
     const auto requests = goldenBatch().requests();
@@ -70,7 +70,7 @@ TEST(OnnxSegmentGeneratorTest, LevelsAgreeWithNumpyAndCostNoFieldRun) {
     EXPECT_EQ(generator.runCounts().field, 0U);
 }
 
-TEST(OnnxSegmentGeneratorTest, ABatchOfVoicesIsOneRunPerEvaluation) {
+TEST(OnnxSegmentGeneratorTest, ABatchOfVoicesNeedsOneRunPerEvaluation) {
     const auto requests = goldenBatch().requests();
     OnnxSegmentGenerator generator = makeGenerator("standard", {SolverKind::heun, 8});
     (void)generate(generator, requests);
@@ -78,14 +78,14 @@ TEST(OnnxSegmentGeneratorTest, ABatchOfVoicesIsOneRunPerEvaluation) {
     EXPECT_EQ(generator.runCounts().field, 16U);
 }
 
-TEST(OnnxSegmentGeneratorTest, LoadingCountsNoRun) {
+TEST(OnnxSegmentGeneratorTest, ProbeRunsAreNotCounted) {
     const OnnxSegmentGenerator generator = makeGenerator("latent", {});
     EXPECT_EQ(generator.runCounts().level + generator.runCounts().field + generator.runCounts().encoder +
                   generator.runCounts().decoder,
               0U);
 }
 
-TEST(OnnxSegmentGeneratorTest, RequestsBeyondTheMaximumBatchGoThroughInParts) {
+TEST(OnnxSegmentGeneratorTest, RequestsBeyondTheMaximumBatchAreSplit) {
     const auto requests = goldenBatch().requests();
     OnnxSegmentGenerator whole = makeGenerator("standard", {SolverKind::midpoint, 2}, 3);
     OnnxSegmentGenerator parts = makeGenerator("standard", {SolverKind::midpoint, 2}, 2);
@@ -97,7 +97,7 @@ TEST(OnnxSegmentGeneratorTest, RequestsBeyondTheMaximumBatchGoThroughInParts) {
     EXPECT_EQ(parts.runCounts().field, 8U);
 }
 
-TEST(OnnxSegmentGeneratorTest, ARequestGetsTheSameSegmentAloneAndInABatch) {
+TEST(OnnxSegmentGeneratorTest, ARequestGivesTheSameSegmentAloneAndInABatch) {
     const auto requests = goldenBatch().requests();
     OnnxSegmentGenerator generator = makeGenerator("latent", {SolverKind::midpoint, 2});
     const auto together = generate(generator, requests);
@@ -110,7 +110,7 @@ TEST(OnnxSegmentGeneratorTest, ARequestGetsTheSameSegmentAloneAndInABatch) {
     EXPECT_EQ(generate(generator, requests), together);
 }
 
-TEST(OnnxSegmentGeneratorTest, NoRequestsMeanNoRuns) {
+TEST(OnnxSegmentGeneratorTest, NoRequestsCauseNoRuns) {
     OnnxSegmentGenerator generator = makeGenerator("standard", {});
     generator.generate({}, {});
     generator.levels({}, {});
@@ -127,12 +127,12 @@ TEST(OnnxSegmentGeneratorTest, TheSolverCanBeChangedBetweenBatches) {
     EXPECT_EQ(changed.runCounts().field, 11U);
 }
 
-TEST(OnnxSegmentGeneratorTest, AnAverageVelocityTierIsSteppedByEulerWhateverIsAsked) {
+TEST(OnnxSegmentGeneratorTest, AnAverageVelocityTierAlwaysUsesEuler) {
     const auto requests = goldenBatch().requests();
-    OnnxSegmentGenerator asked = makeGenerator("draft", {SolverKind::heun, 3});
+    OnnxSegmentGenerator heun = makeGenerator("draft", {SolverKind::heun, 3});
     OnnxSegmentGenerator plain = makeGenerator("draft", {SolverKind::euler, 3});
-    EXPECT_EQ(generate(asked, requests), generate(plain, requests));
-    EXPECT_EQ(asked.runCounts().field, 3U);
+    EXPECT_EQ(generate(heun, requests), generate(plain, requests));
+    EXPECT_EQ(heun.runCounts().field, 3U);
 }
 
 TEST(OnnxSegmentGeneratorTest, ADirectTierIsEvaluatedOnce) {
@@ -151,7 +151,7 @@ TEST(OnnxSegmentGeneratorTest, ALatentTierEncodesAndDecodesOncePerBatch) {
     EXPECT_EQ(generator.runCounts().decoder, 1U);
 }
 
-TEST(OnnxSegmentGeneratorTest, TheFieldAtTheNoiseIsWhatOneEulerStepAdds) {
+TEST(OnnxSegmentGeneratorTest, TheFieldAtTheNoiseEqualsTheIncrementOfOneEulerStep) {
     const auto requests = goldenBatch().requests();
     OnnxSegmentGenerator generator = makeGenerator("standard", {SolverKind::euler, 1});
     const auto segments = generate(generator, requests);
@@ -169,14 +169,14 @@ TEST(OnnxSegmentGeneratorTest, TheFieldAtTheNoiseIsWhatOneEulerStepAdds) {
     }
 }
 
-TEST(OnnxSegmentGeneratorTest, TheFieldOfALatentTierCannotBeAskedAtASegment) {
+TEST(OnnxSegmentGeneratorTest, EvaluatingTheFieldOfALatentTierIsRejected) {
     const auto requests = goldenBatch().requests();
     OnnxSegmentGenerator generator = makeGenerator("latent", {});
     std::vector<float> velocities(requests.size() * segmentSamples);
     EXPECT_THROW(generator.evaluateField(requests, 0.0F, 1.0F, velocities), std::invalid_argument);
 }
 
-TEST(OnnxSegmentGeneratorTest, ANoiseThatIsNotFiniteIsAnErrorAndTheNextBatchIsFine) {
+TEST(OnnxSegmentGeneratorTest, NonFiniteNoiseIsAnErrorThatDoesNotAffectTheNextBatch) {
     auto requests = goldenBatch().requests();
     OnnxSegmentGenerator generator = makeGenerator("standard", {SolverKind::midpoint, 2});
     const auto expected = generate(generator, requests);
@@ -189,17 +189,17 @@ TEST(OnnxSegmentGeneratorTest, ANoiseThatIsNotFiniteIsAnErrorAndTheNextBatchIsFi
     EXPECT_EQ(generate(generator, requests), expected);
 }
 
-TEST(OnnxSegmentGeneratorTest, NamesTheTiersThatThereAreWhenAskedForAnother) {
+TEST(OnnxSegmentGeneratorTest, TheErrorForAnUnknownTierListsTheTiers) {
     try {
         (void)makeGenerator("ultra", {});
-        FAIL() << "a tier that is not there was accepted";
+        FAIL() << "a missing tier was accepted";
     } catch (const std::invalid_argument& error) {
         EXPECT_THAT(error.what(), HasSubstr("\"ultra\""));
         EXPECT_THAT(error.what(), HasSubstr("\"draft\" \"standard\" \"fine\""));
     }
 }
 
-TEST(OnnxSegmentGeneratorTest, RefusesSettingsOutOfRange) {
+TEST(OnnxSegmentGeneratorTest, SettingsOutOfRangeAreRejected) {
     EXPECT_THROW((void)makeGenerator("standard", {SolverKind::euler, 0}), std::invalid_argument);
     EXPECT_THROW((void)makeGenerator("standard", {SolverKind::euler, 17}), std::invalid_argument);
     EXPECT_THROW((void)makeGenerator("standard", {}, 0), std::invalid_argument);
@@ -209,7 +209,7 @@ TEST(OnnxSegmentGeneratorTest, RefusesSettingsOutOfRange) {
     EXPECT_EQ(generator.solver().steps, 2);
 }
 
-TEST(OnnxSegmentGeneratorTest, RefusesRoomOfTheWrongSize) {
+TEST(OnnxSegmentGeneratorTest, OutputSpansOfTheWrongSizeAreRejected) {
     const auto requests = goldenBatch().requests();
     OnnxSegmentGenerator generator = makeGenerator("standard", {});
     std::vector<float> room(requests.size() * segmentSamples - 1);
@@ -217,7 +217,7 @@ TEST(OnnxSegmentGeneratorTest, RefusesRoomOfTheWrongSize) {
     EXPECT_THROW(generator.levels(requests, room), std::invalid_argument);
 }
 
-TEST(OnnxSegmentGeneratorTest, ReadsATiersOwnSolver) {
+TEST(OnnxSegmentGeneratorTest, TheTiersSolverIsRead) {
     const SolverSettings standard = defaultSolver(*tinyModel().findTier("standard"));
     EXPECT_EQ(standard.kind, SolverKind::midpoint);
     EXPECT_EQ(standard.steps, 2);
@@ -227,7 +227,7 @@ TEST(OnnxSegmentGeneratorTest, ReadsATiersOwnSolver) {
     EXPECT_EQ(defaultSolver(*tinyModel().findTier("draft")).kind, SolverKind::euler);
 }
 
-TEST(OnnxSegmentGeneratorTest, OutlivesTheModelItWasMadeFrom) {
+TEST(OnnxSegmentGeneratorTest, TheGeneratorOutlivesItsModel) {
     auto model =
         std::make_unique<model::ModelFile>(model::ModelFile::read(HAPTOFLOW_TEST_GOLDEN_DIR "/model/tiny.haptoflow"));
     OnnxSegmentGenerator generator(testRuntime(), *model, "standard", {}, 4);

@@ -9,7 +9,7 @@
 
 namespace haptoflow::inference::testing {
 
-/// The bytes of a model file whose named graphs are others and whose header is edited; everything else stays.
+/// The bytes of a model file with some graphs replaced and the header edited.
 inline model::testing::Bytes withGraphs(
     const model::ModelFile& model, const std::map<std::string, model::testing::Bytes>& graphs,
     const std::function<void(nlohmann::json&)>& editHeader = [](nlohmann::json&) {}) {

@@ -9,12 +9,12 @@
 
 namespace haptoflow::inference::testing {
 
-/// What the graph below writes for each turn along the two wave vectors.
+/// Output of the graph below per turn along the two wave vectors.
 inline constexpr float firstRibWeight = 0.5F;
 inline constexpr float secondRibWeight = -0.25F;
 
-/// A field graph that reads nothing but the input `rib_phase`, of so many numbers, and writes the same number
-/// everywhere in a point of this shape: first phase * firstRibWeight + second phase * secondRibWeight.
+/// A field graph with the single input `rib_phase`. Every element of its output point has the value first phase *
+/// firstRibWeight + second phase * secondRibWeight.
 inline model::testing::Bytes ribField(std::string_view output, const model::testing::Dimensions& shape,
                                       std::size_t phases = 2) {
     using namespace model::testing;

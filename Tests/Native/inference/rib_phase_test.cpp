@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-// The optional input "rib_phase" of a field graph.
+// Tests of the optional input "rib_phase" of a field graph.
 
 namespace haptoflow::inference::testing {
 namespace {
@@ -21,7 +21,7 @@ using model::testing::Bytes;
 
 constexpr std::array<std::array<float, 2>, 3> phases{{{0.25F, 0.5F}, {0.9F, 0.0F}, {0.0F, 0.75F}}};
 
-/// The tiny model, each of whose fields writes its rib phase.
+/// The tiny model with fields that output their rib phase.
 model::ModelFile ribModel() {
     return model::ModelFile::parse(withGraphs(tinyModel(), {{"flow_field", ribField("velocity", {1, 200})},
                                                             {"average_field", ribField("velocity", {1, 200})},
@@ -37,7 +37,7 @@ std::vector<SegmentRequest> requestsWithPhases() {
     return requests;
 }
 
-/// What the tier makes of the requests, and of the same ones without a phase, apart from one another in unit scale.
+/// The difference, in unit scale, between the tier's segments with and without the phases.
 std::vector<float> effectOfPhase(OnnxSegmentGenerator& generator, const std::vector<SegmentRequest>& requests) {
     auto without = requests;
     for (SegmentRequest& request : without) {
@@ -59,7 +59,7 @@ float weighted(const std::array<float, 2>& phase) {
     return firstRibWeight * phase[0] + secondRibWeight * phase[1];
 }
 
-TEST(RibPhaseInputTest, EveryKindOfTierGetsThePhaseOfEachRequestOfABatch) {
+TEST(RibPhaseInputTest, EveryKindOfTierReceivesThePhaseOfEachRequest) {
     const model::ModelFile model = ribModel();
     const auto requests = requestsWithPhases();
     for (const char* tier : {"draft", "standard", "direct", "latent"}) {
@@ -67,7 +67,7 @@ TEST(RibPhaseInputTest, EveryKindOfTierGetsThePhaseOfEachRequestOfABatch) {
             OnnxSegmentGenerator generator(testRuntime(), model, tier, {SolverKind::euler, 2}, maximumBatch);
             const auto effect = effectOfPhase(generator, requests);
             for (std::size_t i = 0; i < effect.size(); ++i) {
-                // The latent tier's decoder halves every second sample.
+                // The decoder of the latent tier halves every second sample.
                 const float share = std::string(tier) == "latent" && i % 2 == 1 ? 0.5F : 1.0F;
                 ASSERT_NEAR(effect[i], share * weighted(phases[i / segmentSamples]), 2e-5F) << tier << ' ' << i;
             }
@@ -75,7 +75,7 @@ TEST(RibPhaseInputTest, EveryKindOfTierGetsThePhaseOfEachRequestOfABatch) {
     }
 }
 
-TEST(RibPhaseInputTest, AGraphWithoutTheInputLoadsAndTakesNoNoticeOfThePhase) {
+TEST(RibPhaseInputTest, AGraphWithoutTheInputLoadsAndIgnoresThePhase) {
     const auto requests = requestsWithPhases();
     for (const char* tier : {"draft", "standard", "direct", "latent"}) {
         OnnxSegmentGenerator generator(testRuntime(), tinyModel(), tier, {SolverKind::euler, 2}, 4);
@@ -83,7 +83,7 @@ TEST(RibPhaseInputTest, AGraphWithoutTheInputLoadsAndTakesNoNoticeOfThePhase) {
     }
 }
 
-TEST(RibPhaseInputTest, AnInputOfAnotherShapeIsRefusedByTierGraphAndShape) {
+TEST(RibPhaseInputTest, TheErrorForAnotherShapeNamesTierGraphAndShape) {
     for (const auto& [tier, blob, output] :
          {std::array{"standard", "flow_field", "velocity"}, std::array{"draft", "average_field", "velocity"},
           std::array{"direct", "direct_field", "segment"}}) {
@@ -99,7 +99,7 @@ TEST(RibPhaseInputTest, AnInputOfAnotherShapeIsRefusedByTierGraphAndShape) {
     }
 }
 
-TEST(RibPhaseInputTest, ALevelGraphCannotAskForThePhase) {
+TEST(RibPhaseInputTest, ALevelGraphWithThePhaseInputIsRejected) {
     const auto model = model::ModelFile::parse(withGraphs(tinyModel(), {{"level", ribField("log_level", {1})}}));
     EXPECT_THROW((void)OnnxSegmentGenerator(testRuntime(), model, "standard", {SolverKind::euler, 1}, 1),
                  model::ModelError);

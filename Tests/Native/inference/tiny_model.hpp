@@ -37,7 +37,7 @@ inline SolverKind solverNamed(const std::string& name) {
     throw std::runtime_error("no solver is called " + name);
 }
 
-/// Owns what the requests of one batch point at.
+/// Owns the data that the requests of a batch view.
 class RequestBatch {
 public:
     void add(const std::vector<float>& embedding, const std::vector<float>& motion, const std::vector<float>& previous,

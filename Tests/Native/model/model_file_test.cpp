@@ -63,7 +63,7 @@ TEST(ModelFileTest, ReadsEveryValueOfAValidModel) {
 
     ASSERT_EQ(header.tiers.size(), 2U);
     EXPECT_EQ(header.tiers[header.defaultTier].name, "standard");
-    EXPECT_EQ(header.tiers[1].solver, TierSolver::midpoint);
+    EXPECT_EQ(header.tiers[1].solver, SolverKind::midpoint);
     EXPECT_EQ(header.tiers[1].steps, 2);
     EXPECT_EQ(header.tiers[0].parameters, 12345);
     EXPECT_EQ(header.tiers[0].accuracyJson, R"({"spectral_error_db":1.5})");

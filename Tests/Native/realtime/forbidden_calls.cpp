@@ -9,8 +9,8 @@
 #include <cstddef>
 #include <cstdlib>
 
-// glibc's own names of its allocator: what the interposed functions pass on to without asking the loader, which
-// allocates itself.
+// glibc's internal names of its allocator. The interposed functions call them directly, because looking up the
+// originals with the loader would allocate.
 extern "C" {
 void* __libc_malloc(std::size_t size);
 void __libc_free(void* memory);

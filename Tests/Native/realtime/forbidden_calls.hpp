@@ -4,8 +4,8 @@
 
 namespace haptoflow::realtime {
 
-/// How often the calling thread allocated, freed, locked, waited or woke while it was watched. The C library's
-/// functions are interposed by this program's own, which count and pass on.
+/// During its lifetime, counts the calling thread's allocations, frees, locks, waits and wake-ups. This program
+/// interposes the C library's functions with its own, which count and forward the calls.
 class WatchedSection {
 public:
     WatchedSection() noexcept;
@@ -14,9 +14,9 @@ public:
     ~WatchedSection();
 };
 
-/// Of all watched sections of all threads so far.
+/// Number of forbidden calls in all watched sections of all threads so far.
 [[nodiscard]] std::uint64_t forbiddenCalls() noexcept;
-/// Name of the function that was called last in a watched section; "" for none.
+/// Name of the last function called in a watched section; "" if there was none.
 [[nodiscard]] const char* lastForbiddenCall() noexcept;
 
 }  // namespace haptoflow::realtime

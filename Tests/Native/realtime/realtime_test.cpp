@@ -1,5 +1,5 @@
-// The callback under load, watched: whatever it calls that it must not is counted, in the C library by interposition
-// and in the kernel by a filter on the thread.
+// Runs the callback under load and counts forbidden calls: in the C library by interposition, in the kernel by a system
+// call filter on the thread.
 #include "capi/open_engine.hpp"
 #include "realtime/forbidden_calls.hpp"
 #include "realtime/system_call_trap.hpp"
@@ -22,28 +22,28 @@ namespace {
 
 using capi::testing::OpenEngine;
 
-/// HAPTOFLOW_TEST_CALLBACKS: the soak asks for a million.
+/// Number of callbacks, from HAPTOFLOW_TEST_CALLBACKS; the soak test sets a million.
 std::uint64_t callbackCount() {
     const char* asked = std::getenv("HAPTOFLOW_TEST_CALLBACKS");
     return asked != nullptr ? std::strtoull(asked, nullptr, 10) : 30'000;
 }
 
-/// How far the device is: it runs only as far as the hand, so that a contact state comes every 13 ms of its output
-/// however fast the machine goes through them.
+/// Synchronises device and hand, so that a contact state is published every 13 ms of output, independent of the
+/// machine's speed.
 struct Pace {
     static constexpr std::uint64_t callbacksOfAnUpdate = 8;
     std::atomic<std::uint64_t> allowedCallbacks{0};
     std::atomic<bool> done{false};
 };
 
-/// What happens to a voice while it is rendered: touches, taps, panics, mutes, new labels, ruined states.
+/// Changes a voice while it is rendered: touches, taps, panics, mutes, new labels, invalid states.
 void disturb(haptoflow_voice voice, Pace& pace) {
     for (std::uint32_t update = 0; !pace.done; ++update) {
         haptoflow_contact_state state = capi::testing::slidingState();
         state.touch_counter = update / 40;
         state.touching = update % 40 < 34 ? 1 : 0;
         state.labels[0] = update % 3;
-        // Tones come, change and go, features grow and shrink, and labels blend.
+        // Tone, feature scale and blend change.
         state.tone_db_per_octave = update % 5 == 0 ? 0.0F : static_cast<float>(update % 9) - 4.0F;
         state.spatial_scale = 0.5F + static_cast<float>(update % 4);
         state.label_count = 1 + update % 2;
@@ -54,7 +54,7 @@ void disturb(haptoflow_voice voice, Pace& pace) {
         (void)haptoflow_voice_publish(voice, &state);
         (void)haptoflow_voice_set_muted(voice, update % 53 == 52 ? 1 : 0);
         (void)haptoflow_voice_set_strength(voice, 0.5F + 0.5F * static_cast<float>(update % 2));
-        // A signal takes the texture's place for a while.
+        // A signal replaces the texture for a while.
         if (update % 67 == 40 || update % 67 == 66) {
             (void)haptoflow_voice_set_signal(voice, 20.0 + update % 480, update % 67 == 40 ? 6.0 : 0.0);
         }
@@ -66,7 +66,7 @@ void disturb(haptoflow_voice voice, Pace& pace) {
     }
 }
 
-TEST(RealTimeTest, TheWatchesSeeWhatTheyAreMeantToSee) {
+TEST(RealTimeTest, ForbiddenCallsAndSystemCallsAreDetected) {
     const std::uint64_t before = forbiddenCalls();
     std::mutex mutex;
     {
@@ -88,7 +88,7 @@ TEST(RealTimeTest, TheWatchesSeeWhatTheyAreMeantToSee) {
     EXPECT_EQ(lastTrappedSystemCall(), SYS_getppid);
 }
 
-TEST(RealTimeTest, TheWatchesSeeInsideTheLibraryToo) {
+TEST(RealTimeTest, ForbiddenCallsInsideTheLibraryAreDetected) {
     const OpenEngine open(capi::testing::tinyModelPath);
     haptoflow_engine_statistics statistics{};
     statistics.struct_size = sizeof(statistics);
@@ -97,11 +97,11 @@ TEST(RealTimeTest, TheWatchesSeeInsideTheLibraryToo) {
         const WatchedSection watched;
         EXPECT_EQ(haptoflow_engine_get_statistics(open.engine, &statistics), HAPTOFLOW_OK);
     }
-    EXPECT_GT(forbiddenCalls(), before) << "it takes a lock, as its documentation says";
+    EXPECT_GT(forbiddenCalls(), before) << "this function takes a lock, as documented";
 }
 
-TEST(RealTimeTest, TheFirstCallIntoTheLibraryMayComeFromTheAudioThread) {
-    // Each test is a process of its own: a mixer group with the effect may play before any voice was ever made.
+TEST(RealTimeTest, TheFirstCallMayComeFromTheAudioThread) {
+    // Each test runs in its own process. A mixer group with the effect may play before any voice was created.
     std::array<float, 64> block{};
     block.fill(1.0F);
     const std::uint64_t before = forbiddenCalls();
@@ -114,8 +114,8 @@ TEST(RealTimeTest, TheFirstCallIntoTheLibraryMayComeFromTheAudioThread) {
     EXPECT_EQ(block, (std::array<float, 64>{})) << "a voice that is not open writes zeros";
 }
 
-/// Calls `callback(frames, rateHz)` as a device does, while a hand does its worst, and asserts that nothing of what it
-/// does is forbidden.
+/// Calls `callback(frames, rateHz)` like a device while `disturb` changes the voice, and asserts that it makes no
+/// forbidden call.
 template <typename Callback>
 void watchUnderLoad(const OpenEngine& open, const Callback& callback) {
     const std::uint64_t callbacks = callbackCount();
@@ -127,7 +127,7 @@ void watchUnderLoad(const OpenEngine& open, const Callback& callback) {
     std::thread audio([&] {
         constexpr std::array rates{48000U, 48000U, 24000U};
         constexpr std::array<std::uint32_t, 4> blocks{64, 128, 31, 96};
-        // The first touch of the allocator may set up this thread's own arena.
+        // The first allocation may create this thread's arena.
         std::free(std::malloc(16));
         hasFilter = trapSystemCalls();
         for (std::uint64_t i = 0; i < callbacks; ++i) {
@@ -146,15 +146,15 @@ void watchUnderLoad(const OpenEngine& open, const Callback& callback) {
     ASSERT_TRUE(hasFilter);
     EXPECT_EQ(forbiddenCalls(), forbiddenBefore) << "last: " << lastForbiddenCall();
     EXPECT_EQ(trappedSystemCalls(), trappedBefore) << "last: " << lastTrappedSystemCall();
-    // That there was something to watch.
+    // The callbacks must have rendered something.
     const haptoflow_voice_statistics statistics = open.statistics();
     EXPECT_GT(statistics.inferences, 10U);
     EXPECT_GT(statistics.onsets, 3U);
     EXPECT_GT(statistics.rate_changes, 0U);
 }
 
-/// What was heard, for the audio thread to note.
-struct Heard {
+/// Results that the audio thread records.
+struct OutputRecord {
     std::atomic<bool> isFinite{true};
     std::atomic<float> loudest{0.0F};
 
@@ -166,19 +166,19 @@ struct Heard {
     }
 };
 
-TEST(RealTimeTest, InNoCallbackUnderLoadIsThereAnAllocationALockOrASystemCall) {
+TEST(RealTimeTest, NoCallbackUnderLoadAllocatesLocksOrEntersTheKernel) {
     const OpenEngine open(capi::testing::defaultModelPath, true);
-    Heard heard;
+    OutputRecord record;
     std::array<float, 128> block{};
     watchUnderLoad(open, [&](std::uint32_t frames, std::uint32_t rateHz) {
         (void)haptoflow_voice_render(open.voice, block.data(), frames, 1, 0, rateHz);
-        heard.note(std::span(block).first(frames));
+        record.note(std::span(block).first(frames));
     });
-    EXPECT_TRUE(heard.isFinite);
-    EXPECT_GT(heard.loudest, 0.001F);
+    EXPECT_TRUE(record.isFinite);
+    EXPECT_GT(record.loudest, 0.001F);
 }
 
-TEST(RealTimeTest, InNoCallbackOfTheMixerEffectUnderLoadIsThereAnAllocationALockOrASystemCall) {
+TEST(RealTimeTest, NoCallbackOfTheMixerEffectUnderLoadAllocatesLocksOrEntersTheKernel) {
     const OpenEngine open(capi::testing::defaultModelPath, true);
     const unity::testing::UnityHost host;
     unity::testing::HostedEffect effect(host.effect("HaptoFlow Voice"));
@@ -188,7 +188,7 @@ TEST(RealTimeTest, InNoCallbackOfTheMixerEffectUnderLoadIsThereAnAllocationALock
     effect.set("Channel", 1.0F);
     const unity::AudioEffectDefinition& definition = effect.definition();
     const int strength = effect.indexOf("Strength");
-    Heard heard;
+    OutputRecord record;
     std::array<float, 256> silence{};
     std::array<float, 256> block{};
     std::uint64_t calls = 0;
@@ -201,12 +201,12 @@ TEST(RealTimeTest, InNoCallbackOfTheMixerEffectUnderLoadIsThereAnAllocationALock
         }
         (void)definition.process(&state, silence.data(), block.data(), frames, 2, 2);
         state.previousTick = state.currentTick;
-        // Now and then the group was suspended.
+        // Occasionally the group was suspended.
         state.currentTick += calls % 1'700 == 0 ? 4 * frames : frames;
-        heard.note(std::span(block).first(std::size_t{2} * frames));
+        record.note(std::span(block).first(std::size_t{2} * frames));
     });
-    EXPECT_TRUE(heard.isFinite);
-    EXPECT_GT(heard.loudest, 0.001F);
+    EXPECT_TRUE(record.isFinite);
+    EXPECT_GT(record.loudest, 0.001F);
 }
 
 }  // namespace

@@ -35,7 +35,7 @@ bool trapSystemCalls() noexcept {
     if (sigaction(SIGSYS, &action, nullptr) != 0 || prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) != 0) {
         return false;
     }
-    // Through pass the end of the thread and the return from the trap's own handler.
+    // The filter allows the end of the thread and the return from the trap's signal handler.
     std::array<sock_filter, 5> filter{{
         BPF_STMT(BPF_LD | BPF_W | BPF_ABS, offsetof(seccomp_data, nr)),
         BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, SYS_exit, 2, 0),

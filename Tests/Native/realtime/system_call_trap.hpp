@@ -4,15 +4,15 @@
 
 namespace haptoflow::realtime {
 
-/// From now on every system call of the calling thread is refused (ENOSYS) and counted, for as long as the thread
-/// lives: a seccomp filter cannot be taken back. Such a thread ends by `leaveThread`. False where the kernel refuses.
+/// Makes every further system call of the calling thread fail with ENOSYS and counts it. A seccomp filter cannot be
+/// removed, so such a thread must end with `leaveThread`. Returns false if the kernel does not allow the filter.
 [[nodiscard]] bool trapSystemCalls() noexcept;
 
-/// System calls that trapped threads tried so far, and the number of the last one (-1 for none).
+/// Number of system calls that trapped threads attempted, and the number of the last one (-1 for none).
 [[nodiscard]] std::uint64_t trappedSystemCalls() noexcept;
 [[nodiscard]] long lastTrappedSystemCall() noexcept;
 
-/// Ends the calling thread by the one call that the filter lets through; it can be joined.
+/// Ends the calling thread with the only system call that the filter allows. The thread can be joined.
 [[noreturn]] void leaveThread() noexcept;
 
 }  // namespace haptoflow::realtime

@@ -4,8 +4,8 @@
 
 namespace haptoflow::testing {
 
-/// How often operator new was called in this program so far. Linking counting_new.cpp replaces that operator; it does
-/// so on every platform, and sees C++ only: heap calls of C libraries are watched in Tests/Native/realtime and unity.
+/// Number of calls of operator new in this program. Linking counting_new.cpp replaces that operator, on every platform.
+/// It counts C++ allocations only; Tests/Native/realtime and unity also count heap calls of C libraries.
 [[nodiscard]] std::size_t allocationCount() noexcept;
 
 }  // namespace haptoflow::testing

@@ -4,16 +4,16 @@
 
 namespace haptoflow::testing {
 
-/// A library opened as a program opens it at run time, closed at the end.
+/// A library opened at run time and closed in the destructor.
 class DynamicLibrary {
 public:
-    /// @throws std::runtime_error naming the path where it cannot be opened.
+    /// Throws std::runtime_error naming the path if the library cannot be opened.
     explicit DynamicLibrary(const std::string& path);
     ~DynamicLibrary();
     DynamicLibrary(const DynamicLibrary&) = delete;
     DynamicLibrary& operator=(const DynamicLibrary&) = delete;
 
-    /// @throws std::runtime_error where the library has no such name.
+    /// Throws std::runtime_error if the library has no such symbol.
     template <typename Function>
     [[nodiscard]] Function function(const char* name) const {
         return reinterpret_cast<Function>(address(name));

@@ -7,7 +7,7 @@
 
 namespace haptoflow::testing {
 
-/// The largest magnitude; 0 of nothing.
+/// The largest magnitude; 0 for no samples.
 inline float peak(std::span<const float> samples) {
     float largest = 0.0F;
     for (const float sample : samples) {
@@ -16,7 +16,8 @@ inline float peak(std::span<const float> samples) {
     return largest;
 }
 
-/// The largest difference between neighbours, the first sample's from what was heard before it included.
+/// The largest difference between neighbouring samples, including the first sample and `before`, the sample played
+/// before it.
 inline float largestStepFrom(float before, std::span<const float> samples) {
     float largest = 0.0F;
     for (const float sample : samples) {
@@ -26,7 +27,7 @@ inline float largestStepFrom(float before, std::span<const float> samples) {
     return largest;
 }
 
-/// The largest difference between neighbours.
+/// The largest difference between neighbouring samples.
 inline float largestStep(std::span<const float> samples) {
     return samples.empty() ? 0.0F : largestStepFrom(samples.front(), samples);
 }
@@ -40,9 +41,10 @@ inline double levelDecibels(std::span<const float> samples) {
     return 10.0 * std::log10(squares / static_cast<double>(samples.size()));
 }
 
-/// The steepest that a voice's wave of magnitude 1 can be at an output rate. Segments, their splices and seeds are
-/// joined before the resampler, whose stopband begins at 1,100 Hz: no sum of such tones is steeper than one of them
-/// (Bernstein). Only the gate comes after it, and opens within 2 ms on a raised cosine.
+/// The largest possible step between neighbouring samples of a voice's wave with magnitude 1. Segments, splices and
+/// seeds are joined before the resampler, whose stopband begins at 1,100 Hz, and by Bernstein's inequality a
+/// band-limited wave is not steeper than a sinusoid at its band edge. Only the gate follows the resampler; it opens
+/// within 2 ms along a raised cosine.
 constexpr double steepestStep(double outputRateHz) {
     return std::numbers::pi * (2.0 * 1100.0 + 0.5 / 0.002) / outputRateHz;
 }

@@ -10,7 +10,7 @@
 
 namespace {
 
-// Initial-exec, so that reading it allocates nothing itself.
+// The initial-exec model, because reading other thread-local variables may allocate.
 __attribute__((tls_model("initial-exec"))) thread_local bool isCounting = false;
 __attribute__((tls_model("initial-exec"))) thread_local std::size_t callCount = 0;
 
@@ -22,10 +22,10 @@ void count() {
 
 }  // namespace
 
-// NOLINTBEGIN(bugprone-reserved-identifier, readability-identifier-naming): the names are the runtimes' own.
+// NOLINTBEGIN(bugprone-reserved-identifier, readability-identifier-naming): the names are given by the runtimes.
 #if defined(HAPTOFLOW_TEST_SANITIZED)
 
-// A sanitizer has an allocator of its own, which lets others look on. Declared here: GCC does not ship the header.
+// A sanitizer has its own allocator, which offers hooks. They are declared here because GCC does not ship the header.
 extern "C" int __sanitizer_install_malloc_and_free_hooks(void (*allocated)(const volatile void* memory,
                                                                            std::size_t size),
                                                          void (*freed)(const volatile void* memory));
@@ -37,7 +37,7 @@ const int installed = __sanitizer_install_malloc_and_free_hooks([](const volatil
 
 #else
 
-// The program's own heap functions stand before those of every library; glibc keeps its ones under these names.
+// The program's heap functions take precedence over those of every library; glibc offers its own under these names.
 extern "C" {
 void* __libc_malloc(std::size_t size);
 void* __libc_calloc(std::size_t number, std::size_t size);

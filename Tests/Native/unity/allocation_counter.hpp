@@ -4,8 +4,8 @@
 
 namespace haptoflow::unity::testing {
 
-/// Counts what this thread asks of the heap while it lives, in this program and in every library it has loaded. One at
-/// a time on a thread.
+/// Counts the calling thread's heap calls during its lifetime, in this program and in all loaded libraries. Only one
+/// instance per thread.
 class AllocationCounter {
 public:
     AllocationCounter();
@@ -13,7 +13,7 @@ public:
     AllocationCounter& operator=(const AllocationCounter&) = delete;
     ~AllocationCounter();
 
-    /// Memory asked for, changed or given back, so many times.
+    /// Number of allocations, reallocations and frees.
     [[nodiscard]] std::size_t calls() const;
 };
 

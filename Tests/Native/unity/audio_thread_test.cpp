@@ -16,7 +16,7 @@ bool isWithinFullScale(const Sound& sound) {
     return std::ranges::all_of(sound.samples, [](float sample) { return std::abs(sample) <= 1.0F; });
 }
 
-TEST_F(AudioThreadTest, ProcessingAllocatesNothingWhateverHappens) {
+TEST_F(AudioThreadTest, ProcessingNeverAllocates) {
     HostedEffect effect(definition());
     const AudioEffectDefinition& callbacks = definition();
     AudioEffectState& state = effect.state();
@@ -54,7 +54,7 @@ TEST_F(AudioThreadTest, ProcessingAllocatesNothingWhateverHappens) {
     EXPECT_GT(counter.calls(), 0U) << "the counter does not count";
 }
 
-TEST_F(AudioThreadTest, TheLibrarysOwnAllocationsAreCounted) {
+TEST_F(AudioThreadTest, AllocationsInsideTheLibraryAreCounted) {
     AudioEffectState state{};
     state.structSize = sizeof(state);
     const AllocationCounter counter;
@@ -63,7 +63,7 @@ TEST_F(AudioThreadTest, TheLibrarysOwnAllocationsAreCounted) {
     EXPECT_EQ(definition().release(&state), resultOk);
 }
 
-TEST_F(AudioThreadTest, ParametersMayBeSetAndResetFromAnotherThreadMeanwhile) {
+TEST_F(AudioThreadTest, ParametersCanBeSetFromAnotherThread) {
     SteppedVoice second(runtime_, model_);
     HostedEffect effect(definition());
     std::atomic<bool> isDone{false};
@@ -79,14 +79,14 @@ TEST_F(AudioThreadTest, ParametersMayBeSetAndResetFromAnotherThreadMeanwhile) {
             std::this_thread::yield();
         }
     });
-    float loudestHeard = 0.0F;
+    float loudestOutput = 0.0F;
     bool isBounded = true;
     for (int i = 0; i < 400; ++i) {
         voice_.slide();
         second.slide();
-        const Sound heard = effect.process(128);
-        loudestHeard = std::max(loudestHeard, peak(heard.samples));
-        isBounded = isBounded && isWithinFullScale(heard);
+        const Sound output = effect.process(128);
+        loudestOutput = std::max(loudestOutput, peak(output.samples));
+        isBounded = isBounded && isWithinFullScale(output);
         if (i % 4 == 0) {
             voice_.generate();
             second.generate();
@@ -95,20 +95,20 @@ TEST_F(AudioThreadTest, ParametersMayBeSetAndResetFromAnotherThreadMeanwhile) {
     isDone = true;
     mainThread.join();
     EXPECT_TRUE(isBounded);
-    EXPECT_GT(loudestHeard, 1e-3F);
+    EXPECT_GT(loudestOutput, 1e-3F);
     effect.set("Strength", 0.5F);
     EXPECT_EQ(effect.get("Strength"), 0.5F);
 }
 
-TEST_F(AudioThreadTest, VoicesMayComeAndGoWhileAnEffectPlays) {
+TEST_F(AudioThreadTest, VoicesCanOpenAndCloseWhileAnEffectPlays) {
     HostedEffect effect(definition());
     effect.set("Voice", voice_.place() + 1.0F);
     std::atomic<bool> isDone{false};
     bool isBounded = true;
     std::thread audioThread([&] {
         while (!isDone.load()) {
-            const Sound heard = effect.process(64);
-            isBounded = isBounded && isWithinFullScale(heard);
+            const Sound output = effect.process(64);
+            isBounded = isBounded && isWithinFullScale(output);
         }
     });
     std::uint64_t rendered = 0;

@@ -18,7 +18,7 @@ bool endsWithin(std::span<const char> field) {
     return field.front() != '\0' && std::ranges::find(field, '\0') != field.end();
 }
 
-TEST(DefinitionTest, TheLibrarysFileNameIsOneThatUnityLoadsAtItsStart) {
+TEST(DefinitionTest, TheLibrarysFileNameHasThePrefixThatUnityLoads) {
     EXPECT_THAT(std::filesystem::path(UnityHost::libraryPath).filename().string(),
                 AnyOf(StartsWith("audioplugin_haptoflow."), StartsWith("libaudioplugin_haptoflow.")));
 }
@@ -29,11 +29,11 @@ TEST(DefinitionTest, TheLibraryDefinesOneEffect) {
     EXPECT_STREQ(host.definitions()[0]->name.data(), "HaptoFlow Voice");
 }
 
-TEST(DefinitionTest, AskingAgainGivesTheSameDefinitions) {
+TEST(DefinitionTest, ASecondCallReturnsTheSameDefinitions) {
     EXPECT_EQ(UnityHost().definitions()[0], UnityHost().definitions()[0]);
 }
 
-TEST(DefinitionTest, TheDefinitionSaysWhichLayoutItHas) {
+TEST(DefinitionTest, TheDefinitionStatesItsLayout) {
     const UnityHost host;
     const AudioEffectDefinition& definition = *host.definitions()[0];
     EXPECT_EQ(definition.structSize, 136U);
@@ -41,11 +41,11 @@ TEST(DefinitionTest, TheDefinitionSaysWhichLayoutItHas) {
     EXPECT_EQ(definition.apiVersion, 0x010402U);
     EXPECT_EQ(definition.pluginVersion, HAPTOFLOW_TEST_VERSION_MAJOR * 0x10000U +
                                             HAPTOFLOW_TEST_VERSION_MINOR * 0x100U + HAPTOFLOW_TEST_VERSION_PATCH);
-    EXPECT_EQ(definition.channels, 0U) << "a number of channels makes it a generator";
+    EXPECT_EQ(definition.channels, 0U) << "with a number of channels, it would be a generator";
     EXPECT_EQ(definition.flags, 0U);
 }
 
-TEST(DefinitionTest, EveryCallbackIsThere) {
+TEST(DefinitionTest, EveryCallbackIsSet) {
     const UnityHost host;
     const AudioEffectDefinition& definition = *host.definitions()[0];
     EXPECT_NE(definition.create, nullptr);
@@ -58,7 +58,7 @@ TEST(DefinitionTest, EveryCallbackIsThere) {
     EXPECT_NE(definition.getBuffer, nullptr);
 }
 
-TEST(DefinitionTest, EveryTextEndsWithinItsField) {
+TEST(DefinitionTest, EveryTextFitsItsField) {
     const UnityHost host;
     const AudioEffectDefinition& definition = *host.definitions()[0];
     EXPECT_TRUE(endsWithin(definition.name));
@@ -71,7 +71,7 @@ TEST(DefinitionTest, EveryTextEndsWithinItsField) {
     }
 }
 
-TEST(DefinitionTest, EveryParametersRangeHoldsItsDefault) {
+TEST(DefinitionTest, EveryParametersRangeContainsItsDefault) {
     const UnityHost host;
     const AudioEffectDefinition& definition = *host.definitions()[0];
     for (std::uint32_t i = 0; i < definition.parameterCount; ++i) {
@@ -93,7 +93,7 @@ TEST(DefinitionTest, ANewEffectHasEachParametersDefault) {
     }
 }
 
-TEST(DefinitionTest, SeekingAndReadingBuffersIsNotSupported) {
+TEST(DefinitionTest, SeekingAndReadingBuffersAreNotSupported) {
     const UnityHost host;
     HostedEffect effect(*host.definitions()[0]);
     float sample = 5.0F;
@@ -102,7 +102,7 @@ TEST(DefinitionTest, SeekingAndReadingBuffersIsNotSupported) {
     EXPECT_EQ(sample, 5.0F);
 }
 
-TEST(DefinitionTest, NullPointersAreRefusedAndNeverFollowed) {
+TEST(DefinitionTest, NullPointersAreRejected) {
     const UnityHost host;
     const AudioEffectDefinition& effect = *host.definitions()[0];
     AudioEffectState empty{};
@@ -120,7 +120,7 @@ TEST(DefinitionTest, NullPointersAreRefusedAndNeverFollowed) {
     EXPECT_EQ(effect.create(nullptr), resultUnsupported);
 }
 
-TEST(DefinitionTest, AGroupWhoseEffectCouldNotBeMadeStillPlaysItsInput) {
+TEST(DefinitionTest, WithoutAnEffectInstanceTheInputPassesThrough) {
     const UnityHost host;
     AudioEffectState empty{};
     empty.structSize = sizeof(empty);
@@ -131,10 +131,10 @@ TEST(DefinitionTest, AGroupWhoseEffectCouldNotBeMadeStillPlaysItsInput) {
     EXPECT_EQ(out.samples, in.samples);
 }
 
-TEST(DefinitionTest, TheStateOfAnOlderHostIsEnoughAndOneThatIsTooShortIsRefused) {
+TEST(DefinitionTest, AnOlderHostsStateIsAcceptedAndATooShortStateIsRejected) {
     const UnityHost host;
     const AudioEffectDefinition& effect = *host.definitions()[0];
-    // The host's own field and all behind it are missing; what is there must stay as it is.
+    // The host's own field and all fields after it are missing; the existing fields must not change.
     for (const std::uint32_t size : {56U, 80U, 200U}) {
         AudioEffectState state{};
         state.structSize = size;

@@ -13,7 +13,7 @@ protected:
     HostedEffect effect{host.effect("HaptoFlow Voice")};
 };
 
-TEST_F(ParametersTest, AParameterKeepsWhatItWasSetTo) {
+TEST_F(ParametersTest, AParameterKeepsItsValue) {
     EXPECT_EQ(effect.set("Strength", 0.25F), resultOk);
     EXPECT_EQ(effect.set("Voice", 63.0F), resultOk);
     EXPECT_EQ(effect.set("Channel", 7.0F), resultOk);
@@ -22,7 +22,7 @@ TEST_F(ParametersTest, AParameterKeepsWhatItWasSetTo) {
     EXPECT_EQ(effect.get("Channel"), 7.0F);
 }
 
-TEST_F(ParametersTest, ValuesOutOfRangeAreLimited) {
+TEST_F(ParametersTest, ValuesOutOfRangeAreClamped) {
     const float infinity = std::numeric_limits<float>::infinity();
     struct Range {
         const char* name;
@@ -42,7 +42,7 @@ TEST_F(ParametersTest, ValuesOutOfRangeAreLimited) {
     }
 }
 
-TEST_F(ParametersTest, NotANumberIsRefusedAndChangesNothing) {
+TEST_F(ParametersTest, NaNIsRejected) {
     for (const char* name : {"Strength", "Voice", "Channel"}) {
         EXPECT_EQ(effect.set(name, 1.0F), resultOk);
         EXPECT_EQ(effect.set(name, std::numeric_limits<float>::quiet_NaN()), resultUnsupported);
@@ -50,7 +50,7 @@ TEST_F(ParametersTest, NotANumberIsRefusedAndChangesNothing) {
     }
 }
 
-TEST_F(ParametersTest, VoicesAndChannelsAreWholeNumbersWhereverTheSliderStands) {
+TEST_F(ParametersTest, VoicesAndChannelsAreRounded) {
     effect.set("Voice", 2.6F);
     effect.set("Channel", -0.7F);
     EXPECT_EQ(effect.get("Voice"), 3.0F);
@@ -59,7 +59,7 @@ TEST_F(ParametersTest, VoicesAndChannelsAreWholeNumbersWhereverTheSliderStands) 
     EXPECT_EQ(effect.get("Strength"), 0.617F);
 }
 
-TEST_F(ParametersTest, AnIndexThatIsNoParameterIsRefused) {
+TEST_F(ParametersTest, AnInvalidIndexIsRejected) {
     const AudioEffectDefinition& definition = effect.definition();
     for (const int index : {-1, 3, 1000, std::numeric_limits<int>::min(), std::numeric_limits<int>::max()}) {
         float value = 5.0F;
@@ -69,7 +69,7 @@ TEST_F(ParametersTest, AnIndexThatIsNoParameterIsRefused) {
     }
 }
 
-TEST_F(ParametersTest, TheDisplayedTextSaysWhatTheValueMeans) {
+TEST_F(ParametersTest, TheDisplayedTextDescribesTheValue) {
     effect.set("Strength", 0.754F);
     effect.set("Voice", 63.0F);
     effect.set("Channel", 3.0F);

@@ -10,7 +10,7 @@ void allocatesLikeNoCallbackMay() noexcept [[clang::nonblocking]] {
     std::free(memory);
 }
 
-TEST(RealtimeSanitizerDeathTest, AFunctionOfTheCallbackThatAllocatesEndsTheProgram) {
+TEST(RealtimeSanitizerDeathTest, AnAllocatingCallbackEndsTheProgram) {
     EXPECT_DEATH(allocatesLikeNoCallbackMay(), "malloc");
 }
 

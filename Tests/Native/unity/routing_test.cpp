@@ -11,7 +11,7 @@ using ::testing::Each;
 
 using RoutingTest = VoiceEffectTest;
 
-TEST_F(RoutingTest, TheRoutedChannelCarriesWhatTheCInterfaceWouldHaveWrittenAndTheOtherItsInput) {
+TEST_F(RoutingTest, TheRoutedChannelCarriesTheVoiceAndTheOtherItsInput) {
     SteppedVoice same(runtime_, model_);
     HostedEffect effect(definition());
     effect.set("Voice", voice_.place());
@@ -20,38 +20,38 @@ TEST_F(RoutingTest, TheRoutedChannelCarriesWhatTheCInterfaceWouldHaveWrittenAndT
         voice_.slide();
         same.slide();
         Sound expected = Sound::pattern(frameOfAudio, 2);
-        const Sound heard = effect.process(expected, 2);
+        const Sound output = effect.process(expected, 2);
         same.renderInto(expected, 1);
-        ASSERT_EQ(heard.samples, expected.samples) << i;
-        EXPECT_GT(peak(heard.channel(1)), 1e-3F) << i;
+        ASSERT_EQ(output.samples, expected.samples) << i;
+        EXPECT_GT(peak(output.channel(1)), 1e-3F) << i;
         voice_.generate();
         same.generate();
     }
     EXPECT_GT(voice_.statistics().inferences, 15U);
 }
 
-TEST_F(RoutingTest, WithoutAChannelOfItsOwnTheVoiceIsOnAllOfThem) {
+TEST_F(RoutingTest, WithoutAChannelTheVoiceIsOnAllChannels) {
     SteppedVoice same(runtime_, model_);
     HostedEffect effect(definition());
-    const Sound heard = play(voice_, effect, 10, 6);
+    const Sound output = play(voice_, effect, 10, 6);
     const std::vector<float> expected = reference(same, 10);
     for (std::size_t channel = 0; channel < 6; ++channel) {
-        EXPECT_EQ(heard.channel(channel), expected) << channel;
+        EXPECT_EQ(output.channel(channel), expected) << channel;
     }
 }
 
-TEST_F(RoutingTest, TheLengthOfTheBlocksChangesNothing) {
+TEST_F(RoutingTest, TheBlockLengthDoesNotChangeTheOutput) {
     SteppedVoice same(runtime_, model_);
     HostedEffect effect(definition());
-    Sound heard(0, 2);
+    Sound output(0, 2);
     for (int i = 0; i < 12; ++i) {
         voice_.slide();
         for (const std::size_t length : {1U, 0U, 64U, 7U, 255U, 1U, 152U}) {
-            heard.append(effect.process(length));
+            output.append(effect.process(length));
         }
         voice_.generate();
     }
-    EXPECT_EQ(heard.channel(0), reference(same, 12));
+    EXPECT_EQ(output.channel(0), reference(same, 12));
 }
 
 TEST_F(RoutingTest, ABlockOfAnyLengthIsFilled) {
@@ -61,25 +61,25 @@ TEST_F(RoutingTest, ABlockOfAnyLengthIsFilled) {
     voice_.slide();
     same.slide();
     Sound expected = Sound::pattern(20000, 2);
-    const Sound heard = effect.process(expected, 2);
+    const Sound output = effect.process(expected, 2);
     same.renderInto(expected, 0);
-    EXPECT_EQ(heard.samples, expected.samples);
-    EXPECT_GT(peak(heard.channel(0)), 1e-3F);
+    EXPECT_EQ(output.samples, expected.samples);
+    EXPECT_GT(peak(output.channel(0)), 1e-3F);
     EXPECT_EQ(voice_.statistics().rendered_frames, 20000U);
 }
 
-TEST_F(RoutingTest, APlaceWithoutAVoiceIsSilentOnTheRoutedChannelOnly) {
+TEST_F(RoutingTest, AnEmptyPlaceSilencesOnlyTheRoutedChannel) {
     HostedEffect effect(definition());
     effect.set("Voice", 40.0F);
     effect.set("Channel", 0.0F);
     const Sound in = Sound::pattern(256, 2);
-    const Sound heard = effect.process(in, 2);
-    EXPECT_THAT(heard.channel(0), Each(0.0F));
-    EXPECT_EQ(heard.channel(1), in.channel(1));
+    const Sound output = effect.process(in, 2);
+    EXPECT_THAT(output.channel(0), Each(0.0F));
+    EXPECT_EQ(output.channel(1), in.channel(1));
     EXPECT_EQ(voice_.statistics().rendered_frames, 0U);
 }
 
-TEST_F(RoutingTest, AChannelThatTheOutputLacksPlaysNothingAndCostsNothing) {
+TEST_F(RoutingTest, AMissingChannelPlaysNothingAndRendersNothing) {
     HostedEffect effect(definition());
     effect.set("Channel", 5.0F);
     voice_.slide();
@@ -88,7 +88,7 @@ TEST_F(RoutingTest, AChannelThatTheOutputLacksPlaysNothingAndCostsNothing) {
     EXPECT_EQ(voice_.statistics().rendered_frames, 0U);
 }
 
-TEST_F(RoutingTest, NeitherMoreThan64ChannelsNorNoneAreAVoicesOutput) {
+TEST_F(RoutingTest, OnlyOneTo64ChannelsCarryAVoice) {
     HostedEffect effect(definition());
     const Sound in = Sound::pattern(16, 65);
     EXPECT_EQ(effect.process(in, 65).samples, in.samples);
@@ -106,7 +106,7 @@ struct ChannelCounts {
 constexpr auto channelCounts =
     std::to_array<ChannelCounts>({{0, 2}, {1, 1}, {1, 2}, {2, 1}, {2, 2}, {2, 8}, {6, 2}, {8, 8}});
 
-TEST(ChannelCountsTest, OutputChannelsAreTheInputsOfTheSameIndexAlsoWhereBothAreOneBuffer) {
+TEST(ChannelCountsTest, ChannelsPassByIndexEvenInPlace) {
     const UnityHost host;
     for (const auto [inChannels, outChannels] : channelCounts) {
         HostedEffect effect(host.effect("HaptoFlow Voice"));
@@ -114,29 +114,29 @@ TEST(ChannelCountsTest, OutputChannelsAreTheInputsOfTheSameIndexAlsoWhereBothAre
         const Sound in = Sound::pattern(100, inChannels);
         const std::size_t routed = outChannels - 1;
         effect.set("Channel", static_cast<float>(routed));
-        for (const Sound& heard : {effect.process(in, outChannels), effect.processInPlace(in, outChannels)}) {
+        for (const Sound& output : {effect.process(in, outChannels), effect.processInPlace(in, outChannels)}) {
             for (std::size_t channel = 0; channel < routed; ++channel) {
                 const auto expected = channel < inChannels ? in.channel(channel) : std::vector<float>(100);
-                EXPECT_EQ(heard.channel(channel), expected) << channel;
+                EXPECT_EQ(output.channel(channel), expected) << channel;
             }
-            EXPECT_THAT(heard.channel(routed), Each(0.0F));
+            EXPECT_THAT(output.channel(routed), Each(0.0F));
         }
     }
 }
 
-TEST_F(RoutingTest, TheVoiceIsTheSameWhateverComesInAndHoweverManyChannelsGoOut) {
+TEST_F(RoutingTest, TheVoiceDoesNotDependOnTheInputOrTheNumberOfChannels) {
     SteppedVoice same(runtime_, model_);
     HostedEffect effect(definition());
     effect.set("Channel", 0.0F);
     for (const auto [inChannels, outChannels] : channelCounts) {
         voice_.slide();
-        const Sound heard = effect.process(Sound::pattern(frameOfAudio, inChannels), outChannels);
+        const Sound output = effect.process(Sound::pattern(frameOfAudio, inChannels), outChannels);
         voice_.generate();
-        EXPECT_EQ(heard.channel(0), reference(same, 1)) << inChannels << " to " << outChannels;
+        EXPECT_EQ(output.channel(0), reference(same, 1)) << inChannels << " to " << outChannels;
     }
 }
 
-TEST_F(RoutingTest, AnInputBufferThatIsNotThereIsSilence) {
+TEST_F(RoutingTest, AMissingInputBufferCountsAsSilence) {
     HostedEffect effect(definition());
     effect.set("Channel", 0.0F);
     Sound out = Sound::pattern(32, 2);
@@ -144,34 +144,34 @@ TEST_F(RoutingTest, AnInputBufferThatIsNotThereIsSilence) {
     EXPECT_THAT(out.samples, Each(0.0F));
 }
 
-TEST_F(RoutingTest, HalfTheStrengthIsHalfTheVoice) {
+TEST_F(RoutingTest, AStrengthOfOneHalfHalvesTheVoice) {
     SteppedVoice same(runtime_, model_);
     HostedEffect effect(definition());
     effect.set("Strength", 0.5F);
-    const Sound heard = play(voice_, effect, 8);
+    const Sound output = play(voice_, effect, 8);
     std::vector<float> expected = reference(same, 8);
     for (float& sample : expected) {
         sample *= 0.5F;
     }
-    EXPECT_EQ(heard.channel(0), expected);
-    EXPECT_EQ(heard.channel(1), expected);
+    EXPECT_EQ(output.channel(0), expected);
+    EXPECT_EQ(output.channel(1), expected);
 }
 
-TEST_F(RoutingTest, AnotherStrengthIsReachedInAStraightLineWithin10Ms) {
+TEST_F(RoutingTest, TheStrengthChangesLinearlyWithin10Ms) {
     SteppedVoice same(runtime_, model_);
     HostedEffect effect(definition());
     (void)play(voice_, effect, 5);
     (void)reference(same, 5);
     effect.set("Strength", 0.25F);
-    const std::vector<float> heard = play(voice_, effect, 2).channel(0);
+    const std::vector<float> output = play(voice_, effect, 2).channel(0);
     const std::vector<float> whole = reference(same, 2);
-    for (std::size_t i = 0; i < heard.size(); ++i) {
+    for (std::size_t i = 0; i < output.size(); ++i) {
         const float gain = i < 480 ? 1.0F - 0.75F * static_cast<float>(i + 1) / 480.0F : 0.25F;
-        ASSERT_NEAR(heard[i], gain * whole[i], 1e-6F) << i;
+        ASSERT_NEAR(output[i], gain * whole[i], 1e-6F) << i;
     }
 }
 
-TEST_F(RoutingTest, AnotherSampleRateIsTakenUpOnceTheWorkerHasPreparedForIt) {
+TEST_F(RoutingTest, ANewSampleRateAppliesAfterTheWorkerHasPreparedIt) {
     HostedEffect effect(definition());
     (void)play(voice_, effect, 5);
     effect.setSampleRate(24000);

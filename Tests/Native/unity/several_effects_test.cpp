@@ -12,7 +12,7 @@ using ::testing::Each;
 
 using SeveralEffectsTest = VoiceEffectTest;
 
-TEST_F(SeveralEffectsTest, EachEffectCarriesItsOwnVoice) {
+TEST_F(SeveralEffectsTest, EachEffectPlaysItsOwnVoice) {
     SteppedVoice second(runtime_, model_);
     SteppedVoice same(runtime_, model_);
     HostedEffect left(definition());
@@ -26,20 +26,20 @@ TEST_F(SeveralEffectsTest, EachEffectCarriesItsOwnVoice) {
     }
 }
 
-TEST_F(SeveralEffectsTest, OfTwoOnOneVoiceTheFirstPlaysItWholeAndTheSecondIsSilentAndCounted) {
+TEST_F(SeveralEffectsTest, OfTwoEffectsOnOneVoiceOnlyTheFirstPlaysIt) {
     SteppedVoice same(runtime_, model_);
     HostedEffect first(definition());
     HostedEffect second(definition());
     for (int i = 0; i < 30; ++i) {
-        const std::vector<float> heard = play(voice_, first, 1).channel(0);
+        const std::vector<float> played = play(voice_, first, 1).channel(0);
         EXPECT_THAT(second.process(frameOfAudio).channel(0), Each(0.0F));
-        ASSERT_EQ(heard, reference(same, 1)) << i;
+        ASSERT_EQ(played, reference(same, 1)) << i;
     }
     EXPECT_EQ(voice_.statistics().refused_calls, 30U);
     EXPECT_EQ(voice_.statistics().rendered_frames, 30 * frameOfAudio);
 }
 
-TEST_F(SeveralEffectsTest, TheSecondTakesOverAtOnceWhereTheFirstIsReleasedPausedOrSentElsewhere) {
+TEST_F(SeveralEffectsTest, TheSecondEffectTakesOverWhenTheFirstGivesTheVoiceBack) {
     using First = std::optional<HostedEffect>;
     struct Reason {
         const char* name;
@@ -63,27 +63,27 @@ TEST_F(SeveralEffectsTest, TheSecondTakesOverAtOnceWhereTheFirstIsReleasedPaused
         if (first) {
             (void)play(voice_, *first, 1, reason.channelsAfter);
         }
-        const std::vector<float> heard = play(voice_, second, 2).channel(0);
-        EXPECT_GT(peak(heard), 1e-3F) << reason.name;
-        EXPECT_LT(std::abs(heard.front()), 1e-3F) << "it has to rise from silence: " << reason.name;
-        // For the next reason.
+        const std::vector<float> played = play(voice_, second, 2).channel(0);
+        EXPECT_GT(peak(played), 1e-3F) << reason.name;
+        EXPECT_LT(std::abs(played.front()), 1e-3F) << "it must fade in from silence: " << reason.name;
+        // Prepares the next case.
         second.set("Voice", 41.0F);
         (void)second.process(frameOfAudio);
         second.set("Voice", 0.0F);
     }
 }
 
-TEST_F(SeveralEffectsTest, TheSecondTakesOver100MsAfterTheFirstWasLastCalled) {
+TEST_F(SeveralEffectsTest, TheSecondEffectTakesOver100MsAfterTheLastCallOfTheFirst) {
     HostedEffect first(definition());
     HostedEffect second(definition());
     (void)play(voice_, first, 3);
-    // The first of these blocks only shows the second effect where the first one stands.
+    // In the first of these blocks, the second effect only reads the claim of the first.
     EXPECT_THAT(play(voice_, second, 10).channel(0), Each(0.0F));
     EXPECT_GT(peak(play(voice_, second, 3).channel(0)), 1e-3F);
-    EXPECT_THAT(play(voice_, first, 1).channel(0), Each(0.0F)) << "the voice is the second's now";
+    EXPECT_THAT(play(voice_, first, 1).channel(0), Each(0.0F)) << "the second effect now has the voice";
 }
 
-TEST_F(SeveralEffectsTest, AVoiceThatClosesLeavesSilenceAndTheNextAtItsPlaceIsHeard) {
+TEST_F(SeveralEffectsTest, AClosedVoiceLeavesSilenceAndTheNextVoiceAtItsPlaceSounds) {
     HostedEffect effect(definition());
     std::optional<SteppedVoice> second(std::in_place, runtime_, model_);
     const float place = second->place();
@@ -94,10 +94,11 @@ TEST_F(SeveralEffectsTest, AVoiceThatClosesLeavesSilenceAndTheNextAtItsPlaceIsHe
     second.emplace(runtime_, model_);
     ASSERT_EQ(second->place(), place);
     SteppedVoice same(runtime_, model_);
-    EXPECT_EQ(play(*second, effect, 5).channel(0), reference(same, 5)) << "no ramp: a voice begins in silence itself";
+    EXPECT_EQ(play(*second, effect, 5).channel(0), reference(same, 5))
+        << "no ramp is needed, because a voice starts with silence";
 }
 
-TEST_F(SeveralEffectsTest, EffectsComeAndGoWithoutAVoiceNoticing) {
+TEST_F(SeveralEffectsTest, CreatingAndReleasingEffectsDoesNotAffectAVoice) {
     SteppedVoice same(runtime_, model_);
     for (int i = 0; i < 20; ++i) {
         HostedEffect effect(definition());

@@ -15,10 +15,10 @@ namespace haptoflow::unity::testing {
 using haptoflow::testing::largestStepFrom;
 using haptoflow::testing::peak;
 
-/// What a display frame is in these tests: 10 ms at 48 kHz.
+/// Samples of a display frame in these tests: 10 ms at 48 kHz.
 inline constexpr std::size_t frameOfAudio = 480;
 
-/// A voice of an engine of its own, which generates when it is told to. Two of them are the same, sample by sample.
+/// A voice with its own engine, which is stepped explicitly. Two of them give identical samples.
 class SteppedVoice {
 public:
     SteppedVoice(const haptoflow_runtime* runtime, const haptoflow_model* model) {
@@ -37,7 +37,7 @@ public:
     SteppedVoice& operator=(const SteppedVoice&) = delete;
     ~SteppedVoice() { EXPECT_EQ(haptoflow_engine_close(&engine_), HAPTOFLOW_OK) << haptoflow_last_message(); }
 
-    /// The tip slides, a little differently each time.
+    /// Publishes a sliding state that differs a little each time.
     void slide() {
         ++slides_;
         publish(1, 0.15F + 0.1F * std::sin(0.7F * static_cast<float>(slides_)));
@@ -45,7 +45,7 @@ public:
     void lift() { publish(0, 0.0F); }
     void generate() { EXPECT_EQ(haptoflow_engine_step(engine_), HAPTOFLOW_OK) << haptoflow_last_message(); }
 
-    /// Renders through the C interface into those samples.
+    /// Renders into `sound` through the C interface.
     void renderInto(Sound& sound, std::int32_t channel) const {
         EXPECT_EQ(haptoflow_voice_render(voice_, sound.samples.data(), static_cast<std::uint32_t>(sound.frames),
                                          static_cast<std::uint32_t>(sound.channels), channel, 48000.0),
@@ -82,32 +82,32 @@ private:
     int slides_ = 0;
 };
 
-/// The mixer effect and the tiny model.
+/// Fixture with the mixer effect and the tiny model.
 class VoiceEffectTest : public capi::testing::WithTinyModel {
 protected:
     [[nodiscard]] const AudioEffectDefinition& definition() const { return host_.effect("HaptoFlow Voice"); }
 
-    /// So many display frames of sliding, each one block.
+    /// Plays display frames of sliding, one block each.
     static Sound play(SteppedVoice& voice, HostedEffect& effect, int displayFrames, std::size_t channels = 2) {
-        Sound heard(0, channels);
+        Sound output(0, channels);
         for (int i = 0; i < displayFrames; ++i) {
             voice.slide();
-            heard.append(effect.process(frameOfAudio, channels));
+            output.append(effect.process(frameOfAudio, channels));
             voice.generate();
         }
-        return heard;
+        return output;
     }
-    /// The same, rendered by the C interface into one channel.
+    /// The expected result, rendered by the C interface into one channel.
     static std::vector<float> reference(SteppedVoice& voice, int displayFrames) {
-        Sound heard(0, 1);
+        Sound output(0, 1);
         for (int i = 0; i < displayFrames; ++i) {
             voice.slide();
             Sound block(frameOfAudio, 1);
             voice.renderInto(block, 0);
-            heard.append(block);
+            output.append(block);
             voice.generate();
         }
-        return heard.samples;
+        return output.samples;
     }
 
     UnityHost host_;

@@ -11,20 +11,20 @@ using ::testing::Each;
 
 constexpr std::size_t stopFrames = 240;
 
-/// The effect on channel 1 of two, with a voice that has been sliding for a while.
+/// The effect on the second of two channels, with a voice that is already sliding.
 class StoppingTest : public VoiceEffectTest {
 protected:
     StoppingTest() {
         effect.set("Channel", 1.0F);
-        const std::vector<float> heard = play(voice_, effect, 10).channel(1);
-        usualStep = largestStepFrom(0.0F, heard);
-        last = heard.back();
+        const std::vector<float> output = play(voice_, effect, 10).channel(1);
+        usualStep = largestStepFrom(0.0F, output);
+        last = output.back();
         EXPECT_GT(usualStep, 1e-4F);
     }
 
     [[nodiscard]] std::uint64_t rendered() const { return voice_.statistics().rendered_frames; }
 
-    /// What a straight fade over so many frames adds to the voice's own steps.
+    /// The step that a linear fade over `frames` frames adds to the voice's own steps.
     static float fadeStep(std::size_t frames) { return 1.0F / static_cast<float>(frames); }
 
     HostedEffect effect{definition()};
@@ -34,7 +34,7 @@ protected:
 
 class StoppingFlagsTest : public StoppingTest, public ::testing::WithParamInterface<std::uint32_t> {};
 
-TEST_P(StoppingFlagsTest, TheRoutedChannelFallsSilentTheOthersGoOnAndTheVoicesClockStandsStill) {
+TEST_P(StoppingFlagsTest, TheRoutedChannelFallsSilentAndTheVoicesClockStops) {
     effect.setFlags(GetParam());
     voice_.slide();
     (void)effect.process(frameOfAudio);
@@ -42,30 +42,30 @@ TEST_P(StoppingFlagsTest, TheRoutedChannelFallsSilentTheOthersGoOnAndTheVoicesCl
     for (int i = 0; i < 5; ++i) {
         voice_.slide();
         const Sound in = Sound::pattern(frameOfAudio, 2);
-        const Sound heard = effect.process(in, 2);
-        EXPECT_THAT(heard.channel(1), Each(0.0F));
-        EXPECT_EQ(heard.channel(0), in.channel(0));
+        const Sound output = effect.process(in, 2);
+        EXPECT_THAT(output.channel(1), Each(0.0F));
+        EXPECT_EQ(output.channel(0), in.channel(0));
         voice_.generate();
     }
     EXPECT_EQ(rendered(), atRest);
 }
 
-TEST_P(StoppingFlagsTest, TheVoiceFadesWithin5MsAndIsRenderedNoFurther) {
+TEST_P(StoppingFlagsTest, TheVoiceFadesWithin5MsAndIsThenNotRendered) {
     SteppedVoice same(runtime_, model_);
     (void)reference(same, 10);
     const std::uint64_t before = rendered();
     effect.setFlags(GetParam());
     voice_.slide();
-    const std::vector<float> heard = effect.process(frameOfAudio).channel(1);
+    const std::vector<float> output = effect.process(frameOfAudio).channel(1);
     const std::vector<float> whole = reference(same, 1);
     for (std::size_t i = 0; i < stopFrames; ++i) {
-        ASSERT_NEAR(heard[i], whole[i] * (1.0F - static_cast<float>(i + 1) / stopFrames), 1e-6F) << i;
+        ASSERT_NEAR(output[i], whole[i] * (1.0F - static_cast<float>(i + 1) / stopFrames), 1e-6F) << i;
     }
-    EXPECT_THAT(std::span(heard).subspan(stopFrames), Each(0.0F));
+    EXPECT_THAT(std::span(output).subspan(stopFrames), Each(0.0F));
     EXPECT_EQ(rendered(), before + stopFrames);
 }
 
-TEST_F(StoppingTest, AStrengthSetWhileTheVoiceIsSilentHoldsFromTheFirstSampleOfTheNextTouch) {
+TEST_F(StoppingTest, AStrengthSetInSilenceAppliesFromTheNextTouch) {
     voice_.lift();
     (void)effect.process(frameOfAudio);
     effect.set("Strength", 0.0F);
@@ -73,22 +73,22 @@ TEST_F(StoppingTest, AStrengthSetWhileTheVoiceIsSilentHoldsFromTheFirstSampleOfT
     EXPECT_THAT(effect.process(frameOfAudio).channel(1), Each(0.0F));
     voice_.lift();
     (void)effect.process(frameOfAudio);
-    // And up again: the touch begins at full strength instead of rising to it.
+    // After returning to full strength, the touch starts at full strength without a ramp.
     effect.set("Strength", 1.0F);
     voice_.slide();
-    const std::vector<float> heard = effect.process(frameOfAudio).channel(1);
-    EXPECT_GT(peak(std::span(heard).first(120)), 0.5F * peak(heard));
+    const std::vector<float> output = effect.process(frameOfAudio).channel(1);
+    EXPECT_GT(peak(std::span(output).first(120)), 0.5F * peak(output));
 }
 
-TEST_P(StoppingFlagsTest, ABlockShorterThanTheFadeEndsInSilenceAllTheSame) {
+TEST_P(StoppingFlagsTest, ABlockShorterThanTheFadeEndsInSilence) {
     effect.setFlags(GetParam());
-    const std::vector<float> heard = effect.process(32).channel(1);
-    EXPECT_LE(largestStepFrom(last, heard), usualStep + peak(heard) * 2.0F * fadeStep(32) + 1e-6F);
-    EXPECT_EQ(heard.back(), 0.0F);
+    const std::vector<float> output = effect.process(32).channel(1);
+    EXPECT_LE(largestStepFrom(last, output), usualStep + peak(output) * 2.0F * fadeStep(32) + 1e-6F);
+    EXPECT_EQ(output.back(), 0.0F);
     EXPECT_THAT(effect.process(32).channel(1), Each(0.0F));
 }
 
-TEST_P(StoppingFlagsTest, AnEffectThatBeginsSilentNeverTouchesTheVoice) {
+TEST_P(StoppingFlagsTest, AnEffectThatStartsSilentDoesNotRenderTheVoice) {
     effect.reset();
     effect.setFlags(GetParam());
     const std::uint64_t before = rendered();
@@ -96,14 +96,14 @@ TEST_P(StoppingFlagsTest, AnEffectThatBeginsSilentNeverTouchesTheVoice) {
     EXPECT_EQ(rendered(), before);
 }
 
-TEST_P(StoppingFlagsTest, WhatGoesOnRisesFromSilence) {
+TEST_P(StoppingFlagsTest, AResumedEffectFadesInFromSilence) {
     effect.setFlags(GetParam());
     voice_.slide();
     (void)effect.process(frameOfAudio);
     effect.setFlags(flagPlaying);
-    const std::vector<float> heard = play(voice_, effect, 4).channel(1);
-    EXPECT_LE(largestStepFrom(0.0F, heard), usualStep + fadeStep(frameOfAudio) * peak(heard) + 1e-6F);
-    EXPECT_GT(peak(heard), 1e-3F);
+    const std::vector<float> output = play(voice_, effect, 4).channel(1);
+    EXPECT_LE(largestStepFrom(0.0F, output), usualStep + fadeStep(frameOfAudio) * peak(output) + 1e-6F);
+    EXPECT_GT(peak(output), 1e-3F);
 }
 
 INSTANTIATE_TEST_SUITE_P(Flags, StoppingFlagsTest,
@@ -119,7 +119,7 @@ INSTANTIATE_TEST_SUITE_P(Flags, StoppingFlagsTest,
                              }
                          });
 
-TEST_F(StoppingTest, ATouchWithoutNewsSinceThePauseEndsByTheVoicesOwnStaleRule) {
+TEST_F(StoppingTest, ATouchWithoutNewStatesSinceThePauseBecomesStale) {
     effect.setFlags(flagPlaying | flagPaused);
     for (int i = 0; i < 50; ++i) {
         (void)effect.process(frameOfAudio);
@@ -133,31 +133,31 @@ TEST_F(StoppingTest, ATouchWithoutNewsSinceThePauseEndsByTheVoicesOwnStaleRule) 
     EXPECT_THAT(effect.process(frameOfAudio).channel(1), Each(0.0F));
 }
 
-TEST_F(StoppingTest, AGroupThatUnitySuspendedResumesFromSilence) {
+TEST_F(StoppingTest, ASuspendedGroupResumesFromSilence) {
     for (int i = 0; i < 3; ++i) {
         effect.suspend(30 * frameOfAudio + 17);
         const std::uint64_t before = rendered();
-        const std::vector<float> heard = play(voice_, effect, 4).channel(1);
-        EXPECT_LE(largestStepFrom(0.0F, heard), usualStep + fadeStep(frameOfAudio) * peak(heard) + 1e-6F);
-        EXPECT_GT(peak(heard), 1e-3F);
+        const std::vector<float> output = play(voice_, effect, 4).channel(1);
+        EXPECT_LE(largestStepFrom(0.0F, output), usualStep + fadeStep(frameOfAudio) * peak(output) + 1e-6F);
+        EXPECT_GT(peak(output), 1e-3F);
         EXPECT_EQ(rendered(), before + 4 * frameOfAudio);
     }
 }
 
-TEST_F(StoppingTest, AHostWhoseTicksDoNotCountSamplesIsNotTakenForOneThatSuspends) {
+TEST_F(StoppingTest, TicksThatDoNotCountSamplesAreNotTreatedAsSuspension) {
     SteppedVoice same(runtime_, model_);
     (void)reference(same, 10);
     effect.reset();
     for (std::size_t i = 0; i < 10; ++i) {
         effect.suspend(3 * i + 1);
         voice_.slide();
-        const std::vector<float> heard = effect.process(frameOfAudio).channel(1);
+        const std::vector<float> output = effect.process(frameOfAudio).channel(1);
         voice_.generate();
-        ASSERT_EQ(heard, reference(same, 1)) << i;
+        ASSERT_EQ(output, reference(same, 1)) << i;
     }
 }
 
-TEST_F(StoppingTest, AfterAResetTheNextBlockIsAtFullStrengthAtOnce) {
+TEST_F(StoppingTest, AfterAResetTheNextBlockHasFullStrength) {
     SteppedVoice same(runtime_, model_);
     (void)reference(same, 10);
     effect.set("Strength", 0.5F);
@@ -169,17 +169,17 @@ TEST_F(StoppingTest, AfterAResetTheNextBlockIsAtFullStrengthAtOnce) {
     EXPECT_EQ(play(voice_, effect, 1).channel(1), expected);
 }
 
-TEST_F(StoppingTest, ToAnotherChannelTheVoiceFadesOutOfTheOneAndIntoTheOther) {
+TEST_F(StoppingTest, AChangeOfChannelFadesOutAndIn) {
     effect.set("Channel", 0.0F);
     voice_.slide();
     const Sound in = Sound::pattern(frameOfAudio, 2);
-    const Sound heard = effect.process(in, 2);
+    const Sound output = effect.process(in, 2);
     for (std::size_t i = 0; i < frameOfAudio; ++i) {
         const std::size_t passing = i < stopFrames ? 0 : 1;
-        ASSERT_EQ(heard.samples[2 * i + passing], in.samples[2 * i + passing]) << i;
+        ASSERT_EQ(output.samples[2 * i + passing], in.samples[2 * i + passing]) << i;
     }
-    const std::vector<float> left = heard.channel(0);
-    const std::vector<float> right = heard.channel(1);
+    const std::vector<float> left = output.channel(0);
+    const std::vector<float> right = output.channel(1);
     const float margin = usualStep + fadeStep(stopFrames) * peak(right) + 1e-6F;
     EXPECT_LE(largestStepFrom(last, std::span(right).first(stopFrames)), margin);
     EXPECT_EQ(right[stopFrames - 1], 0.0F);
@@ -187,26 +187,26 @@ TEST_F(StoppingTest, ToAnotherChannelTheVoiceFadesOutOfTheOneAndIntoTheOther) {
     EXPECT_GT(peak(std::span(left).subspan(stopFrames)), 1e-4F);
 }
 
-TEST_F(StoppingTest, OnAChannelThatTheOutputLostAndHasAgainTheVoiceRisesFromSilence) {
+TEST_F(StoppingTest, OnARegainedChannelTheVoiceFadesInFromSilence) {
     (void)effect.process(frameOfAudio, 1);
-    const std::vector<float> heard = play(voice_, effect, 2).channel(1);
-    EXPECT_LE(largestStepFrom(0.0F, heard), usualStep + fadeStep(frameOfAudio) * peak(heard) + 1e-6F);
-    EXPECT_GT(peak(heard), 1e-3F);
+    const std::vector<float> output = play(voice_, effect, 2).channel(1);
+    EXPECT_LE(largestStepFrom(0.0F, output), usualStep + fadeStep(frameOfAudio) * peak(output) + 1e-6F);
+    EXPECT_GT(peak(output), 1e-3F);
 }
 
-TEST_F(StoppingTest, FromOneVoiceToAnotherThereIsSilenceBetween) {
+TEST_F(StoppingTest, AChangeOfVoicePassesThroughSilence) {
     SteppedVoice other(runtime_, model_);
     effect.set("Voice", other.place());
     voice_.slide();
     other.slide();
     const std::uint64_t before = rendered();
-    const std::vector<float> heard = effect.process(frameOfAudio).channel(1);
-    EXPECT_EQ(heard[stopFrames - 1], 0.0F);
+    const std::vector<float> output = effect.process(frameOfAudio).channel(1);
+    EXPECT_EQ(output[stopFrames - 1], 0.0F);
     EXPECT_EQ(rendered(), before + stopFrames);
     EXPECT_EQ(other.statistics().rendered_frames, frameOfAudio - stopFrames);
 }
 
-TEST_F(StoppingTest, AtNoStrengthTheVoicesClockGoesOn) {
+TEST_F(StoppingTest, AtZeroStrengthTheVoicesClockContinues) {
     effect.set("Strength", 0.0F);
     (void)play(voice_, effect, 1);
     const std::uint64_t before = rendered();

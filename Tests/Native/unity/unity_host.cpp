@@ -8,7 +8,7 @@
 namespace haptoflow::unity::testing {
 namespace {
 
-// Behind each output, to see writes past its end.
+// Samples after each output that detect writes past its end.
 constexpr std::size_t guardSamples = 16;
 constexpr float guard = 1234.5F;
 constexpr float sideChainSample = 0.625F;
@@ -73,10 +73,10 @@ HostedEffect::~HostedEffect() {
 
 Sound HostedEffect::process(const Sound& in, std::size_t outChannels) {
     std::vector<float> input = in.samples;
-    // Unity's buffers hold whatever was in them.
+    // Unity does not clear its buffers.
     std::vector<float> output(in.frames * outChannels + guardSamples, guard);
     call(input.data(), output.data(), in.frames, in.channels, outChannels);
-    EXPECT_EQ(input, in.samples) << "the input was written to";
+    EXPECT_EQ(input, in.samples) << "the effect changed the input";
     EXPECT_TRUE(std::all_of(output.end() - guardSamples, output.end(), [](float sample) { return sample == guard; }));
     Sound out(in.frames, outChannels);
     std::copy_n(output.begin(), out.samples.size(), out.samples.begin());
@@ -114,7 +114,7 @@ std::string HostedEffect::text(const char* parameter) {
     std::vector<char> text(64, '#');
     EXPECT_EQ(definition_.getParameter(&state_, indexOf(parameter), nullptr, text.data()), resultOk);
     const auto end = std::ranges::find(text, '\0');
-    EXPECT_LT(end - text.begin(), 16) << "longer than the buffer that the engine below Unity promises";
+    EXPECT_LT(end - text.begin(), 16) << "the text is longer than the buffer that FMOD guarantees";
     return {text.begin(), end};
 }
 

@@ -16,7 +16,7 @@ struct Sound {
     Sound(std::size_t frameCount, std::size_t channelCount)
         : frames(frameCount), channels(channelCount), samples(frameCount * channelCount) {}
 
-    /// Every sample another number, so that any that moved or changed shows.
+    /// All samples have different values, so that any moved or changed sample is detected.
     [[nodiscard]] static Sound pattern(std::size_t frameCount, std::size_t channelCount);
     [[nodiscard]] std::vector<float> channel(std::size_t index) const;
     void append(const Sound& more);
@@ -26,16 +26,16 @@ struct Sound {
     std::vector<float> samples;
 };
 
-/// The definitions of a library that was loaded the way Unity loads it.
+/// The effect definitions of a library that is loaded as Unity does.
 class UnityHost {
 public:
     static constexpr const char* libraryPath = HAPTOFLOW_TEST_PLUGIN;
 
-    /// Opens the library and asks its entry, which is looked up by name. Throws std::runtime_error.
+    /// Opens the library and calls its entry function, which is looked up by name. Throws std::runtime_error.
     UnityHost();
 
     [[nodiscard]] std::span<AudioEffectDefinition* const> definitions() const { return definitions_; }
-    /// Throws std::runtime_error where the library has no effect of that name.
+    /// Throws std::runtime_error if the library has no effect with that name.
     [[nodiscard]] const AudioEffectDefinition& effect(const std::string& name) const;
 
 private:
@@ -43,7 +43,7 @@ private:
     std::span<AudioEffectDefinition*> definitions_;
 };
 
-/// An effect in a mixer group: made and released, called block by block, its state kept, its samples counted.
+/// An effect in a mixer group. Creates and releases the instance, keeps its state and counts its samples.
 class HostedEffect {
 public:
     explicit HostedEffect(const AudioEffectDefinition& definition, std::uint32_t sampleRateHz = 48000);
@@ -51,16 +51,16 @@ public:
     HostedEffect& operator=(const HostedEffect&) = delete;
     ~HostedEffect();
 
-    /// What the group plays for such an input. The samples behind the output's end are checked to be untouched.
+    /// The output for `in`. Checks that the samples after the output's end are unchanged.
     Sound process(const Sound& in, std::size_t outChannels);
-    /// The same with one buffer for both.
+    /// Like `process`, with the same buffer for input and output.
     Sound processInPlace(const Sound& in, std::size_t outChannels);
-    /// One block of silence in.
+    /// Processes one block of silence.
     Sound process(std::size_t frames, std::size_t channels = 2) { return process(Sound(frames, channels), channels); }
-    /// Time goes on and nobody calls, as for a group that Unity suspends.
+    /// Advances the time without a call, as for a suspended group.
     void suspend(std::size_t frames) { state_.currentTick += frames; }
 
-    /// The callback's result.
+    /// Returns the callback's result.
     int set(const char* parameter, float value);
     [[nodiscard]] float get(const char* parameter);
     [[nodiscard]] std::string text(const char* parameter);

@@ -1,17 +1,11 @@
-#include "engine/known_material.hpp"
+#include "engine/prepared_material.hpp"
+
+#include "inference/segment_generator.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace haptoflow::engine {
-namespace {
-
-constexpr double logPerDb = std::numbers::ln10 / 20.0;
-// Below, a level is silence to any hand; above, beyond any limiter.
-constexpr double largestLogLevel = 20.0;
-
-}  // namespace
 
 ToneTable::ToneTable(const model::ToneTable& table) : speedsMps_(table.speedsMps) {
     for (std::size_t row = 0; row < table.gainsDb.size(); ++row) {
@@ -30,16 +24,16 @@ dsp::ToneCepstrum ToneTable::at(double speedMps) const noexcept {
     return cepstrum;
 }
 
-double KnownMaterial::logLevel(const std::array<float, 3>& motion) const noexcept {
-    const double offset = label->levelOffsetDb * logPerDb;
+double PreparedMaterial::logLevel(const std::array<float, 3>& motion) const noexcept {
+    const double offset = label->levelOffsetDb * dsp::nepersPerDecibel;
     if (!label->level) {
         return grid->at(*graphLevels, motion) + offset;
     }
     const double own = label->level->logLevel(std::hypot(motion[0], motion[1]), motion[2], label->speedLevelExponent);
-    return std::clamp(own + offset, -largestLogLevel, largestLogLevel);
+    return std::clamp(own + offset, -inference::maximumLogLevel, inference::maximumLogLevel);
 }
 
-double KnownMaterial::forceExponent() const noexcept {
+double PreparedMaterial::forceExponent() const noexcept {
     return label->level ? label->level->forceExponent : label->forceLevelExponent;
 }
 

@@ -2,6 +2,7 @@
 
 #include "dsp/tone_cepstrum.hpp"
 #include "engine/level_grid.hpp"
+#include "engine/seed_retrieval.hpp"
 #include "model/material_file.hpp"
 #include "model/model_file.hpp"
 
@@ -15,23 +16,13 @@ namespace haptoflow::engine {
 
 inline constexpr std::array<float, model::embeddingSize> noEmbedding{};
 
-/// A recorded waveform from which a touch may begin.
-struct Seed {
-    std::array<double, 2> velocityMps{};
-    double forceNewtons = 0.0;
-    std::array<double, 2> ribPhase{};
-    std::span<const float, model::seedSamples> samples;
-    /// Of the material that it was recorded from: its wave vectors are what the rib phase counts along.
-    std::span<const float, model::embeddingSize> embedding;
-};
-
-/// A tone over speed, ready to be mixed. Immutable.
+/// A tone as a function of speed, stored as cepstra. Immutable.
 class ToneTable {
 public:
-    /// Designs a cepstrum for each speed. Allocates.
+    /// Computes a cepstrum for each speed. Allocates.
     explicit ToneTable(const model::ToneTable& table);
 
-    /// Between two speeds the mean of their gains in dB, in the logarithm of speed; at the ends held.
+    /// Interpolates the gains in dB over the logarithm of speed; constant beyond the ends.
     [[nodiscard]] dsp::ToneCepstrum at(double speedMps) const noexcept;
 
 private:
@@ -39,21 +30,21 @@ private:
     std::vector<dsp::ToneCepstrum> cepstra_;
 };
 
-/// What the engine knows of a label of the model or of a registered material, ready for a contact state. Views what it
-/// was made of. Immutable.
-struct KnownMaterial {
+/// A label of the model or a registered material, prepared for contact states. Views the data it was made from.
+/// Immutable.
+struct PreparedMaterial {
     const model::Label* label = nullptr;
     std::span<const float, model::embeddingSize> embedding = noEmbedding;
     const LevelGrid* grid = nullptr;
-    /// What the level graph says; empty where the label has a level of its own.
+    /// The level graph's levels; empty if the label states its own level.
     std::optional<LevelGrid::Table> graphLevels;
     std::optional<ToneTable> tone;
     std::vector<Seed> seeds;
 
-    /// Natural logarithm of the RMS in m/s^2 before tone at a motion (vx, vy in m/s, force in N) inside the trained
+    /// Natural logarithm of the RMS in m/s^2, before tone, at a motion (vx, vy in m/s, force in N) inside the trained
     /// range.
     [[nodiscard]] double logLevel(const std::array<float, 3>& motion) const noexcept;
-    /// How the level grows with force beyond the trained range.
+    /// Exponent of the level's growth with force beyond the trained range.
     [[nodiscard]] double forceExponent() const noexcept;
 };
 

@@ -1,4 +1,4 @@
-#include "engine/wake_signal.hpp"
+#include "engine/worker_thread.hpp"
 
 #include <cerrno>
 #include <system_error>
@@ -10,9 +10,17 @@
 #include <windows.h>
 #elif defined(__APPLE__)
 #include <dispatch/dispatch.h>
+#include <pthread.h>
+#include <pthread/qos.h>
 #else
 #include <semaphore.h>
 #include <time.h>
+#endif
+#if defined(__linux__)
+#include <pthread.h>
+#include <sys/resource.h>
+#include <sys/syscall.h>
+#include <unistd.h>
 #endif
 
 namespace haptoflow::engine {
@@ -44,6 +52,12 @@ void WakeSignal::wait() noexcept {
 bool WakeSignal::waitFor(double milliseconds) noexcept {
     return WaitForSingleObject(semaphore_->handle, static_cast<DWORD>(milliseconds)) == WAIT_OBJECT_0;
 }
+
+bool raiseThisThreadsPriority() noexcept {
+    return SetThreadPriority(GetCurrentThread(), THREAD_PRIORITY_ABOVE_NORMAL) != 0;
+}
+
+void nameThisThread(const char*) noexcept {}
 
 #elif defined(__APPLE__)
 
@@ -77,11 +91,20 @@ bool WakeSignal::waitFor(double milliseconds) noexcept {
     return true;
 }
 
+bool raiseThisThreadsPriority() noexcept {
+    return pthread_set_qos_class_self_np(QOS_CLASS_USER_INTERACTIVE, 0) == 0;
+}
+
+void nameThisThread(const char* name) noexcept {
+    pthread_setname_np(name);
+}
+
 #else
 
 namespace {
 
-// A wall clock that is set back would make 2 ms an hour; not every C library can wait by another.
+// Prefer a monotonic clock: with the wall clock, a clock change could turn 2 ms into an hour. Not every C library
+// offers the choice.
 #if defined(__GLIBC__)
 constexpr clockid_t waitClock = CLOCK_MONOTONIC;
 
@@ -147,6 +170,29 @@ bool WakeSignal::waitFor(double milliseconds) noexcept {
     }
     return true;
 }
+
+#if defined(__linux__)
+
+bool raiseThisThreadsPriority() noexcept {
+    // On Linux and Android, niceness applies to a thread; -10 is Android's "urgent display".
+    constexpr int urgent = -10;
+    const auto thread = static_cast<id_t>(syscall(SYS_gettid));
+    return setpriority(PRIO_PROCESS, thread, urgent) == 0;
+}
+
+void nameThisThread(const char* name) noexcept {
+    pthread_setname_np(pthread_self(), name);
+}
+
+#else
+
+bool raiseThisThreadsPriority() noexcept {
+    return false;
+}
+
+void nameThisThread(const char*) noexcept {}
+
+#endif
 
 #endif
 
