@@ -3,7 +3,7 @@ using UnityEngine;
 
 namespace HaptoFlow.Samples.Workshop
 {
-    /// <summary>A line of text that says which rule decides what the pen feels.</summary>
+    /// <summary>A line of text that says which rule assigns the material that the pen touches.</summary>
     public sealed class WhyBoard : MonoBehaviour
     {
         private HapticStylus stylus = null!;
@@ -11,13 +11,13 @@ namespace HaptoFlow.Samples.Workshop
         private Collider? shown;
         private MaterialDescription? shownMaterial;
 
-        /// <summary>What it says.</summary>
+        /// <summary>The text that the board shows.</summary>
         public string Text => line.text;
 
-        /// <summary>A board at a place of the scene.</summary>
+        /// <summary>Creates a board at a place of the scene.</summary>
         public static WhyBoard Create(HapticStylus stylus, Vector3 position, Quaternion rotation)
         {
-            TextMesh line = Build.Text("", position, rotation);
+            TextMesh line = SceneObjects.AddText("", position, rotation);
             line.gameObject.name = "Why Board";
             var board = line.gameObject.AddComponent<WhyBoard>();
             board.stylus = stylus;
@@ -32,7 +32,7 @@ namespace HaptoFlow.Samples.Workshop
                 return;
             }
             HapticContact contact = stylus.Contact;
-            // Words make garbage: they are put together when something else is felt.
+            // Composing the text allocates, so it happens only when collider or material changes.
             if (!ReferenceEquals(contact.Collider, shown) || !ReferenceEquals(contact.Material, shownMaterial))
             {
                 shown = contact.Collider;

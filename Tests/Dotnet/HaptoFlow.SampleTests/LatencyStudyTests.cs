@@ -289,7 +289,8 @@ namespace HaptoFlow.SampleTests
         {
             string[] lines = File.ReadAllLines(SampleFile("LatencyStudy", "LatencyStudySettings.asset"));
             object fresh = ScriptableObject.CreateInstance<LatencyStudySettings>();
-            FieldInfo[] fields = typeof(LatencyStudySettings).GetFields(BindingFlags.Instance | BindingFlags.NonPublic)
+            FieldInfo[] fields = new[] { typeof(LatencyStudySettings), typeof(StudySettings) }
+                .SelectMany(type => type.GetFields(BindingFlags.Instance | BindingFlags.NonPublic))
                 .Where(field => field.GetCustomAttribute<SerializeField>() != null).ToArray();
             Assert.That(fields, Has.Length.GreaterThan(12));
             foreach (FieldInfo field in fields)
@@ -362,7 +363,7 @@ namespace HaptoFlow.SampleTests
             var fastest = 0.0;
             for (int step = 1; step <= 3000; ++step)
             {
-                double way = marker.WayAt(0.001 * step, out bool moves, out _);
+                double way = marker.DistanceAt(0.001 * step, out bool moves, out _);
                 double speed = 1000.0 * (way - last);
                 Assert.That(speed, Is.EqualTo(0.15).Within(1e-6).Or.EqualTo(0.0).Within(1e-6).Or.InRange(0.0, 0.15),
                     $"{step} ms");
@@ -371,8 +372,8 @@ namespace HaptoFlow.SampleTests
             }
             Assert.That(fastest, Is.EqualTo(0.15).Within(1e-6));
             Assert.That(last, Is.EqualTo(0.15).Within(1e-6), "two strokes of half a second");
-            marker.WayAt(2.49, out _, out bool isDoneEarly);
-            marker.WayAt(2.51, out _, out bool isDone);
+            marker.DistanceAt(2.49, out _, out bool isDoneEarly);
+            marker.DistanceAt(2.51, out _, out bool isDone);
             Assert.That((isDoneEarly, isDone), Is.EqualTo((false, true)));
         }
 

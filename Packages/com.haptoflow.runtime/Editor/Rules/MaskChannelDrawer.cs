@@ -4,16 +4,16 @@ using UnityEngine;
 
 namespace HaptoFlow.Editor
 {
-    /// <summary>Draws what one channel of a mask says: a material, or a factor between two values.</summary>
+    /// <summary>Draws a channel of a mask: a material, or a factor between two values.</summary>
     [CustomPropertyDrawer(typeof(MaskChannel))]
     internal sealed class MaskChannelDrawer : PropertyDrawer
     {
         private static readonly GUIContent Material = new GUIContent("Material",
-            "There is more of it where the channel is brighter; empty for nothing.");
+            "The material has more weight where the channel is brighter. When it is empty, that share is not felt.");
         private static readonly GUIContent Lowest = new GUIContent("At Black",
-            "The factor where the channel is black.");
+            "At Black is the factor where the channel is black.");
         private static readonly GUIContent Highest = new GUIContent("At White",
-            "The factor where the channel is white.");
+            "At White is the factor where the channel is white.");
 
         private static float RowHeight =>
             EditorGUIUtility.singleLineHeight + EditorGUIUtility.standardVerticalSpacing;

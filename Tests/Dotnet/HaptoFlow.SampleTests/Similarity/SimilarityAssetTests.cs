@@ -3,6 +3,7 @@ using System.IO;
 using System.Linq;
 using System.Reflection;
 using System.Text.RegularExpressions;
+using HaptoFlow.Studies;
 using HaptoFlow.Samples.SimilarityStudy;
 using HaptoFlow.Tests;
 using HaptoFlow.Tests.Support;
@@ -22,7 +23,7 @@ namespace HaptoFlow.SampleTests.Similarity
         {
             IEnumerable<string> keys = Regex.Matches(Asset, @"^  ([a-z]\w*):", RegexOptions.Multiline)
                 .Select(match => match.Groups[1].Value).Where(key => !key.StartsWith("m_"));
-            Assert.That(keys, Is.EquivalentTo(FieldsOf<SimilarityStudySettings>()));
+            Assert.That(keys, Is.EquivalentTo(FieldsOf<SimilarityStudySettings>().Concat(FieldsOf<StudySettings>())));
             Assert.That(KeysOfEntries("materials"), Is.EquivalentTo(FieldsOf<StudyMaterial>()));
             Assert.That(KeysOfEntries("methods"), Is.EquivalentTo(FieldsOf<StudyMethod>()));
         }

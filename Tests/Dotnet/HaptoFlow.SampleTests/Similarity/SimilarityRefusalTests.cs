@@ -122,7 +122,7 @@ namespace HaptoFlow.SampleTests.Similarity
             Open(settings);
             Prepare();
             scene.Begin(7);
-            Assert.That(scene.Problem, Does.Contain("method \"Rival quick\" cannot be given 60 ms"));
+            Assert.That(scene.Problem, Does.Contain("method \"Rival quick\" cannot have a delay of 60 ms"));
             Assert.That((scene.Session, Directory.Exists(folder)), Is.EqualTo(((StudySession?)null, false)));
         }
 
@@ -181,7 +181,7 @@ namespace HaptoFlow.SampleTests.Similarity
             Open(settings);
             Prepare();
             scene.Begin(7);
-            Assert.That(scene.Problem, Does.Contain("method \"Ours quick\" cannot be given"));
+            Assert.That(scene.Problem, Does.Contain("method \"Ours quick\" cannot have a delay of"));
             Assert.That(File.ReadAllBytes(Csv), Is.EqualTo(before));
         }
 
