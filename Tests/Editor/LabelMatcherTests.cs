@@ -45,11 +45,11 @@ namespace HaptoFlow.EditorTests
         [TestCase("Woodpecker")]
         [TestCase("42")]
         [TestCase("")]
-        public void ANameThatSaysNothingSuggestsNothing(string name) =>
+        public void AMeaninglessNameSuggestsNoLabel(string name) =>
             Assert.That(new LabelMatcher(Names).Propose(name), Is.Null);
 
         [Test]
-        public void ALabelsOwnNameCountsBeforeAWordThatMeansAnother() =>
+        public void TheNameOfALabelTakesPrecedenceOverASynonymOfAnother() =>
             Assert.That(new LabelMatcher(Names).Propose("Oak_Imitation_Plastic"), Is.EqualTo("plastic"));
 
         [Test]
@@ -64,7 +64,7 @@ namespace HaptoFlow.EditorTests
         }
 
         [Test]
-        public void EveryWordMeansALabelThatTheDefaultModelCouldHave()
+        public void EverySynonymStandsForALabelOfTheDefaultModel()
         {
             string[] strangers = LabelWords.All.Values.SelectMany(labels => labels).Distinct()
                 .Where(label => !Names.TryFind(label, out _)).ToArray();

@@ -9,13 +9,13 @@ using UnityShim;
 
 namespace HaptoFlow.EditorTests
 {
-    /// <summary>What a build says and writes before it begins.</summary>
+    /// <summary>What the callbacks of a build log and change before it begins.</summary>
     public sealed class BuildTests : EditorTest
     {
         private const string Plugins = "Packages/com.haptoflow.runtime/Runtime/Plugins/";
 
         [SetUp]
-        public void InstallALinuxAndAnAndroidLibrary()
+        public void InstallLibraries()
         {
             BuildHost.ForgetPlugins();
             BuildHost.AddPlugin(Plugins + "Linux/x64/libaudioplugin_haptoflow.so", BuildTarget.StandaloneLinux64);
@@ -25,7 +25,7 @@ namespace HaptoFlow.EditorTests
         }
 
         [TearDown]
-        public void UninstallThem()
+        public void UninstallLibraries()
         {
             BuildHost.ForgetPlugins();
             GraphicsSettings.defaultRenderPipeline = null;
@@ -33,7 +33,7 @@ namespace HaptoFlow.EditorTests
         }
 
         [Test]
-        public void ABuildWithSettingsModelAndLibrarySaysNothing()
+        public void ABuildWithSettingsModelAndLibraryLogsNothing()
         {
             Settings();
             BuildHost.Preprocess(BuildTarget.StandaloneLinux64);
@@ -42,20 +42,20 @@ namespace HaptoFlow.EditorTests
         }
 
         [Test]
-        public void ABuildForAPlatformWithoutLibraryIsAnErrorThatNamesTheCommandThatMakesOne()
+        public void ABuildForAPlatformWithoutLibraryLogsTheCommandThatBuildsOne()
         {
             Settings();
             BuildHost.Preprocess(BuildTarget.StandaloneWindows64);
             (LogType type, string text) = Said().Single();
             Assert.That(type, Is.EqualTo(LogType.Error));
-            Assert.That(text, Does.StartWith("HaptoFlow: this build is silent on the device: "));
+            Assert.That(text, Does.StartWith("HaptoFlow: this build has no haptics: "));
             Assert.That(text, Does.Contain("no library for StandaloneWindows64"));
-            Assert.That(text, Does.Contain("there for: StandaloneLinux64, Android"));
+            Assert.That(text, Does.Contain("libraries for: StandaloneLinux64, Android"));
             Assert.That(text, Does.Contain("npm run build -- --platform windows-x64"));
         }
 
         [Test]
-        public void AnotherPluginOfThatPlatformDoesNotCount()
+        public void AnotherPluginForThePlatformIsIgnored()
         {
             Settings();
             BuildHost.AddPlugin("Assets/Plugins/audioplugin_other.dll", BuildTarget.StandaloneWindows64);
@@ -64,7 +64,7 @@ namespace HaptoFlow.EditorTests
         }
 
         [Test]
-        public void ALibraryThatTheProjectPutElsewhereCounts()
+        public void ALibraryOutsideThePackageIsFound()
         {
             Settings();
             BuildHost.AddPlugin("Assets/Plugins/audioplugin_haptoflow.dll", BuildTarget.StandaloneWindows64);
@@ -73,17 +73,17 @@ namespace HaptoFlow.EditorTests
         }
 
         [Test]
-        public void APlatformThatHaptoFlowHasNoLibraryForIsAnErrorThatSaysSo()
+        public void ABuildForAnUnsupportedPlatformLogsAnError()
         {
             Settings();
             BuildHost.Preprocess(BuildTarget.WebGL);
             (LogType type, string text) = Said().Single();
             Assert.That(type, Is.EqualTo(LogType.Error));
-            Assert.That(text, Does.Contain("HaptoFlow has none for this platform"));
+            Assert.That(text, Does.Contain("HaptoFlow cannot build one for this platform"));
         }
 
         [Test]
-        public void AnAndroidBuildThatLeavesArm64OutIsAnError()
+        public void AnAndroidBuildWithoutArm64LogsAnError()
         {
             Settings();
             PlayerSettings.Android.targetArchitectures = AndroidArchitecture.ARMv7;
@@ -93,7 +93,7 @@ namespace HaptoFlow.EditorTests
         }
 
         [Test]
-        public void ABuildWithoutSettingsIsWarnedOf()
+        public void ABuildWithoutSettingsLogsAWarning()
         {
             PlayerSettings.SetPreloadedAssets(new Object[0]);
             BuildHost.Preprocess(BuildTarget.StandaloneLinux64);
@@ -103,7 +103,7 @@ namespace HaptoFlow.EditorTests
         }
 
         [Test]
-        public void ABuildWhoseSettingsAreNotPreloadedIsWarnedOf()
+        public void ABuildWithSettingsThatAreNotPreloadedLogsAWarning()
         {
             Settings();
             PlayerSettings.SetPreloadedAssets(new Object[0]);
@@ -112,27 +112,28 @@ namespace HaptoFlow.EditorTests
         }
 
         [Test]
-        public void ABuildWhoseSettingsNameNoModelIsAnError()
+        public void ABuildWithSettingsWithoutAModelLogsAnError()
         {
             Settings().Model = null;
             BuildHost.Preprocess(BuildTarget.StandaloneLinux64);
             Assert.That(Said().Single(), Is.EqualTo((LogType.Error,
-                "HaptoFlow: this build is silent on the device: The settings name no model: nothing is felt.")));
+                "HaptoFlow: this build has no haptics: The settings have no model: nothing is felt. Choose one in " +
+                "Project Settings > HaptoFlow.")));
         }
 
         [Test]
-        public void EverythingThatIsMissingIsSaidAtOnce()
+        public void EverythingThatIsMissingIsLoggedTogether()
         {
             BuildHost.ForgetPlugins();
             PlayerSettings.SetPreloadedAssets(new Object[0]);
             BuildHost.Preprocess(BuildTarget.StandaloneLinux64);
             Assert.That(Said().Select(line => line.Type), Is.EqualTo(new[] { LogType.Error, LogType.Warning }));
-            Assert.That(Said()[0].Text, Does.Contain("there for: no platform"));
+            Assert.That(Said()[0].Text, Does.Contain("libraries for: no platform"));
         }
 
         [TestCase(BuildTarget.Android)]
         [TestCase(null)]
-        public void ASceneGoesIntoPlayersAndPlayModeWithThePipelinesMaterial(BuildTarget? platform)
+        public void PlayersAndPlayModeGetThePipelinesMaterial(BuildTarget? platform)
         {
             var pipeline = ScriptableObject.CreateInstance<SimulatedPipeline>();
             pipeline.Material = new Material(SimulatedPipeline.ShaderNamed("Lit"));
@@ -148,7 +149,7 @@ namespace HaptoFlow.EditorTests
         }
 
         [Test]
-        public void WithTheBuiltInPipelineTheSceneStaysAsItIs()
+        public void TheBuiltInPipelineLeavesTheSceneUnchanged()
         {
             PipelineMaterial empty = Make("Empty").AddComponent<PipelineMaterial>();
             BuildHost.ProcessScene(BuildTarget.Android);

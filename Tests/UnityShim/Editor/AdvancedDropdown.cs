@@ -37,7 +37,7 @@ namespace UnityEditor.IMGUI.Controls
         {
         }
 
-        /// <summary>What was shown last; tests pick from it.</summary>
+        /// <summary>The list that was shown last. Tests choose an entry from it.</summary>
         internal static AdvancedDropdown? Shown { get; private set; }
 
         internal IReadOnlyList<string> Names => BuildRoot().children.Select(item => item.name).ToList();

@@ -15,7 +15,7 @@ namespace UnityShim
         Box,
     }
 
-    /// <summary>One thing that editor code drew.</summary>
+    /// <summary>A control or text that editor code drew.</summary>
     public readonly struct Drawn
     {
         public Drawn(DrawnKind kind, string label, string value, string tooltip, bool enabled)
@@ -40,8 +40,7 @@ namespace UnityShim
         public override string ToString() => $"{Kind}: {Label}{(Value.Length > 0 ? " = " + Value : "")}";
     }
 
-    /// <summary>What editor code draws, kept as text, and the user's hand: which button is pressed, what is entered.
-    /// </summary>
+    /// <summary>Records what editor code draws, as text, and simulates the user's presses and entries.</summary>
     public static class EditorScreen
     {
         private static readonly List<Drawn> Items = new List<Drawn>();
@@ -50,14 +49,14 @@ namespace UnityShim
         private static readonly Stack<string> Groups = new Stack<string>();
         private static bool acts;
 
-        /// <summary>The next drawing presses this button.</summary>
+        /// <summary>Presses this button in the next drawing.</summary>
         public static void Press(string caption) => Presses.Add(caption);
 
-        /// <summary>The next drawing enters this into the field of this label.</summary>
+        /// <summary>Enters a value into the field with this label in the next drawing.</summary>
         public static void Enter(string label, object? value) => Entries[label] = value;
 
-        /// <summary>What Unity does with an event: a pass that lays controls out, then one that draws or acts. Presses
-        /// and entries that found nothing to act on, groups that were not closed, and controls that nobody laid out
+        /// <summary>Draws as Unity does for an event: one pass lays the controls out, the next one draws or acts.
+        /// Presses and entries without a matching control, groups that are not closed, and controls without a layout
         /// are errors.</summary>
         public static IReadOnlyList<Drawn> Draw(Action draw)
         {
@@ -91,7 +90,7 @@ namespace UnityShim
             return acts && GUI.enabled && Presses.Remove(content.text);
         }
 
-        /// <summary>Shows a value and gives back what was entered, or the value.</summary>
+        /// <summary>Shows a value. Returns the entered value, or the shown one.</summary>
         internal static T Field<T>(GUIContent label, T value, string? shown = null)
         {
             Add(DrawnKind.Field, label.text, shown ?? TextOf(value), label.tooltip);
@@ -117,7 +116,7 @@ namespace UnityShim
             _ => value.ToString() ?? "",
         };
 
-        // Pictures are drawn into room that was laid out.
+        // A texture needs a rectangle of the layout pass.
         private static int Controls() => Items.Count(item => item.Kind != DrawnKind.Box);
 
         private static void Pass(Action draw, bool withHand)

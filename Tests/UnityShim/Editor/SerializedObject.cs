@@ -6,7 +6,7 @@ using Object = UnityEngine.Object;
 
 namespace UnityEditor
 {
-    /// <summary>A working copy of what one or several objects serialize.</summary>
+    /// <summary>A working copy of the serialised fields of one or several objects.</summary>
     public partial class SerializedObject : IDisposable
     {
         private readonly Object[] objects;

@@ -37,7 +37,7 @@ namespace UnityEngine
 
         public int alphamapLayers => layers.Length;
 
-        /// <summary>Reading makes garbage, as in Unity.</summary>
+        /// <summary>Reading allocates, as in Unity.</summary>
         public TerrainLayer[] terrainLayers
         {
             get => layers.ToArray();
@@ -59,7 +59,7 @@ namespace UnityEngine
             }
         }
 
-        /// <summary>Row z, column x, layer.</summary>
+        /// <summary>The indices are row z, column x, layer.</summary>
         public float[,,] GetAlphamaps(int x, int y, int width, int height)
         {
             var part = new float[height, width, layers.Length];
@@ -84,7 +84,7 @@ namespace UnityEngine
             }
         }
 
-        /// <summary>Row z, column x, as <see cref="SetHeights"/> takes them.</summary>
+        /// <summary>The indices are row z, column x, as for <see cref="SetHeights"/>.</summary>
         internal Vector3 VertexAt(int x, int z)
         {
             float last = heightmapResolution - 1;

@@ -33,7 +33,7 @@ namespace UnityEngine
             set => localRotation = above == null ? value : Quaternion.Inverse(above.rotation) * value;
         }
 
-        /// <summary>Right for scales that no rotation below them shears.</summary>
+        /// <summary>Correct unless a rotated child below a non-uniform scale is sheared.</summary>
         public Vector3 lossyScale => above == null ? localScale : Vector3.Scale(above.lossyScale, localScale);
 
         public void SetParent(Transform? parent, bool worldPositionStays)
@@ -53,7 +53,7 @@ namespace UnityEngine
             UnityShim.World.RefreshActivity(gameObject);
         }
 
-        /// <summary>Itself included, as in Unity.</summary>
+        /// <summary>True for the transform itself, as in Unity.</summary>
         public bool IsChildOf(Transform parent) =>
             ReferenceEquals(this, parent) || (above != null && above.IsChildOf(parent));
 

@@ -4,7 +4,7 @@ namespace UnityEngine
 {
     public partial class Physics
     {
-        // Unity's own is 32 layers without layer 2.
+        // As in Unity: all 32 layers except layer 2, Ignore Raycast.
         private const int LayersByDefault = ~(1 << 2);
         private const float HitMetres = 1e-5f;
         private const int MostSteps = 512;
@@ -36,8 +36,8 @@ namespace UnityEngine
             return hasHit;
         }
 
-        /// <summary>Goes along the ray as far as is free each time. As in Unity, a ray from inside meets nothing.
-        /// </summary>
+        /// <summary>Advances along the ray by the free distance in each step (sphere tracing). As in Unity, a ray from
+        /// inside a collider does not hit it.</summary>
         private static bool Meets(Collider collider, Ray ray, float maxDistance, out RaycastHit hit)
         {
             hit = default;

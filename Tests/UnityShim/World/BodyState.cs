@@ -2,8 +2,8 @@ using UnityEngine;
 
 namespace UnityShim
 {
-    /// <summary>A rigid body between physics steps: where physics has it, where it was one step before, and where the
-    /// transform was last put by physics.</summary>
+    /// <summary>The state of a rigid body: its pose in the last and in the previous physics step, and the pose that
+    /// physics last gave to its transform.</summary>
     internal sealed class BodyState
     {
         private readonly Rigidbody body;
@@ -47,7 +47,7 @@ namespace UnityShim
             body.transform.SetPositionAndRotation(position, rotation);
         }
 
-        /// <summary>A transform that a script moved takes the body along.</summary>
+        /// <summary>Moves the body to a transform that a script has moved.</summary>
         public void TakeTransform()
         {
             if (!body.transform.position.Equals(shown) || !body.transform.rotation.Equals(turnedShown))
@@ -67,7 +67,7 @@ namespace UnityShim
             turnedGoal = null;
         }
 
-        /// <summary>An interpolated body is shown one step late, between its last two places.</summary>
+        /// <summary>An interpolated body is shown between its poses of the last two steps, one step late.</summary>
         public void Show(float share)
         {
             bool interpolated = body.interpolation == RigidbodyInterpolation.Interpolate;

@@ -3,7 +3,8 @@ using UnityEngine;
 
 namespace UnityShim
 {
-    /// <summary>Colliders where physics has them, which is not always where their transforms are.</summary>
+    /// <summary>The poses of colliders in the last physics step, which can differ from those of their transforms.
+    /// </summary>
     internal static class PhysicsWorld
     {
         private static readonly List<Collider> Colliders = new List<Collider>();

@@ -3,7 +3,7 @@ using UnityEngine;
 
 namespace UnityShim
 {
-    /// <summary>Where one script is in its life.</summary>
+    /// <summary>The state of a script in its life cycle.</summary>
     internal sealed class ScriptState
     {
         private readonly Messages messages;
