@@ -102,7 +102,7 @@ namespace HaptoFlow.EditorShimTests
                 "This surface takes precedence over the rules, by which the object would feel like stone (rule 1 of " +
                 "\"Rooms\": tag \"Finish\")."));
             table.enabled = false;
-            Assert.That(Extent(table), Does.Contain("This surface is off: rules count"));
+            Assert.That(Extent(table), Does.Contain("This surface is disabled, so rules apply"));
         }
 
         private static string Extent(HapticSurface surface) => InspectorTests.Draw(surface)

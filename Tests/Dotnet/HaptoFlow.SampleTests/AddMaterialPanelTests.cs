@@ -9,7 +9,7 @@ using UnityShim;
 
 namespace HaptoFlow.SampleTests
 {
-    /// <summary>The panel of the Workshop: a material is learnt while the scene runs.</summary>
+    /// <summary>The panel of the Workshop, which learns a material while the scene runs.</summary>
     public sealed class AddMaterialPanelTests : SampleTest
     {
         private const double PatienceSeconds = 120.0;
@@ -52,7 +52,7 @@ namespace HaptoFlow.SampleTests
         }
 
         [Test]
-        public void TouchingTheButtonLearnsTheRecordingAndTheSpecimenFeelsLikeIt()
+        public void TouchingTheButtonLearnsTheRecordingForTheSpecimen()
         {
             FinishLoading();
             WorkshopScene scene = Open(out AddMaterialPanel panel);
@@ -73,7 +73,7 @@ namespace HaptoFlow.SampleTests
         }
 
         [Test]
-        public void ASecondPressCancelsAndWhatTheSpecimenWasStays()
+        public void ASecondPressCancelsAndTheSpecimenKeepsItsMaterial()
         {
             WorkshopScene scene = Open(out AddMaterialPanel panel);
             panel.Press();
@@ -86,7 +86,7 @@ namespace HaptoFlow.SampleTests
         [TestCase("", "empty file")]
         [TestCase("time_s,acceleration_mps2\n0,1\n0.001,2\n0.002,1\n0.003,3\n", "speed or force is missing")]
         [TestCase("time_s,acceleration\n0,1\n", "expected acceleration")]
-        public void ARecordingThatIsNoneIsSaidAndTheSceneGoesOn(string text, string message)
+        public void AnInvalidRecordingIsReportedAndTheSceneContinues(string text, string message)
         {
             Open(out AddMaterialPanel panel);
             panel.SetRecording(new TextAsset(Encoding.UTF8.GetBytes(text)) { name = "mine.csv" });
@@ -99,7 +99,7 @@ namespace HaptoFlow.SampleTests
         }
 
         [Test]
-        public void ASceneThatEndsWhileItLearnsEndsTheLearning()
+        public void EndingTheSceneEndsTheLearning()
         {
             WorkshopScene scene = Open(out AddMaterialPanel panel);
             panel.Press();

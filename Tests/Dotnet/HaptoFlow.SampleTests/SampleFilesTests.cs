@@ -6,7 +6,8 @@ using NUnit.Framework;
 
 namespace HaptoFlow.SampleTests
 {
-    /// <summary>Samples are imported one by one. What several of them need belongs into the package.</summary>
+    /// <summary>Samples are imported one by one, so the code that several of them need is part of the package.
+    /// </summary>
     public sealed class SampleFilesTests
     {
         [Test]

@@ -15,18 +15,18 @@ using Object = UnityEngine.Object;
 
 namespace HaptoFlow.ShimTests
 {
-    /// <summary>What devices in a hand are sent while a stylus slides over a board.</summary>
+    /// <summary>The haptics that devices in a hand receive while a stylus slides over a board.</summary>
     public sealed class DeviceOutputTests : SceneTest
     {
         private HapticStylus stylus = null!;
 
-        /// <summary>Unity loads every assembly of a player; here one is loaded when it is first used.</summary>
+        /// <summary>Loads the optional assemblies, which .NET loads on first use only, unlike Unity.</summary>
         [OneTimeSetUp]
-        public void LoadTheRoutesOfOptionalPackages() =>
+        public void LoadOptionalAssemblies() =>
             RuntimeHelpers.RunModuleConstructor(typeof(MetaActionTipForce).Module.ModuleHandle);
 
         [SetUp]
-        public void PutAStylusIntoTheRightHand()
+        public void CreateAStylusInTheRightHand()
         {
             ForgetDevices();
             SetFrameRate(72.0);
@@ -44,7 +44,7 @@ namespace HaptoFlow.ShimTests
         }
 
         [Test]
-        public void ASceneWithoutOutputIsFeltThroughATouchControllersWaveform()
+        public void AutoOutputPlaysTheWaveformOnATouchController()
         {
             OVRInput.Connected = OVRInput.Controller.RTouch;
             World.Frames(72);
@@ -57,7 +57,7 @@ namespace HaptoFlow.ShimTests
         }
 
         [Test]
-        public void AControllerWithoutWaveformIsDrivenAsAMotor()
+        public void AControllerWithoutWaveformsPlaysAmplitudes()
         {
             XrHand.Right.Take("Some controller", true);
             World.Frames(72);
@@ -69,32 +69,32 @@ namespace HaptoFlow.ShimTests
         }
 
         [Test]
-        public void AControllerThatReportsBuffersGetsTheWaveAtItsOwnRate()
+        public void AControllerThatSupportsBuffersGetsTheWaveAtItsOwnRate()
         {
             XrHand.Right.Take("A controller with buffers", true, 500u);
             World.Frames(145);
             double first = XrHand.Right.Buffers[0].Seconds;
             double last = XrHand.Right.Buffers[^1].Seconds;
             int samples = XrHand.Right.Buffers.Sum(each => each.Bytes.Length);
-            // Aligning with the clock sends the depth once more, about twice a second.
+            // Aligning with the clock sends the buffered samples again, about twice a second.
             Assert.That(samples, Is.EqualTo(500.0 * (last - first)).Within(80.0));
             Assert.That(XrHand.Right.Buffers.Max(each => each.Bytes.Max()), Is.GreaterThan(2));
             Assert.That(XrHand.Right.Impulses, Is.Empty);
         }
 
         [Test]
-        public void SubmissionsQueueWhereTheAuthorSaysSo()
+        public void SubmissionsQueueWhenTheAuthorChoosesIt()
         {
             OVRInput.Connected = OVRInput.Controller.RTouch;
             Add<ControllerWaveformOutput>(output => output.QueueSubmissions = true);
             World.Frames(145);
-            // Aligning with the clock sends the depth once more, about twice a second.
+            // Aligning with the clock sends the buffered samples again, about twice a second.
             Assert.That(OVRInput.Waves.Count(wave => !wave.Append), Is.InRange(2, 8));
             Assert.That(OVRInput.Waves.Sum(wave => wave.Samples.Length), Is.EqualTo(4000).Within(330));
         }
 
         [Test]
-        public void AnAuthorsAudioOutputIsPreferredToTheDeviceInTheHand()
+        public void AnAudioOutputTakesPrecedenceOverAutoOutput()
         {
             OVRInput.Connected = OVRInput.Controller.RTouch;
             AudioTap tap = Output(out _);
@@ -104,7 +104,7 @@ namespace HaptoFlow.ShimTests
         }
 
         [Test]
-        public void AnAuthorsAudioOutputThatAppearsTakesOverFromTheOneThatWasChosen()
+        public void AnAudioOutputAddedLaterReplacesAutoOutput()
         {
             OVRInput.Connected = OVRInput.Controller.RTouch;
             World.Frames(40);
@@ -118,7 +118,7 @@ namespace HaptoFlow.ShimTests
         }
 
         [Test]
-        public void AStylusInNoHandIsHeardAsEver()
+        public void AStylusInNoHandPlaysOnTheAudioDevice()
         {
             OVRInput.Connected = OVRInput.Controller.RTouch;
             stylus.Hand = HapticHand.None;
@@ -128,7 +128,7 @@ namespace HaptoFlow.ShimTests
         }
 
         [Test]
-        public void AStylusPlaysOnAnAudioOutputUntilItsHandsDeviceIsReported()
+        public void AStylusPlaysOnTheAudioDeviceUntilTheDeviceInItsHandConnects()
         {
             World.Frames(3);
             Assert.That(All<HapticOutput>(), Has.Length.EqualTo(1));
@@ -154,7 +154,7 @@ namespace HaptoFlow.ShimTests
         }
 
         [Test]
-        public void AnOutputThatNamesAStylusKeepsOthersFromBeingMadeAlsoWhileItIsSwitchedOff()
+        public void AutoOutputIsNotAddedWhenAnOutputNamesTheStylus()
         {
             OVRInput.Connected = OVRInput.Controller.RTouch;
             MotorOutput motor = Add<MotorOutput>();
@@ -167,7 +167,7 @@ namespace HaptoFlow.ShimTests
         }
 
         [Test]
-        public void AnMxInkIsDrivenThroughItsAction()
+        public void MxInkPlaysThroughItsAction()
         {
             OVRInput.Connected = OVRInput.Controller.RTouch;
             OVRPlugin.Profile = OVRPlugin.MxInkProfile;
@@ -178,7 +178,7 @@ namespace HaptoFlow.ShimTests
         }
 
         [Test]
-        public void AnActionThatIsNotBoundIsTriedOnceAndNamedOnce()
+        public void AnUnboundActionIsTriedOnceAndLoggedOnce()
         {
             OVRPlugin.Profile = OVRPlugin.MxInkProfile;
             OVRPlugin.BoundHaptic = null;
@@ -194,7 +194,7 @@ namespace HaptoFlow.ShimTests
         }
 
         [Test]
-        public void AControllerThatDoesNotSayItsRateIsAskedOnce()
+        public void AControllerWithoutASampleRateIsQueriedOnce()
         {
             OVRInput.Connected = OVRInput.Controller.RTouch;
             OVRInput.SampleRateHz = 0f;
@@ -205,7 +205,7 @@ namespace HaptoFlow.ShimTests
         }
 
         [Test]
-        public void OpenXrsActionIsPreferredToTheImpulse()
+        public void TheOpenXrActionTakesPrecedenceOverTheImpulse()
         {
             XrHand.Right.Take("A controller", true);
             SimulatedInput.SetControl("<XRController>{RightHand}/haptic", 0f);
@@ -217,7 +217,7 @@ namespace HaptoFlow.ShimTests
         }
 
         [Test]
-        public void AControllerThatOnlyRumblesIsFelt()
+        public void AControllerWithOnlyRumblePlays()
         {
             XRControllerWithRumble controller = XRControllerWithRumble.Take("Rumbling controller");
             World.Frames(72);
@@ -226,7 +226,7 @@ namespace HaptoFlow.ShimTests
         }
 
         [Test]
-        public void ParametricHapticsNeverHappenUnlessTheAuthorAsksForThem()
+        public void ParametricHapticsAreUsedOnlyWhenTheAuthorEnablesThem()
         {
             OVRInput.Connected = OVRInput.Controller.RTouch;
             Add<ControllerParametricOutput>();
@@ -236,7 +236,7 @@ namespace HaptoFlow.ShimTests
         }
 
         [Test]
-        public void ParametricFramesFollowTheRulesOfStreams()
+        public void ParametricFramesObeyTheRulesOfStreams()
         {
             HeldDevices.TakeTouchController();
             Add<ControllerParametricOutput>(output => output.UseExperimentalFeature = true);
@@ -263,7 +263,7 @@ namespace HaptoFlow.ShimTests
         }
 
         [Test]
-        public void WhatStopsReachesTheDeviceWithinAFrame(
+        public void AStopReachesTheDeviceWithinAFrame(
             [Values("panic", "panic of all", "mute", "switched off", "pause", "stylus off")] string how)
         {
             OVRInput.Connected = OVRInput.Controller.RTouch;
@@ -302,7 +302,7 @@ namespace HaptoFlow.ShimTests
         }
 
         [Test]
-        public void AControllerThatSleepsAndOneThatReplacesItAreNoticed()
+        public void ASleepingControllerAndItsReplacementAreDetected()
         {
             OVRInput.Connected = OVRInput.Controller.RTouch;
             AutoOutput output = Add<AutoOutput>();
@@ -341,7 +341,7 @@ namespace HaptoFlow.ShimTests
         }
 
         [Test]
-        public void ALiftedStylusKeepsTheDeviceIdleAndInfersNothing()
+        public void ALiftedStylusSendsNothingAndRunsNoInference()
         {
             OVRInput.Connected = OVRInput.Controller.RTouch;
             Add<ControllerWaveformOutput>();
@@ -353,10 +353,11 @@ namespace HaptoFlow.ShimTests
             Assert.That(statistics.RenderedFrames, Is.GreaterThan(6000UL), "8000 a second");
         }
 
-        /// <summary>Only by name: <c>dotnet test Tests/Dotnet/HaptoFlow.ShimTests --filter TestCategory=DocumentationPicture</c>
-        /// leaves the two waves for <c>scripts/pack/effect_pictures.py</c>.</summary>
+        /// <summary>Runs only when selected: <c>dotnet test Tests/Dotnet/HaptoFlow.ShimTests --filter
+        /// TestCategory=DocumentationPicture</c> writes the two waves for <c>scripts/pack/effect_pictures.py</c>.
+        /// </summary>
         [Test, Explicit, Category("DocumentationPicture")]
-        public void TheWavesOfAnAudioOutputAndOfAControllerAreWrittenForTheDocumentation()
+        public void WavesForTheDocumentationAreWritten()
         {
             OVRInput.Connected = OVRInput.Controller.RTouch;
             Output(out _);
@@ -378,7 +379,7 @@ namespace HaptoFlow.ShimTests
         }
 
         [Test]
-        public void WhatAControllerPlaysHasTheLevelAndTheSpectrumOfWhatAnAudioOutputPlays()
+        public void AControllerPlaysTheLevelAndSpectrumOfAnAudioOutput()
         {
             OVRInput.Connected = OVRInput.Controller.RTouch;
             Output(out _);
@@ -398,7 +399,7 @@ namespace HaptoFlow.ShimTests
         }
 
         [Test]
-        public void ALandingThatNoDeviceCouldPlayIsNotFeltWhenOneComes()
+        public void AnImpactWithoutADeviceIsNotPlayedLater()
         {
             var output = Add<MotorOutput>();
             XrHand.Right.Take("A controller", true);
@@ -420,12 +421,12 @@ namespace HaptoFlow.ShimTests
         }
 
         [Test]
-        public void AnOutputThatIsSwitchedOnDuringATouchDoesNotStrikeItsLandingAgain()
+        public void AnOutputEnabledDuringATouchDoesNotRepeatTheImpact()
         {
             XrHand.Right.Take("A controller", true);
             Add<MotorOutput>().FullScaleMps2 = HaptoFlowSettings.Active.FullScaleMps2;
             All<HapticSurface>().Single().Material.Effects = HapticEffects.Impact;
-            // Down fast, then at rest on the board.
+            // The tip comes down fast and then rests on the board.
             double start = Clock.Seconds;
             stylus.GetComponent<PathMover>().Path = _ =>
                 new Vector3(0f, Math.Max(0.001f, 0.3f - (float)Math.Max(0.0, Clock.Seconds - start - 0.5)), 0f);
@@ -441,7 +442,7 @@ namespace HaptoFlow.ShimTests
         }
 
         [Test]
-        public void ADeviceThatRefusesTheBuffersItReportsIsDrivenAsAMotorInstead()
+        public void ADeviceThatRefusesBuffersGetsAmplitudesInstead()
         {
             XrHand.Right.Take("A controller", true, 320u);
             XrHand.Right.RefusesBuffers = true;
@@ -450,7 +451,7 @@ namespace HaptoFlow.ShimTests
         }
 
         [Test]
-        public void AMotorOf160HertzIsAsIntenseAsWhatAnAudioOutputPlays()
+        public void AMotorOf160HertzHasTheIntensityOfAnAudioOutput()
         {
             XrHand.Right.Take("A controller", true);
             Output(out _);
@@ -471,7 +472,7 @@ namespace HaptoFlow.ShimTests
         }
 
         [Test]
-        public void DeviceOutputsMakeNoGarbage([Values] bool waveform)
+        public void DeviceOutputsAllocateNothing([Values] bool waveform)
         {
             OVRInput.Records = false;
             OVRInput.Connected = waveform ? OVRInput.Controller.RTouch : OVRInput.Controller.None;
@@ -491,7 +492,8 @@ namespace HaptoFlow.ShimTests
             return GC.GetAllocatedBytesForCurrentThread() - before;
         }
 
-        /// <summary>What a controller plays whose clock is right: each submission until the next replaces it.</summary>
+        /// <summary>The samples that a controller with an exact clock plays: each submission until the next one
+        /// replaces it.</summary>
         private static float[] Felt() => Enumerable.Range(0, OVRInput.Waves.Count - 1).SelectMany(index =>
         {
             Assert.That(OVRInput.Waves[index].Append, Is.False);
@@ -499,7 +501,7 @@ namespace HaptoFlow.ShimTests
             return OVRInput.Waves[index].Samples.Take((int)Math.Round(2000.0 * seconds));
         }).ToArray();
 
-        /// <summary>Level in octaves around 62, 125, 250 and 500 Hz, in dB.</summary>
+        /// <summary>The levels in octave bands around 62, 125, 250 and 500 Hz, in dB.</summary>
         private static double[] Bands(float[] samples, double rateHz)
         {
             double[] energies = new double[4];

@@ -10,7 +10,7 @@ using UnityShim;
 
 namespace HaptoFlow.ShimTests
 {
-    /// <summary>Noise in the headphones, none in the hand.</summary>
+    /// <summary>The masking noise plays in the headphones only.</summary>
     public sealed class MaskingNoiseTests : SceneTest
     {
         private const int HapticChannel = 1;
@@ -31,17 +31,17 @@ namespace HaptoFlow.ShimTests
         }
 
         [Test]
-        public void TheHapticChannelIsTheSameWithNoiseAndWithout(
+        public void TheNoiseDoesNotChangeTheHapticChannel(
             [Values(AudioSpeakerMode.Stereo, AudioSpeakerMode.Quad)] AudioSpeakerMode mode)
         {
             float[][] felt = { Stroke(mode, false), Stroke(mode, true) };
             Assert.That(felt[0].Max(), Is.GreaterThan(0.001f), "something is felt");
-            // The strokes begin at different times of the clock.
+            // The strokes begin at different times, so they are compared by level.
             Assert.That(felt[1], Is.EqualTo(felt[0]).Within(1e-7f));
         }
 
         [Test]
-        public void EveryOtherChannelHasTheNoiseAtItsLevel(
+        public void EveryOtherChannelPlaysTheNoiseAtItsLevel(
             [Values(NoiseColour.White, NoiseColour.Pink)] NoiseColour colour,
             [Values(-40f, MaskingNoise.HighestDecibels)] float decibels)
         {
@@ -62,7 +62,7 @@ namespace HaptoFlow.ShimTests
         }
 
         [Test]
-        public void PinkNoiseFallsByThreeDecibelsAnOctaveAndWhiteNoiseDoesNot()
+        public void PinkNoiseFallsByThreeDecibelsPerOctaveAndWhiteNoiseIsFlat()
         {
             var cases = new[] { (NoiseColour.White, 0.0), (NoiseColour.Pink, -3.0) };
             foreach ((NoiseColour colour, double perOctave) in cases)
@@ -78,7 +78,7 @@ namespace HaptoFlow.ShimTests
         }
 
         [Test]
-        public void ItFadesInAndOutWithoutAJumpAndMakesNoGarbage()
+        public void TheNoiseFadesInAndOutAndAllocatesNothing()
         {
             noise.LevelDecibels = MaskingNoise.HighestDecibels;
             AudioDevice.Forget();
@@ -90,7 +90,7 @@ namespace HaptoFlow.ShimTests
         }
 
         [Test]
-        public void AnOutputOnAllChannelsOrNoneMeansNoNoiseAndAWord()
+        public void AnOutputOnAllOrNoChannelsStopsTheNoiseAndLogsAnError()
         {
             output.Route = OutputRoute.AudioSource;
             output.Channel = HapticVoice.AllChannels;
@@ -107,7 +107,7 @@ namespace HaptoFlow.ShimTests
         }
 
         [Test]
-        public void ADeviceWithoutAChannelForEachMeansNoNoiseAndAWord()
+        public void ADeviceWithTooFewChannelsStopsTheNoiseAndLogsAnError()
         {
             AudioDevice.ChangeDevice(48000, 512, AudioSpeakerMode.Mono);
             LogAssert.Expect(LogType.Error, new System.Text.RegularExpressions.Regex("has 1 channels"));
@@ -119,7 +119,7 @@ namespace HaptoFlow.ShimTests
         }
 
         [Test]
-        public void SwitchedOffItIsSilent()
+        public void DisabledNoiseIsSilent()
         {
             World.Frames(30);
             noise.enabled = false;
@@ -150,7 +150,8 @@ namespace HaptoFlow.ShimTests
         private static float[] Channel(int channel) => Enumerable.Range(0, AudioDevice.RecordedFrames)
             .Select(frame => AudioDevice.Sample(frame, channel)).ToArray();
 
-        /// <summary>Power about a frequency in dB, over an octave's third, by the sum of single frequencies.</summary>
+        /// <summary>The power in a third-octave band about a frequency, in dB, as a sum over single frequencies.
+        /// </summary>
         private static double Density(IReadOnlyList<float> samples, double hertz)
         {
             const int length = 4096;

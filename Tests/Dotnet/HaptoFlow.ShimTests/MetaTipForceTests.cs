@@ -6,7 +6,7 @@ using UnityShim;
 
 namespace HaptoFlow.ShimTests
 {
-    /// <summary>Meta's SDK logs an error for every call that fails: it is asked only where it can answer.</summary>
+    /// <summary>Meta's SDK logs an error for every failing call, so it is called only when it can succeed.</summary>
     public sealed class MetaTipForceTests : SceneTest
     {
         private MetaActionTipForce source = null!;
@@ -23,10 +23,10 @@ namespace HaptoFlow.ShimTests
         }
 
         [TearDown]
-        public void PutThePenAway() => OVRPlugin.Reset();
+        public void RemoveThePen() => OVRPlugin.Reset();
 
         [Test]
-        public void AMissingActionIsAskedForOnceAndNamedOnce()
+        public void AMissingActionIsQueriedOnceAndLoggedOnce()
         {
             World.Frames(90);
             Assert.That(OVRPlugin.Calls, Is.EqualTo(1));
@@ -35,7 +35,7 @@ namespace HaptoFlow.ShimTests
         }
 
         [Test]
-        public void WithoutASessionNothingIsAsked()
+        public void WithoutASessionNothingIsQueried()
         {
             OVRPlugin.hasInputFocus = false;
             OVRPlugin.Tip = 0.4f;
@@ -49,7 +49,7 @@ namespace HaptoFlow.ShimTests
         }
 
         [Test]
-        public void ASessionThatComesBackIsAskedAgain()
+        public void ARestartedSessionIsQueriedAgain()
         {
             World.Frames(10);
             OVRPlugin.Tip = 0.4f;
@@ -64,7 +64,7 @@ namespace HaptoFlow.ShimTests
         }
 
         [Test]
-        public void APenThatConnectsIsAskedAgain()
+        public void AConnectingPenIsQueriedAgain()
         {
             World.Frames(10);
             OVRPlugin.Tip = 0.4f;
@@ -74,7 +74,7 @@ namespace HaptoFlow.ShimTests
         }
 
         [Test]
-        public void ANewActionNameAndAComponentSwitchedOnAgainAreAsked()
+        public void ANewActionNameAndAnEnabledComponentAreQueried()
         {
             World.Frames(10);
             OVRPlugin.Tip = 0.4f;

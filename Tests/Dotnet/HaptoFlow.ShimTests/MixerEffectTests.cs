@@ -10,7 +10,7 @@ namespace HaptoFlow.ShimTests
     public sealed class MixerEffectTests : SceneTest
     {
         [Test]
-        public void TheEffectIsToldTheVoicesPlaceAndTheComponentLeavesTheRenderingToIt()
+        public void TheMixerEffectGetsTheVoiceAndRendersIt()
         {
             FinishLoading();
             Board();
@@ -30,7 +30,7 @@ namespace HaptoFlow.ShimTests
         }
 
         [Test]
-        public void AMixerWithoutTheParameterIsNamed()
+        public void AMixerWithoutTheParameterIsLogged()
         {
             FinishLoading();
             Output(out HapticOutput output);

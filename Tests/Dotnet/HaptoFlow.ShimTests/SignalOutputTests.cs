@@ -7,20 +7,20 @@ using UnityShim;
 
 namespace HaptoFlow.ShimTests
 {
-    /// <summary>An output's signal: a sine in the place of what is felt.</summary>
+    /// <summary>The signal of an output, a sine that replaces the texture.</summary>
     public sealed class SignalOutputTests : SceneTest
     {
         private HapticOutput output = null!;
 
         [SetUp]
-        public void MakeAnOutput()
+        public void CreateAnOutput()
         {
             Output(out output);
             Board();
         }
 
         [Test]
-        public void TheSineSoundsAtItsAmplitudeWhileTheTipMovesAndNothingIsInferred()
+        public void TheSineHasItsAmplitudeWhileTheTipMovesAndNoInferenceRuns()
         {
             output.SetSignal(200.0, 20.0);
             HapticStylus stylus = Circling();
@@ -39,7 +39,7 @@ namespace HaptoFlow.ShimTests
         }
 
         [Test]
-        public void ItCanBeSetAndTakenAwayWhileAVoiceIsOpen()
+        public void ASignalCanBeSetAndRemovedWhileAVoiceIsOpen()
         {
             HapticStylus stylus = Circling();
             FinishLoading();

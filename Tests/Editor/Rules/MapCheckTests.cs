@@ -160,7 +160,7 @@ namespace HaptoFlow.EditorTests
             texture.Apply(false);
             With("has changed since the mask was baked");
             texture.Apply(false, true);
-            With("the texture Paint is not readable, so changes of it cannot be baked");
+            With("the texture Paint is not readable, so its changes cannot be baked");
             Object.DestroyImmediate(texture);
         }
 

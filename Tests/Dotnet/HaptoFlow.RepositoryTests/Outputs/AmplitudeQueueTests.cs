@@ -6,13 +6,13 @@ using NUnit.Framework;
 
 namespace HaptoFlow.RepositoryTests.Outputs
 {
-    /// <summary>What a simulated motor is told.</summary>
+    /// <summary>The commands that a simulated motor receives.</summary>
     public sealed class AmplitudeQueueTests
     {
         private const double FrameSeconds = 1.0 / 72.0;
 
         [Test]
-        public void TenMinutesKeepTheMotorGoingWithoutEverBeingFasterThanIt([Values(45.0, 72.0, 500.0)] double rateHz)
+        public void TheMotorIsUpdatedForTenMinutesAndNeverFasterThanItAccepts([Values(45.0, 72.0, 500.0)] double rateHz)
         {
             var motor = new SimulatedMotor { RateHz = rateHz };
             AmplitudeQueue queue = QueueFor(motor, SimulatedWave.Sine(120.0));
@@ -34,7 +34,7 @@ namespace HaptoFlow.RepositoryTests.Outputs
         }
 
         [Test]
-        public void AToneThatTheMotorCanPlayKeepsItsAmplitudeAndFrequency([Values(0.05, 0.2, 0.6)] double amplitude)
+        public void APlayableToneKeepsItsAmplitudeAndFrequency([Values(0.05, 0.2, 0.6)] double amplitude)
         {
             var motor = new SimulatedMotor { MinFrequencyHz = 60.0, MaxFrequencyHz = 400.0 };
             Play(motor, QueueFor(motor, SimulatedWave.Sine(216.0, amplitude)), 0.0, 1.0);
@@ -44,21 +44,22 @@ namespace HaptoFlow.RepositoryTests.Outputs
         }
 
         [Test]
-        public void AMotorOfWhichNothingIsKnownPlaysAToneOf160HertzThatIsAsIntense()
+        public void AnUnknownMotorPlays160HertzOfTheSameIntensity()
         {
             var motor = new SimulatedMotor();
             AmplitudeQueue queue = QueueFor(motor, SimulatedWave.Sine(400.0, 0.2));
             queue.FullScaleMps2 = 60f;
             Play(motor, queue, 0.0, 1.0);
-            // At 400 Hz the threshold is 0.56 m/s^2 and at 160 Hz 0.03: 12 m/s^2 feel as strong as much less there.
+            // The threshold of perception is 0.56 m/s^2 at 400 Hz and 0.03 m/s^2 at 160 Hz, so 12 m/s^2 at 400 Hz feel
+            // as intense as much less at 160 Hz.
             Assert.That(motor.Told.Skip(8).Select(each => (double)each.Amplitude), Is.All.InRange(0.002, 0.1));
             Assert.That(motor.Told.Skip(8).Select(each => each.Hertz), Is.All.EqualTo(160f));
         }
 
         [Test]
-        public void TheEnvelopeIsFollowedWithinAFrame()
+        public void TheAmplitudeFollowsTheEnvelopeWithinAFrame()
         {
-            // 3 Hz of amplitude modulation.
+            // The amplitude is modulated at 3 Hz.
             static double Envelope(double seconds) => 0.4 + 0.3 * Math.Sin(2.0 * Math.PI * 3.0 * seconds);
             var motor = new SimulatedMotor { MinFrequencyHz = 60.0, MaxFrequencyHz = 400.0 };
             Play(motor, QueueFor(motor, new SimulatedWave(seconds =>
@@ -71,9 +72,9 @@ namespace HaptoFlow.RepositoryTests.Outputs
         }
 
         [Test]
-        public void AKnockIsPlayedAtItsOwnFrequency()
+        public void AnImpactIsPlayedAtItsOwnFrequency()
         {
-            // 100 Hz all the time, and a knock of 320 Hz at 0.5 s.
+            // A tone of 100 Hz, and an impact of 320 Hz at 0.5 s.
             var motor = new SimulatedMotor { MinFrequencyHz = 60.0, MaxFrequencyHz = 400.0 };
             Play(motor, QueueFor(motor, new SimulatedWave(seconds =>
                 0.02 * Math.Sin(2.0 * Math.PI * 100.0 * seconds) + (seconds < 0.5 ? 0.0 : 0.6 *
@@ -84,7 +85,7 @@ namespace HaptoFlow.RepositoryTests.Outputs
         }
 
         [Test]
-        public void AHitchIsAGapAndNeverAStuckVibration()
+        public void AHitchCausesAGapAndNoStuckVibration()
         {
             var motor = new SimulatedMotor();
             AmplitudeQueue queue = QueueFor(motor, SimulatedWave.Sine(160.0));
@@ -96,7 +97,7 @@ namespace HaptoFlow.RepositoryTests.Outputs
         }
 
         [Test]
-        public void AStopReachesTheMotorWithTheSameFrame()
+        public void AStopReachesTheMotorInTheSameFrame()
         {
             var motor = new SimulatedMotor();
             SimulatedWave wave = SimulatedWave.Sine(120.0);
@@ -108,7 +109,7 @@ namespace HaptoFlow.RepositoryTests.Outputs
         }
 
         [Test]
-        public void SilenceReachesTheMotorWithTheFilterOfTheFeatures()
+        public void SilenceReachesTheMotorAfterTheFeatureFilter()
         {
             var motor = new SimulatedMotor();
             SimulatedWave wave = SimulatedWave.Sine(120.0);
@@ -122,7 +123,7 @@ namespace HaptoFlow.RepositoryTests.Outputs
             AssertRestsUntold(motor, queue, now);
         }
 
-        /// <summary>The motor stands still, and is not told so again and again.</summary>
+        /// <summary>The motor is off, and receives no repeated stop commands.</summary>
         private static void AssertRestsUntold(SimulatedMotor motor, AmplitudeQueue queue, double now)
         {
             int told = motor.Told.Count;
@@ -132,7 +133,7 @@ namespace HaptoFlow.RepositoryTests.Outputs
         }
 
         [Test]
-        public void RandomStrokesHitchesStopsAndLossesNeverLeaveAVibrationBehind([Range(1, 12)] int seed)
+        public void RandomStrokesHitchesStopsAndLossesLeaveNoStuckVibration([Range(1, 12)] int seed)
         {
             var random = new Random(seed);
             var motor = new SimulatedMotor();
@@ -160,7 +161,7 @@ namespace HaptoFlow.RepositoryTests.Outputs
         }
 
         [Test]
-        public void FramesMakeNoGarbage()
+        public void FramesAllocateNothing()
         {
             var motor = new SimulatedMotor { Records = false };
             AmplitudeQueue queue = QueueFor(motor, SimulatedWave.Sine(100.0));

@@ -5,7 +5,7 @@ using HaptoFlow.Outputs;
 
 namespace HaptoFlow.RepositoryTests.Outputs
 {
-    /// <summary>A motor that keeps what it was told for as long as it was told.</summary>
+    /// <summary>A motor that plays each command for its duration.</summary>
     internal sealed class SimulatedMotor : IAmplitudeSink
     {
         private double endsSeconds;
@@ -60,8 +60,8 @@ namespace HaptoFlow.RepositoryTests.Outputs
         }
     }
 
-    /// <summary>A device that plays streams of points on a clock of its own, and checks the rules of its makers: a stream
-    /// that gets nothing more goes on for 50 ms.</summary>
+    /// <summary>A device that plays streams of points on its own clock, and checks the rules of its makers. A stream
+    /// without new points continues for 50 ms.</summary>
     internal sealed class SimulatedParametricDevice : IParametricSink
     {
         private const double ExtensionSeconds = 0.05;
@@ -90,10 +90,10 @@ namespace HaptoFlow.RepositoryTests.Outputs
 
         public float LastFrequency { get; private set; }
 
-        /// <summary>Of the stream, what is not yet played.</summary>
+        /// <summary>The part of the stream that is not yet played, in seconds.</summary>
         public double DepthSeconds => points.Count == 0 || hasEnded ? 0.0 : points[^1].Seconds - StreamTime(Now);
 
-        /// <summary>Nothing was left though the stream had not ended.</summary>
+        /// <summary>How often the points ran out before the stream ended.</summary>
         public bool IsStarved => points.Count > 0 && !hasEnded && StreamTime(Now) > points[^1].Seconds;
 
         public float AmplitudeAt(double seconds)
