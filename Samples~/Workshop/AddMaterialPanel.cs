@@ -85,8 +85,8 @@ namespace HaptoFlow.Samples.Workshop
         private static Task<HapticLearning> Begin(
             byte[] modelFile, string name, byte[] file, Dictionary<string, byte[]> companions) => Task.Run(() =>
         {
-            byte[]? Sibling(string wanted) =>
-                companions.TryGetValue(Path.GetFileNameWithoutExtension(wanted), out byte[] bytes) ? bytes : null;
+            byte[]? Sibling(string fileName) =>
+                companions.TryGetValue(Path.GetFileNameWithoutExtension(fileName), out byte[] bytes) ? bytes : null;
             Recording read = RecordingReader.Read(name, file, Sibling);
             if (!read.KnowsMotion)
             {

@@ -38,7 +38,7 @@ namespace HaptoFlow.EditorTests
             Settings();
             BuildHost.Preprocess(BuildTarget.StandaloneLinux64);
             BuildHost.Preprocess(BuildTarget.Android);
-            Assert.That(Said(), Is.Empty);
+            Assert.That(LoggedMessages(), Is.Empty);
         }
 
         [Test]
@@ -46,7 +46,7 @@ namespace HaptoFlow.EditorTests
         {
             Settings();
             BuildHost.Preprocess(BuildTarget.StandaloneWindows64);
-            (LogType type, string text) = Said().Single();
+            (LogType type, string text) = LoggedMessages().Single();
             Assert.That(type, Is.EqualTo(LogType.Error));
             Assert.That(text, Does.StartWith("HaptoFlow: this build has no haptics: "));
             Assert.That(text, Does.Contain("no library for StandaloneWindows64"));
@@ -60,7 +60,7 @@ namespace HaptoFlow.EditorTests
             Settings();
             BuildHost.AddPlugin("Assets/Plugins/audioplugin_other.dll", BuildTarget.StandaloneWindows64);
             BuildHost.Preprocess(BuildTarget.StandaloneWindows64);
-            Assert.That(Said().Single().Type, Is.EqualTo(LogType.Error));
+            Assert.That(LoggedMessages().Single().Type, Is.EqualTo(LogType.Error));
         }
 
         [Test]
@@ -69,7 +69,7 @@ namespace HaptoFlow.EditorTests
             Settings();
             BuildHost.AddPlugin("Assets/Plugins/audioplugin_haptoflow.dll", BuildTarget.StandaloneWindows64);
             BuildHost.Preprocess(BuildTarget.StandaloneWindows64);
-            Assert.That(Said(), Is.Empty);
+            Assert.That(LoggedMessages(), Is.Empty);
         }
 
         [Test]
@@ -77,7 +77,7 @@ namespace HaptoFlow.EditorTests
         {
             Settings();
             BuildHost.Preprocess(BuildTarget.WebGL);
-            (LogType type, string text) = Said().Single();
+            (LogType type, string text) = LoggedMessages().Single();
             Assert.That(type, Is.EqualTo(LogType.Error));
             Assert.That(text, Does.Contain("HaptoFlow cannot build one for this platform"));
         }
@@ -88,8 +88,8 @@ namespace HaptoFlow.EditorTests
             Settings();
             PlayerSettings.Android.targetArchitectures = AndroidArchitecture.ARMv7;
             BuildHost.Preprocess(BuildTarget.Android);
-            Assert.That(Said().Single().Type, Is.EqualTo(LogType.Error));
-            Assert.That(Said().Single().Text, Does.Contain("ARM64"));
+            Assert.That(LoggedMessages().Single().Type, Is.EqualTo(LogType.Error));
+            Assert.That(LoggedMessages().Single().Text, Does.Contain("ARM64"));
         }
 
         [Test]
@@ -97,7 +97,7 @@ namespace HaptoFlow.EditorTests
         {
             PlayerSettings.SetPreloadedAssets(new Object[0]);
             BuildHost.Preprocess(BuildTarget.StandaloneLinux64);
-            (LogType type, string text) = Said().Single();
+            (LogType type, string text) = LoggedMessages().Single();
             Assert.That(type, Is.EqualTo(LogType.Warning));
             Assert.That(text, Does.Contain("no HaptoFlow settings"));
         }
@@ -108,7 +108,7 @@ namespace HaptoFlow.EditorTests
             Settings();
             PlayerSettings.SetPreloadedAssets(new Object[0]);
             BuildHost.Preprocess(BuildTarget.StandaloneLinux64);
-            Assert.That(Said().Single().Text, Does.Contain("not among the preloaded assets"));
+            Assert.That(LoggedMessages().Single().Text, Does.Contain("not among the preloaded assets"));
         }
 
         [Test]
@@ -116,7 +116,7 @@ namespace HaptoFlow.EditorTests
         {
             Settings().Model = null;
             BuildHost.Preprocess(BuildTarget.StandaloneLinux64);
-            Assert.That(Said().Single(), Is.EqualTo((LogType.Error,
+            Assert.That(LoggedMessages().Single(), Is.EqualTo((LogType.Error,
                 "HaptoFlow: this build has no haptics: The settings have no model: nothing is felt. Choose one in " +
                 "Project Settings > HaptoFlow.")));
         }
@@ -127,8 +127,8 @@ namespace HaptoFlow.EditorTests
             BuildHost.ForgetPlugins();
             PlayerSettings.SetPreloadedAssets(new Object[0]);
             BuildHost.Preprocess(BuildTarget.StandaloneLinux64);
-            Assert.That(Said().Select(line => line.Type), Is.EqualTo(new[] { LogType.Error, LogType.Warning }));
-            Assert.That(Said()[0].Text, Does.Contain("libraries for: no platform"));
+            Assert.That(LoggedMessages().Select(line => line.Type), Is.EqualTo(new[] { LogType.Error, LogType.Warning }));
+            Assert.That(LoggedMessages()[0].Text, Does.Contain("libraries for: no platform"));
         }
 
         [TestCase(BuildTarget.Android)]
@@ -156,6 +156,6 @@ namespace HaptoFlow.EditorTests
             Assert.That(empty.Material, Is.Null);
         }
 
-        private static (LogType Type, string Text)[] Said() => Log.Lines.ToArray();
+        private static (LogType Type, string Text)[] LoggedMessages() => Log.Lines.ToArray();
     }
 }

@@ -116,9 +116,9 @@ namespace HaptoFlow.EditorTests
         public void AStylusShowsItsRunningEffectsAndTheSceneCheckTheirCost()
         {
             HapticStylus stylus = PlayTouching(out HapticOutput output);
-            string[] asked = InspectorTests.Draw(stylus).Select(item => item.Label).ToArray();
-            Assert.That(asked, Has.Member("Impact").And.Member("Edge"), "the surface asks for all of its effects");
-            Assert.That(asked, Has.None.EqualTo("Delay").And.None.EqualTo("Exposure Guard"));
+            string[] labels = InspectorTests.Draw(stylus).Select(item => item.Label).ToArray();
+            Assert.That(labels, Has.Member("Impact").And.Member("Edge"), "the surface asks for all of its effects");
+            Assert.That(labels, Has.None.EqualTo("Delay").And.None.EqualTo("Exposure Guard"));
             output.Processing.ExposureGuard = true;
             output.ApplyProcessing();
             // The tip descends onto the table at 0.3 m/s.

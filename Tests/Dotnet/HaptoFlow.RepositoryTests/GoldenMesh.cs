@@ -49,7 +49,7 @@ namespace HaptoFlow.RepositoryTests
             return new SurfacePoint(found.Point, found.Normal, found.Behind ? -found.Distance : found.Distance);
         }
 
-        private Found? Nearest(Double3 point, Func<int, bool> wanted)
+        private Found? Nearest(Double3 point, Func<int, bool> isCandidate)
         {
             double best = double.PositiveInfinity;
             Double3 nearest = Double3.Zero;
@@ -57,7 +57,7 @@ namespace HaptoFlow.RepositoryTests
             bool onFace = true;
             for (int triangle = 0; triangle < triangles.Length; ++triangle)
             {
-                if (!wanted(triangle))
+                if (!isCandidate(triangle))
                 {
                     continue;
                 }

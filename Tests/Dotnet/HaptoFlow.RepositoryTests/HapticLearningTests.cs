@@ -76,16 +76,16 @@ namespace HaptoFlow.RepositoryTests
         {
             using HapticLearning learning = Start(Doormat());
             float before = 0f;
-            bool said = false;
+            bool hasReportedStep = false;
             while (!learning.IsCompleted)
             {
                 float share = learning.Share;
                 Assert.That(share, Is.InRange(before, 1f));
                 before = share;
-                said |= learning.Doing.Length > 0;
+                hasReportedStep |= learning.Doing.Length > 0;
                 Thread.Sleep(1);
             }
-            Assert.That(said, Is.True);
+            Assert.That(hasReportedStep, Is.True);
             Assert.That(learning.Problem, Is.Null);
         }
 

@@ -68,19 +68,19 @@ namespace HaptoFlow.SampleTests
             }
             Transform exhibits = Step().transform;
             Transform grille = exhibits.Find("Sliding Grille")!;
-            float least = float.MaxValue;
-            float most = float.MinValue;
+            float minimum = float.MaxValue;
+            float maximum = float.MinValue;
             for (int frame = 0; frame < 2.5 * World.FrameRateHz; ++frame)
             {
                 World.Frame();
                 Vector3 local = exhibits.InverseTransformPoint(grille.position);
-                least = Math.Min(least, local.x);
-                most = Math.Max(most, local.x);
+                minimum = Math.Min(minimum, local.x);
+                maximum = Math.Max(maximum, local.x);
                 Assert.That(local.y, Is.EqualTo(0.016f).Within(1e-4f));
                 Assert.That(local.z, Is.EqualTo(0.12f).Within(1e-4f));
             }
-            Assert.That(least, Is.EqualTo(0.26f).Within(2e-3f));
-            Assert.That(most, Is.EqualTo(0.34f).Within(2e-3f));
+            Assert.That(minimum, Is.EqualTo(0.26f).Within(2e-3f));
+            Assert.That(maximum, Is.EqualTo(0.34f).Within(2e-3f));
         }
 
         [Test]

@@ -102,28 +102,28 @@ namespace HaptoFlow.SampleTests
         public void TheToneFollowsThePenByThePlannedDelayInEveryTrial()
         {
             Begin(2);
-            var watch = new ToneWatch(pen, HapticChannel);
+            var recorder = new ToneRecorder(pen, HapticChannel);
             var output = camera.GetComponent<HapticOutput>();
             for (int trial = 1; trial <= 26; ++trial)
             {
                 StudySession session = study.Session!;
-                watch.Begin();
+                recorder.Begin();
                 participant.Until(() => session.Trial!.Trial == trial && !output.Muted);
-                Assert.That(watch.Tones(), Is.Empty, "on its way to the marker the pen feels nothing");
-                watch.Begin();
+                Assert.That(recorder.Tones(), Is.Empty, "on its way to the marker the pen feels nothing");
+                recorder.Begin();
                 double level = session.Trial!.DelayMilliseconds!.Value;
                 participant.Until(() => session.Phase == StudyPhase.Question);
                 double artificialFrames =
                     0.001 * DeviceRateHz * (level - study.Delay.TotalMilliseconds);
-                List<(int First, int Last)> tones = watch.Tones();
-                Assert.That(watch.Starts, Has.Count.EqualTo(2), $"trial {trial}");
+                List<(int First, int Last)> tones = recorder.Tones();
+                Assert.That(recorder.Starts, Has.Count.EqualTo(2), $"trial {trial}");
                 Assert.That(tones, Has.Count.EqualTo(2), $"trial {trial}: {string.Join(", ", tones)}");
                 for (int tone = 0; tone < 2; ++tone)
                 {
                     // The tone fades in and out within 2 ms; its first sample is zero.
-                    Assert.That(tones[tone].First - watch.Starts[tone], Is.EqualTo(artificialFrames).Within(8.0),
+                    Assert.That(tones[tone].First - recorder.Starts[tone], Is.EqualTo(artificialFrames).Within(8.0),
                         $"trial {trial}, {level} ms, start {tone}");
-                    Assert.That(tones[tone].Last - watch.Stops[tone], Is.EqualTo(artificialFrames + 96.0).Within(8.0),
+                    Assert.That(tones[tone].Last - recorder.Stops[tone], Is.EqualTo(artificialFrames + 96.0).Within(8.0),
                         $"trial {trial}, {level} ms, stop {tone}");
                 }
             }
@@ -158,9 +158,9 @@ namespace HaptoFlow.SampleTests
             Assert.That(Enumerable.Range(0, AudioDevice.RecordedFrames).Max(frame => Math.Abs(Felt(frame))),
                 Is.EqualTo(20.0 / HapticEngineOptions.DefaultFullScaleMps2).Within(1e-3));
             Assert.That(largest, Is.LessThan(1e-6));
-            double heard = Math.Sqrt(Enumerable.Range(0, AudioDevice.RecordedFrames)
+            double rms = Math.Sqrt(Enumerable.Range(0, AudioDevice.RecordedFrames)
                 .Average(frame => Math.Pow(AudioDevice.Sample(frame, 0), 2.0)));
-            Assert.That(20.0 * Math.Log10(heard), Is.EqualTo(settings.NoiseDecibels).Within(1.0));
+            Assert.That(20.0 * Math.Log10(rms), Is.EqualTo(settings.NoiseDecibels).Within(1.0));
         }
 
         [Test]

@@ -28,13 +28,13 @@ namespace HaptoFlow.SampleTests
         }
 
         /// <summary>Adds the component that builds the scene, and wakes it after its fields have been set.</summary>
-        internal TBootstrap Wake<TBootstrap>(Action<TBootstrap> tell)
+        internal TBootstrap Wake<TBootstrap>(Action<TBootstrap> configure)
             where TBootstrap : MonoBehaviour
         {
             GameObject owner = Make("Bootstrap");
             owner.SetActive(false);
             var bootstrap = owner.AddComponent<TBootstrap>();
-            tell(bootstrap);
+            configure(bootstrap);
             owner.SetActive(true);
             return bootstrap;
         }

@@ -52,7 +52,7 @@ namespace HaptoFlow.ShimTests
             Assert.That(OVRInput.Waves.All(wave => wave.Mask == OVRInput.Controller.RTouch && wave.RateHz == 2000f));
             Assert.That(OVRInput.Waves.Max(wave => wave.Samples.Max(Math.Abs)), Is.GreaterThan(0.01f));
             Assert.That(All<HapticOutput>(), Is.Empty, "no audio output is made");
-            Assert.That(Said(LogType.Log, "the scene names no output, and Auto Output plays the wave"), Is.EqualTo(1));
+            Assert.That(CountMessages(LogType.Log, "the scene names no output, and Auto Output plays the wave"), Is.EqualTo(1));
             Assert.That(OVRInput.FailedCalls, Is.Zero);
         }
 
@@ -65,7 +65,7 @@ namespace HaptoFlow.ShimTests
             Assert.That(XrHand.Right.Impulses.Max(each => each.Amplitude), Is.GreaterThan(0.01f));
             Assert.That(XrHand.Right.Impulses.Max(each => each.Duration), Is.LessThanOrEqualTo(0.1f));
             Assert.That(XrHand.Left.Impulses, Is.Empty);
-            Assert.That(Said(LogType.Log, "Some controller (Right hand)"), Is.EqualTo(1));
+            Assert.That(CountMessages(LogType.Log, "Some controller (Right hand)"), Is.EqualTo(1));
         }
 
         [Test]
@@ -184,7 +184,7 @@ namespace HaptoFlow.ShimTests
             OVRPlugin.BoundHaptic = null;
             World.Frames(200);
             Assert.That(OVRPlugin.FailedPulses, Is.EqualTo(1));
-            Assert.That(Said(LogType.Warning, "\"haptic_pulse\""), Is.EqualTo(1));
+            Assert.That(CountMessages(LogType.Warning, "\"haptic_pulse\""), Is.EqualTo(1));
             OVRPlugin.BoundHaptic = "haptic_pulse";
             OVRPlugin.hasInputFocus = false;
             World.Frames(5);
@@ -222,7 +222,7 @@ namespace HaptoFlow.ShimTests
             XRControllerWithRumble controller = XRControllerWithRumble.Take("Rumbling controller");
             World.Frames(72);
             Assert.That(controller.Impulses.Count, Is.GreaterThan(60));
-            Assert.That(Said(LogType.Log, "Rumbling controller"), Is.EqualTo(1));
+            Assert.That(CountMessages(LogType.Log, "Rumbling controller"), Is.EqualTo(1));
         }
 
         [Test]
@@ -232,7 +232,7 @@ namespace HaptoFlow.ShimTests
             Add<ControllerParametricOutput>();
             World.Frames(72);
             Assert.That(OVRInput.Parametric, Is.Empty);
-            Assert.That(Said(LogType.Warning, "experimental"), Is.EqualTo(1));
+            Assert.That(CountMessages(LogType.Warning, "experimental"), Is.EqualTo(1));
         }
 
         [Test]
@@ -465,7 +465,7 @@ namespace HaptoFlow.ShimTests
                 .Select(frame => AudioDevice.Sample(frame, 0)).ToArray();
             using var features = new WaveFeatures(0.008, audio.Length, 48000) { FullScaleMps2 = fullScaleMps2 };
             features.SetRange(160.0, 160.0);
-            var frames = new WaveFrame[features.MostFrames];
+            var frames = new WaveFrame[features.MaximumFrames];
             double expected = frames.Take(features.Process(audio, frames)).Average(frame => frame.Amplitude);
             Assert.That(expected, Is.GreaterThan(1e-3));
             Assert.That(XrHand.Right.Impulses.Average(each => each.Amplitude), Is.EqualTo(expected).Within(0.1 * expected));
@@ -551,7 +551,7 @@ namespace HaptoFlow.ShimTests
             where TComponent : Object => Object.FindObjectsByType<TComponent>(
             FindObjectsInactive.Include, FindObjectsSortMode.None);
 
-        private static int Said(LogType type, string text) =>
+        private static int CountMessages(LogType type, string text) =>
             Log.Lines.Count(line => line.Type == type && line.Text.Contains(text));
     }
 }

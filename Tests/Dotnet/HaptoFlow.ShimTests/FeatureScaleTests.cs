@@ -89,7 +89,7 @@ namespace HaptoFlow.ShimTests
                 map.Add(HapticMaterialRule.ForTerrainLayer(data.terrainLayers[layer], material));
             }
             HaptoFlowSettings.Active.MaterialMap = map;
-            Func<double, double> powerAt = Heard();
+            Func<double, double> powerAt = PowerSpectrum();
             double ribHz = SpeedMps / RibMetres;
             Assert.That(powerAt(ribHz), Is.GreaterThan(4.0 * powerAt(0.5 * ribHz)));
         }
@@ -127,10 +127,10 @@ namespace HaptoFlow.ShimTests
             {
                 describe(board.AddComponent<HapticSurface>().Material);
             }
-            return Heard();
+            return PowerSpectrum();
         }
 
-        private Func<double, double> Heard()
+        private Func<double, double> PowerSpectrum()
         {
             Output(out _);
             HapticStylus stylus = StylusAlong(seconds => new Vector3((float)(SpeedMps * seconds - 0.5), 0.001f, 0f));

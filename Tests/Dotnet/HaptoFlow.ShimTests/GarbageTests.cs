@@ -79,10 +79,10 @@ namespace HaptoFlow.ShimTests
             () => Board(),
             stylus =>
             {
-                int told = 0;
-                stylus.Events.TouchBegan.AddListener(_ => ++told);
-                stylus.Events.TouchMoved.AddListener(_ => ++told);
-                stylus.Events.TouchEnded.AddListener(_ => ++told);
+                int eventCount = 0;
+                stylus.Events.TouchBegan.AddListener(_ => ++eventCount);
+                stylus.Events.TouchMoved.AddListener(_ => ++eventCount);
+                stylus.Events.TouchEnded.AddListener(_ => ++eventCount);
             });
 
         [Test]
@@ -201,13 +201,13 @@ namespace HaptoFlow.ShimTests
         private static Func<double, Vector3> Circle(float height) => seconds =>
             new Vector3(0.04f * (float)Math.Cos(5.0 * seconds), height, 0.04f * (float)Math.Sin(5.0 * seconds));
 
-        private void Check(Func<double, Vector3> path, Action makeScene, Action<HapticStylus>? tell = null)
+        private void Check(Func<double, Vector3> path, Action makeScene, Action<HapticStylus>? configure = null)
         {
             FinishLoading();
             makeScene();
             Output(out _);
             HapticStylus stylus = StylusAlong(path);
-            tell?.Invoke(stylus);
+            configure?.Invoke(stylus);
             var log = new TouchLog(stylus);
             World.Frames(WarmUpFrames);
             AudioDevice.Forget();

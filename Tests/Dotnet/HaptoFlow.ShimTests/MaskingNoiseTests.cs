@@ -53,10 +53,10 @@ namespace HaptoFlow.ShimTests
             World.Frames(900);
             foreach (int channel in new[] { 0, 2, 3 })
             {
-                float[] heard = Channel(channel);
-                double level = 10.0 * Math.Log10(heard.Average(sample => (double)sample * sample));
+                float[] samples = Channel(channel);
+                double level = 10.0 * Math.Log10(samples.Average(sample => (double)sample * sample));
                 Assert.That(level, Is.EqualTo(decibels).Within(0.5), $"channel {channel}");
-                Assert.That(heard.Max(Math.Abs), Is.LessThan(1f), "nothing is clipped");
+                Assert.That(samples.Max(Math.Abs), Is.LessThan(1f), "nothing is clipped");
             }
             Assert.That(Channel(HapticChannel), Has.All.Zero);
         }
@@ -71,8 +71,8 @@ namespace HaptoFlow.ShimTests
                 World.Frames(30);
                 AudioDevice.Forget();
                 World.Frames(900);
-                float[] heard = Channel(0);
-                double fall = (Density(heard, 3200.0) - Density(heard, 200.0)) / 4.0;
+                float[] samples = Channel(0);
+                double fall = (Density(samples, 3200.0) - Density(samples, 200.0)) / 4.0;
                 Assert.That(fall, Is.EqualTo(perOctave).Within(0.5), colour.ToString());
             }
         }
@@ -83,9 +83,9 @@ namespace HaptoFlow.ShimTests
             noise.LevelDecibels = MaskingNoise.HighestDecibels;
             AudioDevice.Forget();
             World.Frames(40);
-            float[] heard = Channel(0);
-            Assert.That(heard.Take(48).Max(Math.Abs), Is.LessThan(0.04f));
-            Assert.That(heard.Skip(4000).Max(Math.Abs), Is.GreaterThan(0.2f));
+            float[] samples = Channel(0);
+            Assert.That(samples.Take(48).Max(Math.Abs), Is.LessThan(0.04f));
+            Assert.That(samples.Skip(4000).Max(Math.Abs), Is.GreaterThan(0.2f));
             Assert.That(AudioDevice.AllocatedBytes, Is.Zero);
         }
 

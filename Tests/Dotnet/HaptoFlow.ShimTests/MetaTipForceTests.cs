@@ -30,8 +30,8 @@ namespace HaptoFlow.ShimTests
         {
             World.Frames(90);
             Assert.That(OVRPlugin.Calls, Is.EqualTo(1));
-            Assert.That(Said(LogType.Error, "GetActionStateFloat"), Is.EqualTo(1));
-            Assert.That(Said(LogType.Warning, "\"tip\""), Is.EqualTo(1));
+            Assert.That(CountMessages(LogType.Error, "GetActionStateFloat"), Is.EqualTo(1));
+            Assert.That(CountMessages(LogType.Warning, "\"tip\""), Is.EqualTo(1));
         }
 
         [Test]
@@ -41,7 +41,7 @@ namespace HaptoFlow.ShimTests
             OVRPlugin.Tip = 0.4f;
             World.Frames(90);
             Assert.That(OVRPlugin.Calls, Is.Zero);
-            Assert.That(Said(LogType.Error, ""), Is.Zero);
+            Assert.That(CountMessages(LogType.Error, ""), Is.Zero);
             OVRPlugin.hasInputFocus = true;
             World.Frames(2);
             Assert.That(source.TryRead(out float newtons), Is.True);
@@ -60,7 +60,7 @@ namespace HaptoFlow.ShimTests
             OVRPlugin.hasInputFocus = true;
             World.Frames(2);
             Assert.That(source.TryRead(out _), Is.True);
-            Assert.That(Said(LogType.Error, ""), Is.EqualTo(1));
+            Assert.That(CountMessages(LogType.Error, ""), Is.EqualTo(1));
         }
 
         [Test]
@@ -93,7 +93,7 @@ namespace HaptoFlow.ShimTests
             Assert.That(source.TryRead(out _), Is.True);
         }
 
-        private static int Said(LogType type, string part) =>
+        private static int CountMessages(LogType type, string part) =>
             Log.Lines.Count(line => line.Type == type && line.Text.Contains(part));
     }
 }

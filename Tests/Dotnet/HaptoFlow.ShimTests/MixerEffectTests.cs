@@ -38,8 +38,8 @@ namespace HaptoFlow.ShimTests
             output.SetMixer(new AudioMixer(), "Pen");
             StylusAlong(_ => Vector3.up);
             World.Frames(3);
-            int said = Log.Lines.Count(line => line.Type == LogType.Warning && line.Text.Contains("\"Pen\""));
-            Assert.That(said, Is.EqualTo(1));
+            int messageCount = Log.Lines.Count(line => line.Type == LogType.Warning && line.Text.Contains("\"Pen\""));
+            Assert.That(messageCount, Is.EqualTo(1));
         }
     }
 }

@@ -28,10 +28,10 @@ namespace HaptoFlow.ShimTests
             World.Frames(45);
             AudioDevice.Forget();
             World.Frames(45);
-            float[] heard = Heard();
-            Assert.That(heard.Max(), Is.EqualTo(20.0 / HapticEngineOptions.DefaultFullScaleMps2).Within(1e-3));
-            double rms = Math.Sqrt(heard.Average(sample => (double)sample * sample));
-            Assert.That(rms, Is.EqualTo(heard.Max() / Math.Sqrt(2.0)).Within(1e-3), "a sine, unbroken");
+            float[] samples = RecordedSamples();
+            Assert.That(samples.Max(), Is.EqualTo(20.0 / HapticEngineOptions.DefaultFullScaleMps2).Within(1e-3));
+            double rms = Math.Sqrt(samples.Average(sample => (double)sample * sample));
+            Assert.That(rms, Is.EqualTo(samples.Max() / Math.Sqrt(2.0)).Within(1e-3), "a sine, unbroken");
             Assert.That(stylus.TryGetStatistics(out VoiceStatistics statistics), Is.True);
             Assert.That(statistics.Inferences, Is.Zero);
             Assert.That(stylus.TryGetSignalStatistics(out SignalStatistics signal), Is.True);
@@ -53,7 +53,7 @@ namespace HaptoFlow.ShimTests
             AudioDevice.Forget();
             World.Frames(45);
             Assert.That(RunsOf(stylus), Is.EqualTo(before));
-            Assert.That(Heard().Max(), Is.GreaterThan(0.001f), "the texture is felt again");
+            Assert.That(RecordedSamples().Max(), Is.GreaterThan(0.001f), "the texture is felt again");
         }
 
         [TestCase(0.0, 20.0)]
@@ -71,7 +71,7 @@ namespace HaptoFlow.ShimTests
             return statistics.Runs;
         }
 
-        private static float[] Heard() => Enumerable.Range(0, AudioDevice.RecordedFrames)
+        private static float[] RecordedSamples() => Enumerable.Range(0, AudioDevice.RecordedFrames)
             .Select(frame => AudioDevice.Sample(frame, 0)).ToArray();
     }
 }

@@ -9,7 +9,7 @@ namespace HaptoFlow.ShimTests
     /// <summary>The engine with its default settings: a worker thread, automatic quality, an automatic lead.</summary>
     public sealed class WorkerTests : SceneTest
     {
-        private const int MostFrames = 100_000;
+        private const int MaximumFrames = 100_000;
 
         [Test]
         public void TheWorkerOfAShippedEngineGeneratesForATouchingStylus()
@@ -24,7 +24,7 @@ namespace HaptoFlow.ShimTests
                 new Vector3(0.05f * (float)Math.Cos(3.0 * seconds), 0.001f, 0.05f * (float)Math.Sin(3.0 * seconds)));
             VoiceStatistics statistics = default;
             // Frames run faster than in real time here, so the number that the worker needs depends on the machine.
-            for (int frame = 0; frame < MostFrames && statistics.Inferences < 3; ++frame)
+            for (int frame = 0; frame < MaximumFrames && statistics.Inferences < 3; ++frame)
             {
                 World.Frame();
                 stylus.TryGetStatistics(out statistics);

@@ -44,8 +44,8 @@ namespace UnityEngine
             above?.Children.Remove(this);
             above = parent;
             above?.Children.Add(this);
-            UnityShim.World.TellOfChildren(before);
-            UnityShim.World.TellOfChildren(above);
+            UnityShim.World.SendChildrenChanged(before);
+            UnityShim.World.SendChildrenChanged(above);
             if (worldPositionStays)
             {
                 SetPositionAndRotation(place, turned);

@@ -7,7 +7,7 @@ namespace UnityEngine
         // As in Unity: all 32 layers except layer 2, Ignore Raycast.
         private const int LayersByDefault = ~(1 << 2);
         private const float HitMetres = 1e-5f;
-        private const int MostSteps = 512;
+        private const int MaximumSteps = 512;
         private static readonly Collider[] Found = new Collider[1024];
 
         public static bool Raycast(Ray ray, out RaycastHit hitInfo, float maxDistance) =>
@@ -43,7 +43,7 @@ namespace UnityEngine
             hit = default;
             float distance = 0f;
             Vector3 outward = Vector3.zero;
-            for (int step = 0; step < MostSteps && distance <= maxDistance; ++step)
+            for (int step = 0; step < MaximumSteps && distance <= maxDistance; ++step)
             {
                 Vector3 place = ray.origin + distance * ray.direction;
                 Vector3 nearest = collider.ClosestPoint(place);

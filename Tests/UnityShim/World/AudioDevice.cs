@@ -10,7 +10,7 @@ namespace UnityShim
     public static class AudioDevice
     {
         private const int RecordedSeconds = 60;
-        private static readonly SemaphoreSlim Wanted = new SemaphoreSlim(0);
+        private static readonly SemaphoreSlim BlockRequested = new SemaphoreSlim(0);
         private static readonly SemaphoreSlim Done = new SemaphoreSlim(0);
         private static Thread? thread;
         private static AudioConfiguration configuration;
@@ -104,7 +104,7 @@ namespace UnityShim
                 thread = new Thread(Serve) { IsBackground = true, Name = "Audio" };
                 thread.Start();
             }
-            Wanted.Release();
+            BlockRequested.Release();
             Done.Wait();
             int room = recorded.Length / Channels - RecordedFrames;
             int frames = Math.Min(room, configuration.dspBufferSize);
@@ -116,7 +116,7 @@ namespace UnityShim
         {
             while (true)
             {
-                Wanted.Wait();
+                BlockRequested.Wait();
                 long before = GC.GetAllocatedBytesForCurrentThread();
                 try
                 {

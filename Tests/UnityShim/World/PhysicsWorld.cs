@@ -71,10 +71,10 @@ namespace UnityShim
             for (int index = 0; index < Colliders.Count && count < results.Length; ++index)
             {
                 Collider collider = Colliders[index];
-                bool wanted = collider.enabled && collider.gameObject.activeInHierarchy &&
+                bool isCandidate = collider.enabled && collider.gameObject.activeInHierarchy &&
                     (layerMask & (1 << collider.gameObject.layer)) != 0 &&
                     (!collider.isTrigger || triggers != QueryTriggerInteraction.Ignore);
-                if (wanted && Geometry.Reaches(collider, position, radius))
+                if (isCandidate && Geometry.Reaches(collider, position, radius))
                 {
                     results[count++] = collider;
                 }

@@ -35,11 +35,11 @@ namespace UnityShim
                 awake = true;
                 messages.Send(Message.Awake);
             }
-            bool wanted = awake && Script.isActiveAndEnabled;
-            if (wanted != on)
+            bool shouldBeOn = awake && Script.isActiveAndEnabled;
+            if (shouldBeOn != on)
             {
-                on = wanted;
-                messages.Send(wanted ? Message.OnEnable : Message.OnDisable);
+                on = shouldBeOn;
+                messages.Send(shouldBeOn ? Message.OnEnable : Message.OnDisable);
             }
         }
 

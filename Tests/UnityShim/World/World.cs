@@ -163,7 +163,7 @@ namespace UnityShim
         }
 
         /// <summary>Finds direct children only, as in Unity.</summary>
-        internal static void TellOfChildren(Transform? parent)
+        internal static void SendChildrenChanged(Transform? parent)
         {
             if (parent == null)
             {
@@ -229,7 +229,7 @@ namespace UnityShim
             Objects.Remove(gameObject);
             Kept.Remove(gameObject);
             gameObject.MarkDestroyed();
-            TellOfChildren(above);
+            SendChildrenChanged(above);
         }
 
         private static void EndScript(Component component)

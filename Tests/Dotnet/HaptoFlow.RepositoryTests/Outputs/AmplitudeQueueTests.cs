@@ -29,8 +29,8 @@ namespace HaptoFlow.RepositoryTests.Outputs
             }
             Assert.That(silent, Is.Zero);
             Assert.That(queue.Statistics.Gaps, Is.Zero);
-            Assert.That(motor.Told.Count, Is.LessThanOrEqualTo(600.0 * Math.Min(rateHz, 85.0) + 2.0));
-            Assert.That(motor.Told.Count, Is.GreaterThan(600.0 * Math.Min(0.9 * rateHz, 70.0)));
+            Assert.That(motor.Commands.Count, Is.LessThanOrEqualTo(600.0 * Math.Min(rateHz, 85.0) + 2.0));
+            Assert.That(motor.Commands.Count, Is.GreaterThan(600.0 * Math.Min(0.9 * rateHz, 70.0)));
         }
 
         [Test]
@@ -38,9 +38,9 @@ namespace HaptoFlow.RepositoryTests.Outputs
         {
             var motor = new SimulatedMotor { MinFrequencyHz = 60.0, MaxFrequencyHz = 400.0 };
             Play(motor, QueueFor(motor, SimulatedWave.Sine(216.0, amplitude)), 0.0, 1.0);
-            Assert.That(motor.Told.Skip(8).Select(each => (double)each.Amplitude),
+            Assert.That(motor.Commands.Skip(8).Select(each => (double)each.Amplitude),
                 Is.All.EqualTo(amplitude).Within(0.08 * amplitude));
-            Assert.That(motor.Told.Skip(8).Select(each => (double)each.Hertz), Is.All.EqualTo(216.0).Within(12.0));
+            Assert.That(motor.Commands.Skip(8).Select(each => (double)each.Hertz), Is.All.EqualTo(216.0).Within(12.0));
         }
 
         [Test]
@@ -52,8 +52,8 @@ namespace HaptoFlow.RepositoryTests.Outputs
             Play(motor, queue, 0.0, 1.0);
             // The threshold of perception is 0.56 m/s^2 at 400 Hz and 0.03 m/s^2 at 160 Hz, so 12 m/s^2 at 400 Hz feel
             // as intense as much less at 160 Hz.
-            Assert.That(motor.Told.Skip(8).Select(each => (double)each.Amplitude), Is.All.InRange(0.002, 0.1));
-            Assert.That(motor.Told.Skip(8).Select(each => each.Hertz), Is.All.EqualTo(160f));
+            Assert.That(motor.Commands.Skip(8).Select(each => (double)each.Amplitude), Is.All.InRange(0.002, 0.1));
+            Assert.That(motor.Commands.Skip(8).Select(each => each.Hertz), Is.All.EqualTo(160f));
         }
 
         [Test]
@@ -64,10 +64,10 @@ namespace HaptoFlow.RepositoryTests.Outputs
             var motor = new SimulatedMotor { MinFrequencyHz = 60.0, MaxFrequencyHz = 400.0 };
             Play(motor, QueueFor(motor, new SimulatedWave(seconds =>
                 Envelope(seconds) * Math.Sin(2.0 * Math.PI * 216.0 * seconds))), 0.0, 3.0);
-            foreach ((double seconds, float amplitude, _, _) in motor.Told.Skip(5))
+            foreach ((double seconds, float amplitude, _, _) in motor.Commands.Skip(5))
             {
-                double heard = seconds - 0.5 * FrameSeconds - WaveFeatures.LatencySeconds - 0.004;
-                Assert.That(amplitude, Is.EqualTo(Envelope(heard)).Within(0.06));
+                double waveSeconds = seconds - 0.5 * FrameSeconds - WaveFeatures.LatencySeconds - 0.004;
+                Assert.That(amplitude, Is.EqualTo(Envelope(waveSeconds)).Within(0.06));
             }
         }
 
@@ -79,7 +79,7 @@ namespace HaptoFlow.RepositoryTests.Outputs
             Play(motor, QueueFor(motor, new SimulatedWave(seconds =>
                 0.02 * Math.Sin(2.0 * Math.PI * 100.0 * seconds) + (seconds < 0.5 ? 0.0 : 0.6 *
                     Math.Exp(-80.0 * (seconds - 0.5)) * Math.Sin(2.0 * Math.PI * 320.0 * (seconds - 0.5))))), 0.0, 1.0);
-            (double _, float amplitude, float hertz, float _) = motor.Told.OrderBy(each => each.Amplitude).Last();
+            (double _, float amplitude, float hertz, float _) = motor.Commands.OrderBy(each => each.Amplitude).Last();
             Assert.That(hertz, Is.EqualTo(320f).Within(40f));
             Assert.That(amplitude, Is.EqualTo(0.5f).Within(0.15f));
         }
@@ -93,7 +93,7 @@ namespace HaptoFlow.RepositoryTests.Outputs
             Assert.That(motor.AmplitudeAt(now + AmplitudeQueue.LongestSeconds), Is.Zero);
             Play(motor, queue, now + 0.2, 0.5);
             Assert.That(queue.Statistics.Gaps, Is.EqualTo(1));
-            Assert.That(motor.Told.Last().Amplitude, Is.EqualTo(0.3f).Within(0.05f));
+            Assert.That(motor.Commands.Last().Amplitude, Is.EqualTo(0.3f).Within(0.05f));
         }
 
         [Test]
@@ -105,7 +105,7 @@ namespace HaptoFlow.RepositoryTests.Outputs
             double now = Play(motor, queue, 0.0, 1.0);
             wave.IsStopped = true;
             now = Play(motor, queue, now, 0.5 * FrameSeconds);
-            AssertRestsUntold(motor, queue, now);
+            AssertStopsWithoutFurtherCommands(motor, queue, now);
         }
 
         [Test]
@@ -120,16 +120,16 @@ namespace HaptoFlow.RepositoryTests.Outputs
             now = Play(motor, queue, now, 2.5 * FrameSeconds);
             Assert.That(motor.AmplitudeAt(now), Is.LessThan(0.04f * before), "-28 dB after 35 ms");
             now = Play(motor, queue, now, 4.0 * FrameSeconds);
-            AssertRestsUntold(motor, queue, now);
+            AssertStopsWithoutFurtherCommands(motor, queue, now);
         }
 
         /// <summary>The motor is off, and receives no repeated stop commands.</summary>
-        private static void AssertRestsUntold(SimulatedMotor motor, AmplitudeQueue queue, double now)
+        private static void AssertStopsWithoutFurtherCommands(SimulatedMotor motor, AmplitudeQueue queue, double now)
         {
-            int told = motor.Told.Count;
+            int commandCount = motor.Commands.Count;
             Assert.That(motor.AmplitudeAt(now), Is.Zero);
             Play(motor, queue, now, 1.0);
-            Assert.That(motor.Told.Count, Is.EqualTo(told));
+            Assert.That(motor.Commands.Count, Is.EqualTo(commandCount));
         }
 
         [Test]
@@ -157,7 +157,7 @@ namespace HaptoFlow.RepositoryTests.Outputs
                     Assert.That(motor.AmplitudeAt(now), Is.Zero);
                 }
             }
-            Assert.That(motor.Told.Max(each => each.Amplitude), Is.LessThanOrEqualTo(0.7f));
+            Assert.That(motor.Commands.Max(each => each.Amplitude), Is.LessThanOrEqualTo(0.7f));
         }
 
         [Test]

@@ -23,7 +23,7 @@ namespace HaptoFlow.RepositoryTests.Outputs
 
         public double Now { get; set; }
 
-        public List<(double Seconds, float Amplitude, float Hertz, float Duration)> Told { get; } =
+        public List<(double Seconds, float Amplitude, float Hertz, float Duration)> Commands { get; } =
             new List<(double, float, float, float)>();
 
         public int Stops { get; private set; }
@@ -38,17 +38,17 @@ namespace HaptoFlow.RepositoryTests.Outputs
             return IsThere;
         }
 
-        public bool Submit(float wanted, float frequencyHz, float durationSeconds)
+        public bool Submit(float newAmplitude, float frequencyHz, float durationSeconds)
         {
             if (!IsThere)
             {
                 return false;
             }
-            amplitude = wanted;
+            amplitude = newAmplitude;
             endsSeconds = Now + durationSeconds;
             if (Records)
             {
-                Told.Add((Now, wanted, frequencyHz, durationSeconds));
+                Commands.Add((Now, newAmplitude, frequencyHz, durationSeconds));
             }
             return true;
         }
@@ -76,7 +76,7 @@ namespace HaptoFlow.RepositoryTests.Outputs
 
         public double RateHz { get; set; }
 
-        public double LeastFirstSeconds { get; set; } = 0.02;
+        public double MinimumFirstSeconds { get; set; } = 0.02;
 
         public bool IsThere { get; set; } = true;
 
@@ -117,7 +117,7 @@ namespace HaptoFlow.RepositoryTests.Outputs
 
         public bool TryGetCapabilities(out HapticSinkCapabilities capabilities)
         {
-            capabilities = new HapticSinkCapabilities(RateHz, 500, 50.0, 450.0, LeastFirstSeconds);
+            capabilities = new HapticSinkCapabilities(RateHz, 500, 50.0, 450.0, MinimumFirstSeconds);
             return IsThere;
         }
 
@@ -139,7 +139,7 @@ namespace HaptoFlow.RepositoryTests.Outputs
                 beganSeconds = Now;
                 hasEnded = false;
                 Require(amplitudes[0].Seconds == 0.0 && frequencies[0].Seconds == 0.0, "a stream begins at 0");
-                Require(amplitudes[^1].Seconds >= LeastFirstSeconds - 1e-9, "the first frame is too short");
+                Require(amplitudes[^1].Seconds >= MinimumFirstSeconds - 1e-9, "the first frame is too short");
             }
             else
             {

@@ -12,7 +12,7 @@ namespace HaptoFlow.RepositoryTests.Outputs
         private const double FrameSeconds = 1.0 / 72.0;
 
         // At 45 Hz the filter reads 1.5 samples of the device ahead, and a sample lasts 22 ms.
-        private static double MostLatencyMs(double rateHz) => 1000.0 * (FramePace.MaximumDepthSeconds +
+        private static double MaximumLatencyMs(double rateHz) => 1000.0 * (FramePace.MaximumDepthSeconds +
             2.0 / rateHz + Math.Max(0.012, 1.6 / rateHz));
 
         [Test]
@@ -41,7 +41,7 @@ namespace HaptoFlow.RepositoryTests.Outputs
             Assert.That(device.Starved, Is.Zero);
             Assert.That(queue.Statistics.Gaps, Is.Zero);
             Assert.That(deepest, Is.LessThan(0.030 + 2.0 / rateHz));
-            Assert.That(longestLatency, Is.InRange(1000.0 * FrameSeconds, MostLatencyMs(rateHz)));
+            Assert.That(longestLatency, Is.InRange(1000.0 * FrameSeconds, MaximumLatencyMs(rateHz)));
         }
 
         [Test]

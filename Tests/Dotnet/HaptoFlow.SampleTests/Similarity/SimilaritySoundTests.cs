@@ -79,8 +79,8 @@ namespace HaptoFlow.SampleTests.Similarity
                 TraceVirtual();
                 double level = LevelOfCircle(scene.Virtual.Frame.position, scene.Output.Channel);
                 string label = settings.Materials.Single(each => each.Name == trial.Material).Label;
-                double wanted = expected[label + trial.Method];
-                Assert.That(level, Is.EqualTo(wanted).Within(0.1 * wanted), $"{label}, {trial.Method}");
+                double expectedLevel = expected[label + trial.Method];
+                Assert.That(level, Is.EqualTo(expectedLevel).Within(0.1 * expectedLevel), $"{label}, {trial.Method}");
                 Answer(4);
             }
         }

@@ -6,7 +6,7 @@ namespace HaptoFlow.SampleTests
 {
     /// <summary>Compares the motion of a pen with the output on a channel of the audio device. Both are counted in
     /// frames of the device since <see cref="Begin"/>.</summary>
-    internal sealed class ToneWatch
+    internal sealed class ToneRecorder
     {
         // Longer than half a period of 200 Hz.
         private const int LongestGapFrames = 240;
@@ -16,7 +16,7 @@ namespace HaptoFlow.SampleTests
         private Vector3 place;
         private bool wasMoving;
 
-        public ToneWatch(HapticStylus stylus, int channel)
+        public ToneRecorder(HapticStylus stylus, int channel)
         {
             this.channel = channel;
             stylus.TouchMoved += OnMoved;
@@ -59,7 +59,7 @@ namespace HaptoFlow.SampleTests
 
         /// <summary>Detects motion from the positions of the pen: it begins in the first frame with a changed position.
         /// </summary>
-        private void OnMoved(HapticStylus told, in HapticContact contact)
+        private void OnMoved(HapticStylus stylus, in HapticContact contact)
         {
             bool moves = Vector3.Distance(contact.Point, place) > TrembleMetres;
             if (moves != wasMoving)
