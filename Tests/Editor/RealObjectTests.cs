@@ -44,7 +44,7 @@ namespace HaptoFlow.EditorTests
         [TestCase(HapticSilence.Muted, "muted")]
         [TestCase(HapticSilence.Paused, "paused")]
         [TestCase(HapticSilence.Panic, "next touch-down")]
-        [TestCase(HapticSilence.Rate, "8 to 192 kHz")]
+        [TestCase(HapticSilence.Rate, "8000 to 192000 Hz")]
         [TestCase(HapticSilence.Closing, "closed")]
         [TestCase(HapticSilence.WorkerDead, "has ended")]
         [TestCase((HapticSilence)99, "99")]

@@ -17,8 +17,7 @@ namespace HaptoFlow.EditorTests
         [SetUp]
         public void AddAMapToTheProject()
         {
-            map = ScriptableObject.CreateInstance<HapticMaterialMap>();
-            AssetDatabase.CreateAsset(map, Folder + "/Rooms.asset");
+            map = CreateMap();
             ProjectSettings.MaterialMap = map;
         }
 

@@ -16,8 +16,7 @@ namespace HaptoFlow.EditorTests
         [SetUp]
         public void AddAMapToTheProject()
         {
-            map = ScriptableObject.CreateInstance<HapticMaterialMap>();
-            AssetDatabase.CreateAsset(map, Folder + "/Rooms.asset");
+            map = CreateMap();
             Settings().MaterialMap = map;
             ProjectSettingsAsset.Forget();
             map.Add(HapticMaterialRule.ForTag("Finish", Material("stone")));

@@ -66,6 +66,14 @@ namespace HaptoFlow.EditorTests
             return settings;
         }
 
+        /// <summary>Creates an empty material map, saved as an asset.</summary>
+        internal static HapticMaterialMap CreateMap()
+        {
+            var map = ScriptableObject.CreateInstance<HapticMaterialMap>();
+            AssetDatabase.CreateAsset(map, Folder + "/Rooms.asset");
+            return map;
+        }
+
         /// <summary>Adds a file to the project and imports it.</summary>
         internal static string Import(string name, byte[] file)
         {

@@ -13,6 +13,7 @@ namespace HaptoFlow.Editor
     /// because a scene also runs without haptics.</summary>
     internal sealed class BuildCheck : IPreprocessBuildWithReport
     {
+        // Not the name that the imports use, which is __Internal while the build target is iOS.
         private const string LibraryName = "audioplugin_haptoflow";
 
         private static readonly (BuildTarget Platform, string Command)[] BuildCommands =

@@ -18,6 +18,7 @@ namespace HaptoFlow.Editor
             "finding.");
 
         private IReadOnlyList<Finding> findings = Array.Empty<Finding>();
+        private SceneChanges? changes;
         private bool isStale = true;
         private string summary = "";
         private string effects = "";
@@ -30,17 +31,10 @@ namespace HaptoFlow.Editor
         {
             titleContent = new GUIContent("HaptoFlow Check");
             minSize = new Vector2(360f, 200f);
-            EditorApplication.hierarchyChanged += MarkStale;
-            EditorApplication.projectChanged += MarkStale;
-            ObjectChangeEvents.changesPublished += OnChanges;
+            changes = new SceneChanges(MarkStale);
         }
 
-        private void OnDisable()
-        {
-            EditorApplication.hierarchyChanged -= MarkStale;
-            EditorApplication.projectChanged -= MarkStale;
-            ObjectChangeEvents.changesPublished -= OnChanges;
-        }
+        private void OnDisable() => changes?.Dispose();
 
         internal void OnGUI()
         {
@@ -126,8 +120,6 @@ namespace HaptoFlow.Editor
                 ? "No findings"
                 : $"{errors} errors, {warnings} warnings, {findings.Count - errors - warnings} remarks";
         }
-
-        private void OnChanges(ref ObjectChangeEventStream stream) => MarkStale();
 
         private void MarkStale()
         {

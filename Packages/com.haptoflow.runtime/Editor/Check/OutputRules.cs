@@ -10,10 +10,14 @@ namespace HaptoFlow.Editor
     /// block size.</summary>
     internal static class OutputRules
     {
+        /// <summary>The lowest sample rate of an audio device that the native library supports.</summary>
+        public const int MinimumRateHz = 8000;
+
+        /// <summary>The highest sample rate of an audio device that the native library supports.</summary>
+        public const int MaximumRateHz = 192000;
+
         // 512 frames at 48 kHz last 10.7 ms.
         private const double MaximumBlockMs = 11.0;
-        private const int MinimumRateHz = 8000;
-        private const int MaximumRateHz = 192000;
 
         public static IEnumerable<Finding> Check(SceneContents scene)
         {

@@ -22,7 +22,8 @@ namespace HaptoFlow.Editor
                 case HapticSilence.Panic:
                     return "panic: it plays again from the next touch-down on";
                 case HapticSilence.Rate when !voice.IsRateSupported:
-                    return "the device's sample rate is outside 8 to 192 kHz";
+                    return $"the device's sample rate is outside {OutputRules.MinimumRateHz} to " +
+                        $"{OutputRules.MaximumRateHz} Hz";
                 case HapticSilence.Rate:
                     return "the device changed its sample rate";
                 case HapticSilence.Closing:

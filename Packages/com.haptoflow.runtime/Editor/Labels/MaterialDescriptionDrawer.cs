@@ -50,11 +50,8 @@ namespace HaptoFlow.Editor
             "The tone tilts the spectrum about 150 Hz, by -12 to 12 dB per octave. Above 0 is brighter, below 0 " +
             "darker.");
 
-        private static float RowHeight =>
-            EditorGUIUtility.singleLineHeight + EditorGUIUtility.standardVerticalSpacing;
-
         public override float GetPropertyHeight(SerializedProperty property, GUIContent label) =>
-            RowHeight * (FieldRows + (label.text.Length > 0 ? 1 : 0)) - EditorGUIUtility.standardVerticalSpacing;
+            InspectorRows.Height * (FieldRows + (label.text.Length > 0 ? 1 : 0)) - EditorGUIUtility.standardVerticalSpacing;
 
         public override void OnGUI(Rect position, SerializedProperty property, GUIContent label)
         {
@@ -62,30 +59,30 @@ namespace HaptoFlow.Editor
             if (label.text.Length > 0)
             {
                 EditorGUI.LabelField(row, label.text, EditorStyles.boldLabel);
-                row.y += RowHeight;
+                row.y += InspectorRows.Height;
             }
             SerializedProperty first = property.FindPropertyRelative("label");
             SerializedProperty second = property.FindPropertyRelative("secondLabel");
             bool isLearnt = DrawLearnt(row, property);
-            row.y += RowHeight;
+            row.y += InspectorRows.Height;
             LabelField.Draw(row, first, isLearnt ? LabelBehind : Label, false);
-            row.y += RowHeight;
+            row.y += InspectorRows.Height;
             LabelField.Draw(row, second, SecondLabel, true);
-            row.y += RowHeight;
+            row.y += InspectorRows.Height;
             bool blends = second.hasMultipleDifferentValues || second.stringValue.Length > 0;
             using (new EditorGUI.DisabledScope(!blends))
             {
                 EditorGUI.PropertyField(row, property.FindPropertyRelative("blend"), Blend);
             }
-            row.y += RowHeight;
+            row.y += InspectorRows.Height;
             DrawStiffness(row, property.FindPropertyRelative("stiffnessNewtonsPerMetre"), first);
-            row.y += RowHeight;
+            row.y += InspectorRows.Height;
             EditorGUI.PropertyField(row, property.FindPropertyRelative("strength"), Strength);
-            row.y += RowHeight;
+            row.y += InspectorRows.Height;
             EditorGUI.PropertyField(row, property.FindPropertyRelative("featureScale"), FeatureScale);
-            row.y += RowHeight;
+            row.y += InspectorRows.Height;
             EditorGUI.PropertyField(row, property.FindPropertyRelative("toneDbPerOctave"), Tone);
-            row.y += RowHeight;
+            row.y += InspectorRows.Height;
             DrawEffects(row, property);
         }
 

@@ -21,19 +21,12 @@ namespace HaptoFlow.Editor
             "are not felt.");
 
         private IReadOnlyList<(string Text, MessageType Kind)> lines = Array.Empty<(string, MessageType)>();
+        private SceneChanges? changes;
         private bool isStale = true;
 
-        private void OnEnable()
-        {
-            EditorApplication.hierarchyChanged += MarkStale;
-            ObjectChangeEvents.changesPublished += OnChanges;
-        }
+        private void OnEnable() => changes = new SceneChanges(MarkStale);
 
-        private void OnDisable()
-        {
-            EditorApplication.hierarchyChanged -= MarkStale;
-            ObjectChangeEvents.changesPublished -= OnChanges;
-        }
+        private void OnDisable() => changes?.Dispose();
 
         public override void OnInspectorGUI()
         {
@@ -93,8 +86,6 @@ namespace HaptoFlow.Editor
                 .Select(answer => answer.Collider).ToArray();
             return matched.Length == 0 ? "no collider" : FeltWords.Names(matched, MaximumNames);
         }
-
-        private void OnChanges(ref ObjectChangeEventStream stream) => MarkStale();
 
         private void MarkStale()
         {

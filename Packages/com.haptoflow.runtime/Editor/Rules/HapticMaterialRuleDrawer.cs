@@ -34,11 +34,8 @@ namespace HaptoFlow.Editor
         private static readonly GUIContent Mask = new GUIContent("Mask",
             "The mask selects further materials by a texture at the touched point. It may be empty.");
 
-        private static float RowHeight =>
-            EditorGUIUtility.singleLineHeight + EditorGUIUtility.standardVerticalSpacing;
-
         public override float GetPropertyHeight(SerializedProperty property, GUIContent label) =>
-            RowHeight * (Rows + (SubjectOf(property) == MaterialRuleSubject.Submesh ? 1 : 0)) -
+            InspectorRows.Height * (Rows + (SubjectOf(property) == MaterialRuleSubject.Submesh ? 1 : 0)) -
             EditorGUIUtility.standardVerticalSpacing;
 
         public override void OnGUI(Rect position, SerializedProperty property, GUIContent label)
@@ -47,12 +44,12 @@ namespace HaptoFlow.Editor
             MaterialRuleSubject subject = SubjectOf(property);
             var row = new Rect(position.x, position.y, position.width, EditorGUIUtility.singleLineHeight);
             EditorGUI.LabelField(row, Title(property), EditorStyles.boldLabel);
-            row.y += RowHeight;
+            row.y += InspectorRows.Height;
             EditorGUI.PropertyField(row, property.FindPropertyRelative("subject"), Subject);
-            row.y += RowHeight;
+            row.y += InspectorRows.Height;
             row = DrawCondition(row, property, subject);
             EditorGUI.PropertyField(row, property.FindPropertyRelative("material"), Material);
-            row.y += RowHeight;
+            row.y += InspectorRows.Height;
             EditorGUI.PropertyField(row, property.FindPropertyRelative("mask"), Mask);
         }
 
@@ -90,14 +87,14 @@ namespace HaptoFlow.Editor
                     break;
                 case MaterialRuleSubject.Submesh:
                     EditorGUI.PropertyField(row, property.FindPropertyRelative("mesh"), Mesh);
-                    row.y += RowHeight;
+                    row.y += InspectorRows.Height;
                     EditorGUI.PropertyField(row, property.FindPropertyRelative("submesh"), Submesh);
                     break;
                 default:
                     EditorGUI.PropertyField(row, property.FindPropertyRelative("namePattern"), Name);
                     break;
             }
-            row.y += RowHeight;
+            row.y += InspectorRows.Height;
             return row;
         }
 

@@ -15,14 +15,11 @@ namespace HaptoFlow.Editor
         private static readonly GUIContent Highest = new GUIContent("At White",
             "At White is the factor where the channel is white.");
 
-        private static float RowHeight =>
-            EditorGUIUtility.singleLineHeight + EditorGUIUtility.standardVerticalSpacing;
-
         public override float GetPropertyHeight(SerializedProperty property, GUIContent label)
         {
             MaskChannelUse use = UseOf(property);
             int rows = use == MaskChannelUse.Nothing ? 1 : use == MaskChannelUse.Material ? 2 : 3;
-            return RowHeight * rows - EditorGUIUtility.standardVerticalSpacing;
+            return InspectorRows.Height * rows - EditorGUIUtility.standardVerticalSpacing;
         }
 
         public override void OnGUI(Rect position, SerializedProperty property, GUIContent label)
@@ -35,14 +32,14 @@ namespace HaptoFlow.Editor
                 return;
             }
             using var indent = new EditorGUI.IndentLevelScope();
-            row.y += RowHeight;
+            row.y += InspectorRows.Height;
             if (use == MaskChannelUse.Material)
             {
                 EditorGUI.PropertyField(row, property.FindPropertyRelative("material"), Material);
                 return;
             }
             EditorGUI.PropertyField(row, property.FindPropertyRelative("lowest"), Lowest);
-            row.y += RowHeight;
+            row.y += InspectorRows.Height;
             EditorGUI.PropertyField(row, property.FindPropertyRelative("highest"), Highest);
         }
 

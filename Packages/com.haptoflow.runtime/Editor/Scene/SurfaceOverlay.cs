@@ -16,6 +16,7 @@ namespace HaptoFlow.Editor
 
         private static readonly GUIContent Line = new GUIContent("", "A click shows this object in the Hierarchy.");
         private SurfaceList? list;
+        private SceneChanges? changes;
         private bool isStale = true;
         private string title = "";
         private string feltTitle = "";
@@ -24,17 +25,13 @@ namespace HaptoFlow.Editor
         public override void OnCreated()
         {
             Selection.selectionChanged += MarkStale;
-            EditorApplication.hierarchyChanged += MarkStale;
-            EditorApplication.projectChanged += MarkStale;
-            ObjectChangeEvents.changesPublished += OnChanges;
+            changes = new SceneChanges(MarkStale);
         }
 
         public override void OnWillBeDestroyed()
         {
             Selection.selectionChanged -= MarkStale;
-            EditorApplication.hierarchyChanged -= MarkStale;
-            EditorApplication.projectChanged -= MarkStale;
-            ObjectChangeEvents.changesPublished -= OnChanges;
+            changes?.Dispose();
         }
 
         public override void OnGUI()
@@ -51,8 +48,6 @@ namespace HaptoFlow.Editor
                 Draw(feltTitle, list.Felt);
             }
         }
-
-        private void OnChanges(ref ObjectChangeEventStream stream) => MarkStale();
 
         private void MarkStale() => isStale = true;
 
