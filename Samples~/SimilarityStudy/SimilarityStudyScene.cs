@@ -196,8 +196,8 @@ namespace HaptoFlow.Samples.SimilarityStudy
             }
         }
 
-        /// <summary>Pauses the session when the method's model has failed, because the participant would rate silence.
-        /// </summary>
+        /// <summary>Pauses the session when the method's model has failed, because the participant would not rate the
+        /// method. </summary>
         private void PauseWhenTheModelFails()
         {
             string? method = Procedure != null && Procedure.Stage != TrialStage.Waiting ? Session!.Trial!.Method : null;

@@ -53,7 +53,7 @@ namespace HaptoFlow.Samples.Workshop
             Map.Add(HapticMaterialRule.ForName("Bench", CreateMaterial("wood")));
             gameObject.AddComponent<HapticMaterialMapScope>().Map = Map;
             Pen = MousePen.Create(View);
-            WhyBoard.Create(Pen.Stylus, new Vector3(0f, 0.2f, 0.32f), facing);
+            RuleBoard.Create(Pen.Stylus, new Vector3(0f, 0.2f, 0.32f), facing);
             StatusBoard.Create(Pen.Stylus, Hint, new Vector3(0f, 0.16f, 0.3f), facing);
         }
 

@@ -37,7 +37,7 @@ namespace HaptoFlow.SampleTests
             Assert.That(contact.Collider.name, Is.EqualTo(name));
             Assert.That(contact.Surface, Is.Null, "none of these things is tagged");
             Assert.That(contact.Material!.Label, Is.EqualTo(label));
-            WhyBoard board = UnityEngine.Object.FindObjectsByType<WhyBoard>(
+            RuleBoard board = UnityEngine.Object.FindObjectsByType<RuleBoard>(
                 FindObjectsInactive.Exclude, FindObjectsSortMode.None).Single();
             Assert.That(board.Text, Does.StartWith(name + ": rule ").And.EndsWith($"of \"Workshop\": {rule}"));
         }

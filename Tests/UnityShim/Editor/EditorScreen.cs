@@ -116,7 +116,7 @@ namespace UnityShim
             _ => value.ToString() ?? "",
         };
 
-        // A texture needs a rectangle of the layout pass.
+        // Textures are drawn into rectangles of other controls, so they do not count.
         private static int Controls() => Items.Count(item => item.Kind != DrawnKind.Box);
 
         private static void Pass(Action draw, bool withHand)

@@ -91,7 +91,7 @@ namespace UnityEngine
             set => Put(EventModifiers.Command, value);
         }
 
-        /// <summary>The control that has captured the mouse.</summary>
+        /// <summary>The event type for a control: Ignore for mouse events that another control has captured.</summary>
         public EventType GetTypeForControl(int controlID)
         {
             bool mouse = type <= EventType.MouseDrag;

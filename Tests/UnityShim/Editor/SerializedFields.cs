@@ -125,7 +125,7 @@ namespace UnityShim
             !(type.IsGenericType && type.GetGenericTypeDefinition() == typeof(List<>)) &&
             type.IsDefined(typeof(SerializableAttribute), false);
 
-        /// <summary>Whether the field is a list with serialised elements.</summary>
+        /// <summary>Whether the type is a list of a class whose fields are serialised.</summary>
         public static bool IsList(Type type) => type.IsGenericType &&
             type.GetGenericTypeDefinition() == typeof(List<>) && IsNested(ElementOf(type));
 

@@ -107,7 +107,7 @@ namespace UnityEditor
 
         public int arraySize => (int)serializedObject.Value(propertyPath + ".Array.size")!;
 
-        /// <summary>The type of a list's elements, or of an element.</summary>
+        /// <summary>The type of the field. The field may be a list, or an element of one.</summary>
         internal Type FieldType { get; }
 
         internal object? Boxed

@@ -20,7 +20,7 @@ namespace UnityShim
 
         public HapticCapabilities Capabilities { get; private set; }
 
-        /// <summary>A number that increases with every device.</summary>
+        /// <summary>The number of devices connected so far.</summary>
         public int Visit { get; private set; }
 
         public bool IsThere

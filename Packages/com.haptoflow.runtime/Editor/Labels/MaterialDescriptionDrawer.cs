@@ -51,7 +51,8 @@ namespace HaptoFlow.Editor
             "darker.");
 
         public override float GetPropertyHeight(SerializedProperty property, GUIContent label) =>
-            InspectorRows.Height * (FieldRows + (label.text.Length > 0 ? 1 : 0)) - EditorGUIUtility.standardVerticalSpacing;
+            InspectorRows.Height * (FieldRows + (label.text.Length > 0 ? 1 : 0)) -
+            EditorGUIUtility.standardVerticalSpacing;
 
         public override void OnGUI(Rect position, SerializedProperty property, GUIContent label)
         {

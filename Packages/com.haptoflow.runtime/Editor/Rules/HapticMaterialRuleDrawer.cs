@@ -40,7 +40,7 @@ namespace HaptoFlow.Editor
 
         public override void OnGUI(Rect position, SerializedProperty property, GUIContent label)
         {
-            // Decided before it is changed: nothing is drawn that was not laid out.
+            // Read before any field is drawn, so that layout and drawing show the same fields.
             MaterialRuleSubject subject = SubjectOf(property);
             var row = new Rect(position.x, position.y, position.width, EditorGUIUtility.singleLineHeight);
             EditorGUI.LabelField(row, Title(property), EditorStyles.boldLabel);

@@ -9,7 +9,7 @@ namespace HaptoFlow.EditorTests
 {
     /// <summary>The reasons for a collider's material in edit mode, in the overlay and in the Inspector of a map.
     /// </summary>
-    public sealed class WhyTests : EditorTest
+    public sealed class MaterialReasonTests : EditorTest
     {
         private HapticMaterialMap map = null!;
 

@@ -4,7 +4,7 @@ using UnityEngine;
 namespace HaptoFlow.Samples.Workshop
 {
     /// <summary>A line of text that says which rule assigns the material that the pen touches.</summary>
-    public sealed class WhyBoard : MonoBehaviour
+    public sealed class RuleBoard : MonoBehaviour
     {
         private HapticStylus stylus = null!;
         private TextMesh line = null!;
@@ -15,11 +15,11 @@ namespace HaptoFlow.Samples.Workshop
         public string Text => line.text;
 
         /// <summary>Creates a board at a place of the scene.</summary>
-        public static WhyBoard Create(HapticStylus stylus, Vector3 position, Quaternion rotation)
+        public static RuleBoard Create(HapticStylus stylus, Vector3 position, Quaternion rotation)
         {
             TextMesh line = SceneObjects.AddText("", position, rotation);
-            line.gameObject.name = "Why Board";
-            var board = line.gameObject.AddComponent<WhyBoard>();
+            line.gameObject.name = "Rule Board";
+            var board = line.gameObject.AddComponent<RuleBoard>();
             board.stylus = stylus;
             board.line = line;
             return board;
