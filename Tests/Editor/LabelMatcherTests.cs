@@ -70,7 +70,7 @@ namespace HaptoFlow.EditorTests
                 .Where(label => !Names.TryFind(label, out _)).ToArray();
             Assert.That(strangers, Is.Empty);
             string[] shadowed = LabelWords.All.Keys.Where(word => Names.TryFind(word, out _)).ToArray();
-            Assert.That(shadowed, Is.Empty, "labels are no words for others");
+            Assert.That(shadowed, Is.Empty, "the name of a label is no synonym for another one");
         }
     }
 }

@@ -30,7 +30,7 @@ namespace HaptoFlow.EditorTests
             Assert.That(All<HapticSurface>().Single().Material.Label, Is.EqualTo("wood"));
             Assert.That(All<MousePen>().Single().Stylus, Is.SameAs(All<HapticStylus>().Single()));
             Assert.That(All<HapticOutput>(), Has.Length.EqualTo(1));
-            Assert.That(camera.transform.position.magnitude, Is.LessThan(1f), "near enough to see 30 cm");
+            Assert.That(camera.transform.position.magnitude, Is.LessThan(1f), "the camera is near enough to see 30 cm");
             Undo.PerformUndo();
             Assert.That(All<HapticSurface>(), Is.Empty);
             Assert.That(All<HapticStylus>(), Is.Empty);

@@ -92,7 +92,7 @@ namespace HaptoFlow.EditorTests
             Draw(table, door);
             Assert.That(table.Material.Strength, Is.EqualTo(0.5f));
             Assert.That(door.Material.Strength, Is.EqualTo(0.5f));
-            Assert.That(door.Material.Label, Is.EqualTo("metal"), "what was not entered stays");
+            Assert.That(door.Material.Label, Is.EqualTo("metal"), "fields without an entry keep their values");
         }
 
         [Test]

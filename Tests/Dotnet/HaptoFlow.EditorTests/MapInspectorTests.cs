@@ -77,7 +77,7 @@ namespace HaptoFlow.EditorShimTests
                 Throws.InvalidOperationException.With.Message.Contains("Read/Write"));
             Assert.That(mask.IsBaked, Is.False);
             Assert.That(InspectorTests.Draw(mask).Where(item => item.Kind == DrawnKind.Button), Is.Empty,
-                "no importer made it");
+                "it was not imported");
             var importer = new TextureImporter();
             AssetDatabase.AddImported(Folder + "/Paint.png", mask.Texture, importer);
             EditorScreen.Press("Enable Read/Write");

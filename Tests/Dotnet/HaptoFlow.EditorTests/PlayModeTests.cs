@@ -29,7 +29,8 @@ namespace HaptoFlow.EditorTests
                 Assert.That(HaptoFlowSettings.Active, Is.SameAs(settings));
                 HaptoFlowSettings.Active = ScriptableObject.CreateInstance<HaptoFlowSettings>();
                 EditorSession.Stop();
-                Assert.That(HaptoFlowSettings.Active, Is.SameAs(settings), "what a script set was for that play");
+                Assert.That(HaptoFlowSettings.Active, Is.SameAs(settings),
+                    "the settings of a script apply to one play mode only");
             }
         }
 
@@ -51,7 +52,7 @@ namespace HaptoFlow.EditorTests
             Assert.That(HaptoFlowSettings.Active.Model, Is.SameAs(Model()));
             World.Frames(3);
             Assert.That(LogLines("built-in"), Has.Length.EqualTo(1));
-            Assert.That(AssetDatabase.FindAssets("t:HaptoFlowSettings"), Is.Empty, "nothing is made behind one's back");
+            Assert.That(AssetDatabase.FindAssets("t:HaptoFlowSettings"), Is.Empty, "play mode creates no asset");
         }
 
         [Test]
@@ -117,7 +118,7 @@ namespace HaptoFlow.EditorTests
         {
             HapticStylus stylus = PlayTouching(out HapticOutput output);
             string[] labels = InspectorTests.Draw(stylus).Select(item => item.Label).ToArray();
-            Assert.That(labels, Has.Member("Impact").And.Member("Edge"), "the surface asks for all of its effects");
+            Assert.That(labels, Has.Member("Impact").And.Member("Edge"), "the surface uses all effects");
             Assert.That(labels, Has.None.EqualTo("Delay").And.None.EqualTo("Exposure Guard"));
             output.Processing.ExposureGuard = true;
             output.ApplyProcessing();

@@ -18,7 +18,7 @@ namespace HaptoFlow.EditorTests
             Assert.That(page.settingsPath, Is.EqualTo("Project/HaptoFlow"));
             Assert.That(page.scope, Is.EqualTo(SettingsScope.Project));
             EditorScreen.Draw(() => page.OnGUI(""));
-            Assert.That(AssetDatabase.FindAssets("t:HaptoFlowSettings"), Is.Empty, "looking makes nothing");
+            Assert.That(AssetDatabase.FindAssets("t:HaptoFlowSettings"), Is.Empty, "drawing the page creates no settings");
             EditorScreen.Press("Create Settings");
             EditorScreen.Draw(() => page.OnGUI(""));
             IReadOnlyList<Drawn> drawn = EditorScreen.Draw(() => page.OnGUI(""));

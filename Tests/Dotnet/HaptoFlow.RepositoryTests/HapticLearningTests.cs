@@ -194,7 +194,7 @@ namespace HaptoFlow.RepositoryTests
         {
             Recording recording = Doormat();
             using HapticLearning first = Start(recording);
-            Assert.That(first.IsCompleted, Is.False, "it goes on after Start returned");
+            Assert.That(first.IsCompleted, Is.False, "the learning continues after Start has returned");
             first.Cancel();
         }
     }

@@ -134,7 +134,7 @@ namespace HaptoFlow.RepositoryTests
             Recording recording = Read("a.csv");
             Assert.That(recording.VelocityAt(500), Is.EqualTo((recording.VelocityAt(0).X, 0.0)));
             Assert.That(recording.VelocityAt(500).X, Is.EqualTo(0.08).Within(1e-6));
-            Assert.That(recording.KnowsMotion, Is.False, "nobody said the force");
+            Assert.That(recording.KnowsMotion, Is.False, "the force is unknown");
             Assert.That(recording.With(null, 2.0).KnowsMotion, Is.True);
         }
 

@@ -109,7 +109,7 @@ namespace HaptoFlow.SampleTests
                 StudySession session = study.Session!;
                 recorder.Begin();
                 participant.Until(() => session.Trial!.Trial == trial && !output.Muted);
-                Assert.That(recorder.Tones(), Is.Empty, "on its way to the marker the pen feels nothing");
+                Assert.That(recorder.Tones(), Is.Empty, "the output is muted on the way to the marker");
                 recorder.Begin();
                 double level = session.Trial!.DelayMilliseconds!.Value;
                 participant.Until(() => session.Phase == StudyPhase.Question);

@@ -50,7 +50,7 @@ namespace HaptoFlow.SampleTests
             GraphicsSettings.defaultRenderPipeline = pipeline;
             OpenTracing(null);
             Assert.That(Renderers().Select(each => each.sharedMaterial!.shader), Is.All.SameAs(lit));
-            Assert.That(pipeline.Material.color, Is.EqualTo(Color.white), "the pipeline's own stays as it is");
+            Assert.That(pipeline.Material.color, Is.EqualTo(Color.white), "the pipeline's own material does not change");
         }
 
         [Test]

@@ -136,7 +136,7 @@ namespace HaptoFlow.ShimTests
             Assert.That(stylus.TryGetStatistics(out _), Is.True);
             OVRInput.Connected = OVRInput.Controller.RTouch;
             World.Frames(80);
-            Assert.That(OVRInput.Waves, Is.Not.Empty, "a device that comes later is taken all the same");
+            Assert.That(OVRInput.Waves, Is.Not.Empty, "a device that connects later is used");
         }
 
         [Test]
@@ -174,7 +174,7 @@ namespace HaptoFlow.ShimTests
             World.Frames(72);
             Assert.That(OVRPlugin.Pulses.Count, Is.GreaterThan(60));
             Assert.That(OVRPlugin.Pulses.All(each => each.Hand == OVRPlugin.Hand.HandRight));
-            Assert.That(OVRInput.Waves, Is.Empty, "nothing says that an MX Ink plays waves");
+            Assert.That(OVRInput.Waves, Is.Empty, "MX Ink does not report that it plays waves");
         }
 
         [Test]
@@ -190,7 +190,7 @@ namespace HaptoFlow.ShimTests
             World.Frames(5);
             OVRPlugin.hasInputFocus = true;
             World.Frames(72);
-            Assert.That(OVRPlugin.Pulses, Is.Not.Empty, "the session came back");
+            Assert.That(OVRPlugin.Pulses, Is.Not.Empty, "the session has been restarted");
         }
 
         [Test]
@@ -293,7 +293,7 @@ namespace HaptoFlow.ShimTests
             }
             World.Frames(1);
             int length = OVRInput.Waves[^1].Samples.Length;
-            Assert.That(length, Is.InRange(1, 7), "a fade of 3 ms replaces what was on its way");
+            Assert.That(length, Is.InRange(1, 7), "a fade of 3 ms replaces the queued samples");
             Assert.That(OVRInput.Waves[^1].Append, Is.False);
             Assert.That(OVRInput.Waves[^1].Samples[^1], Is.Zero);
             int before = OVRInput.Waves.Count;
@@ -438,7 +438,7 @@ namespace HaptoFlow.ShimTests
             All<MotorOutput>().Single().enabled = true;
             World.Frames(72);
             Assert.That(stylus.IsTouching, Is.True);
-            Assert.That(XrHand.Right.Impulses, Is.Empty, "the landing was two seconds ago");
+            Assert.That(XrHand.Right.Impulses, Is.Empty, "the touch-down was two seconds ago");
         }
 
         [Test]

@@ -53,7 +53,7 @@ namespace HaptoFlow.ShimTests
         public void ABrightToneRaisesHighFrequenciesAndNoToneRunsNothing()
         {
             Func<double, double> plain = Stroke(material => material.Label = "sandpaper");
-            Assert.That(ToneRuns, Is.Zero, "nobody asked for a tone");
+            Assert.That(ToneRuns, Is.Zero, "no tone is set");
             EndScene();
             BeginScene();
             Func<double, double> bright = Stroke(material =>

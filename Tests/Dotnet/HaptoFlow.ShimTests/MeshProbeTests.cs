@@ -100,8 +100,8 @@ namespace HaptoFlow.ShimTests
             Assert.That(Vector3.Dot(above.Contact.Normal, Vector3.up), Is.EqualTo(1f).Within(1e-4f));
             Assert.That(below.IsTouching, Is.False);
             Assert.That(rising.IsTouching && Vector3.Dot(rising.Contact.Normal, Vector3.up) < 0f, Is.False,
-                "a back must not push downwards");
-            Assert.That(Physics.queriesHitBackfaces, Is.EqualTo(hitsBacks), "the project's setting is left as it was");
+                "a back face must not push downwards");
+            Assert.That(Physics.queriesHitBackfaces, Is.EqualTo(hitsBacks), "the project's setting does not change");
         }
 
         /// <summary>Creates a closed box of 20 cm whose top is the plane y = 0.</summary>

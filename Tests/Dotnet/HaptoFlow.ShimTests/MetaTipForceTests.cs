@@ -54,7 +54,7 @@ namespace HaptoFlow.ShimTests
             World.Frames(10);
             OVRPlugin.Tip = 0.4f;
             World.Frames(10);
-            Assert.That(source.TryRead(out _), Is.False, "nothing has changed that it could know of");
+            Assert.That(source.TryRead(out _), Is.False, "no event has reported the change");
             OVRPlugin.hasInputFocus = false;
             World.Frames(2);
             OVRPlugin.hasInputFocus = true;

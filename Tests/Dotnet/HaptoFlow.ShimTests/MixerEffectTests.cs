@@ -22,7 +22,7 @@ namespace HaptoFlow.ShimTests
             HapticStylus other = StylusAlong(_ => new Vector3(0f, 1f, 0f));
             HapticStylus stylus = StylusAlong(seconds => new Vector3(0.05f * (float)seconds, 0.001f, 0f));
             World.Frames(30);
-            Assert.That(mixer.Exposed["Pen"], Is.EqualTo(1f), "the second voice's place");
+            Assert.That(mixer.Exposed["Pen"], Is.EqualTo(1f), "the slot of the second voice");
             Assert.That(tap.Peak(), Is.Zero);
             Assert.That(stylus.TryGetStatistics(out VoiceStatistics statistics), Is.True);
             Assert.That(statistics.RenderedFrames, Is.Zero);

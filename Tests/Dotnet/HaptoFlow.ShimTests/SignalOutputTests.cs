@@ -31,7 +31,7 @@ namespace HaptoFlow.ShimTests
             float[] samples = RecordedSamples();
             Assert.That(samples.Max(), Is.EqualTo(20.0 / HapticEngineOptions.DefaultFullScaleMps2).Within(1e-3));
             double rms = Math.Sqrt(samples.Average(sample => (double)sample * sample));
-            Assert.That(rms, Is.EqualTo(samples.Max() / Math.Sqrt(2.0)).Within(1e-3), "a sine, unbroken");
+            Assert.That(rms, Is.EqualTo(samples.Max() / Math.Sqrt(2.0)).Within(1e-3), "a sine without interruption");
             Assert.That(stylus.TryGetStatistics(out VoiceStatistics statistics), Is.True);
             Assert.That(statistics.Inferences, Is.Zero);
             Assert.That(stylus.TryGetSignalStatistics(out SignalStatistics signal), Is.True);

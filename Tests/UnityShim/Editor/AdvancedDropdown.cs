@@ -25,8 +25,6 @@ namespace UnityEditor.IMGUI.Controls
 
         public void AddChild(AdvancedDropdownItem child) => below.Add(child);
 
-        public void AddSeparator() => below.Add(new AdvancedDropdownItem("SEPARATOR"));
-
         public virtual int CompareTo(object o) =>
             string.CompareOrdinal(name, ((AdvancedDropdownItem)o).name);
     }

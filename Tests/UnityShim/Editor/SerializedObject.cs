@@ -32,10 +32,6 @@ namespace UnityEditor
 
         public Object[] targetObjects => objects;
 
-        public bool isEditingMultipleObjects => objects.Length > 1;
-
-        public bool hasModifiedProperties => changed.Count > 0;
-
         public void Dispose()
         {
         }

@@ -91,12 +91,6 @@ namespace UnityEditor
             set => Change(Enum.GetValues(FieldType).GetValue(value));
         }
 
-        public Vector3 vector3Value
-        {
-            get => (Vector3)Boxed!;
-            set => Change(value);
-        }
-
         public Object? objectReferenceValue
         {
             get => (Object?)Boxed;

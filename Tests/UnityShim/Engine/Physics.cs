@@ -8,7 +8,6 @@ namespace UnityEngine
         internal BodyState State = null!;
 
         public bool isKinematic { get; set; }
-        public bool useGravity { get; set; }
         public RigidbodyInterpolation interpolation { get; set; }
 
         public Vector3 position
@@ -25,8 +24,6 @@ namespace UnityEngine
 
         /// <summary>Moves the body in the next physics step.</summary>
         public void MovePosition(Vector3 position) => State.MoveTo(position);
-
-        public void MoveRotation(Quaternion rot) => State.TurnTo(rot);
     }
 
     public class ArticulationBody : Behaviour

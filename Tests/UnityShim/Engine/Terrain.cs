@@ -31,10 +31,6 @@ namespace UnityEngine
             set => weights = FirstLayerOnly(value, layers.Length);
         }
 
-        public int alphamapWidth => alphamapResolution;
-
-        public int alphamapHeight => alphamapResolution;
-
         public int alphamapLayers => layers.Length;
 
         /// <summary>Reading allocates, as in Unity.</summary>

@@ -85,6 +85,5 @@ namespace UnityEngine
         }
 
         public Vector3 TransformDirection(Vector3 direction) => rotation * direction;
-        public Vector3 InverseTransformDirection(Vector3 direction) => Quaternion.Inverse(rotation) * direction;
     }
 }

@@ -7,12 +7,11 @@ namespace UnityShim
     internal sealed class BodyState
     {
         private readonly Rigidbody body;
-        private Vector3 before;
-        private Quaternion turnedBefore;
-        private Vector3 shown;
-        private Quaternion turnedShown;
+        private Vector3 previousPosition;
+        private Quaternion previousRotation;
+        private Vector3 shownPosition;
+        private Quaternion shownRotation;
         private Vector3? goal;
-        private Quaternion? turnedGoal;
 
         public BodyState(Rigidbody body)
         {
@@ -38,19 +37,17 @@ namespace UnityShim
 
         public void MoveTo(Vector3 position) => goal = position;
 
-        public void TurnTo(Quaternion rotation) => turnedGoal = rotation;
-
         public void Place(Vector3 position, Quaternion rotation)
         {
-            Position = before = shown = position;
-            Rotation = turnedBefore = turnedShown = rotation;
+            Position = previousPosition = shownPosition = position;
+            Rotation = previousRotation = shownRotation = rotation;
             body.transform.SetPositionAndRotation(position, rotation);
         }
 
         /// <summary>Moves the body to a transform that a script has moved.</summary>
         public void TakeTransform()
         {
-            if (!body.transform.position.Equals(shown) || !body.transform.rotation.Equals(turnedShown))
+            if (!body.transform.position.Equals(shownPosition) || !body.transform.rotation.Equals(shownRotation))
             {
                 Place(body.transform.position, body.transform.rotation);
             }
@@ -59,12 +56,10 @@ namespace UnityShim
         public void Step()
         {
             TakeTransform();
-            before = Position;
-            turnedBefore = Rotation;
+            previousPosition = Position;
+            previousRotation = Rotation;
             Position = goal ?? Position;
-            Rotation = turnedGoal ?? Rotation;
             goal = null;
-            turnedGoal = null;
         }
 
         /// <summary>An interpolated body is shown between its poses of the last two steps, one step late.</summary>
@@ -72,10 +67,10 @@ namespace UnityShim
         {
             bool interpolated = body.interpolation == RigidbodyInterpolation.Interpolate;
             body.transform.SetPositionAndRotation(
-                interpolated ? Vector3.Lerp(before, Position, share) : Position,
-                interpolated ? Quaternion.Slerp(turnedBefore, Rotation, share) : Rotation);
-            shown = body.transform.position;
-            turnedShown = body.transform.rotation;
+                interpolated ? Vector3.Lerp(previousPosition, Position, share) : Position,
+                interpolated ? Quaternion.Slerp(previousRotation, Rotation, share) : Rotation);
+            shownPosition = body.transform.position;
+            shownRotation = body.transform.rotation;
         }
     }
 }

@@ -143,7 +143,7 @@ namespace HaptoFlow.RepositoryTests.Outputs
             }
             else
             {
-                Require(!hasEnded, "there is no stream to go on with");
+                Require(!hasEnded, "there is no stream to continue");
             }
             foreach (ParametricPoint point in amplitudes)
             {

@@ -88,7 +88,7 @@ namespace HaptoFlow.RepositoryTests.Outputs
             float[] gap = Between(device, begins, now);
             int last = Array.FindLastIndex(gap, sample => sample != 0f);
             Assert.That(last, Is.LessThan(0.03 * 2000.0));
-            Assert.That(Math.Abs(gap[last]), Is.LessThan(0.17), "of an amplitude of 0.5");
+            Assert.That(Math.Abs(gap[last]), Is.LessThan(0.17), "for an amplitude of 0.5");
             Assert.That(Math.Abs(Between(device, now - 0.0001, now + 0.0006).Last()), Is.LessThan(0.15));
         }
 
@@ -176,7 +176,7 @@ namespace HaptoFlow.RepositoryTests.Outputs
             now = Play(device, queue, now, 0.5);
             long slept = wave.Position;
             now = Play(device, queue, now, 1.0);
-            Assert.That(wave.Position, Is.EqualTo(slept), "without a device the wave's clock rests");
+            Assert.That(wave.Position, Is.EqualTo(slept), "without a device the clock of the wave stops");
             Assert.That(queue.Statistics.RateHz, Is.Zero);
             device.IsThere = true;
             device.RateHz = 320.0;

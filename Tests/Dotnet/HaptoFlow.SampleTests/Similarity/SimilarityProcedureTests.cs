@@ -248,7 +248,7 @@ namespace HaptoFlow.SampleTests.Similarity
             Trace(scene.Real.Frame, 4, 0.02f);
             Assert.That(Procedure.Stage, Is.EqualTo(TrialStage.RealEdges), "edges in the air are not traced");
             TraceVirtual();
-            Assert.That(Procedure.Stage, Is.EqualTo(TrialStage.RealEdges), "the other object's edges are others");
+            Assert.That(Procedure.Stage, Is.EqualTo(TrialStage.RealEdges), "the edges of the other object do not count");
             Answer(4);
             Assert.That(scene.Panel.IsOpen, Is.False);
             TraceReal();
