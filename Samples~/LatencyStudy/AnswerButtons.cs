@@ -6,22 +6,23 @@ using UnityEngine;
 
 namespace HaptoFlow.Samples.LatencyStudy
 {
-    /// <summary>Yes and no: on the controller in the hand without the pen, and on the keyboard.</summary>
+    /// <summary>The buttons for yes and no, on the controller in the hand without the pen and on the keyboard. Without
+    /// the Input System, only the keyboard answers.</summary>
     public sealed class AnswerButtons : IDisposable
     {
 #if HAPTOFLOW_INPUT_SYSTEM && ENABLE_INPUT_SYSTEM
         private readonly ButtonPress yes;
         private readonly ButtonPress no;
 
-        /// <param name="penHand">The other hand answers.</param>
+        /// <param name="penHand">The hand that holds the pen; the other one answers.</param>
         public AnswerButtons(PenHand penHand)
         {
-            string controller = "<XRController>{" + (penHand == PenHand.Right ? "Left" : "Right") + "Hand}/";
+            string controller = ButtonPress.ControllerOppositeTo(penHand);
             yes = new ButtonPress("<Keyboard>/y", controller + "triggerPressed");
             no = new ButtonPress("<Keyboard>/n", controller + "gripPressed");
         }
 
-        /// <summary>An answer that was given in this frame; null without one, or with both at once. Once a frame.
+        /// <summary>The answer given in this frame; null without one, or with both at once. Call it once a frame.
         /// </summary>
         public bool? Take()
         {
@@ -30,19 +31,19 @@ namespace HaptoFlow.Samples.LatencyStudy
             return isYes == isNo ? (bool?)null : isYes;
         }
 
-        /// <summary>Lets go of the buttons.</summary>
+        /// <summary>Releases the buttons.</summary>
         public void Dispose()
         {
             yes.Dispose();
             no.Dispose();
         }
 #else
-        /// <param name="penHand">Without the Input System only the keyboard answers.</param>
+        /// <param name="penHand">Not used without the Input System.</param>
         public AnswerButtons(PenHand penHand)
         {
         }
 
-        /// <summary>An answer that was given in this frame; null without one, or with both at once. Once a frame.
+        /// <summary>The answer given in this frame; null without one, or with both at once. Call it once a frame.
         /// </summary>
         public bool? Take()
         {
@@ -55,7 +56,7 @@ namespace HaptoFlow.Samples.LatencyStudy
 #endif
         }
 
-        /// <summary>Nothing is held.</summary>
+        /// <summary>Does nothing without the Input System.</summary>
         public void Dispose()
         {
         }

@@ -6,14 +6,16 @@ using UnityEngine;
 
 namespace HaptoFlow.Samples.LatencyStudy
 {
-    /// <summary>Leads through the study: refuses levels out of reach, sets each trial's delay, waits for the pen, runs
-    /// the marker, asks, and has every answer written before it goes on.</summary>
+    /// <summary>The procedure of the study: refuses delays that the set-up cannot reach, sets each trial's delay, waits
+    /// for the pen, runs the marker, asks, and waits until every answer is on disk.</summary>
     [DefaultExecutionOrder(900)]
     public sealed class LatencyStudy : MonoBehaviour
     {
+        // The marker starts when the pen has rested this near to it for this long.
         private const float NearMetres = 0.03f;
         private const double SettledSeconds = 0.5;
-        private const int FramesToMeasure = 64;
+
+        // The share of the marker's distance that the pen has to cover, so that the trial counts.
         private const double FollowedShare = 0.5;
         private const double SecondsBetweenChecks = 0.25;
 
@@ -29,8 +31,8 @@ namespace HaptoFlow.Samples.LatencyStudy
         private OperatorView view = null!;
         private AnswerButtons answers = null!;
         private StudySession? session;
-        private TrialContact? tracing;
-        private TrialRecord? asked;
+        private TrialContact? tracingContact;
+        private TrialRecord? answeredRecord;
         private SystemDelay delay;
         private double nearSinceSeconds = double.NaN;
         private double nextCheckSeconds;
@@ -38,35 +40,34 @@ namespace HaptoFlow.Samples.LatencyStudy
         /// <summary>Null until the operator has chosen the participant.</summary>
         public StudySession? Session => session;
 
-        /// <summary>The marker that the pen follows.</summary>
+        /// <summary>The marker that the pen has to follow.</summary>
         public Marker Marker => marker;
 
-        /// <summary>What the participant reads.</summary>
+        /// <summary>The panel that the participant reads.</summary>
         public QuestionPanel Panel => panel;
 
-        /// <summary>What the operator sees.</summary>
+        /// <summary>The view that the operator sees.</summary>
         public OperatorView View => view;
 
-        /// <summary>The present trial's delay without the artificial part.</summary>
+        /// <summary>The delay of the system in the current trial, without the artificial part.</summary>
         public SystemDelay Delay => delay;
 
-        /// <summary>The system delay from the pose interval and the audio block as they are now, and the device delay of
-        /// the settings. Allocates nothing.</summary>
-        /// <exception cref="StudyException">The device delay of the settings is no time.</exception>
+        /// <summary>The delay of the system: the current pose interval and audio block, and the device delay of the
+        /// settings. Allocates nothing.</summary>
+        /// <exception cref="StudyException">The device delay of the settings is negative or not finite.</exception>
         public SystemDelay MeasureDelay() => new SystemDelay(
             poses.MedianMilliseconds, 0.0, StudyPlayer.BlockMilliseconds, settings.DeviceDelayMilliseconds);
 
-        /// <summary>Begins or resumes a participant's session, or tells the operator why not.</summary>
-        /// <param name="participant">From 1.</param>
+        /// <summary>Begins or resumes a participant's session, or shows the operator why it cannot.</summary>
+        /// <param name="participant">The number of the participant, from 1.</param>
         public void Begin(int participant)
         {
             try
             {
-                Refuse();
+                CheckIsReady();
                 delay = MeasureDelay();
                 delay.CheckReaches(settings.LevelsMilliseconds);
-                string folder = settings.Folder.Length > 0 ? settings.Folder : StudyPlayer.DefaultFolder;
-                StudyLog log = StudyLog.Open(folder, Describe(participant));
+                StudyLog log = StudyLog.Open(settings.Folder, Describe(participant));
                 if (session != null)
                 {
                     session.Changed -= OnChanged;
@@ -106,17 +107,14 @@ namespace HaptoFlow.Samples.LatencyStudy
         private StudyDescription Describe(int participant)
         {
             StudyPlan plan = StudyPlan.Latency(participant, settings.Seed, settings.LevelsMilliseconds);
-            StudyEnvironment environment = StudyPlayer.Environment(settings.Headset);
-            environment.DeviceDelaySource = settings.DeviceDelaySource;
-            environment.DeviceDelayNote = settings.DeviceDelayNote;
             return new StudyDescription(plan, settings.Fields(), delay)
             {
                 IsSimulated = settings.Simulated,
-                Environment = environment,
+                Environment = settings.Environment(),
             };
         }
 
-        private void Refuse()
+        private void CheckIsReady()
         {
             settings.Check();
             string? problem = Haptics.Problem ?? noise.Problem;
@@ -124,9 +122,10 @@ namespace HaptoFlow.Samples.LatencyStudy
             {
                 throw new StudyException(problem);
             }
-            if (!Haptics.IsReady || poses.Count < FramesToMeasure)
+            if (!Haptics.IsReady || !poses.IsMeasured)
             {
-                throw new StudyException("the model is being loaded and frames are being measured; press Begin again");
+                throw new StudyException("the model is still being loaded or the frame rate is still being measured; " +
+                    "wait a moment and press Begin again");
             }
         }
 
@@ -139,14 +138,14 @@ namespace HaptoFlow.Samples.LatencyStudy
                 return;
             }
             session.Advance(Time.realtimeSinceStartupAsDouble);
-            CheckAgain();
+            CheckAgainWhileStopped();
             if (session.Phase == StudyPhase.Task)
             {
                 Trace(session);
             }
             else if (session.Phase == StudyPhase.Question && answer.HasValue)
             {
-                session.Answer(asked!.Set("answer", answer.Value ? "yes" : "no"));
+                session.Answer(answeredRecord!.Set("answer", answer.Value ? "yes" : "no"));
             }
         }
 
@@ -187,7 +186,7 @@ namespace HaptoFlow.Samples.LatencyStudy
 
         private void BeginTrial(StudySession begun)
         {
-            AwaitThePen();
+            WaitForThePen();
             delay = MeasureDelay();
             double planned = begun.Trial!.DelayMilliseconds!.Value;
             if (!TryReach(planned))
@@ -200,7 +199,8 @@ namespace HaptoFlow.Samples.LatencyStudy
             panel.Instruct(begun.Trial);
         }
 
-        /// <summary>A frame rate that fell may have put a level out of reach that was within it at the start.</summary>
+        /// <summary>Checks the delay again: when the frame rate has fallen since the start, the set-up may be too slow
+        /// for a level that it reached then.</summary>
         private bool TryReach(double planned)
         {
             try
@@ -216,7 +216,7 @@ namespace HaptoFlow.Samples.LatencyStudy
             }
         }
 
-        private void CheckAgain()
+        private void CheckAgainWhileStopped()
         {
             double now = Time.unscaledTimeAsDouble;
             bool isStopped = session!.Phase == StudyPhase.Paused && view.Problem != null;
@@ -230,37 +230,37 @@ namespace HaptoFlow.Samples.LatencyStudy
 
         private void Trace(StudySession traced)
         {
-            if (tracing == null)
+            if (tracingContact == null)
             {
-                RunWhenThePenIsThere();
+                RunWhenThePenRestsAtTheMarker();
             }
             else if (marker.IsDone)
             {
-                double wanted = settings.Strokes * settings.MoveSeconds * settings.MarkerSpeedMmps;
-                bool hasFollowed = tracing.Starts > 0 && tracing.Stops > 0 &&
-                    tracing.PathMillimetres >= FollowedShare * wanted;
+                double expectedMillimetres = settings.Strokes * settings.MoveSeconds * settings.MarkerSpeedMmps;
+                bool hasFollowed = tracingContact.Starts > 0 && tracingContact.Stops > 0 &&
+                    tracingContact.PathMillimetres >= FollowedShare * expectedMillimetres;
                 if (hasFollowed)
                 {
-                    asked = RecordOf(traced.Trial!, tracing);
+                    answeredRecord = RecordOf(traced.Trial!, tracingContact);
                     traced.Ask();
                 }
                 else
                 {
-                    AwaitThePen();
+                    WaitForThePen();
                     panel.AskToFollow(traced.Trial!);
                 }
             }
         }
 
-        private void AwaitThePen()
+        private void WaitForThePen()
         {
-            tracing = null;
+            tracingContact = null;
             nearSinceSeconds = double.NaN;
             output.Muted = true;
             marker.Wait();
         }
 
-        private void RunWhenThePenIsThere()
+        private void RunWhenThePenRestsAtTheMarker()
         {
             double now = Time.unscaledTimeAsDouble;
             foreach ((HapticStylus stylus, TrialContact contact) in pens)
@@ -277,10 +277,10 @@ namespace HaptoFlow.Samples.LatencyStudy
                 }
                 if (now - nearSinceSeconds >= SettledSeconds)
                 {
-                    tracing = contact;
+                    tracingContact = contact;
                     contact.Begin();
                     marker.Run();
-                    // On the way to the marker nothing is felt: the marker's strokes are all that is judged.
+                    // The output is muted until here, because the participant judges only the marker's strokes.
                     output.Muted = false;
                 }
                 return;
@@ -302,7 +302,7 @@ namespace HaptoFlow.Samples.LatencyStudy
             text += "\n" + OperatorLines.OfDevice(settings);
             foreach ((HapticStylus stylus, TrialContact contact) in pens)
             {
-                if (contact == tracing && stylus.TryGetSignalStatistics(out SignalStatistics signal))
+                if (contact == tracingContact && stylus.TryGetSignalStatistics(out SignalStatistics signal))
                 {
                     text += "\n" + OperatorLines.OfPen(contact, signal);
                 }

@@ -7,115 +7,76 @@ using UnityEngine;
 
 namespace HaptoFlow.Samples.LatencyStudy
 {
-    /// <summary>Everything that a laboratory decides about the study. A session that was begun with other values cannot
-    /// be resumed with these.</summary>
+    /// <summary>Everything that a laboratory decides about the study. An interrupted session can be resumed only with
+    /// the settings that it was begun with.</summary>
     [CreateAssetMenu(menuName = "HaptoFlow/Latency Study Settings", fileName = "LatencyStudySettings")]
-    public sealed class LatencyStudySettings : ScriptableObject
+    public sealed class LatencyStudySettings : StudySettings
     {
-        private const double LongestStopSeconds = 0.2;
+        // The marker has to stop and move for longer than the longest delay, by this.
+        private const double ReserveSeconds = 0.2;
 
-        [SerializeField, Tooltip("The order of the levels follows from this number and the participant's. It is the " +
-            "same for all participants of a study.")]
-        private ulong seed = 1;
-
-        [SerializeField, Tooltip("The delays between pen and vibration, in ms, each once.")]
+        [SerializeField, Tooltip("The levels are the delays between pen and vibration, in ms. Each may be listed " +
+            "once.")]
         private double[] levelsMilliseconds = { 50, 70, 90, 110, 130, 150, 170, 190, 210, 230, 250 };
 
-        [SerializeField, Range(20f, 500f), Tooltip("The frequency of the vibration, in Hz.")]
+        [SerializeField, Range(20f, 500f), Tooltip("The vibration is a sine of this frequency, in Hz.")]
         private float toneHertz = 200f;
 
-        [SerializeField, Range(0.1f, 60f), Tooltip("The peak of the vibration, in m/s^2. Choose the level at the " +
-            "amplifier, and leave this as it is for all participants.")]
+        [SerializeField, Range(0.1f, 60f), Tooltip("The vibration has this peak, in m/s^2. Set the level at " +
+            "the amplifier, and leave this value the same for all participants.")]
         private float toneMps2 = 20f;
 
-        [SerializeField, Min(1f), Tooltip("How fast the marker moves, in mm/s.")]
+        [SerializeField, Min(1f), Tooltip("The marker moves at this speed, in mm/s.")]
         private float markerSpeedMmps = 150f;
 
-        [SerializeField, Range(20f, 100f), Tooltip("The radius of the circle on which the marker moves, in mm.")]
+        [SerializeField, Range(20f, 100f), Tooltip("The marker moves on a circle of this radius, in mm.")]
         private float markerRadiusMillimetres = 60f;
 
-        [SerializeField, Min(0.2f), Tooltip("How long the marker moves between two stops, in s.")]
+        [SerializeField, Min(0.2f), Tooltip("The marker moves for this time between two stops, in s. It has " +
+            "to be longer than the longest level by 0.2 s.")]
         private float moveSeconds = 1.5f;
 
-        [SerializeField, Min(0.2f), Tooltip("How long the marker stops, in s. It has to be longer than the longest " +
-            "delay by 0.2 s.")]
+        [SerializeField, Min(0.2f), Tooltip("The marker stops for this time, in s. It has to be longer than " +
+            "the longest level by 0.2 s.")]
         private float restSeconds = 1f;
 
-        [SerializeField, Range(1, 20), Tooltip("How often the marker sets off and stops in a trial.")]
+        [SerializeField, Range(1, 20), Tooltip("The marker sets off and stops this often in a trial.")]
         private int strokes = 3;
 
-        [SerializeField, Min(0f), Tooltip("From the audio callback to the hand, in ms: measure it as the page " +
-            "latency-study of the documentation says.")]
-        private float deviceDelayMilliseconds = 20f;
-
-        [SerializeField, Tooltip("Measured is what an oscilloscope or an accelerometer showed on this set-up. Logs " +
-            "and reports name the source.")]
-        private DeviceDelaySource deviceDelaySource = DeviceDelaySource.Estimated;
-
-        [SerializeField, Tooltip("How and when the device delay was measured, or what the estimate rests on.")]
-        private string deviceDelayNote = "assumed by the sample, not measured on this set-up";
-
-        [SerializeField, Min(0), Tooltip("The channel of the audio device that the actuator is wired to, from 0.")]
-        private int hapticChannel = 1;
-
-        [SerializeField, Tooltip("What the headphones play on the other channels.")]
-        private NoiseColour noiseColour = NoiseColour.White;
-
-        [SerializeField, Range(MaskingNoise.LowestDecibels, MaskingNoise.HighestDecibels),
-         Tooltip("The level of the noise, in dB of full scale. The actuator must not be heard.")]
-        private float noiseDecibels = -30f;
-
-        [SerializeField, Tooltip("The hand that holds the stylus. The other one answers.")]
+        [SerializeField, Tooltip("This hand holds the pen. The other hand answers.")]
         private PenHand penHand = PenHand.Right;
 
-        [SerializeField, Tooltip("The headset and how it is connected, for the log.")]
-        private string headset = "";
-
-        [SerializeField, Tooltip("Where the logs go. When it is empty, they go to the folder Studies in the player's " +
-            "persistent data.")]
-        private string folder = "";
-
-        [SerializeField, Tooltip("Nobody takes part: this is a rehearsal, and logs and reports say so.")]
-        private bool simulated;
-
-        /// <summary>The order of the levels follows from it and the participant's number.</summary>
-        public ulong Seed
-        {
-            get => seed;
-            set => seed = value;
-        }
-
-        /// <summary>Delays in all, in ms.</summary>
+        /// <summary>The delays between pen and vibration, in ms.</summary>
         public IReadOnlyList<double> LevelsMilliseconds
         {
             get => levelsMilliseconds;
             set => levelsMilliseconds = value.ToArray();
         }
 
-        /// <summary>Of the vibration, 20 to 500 Hz.</summary>
+        /// <summary>The frequency of the vibration, 20 to 500 Hz.</summary>
         public float ToneHertz => toneHertz;
 
-        /// <summary>The vibration's peak, above 0 to 60 m/s^2.</summary>
+        /// <summary>The peak of the vibration, above 0 to 60 m/s^2.</summary>
         public float ToneMps2
         {
             get => toneMps2;
             set => toneMps2 = value;
         }
 
-        /// <summary>In mm/s.</summary>
+        /// <summary>The speed of the marker, in mm/s.</summary>
         public float MarkerSpeedMmps => markerSpeedMmps;
 
-        /// <summary>Of the marker's circle.</summary>
+        /// <summary>The radius of the marker's circle, in mm.</summary>
         public float MarkerRadiusMillimetres => markerRadiusMillimetres;
 
-        /// <summary>Between two stops of the marker.</summary>
+        /// <summary>The time that the marker moves between two stops.</summary>
         public float MoveSeconds
         {
             get => moveSeconds;
             set => moveSeconds = value;
         }
 
-        /// <summary>Of a stop of the marker.</summary>
+        /// <summary>The time that the marker stops.</summary>
         public float RestSeconds
         {
             get => restSeconds;
@@ -129,57 +90,10 @@ namespace HaptoFlow.Samples.LatencyStudy
             set => strokes = value;
         }
 
-        /// <summary>From the audio callback to the hand.</summary>
-        public float DeviceDelayMilliseconds
-        {
-            get => deviceDelayMilliseconds;
-            set => deviceDelayMilliseconds = value;
-        }
-
-        /// <summary>Where that is known from.</summary>
-        public DeviceDelaySource DeviceDelaySource
-        {
-            get => deviceDelaySource;
-            set => deviceDelaySource = value;
-        }
-
-        /// <summary>How it was measured, or what the estimate rests on.</summary>
-        public string DeviceDelayNote => deviceDelayNote;
-
-        /// <summary>Of the audio device, from 0.</summary>
-        public int HapticChannel
-        {
-            get => hapticChannel;
-            set => hapticChannel = value;
-        }
-
-        /// <summary>What the headphones play.</summary>
-        public NoiseColour NoiseColour => noiseColour;
-
-        /// <summary>In dB of full scale.</summary>
-        public float NoiseDecibels => noiseDecibels;
-
-        /// <summary>The hand that holds the stylus.</summary>
+        /// <summary>The hand that holds the pen.</summary>
         public PenHand PenHand => penHand;
 
-        /// <summary>For the log.</summary>
-        public string Headset => headset;
-
-        /// <summary>Where the logs go; empty for the default.</summary>
-        public string Folder
-        {
-            get => folder;
-            set => folder = value;
-        }
-
-        /// <summary>Nobody takes part.</summary>
-        public bool Simulated
-        {
-            get => simulated;
-            set => simulated = value;
-        }
-
-        /// <summary>What a log says of them.</summary>
+        /// <summary>The settings as the log holds them.</summary>
         public StudyFields Fields() => new StudyFields
         {
             { "levels_ms", levelsMilliseconds },
@@ -198,21 +112,16 @@ namespace HaptoFlow.Samples.LatencyStudy
                     { "rests_mmps", 1000.0 * TrialContact.RestsMps },
                 }
             },
-            { "haptic_channel", hapticChannel },
-            {
-                "noise", new StudyFields
-                {
-                    { "colour", noiseColour == NoiseColour.Pink ? "pink" : "white" }, { "level_db", noiseDecibels },
-                }
-            },
+            { "haptic_channel", HapticChannel },
+            { "noise", NoiseFields() },
             { "pen_hand", penHand == PenHand.Left ? "left" : "right" },
         };
 
-        /// <summary>Refuses a stop of the marker that ends before the longest delay can be noticed.</summary>
+        /// <summary>Refuses a marker that stops or moves for too short a time to notice the longest delay.</summary>
         /// <exception cref="StudyException">The message names the key.</exception>
         public void Check()
         {
-            double needed = levelsMilliseconds.Length > 0 ? 0.001 * levelsMilliseconds.Max() + LongestStopSeconds : 0.0;
+            double needed = levelsMilliseconds.Length > 0 ? 0.001 * levelsMilliseconds.Max() + ReserveSeconds : 0.0;
             if (restSeconds < needed || moveSeconds < needed)
             {
                 throw new StudyException(string.Format(CultureInfo.InvariantCulture,

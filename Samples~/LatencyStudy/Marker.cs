@@ -4,85 +4,86 @@ using UnityEngine;
 
 namespace HaptoFlow.Samples.LatencyStudy
 {
-    /// <summary>The green marker that the pen follows: on a circle, where no corner slows a hand down, with stops.
-    /// </summary>
+    /// <summary>The green marker that the pen follows. It moves on a circle, because a corner would slow the hand down,
+    /// and stops between strokes.</summary>
     public sealed class Marker : MonoBehaviour
     {
         private const float SizeMetres = 0.012f;
 
         private LatencyStudySettings settings = null!;
         private Vector3 centre;
-        private double beganSeconds;
+        private double startSeconds;
         private bool isRunning;
 
-        /// <summary>It is on its way; false at a stop.</summary>
+        /// <summary>Whether the marker moves; false at a stop.</summary>
         public bool IsMoving { get; private set; }
 
-        /// <summary>Every stroke and the stop behind the last are over.</summary>
+        /// <summary>Whether every stroke and the stop after the last one are over.</summary>
         public bool IsDone { get; private set; }
 
-        /// <param name="centre">Of the circle, on the surface.</param>
+        /// <summary>Creates a marker at rest.</summary>
+        /// <param name="centre">The centre of the circle, on the surface.</param>
         public static Marker Create(LatencyStudySettings settings, Vector3 centre)
         {
-            GameObject made = Build.Solid("Marker", PrimitiveType.Sphere, centre,
+            GameObject mark = SceneObjects.AddMark("Marker", PrimitiveType.Sphere, centre,
                 new Vector3(SizeMetres, 0.2f * SizeMetres, SizeMetres), new Color(0.1f, 0.9f, 0.2f));
-            // The pen goes through it.
-            made.GetComponent<Collider>().enabled = false;
-            var marker = made.AddComponent<Marker>();
+            var marker = mark.AddComponent<Marker>();
             marker.settings = settings;
             marker.centre = centre;
             marker.Wait();
             return marker;
         }
 
-        /// <summary>At the beginning of its path, at rest.</summary>
+        /// <summary>Puts the marker at the beginning of its path, at rest.</summary>
         public void Wait()
         {
             isRunning = false;
             IsMoving = false;
             IsDone = false;
-            transform.position = At(0.0);
+            transform.position = PositionAt(0.0);
         }
 
-        /// <summary>Begins with a stop, then moves and stops as often as the settings say.</summary>
+        /// <summary>Starts with a stop, then moves and stops as often as the settings say.</summary>
         public void Run()
         {
             Wait();
             isRunning = true;
-            beganSeconds = Time.unscaledTimeAsDouble;
+            startSeconds = Time.unscaledTimeAsDouble;
         }
 
-        /// <summary>Way on the path since it began, in metres.</summary>
-        /// <param name="seconds">Since it began.</param>
-        /// <param name="moves">It is on its way then.</param>
-        /// <param name="isDone">All is over then.</param>
-        public double WayAt(double seconds, out bool moves, out bool isDone)
+        /// <summary>The distance travelled since the start, in metres.</summary>
+        /// <param name="seconds">The time since the start.</param>
+        /// <param name="moves">Whether the marker moves at that time.</param>
+        /// <param name="isDone">Whether every stroke and the stop after the last one are over at that time.</param>
+        public double DistanceAt(double seconds, out bool moves, out bool isDone)
         {
             double cycle = settings.RestSeconds + settings.MoveSeconds;
-            double whole = Math.Min(Math.Max(0.0, Math.Floor(seconds / cycle)), settings.Strokes);
-            double sinceRest = seconds - whole * cycle - settings.RestSeconds;
+            double strokesDone = Math.Min(Math.Max(0.0, Math.Floor(seconds / cycle)), settings.Strokes);
+            double sinceRest = seconds - strokesDone * cycle - settings.RestSeconds;
             double moving = Math.Min(Math.Max(0.0, sinceRest), settings.MoveSeconds);
-            isDone = whole >= settings.Strokes && seconds >= whole * cycle + settings.RestSeconds;
-            moves = whole < settings.Strokes && moving > 0.0 && moving < settings.MoveSeconds;
-            double strokeSeconds = whole * settings.MoveSeconds + (whole < settings.Strokes ? moving : 0.0);
-            return 0.001 * settings.MarkerSpeedMmps * strokeSeconds;
+            isDone = strokesDone >= settings.Strokes && seconds >= strokesDone * cycle + settings.RestSeconds;
+            moves = strokesDone < settings.Strokes && moving > 0.0 && moving < settings.MoveSeconds;
+            double movedSeconds =
+                strokesDone * settings.MoveSeconds + (strokesDone < settings.Strokes ? moving : 0.0);
+            return 0.001 * settings.MarkerSpeedMmps * movedSeconds;
         }
 
         private void Update()
         {
             if (isRunning)
             {
-                double way = WayAt(Time.unscaledTimeAsDouble - beganSeconds, out bool moves, out bool isDone);
+                double distance = DistanceAt(
+                    Time.unscaledTimeAsDouble - startSeconds, out bool moves, out bool isDone);
                 IsMoving = moves;
                 IsDone = isDone;
-                transform.position = At(way);
+                transform.position = PositionAt(distance);
             }
         }
 
-        private Vector3 At(double wayMetres)
+        private Vector3 PositionAt(double distanceMetres)
         {
             double radius = 0.001 * settings.MarkerRadiusMillimetres;
-            double angle = wayMetres / radius;
+            double angle = distanceMetres / radius;
             return centre + (float)radius * new Vector3((float)Math.Cos(angle), 0f, (float)Math.Sin(angle));
         }
     }

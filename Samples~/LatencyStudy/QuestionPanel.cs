@@ -4,29 +4,29 @@ using UnityEngine;
 
 namespace HaptoFlow.Samples.LatencyStudy
 {
-    /// <summary>What the participant reads: what to attend to, the question, when to rest.</summary>
+    /// <summary>The text that the participant reads: what to attend to, the question, when to rest.</summary>
     public sealed class QuestionPanel : MonoBehaviour
     {
         private const string Buttons = "trigger (or key Y): yes        grip (or key N): no";
 
         private TextMesh text = null!;
 
-        /// <summary>What it shows.</summary>
+        /// <summary>The text that the panel shows.</summary>
         public string Text => text.text;
 
-        /// <summary>A panel at a place, facing the participant.</summary>
+        /// <summary>Creates a panel at a place, facing the participant.</summary>
         public static QuestionPanel Create(Vector3 position, Quaternion rotation)
         {
-            TextMesh made = Build.Text("", position, rotation);
+            TextMesh made = SceneObjects.AddText("", position, rotation);
             var panel = made.gameObject.AddComponent<QuestionPanel>();
             panel.text = made;
             return panel;
         }
 
-        /// <summary>Before anything has begun.</summary>
+        /// <summary>Asks the participant to wait, before the session begins.</summary>
         public void Welcome() => text.text = "Please wait for the operator.";
 
-        /// <summary>What to do, and what to attend to.</summary>
+        /// <summary>Says what to do in a trial, and what to attend to.</summary>
         public void Instruct(PlannedTrial trial)
         {
             string what = trial.Condition == StudyPlan.TurnOn
@@ -36,7 +36,7 @@ namespace HaptoFlow.Samples.LatencyStudy
                 "Put the pen on the green marker and follow it.";
         }
 
-        /// <summary>Asks whether a delay was noticed.</summary>
+        /// <summary>Asks whether the participant noticed a delay.</summary>
         public void Ask(PlannedTrial trial)
         {
             string what = trial.Condition == StudyPlan.TurnOn
@@ -45,17 +45,17 @@ namespace HaptoFlow.Samples.LatencyStudy
             text.text = what + "\n" + Buttons;
         }
 
-        /// <summary>The trial begins again, since the pen did not follow.</summary>
+        /// <summary>Repeats the instruction, because the pen did not follow the marker.</summary>
         public void AskToFollow(PlannedTrial trial)
         {
             Instruct(trial);
             text.text += "\nStay on the surface, and stop when the marker stops.";
         }
 
-        /// <summary>A pause.</summary>
-        public void Rest() => text.text = "Please lift the pen and rest. It goes on with the operator.";
+        /// <summary>Asks the participant to rest.</summary>
+        public void Rest() => text.text = "Please lift the pen and rest. The operator will continue.";
 
-        /// <summary>The end.</summary>
+        /// <summary>Thanks the participant at the end.</summary>
         public void Thank() => text.text = "That was all. Thank you!";
     }
 }

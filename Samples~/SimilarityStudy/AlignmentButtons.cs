@@ -3,8 +3,8 @@ using UnityEngine;
 
 namespace HaptoFlow.Samples.SimilarityStudy
 {
-    /// <summary>The operator's buttons for the alignment, before the first trial. On the screen, not in the headset.
-    /// </summary>
+    /// <summary>The operator's buttons for the alignment before the first trial. They are drawn with Unity's immediate
+    /// mode, which the screen shows and the headset does not.</summary>
     public sealed class AlignmentButtons : MonoBehaviour
     {
         private const float Left = 660f;
@@ -14,7 +14,7 @@ namespace HaptoFlow.Samples.SimilarityStudy
 
         private SimilarityStudyScene scene = null!;
 
-        /// <summary>Shown as long as the scene has no session.</summary>
+        /// <summary>Adds the buttons to the scene. They are shown until the session begins.</summary>
         public static AlignmentButtons Create(SimilarityStudyScene scene)
         {
             var buttons = scene.gameObject.AddComponent<AlignmentButtons>();

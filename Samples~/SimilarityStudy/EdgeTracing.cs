@@ -3,16 +3,16 @@ using System;
 
 namespace HaptoFlow.Samples.SimilarityStudy
 {
-    /// <summary>Which parts of a rectangle's four edges a tip has slid along. In the rectangle's own plane, in metres,
-    /// from its centre. No garbage.</summary>
+    /// <summary>Records which parts of a rectangle's four edges a tip has slid along. Positions are in the plane of the
+    /// rectangle, in metres from its centre. Allocates nothing.</summary>
     public sealed class EdgeTracing
     {
-        /// <summary>Near, right, far, left.</summary>
+        /// <summary>The number of edges: near, right, far, left.</summary>
         public const int EdgeCount = 4;
 
         private const int PartsOfAnEdge = 24;
 
-        // A hand that slides at 3 m/s moves so far between two frames of a slow display.
+        // A hand that slides at 3 m/s moves this far between two frames at 50 Hz.
         private const double LongestStepMetres = 0.06;
 
         private readonly bool[,] traced = new bool[EdgeCount, PartsOfAnEdge];
@@ -20,26 +20,26 @@ namespace HaptoFlow.Samples.SimilarityStudy
         private readonly double width;
         private readonly double depth;
         private readonly double tolerance;
-        private readonly int wantedParts;
+        private readonly int requiredParts;
         private double lastX = double.NaN;
         private double lastZ = double.NaN;
 
-        /// <param name="widthMetres">Along x.</param>
-        /// <param name="depthMetres">Along z.</param>
-        /// <param name="toleranceMetres">A tip no farther from an edge is on it.</param>
-        /// <param name="share">Of an edge that has to be traced, above 0 to 1.</param>
+        /// <param name="widthMetres">The extent along x.</param>
+        /// <param name="depthMetres">The extent along z.</param>
+        /// <param name="toleranceMetres">The largest distance from an edge at which the tip is on it.</param>
+        /// <param name="share">The share of an edge that has to be traced, above 0 to 1.</param>
         public EdgeTracing(double widthMetres, double depthMetres, double toleranceMetres, double share)
         {
             width = widthMetres;
             depth = depthMetres;
             tolerance = toleranceMetres;
-            wantedParts = Math.Max(1, (int)Math.Ceiling(share * PartsOfAnEdge - 1e-9));
+            requiredParts = Math.Max(1, (int)Math.Ceiling(share * PartsOfAnEdge - 1e-9));
         }
 
-        /// <summary>Every edge is traced.</summary>
+        /// <summary>Whether every edge is traced.</summary>
         public bool IsComplete => TracedEdges == EdgeCount;
 
-        /// <summary>How many edges are traced.</summary>
+        /// <summary>The number of traced edges.</summary>
         public int TracedEdges
         {
             get
@@ -53,10 +53,11 @@ namespace HaptoFlow.Samples.SimilarityStudy
             }
         }
 
+        /// <summary>Whether an edge is traced.</summary>
         /// <param name="edge">0 near, 1 right, 2 far, 3 left.</param>
-        public bool IsTraced(int edge) => tracedParts[edge] >= wantedParts;
+        public bool IsTraced(int edge) => tracedParts[edge] >= requiredParts;
 
-        /// <summary>Nothing is traced yet.</summary>
+        /// <summary>Starts anew, with no edge traced.</summary>
         public void Begin()
         {
             Array.Clear(traced, 0, traced.Length);
@@ -64,10 +65,10 @@ namespace HaptoFlow.Samples.SimilarityStudy
             Lift();
         }
 
-        /// <summary>The tip left the surface: what comes next is not joined to what was before.</summary>
+        /// <summary>Ends a stroke: the next position is not connected with the one before.</summary>
         public void Lift() => lastX = lastZ = double.NaN;
 
-        /// <summary>The tip touches here.</summary>
+        /// <summary>Adds the position of a touching tip, and everything between it and the one before.</summary>
         public void Add(double x, double z)
         {
             double step = Math.Max(Math.Abs(x - lastX), Math.Abs(z - lastZ));
@@ -91,7 +92,7 @@ namespace HaptoFlow.Samples.SimilarityStudy
             lastZ = z;
         }
 
-        /// <summary>-1 beside the edge.</summary>
+        /// <summary>The part of an edge at a position; -1 when the position is not on the edge.</summary>
         private int PartAt(int edge, double x, double z)
         {
             bool isAlongX = edge == 0 || edge == 2;

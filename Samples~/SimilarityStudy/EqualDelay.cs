@@ -8,33 +8,33 @@ using HaptoFlow.Studies;
 
 namespace HaptoFlow.Samples.SimilarityStudy
 {
-    /// <summary>One delay for all methods: that of the slowest. The faster ones are delayed by what is missing.
+    /// <summary>Gives all methods the delay of the slowest one, by adding an artificial delay to the faster ones.
     /// </summary>
     public sealed class EqualDelay
     {
-        /// <summary>Above the slowest method, so that a session that goes on after an interruption, and is measured
-        /// anew, can still be given the same.</summary>
+        /// <summary>The reserve above the delay of the slowest method. With it, a session that is resumed after an
+        /// interruption, and measured again, can get the same delay.</summary>
         public const double ReserveMilliseconds = 2.0;
 
         private readonly Dictionary<string, SystemDelay> delays;
 
-        /// <param name="delays">Of the system with each method.</param>
-        /// <param name="wantedMilliseconds">Null for that of the slowest method and <see cref="ReserveMilliseconds"/>.
-        /// </param>
-        /// <exception cref="StudyException">A method is too slow for what is wanted, or too fast; the message names it.
+        /// <param name="delays">The delay of the system with each method.</param>
+        /// <param name="milliseconds">The delay that every method shall have; null for that of the slowest method plus
+        /// <see cref="ReserveMilliseconds"/>.</param>
+        /// <exception cref="StudyException">A method is too slow or too fast for the delay; the message names it.
         /// </exception>
-        public EqualDelay(IReadOnlyDictionary<string, SystemDelay> delays, double? wantedMilliseconds)
+        public EqualDelay(IReadOnlyDictionary<string, SystemDelay> delays, double? milliseconds)
         {
             this.delays = delays.ToDictionary(each => each.Key, each => each.Value, StringComparer.Ordinal);
             Slowest = delays.OrderByDescending(each => each.Value.TotalMilliseconds).First().Key;
-            Milliseconds = wantedMilliseconds ??
+            Milliseconds = milliseconds ??
                 Math.Ceiling(delays[Slowest].TotalMilliseconds + ReserveMilliseconds);
             foreach (KeyValuePair<string, SystemDelay> each in delays)
             {
                 if (!each.Value.Reaches(Milliseconds))
                 {
                     throw new StudyException(FormattableString.Invariant(
-                        $"method \"{each.Key}\" cannot be given {Milliseconds:0.###} ms: its system delay is ") +
+                        $"method \"{each.Key}\" cannot have a delay of {Milliseconds:0.###} ms: its system delay is ") +
                         each.Value + FormattableString.Invariant(
                         $", and at most {SystemDelay.MaximumArtificialMilliseconds:0} ms can be added; ") +
                         "close other programs, or change Equal Delay Milliseconds before the first participant");
@@ -42,21 +42,21 @@ namespace HaptoFlow.Samples.SimilarityStudy
             }
         }
 
-        /// <summary>What every method gets in all.</summary>
+        /// <summary>The total delay of every method.</summary>
         public double Milliseconds { get; }
 
-        /// <summary>The method with the longest delay of its own.</summary>
+        /// <summary>The method with the longest delay of the system.</summary>
         public string Slowest { get; }
 
-        /// <summary>Of the system with the method, nothing added.</summary>
+        /// <summary>The delay of the system with a method, without the artificial part.</summary>
         public SystemDelay Of(string method) => delays[method];
 
-        /// <summary>What the output has to add for the method.</summary>
+        /// <summary>The artificial delay that the output has to add for a method.</summary>
         public double ArtificialMilliseconds(string method) => delays[method].ArtificialMilliseconds(Milliseconds);
 
-        /// <summary>What the answers of an interrupted session were given with; null where there is none yet.</summary>
-        /// <param name="folder">Of the logs.</param>
-        /// <exception cref="StudyException">A log is there and cannot be read.</exception>
+        /// <summary>The delay of an interrupted session, read from its log; null without such a session.</summary>
+        /// <param name="folder">The folder of the logs.</param>
+        /// <exception cref="StudyException">A log exists and cannot be read.</exception>
         public static double? OfInterrupted(string folder, int participant)
         {
             try
@@ -72,19 +72,19 @@ namespace HaptoFlow.Samples.SimilarityStudy
             }
         }
 
-        /// <summary>Of a log's first whole row.</summary>
+        /// <summary>The delay in a log's first complete row.</summary>
         private static double? DelayOf(string path)
         {
             string[] lines = File.ReadAllText(path).Split('\n');
-            // The last line is empty, or torn by a crash.
+            // The last line is empty, or incomplete after a crash.
             if (lines.Length <= 2)
             {
                 return null;
             }
             int column = Array.IndexOf(lines[0].Split(','), "delay_ms");
             string[] fields = lines[1].Split(',');
-            bool isThere = column >= 0 && column < fields.Length;
-            return isThere && double.TryParse(
+            bool hasDelay = column >= 0 && column < fields.Length;
+            return hasDelay && double.TryParse(
                 fields[column], NumberStyles.Float, CultureInfo.InvariantCulture, out double milliseconds)
                 ? milliseconds
                 : (double?)null;

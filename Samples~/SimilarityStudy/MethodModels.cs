@@ -7,20 +7,21 @@ using HaptoFlow.Studies;
 
 namespace HaptoFlow.Samples.SimilarityStudy
 {
-    /// <summary>The models of a study's methods: loaded side by side before the first trial, checked against the
-    /// materials, and measured one after another. What is wrong with one stops the study before it begins. Main thread.
-    /// </summary>
+    /// <summary>The models of a study's methods. Before the first trial they are loaded in parallel, checked against
+    /// the materials, and their delays are measured one after another. A problem with any of them stops the study
+    /// before it begins. Main thread.</summary>
     public sealed class MethodModels : IDisposable
     {
         private readonly SimilarityStudySettings settings;
         private readonly Func<StudyMethod, HapticLoadedModel, Task<double>> measure;
         private readonly Dictionary<string, HapticLoadedModel> loaded =
             new Dictionary<string, HapticLoadedModel>(StringComparer.Ordinal);
-        private readonly Dictionary<string, double> inference = new Dictionary<string, double>(StringComparer.Ordinal);
+        private readonly Dictionary<string, double> inferenceMilliseconds =
+            new Dictionary<string, double>(StringComparer.Ordinal);
         private Task<double>? measuring;
         private bool isChecked;
 
-        /// <param name="measure">What a method adds to the delay, in ms.</param>
+        /// <param name="measure">Measures the delay that a method adds, in ms.</param>
         public MethodModels(
             SimilarityStudySettings settings, Func<StudyMethod, HapticLoadedModel, Task<double>> measure)
         {
@@ -32,14 +33,14 @@ namespace HaptoFlow.Samples.SimilarityStudy
             }
         }
 
-        /// <summary>Every model is loaded, knows every material, and is measured.</summary>
-        public bool IsReady => inference.Count == settings.Methods.Count;
+        /// <summary>Whether every model is loaded, has every material, and is measured.</summary>
+        public bool IsReady => inferenceMilliseconds.Count == settings.Methods.Count;
 
-        /// <summary>What the preparation waits for, for the operator.</summary>
+        /// <summary>The current step of the preparation, for the operator.</summary>
         public string Doing { get; private set; } = "loading the models";
 
-        /// <summary>Goes on with the preparation. Once a frame.</summary>
-        /// <exception cref="StudyException">A model cannot be used; the message names the method.</exception>
+        /// <summary>Continues the preparation. Call it once a frame.</summary>
+        /// <exception cref="StudyException">A model cannot be used; the message names its method.</exception>
         public void Update()
         {
             if (IsReady || !AllAreLoaded() || !AllMaterialsAreKnown())
@@ -49,21 +50,21 @@ namespace HaptoFlow.Samples.SimilarityStudy
             if (!isChecked)
             {
                 isChecked = true;
-                RefuseTwins();
+                RefuseEqualMethods();
             }
             MeasureNext();
         }
 
-        /// <summary>From the next frame on the pen feels by the method's model.</summary>
+        /// <summary>Makes the pen use the method's model from the next frame on.</summary>
         public void Use(string method) => loaded[method].Use();
 
-        /// <summary>The method's model.</summary>
+        /// <summary>The model of a method.</summary>
         public HapticLoadedModel Of(string method) => loaded[method];
 
-        /// <summary>What the method adds to the delay, in ms.</summary>
-        public double InferenceMilliseconds(string method) => inference[method];
+        /// <summary>The delay that a method adds, in ms.</summary>
+        public double InferenceMilliseconds(string method) => inferenceMilliseconds[method];
 
-        /// <summary>For the sidecar: which file each method played.</summary>
+        /// <summary>The model file of each method, for the log.</summary>
         public StudyModel[] ForLog() => settings.Methods
             .Select(each => new StudyModel(each.Name, FileOf(each), Hash.Sha256(each.Model!.File)))
             .ToArray();
@@ -114,11 +115,11 @@ namespace HaptoFlow.Samples.SimilarityStudy
             if (asset != null && asset.IsLearnt)
             {
                 Doing = $"preparing \"{material.Name}\" for \"{method.Name}\"";
-                bool isFelt = model.TryPrepare(asset, out string? refusal);
+                bool isPrepared = model.TryPrepare(asset, out string? refusal);
                 return refusal == null
-                    ? isFelt
+                    ? isPrepared
                     : throw new StudyException($"material \"{material.Name}\": the model of method \"{method.Name}\" " +
-                        $"cannot make it felt: {refusal}; learn it for that model too, or compare by label");
+                        $"cannot generate it: {refusal}; learn it for that model too, or compare by label");
             }
             foreach (string label in LabelsOf(material))
             {
@@ -141,8 +142,9 @@ namespace HaptoFlow.Samples.SimilarityStudy
             return new[] { description.Label, description.SecondLabel }.Where(label => label.Length > 0);
         }
 
-        /// <summary>Two methods that are the same would be compared with each other.</summary>
-        private void RefuseTwins()
+        /// <summary>Refuses two methods with the same tier of the same model, which would be compared with themselves.
+        /// </summary>
+        private void RefuseEqualMethods()
         {
             var known = new Dictionary<string, string>(StringComparer.Ordinal);
             foreach (StudyMethod each in settings.Methods)
@@ -161,7 +163,7 @@ namespace HaptoFlow.Samples.SimilarityStudy
 
         private void MeasureNext()
         {
-            StudyMethod next = settings.Methods[inference.Count];
+            StudyMethod next = settings.Methods[inferenceMilliseconds.Count];
             Doing = $"measuring the delay of \"{next.Name}\"; keep the pen away";
             measuring ??= measure(next, loaded[next.Name]);
             if (!measuring.IsCompleted)
@@ -175,7 +177,7 @@ namespace HaptoFlow.Samples.SimilarityStudy
                 throw new StudyException($"method \"{next.Name}\": its delay could not be measured: " +
                     (ended.Exception?.GetBaseException().Message ?? "the measurement was cancelled"));
             }
-            inference.Add(next.Name, ended.Result);
+            inferenceMilliseconds.Add(next.Name, ended.Result);
         }
 
         private static string FileOf(StudyMethod method) => method.Model!.name + ".haptoflow";

@@ -3,7 +3,8 @@ using UnityEngine;
 
 namespace HaptoFlow.Samples.SimilarityStudy
 {
-    /// <summary>Answers with the hand that holds no pen, or with the keyboard.</summary>
+    /// <summary>The buttons for the answers, on the controller in the hand without the pen and on the keyboard. Without
+    /// the Input System, only the keyboard answers.</summary>
     public sealed class RatingButtons : MonoBehaviour
     {
 #if HAPTOFLOW_INPUT_SYSTEM && ENABLE_INPUT_SYSTEM
@@ -13,11 +14,12 @@ namespace HaptoFlow.Samples.SimilarityStudy
         private ButtonPress higher = null!;
         private ButtonPress confirm = null!;
 
-        /// <param name="penHand">The other hand answers.</param>
+        /// <summary>Creates the buttons of a panel.</summary>
+        /// <param name="penHand">The hand that holds the pen; the other one answers.</param>
         public static RatingButtons Create(RatingPanel panel, PenHand penHand)
         {
-            string hand = "<XRController>{" + (penHand == PenHand.Right ? "Left" : "Right") + "Hand}/";
-            // The panel is switched off while nothing is asked: its buttons live beside it.
+            string hand = ButtonPress.ControllerOppositeTo(penHand);
+            // On an object of their own, because the panel is inactive while it is closed.
             var buttons = new GameObject("Rating Buttons").AddComponent<RatingButtons>();
             buttons.panel = panel;
             buttons.lower = new ButtonPress("<Keyboard>/leftArrow", hand + "primaryButton");
@@ -39,7 +41,7 @@ namespace HaptoFlow.Samples.SimilarityStudy
                     panel.Choose(answer);
                 }
             }
-            // Each is read in every frame, so that one that is held while the question opens does not count as new.
+            // All buttons are read in every frame, so that a button held while the panel opens does not count as new.
             bool isLower = lower.IsNew();
             bool isHigher = higher.IsNew();
             bool isConfirmed = confirm.IsNew();
@@ -66,7 +68,8 @@ namespace HaptoFlow.Samples.SimilarityStudy
 #else
         private RatingPanel panel = null!;
 
-        /// <param name="penHand">Without the Input System only the keyboard answers.</param>
+        /// <summary>Creates the buttons of a panel.</summary>
+        /// <param name="penHand">Not used without the Input System.</param>
         public static RatingButtons Create(RatingPanel panel, PenHand penHand)
         {
             var buttons = new GameObject("Rating Buttons").AddComponent<RatingButtons>();

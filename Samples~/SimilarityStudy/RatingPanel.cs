@@ -4,8 +4,8 @@ using UnityEngine;
 
 namespace HaptoFlow.Samples.SimilarityStudy
 {
-    /// <summary>The question and its seven answers, in front of the participant. The answer is chosen and then
-    /// confirmed, so that a slip of the thumb is no answer.</summary>
+    /// <summary>The question and its seven answers in front of the participant. An answer counts only when it has been
+    /// chosen and then confirmed, so that a single press by mistake does not count.</summary>
     public sealed class RatingPanel : MonoBehaviour
     {
         /// <summary>The lowest answer.</summary>
@@ -14,25 +14,25 @@ namespace HaptoFlow.Samples.SimilarityStudy
         /// <summary>The highest answer.</summary>
         public const int Highest = 7;
 
-        /// <summary>What is asked.</summary>
+        /// <summary>The question.</summary>
         public const string Question = "How similar are these objects?";
 
         private const float SpacingMetres = 0.035f;
-        private static readonly Color Plain = Color.white;
-        private static readonly Color Chosen = new Color(0.95f, 0.85f, 0.2f);
+        private static readonly Color NormalColour = Color.white;
+        private static readonly Color ChosenColour = new Color(0.95f, 0.85f, 0.2f);
 
         private readonly TextMesh[] numbers = new TextMesh[Highest];
 
-        /// <summary>The participant confirmed an answer, 1 to 7.</summary>
+        /// <summary>Raised when the participant confirms an answer, 1 to 7.</summary>
         public event Action<int>? Confirmed;
 
-        /// <summary>1 to 7; null before one is chosen.</summary>
+        /// <summary>The chosen answer, 1 to 7; null before one is chosen.</summary>
         public int? Choice { get; private set; }
 
-        /// <summary>The question is shown.</summary>
+        /// <summary>Whether the question is shown.</summary>
         public bool IsOpen => gameObject.activeSelf;
 
-        /// <summary>A panel that is closed.</summary>
+        /// <summary>Creates a closed panel.</summary>
         public static RatingPanel Create(Vector3 position, Quaternion facing)
         {
             var panel = new GameObject("Rating Panel").AddComponent<RatingPanel>();
@@ -49,7 +49,7 @@ namespace HaptoFlow.Samples.SimilarityStudy
             return panel;
         }
 
-        /// <summary>Asks; no answer is chosen.</summary>
+        /// <summary>Shows the question without a chosen answer.</summary>
         public void Open()
         {
             Choice = null;
@@ -57,10 +57,10 @@ namespace HaptoFlow.Samples.SimilarityStudy
             gameObject.SetActive(true);
         }
 
-        /// <summary>Asks no more.</summary>
+        /// <summary>Hides the question.</summary>
         public void Close() => gameObject.SetActive(false);
 
-        /// <summary>Chooses an answer while the question is open; another may be chosen until one is confirmed.
+        /// <summary>Chooses an answer while the question is shown. Until one is confirmed, another can be chosen.
         /// </summary>
         public void Choose(int answer)
         {
@@ -71,13 +71,13 @@ namespace HaptoFlow.Samples.SimilarityStudy
             }
         }
 
-        /// <summary>Goes to the next answer, or from none to the middle one.</summary>
+        /// <summary>Chooses the next lower or higher answer; without a chosen one, the middle one.</summary>
         /// <param name="step">-1 or 1.</param>
         public void Move(int step) => Choose(Choice.HasValue
             ? Math.Max(Lowest, Math.Min(Highest, Choice.Value + step))
             : (Lowest + Highest) / 2);
 
-        /// <summary>Gives the chosen answer; nothing happens where none is chosen.</summary>
+        /// <summary>Confirms the chosen answer. Does nothing when none is chosen.</summary>
         public void Confirm()
         {
             if (IsOpen && Choice.HasValue)
@@ -90,7 +90,7 @@ namespace HaptoFlow.Samples.SimilarityStudy
 
         private TextMesh Add(string text, Vector3 place)
         {
-            TextMesh made = Build.Text(text, Vector3.zero, Quaternion.identity);
+            TextMesh made = SceneObjects.AddText(text, Vector3.zero, Quaternion.identity);
             made.transform.SetParent(transform, false);
             made.transform.localPosition = place;
             return made;
@@ -100,7 +100,7 @@ namespace HaptoFlow.Samples.SimilarityStudy
         {
             for (int answer = Lowest; answer <= Highest; ++answer)
             {
-                numbers[answer - 1].color = Choice == answer ? Chosen : Plain;
+                numbers[answer - 1].color = Choice == answer ? ChosenColour : NormalColour;
             }
         }
     }

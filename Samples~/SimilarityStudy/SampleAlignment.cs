@@ -3,26 +3,25 @@ using UnityEngine;
 
 namespace HaptoFlow.Samples.SimilarityStudy
 {
-    /// <summary>Puts the pair of objects onto the real sample: the pen touches three corners of the sample's top, and
-    /// the left object lies there. Main thread.</summary>
+    /// <summary>Aligns the pair of objects with the real sample: the pen touches three corners of the sample's top, and
+    /// the left object moves there. Main thread.</summary>
     public sealed class SampleAlignment : MonoBehaviour
     {
-        private static readonly Vector3 MarkSize = new Vector3(0.008f, 0.008f, 0.008f);
-        private static readonly string[] Corners = { "near left", "near right", "far left" };
-
-        private readonly GameObject[] marks = new GameObject[Corners.Length];
-        private StudyRig rig = null!;
+        private XrRig rig = null!;
+        private CornerMarks? corners;
         private bool forceDecides;
 
-        /// <summary>What takes the points and moves the objects.</summary>
+        /// <summary>The component that takes the points and moves the objects.</summary>
         public HapticAlignment Alignment { get; private set; } = null!;
 
-        /// <summary>What to do next, for the operator.</summary>
+        /// <summary>The next step, for the operator.</summary>
         public string Text { get; private set; } = "";
 
-        /// <param name="pair">What moves; the plane y = 0 of its own frame is the top of both objects.</param>
-        /// <param name="saveName">The place is kept under this name; empty to keep nothing.</param>
-        public static SampleAlignment Create(GameObject pair, StudyRig rig, string saveName)
+        /// <summary>Adds the alignment to the pair of objects.</summary>
+        /// <param name="pair">The object that moves. The plane y = 0 of its local space is the top of both objects.
+        /// </param>
+        /// <param name="saveName">The name under which the alignment is kept; empty to keep nothing.</param>
+        public static SampleAlignment Create(GameObject pair, XrRig rig, string saveName)
         {
             var step = pair.AddComponent<SampleAlignment>();
             step.rig = rig;
@@ -32,35 +31,27 @@ namespace HaptoFlow.Samples.SimilarityStudy
             return step;
         }
 
-        /// <summary>Which corners are touched.</summary>
-        /// <param name="size">Of the sample, in metres.</param>
-        /// <param name="hasPlate">A plate lies under the virtual object: a pen's measured force decides what it
-        /// touches.</param>
+        /// <summary>Sets which corners the pen has to touch.</summary>
+        /// <param name="size">The size of the sample, in metres.</param>
+        /// <param name="hasPlate">Whether a plate lies under the virtual object. If so, the force that a pen measures
+        /// decides when it touches.</param>
         public void SetSample(Vector3 size, bool hasPlate)
         {
             forceDecides = hasPlate;
-            var nearLeft = new Vector3(-0.5f * size.x, 0f, -0.5f * size.z);
-            Alignment.SetMarks(nearLeft, nearLeft + size.x * Vector3.right, nearLeft + size.z * Vector3.forward);
-            for (int index = 0; index < marks.Length; ++index)
-            {
-                marks[index] = Build.Solid("Mark " + Corners[index], PrimitiveType.Sphere,
-                    Alignment.MarkPosition(index), MarkSize, new Color(0.95f, 0.2f, 0.2f));
-                marks[index].GetComponent<Collider>().enabled = false;
-                marks[index].transform.SetParent(transform, true);
-                marks[index].SetActive(false);
-            }
+            corners = CornerMarks.Create(Alignment, new Vector3(-0.5f * size.x, 0f, -0.5f * size.z), size.x, size.z);
         }
 
         /// <summary>Starts taking points with the pen in use.</summary>
         public void Begin()
         {
-            Alignment.Stylus = rig.Pen;
-            // A force without a known place would touch wherever the pen is.
-            rig.Pen.TouchBy = TouchDecision.Geometry;
+            HapticStylus pen = rig.PenInUse!;
+            Alignment.Stylus = pen;
+            // Before the alignment, a measured force would count as a touch wherever the pen is.
+            pen.TouchBy = TouchDecision.Geometry;
             Alignment.Begin();
         }
 
-        /// <summary>Takes the place of the tip as a point: for pens that measure no force.</summary>
+        /// <summary>Takes the position of the tip as a point, for pens that measure no force.</summary>
         public void TakePoint()
         {
             if (Alignment.IsTaking && Alignment.Stylus != null)
@@ -69,19 +60,13 @@ namespace HaptoFlow.Samples.SimilarityStudy
             }
         }
 
-        private void Show(HapticAlignment alignment)
-        {
-            int next = alignment.PointsTaken;
-            Text = alignment.IsTaking ? $"{alignment.Message} It is the {Corners[next]} corner." : alignment.Message;
-            for (int index = 0; index < marks.Length; ++index)
-            {
-                marks[index].SetActive(alignment.IsTaking && index == next);
-            }
-        }
+        private void Show(HapticAlignment alignment) => Text = alignment.IsTaking && corners != null
+            ? $"{alignment.Message} It is the {corners.NextCorner} corner."
+            : alignment.Message;
 
         private void Update()
         {
-            HapticStylus pen = rig.Pen;
+            HapticStylus pen = rig.PenInUse!;
             bool byForce = forceDecides && Alignment.IsAligned && !Alignment.IsTaking && pen.Force != null;
             pen.TouchBy = byForce ? TouchDecision.MeasuredForce : TouchDecision.Geometry;
         }

@@ -5,24 +5,25 @@ using UnityEngine;
 
 namespace HaptoFlow.Samples.SimilarityStudy
 {
-    /// <summary>What the participant does in a trial.</summary>
+    /// <summary>The stage of a trial: what the participant does.</summary>
     public enum TrialStage
     {
-        /// <summary>Nothing: the study is paused, at rest or over.</summary>
+        /// <summary>The participant waits: the study is paused or over.</summary>
         Waiting,
 
-        /// <summary>The four edges of the real sample; the haptics are muted.</summary>
+        /// <summary>The participant traces the four edges of the real sample; the haptics are muted.</summary>
         RealEdges,
 
-        /// <summary>The four edges of the virtual object.</summary>
+        /// <summary>The participant traces the four edges of the virtual object.</summary>
         VirtualEdges,
 
-        /// <summary>Both, freely; the question is open.</summary>
+        /// <summary>The participant explores both freely; the question is shown.</summary>
         Free,
     }
 
-    /// <summary>Leads through the stages of each trial: chooses its model, material and delay, mutes the haptics on the
-    /// real sample, asks, and hands the answer to the session. Main thread.</summary>
+    /// <summary>Runs the stages of each trial: sets model, material and delay, mutes the haptics on the real sample,
+    /// shows the question, and passes the answer to the session. Main thread.</summary>
+    /// <remarks>Runs after <see cref="HapticStylus"/>, so that it sees the contact of the same frame.</remarks>
     [DefaultExecutionOrder(1200)]
     public sealed class SimilarityProcedure : MonoBehaviour
     {
@@ -33,18 +34,18 @@ namespace HaptoFlow.Samples.SimilarityStudy
         private double stageSeconds;
         private double realSeconds;
         private double virtualSeconds;
-        private bool isNew;
+        private bool isTrialNew;
 
-        /// <summary>What the participant does now.</summary>
+        /// <summary>The current stage.</summary>
         public TrialStage Stage { get; private set; }
 
-        /// <summary>Follows a session from its first pause to its end.</summary>
+        /// <summary>Creates the procedure for a session, from its first pause to its end.</summary>
         public static SimilarityProcedure Create(StudySession session, TrialParts parts)
         {
             var procedure = new GameObject("Procedure").AddComponent<SimilarityProcedure>();
             procedure.session = session;
             procedure.parts = parts;
-            procedure.Count(parts.Pen);
+            procedure.Observe(parts.Pen);
             session.Changed += procedure.OnChanged;
             parts.Panel.Confirmed += procedure.OnConfirmed;
             procedure.OnChanged(session);
@@ -53,13 +54,12 @@ namespace HaptoFlow.Samples.SimilarityStudy
 
         private void Update() => session.Advance(Time.realtimeSinceStartupAsDouble);
 
-        // After the stylus has looked at its tip.
         private void LateUpdate()
         {
-            if (isNew)
+            if (isTrialNew)
             {
-                // The pen has a voice of the trial's model by now.
-                isNew = false;
+                // Not earlier: the pen gets a voice of the trial's model in the frame after the model is set.
+                isTrialNew = false;
                 contact.Begin();
             }
             if (Stage == TrialStage.RealEdges)
@@ -115,16 +115,16 @@ namespace HaptoFlow.Samples.SimilarityStudy
             if (!ReferenceEquals(pen, parts.Pen))
             {
                 contact.Dispose();
-                Count(parts.Pen);
+                Observe(parts.Pen);
             }
             parts.Play(trial);
             parts.Real.Tracing.Begin();
             parts.Virtual.Tracing.Begin();
-            isNew = true;
+            isTrialNew = true;
             Enter(TrialStage.RealEdges);
         }
 
-        private void Count(HapticStylus used)
+        private void Observe(HapticStylus used)
         {
             pen = used;
             contact = new TrialContact(used, parts.Virtual.Surface);
@@ -134,7 +134,7 @@ namespace HaptoFlow.Samples.SimilarityStudy
         {
             Stage = stage;
             stageSeconds = session.ElapsedSeconds;
-            // The real sample gives the vibration itself.
+            // On the real sample, the participant feels the real vibration.
             parts.Output.Muted = stage != TrialStage.VirtualEdges && stage != TrialStage.Free;
             parts.Instruction.text = stage switch
             {
@@ -153,7 +153,7 @@ namespace HaptoFlow.Samples.SimilarityStudy
             }
             return session.Phase == StudyPhase.Paused && session.Pause == StudyPause.Rest
                 ? "Please rest. Say when you are ready to go on."
-                : "Please wait until it goes on, and keep the pen off the objects.";
+                : "Please wait until the study continues, and keep the pen off the objects.";
         }
 
         private void OnConfirmed(int rating)

@@ -8,23 +8,22 @@ using UnityEngine;
 
 namespace HaptoFlow.Samples.SimilarityStudy
 {
-    /// <summary>Builds the study when it wakes: two grey objects side by side, a pen, a panel for the answer, a view
-    /// for the operator. It loads and measures every method's model, waits for the alignment and the operator, and then
-    /// leads one participant through the plan.</summary>
+    /// <summary>Builds the study when it wakes: two grey objects side by side, a pen, a panel for the answers, a view
+    /// for the operator. It loads every method's model and measures its delay, waits for the alignment and the
+    /// operator, and then leads one participant through the plan.</summary>
     [RequireComponent(typeof(PipelineMaterial))]
     public sealed class SimilarityStudyScene : MonoBehaviour
     {
-        // So many frames tell how long a frame takes.
-        private const int PoseFrames = 64;
         private static readonly Vector3 InstructionPlace = new Vector3(0.13f, 0.195f, 0.2f);
         private static readonly Vector3 PanelPlace = new Vector3(0.13f, 0.12f, 0.2f);
 
         private readonly PoseInterval poseInterval = new PoseInterval();
 
-        [SerializeField, Tooltip("The materials, the methods and the set-up stand there.")]
+        [SerializeField, Tooltip("The settings hold the materials, the methods and the set-up.")]
         private SimilarityStudySettings? settings;
 
-        [SerializeField]
+        [SerializeField, Tooltip("The camera shows the scene. It carries the Audio Listener, and the mouse pen " +
+            "points through it.")]
         private Camera? view;
 
         private MethodModels? models;
@@ -34,75 +33,74 @@ namespace HaptoFlow.Samples.SimilarityStudy
         private RatingPanel panel = null!;
         private HapticOutput output = null!;
         private MaskingNoise noise = null!;
-        private StudyRig rig = null!;
+        private XrRig rig = null!;
         private bool isRefused;
 
-        /// <summary>The materials, the methods and the set-up. To be set before the component wakes.</summary>
+        /// <summary>The materials, the methods and the set-up. Set them before the component wakes.</summary>
         public SimilarityStudySettings? Settings
         {
             get => settings;
             set => settings = value;
         }
 
-        /// <summary>The participant's eye. To be set before the component wakes.</summary>
+        /// <summary>The scene's camera, with the Audio Listener. Set it before the component wakes.</summary>
         public Camera? View
         {
             get => view;
             set => view = value;
         }
 
-        /// <summary>The virtual object's place is kept under this name; empty to keep nothing. To be set before the
-        /// component wakes.</summary>
+        /// <summary>The name under which the place of the virtual object is kept between sessions; empty to keep
+        /// nothing. Set it before the component wakes.</summary>
         public string SaveName { get; set; } = "SimilarityStudy";
 
-        /// <summary>What a method adds to the delay beside the audio block, in ms. To be replaced before the component
-        /// wakes where a laboratory has a better measurement.</summary>
+        /// <summary>Measures the delay that a method adds to that of the audio block, in ms. A laboratory with a better
+        /// measurement replaces it before the component wakes.</summary>
         public Func<StudyMethod, HapticLoadedModel, Task<double>> MeasureInference { get; set; } = MeasureLive;
 
-        /// <summary>Puts the virtual object beside the real sample.</summary>
+        /// <summary>Aligns the virtual object with the real sample.</summary>
         public SampleAlignment Alignment { get; private set; } = null!;
 
-        /// <summary>Whoever leads the study.</summary>
+        /// <summary>The view and the buttons of the operator.</summary>
         public OperatorView Operator { get; private set; } = null!;
 
-        /// <summary>Null before <see cref="Begin"/>.</summary>
+        /// <summary>The session; null before <see cref="Begin"/>.</summary>
         public StudySession? Session { get; private set; }
 
-        /// <summary>Null before <see cref="Begin"/>.</summary>
+        /// <summary>The stages of the current trial; null before <see cref="Begin"/>.</summary>
         public SimilarityProcedure? Procedure { get; private set; }
 
-        /// <summary>Null before <see cref="Begin"/>.</summary>
+        /// <summary>The delay that all methods get; null before <see cref="Begin"/>.</summary>
         public EqualDelay? Delay { get; private set; }
 
         /// <summary>The methods' models; null where the settings cannot be used.</summary>
         public MethodModels? Models => models;
 
-        /// <summary>The question.</summary>
+        /// <summary>The question and its answers.</summary>
         public RatingPanel Panel => panel;
 
-        /// <summary>Lies where the real sample is; null where the settings cannot be used.</summary>
+        /// <summary>The object in the place of the real sample; null where the settings cannot be used.</summary>
         public StudyObject Real { get; private set; } = null!;
 
-        /// <summary>Lies beside it; null where the settings cannot be used.</summary>
+        /// <summary>The virtual object beside it; null where the settings cannot be used.</summary>
         public StudyObject Virtual { get; private set; } = null!;
 
-        /// <summary>The actuator's.</summary>
+        /// <summary>The output that drives the actuator.</summary>
         public HapticOutput Output => output;
 
-        /// <summary>Why the study cannot begin, or did not when it was last asked to; null where nothing is wrong.
-        /// </summary>
+        /// <summary>Why the study cannot begin or continue; null when nothing is wrong.</summary>
         public string? Problem => Operator.Problem;
 
-        /// <summary>Everything is loaded, measured and aligned: <see cref="Begin"/> can be called.</summary>
+        /// <summary>Whether everything is loaded, measured and aligned, so that <see cref="Begin"/> can be called.
+        /// </summary>
         public bool CanBegin => !isRefused && Session == null && WhatIsMissing() == null;
 
-        /// <summary>The pen in use: the tracked one; the mouse's as long as none was ever tracked.</summary>
-        public HapticStylus Pen => rig.Pen;
+        /// <summary>The tracked pen; before it was tracked for the first time, the mouse pen.</summary>
+        public HapticStylus Pen => rig.PenInUse!;
 
-        /// <summary>Opens the participant's log, anew or where it was interrupted, and waits for the operator's first
-        /// Next. What is wrong stands in <see cref="Problem"/>; nothing has begun then, and it can be tried again.
-        /// </summary>
-        /// <param name="participant">From 1.</param>
+        /// <summary>Begins or resumes a participant's log, and waits for the operator's first Next. When it fails, it
+        /// sets <see cref="Problem"/>, and can be called again.</summary>
+        /// <param name="participant">The number of the participant, from 1.</param>
         public void Begin(int participant)
         {
             if (isRefused || Session != null)
@@ -132,19 +130,25 @@ namespace HaptoFlow.Samples.SimilarityStudy
 
         private void Awake()
         {
-            // Until the first trial the pen belongs to the model of the project, where it has one.
+            // Before the first trial, the pen feels by the model of the project's settings, if they name one.
             HaptoFlowSettings active = HaptoFlowSettings.Active;
             if (active.Model == null && settings != null)
             {
                 active.Model = settings.Methods.Select(each => each.Model).FirstOrDefault(each => each != null);
             }
             Quaternion facing = view!.transform.rotation;
-            rig = StudyRig.Create(view, settings != null ? settings.PenHand : PenHand.Right);
-            MakeOutput();
-            rig.PlayOn(output);
-            instruction = Build.Text("Please wait.", InstructionPlace, facing);
+            // The scene is built even without settings, so that the operator can read the problem.
+            SimilarityStudySettings chosen = settings != null
+                ? settings
+                : ScriptableObject.CreateInstance<SimilarityStudySettings>();
+            output = chosen.AddOutput(view.gameObject, out noise);
+            rig = XrRig.Create(view);
+            rig.MousePen = MousePen.Create(view);
+            rig.MousePen.Stylus.Output = output;
+            rig.AddPen(chosen.PenHand).Stylus!.Output = output;
+            instruction = SceneObjects.AddText("Please wait.", InstructionPlace, facing);
             panel = RatingPanel.Create(PanelPlace, facing);
-            RatingButtons.Create(panel, settings != null ? settings.PenHand : PenHand.Right);
+            RatingButtons.Create(panel, chosen.PenHand);
             Operator = gameObject.AddComponent<OperatorView>();
             Operator.Output = output;
             Operator.Detail = Detail;
@@ -177,7 +181,7 @@ namespace HaptoFlow.Samples.SimilarityStudy
         private void Update()
         {
             poseInterval.Add(Time.unscaledDeltaTime);
-            PauseWhereTheModelEnded();
+            PauseWhenTheModelFails();
             if (isRefused || models == null || models.IsReady)
             {
                 return;
@@ -192,16 +196,17 @@ namespace HaptoFlow.Samples.SimilarityStudy
             }
         }
 
-        /// <summary>What is felt without its model would be rated as if it were the method's.</summary>
-        private void PauseWhereTheModelEnded()
+        /// <summary>Pauses the session when the method's model has failed, because the participant would not rate the
+        /// method. </summary>
+        private void PauseWhenTheModelFails()
         {
             string? method = Procedure != null && Procedure.Stage != TrialStage.Waiting ? Session!.Trial!.Method : null;
             string? problem = method != null ? models!.Of(method).Problem : null;
             if (problem != null)
             {
                 Session!.PauseHere();
-                Operator.Problem = $"method \"{method}\": {problem}; start the application again, the session goes " +
-                    "on with this trial";
+                Operator.Problem = $"method \"{method}\": {problem}; restart the application; the session continues " +
+                    "with this trial";
             }
         }
 
@@ -224,16 +229,16 @@ namespace HaptoFlow.Samples.SimilarityStudy
         private StudyLog OpenLog(int participant)
         {
             StudyPlan plan = settings!.PlanFor(participant);
-            double? wanted = EqualDelay.OfInterrupted(settings.Folder, participant);
-            if (wanted == null && settings.EqualDelayMilliseconds > 0f)
+            double? milliseconds = EqualDelay.OfInterrupted(settings.Folder, participant);
+            if (milliseconds == null && settings.EqualDelayMilliseconds > 0f)
             {
-                wanted = settings.EqualDelayMilliseconds;
+                milliseconds = settings.EqualDelayMilliseconds;
             }
-            Delay = new EqualDelay(DelaysOfMethods(), wanted);
+            Delay = new EqualDelay(DelaysOfMethods(), milliseconds);
             var description = new StudyDescription(plan, settings.ForLog(), Delay.Of(Delay.Slowest))
             {
                 IsSimulated = settings.Simulated,
-                Environment = EnvironmentOf(settings),
+                Environment = settings.Environment(),
                 Models = models!.ForLog(),
             };
             return StudyLog.Open(settings.Folder, description);
@@ -244,32 +249,6 @@ namespace HaptoFlow.Samples.SimilarityStudy
             each => new SystemDelay(poseInterval.MedianMilliseconds, models!.InferenceMilliseconds(each.Name),
                 StudyPlayer.BlockMilliseconds, settings.DeviceDelayMilliseconds),
             StringComparer.Ordinal);
-
-        private static StudyEnvironment EnvironmentOf(SimilarityStudySettings chosen)
-        {
-            StudyEnvironment environment = StudyPlayer.Environment(chosen.Headset);
-            environment.DeviceDelaySource = chosen.DeviceDelaySource;
-            environment.DeviceDelayNote = chosen.DeviceDelayNote;
-            return environment;
-        }
-
-        private void MakeOutput()
-        {
-            GameObject ears = view!.gameObject;
-            noise = ears.AddComponent<MaskingNoise>();
-            // Behind the noise: the output overwrites its channel.
-            output = ears.AddComponent<HapticOutput>();
-            output.Route = OutputRoute.ListenerChannel;
-            output.Channel = settings != null ? settings.HapticChannel : 1;
-            // Nothing is felt before the first trial.
-            output.Muted = true;
-            noise.Output = output;
-            if (settings != null)
-            {
-                noise.Colour = settings.NoiseColour;
-                noise.LevelDecibels = settings.NoiseDecibels;
-            }
-        }
 
         private void MakeObjects(SimilarityStudySettings chosen)
         {
@@ -289,9 +268,9 @@ namespace HaptoFlow.Samples.SimilarityStudy
             {
                 return models?.Doing;
             }
-            if (poseInterval.Count < PoseFrames)
+            if (!poseInterval.IsMeasured)
             {
-                return "measuring how long a frame takes";
+                return "measuring the frame rate";
             }
             return settings!.NeedsAlignment && !Alignment.Alignment.IsAligned
                 ? "put the virtual object beside the real sample: press Align"
@@ -310,10 +289,10 @@ namespace HaptoFlow.Samples.SimilarityStudy
                 : FormattableString.Invariant($"mount the sample \"{trial.Material}\"; method \"{trial.Method}\"\n") +
                     FormattableString.Invariant($"delay {Delay!.Milliseconds:0.0} ms, ") +
                     FormattableString.Invariant($"{Delay.ArtificialMilliseconds(trial.Method!):0.0} of them added; ") +
-                    StageWords();
+                    DescribeStage();
         }
 
-        private string StageWords() => Procedure!.Stage switch
+        private string DescribeStage() => Procedure!.Stage switch
         {
             TrialStage.RealEdges => $"edges of the real sample: {Real.Tracing.TracedEdges} of 4",
             TrialStage.VirtualEdges => $"edges of the virtual object: {Virtual.Tracing.TracedEdges} of 4",
@@ -327,7 +306,7 @@ namespace HaptoFlow.Samples.SimilarityStudy
             double blockMilliseconds = StudyPlayer.BlockMilliseconds;
             HapticModelDelay delay = await model.MeasureDelay(AudioSettings.outputSampleRate, frames)
                 .ConfigureAwait(false);
-            // The lead holds the block that a segment waits for; the rest is the method's own.
+            // The lead includes one audio block, which the system delay counts already.
             return Math.Max(delay.InferenceMedianMilliseconds, delay.LeadMilliseconds - blockMilliseconds);
         }
     }

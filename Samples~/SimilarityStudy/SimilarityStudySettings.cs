@@ -7,146 +7,85 @@ using UnityEngine;
 
 namespace HaptoFlow.Samples.SimilarityStudy
 {
-    /// <summary>A similarity study: which materials, which methods, how the samples are mounted, what the set-up adds
-    /// to the delay. One asset for all participants of a study.</summary>
+    /// <summary>The settings of a similarity study: the materials, the methods, how the samples are mounted, the
+    /// delays. </summary>
     [CreateAssetMenu(menuName = "HaptoFlow/Similarity Study Settings", fileName = "SimilarityStudySettings")]
-    public sealed class SimilarityStudySettings : ScriptableObject
+    public sealed class SimilarityStudySettings : StudySettings
     {
-        [SerializeField, Tooltip("These are the real samples, any number of them. The first one is used for practice.")]
+        [SerializeField, Tooltip("The materials are the real samples, any number of them. The first one is used for " +
+            "practice.")]
         private StudyMaterial[] materials = Array.Empty<StudyMaterial>();
 
-        [SerializeField, Tooltip("These generate the vibration. There may be any number of them.")]
+        [SerializeField, Tooltip("The methods generate the vibration. There may be any number of them.")]
         private StudyMethod[] methods = Array.Empty<StudyMethod>();
 
-        [SerializeField, Tooltip("The order of materials and methods follows from this number and the participant's. " +
-            "It is the same for all participants of a study.")]
-        private ulong seed = 1;
-
-        [SerializeField, Tooltip("The logs go here. When it is empty, they go to the folder Studies in the player's " +
-            "persistent data.")]
-        private string folder = "";
-
-        [SerializeField, Tooltip("This is how wide, high and deep the mounted samples are, in metres.")]
+        [SerializeField, Tooltip("The mounted samples have this width, height and depth, in metres.")]
         private Vector3 sampleMetres = new Vector3(0.2f, 0.01f, 0.15f);
 
         [SerializeField, Tooltip("The virtual object lies this far from the real sample, from middle to middle, in " +
             "metres.")]
         private Vector3 virtualMetres = new Vector3(0.26f, 0f, 0f);
 
-        [SerializeField, Range(0.002f, 0.03f), Tooltip("A tip that is no farther from an edge than this traces it, " +
-            "in metres.")]
+        [SerializeField, Range(0.002f, 0.03f), Tooltip("A tip traces an edge when it is no farther away than " +
+            "this, in metres.")]
         private float edgeToleranceMetres = 0.012f;
 
-        [SerializeField, Range(0.1f, 1f), Tooltip("This share of each edge has to be traced.")]
+        [SerializeField, Range(0.1f, 1f), Tooltip("The participant has to trace this share of each edge.")]
         private float edgeShare = 0.9f;
 
-        [SerializeField, Range(0f, 0.01f), Tooltip("The tip counts as touching the real sample from this height on, " +
-            "in metres. It makes up for what the tracking is off.")]
+        [SerializeField, Range(0f, 0.01f), Tooltip("The tip counts as touching the real sample below this height " +
+            "above it, in metres. The height makes up for errors of the tracking.")]
         private float realHeightMetres = 0.004f;
 
         [SerializeField, Tooltip("A blank plate lies under the virtual object. The force that a pen measures then " +
             "decides what it touches.")]
         private bool plateUnderVirtual = true;
 
-        [SerializeField, Tooltip("The study begins only after the virtual object was aligned with the real sample.")]
+        [SerializeField, Tooltip("The study begins only after the virtual object has been aligned with the real " +
+            "sample.")]
         private bool needsAlignment = true;
 
-        [SerializeField, Tooltip("The log calls the headset this.")]
-        private string headset = "";
-
-        [SerializeField, Tooltip("This hand holds the pen. The other one answers.")]
+        [SerializeField, Tooltip("This hand holds the pen. The other hand answers.")]
         private PenHand penHand = PenHand.Right;
 
-        [SerializeField, Min(0), Tooltip("The actuator is wired to this channel of the audio device, counted from 0. " +
-            "Every other channel gets the masking noise.")]
-        private int hapticChannel = 1;
-
-        [SerializeField, Tooltip("The headphones play this noise.")]
-        private NoiseColour noiseColour = NoiseColour.White;
-
-        [SerializeField, Range(MaskingNoise.LowestDecibels, MaskingNoise.HighestDecibels)]
-        [Tooltip("The noise has this root mean square, in dB of full scale. The actuator must not be heard.")]
-        private float noiseDecibels = -30f;
-
-        [SerializeField, Min(0f), Tooltip("Every method gets this delay in all, in ms. 0 takes that of the slowest " +
-            "method, measured before each session. Enter what was measured once, so that all participants have the " +
-            "same.")]
+        [SerializeField, Min(0f), Tooltip("Every method gets this total delay, in ms. With 0, every method gets " +
+            "the delay of the slowest one, measured before each session. Enter a measured value, so that all " +
+            "participants have the same delay.")]
         private float equalDelayMilliseconds;
 
-        [SerializeField, Min(0f), Tooltip("This passes from the audio callback to the hand, in ms: in the buffers of " +
-            "the audio device, the amplifier and the actuator. Software cannot measure it.")]
-        private float deviceDelayMilliseconds = 20f;
-
-        [SerializeField, Tooltip("Measured is what an oscilloscope or an accelerometer showed on this set-up. Logs " +
-            "and reports name the source.")]
-        private DeviceDelaySource deviceDelaySource = DeviceDelaySource.Estimated;
-
-        [SerializeField, Tooltip("This says how and when the device delay was measured, or what the estimate rests " +
-            "on.")]
-        private string deviceDelayNote = "assumed by the sample, not measured on this set-up";
-
-        [SerializeField, Tooltip("Nobody takes part: this is a rehearsal, and logs and reports say so.")]
-        private bool simulated;
-
-        /// <summary>The first is used for practice.</summary>
+        /// <summary>The real samples; the first one is used for practice.</summary>
         public IReadOnlyList<StudyMaterial> Materials => materials;
 
-        /// <summary>What generates the vibration.</summary>
+        /// <summary>The methods that generate the vibration.</summary>
         public IReadOnlyList<StudyMethod> Methods => methods;
 
-        /// <summary>Shuffles the order.</summary>
-        public ulong Seed
-        {
-            get => seed;
-            set => seed = value;
-        }
-
-        /// <summary>Where the logs go.</summary>
-        public string Folder
-        {
-            get => folder.Length > 0 ? folder : StudyPlayer.DefaultFolder;
-            set => folder = value ?? "";
-        }
-
-        /// <summary>Width, height and depth, in metres.</summary>
+        /// <summary>Width, height and depth of the mounted samples, in metres.</summary>
         public Vector3 SampleMetres => sampleMetres;
 
         /// <summary>From the middle of the real sample to that of the virtual one, in metres.</summary>
         public Vector3 VirtualMetres => virtualMetres;
 
-        /// <summary>A tip no farther from an edge traces it, in metres.</summary>
+        /// <summary>The largest distance from an edge at which the tip traces it, in metres.</summary>
         public float EdgeToleranceMetres => edgeToleranceMetres;
 
         /// <summary>The share of each edge that has to be traced.</summary>
         public float EdgeShare => edgeShare;
 
-        /// <summary>The tip counts as touching the real sample from this height on, in metres.</summary>
+        /// <summary>The height below which the tip counts as touching the real sample, in metres.</summary>
         public float RealHeightMetres => realHeightMetres;
 
-        /// <summary>A blank plate lies under the virtual object.</summary>
+        /// <summary>Whether a blank plate lies under the virtual object.</summary>
         public bool PlateUnderVirtual => plateUnderVirtual;
 
-        /// <summary>The study begins only after the alignment.</summary>
+        /// <summary>Whether the study begins only after the alignment.</summary>
         public bool NeedsAlignment
         {
             get => needsAlignment;
             set => needsAlignment = value;
         }
 
-        /// <summary>The name of the headset, for the log.</summary>
-        public string Headset => headset;
-
         /// <summary>The hand that holds the pen.</summary>
         public PenHand PenHand => penHand;
-
-        /// <summary>The output channel that the actuator is connected to; the first one is 0.</summary>
-        public int HapticChannel => hapticChannel;
-
-        /// <summary>The colour of the masking noise in the headphones.</summary>
-        public NoiseColour NoiseColour => noiseColour;
-
-        /// <summary>The RMS level of the masking noise, in dB of full scale.</summary>
-        public float NoiseDecibels => noiseDecibels;
 
         /// <summary>The delay of every method, in ms; 0 for the delay of the slowest method.</summary>
         public float EqualDelayMilliseconds
@@ -155,23 +94,7 @@ namespace HaptoFlow.Samples.SimilarityStudy
             set => equalDelayMilliseconds = value;
         }
 
-        /// <summary>The delay from the audio callback to the hand, in ms.</summary>
-        public float DeviceDelayMilliseconds => deviceDelayMilliseconds;
-
-        /// <summary>Whether the device delay was measured or estimated.</summary>
-        public DeviceDelaySource DeviceDelaySource => deviceDelaySource;
-
-        /// <summary>How the device delay was measured, or what its estimate rests on.</summary>
-        public string DeviceDelayNote => deviceDelayNote;
-
-        /// <summary>Nobody takes part; logs and reports say so.</summary>
-        public bool Simulated
-        {
-            get => simulated;
-            set => simulated = value;
-        }
-
-        /// <summary>Chooses what is compared. Before the study's component wakes.</summary>
+        /// <summary>Sets materials and methods. Call it before the component of the scene wakes.</summary>
         public void Compare(IEnumerable<StudyMaterial> chosenMaterials, IEnumerable<StudyMethod> chosenMethods)
         {
             materials = chosenMaterials.ToArray();
@@ -180,10 +103,10 @@ namespace HaptoFlow.Samples.SimilarityStudy
 
         /// <summary>A participant's trials.</summary>
         /// <exception cref="StudyException">A name or the participant is unusable; the message names it.</exception>
-        public StudyPlan PlanFor(int participant) => StudyPlan.Similarity(participant, seed,
+        public StudyPlan PlanFor(int participant) => StudyPlan.Similarity(participant, Seed,
             materials.Select(each => each.Name).ToArray(), methods.Select(each => each.Name).ToArray());
 
-        /// <summary>Refuses what no study can run with, before anything is loaded.</summary>
+        /// <summary>Refuses settings that no study can run with, before anything is loaded.</summary>
         /// <exception cref="StudyException">The message names the setting and what to do.</exception>
         public void Check()
         {
@@ -210,10 +133,10 @@ namespace HaptoFlow.Samples.SimilarityStudy
             bool isApart = Mathf.Abs(virtualMetres.x) > sampleMetres.x || Mathf.Abs(virtualMetres.z) > sampleMetres.z;
             Require(isApart, "Virtual Metres", "the virtual object would overlap the real sample; move it aside by " +
                 "more than the sample's width or depth");
-            Require(hapticChannel >= 0, "Haptic Channel", "expected a channel from 0");
+            Require(HapticChannel >= 0, "Haptic Channel", "expected a channel from 0");
         }
 
-        /// <summary>What the sidecar says of the settings.</summary>
+        /// <summary>The settings as the log holds them.</summary>
         public StudyFields ForLog() => new StudyFields
         {
             { "materials", materials.Select(each => each.ForLog()).ToArray() },
@@ -229,13 +152,8 @@ namespace HaptoFlow.Samples.SimilarityStudy
             { "plate_under_virtual", plateUnderVirtual },
             { "needs_alignment", needsAlignment },
             { "pen_hand", penHand == PenHand.Left ? "left" : "right" },
-            { "haptic_channel", hapticChannel },
-            {
-                "noise", new StudyFields
-                {
-                    { "colour", noiseColour == NoiseColour.Pink ? "pink" : "white" }, { "level_db", noiseDecibels },
-                }
-            },
+            { "haptic_channel", HapticChannel },
+            { "noise", NoiseFields() },
             { "equal_delay_ms", equalDelayMilliseconds },
         };
 

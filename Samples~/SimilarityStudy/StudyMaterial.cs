@@ -6,7 +6,7 @@ using UnityEngine;
 
 namespace HaptoFlow.Samples.SimilarityStudy
 {
-    /// <summary>A real sample and what stands for it: a label of the models, or a Haptic Material.</summary>
+    /// <summary>A real sample and its virtual counterpart: a label of the models, or a Haptic Material.</summary>
     [Serializable]
     public sealed class StudyMaterial
     {
@@ -14,20 +14,20 @@ namespace HaptoFlow.Samples.SimilarityStudy
             "sample of this name.")]
         private string name = "";
 
-        [SerializeField, Tooltip("This label of the models is felt, its texture alone. It counts where Material is " +
-            "empty.")]
+        [SerializeField, Tooltip("The virtual object has the texture of this label, without other effects. The label " +
+            "is used when Material is empty.")]
         private string label = "";
 
-        [SerializeField, Tooltip("This Haptic Material is felt as its description says. It may have been learnt from " +
-            "a recording.")]
+        [SerializeField, Tooltip("The virtual object feels as this Haptic Material describes. The material may have " +
+            "been learnt from a recording.")]
         private HapticMaterial? material;
 
-        /// <summary>For the asset's Inspector.</summary>
+        /// <summary>Used by Unity's serialisation.</summary>
         public StudyMaterial()
         {
         }
 
-        /// <summary>For programs.</summary>
+        /// <summary>Creates a material from a script.</summary>
         public StudyMaterial(string name, string label, HapticMaterial? material = null)
         {
             this.name = name;
@@ -35,16 +35,16 @@ namespace HaptoFlow.Samples.SimilarityStudy
             this.material = material;
         }
 
-        /// <summary>In logs.</summary>
+        /// <summary>The name in logs and reports.</summary>
         public string Name => name;
 
-        /// <summary>Counts where <see cref="Material"/> is null.</summary>
+        /// <summary>The label of the models; used when <see cref="Material"/> is null.</summary>
         public string Label => label;
 
-        /// <summary>Null for the label alone.</summary>
+        /// <summary>The Haptic Material; null for the label alone.</summary>
         public HapticMaterial? Material => material;
 
-        /// <summary>What the sidecar says of it: a session is gone on with the same or not at all.</summary>
+        /// <summary>The material as the log holds it. A session can be resumed only with the same material.</summary>
         public StudyFields ForLog()
         {
             var fields = new StudyFields { { "name", name } };

@@ -11,20 +11,20 @@ namespace HaptoFlow.Samples.SimilarityStudy
         [SerializeField, Tooltip("Logs and reports list the method under this name, for example ours or DSTN.")]
         private string name = "";
 
-        [SerializeField, Tooltip("This .haptoflow file generates: the package's model, or a rival that npm run " +
-            "evaluate exports.")]
+        [SerializeField, Tooltip("The vibration comes from this .haptoflow file: the package's model, or a rival " +
+            "that npm run evaluate exports.")]
         private HapticModelAsset? model;
 
-        [SerializeField, Tooltip("This tier of the model generates. Auto is refused, since it changes the tier while " +
-            "participants feel it.")]
+        [SerializeField, Tooltip("The vibration comes from this tier of the model. Auto is refused, because it " +
+            "changes the tier while participants feel it.")]
         private HapticQuality quality = HapticQuality.Standard;
 
-        /// <summary>For the asset's Inspector.</summary>
+        /// <summary>Used by Unity's serialisation.</summary>
         public StudyMethod()
         {
         }
 
-        /// <summary>For programs.</summary>
+        /// <summary>Creates a method from a script.</summary>
         public StudyMethod(string name, HapticModelAsset? model, HapticQuality quality)
         {
             this.name = name;
@@ -32,13 +32,13 @@ namespace HaptoFlow.Samples.SimilarityStudy
             this.quality = quality;
         }
 
-        /// <summary>In logs.</summary>
+        /// <summary>The name in logs and reports.</summary>
         public string Name => name;
 
-        /// <summary>Null where none is chosen.</summary>
+        /// <summary>The model; null when none is chosen.</summary>
         public HapticModelAsset? Model => model;
 
-        /// <summary>Which tier of the model generates.</summary>
+        /// <summary>The quality, which chooses the tier of the model.</summary>
         public HapticQuality Quality => quality;
     }
 }

@@ -3,8 +3,8 @@ using UnityEngine;
 
 namespace HaptoFlow.Samples.SimilarityStudy
 {
-    /// <summary>One of the two objects that a participant compares. Both look alike, whatever they feel like, and
-    /// nothing about them tells the material.</summary>
+    /// <summary>One of the two objects that a participant compares. Both look the same, so that their looks do not
+    /// reveal the material.</summary>
     public sealed class StudyObject
     {
         private const float MarkMetres = 0.003f;
@@ -13,10 +13,11 @@ namespace HaptoFlow.Samples.SimilarityStudy
 
         private readonly GameObject[] marks = new GameObject[EdgeTracing.EdgeCount];
 
-        /// <param name="parent">Moves with the real sample; the plane y = 0 is the top of both objects.</param>
-        /// <param name="place">Of the middle of the top, in the parent's frame.</param>
-        /// <param name="size">In metres.</param>
-        /// <param name="catchMetres">How far above its top the object is already touched.</param>
+        /// <param name="parent">The object that the alignment moves. The plane y = 0 of its local space is the top of
+        /// both objects.</param>
+        /// <param name="place">The middle of the top, in the parent's local space.</param>
+        /// <param name="size">The size, in metres.</param>
+        /// <param name="catchMetres">The height above the top at which the tip already counts as touching.</param>
         public StudyObject(
             string name, Transform parent, Vector3 place, Vector3 size, float catchMetres, EdgeTracing tracing)
         {
@@ -24,7 +25,7 @@ namespace HaptoFlow.Samples.SimilarityStudy
             Frame = new GameObject(name).transform;
             Frame.SetParent(parent, false);
             Frame.localPosition = place;
-            GameObject solid = Build.Solid("Solid", PrimitiveType.Cube, Vector3.zero, size, Grey);
+            GameObject solid = SceneObjects.AddSolid("Solid", PrimitiveType.Cube, Vector3.zero, size, Grey);
             solid.transform.SetParent(Frame, false);
             solid.transform.localPosition = new Vector3(0f, -0.5f * size.y, 0f);
             var box = solid.GetComponent<BoxCollider>();
@@ -35,26 +36,26 @@ namespace HaptoFlow.Samples.SimilarityStudy
             Surface = solid.AddComponent<HapticSurface>();
             for (int edge = 0; edge < marks.Length; ++edge)
             {
-                marks[edge] = Mark(edge, size);
+                marks[edge] = AddEdge(edge, size);
             }
         }
 
-        /// <summary>The middle of its top.</summary>
+        /// <summary>The local space whose origin is the middle of the top.</summary>
         public Transform Frame { get; }
 
-        /// <summary>What the pen touches.</summary>
+        /// <summary>The collider that the pen touches.</summary>
         public Collider Collider { get; }
 
-        /// <summary>What the participant sees.</summary>
+        /// <summary>The renderer of the object.</summary>
         public MeshRenderer Renderer { get; }
 
-        /// <summary>What the object feels like.</summary>
+        /// <summary>The surface with the material of the object.</summary>
         public HapticSurface Surface { get; }
 
-        /// <summary>Which edges were traced.</summary>
+        /// <summary>The edges that the pen has traced.</summary>
         public EdgeTracing Tracing { get; }
 
-        /// <summary>Follows a pen that touches this object.</summary>
+        /// <summary>Records where a pen touches this object. Call it once a frame.</summary>
         public void Trace(HapticStylus pen)
         {
             if (!pen.IsTouching || !ReferenceEquals(pen.Contact.Collider, Collider))
@@ -66,20 +67,20 @@ namespace HaptoFlow.Samples.SimilarityStudy
             Tracing.Add(place.x, place.z);
         }
 
-        /// <summary>Shows which edges are still to be traced, or none.</summary>
-        public void ShowEdges(bool isTraced)
+        /// <summary>Shows the edges that are still to be traced.</summary>
+        public void ShowEdges(bool isShown)
         {
             for (int edge = 0; edge < marks.Length; ++edge)
             {
-                bool isShown = isTraced && !Tracing.IsTraced(edge);
-                if (isShown != marks[edge].activeSelf)
+                bool isMissing = isShown && !Tracing.IsTraced(edge);
+                if (isMissing != marks[edge].activeSelf)
                 {
-                    marks[edge].SetActive(isShown);
+                    marks[edge].SetActive(isMissing);
                 }
             }
         }
 
-        private GameObject Mark(int edge, Vector3 size)
+        private GameObject AddEdge(int edge, Vector3 size)
         {
             bool isAlongX = edge == 0 || edge == 2;
             float side = edge == 0 || edge == 3 ? -0.5f : 0.5f;
@@ -87,8 +88,7 @@ namespace HaptoFlow.Samples.SimilarityStudy
             Vector3 extent = isAlongX
                 ? new Vector3(size.x, MarkMetres, MarkMetres)
                 : new Vector3(MarkMetres, MarkMetres, size.z);
-            GameObject mark = Build.Solid("Edge", PrimitiveType.Cube, Vector3.zero, extent, Bright);
-            mark.GetComponent<Collider>().enabled = false;
+            GameObject mark = SceneObjects.AddMark("Edge", PrimitiveType.Cube, Vector3.zero, extent, Bright);
             mark.transform.SetParent(Frame, false);
             mark.transform.localPosition = place;
             mark.SetActive(false);

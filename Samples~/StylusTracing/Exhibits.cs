@@ -19,36 +19,36 @@ namespace HaptoFlow.Samples.StylusTracing
             Slides = slides;
         }
 
-        /// <summary>Of the GameObject.</summary>
+        /// <summary>The name of the GameObject.</summary>
         public string Name { get; }
 
-        /// <summary>Of the model.</summary>
+        /// <summary>The material label.</summary>
         public string Label { get; }
 
-        /// <summary>What it looks and feels like.</summary>
+        /// <summary>The shape, which is drawn and felt.</summary>
         public PrimitiveType Shape { get; }
 
-        /// <summary>Of its centre, in metres.</summary>
+        /// <summary>The position of the centre, in metres.</summary>
         public Vector3 Position { get; }
 
-        /// <summary>Along its own axes, in metres.</summary>
+        /// <summary>The size along the axes of the object, in metres.</summary>
         public Vector3 Size { get; }
 
-        /// <summary>What it looks like.</summary>
+        /// <summary>The colour.</summary>
         public Color Colour { get; }
 
-        /// <summary>Of its axes.</summary>
+        /// <summary>The rotation.</summary>
         public Quaternion Rotation { get; }
 
-        /// <summary>It moves to and fro.</summary>
+        /// <summary>Whether the object slides to and fro.</summary>
         public bool Slides { get; }
     }
 
-    /// <summary>What stands in the sample's scene: the same as in StylusTracing.scene.json, for the command line.
+    /// <summary>The objects of the sample. StylusTracing.scene.json holds the same objects for the command line.
     /// </summary>
     public static class Exhibits
     {
-        /// <summary>Eight labels; the table's top is the plane y = 0.</summary>
+        /// <summary>Objects of eight labels. The top of the table is the plane y = 0.</summary>
         public static readonly Exhibit[] All =
         {
             new Exhibit("Table", "wood", PrimitiveType.Cube,

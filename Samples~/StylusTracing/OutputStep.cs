@@ -6,11 +6,11 @@ using UnityEngine;
 
 namespace HaptoFlow.Samples.StylusTracing
 {
-    /// <summary>Compares outputs while the scene runs: a button gives every pen the next one, another changes what an
-    /// audio output does to the wave.</summary>
+    /// <summary>Compares outputs while the scene runs: one button switches every pen to the next output, another one
+    /// switches the processing of an audio output.</summary>
     public sealed class OutputStep : MonoBehaviour
     {
-        // Without any output in the scene, each pen is felt through what its hand holds.
+        // Without any output in the scene, Auto Output plays each pen on the device in its hand.
         private const int Auto = 0;
         private const int Audio = 1;
 
@@ -24,7 +24,7 @@ namespace HaptoFlow.Samples.StylusTracing
             ("Motor Output", owner => owner.AddComponent<MotorOutput>()),
         };
 
-        private static readonly (string Name, Action<OutputProcessing> Apply)[] Treatments =
+        private static readonly (string Name, Action<OutputProcessing> Apply)[] Processings =
         {
             ("as it is", _ => { }),
             ("compensated for a voice coil", processing => processing.Actuator = OutputActuator.VoiceCoil),
@@ -32,59 +32,60 @@ namespace HaptoFlow.Samples.StylusTracing
             ("with the exposure guard", processing => processing.ExposureGuard = true),
         };
 
-        private readonly List<GameObject> made = new List<GameObject>();
+        private readonly List<GameObject> outputs = new List<GameObject>();
 
-        private ButtonPress next = null!;
-        private ButtonPress treat = null!;
+        private ButtonPress nextOutput = null!;
+        private ButtonPress nextProcessing = null!;
         private TextMesh text = null!;
-        private int choice;
-        private int treatment;
+        private int outputChoice;
+        private int processingChoice;
 
-        /// <summary>The text that says which output is in use.</summary>
+        /// <summary>The text that names the output in use.</summary>
         public string Text => text.text;
 
-        /// <param name="facing">How the text is turned.</param>
+        /// <summary>Creates the step.</summary>
+        /// <param name="facing">The rotation of the text.</param>
         public static OutputStep Create(Quaternion facing)
         {
             var step = new GameObject("Output Step").AddComponent<OutputStep>();
-            step.text = Build.Text("", new Vector3(0f, 0.1f, 0.3f), facing);
-            step.next = new ButtonPress("<Keyboard>/o", "<XRController>{RightHand}/primaryButton");
-            step.treat = new ButtonPress("<Keyboard>/p", "<XRController>{RightHand}/secondaryButton");
-            step.Say();
+            step.text = SceneObjects.AddText("", new Vector3(0f, 0.1f, 0.3f), facing);
+            step.nextOutput = new ButtonPress("<Keyboard>/o", "<XRController>{RightHand}/primaryButton");
+            step.nextProcessing = new ButtonPress("<Keyboard>/p", "<XRController>{RightHand}/secondaryButton");
+            step.ShowChoice();
             return step;
         }
 
         private void Update()
         {
-            if (next.IsNew())
+            if (nextOutput.IsNew())
             {
-                choice = (choice + 1) % Outputs.Length;
+                outputChoice = (outputChoice + 1) % Outputs.Length;
                 Rebuild();
-                Say();
+                ShowChoice();
             }
-            if (treat.IsNew())
+            if (nextProcessing.IsNew())
             {
-                treatment = (treatment + 1) % Treatments.Length;
-                made.ForEach(Treat);
-                Say();
+                processingChoice = (processingChoice + 1) % Processings.Length;
+                outputs.ForEach(ApplyProcessing);
+                ShowChoice();
             }
         }
 
         private void OnDestroy()
         {
-            next.Dispose();
-            treat.Dispose();
+            nextOutput.Dispose();
+            nextProcessing.Dispose();
         }
 
         private void Rebuild()
         {
-            made.ForEach(Destroy);
-            made.Clear();
-            if (choice == Audio)
+            outputs.ForEach(Destroy);
+            outputs.Clear();
+            if (outputChoice == Audio)
             {
                 Add(transform);
             }
-            else if (choice != Auto)
+            else if (outputChoice != Auto)
             {
                 foreach (HapticStylus pen in FindObjectsByType<HapticStylus>(
                     FindObjectsInactive.Include, FindObjectsSortMode.None))
@@ -96,14 +97,14 @@ namespace HaptoFlow.Samples.StylusTracing
 
         private void Add(Transform parent)
         {
-            var owner = new GameObject(Outputs[choice].Name);
+            var owner = new GameObject(Outputs[outputChoice].Name);
             owner.transform.SetParent(parent, false);
-            Outputs[choice].AddTo(owner);
-            made.Add(owner);
-            Treat(owner);
+            Outputs[outputChoice].AddTo(owner);
+            outputs.Add(owner);
+            ApplyProcessing(owner);
         }
 
-        private void Treat(GameObject owner)
+        private void ApplyProcessing(GameObject owner)
         {
             var output = owner.GetComponent<HapticOutput>();
             if (output == null)
@@ -113,14 +114,14 @@ namespace HaptoFlow.Samples.StylusTracing
             output.Processing.Actuator = OutputActuator.Uncompensated;
             output.Processing.DelayMilliseconds = 0f;
             output.Processing.ExposureGuard = false;
-            Treatments[treatment].Apply(output.Processing);
+            Processings[processingChoice].Apply(output.Processing);
             output.ApplyProcessing();
         }
 
-        private void Say()
+        private void ShowChoice()
         {
-            string treated = choice == Audio ? $", {Treatments[treatment].Name} (P: next)" : "";
-            text.text = $"{Outputs[choice].Name}{treated} (O: next output)";
+            string processing = outputChoice == Audio ? $", {Processings[processingChoice].Name} (P: next)" : "";
+            text.text = $"{Outputs[outputChoice].Name}{processing} (O: next output)";
         }
     }
 }

@@ -9,87 +9,89 @@ using UnityEngine;
 
 namespace HaptoFlow.Samples.Workshop
 {
-    /// <summary>Learns a material from a recording while the scene runs: ten seconds of recording, a few seconds of one
-    /// core in the background. The button in the scene begins when a stylus touches it; touched again meanwhile, it
-    /// cancels. The specimen beside it then feels like what was learnt.</summary>
+    /// <summary>Learns a material from a recording of ten seconds while the scene runs, which takes a few seconds of
+    /// one core in the background. A stylus that touches the button starts the learning, or cancels it. The specimen
+    /// beside the button then takes the learnt material.</summary>
     [RequireComponent(typeof(WorkshopScene))]
     public sealed class AddMaterialPanel : MonoBehaviour
     {
-        // New text makes garbage; hands are not faster to read.
-        private const double SecondsBetween = 0.25;
+        // Every new text allocates; four a second are enough to read.
+        private const double UpdateSeconds = 0.25;
         private static readonly Vector3 ButtonSize = new Vector3(0.08f, 0.012f, 0.03f);
         private static readonly Vector3 TextAbove = new Vector3(0f, 0.025f, 0f);
 
-        [SerializeField, Tooltip("A CSV table, or a WAV file whose name ends in .wav.bytes.")]
+        [SerializeField, Tooltip("The recording is a CSV table, or a WAV file whose name ends in .wav.bytes.")]
         private TextAsset? recording;
 
-        [SerializeField, Tooltip("What belongs to the recording: its sidecar (NAME.json) and its motion file.")]
+        [SerializeField, Tooltip("The companion files of the recording are its sidecar (NAME.json) and its motion " +
+            "file.")]
         private TextAsset[] beside = Array.Empty<TextAsset>();
 
         private HapticMaterial? target;
         private TextMesh? board;
         private Collider? button;
-        private HapticMaterial? feel;
+        private HapticMaterial? buttonMaterial;
         private Task<HapticLearning>? starting;
         private HapticLearning? learning;
-        private HapticStylus? heard;
-        private bool isCancelled;
+        private HapticStylus? stylus;
+        private bool isCancelRequested;
         private double nextSeconds;
 
         /// <summary>The text that the panel shows.</summary>
         public string Text { get; private set; } = "";
 
-        /// <summary>A material is being learnt.</summary>
+        /// <summary>Whether a material is being learnt.</summary>
         public bool IsLearning => starting != null || learning != null;
 
-        /// <summary>What a stylus touches to begin; null before the scene is built.</summary>
+        /// <summary>The button that starts the learning; null before the scene is built.</summary>
         public Collider? Button => button;
 
-        /// <summary>Takes another recording. To be called before the panel is pressed.</summary>
-        /// <param name="file">A CSV table, or a WAV file whose name ends in .wav.bytes.</param>
-        /// <param name="siblings">Its sidecar and its motion file, as far as there are.</param>
-        public void Take(TextAsset file, params TextAsset[] siblings)
+        /// <summary>Sets another recording. Call it before the button is touched.</summary>
+        /// <param name="file">The recording: a CSV table, or a WAV file whose name ends in .wav.bytes.</param>
+        /// <param name="siblings">Its sidecar and its motion file, if there are any.</param>
+        public void SetRecording(TextAsset file, params TextAsset[] siblings)
         {
             recording = file;
             beside = siblings;
-            Say("Touch to learn " + NameOf(file));
+            Show("Touch to learn " + NameOf(file));
         }
 
-        /// <summary>Begins to learn, or cancels what is under way. Returns at once.</summary>
+        /// <summary>Starts the learning, or cancels a running one. Returns at once.</summary>
         public void Press()
         {
             if (IsLearning)
             {
-                isCancelled = true;
+                isCancelRequested = true;
                 learning?.Cancel();
                 return;
             }
-            isCancelled = false;
+            isCancelRequested = false;
             HapticModelAsset? model = HaptoFlowSettings.Active.Model;
             if (recording == null || model == null)
             {
-                Say(recording == null
+                Show(recording == null
                     ? "No recording is chosen"
                     : "No model is chosen in Project Settings > HaptoFlow");
                 return;
             }
-            Say("Reading " + NameOf(recording));
-            starting = Begin(model.File, recording.name, recording.bytes, Beside());
+            Show("Reading " + NameOf(recording));
+            starting = Begin(model.File, recording.name, recording.bytes, ReadCompanions());
         }
 
         private static string NameOf(TextAsset asset) => Path.GetFileNameWithoutExtension(asset.name);
 
-        /// <summary>Reads and starts in another thread: the scene goes on.</summary>
+        /// <summary>Reads the recording and starts the learning in another thread, so that the scene continues.
+        /// </summary>
         private static Task<HapticLearning> Begin(
-            byte[] modelFile, string name, byte[] file, Dictionary<string, byte[]> beside) => Task.Run(() =>
+            byte[] modelFile, string name, byte[] file, Dictionary<string, byte[]> companions) => Task.Run(() =>
         {
-            byte[]? Sibling(string wanted) =>
-                beside.TryGetValue(Path.GetFileNameWithoutExtension(wanted), out byte[] bytes) ? bytes : null;
+            byte[]? Sibling(string fileName) =>
+                companions.TryGetValue(Path.GetFileNameWithoutExtension(fileName), out byte[] bytes) ? bytes : null;
             Recording read = RecordingReader.Read(name, file, Sibling);
             if (!read.KnowsMotion)
             {
                 throw new HaptoFlowException(HaptoFlowStatus.RecordingUnusable,
-                    $"{name}: speed or force is not known; expected both in its columns or in its sidecar");
+                    $"{name}: speed or force is missing; expected both in its columns or in its sidecar");
             }
             return HapticLearning.Start(modelFile, read, new LearningOptions
             {
@@ -98,7 +100,7 @@ namespace HaptoFlow.Samples.Workshop
             });
         });
 
-        private Dictionary<string, byte[]> Beside()
+        private Dictionary<string, byte[]> ReadCompanions()
         {
             var files = new Dictionary<string, byte[]>();
             foreach (TextAsset each in beside)
@@ -115,18 +117,18 @@ namespace HaptoFlow.Samples.Workshop
         {
             var scene = GetComponent<WorkshopScene>();
             Transform place = scene.PanelPlace;
-            GameObject solid = Build.Solid("Add Material", PrimitiveType.Cube, place.position, ButtonSize,
+            GameObject solid = SceneObjects.AddSolid("Add Material", PrimitiveType.Cube, place.position, ButtonSize,
                 new Color(0.2f, 0.5f, 0.35f));
             button = solid.GetComponent<Collider>();
-            feel = ScriptableObject.CreateInstance<HapticMaterial>();
-            feel.name = "plastic";
-            feel.Description.Label = "plastic";
-            scene.Map.Insert(0, HapticMaterialRule.ForName(solid.name, feel));
-            board = Build.Text("", place.position + TextAbove, place.rotation);
+            buttonMaterial = ScriptableObject.CreateInstance<HapticMaterial>();
+            buttonMaterial.name = "plastic";
+            buttonMaterial.Description.Label = "plastic";
+            scene.Map.Insert(0, HapticMaterialRule.ForName(solid.name, buttonMaterial));
+            board = SceneObjects.AddText("", place.position + TextAbove, place.rotation);
             target = scene.SpecimenMaterial;
-            heard = scene.Pen.Stylus;
-            heard.TouchBegan += OnTouchBegan;
-            Say(recording != null ? "Touch to learn " + NameOf(recording) : "No recording is chosen");
+            stylus = scene.Pen.Stylus;
+            stylus.TouchBegan += OnTouchBegan;
+            Show(recording != null ? "Touch to learn " + NameOf(recording) : "No recording is chosen");
         }
 
         private void OnDisable()
@@ -139,13 +141,13 @@ namespace HaptoFlow.Samples.Workshop
 
         private void OnDestroy()
         {
-            if (heard is { } listened)
+            if (stylus is { } subscribed)
             {
-                listened.TouchBegan -= OnTouchBegan;
+                subscribed.TouchBegan -= OnTouchBegan;
             }
-            if (feel != null)
+            if (buttonMaterial != null)
             {
-                Destroy(feel);
+                Destroy(buttonMaterial);
             }
         }
 
@@ -158,14 +160,14 @@ namespace HaptoFlow.Samples.Workshop
                 if (ended.Status == TaskStatus.RanToCompletion)
                 {
                     learning = ended.Result;
-                    if (isCancelled)
+                    if (isCancelRequested)
                     {
                         learning.Cancel();
                     }
                 }
                 else
                 {
-                    Say("Nothing was learnt: " + ended.Exception!.GetBaseException().Message);
+                    Show("Nothing was learnt: " + ended.Exception!.GetBaseException().Message);
                 }
             }
             if (learning == null)
@@ -180,8 +182,8 @@ namespace HaptoFlow.Samples.Workshop
             }
             else if (Time.unscaledTimeAsDouble >= nextSeconds)
             {
-                nextSeconds = Time.unscaledTimeAsDouble + SecondsBetween;
-                Say(FormattableString.Invariant($"{100f * learning.Share:0} %: {learning.Doing}"));
+                nextSeconds = Time.unscaledTimeAsDouble + UpdateSeconds;
+                Show(FormattableString.Invariant($"{100f * learning.Share:0} %: {learning.Doing}"));
             }
         }
 
@@ -189,7 +191,7 @@ namespace HaptoFlow.Samples.Workshop
         {
             if (ended.Material == null)
             {
-                Say(ended.IsCancelled ? "Cancelled" : "Nothing was learnt: " + ended.Problem);
+                Show(ended.IsCancelled ? "Cancelled" : "Nothing was learnt: " + ended.Problem);
                 return;
             }
             string name = MaterialFile.Read(ended.Material).Name;
@@ -198,7 +200,7 @@ namespace HaptoFlow.Samples.Workshop
                 target.Description.Label = ended.NearestLabel;
                 target.Carry(ended.Material);
             }
-            Say($"The specimen feels like {name} now; the nearest label is {ended.NearestLabel}");
+            Show($"The specimen now feels like {name}; the nearest label is {ended.NearestLabel}");
         }
 
         private void OnTouchBegan(HapticStylus who, in HapticContact contact)
@@ -209,7 +211,7 @@ namespace HaptoFlow.Samples.Workshop
             }
         }
 
-        private void Say(string text)
+        private void Show(string text)
         {
             Text = text;
             if (board != null)

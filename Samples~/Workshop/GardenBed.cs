@@ -5,8 +5,8 @@ using Object = UnityEngine.Object;
 
 namespace HaptoFlow.Samples.Workshop
 {
-    /// <summary>A terrain of three layers that run into each other. It is drawn by a mesh of its own: the look of a
-    /// terrain that a script makes depends on the render pipeline.</summary>
+    /// <summary>A terrain of three layers that blend into each other. A separate mesh draws it, because the look of a
+    /// terrain created by a script depends on the render pipeline.</summary>
     internal sealed class GardenBed
     {
         private const int Corners = 33;
@@ -22,15 +22,15 @@ namespace HaptoFlow.Samples.Workshop
         private readonly Vector3 corner;
         private readonly Func<Object, Object> keep;
 
-        /// <param name="corner">The terrain's own origin.</param>
-        /// <param name="keep">Takes what has to be destroyed with the scene.</param>
+        /// <param name="corner">The position of the terrain's origin, its corner.</param>
+        /// <param name="keep">Marks an asset to be destroyed with the scene.</param>
         public GardenBed(Vector3 corner, Func<Object, Object> keep)
         {
             this.corner = corner;
             this.keep = keep;
         }
 
-        public Terrain Build(HapticMaterialMap map, Func<string, HapticMaterial> feeling)
+        public Terrain Build(HapticMaterialMap map, Func<string, HapticMaterial> createMaterial)
         {
             var data = (TerrainData)keep(new TerrainData());
             data.heightmapResolution = Corners;
@@ -40,7 +40,7 @@ namespace HaptoFlow.Samples.Workshop
             for (int layer = 0; layer < layers.Length; ++layer)
             {
                 layers[layer] = (TerrainLayer)keep(new TerrainLayer { name = Layers[layer].Layer });
-                map.Add(HapticMaterialRule.ForTerrainLayer(layers[layer], feeling(Layers[layer].Label)));
+                map.Add(HapticMaterialRule.ForTerrainLayer(layers[layer], createMaterial(Layers[layer].Label)));
             }
             data.terrainLayers = layers;
             data.SetHeights(0, 0, Heights());
@@ -54,7 +54,8 @@ namespace HaptoFlow.Samples.Workshop
             return terrain;
         }
 
-        /// <summary>Of a layer at a place from 0 to 1: gravel on the left, sand on the right, turf between.</summary>
+        /// <summary>The weight of a layer at a position from 0 to 1: gravel on the left, sand on the right, turf
+        /// between.</summary>
         private static float Weight(int layer, float x)
         {
             float gravel = Mathf.Clamp01(1.5f - 3f * x);
@@ -62,7 +63,7 @@ namespace HaptoFlow.Samples.Workshop
             return layer == 0 ? gravel : layer == 2 ? sand : 1f - gravel - sand;
         }
 
-        /// <summary>A low hill, 0 to 1.</summary>
+        /// <summary>The height of a low hill, 0 to 1.</summary>
         private static float Height(float x, float z) =>
             (float)(Math.Sin(Math.PI * x) * Math.Sin(Math.PI * z));
 

@@ -5,8 +5,8 @@ using Object = UnityEngine.Object;
 
 namespace HaptoFlow.Samples.Workshop
 {
-    /// <summary>A pane of ceramic with a mask: red is a ring of jute, green is how much of its strength is left.
-    /// </summary>
+    /// <summary>A pane of ceramic with a mask. The red channel selects jute in a ring, the green channel scales the
+    /// strength.</summary>
     internal sealed class InlaidPane
     {
         private const int Texels = 128;
@@ -17,23 +17,23 @@ namespace HaptoFlow.Samples.Workshop
         private readonly Vector3 place;
         private readonly Func<Object, Object> keep;
 
-        /// <param name="place">Of the middle of its underside.</param>
-        /// <param name="keep">Takes what has to be destroyed with the scene.</param>
+        /// <param name="place">The position of the middle of its underside.</param>
+        /// <param name="keep">Marks an asset to be destroyed with the scene.</param>
         public InlaidPane(Vector3 place, Func<Object, Object> keep)
         {
             this.place = place;
             this.keep = keep;
         }
 
-        public MeshCollider Build(HapticMaterialMap map, Func<string, HapticMaterial> feeling)
+        public MeshCollider Build(HapticMaterialMap map, Func<string, HapticMaterial> createMaterial)
         {
             var mask = (HapticMaskMap)keep(ScriptableObject.CreateInstance<HapticMaskMap>());
             mask.name = "Ring";
-            mask.Red.SetMaterial(feeling("jute"));
+            mask.Red.SetMaterial(createMaterial("jute"));
             mask.Green.SetFactor(MaskChannelUse.Strength, 0.3f, 1f);
             mask.SetPixels(Texels, Texels, Pixels((ring, wear) =>
                 new Color32(Level(ring), Level(1f - wear), 0, 0)), false);
-            HapticMaterialRule rule = HapticMaterialRule.ForName("Inlaid Pane", feeling("ceramic"));
+            HapticMaterialRule rule = HapticMaterialRule.ForName("Inlaid Pane", createMaterial("ceramic"));
             rule.Mask = mask;
             map.Add(rule);
 
@@ -51,7 +51,8 @@ namespace HaptoFlow.Samples.Workshop
             return collider;
         }
 
-        /// <param name="colour">By how much of the ring is there, and how worn the place is, each 0 to 1.</param>
+        /// <param name="colour">The colour of a pixel from the share of the ring there and from the wear, each 0 to 1.
+        /// </param>
         private static Color32[] Pixels(Func<float, float, Color32> colour)
         {
             var pixels = new Color32[Texels * Texels];

@@ -4,19 +4,20 @@ using UnityEngine;
 
 namespace HaptoFlow.Samples.Workshop
 {
-    /// <summary>Meshes and pictures that are made at run time.</summary>
+    /// <summary>Creates meshes and textures at run time.</summary>
     internal static class Shapes
     {
-        // Each face of a box clockwise as it is seen from outside.
+        // The order of a box's faces. Unity draws triangles whose corners run clockwise as seen from outside.
         private static readonly Vector3[] FaceNormals =
         {
             Vector3.up, -Vector3.up, Vector3.right, -Vector3.right, Vector3.forward, -Vector3.forward,
         };
 
-        /// <summary>A sheet that looks upwards; its texture coordinates run from 0 to 1 along x and z.</summary>
-        /// <param name="columns">Corners along x, 2 or more.</param>
-        /// <param name="rows">Corners along z, 2 or more.</param>
-        /// <param name="corner">By its texture coordinates.</param>
+        /// <summary>Creates a sheet that faces upwards. Its texture coordinates run from 0 to 1 along x and z.
+        /// </summary>
+        /// <param name="columns">The number of vertices along x, 2 or more.</param>
+        /// <param name="rows">The number of vertices along z, 2 or more.</param>
+        /// <param name="corner">The position of a vertex from its texture coordinates.</param>
         public static Mesh Grid(int columns, int rows, Func<float, float, Vector3> corner)
         {
             var vertices = new Vector3[columns * rows];
@@ -41,7 +42,7 @@ namespace HaptoFlow.Samples.Workshop
             return mesh;
         }
 
-        /// <summary>Boxes of one size, each a submesh.</summary>
+        /// <summary>Creates boxes of one size, each as a submesh.</summary>
         public static Mesh Boxes(Vector3 size, params Vector3[] centres)
         {
             var vertices = new Vector3[24 * centres.Length];
@@ -67,7 +68,7 @@ namespace HaptoFlow.Samples.Workshop
             return mesh;
         }
 
-        /// <summary>A texture of these pixels, row by row from the bottom.</summary>
+        /// <summary>Creates a texture from pixels, row by row from the bottom.</summary>
         public static Texture2D Picture(int width, int height, Color32[] pixels)
         {
             var picture = new Texture2D(width, height, TextureFormat.RGBA32, false)
@@ -83,7 +84,7 @@ namespace HaptoFlow.Samples.Workshop
         {
             bool isUpright = Mathf.Abs(normal.y) < 0.5f;
             Vector3 up = isUpright ? Vector3.up : Vector3.forward;
-            // Left-handed: seen from outside, with up upwards, this points to the right.
+            // In Unity's left-handed space, this points to the right as seen from outside with up upwards.
             Vector3 right = Vector3.Cross(normal, up);
             vertices[first] = centre + Vector3.Scale(half, normal - right - up);
             vertices[first + 1] = centre + Vector3.Scale(half, normal - right + up);

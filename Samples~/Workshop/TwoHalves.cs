@@ -5,7 +5,7 @@ using Object = UnityEngine.Object;
 
 namespace HaptoFlow.Samples.Workshop
 {
-    /// <summary>One mesh of two submeshes, each drawn with a material of its own: the rules go by those.</summary>
+    /// <summary>A mesh of two submeshes, each drawn with its own material. The rules match these materials.</summary>
     internal sealed class TwoHalves
     {
         private static readonly Vector3 Half = new Vector3(0.19f, 0.012f, 0.22f);
@@ -17,15 +17,15 @@ namespace HaptoFlow.Samples.Workshop
         private readonly Vector3 place;
         private readonly Func<Object, Object> keep;
 
-        /// <param name="place">Of the middle of its underside.</param>
-        /// <param name="keep">Takes what has to be destroyed with the scene.</param>
+        /// <param name="place">The position of the middle of its underside.</param>
+        /// <param name="keep">Marks an asset to be destroyed with the scene.</param>
         public TwoHalves(Vector3 place, Func<Object, Object> keep)
         {
             this.place = place;
             this.keep = keep;
         }
 
-        public MeshCollider Build(HapticMaterialMap map, Func<string, HapticMaterial> feeling)
+        public MeshCollider Build(HapticMaterialMap map, Func<string, HapticMaterial> createMaterial)
         {
             var owner = new GameObject("Two Halves");
             owner.transform.position = place;
@@ -41,7 +41,7 @@ namespace HaptoFlow.Samples.Workshop
                 paints[side] = (Material)keep(new Material(renderer.sharedMaterial!));
                 paints[side].name = Sides[side].Paint;
                 paints[side].color = Sides[side].Colour;
-                map.Add(HapticMaterialRule.ForRendererMaterial(paints[side], feeling(Sides[side].Label)));
+                map.Add(HapticMaterialRule.ForRendererMaterial(paints[side], createMaterial(Sides[side].Label)));
             }
             renderer.sharedMaterials = paints;
             var collider = owner.AddComponent<MeshCollider>();

@@ -20,14 +20,14 @@ namespace HaptoFlow.EditorTests
         }
 
         [Test]
-        public void TheVelocitysArrowIsTheWayOfATenthOfASecond()
+        public void TheVelocityArrowIsTheDistanceOfATenthOfASecond()
         {
             MarkLine velocity = Shaft(MarkKind.Velocity, Contact());
             Assert.That(Distance(velocity.To, Point + new Double3(0.03, 0.0, 0.04)), Is.LessThan(1e-12));
         }
 
         [Test]
-        public void TheArrowsHeadLiesAlongTheSurfaceOnBothSidesOfTheShaft()
+        public void TheArrowHeadLiesInTheSurfaceOnBothSidesOfTheShaft()
         {
             MarkLine[] arrow = Lines(MarkKind.Velocity, Contact()).ToArray();
             Assert.That(arrow, Has.Length.EqualTo(3));
@@ -41,7 +41,7 @@ namespace HaptoFlow.EditorTests
         }
 
         [Test]
-        public void ThePenetrationGoesIntoTheSurfaceAsDeepAsTheTip()
+        public void ThePenetrationLineIsAsLongAsThePenetrationDepth()
         {
             MarkLine depth = Lines(MarkKind.Penetration, Contact()).Single();
             Assert.That(Distance(depth.To, Point - Double3.Up * 0.0015), Is.LessThan(1e-12));
@@ -60,7 +60,7 @@ namespace HaptoFlow.EditorTests
         }
 
         [Test]
-        public void ATipThatRestsHasNoArrow()
+        public void ARestingTipHasNoVelocityArrow()
         {
             MarkedContact resting = Contact();
             resting.TangentialVelocityMps = Double3.Zero;
@@ -70,7 +70,7 @@ namespace HaptoFlow.EditorTests
         }
 
         [Test]
-        public void TheCaptionSaysForceSpeedAndDepthWithUnits() =>
+        public void TheCaptionNamesForceSpeedAndDepthWithUnits() =>
             Assert.That(ContactMarks.Caption(Contact()), Is.EqualTo("0.42 N, 500 mm/s, 1.5 mm deep"));
 
         private static MarkedContact Contact() => new MarkedContact

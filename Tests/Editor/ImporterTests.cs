@@ -20,7 +20,7 @@ namespace HaptoFlow.EditorTests
         }
 
         [Test]
-        public void ASoundFileIsImportedWithoutARemark()
+        public void AValidFileIsImportedWithoutMessages()
         {
             string path = Import("sound.haptoflow", Model().File);
             byte[] kept = AssetDatabase.LoadAssetAtPath<HapticModelAsset>(path).File;
@@ -33,7 +33,7 @@ namespace HaptoFlow.EditorTests
         [TestCase("part", "does not match its checksum")]
         [TestCase("empty", "its first part alone takes 32")]
         [TestCase("text", "not a .haptoflow file")]
-        public void ADamagedFileBecomesAnAssetWhoseImportSaysWhatIsWrong(string damage, string message)
+        public void ADamagedFileBecomesAnAssetAndLogsItsProblem(string damage, string message)
         {
             LogAssert.ignoreFailingMessages = true;
             string path = Import(damage + ".haptoflow", Damaged(Model().File, damage));
@@ -43,7 +43,7 @@ namespace HaptoFlow.EditorTests
         }
 
         [Test]
-        public void AFileThatIsReplacedByASoundOneIsSoundAgain()
+        public void AReplacedFileIsCheckedAgain()
         {
             LogAssert.ignoreFailingMessages = true;
             byte[] sound = Model().File;

@@ -45,11 +45,11 @@ namespace HaptoFlow.EditorTests
         [TestCase("Woodpecker")]
         [TestCase("42")]
         [TestCase("")]
-        public void ANameThatSaysNothingSuggestsNothing(string name) =>
+        public void AMeaninglessNameSuggestsNoLabel(string name) =>
             Assert.That(new LabelMatcher(Names).Propose(name), Is.Null);
 
         [Test]
-        public void ALabelsOwnNameCountsBeforeAWordThatMeansAnother() =>
+        public void TheNameOfALabelTakesPrecedenceOverASynonymOfAnother() =>
             Assert.That(new LabelMatcher(Names).Propose("Oak_Imitation_Plastic"), Is.EqualTo("plastic"));
 
         [Test]
@@ -64,13 +64,13 @@ namespace HaptoFlow.EditorTests
         }
 
         [Test]
-        public void EveryWordMeansALabelThatTheDefaultModelCouldHave()
+        public void EverySynonymStandsForALabelOfTheDefaultModel()
         {
             string[] strangers = LabelWords.All.Values.SelectMany(labels => labels).Distinct()
                 .Where(label => !Names.TryFind(label, out _)).ToArray();
             Assert.That(strangers, Is.Empty);
             string[] shadowed = LabelWords.All.Keys.Where(word => Names.TryFind(word, out _)).ToArray();
-            Assert.That(shadowed, Is.Empty, "labels are no words for others");
+            Assert.That(shadowed, Is.Empty, "the name of a label is no synonym for another one");
         }
     }
 }

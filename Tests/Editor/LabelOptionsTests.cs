@@ -8,14 +8,14 @@ namespace HaptoFlow.EditorTests
     public sealed class LabelOptionsTests : EditorTest
     {
         [Test]
-        public void AllLabelsOfTheModelAreOfferedByName()
+        public void AllLabelsOfTheModelAreListedByName()
         {
             string[] offered = Texts("wood", false);
             Assert.That(offered, Has.Length.EqualTo(20).And.Ordered);
         }
 
         [Test]
-        public void AnUnknownNameStaysAndWhatItMayHaveMeantFollows()
+        public void AnUnknownNameIsListedFirstFollowedBySimilarLabels()
         {
             string[] offered = Texts("plywod", false);
             Assert.That(offered[0], Is.EqualTo("plywod (not in model)"));
@@ -26,7 +26,7 @@ namespace HaptoFlow.EditorTests
         }
 
         [Test]
-        public void NoneIsOfferedWhereALabelMayBeLeftOut()
+        public void NoneIsListedOnlyWhenTheLabelIsOptional()
         {
             Assert.That(LabelOptions.For(LabelCatalog.Current, "wood", true)[0].Label, Is.Empty);
             Assert.That(Texts("wood", true)[0], Is.EqualTo("none"));
@@ -34,7 +34,7 @@ namespace HaptoFlow.EditorTests
         }
 
         [Test]
-        public void LabelsAreThoseOfTheProjectsModel()
+        public void TheLabelsAreThoseOfTheProjectsModel()
         {
             HaptoFlowSettings settings = Settings();
             LabelCatalog before = LabelCatalog.Current;
@@ -45,7 +45,7 @@ namespace HaptoFlow.EditorTests
         }
 
         [Test]
-        public void WithoutAUsableModelNoNameIsCalledUnknown()
+        public void WithoutAUsableModelNoNameIsUnknown()
         {
             Settings().Model = HapticModelAsset.Create(ModelBytes.Truncated(Model().File, 5000));
             Assert.That(LabelCatalog.Current.Names.All, Is.Empty);
@@ -54,7 +54,7 @@ namespace HaptoFlow.EditorTests
         }
 
         [Test]
-        public void ACapitalLetterMakesNoUnknownName()
+        public void LabelsAreComparedWithoutCase()
         {
             Assert.That(LabelCatalog.Current.IsUnknown("Wood"), Is.False);
             Assert.That(LabelCatalog.Current.StiffnessRemark("Wood"), Is.EqualTo("0: the model's 1200"));

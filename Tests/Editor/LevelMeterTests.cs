@@ -17,11 +17,11 @@ namespace HaptoFlow.EditorTests
         [TestCase(0.0, 1f)]
         [TestCase(-30.0, 0.5f)]
         [TestCase(-60.0, 0f)]
-        public void TheBarGoesFromMinusSixtyDecibelsToFullScale(double decibels, float share) =>
+        public void TheBarRangesFromMinusSixtyDecibelsToFullScale(double decibels, float share) =>
             Assert.That(LevelMeter.ShareOf(decibels), Is.EqualTo(share).Within(1e-6f));
 
         [Test]
-        public void CaptionsAreMadeOnce()
+        public void CaptionsAreCreatedOnce()
         {
             Assert.That(LevelMeter.CaptionOf(-12.4), Is.SameAs(LevelMeter.CaptionOf(-11.6)));
             Assert.That(LevelMeter.CaptionOf(-12.4), Is.EqualTo("level -12 dB of full scale"));

@@ -24,7 +24,7 @@ namespace HaptoFlow.EditorTests
             new string[0];
 
         [Test]
-        public void AMaterialFileBecomesAMaterialThatCarriesItWithTheNearestLabelBehindIt()
+        public void AMaterialFileIsImportedWithItsNearestLabel()
         {
             string text = Text();
             string path = ImportText(text);
@@ -39,7 +39,7 @@ namespace HaptoFlow.EditorTests
         [TestCase("{\"format\": \"haptoflow-material\", \"version\": 1}", "'space' is missing")]
         [TestCase("{\"format\": \"haptoflow-material\", \"version\": 2}", "version 2; update HaptoFlow")]
         [TestCase("{\"format\": 3}", "'format'")]
-        public void AFileThatIsNoneBecomesAMaterialWhoseImportNamesTheKey(string text, string message)
+        public void AnInvalidMaterialFileIsImportedAndLogsTheKey(string text, string message)
         {
             LogAssert.ignoreFailingMessages = true;
             string path = ImportText(text);
@@ -48,7 +48,7 @@ namespace HaptoFlow.EditorTests
         }
 
         [Test]
-        public void TheSummarySaysNameNearestLabelSecondsAndLicence()
+        public void TheSummaryShowsNameNearestLabelDurationAndLicence()
         {
             MaterialSummary summary = MaterialSummary.Of(Text(("name", "bottle"), ("provenance",
                 new Dictionary<string, object?> { ["seconds"] = 12.5, ["licence"] = "CC BY 4.0" })), Model());
@@ -60,7 +60,7 @@ namespace HaptoFlow.EditorTests
         }
 
         [Test]
-        public void TheSummarySaysWhyAMaterialOfAnotherModelIsNotFeltAndWhatIsWrongWithADamagedOne()
+        public void TheSummaryShowsWhyAMaterialCannotBeUsed()
         {
             Assert.That(MaterialSummary.Of(Text(("space", "0badcafe")), Model()).Mismatch,
                 Does.Contain("learnt for another model").And.Contain("Learn it again"));

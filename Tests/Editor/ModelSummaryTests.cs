@@ -8,7 +8,7 @@ namespace HaptoFlow.EditorTests
     public sealed class ModelSummaryTests : EditorTest
     {
         [Test]
-        public void ProvenanceAndLicenceAreSaid()
+        public void TheSummaryShowsProvenanceAndLicence()
         {
             ModelSummary summary = ModelSummary.Of(Model());
             Assert.That(summary.Problem, Is.Null);
@@ -19,7 +19,7 @@ namespace HaptoFlow.EditorTests
         }
 
         [Test]
-        public void EveryLabelSaysItsCategoryAndStiffness()
+        public void EveryLabelShowsItsCategoryAndStiffness()
         {
             ModelSummary summary = ModelSummary.Of(Model());
             Assert.That(summary.Labels, Has.Count.EqualTo(20));
@@ -29,7 +29,7 @@ namespace HaptoFlow.EditorTests
         }
 
         [Test]
-        public void FiguresThatTheFileDoesNotHaveAreNotMadeUp()
+        public void MissingFiguresAreShownAsNotMeasured()
         {
             ModelSummary summary = Summary("{}", "{}");
             Assert.That(summary.Tiers.Select(tier => tier.Accuracy), Is.All.EqualTo("not measured"));
@@ -37,7 +37,7 @@ namespace HaptoFlow.EditorTests
         }
 
         [Test]
-        public void MeasuredFiguresStandBesideEachOtherWithTheirUnits()
+        public void MeasuredFiguresAreShownWithTheirUnits()
         {
             ModelSummary summary = Summary(
                 "{\"level_error_db\":-0.25,\"gfc_recording\":0.9714,\"lsd_db\":3.1}",
@@ -49,7 +49,7 @@ namespace HaptoFlow.EditorTests
         }
 
         [Test]
-        public void TheDefaultTierIsNamed()
+        public void TheDefaultTierIsMarked()
         {
             ModelSummary summary = ModelSummary.Of(Model());
             string[] named = summary.Tiers.Select(tier => tier.Name)
@@ -59,7 +59,7 @@ namespace HaptoFlow.EditorTests
         }
 
         [Test]
-        public void AFigureThatIsNoNumberIsAProblemAndNoException()
+        public void AFigureThatIsNotANumberIsReportedAsAProblem()
         {
             ModelSummary summary = Summary("{\"lsd_db\":\"low\"}", "{}");
             Assert.That(summary.Problem, Does.Contain("lsd_db is not a number"));
@@ -67,7 +67,7 @@ namespace HaptoFlow.EditorTests
         }
 
         [Test]
-        public void ADamagedFileIsAProblemAndNothingElse()
+        public void ADamagedFileShowsItsProblemOnly()
         {
             ModelSummary summary = ModelSummary.Of(HapticModelAsset.Create(ModelBytes.Truncated(Model().File, 5000)));
             Assert.That(summary.Problem, Does.Contain("5000"));

@@ -10,7 +10,7 @@ namespace HaptoFlow.EditorTests
     public sealed class ProjectSettingsTests : EditorTest
     {
         [SetUp]
-        public void ForgetTheProjectsOwn()
+        public void RemovePreloadedSettings()
         {
             PlayerSettings.SetPreloadedAssets(new Object[0]);
             ProjectSettingsAsset.Forget();
@@ -18,17 +18,17 @@ namespace HaptoFlow.EditorTests
         }
 
         [TearDown]
-        public void DeleteWhatWasMade() => AssetDatabase.DeleteAsset(ProjectSettingsAsset.Path);
+        public void DeleteCreatedSettings() => AssetDatabase.DeleteAsset(ProjectSettingsAsset.Path);
 
         [Test]
-        public void LookingMakesNothing()
+        public void FindingSettingsCreatesNone()
         {
             Assert.That(ProjectSettingsAsset.Find(), Is.Null);
             Assert.That(AssetDatabase.FindAssets("t:HaptoFlowSettings"), Is.Empty);
         }
 
         [Test]
-        public void OneAssetIsMadeHoweverOftenItIsAskedFor()
+        public void SettingsAreCreatedOnlyOnce()
         {
             HaptoFlowSettings first = ProjectSettingsAsset.FindOrCreate();
             HaptoFlowSettings second = ProjectSettingsAsset.FindOrCreate();
@@ -43,7 +43,7 @@ namespace HaptoFlow.EditorTests
             Assert.That(ProjectSettingsAsset.FindOrCreate().Model, Is.EqualTo(Model()));
 
         [Test]
-        public void OtherPreloadedAssetsStay()
+        public void OtherPreloadedAssetsAreKept()
         {
             HapticMaterial other = ScriptableObject.CreateInstance<HapticMaterial>();
             AssetDatabase.CreateAsset(other, Folder + "/Other.asset");
@@ -53,7 +53,7 @@ namespace HaptoFlow.EditorTests
         }
 
         [Test]
-        public void SettingsThatLieInTheProjectAreTakenAndNoOthersMade()
+        public void ExistingSettingsOfTheProjectAreUsed()
         {
             var lying = ScriptableObject.CreateInstance<HaptoFlowSettings>();
             AssetDatabase.CreateAsset(lying, Folder + "/Mine.asset");
@@ -66,7 +66,7 @@ namespace HaptoFlow.EditorTests
         }
 
         [Test]
-        public void SettingsInAResourcesFolderReachPlayersAsTheyAre()
+        public void SettingsInAResourcesFolderReachPlayersWithoutPreloading()
         {
             AssetDatabase.CreateAsset(ScriptableObject.CreateInstance<HaptoFlowSettings>(), Folder + "/First.asset");
             AssetDatabase.CreateFolder(Folder, "Resources");
@@ -79,7 +79,7 @@ namespace HaptoFlow.EditorTests
         }
 
         [Test]
-        public void ThePreloadedOneIsTheProjects()
+        public void PreloadedSettingsTakePrecedence()
         {
             foreach (string name in new[] { "First", "Second" })
             {

@@ -9,16 +9,16 @@ namespace HaptoFlow.EditorTests
     public sealed class RealObjectTests : SceneCheckTest
     {
         [Test]
-        public void AStylusThatTouchesByAForceThatNobodyMeasuresIsRemarked()
+        public void MeasuredForceWithoutATipForceIsAFinding()
         {
             ScenesStylus.TouchBy = TouchDecision.MeasuredForce;
-            Assert.That(Only("names no Tip Force").Severity, Is.EqualTo(MessageType.Warning));
+            Assert.That(Only("its field Tip Force is empty").Severity, Is.EqualTo(MessageType.Warning));
             ScenesStylus.Force = ScenesStylus.gameObject.AddComponent<NoForce>();
             Assert.That(Texts(), Is.Empty);
         }
 
         [Test]
-        public void AnAlignmentWhoseMarksTellNoPoseIsRemarkedAndOneThatDoesIsNot()
+        public void AnAlignmentWhoseMarksDetermineNoPoseIsAFinding()
         {
             var alignment = Make("Desk").AddComponent<HapticAlignment>();
             Assert.That(Texts(), Is.Empty);
@@ -27,7 +27,7 @@ namespace HaptoFlow.EditorTests
         }
 
         [Test]
-        public void AMissingVoiceSaysWhichOutputIsSwitchedOff()
+        public void AMissingVoiceNamesTheOutputThatIsSwitchedOff()
         {
             Assert.That(SilenceWords.OfMissingVoice(ScenesStylus), Is.EqualTo("none yet"));
             ScenesStylus.Output = ScenesOutput;
@@ -38,17 +38,17 @@ namespace HaptoFlow.EditorTests
             Assert.That(SilenceWords.OfMissingVoice(ScenesStylus), Does.Contain("stylus is switched off"));
         }
 
-        [TestCase(HapticSilence.None, "sounds")]
+        [TestCase(HapticSilence.None, "plays")]
         [TestCase(HapticSilence.Rest, "nothing touches")]
         [TestCase(HapticSilence.Stale, "100 ms")]
         [TestCase(HapticSilence.Muted, "muted")]
         [TestCase(HapticSilence.Paused, "paused")]
         [TestCase(HapticSilence.Panic, "next touch-down")]
-        [TestCase(HapticSilence.Rate, "8 to 192 kHz")]
+        [TestCase(HapticSilence.Rate, "8000 to 192000 Hz")]
         [TestCase(HapticSilence.Closing, "closed")]
         [TestCase(HapticSilence.WorkerDead, "has ended")]
         [TestCase((HapticSilence)99, "99")]
-        public void EveryReasonForSilenceHasWords(HapticSilence silence, string part) => Assert.That(
+        public void EveryReasonForSilenceIsDescribed(HapticSilence silence, string part) => Assert.That(
             SilenceWords.Of(new VoiceStatistics { Silence = silence }), Does.Contain(part));
 
         private sealed class NoForce : TipForceSource

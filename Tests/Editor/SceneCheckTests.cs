@@ -10,7 +10,7 @@ namespace HaptoFlow.EditorTests
     public sealed class SceneCheckTests : SceneCheckTest
     {
         [Test]
-        public void ACleanSceneIsCleanAndStaysAsItIs()
+        public void ACleanSceneHasNoFindingsAndIsNotChanged()
         {
             Assert.That(Texts(), Is.Empty);
             Assert.That(Object.FindObjectsByType<HapticOutput>(
@@ -18,7 +18,7 @@ namespace HaptoFlow.EditorTests
         }
 
         [Test]
-        public void SettingsOutsideThePreloadedAssetsAreGivenToPlayers()
+        public void SettingsAreAddedToThePreloadedAssets()
         {
             PlayerSettings.SetPreloadedAssets(new Object[0]);
             ProjectSettingsAsset.Forget();
@@ -27,37 +27,37 @@ namespace HaptoFlow.EditorTests
         }
 
         [Test]
-        public void AMissingModelIsAnErrorAndThePackagesModelTheRemedy()
+        public void AMissingModelIsAnErrorWithThePackagesModelAsRemedy()
         {
             ProjectSettings.Model = null;
-            Finding finding = Only("name no model");
+            Finding finding = Only("have no model");
             Assert.That(finding.Severity, Is.EqualTo(MessageType.Error));
             Repair(finding, "Use the Package's Model");
             Assert.That(ProjectSettings.Model, Is.EqualTo(Model()));
         }
 
         [Test]
-        public void ADamagedModelIsAnErrorThatSaysWhy()
+        public void ADamagedModelIsAnErrorWithItsReason()
         {
             ProjectSettings.Model = HapticModelAsset.Create(ModelBytes.Flipped(Model().File, Model().File.Length - 100));
             Assert.That(Only("cannot be used").Text, Does.Contain("checksum"));
         }
 
         [Test]
-        public void AStylusWithoutTipTakesItsChild()
+        public void AStylusWithoutATipGetsItsChildAsTip()
         {
             ScenesStylus.Tip = null;
-            Repair(Only("names no tip"), "Take Its Child Tip");
+            Repair(Only("has no tip"), "Use Its Child Tip");
             Assert.That(ScenesStylus.Tip!.name, Is.EqualTo("Tip"));
         }
 
         [Test]
-        public void AStylusWithoutTipAndChildGetsOneInOneStepOfUndo()
+        public void AStylusWithoutATipOrChildGetsANewTipInOneStepOfUndo()
         {
             Object.DestroyImmediate(ScenesStylus.Tip!.gameObject);
             ScenesStylus.Tip = null;
             Undo.IncrementCurrentGroup();
-            Repair(Only("names no tip"), "Add a Tip");
+            Repair(Only("has no tip"), "Add a Tip");
             Assert.That(ScenesStylus.Tip!.parent, Is.EqualTo(ScenesStylus.transform));
             Undo.PerformUndo();
             Assert.That(ScenesStylus.Tip == null, Is.True);
@@ -65,22 +65,22 @@ namespace HaptoFlow.EditorTests
         }
 
         [Test]
-        public void AStylusThatLooksAtNoLayerIsAnError()
+        public void AStylusWithoutLayersIsAnError()
         {
             ScenesStylus.Layers = 0;
-            Repair(Only("looks at no layer"), "Look at All Layers");
+            Repair(Only("has no layer"), "Feel All Layers");
             Assert.That(ScenesStylus.Layers.value, Is.EqualTo(~0));
         }
 
         [Test]
-        public void ATipAsThickAsAnArmIsRemarked()
+        public void AVeryLargeTipIsAFinding()
         {
             ScenesStylus.TipRadiusMetres = 0.05f;
             Assert.That(Only("has a radius of 50 mm").Repairs, Is.Empty);
         }
 
         [Test]
-        public void AMissingOutputIsMade()
+        public void AMissingOutputIsAdded()
         {
             Object.DestroyImmediate(ScenesOutput.gameObject);
             Undo.IncrementCurrentGroup();
@@ -90,31 +90,31 @@ namespace HaptoFlow.EditorTests
         }
 
         [Test]
-        public void AnOutputForAListenerThatIsNotThereIsAnError()
+        public void AListenerChannelWithoutAnAudioListenerIsAnError()
         {
             ScenesOutput.Route = OutputRoute.ListenerChannel;
             ScenesOutput.Channel = 1;
-            Assert.That(Only("is not on an Audio Listener's object").Severity, Is.EqualTo(MessageType.Error));
+            Assert.That(Only("its object has no Audio Listener").Severity, Is.EqualTo(MessageType.Error));
             ScenesOutput.gameObject.AddComponent<AudioListener>();
             Assert.That(Texts(), Is.Empty);
         }
 
         [Test]
-        public void AnOutputThroughNoMixerIsAnError()
+        public void AMixerEffectWithoutAMixerIsAnError()
         {
             ScenesOutput.Route = OutputRoute.MixerEffect;
-            Assert.That(Only("names no mixer").Severity, Is.EqualTo(MessageType.Error));
+            Assert.That(Only("its field Audio Mixer is empty").Severity, Is.EqualTo(MessageType.Error));
         }
 
         [Test]
-        public void AChannelBeyondTheSpeakerModeIsRemarked()
+        public void AChannelBeyondTheSpeakerModeIsAFinding()
         {
             ScenesOutput.Channel = 17;
             Only("plays on channel 17");
         }
 
         [Test]
-        public void TheWorstComesFirst()
+        public void TheMostSevereFindingComesFirst()
         {
             ScenesStylus.Layers = 0;
             ScenesStylus.Tip = null;

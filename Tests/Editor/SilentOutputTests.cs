@@ -12,20 +12,20 @@ namespace HaptoFlow.EditorTests
         {
             ScenesOutput.gameObject.AddComponent<AudioListener>();
             ScenesOutput.Route = OutputRoute.ListenerChannel;
-            Assert.That(Only("names none").Severity, Is.EqualTo(MessageType.Error));
+            Assert.That(Only("and channel -1").Severity, Is.EqualTo(MessageType.Error));
             ScenesOutput.Channel = 1;
             Assert.That(Texts(), Is.Empty);
         }
 
         [Test]
-        public void ASceneWhoseOnlyOutputIsSwitchedOffIsRemarkedAndNoOtherIsOffered()
+        public void ADisabledOutputIsAFindingAndNoSecondOneIsOffered()
         {
             ScenesOutput.enabled = false;
             Assert.That(Only("is switched off").Repairs, Is.Empty);
         }
 
         [Test]
-        public void AStylusWhoseOutputIsOnAnInactiveObjectIsRemarked()
+        public void AStylusWithAnInactiveOutputIsAFinding()
         {
             HapticOutput other = Output();
             other.gameObject.SetActive(false);

@@ -9,7 +9,7 @@ namespace HaptoFlow.EditorTests
     public sealed class SurfaceCheckTests : SceneCheckTest
     {
         [Test]
-        public void AnUnknownLabelIsFoundWithItsNearMatches()
+        public void AnUnknownLabelIsFoundWithSimilarLabels()
         {
             HapticSurface shelf = Tagged("Shelf", "plywod");
             Finding finding = Only("has no label \"plywod\"");
@@ -29,7 +29,7 @@ namespace HaptoFlow.EditorTests
         }
 
         [Test]
-        public void ASharedMaterialIsRemarkedOnceHoweverManySurfacesShareIt()
+        public void ASharedMaterialIsOneFindingForAllItsSurfaces()
         {
             HapticMaterial shared = ScriptableObject.CreateInstance<HapticMaterial>();
             shared.name = "Bark";
@@ -44,7 +44,7 @@ namespace HaptoFlow.EditorTests
         }
 
         [Test]
-        public void ALearntMaterialOfThisModelIsNoFindingAndOneOfAnotherIsFoundOnceWithItsRemedy()
+        public void ALearntMaterialOfAnotherModelIsFoundOnce()
         {
             string text = HaptoFlow.Model.MaterialText.OfLabel(Model().File, "glass");
             HapticMaterial known = HapticMaterial.Create(text, "wood");
@@ -68,18 +68,18 @@ namespace HaptoFlow.EditorTests
             {
                 Tagged("Bottle", "wood").SharedMaterial = HapticMaterial.Create(text, "wood");
             }
-            Only("use 65 learnt materials; an engine takes 64");
+            Only("use 65 learnt materials, but an engine takes at most 64");
         }
 
         [Test]
-        public void ASurfaceThatNamesNoLabelIsFound()
+        public void ASurfaceWithoutALabelIsFound()
         {
             Tagged("Shelf", "");
-            Only("Shelf names no label");
+            Only("Shelf has no label");
         }
 
         [Test]
-        public void ASurfaceWithoutColliderIsFound()
+        public void ASurfaceWithoutAColliderIsFound()
         {
             Make("Ghost").AddComponent<HapticSurface>();
             Only("Ghost is tagged, but has no collider");
@@ -106,7 +106,7 @@ namespace HaptoFlow.EditorTests
         }
 
         [Test]
-        public void CollidersOnLayersThatNoStylusLooksAtAreLeftAlone()
+        public void CollidersOnLayersThatNoStylusFeelsAreIgnored()
         {
             Box("Thing").layer = 4;
             ScenesStylus.Layers = ~(1 << 4);
@@ -114,11 +114,11 @@ namespace HaptoFlow.EditorTests
         }
 
         [Test]
-        public void AHollowMeshIsToldItsLimits()
+        public void AMeshThatIsNotConvexIsAFindingWithItsLimits()
         {
             MeshCollider mesh = MeshOn("Vase");
             mesh.sharedMesh = Tetrahedron();
-            Finding finding = Only("Not convex");
+            Finding finding = Only("are not convex");
             Assert.That(finding.Severity, Is.EqualTo(MessageType.Info));
             Assert.That(finding.Text, Does.Contain("20 mm").And.Contain("Vase"));
             mesh.convex = true;
@@ -126,10 +126,10 @@ namespace HaptoFlow.EditorTests
         }
 
         [Test]
-        public void AMeshColliderWithoutMeshIsFound()
+        public void AMeshColliderWithoutAMeshIsFound()
         {
             MeshOn("Vase");
-            Only("without a mesh");
+            Only("have no mesh");
         }
 
         private MeshCollider MeshOn(string name)

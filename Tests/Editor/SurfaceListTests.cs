@@ -20,7 +20,7 @@ namespace HaptoFlow.EditorTests
         }
 
         [Test]
-        public void WhatIsBelowTheSelectionIsListedAlone()
+        public void OnlyCollidersBelowTheSelectionAreListed()
         {
             Box("Elsewhere");
             GameObject room = Make("Room");
@@ -31,14 +31,14 @@ namespace HaptoFlow.EditorTests
         }
 
         [Test]
-        public void AnObjectWithoutCollidersLeadsToTheScene()
+        public void SelectingAnObjectWithoutCollidersListsTheScene()
         {
             Box("Lamp");
             Assert.That(SurfaceList.Of(new[] { Make("Camera") }).OfSelection, Is.False);
         }
 
         [Test]
-        public void CollidersOfChildrenCountWhereTheSurfaceIncludesThem()
+        public void CollidersOfChildrenBelongToASurfaceThatIncludesThem()
         {
             HapticSurface table = Tagged("Table", "wood");
             Collider leg = Box("Leg", table.gameObject).GetComponent<BoxCollider>();
@@ -48,7 +48,7 @@ namespace HaptoFlow.EditorTests
         }
 
         [Test]
-        public void TheNearestSurfaceAboveCounts()
+        public void AColliderBelongsToTheNearestSurfaceAbove()
         {
             HapticSurface table = Tagged("Table", "wood");
             GameObject plate = Box("Plate", table.gameObject);
@@ -60,7 +60,7 @@ namespace HaptoFlow.EditorTests
         }
 
         [Test]
-        public void TriggersAndSwitchedOffCollidersAreLeftOut()
+        public void TriggersAndDisabledCollidersAreNotListed()
         {
             Box("Zone").GetComponent<BoxCollider>().isTrigger = true;
             Box("Off").GetComponent<BoxCollider>().enabled = false;

@@ -25,7 +25,7 @@ namespace HaptoFlow.EditorTests
         }
 
         [Test]
-        public void OneUndoBringsEverythingBack()
+        public void OneUndoRemovesAllTags()
         {
             GameObject table = Box("Oak_Table");
             GameObject door = Box("Steel Door");
@@ -38,7 +38,7 @@ namespace HaptoFlow.EditorTests
         }
 
         [Test]
-        public void WhatIsTaggedStaysAsItIs()
+        public void TaggedObjectsAreNotChanged()
         {
             HapticSurface surface = Tagged("Oak_Table", "glass");
             GameObjectMenu.TagSelected(new[] { surface.gameObject }, Matcher);
@@ -46,7 +46,7 @@ namespace HaptoFlow.EditorTests
         }
 
         [Test]
-        public void AnObjectOfNoKnownMaterialIsLeftUntaggedAndNamed()
+        public void AnObjectWithoutAProposalIsLeftUntaggedAndLogged()
         {
             GameObject thing = Box("Thing");
             TagPlan plan = Plan(thing);
@@ -57,7 +57,7 @@ namespace HaptoFlow.EditorTests
         }
 
         [Test]
-        public void APhysicsMaterialCountsBeforeTheName()
+        public void APhysicsMaterialTakesPrecedenceOverTheName()
         {
             GameObject table = Box("Oak_Table");
             table.GetComponent<BoxCollider>().sharedMaterial = new PhysicMaterial("Rubber Foam");
@@ -67,7 +67,7 @@ namespace HaptoFlow.EditorTests
         }
 
         [Test]
-        public void PartsWithoutANameOfTheirOwnTakeTheObjectAboveThem()
+        public void PartsWithAMeaninglessNameAreTaggedByTheirParent()
         {
             GameObject table = Make("Oak_Table");
             Box("Leg 1", table);
@@ -82,7 +82,7 @@ namespace HaptoFlow.EditorTests
         }
 
         [Test]
-        public void NamesAboveTheSelectionDoNotCount()
+        public void NamesAboveTheSelectionAreNotCompared()
         {
             GameObject house = Make("Wooden House");
             GameObject thing = Box("Thing", house);
@@ -90,7 +90,7 @@ namespace HaptoFlow.EditorTests
         }
 
         [Test]
-        public void WhatCannotBeFeltIsNotTagged()
+        public void CollidersThatCannotBeFeltAreNotTagged()
         {
             GameObject zone = Box("Wood Zone");
             zone.GetComponent<BoxCollider>().isTrigger = true;
@@ -99,7 +99,7 @@ namespace HaptoFlow.EditorTests
         }
 
         [Test]
-        public void AStylusFromTheMenuHasATipAndIsUndone()
+        public void AStylusFromTheMenuHasATipAndCanBeUndone()
         {
             Undo.IncrementCurrentGroup();
             GameObject hand = Make("Hand");

@@ -9,13 +9,13 @@ using UnityShim;
 
 namespace HaptoFlow.EditorTests
 {
-    /// <summary>What a build says and writes before it begins.</summary>
+    /// <summary>What the callbacks of a build log and change before it begins.</summary>
     public sealed class BuildTests : EditorTest
     {
         private const string Plugins = "Packages/com.haptoflow.runtime/Runtime/Plugins/";
 
         [SetUp]
-        public void InstallALinuxAndAnAndroidLibrary()
+        public void InstallLibraries()
         {
             BuildHost.ForgetPlugins();
             BuildHost.AddPlugin(Plugins + "Linux/x64/libaudioplugin_haptoflow.so", BuildTarget.StandaloneLinux64);
@@ -25,7 +25,7 @@ namespace HaptoFlow.EditorTests
         }
 
         [TearDown]
-        public void UninstallThem()
+        public void UninstallLibraries()
         {
             BuildHost.ForgetPlugins();
             GraphicsSettings.defaultRenderPipeline = null;
@@ -33,106 +33,107 @@ namespace HaptoFlow.EditorTests
         }
 
         [Test]
-        public void ABuildWithSettingsModelAndLibrarySaysNothing()
+        public void ABuildWithSettingsModelAndLibraryLogsNothing()
         {
             Settings();
             BuildHost.Preprocess(BuildTarget.StandaloneLinux64);
             BuildHost.Preprocess(BuildTarget.Android);
-            Assert.That(Said(), Is.Empty);
+            Assert.That(LoggedMessages(), Is.Empty);
         }
 
         [Test]
-        public void ABuildForAPlatformWithoutLibraryIsAnErrorThatNamesTheCommandThatMakesOne()
+        public void ABuildForAPlatformWithoutLibraryLogsTheCommandThatBuildsOne()
         {
             Settings();
             BuildHost.Preprocess(BuildTarget.StandaloneWindows64);
-            (LogType type, string text) = Said().Single();
+            (LogType type, string text) = LoggedMessages().Single();
             Assert.That(type, Is.EqualTo(LogType.Error));
-            Assert.That(text, Does.StartWith("HaptoFlow: this build is silent on the device: "));
+            Assert.That(text, Does.StartWith("HaptoFlow: this build has no haptics: "));
             Assert.That(text, Does.Contain("no library for StandaloneWindows64"));
-            Assert.That(text, Does.Contain("there for: StandaloneLinux64, Android"));
+            Assert.That(text, Does.Contain("libraries for: StandaloneLinux64, Android"));
             Assert.That(text, Does.Contain("npm run build -- --platform windows-x64"));
         }
 
         [Test]
-        public void AnotherPluginOfThatPlatformDoesNotCount()
+        public void AnotherPluginForThePlatformIsIgnored()
         {
             Settings();
             BuildHost.AddPlugin("Assets/Plugins/audioplugin_other.dll", BuildTarget.StandaloneWindows64);
             BuildHost.Preprocess(BuildTarget.StandaloneWindows64);
-            Assert.That(Said().Single().Type, Is.EqualTo(LogType.Error));
+            Assert.That(LoggedMessages().Single().Type, Is.EqualTo(LogType.Error));
         }
 
         [Test]
-        public void ALibraryThatTheProjectPutElsewhereCounts()
+        public void ALibraryOutsideThePackageIsFound()
         {
             Settings();
             BuildHost.AddPlugin("Assets/Plugins/audioplugin_haptoflow.dll", BuildTarget.StandaloneWindows64);
             BuildHost.Preprocess(BuildTarget.StandaloneWindows64);
-            Assert.That(Said(), Is.Empty);
+            Assert.That(LoggedMessages(), Is.Empty);
         }
 
         [Test]
-        public void APlatformThatHaptoFlowHasNoLibraryForIsAnErrorThatSaysSo()
+        public void ABuildForAnUnsupportedPlatformLogsAnError()
         {
             Settings();
             BuildHost.Preprocess(BuildTarget.WebGL);
-            (LogType type, string text) = Said().Single();
+            (LogType type, string text) = LoggedMessages().Single();
             Assert.That(type, Is.EqualTo(LogType.Error));
-            Assert.That(text, Does.Contain("HaptoFlow has none for this platform"));
+            Assert.That(text, Does.Contain("HaptoFlow cannot build one for this platform"));
         }
 
         [Test]
-        public void AnAndroidBuildThatLeavesArm64OutIsAnError()
+        public void AnAndroidBuildWithoutArm64LogsAnError()
         {
             Settings();
             PlayerSettings.Android.targetArchitectures = AndroidArchitecture.ARMv7;
             BuildHost.Preprocess(BuildTarget.Android);
-            Assert.That(Said().Single().Type, Is.EqualTo(LogType.Error));
-            Assert.That(Said().Single().Text, Does.Contain("ARM64"));
+            Assert.That(LoggedMessages().Single().Type, Is.EqualTo(LogType.Error));
+            Assert.That(LoggedMessages().Single().Text, Does.Contain("ARM64"));
         }
 
         [Test]
-        public void ABuildWithoutSettingsIsWarnedOf()
+        public void ABuildWithoutSettingsLogsAWarning()
         {
             PlayerSettings.SetPreloadedAssets(new Object[0]);
             BuildHost.Preprocess(BuildTarget.StandaloneLinux64);
-            (LogType type, string text) = Said().Single();
+            (LogType type, string text) = LoggedMessages().Single();
             Assert.That(type, Is.EqualTo(LogType.Warning));
             Assert.That(text, Does.Contain("no HaptoFlow settings"));
         }
 
         [Test]
-        public void ABuildWhoseSettingsAreNotPreloadedIsWarnedOf()
+        public void ABuildWithSettingsThatAreNotPreloadedLogsAWarning()
         {
             Settings();
             PlayerSettings.SetPreloadedAssets(new Object[0]);
             BuildHost.Preprocess(BuildTarget.StandaloneLinux64);
-            Assert.That(Said().Single().Text, Does.Contain("not among the preloaded assets"));
+            Assert.That(LoggedMessages().Single().Text, Does.Contain("not among the preloaded assets"));
         }
 
         [Test]
-        public void ABuildWhoseSettingsNameNoModelIsAnError()
+        public void ABuildWithSettingsWithoutAModelLogsAnError()
         {
             Settings().Model = null;
             BuildHost.Preprocess(BuildTarget.StandaloneLinux64);
-            Assert.That(Said().Single(), Is.EqualTo((LogType.Error,
-                "HaptoFlow: this build is silent on the device: The settings name no model: nothing is felt.")));
+            Assert.That(LoggedMessages().Single(), Is.EqualTo((LogType.Error,
+                "HaptoFlow: this build has no haptics: The settings have no model: nothing is felt. Choose one in " +
+                "Project Settings > HaptoFlow.")));
         }
 
         [Test]
-        public void EverythingThatIsMissingIsSaidAtOnce()
+        public void EverythingThatIsMissingIsLoggedTogether()
         {
             BuildHost.ForgetPlugins();
             PlayerSettings.SetPreloadedAssets(new Object[0]);
             BuildHost.Preprocess(BuildTarget.StandaloneLinux64);
-            Assert.That(Said().Select(line => line.Type), Is.EqualTo(new[] { LogType.Error, LogType.Warning }));
-            Assert.That(Said()[0].Text, Does.Contain("there for: no platform"));
+            Assert.That(LoggedMessages().Select(line => line.Type), Is.EqualTo(new[] { LogType.Error, LogType.Warning }));
+            Assert.That(LoggedMessages()[0].Text, Does.Contain("libraries for: no platform"));
         }
 
         [TestCase(BuildTarget.Android)]
         [TestCase(null)]
-        public void ASceneGoesIntoPlayersAndPlayModeWithThePipelinesMaterial(BuildTarget? platform)
+        public void PlayersAndPlayModeGetThePipelinesMaterial(BuildTarget? platform)
         {
             var pipeline = ScriptableObject.CreateInstance<SimulatedPipeline>();
             pipeline.Material = new Material(SimulatedPipeline.ShaderNamed("Lit"));
@@ -148,13 +149,13 @@ namespace HaptoFlow.EditorTests
         }
 
         [Test]
-        public void WithTheBuiltInPipelineTheSceneStaysAsItIs()
+        public void TheBuiltInPipelineLeavesTheSceneUnchanged()
         {
             PipelineMaterial empty = Make("Empty").AddComponent<PipelineMaterial>();
             BuildHost.ProcessScene(BuildTarget.Android);
             Assert.That(empty.Material, Is.Null);
         }
 
-        private static (LogType Type, string Text)[] Said() => Log.Lines.ToArray();
+        private static (LogType Type, string Text)[] LoggedMessages() => Log.Lines.ToArray();
     }
 }

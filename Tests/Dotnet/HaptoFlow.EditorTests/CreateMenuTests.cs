@@ -8,13 +8,13 @@ using UnityShim;
 
 namespace HaptoFlow.EditorTests
 {
-    /// <summary>GameObject > HaptoFlow: what it makes, and that one undo takes it back.</summary>
+    /// <summary>The menu GameObject > HaptoFlow: what it creates, and that one undo removes it.</summary>
     public sealed class CreateMenuTests : EditorTest
     {
         private Camera camera = null!;
 
         [SetUp]
-        public void ANewSceneAsUnityMakesIt()
+        public void OpenANewScene()
         {
             GameObject owner = Make("Main Camera");
             owner.tag = "MainCamera";
@@ -24,13 +24,13 @@ namespace HaptoFlow.EditorTests
         }
 
         [Test]
-        public void AFirstSceneIsMadeByOneCommandAndTakenBackByOneUndo()
+        public void OneCommandCreatesAFirstSceneAndOneUndoRemovesIt()
         {
             CreateMenu.CreateFirstScene(new MenuCommand(null));
             Assert.That(All<HapticSurface>().Single().Material.Label, Is.EqualTo("wood"));
             Assert.That(All<MousePen>().Single().Stylus, Is.SameAs(All<HapticStylus>().Single()));
             Assert.That(All<HapticOutput>(), Has.Length.EqualTo(1));
-            Assert.That(camera.transform.position.magnitude, Is.LessThan(1f), "near enough to see 30 cm");
+            Assert.That(camera.transform.position.magnitude, Is.LessThan(1f), "the camera is near enough to see 30 cm");
             Undo.PerformUndo();
             Assert.That(All<HapticSurface>(), Is.Empty);
             Assert.That(All<HapticStylus>(), Is.Empty);
@@ -39,7 +39,7 @@ namespace HaptoFlow.EditorTests
         }
 
         [Test]
-        public void TheFirstScenesPlateIsSeenByItsCamera()
+        public void TheCameraOfAFirstSceneSeesThePlate()
         {
             CreateMenu.CreateFirstScene(new MenuCommand(null));
             foreach (float side in new[] { -0.15f, 0.15f })
@@ -51,7 +51,7 @@ namespace HaptoFlow.EditorTests
         }
 
         [Test]
-        public void ACameraThatSomebodyPlacedStaysWhereItIs()
+        public void ACameraThatTheUserHasMovedStaysInPlace()
         {
             camera.transform.position = new Vector3(1f, 1f, 1f);
             CreateMenu.CreateFirstScene(new MenuCommand(null));
@@ -59,7 +59,7 @@ namespace HaptoFlow.EditorTests
         }
 
         [Test]
-        public void TheCheckFindsNothingToRemarkInAFirstScene()
+        public void TheSceneCheckHasNoFindingsInAFirstScene()
         {
             Settings();
             CreateMenu.CreateFirstScene(new MenuCommand(null));
@@ -68,7 +68,7 @@ namespace HaptoFlow.EditorTests
         }
 
         [Test]
-        public void AFirstScenePlaysAndIsFeltWithoutAnyScript()
+        public void AFirstScenePlaysWithoutAnyScript()
         {
             Settings();
             CreateMenu.CreateFirstScene(new MenuCommand(null));
@@ -86,7 +86,7 @@ namespace HaptoFlow.EditorTests
         }
 
         [Test]
-        public void ATaggedCubeHasThePipelinesMaterialAndOneThatTheUserChoosesStaysInPlayMode()
+        public void ATaggedCubeHasThePipelinesMaterialUntilTheUserChoosesAnother()
         {
             var pipeline = ScriptableObject.CreateInstance<SimulatedPipeline>();
             pipeline.Material = new Material(SimulatedPipeline.ShaderNamed("Lit"));
@@ -105,7 +105,7 @@ namespace HaptoFlow.EditorTests
         }
 
         [Test]
-        public void AnXrPenHangsOnTheTrackingSpaceOfTheCamera()
+        public void AnXrPenIsCreatedBelowTheTrackingSpaceOfTheCamera()
         {
             GameObject space = Make("Camera Offset", Make("XR Origin"));
             camera.transform.SetParent(space.transform, false);
@@ -117,7 +117,7 @@ namespace HaptoFlow.EditorTests
         }
 
         [Test]
-        public void WhatIsSelectedIsTheParentOfWhatIsMade()
+        public void TheSelectedObjectBecomesTheParentOfANewObject()
         {
             GameObject hand = Make("Hand");
             CreateMenu.CreateRightPen(new MenuCommand(hand));
@@ -129,7 +129,7 @@ namespace HaptoFlow.EditorTests
         }
 
         [Test]
-        public void EachThingIsTakenBackByItsOwnUndo()
+        public void EveryCreatedObjectIsRemovedByItsOwnUndo()
         {
             System.Action<MenuCommand>[] commands =
             {

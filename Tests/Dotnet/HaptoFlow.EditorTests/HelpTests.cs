@@ -14,7 +14,7 @@ using UnityEngine;
 
 namespace HaptoFlow.EditorTests
 {
-    /// <summary>The question mark of every Inspector, and the Package Manager's links, lead to a page that is there.
+    /// <summary>The help buttons of the Inspectors and the links of the Package Manager lead to existing pages.
     /// </summary>
     public sealed class HelpTests
     {
@@ -29,10 +29,10 @@ namespace HaptoFlow.EditorTests
                 (typeof(MonoBehaviour).IsAssignableFrom(type) || typeof(ScriptableObject).IsAssignableFrom(type)));
 
         [Test]
-        public void ThereAreComponentsToAskFor() => Assert.That(Components().Count(), Is.GreaterThanOrEqualTo(11));
+        public void TheAssembliesContainComponents() => Assert.That(Components().Count(), Is.GreaterThanOrEqualTo(11));
 
         [TestCaseSource(nameof(Components))]
-        public void TheHelpOfAComponentIsASectionOfItsOwnOnAPageOfThePackage(Type component)
+        public void TheHelpOfAComponentLeadsToASectionOfAPage(Type component)
         {
             string? url = component.GetCustomAttribute<HelpURLAttribute>(false)?.URL;
             Assert.That(url, Does.StartWith(HelpPages.Home), component.Name + " has no [HelpURL]");
@@ -44,11 +44,11 @@ namespace HaptoFlow.EditorTests
         }
 
         [Test]
-        public void TheComponentsHaveHelpOfTheirOwnEach() => Assert.That(
+        public void EveryComponentHasItsOwnHelp() => Assert.That(
             Components().Select(type => type.GetCustomAttribute<HelpURLAttribute>(false)?.URL), Is.Unique);
 
         [Test]
-        public void ThePackageManagersLinksLeadToTheSameHomeAndPagesThatAreThere()
+        public void ThePackageManagersLinksLeadToExistingPages()
         {
             using JsonDocument manifest = JsonDocument.Parse(File.ReadAllText(
                 RepositoryFiles.In("Packages", "com.haptoflow.runtime", "package.json")));
@@ -75,7 +75,7 @@ namespace HaptoFlow.EditorTests
         private static string Page(string name) =>
             File.ReadAllText(RepositoryFiles.In("Documentation~", name.Replace(".html", ".md")));
 
-        /// <summary>As sites that render Markdown name headings.</summary>
+        /// <summary>The anchor that Markdown renderers give to a heading.</summary>
         private static string AnchorOf(string heading) =>
             Regex.Replace(heading.Trim().ToLowerInvariant(), "[^a-z0-9 -]", "").Replace(' ', '-');
     }

@@ -10,7 +10,7 @@ using UnityShim;
 
 namespace HaptoFlow.EditorTests
 {
-    /// <summary>What the Inspectors show, and what the user's hand does in them.</summary>
+    /// <summary>What the Inspectors show, and what the user's entries in them change.</summary>
     public sealed class InspectorTests : EditorTest
     {
         [Test]
@@ -28,7 +28,7 @@ namespace HaptoFlow.EditorTests
         }
 
         [Test]
-        public void ADamagedFileShowsItsErrorAndNothingElse()
+        public void ADamagedModelFileShowsItsErrorOnly()
         {
             LogAssert.ignoreFailingMessages = true;
             string path = Import("cut.haptoflow", ModelBytes.Truncated(Model().File, 70000));
@@ -39,7 +39,7 @@ namespace HaptoFlow.EditorTests
         }
 
         [Test]
-        public void AModelAssetWithoutFileShowsTheSame() =>
+        public void AModelAssetWithoutAFileShowsTheSameSummary() =>
             Assert.That(Value(Draw(HapticModelAsset.Create(Model().File)), "Licence"), Is.EqualTo("MIT"));
 
         [Test]
@@ -58,7 +58,7 @@ namespace HaptoFlow.EditorTests
         {
             HapticSurface surface = Tagged("Table", "plywod");
             Drawn shown = Draw(surface).Single(item => item.Label == "plywod (not in model)");
-            Assert.That(shown.Tooltip, Does.Contain("near matches"));
+            Assert.That(shown.Tooltip, Does.Contain("similar ones"));
             Assert.That(surface.Material.Label, Is.EqualTo("plywod"), "drawing changes nothing");
             Pick(surface, "plywod (not in model)", "plywod (not in model)");
             Assert.That(surface.Material.Label, Is.EqualTo("plywod"));
@@ -67,7 +67,7 @@ namespace HaptoFlow.EditorTests
         }
 
         [Test]
-        public void SeveralSurfacesTakeOneLabelAndOneUndoGivesEachItsOwn()
+        public void OneUndoRestoresTheLabelsOfSeveralSurfaces()
         {
             HapticSurface table = Tagged("Table", "wood");
             HapticSurface door = Tagged("Door", "metal");
@@ -82,7 +82,7 @@ namespace HaptoFlow.EditorTests
         }
 
         [Test]
-        public void SeveralSurfacesShareWhatIsEntered()
+        public void AnEnteredValueAppliesToAllSelectedSurfaces()
         {
             HapticSurface table = Tagged("Table", "wood");
             HapticSurface door = Tagged("Door", "metal");
@@ -92,11 +92,11 @@ namespace HaptoFlow.EditorTests
             Draw(table, door);
             Assert.That(table.Material.Strength, Is.EqualTo(0.5f));
             Assert.That(door.Material.Strength, Is.EqualTo(0.5f));
-            Assert.That(door.Material.Label, Is.EqualTo("metal"), "what was not entered stays");
+            Assert.That(door.Material.Label, Is.EqualTo("metal"), "fields without an entry keep their values");
         }
 
         [Test]
-        public void FeatureScaleAndToneAreEnteredAndTakenBackByUndo()
+        public void UndoRestoresFeatureScaleAndTone()
         {
             HapticSurface table = Tagged("Table", "wood");
             Undo.IncrementCurrentGroup();
@@ -111,7 +111,7 @@ namespace HaptoFlow.EditorTests
         }
 
         [Test]
-        public void AMaterialFileShowsWhatItWasLearntFromAndADamagedOneItsKey()
+        public void AMaterialFileShowsItsRecordingAndADamagedOneItsKey()
         {
             LogAssert.ignoreFailingMessages = true;
             string text = HaptoFlow.Model.MaterialText.OfLabel(Model().File, "glass");
@@ -127,7 +127,7 @@ namespace HaptoFlow.EditorTests
         }
 
         [Test]
-        public void ALearntMaterialShowsItsOriginAndALabelBehindIt()
+        public void ALearntMaterialShowsItsOriginAndItsReplacementLabel()
         {
             var material = HapticMaterial.Create(HaptoFlow.Model.MaterialText.OfLabel(Model().File, "glass"), "fur");
             IReadOnlyList<Drawn> drawn = Draw(material);
@@ -137,7 +137,7 @@ namespace HaptoFlow.EditorTests
         }
 
         [Test]
-        public void ASurfacesOwnDescriptionTakesALearntMaterialAndUndoTakesItBack()
+        public void UndoRemovesALearntMaterialFromASurface()
         {
             HapticSurface table = Tagged("Table", "wood");
             var material = HapticMaterial.Create(HaptoFlow.Model.MaterialText.OfLabel(Model().File, "glass"), "fur");
@@ -150,7 +150,7 @@ namespace HaptoFlow.EditorTests
         }
 
         [Test]
-        public void ASurfacesInspectorOpensThePreviewOnIt()
+        public void TheInspectorOfASurfaceOpensThePreview()
         {
             HapticSurface surface = Tagged("Table", "glass");
             EditorScreen.Press("Preview");
@@ -161,7 +161,7 @@ namespace HaptoFlow.EditorTests
         }
 
         [Test]
-        public void AMaterialsInspectorOpensThePreviewOnIt()
+        public void TheInspectorOfAMaterialOpensThePreview()
         {
             HapticMaterial material = ScriptableObject.CreateInstance<HapticMaterial>();
             material.Description.Label = "cork";
@@ -173,7 +173,7 @@ namespace HaptoFlow.EditorTests
         }
 
         [Test]
-        public void BlendCountsOnlyWhereThereIsASecondLabel()
+        public void BlendIsEnabledOnlyWithASecondLabel()
         {
             HapticSurface surface = Tagged("Table", "wood");
             Assert.That(Draw(surface).Single(item => item.Label == "Blend").Enabled, Is.False);
@@ -182,7 +182,7 @@ namespace HaptoFlow.EditorTests
         }
 
         [Test]
-        public void StiffnessZeroSaysWhatTheModelTakes()
+        public void AStiffnessOfZeroShowsTheModelsValue()
         {
             HapticSurface surface = Tagged("Table", "wood");
             Assert.That(Draw(surface).Select(item => item.Label), Has.Member("0: the model's 1200"));
@@ -191,7 +191,7 @@ namespace HaptoFlow.EditorTests
         }
 
         [Test]
-        public void ASharedMaterialIsEditedInItsPlace()
+        public void ASharedMaterialIsEditedInTheInspectorOfTheSurface()
         {
             HapticSurface surface = Tagged("Table", "wood");
             HapticMaterial shared = ScriptableObject.CreateInstance<HapticMaterial>();
@@ -205,7 +205,7 @@ namespace HaptoFlow.EditorTests
         }
 
         [Test]
-        public void AMaterialThatIsSharedFromNowOnIsDrawnWithTheNextEvent()
+        public void ANewSharedMaterialIsDrawnFromTheNextEventOn()
         {
             HapticSurface surface = Tagged("Table", "wood");
             HapticMaterial shared = ScriptableObject.CreateInstance<HapticMaterial>();
@@ -216,7 +216,7 @@ namespace HaptoFlow.EditorTests
         }
 
         [Test]
-        public void ASurfaceSaysHowManyCollidersCanBeFeltAndHow()
+        public void ASurfaceShowsHowManyOfItsCollidersCanBeFelt()
         {
             HapticSurface surface = Tagged("Table", "wood");
             Assert.That(Draw(surface).Last().Label, Is.EqualTo("One collider can be felt."));
@@ -228,7 +228,7 @@ namespace HaptoFlow.EditorTests
         }
 
         [Test]
-        public void EveryFieldOfAStylusSaysWhatItIs()
+        public void EveryFieldOfAStylusHasATooltip()
         {
             Drawn[] fields = Draw(Stylus()).Where(item => item.Kind == DrawnKind.Field).ToArray();
             Assert.That(fields.Select(item => item.Label), Is.EqualTo(new[]
@@ -240,7 +240,7 @@ namespace HaptoFlow.EditorTests
         }
 
         [Test]
-        public void AnOutputShowsWhatItsRouteNeeds()
+        public void AnOutputShowsTheFieldsOfItsRoute()
         {
             HapticOutput output = Output();
             Assert.That(Fields(output), Is.EqualTo(new[]
@@ -260,7 +260,7 @@ namespace HaptoFlow.EditorTests
 
         [TestCase(true)]
         [TestCase(false)]
-        public void NothingDependsOnTheSkin(bool dark)
+        public void TheInspectorsAreTheSameInBothSkins(bool dark)
         {
             EditorSession.DarkSkin = dark;
             Assert.That(Fields(Output()), Has.Length.EqualTo(8));

@@ -9,11 +9,12 @@ using UnityShim;
 
 namespace HaptoFlow.EditorShimTests
 {
-    /// <summary>What the Inspectors of maps, masks and surfaces show of rules, and what is entered in them.</summary>
+    /// <summary>What the Inspectors of maps, masks and surfaces show about rules, and what entries in them change.
+    /// </summary>
     public sealed class MapInspectorTests : EditorTest
     {
         [Test]
-        public void ARuleShowsTheFieldOfWhatItLooksAtAndItsNumber()
+        public void ARuleShowsItsNumberAndTheFieldOfItsCondition()
         {
             HapticMaterialMap map = Map(
                 HapticMaterialRule.ForTag("Finish", null), HapticMaterialRule.ForSubmesh(null, 1, null));
@@ -23,7 +24,7 @@ namespace HaptoFlow.EditorShimTests
         }
 
         [Test]
-        public void WhatIsEnteredIntoARuleCountsAndIsTakenBackByUndo()
+        public void AChangedRuleAppliesAndUndoRestoresIt()
         {
             HapticMaterialMap map = Map(HapticMaterialRule.ForTag("Finish", null));
             Undo.IncrementCurrentGroup();
@@ -40,7 +41,7 @@ namespace HaptoFlow.EditorShimTests
         }
 
         [Test]
-        public void ARuleThatIsEnteredWhilePlayingCountsAtOnce()
+        public void ARuleChangedInPlayModeAppliesAtOnce()
         {
             HapticMaterialMap map = Map(HapticMaterialRule.ForTag("Finish", null));
             int before = MaterialMaps.Version;
@@ -50,7 +51,7 @@ namespace HaptoFlow.EditorShimTests
         }
 
         [Test]
-        public void AMaskShowsWhatItsChannelsNeedAndBakesAtAButton()
+        public void AMaskShowsTheFieldsOfItsChannelsAndAButtonBakesIt()
         {
             HapticMaskMap mask = ScriptableObject.CreateInstance<HapticMaskMap>();
             mask.Texture = new Texture2D(2, 2, TextureFormat.RGBA32, false) { name = "Paint" };
@@ -66,7 +67,7 @@ namespace HaptoFlow.EditorShimTests
         }
 
         [Test]
-        public void ATextureThatIsNotReadableIsMadeSoByItsImportSettings()
+        public void AButtonMakesATextureReadable()
         {
             HapticMaskMap mask = ScriptableObject.CreateInstance<HapticMaskMap>();
             mask.name = "Ring";
@@ -76,7 +77,7 @@ namespace HaptoFlow.EditorShimTests
                 Throws.InvalidOperationException.With.Message.Contains("Read/Write"));
             Assert.That(mask.IsBaked, Is.False);
             Assert.That(InspectorTests.Draw(mask).Where(item => item.Kind == DrawnKind.Button), Is.Empty,
-                "no importer made it");
+                "it was not imported");
             var importer = new TextureImporter();
             AssetDatabase.AddImported(Folder + "/Paint.png", mask.Texture, importer);
             EditorScreen.Press("Enable Read/Write");
@@ -85,7 +86,7 @@ namespace HaptoFlow.EditorShimTests
         }
 
         [Test]
-        public void ASurfaceSaysByWhichRuleItWouldFeelWithoutIt()
+        public void ASurfaceShowsTheRuleThatAppliesWithoutIt()
         {
             HapticMaterial stone = ScriptableObject.CreateInstance<HapticMaterial>();
             stone.name = "stone";
@@ -98,10 +99,10 @@ namespace HaptoFlow.EditorShimTests
             Assert.That(Extent(table), Does.Not.Contain("rule"));
             table.gameObject.tag = "Finish";
             Assert.That(Extent(table), Does.EndWith(
-                "This surface wins over the rules, by which it would feel like stone (rule 1 of \"Rooms\": tag " +
-                "\"Finish\")."));
+                "This surface takes precedence over the rules, by which the object would feel like stone (rule 1 of " +
+                "\"Rooms\": tag \"Finish\")."));
             table.enabled = false;
-            Assert.That(Extent(table), Does.Contain("This surface is off: rules count"));
+            Assert.That(Extent(table), Does.Contain("This surface is disabled, so rules apply"));
         }
 
         private static string Extent(HapticSurface surface) => InspectorTests.Draw(surface)

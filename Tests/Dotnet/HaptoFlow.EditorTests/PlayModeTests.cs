@@ -8,7 +8,7 @@ using UnityShim;
 
 namespace HaptoFlow.EditorTests
 {
-    /// <summary>Play mode entered and left from an editor, with domain reload off, and scripts reloaded.</summary>
+    /// <summary>Play mode in an editor with domain reload off, and reloads of scripts.</summary>
     public sealed class PlayModeTests : EditorTest
     {
         [SetUp]
@@ -20,7 +20,7 @@ namespace HaptoFlow.EditorTests
         public void ForgetOptions() => HapticSession.OptionsInstead = null;
 
         [Test]
-        public void PlayModeTakesTheProjectsSettings()
+        public void PlayModeUsesTheProjectsSettings()
         {
             HaptoFlowSettings settings = Settings();
             for (int round = 0; round < 2; ++round)
@@ -29,12 +29,13 @@ namespace HaptoFlow.EditorTests
                 Assert.That(HaptoFlowSettings.Active, Is.SameAs(settings));
                 HaptoFlowSettings.Active = ScriptableObject.CreateInstance<HaptoFlowSettings>();
                 EditorSession.Stop();
-                Assert.That(HaptoFlowSettings.Active, Is.SameAs(settings), "what a script set was for that play");
+                Assert.That(HaptoFlowSettings.Active, Is.SameAs(settings),
+                    "the settings of a script apply to one play mode only");
             }
         }
 
         [Test]
-        public void AStylusOfTheSceneWakesWithTheProjectsSettings()
+        public void AStylusInTheSceneWakesWithTheProjectsSettings()
         {
             HaptoFlowSettings settings = Settings();
             settings.Quality = HapticQuality.Draft;
@@ -44,18 +45,18 @@ namespace HaptoFlow.EditorTests
         }
 
         [Test]
-        public void WithoutSettingsThePackagesModelPlaysAndOneLineSaysSo()
+        public void WithoutSettingsThePackagesModelPlaysAndOneMessageIsLogged()
         {
             Stylus();
             EditorSession.Play();
             Assert.That(HaptoFlowSettings.Active.Model, Is.SameAs(Model()));
             World.Frames(3);
             Assert.That(LogLines("built-in"), Has.Length.EqualTo(1));
-            Assert.That(AssetDatabase.FindAssets("t:HaptoFlowSettings"), Is.Empty, "nothing is made behind one's back");
+            Assert.That(AssetDatabase.FindAssets("t:HaptoFlowSettings"), Is.Empty, "play mode creates no asset");
         }
 
         [Test]
-        public void InEditModeNoScriptWakesAndNoEngineStarts()
+        public void EditModeWakesNoScriptAndStartsNoEngine()
         {
             Settings();
             Stylus();
@@ -66,7 +67,7 @@ namespace HaptoFlow.EditorTests
         [TestCase("reload")]
         [TestCase("quit")]
         [TestCase("stop")]
-        public void TheEngineEndsBeforeWhatHoldsItGoes(string end)
+        public void TheEngineEndsBeforeScriptsReloadAndPlayModeEnds(string end)
         {
             HapticEngine engine = PlayWithEngine();
             switch (end)
@@ -86,7 +87,7 @@ namespace HaptoFlow.EditorTests
         }
 
         [Test]
-        public void ScriptsReloadedTwiceSubscribeOnce()
+        public void ReloadingScriptsTwiceSubscribesOnce()
         {
             EditorSession.ReloadScripts();
             EditorSession.ReloadScripts();
@@ -106,19 +107,19 @@ namespace HaptoFlow.EditorTests
             Assert.That(Value(drawn, "Force"), Does.EndWith(" N"));
             Assert.That(Value(drawn, "Penetration"), Is.EqualTo("1.0 mm"));
             Assert.That(Value(drawn, "Underruns"), Is.EqualTo("0"));
-            Assert.That(Value(drawn, "Silence"), Is.EqualTo("it sounds").Or.StartsWith("rest"));
+            Assert.That(Value(drawn, "Silence"), Is.EqualTo("none: it plays").Or.StartsWith("rest"));
             stylus.transform.position = new Vector3(0f, 1f, 0f);
             World.Frames(3);
             Assert.That(Value(InspectorTests.Draw(stylus), "Touches"), Is.EqualTo("nothing"));
         }
 
         [Test]
-        public void AStylusShowsTheChainThatRunsAndTheCheckWhatItCosts()
+        public void AStylusShowsItsRunningEffectsAndTheSceneCheckTheirCost()
         {
             HapticStylus stylus = PlayTouching(out HapticOutput output);
-            string[] asked = InspectorTests.Draw(stylus).Select(item => item.Label).ToArray();
-            Assert.That(asked, Has.Member("Impact").And.Member("Edge"), "the surface asks for all of its effects");
-            Assert.That(asked, Has.None.EqualTo("Delay").And.None.EqualTo("Exposure Guard"));
+            string[] labels = InspectorTests.Draw(stylus).Select(item => item.Label).ToArray();
+            Assert.That(labels, Has.Member("Impact").And.Member("Edge"), "the surface uses all effects");
+            Assert.That(labels, Has.None.EqualTo("Delay").And.None.EqualTo("Exposure Guard"));
             output.Processing.ExposureGuard = true;
             output.ApplyProcessing();
             // The tip descends onto the table at 0.3 m/s.
@@ -130,12 +131,12 @@ namespace HaptoFlow.EditorTests
                 HapticSession.Current.Engine!.Step();
             }
             Drawn[] drawn = InspectorTests.Draw(stylus).ToArray();
-            Assert.That(Value(drawn, "Impact"), Does.Match("^1 blows, [0-9]+[.][0-9] us a block$"));
+            Assert.That(Value(drawn, "Impact"), Does.Match("^1 impacts, [0-9]+[.][0-9] us a block$"));
             Assert.That(Value(drawn, "Exposure Guard"), Does.Match("^[0-9]+[.][0-9] us a block$"));
             CheckSceneWindow.Open();
             var window = EditorWindow.GetWindow<CheckSceneWindow>();
             string summary = EditorScreen.Draw(window.OnGUI).Select(item => item.Label)
-                .Single(label => label != null && label.StartsWith("The scene calls for"));
+                .Single(label => label != null && label.StartsWith("The scene uses"));
             Assert.That(summary, Does.Match("impact [(]1 surface, [0-9.]+ us a run[)]"));
             Assert.That(summary, Does.Match("exposure guard [(]1 output, [0-9.]+ us a run[)]"));
             Assert.That(summary, Does.Not.Contain("Play the scene once"));
@@ -159,7 +160,7 @@ namespace HaptoFlow.EditorTests
         }
 
         [Test]
-        public void AStylusSaysWhichRuleDecidesWhatItFeels()
+        public void AStylusShowsTheRuleThatAssignsTheTouchedMaterial()
         {
             HapticStylus stylus = PlayTouching(out _);
             HapticMaterialMap map = ScriptableObject.CreateInstance<HapticMaterialMap>();
@@ -179,7 +180,7 @@ namespace HaptoFlow.EditorTests
         }
 
         [Test]
-        public void PanicInTheInspectorIsSilenceAtOnce()
+        public void PanicInTheInspectorSilencesTheOutputAtOnce()
         {
             PlayTouching(out HapticOutput output);
             EditorScreen.Press("Panic");
@@ -200,7 +201,7 @@ namespace HaptoFlow.EditorTests
         }
 
         [Test]
-        public void ALabelThatIsChosenWhilePlayingIsFelt()
+        public void ALabelChosenInPlayModeIsFelt()
         {
             HapticStylus stylus = PlayTouching(out _);
             HapticSurface surface = stylus.Contact.Surface!;
@@ -214,7 +215,7 @@ namespace HaptoFlow.EditorTests
         }
 
         [Test]
-        public void ATouchIsDrawnInTheScene()
+        public void ATouchIsDrawnInTheSceneView()
         {
             HapticStylus stylus = PlayTouching(out _);
             Gizmos.Lines.Clear();
@@ -233,7 +234,7 @@ namespace HaptoFlow.EditorTests
         }
 
         [Test]
-        public void AStylusThatTouchesNothingShowsItsTipAlone()
+        public void AStylusThatTouchesNothingShowsOnlyItsTip()
         {
             HapticStylus stylus = Stylus();
             Gizmos.Lines.Clear();

@@ -6,8 +6,8 @@ using System.Text.RegularExpressions;
 
 namespace HaptoFlow.EditorTests
 {
-    /// <summary>A prefab in YAML as a list of objects with their one-line fields; lists and nested values under the
-    /// name of what holds them.</summary>
+    /// <summary>A prefab in YAML, read as a list of objects with their fields. Lists and nested values are fields of
+    /// the object that contains them.</summary>
     internal sealed class PrefabFile
     {
         private readonly Dictionary<string, PrefabObject> objects;
@@ -21,7 +21,7 @@ namespace HaptoFlow.EditorTests
         public PrefabObject Root => objects.Values.Single(each => each.Type == "Transform" &&
             PrefabObject.Reference(each["m_Father"]) == "0");
 
-        /// <summary>"Mouse Pen/Body" for the game object that a component belongs to.</summary>
+        /// <summary>The path of the game object of a component, for example "Mouse Pen/Body".</summary>
         public string PathOf(PrefabObject transform)
         {
             string name = this[PrefabObject.Reference(transform["m_GameObject"])]["m_Name"];
@@ -29,13 +29,13 @@ namespace HaptoFlow.EditorTests
             return father == "0" ? name : PathOf(this[father]) + "/" + name;
         }
 
-        /// <summary>The components of the game object that a transform belongs to, in order.</summary>
+        /// <summary>The components of the game object of a transform, in order.</summary>
         public IReadOnlyList<PrefabObject> ComponentsOf(PrefabObject transform) =>
             this[PrefabObject.Reference(transform["m_GameObject"])].List("m_Component").Select(each => this[each])
                 .ToArray();
     }
 
-    /// <summary>One object of a prefab.</summary>
+    /// <summary>An object of a prefab.</summary>
     internal sealed class PrefabObject
     {
         private readonly Dictionary<string, string> fields = new Dictionary<string, string>();
@@ -71,12 +71,12 @@ namespace HaptoFlow.EditorTests
 
         public string Anchor { get; }
 
-        /// <summary>"Transform", "MonoBehaviour" and the like.</summary>
+        /// <summary>The type of the object, for example "Transform" or "MonoBehaviour".</summary>
         public string Type { get; }
 
         public string this[string name] => fields[name];
 
-        /// <summary>The fields that the script declares: those behind Unity's own.</summary>
+        /// <summary>The fields that the script declares, which follow Unity's own ones.</summary>
         public IEnumerable<string> ScriptFields => fields.Keys.SkipWhile(name => name != "m_EditorClassIdentifier")
             .Skip(1).Where(name => !name.Contains('.'));
 

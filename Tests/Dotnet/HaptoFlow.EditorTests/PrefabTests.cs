@@ -11,7 +11,7 @@ using Object = UnityEngine.Object;
 
 namespace HaptoFlow.EditorTests
 {
-    /// <summary>The package's prefabs, written by hand, hold what the menu makes.</summary>
+    /// <summary>The package's hand-written prefabs equal the objects that the menu creates.</summary>
     public sealed class PrefabTests : EditorTest
     {
         private const float Same = 1e-6f;
@@ -21,7 +21,7 @@ namespace HaptoFlow.EditorTests
         [TestCase("Mouse Pen")]
         [TestCase("XR Pen Right")]
         [TestCase("XR Pen Left")]
-        public void ThePrefabIsWhatTheMenuMakes(string name)
+        public void ThePrefabEqualsTheObjectThatTheMenuCreates(string name)
         {
             GameObject owner = name switch
             {
@@ -38,7 +38,7 @@ namespace HaptoFlow.EditorTests
             Object.DestroyImmediate(owner);
         }
 
-        /// <summary>Which anchor stands for which object.</summary>
+        /// <summary>Maps the anchors of the prefab to objects.</summary>
         private void Match(PrefabFile file, PrefabObject written, Transform place)
         {
             IReadOnlyList<PrefabObject> components = file.ComponentsOf(written);
@@ -91,7 +91,7 @@ namespace HaptoFlow.EditorTests
                     Assert.That(component["m_Direction"], Is.EqualTo(capsule.direction.ToString()), where);
                     break;
                 case MeshFilter _:
-                    // Unity's own capsule, which is one of its default resources.
+                    // Unity's capsule mesh, one of its default resources.
                     Assert.That(component["m_Mesh"], Does.StartWith("{fileID: 10208, guid: 0000000000000000e0"), where);
                     break;
                 case MonoBehaviour script:

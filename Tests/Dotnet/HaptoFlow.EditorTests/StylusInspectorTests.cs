@@ -9,7 +9,7 @@ namespace HaptoFlow.EditorShimTests
     public sealed class StylusInspectorTests : EditorTest
     {
         [Test]
-        public void ThresholdsAreShownWhereForceDecidesAndAMissingForceIsRemarked()
+        public void ForceThresholdsAreShownOnlyForMeasuredForce()
         {
             HapticStylus stylus = Stylus();
             Assert.That(Fields(stylus), Has.No.Member("Press Force (N)"));

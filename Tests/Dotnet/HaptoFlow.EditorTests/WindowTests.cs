@@ -8,17 +8,17 @@ using UnityShim;
 
 namespace HaptoFlow.EditorTests
 {
-    /// <summary>Pages, windows, the overlay and menus, with buttons pressed.</summary>
+    /// <summary>Settings pages, windows, the overlay and menus, with simulated button presses.</summary>
     public sealed class WindowTests : EditorTest
     {
         [Test]
-        public void TheSettingsPageMakesOneAssetOnDemand()
+        public void TheSettingsPageCreatesOneAssetOnRequest()
         {
             SettingsProvider page = HaptoFlowSettingsPage.Create();
             Assert.That(page.settingsPath, Is.EqualTo("Project/HaptoFlow"));
             Assert.That(page.scope, Is.EqualTo(SettingsScope.Project));
             EditorScreen.Draw(() => page.OnGUI(""));
-            Assert.That(AssetDatabase.FindAssets("t:HaptoFlowSettings"), Is.Empty, "looking makes nothing");
+            Assert.That(AssetDatabase.FindAssets("t:HaptoFlowSettings"), Is.Empty, "drawing the page creates no settings");
             EditorScreen.Press("Create Settings");
             EditorScreen.Draw(() => page.OnGUI(""));
             IReadOnlyList<Drawn> drawn = EditorScreen.Draw(() => page.OnGUI(""));
@@ -28,7 +28,7 @@ namespace HaptoFlow.EditorTests
         }
 
         [Test]
-        public void WhatIsEnteredOnThePageIsKeptAndUndone()
+        public void AnEnteredSettingIsSavedAndUndone()
         {
             HaptoFlowSettings settings = Settings();
             Undo.IncrementCurrentGroup();
@@ -40,18 +40,18 @@ namespace HaptoFlow.EditorTests
         }
 
         [Test]
-        public void TheBudgetCountsForAutoAlone()
+        public void TheBudgetIsEnabledOnlyForAutoQuality()
         {
             HaptoFlowSettings settings = Settings();
             Assert.That(Page().Single(item => item.Label == "Budget Share").Enabled, Is.True);
             settings.Quality = HapticQuality.Fine;
             Assert.That(Page().Single(item => item.Label == "Budget Share").Enabled, Is.False);
             settings.Model = null;
-            Assert.That(Page().Select(item => item.Label), Has.Member("Without a model nothing is felt."));
+            Assert.That(Page().Select(item => item.Label), Has.Member("The field Model is empty: nothing is felt."));
         }
 
         [Test]
-        public void SettingsThatPlayersWouldNotHaveAreOffered()
+        public void SettingsThatPlayersWouldLackCanBePreloaded()
         {
             HaptoFlowSettings settings = Settings();
             PlayerSettings.SetPreloadedAssets(new Object[0]);
@@ -61,7 +61,7 @@ namespace HaptoFlow.EditorTests
         }
 
         [Test]
-        public void OtherSettingsSayThatTheyAreNotTheProjects()
+        public void SettingsThatAreNotTheProjectsSaySo()
         {
             HaptoFlowSettings settings = Settings();
             Assert.That(Helps(InspectorTests.Draw(settings)), Is.Empty);
@@ -71,7 +71,7 @@ namespace HaptoFlow.EditorTests
         }
 
         [Test]
-        public void TheCheckListsFindingsAndAButtonMendsOne()
+        public void TheSceneCheckListsFindingsAndAButtonRepairsOne()
         {
             Settings();
             Stylus();
@@ -85,12 +85,12 @@ namespace HaptoFlow.EditorTests
             Assert.That(shelf.Material.Label, Is.EqualTo("plywood"));
             IReadOnlyList<Drawn> drawn = EditorScreen.Draw(window.OnGUI);
             Assert.That(Helps(drawn), Is.Empty);
-            Assert.That(drawn.Select(item => item.Label), Has.Member("Nothing to remark"));
+            Assert.That(drawn.Select(item => item.Label), Has.Member("No findings"));
             window.Close();
         }
 
         [Test]
-        public void TheCheckSaysWhichEffectsTheSceneCallsForAndWhatEachCostOnceItHasPlayed()
+        public void TheSceneCheckShowsTheEffectsInUseAndTheirCostAfterPlaying()
         {
             Settings();
             HapticStylus stylus = Stylus();
@@ -103,20 +103,20 @@ namespace HaptoFlow.EditorTests
             CheckSceneWindow.Open();
             var window = EditorWindow.GetWindow<CheckSceneWindow>();
             Assert.That(EditorScreen.Draw(window.OnGUI).Select(item => item.Label), Has.Member(
-                "The scene calls for texture (2 surfaces), impact (1 surface), exposure guard (1 output). Nothing else runs."
-                + " Play the scene once to see what each costs on this machine."));
+                "The scene uses texture (2 surfaces), impact (1 surface), exposure guard (1 output). No other effect " +
+                "runs. Play the scene once to see what each costs on this machine."));
             table.Material.Effects = HapticEffects.Nothing;
             Object.DestroyImmediate(shelf.gameObject);
             output.Processing.ExposureGuard = false;
             EditorSession.ChangeHierarchy();
             IReadOnlyList<Drawn> drawn = EditorScreen.Draw(window.OnGUI);
-            Assert.That(Helps(drawn).Single(), Does.Contain("No surface calls for an effect"));
-            Assert.That(drawn.Select(item => item.Label), Has.None.Contain("calls for texture"));
+            Assert.That(Helps(drawn).Single(), Does.Contain("No surface has an effect"));
+            Assert.That(drawn.Select(item => item.Label), Has.None.Contain("uses texture"));
             window.Close();
         }
 
         [Test]
-        public void TheCheckSelectsWhatAFindingIsAbout()
+        public void TheSceneCheckSelectsTheObjectsOfAFinding()
         {
             Settings();
             Stylus();
@@ -132,7 +132,7 @@ namespace HaptoFlow.EditorTests
         }
 
         [Test]
-        public void TheCheckLooksAgainWhenTheSceneChanges()
+        public void TheSceneCheckRunsAgainWhenTheSceneChanges()
         {
             Settings();
             CheckSceneWindow.Open();
@@ -145,12 +145,12 @@ namespace HaptoFlow.EditorTests
         }
 
         [Test]
-        public void LongBlocksAreRemarkedAndLeadToTheAudioSettings()
+        public void LongAudioBlocksAreAFindingThatOpensTheAudioSettings()
         {
             Settings();
             AudioDevice.ChangeDevice(48000, 1024, AudioSpeakerMode.Stereo);
             Finding finding = SceneCheck.Run().Single();
-            Assert.That(finding.Text, Does.Contain("1024 frames at a time, 21 ms at 48000 Hz"));
+            Assert.That(finding.Text, Does.Contain("1024 frames, 21 ms at 48000 Hz"));
             finding.Repairs.Single().Act();
             Assert.That(EditorSession.OpenedSettings, Is.EqualTo("Project/Audio"));
         }
@@ -198,7 +198,7 @@ namespace HaptoFlow.EditorTests
         }
 
         [Test]
-        public void TheOverlayOfALargeSceneStaysSmall()
+        public void TheOverlayOfALargeSceneShowsALimitedNumberOfLines()
         {
             for (int index = 0; index < 40; ++index)
             {
@@ -210,7 +210,7 @@ namespace HaptoFlow.EditorTests
         }
 
         [Test]
-        public void TheMenuTagsOnceHoweverManyAreSelectedAndSaysWhatItDid()
+        public void TheMenuTagsAllSelectedObjectsOnceAndLogsTheResult()
         {
             GameObject[] selected = { Box("Oak_Table"), Box("Steel Door"), Box("Thing") };
             Selection.objects = selected;

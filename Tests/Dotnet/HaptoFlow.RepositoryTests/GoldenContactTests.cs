@@ -20,7 +20,7 @@ namespace HaptoFlow.RepositoryTests
             File.Value["cases"].AsArray().Select(testCase => testCase["name"].AsText());
 
         [Test]
-        public void TheGoldenFileIsThereAndHoldsCases()
+        public void TheGoldenFileContainsCases()
         {
             Assert.That(File.Value["format"].AsText(), Is.EqualTo("haptoflow contact states"));
             Assert.That(File.Value["version"].AsInteger(), Is.EqualTo(2));

@@ -7,9 +7,9 @@ using HaptoFlow.Numerics;
 
 namespace HaptoFlow.RepositoryTests
 {
-    /// <summary>The native contact model's triangle mesh by its plainest road: every triangle is asked, side by
-    /// angle-weighted pseudonormals. In Unity the physics engine answers such questions; the golden file's mesh is here
-    /// so that everything after the question can be compared.</summary>
+    /// <summary>A plain implementation of the native contact model's triangle mesh: it tests every triangle, and finds
+    /// the side by angle-weighted pseudonormals. In Unity the physics engine does this. The tests need it to compare
+    /// everything else with the golden file.</summary>
     internal sealed class GoldenMesh
     {
         private const double SameSideCosine = 0.7071;
@@ -49,7 +49,7 @@ namespace HaptoFlow.RepositoryTests
             return new SurfacePoint(found.Point, found.Normal, found.Behind ? -found.Distance : found.Distance);
         }
 
-        private Found? Nearest(Double3 point, Func<int, bool> wanted)
+        private Found? Nearest(Double3 point, Func<int, bool> isCandidate)
         {
             double best = double.PositiveInfinity;
             Double3 nearest = Double3.Zero;
@@ -57,7 +57,7 @@ namespace HaptoFlow.RepositoryTests
             bool onFace = true;
             for (int triangle = 0; triangle < triangles.Length; ++triangle)
             {
-                if (!wanted(triangle))
+                if (!isCandidate(triangle))
                 {
                     continue;
                 }

@@ -8,7 +8,7 @@ using NUnit.Framework;
 
 namespace HaptoFlow.RepositoryTests
 {
-    /// <summary>Plans of the studies are those of the training package, to the number.</summary>
+    /// <summary>The plans of the studies equal those of the training package exactly.</summary>
     public sealed class GoldenPlanTests
     {
         private static readonly JsonValue Golden =
@@ -22,7 +22,7 @@ namespace HaptoFlow.RepositoryTests
         }
 
         [Test]
-        public void RandomNumbersAreTheSame()
+        public void RandomNumbersEqualThoseOfPython()
         {
             foreach (JsonValue each in Cases("random"))
             {
@@ -33,7 +33,7 @@ namespace HaptoFlow.RepositoryTests
         }
 
         [Test]
-        public void ShufflesAreTheSame()
+        public void ShufflesEqualThoseOfPython()
         {
             foreach (JsonValue each in Cases("shuffles"))
             {
@@ -43,7 +43,7 @@ namespace HaptoFlow.RepositoryTests
         }
 
         [Test]
-        public void DesignsAreTheSame()
+        public void DesignsEqualThoseOfPython()
         {
             foreach (JsonValue each in Cases("williams"))
             {
@@ -53,7 +53,7 @@ namespace HaptoFlow.RepositoryTests
         }
 
         [Test]
-        public void LatencyPlansAreTheSame()
+        public void LatencyPlansEqualThoseOfPython()
         {
             foreach (JsonValue each in Cases("latency"))
             {
@@ -69,7 +69,7 @@ namespace HaptoFlow.RepositoryTests
         }
 
         [Test]
-        public void SimilarityPlansAreTheSame()
+        public void SimilarityPlansEqualThoseOfPython()
         {
             foreach (JsonValue each in Cases("similarity"))
             {

@@ -6,7 +6,7 @@ using HaptoFlow.Numerics;
 
 namespace HaptoFlow.RepositoryTests
 {
-    /// <summary>One case of the golden file, played through the tracker frame by frame.</summary>
+    /// <summary>A case of the golden file, run through the tracker frame by frame.</summary>
     internal sealed class GoldenScene : ISurfaceGeometry
     {
         private readonly JsonValue testCase;
@@ -107,7 +107,7 @@ namespace HaptoFlow.RepositoryTests
         }
     }
 
-    /// <summary>A surface of a golden scene: its shape, and where it is at each sample.</summary>
+    /// <summary>A surface of a golden scene: its shape, and its pose at each sample.</summary>
     internal sealed class GoldenSurface
     {
         private readonly JsonValue shape;

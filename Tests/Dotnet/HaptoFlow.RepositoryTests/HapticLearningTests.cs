@@ -10,11 +10,11 @@ using NUnit.Framework;
 
 namespace HaptoFlow.RepositoryTests
 {
-    /// <summary>Learning from C#, with the real library: begun, followed, cancelled, two at once, and
-    /// refused.</summary>
+    /// <summary>Learning a material from C# with the real library: progress, cancelling, two at once, refusals.
+    /// </summary>
     public sealed class HapticLearningTests
     {
-        // The fit ends with what it has: these tests are not about how good it is.
+        // A short time limit, because these tests do not measure the quality of the fit.
         private const double Quickly = 0.5;
 
         private static readonly byte[] Model = File.ReadAllBytes(RepositoryFiles.DefaultModel);
@@ -32,7 +32,7 @@ namespace HaptoFlow.RepositoryTests
                 SecondsLimit = Quickly,
             });
 
-        /// <summary>A table of a wave, as long and as sampled as asked for.</summary>
+        /// <summary>Creates a table of a wave with a duration and a sample rate.</summary>
         private static Recording Table(double rateHz, double seconds, Func<double, string> row, string columns)
         {
             var text = new StringBuilder("time_s," + columns + "\n");
@@ -53,7 +53,7 @@ namespace HaptoFlow.RepositoryTests
         public void EndAll() => HapticLearning.EndAll();
 
         [Test]
-        public void AMaterialIsLearntWithItsNameItsLicenceAndItsSpaceAndAnEngineTakesIt()
+        public void ALearntMaterialHasNameLicenceAndSpaceAndAnEngineAcceptsIt()
         {
             using HapticLearning learning = Start(Doormat());
             learning.Wait();
@@ -72,25 +72,25 @@ namespace HaptoFlow.RepositoryTests
         }
 
         [Test]
-        public void ProgressRisesAndSaysWhatIsBeingDoneWhileTheCallerGoesOn()
+        public void ProgressIsReportedWhileTheCallerContinues()
         {
             using HapticLearning learning = Start(Doormat());
             float before = 0f;
-            bool said = false;
+            bool hasReportedStep = false;
             while (!learning.IsCompleted)
             {
                 float share = learning.Share;
                 Assert.That(share, Is.InRange(before, 1f));
                 before = share;
-                said |= learning.Doing.Length > 0;
+                hasReportedStep |= learning.Doing.Length > 0;
                 Thread.Sleep(1);
             }
-            Assert.That(said, Is.True);
+            Assert.That(hasReportedStep, Is.True);
             Assert.That(learning.Problem, Is.Null);
         }
 
         [Test]
-        public void CancelledAtOnceOrLaterItEndsWithoutMaterialAndWithoutProblem([Values(0, 30, 300)] int milliseconds)
+        public void ACancelledLearningEndsWithoutMaterialOrProblem([Values(0, 30, 300)] int milliseconds)
         {
             using HapticLearning learning = HapticLearning.Start(Model, Doormat(), new LearningOptions { Name = "doormat" });
             Thread.Sleep(milliseconds);
@@ -103,9 +103,9 @@ namespace HaptoFlow.RepositoryTests
         }
 
         [Test]
-        public void TwoAtOnceLearnEachItsOwnAndTheSameSeedGivesTheSameBytes()
+        public void TwoLearningsRunAtOnceAndTheSameSeedGivesTheSameBytes()
         {
-            // A fit that its limit ends is not the same twice.
+            // No time limit here: a fit that ends at its limit is not reproducible.
             var options = new LearningOptions { Name = "one", SecondsLimit = 120.0 };
             using HapticLearning one = HapticLearning.Start(Model, Doormat(), options);
             using HapticLearning other = HapticLearning.Start(Model, Doormat(), options);
@@ -116,7 +116,7 @@ namespace HaptoFlow.RepositoryTests
         }
 
         [Test]
-        public void CancellingOneLeavesTheOther()
+        public void CancellingOneLearningDoesNotCancelTheOther()
         {
             using HapticLearning one = Start(Doormat(), "one");
             using HapticLearning other = Start(Doormat(), "other");
@@ -128,7 +128,7 @@ namespace HaptoFlow.RepositoryTests
         }
 
         [Test]
-        public void EndingAllWaitsForEachAndLaterOnesBeginAnew()
+        public void EndAllWaitsForAllLearningsAndLaterOnesCanStart()
         {
             HapticLearning[] all = Enumerable.Range(0, 3).Select(number => Start(Doormat(), "m" + number)).ToArray();
             HapticLearning.EndAll();
@@ -141,7 +141,7 @@ namespace HaptoFlow.RepositoryTests
         [TestCase(1000.0)]
         [TestCase(5000.0)]
         [TestCase(48000.0)]
-        public void RecordingsOfOtherRatesAreLearntFrom(double rateHz)
+        public void RecordingsWithOtherSampleRatesAreAccepted(double rateHz)
         {
             var random = new Random(3);
             Recording recording = Table(rateHz, 11.0, time => Noise(random, time), "acceleration_mps2,speed_mps,force_newtons");
@@ -151,7 +151,7 @@ namespace HaptoFlow.RepositoryTests
         }
 
         [Test]
-        public void ASpeedAndAForceThatWereEnteredDoForARecordingThatSaysNone()
+        public void EnteredSpeedAndForceReplaceMissingOnes()
         {
             var random = new Random(3);
             Recording recording = Table(2000.0, 11.0, time => FormattableString.Invariant(
@@ -163,7 +163,7 @@ namespace HaptoFlow.RepositoryTests
         }
 
         [Test]
-        public void ARecordingOfASecondOrOfRestIsRefusedWithTheReason()
+        public void AShortOrRestingRecordingIsRefusedWithTheReason()
         {
             var random = new Random(3);
             const string columns = "acceleration_mps2,speed_mps,force_newtons";
@@ -177,7 +177,7 @@ namespace HaptoFlow.RepositoryTests
         }
 
         [Test]
-        public void WhatCannotBeStartedIsRefusedAtOnceAndADamagedModelInTheEnd()
+        public void InvalidArgumentsAreRefusedAtOnceAndADamagedModelAtTheEnd()
         {
             Assert.Throws<ArgumentException>(() => Start(Doormat(), " "));
             Assert.Throws<ArgumentException>(() => HapticLearning.Start(Model, Doormat(),
@@ -190,11 +190,11 @@ namespace HaptoFlow.RepositoryTests
         }
 
         [Test]
-        public void StartingTakesNoTimeOfTheCallers()
+        public void StartingALearningDoesNotBlockTheCaller()
         {
             Recording recording = Doormat();
             using HapticLearning first = Start(recording);
-            Assert.That(first.IsCompleted, Is.False, "it goes on after Start returned");
+            Assert.That(first.IsCompleted, Is.False, "the learning continues after Start has returned");
             first.Cancel();
         }
     }

@@ -13,7 +13,7 @@ namespace HaptoFlow.RepositoryTests
         private static JsonValue Expected => JsonValue.Parse(File.ReadAllText(Golden("expected.json")));
 
         [Test]
-        public void TheSpaceOfAModelIsThatOfTheOtherReaders()
+        public void TheSpaceOfAModelEqualsThatOfTheOtherReaders()
         {
             byte[] tiny = File.ReadAllBytes(RepositoryFiles.In("Tests", "Golden", "model", "tiny.haptoflow"));
             Assert.That(ModelSpace.Of(tiny).Id, Is.EqualTo(Expected["spaces"]["tiny"].AsText()));
@@ -22,7 +22,7 @@ namespace HaptoFlow.RepositoryTests
         }
 
         [Test]
-        public void EveryLabelIsNearestToItselfAndItsEmbeddingIsTheNativeOnes()
+        public void EveryLabelIsNearestToItselfAndHasTheNativeEmbedding()
         {
             byte[] file = File.ReadAllBytes(RepositoryFiles.DefaultModel);
             using HapticModel model = HapticModel.Open(file);
@@ -38,7 +38,7 @@ namespace HaptoFlow.RepositoryTests
         [TestCase("denim")]
         [TestCase("plain-twin")]
         [TestCase("ribbed")]
-        public void AMaterialFileSaysItsNameAndSpaceAndLicence(string name)
+        public void AMaterialFileContainsNameSpaceAndLicence(string name)
         {
             MaterialFile material = MaterialFile.Read(File.ReadAllText(Golden(name + ".haptomaterial")));
             JsonValue expected = Expected["materials"][name];
@@ -49,7 +49,7 @@ namespace HaptoFlow.RepositoryTests
         }
 
         [Test]
-        public void EveryChangeThatBreaksARuleIsRefusedByItsKey()
+        public void EveryInvalidChangeIsRefusedWithItsKey()
         {
             JsonValue invalid = JsonValue.Parse(File.ReadAllText(Golden("invalid.json")));
             string sound = File.ReadAllText(Golden(invalid["of"].AsText()));
@@ -67,12 +67,12 @@ namespace HaptoFlow.RepositoryTests
         [TestCase("[]")]
         [TestCase("{\"format\": \"haptoflow-material\"")]
         [TestCase("\u0000\u0001")]
-        public void WhatIsNoMaterialFileAtAllIsRefusedToo(string text) =>
+        public void TextThatIsNoMaterialFileIsRefused(string text) =>
             Assert.That(Assert.Throws<HaptoFlowException>(() => MaterialFile.Read(text))!.Status,
                 Is.EqualTo(HaptoFlowStatus.MaterialInvalid));
 
         [Test]
-        public void ATextOfMoreThanAMebibyteIsRefusedByItsSize()
+        public void ATextOfMoreThanAMebibyteIsRefused()
         {
             string large = "{\"format\": \"" + new string('x', MaterialFile.MaximumBytes) + "\"}";
             Assert.That(Assert.Throws<HaptoFlowException>(() => MaterialFile.Read(large))!.Message,
@@ -80,7 +80,7 @@ namespace HaptoFlow.RepositoryTests
         }
 
         [Test]
-        public void WhatIsWrittenIsReadAgainUnchanged()
+        public void AWrittenMaterialFileIsReadUnchanged()
         {
             JsonValue document = JsonValue.Parse(File.ReadAllText(Golden("ribbed.haptomaterial")));
             string written = JsonText.Of(document);
@@ -93,7 +93,7 @@ namespace HaptoFlow.RepositoryTests
 
         private static string Golden(string name) => RepositoryFiles.In("Tests", "Golden", "material", name);
 
-        /// <summary>JSON Patch (RFC 6902) as far as the file uses it: replace and remove.</summary>
+        /// <summary>Applies JSON Patch (RFC 6902), as far as the file uses it: replace and remove.</summary>
         private static object? Patched(JsonValue document, JsonValue patch)
         {
             object? root = Plain(document);

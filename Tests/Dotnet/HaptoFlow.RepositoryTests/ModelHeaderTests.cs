@@ -13,7 +13,7 @@ namespace HaptoFlow.RepositoryTests
         private static byte[] TinyModel() => File.ReadAllBytes(RepositoryFiles.In("Tests", "Golden", "model", "tiny.haptoflow"));
 
         [Test]
-        public void TheDefaultModelsHeaderSaysWhereTheModelComesFrom()
+        public void TheDefaultModelsHeaderContainsItsProvenance()
         {
             ModelHeader header = ModelHeader.Read(File.ReadAllBytes(RepositoryFiles.DefaultModel));
             Assert.That(header.Provenance.Statement, Is.EqualTo("trained on synthetic recordings"));
@@ -42,7 +42,7 @@ namespace HaptoFlow.RepositoryTests
         }
 
         [Test]
-        public void ATruncatedFileIsRefusedByNameAtEveryLength()
+        public void ATruncatedFileIsRefusedAtEveryLength()
         {
             byte[] file = TinyModel();
             for (int length = 0; length < file.Length; length += 7)
@@ -53,7 +53,7 @@ namespace HaptoFlow.RepositoryTests
         }
 
         [Test]
-        public void EveryFlippedBitOfPrefixAndHeaderIsNoticed()
+        public void EveryFlippedBitOfPrefixAndHeaderIsDetected()
         {
             byte[] file = TinyModel();
             int headerEnd = 32 + (int)BitConverter.ToUInt32(file, 12);
@@ -67,7 +67,7 @@ namespace HaptoFlow.RepositoryTests
         }
 
         [Test]
-        public void RefusalsOfCSharpAndOfTheNativeLibraryCarryTheSameStatus()
+        public void CSharpAndTheNativeLibraryRefuseWithTheSameStatus()
         {
             byte[] file = TinyModel();
             foreach (Action<byte[]> damage in new Action<byte[]>[]
@@ -90,7 +90,7 @@ namespace HaptoFlow.RepositoryTests
         [TestCase("{\"a\": \"\u0001\"}", "control character")]
         [TestCase("[1] x", "text after")]
         [TestCase("[1e999]", "out of range")]
-        public void BrokenJsonIsRefusedWithItsPlace(string text, string expected)
+        public void InvalidJsonIsRefusedWithItsPosition(string text, string expected)
         {
             var refusal = Assert.Throws<FormatException>(() => JsonValue.Parse(text));
             Assert.That(refusal!.Message, Does.Contain("at character").And.Contain(expected));

@@ -11,7 +11,7 @@ namespace HaptoFlow.RepositoryTests
 {
     public sealed class NativeBindingTests : OpenModelTest
     {
-        // What a C compiler for a 64-bit platform says of haptoflow.h.
+        // The sizes of the structs in haptoflow.h on a 64-bit platform.
         [TestCase(typeof(RuntimeOptions), 40)]
         [TestCase(typeof(ModelOptions), 32)]
         [TestCase(typeof(LabelInfo), 72)]
@@ -33,7 +33,7 @@ namespace HaptoFlow.RepositoryTests
             Assert.That(Marshal.SizeOf(type), Is.EqualTo(expectedBytes));
 
         [Test]
-        public void WhatCrossesTheBorderIsKeptFromTheLinker()
+        public void NativeStructsAndCallbacksArePreservedFromStripping()
         {
             const BindingFlags anyField = BindingFlags.Instance | BindingFlags.Public | BindingFlags.NonPublic;
             Type[] crossing = typeof(NativeMethods).Assembly.GetTypes()
@@ -61,7 +61,7 @@ namespace HaptoFlow.RepositoryTests
         }
 
         [Test]
-        public void AFailureBecomesAnExceptionWithTheLibrarysMessage()
+        public void AFailureThrowsAnExceptionWithTheLibrarysMessage()
         {
             var refusal = Assert.Throws<HaptoFlowException>(() => HapticModel.Open("no/such/file.haptoflow"));
             Assert.That(refusal!.Status, Is.EqualTo(HaptoFlowStatus.ModelUnreadable));
@@ -69,7 +69,7 @@ namespace HaptoFlow.RepositoryTests
         }
 
         [Test]
-        public void AClosedModelIsRefusedInsteadOfRead()
+        public void AClosedModelIsRefused()
         {
             HapticModel closed = HapticModel.Open(RepositoryFiles.DefaultModel);
             closed.Dispose();
@@ -90,7 +90,7 @@ namespace HaptoFlow.RepositoryTests
         }
 
         [Test]
-        public void AGeneratorMakesTheSameSegmentFromTheSameNoise()
+        public void AGeneratorGeneratesTheSameSegmentFromTheSameNoise()
         {
             using var generator = new HapticGenerator(runtime, model);
             var first = new float[200];
@@ -104,7 +104,7 @@ namespace HaptoFlow.RepositoryTests
         }
 
         [Test]
-        public void TheLevelIsTheModelsForTheMotion()
+        public void TheLevelIsThatOfTheModelForTheMotion()
         {
             using var generator = new HapticGenerator(runtime, model);
             var levels = new float[2];
@@ -115,14 +115,14 @@ namespace HaptoFlow.RepositoryTests
         }
 
         [Test]
-        public void AnUnknownTierIsRefusedByName()
+        public void AnUnknownTierIsRefusedWithItsName()
         {
             var refusal = Assert.Throws<HaptoFlowException>(() => new HapticGenerator(runtime, model, "superb"));
             Assert.That(refusal!.Message, Does.Contain("superb"));
         }
 
         [Test]
-        public void ASlidingTipSoundsAndALiftedOneFallsSilent()
+        public void ASlidingTipIsAudibleAndALiftedOneFallsSilent()
         {
             using HapticEngine engine = EngineWithoutWorker();
             using HapticVoice voice = engine.OpenVoice(48000.0);
@@ -142,7 +142,7 @@ namespace HaptoFlow.RepositoryTests
         }
 
         [Test]
-        public void OnlyTheNamedChannelIsWritten()
+        public void OnlyTheChosenChannelIsWritten()
         {
             using HapticEngine engine = EngineWithoutWorker();
             using HapticVoice voice = engine.OpenVoice(48000.0);
@@ -166,7 +166,7 @@ namespace HaptoFlow.RepositoryTests
         }
 
         [Test]
-        public void VoicesOutliveNothingOfADisposedEngine()
+        public void DisposingAnEngineClosesItsVoices()
         {
             HapticEngine engine = EngineWithoutWorker();
             HapticVoice voice = engine.OpenVoice(48000.0);
@@ -178,7 +178,7 @@ namespace HaptoFlow.RepositoryTests
         }
 
         [Test]
-        public void ARegisteredMaterialIsNamedBehindTheLabelsFeltAndReplaced()
+        public void ARegisteredMaterialFollowsTheLabelsAndCanBeReplaced()
         {
             string denim = File.ReadAllText(RepositoryFiles.In("Tests", "Golden", "material", "denim.haptomaterial"));
             Assert.That(denim, Does.Contain("\"" + model.Space + "\""));
@@ -199,7 +199,7 @@ namespace HaptoFlow.RepositoryTests
         }
 
         [Test]
-        public void AMaterialThatCannotSoundIsRefusedAndSaysWhy()
+        public void AMaterialThatCannotBeGeneratedIsRefusedWithTheReason()
         {
             string denim = File.ReadAllText(RepositoryFiles.In("Tests", "Golden", "material", "denim.haptomaterial"));
             using HapticEngine engine = EngineWithoutWorker();
@@ -216,7 +216,7 @@ namespace HaptoFlow.RepositoryTests
         }
 
         [Test]
-        public void SpatialScaleAndToneOfAStateReachTheVoice()
+        public void SpatialScaleAndToneOfAContactStateReachTheVoice()
         {
             using HapticEngine engine = EngineWithoutWorker();
             using HapticVoice voice = engine.OpenVoice(48000.0);
@@ -229,7 +229,7 @@ namespace HaptoFlow.RepositoryTests
         }
 
         [Test]
-        public void ASignalSoundsInsteadOfTheTextureWhileTheTipMovesAndItsTurnsAreCounted()
+        public void ASignalReplacesTheTextureWhileTheTipMoves()
         {
             using HapticEngine engine = EngineWithoutWorker();
             using HapticVoice voice = engine.OpenVoice(48000.0);
@@ -252,7 +252,7 @@ namespace HaptoFlow.RepositoryTests
         }
 
         [Test]
-        public void ASignalOutOfRangeIsRefusedByName()
+        public void ASignalOutOfRangeIsRefusedWithItsName()
         {
             using HapticEngine engine = EngineWithoutWorker();
             HapticVoice voice = engine.OpenVoice(48000.0);

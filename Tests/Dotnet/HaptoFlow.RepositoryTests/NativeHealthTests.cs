@@ -7,7 +7,7 @@ using NUnit.Framework;
 
 namespace HaptoFlow.RepositoryTests
 {
-    /// <summary>Reasons for silence, the engine's health and cancelled loads, through the real library.</summary>
+    /// <summary>Reasons for silence, the health of the engine and cancelled loads, with the real library.</summary>
     public sealed class NativeHealthTests : OpenModelTest
     {
         [Test]
@@ -23,7 +23,7 @@ namespace HaptoFlow.RepositoryTests
         }
 
         [Test]
-        public void AVoiceSaysWhyItIsSilent()
+        public void AVoiceReportsWhyItIsSilent()
         {
             using HapticEngine engine = Engine(default);
             using HapticVoice voice = engine.OpenVoice(48000.0);
@@ -42,7 +42,7 @@ namespace HaptoFlow.RepositoryTests
         }
 
         [Test]
-        public void AnUnsupportedRateIsCountedAndSaid()
+        public void AnUnsupportedRateIsCountedAndReported()
         {
             using HapticEngine engine = Engine(default);
             using HapticVoice voice = engine.OpenVoice(48000.0);
@@ -57,7 +57,7 @@ namespace HaptoFlow.RepositoryTests
         }
 
         [Test]
-        public void AHealthyEngineSaysSo()
+        public void AHealthyEngineReportsNoProblem()
         {
             using HapticEngine engine = new HapticEngine(
                 runtime, model, new HapticEngineOptions { Quality = HapticQuality.Draft });
@@ -68,12 +68,12 @@ namespace HaptoFlow.RepositoryTests
         }
 
         [Test]
-        public void ACancelledLoadEndsWithThatStatusForEnginesAndGenerators()
+        public void ACancelledLoadReturnsTheStatusCancelled()
         {
             using var cancellation = new HapticCancellation();
             using (Engine(cancellation))
             {
-                // Not cancelled, it changes nothing.
+                // A cancellation that is not triggered changes nothing.
             }
             cancellation.Cancel();
             cancellation.Cancel();
@@ -95,7 +95,7 @@ namespace HaptoFlow.RepositoryTests
         }
 
         [Test]
-        public void ATierThatIsSlowerThanTheLimitIsRefusedByName()
+        public void ATierSlowerThanTheLimitIsRefusedWithItsName()
         {
             var refusal = Assert.Throws<HaptoFlowException>(() => new HapticEngine(runtime, model,
                 new HapticEngineOptions { Quality = HapticQuality.Draft, WithoutWorker = true, ProbeLimitMs = 1e-6 }));

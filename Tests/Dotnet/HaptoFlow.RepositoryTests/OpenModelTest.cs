@@ -4,7 +4,7 @@ using NUnit.Framework;
 
 namespace HaptoFlow.RepositoryTests
 {
-    /// <summary>Tests through the real library that share the shipped model, opened once.</summary>
+    /// <summary>Base class of tests with the real library and the shipped model, which is opened once.</summary>
     public abstract class OpenModelTest
     {
         protected OnnxRuntime runtime = null!;

@@ -9,7 +9,7 @@ using NUnit.Framework;
 
 namespace HaptoFlow.RepositoryTests
 {
-    /// <summary>Recordings in every form of own-materials.md, and what is said of those in none.</summary>
+    /// <summary>Recordings in every format of own-materials.md, and the errors for invalid ones.</summary>
     public sealed class RecordingReaderTests
     {
         private readonly Dictionary<string, byte[]> folder = new Dictionary<string, byte[]>();
@@ -29,7 +29,7 @@ namespace HaptoFlow.RepositoryTests
             return refusal.Message;
         }
 
-        /// <summary>A table of a wave of 100 Hz and 2 m/s^2, with further columns.</summary>
+        /// <summary>Creates a table of a wave of 100 Hz and 2 m/s^2, with further columns.</summary>
         private static string Table(string columns, Func<int, double, string> row, int rows = 2000, double rateHz = 2000.0)
         {
             var text = new StringBuilder(columns + "\n");
@@ -134,13 +134,13 @@ namespace HaptoFlow.RepositoryTests
             Recording recording = Read("a.csv");
             Assert.That(recording.VelocityAt(500), Is.EqualTo((recording.VelocityAt(0).X, 0.0)));
             Assert.That(recording.VelocityAt(500).X, Is.EqualTo(0.08).Within(1e-6));
-            Assert.That(recording.KnowsMotion, Is.False, "nobody said the force");
+            Assert.That(recording.KnowsMotion, Is.False, "the force is unknown");
             Assert.That(recording.With(null, 2.0).KnowsMotion, Is.True);
         }
 
         [TestCase("position_x_mm,position_y_mm", 1000.0)]
         [TestCase("position_x_m,position_y_m", 1.0)]
-        public void PositionsBecomeVelocitiesWithoutTheStepsOfATracker(string columns, double scale)
+        public void PositionsAreDifferentiatedWithoutTheQuantisationOfTheTracker(string columns, double scale)
         {
             Put("a.csv", Table("time_s,acceleration_mps2," + columns, (_, seconds) => Words(seconds, Wave(seconds),
                 Math.Round(60.0 * seconds, 1) / 1000.0 * scale, Math.Round(-25.0 * seconds, 1) / 1000.0 * scale)));
@@ -154,7 +154,7 @@ namespace HaptoFlow.RepositoryTests
         }
 
         [Test]
-        public void ThreeAxesAndMillinewtonsAndQuotedNamesAreRead()
+        public void ThreeAxesMillinewtonsAndQuotedNamesAreRead()
         {
             Put("a.csv", Table(
                 "\"time_s\",\"acceleration_x_mps2\",acceleration_y_mps2, acceleration_z_mps2,force_millinewtons",
@@ -187,7 +187,7 @@ namespace HaptoFlow.RepositoryTests
         }
 
         [Test]
-        public void AWavFileOfThreeChannelsHasThreeAxesAndMayComeAsBytes()
+        public void AWavFileOfThreeChannelsHasThreeAxes()
         {
             double[] wave = Waves(2000, 2000.0);
             folder["a.wav.bytes"] = Wav(3, 2000, 3, 32, wave.SelectMany(value => new[] { value, 0.1, -0.2 }).ToArray());
@@ -197,7 +197,7 @@ namespace HaptoFlow.RepositoryTests
         }
 
         [Test]
-        public void TheSidecarWinsOverTheFoldersDefaultsAndAMotionFileHasItsOwnClock()
+        public void TheSidecarOverridesTheFoldersDefaultsAndAMotionFileHasItsOwnClock()
         {
             Put("recordings.json", "{\"speed_mps\": 0.5, \"force_newtons\": 3, \"licence\": \"MIT\", \"label\": \"x\"}");
             Put("a.json", "{\"label\": \"denim\", \"force_newtons\": 1, \"motion\": \"a.motion.csv\"}");
@@ -212,7 +212,7 @@ namespace HaptoFlow.RepositoryTests
         }
 
         [Test]
-        public void ATableWithoutTimesTakesTheRateOfItsSidecar()
+        public void ATableWithoutTimesHasTheRateOfItsSidecar()
         {
             Put("a.csv", Table("acceleration_mps2", (_, seconds) => Words(Wave(seconds))));
             Assert.That(Refusal("a.csv"), Does.Contain("without time_s").And.Contain("rate_hz"));
@@ -221,7 +221,7 @@ namespace HaptoFlow.RepositoryTests
         }
 
         [Test]
-        public void ALostNumberAndALostStretchCostTheirNeighbourhoodOnly()
+        public void MissingNumbersRemoveOnlyTheirNeighbourhood()
         {
             Put("a.csv", Table("time_s,acceleration_mps2", (index, seconds) => index == 700
                 ? Words(seconds) + ","
@@ -236,7 +236,7 @@ namespace HaptoFlow.RepositoryTests
         }
 
         [Test]
-        public void UnknownColumnsAreIgnoredByName()
+        public void UnknownColumnsAreIgnoredAndListed()
         {
             Put("a.csv", Plain(",temperature,note", ",21,warm"));
             Assert.That(Read("a.csv").Remarks.Single(), Does.Contain("temperature, note"));
@@ -255,7 +255,7 @@ namespace HaptoFlow.RepositoryTests
         [TestCase("time_s,acceleration_mps2\n0,1\n0.001,2\n0.001,3\n0.003,1\n", "does not rise in row 4")]
         [TestCase("time_s,acceleration_mps2\n0,1\n0.1,2\n0.2,3\n0.3,1\n", "10 samples a second; expected 1000")]
         [TestCase("time_s,acceleration_mps2\n0,1\n0.001,1\n0.002,1\n0.003,1\n", "stays the same")]
-        public void ATableThatIsNoneIsRefusedWithWhatWasFound(string text, string message)
+        public void AnInvalidTableIsRefusedWithWhatWasFound(string text, string message)
         {
             Put("a.csv", text);
             Assert.That(Refusal("a.csv"), Does.StartWith("a.csv: ").And.Contain(message).And.Contain("expected"));
@@ -264,7 +264,7 @@ namespace HaptoFlow.RepositoryTests
         [TestCase(",speed_mps", ",80", "speed_mps gives a speed of 80 m/s", "speed_mmps")]
         [TestCase(",speed_mmps", ",0.08", "speed_mmps gives a speed of 0 m/s", "speed_mps")]
         [TestCase(",force_newtons", ",1200", "force_newtons is 1200 N", "force_millinewtons")]
-        public void ANumberOfAnotherUnitIsRefusedWithTheColumnThatWasMeant(
+        public void ANumberInAnotherUnitIsRefusedWithTheIntendedColumn(
             string column, string value, string found, string remedy)
         {
             Put("a.csv", Plain(column, value));
@@ -272,7 +272,7 @@ namespace HaptoFlow.RepositoryTests
         }
 
         [Test]
-        public void GravityThatLooksLikeTheOtherUnitIsNamed()
+        public void GravityInAnotherUnitIsReported()
         {
             const string g = "time_s,acceleration_x_g,acceleration_y_g,acceleration_z_g";
             Put("a.csv", Table(g, (_, seconds) => Words(seconds, Wave(seconds), 0.0, 9.81)));
@@ -288,7 +288,7 @@ namespace HaptoFlow.RepositoryTests
         [TestCase("{\"velocity_mps\": [1]}", "key 'velocity_mps' is [1]")]
         [TestCase("{\"speed_mps\": 1, \"velocity_mps\": [1, 0]}", "keys speed_mps and velocity_mps")]
         [TestCase("{\"motion\": \"none.csv\"}", "key 'motion' names none.csv, which is not there")]
-        public void ASidecarThatIsWrongIsRefusedByItsKey(string sidecar, string message)
+        public void AnInvalidSidecarIsRefusedWithItsKey(string sidecar, string message)
         {
             Put("a.csv", Plain());
             Put("a.json", sidecar);
@@ -296,7 +296,7 @@ namespace HaptoFlow.RepositoryTests
         }
 
         [Test]
-        public void AWavFileWithoutScaleOrOfAnotherFormIsRefused()
+        public void AWavFileWithoutAScaleOrInAnotherFormatIsRefused()
         {
             folder["a.wav"] = Wav(1, 2000, 1, 16, Waves(100, 2000.0));
             Assert.That(Refusal("a.wav"), Does.Contain("no key 'full_scale_mps2' for a.wav"));
@@ -315,7 +315,7 @@ namespace HaptoFlow.RepositoryTests
         }
 
         [Test]
-        public void AWavFileThatEndsEarlyAtEveryByteIsReadOrRefusedButNeverBreaks()
+        public void AWavFileTruncatedAtAnyByteIsReadOrRefused()
         {
             byte[] whole = Wav(1, 2000, 1, 24, Waves(30, 2000.0));
             for (int length = 0; length < whole.Length; ++length)
@@ -333,7 +333,7 @@ namespace HaptoFlow.RepositoryTests
         }
 
         [Test]
-        public void AFileThatIsNotThereOrHasAnotherEndingIsRefusedByName()
+        public void AMissingFileOrOneWithAnotherExtensionIsRefused()
         {
             Assert.That(Assert.Throws<HaptoFlowException>(() => RecordingReader.Read("nowhere.csv"))!.Message,
                 Does.Contain("nowhere.csv: is not there"));

@@ -4,9 +4,9 @@ namespace HaptoFlow.RepositoryTests
 {
     internal static class TriangleGeometry
     {
-        /// <summary>The place nearest to a point, and what it lies on: a corner (0 to 2), an edge (3: a-b, 4: b-c,
-        /// 5: c-a) or the face (6), by the Voronoi regions of the features (Ericson, Real-Time Collision Detection,
-        /// 5.1.5).</summary>
+        /// <summary>The point of a triangle nearest to another point, and the feature that it lies on: a corner (0 to
+        /// 2), an edge (3: a-b, 4: b-c, 5: c-a) or the face (6). Found by the Voronoi regions of the features (Ericson,
+        /// Real-Time Collision Detection, 5.1.5).</summary>
         public static (Double3 Place, int Feature) Closest(Double3 a, Double3 b, Double3 c, Double3 point)
         {
             Double3 ab = b - a;

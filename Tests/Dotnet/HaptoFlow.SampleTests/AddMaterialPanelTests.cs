@@ -9,7 +9,7 @@ using UnityShim;
 
 namespace HaptoFlow.SampleTests
 {
-    /// <summary>The panel of the Workshop: a material is learnt while the scene runs.</summary>
+    /// <summary>The panel of the Workshop, which learns a material while the scene runs.</summary>
     public sealed class AddMaterialPanelTests : SampleTest
     {
         private const double PatienceSeconds = 120.0;
@@ -29,7 +29,7 @@ namespace HaptoFlow.SampleTests
             WorkshopScene scene = Wake<WorkshopScene>(bootstrap => bootstrap.View = camera);
             panel = scene.gameObject.AddComponent<AddMaterialPanel>();
             World.Frame();
-            panel.Take(Asset("doormat.wav.bytes"), Asset("doormat.json"), Asset("doormat.motion.csv"));
+            panel.SetRecording(Asset("doormat.wav.bytes"), Asset("doormat.json"), Asset("doormat.motion.csv"));
             return scene;
         }
 
@@ -52,7 +52,7 @@ namespace HaptoFlow.SampleTests
         }
 
         [Test]
-        public void TouchingTheButtonLearnsTheRecordingAndTheSpecimenFeelsLikeIt()
+        public void TouchingTheButtonLearnsTheRecordingForTheSpecimen()
         {
             FinishLoading();
             WorkshopScene scene = Open(out AddMaterialPanel panel);
@@ -61,7 +61,7 @@ namespace HaptoFlow.SampleTests
             Assert.That(panel.IsLearning, Is.True, panel.Text);
             SimulatedInput.MouseButton = false;
             WaitFor(panel);
-            Assert.That(panel.Text, Does.StartWith("The specimen feels like doormat now; the nearest label is "));
+            Assert.That(panel.Text, Does.StartWith("The specimen now feels like doormat; the nearest label is "));
             Assert.That(scene.SpecimenMaterial.IsLearnt, Is.True);
             HapticSession.Current.FinishRegistrations();
             PointAt(camera, new Vector3(0.27f, 0.005f, -0.16f));
@@ -73,7 +73,7 @@ namespace HaptoFlow.SampleTests
         }
 
         [Test]
-        public void ASecondPressCancelsAndWhatTheSpecimenWasStays()
+        public void ASecondPressCancelsAndTheSpecimenKeepsItsMaterial()
         {
             WorkshopScene scene = Open(out AddMaterialPanel panel);
             panel.Press();
@@ -84,12 +84,12 @@ namespace HaptoFlow.SampleTests
         }
 
         [TestCase("", "empty file")]
-        [TestCase("time_s,acceleration_mps2\n0,1\n0.001,2\n0.002,1\n0.003,3\n", "speed or force is not known")]
+        [TestCase("time_s,acceleration_mps2\n0,1\n0.001,2\n0.002,1\n0.003,3\n", "speed or force is missing")]
         [TestCase("time_s,acceleration\n0,1\n", "expected acceleration")]
-        public void ARecordingThatIsNoneIsSaidAndTheSceneGoesOn(string text, string message)
+        public void AnInvalidRecordingIsReportedAndTheSceneContinues(string text, string message)
         {
             Open(out AddMaterialPanel panel);
-            panel.Take(new TextAsset(Encoding.UTF8.GetBytes(text)) { name = "mine.csv" });
+            panel.SetRecording(new TextAsset(Encoding.UTF8.GetBytes(text)) { name = "mine.csv" });
             panel.Press();
             WaitFor(panel);
             Assert.That(panel.Text, Does.StartWith("Nothing was learnt: mine.csv: ").And.Contain(message));
@@ -99,7 +99,7 @@ namespace HaptoFlow.SampleTests
         }
 
         [Test]
-        public void ASceneThatEndsWhileItLearnsEndsTheLearning()
+        public void EndingTheSceneEndsTheLearning()
         {
             WorkshopScene scene = Open(out AddMaterialPanel panel);
             panel.Press();

@@ -7,7 +7,7 @@ using UnityShim;
 
 namespace HaptoFlow.SampleTests
 {
-    /// <summary>The tracing sample's table is put onto a real one, 4 cm lower and turned.</summary>
+    /// <summary>Alignment of the tracing sample's table with a real one, which is 4 cm lower and rotated.</summary>
     public sealed class AlignmentStepTests : SampleTest
     {
         private const string Right = "<XRController>{RightHand}/";
@@ -29,10 +29,10 @@ namespace HaptoFlow.SampleTests
         }
 
         [TearDown]
-        public void LeaveNoFile() => Step().Alignment.ForgetSaved();
+        public void DeleteTheSavedPose() => Step().Alignment.ForgetSaved();
 
         [Test]
-        public void ThreeCornersOfThePaperPutTheTableThereAndForceDecides()
+        public void ThreeTouchedCornersMoveTheTableToThePaperAndTheForceDecidesTouches()
         {
             Hover(0);
             Press("<Keyboard>/a");
@@ -47,7 +47,7 @@ namespace HaptoFlow.SampleTests
             Transform exhibits = Step().transform;
             Assert.That(Vector3.Distance(exhibits.position, deskPosition), Is.LessThan(1e-3f));
             Assert.That(Pen().TouchBy, Is.EqualTo(TouchDecision.MeasuredForce));
-            // On the desk, tracked 6 mm too high, and in the air at the same place.
+            // The pen presses the desk while it is tracked 6 mm too high, and then is in the air at the same place.
             Tip(new Vector3(0f, 0.006f, 0.02f), 0.5f);
             PlayFor(0.2);
             Assert.That(Pen().IsTouching, Is.True);
@@ -58,7 +58,7 @@ namespace HaptoFlow.SampleTests
         }
 
         [Test]
-        public void TheSlidingGrilleSlidesOnTheTableWhereverThatIs()
+        public void TheGrilleSlidesOnTheAlignedTable()
         {
             Hover(0);
             Press("<Keyboard>/a");
@@ -68,30 +68,30 @@ namespace HaptoFlow.SampleTests
             }
             Transform exhibits = Step().transform;
             Transform grille = exhibits.Find("Sliding Grille")!;
-            float least = float.MaxValue;
-            float most = float.MinValue;
+            float minimum = float.MaxValue;
+            float maximum = float.MinValue;
             for (int frame = 0; frame < 2.5 * World.FrameRateHz; ++frame)
             {
                 World.Frame();
                 Vector3 local = exhibits.InverseTransformPoint(grille.position);
-                least = Math.Min(least, local.x);
-                most = Math.Max(most, local.x);
+                minimum = Math.Min(minimum, local.x);
+                maximum = Math.Max(maximum, local.x);
                 Assert.That(local.y, Is.EqualTo(0.016f).Within(1e-4f));
                 Assert.That(local.z, Is.EqualTo(0.12f).Within(1e-4f));
             }
-            Assert.That(least, Is.EqualTo(0.26f).Within(2e-3f));
-            Assert.That(most, Is.EqualTo(0.34f).Within(2e-3f));
+            Assert.That(minimum, Is.EqualTo(0.26f).Within(2e-3f));
+            Assert.That(maximum, Is.EqualTo(0.34f).Within(2e-3f));
         }
 
         [Test]
-        public void WithoutAPenThatMeasuresForceItSaysSo()
+        public void WithoutAPenThatMeasuresForceTheTextSaysSo()
         {
             Press("<Keyboard>/a");
             Assert.That(Step().Text, Does.Contain("no stylus"));
         }
 
         [Test]
-        public void UndoTakesBackThePointsAndThenTheAlignment()
+        public void UndoRemovesThePointsAndThenTheAlignment()
         {
             Hover(0);
             Press("<XRController>{LeftHand}/primaryButton");
@@ -122,7 +122,7 @@ namespace HaptoFlow.SampleTests
             Hover(corner);
         }
 
-        /// <summary>The pen's tip at a place of the real desk.</summary>
+        /// <summary>Moves the pen's tip to a place on the real desk.</summary>
         private void Tip(Vector3 onDesk, float pressure)
         {
             SimulatedInput.SetControl(Right + "isTracked", 1f);

@@ -8,7 +8,7 @@ using UnityShim;
 
 namespace HaptoFlow.SampleTests
 {
-    /// <summary>StylusTracing.scene.json beside the sample says the same as the scene that the sample builds.</summary>
+    /// <summary>StylusTracing.scene.json describes the same scene as the sample builds.</summary>
     public sealed class HeadlessSceneTests : SampleTest
     {
         private const float Same = 1e-5f;
@@ -26,7 +26,7 @@ namespace HaptoFlow.SampleTests
         }
 
         [Test]
-        public void TheSameObjectsWithTheSameLabels()
+        public void BothScenesHaveTheSameObjectsAndLabels()
         {
             Assert.That(described.Select(each => each.GetProperty("name").GetString()),
                 Is.EquivalentTo(Surfaces().Select(surface => surface.name)));
@@ -38,7 +38,7 @@ namespace HaptoFlow.SampleTests
         }
 
         [Test]
-        public void TheSamePlacesAndAxes()
+        public void BothScenesHaveTheSamePositionsAndAxes()
         {
             foreach (HapticSurface surface in Surfaces())
             {
@@ -57,7 +57,7 @@ namespace HaptoFlow.SampleTests
         }
 
         [Test]
-        public void TheSameShapesAndSizes()
+        public void BothScenesHaveTheSameShapesAndSizes()
         {
             foreach (HapticSurface surface in Surfaces())
             {
@@ -81,7 +81,7 @@ namespace HaptoFlow.SampleTests
         }
 
         [Test]
-        public void TheGrilleIsWhereItsKeyframesSay()
+        public void TheGrilleFollowsItsKeyframes()
         {
             Rigidbody grille = Surfaces().Single(surface => surface.name == "Sliding Grille").GetComponent<Rigidbody>();
             JsonElement motion = Of(grille.GetComponent<HapticSurface>()).GetProperty("motion");

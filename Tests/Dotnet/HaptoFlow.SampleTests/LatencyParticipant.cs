@@ -7,8 +7,8 @@ using UnityShim;
 
 namespace HaptoFlow.SampleTests
 {
-    /// <summary>Follows the marker some frames behind with the pen in the right hand, and answers with the left one:
-    /// yes from a delay on.</summary>
+    /// <summary>A simulated participant: follows the marker a few frames late with the pen in the right hand, and
+    /// answers with the left hand, yes from a certain delay on.</summary>
     internal sealed class LatencyParticipant
     {
         private const string PenHand = "<XRController>{RightHand}/";
@@ -28,13 +28,13 @@ namespace HaptoFlow.SampleTests
             place.y = PressedHeight;
         }
 
-        /// <summary>Delays from here on are noticed, in ms.</summary>
+        /// <summary>The smallest delay that the participant notices, in ms.</summary>
         public double ThresholdMilliseconds { get; set; } = 130.0;
 
-        /// <summary>False for a pen that rests at the beginning.</summary>
+        /// <summary>Whether the pen follows the marker; false for a pen that rests at the start.</summary>
         public bool Follows { get; set; } = true;
 
-        /// <summary>A frame of taking part.</summary>
+        /// <summary>Simulates one frame.</summary>
         public void Frame()
         {
             seen.Enqueue(study.Marker.transform.position);
@@ -48,7 +48,7 @@ namespace HaptoFlow.SampleTests
                 place.y = PressedHeight;
             }
             SimulatedInput.SetControl(PenHand + "isTracked", 1f);
-            // A real tracker never repeats itself.
+            // A small jitter, because a real tracker never reports the same pose twice.
             trembles = !trembles;
             SimulatedInput.SetControl(PenHand + "pointerPosition", place + (trembles ? 1e-6f : 0f) * Vector3.right);
             SimulatedInput.SetControl(PenHand + "pointerRotation", Quaternion.identity);
@@ -56,7 +56,7 @@ namespace HaptoFlow.SampleTests
             World.Frame();
         }
 
-        /// <summary>Takes part until something is so.</summary>
+        /// <summary>Takes part until a condition holds.</summary>
         public void Until(Func<bool> isSo, double patienceSeconds = 60.0)
         {
             double end = Clock.UnscaledSeconds + patienceSeconds;

@@ -13,7 +13,7 @@ using UnityShim;
 
 namespace HaptoFlow.SampleTests
 {
-    /// <summary>The delay study with a scripted participant, the real native library and real files.</summary>
+    /// <summary>The delay study with a simulated participant, the real native library and real files.</summary>
     public sealed class LatencyStudyTests : SampleTest
     {
         private const int HapticChannel = 1;
@@ -44,7 +44,7 @@ namespace HaptoFlow.SampleTests
         }
 
         [TearDown]
-        public void RemoveTheLogs()
+        public void DeleteTheLogs()
         {
             if (Directory.Exists(folder))
             {
@@ -53,12 +53,12 @@ namespace HaptoFlow.SampleTests
         }
 
         [Test]
-        public void TheWholeProcedureIsLoggedThroughAnInterruptionAndNoTrialIsLostOrRepeated()
+        public void AnInterruptedStudyLogsEveryTrialExactlyOnce()
         {
             Begin(7);
             participant.Until(() => Rows().Length == 9, 120.0);
             participant.Until(() => study.Marker.IsMoving);
-            // The battery falls out while the pen moves, and the last row was half on disk.
+            // The application ends without warning while the pen moves, and the last row is incomplete on disk.
             string torn = "10,main,turn";
             File.AppendAllText(Csv(), torn);
             World.LoadEmptyScene();
@@ -99,38 +99,38 @@ namespace HaptoFlow.SampleTests
         }
 
         [Test]
-        public void InEveryTrialTheToneFollowsThePenByTheDelayOfThePlanAndIsSilentOtherwise()
+        public void TheToneFollowsThePenByThePlannedDelayInEveryTrial()
         {
             Begin(2);
-            var watch = new ToneWatch(pen, HapticChannel);
+            var recorder = new ToneRecorder(pen, HapticChannel);
             var output = camera.GetComponent<HapticOutput>();
             for (int trial = 1; trial <= 26; ++trial)
             {
                 StudySession session = study.Session!;
-                watch.Begin();
+                recorder.Begin();
                 participant.Until(() => session.Trial!.Trial == trial && !output.Muted);
-                Assert.That(watch.Tones(), Is.Empty, "on its way to the marker the pen feels nothing");
-                watch.Begin();
+                Assert.That(recorder.Tones(), Is.Empty, "the output is muted on the way to the marker");
+                recorder.Begin();
                 double level = session.Trial!.DelayMilliseconds!.Value;
                 participant.Until(() => session.Phase == StudyPhase.Question);
                 double artificialFrames =
                     0.001 * DeviceRateHz * (level - study.Delay.TotalMilliseconds);
-                List<(int First, int Last)> tones = watch.Tones();
-                Assert.That(watch.Starts, Has.Count.EqualTo(2), $"trial {trial}");
+                List<(int First, int Last)> tones = recorder.Tones();
+                Assert.That(recorder.Starts, Has.Count.EqualTo(2), $"trial {trial}");
                 Assert.That(tones, Has.Count.EqualTo(2), $"trial {trial}: {string.Join(", ", tones)}");
                 for (int tone = 0; tone < 2; ++tone)
                 {
-                    // It rises and falls within 2 ms; its first sample is zero.
-                    Assert.That(tones[tone].First - watch.Starts[tone], Is.EqualTo(artificialFrames).Within(8.0),
+                    // The tone fades in and out within 2 ms; its first sample is zero.
+                    Assert.That(tones[tone].First - recorder.Starts[tone], Is.EqualTo(artificialFrames).Within(8.0),
                         $"trial {trial}, {level} ms, start {tone}");
-                    Assert.That(tones[tone].Last - watch.Stops[tone], Is.EqualTo(artificialFrames + 96.0).Within(8.0),
+                    Assert.That(tones[tone].Last - recorder.Stops[tone], Is.EqualTo(artificialFrames + 96.0).Within(8.0),
                         $"trial {trial}, {level} ms, stop {tone}");
                 }
             }
         }
 
         [Test]
-        public void TheHapticChannelHasTheToneAloneAndTheHeadphonesHaveTheNoise()
+        public void TheHapticChannelPlaysOnlyTheToneAndTheHeadphonesPlayTheNoise()
         {
             Begin(1);
             StudySession session = study.Session!;
@@ -147,7 +147,7 @@ namespace HaptoFlow.SampleTests
             {
                 participant.Frame();
             }
-            // A sine and its differences of second order stand in a fixed ratio; any noise breaks it.
+            // The second differences of a sine are proportional to it; noise would break that.
             double ratio = 2.0 * Math.Cos(2.0 * Math.PI * 200.0 / DeviceRateHz);
             double largest = 0.0;
             for (int frame = 1; frame + 1 < AudioDevice.RecordedFrames; ++frame)
@@ -158,13 +158,13 @@ namespace HaptoFlow.SampleTests
             Assert.That(Enumerable.Range(0, AudioDevice.RecordedFrames).Max(frame => Math.Abs(Felt(frame))),
                 Is.EqualTo(20.0 / HapticEngineOptions.DefaultFullScaleMps2).Within(1e-3));
             Assert.That(largest, Is.LessThan(1e-6));
-            double heard = Math.Sqrt(Enumerable.Range(0, AudioDevice.RecordedFrames)
+            double rms = Math.Sqrt(Enumerable.Range(0, AudioDevice.RecordedFrames)
                 .Average(frame => Math.Pow(AudioDevice.Sample(frame, 0), 2.0)));
-            Assert.That(20.0 * Math.Log10(heard), Is.EqualTo(settings.NoiseDecibels).Within(1.0));
+            Assert.That(20.0 * Math.Log10(rms), Is.EqualTo(settings.NoiseDecibels).Within(1.0));
         }
 
         [Test]
-        public void LevelsOutOfReachAreRefusedByNameBeforeAnythingIsWritten()
+        public void UnreachableLevelsAreRefusedBeforeAnythingIsWritten()
         {
             settings.DeviceDelayMilliseconds = 60f;
             Press(3);
@@ -179,7 +179,7 @@ namespace HaptoFlow.SampleTests
         }
 
         [Test]
-        public void AFrameRateThatFallsPausesTheStudyAndItGoesOnWhenTheLevelIsInReachAgain()
+        public void AFallingFrameRatePausesTheStudyUntilTheLevelIsReachableAgain()
         {
             Begin(1);
             StudySession session = study.Session!;
@@ -195,7 +195,7 @@ namespace HaptoFlow.SampleTests
         }
 
         [Test]
-        public void APenThatDoesNotFollowIsAskedToAndNothingIsAsked()
+        public void APenThatDoesNotFollowTheMarkerRepeatsTheTrial()
         {
             Begin(1);
             participant.Follows = false;
@@ -207,7 +207,7 @@ namespace HaptoFlow.SampleTests
         }
 
         [Test]
-        public void BetweenQuestionAndNextTrialNothingIsFeltWhateverThePenDoes()
+        public void TheOutputIsMutedBetweenQuestionAndNextTrial()
         {
             Begin(1);
             StudySession session = study.Session!;
@@ -227,7 +227,7 @@ namespace HaptoFlow.SampleTests
         }
 
         [Test]
-        public void TheApplicationPausedInTheMiddleBeginsTheTrialAgain()
+        public void PausingTheApplicationRestartsTheTrial()
         {
             Begin(1);
             participant.Until(() => study.Marker.IsMoving);
@@ -239,7 +239,7 @@ namespace HaptoFlow.SampleTests
         }
 
         [Test]
-        public void ASessionBegunWithAnotherSeedOrToneIsNotResumedAndTheOperatorReadsTheKey()
+        public void ASessionWithAnotherSeedOrToneIsNotResumedAndTheKeyIsShown()
         {
             Begin(1);
             participant.Until(() => Rows().Length == 2);
@@ -259,7 +259,7 @@ namespace HaptoFlow.SampleTests
         }
 
         [Test]
-        public void ThePenOfTheMouseGoesWhenAPenIsTracked()
+        public void TheMousePenIsSwitchedOffWhenAPenIsTracked()
         {
             var mouse = UnityEngine.Object.FindObjectsByType<MousePen>(
                 FindObjectsInactive.Include, FindObjectsSortMode.None).Single();
@@ -270,7 +270,7 @@ namespace HaptoFlow.SampleTests
         }
 
         [Test]
-        public void AFinishedStudyMakesRoomForTheNextParticipantAndRefusesTheSameOne()
+        public void AFinishedStudyAcceptsTheNextParticipantAndRefusesTheSameOne()
         {
             settings.LevelsMilliseconds = new[] { 50.0, 250.0 };
             Begin(1);
@@ -285,11 +285,12 @@ namespace HaptoFlow.SampleTests
         }
 
         [Test]
-        public void TheSettingsAssetHoldsEveryFieldAtItsDefault()
+        public void TheSettingsAssetContainsEveryFieldWithItsDefault()
         {
             string[] lines = File.ReadAllLines(SampleFile("LatencyStudy", "LatencyStudySettings.asset"));
             object fresh = ScriptableObject.CreateInstance<LatencyStudySettings>();
-            FieldInfo[] fields = typeof(LatencyStudySettings).GetFields(BindingFlags.Instance | BindingFlags.NonPublic)
+            FieldInfo[] fields = new[] { typeof(LatencyStudySettings), typeof(StudySettings) }
+                .SelectMany(type => type.GetFields(BindingFlags.Instance | BindingFlags.NonPublic))
                 .Where(field => field.GetCustomAttribute<SerializeField>() != null).ToArray();
             Assert.That(fields, Has.Length.GreaterThan(12));
             foreach (FieldInfo field in fields)
@@ -323,7 +324,7 @@ namespace HaptoFlow.SampleTests
         }
 
         [Test]
-        public void TheOperatorReadsConditionDelayItsPartsAndThatTheDeviceIsEstimated()
+        public void TheOperatorSeesConditionAndDelayAndThatTheDeviceDelayIsEstimated()
         {
             Begin(1);
             participant.Until(() => study.Marker.IsMoving);
@@ -337,7 +338,7 @@ namespace HaptoFlow.SampleTests
         }
 
         [Test]
-        public void TheMouseAndTheKeyboardDoInTheEditor()
+        public void TheStudyRunsWithMouseAndKeyboard()
         {
             Begin(1);
             StudySession session = study.Session!;
@@ -362,7 +363,7 @@ namespace HaptoFlow.SampleTests
             var fastest = 0.0;
             for (int step = 1; step <= 3000; ++step)
             {
-                double way = marker.WayAt(0.001 * step, out bool moves, out _);
+                double way = marker.DistanceAt(0.001 * step, out bool moves, out _);
                 double speed = 1000.0 * (way - last);
                 Assert.That(speed, Is.EqualTo(0.15).Within(1e-6).Or.EqualTo(0.0).Within(1e-6).Or.InRange(0.0, 0.15),
                     $"{step} ms");
@@ -371,8 +372,8 @@ namespace HaptoFlow.SampleTests
             }
             Assert.That(fastest, Is.EqualTo(0.15).Within(1e-6));
             Assert.That(last, Is.EqualTo(0.15).Within(1e-6), "two strokes of half a second");
-            marker.WayAt(2.49, out _, out bool isDoneEarly);
-            marker.WayAt(2.51, out _, out bool isDone);
+            marker.DistanceAt(2.49, out _, out bool isDoneEarly);
+            marker.DistanceAt(2.51, out _, out bool isDone);
             Assert.That((isDoneEarly, isDone), Is.EqualTo((false, true)));
         }
 
@@ -395,10 +396,10 @@ namespace HaptoFlow.SampleTests
             PlayFor(1.0);
         }
 
-        /// <summary>The operator's button.</summary>
+        /// <summary>Presses a button of the operator.</summary>
         private void Press(int number) => study.View.Begin!(number);
 
-        /// <summary>The operator begins, and goes on at every rest.</summary>
+        /// <summary>Begins the study as the operator, and continues after every rest.</summary>
         private void Begin(int number)
         {
             Press(number);
@@ -421,7 +422,7 @@ namespace HaptoFlow.SampleTests
         private static double Number(string row, string column) =>
             double.Parse(Field(row, column), CultureInfo.InvariantCulture);
 
-        /// <summary>Presses Next whenever the study waits for it and nothing is wrong.</summary>
+        /// <summary>Presses Next whenever the study waits for it without a problem.</summary>
         private sealed class PatientOperator : MonoBehaviour
         {
             public LatencyStudy Study { get; set; } = null!;

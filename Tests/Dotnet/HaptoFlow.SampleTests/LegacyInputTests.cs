@@ -39,7 +39,7 @@ namespace HaptoFlow.SampleTests
         }
 
         [Test]
-        public void AnXrPenWithoutTheInputSystemSleepsAndSaysWhatItNeeds()
+        public void AnXrPenWithoutTheInputSystemIsInactiveAndLogsWhy()
         {
             LogAssert.ignoreFailingMessages = true;
             LegacyXrPen pen = LegacyXrPen.Create(null, Legacy::HaptoFlow.PenHand.Left);

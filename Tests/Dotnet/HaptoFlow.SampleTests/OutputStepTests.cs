@@ -8,13 +8,13 @@ using UnityShim;
 
 namespace HaptoFlow.SampleTests
 {
-    /// <summary>The stylus tracing sample on every output that the package has, one after the other in one scene.</summary>
+    /// <summary>The stylus tracing sample on all outputs of the package, one after another in one scene.</summary>
     public sealed class OutputStepTests : SampleTest
     {
         private const string Right = "<XRController>{RightHand}/";
 
         [OneTimeSetUp]
-        public void LoadTheRoutesOfOptionalPackages() =>
+        public void LoadOptionalAssemblies() =>
             RuntimeHelpers.RunModuleConstructor(typeof(MetaActionTipForce).Module.ModuleHandle);
 
         [SetUp]
@@ -34,7 +34,7 @@ namespace HaptoFlow.SampleTests
         }
 
         [Test]
-        public void EachPressOfTheButtonIsFeltThroughTheNextOutputAndNoOther()
+        public void EveryPressSwitchesToTheNextOutputOnly()
         {
             HeldDevices.TakeTouchController();
             XrHand.Right.Take("A controller", true);
@@ -60,7 +60,7 @@ namespace HaptoFlow.SampleTests
         }
 
         [Test]
-        public void TheAudioOutputGoesThroughItsProcessorsAndOnlyTheOneThatIsSaidRuns()
+        public void EveryPressSwitchesToTheNextProcessingOnly()
         {
             Press("<Keyboard>/o");
             foreach ((string title, HapticEffect? running) in new (string, HapticEffect?)[]
@@ -73,7 +73,7 @@ namespace HaptoFlow.SampleTests
             })
             {
                 Assert.That(Step().Text, Does.Contain(title));
-                // What was asked for before fades out first.
+                // The previous processing fades out first.
                 Slide();
                 HapticEffect[] processors = { HapticEffect.Compensation, HapticEffect.Delay, HapticEffect.ExposureGuard };
                 ulong[] before = processors.Select(RunsOf).ToArray();
@@ -107,7 +107,7 @@ namespace HaptoFlow.SampleTests
             XrHand.Right.Impulses.Clear();
         }
 
-        /// <summary>The right hand to and fro on the sample's jute.</summary>
+        /// <summary>Moves the right hand to and fro on the sample's jute.</summary>
         private static void Slide()
         {
             for (int frame = 0; frame < 0.5 * World.FrameRateHz; ++frame)

@@ -7,12 +7,12 @@ using UnityShim;
 
 namespace HaptoFlow.SampleTests
 {
-    /// <summary>What the samples' objects are drawn with, as players and editors of the three render pipelines have
-    /// it.</summary>
+    /// <summary>The materials that draw the samples' objects, in players and editors with the three render pipelines.
+    /// </summary>
     public sealed class PipelineMaterialTests : SampleTest
     {
         [TearDown]
-        public void BuiltInAgain() => GraphicsSettings.defaultRenderPipeline = null;
+        public void RestoreTheBuiltInPipeline() => GraphicsSettings.defaultRenderPipeline = null;
 
         [Test]
         public void WithTheBuiltInPipelineObjectsKeepTheMaterialOfPrimitives()
@@ -26,10 +26,10 @@ namespace HaptoFlow.SampleTests
         }
 
         [Test]
-        public void InAPlayerOfAnotherPipelineObjectsHaveTheMaterialThatTheBuildWroteIntoTheScene()
+        public void APlayerWithAnotherPipelineUsesTheMaterialThatTheBuildWrote()
         {
             Shader lit = SimulatedPipeline.ShaderNamed("Lit");
-            // As in players of URP and HDRP: the pipeline names nothing.
+            // As in players with URP or HDRP, the pipeline has no default material.
             GraphicsSettings.defaultRenderPipeline = ScriptableObject.CreateInstance<SimulatedPipeline>();
             OpenTracing(new Material(lit));
             PlayFor(0.1);
@@ -42,7 +42,7 @@ namespace HaptoFlow.SampleTests
         }
 
         [Test]
-        public void InTheEditorOfAnotherPipelineObjectsHaveThePipelinesDefaultMaterial()
+        public void TheEditorWithAnotherPipelineUsesItsDefaultMaterial()
         {
             Shader lit = SimulatedPipeline.ShaderNamed("Lit");
             var pipeline = ScriptableObject.CreateInstance<SimulatedPipeline>();
@@ -50,11 +50,11 @@ namespace HaptoFlow.SampleTests
             GraphicsSettings.defaultRenderPipeline = pipeline;
             OpenTracing(null);
             Assert.That(Renderers().Select(each => each.sharedMaterial!.shader), Is.All.SameAs(lit));
-            Assert.That(pipeline.Material.color, Is.EqualTo(Color.white), "the pipeline's own stays as it is");
+            Assert.That(pipeline.Material.color, Is.EqualTo(Color.white), "the pipeline's own material does not change");
         }
 
         [Test]
-        public void APlayerThatHasThePipelinesShaderMakesAMaterialOfIt()
+        public void APlayerWithThePipelinesShaderCreatesAMaterialFromIt()
         {
             Shader lit = SimulatedPipeline.ShaderNamed("Lit");
             var pipeline = ScriptableObject.CreateInstance<SimulatedPipeline>();
@@ -74,7 +74,8 @@ namespace HaptoFlow.SampleTests
             });
         }
 
-        /// <summary>Of the solids; text has a material of its font.</summary>
+        /// <summary>The renderers of the solids, without those of text, which have the material of their font.
+        /// </summary>
         private static MeshRenderer[] Renderers()
         {
             MeshRenderer[] found = Object.FindObjectsByType<MeshRenderer>(

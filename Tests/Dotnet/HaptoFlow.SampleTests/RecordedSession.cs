@@ -4,11 +4,12 @@ using HaptoFlow.Tests.Support;
 
 namespace HaptoFlow.SampleTests
 {
-    /// <summary>The session of a test, kept for the training package's tests where the environment asks for it.</summary>
+    /// <summary>Keeps the session of a test for the tests of the training package, if an environment variable is set.
+    /// </summary>
     internal static class RecordedSession
     {
-        /// <summary>With HAPTOFLOW_RECORD_SESSIONS set, the folder's only session takes the place of those of its study
-        /// in Tests/Golden/studies/sessions.</summary>
+        /// <summary>If HAPTOFLOW_RECORD_SESSIONS is set, replaces the sessions of the study in
+        /// Tests/Golden/studies/sessions by the only session of the folder.</summary>
         public static void Keep(string folder, string study)
         {
             if (string.IsNullOrEmpty(Environment.GetEnvironmentVariable("HAPTOFLOW_RECORD_SESSIONS")))

@@ -7,17 +7,17 @@ using UnityShim;
 
 namespace HaptoFlow.SampleTests
 {
-    /// <summary>A sample's scene: its camera where the scene file has it, its bootstrap, a simulated hand.</summary>
+    /// <summary>A test of a sample's scene, with the camera of the scene file and simulated input.</summary>
     public abstract class SampleTest : SceneTest
     {
         protected const float Audible = 0.001f;
 
         [SetUp]
-        public void LetGoOfEverything() => SimulatedInput.Reset();
+        public void ResetTheInput() => SimulatedInput.Reset();
 
         internal static string SampleFile(string sample, string name) => RepositoryFiles.In("Samples~", sample, name);
 
-        /// <summary>The scene's camera.</summary>
+        /// <summary>Creates the camera of a scene file.</summary>
         internal Camera CameraOf(SceneFile scene)
         {
             GameObject owner = Make("Main Camera");
@@ -27,25 +27,26 @@ namespace HaptoFlow.SampleTests
             return camera;
         }
 
-        /// <summary>A bootstrap that wakes after it was told what the scene file tells it.</summary>
-        internal TBootstrap Wake<TBootstrap>(Action<TBootstrap> tell)
+        /// <summary>Adds the component that builds the scene, and wakes it after its fields have been set.</summary>
+        internal TBootstrap Wake<TBootstrap>(Action<TBootstrap> configure)
             where TBootstrap : MonoBehaviour
         {
             GameObject owner = Make("Bootstrap");
             owner.SetActive(false);
             var bootstrap = owner.AddComponent<TBootstrap>();
-            tell(bootstrap);
+            configure(bootstrap);
             owner.SetActive(true);
             return bootstrap;
         }
 
-        /// <summary>The mouse over a place of the scene.</summary>
+        /// <summary>Moves the mouse over a place of the scene.</summary>
         internal static void PointAt(Camera camera, Vector3 place) =>
             SimulatedInput.MousePosition = camera.WorldToScreenPoint(place);
 
         internal static void PlayFor(double seconds) => World.Frames((int)Math.Ceiling(seconds * World.FrameRateHz));
 
-        /// <summary>Largest magnitude that reached the audio device since <see cref="AudioDevice.Forget"/>.</summary>
+        /// <summary>The largest magnitude that reached the audio device since <see cref="AudioDevice.Forget"/>.
+        /// </summary>
         internal static float Loudest()
         {
             float loudest = 0f;

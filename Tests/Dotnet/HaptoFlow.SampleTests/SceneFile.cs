@@ -6,7 +6,7 @@ using UnityEngine;
 
 namespace HaptoFlow.SampleTests
 {
-    /// <summary>What the tests need of a Unity scene in YAML: its camera.</summary>
+    /// <summary>Reads the camera of a Unity scene in YAML.</summary>
     internal sealed class SceneFile
     {
         public SceneFile(string path)

@@ -24,7 +24,7 @@ namespace HaptoFlow.SampleTests
         }
 
         [Test]
-        public void TheSceneHasEightObjectsOfEightLabelsThatTheModelKnows()
+        public void TheSceneHasEightObjectsWithEightLabelsOfTheModel()
         {
             List<string> labels = Surfaces().Select(surface => surface.Material.Label).ToList();
             Assert.That(labels, Has.Count.EqualTo(8));
@@ -34,7 +34,7 @@ namespace HaptoFlow.SampleTests
         }
 
         [Test]
-        public void EveryObjectIsSeenByTheScenesCamera()
+        public void TheScenesCameraSeesEveryObject()
         {
             foreach (Exhibit exhibit in Exhibits.All.Skip(1))
             {
@@ -46,11 +46,11 @@ namespace HaptoFlow.SampleTests
         }
 
         [Test]
-        public void ThePenTouchesWhatTheMouseIsOnAndItSounds()
+        public void ThePenTouchesTheObjectUnderTheMouse()
         {
             foreach (Exhibit exhibit in Exhibits.All)
             {
-                // The table is bare in front.
+                // There is no object on the front of the table.
                 Vector3 place = exhibit.Name == "Table" ? new Vector3(0f, 0f, 0f) : exhibit.Position;
                 string touched = Stroke(place);
                 Assert.That(touched, Is.EqualTo(exhibit.Label));
@@ -58,7 +58,7 @@ namespace HaptoFlow.SampleTests
         }
 
         [Test]
-        public void WithoutTheButtonThePenHoversAndNothingIsInferred()
+        public void WithoutTheButtonThePenHoversAndRunsNoInference()
         {
             PointAt(camera, new Vector3(0.115f, 0.006f, -0.12f));
             PlayFor(0.5);
@@ -68,7 +68,7 @@ namespace HaptoFlow.SampleTests
         }
 
         [Test]
-        public void TheMouseBesideEverythingLiftsThePen()
+        public void MovingTheMouseOffAllObjectsLiftsThePen()
         {
             Stroke(new Vector3(0f, 0f, 0f));
             SimulatedInput.MouseButton = true;
@@ -78,7 +78,7 @@ namespace HaptoFlow.SampleTests
         }
 
         [Test]
-        public void AGraphicsPensPressureIsFelt()
+        public void ThePressureOfAGraphicsPenSetsTheForce()
         {
             PointAt(camera, new Vector3(0.115f, 0.006f, -0.12f));
             SimulatedInput.PenPressure = 0.25f;
@@ -107,7 +107,7 @@ namespace HaptoFlow.SampleTests
         }
 
         [Test]
-        public void AStillPenFeelsTheGrillePassBeneathIt()
+        public void AStillPenFeelsTheMovingGrille()
         {
             PointAt(camera, new Vector3(0.3f, 0.022f, 0.12f));
             SimulatedInput.MouseButton = true;
@@ -125,7 +125,7 @@ namespace HaptoFlow.SampleTests
         }
 
         [Test]
-        public void TheBoardSaysWhatIsTouched()
+        public void TheBoardShowsTheTouchedLabel()
         {
             var board = FindAll<StatusBoard>().Single();
             PlayFor(0.5);
@@ -135,7 +135,7 @@ namespace HaptoFlow.SampleTests
         }
 
         [Test]
-        public void TheSamplesModelCountsOnlyWhereTheProjectNamesNone()
+        public void TheSamplesModelIsUsedOnlyWhenTheProjectHasNone()
         {
             HapticModelAsset projects = HaptoFlowSettings.Active.Model!;
             HapticModelAsset samples = DefaultModel.Asset();
@@ -146,8 +146,7 @@ namespace HaptoFlow.SampleTests
             Assert.That(HaptoFlowSettings.Active.Model, Is.SameAs(samples));
         }
 
-        /// <summary>A small circle around a place, pressed; tells which label was touched and leaves the pen there.
-        /// </summary>
+        /// <summary>Draws a small circle around a place, returns the touched label, and leaves the pen there.</summary>
         private string Stroke(Vector3 place)
         {
             SimulatedInput.MouseButton = false;

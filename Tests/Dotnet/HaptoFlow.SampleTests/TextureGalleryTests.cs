@@ -26,7 +26,7 @@ namespace HaptoFlow.SampleTests
         }
 
         [Test]
-        public void TilesAndBoardLieApartInTheCamerasView()
+        public void TilesAndBoardAreInTheCamerasViewAndDoNotOverlap()
         {
             GalleryScene gallery = Open();
             List<Transform> places = gallery.Tiles.Append(gallery.Board).Select(surface => surface.transform).ToList();
@@ -49,7 +49,7 @@ namespace HaptoFlow.SampleTests
         }
 
         [Test]
-        public void PressingATilePicksItsLabelAndStrokingTheBoardSounds()
+        public void PressingATilePicksItsLabelForTheBoard()
         {
             FinishLoading();
             GalleryScene gallery = Open();
@@ -78,7 +78,7 @@ namespace HaptoFlow.SampleTests
         }
 
         [Test]
-        public void WithoutAModelTheWallIsEmptyAndTheBoardSaysWhy()
+        public void WithoutAModelTheWallIsEmptyAndTheBoardShowsTheReason()
         {
             HapticSession.ShutDown();
             HaptoFlowSettings.Active.Model = null;
@@ -91,7 +91,7 @@ namespace HaptoFlow.SampleTests
         }
 
         [Test]
-        public void AWallOfAnyNumberOfTilesHasNoTwoAtOnePlace()
+        public void NoTwoTilesHaveTheSamePlace()
         {
             for (int count = 1; count <= 60; ++count)
             {

@@ -26,7 +26,7 @@ namespace HaptoFlow.SampleTests
         [TestCase("Garden", -0.42f, 0.1f, "concrete", "terrain layer \"Gravel\"")]
         [TestCase("Garden", -0.24f, 0.1f, "carpet", "terrain layer \"Turf\"")]
         [TestCase("Garden", -0.06f, 0.1f, "sandpaper", "terrain layer \"Sand\"")]
-        public void EachThingFeelsAsItsRuleSaysAndTheBoardSaysWhichRuleThatIs(
+        public void EveryObjectHasTheMaterialOfItsRuleAndTheBoardShowsTheRule(
             string name, float x, float z, string label, string rule)
         {
             FinishLoading();
@@ -37,13 +37,13 @@ namespace HaptoFlow.SampleTests
             Assert.That(contact.Collider.name, Is.EqualTo(name));
             Assert.That(contact.Surface, Is.Null, "none of these things is tagged");
             Assert.That(contact.Material!.Label, Is.EqualTo(label));
-            WhyBoard board = UnityEngine.Object.FindObjectsByType<WhyBoard>(
+            RuleBoard board = UnityEngine.Object.FindObjectsByType<RuleBoard>(
                 FindObjectsInactive.Exclude, FindObjectsSortMode.None).Single();
             Assert.That(board.Text, Does.StartWith(name + ": rule ").And.EndsWith($"of \"Workshop\": {rule}"));
         }
 
         [Test]
-        public void StrokingTheGardenFromGravelToSandSoundsAllTheWay()
+        public void AStrokeFromGravelToSandIsFeltWithoutAGap()
         {
             FinishLoading();
             WorkshopScene scene = Open();
@@ -60,7 +60,7 @@ namespace HaptoFlow.SampleTests
         }
 
         [Test]
-        public void ANewMaterialForTheSpecimenIsFeltUnderTheNextStroke()
+        public void ANewMaterialOfTheSpecimenIsFeltInTheNextStroke()
         {
             FinishLoading();
             WorkshopScene scene = Open();
@@ -71,7 +71,7 @@ namespace HaptoFlow.SampleTests
         }
 
         [Test]
-        public void NothingIsMissedByTheMapAndNoRuleIsIdle()
+        public void EveryColliderMatchesARuleAndEveryRuleMatchesACollider()
         {
             WorkshopScene scene = Open();
             PlayFor(0.05);
@@ -87,7 +87,7 @@ namespace HaptoFlow.SampleTests
         [TestCase("Recordings/doormat.wav.bytes")]
         [TestCase("Recordings/doormat.json")]
         [TestCase("Recordings/doormat.motion.csv")]
-        public void TheSceneFileHoldsThePanelAndItsRecording(string name)
+        public void TheSceneFileRefersToThePanelAndItsRecording(string name)
         {
             string meta = File.ReadAllText(SampleFile("Workshop", name + ".meta"));
             string guid = Regex.Match(meta, "guid: (\\w{32})").Groups[1].Value;
@@ -95,7 +95,7 @@ namespace HaptoFlow.SampleTests
         }
 
         [Test]
-        public void WhatTheSceneMadeGoesWithIt()
+        public void TheSceneDestroysTheAssetsThatItCreated()
         {
             WorkshopScene scene = Open();
             HapticMaterialMap map = scene.Map;
@@ -105,7 +105,7 @@ namespace HaptoFlow.SampleTests
             Assert.That(MaterialMaps.Any, Is.False);
         }
 
-        /// <summary>The pen comes down at a place of the bench.</summary>
+        /// <summary>Lowers the pen onto a place of the bench.</summary>
         private void Press(float x, float z)
         {
             PointAt(camera, new Vector3(x, 0.005f, z));

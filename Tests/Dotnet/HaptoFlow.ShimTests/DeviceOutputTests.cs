@@ -15,18 +15,18 @@ using Object = UnityEngine.Object;
 
 namespace HaptoFlow.ShimTests
 {
-    /// <summary>What devices in a hand are sent while a stylus slides over a board.</summary>
+    /// <summary>The haptics that devices in a hand receive while a stylus slides over a board.</summary>
     public sealed class DeviceOutputTests : SceneTest
     {
         private HapticStylus stylus = null!;
 
-        /// <summary>Unity loads every assembly of a player; here one is loaded when it is first used.</summary>
+        /// <summary>Loads the optional assemblies, which .NET loads on first use only, unlike Unity.</summary>
         [OneTimeSetUp]
-        public void LoadTheRoutesOfOptionalPackages() =>
+        public void LoadOptionalAssemblies() =>
             RuntimeHelpers.RunModuleConstructor(typeof(MetaActionTipForce).Module.ModuleHandle);
 
         [SetUp]
-        public void PutAStylusIntoTheRightHand()
+        public void CreateAStylusInTheRightHand()
         {
             ForgetDevices();
             SetFrameRate(72.0);
@@ -44,7 +44,7 @@ namespace HaptoFlow.ShimTests
         }
 
         [Test]
-        public void ASceneWithoutOutputIsFeltThroughATouchControllersWaveform()
+        public void AutoOutputPlaysTheWaveformOnATouchController()
         {
             OVRInput.Connected = OVRInput.Controller.RTouch;
             World.Frames(72);
@@ -52,12 +52,12 @@ namespace HaptoFlow.ShimTests
             Assert.That(OVRInput.Waves.All(wave => wave.Mask == OVRInput.Controller.RTouch && wave.RateHz == 2000f));
             Assert.That(OVRInput.Waves.Max(wave => wave.Samples.Max(Math.Abs)), Is.GreaterThan(0.01f));
             Assert.That(All<HapticOutput>(), Is.Empty, "no audio output is made");
-            Assert.That(Said(LogType.Log, "the scene names no output, and Auto Output plays the wave"), Is.EqualTo(1));
+            Assert.That(CountMessages(LogType.Log, "the scene names no output, and Auto Output plays the wave"), Is.EqualTo(1));
             Assert.That(OVRInput.FailedCalls, Is.Zero);
         }
 
         [Test]
-        public void AControllerWithoutWaveformIsDrivenAsAMotor()
+        public void AControllerWithoutWaveformsPlaysAmplitudes()
         {
             XrHand.Right.Take("Some controller", true);
             World.Frames(72);
@@ -65,36 +65,36 @@ namespace HaptoFlow.ShimTests
             Assert.That(XrHand.Right.Impulses.Max(each => each.Amplitude), Is.GreaterThan(0.01f));
             Assert.That(XrHand.Right.Impulses.Max(each => each.Duration), Is.LessThanOrEqualTo(0.1f));
             Assert.That(XrHand.Left.Impulses, Is.Empty);
-            Assert.That(Said(LogType.Log, "Some controller (Right hand)"), Is.EqualTo(1));
+            Assert.That(CountMessages(LogType.Log, "Some controller (Right hand)"), Is.EqualTo(1));
         }
 
         [Test]
-        public void AControllerThatReportsBuffersGetsTheWaveAtItsOwnRate()
+        public void AControllerThatSupportsBuffersGetsTheWaveAtItsOwnRate()
         {
             XrHand.Right.Take("A controller with buffers", true, 500u);
             World.Frames(145);
             double first = XrHand.Right.Buffers[0].Seconds;
             double last = XrHand.Right.Buffers[^1].Seconds;
             int samples = XrHand.Right.Buffers.Sum(each => each.Bytes.Length);
-            // Aligning with the clock sends the depth once more, about twice a second.
+            // Aligning with the clock sends the buffered samples again, about twice a second.
             Assert.That(samples, Is.EqualTo(500.0 * (last - first)).Within(80.0));
             Assert.That(XrHand.Right.Buffers.Max(each => each.Bytes.Max()), Is.GreaterThan(2));
             Assert.That(XrHand.Right.Impulses, Is.Empty);
         }
 
         [Test]
-        public void SubmissionsQueueWhereTheAuthorSaysSo()
+        public void SubmissionsQueueWhenTheAuthorChoosesIt()
         {
             OVRInput.Connected = OVRInput.Controller.RTouch;
             Add<ControllerWaveformOutput>(output => output.QueueSubmissions = true);
             World.Frames(145);
-            // Aligning with the clock sends the depth once more, about twice a second.
+            // Aligning with the clock sends the buffered samples again, about twice a second.
             Assert.That(OVRInput.Waves.Count(wave => !wave.Append), Is.InRange(2, 8));
             Assert.That(OVRInput.Waves.Sum(wave => wave.Samples.Length), Is.EqualTo(4000).Within(330));
         }
 
         [Test]
-        public void AnAuthorsAudioOutputIsPreferredToTheDeviceInTheHand()
+        public void AnAudioOutputTakesPrecedenceOverAutoOutput()
         {
             OVRInput.Connected = OVRInput.Controller.RTouch;
             AudioTap tap = Output(out _);
@@ -104,7 +104,7 @@ namespace HaptoFlow.ShimTests
         }
 
         [Test]
-        public void AnAuthorsAudioOutputThatAppearsTakesOverFromTheOneThatWasChosen()
+        public void AnAudioOutputAddedLaterReplacesAutoOutput()
         {
             OVRInput.Connected = OVRInput.Controller.RTouch;
             World.Frames(40);
@@ -118,7 +118,7 @@ namespace HaptoFlow.ShimTests
         }
 
         [Test]
-        public void AStylusInNoHandIsHeardAsEver()
+        public void AStylusInNoHandPlaysOnTheAudioDevice()
         {
             OVRInput.Connected = OVRInput.Controller.RTouch;
             stylus.Hand = HapticHand.None;
@@ -128,7 +128,7 @@ namespace HaptoFlow.ShimTests
         }
 
         [Test]
-        public void AStylusPlaysOnAnAudioOutputUntilItsHandsDeviceIsReported()
+        public void AStylusPlaysOnTheAudioDeviceUntilTheDeviceInItsHandConnects()
         {
             World.Frames(3);
             Assert.That(All<HapticOutput>(), Has.Length.EqualTo(1));
@@ -136,7 +136,7 @@ namespace HaptoFlow.ShimTests
             Assert.That(stylus.TryGetStatistics(out _), Is.True);
             OVRInput.Connected = OVRInput.Controller.RTouch;
             World.Frames(80);
-            Assert.That(OVRInput.Waves, Is.Not.Empty, "a device that comes later is taken all the same");
+            Assert.That(OVRInput.Waves, Is.Not.Empty, "a device that connects later is used");
         }
 
         [Test]
@@ -154,7 +154,7 @@ namespace HaptoFlow.ShimTests
         }
 
         [Test]
-        public void AnOutputThatNamesAStylusKeepsOthersFromBeingMadeAlsoWhileItIsSwitchedOff()
+        public void AutoOutputIsNotAddedWhenAnOutputNamesTheStylus()
         {
             OVRInput.Connected = OVRInput.Controller.RTouch;
             MotorOutput motor = Add<MotorOutput>();
@@ -167,34 +167,34 @@ namespace HaptoFlow.ShimTests
         }
 
         [Test]
-        public void AnMxInkIsDrivenThroughItsAction()
+        public void MxInkPlaysThroughItsAction()
         {
             OVRInput.Connected = OVRInput.Controller.RTouch;
             OVRPlugin.Profile = OVRPlugin.MxInkProfile;
             World.Frames(72);
             Assert.That(OVRPlugin.Pulses.Count, Is.GreaterThan(60));
             Assert.That(OVRPlugin.Pulses.All(each => each.Hand == OVRPlugin.Hand.HandRight));
-            Assert.That(OVRInput.Waves, Is.Empty, "nothing says that an MX Ink plays waves");
+            Assert.That(OVRInput.Waves, Is.Empty, "MX Ink does not report that it plays waves");
         }
 
         [Test]
-        public void AnActionThatIsNotBoundIsTriedOnceAndNamedOnce()
+        public void AnUnboundActionIsTriedOnceAndLoggedOnce()
         {
             OVRPlugin.Profile = OVRPlugin.MxInkProfile;
             OVRPlugin.BoundHaptic = null;
             World.Frames(200);
             Assert.That(OVRPlugin.FailedPulses, Is.EqualTo(1));
-            Assert.That(Said(LogType.Warning, "\"haptic_pulse\""), Is.EqualTo(1));
+            Assert.That(CountMessages(LogType.Warning, "\"haptic_pulse\""), Is.EqualTo(1));
             OVRPlugin.BoundHaptic = "haptic_pulse";
             OVRPlugin.hasInputFocus = false;
             World.Frames(5);
             OVRPlugin.hasInputFocus = true;
             World.Frames(72);
-            Assert.That(OVRPlugin.Pulses, Is.Not.Empty, "the session came back");
+            Assert.That(OVRPlugin.Pulses, Is.Not.Empty, "the session has been restarted");
         }
 
         [Test]
-        public void AControllerThatDoesNotSayItsRateIsAskedOnce()
+        public void AControllerWithoutASampleRateIsQueriedOnce()
         {
             OVRInput.Connected = OVRInput.Controller.RTouch;
             OVRInput.SampleRateHz = 0f;
@@ -205,7 +205,7 @@ namespace HaptoFlow.ShimTests
         }
 
         [Test]
-        public void OpenXrsActionIsPreferredToTheImpulse()
+        public void TheOpenXrActionTakesPrecedenceOverTheImpulse()
         {
             XrHand.Right.Take("A controller", true);
             SimulatedInput.SetControl("<XRController>{RightHand}/haptic", 0f);
@@ -217,26 +217,26 @@ namespace HaptoFlow.ShimTests
         }
 
         [Test]
-        public void AControllerThatOnlyRumblesIsFelt()
+        public void AControllerWithOnlyRumblePlays()
         {
             XRControllerWithRumble controller = XRControllerWithRumble.Take("Rumbling controller");
             World.Frames(72);
             Assert.That(controller.Impulses.Count, Is.GreaterThan(60));
-            Assert.That(Said(LogType.Log, "Rumbling controller"), Is.EqualTo(1));
+            Assert.That(CountMessages(LogType.Log, "Rumbling controller"), Is.EqualTo(1));
         }
 
         [Test]
-        public void ParametricHapticsNeverHappenUnlessTheAuthorAsksForThem()
+        public void ParametricHapticsAreUsedOnlyWhenTheAuthorEnablesThem()
         {
             OVRInput.Connected = OVRInput.Controller.RTouch;
             Add<ControllerParametricOutput>();
             World.Frames(72);
             Assert.That(OVRInput.Parametric, Is.Empty);
-            Assert.That(Said(LogType.Warning, "experimental"), Is.EqualTo(1));
+            Assert.That(CountMessages(LogType.Warning, "experimental"), Is.EqualTo(1));
         }
 
         [Test]
-        public void ParametricFramesFollowTheRulesOfStreams()
+        public void ParametricFramesObeyTheRulesOfStreams()
         {
             HeldDevices.TakeTouchController();
             Add<ControllerParametricOutput>(output => output.UseExperimentalFeature = true);
@@ -263,7 +263,7 @@ namespace HaptoFlow.ShimTests
         }
 
         [Test]
-        public void WhatStopsReachesTheDeviceWithinAFrame(
+        public void AStopReachesTheDeviceWithinAFrame(
             [Values("panic", "panic of all", "mute", "switched off", "pause", "stylus off")] string how)
         {
             OVRInput.Connected = OVRInput.Controller.RTouch;
@@ -293,7 +293,7 @@ namespace HaptoFlow.ShimTests
             }
             World.Frames(1);
             int length = OVRInput.Waves[^1].Samples.Length;
-            Assert.That(length, Is.InRange(1, 7), "a fade of 3 ms replaces what was on its way");
+            Assert.That(length, Is.InRange(1, 7), "a fade of 3 ms replaces the queued samples");
             Assert.That(OVRInput.Waves[^1].Append, Is.False);
             Assert.That(OVRInput.Waves[^1].Samples[^1], Is.Zero);
             int before = OVRInput.Waves.Count;
@@ -302,7 +302,7 @@ namespace HaptoFlow.ShimTests
         }
 
         [Test]
-        public void AControllerThatSleepsAndOneThatReplacesItAreNoticed()
+        public void ASleepingControllerAndItsReplacementAreDetected()
         {
             OVRInput.Connected = OVRInput.Controller.RTouch;
             AutoOutput output = Add<AutoOutput>();
@@ -341,7 +341,7 @@ namespace HaptoFlow.ShimTests
         }
 
         [Test]
-        public void ALiftedStylusKeepsTheDeviceIdleAndInfersNothing()
+        public void ALiftedStylusSendsNothingAndRunsNoInference()
         {
             OVRInput.Connected = OVRInput.Controller.RTouch;
             Add<ControllerWaveformOutput>();
@@ -353,10 +353,11 @@ namespace HaptoFlow.ShimTests
             Assert.That(statistics.RenderedFrames, Is.GreaterThan(6000UL), "8000 a second");
         }
 
-        /// <summary>Only by name: <c>dotnet test Tests/Dotnet/HaptoFlow.ShimTests --filter TestCategory=DocumentationPicture</c>
-        /// leaves the two waves for <c>scripts/pack/effect_pictures.py</c>.</summary>
+        /// <summary>Runs only when selected: <c>dotnet test Tests/Dotnet/HaptoFlow.ShimTests --filter
+        /// TestCategory=DocumentationPicture</c> writes the two waves for <c>scripts/pack/effect_pictures.py</c>.
+        /// </summary>
         [Test, Explicit, Category("DocumentationPicture")]
-        public void TheWavesOfAnAudioOutputAndOfAControllerAreWrittenForTheDocumentation()
+        public void WavesForTheDocumentationAreWritten()
         {
             OVRInput.Connected = OVRInput.Controller.RTouch;
             Output(out _);
@@ -378,7 +379,7 @@ namespace HaptoFlow.ShimTests
         }
 
         [Test]
-        public void WhatAControllerPlaysHasTheLevelAndTheSpectrumOfWhatAnAudioOutputPlays()
+        public void AControllerPlaysTheLevelAndSpectrumOfAnAudioOutput()
         {
             OVRInput.Connected = OVRInput.Controller.RTouch;
             Output(out _);
@@ -398,7 +399,7 @@ namespace HaptoFlow.ShimTests
         }
 
         [Test]
-        public void ALandingThatNoDeviceCouldPlayIsNotFeltWhenOneComes()
+        public void AnImpactWithoutADeviceIsNotPlayedLater()
         {
             var output = Add<MotorOutput>();
             XrHand.Right.Take("A controller", true);
@@ -420,12 +421,12 @@ namespace HaptoFlow.ShimTests
         }
 
         [Test]
-        public void AnOutputThatIsSwitchedOnDuringATouchDoesNotStrikeItsLandingAgain()
+        public void AnOutputEnabledDuringATouchDoesNotRepeatTheImpact()
         {
             XrHand.Right.Take("A controller", true);
             Add<MotorOutput>().FullScaleMps2 = HaptoFlowSettings.Active.FullScaleMps2;
             All<HapticSurface>().Single().Material.Effects = HapticEffects.Impact;
-            // Down fast, then at rest on the board.
+            // The tip comes down fast and then rests on the board.
             double start = Clock.Seconds;
             stylus.GetComponent<PathMover>().Path = _ =>
                 new Vector3(0f, Math.Max(0.001f, 0.3f - (float)Math.Max(0.0, Clock.Seconds - start - 0.5)), 0f);
@@ -437,11 +438,11 @@ namespace HaptoFlow.ShimTests
             All<MotorOutput>().Single().enabled = true;
             World.Frames(72);
             Assert.That(stylus.IsTouching, Is.True);
-            Assert.That(XrHand.Right.Impulses, Is.Empty, "the landing was two seconds ago");
+            Assert.That(XrHand.Right.Impulses, Is.Empty, "the touch-down was two seconds ago");
         }
 
         [Test]
-        public void ADeviceThatRefusesTheBuffersItReportsIsDrivenAsAMotorInstead()
+        public void ADeviceThatRefusesBuffersGetsAmplitudesInstead()
         {
             XrHand.Right.Take("A controller", true, 320u);
             XrHand.Right.RefusesBuffers = true;
@@ -450,7 +451,7 @@ namespace HaptoFlow.ShimTests
         }
 
         [Test]
-        public void AMotorOf160HertzIsAsIntenseAsWhatAnAudioOutputPlays()
+        public void AMotorOf160HertzHasTheIntensityOfAnAudioOutput()
         {
             XrHand.Right.Take("A controller", true);
             Output(out _);
@@ -471,7 +472,7 @@ namespace HaptoFlow.ShimTests
         }
 
         [Test]
-        public void DeviceOutputsMakeNoGarbage([Values] bool waveform)
+        public void DeviceOutputsAllocateNothing([Values] bool waveform)
         {
             OVRInput.Records = false;
             OVRInput.Connected = waveform ? OVRInput.Controller.RTouch : OVRInput.Controller.None;
@@ -491,7 +492,8 @@ namespace HaptoFlow.ShimTests
             return GC.GetAllocatedBytesForCurrentThread() - before;
         }
 
-        /// <summary>What a controller plays whose clock is right: each submission until the next replaces it.</summary>
+        /// <summary>The samples that a controller with an exact clock plays: each submission until the next one
+        /// replaces it.</summary>
         private static float[] Felt() => Enumerable.Range(0, OVRInput.Waves.Count - 1).SelectMany(index =>
         {
             Assert.That(OVRInput.Waves[index].Append, Is.False);
@@ -499,7 +501,7 @@ namespace HaptoFlow.ShimTests
             return OVRInput.Waves[index].Samples.Take((int)Math.Round(2000.0 * seconds));
         }).ToArray();
 
-        /// <summary>Level in octaves around 62, 125, 250 and 500 Hz, in dB.</summary>
+        /// <summary>The levels in octave bands around 62, 125, 250 and 500 Hz, in dB.</summary>
         private static double[] Bands(float[] samples, double rateHz)
         {
             double[] energies = new double[4];
@@ -549,7 +551,7 @@ namespace HaptoFlow.ShimTests
             where TComponent : Object => Object.FindObjectsByType<TComponent>(
             FindObjectsInactive.Include, FindObjectsSortMode.None);
 
-        private static int Said(LogType type, string text) =>
+        private static int CountMessages(LogType type, string text) =>
             Log.Lines.Count(line => line.Type == type && line.Text.Contains(text));
     }
 }

@@ -6,15 +6,15 @@ using UnityShim;
 
 namespace HaptoFlow.ShimTests
 {
-    /// <summary>The engine's update rate follows the display's.</summary>
+    /// <summary>The engine's update rate, which follows the display.</summary>
     public sealed class DisplayRateTests : SceneTest
     {
         [SetUp]
         [TearDown]
-        public void TakeTheHeadsetOff() => Displays.Reset();
+        public void RemoveTheHeadset() => Displays.Reset();
 
         [Test]
-        public void AHeadsetsRateCountsBeforeTheScreens()
+        public void TheRateOfAHeadsetTakesPrecedenceOverThatOfTheScreen()
         {
             Displays.Screen = new RefreshRate { numerator = 60, denominator = 1 };
             Displays.Wear(120f);
@@ -22,7 +22,7 @@ namespace HaptoFlow.ShimTests
         }
 
         [Test]
-        public void AScreensRateCountsWhereNoHeadsetSays()
+        public void TheRateOfTheScreenIsUsedWithoutAHeadsetRate()
         {
             Displays.Screen = new RefreshRate { numerator = 59940, denominator = 1000 };
             Displays.Wear(null);
@@ -31,14 +31,14 @@ namespace HaptoFlow.ShimTests
         }
 
         [Test]
-        public void TheSettingsRateCountsWhereNoDisplaySays()
+        public void TheRateOfTheSettingsIsUsedWithoutADisplayRate()
         {
             HaptoFlowSettings.Active.UpdateRateHz = 80f;
             Assert.That(EngineRateHz(), Is.EqualTo(80.0).Within(1e-3));
         }
 
         [Test]
-        public void TheSettingsRateCountsWhereTheDisplayIsNotFollowed()
+        public void TheRateOfTheSettingsIsUsedWhenTheDisplayIsNotFollowed()
         {
             Displays.Wear(120f);
             HaptoFlowSettings.Active.FollowDisplay = false;
@@ -50,7 +50,7 @@ namespace HaptoFlow.ShimTests
         [TestCase(float.NaN)]
         [TestCase(float.PositiveInfinity)]
         [TestCase(1e6f)]
-        public void ARateThatNoDisplayHasIsIgnored(float hertz)
+        public void AnImplausibleDisplayRateIsIgnored(float hertz)
         {
             Displays.Wear(hertz);
             Assert.That(EngineRateHz(), Is.EqualTo(72.0).Within(1e-3));

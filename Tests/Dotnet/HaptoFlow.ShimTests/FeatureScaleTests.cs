@@ -6,16 +6,16 @@ using UnityShim;
 
 namespace HaptoFlow.ShimTests
 {
-    /// <summary>What a material's feature scale and tone make of the wave that reaches the audio device.</summary>
+    /// <summary>The effect of a material's feature scale and tone on the output.</summary>
     public sealed class FeatureScaleTests : SceneTest
     {
-        // Corduroy's ribs are 2.5 mm apart.
+        // The ribs of corduroy are 2.5 mm apart.
         private const double RibMetres = 0.0025;
         private const double SpeedMps = 0.15;
         private const double Seconds = 1.5;
 
         [Test]
-        public void FeaturesTwiceAsLargeHalveTheFrequencyOfRibs()
+        public void DoublingTheFeatureScaleHalvesTheFrequencyOfRibs()
         {
             double ribHz = SpeedMps / RibMetres;
             Func<double, double> plain = Stroke(material => material.Label = "corduroy");
@@ -31,7 +31,7 @@ namespace HaptoFlow.ShimTests
         }
 
         [Test]
-        public void AMaterialOfARuleSoundsAsASurfaceOfTheSameMaterialDoes()
+        public void AMaterialAssignedByARuleRendersAsOnASurface()
         {
             Func<double, double> surface = Stroke(material =>
             {
@@ -50,10 +50,10 @@ namespace HaptoFlow.ShimTests
         }
 
         [Test]
-        public void ABrightToneRunsItsStageAndRaisesWhatIsHighAndNoToneRunsNothing()
+        public void ABrightToneRaisesHighFrequenciesAndNoToneRunsNothing()
         {
             Func<double, double> plain = Stroke(material => material.Label = "sandpaper");
-            Assert.That(ToneRuns, Is.Zero, "nobody asked for a tone");
+            Assert.That(ToneRuns, Is.Zero, "no tone is set");
             EndScene();
             BeginScene();
             Func<double, double> bright = Stroke(material =>
@@ -67,7 +67,7 @@ namespace HaptoFlow.ShimTests
         }
 
         [Test]
-        public void ATerrainOfHalfWoodAndHalfCorduroyKeepsTheRibsWhereTheyAre()
+        public void ABlendOfWoodAndCorduroyKeepsTheFrequencyOfRibs()
         {
             FinishLoading();
             var data = new TerrainData { heightmapResolution = 33, size = new Vector3(2f, 0.1f, 2f) };
@@ -89,14 +89,14 @@ namespace HaptoFlow.ShimTests
                 map.Add(HapticMaterialRule.ForTerrainLayer(data.terrainLayers[layer], material));
             }
             HaptoFlowSettings.Active.MaterialMap = map;
-            Func<double, double> powerAt = Heard();
+            Func<double, double> powerAt = PowerSpectrum();
             double ribHz = SpeedMps / RibMetres;
             Assert.That(powerAt(ribHz), Is.GreaterThan(4.0 * powerAt(0.5 * ribHz)));
         }
 
         private ulong ToneRuns { get; set; }
 
-        /// <summary>Mean power about a frequency.</summary>
+        /// <summary>The mean power about a frequency.</summary>
         private static double Band(Func<double, double> powerAt, double hertz)
         {
             double sum = 0.0;
@@ -107,8 +107,8 @@ namespace HaptoFlow.ShimTests
             return sum;
         }
 
-        /// <summary>Strokes a wide board across its grain at one speed.</summary>
-        /// <returns>Power at a frequency in hertz, of what reached the device.</returns>
+        /// <summary>Strokes a wide board across its grain at a constant speed.</summary>
+        /// <returns>The power of the output at a frequency in hertz.</returns>
         private Func<double, double> Stroke(Action<MaterialDescription> describe, bool byRule = false)
         {
             FinishLoading();
@@ -127,10 +127,10 @@ namespace HaptoFlow.ShimTests
             {
                 describe(board.AddComponent<HapticSurface>().Material);
             }
-            return Heard();
+            return PowerSpectrum();
         }
 
-        private Func<double, double> Heard()
+        private Func<double, double> PowerSpectrum()
         {
             Output(out _);
             HapticStylus stylus = StylusAlong(seconds => new Vector3((float)(SpeedMps * seconds - 0.5), 0.001f, 0f));

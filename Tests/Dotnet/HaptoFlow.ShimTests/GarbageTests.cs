@@ -7,20 +7,20 @@ using UnityShim;
 
 namespace HaptoFlow.ShimTests
 {
-    /// <summary>Frames and audio blocks make no garbage, whatever is touched.</summary>
+    /// <summary>Frames and audio blocks allocate nothing, whatever is touched.</summary>
     public sealed class GarbageTests : SceneTest
     {
         private const int WarmUpFrames = 90;
         private const int MeasuredFrames = 180;
 
         [Test]
-        public void FramesWithoutTouchMakeNoGarbage() => Check(_ => new Vector3(0f, 0.3f, 0f), () => Board());
+        public void FramesWithoutATouchAllocateNothing() => Check(_ => new Vector3(0f, 0.3f, 0f), () => Board());
 
         [Test]
-        public void SlidingOverABoxMakesNoGarbage() => Check(Circle(0.001f), () => Board());
+        public void SlidingOverABoxAllocatesNothing() => Check(Circle(0.001f), () => Board());
 
         [Test]
-        public void SlidingOverASphereACapsuleAndAControllerMakesNoGarbage() => Check(Circle(0.001f), () =>
+        public void SlidingOverASphereACapsuleAndAControllerAllocatesNothing() => Check(Circle(0.001f), () =>
         {
             Tagged<SphereCollider>("wood", sphere => sphere.radius = 0.06f);
             Tagged<CapsuleCollider>("fur", capsule => capsule.radius = 0.05f);
@@ -28,7 +28,7 @@ namespace HaptoFlow.ShimTests
         });
 
         [Test]
-        public void SlidingOverMeshesAndATerrainMakesNoGarbage() => Check(Circle(0.001f), () =>
+        public void SlidingOverMeshesAndATerrainAllocatesNothing() => Check(Circle(0.001f), () =>
         {
             Tagged<MeshCollider>("wood", mesh => mesh.sharedMesh = TestMeshes.Box(0.2f))
                 .transform.position = new Vector3(0f, -0.1f, 0f);
@@ -42,12 +42,12 @@ namespace HaptoFlow.ShimTests
         });
 
         [Test]
-        public void TouchingAndLiftingAgainAndAgainMakesNoGarbage() => Check(
+        public void TouchingAndLiftingRepeatedlyAllocatesNothing() => Check(
             seconds => new Vector3(0.05f * (float)seconds, 0.001f + 0.01f * (float)Math.Sin(40.0 * seconds), 0f),
             () => Board());
 
         [Test]
-        public void AMovingBodyMakesNoGarbage() => Check(Circle(0.001f), () =>
+        public void AMovingBodyAllocatesNothing() => Check(Circle(0.001f), () =>
         {
             HapticSurface board = Board();
             board.Material.SecondLabel = "fur";
@@ -57,7 +57,7 @@ namespace HaptoFlow.ShimTests
         });
 
         [Test]
-        public void SlidingOverALearntMaterialMakesNoGarbage() => Check(Circle(0.001f), () =>
+        public void SlidingOverALearntMaterialAllocatesNothing() => Check(Circle(0.001f), () =>
         {
             HapticMaterial material =
                 HapticMaterial.Create(Model.MaterialText.OfLabel(DefaultModel.Asset().File, "glass"), "fur");
@@ -67,32 +67,32 @@ namespace HaptoFlow.ShimTests
         });
 
         [Test]
-        public void APenWhoseForceDecidesMakesNoGarbage() => Check(Circle(0.006f), () => Board(), stylus =>
+        public void APenWithMeasuredForceAllocatesNothing() => Check(Circle(0.006f), () => Board(), stylus =>
         {
             stylus.Force = stylus.gameObject.AddComponent<SteadyForce>();
             stylus.TouchBy = TouchDecision.MeasuredForce;
         });
 
         [Test]
-        public void TheInspectorsEventsMakeNoGarbage() => Check(
+        public void EventsOfTheInspectorAllocateNothing() => Check(
             seconds => new Vector3(0.05f * (float)seconds, 0.001f + 0.01f * (float)Math.Sin(40.0 * seconds), 0f),
             () => Board(),
             stylus =>
             {
-                int told = 0;
-                stylus.Events.TouchBegan.AddListener(_ => ++told);
-                stylus.Events.TouchMoved.AddListener(_ => ++told);
-                stylus.Events.TouchEnded.AddListener(_ => ++told);
+                int eventCount = 0;
+                stylus.Events.TouchBegan.AddListener(_ => ++eventCount);
+                stylus.Events.TouchMoved.AddListener(_ => ++eventCount);
+                stylus.Events.TouchEnded.AddListener(_ => ++eventCount);
             });
 
         [Test]
-        public void ATrialThatIsCountedMakesNoGarbage() => Check(
+        public void CountingATrialAllocatesNothing() => Check(
             seconds => new Vector3(0.05f * (float)seconds, 0.001f + 0.01f * (float)Math.Sin(40.0 * seconds), 0f),
             () => Board(),
             stylus => new Studies.TrialContact(stylus));
 
         [Test]
-        public void AnUntaggedColliderNearTheTipMakesNoGarbage() => Check(Circle(0.001f), () =>
+        public void AnUntaggedColliderNearTheTipAllocatesNothing() => Check(Circle(0.001f), () =>
         {
             Board();
             GameObject bare = Make("bare");
@@ -101,7 +101,7 @@ namespace HaptoFlow.ShimTests
         });
 
         [Test]
-        public void CollidersThatRulesNameMakeNoGarbageHoweverManyRulesThereAre() => Check(Circle(0.001f), () =>
+        public void CollidersMatchedByManyRulesAllocateNothing() => Check(Circle(0.001f), () =>
         {
             HapticMaterialMap map = Map();
             for (int index = 0; index < 20; ++index)
@@ -118,7 +118,7 @@ namespace HaptoFlow.ShimTests
         });
 
         [Test]
-        public void GoingFromColliderToColliderMakesNoGarbageOnceTheyAreKnown() => Check(
+        public void MovingBetweenKnownCollidersAllocatesNothing() => Check(
             seconds => new Vector3(0.4f * (float)Math.Sin(8.0 * seconds), 0.001f, 0f),
             () =>
             {
@@ -134,7 +134,7 @@ namespace HaptoFlow.ShimTests
             });
 
         [Test]
-        public void ATerrainsLayersMakeNoGarbage() => Check(Circle(0.001f), () =>
+        public void TheLayersOfATerrainAllocateNothing() => Check(Circle(0.001f), () =>
         {
             HapticMaterialMap map = Map();
             var layers = new[] { new TerrainLayer { name = "grass" }, new TerrainLayer { name = "rock" } };
@@ -148,7 +148,7 @@ namespace HaptoFlow.ShimTests
         });
 
         [Test]
-        public void SubmeshesAndAMaskMakeNoGarbage() => Check(Circle(0.001f), () =>
+        public void SubmeshesAndAMaskAllocateNothing() => Check(Circle(0.001f), () =>
         {
             HapticMaterialMap map = Map();
             HapticMaskMap mask = ScriptableObject.CreateInstance<HapticMaskMap>();
@@ -201,13 +201,13 @@ namespace HaptoFlow.ShimTests
         private static Func<double, Vector3> Circle(float height) => seconds =>
             new Vector3(0.04f * (float)Math.Cos(5.0 * seconds), height, 0.04f * (float)Math.Sin(5.0 * seconds));
 
-        private void Check(Func<double, Vector3> path, Action makeScene, Action<HapticStylus>? tell = null)
+        private void Check(Func<double, Vector3> path, Action makeScene, Action<HapticStylus>? configure = null)
         {
             FinishLoading();
             makeScene();
             Output(out _);
             HapticStylus stylus = StylusAlong(path);
-            tell?.Invoke(stylus);
+            configure?.Invoke(stylus);
             var log = new TouchLog(stylus);
             World.Frames(WarmUpFrames);
             AudioDevice.Forget();

@@ -10,7 +10,7 @@ using UnityShim;
 
 namespace HaptoFlow.ShimTests
 {
-    /// <summary>Noise in the headphones, none in the hand.</summary>
+    /// <summary>The masking noise plays in the headphones only.</summary>
     public sealed class MaskingNoiseTests : SceneTest
     {
         private const int HapticChannel = 1;
@@ -31,17 +31,17 @@ namespace HaptoFlow.ShimTests
         }
 
         [Test]
-        public void TheHapticChannelIsTheSameWithNoiseAndWithout(
+        public void TheNoiseDoesNotChangeTheHapticChannel(
             [Values(AudioSpeakerMode.Stereo, AudioSpeakerMode.Quad)] AudioSpeakerMode mode)
         {
             float[][] felt = { Stroke(mode, false), Stroke(mode, true) };
             Assert.That(felt[0].Max(), Is.GreaterThan(0.001f), "something is felt");
-            // The strokes begin at different times of the clock.
+            // The strokes begin at different times, so they are compared by level.
             Assert.That(felt[1], Is.EqualTo(felt[0]).Within(1e-7f));
         }
 
         [Test]
-        public void EveryOtherChannelHasTheNoiseAtItsLevel(
+        public void EveryOtherChannelPlaysTheNoiseAtItsLevel(
             [Values(NoiseColour.White, NoiseColour.Pink)] NoiseColour colour,
             [Values(-40f, MaskingNoise.HighestDecibels)] float decibels)
         {
@@ -53,16 +53,16 @@ namespace HaptoFlow.ShimTests
             World.Frames(900);
             foreach (int channel in new[] { 0, 2, 3 })
             {
-                float[] heard = Channel(channel);
-                double level = 10.0 * Math.Log10(heard.Average(sample => (double)sample * sample));
+                float[] samples = Channel(channel);
+                double level = 10.0 * Math.Log10(samples.Average(sample => (double)sample * sample));
                 Assert.That(level, Is.EqualTo(decibels).Within(0.5), $"channel {channel}");
-                Assert.That(heard.Max(Math.Abs), Is.LessThan(1f), "nothing is clipped");
+                Assert.That(samples.Max(Math.Abs), Is.LessThan(1f), "nothing is clipped");
             }
             Assert.That(Channel(HapticChannel), Has.All.Zero);
         }
 
         [Test]
-        public void PinkNoiseFallsByThreeDecibelsAnOctaveAndWhiteNoiseDoesNot()
+        public void PinkNoiseFallsByThreeDecibelsPerOctaveAndWhiteNoiseIsFlat()
         {
             var cases = new[] { (NoiseColour.White, 0.0), (NoiseColour.Pink, -3.0) };
             foreach ((NoiseColour colour, double perOctave) in cases)
@@ -71,26 +71,26 @@ namespace HaptoFlow.ShimTests
                 World.Frames(30);
                 AudioDevice.Forget();
                 World.Frames(900);
-                float[] heard = Channel(0);
-                double fall = (Density(heard, 3200.0) - Density(heard, 200.0)) / 4.0;
+                float[] samples = Channel(0);
+                double fall = (Density(samples, 3200.0) - Density(samples, 200.0)) / 4.0;
                 Assert.That(fall, Is.EqualTo(perOctave).Within(0.5), colour.ToString());
             }
         }
 
         [Test]
-        public void ItFadesInAndOutWithoutAJumpAndMakesNoGarbage()
+        public void TheNoiseFadesInAndOutAndAllocatesNothing()
         {
             noise.LevelDecibels = MaskingNoise.HighestDecibels;
             AudioDevice.Forget();
             World.Frames(40);
-            float[] heard = Channel(0);
-            Assert.That(heard.Take(48).Max(Math.Abs), Is.LessThan(0.04f));
-            Assert.That(heard.Skip(4000).Max(Math.Abs), Is.GreaterThan(0.2f));
+            float[] samples = Channel(0);
+            Assert.That(samples.Take(48).Max(Math.Abs), Is.LessThan(0.04f));
+            Assert.That(samples.Skip(4000).Max(Math.Abs), Is.GreaterThan(0.2f));
             Assert.That(AudioDevice.AllocatedBytes, Is.Zero);
         }
 
         [Test]
-        public void AnOutputOnAllChannelsOrNoneMeansNoNoiseAndAWord()
+        public void AnOutputOnAllOrNoChannelsStopsTheNoiseAndLogsAnError()
         {
             output.Route = OutputRoute.AudioSource;
             output.Channel = HapticVoice.AllChannels;
@@ -107,7 +107,7 @@ namespace HaptoFlow.ShimTests
         }
 
         [Test]
-        public void ADeviceWithoutAChannelForEachMeansNoNoiseAndAWord()
+        public void ADeviceWithTooFewChannelsStopsTheNoiseAndLogsAnError()
         {
             AudioDevice.ChangeDevice(48000, 512, AudioSpeakerMode.Mono);
             LogAssert.Expect(LogType.Error, new System.Text.RegularExpressions.Regex("has 1 channels"));
@@ -119,7 +119,7 @@ namespace HaptoFlow.ShimTests
         }
 
         [Test]
-        public void SwitchedOffItIsSilent()
+        public void DisabledNoiseIsSilent()
         {
             World.Frames(30);
             noise.enabled = false;
@@ -150,7 +150,8 @@ namespace HaptoFlow.ShimTests
         private static float[] Channel(int channel) => Enumerable.Range(0, AudioDevice.RecordedFrames)
             .Select(frame => AudioDevice.Sample(frame, channel)).ToArray();
 
-        /// <summary>Power about a frequency in dB, over an octave's third, by the sum of single frequencies.</summary>
+        /// <summary>The power in a third-octave band about a frequency, in dB, as a sum over single frequencies.
+        /// </summary>
         private static double Density(IReadOnlyList<float> samples, double hertz)
         {
             const int length = 4096;

@@ -6,17 +6,17 @@ using UnityShim;
 
 namespace HaptoFlow.ShimTests
 {
-    /// <summary>What meshes cost, and what of them is felt.</summary>
+    /// <summary>The cost of mesh colliders, and where they are felt.</summary>
     public sealed class MeshProbeTests : SceneTest
     {
         [SetUp]
-        public void CountAnew() => RayCount.Rays = 0;
+        public void ResetTheRayCount() => RayCount.Rays = 0;
 
         [TearDown]
-        public void FrontsOnly() => Physics.queriesHitBackfaces = false;
+        public void RestoreFrontFacesOnly() => Physics.queriesHitBackfaces = false;
 
         [Test]
-        public void AMeshBeyondReachOfItsBoundsCostsNoRay()
+        public void AMeshWhoseBoundsAreOutOfReachCastsNoRay()
         {
             MeshBox(false);
             HapticStylus stylus = StylusAlong(seconds => new Vector3(0.001f * (float)seconds, 0.01f, 0f));
@@ -26,7 +26,7 @@ namespace HaptoFlow.ShimTests
         }
 
         [Test]
-        public void AConvexMeshCostsATipOutsideNoRayAndIsExact()
+        public void ATipOutsideAConvexMeshCastsNoRayAndIsExact()
         {
             MeshBox(true);
             HapticStylus stylus = StylusAlong(seconds => new Vector3(0.02f * (float)seconds, 0.001f, 0f));
@@ -38,7 +38,7 @@ namespace HaptoFlow.ShimTests
         }
 
         [Test]
-        public void AConvexMeshIsFeltWhereItIsDrawnNotWhereTheLastStepHadIt()
+        public void AConvexMeshIsFeltAtItsVisiblePose()
         {
             HapticSurface box = MeshBox(true);
             HapticStylus stylus = StylusAlong(_ => new Vector3(0f, 0.001f, 0f));
@@ -66,7 +66,7 @@ namespace HaptoFlow.ShimTests
         }
 
         [Test]
-        public void AFlatMeshIsFeltThroughToFifteenMillimetresBehindItOnceItWasTouched()
+        public void AFlatMeshIsFeltUpToFifteenMillimetresBehindItsFace()
         {
             Sheet();
             HapticStylus stylus = StylusAlong(seconds =>
@@ -77,7 +77,7 @@ namespace HaptoFlow.ShimTests
         }
 
         [Test]
-        public void ATipThatCrossesAFlatMeshWithinOneFrameIsStillMet()
+        public void ATipThatCrossesAFlatMeshInOneFrameTouchesIt()
         {
             Sheet();
             HapticStylus stylus = StylusAlong(seconds => new Vector3(0f, seconds < 0.1 ? 0.006f : -0.006f, 0f));
@@ -87,7 +87,7 @@ namespace HaptoFlow.ShimTests
 
         [TestCase(false)]
         [TestCase(true)]
-        public void WhetherQueriesHitBackFacesChangesNothing(bool hitsBacks)
+        public void TheBackFaceSettingOfPhysicsChangesNothing(bool hitsBacks)
         {
             Physics.queriesHitBackfaces = hitsBacks;
             Sheet();
@@ -100,11 +100,11 @@ namespace HaptoFlow.ShimTests
             Assert.That(Vector3.Dot(above.Contact.Normal, Vector3.up), Is.EqualTo(1f).Within(1e-4f));
             Assert.That(below.IsTouching, Is.False);
             Assert.That(rising.IsTouching && Vector3.Dot(rising.Contact.Normal, Vector3.up) < 0f, Is.False,
-                "a back must not push downwards");
-            Assert.That(Physics.queriesHitBackfaces, Is.EqualTo(hitsBacks), "the project's setting is left as it was");
+                "a back face must not push downwards");
+            Assert.That(Physics.queriesHitBackfaces, Is.EqualTo(hitsBacks), "the project's setting does not change");
         }
 
-        /// <summary>A closed box of 20 cm whose top is the plane y = 0.</summary>
+        /// <summary>Creates a closed box of 20 cm whose top is the plane y = 0.</summary>
         private HapticSurface MeshBox(bool convex)
         {
             HapticSurface box = Tagged<MeshCollider>("wood", mesh =>
@@ -117,7 +117,7 @@ namespace HaptoFlow.ShimTests
             return box;
         }
 
-        /// <summary>A square of 20 cm in the plane y = 0, its front upwards, as Unity's plane is.</summary>
+        /// <summary>Creates a square of 20 cm in the plane y = 0 that faces upwards, as Unity's plane does.</summary>
         private void Sheet()
         {
             var corners = new[]

@@ -6,7 +6,7 @@ using UnityShim;
 
 namespace HaptoFlow.ShimTests
 {
-    /// <summary>Meta's SDK logs an error for every call that fails: it is asked only where it can answer.</summary>
+    /// <summary>Meta's SDK logs an error for every failing call, so it is called only when it can succeed.</summary>
     public sealed class MetaTipForceTests : SceneTest
     {
         private MetaActionTipForce source = null!;
@@ -23,25 +23,25 @@ namespace HaptoFlow.ShimTests
         }
 
         [TearDown]
-        public void PutThePenAway() => OVRPlugin.Reset();
+        public void RemoveThePen() => OVRPlugin.Reset();
 
         [Test]
-        public void AMissingActionIsAskedForOnceAndNamedOnce()
+        public void AMissingActionIsQueriedOnceAndLoggedOnce()
         {
             World.Frames(90);
             Assert.That(OVRPlugin.Calls, Is.EqualTo(1));
-            Assert.That(Said(LogType.Error, "GetActionStateFloat"), Is.EqualTo(1));
-            Assert.That(Said(LogType.Warning, "\"tip\""), Is.EqualTo(1));
+            Assert.That(CountMessages(LogType.Error, "GetActionStateFloat"), Is.EqualTo(1));
+            Assert.That(CountMessages(LogType.Warning, "\"tip\""), Is.EqualTo(1));
         }
 
         [Test]
-        public void WithoutASessionNothingIsAsked()
+        public void WithoutASessionNothingIsQueried()
         {
             OVRPlugin.hasInputFocus = false;
             OVRPlugin.Tip = 0.4f;
             World.Frames(90);
             Assert.That(OVRPlugin.Calls, Is.Zero);
-            Assert.That(Said(LogType.Error, ""), Is.Zero);
+            Assert.That(CountMessages(LogType.Error, ""), Is.Zero);
             OVRPlugin.hasInputFocus = true;
             World.Frames(2);
             Assert.That(source.TryRead(out float newtons), Is.True);
@@ -49,22 +49,22 @@ namespace HaptoFlow.ShimTests
         }
 
         [Test]
-        public void ASessionThatComesBackIsAskedAgain()
+        public void ARestartedSessionIsQueriedAgain()
         {
             World.Frames(10);
             OVRPlugin.Tip = 0.4f;
             World.Frames(10);
-            Assert.That(source.TryRead(out _), Is.False, "nothing has changed that it could know of");
+            Assert.That(source.TryRead(out _), Is.False, "no event has reported the change");
             OVRPlugin.hasInputFocus = false;
             World.Frames(2);
             OVRPlugin.hasInputFocus = true;
             World.Frames(2);
             Assert.That(source.TryRead(out _), Is.True);
-            Assert.That(Said(LogType.Error, ""), Is.EqualTo(1));
+            Assert.That(CountMessages(LogType.Error, ""), Is.EqualTo(1));
         }
 
         [Test]
-        public void APenThatConnectsIsAskedAgain()
+        public void AConnectingPenIsQueriedAgain()
         {
             World.Frames(10);
             OVRPlugin.Tip = 0.4f;
@@ -74,7 +74,7 @@ namespace HaptoFlow.ShimTests
         }
 
         [Test]
-        public void ANewActionNameAndAComponentSwitchedOnAgainAreAsked()
+        public void ANewActionNameAndAnEnabledComponentAreQueried()
         {
             World.Frames(10);
             OVRPlugin.Tip = 0.4f;
@@ -93,7 +93,7 @@ namespace HaptoFlow.ShimTests
             Assert.That(source.TryRead(out _), Is.True);
         }
 
-        private static int Said(LogType type, string part) =>
+        private static int CountMessages(LogType type, string part) =>
             Log.Lines.Count(line => line.Type == type && line.Text.Contains(part));
     }
 }

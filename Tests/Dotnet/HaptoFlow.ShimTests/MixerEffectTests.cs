@@ -10,7 +10,7 @@ namespace HaptoFlow.ShimTests
     public sealed class MixerEffectTests : SceneTest
     {
         [Test]
-        public void TheEffectIsToldTheVoicesPlaceAndTheComponentLeavesTheRenderingToIt()
+        public void TheMixerEffectGetsTheVoiceAndRendersIt()
         {
             FinishLoading();
             Board();
@@ -22,7 +22,7 @@ namespace HaptoFlow.ShimTests
             HapticStylus other = StylusAlong(_ => new Vector3(0f, 1f, 0f));
             HapticStylus stylus = StylusAlong(seconds => new Vector3(0.05f * (float)seconds, 0.001f, 0f));
             World.Frames(30);
-            Assert.That(mixer.Exposed["Pen"], Is.EqualTo(1f), "the second voice's place");
+            Assert.That(mixer.Exposed["Pen"], Is.EqualTo(1f), "the slot of the second voice");
             Assert.That(tap.Peak(), Is.Zero);
             Assert.That(stylus.TryGetStatistics(out VoiceStatistics statistics), Is.True);
             Assert.That(statistics.RenderedFrames, Is.Zero);
@@ -30,7 +30,7 @@ namespace HaptoFlow.ShimTests
         }
 
         [Test]
-        public void AMixerWithoutTheParameterIsNamed()
+        public void AMixerWithoutTheParameterIsLogged()
         {
             FinishLoading();
             Output(out HapticOutput output);
@@ -38,8 +38,8 @@ namespace HaptoFlow.ShimTests
             output.SetMixer(new AudioMixer(), "Pen");
             StylusAlong(_ => Vector3.up);
             World.Frames(3);
-            int said = Log.Lines.Count(line => line.Type == LogType.Warning && line.Text.Contains("\"Pen\""));
-            Assert.That(said, Is.EqualTo(1));
+            int messageCount = Log.Lines.Count(line => line.Type == LogType.Warning && line.Text.Contains("\"Pen\""));
+            Assert.That(messageCount, Is.EqualTo(1));
         }
     }
 }

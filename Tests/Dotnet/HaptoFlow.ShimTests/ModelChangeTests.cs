@@ -8,13 +8,13 @@ using UnityShim;
 
 namespace HaptoFlow.ShimTests
 {
-    /// <summary>What reaches the audio device while another model takes over under a sliding pen.</summary>
+    /// <summary>The output while the model is changed during a stroke.</summary>
     public sealed class ModelChangeTests : SceneTest
     {
         private const int RateHz = 48000;
 
         [Test]
-        public void AnotherModelTakesOverUnderASlidingPenWithoutAClickAndWithoutAGap()
+        public void ChangingTheModelDuringAStrokeCausesNoClickAndNoGap()
         {
             FinishLoading();
             using HapticLoadedModel first = Loaded(DefaultModel.Asset());
@@ -51,7 +51,7 @@ namespace HaptoFlow.ShimTests
         }
 
         [Test]
-        public void TheVoiceOfTheModelBeforeIsGoneOnceItHasFadedAlsoWhereNothingIsRendered()
+        public void TheVoiceOfThePreviousModelIsClosedAfterItsFade()
         {
             FinishLoading();
             using HapticLoadedModel second = Loaded(EditedModel.WithLabelsReversed());

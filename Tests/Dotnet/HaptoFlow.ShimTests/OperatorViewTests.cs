@@ -10,7 +10,7 @@ using UnityShim;
 
 namespace HaptoFlow.ShimTests
 {
-    /// <summary>What the operator reads and presses.</summary>
+    /// <summary>The operator's view: its lines and buttons.</summary>
     public sealed class OperatorViewTests : SceneTest
     {
         private StudyFolder folder = null!;
@@ -32,7 +32,7 @@ namespace HaptoFlow.ShimTests
         public void RemoveTheFolder() => folder.Dispose();
 
         [Test]
-        public void ItNamesParticipantTrialConditionAndDisk()
+        public void TheViewShowsParticipantTrialConditionAndDisk()
         {
             string text = Text();
             Assert.That(text, Does.Contain("participant P07, study latency, trial 1 of 8 (practice)"));
@@ -42,7 +42,7 @@ namespace HaptoFlow.ShimTests
         }
 
         [Test]
-        public void NextBeginsAndPauseInterrupts()
+        public void NextStartsATrialAndPauseInterruptsIt()
         {
             Assert.That(Buttons(), Is.EqualTo(new[] { "Next" }));
             Press("Next");
@@ -55,7 +55,7 @@ namespace HaptoFlow.ShimTests
         }
 
         [Test]
-        public void BeforeASessionTheOperatorChoosesTheParticipantAndARefusalLeavesTheChoice()
+        public void TheOperatorChoosesTheParticipantBeforeASession()
         {
             int begun = 0;
             view.Session = null;
@@ -91,7 +91,7 @@ namespace HaptoFlow.ShimTests
         }
 
         [Test]
-        public void AFullDiskIsSaidInWords()
+        public void AFullDiskIsShown()
         {
             session.Continue();
             session.Ask();
@@ -103,7 +103,7 @@ namespace HaptoFlow.ShimTests
         }
 
         [Test]
-        public void AProblemStopsTheStudyAndTakesTheButtonAway()
+        public void AProblemStopsTheStudyAndHidesTheButton()
         {
             view.Problem = "the delay level 50 ms cannot be reached";
             PassFor(0.3);
@@ -112,7 +112,7 @@ namespace HaptoFlow.ShimTests
         }
 
         [Test]
-        public void WithoutNewTextItMakesNoGarbage()
+        public void DrawingUnchangedTextAllocatesNothing()
         {
             World.Frames(60);
             double before = Clock.UnscaledSeconds;

@@ -6,12 +6,11 @@ using UnityShim;
 
 namespace HaptoFlow.ShimTests
 {
-    /// <summary>Play mode left and entered again with statics as they were (domain reload off), scenes
-    /// loaded.</summary>
+    /// <summary>Repeated play mode with domain reload off, which keeps static fields, and loading of scenes.</summary>
     public sealed class PlayModeTests : SceneTest
     {
         [Test]
-        public void EveryPlayModeStartsItsOwnEngineAndEndsIt()
+        public void EveryPlayModeStartsAndEndsItsOwnEngine()
         {
             for (int round = 0; round < 3; ++round)
             {
@@ -32,17 +31,17 @@ namespace HaptoFlow.ShimTests
         }
 
         [Test]
-        public void NothingOfTheLastPlayModeIsTouchedInTheNext()
+        public void ObjectsOfThePreviousPlayModeAreNotUsed()
         {
             HapticSurface board = Board();
             World.Frames(2);
-            // A crash of the editor's play mode: objects are gone, nobody was told.
+            // Play mode ends abnormally: the objects are gone without any message to the scripts.
             World.EnterPlayMode();
             Assert.That(SurfaceRegistry.Holds(board.GetComponent<Collider>(), board), Is.False);
         }
 
         [Test]
-        public void NoMapAndNoColliderOfTheLastPlayModeCountsInTheNext()
+        public void MapsAndCollidersOfThePreviousPlayModeAreNotUsed()
         {
             FinishLoading();
             HapticMaterialMap map = ScriptableObject.CreateInstance<HapticMaterialMap>();
@@ -54,7 +53,7 @@ namespace HaptoFlow.ShimTests
             World.Frames(2);
             Assert.That(stylus.IsTouching, Is.True);
             Assert.That(FeltColliders.Count, Is.EqualTo(1));
-            // A crash of the editor's play mode: objects are gone, nobody was told.
+            // Play mode ends abnormally: the objects are gone without any message to the scripts.
             World.EnterPlayMode();
             Assert.That(MaterialMaps.Any, Is.False);
             Assert.That(FeltColliders.Count, Is.Zero);
@@ -86,7 +85,7 @@ namespace HaptoFlow.ShimTests
         }
 
         [Test]
-        public void TheCeilingHoldsForEverySample()
+        public void NoSampleExceedsTheCeiling()
         {
             HaptoFlowSettings.Active.Ceiling = 0.01f;
             FinishLoading();
@@ -98,15 +97,15 @@ namespace HaptoFlow.ShimTests
         }
 
         [Test]
-        public void SixtyFiveStylusesLeaveOneWithoutVoiceAndSayItOnce()
+        public void OneOfSixtyFiveStylusesHasNoVoiceAndOneMessageIsLogged()
         {
             FinishLoading();
             Board();
             HapticStylus[] all = Enumerable.Range(0, 65).Select(_ => StylusAlong(_ => new Vector3(0f, 0.001f, 0f))).ToArray();
             World.Frames(5);
             Assert.That(all.Count(stylus => stylus.TryGetStatistics(out VoiceStatistics _)), Is.EqualTo(64));
-            int said = Log.Lines.Count(line => line.Type == LogType.Error && line.Text.Contains("gets no voice"));
-            Assert.That(said, Is.EqualTo(1));
+            int messageCount = Log.Lines.Count(line => line.Type == LogType.Error && line.Text.Contains("gets no voice"));
+            Assert.That(messageCount, Is.EqualTo(1));
         }
 
         private HapticStylus Touch()

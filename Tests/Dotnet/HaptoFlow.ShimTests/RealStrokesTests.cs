@@ -11,16 +11,16 @@ using UnityShim;
 
 namespace HaptoFlow.ShimTests
 {
-    /// <summary>Strokes of people, recorded with a pen on a real table, played over a board in a scene.</summary>
+    /// <summary>Strokes of people, recorded with a pen on a real table, replayed on a board in a scene.</summary>
     public sealed class RealStrokesTests : SceneTest
     {
         private const float ReleaseDistanceMetres = 0.0005f;
 
-        /// <summary>A tip of 5 mm keeps the few millimetres of tracking error in touch, as in the native tests; one of
-        /// 1 mm skims the table and leaves it often.</summary>
+        /// <summary>A tip of 5 mm stays in touch despite a few millimetres of tracking error, as in the native tests. A
+        /// tip of 1 mm would lift off often.</summary>
         [TestCase(0.005f)]
         [TestCase(0.001f)]
-        public void ARealStrokeTouchesOnceALandingAndSoundsWithoutABadSample(float tipRadiusMetres)
+        public void ARecordedStrokeTouchesOncePerLandingAndRendersFiniteSamples(float tipRadiusMetres)
         {
             if (RepositoryFiles.RealStrokes == null)
             {
@@ -72,8 +72,7 @@ namespace HaptoFlow.ShimTests
             UnityEngine.Object.DestroyImmediate(output.gameObject);
         }
 
-        /// <summary>What the tracker says at a time: its last sample. The table of the recordings is their x-y plane.
-        /// </summary>
+        /// <summary>The tracker's last sample at a time. The table is the x-y plane of the recordings.</summary>
         private static Vector3 At(List<double[]> samples, double seconds)
         {
             int index = samples.FindLastIndex(sample => sample[0] - samples[0][0] <= seconds);
@@ -88,8 +87,8 @@ namespace HaptoFlow.ShimTests
                 .Select(cells => cells.Skip(1).Take(4).Select(cell => double.Parse(cell, CultureInfo.InvariantCulture)).ToArray())
                 .ToList());
 
-        /// <summary>Height over the plane by least squares, re-weighted towards the points that lie on it: lifted parts
-        /// of a stroke must not tilt it.</summary>
+        /// <summary>The height over a plane fitted by iteratively re-weighted least squares, so that lifted parts of a
+        /// stroke do not tilt it.</summary>
         private static (double Height, Vector3 Normal) FitTable(List<double[]> samples)
         {
             var plane = new double[3];

@@ -7,20 +7,20 @@ using UnityShim;
 
 namespace HaptoFlow.ShimTests
 {
-    /// <summary>An output's signal: a sine in the place of what is felt.</summary>
+    /// <summary>The signal of an output, a sine that replaces the texture.</summary>
     public sealed class SignalOutputTests : SceneTest
     {
         private HapticOutput output = null!;
 
         [SetUp]
-        public void MakeAnOutput()
+        public void CreateAnOutput()
         {
             Output(out output);
             Board();
         }
 
         [Test]
-        public void TheSineSoundsAtItsAmplitudeWhileTheTipMovesAndNothingIsInferred()
+        public void TheSineHasItsAmplitudeWhileTheTipMovesAndNoInferenceRuns()
         {
             output.SetSignal(200.0, 20.0);
             HapticStylus stylus = Circling();
@@ -28,10 +28,10 @@ namespace HaptoFlow.ShimTests
             World.Frames(45);
             AudioDevice.Forget();
             World.Frames(45);
-            float[] heard = Heard();
-            Assert.That(heard.Max(), Is.EqualTo(20.0 / HapticEngineOptions.DefaultFullScaleMps2).Within(1e-3));
-            double rms = Math.Sqrt(heard.Average(sample => (double)sample * sample));
-            Assert.That(rms, Is.EqualTo(heard.Max() / Math.Sqrt(2.0)).Within(1e-3), "a sine, unbroken");
+            float[] samples = RecordedSamples();
+            Assert.That(samples.Max(), Is.EqualTo(20.0 / HapticEngineOptions.DefaultFullScaleMps2).Within(1e-3));
+            double rms = Math.Sqrt(samples.Average(sample => (double)sample * sample));
+            Assert.That(rms, Is.EqualTo(samples.Max() / Math.Sqrt(2.0)).Within(1e-3), "a sine without interruption");
             Assert.That(stylus.TryGetStatistics(out VoiceStatistics statistics), Is.True);
             Assert.That(statistics.Inferences, Is.Zero);
             Assert.That(stylus.TryGetSignalStatistics(out SignalStatistics signal), Is.True);
@@ -39,7 +39,7 @@ namespace HaptoFlow.ShimTests
         }
 
         [Test]
-        public void ItCanBeSetAndTakenAwayWhileAVoiceIsOpen()
+        public void ASignalCanBeSetAndRemovedWhileAVoiceIsOpen()
         {
             HapticStylus stylus = Circling();
             FinishLoading();
@@ -53,7 +53,7 @@ namespace HaptoFlow.ShimTests
             AudioDevice.Forget();
             World.Frames(45);
             Assert.That(RunsOf(stylus), Is.EqualTo(before));
-            Assert.That(Heard().Max(), Is.GreaterThan(0.001f), "the texture is felt again");
+            Assert.That(RecordedSamples().Max(), Is.GreaterThan(0.001f), "the texture is felt again");
         }
 
         [TestCase(0.0, 20.0)]
@@ -71,7 +71,7 @@ namespace HaptoFlow.ShimTests
             return statistics.Runs;
         }
 
-        private static float[] Heard() => Enumerable.Range(0, AudioDevice.RecordedFrames)
+        private static float[] RecordedSamples() => Enumerable.Range(0, AudioDevice.RecordedFrames)
             .Select(frame => AudioDevice.Sample(frame, 0)).ToArray();
     }
 }

@@ -6,7 +6,7 @@ using UnityShim;
 
 namespace HaptoFlow.ShimTests
 {
-    /// <summary>Tip force of pens, through the packages that read them.</summary>
+    /// <summary>The tip force of pens, read through optional packages.</summary>
     public sealed class TipForceTests : SceneTest
     {
         [Test]
@@ -28,7 +28,7 @@ namespace HaptoFlow.ShimTests
         }
 
         [Test]
-        public void AMetaActionsPressureBecomesAForceAndAPenInTheAirLeavesItToTheSpring()
+        public void AMetaActionsPressureBecomesAForceAndAPenInTheAirUsesTheSpringModel()
         {
             HapticStylus stylus = PressedStylus();
             World.Frames(2);

@@ -6,10 +6,10 @@ using UnityShim;
 
 namespace HaptoFlow.ShimTests
 {
-    /// <summary>The engine as it ships: a worker of its own, automatic quality, a lead that it finds itself.</summary>
+    /// <summary>The engine with its default settings: a worker thread, automatic quality, an automatic lead.</summary>
     public sealed class WorkerTests : SceneTest
     {
-        private const int MostFrames = 100_000;
+        private const int MaximumFrames = 100_000;
 
         [Test]
         public void TheWorkerOfAShippedEngineGeneratesForATouchingStylus()
@@ -23,8 +23,8 @@ namespace HaptoFlow.ShimTests
             HapticStylus stylus = StylusAlong(seconds =>
                 new Vector3(0.05f * (float)Math.Cos(3.0 * seconds), 0.001f, 0.05f * (float)Math.Sin(3.0 * seconds)));
             VoiceStatistics statistics = default;
-            // Frames pass faster than their time here, so how many the worker needs is the machine's affair.
-            for (int frame = 0; frame < MostFrames && statistics.Inferences < 3; ++frame)
+            // Frames run faster than in real time here, so the number that the worker needs depends on the machine.
+            for (int frame = 0; frame < MaximumFrames && statistics.Inferences < 3; ++frame)
             {
                 World.Frame();
                 stylus.TryGetStatistics(out statistics);
@@ -37,7 +37,7 @@ namespace HaptoFlow.ShimTests
         }
 
         [Test]
-        public void AMaterialThatIsReplacedAgainAndAgainWhileAWorkerPlaysItBreaksNothing()
+        public void ReplacingAMaterialRepeatedlyWhileAWorkerUsesItIsSafe()
         {
             HapticSession.OptionsInstead = null;
             UnityEngine.Object.DestroyImmediate(Stepper);

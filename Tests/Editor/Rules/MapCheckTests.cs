@@ -8,22 +8,21 @@ using UnityEngine;
 
 namespace HaptoFlow.EditorTests
 {
-    /// <summary>What Check Scene says of maps: what each collider feels like and why, and what can never be felt.
-    /// </summary>
+    /// <summary>What Check Scene reports about maps: the material of each collider with its reason, and rules without
+    /// effect.</summary>
     public sealed class MapCheckTests : SceneCheckTest
     {
         private HapticMaterialMap map = null!;
 
         [SetUp]
-        public void GiveTheProjectAMap()
+        public void AddAMapToTheProject()
         {
-            map = ScriptableObject.CreateInstance<HapticMaterialMap>();
-            AssetDatabase.CreateAsset(map, Folder + "/Rooms.asset");
+            map = CreateMap();
             ProjectSettings.MaterialMap = map;
         }
 
         [Test]
-        public void EveryColliderIsListedWithWhatItFeelsLikeAndByWhichRule()
+        public void EveryColliderIsListedWithItsMaterialAndRule()
         {
             map.Add(HapticMaterialRule.ForTag("Finish", Material("stone")));
             map.Add(HapticMaterialRule.ForName("Cloud*", null));
@@ -42,7 +41,7 @@ namespace HaptoFlow.EditorTests
         }
 
         [Test]
-        public void OnlyWhatNoRuleDecidesIsStillToBeTagged()
+        public void OnlyCollidersThatNoRuleMatchesAreProposedForTagging()
         {
             map.Add(HapticMaterialRule.ForName("*Door", Material("wood")));
             Box("Steel Door");
@@ -52,7 +51,7 @@ namespace HaptoFlow.EditorTests
         }
 
         [Test]
-        public void ARuleThatAnEarlierOneShadowsIsFoundAndRemovedWithOneUndo()
+        public void ARuleThatAnEarlierOneCoversIsFoundAndRemovedWithOneUndo()
         {
             map.Add(HapticMaterialRule.ForName("Rug*", Material("fur")));
             map.Add(HapticMaterialRule.ForName("rug (*)", Material("wood")));
@@ -66,7 +65,7 @@ namespace HaptoFlow.EditorTests
         }
 
         [Test]
-        public void RulesThatOnlyOverlapAreNotCalledShadowed()
+        public void RulesThatOnlyOverlapAreNoFinding()
         {
             map.Add(HapticMaterialRule.ForName("*Rug", Material("fur")));
             map.Add(HapticMaterialRule.ForName("Rug*", Material("wood")));
@@ -85,11 +84,11 @@ namespace HaptoFlow.EditorTests
             map.Add(HapticMaterialRule.ForTag("No Such Tag", Material("stone")));
             map.Add(HapticMaterialRule.ForLayer(29, Material("stone")));
             map.Add(HapticMaterialRule.ForTag("", Material("stone")));
-            With("Rule 1 of Rooms looks for a tag that the project does not have");
-            With("Rule 2 of Rooms looks for a layer that the project gives no name");
-            With("Rule 3 of Rooms names nothing to look for");
+            With("Rule 1 of Rooms matches a tag that the project does not have");
+            With("Rule 2 of Rooms matches a layer that has no name in the project");
+            With("Rule 3 of Rooms has an empty condition");
             map.Add(HapticMaterialRule.ForSubmesh(Halves("Vase").sharedMesh, 2, Material("stone")));
-            With("Rule 4 of Rooms looks for submesh 2 of a mesh whose last is 1");
+            With("Rule 4 of Rooms matches submesh 2 of a mesh whose last submesh is 1");
         }
 
         [Test]
@@ -100,7 +99,7 @@ namespace HaptoFlow.EditorTests
         }
 
         [Test]
-        public void SubmeshesOfAMeshThatIsNotReadableAreFoundAndOfAConvexOne()
+        public void SubmeshesThatCannotBeToldApartAreFound()
         {
             map.Add(HapticMaterialRule.ForSubmesh(null, 0, Material("wood")));
             map.Add(HapticMaterialRule.ForSubmesh(null, 1, Material("glass")));
@@ -116,33 +115,33 @@ namespace HaptoFlow.EditorTests
         }
 
         [Test]
-        public void AMaskWhereNoTextureCoordinateIsGivenIsFoundWithTheReason()
+        public void AMaskWithoutTextureCoordinatesIsFoundWithTheReason()
         {
             HapticMaskMap mask = Mask();
             mask.SetPixels(1, 1, new[] { new Color32(255, 0, 0, 0) }, true);
             map.Add(HapticMaterialRule.ForName("Masked*", Material("wood")));
             map.Rules[0].Mask = mask;
             Box("Masked Box");
-            With("Masked Box: the mask Mask has no effect, since only a mesh collider");
+            With("Masked Box: the mask Mask has no effect, because only a mesh collider");
             MeshCollider mesh = Halves("Masked Mesh");
-            With("Masked Mesh: the mask Mask has no effect, since its mesh has no first texture coordinates");
+            With("Masked Mesh: the mask Mask has no effect, because its mesh has no first texture coordinates");
             mesh.sharedMesh!.uv = new Vector2[6];
             Assert.That(Texts(), Has.None.Contains("Masked Mesh: the mask"));
             mesh.convex = true;
-            With("Masked Mesh: the mask Mask has no effect, since a convex mesh collider");
+            With("Masked Mesh: the mask Mask has no effect, because a convex mesh collider");
             mesh.convex = false;
             mesh.sharedMesh.UploadMeshData(true);
-            With("Masked Mesh: the mask Mask has no effect, since its mesh is not readable");
+            With("Masked Mesh: the mask Mask has no effect, because its mesh is not readable");
         }
 
         [Test]
-        public void AMaskIsBakedWithOneUndoAndFoundAgainWhenItsTextureChanges()
+        public void AMaskIsBakedWithOneUndoAndIsAFindingAgainWhenItsTextureChanges()
         {
             HapticMaskMap mask = Mask();
             map.Add(HapticMaterialRule.ForName("Masked*", Material("wood")));
             map.Rules[0].Mask = mask;
             Halves("Masked").sharedMesh!.uv = new Vector2[6];
-            With("Mask names no texture to bake");
+            With("Mask has no texture to bake");
             var texture = new Texture2D(4, 2, TextureFormat.RGBA32, false) { name = "Paint" };
             texture.SetPixels32(Enumerable.Range(0, 8)
                 .Select(texel => new Color32((byte)(texel * 10), 0, 0, 255)).ToArray());
@@ -160,14 +159,14 @@ namespace HaptoFlow.EditorTests
             texture.Apply(false);
             With("has changed since the mask was baked");
             texture.Apply(false, true);
-            With("the texture Paint is not readable, so changes of it cannot be baked");
+            With("the texture Paint is not readable, so its changes cannot be baked");
             Object.DestroyImmediate(texture);
         }
 
         [Test]
         public void AMapWithoutRulesIsFound() => With("The map Rooms has no rule and no default");
 
-        /// <summary>The one finding that says so.</summary>
+        /// <summary>The only finding that contains a text.</summary>
         private static Finding With(string part)
         {
             IReadOnlyList<Finding> found = Findings().Where(finding => finding.Text.Contains(part)).ToArray();

@@ -13,8 +13,8 @@ using UnityEditor.SceneManagement;
 
 namespace HaptoFlow.EditorTests
 {
-    /// <summary>An empty scene and a folder for assets, both gone after each test; the project's preloaded assets are
-    /// as they were.</summary>
+    /// <summary>A test with an empty scene and a folder for assets. After each test, both are removed and the project's
+    /// preloaded assets are restored.</summary>
     public abstract class EditorTest
     {
         internal const string Folder = "Assets/HaptoFlowEditorTests";
@@ -56,7 +56,7 @@ namespace HaptoFlow.EditorTests
 
         internal static HapticModelAsset Model() => ProjectSettingsAsset.DefaultModel()!;
 
-        /// <summary>Settings as a project has them: an asset, preloaded, with the package's model.</summary>
+        /// <summary>Creates the settings of the project: a preloaded asset with the package's model.</summary>
         internal static HaptoFlowSettings Settings()
         {
             var settings = ScriptableObject.CreateInstance<HaptoFlowSettings>();
@@ -66,7 +66,15 @@ namespace HaptoFlow.EditorTests
             return settings;
         }
 
-        /// <summary>Puts a file into the project and imports it.</summary>
+        /// <summary>Creates an empty material map, saved as an asset.</summary>
+        internal static HapticMaterialMap CreateMap()
+        {
+            var map = ScriptableObject.CreateInstance<HapticMaterialMap>();
+            AssetDatabase.CreateAsset(map, Folder + "/Rooms.asset");
+            return map;
+        }
+
+        /// <summary>Adds a file to the project and imports it.</summary>
         internal static string Import(string name, byte[] file)
         {
             string path = Folder + "/" + name;
@@ -86,7 +94,7 @@ namespace HaptoFlow.EditorTests
             return gameObject;
         }
 
-        /// <summary>An object with a box to touch.</summary>
+        /// <summary>Creates an object with a box collider.</summary>
         internal GameObject Box(string name, GameObject? parent = null)
         {
             GameObject gameObject = Make(name, parent);
@@ -101,7 +109,7 @@ namespace HaptoFlow.EditorTests
             return surface;
         }
 
-        /// <summary>A stylus as the menu makes it.</summary>
+        /// <summary>Creates a stylus as the menu does.</summary>
         internal HapticStylus Stylus()
         {
             GameObject owner = Make("Stylus");

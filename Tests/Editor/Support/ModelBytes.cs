@@ -7,14 +7,14 @@ using HaptoFlow.Model;
 
 namespace HaptoFlow.EditorTests
 {
-    /// <summary>Copies of a model file with something changed.</summary>
+    /// <summary>Changed copies of a model file.</summary>
     internal static class ModelBytes
     {
         private const int HeaderStart = 32;
 
         public static byte[] Truncated(byte[] file, int length) => file.AsSpan(0, length).ToArray();
 
-        /// <summary>One bit is another.</summary>
+        /// <summary>A copy with one bit flipped.</summary>
         public static byte[] Flipped(byte[] file, int position)
         {
             byte[] copy = (byte[])file.Clone();
@@ -22,14 +22,14 @@ namespace HaptoFlow.EditorTests
             return copy;
         }
 
-        /// <summary>Where the parts begin.</summary>
+        /// <summary>The offset of the first part.</summary>
         public static int PartsStart(byte[] file) => HeaderStart + HeaderLength(file);
 
-        /// <summary>Other measured figures, the same for all tiers, under a checksum that fits.</summary>
+        /// <summary>A copy with other measured figures, the same for all tiers, and a matching checksum.</summary>
         public static byte[] WithFigures(byte[] file, string accuracyJson, string costJson)
         {
             string header = Encoding.UTF8.GetString(file, HeaderStart, HeaderLength(file));
-            // The header keeps its length: what nobody reads here makes room.
+            // The header has to keep its length, so a field that no test reads is shortened.
             string changed = Regex.Replace(header, "\"commit\":\\s*\"[^\"]*\"", "\"commit\":\"\"");
             changed = Regex.Replace(changed, "\"configuration\":\\s*\\{.*?\\},\\s*\"created\"",
                 "\"configuration\":{},\"created\"", RegexOptions.Singleline);

@@ -6,8 +6,8 @@ using NUnit.Framework;
 
 namespace HaptoFlow.EditorTests
 {
-    /// <summary>A scene and a project in which the check finds nothing; tests plant a fault, and it finds that one and
-    /// no other. What it says of this machine's audio device is left out.</summary>
+    /// <summary>A test with a scene and a project without findings. Tests add a fault, and the scene check has to find
+    /// only that one. Findings about the audio device of the machine are left out.</summary>
     public abstract class SceneCheckTest : EditorTest
     {
         internal HaptoFlowSettings ProjectSettings { get; private set; } = null!;
@@ -17,7 +17,7 @@ namespace HaptoFlow.EditorTests
         internal HapticOutput ScenesOutput { get; private set; } = null!;
 
         [SetUp]
-        public void MakeACleanScene()
+        public void CreateACleanScene()
         {
             ProjectSettings = Settings();
             ScenesStylus = Stylus();
@@ -30,7 +30,7 @@ namespace HaptoFlow.EditorTests
 
         internal static IEnumerable<string> Texts() => Findings().Select(finding => finding.Text);
 
-        /// <summary>The one finding.</summary>
+        /// <summary>The only finding that contains a text.</summary>
         internal static Finding Only(string part)
         {
             IReadOnlyList<Finding> findings = Findings();
@@ -38,7 +38,7 @@ namespace HaptoFlow.EditorTests
             return findings[0];
         }
 
-        /// <summary>Does what the button does; then the finding is gone.</summary>
+        /// <summary>Presses the button of a repair, and checks that the finding has gone.</summary>
         internal static void Repair(Finding finding, string caption)
         {
             finding.Repairs.Single(repair => repair.Caption == caption).Act();

@@ -25,8 +25,6 @@ namespace UnityEditor.IMGUI.Controls
 
         public void AddChild(AdvancedDropdownItem child) => below.Add(child);
 
-        public void AddSeparator() => below.Add(new AdvancedDropdownItem("SEPARATOR"));
-
         public virtual int CompareTo(object o) =>
             string.CompareOrdinal(name, ((AdvancedDropdownItem)o).name);
     }
@@ -37,7 +35,7 @@ namespace UnityEditor.IMGUI.Controls
         {
         }
 
-        /// <summary>What was shown last; tests pick from it.</summary>
+        /// <summary>The list that was shown last. Tests choose an entry from it.</summary>
         internal static AdvancedDropdown? Shown { get; private set; }
 
         internal IReadOnlyList<string> Names => BuildRoot().children.Select(item => item.name).ToList();

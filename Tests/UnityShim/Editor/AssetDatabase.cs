@@ -62,7 +62,7 @@ namespace UnityEditor
             EditorApplication.AnnounceProjectChange();
         }
 
-        /// <summary>Understands t:TypeName.</summary>
+        /// <summary>Finds assets by the filter t:TypeName only.</summary>
         public static string[] FindAssets(string filter) => filter.StartsWith("t:", StringComparison.Ordinal)
             ? Assets.Where(entry => entry.Value.GetType().Name == filter.Substring(2))
                 .Select(entry => AssetPathToGUID(entry.Key)).ToArray()
@@ -119,7 +119,7 @@ namespace UnityEditor
         {
         }
 
-        /// <summary>An asset that Unity's own importers would have made.</summary>
+        /// <summary>Adds an asset as one of Unity's importers would create it.</summary>
         internal static void AddImported(string path, Object asset, AssetImporter importer)
         {
             importer.assetPath = path;
@@ -132,7 +132,7 @@ namespace UnityEditor
 
         internal static void Reset()
         {
-            // Packages stay as they are from one project to the next, and importing a model takes its time.
+            // Imported once for all projects: packages do not change, and importing a model takes long.
             foreach (string path in Assets.Keys.Where(each => !each.StartsWith("Packages/")).ToList())
             {
                 Assets.Remove(path);

@@ -87,18 +87,18 @@ namespace UnityEditor.Build.Reporting
 
 namespace UnityShim
 {
-    /// <summary>A player build as callbacks see it.</summary>
+    /// <summary>Calls the callbacks of a player build.</summary>
     public static class BuildHost
     {
         internal static readonly List<PluginImporter> Plugins = new List<PluginImporter>();
 
-        /// <summary>A native library of the project, enabled for some platforms.</summary>
+        /// <summary>Adds a native library to the project, enabled for some platforms.</summary>
         public static void AddPlugin(string path, params BuildTarget[] platforms) =>
             Plugins.Add(new PluginImporter(path, platforms));
 
         public static void ForgetPlugins() => Plugins.Clear();
 
-        /// <summary>What runs before anything is built.</summary>
+        /// <summary>Calls the callbacks that run before a build.</summary>
         public static void Preprocess(BuildTarget platform)
         {
             var report = new BuildReport(platform);
@@ -108,7 +108,8 @@ namespace UnityShim
             }
         }
 
-        /// <summary>The open scene as it goes into a player, or, with no platform, into play mode.</summary>
+        /// <summary>Calls the callbacks that process the open scene for a player, or, without a platform, for play
+        /// mode.</summary>
         public static void ProcessScene(BuildTarget? platform)
         {
             BuildReport report = platform.HasValue ? new BuildReport(platform.Value) : null!;

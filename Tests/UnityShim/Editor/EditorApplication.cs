@@ -50,7 +50,7 @@ namespace UnityEditor
             due?.Invoke();
         }
 
-        /// <summary>A domain reload forgets every subscriber.</summary>
+        /// <summary>Removes all subscribers, as a domain reload does.</summary>
         internal static void Forget()
         {
             delayCall = null;

@@ -14,7 +14,7 @@ namespace UnityShim
         Bar,
     }
 
-    /// <summary>One thing that editor code drew.</summary>
+    /// <summary>A control or text that editor code drew.</summary>
     public readonly struct Drawn
     {
         public Drawn(DrawnKind kind, string label, string value, string tooltip, bool enabled)

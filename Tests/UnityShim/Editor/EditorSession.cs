@@ -6,23 +6,23 @@ using Object = UnityEngine.Object;
 
 namespace UnityShim
 {
-    /// <summary>One editor with one open project and one scene. Tests turn its crank.</summary>
+    /// <summary>An editor with one open project and one scene, driven by tests.</summary>
     public static class EditorSession
     {
         private static readonly Lazy<MethodInfo[]> LoadMethods = new Lazy<MethodInfo[]>(FindLoadMethods);
 
-        /// <summary>Which skin is on.</summary>
+        /// <summary>Whether the dark skin is in use.</summary>
         public static bool DarkSkin { get; set; } = true;
 
-        /// <summary>What was pinged last.</summary>
+        /// <summary>The object that was pinged last.</summary>
         public static Object? Pinged { get; internal set; }
 
-        /// <summary>Path of the settings page that was opened last.</summary>
+        /// <summary>The path of the settings page that was opened last.</summary>
         public static string? OpenedSettings { get; internal set; }
 
         internal static bool StartsPlaying { get; private set; }
 
-        /// <summary>An editor that was just started: an empty scene, a project with an Assets folder and this package.
+        /// <summary>Starts an editor with an empty scene and a project with an Assets folder and this package.
         /// </summary>
         public static void Begin(string packageFolder)
         {
@@ -39,7 +39,7 @@ namespace UnityShim
             Load();
         }
 
-        /// <summary>The project's folder goes.</summary>
+        /// <summary>Deletes the project's folder.</summary>
         public static void End()
         {
             if (World.IsPlaying)
@@ -51,7 +51,7 @@ namespace UnityShim
             ProjectFiles.End();
         }
 
-        /// <summary>Play mode with domain reload off: statics stay.</summary>
+        /// <summary>Enters play mode with domain reload off: static fields keep their values.</summary>
         public static void Play()
         {
             StartsPlaying = true;
@@ -68,7 +68,7 @@ namespace UnityShim
             EditorApplication.Announce(PlayModeStateChange.EnteredEditMode);
         }
 
-        /// <summary>What editor code sees of a domain reload; its statics stay here.</summary>
+        /// <summary>Raises the events of a domain reload. Unlike in Unity, static fields keep their values.</summary>
         public static void ReloadScripts()
         {
             AssemblyReloadEvents.Announce();
@@ -77,7 +77,7 @@ namespace UnityShim
 
         public static void Quit() => EditorApplication.AnnounceQuit();
 
-        /// <summary>Something in the scene came, went or changed its name.</summary>
+        /// <summary>Raises the event for objects that were added, removed or renamed.</summary>
         public static void ChangeHierarchy() => EditorApplication.AnnounceHierarchyChange();
 
         private static void Load()

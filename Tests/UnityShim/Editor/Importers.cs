@@ -143,8 +143,6 @@ namespace UnityEditor.AssetImporters
         {
         }
 
-        protected void ApplyRevertGUI() => EditorScreen.Add(DrawnKind.Button, "Apply");
-
         internal override void Prepare() => imported = targets
             .Select(importer => AssetDatabase.LoadMainAssetAtPath(((AssetImporter)importer).assetPath)!).ToArray();
     }

@@ -91,7 +91,7 @@ namespace UnityEngine
             set => Put(EventModifiers.Command, value);
         }
 
-        /// <summary>The mouse belongs to the control that took it.</summary>
+        /// <summary>The event type for a control: Ignore for mouse events that another control has captured.</summary>
         public EventType GetTypeForControl(int controlID)
         {
             bool mouse = type <= EventType.MouseDrag;

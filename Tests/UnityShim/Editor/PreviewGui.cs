@@ -45,7 +45,7 @@ namespace UnityEngine
         public static bool Toggle(bool value, GUIContent content, params GUILayoutOption[] options) =>
             EditorScreen.Field(content, value);
 
-        /// <summary>Tests press its buttons by their captions.</summary>
+        /// <summary>Draws a toolbar whose buttons tests press by their captions.</summary>
         public static int Toolbar(int selected, GUIContent[] contents, params GUILayoutOption[] options)
         {
             int chosen = selected;
@@ -128,7 +128,7 @@ namespace UnityEditor
 
         public void ShowNotification(GUIContent notification) => WindowHost.Notification = notification.text;
 
-        /// <summary>One pass of drawing with this event.</summary>
+        /// <summary>Draws one pass with this event.</summary>
         public bool SendEvent(Event e)
         {
             Event.current = e;

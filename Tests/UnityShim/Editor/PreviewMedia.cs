@@ -98,7 +98,7 @@ namespace UnityEngine
             isKept = !makeNoLongerReadable;
         }
 
-        /// <summary>What the graphics card has.</summary>
+        /// <summary>The pixels that were uploaded to the graphics card.</summary>
         internal byte[] Uploaded { get; private set; } = Array.Empty<byte>();
 
         public void LoadRawTextureData(byte[] data)
@@ -178,29 +178,29 @@ namespace UnityEditor
 
 namespace UnityShim
 {
-    /// <summary>Textures and clips, which Unity keeps until somebody destroys them.</summary>
+    /// <summary>Counts textures and clips, which stay in Unity's memory until they are destroyed.</summary>
     public static class MediaCount
     {
         private static readonly List<UnityEngine.Object> Made = new List<UnityEngine.Object>();
 
-        /// <summary>Made and not destroyed.</summary>
+        /// <summary>The objects that were created and not destroyed.</summary>
         public static int Alive => Made.FindAll(each => each != null).Count;
 
         internal static void Add(UnityEngine.Object made) => Made.Add(made);
     }
 
-    /// <summary>The one clip that the editor plays by itself.</summary>
+    /// <summary>The clip that the editor plays outside a scene.</summary>
     public static class ClipPreview
     {
         private static bool loops;
 
-        /// <summary>Null for silence.</summary>
+        /// <summary>The clip; null for silence.</summary>
         public static UnityEngine.AudioClip? Playing { get; private set; }
 
-        /// <summary>The sample that sounds next.</summary>
+        /// <summary>The sample that is played next.</summary>
         public static int Position { get; private set; }
 
-        /// <summary>Time passes.</summary>
+        /// <summary>Lets time pass.</summary>
         public static void Advance(int samples)
         {
             Position += samples;

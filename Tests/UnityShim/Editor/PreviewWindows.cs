@@ -5,22 +5,22 @@ using UnityEditor;
 
 namespace UnityShim
 {
-    /// <summary>What the editor around a window does to it, and the user's answers.</summary>
+    /// <summary>Simulates the editor around a window, and the user's answers to its dialogs.</summary>
     public static class WindowHost
     {
-        /// <summary>Of the screen that windows are on.</summary>
+        /// <summary>The pixels per point of the screen.</summary>
         public static float PixelsPerPoint { get; set; } = 1f;
 
-        /// <summary>Where to save, from the name that is proposed; null to cancel.</summary>
+        /// <summary>Returns the path to save to from the proposed name; null to cancel.</summary>
         public static Func<string, string>? AnswerToSave { get; set; }
 
-        /// <summary>Which file to open; null to cancel.</summary>
+        /// <summary>Returns the file to open; null to cancel.</summary>
         public static Func<string>? AnswerToOpen { get; set; }
 
-        /// <summary>What a window showed for a moment.</summary>
+        /// <summary>The notification that a window showed last.</summary>
         public static string Notification { get; internal set; } = "";
 
-        /// <summary>An update of the editor, of which there are some hundred a second.</summary>
+        /// <summary>Runs an update of the editor, of which there are about a hundred a second.</summary>
         public static void Update()
         {
             EditorApplication.RunDelayed();
@@ -35,8 +35,8 @@ namespace UnityShim
             window.Close();
         }
 
-        /// <summary>A domain reload as a window sees it: what it keeps serialized stays, the rest begins
-        /// anew.</summary>
+        /// <summary>Simulates a domain reload for a window: serialised fields keep their values, all others are reset.
+        /// </summary>
         public static void Reload(EditorWindow window)
         {
             Messages messages = Messages.Of(window);
@@ -45,7 +45,7 @@ namespace UnityShim
             messages.Send(Message.OnEnable);
         }
 
-        /// <summary>One pass of drawing, with the present event.</summary>
+        /// <summary>Draws one pass with the current event.</summary>
         public static IReadOnlyList<Drawn> Draw(EditorWindow window)
         {
             const BindingFlags any = BindingFlags.Instance | BindingFlags.Public | BindingFlags.NonPublic;

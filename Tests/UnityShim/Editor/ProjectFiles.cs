@@ -3,8 +3,8 @@ using System.IO;
 
 namespace UnityShim
 {
-    /// <summary>A project's folder: Assets in a temporary place, which is also the working directory as in Unity, and
-    /// one package, read where it lies.</summary>
+    /// <summary>The folder of a project: Assets in a temporary folder, which is the working directory as in Unity, and
+    /// one package, read from the repository.</summary>
     internal static class ProjectFiles
     {
         private const string PackagePrefix = "Packages/com.haptoflow.runtime";
@@ -32,7 +32,7 @@ namespace UnityShim
             }
         }
 
-        /// <summary>Where a path as the asset database writes it is on the disk.</summary>
+        /// <summary>The path on disk of an asset path.</summary>
         public static string Physical(string path) => path.StartsWith(PackagePrefix, StringComparison.Ordinal)
             ? package + path.Substring(PackagePrefix.Length)
             : Path.Combine(folder ?? throw new InvalidOperationException("no project is open"), path);

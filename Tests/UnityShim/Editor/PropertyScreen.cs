@@ -7,8 +7,7 @@ using UnityEngine;
 
 namespace UnityShim
 {
-    /// <summary>Draws a serialized property: by the drawer that is registered for its type, or as a plain field.
-    /// </summary>
+    /// <summary>Draws a serialised property with the drawer of its type, or else as a plain field.</summary>
     internal static class PropertyScreen
     {
         private static readonly Lazy<Dictionary<Type, Type>> Drawers = new Lazy<Dictionary<Type, Type>>(FindDrawers);
@@ -40,7 +39,7 @@ namespace UnityShim
         public static float HeightOf(SerializedProperty property, GUIContent label) =>
             DrawerOf(property)?.GetPropertyHeight(property, label) ?? EditorGUIUtility.singleLineHeight;
 
-        /// <summary>Shows a value, "—" where the targets have several, and writes what was entered.</summary>
+        /// <summary>Shows a value, or "—" if the targets have different ones, and writes an entered value.</summary>
         public static T Enter<T>(SerializedProperty property, GUIContent label, T value)
         {
             var shown = new GUIContent(label.text, label.tooltip.Length > 0 ? label.tooltip : property.tooltip);
@@ -66,7 +65,7 @@ namespace UnityShim
             .ToDictionary(entry => entry.found.DrawnType, entry => entry.type);
     }
 
-    /// <summary>Types of the code under test.</summary>
+    /// <summary>Finds types in the code under test.</summary>
     internal static class EditorTypes
     {
         public static IEnumerable<Type> All => AppDomain.CurrentDomain.GetAssemblies()

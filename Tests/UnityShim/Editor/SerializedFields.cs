@@ -9,8 +9,8 @@ using Object = UnityEngine.Object;
 
 namespace UnityShim
 {
-    /// <summary>What Unity would serialize of an object: public fields and those marked so, nested classes unfolded.
-    /// </summary>
+    /// <summary>The fields that Unity serialises: public ones and those with SerializeField, with the fields of nested
+    /// classes.</summary>
     internal static class SerializedFields
     {
         private const BindingFlags OwnFields =
@@ -18,8 +18,8 @@ namespace UnityShim
 
         public static IEnumerable<string> Roots(Type type) => FieldsOf(type).Select(field => field.Name);
 
-        /// <summary>What a path leads to: "rules.Array.data[2].tag" is the tag of the third of the rules. Null where
-        /// there is no such field.</summary>
+        /// <summary>The field at a path: "rules.Array.data[2].tag" is the tag of the third rule. Null without such a
+        /// field.</summary>
         public static (FieldInfo Field, Type Type)? Find(Type type, string path)
         {
             FieldInfo? field = null;
@@ -50,8 +50,7 @@ namespace UnityShim
             return (field!, found);
         }
 
-        /// <summary>Paths of everything that is a value of its own; a list's length comes before its elements.
-        /// </summary>
+        /// <summary>The paths of all values. The length of a list comes before its elements.</summary>
         public static IEnumerable<string> Leaves(object owner)
         {
             foreach (FieldInfo field in FieldsOf(owner.GetType()))
@@ -109,7 +108,7 @@ namespace UnityShim
             FieldsOf(holder.GetType()).First(field => field.Name == name).SetValue(holder, value);
         }
 
-        /// <summary>A copy of all values that no later change of the object changes.</summary>
+        /// <summary>A copy of all values, which later changes of the object do not affect.</summary>
         public static Dictionary<string, object?> Snapshot(Object target) =>
             Leaves(target).ToDictionary(path => path, path => Get(target, path));
 
@@ -126,7 +125,7 @@ namespace UnityShim
             !(type.IsGenericType && type.GetGenericTypeDefinition() == typeof(List<>)) &&
             type.IsDefined(typeof(SerializableAttribute), false);
 
-        /// <summary>A list whose elements are unfolded.</summary>
+        /// <summary>Whether the type is a list of a class whose fields are serialised.</summary>
         public static bool IsList(Type type) => type.IsGenericType &&
             type.GetGenericTypeDefinition() == typeof(List<>) && IsNested(ElementOf(type));
 

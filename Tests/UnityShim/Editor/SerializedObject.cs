@@ -6,7 +6,7 @@ using Object = UnityEngine.Object;
 
 namespace UnityEditor
 {
-    /// <summary>A working copy of what one or several objects serialize.</summary>
+    /// <summary>A working copy of the serialised fields of one or several objects.</summary>
     public partial class SerializedObject : IDisposable
     {
         private readonly Object[] objects;
@@ -31,10 +31,6 @@ namespace UnityEditor
         public Object targetObject => objects[0];
 
         public Object[] targetObjects => objects;
-
-        public bool isEditingMultipleObjects => objects.Length > 1;
-
-        public bool hasModifiedProperties => changed.Count > 0;
 
         public void Dispose()
         {

@@ -84,17 +84,11 @@ namespace UnityEditor
             set => Change(FieldType == typeof(LayerMask) ? (object)(LayerMask)value : value);
         }
 
-        /// <summary>Place among the names.</summary>
+        /// <summary>The index of the value among the names.</summary>
         public int enumValueIndex
         {
             get => Array.IndexOf(Enum.GetValues(FieldType), Boxed);
             set => Change(Enum.GetValues(FieldType).GetValue(value));
-        }
-
-        public Vector3 vector3Value
-        {
-            get => (Vector3)Boxed!;
-            set => Change(value);
         }
 
         public Object? objectReferenceValue
@@ -107,7 +101,7 @@ namespace UnityEditor
 
         public int arraySize => (int)serializedObject.Value(propertyPath + ".Array.size")!;
 
-        /// <summary>Of a list, or an element of one.</summary>
+        /// <summary>The type of the field. The field may be a list, or an element of one.</summary>
         internal Type FieldType { get; }
 
         internal object? Boxed
@@ -126,8 +120,8 @@ namespace UnityEditor
         {
         }
 
-        /// <summary>As in Unity, a value that is there already is no change; but with several it becomes the one of
-        /// all.</summary>
+        /// <summary>As in Unity, setting the current value changes nothing, unless the targets have different values.
+        /// </summary>
         private void Change(object? value)
         {
             if (!Equals(value, Boxed) || hasMultipleDifferentValues)
@@ -136,7 +130,7 @@ namespace UnityEditor
             }
         }
 
-        /// <summary>"tipRadiusMetres" becomes "Tip Radius Metres".</summary>
+        /// <summary>Turns "tipRadiusMetres" into "Tip Radius Metres".</summary>
         private static string Nicified(string name)
         {
             var text = new StringBuilder();

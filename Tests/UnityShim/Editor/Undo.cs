@@ -7,7 +7,7 @@ using Object = UnityEngine.Object;
 
 namespace UnityEditor
 {
-    /// <summary>Groups of ways back. Redo is left out: Unity's own.</summary>
+    /// <summary>Records groups of changes that can be undone. Redo is left out, because no test needs it.</summary>
     public partial class Undo
     {
         private static readonly List<Step> Steps = new List<Step>();
@@ -69,7 +69,7 @@ namespace UnityEditor
             group = Math.Max(group, groupIndex);
         }
 
-        /// <summary>Takes the last group back.</summary>
+        /// <summary>Undoes the last group.</summary>
         public static void PerformUndo()
         {
             if (Steps.Count > 0)

@@ -8,8 +8,6 @@ namespace UnityEngine.Events
 
     public abstract class UnityEventBase
     {
-        public int GetPersistentEventCount() => 0;
-
         public void RemoveAllListeners() => Clear();
 
         internal abstract void Clear();

@@ -60,7 +60,7 @@ namespace UnityEngine
             AddComponentsTo(results);
         }
 
-        /// <summary>Here, else on the nearest object above.</summary>
+        /// <summary>The component of this object, else that of the nearest parent with one.</summary>
         public T GetComponentInParent<T>(bool includeInactive)
         {
             for (Transform? place = transform; place is object; place = place.parent)
@@ -73,7 +73,7 @@ namespace UnityEngine
             return default!;
         }
 
-        /// <summary>Here, else the first below.</summary>
+        /// <summary>The component of this object, else that of the first child with one.</summary>
         public T GetComponentInChildren<T>(bool includeInactive)
         {
             var found = new List<T>();

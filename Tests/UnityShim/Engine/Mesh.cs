@@ -19,14 +19,14 @@ namespace UnityEngine
 
         public Vector3[] vertices { get; set; } = Array.Empty<Vector3>();
 
-        /// <summary>Empty where there are none.</summary>
+        /// <summary>The texture coordinates; empty if the mesh has none.</summary>
         public Vector2[] uv { get; set; } = Array.Empty<Vector2>();
 
         public Vector2[] uv2 { get; set; } = Array.Empty<Vector2>();
 
         public bool isReadable { get; private set; } = true;
 
-        /// <summary>Of all submeshes, one after the other.</summary>
+        /// <summary>The triangles of all submeshes.</summary>
         public int[] triangles
         {
             get => all;
@@ -66,7 +66,7 @@ namespace UnityEngine
         {
         }
 
-        /// <summary>To the graphics card. What is here stays for the shim's own use.</summary>
+        /// <summary>Makes the mesh unreadable for scripts. The shim keeps the data for its own use.</summary>
         public void UploadMeshData(bool markNoLongerReadable) => isReadable &= !markNoLongerReadable;
     }
 }

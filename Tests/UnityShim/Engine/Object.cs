@@ -8,12 +8,12 @@ namespace UnityEngine
         private readonly int instance = World.NextInstance();
         private string text = "";
 
-        /// <summary>Whose name it is: components have none of their own.</summary>
+        /// <summary>The object whose name this one shows: components show that of their GameObject.</summary>
         internal virtual Object Named => this;
 
         internal bool IsDestroyed { get; private set; }
 
-        /// <summary>Reading it makes garbage, as in Unity.</summary>
+        /// <summary>Reading it allocates, as in Unity.</summary>
         public string name
         {
             get => new string(Named.text.AsSpan());
@@ -32,7 +32,7 @@ namespace UnityEngine
         public override int GetHashCode() => instance;
         public override string ToString() => name + " (" + GetType().FullName + ")";
 
-        /// <summary>At the end of the frame.</summary>
+        /// <summary>Destroys the object at the end of the frame.</summary>
         public static void Destroy(Object obj) => World.DestroyLater(obj);
 
         public static void DestroyImmediate(Object obj) => World.DestroyNow(obj);

@@ -8,7 +8,6 @@ namespace UnityEngine
         internal BodyState State = null!;
 
         public bool isKinematic { get; set; }
-        public bool useGravity { get; set; }
         public RigidbodyInterpolation interpolation { get; set; }
 
         public Vector3 position
@@ -23,10 +22,8 @@ namespace UnityEngine
             set => State.Place(State.Position, value);
         }
 
-        /// <summary>At the next physics step; what a moving platform is moved by.</summary>
+        /// <summary>Moves the body in the next physics step.</summary>
         public void MovePosition(Vector3 position) => State.MoveTo(position);
-
-        public void MoveRotation(Quaternion rot) => State.TurnTo(rot);
     }
 
     public class ArticulationBody : Behaviour
@@ -63,7 +60,8 @@ namespace UnityEngine
 
         public Vector3 ClosestPoint(Vector3 position) => Physics.ClosestPoint(position, this, PhysicsPosition, PhysicsRotation);
 
-        /// <summary>In world space, where physics has the collider. Here of meshes and terrains only.</summary>
+        /// <summary>The bounds in world space, at the pose of the last physics step. The shim has them for meshes and
+        /// terrains only.</summary>
         public Bounds bounds => Triangles.BoundsOf(this);
 
         public bool Raycast(Ray ray, out RaycastHit hitInfo, float maxDistance)
@@ -91,7 +89,7 @@ namespace UnityEngine
         public float radius { get; set; } = 0.5f;
         public float height { get; set; } = 2f;
 
-        /// <summary>0, 1, 2 for x, y, z.</summary>
+        /// <summary>The axis: 0, 1, 2 for x, y, z.</summary>
         public int direction { get; set; } = 1;
     }
 

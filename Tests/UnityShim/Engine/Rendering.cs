@@ -25,7 +25,7 @@ namespace UnityEngine
 
     public sealed partial class Camera
     {
-        /// <summary>The first switched-on camera of an active object with the tag.</summary>
+        /// <summary>The first enabled camera of an active object with the tag MainCamera.</summary>
         public static Camera? main => World.Find<Camera>(false).FirstOrDefault(
             camera => camera.enabled && camera.gameObject.tag == "MainCamera");
     }
@@ -34,7 +34,7 @@ namespace UnityEngine
     {
         private string tagText = "Untagged";
 
-        /// <summary>Reading it makes garbage, as in Unity.</summary>
+        /// <summary>Reading it allocates, as in Unity.</summary>
         public string tag
         {
             get => new string(tagText.AsSpan());
@@ -86,7 +86,7 @@ namespace UnityEngine.Rendering
 
 namespace UnityEngine.SceneManagement
 {
-    /// <summary>There is one: all that lies in the world.</summary>
+    /// <summary>The physics scene. The shim has only one.</summary>
     public partial struct Scene
     {
         public static bool operator ==(Scene lhs, Scene rhs) => true;
@@ -104,13 +104,13 @@ namespace UnityEngine.SceneManagement
 
 namespace UnityShim
 {
-    /// <summary>A render pipeline as tests want it.</summary>
+    /// <summary>A render pipeline that tests configure.</summary>
     public sealed class SimulatedPipeline : UnityEngine.Rendering.RenderPipelineAsset
     {
-        /// <summary>What the editor names; null as in players of URP and HDRP.</summary>
+        /// <summary>The default material in the editor; null as in players with URP or HDRP.</summary>
         public UnityEngine.Material? Material { get; set; }
 
-        /// <summary>Null as in players that were built without it.</summary>
+        /// <summary>The default shader; null as in players that were built without it.</summary>
         public UnityEngine.Shader? Shader { get; set; }
 
         public override UnityEngine.Material? defaultMaterial => Material;

@@ -24,7 +24,7 @@ namespace UnityEngine
             set => mask = value;
         }
 
-        /// <summary>Empty for a layer without name.</summary>
+        /// <summary>The name of a layer; empty if it has none.</summary>
         public static string LayerToName(int layer) => UnityShim.ProjectNames.Layers[layer];
 
         public static implicit operator int(LayerMask mask) => mask.mask;
@@ -56,10 +56,11 @@ namespace UnityEngine
         public Vector3 normal { get; set; }
         public float distance { get; set; }
 
-        /// <summary>Of non-convex meshes; -1 for anything else.</summary>
+        /// <summary>The index of the triangle, for non-convex meshes; -1 for other colliders.</summary>
         public int triangleIndex { get; internal set; }
 
-        /// <summary>Of readable non-convex meshes with texture coordinates; 0 for anything else.</summary>
+        /// <summary>The texture coordinates, for readable non-convex meshes that have them; 0 for other colliders.
+        /// </summary>
         public Vector2 textureCoord { get; internal set; }
 
         public Vector2 textureCoord2 { get; internal set; }

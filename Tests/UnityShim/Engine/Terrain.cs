@@ -31,13 +31,9 @@ namespace UnityEngine
             set => weights = FirstLayerOnly(value, layers.Length);
         }
 
-        public int alphamapWidth => alphamapResolution;
-
-        public int alphamapHeight => alphamapResolution;
-
         public int alphamapLayers => layers.Length;
 
-        /// <summary>Reading makes garbage, as in Unity.</summary>
+        /// <summary>Reading allocates, as in Unity.</summary>
         public TerrainLayer[] terrainLayers
         {
             get => layers.ToArray();
@@ -59,7 +55,7 @@ namespace UnityEngine
             }
         }
 
-        /// <summary>Row z, column x, layer.</summary>
+        /// <summary>The indices are row z, column x, layer.</summary>
         public float[,,] GetAlphamaps(int x, int y, int width, int height)
         {
             var part = new float[height, width, layers.Length];
@@ -84,7 +80,7 @@ namespace UnityEngine
             }
         }
 
-        /// <summary>Row z, column x, as <see cref="SetHeights"/> takes them.</summary>
+        /// <summary>The indices are row z, column x, as for <see cref="SetHeights"/>.</summary>
         internal Vector3 VertexAt(int x, int z)
         {
             float last = heightmapResolution - 1;

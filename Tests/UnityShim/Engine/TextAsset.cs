@@ -14,7 +14,7 @@ namespace UnityEngine
 
         public TextAsset(string text) => content = text;
 
-        /// <summary>As the importer makes it of a file that holds no text.</summary>
+        /// <summary>Creates an asset from bytes, as the importer does for a binary file.</summary>
         internal TextAsset(byte[] file)
             : this("") => this.file = file;
 

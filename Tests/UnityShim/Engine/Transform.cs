@@ -33,7 +33,7 @@ namespace UnityEngine
             set => localRotation = above == null ? value : Quaternion.Inverse(above.rotation) * value;
         }
 
-        /// <summary>Right for scales that no rotation below them shears.</summary>
+        /// <summary>Correct unless a rotated child below a non-uniform scale is sheared.</summary>
         public Vector3 lossyScale => above == null ? localScale : Vector3.Scale(above.lossyScale, localScale);
 
         public void SetParent(Transform? parent, bool worldPositionStays)
@@ -44,8 +44,8 @@ namespace UnityEngine
             above?.Children.Remove(this);
             above = parent;
             above?.Children.Add(this);
-            UnityShim.World.TellOfChildren(before);
-            UnityShim.World.TellOfChildren(above);
+            UnityShim.World.SendChildrenChanged(before);
+            UnityShim.World.SendChildrenChanged(above);
             if (worldPositionStays)
             {
                 SetPositionAndRotation(place, turned);
@@ -53,7 +53,7 @@ namespace UnityEngine
             UnityShim.World.RefreshActivity(gameObject);
         }
 
-        /// <summary>Itself included, as in Unity.</summary>
+        /// <summary>True for the transform itself, as in Unity.</summary>
         public bool IsChildOf(Transform parent) =>
             ReferenceEquals(this, parent) || (above != null && above.IsChildOf(parent));
 
@@ -85,6 +85,5 @@ namespace UnityEngine
         }
 
         public Vector3 TransformDirection(Vector3 direction) => rotation * direction;
-        public Vector3 InverseTransformDirection(Vector3 direction) => Quaternion.Inverse(rotation) * direction;
     }
 }

@@ -25,7 +25,7 @@ public static partial class OVRPlugin
 
     public static string GetCurrentInteractionProfile(Hand hand) => Profile;
 
-    /// <summary>As in the SDK, each failing call logs an error.</summary>
+    /// <summary>Each failing call logs an error, as in the SDK.</summary>
     public static bool TriggerVibrationAction(string actionName, Hand hand, float duration, float amplitude)
     {
         bool runs = hasInputFocus && actionName == BoundHaptic && Profile == MxInkProfile;
@@ -50,7 +50,7 @@ public static partial class OVRPlugin
     }
 }
 
-/// <summary>Of Meta's SDK: what a controller in a hand is sent.</summary>
+/// <summary>Part of Meta's SDK: the haptics of a controller.</summary>
 public static class OVRInput
 {
     internal static Controller Connected = Controller.None;
@@ -121,7 +121,7 @@ public static class OVRInput
 
     internal static HapticsParametricProperties Properties { get; set; }
 
-    /// <summary>Calls that the SDK would have logged an error for.</summary>
+    /// <summary>The number of calls for which the SDK logs an error.</summary>
     internal static int FailedCalls { get; private set; }
 
     public static Controller GetConnectedControllers() => Connected;

@@ -1,6 +1,6 @@
 using UnityEngine;
 
-/// <summary>Of Meta's SDK, as programs for MX Ink call it.</summary>
+/// <summary>Part of Meta's SDK: the functions that programs for MX Ink call.</summary>
 public static partial class OVRPlugin
 {
     internal static float? Tip;
@@ -20,7 +20,7 @@ public static partial class OVRPlugin
 
     public static Controller GetConnectedControllers() => Connected;
 
-    /// <summary>As in the SDK, each failing call logs an error.</summary>
+    /// <summary>Each failing call logs an error, as in the SDK.</summary>
     public static bool GetActionStateFloat(string actionName, out float result)
     {
         ++Calls;

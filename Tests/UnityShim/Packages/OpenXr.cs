@@ -4,7 +4,7 @@ using UnityShim;
 
 namespace UnityEngine.XR.OpenXR.Input
 {
-    /// <summary>Of Unity's OpenXR package.</summary>
+    /// <summary>Part of Unity's OpenXR package.</summary>
     public static class OpenXRInput
     {
         internal static ulong Handle;

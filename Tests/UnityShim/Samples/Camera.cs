@@ -2,7 +2,7 @@ using System;
 
 namespace UnityEngine
 {
-    /// <summary>A pinhole above a screen of 1280 x 720 pixels.</summary>
+    /// <summary>A pinhole camera with a screen of 1280 x 720 pixels.</summary>
     public sealed partial class Camera : Behaviour
     {
         public float fieldOfView { get; set; } = 60f;
@@ -23,13 +23,13 @@ namespace UnityEngine
             return new Vector3(0.5f * pixelWidth + local.x / scale, 0.5f * pixelHeight + local.y / scale, local.z);
         }
 
-        /// <summary>At a distance of one metre.</summary>
+        /// <summary>The size of a pixel at a distance of one metre.</summary>
         private float PixelSize() => (float)Math.Tan(0.5 * fieldOfView * Math.PI / 180.0) / (0.5f * pixelHeight);
     }
 
     public partial struct Color
     {
-        /// <summary>Smith, Color gamut transform pairs, 1978.</summary>
+        /// <summary>Converts HSV to RGB after Smith, Color gamut transform pairs, 1978.</summary>
         public static Color HSVToRGB(float H, float S, float V)
         {
             float Channel(float shift)

@@ -20,8 +20,8 @@ namespace UnityEngine.InputSystem
             string? interactions = null, string? processors = null, string? expectedControlType = null) =>
             path = binding;
 
-        /// <summary>Those that the binding leads to: of devices that are there. An action without binding is one whose
-        /// value the test sets.</summary>
+        /// <summary>The controls of connected devices that match the binding. The test sets the value of an action
+        /// without a binding.</summary>
         public Utilities.ReadOnlyArray<InputControl> controls
         {
             get
@@ -123,7 +123,7 @@ namespace UnityEngine.InputSystem.Utilities
 
 namespace UnityEngine.InputSystem.XR
 {
-    /// <summary>Puts its object where two actions say.</summary>
+    /// <summary>Moves its object to the position and rotation of two actions.</summary>
     public class TrackedPoseDriver : MonoBehaviour
     {
         public InputActionProperty positionInput { get; set; }

@@ -18,7 +18,7 @@ namespace UnityEngine
         private Material[]? several;
         private bool isOwn;
 
-        /// <summary>Reading it makes the renderer's own copy, as in Unity.</summary>
+        /// <summary>Reading it creates the renderer's own copy, as in Unity.</summary>
         public Material material
         {
             get
@@ -44,8 +44,7 @@ namespace UnityEngine
             }
         }
 
-        /// <summary>Reading makes garbage, as in Unity. Several are kept as they are, without copies of their own.
-        /// </summary>
+        /// <summary>Reading allocates, as in Unity. Unlike in Unity, materials set as a list are not copied.</summary>
         public Material[] sharedMaterials
         {
             get => several ?? (shown == null ? System.Array.Empty<Material>() : new[] { shown });
@@ -102,7 +101,7 @@ namespace UnityEngine
 
     public sealed partial class GameObject
     {
-        /// <summary>With the colliders that Unity gives them: those of one unit.</summary>
+        /// <summary>Creates a primitive with the collider of one unit that Unity gives it.</summary>
         public static GameObject CreatePrimitive(PrimitiveType type)
         {
             var made = new GameObject(type.ToString());

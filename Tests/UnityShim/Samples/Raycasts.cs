@@ -4,10 +4,10 @@ namespace UnityEngine
 {
     public partial class Physics
     {
-        // Unity's own is 32 layers without layer 2.
+        // As in Unity: all 32 layers except layer 2, Ignore Raycast.
         private const int LayersByDefault = ~(1 << 2);
         private const float HitMetres = 1e-5f;
-        private const int MostSteps = 512;
+        private const int MaximumSteps = 512;
         private static readonly Collider[] Found = new Collider[1024];
 
         public static bool Raycast(Ray ray, out RaycastHit hitInfo, float maxDistance) =>
@@ -36,14 +36,14 @@ namespace UnityEngine
             return hasHit;
         }
 
-        /// <summary>Goes along the ray as far as is free each time. As in Unity, a ray from inside meets nothing.
-        /// </summary>
+        /// <summary>Advances along the ray by the free distance in each step (sphere tracing). As in Unity, a ray from
+        /// inside a collider does not hit it.</summary>
         private static bool Meets(Collider collider, Ray ray, float maxDistance, out RaycastHit hit)
         {
             hit = default;
             float distance = 0f;
             Vector3 outward = Vector3.zero;
-            for (int step = 0; step < MostSteps && distance <= maxDistance; ++step)
+            for (int step = 0; step < MaximumSteps && distance <= maxDistance; ++step)
             {
                 Vector3 place = ray.origin + distance * ray.direction;
                 Vector3 nearest = collider.ClosestPoint(place);

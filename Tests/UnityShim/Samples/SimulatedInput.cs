@@ -3,20 +3,20 @@ using UnityEngine;
 
 namespace UnityShim
 {
-    /// <summary>What a test's hand does: mouse, graphics pen, and controls of tracked devices by their paths.</summary>
+    /// <summary>The simulated input: mouse, graphics pen, and the controls of tracked devices by their paths.</summary>
     public static class SimulatedInput
     {
         private static readonly Dictionary<string, object> Values = new Dictionary<string, object>();
 
-        /// <summary>Pixels from the lower left corner.</summary>
+        /// <summary>The position of the mouse, in pixels from the lower left corner.</summary>
         public static Vector3 MousePosition { get; set; }
 
         public static bool MouseButton { get; set; }
 
-        /// <summary>Null where there is no graphics pen; 0 for one in the air.</summary>
+        /// <summary>The pressure of the graphics pen: null without a pen, 0 for a pen in the air.</summary>
         public static float? PenPressure { get; set; }
 
-        /// <summary>Of the old Input Manager: goes down in this frame.</summary>
+        /// <summary>The key of the old Input Manager that goes down in this frame.</summary>
         public static KeyCode KeyDown { get; set; }
 
         public static void SetControl<TValue>(string path, TValue value)

@@ -38,7 +38,8 @@ namespace UnityEngine
 
     public sealed partial class Resources
     {
-        /// <summary>Unity has a few of its own under fixed names; a wrong name gives null there.</summary>
+        /// <summary>Unity has a few built-in resources under fixed names, and returns null for any other name.
+        /// </summary>
         public static T GetBuiltinResource<T>(string path)
             where T : Object =>
             typeof(T) == typeof(Font) && path == "LegacyRuntime.ttf" ? (T)(Object)new Font() : null!;

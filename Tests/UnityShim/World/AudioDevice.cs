@@ -4,13 +4,13 @@ using UnityEngine;
 
 namespace UnityShim
 {
-    /// <summary>The audio output: a thread of its own that pulls blocks through the filters of playing sources and of
-    /// the listener, as much as the frames' time asks for. The main thread waits meanwhile, so tests repeat exactly.
+    /// <summary>The audio output. Its own thread pulls blocks through the filters of playing sources and of the
+    /// listener, for as much time as the frames last. The main thread waits for it, so that tests are reproducible.
     /// </summary>
     public static class AudioDevice
     {
         private const int RecordedSeconds = 60;
-        private static readonly SemaphoreSlim Wanted = new SemaphoreSlim(0);
+        private static readonly SemaphoreSlim BlockRequested = new SemaphoreSlim(0);
         private static readonly SemaphoreSlim Done = new SemaphoreSlim(0);
         private static Thread? thread;
         private static AudioConfiguration configuration;
@@ -26,10 +26,11 @@ namespace UnityShim
         public static int Channels => configuration.speakerMode == AudioSpeakerMode.Mono ? 1
             : configuration.speakerMode == AudioSpeakerMode.Quad ? 4 : 2;
 
-        /// <summary>Interleaved frames that went to the device since play mode began or <see cref="Forget"/>.</summary>
+        /// <summary>The number of interleaved frames played since play mode began or <see cref="Forget"/> was called.
+        /// </summary>
         public static int RecordedFrames { get; private set; }
 
-        /// <summary>Garbage that the filters made on the audio thread.</summary>
+        /// <summary>The number of bytes that the filters allocated on the audio thread.</summary>
         public static long AllocatedBytes { get; private set; }
 
         public static Exception? Failure { get; private set; }
@@ -42,7 +43,7 @@ namespace UnityShim
             AllocatedBytes = 0;
         }
 
-        /// <summary>What happens when headphones are plugged in: another rate, block or channel count.</summary>
+        /// <summary>Changes sample rate, block size or channel count, as plugging in headphones does.</summary>
         public static void ChangeDevice(int sampleRateHz, int blockFrames, AudioSpeakerMode mode) => Restart(
             new AudioConfiguration { sampleRate = sampleRateHz, dspBufferSize = blockFrames, speakerMode = mode }, true);
 
@@ -103,7 +104,7 @@ namespace UnityShim
                 thread = new Thread(Serve) { IsBackground = true, Name = "Audio" };
                 thread.Start();
             }
-            Wanted.Release();
+            BlockRequested.Release();
             Done.Wait();
             int room = recorded.Length / Channels - RecordedFrames;
             int frames = Math.Min(room, configuration.dspBufferSize);
@@ -115,7 +116,7 @@ namespace UnityShim
         {
             while (true)
             {
-                Wanted.Wait();
+                BlockRequested.Wait();
                 long before = GC.GetAllocatedBytesForCurrentThread();
                 try
                 {
@@ -163,7 +164,7 @@ namespace UnityShim
             }
         }
 
-        /// <summary>In the order of the components on the object.</summary>
+        /// <summary>The filters of an object, in the order of its components.</summary>
         private static void RunFilters(GameObject gameObject, float[] samples)
         {
             for (int component = 0; component < gameObject.Components.Count; ++component)

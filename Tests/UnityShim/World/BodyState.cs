@@ -2,17 +2,16 @@ using UnityEngine;
 
 namespace UnityShim
 {
-    /// <summary>A rigid body between physics steps: where physics has it, where it was one step before, and where the
-    /// transform was last put by physics.</summary>
+    /// <summary>The state of a rigid body: its pose in the last and in the previous physics step, and the pose that
+    /// physics last gave to its transform.</summary>
     internal sealed class BodyState
     {
         private readonly Rigidbody body;
-        private Vector3 before;
-        private Quaternion turnedBefore;
-        private Vector3 shown;
-        private Quaternion turnedShown;
+        private Vector3 previousPosition;
+        private Quaternion previousRotation;
+        private Vector3 shownPosition;
+        private Quaternion shownRotation;
         private Vector3? goal;
-        private Quaternion? turnedGoal;
 
         public BodyState(Rigidbody body)
         {
@@ -38,19 +37,17 @@ namespace UnityShim
 
         public void MoveTo(Vector3 position) => goal = position;
 
-        public void TurnTo(Quaternion rotation) => turnedGoal = rotation;
-
         public void Place(Vector3 position, Quaternion rotation)
         {
-            Position = before = shown = position;
-            Rotation = turnedBefore = turnedShown = rotation;
+            Position = previousPosition = shownPosition = position;
+            Rotation = previousRotation = shownRotation = rotation;
             body.transform.SetPositionAndRotation(position, rotation);
         }
 
-        /// <summary>A transform that a script moved takes the body along.</summary>
+        /// <summary>Moves the body to a transform that a script has moved.</summary>
         public void TakeTransform()
         {
-            if (!body.transform.position.Equals(shown) || !body.transform.rotation.Equals(turnedShown))
+            if (!body.transform.position.Equals(shownPosition) || !body.transform.rotation.Equals(shownRotation))
             {
                 Place(body.transform.position, body.transform.rotation);
             }
@@ -59,23 +56,21 @@ namespace UnityShim
         public void Step()
         {
             TakeTransform();
-            before = Position;
-            turnedBefore = Rotation;
+            previousPosition = Position;
+            previousRotation = Rotation;
             Position = goal ?? Position;
-            Rotation = turnedGoal ?? Rotation;
             goal = null;
-            turnedGoal = null;
         }
 
-        /// <summary>An interpolated body is shown one step late, between its last two places.</summary>
+        /// <summary>An interpolated body is shown between its poses of the last two steps, one step late.</summary>
         public void Show(float share)
         {
             bool interpolated = body.interpolation == RigidbodyInterpolation.Interpolate;
             body.transform.SetPositionAndRotation(
-                interpolated ? Vector3.Lerp(before, Position, share) : Position,
-                interpolated ? Quaternion.Slerp(turnedBefore, Rotation, share) : Rotation);
-            shown = body.transform.position;
-            turnedShown = body.transform.rotation;
+                interpolated ? Vector3.Lerp(previousPosition, Position, share) : Position,
+                interpolated ? Quaternion.Slerp(previousRotation, Rotation, share) : Rotation);
+            shownPosition = body.transform.position;
+            shownRotation = body.transform.rotation;
         }
     }
 }

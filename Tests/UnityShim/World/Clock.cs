@@ -1,6 +1,6 @@
 namespace UnityShim
 {
-    /// <summary>Unity's clocks: frames, and fixed steps that follow them.</summary>
+    /// <summary>Unity's clocks for frames and for the fixed steps between them.</summary>
     public static class Clock
     {
         public static double Seconds { get; private set; }
@@ -8,7 +8,7 @@ namespace UnityShim
         public static double DeltaSeconds { get; private set; }
         public static double UnscaledDeltaSeconds { get; private set; }
         public static double FixedSeconds { get; private set; }
-        /// <summary>The last fixed step on the clock that the time scale leaves alone.</summary>
+        /// <summary>The unscaled time of the last fixed step.</summary>
         public static double FixedUnscaledSeconds =>
             Scale > 0.0 ? UnscaledSeconds - (Seconds - FixedSeconds) / Scale : UnscaledSeconds;
 
@@ -39,7 +39,7 @@ namespace UnityShim
             ++Frames;
         }
 
-        /// <summary>True as long as a fixed step is due before this frame.</summary>
+        /// <summary>Whether another fixed step is due before this frame. If so, advances to it.</summary>
         internal static bool NextFixedStep()
         {
             bool due = FixedSeconds + FixedStepSeconds <= Seconds + 1e-9;

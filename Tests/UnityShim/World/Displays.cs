@@ -4,16 +4,16 @@ using UnityEngine.XR;
 
 namespace UnityShim
 {
-    /// <summary>The screen, and the headset's display where there is one.</summary>
+    /// <summary>The screen, and the display of a headset if there is one.</summary>
     public static class Displays
     {
         internal static readonly List<ISubsystem> Subsystems = new List<ISubsystem>();
 
-        /// <summary>0 over 0 for one that does not say, as without a window.</summary>
+        /// <summary>The refresh rate of the screen; 0/0 if it is unknown, as without a window.</summary>
         public static RefreshRate Screen { get; set; }
 
-        /// <summary>A headset whose display runs.</summary>
-        /// <param name="refreshRateHz">Null for a display that does not say.</param>
+        /// <summary>Adds a headset with a running display.</summary>
+        /// <param name="refreshRateHz">The refresh rate; null if the display does not report it.</param>
         public static XRDisplaySubsystem Wear(float? refreshRateHz)
         {
             var display = new XRDisplaySubsystem { RefreshRateHz = refreshRateHz };

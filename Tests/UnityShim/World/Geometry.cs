@@ -3,8 +3,8 @@ using UnityEngine;
 
 namespace UnityShim
 {
-    /// <summary>Nearest places and ray hits on colliders, by their formulas; meshes and terrains triangle by triangle.
-    /// </summary>
+    /// <summary>Nearest points and ray hits on colliders: by formula for simple shapes, by triangle for meshes and
+    /// terrains.</summary>
     internal static class Geometry
     {
         public static bool Reaches(Collider collider, Vector3 centre, float radius)
@@ -15,7 +15,8 @@ namespace UnityShim
             return Vector3.Distance(nearest, centre) <= radius;
         }
 
-        /// <summary>The point itself inside the shape. Convex shapes only, as in Unity.</summary>
+        /// <summary>The nearest point of a shape; the point itself if it is inside. Convex shapes only, as in Unity.
+        /// </summary>
         public static Vector3 ClosestPoint(Collider collider, Vector3 point, Vector3 position, Quaternion rotation)
         {
             Vector3 scale = collider.transform.lossyScale;

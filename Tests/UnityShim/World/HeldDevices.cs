@@ -3,10 +3,10 @@ using UnityEngine.XR.OpenXR.Input;
 
 namespace UnityShim
 {
-    /// <summary>What both hands hold, in every package that knows of controllers.</summary>
+    /// <summary>The devices in both hands, for all packages that support controllers.</summary>
     public static class HeldDevices
     {
-        /// <summary>Empty hands, and nothing recorded of what they were sent.</summary>
+        /// <summary>Empties both hands and clears the recorded output.</summary>
         public static void Reset()
         {
             OVRPlugin.Reset();
@@ -16,7 +16,8 @@ namespace UnityShim
             XRControllerWithRumble.Drop();
         }
 
-        /// <summary>A Touch controller in the right hand that takes waves, and parametric haptics from 60 to 400 Hz.</summary>
+        /// <summary>Puts a Touch controller into the right hand that supports waveforms, and parametric haptics from 60
+        /// to 400 Hz.</summary>
         public static void TakeTouchController()
         {
             OVRInput.Connected = OVRInput.Controller.RTouch;

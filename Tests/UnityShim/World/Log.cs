@@ -3,12 +3,13 @@ using UnityEngine;
 
 namespace UnityShim
 {
-    /// <summary>What the scripts logged.</summary>
+    /// <summary>Records the messages of scripts.</summary>
     public static class Log
     {
         private static readonly List<(LogType Type, string Text)> Written = new List<(LogType, string)>();
 
-        /// <summary>Unity tells of the main thread's messages only; here of everybody's.</summary>
+        /// <summary>Raised for the messages of all threads, unlike in Unity, which raises it for the main thread only.
+        /// </summary>
         internal static event Application.LogCallback? Received;
 
         public static IReadOnlyList<(LogType Type, string Text)> Lines => Written;

@@ -6,12 +6,12 @@ using UnityShim;
 
 namespace UnityEngine.TestTools
 {
-    /// <summary>What a test expects to be logged. As in Unity, an error that nobody expects fails the test.</summary>
+    /// <summary>The log messages that a test expects. As in Unity, an unexpected error fails the test.</summary>
     public static class LogAssert
     {
         private static readonly List<(LogType Type, Regex Text)> Expected = new List<(LogType, Regex)>();
 
-        /// <summary>Errors of the test that sets it may stay unexpected.</summary>
+        /// <summary>Whether unexpected errors are ignored in the current test.</summary>
         public static bool ignoreFailingMessages { get; set; }
 
         public static void Expect(LogType type, string message) => Expect(type, new Regex("^" + Regex.Escape(message) + "$"));

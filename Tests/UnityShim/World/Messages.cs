@@ -19,7 +19,7 @@ namespace UnityShim
         OnTransformChildrenChanged,
     }
 
-    /// <summary>The messages that one script answers, bound once, so that sending them makes no garbage.</summary>
+    /// <summary>The message methods of a script type, bound once, so that sending messages allocates nothing.</summary>
     internal sealed class Messages
     {
         private const BindingFlags Anything = BindingFlags.Instance | BindingFlags.Public | BindingFlags.NonPublic;
@@ -49,7 +49,7 @@ namespace UnityShim
 
         public static Messages Of(Object script) => new Messages(script);
 
-        /// <summary>An exception in a script is logged and the frame goes on, as in Unity.</summary>
+        /// <summary>Logs an exception of a script and continues the frame, as Unity does.</summary>
         public void Send(Message message)
         {
             try
@@ -71,7 +71,7 @@ namespace UnityShim
             }
         }
 
-        /// <summary>What the editor calls after it wrote into an object.</summary>
+        /// <summary>Calls OnValidate, as the editor does after it has changed an object.</summary>
         public static void Validate(Object script)
         {
             if (script is MonoBehaviour || script is ScriptableObject)

@@ -3,7 +3,8 @@ using UnityEngine;
 
 namespace UnityShim
 {
-    /// <summary>Colliders where physics has them, which is not always where their transforms are.</summary>
+    /// <summary>The poses of colliders in the last physics step, which can differ from those of their transforms.
+    /// </summary>
     internal static class PhysicsWorld
     {
         private static readonly List<Collider> Colliders = new List<Collider>();
@@ -70,10 +71,10 @@ namespace UnityShim
             for (int index = 0; index < Colliders.Count && count < results.Length; ++index)
             {
                 Collider collider = Colliders[index];
-                bool wanted = collider.enabled && collider.gameObject.activeInHierarchy &&
+                bool isCandidate = collider.enabled && collider.gameObject.activeInHierarchy &&
                     (layerMask & (1 << collider.gameObject.layer)) != 0 &&
                     (!collider.isTrigger || triggers != QueryTriggerInteraction.Ignore);
-                if (wanted && Geometry.Reaches(collider, position, radius))
+                if (isCandidate && Geometry.Reaches(collider, position, radius))
                 {
                     results[count++] = collider;
                 }

@@ -2,10 +2,10 @@ using System.IO;
 
 namespace UnityShim
 {
-    /// <summary>Where a player keeps its files.</summary>
+    /// <summary>The folders of a player.</summary>
     public static class ProjectFolders
     {
-        /// <summary>Of the test's own; a temporary folder where it names none.</summary>
+        /// <summary>The folder that the test sets, else a temporary one.</summary>
         public static string Persistent { get; set; } =
             Path.Combine(Path.GetTempPath(), "haptoflow-shim-" + Path.GetRandomFileName());
     }

@@ -4,20 +4,19 @@ using UnityEngine;
 
 namespace UnityShim
 {
-    /// <summary>Tags and layers of a project as Unity makes it.</summary>
+    /// <summary>Tags and layers of a new Unity project.</summary>
     public static class ProjectNames
     {
-        /// <summary>Empty where a layer has no name.</summary>
+        /// <summary>The names of the layers; empty for a layer without a name.</summary>
         public static readonly string[] Layers = LayersOfNewProject();
 
-        /// <summary>Those that every project has.</summary>
+        /// <summary>The tags that every project has.</summary>
         public static readonly IReadOnlyList<string> Tags = new[]
         {
             "Untagged", "Respawn", "Finish", "EditorOnly", "MainCamera", "Player", "GameController",
         };
 
-        /// <exception cref="UnityException">As in Unity, where a tag is set or compared that the project does not
-        /// have.</exception>
+        /// <exception cref="UnityException">The project does not have the tag, as in Unity.</exception>
         internal static void RequireTag(string tag)
         {
             if (!Tags.Contains(tag))

@@ -1,9 +1,9 @@
 namespace UnityShim
 {
-    /// <summary>What scripts ask of the physics engine.</summary>
+    /// <summary>Counts the queries of scripts to the physics engine.</summary>
     public static class RayCount
     {
-        /// <summary>Rays cast at single colliders since the test set it.</summary>
+        /// <summary>The number of rays cast at single colliders. Tests reset it.</summary>
         public static int Rays { get; set; }
     }
 }

@@ -3,7 +3,7 @@ using UnityEngine;
 
 namespace UnityShim
 {
-    /// <summary>Where one script is in its life.</summary>
+    /// <summary>The state of a script in its life cycle.</summary>
     internal sealed class ScriptState
     {
         private readonly Messages messages;
@@ -35,11 +35,11 @@ namespace UnityShim
                 awake = true;
                 messages.Send(Message.Awake);
             }
-            bool wanted = awake && Script.isActiveAndEnabled;
-            if (wanted != on)
+            bool shouldBeOn = awake && Script.isActiveAndEnabled;
+            if (shouldBeOn != on)
             {
-                on = wanted;
-                messages.Send(wanted ? Message.OnEnable : Message.OnDisable);
+                on = shouldBeOn;
+                messages.Send(shouldBeOn ? Message.OnEnable : Message.OnDisable);
             }
         }
 

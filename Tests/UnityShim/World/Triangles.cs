@@ -3,7 +3,7 @@ using UnityEngine;
 
 namespace UnityShim
 {
-    /// <summary>Meshes and terrains, one triangle after the other. A front is seen clockwise, as in Unity.</summary>
+    /// <summary>Triangles of meshes and terrains. The corners of a front face run clockwise, as in Unity.</summary>
     internal static class Triangles
     {
         public static Vector3 Closest(Collider collider, Vector3 point, Vector3 position, Quaternion rotation)
@@ -52,7 +52,7 @@ namespace UnityShim
                     hit = new RaycastHit
                     {
                         point = ray.origin + distance * ray.direction,
-                        // A back that is hit turns its normal towards the ray.
+                        // The normal of a back face that is hit points towards the ray.
                         normal = Vector3.Dot(front, ray.direction) > 0f ? -front : front,
                         distance = distance,
                         triangleIndex = collider is MeshCollider { convex: false } ? index : -1,
@@ -83,7 +83,7 @@ namespace UnityShim
             return bounds;
         }
 
-        /// <summary>0 where Unity has none.</summary>
+        /// <summary>The texture coordinates of a hit; 0 where Unity has none.</summary>
         private static Vector2 TextureCoordinate(
             Collider collider, int index, Vector3 a, Vector3 b, Vector3 c, Vector3 point)
         {
@@ -130,14 +130,14 @@ namespace UnityShim
             int x = cell % (data.heightmapResolution - 1);
             int z = cell / (data.heightmapResolution - 1);
             bool upper = index % 2 == 1;
-            // Terrains stand upright whatever their transform says, as in Unity.
+            // Terrains ignore the rotation of their transform, as in Unity.
             a = position + (upper ? data.VertexAt(x + 1, z + 1) : data.VertexAt(x, z));
             b = position + (upper ? data.VertexAt(x + 1, z) : data.VertexAt(x, z + 1));
             c = position + (upper ? data.VertexAt(x, z + 1) : data.VertexAt(x + 1, z));
         }
 
-        /// <summary>Fronts, and backs where the project's physics settings say so (Moeller and Trumbore 1997).
-        /// </summary>
+        /// <summary>Hits front faces, and back faces if the project's physics settings say so (Moeller and Trumbore
+        /// 1997).</summary>
         private static bool Hits(Ray ray, Vector3 a, Vector3 b, Vector3 c, out float distance)
         {
             distance = 0f;
@@ -165,7 +165,7 @@ namespace UnityShim
                 Vector3.Dot(Vector3.Cross(a - c, point - c), winding) >= tolerance;
         }
 
-        /// <summary>Ericson, Real-Time Collision Detection, 5.1.5.</summary>
+        /// <summary>The nearest point of a triangle, after Ericson, Real-Time Collision Detection, 5.1.5.</summary>
         private static Vector3 ClosestOn(Vector3 a, Vector3 b, Vector3 c, Vector3 point)
         {
             Vector3 ab = b - a;

@@ -10,13 +10,13 @@ using UnityShim;
 
 namespace UnityEngine.TestTools
 {
-    /// <summary>A test that is a coroutine: one frame passes at every <c>yield return null</c>.</summary>
+    /// <summary>A test that is a coroutine. Each <c>yield return null</c> waits for one frame.</summary>
     [AttributeUsage(AttributeTargets.Method)]
     public class UnityTestAttribute : NUnitAttribute, ISimpleTestBuilder, IImplyFixture, IWrapTestMethod
     {
         public TestMethod BuildFrom(IMethodInfo method, Test? suite)
         {
-            // NUnit refuses a test that returns something unless a result is expected of it.
+            // NUnit accepts a test with a return value only if a result is expected.
             var parameters = new TestCaseParameters { ExpectedResult = null };
             return new NUnitTestCaseBuilder().BuildTestMethod(method, suite, parameters);
         }

@@ -8,7 +8,7 @@ using Object = UnityEngine.Object;
 
 namespace UnityShim
 {
-    /// <summary>One Unity player: objects, frames, play mode. Tests turn its crank.</summary>
+    /// <summary>A Unity player with objects, frames and play mode, driven by tests.</summary>
     public static class World
     {
         private static readonly List<GameObject> Objects = new List<GameObject>();
@@ -23,13 +23,12 @@ namespace UnityShim
 
         public static event Action? Quitting;
 
-        /// <summary>Frames a second of <see cref="Frame()"/>.</summary>
+        /// <summary>The frame rate of <see cref="Frame()"/>.</summary>
         public static double FrameRateHz { get; set; } = 90.0;
 
-        /// <summary>Play mode with an empty scene: clocks at zero, the device at 48 kHz, load methods called. With
-        /// domain
-        /// reload off statics are left as they are, as they always are here: scripts must do their own
-        /// tidying.</summary>
+        /// <summary>Enters play mode with an empty scene: clocks at zero, the audio device at 48 kHz, load methods
+        /// called. Static fields keep their values, as with domain reload off, so scripts have to reset their own.
+        /// </summary>
         public static void EnterPlayMode()
         {
             mainThread = Thread.CurrentThread;
@@ -42,7 +41,7 @@ namespace UnityShim
             WakeScripts();
         }
 
-        /// <summary>An editor with an empty scene: scripts are silent until play mode.</summary>
+        /// <summary>Opens an editor with an empty scene. Scripts receive no messages before play mode.</summary>
         public static void BeginEditing()
         {
             mainThread = Thread.CurrentThread;
@@ -51,7 +50,7 @@ namespace UnityShim
             IsPlaying = false;
         }
 
-        /// <summary>Quitting is announced, then every object goes.</summary>
+        /// <summary>Raises the quitting event, then destroys all objects.</summary>
         public static void ExitPlayMode()
         {
             Quitting?.Invoke();
@@ -60,7 +59,7 @@ namespace UnityShim
             IsPlaying = false;
         }
 
-        /// <summary>Objects of the scene go, those kept stay.</summary>
+        /// <summary>Destroys the objects of the scene, except those that are kept across scenes.</summary>
         public static void LoadEmptyScene() => DestroyAll(false);
 
         public static void Frame() => Frame(1.0 / FrameRateHz);
@@ -91,7 +90,7 @@ namespace UnityShim
             }
         }
 
-        /// <summary>What Resources.Load finds.</summary>
+        /// <summary>Adds an asset that Resources.Load finds.</summary>
         public static void AddResource(string path, Object asset) => ResourceAssets[path] = asset;
 
         internal static IReadOnlyList<GameObject> AllObjects => Objects;
@@ -106,7 +105,8 @@ namespace UnityShim
 
         internal static void KeepOverSceneLoads(Object target) => Kept.Add(target);
 
-        /// <exception cref="InvalidOperationException">Unity allows this on its main thread only.</exception>
+        /// <exception cref="InvalidOperationException">Called from another thread than the main thread, as in Unity.
+        /// </exception>
         internal static void RequireMainThread()
         {
             if (mainThread != null && Thread.CurrentThread != mainThread)
@@ -162,8 +162,8 @@ namespace UnityShim
             }
         }
 
-        /// <summary>Direct children only, as Unity does.</summary>
-        internal static void TellOfChildren(Transform? parent)
+        /// <summary>Finds direct children only, as in Unity.</summary>
+        internal static void SendChildrenChanged(Transform? parent)
         {
             if (parent == null)
             {
@@ -229,7 +229,7 @@ namespace UnityShim
             Objects.Remove(gameObject);
             Kept.Remove(gameObject);
             gameObject.MarkDestroyed();
-            TellOfChildren(above);
+            SendChildrenChanged(above);
         }
 
         private static void EndScript(Component component)

@@ -3,7 +3,7 @@ using UnityEngine.XR;
 
 namespace UnityShim
 {
-    /// <summary>What Unity tracks in a hand, and what it was told to do.</summary>
+    /// <summary>A tracked device in a hand, and the haptics that it received.</summary>
     public sealed class XrHand
     {
         private bool isThere;
@@ -20,7 +20,7 @@ namespace UnityShim
 
         public HapticCapabilities Capabilities { get; private set; }
 
-        /// <summary>One more each time something is taken into the hand.</summary>
+        /// <summary>The number of devices connected so far.</summary>
         public int Visit { get; private set; }
 
         public bool IsThere
@@ -40,7 +40,7 @@ namespace UnityShim
 
         public List<double> Stops { get; } = new List<double>();
 
-        /// <summary>It says that it takes buffers and takes none.</summary>
+        /// <summary>The device reports that it accepts buffers, but refuses them.</summary>
         public bool RefusesBuffers { get; set; }
 
         public static void Reset()
@@ -56,7 +56,7 @@ namespace UnityShim
             }
         }
 
-        /// <summary>A device comes; another one where there was one.</summary>
+        /// <summary>Connects a device, in place of a previous one.</summary>
         public void Take(string name, bool impulses, uint bufferFrequencyHz = 0u)
         {
             Name = name;

@@ -9,13 +9,14 @@ using UnityEngine;
 
 namespace HaptoFlow.Editor
 {
-    /// <summary>Says in the console, before a player is built, why it would be silent on the device. The build goes on:
-    /// a scene runs without haptics, and a team may want it to on a platform that has no library.</summary>
+    /// <summary>Writes to the console, before a player is built, why its haptics would be silent. The build continues,
+    /// because a scene also runs without haptics.</summary>
     internal sealed class BuildCheck : IPreprocessBuildWithReport
     {
+        // Not the name that the imports use, which is __Internal while the build target is iOS.
         private const string LibraryName = "audioplugin_haptoflow";
 
-        private static readonly (BuildTarget Platform, string Command)[] Makeable =
+        private static readonly (BuildTarget Platform, string Command)[] BuildCommands =
         {
             (BuildTarget.StandaloneLinux64, "`npm run build` on Linux"),
             (BuildTarget.StandaloneWindows64, "`npm run build -- --platform windows-x64`"),
@@ -29,7 +30,7 @@ namespace HaptoFlow.Editor
         {
             foreach (Finding finding in Findings(report.summary.platform))
             {
-                string text = "HaptoFlow: this build is silent on the device: " + finding.Text;
+                string text = "HaptoFlow: this build has no haptics: " + finding.Text;
                 UnityEngine.Object? about = finding.Objects.Count > 0 ? finding.Objects[0] : null;
                 if (finding.Severity == MessageType.Error)
                 {
@@ -42,47 +43,48 @@ namespace HaptoFlow.Editor
             }
         }
 
-        /// <summary>What keeps a player of a platform from being felt; empty where nothing does.</summary>
+        /// <summary>The problems that silence the haptics of a player on a platform.</summary>
         internal static IEnumerable<Finding> Findings(BuildTarget platform)
         {
-            Finding? ofLibrary = OfLibrary(platform);
+            Finding? libraryFinding = LibraryFinding(platform);
             ProjectSettingsAsset.Forget();
-            IEnumerable<Finding> ofSettings = SettingsRules.Check();
-            return ofLibrary == null ? ofSettings : ofSettings.Prepend(ofLibrary);
+            IEnumerable<Finding> settingsFindings = SettingsRules.Check();
+            return libraryFinding == null ? settingsFindings : settingsFindings.Prepend(libraryFinding);
         }
 
-        private static Finding? OfLibrary(BuildTarget platform)
+        private static Finding? LibraryFinding(BuildTarget platform)
         {
             if (!PluginImporter.GetImporters(platform).Any(IsLibrary))
             {
-                return new Finding(MessageType.Error, $"{LibraryName} has no library for {platform}. Libraries are " +
-                    $"there for: {Known()}. {Remedy(platform)}");
+                return new Finding(MessageType.Error, $"{LibraryName} has no library for {platform}. There are " +
+                    $"libraries for: {PlatformsWithLibrary()}. {Remedy(platform)}");
             }
             bool lacksArm64 = platform == BuildTarget.Android &&
                 (PlayerSettings.Android.targetArchitectures & AndroidArchitecture.ARM64) == 0;
             return lacksArm64
-                ? new Finding(MessageType.Error, $"{LibraryName} has a library for Android's ARM64 only, and the " +
-                    "player's target architectures leave ARM64 out. Choose it, with IL2CPP, in Project Settings > " +
-                    "Player > Target Architectures.")
+                ? new Finding(MessageType.Error, $"{LibraryName} has a library for Android's ARM64 only, but the " +
+                    "player's target architectures do not include ARM64. Choose it, with IL2CPP, in Project Settings " +
+                    "> Player > Target Architectures.")
                 : null;
         }
 
-        private static string Known()
+        private static string PlatformsWithLibrary()
         {
-            string[] known = Makeable.Where(each => PluginImporter.GetImporters(each.Platform).Any(IsLibrary))
+            string[] known = BuildCommands.Where(each => PluginImporter.GetImporters(each.Platform).Any(IsLibrary))
                 .Select(each => each.Platform.ToString()).ToArray();
             return known.Length > 0 ? string.Join(", ", known) : "no platform";
         }
 
         private static string Remedy(BuildTarget platform)
         {
-            string? command = Makeable.FirstOrDefault(each => each.Platform == platform).Command;
+            string? command = BuildCommands.FirstOrDefault(each => each.Platform == platform).Command;
             return command == null
-                ? "HaptoFlow has none for this platform."
-                : $"In HaptoFlow's repository, {command}, then `npm run pack`, makes a package with it; install that.";
+                ? "HaptoFlow cannot build one for this platform."
+                : $"In HaptoFlow's repository, {command}, then `npm run pack`, builds a package that includes it; " +
+                    "install that package.";
         }
 
-        // GetImporters also lists libraries that the project put elsewhere than the package.
+        // By name, because GetImporters also lists libraries that the project keeps outside the package.
         private static bool IsLibrary(PluginImporter plugin)
         {
             string name = Path.GetFileNameWithoutExtension(plugin.assetPath);

@@ -7,9 +7,9 @@ using UnityEngine.SceneManagement;
 
 namespace HaptoFlow.Editor
 {
-    /// <summary>Writes the render pipeline's default material into every <see cref="PipelineMaterial"/> of a scene as
-    /// it goes into a player or into play mode; the scene's file stays as it is. Players get the material and its
-    /// shader with the scene.</summary>
+    /// <summary>Writes the render pipeline's default material into every <see cref="PipelineMaterial"/> of a scene that
+    /// goes into a player or into play mode. The scene's file does not change. Through the scene, players get the
+    /// material and its shader.</summary>
     internal sealed class SceneMaterials : IProcessSceneWithReport
     {
         public int callbackOrder => 0;

@@ -8,41 +8,37 @@ using Object = UnityEngine.Object;
 
 namespace HaptoFlow.Editor
 {
-    /// <summary>Window > HaptoFlow > Check Scene: what keeps a scene from being felt, and a button where the remedy is
-    /// safe. It looks again by itself when the scene or the project changes.</summary>
+    /// <summary>The window of Window > HaptoFlow > Check Scene. It lists what keeps a scene from being felt, with
+    /// buttons for remedies, and checks again when the scene or the project changes.</summary>
     internal sealed class CheckSceneWindow : EditorWindow
     {
-        private static readonly GUIContent Again = new GUIContent("Check Again", "Looks the open scenes over.");
-        private static readonly GUIContent Show = new GUIContent("Select", "Selects what this is about.");
+        private static readonly GUIContent Again = new GUIContent("Check Again",
+            "Check Again checks the open scenes once more.");
+        private static readonly GUIContent Show = new GUIContent("Select", "Select selects the objects of this " +
+            "finding.");
 
         private IReadOnlyList<Finding> findings = Array.Empty<Finding>();
+        private SceneChanges? changes;
         private bool isStale = true;
         private string summary = "";
         private string effects = "";
         private Vector2 scroll;
 
         [MenuItem("Window/HaptoFlow/Check Scene", false, 2101)]
-        internal static void Open() => GetWindow<CheckSceneWindow>().Forget();
+        internal static void Open() => GetWindow<CheckSceneWindow>().MarkStale();
 
         private void OnEnable()
         {
             titleContent = new GUIContent("HaptoFlow Check");
             minSize = new Vector2(360f, 200f);
-            EditorApplication.hierarchyChanged += Forget;
-            EditorApplication.projectChanged += Forget;
-            ObjectChangeEvents.changesPublished += OnChanges;
+            changes = new SceneChanges(MarkStale);
         }
 
-        private void OnDisable()
-        {
-            EditorApplication.hierarchyChanged -= Forget;
-            EditorApplication.projectChanged -= Forget;
-            ObjectChangeEvents.changesPublished -= OnChanges;
-        }
+        private void OnDisable() => changes?.Dispose();
 
         internal void OnGUI()
         {
-            // Between laying out and drawing no finding may come, and acting would change what is drawn: it comes last.
+            // Unity draws twice, first to lay out. The findings must not change in between, so actions run at the end.
             if (isStale && Event.current.type == EventType.Layout)
             {
                 Run();
@@ -63,7 +59,7 @@ namespace HaptoFlow.Editor
             if (chosen != null)
             {
                 chosen();
-                Forget();
+                MarkStale();
             }
         }
 
@@ -73,7 +69,7 @@ namespace HaptoFlow.Editor
             {
                 GUILayout.Label(summary, EditorStyles.miniLabel);
                 GUILayout.FlexibleSpace();
-                return GUILayout.Button(Again, EditorStyles.toolbarButton) ? Forget : (Action?)null;
+                return GUILayout.Button(Again, EditorStyles.toolbarButton) ? MarkStale : (Action?)null;
             }
         }
 
@@ -121,13 +117,11 @@ namespace HaptoFlow.Editor
             int errors = findings.Count(finding => finding.Severity == MessageType.Error);
             int warnings = findings.Count(finding => finding.Severity == MessageType.Warning);
             summary = findings.Count == 0
-                ? "Nothing to remark"
+                ? "No findings"
                 : $"{errors} errors, {warnings} warnings, {findings.Count - errors - warnings} remarks";
         }
 
-        private void OnChanges(ref ObjectChangeEventStream stream) => Forget();
-
-        private void Forget()
+        private void MarkStale()
         {
             isStale = true;
             Repaint();

@@ -6,14 +6,12 @@ using UnityEngine;
 
 namespace HaptoFlow.Editor
 {
-    /// <summary>Colliders without a label, and kinds of colliders that are felt with limits.</summary>
+    /// <summary>Finds colliders without a label, and kinds of colliders with limits.</summary>
     internal static class ColliderRules
     {
-        private const int MostNames = 8;
-
         public static IEnumerable<Finding> Check(SceneContents scene)
         {
-            // What a rule decides, be it for nothing, needs no tag.
+            // A collider that a rule matches needs no tag, not even if the rule assigns no material.
             Collider[] undecided = scene.Answers
                 .Where(answer => answer.ByRules.Parts.All(part => part.Map is null))
                 .Select(answer => answer.Collider).ToArray();
@@ -29,7 +27,7 @@ namespace HaptoFlow.Editor
             if (plan.Unmatched.Count > 0)
             {
                 yield return new Finding(MessageType.Info,
-                    $"Not tagged, and no name suggests a label: {Names(plan.Unmatched)}.", plan.Unmatched);
+                    $"Not tagged, and no name suggests a label: {FeltWords.Names(plan.Unmatched)}.", plan.Unmatched);
             }
             foreach (Finding finding in CheckMeshes(scene))
             {
@@ -45,26 +43,20 @@ namespace HaptoFlow.Editor
             if (empty.Count > 0)
             {
                 yield return new Finding(MessageType.Warning,
-                    $"Mesh colliders without a mesh, which nothing can touch: {Names(empty)}.", empty);
+                    $"These mesh colliders have no mesh and cannot be touched: {FeltWords.Names(empty)}.", empty);
             }
-            List<GameObject> hollow = meshes
+            List<GameObject> concave = meshes
                 .Where(mesh => mesh.sharedMesh != null && !mesh.convex).Select(Owner).ToList();
-            if (hollow.Count > 0)
+            if (concave.Count > 0)
             {
                 yield return new Finding(MessageType.Info,
-                    $"Not convex, and so met from the front of their faces: {Names(hollow)}. A tip deeper than " +
-                    $"{1000.0 * RayProbe.DeepestMetres:0} mm behind a face counts as outside, faces are not felt " +
-                    "from behind, and one that a script moves without a rigid body is felt where the last physics " +
-                    "step had it. Boxes, spheres and capsules are exact.", hollow);
+                    "These mesh colliders are not convex, so only the front of their faces is felt: " +
+                    $"{FeltWords.Names(concave)}. A tip more than {1000.0 * RayProbe.DeepestMetres:0} mm behind a " +
+                    "face counts as outside. A mesh that a script moves without a rigid body is felt where the last " +
+                    "physics step placed it. Boxes, spheres and capsules are exact.", concave);
             }
         }
 
         private static GameObject Owner(Collider collider) => collider.gameObject;
-
-        private static string Names(IReadOnlyCollection<GameObject> objects)
-        {
-            string names = string.Join(", ", objects.Take(MostNames).Select(each => each.name));
-            return objects.Count <= MostNames ? names : $"{names} and {objects.Count - MostNames} more";
-        }
     }
 }

@@ -6,7 +6,7 @@ using Object = UnityEngine.Object;
 
 namespace HaptoFlow.Editor
 {
-    /// <summary>Something to do about a finding.</summary>
+    /// <summary>A remedy for a finding.</summary>
     internal sealed class Repair
     {
         public Repair(string caption, Action act)
@@ -15,14 +15,13 @@ namespace HaptoFlow.Editor
             Act = act;
         }
 
-        /// <summary>On its button.</summary>
+        /// <summary>The text of its button.</summary>
         public string Caption { get; }
 
         public Action Act { get; }
     }
 
-    /// <summary>Something in the scene or the project that keeps things from being felt, or from being felt well.
-    /// </summary>
+    /// <summary>A problem of the scene or the project that prevents or degrades haptics.</summary>
     internal sealed class Finding
     {
         public Finding(
@@ -34,12 +33,12 @@ namespace HaptoFlow.Editor
             Repairs = repairs;
         }
 
-        /// <summary>Error: nothing is felt. Warning: something is not. Info: worth knowing.</summary>
+        /// <summary>Error: nothing is felt. Warning: something is not felt. Info: a remark.</summary>
         public MessageType Severity { get; }
 
         public string Text { get; }
 
-        /// <summary>What it is about; empty for the project.</summary>
+        /// <summary>The objects with the problem; empty when it concerns the project.</summary>
         public IReadOnlyList<Object> Objects { get; }
 
         public IReadOnlyList<Repair> Repairs { get; }

@@ -6,8 +6,8 @@ using UnityEditor;
 
 namespace HaptoFlow.Editor
 {
-    /// <summary>Learnt materials are felt only under the model that they were learnt for, and only so many at a time.
-    /// </summary>
+    /// <summary>Checks that learnt materials belong to the model in use, and that there are no more of them than an
+    /// engine takes.</summary>
     internal static class LearntMaterialRules
     {
         public static IEnumerable<Finding> Check(SceneContents scene)
@@ -30,8 +30,8 @@ namespace HaptoFlow.Editor
             if (materials.Length > HapticEngine.MaximumMaterials)
             {
                 yield return new Finding(MessageType.Warning, $"Surfaces and maps use {materials.Length} learnt " +
-                    $"materials; an engine takes {HapticEngine.MaximumMaterials}, and the others are felt as their " +
-                    "labels. Use fewer of them at one time.", materials);
+                    $"materials, but an engine takes at most {HapticEngine.MaximumMaterials}; the others are felt as " +
+                    "their labels. Use fewer of them at the same time.", materials);
             }
         }
 

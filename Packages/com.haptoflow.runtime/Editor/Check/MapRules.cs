@@ -7,12 +7,10 @@ using Object = UnityEngine.Object;
 
 namespace HaptoFlow.Editor
 {
-    /// <summary>What each collider feels like and by which rule, rules that can never match, and parts and masks that
-    /// cannot be told apart.</summary>
+    /// <summary>Lists what each collider feels like and by which rule. Finds rules that can never match, and submeshes
+    /// and masks that have no effect.</summary>
     internal static class MapRules
     {
-        private const int MostNames = 8;
-
         public static IEnumerable<Finding> Check(SceneContents scene) => scene.Maps.All
             .SelectMany(CheckMap)
             .Concat(CheckMasks(scene))
@@ -62,13 +60,13 @@ namespace HaptoFlow.Editor
                     yield return new Finding(MessageType.Warning, problem, new[] { mask.Key },
                         MaskBake.RepairsOf(mask.Key).ToArray());
                 }
-                Collider[] flat = mask.Where(collider => WhyNoCoordinates(collider, mask.Key) != null).ToArray();
-                foreach (IGrouping<string, Collider> reason in flat.GroupBy(
+                Collider[] unmasked = mask.Where(collider => WhyNoCoordinates(collider, mask.Key) != null).ToArray();
+                foreach (IGrouping<string, Collider> reason in unmasked.GroupBy(
                     collider => WhyNoCoordinates(collider, mask.Key)!))
                 {
                     yield return new Finding(MessageType.Warning,
-                        $"{FeltWords.Names(reason.ToArray(), MostNames)}: the mask {mask.Key.name} has no effect, " +
-                        $"since {reason.Key}.", Owners(reason));
+                        $"{FeltWords.Names(reason.ToArray())}: the mask {mask.Key.name} has no effect, " +
+                        $"because {reason.Key}.", Owners(reason));
                 }
             }
         }
@@ -82,7 +80,7 @@ namespace HaptoFlow.Editor
             return answer.ByRules.Parts.Where(part => part.Mask is object).Select(part => part.Mask!).Distinct();
         }
 
-        /// <summary>Null where a hit has texture coordinates.</summary>
+        /// <summary>Why a hit has no texture coordinates; null when it has them.</summary>
         private static string? WhyNoCoordinates(Collider collider, HapticMaskMap mask)
         {
             if (!(collider is MeshCollider mesh))
@@ -107,7 +105,8 @@ namespace HaptoFlow.Editor
                 : null;
         }
 
-        /// <summary>Submeshes whose materials differ need the triangle that is touched.</summary>
+        /// <summary>Submeshes with different materials can be told apart only when the touched triangle is known.
+        /// </summary>
         private static IEnumerable<Finding> CheckMeshes(SceneContents scene)
         {
             ColliderAnswer[] several = scene.Answers
@@ -118,7 +117,7 @@ namespace HaptoFlow.Editor
             if (unreadable.Length > 0)
             {
                 yield return new Finding(MessageType.Warning,
-                    $"{FeltWords.Names(unreadable, MostNames)}: the submeshes feel like different materials, but the " +
+                    $"{FeltWords.Names(unreadable)}: the submeshes feel like different materials, but the " +
                     "mesh is not readable, so all of it feels like the first. Switch on Read/Write in the model's " +
                     "import settings.", Owners(unreadable),
                     Readability.RepairsOf(unreadable.Select(each => ((MeshCollider)each).sharedMesh!)).ToArray());
@@ -128,13 +127,13 @@ namespace HaptoFlow.Editor
             if (convex.Length > 0)
             {
                 yield return new Finding(MessageType.Warning,
-                    $"{FeltWords.Names(convex, MostNames)}: the submeshes feel like different materials, but a " +
-                    "convex collider does not tell which triangle is touched, so all of it feels like the first. Switch " +
-                    "Convex off, or give each material a collider of its own.", Owners(convex));
+                    $"{FeltWords.Names(convex)}: the submeshes feel like different materials, but a convex collider " +
+                    "does not report which triangle is touched, so all of it feels like the first. Switch Convex " +
+                    "off, or give each material a collider of its own.", Owners(convex));
             }
         }
 
-        /// <summary>One finding for each answer that colliders have in common.</summary>
+        /// <summary>Lists the colliders, with one finding for all that feel the same for the same reason.</summary>
         private static IEnumerable<Finding> ListColliders(SceneContents scene)
         {
             if (scene.Maps.All.Count == 0)
@@ -148,7 +147,7 @@ namespace HaptoFlow.Editor
             {
                 Collider[] colliders = same.Select(answer => answer.Collider).ToArray();
                 yield return new Finding(MessageType.Info,
-                    $"{FeltWords.Names(colliders, MostNames)}: {same.Key}.", Owners(colliders));
+                    $"{FeltWords.Names(colliders)}: {same.Key}.", Owners(colliders));
             }
         }
 

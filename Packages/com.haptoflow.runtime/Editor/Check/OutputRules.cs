@@ -6,22 +6,27 @@ using UnityEngine;
 
 namespace HaptoFlow.Editor
 {
-    /// <summary>A wave needs a way to the device, and a device that asks for it often enough.</summary>
+    /// <summary>Checks that every output has a route to the audio device, and that the device runs at a usable rate and
+    /// block size.</summary>
     internal static class OutputRules
     {
-        // 512 frames at 48 kHz are 10.7 ms.
-        private const double LongestBlockMs = 11.0;
-        private const int LowestRateHz = 8000;
-        private const int HighestRateHz = 192000;
+        /// <summary>The lowest sample rate of an audio device that the native library supports.</summary>
+        public const int MinimumRateHz = 8000;
+
+        /// <summary>The highest sample rate of an audio device that the native library supports.</summary>
+        public const int MaximumRateHz = 192000;
+
+        // 512 frames at 48 kHz last 10.7 ms.
+        private const double MaximumBlockMs = 11.0;
 
         public static IEnumerable<Finding> Check(SceneContents scene)
         {
             if (scene.Styluses.Count > 0 && !SilentOutputRules.HasOutput(scene))
             {
                 yield return new Finding(MessageType.Info,
-                    "The scene has no Haptic Output: one is made at play that sounds on every channel of the device. " +
-                    "Add one to choose the channel that the actuator hangs on.", null,
-                    new Repair("Add an Output", AddOutput));
+                    "The scene has no Haptic Output: play mode adds one that plays on every channel of the device. " +
+                    "Add one to choose the channel that the actuator is wired to.", null,
+                    new Repair("Add an Output", () => CreateMenu.CreateOutput(new MenuCommand(null))));
             }
             AudioConfiguration device = AudioSettings.GetConfiguration();
             foreach (HapticOutput output in scene.Outputs)
@@ -34,8 +39,8 @@ namespace HaptoFlow.Editor
                 if (output.Processing.LacksProfile)
                 {
                     yield return new Finding(MessageType.Warning,
-                        $"{output.name} is to be compensated by an actuator profile and names none: it plays " +
-                        "uncompensated.", new[] { output });
+                        $"{output.name} compensates by an actuator profile, but its field Actuator Profile is empty: " +
+                        "it plays uncompensated. Choose a profile.", new[] { output });
                 }
             }
             foreach (Finding finding in CheckDevice(device))
@@ -53,60 +58,43 @@ namespace HaptoFlow.Editor
                 return serialized.FindProperty("audioMixer").objectReferenceValue != null
                     ? null
                     : new Finding(MessageType.Error,
-                        $"{output.name} goes through a mixer effect and names no mixer: nothing is felt.", objects);
+                        $"{output.name} has the route Mixer Effect, but its field Audio Mixer is empty: nothing is " +
+                        "felt. Choose the mixer.", objects);
             }
             if (output.Route == OutputRoute.ListenerChannel && !output.TryGetComponent(out AudioListener _))
             {
                 return new Finding(MessageType.Error,
-                    $"{output.name} overwrites a channel of the listener and is not on an Audio Listener's object: " +
-                    "nothing is felt. Move it there, below every other filter.", objects);
+                    $"{output.name} has the route Listener Channel, but its object has no Audio Listener: nothing is " +
+                    "felt. Move it to the Audio Listener's object, below every other filter.", objects);
             }
-            int channels = ChannelsOf(device.speakerMode);
+            int channels = SpeakerChannels.Count(device.speakerMode);
             return output.Channel < channels
                 ? null
                 : new Finding(MessageType.Warning,
-                    $"{output.name} plays on channel {output.Channel}, counted from 0, and the project's speaker " +
-                    $"mode has {channels}: it is silent unless the device has more.", objects,
+                    $"{output.name} plays on channel {output.Channel}, counted from 0, but the project's speaker " +
+                    $"mode has only {channels} channels: it is silent unless the device has more.", objects,
                     new Repair("Open Audio Settings", OpenAudioSettings));
         }
 
         private static IEnumerable<Finding> CheckDevice(AudioConfiguration device)
         {
-            if (device.sampleRate < LowestRateHz || device.sampleRate > HighestRateHz)
+            if (device.sampleRate < MinimumRateHz || device.sampleRate > MaximumRateHz)
             {
                 yield return new Finding(MessageType.Error, string.Format(CultureInfo.InvariantCulture,
                     "The audio device runs at {0} Hz; haptics need {1} to {2} Hz.",
-                    device.sampleRate, LowestRateHz, HighestRateHz),
+                    device.sampleRate, MinimumRateHz, MaximumRateHz),
                     null, new Repair("Open Audio Settings", OpenAudioSettings));
                 yield break;
             }
             double blockMs = 1000.0 * device.dspBufferSize / device.sampleRate;
-            if (blockMs > LongestBlockMs)
+            if (blockMs > MaximumBlockMs)
             {
                 yield return new Finding(MessageType.Info, string.Format(CultureInfo.InvariantCulture,
-                    "The audio device asks for {0} frames at a time, {1:0} ms at {2} Hz, which touches wait for. " +
-                    "DSP Buffer Size: Best Latency is felt sooner.",
+                    "The audio device plays blocks of {0} frames, {1:0} ms at {2} Hz, which delays every touch. DSP " +
+                    "Buffer Size: Best Latency shortens them.",
                     device.dspBufferSize, blockMs, device.sampleRate),
                     null, new Repair("Open Audio Settings", OpenAudioSettings));
             }
-        }
-
-        private static int ChannelsOf(AudioSpeakerMode mode) => mode switch
-        {
-            AudioSpeakerMode.Mono => 1,
-            AudioSpeakerMode.Quad => 4,
-            AudioSpeakerMode.Surround => 5,
-            AudioSpeakerMode.Mode5point1 => 6,
-            AudioSpeakerMode.Mode7point1 => 8,
-            _ => 2,
-        };
-
-        private static void AddOutput()
-        {
-            var owner = new GameObject("Haptic Output");
-            owner.AddComponent<HapticOutput>();
-            Undo.RegisterCreatedObjectUndo(owner, "Add an Output");
-            Selection.activeObject = owner;
         }
 
         private static void OpenAudioSettings() => SettingsService.OpenProjectSettings("Project/Audio");

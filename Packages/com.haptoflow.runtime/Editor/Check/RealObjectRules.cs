@@ -9,8 +9,8 @@ using Object = UnityEngine.Object;
 
 namespace HaptoFlow.Editor
 {
-    /// <summary>Real objects under virtual ones: a force that decides must be measured, and marks must tell a pose.
-    /// </summary>
+    /// <summary>Checks scenes with real objects under virtual ones: whether the touch force is measured, and whether
+    /// the marks of an alignment determine a pose.</summary>
     internal static class RealObjectRules
     {
         public static IEnumerable<Finding> Check(SceneContents scene)
@@ -20,7 +20,8 @@ namespace HaptoFlow.Editor
                 if (stylus.TouchBy == TouchDecision.MeasuredForce && stylus.Force == null)
                 {
                     yield return new Finding(MessageType.Warning,
-                        $"{stylus.name} touches by measured force and names no Tip Force: geometry decides.",
+                        $"{stylus.name} has Touch By set to Measured Force, but its field Tip Force is empty: " +
+                        "geometry decides.",
                         new[] { stylus });
                 }
             }

@@ -4,13 +4,13 @@ using System.Linq;
 
 namespace HaptoFlow.Editor
 {
-    /// <summary>Looks a scene and its project over. Changes nothing by itself.</summary>
+    /// <summary>Checks the open scenes and the project. Changes nothing by itself.</summary>
     internal static class SceneCheck
     {
-        /// <summary>The worst first.</summary>
+        /// <summary>All findings, the most severe first.</summary>
         public static IReadOnlyList<Finding> Run() => Run(new SceneContents());
 
-        /// <summary>The worst first, of a scene that was searched already.</summary>
+        /// <summary>All findings in contents that were already collected, the most severe first.</summary>
         public static IReadOnlyList<Finding> Run(SceneContents scene)
         {
             return SettingsRules.Check()

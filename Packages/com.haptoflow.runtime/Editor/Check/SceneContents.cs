@@ -7,7 +7,7 @@ using Object = UnityEngine.Object;
 
 namespace HaptoFlow.Editor
 {
-    /// <summary>What of the open scenes matters to haptics; inactive objects do not.</summary>
+    /// <summary>The active objects of the open scenes that matter to haptics.</summary>
     internal sealed class SceneContents
     {
         public SceneContents()
@@ -26,11 +26,11 @@ namespace HaptoFlow.Editor
 
         public IReadOnlyList<HapticOutput> Outputs { get; }
 
-        /// <summary>Those that can be felt, on layers that a stylus looks at; on all layers where there is no stylus.
+        /// <summary>The colliders that can be felt, on the layers of any stylus; on all layers when there is no stylus.
         /// </summary>
         public IReadOnlyList<Collider> Colliders { get; }
 
-        /// <summary>The maps that count.</summary>
+        /// <summary>The material maps in use.</summary>
         public SceneMaps Maps { get; }
 
         /// <summary>What each of <see cref="Colliders"/> feels like, and why.</summary>

@@ -4,7 +4,8 @@ using UnityEditor;
 
 namespace HaptoFlow.Editor
 {
-    /// <summary>The project needs settings that players have, with a model that can be used.</summary>
+    /// <summary>Checks that the project has settings with a usable model, and that player builds include them.
+    /// </summary>
     internal static class SettingsRules
     {
         public static IEnumerable<Finding> Check()
@@ -20,7 +21,7 @@ namespace HaptoFlow.Editor
             if (!ProjectSettingsAsset.ReachesPlayers(settings))
             {
                 yield return new Finding(MessageType.Warning,
-                    $"{settings.name} is not among the preloaded assets: a player build would not have it.",
+                    $"{settings.name} is not among the preloaded assets: a player build would not include it.",
                     new[] { settings },
                     new Repair("Add to Preloaded Assets", () => ProjectSettingsAsset.Preload(settings)));
             }
@@ -40,7 +41,8 @@ namespace HaptoFlow.Editor
                 : new[] { new Repair("Use the Package's Model", () => Choose(settings, other)) };
             if (model == null)
             {
-                return new Finding(MessageType.Error, "The settings name no model: nothing is felt.",
+                return new Finding(MessageType.Error, "The settings have no model: nothing is felt. Choose one in " +
+                    "Project Settings > HaptoFlow.",
                     new[] { settings }, repairs);
             }
             string? problem = ModelCheck.ProblemOf(model.File);
@@ -50,11 +52,7 @@ namespace HaptoFlow.Editor
                     new[] { model }, repairs);
         }
 
-        private static void Choose(HaptoFlowSettings settings, HapticModelAsset model)
-        {
-            using var serialized = new SerializedObject(settings);
-            serialized.FindProperty("model").objectReferenceValue = model;
-            serialized.ApplyModifiedProperties();
-        }
+        private static void Choose(HaptoFlowSettings settings, HapticModelAsset model) =>
+            SerializedFields.Set(settings, "model", property => property.objectReferenceValue = model);
     }
 }

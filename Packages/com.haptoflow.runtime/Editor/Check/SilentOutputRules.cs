@@ -6,7 +6,7 @@ using UnityEngine;
 
 namespace HaptoFlow.Editor
 {
-    /// <summary>Outputs that are silent by what their author chose: switched off, or without the channel that their
+    /// <summary>Finds outputs that are silent because of their settings: disabled, or without the channel that their
     /// route needs.</summary>
     internal static class SilentOutputRules
     {
@@ -17,9 +17,9 @@ namespace HaptoFlow.Editor
                 if (output.Route == OutputRoute.ListenerChannel && output.Channel < 0)
                 {
                     yield return new Finding(MessageType.Error,
-                        $"{output.name} overwrites a channel of the listener and names none: channel -1 would " +
-                        "overwrite all game audio, so nothing is felt. Choose the channel that the actuator hangs " +
-                        "on, from 0.", new[] { output });
+                        $"{output.name} has the route Listener Channel and channel -1, which would overwrite all " +
+                        "game audio, so nothing is felt. Choose the channel that the actuator is wired to, from " +
+                        "0.", new[] { output });
                 }
             }
             IReadOnlyList<HapticOutput> off = SwitchedOff();
@@ -41,7 +41,7 @@ namespace HaptoFlow.Editor
             }
         }
 
-        /// <summary>The scene has an output, on or off: none is made at play.</summary>
+        /// <summary>Whether the scene has an output, enabled or not. If so, play mode adds none.</summary>
         public static bool HasOutput(SceneContents scene) => scene.Outputs.Count > 0 || SwitchedOff().Count > 0;
 
         private static IReadOnlyList<HapticOutput> SwitchedOff() => Object

@@ -5,11 +5,11 @@ using UnityEngine;
 
 namespace HaptoFlow.Editor
 {
-    /// <summary>A stylus needs a tip at the right place that looks at some layer.</summary>
+    /// <summary>Checks that every stylus has a tip of a plausible size, and layers that it can feel.</summary>
     internal static class StylusRules
     {
-        // A tip beyond this feels edges and gaps that no eye sees.
-        private const float LargestTipMetres = 0.02f;
+        // A larger tip touches surfaces visibly before it reaches them.
+        private const float MaximumTipMetres = 0.02f;
 
         public static IEnumerable<Finding> Check(SceneContents scene)
         {
@@ -22,10 +22,10 @@ namespace HaptoFlow.Editor
                 if (stylus.Layers.value == 0)
                 {
                     yield return new Finding(MessageType.Error,
-                        $"{stylus.name} looks at no layer: it feels nothing.", new[] { stylus },
-                        new Repair("Look at All Layers", () => SetLayers(stylus)));
+                        $"{stylus.name} has no layer in its field Layers: it feels nothing.", new[] { stylus },
+                        new Repair("Feel All Layers", () => FeelAllLayers(stylus)));
                 }
-                if (stylus.TipRadiusMetres > LargestTipMetres)
+                if (stylus.TipRadiusMetres > MaximumTipMetres)
                 {
                     yield return new Finding(MessageType.Warning,
                         $"The tip of {stylus.name} has a radius of {1000f * stylus.TipRadiusMetres:0} mm: contact " +
@@ -36,10 +36,11 @@ namespace HaptoFlow.Editor
 
         private static Finding WithoutTip(HapticStylus stylus)
         {
-            string text = $"{stylus.name} names no tip: its own origin is taken, which on a controller is in the grip.";
+            string text = $"{stylus.name} has no tip: its origin serves as the tip, which on a controller is in the " +
+                "grip.";
             Transform? child = stylus.transform.Find("Tip");
             Repair repair = child != null
-                ? new Repair("Take Its Child Tip", () => SetTip(stylus, child))
+                ? new Repair("Use Its Child Tip", () => SetTip(stylus, child))
                 : new Repair("Add a Tip", () => AddTip(stylus));
             return new Finding(MessageType.Warning, text, new[] { stylus }, repair);
         }
@@ -52,18 +53,10 @@ namespace HaptoFlow.Editor
             SetTip(stylus, tip.transform);
         }
 
-        private static void SetTip(HapticStylus stylus, Transform tip)
-        {
-            using var serialized = new SerializedObject(stylus);
-            serialized.FindProperty("tip").objectReferenceValue = tip;
-            serialized.ApplyModifiedProperties();
-        }
+        private static void SetTip(HapticStylus stylus, Transform tip) =>
+            SerializedFields.Set(stylus, "tip", property => property.objectReferenceValue = tip);
 
-        private static void SetLayers(HapticStylus stylus)
-        {
-            using var serialized = new SerializedObject(stylus);
-            serialized.FindProperty("layers").intValue = ~0;
-            serialized.ApplyModifiedProperties();
-        }
+        private static void FeelAllLayers(HapticStylus stylus) =>
+            SerializedFields.Set(stylus, "layers", property => property.intValue = ~0);
     }
 }

@@ -6,7 +6,7 @@ using UnityEngine;
 
 namespace HaptoFlow.Editor
 {
-    /// <summary>A surface needs labels that the model has, and a collider.</summary>
+    /// <summary>Checks that every surface has labels of the model, and a collider that can be felt.</summary>
     internal static class SurfaceRules
     {
         public static IEnumerable<Finding> Check(SceneContents scene)
@@ -15,7 +15,7 @@ namespace HaptoFlow.Editor
             var seen = new HashSet<Object>();
             foreach (HapticSurface surface in scene.Surfaces)
             {
-                // A shared material is one finding, however many surfaces share it.
+                // A material that several surfaces share is checked once.
                 HapticMaterial? shared = surface.SharedMaterial;
                 Object owner = shared != null ? (Object)shared : surface;
                 if (seen.Add(owner))
@@ -32,8 +32,9 @@ namespace HaptoFlow.Editor
                 if (!canBeFelt)
                 {
                     yield return new Finding(MessageType.Warning,
-                        $"{surface.name} is tagged, but has no collider that can be felt: box, sphere, capsule, " +
-                        "character, mesh or terrain, switched on and no trigger.", new[] { surface });
+                        $"{surface.name} is tagged, but has no collider that can be felt. Add a box, sphere, " +
+                        "capsule, character, mesh or terrain collider that is enabled and no " +
+                        "trigger.", new[] { surface });
                 }
             }
         }
@@ -43,7 +44,7 @@ namespace HaptoFlow.Editor
         {
             if (material.Label.Length == 0 && material.SecondLabel.Length == 0)
             {
-                yield return new Finding(MessageType.Warning, $"{owner.name} names no label: it is not felt.",
+                yield return new Finding(MessageType.Warning, $"{owner.name} has no label: it is not felt.",
                     new[] { owner });
             }
             if (catalog.IsUnknown(material.Label))
@@ -69,11 +70,7 @@ namespace HaptoFlow.Editor
                 $"{owner.name}: the model has no label \"{label}\"; {remedy}.", new[] { owner }, repairs);
         }
 
-        private static void SetLabel(Object owner, string path, string label)
-        {
-            using var serialized = new SerializedObject(owner);
-            serialized.FindProperty(path).stringValue = label;
-            serialized.ApplyModifiedProperties();
-        }
+        private static void SetLabel(Object owner, string path, string label) =>
+            SerializedFields.Set(owner, path, property => property.stringValue = label);
     }
 }

@@ -8,16 +8,16 @@ using UnityEngine;
 
 namespace HaptoFlow.Editor
 {
-    /// <summary>Makes a <see cref="HapticMaterial"/> that carries its embedding of a .haptomaterial file. A damaged
-    /// file becomes a material too, so that surfaces go on referring to it when the file is replaced; what is wrong
-    /// stands in the console and in its Inspector.</summary>
+    /// <summary>Imports a .haptomaterial file as a <see cref="HapticMaterial"/> that contains its embedding. A damaged
+    /// file also becomes a material, so that references to it still hold when the file is replaced; the problem is
+    /// shown in the console and in its Inspector.</summary>
     [ScriptedImporter(1, "haptomaterial")]
     public sealed class HapticMaterialImporter : ScriptedImporter
     {
         /// <inheritdoc/>
         public override void OnImportAsset(AssetImportContext ctx)
         {
-            // Paths of packages are no paths of the disk.
+            // Asset paths of packages are virtual.
             string text = ReadText(FileUtil.GetPhysicalPath(ctx.assetPath));
             ctx.DependsOnSourceAsset(ProjectSettingsAsset.DefaultModelPath);
             HapticMaterial material;
@@ -41,20 +41,20 @@ namespace HaptoFlow.Editor
 
         internal static string ReadText(string path) => new UTF8Encoding(false).GetString(File.ReadAllBytes(path));
 
-        /// <summary>Felt where the material cannot be. Only the package's own model is sure to be there while assets
-        /// are imported; for any other, the first label of descriptions stays.</summary>
+        /// <summary>The label that replaces the material where the material cannot be used. During an import, only the
+        /// package's own model is sure to exist; for materials of other models, it is the default label.</summary>
         private static string NearestLabel(MaterialFile material)
         {
-            const string unknown = "wood";
+            const string defaultLabel = "wood";
             try
             {
                 string path = FileUtil.GetPhysicalPath(ProjectSettingsAsset.DefaultModelPath);
                 ModelSpace space = ModelSpace.Of(File.ReadAllBytes(path));
-                return space.Id == material.Space ? space.NearestLabel(material.Embedding) : unknown;
+                return space.Id == material.Space ? space.NearestLabel(material.Embedding) : defaultLabel;
             }
             catch (System.Exception error) when (error is IOException || error is HaptoFlowException)
             {
-                return unknown;
+                return defaultLabel;
             }
         }
     }

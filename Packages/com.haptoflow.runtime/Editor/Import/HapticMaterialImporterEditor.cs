@@ -5,7 +5,7 @@ using UnityEngine;
 
 namespace HaptoFlow.Editor
 {
-    /// <summary>The Inspector of a .haptomaterial file: nothing to set, everything to read.</summary>
+    /// <summary>The Inspector of a .haptomaterial file. It shows what the file says; there is nothing to set.</summary>
     [CustomEditor(typeof(HapticMaterialImporter))]
     internal sealed class HapticMaterialImporterEditor : ScriptedImporterEditor
     {
@@ -19,7 +19,7 @@ namespace HaptoFlow.Editor
         public override void OnEnable()
         {
             base.OnEnable();
-            // What a damaged file says is in no asset.
+            // From the file, because a damaged one has no text in its asset.
             string path = ((AssetImporter)target).assetPath;
             text = HapticMaterialImporter.ReadText(FileUtil.GetPhysicalPath(path));
         }

@@ -3,7 +3,7 @@ using UnityEditor;
 
 namespace HaptoFlow.Editor
 {
-    /// <summary>The Inspector of a model asset that no file stands behind.</summary>
+    /// <summary>The Inspector of a model asset that has no .haptoflow file.</summary>
     [CustomEditor(typeof(HapticModelAsset))]
     internal sealed class HapticModelAssetEditor : UnityEditor.Editor
     {

@@ -5,16 +5,16 @@ using UnityEditor.AssetImporters;
 
 namespace HaptoFlow.Editor
 {
-    /// <summary>Makes a <see cref="HapticModelAsset"/> of a .haptoflow file. A damaged file becomes an asset too, so
-    /// that what refers to it goes on referring to it when the file is replaced; what is wrong stands in the console
-    /// and in its Inspector.</summary>
+    /// <summary>Imports a .haptoflow file as a <see cref="HapticModelAsset"/>. A damaged file also becomes an asset, so
+    /// that references to it still hold when the file is replaced; the problem is shown in the console and in its
+    /// Inspector. </summary>
     [ScriptedImporter(1, "haptoflow")]
     public sealed class HapticModelImporter : ScriptedImporter
     {
         /// <inheritdoc/>
         public override void OnImportAsset(AssetImportContext ctx)
         {
-            // Paths of packages are no paths of the disk.
+            // Asset paths of packages are virtual.
             byte[] file = File.ReadAllBytes(FileUtil.GetPhysicalPath(ctx.assetPath));
             HapticModelAsset asset = HapticModelAsset.Create(file);
             ctx.AddObjectToAsset("model", asset);

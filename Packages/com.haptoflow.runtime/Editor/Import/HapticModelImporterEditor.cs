@@ -4,7 +4,7 @@ using UnityEditor.AssetImporters;
 
 namespace HaptoFlow.Editor
 {
-    /// <summary>The Inspector of a .haptoflow file: nothing to set, everything to read.</summary>
+    /// <summary>The Inspector of a .haptoflow file. It shows what the file says; there is nothing to set.</summary>
     [CustomEditor(typeof(HapticModelImporter))]
     internal sealed class HapticModelImporterEditor : ScriptedImporterEditor
     {

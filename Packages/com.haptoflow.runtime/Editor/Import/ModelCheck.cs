@@ -5,16 +5,17 @@ using HaptoFlow.Model;
 
 namespace HaptoFlow.Editor
 {
-    /// <summary>Looks a .haptoflow file over without the native library: the header and the checksum of every part.
+    /// <summary>Checks the header of a .haptoflow file and the checksum of every part, without the native library.
     /// </summary>
     internal static class ModelCheck
     {
-        private static readonly ConditionalWeakTable<byte[], string> Known = new ConditionalWeakTable<byte[], string>();
+        private static readonly ConditionalWeakTable<byte[], string> KnownProblems =
+            new ConditionalWeakTable<byte[], string>();
 
-        /// <summary>What is wrong and what to do; null for a sound file. Each file is looked over once.</summary>
+        /// <summary>The problem and its remedy; null for a valid file. Each file is checked once.</summary>
         public static string? ProblemOf(byte[] file)
         {
-            string problem = Known.GetValue(file, each => Find(each) ?? "");
+            string problem = KnownProblems.GetValue(file, each => Find(each) ?? "");
             return problem.Length > 0 ? problem : null;
         }
 
@@ -44,12 +45,12 @@ namespace HaptoFlow.Editor
                 string name = part["name"].AsText();
                 if (!(offset >= 0.0 && length >= 0.0 && offset + length <= file.Length))
                 {
-                    return $"the part \"{name}\" lies outside the file: get it again";
+                    return $"the part \"{name}\" lies outside the file: copy or download the file again";
                 }
                 uint checksum = Crc32.Of(file.AsSpan((int)offset, (int)length));
                 if (!checksum.Equals((uint)part["crc32"].AsNumber()))
                 {
-                    return $"the part \"{name}\" does not match its checksum: get the file again";
+                    return $"the part \"{name}\" does not match its checksum: copy or download the file again";
                 }
             }
             return null;

@@ -1,28 +1,12 @@
 #nullable enable
 using System;
 using System.Collections.Generic;
-using System.Globalization;
 using System.Linq;
 using HaptoFlow.Model;
 
 namespace HaptoFlow.Editor
 {
-    /// <summary>A name and what it is.</summary>
-    internal readonly struct SummaryRow
-    {
-        public SummaryRow(string name, string value)
-        {
-            Name = name;
-            Value = value;
-        }
-
-        public string Name { get; }
-
-        public string Value { get; }
-    }
-
-    /// <summary>What the Inspector says of a model: where it comes from, its tiers with accuracy and time, its labels.
-    /// </summary>
+    /// <summary>The text of a model's Inspector: its origin, its tiers with accuracy and time, its labels.</summary>
     internal sealed class ModelSummary
     {
         private ModelSummary(string problem) => Problem = problem;
@@ -38,7 +22,8 @@ namespace HaptoFlow.Editor
             Labels = header.Labels.Select(LabelRow).ToArray();
         }
 
-        /// <summary>What is wrong with the file; null where nothing is. Then everything else is empty.</summary>
+        /// <summary>The problem of a file that cannot be used, which leaves all other properties empty; else null.
+        /// </summary>
         public string? Problem { get; }
 
         public string Title { get; } = "";
@@ -47,7 +32,7 @@ namespace HaptoFlow.Editor
 
         public IReadOnlyList<SummaryRow> Origin { get; } = new SummaryRow[0];
 
-        /// <summary>The most accurate comes last.</summary>
+        /// <summary>The tiers in the order of the file, the most accurate last.</summary>
         public IReadOnlyList<TierSummary> Tiers { get; } = new TierSummary[0];
 
         public IReadOnlyList<SummaryRow> Labels { get; } = new SummaryRow[0];
@@ -78,22 +63,19 @@ namespace HaptoFlow.Editor
             yield return new SummaryRow("Training code", header.Provenance.Commit);
             yield return new SummaryRow("Trained speeds", Interval(header.SpeedMps, "m/s"));
             yield return new SummaryRow("Trained forces", Interval(header.ForceNewtons, "N"));
-            yield return new SummaryRow("Size", Text("{0:0.0} MB", bytes / 1e6));
+            yield return new SummaryRow("Size", SummaryRow.Format("{0:0.0} MB", bytes / 1e6));
         }
 
         private static SummaryRow LabelRow(ModelLabel label)
         {
             string wave = label.WavelengthMetres.HasValue
-                ? Text(", period {0:0.##} mm", 1000.0 * label.WavelengthMetres.Value)
+                ? SummaryRow.Format(", period {0:0.##} mm", 1000.0 * label.WavelengthMetres.Value)
                 : "";
-            return new SummaryRow(label.Name, Text("{0}, {1:0} N/m, friction {2:0.00}{3}",
+            return new SummaryRow(label.Name, SummaryRow.Format("{0}, {1:0} N/m, friction {2:0.00}{3}",
                 label.Category, label.StiffnessNewtonsPerMetre, label.FrictionCoefficient, wave));
         }
 
         private static string Interval(TrainedInterval interval, string unit) =>
-            Text("{0:0.##} to {1:0.##} {2}", interval.Minimum, interval.Maximum, unit);
-
-        private static string Text(string format, params object[] values) =>
-            string.Format(CultureInfo.InvariantCulture, format, values);
+            SummaryRow.Format("{0:0.##} to {1:0.##} {2}", interval.Minimum, interval.Maximum, unit);
     }
 }

@@ -4,7 +4,7 @@ using UnityEngine;
 
 namespace HaptoFlow.Editor
 {
-    /// <summary>Draws what a model says of itself.</summary>
+    /// <summary>Draws the summary of a model.</summary>
     internal sealed class ModelSummaryView
     {
         private readonly ModelSummary summary;
@@ -15,7 +15,8 @@ namespace HaptoFlow.Editor
         {
             this.summary = summary;
             labelsTitle = new GUIContent($"Labels ({summary.Labels.Count})",
-                "What a surface can be made of: name, category, stiffness of the spring model, mean kinetic friction.");
+                "The materials that a surface can have: name, category, stiffness of the spring model, mean kinetic " +
+                "friction.");
         }
 
         public void Draw()
@@ -33,7 +34,7 @@ namespace HaptoFlow.Editor
                 EditorGUILayout.LabelField(row.Name, row.Value, EditorStyles.wordWrappedLabel);
             }
             EditorGUILayout.Space();
-            EditorGUILayout.LabelField("Quality: what accuracy costs in time", EditorStyles.boldLabel);
+            EditorGUILayout.LabelField("Tiers: accuracy and time", EditorStyles.boldLabel);
             foreach (TierSummary tier in summary.Tiers)
             {
                 DrawTier(tier);

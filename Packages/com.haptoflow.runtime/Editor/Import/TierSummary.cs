@@ -1,18 +1,16 @@
 #nullable enable
 using System.Collections.Generic;
-using System.Globalization;
 using System.Linq;
 using HaptoFlow.Model;
 
 namespace HaptoFlow.Editor
 {
-    /// <summary>One quality of a model: how it works, how near it comes to recordings, and how long it takes, as the
-    /// file says. Figures that the file does not have are not made up.</summary>
+    /// <summary>The text of a tier: its network, its accuracy against recordings, and its time, as far as the file
+    /// contains these figures.</summary>
     internal sealed class TierSummary
     {
         private const string NotMeasured = "not measured";
 
-        // Key in the header, words, unit, format.
         private static readonly (string Key, string Words, string Format)[] AccuracyFigures =
         {
             ("level_error_db", "level error", "{0} {1:+0.00;-0.00;0.00} dB"),
@@ -33,28 +31,29 @@ namespace HaptoFlow.Editor
 
         public string Name { get; }
 
-        /// <summary>Kind, solver and size.</summary>
+        /// <summary>Kind, solver and number of weights.</summary>
         public string Network { get; }
 
-        /// <summary>Measured against recordings that nobody trained on.</summary>
+        /// <summary>Measured against recordings that were not used in training.</summary>
         public string Accuracy { get; }
 
-        /// <summary>Milliseconds a segment of 100 ms, and where they were measured.</summary>
+        /// <summary>Milliseconds for a segment of 100 ms, and the machine on which they were measured.</summary>
         public string Time { get; }
 
         private static string NetworkOf(ModelTier tier)
         {
             string work = tier.Kind == "direct"
                 ? "direct, one evaluation"
-                : Text("{0}, {1} with {2} {3}", tier.Kind, tier.Solver, tier.Steps, tier.Steps == 1 ? "step" : "steps");
-            return Text("{0}, {1:0.00} million weights", work, tier.ParameterCount / 1e6);
+                : SummaryRow.Format("{0}, {1} with {2} {3}", tier.Kind, tier.Solver, tier.Steps,
+                    tier.Steps == 1 ? "step" : "steps");
+            return SummaryRow.Format("{0}, {1:0.00} million weights", work, tier.ParameterCount / 1e6);
         }
 
         private static string AccuracyOf(JsonValue accuracy)
         {
             IEnumerable<string> known = AccuracyFigures
                 .Where(figure => accuracy.Find(figure.Key) is { IsNull: false })
-                .Select(figure => Text(figure.Format, figure.Words, accuracy[figure.Key].AsNumber()));
+                .Select(figure => SummaryRow.Format(figure.Format, figure.Words, accuracy[figure.Key].AsNumber()));
             return Joined(known);
         }
 
@@ -63,14 +62,14 @@ namespace HaptoFlow.Editor
             var known = new List<string>();
             if (cost.Find("ms_p50") is { IsNull: false } hot)
             {
-                known.Add(Text("{0:0.00} ms a segment", hot.AsNumber()));
+                known.Add(SummaryRow.Format("{0:0.00} ms a segment", hot.AsNumber()));
             }
             if (cost.Find("ms_live_p50") is { IsNull: false } live)
             {
                 string worst = cost.Find("ms_live_p99") is { IsNull: false } rare
-                    ? Text(", one in a hundred above {0:0.00}", rare.AsNumber())
+                    ? SummaryRow.Format(", one in a hundred above {0:0.00}", rare.AsNumber())
                     : "";
-                known.Add(Text("{0:0.00} ms live{1}", live.AsNumber(), worst));
+                known.Add(SummaryRow.Format("{0:0.00} ms live{1}", live.AsNumber(), worst));
             }
             if (known.Count > 0 && cost.Find("machine") is { IsNull: false } machine)
             {
@@ -84,8 +83,5 @@ namespace HaptoFlow.Editor
             string all = string.Join("; ", figures);
             return all.Length > 0 ? all : NotMeasured;
         }
-
-        private static string Text(string format, params object[] values) =>
-            string.Format(CultureInfo.InvariantCulture, format, values);
     }
 }

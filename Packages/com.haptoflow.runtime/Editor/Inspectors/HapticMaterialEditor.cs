@@ -10,7 +10,7 @@ namespace HaptoFlow.Editor
     internal sealed class HapticMaterialEditor : UnityEditor.Editor
     {
         internal static readonly GUIContent Preview = new GUIContent("Preview",
-            "Opens the Texture Preview on this material: heard and seen without a headset.");
+            "Preview opens the Texture Preview with this material, to hear and see it without a headset.");
 
         private readonly MaterialSummaryView view = new MaterialSummaryView();
 

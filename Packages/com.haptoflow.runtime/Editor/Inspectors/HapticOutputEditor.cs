@@ -4,38 +4,41 @@ using UnityEngine;
 
 namespace HaptoFlow.Editor
 {
-    /// <summary>The Inspector of an output: its way to the device; in play mode level, underruns and times. It draws
-    /// a meter of its own, since Unity shows its one for audio filters in the default Inspector only.</summary>
+    /// <summary>The Inspector of an output. In play mode, it shows level, underruns and times. It draws its own level
+    /// meter, because Unity shows the meter of audio filters in the default Inspector only.</summary>
     [CustomEditor(typeof(HapticOutput))]
     [CanEditMultipleObjects]
     internal sealed class HapticOutputEditor : UnityEditor.Editor
     {
         private static readonly GUIContent Route = new GUIContent("Route",
-            "Audio Source: plays beside other sounds. Listener Channel: overwrites one channel, nothing else is " +
-            "heard there. Mixer Effect: the native library plays inside an Audio Mixer. Chosen before the first " +
-            "frame.");
+            "The route leads the wave to the audio device. Audio Source plays beside other sounds. Listener Channel " +
+            "overwrites one channel. Mixer Effect plays inside an Audio Mixer. The route is fixed once the scene " +
+            "plays.");
         private static readonly GUIContent Channel = new GUIContent("Channel",
-            "Of the audio device, from 0; -1 for all. A channel that the device does not have is silent. Listener " +
-            "Channel needs one from 0.");
-        private static readonly GUIContent Strength = new GUIContent("Strength", "Gain, 0 to 1.");
-        private static readonly GUIContent Muted = new GUIContent("Muted", "Silent, and costs no inference.");
-        private static readonly GUIContent Obey = new GUIContent("Obey Listener",
-            "AudioListener.pause and AudioListener.volume reach the haptics too. Off, a game that turns its sound " +
-            "down keeps what the hand feels.");
+            "The wave plays on this channel of the audio device, counted from 0; -1 plays on all channels. A channel " +
+            "that the device does not have is silent. The route Listener Channel needs a channel from 0.");
+        private static readonly GUIContent Strength = new GUIContent("Strength",
+            "Strength is the gain of this output, from 0 to 1.");
+        private static readonly GUIContent Muted = new GUIContent("Muted",
+            "A muted output is silent, and runs no inference.");
+        private static readonly GUIContent ObeyListener = new GUIContent("Obey Listener",
+            "AudioListener.pause and AudioListener.volume also apply to the haptics. When it is off, the haptics " +
+            "stay as they are when a game turns its sound down.");
         private static readonly GUIContent Mixer = new GUIContent("Audio Mixer",
-            "The mixer that holds the effect HaptoFlow Voice.");
+            "The Audio Mixer contains the effect HaptoFlow Voice.");
         private static readonly GUIContent Parameter = new GUIContent("Voice Parameter",
-            "The name under which the effect's parameter Voice is exposed in that mixer.");
+            "The mixer exposes the effect's parameter Voice under this name.");
         private static readonly GUIContent Actuator = new GUIContent("Actuator",
-            "What plays the channel: its resonances and weak bands are evened out. Uncompensated costs nothing.");
+            "The actuator plays the channel. A compensation evens out its resonances and weak bands; Uncompensated " +
+            "takes no time.");
         private static readonly GUIContent Profile = new GUIContent("Actuator Profile",
-            "A measured profile (JSON), as haptoflow actuator identify writes it.");
+            "The actuator profile is a measured one (JSON), as haptoflow actuator identify writes it.");
         private static readonly GUIContent Guard = new GUIContent("Exposure Guard",
-            "Lowers slowly what has been strong for too long. It is no medical device.");
+            "The exposure guard slowly lowers a level that has been high for too long. It is no medical device.");
         private static readonly GUIContent Delay = new GUIContent("Delay (ms)",
-            "Everything comes this much later: for studies, and displays that lag.");
+            "The output is delayed by this time, for studies and for displays that lag.");
         private static readonly GUIContent Panic = new GUIContent("Panic",
-            "Silence at once; each stylus sounds again with its next touch-down.");
+            "Panic silences the output at once. Each stylus plays again from its next touch-down on.");
 
         private readonly OutputReadout readout = new OutputReadout();
         private SerializedProperty route = null!;
@@ -70,7 +73,7 @@ namespace HaptoFlow.Editor
         public override void OnInspectorGUI()
         {
             serializedObject.Update();
-            // What is shown is decided before anything is changed: nothing is drawn that was not laid out.
+            // Read before any field is drawn, so that layout and drawing show the same fields.
             bool byMixer = route.enumValueIndex == (int)OutputRoute.MixerEffect;
             bool bySource = route.enumValueIndex == (int)OutputRoute.AudioSource;
             bool lacksChannel = route.enumValueIndex == (int)OutputRoute.ListenerChannel && channel.intValue < 0;
@@ -80,15 +83,15 @@ namespace HaptoFlow.Editor
             {
                 EditorGUILayout.PropertyField(route, Route);
             }
-            DrawWay(several || !byMixer, several || byMixer);
+            DrawDestination(several || !byMixer, several || byMixer);
             if (several || bySource)
             {
-                EditorGUILayout.PropertyField(obey, Obey);
+                EditorGUILayout.PropertyField(obey, ObeyListener);
             }
             if (lacksChannel && !several)
             {
-                EditorGUILayout.HelpBox("Choose a channel from 0: with -1 all game audio would be overwritten, so " +
-                    "this output stays silent.", MessageType.Error);
+                EditorGUILayout.HelpBox("Choose a channel from 0. With -1 the output would overwrite all game audio, " +
+                    "so it stays silent.", MessageType.Error);
             }
             EditorGUILayout.PropertyField(strength, Strength);
             EditorGUILayout.PropertyField(muted, Muted);
@@ -101,7 +104,7 @@ namespace HaptoFlow.Editor
             EditorGUILayout.PropertyField(delay, Delay);
             if (serializedObject.ApplyModifiedProperties())
             {
-                TakeOver();
+                ApplyToVoices();
             }
             if (Application.isPlaying && targets.Length == 1)
             {
@@ -109,7 +112,7 @@ namespace HaptoFlow.Editor
             }
         }
 
-        private void DrawWay(bool toChannel, bool byMixer)
+        private void DrawDestination(bool toChannel, bool byMixer)
         {
             if (toChannel)
             {
@@ -122,8 +125,8 @@ namespace HaptoFlow.Editor
             }
         }
 
-        /// <summary>Voices learn of a change only from the property.</summary>
-        private void TakeOver()
+        /// <summary>Passes changed fields on to the voices, which only the properties do.</summary>
+        private void ApplyToVoices()
         {
             foreach (Object each in targets)
             {

@@ -5,22 +5,25 @@ using UnityEngine;
 
 namespace HaptoFlow.Editor
 {
-    /// <summary>The Inspector of a surface: what it is made of, and what of it can be felt.</summary>
+    /// <summary>The Inspector of a surface: its material, and how many of its colliders can be felt.</summary>
     [CustomEditor(typeof(HapticSurface))]
     [CanEditMultipleObjects]
     internal sealed class HapticSurfaceEditor : UnityEditor.Editor
     {
         private static readonly GUIContent Shared = new GUIContent("Shared Material",
-            "A Haptic Material asset that several surfaces share; empty to describe one here.");
+            "The shared material is a Haptic Material asset that several surfaces may use. When it is empty, the " +
+            "surface has the material described below.");
         private static readonly GUIContent Mask = new GUIContent("Mask",
-            "Further materials by a texture, at the place that is touched; empty for none. It counts on readable " +
-            "mesh colliders that are not convex.");
+            "The mask selects further materials by a texture at the touched point. It works on readable mesh " +
+            "colliders that are not convex. It may be empty.");
         private static readonly GUIContent Children = new GUIContent("Include Children",
-            "Colliders of children count too, but for those below another Haptic Surface.");
+            "The surface includes the colliders of child objects, except for those below another Haptic Surface.");
         private static readonly GUIContent OwnMotion = new GUIContent("Feel Own Motion",
-            "The tip's velocity is taken relative to the object; off, relative to the world.");
+            "The velocity of the tip is measured relative to the moving object; when it is off, relative to the " +
+            "world.");
         private static readonly GUIContent Grain = new GUIContent("Grain",
-            "Direction of the first tangent axis in the object's local space: along the grain of wood.");
+            "The grain is the direction of the first tangent axis in the object's local space, for example along the " +
+            "grain of wood.");
 
         private SerializedProperty shared = null!;
         private SerializedProperty own = null!;
@@ -48,7 +51,7 @@ namespace HaptoFlow.Editor
         public override void OnInspectorGUI()
         {
             serializedObject.Update();
-            // What is shown is decided before anything is changed: nothing is drawn that was not laid out.
+            // Read before any field is drawn, so that layout and drawing show the same fields.
             bool several = shared.hasMultipleDifferentValues;
             Object? material = shared.objectReferenceValue;
             EditorGUILayout.PropertyField(shared, Shared);
@@ -60,7 +63,7 @@ namespace HaptoFlow.Editor
             EditorGUILayout.PropertyField(grain, Grain);
             if (serializedObject.ApplyModifiedProperties())
             {
-                TakeOver();
+                ApplyToScene();
             }
             if (GUILayout.Button(HapticMaterialEditor.Preview))
             {
@@ -89,8 +92,8 @@ namespace HaptoFlow.Editor
             HapticMaterialEditor.Draw(sharedDescription);
         }
 
-        /// <summary>A running scene knows colliders by what was registered.</summary>
-        private void TakeOver()
+        /// <summary>Registers the surfaces of a running scene again, with the changed fields.</summary>
+        private void ApplyToScene()
         {
             foreach (Object each in targets)
             {
@@ -115,17 +118,17 @@ namespace HaptoFlow.Editor
                 var surface = (HapticSurface)each;
                 foreach (Collider collider in SceneColliders.Below(new[] { surface.gameObject }))
                 {
-                    bool mine = SceneColliders.SurfaceOf(collider) == surface;
-                    felt += mine ? 1 : 0;
-                    byRays += mine && (collider is MeshCollider || collider is TerrainCollider) ? 1 : 0;
+                    bool isOwn = SceneColliders.SurfaceOf(collider) == surface;
+                    felt += isOwn ? 1 : 0;
+                    byRays += isOwn && (collider is MeshCollider || collider is TerrainCollider) ? 1 : 0;
                 }
             }
-            extent = ExtentOf(felt, byRays) + InsteadOf();
+            extent = ExtentOf(felt, byRays) + RuleSentence();
         }
 
-        /// <summary>Which rule would count without this surface, where there is one; empty for several surfaces.
-        /// </summary>
-        private string InsteadOf()
+        /// <summary>A sentence about the rule that applies without this surface; empty without such a rule, or for
+        /// several surfaces.</summary>
+        private string RuleSentence()
         {
             if (targets.Length != 1)
             {
@@ -144,18 +147,18 @@ namespace HaptoFlow.Editor
             var byRules = new ColliderAnswer(answer.Collider, null, answer.ByRules);
             string instead = $"{byRules.Material} ({byRules.Reason})";
             return answer.Surface is null
-                ? $" This surface is off: rules count, and it feels like {instead}."
-                : $" This surface wins over the rules, by which it would feel like {instead}.";
+                ? $" This surface is disabled, so rules apply: the object feels like {instead}."
+                : $" This surface takes precedence over the rules, by which the object would feel like {instead}.";
         }
 
         private static string ExtentOf(int felt, int byRays)
         {
             string all = felt == 0
-                ? "No collider here can be felt: add one that is no trigger."
+                ? "No collider here can be felt. Add a collider that is no trigger."
                 : felt == 1 ? "One collider can be felt." : $"{felt} colliders can be felt.";
             return byRays == 0
                 ? all
-                : $"{all} Meshes and terrains ({byRays}) are met from their front: a tip deeper than " +
+                : $"{all} Meshes and terrains ({byRays}) are felt from their front only: a tip more than " +
                     $"{RayProbe.DeepestMetres * 1000.0:0} mm behind a face counts as outside.";
         }
     }

@@ -3,7 +3,7 @@ using System.Globalization;
 
 namespace HaptoFlow.Editor
 {
-    /// <summary>What an output did lately: time, underruns, and the engine that feeds it.</summary>
+    /// <summary>The state of an output in play mode: times, underruns, and the engine that feeds it.</summary>
     internal sealed class OutputReadout : Readout<HapticOutput>
     {
         private int voices;
@@ -37,11 +37,11 @@ namespace HaptoFlow.Editor
         {
             if (!engine.WorkerIsAlive)
             {
-                Add("Worker", "has ended; Haptics.Restart starts it anew");
+                Add("Worker", "has ended; Haptics.Restart starts it again");
             }
             if (engine.PriorityWasRefused)
             {
-                Add("Worker priority", "refused by the system: segments come late more often");
+                Add("Worker priority", "refused by the system, so more segments are late");
             }
             string failure = engine.FailedRounds > 0 || !engine.WorkerIsAlive ? Haptics.LastFailure : "";
             if (failure.Length > 0)
@@ -75,8 +75,8 @@ namespace HaptoFlow.Editor
             }
             catch (HaptoFlowException)
             {
-                // Another, damaged model was chosen while this engine runs with the one before.
-                return "of the model before";
+                // The settings now name a damaged model, while the engine still runs with the previous one.
+                return "of the previous model";
             }
         }
     }

@@ -1,29 +1,29 @@
 #nullable enable
 using System.Collections.Generic;
-using System.Globalization;
 using UnityEditor;
 using UnityEngine;
 
 namespace HaptoFlow.Editor
 {
-    /// <summary>Figures of a running scene as text, made anew ten times a second: to be read, and so that an Inspector
-    /// that repaints all the time makes little garbage.</summary>
+    /// <summary>Figures of a running scene as text. They are updated ten times a second, so that they can be read, and
+    /// so that an Inspector that repaints all the time allocates little.</summary>
     internal abstract class Readout<T>
     {
         private const double PeriodSeconds = 0.1;
 
         private readonly List<SummaryRow> rows = new List<SummaryRow>();
-        private double madeSeconds = double.NegativeInfinity;
+        private double lastUpdateSeconds = double.NegativeInfinity;
 
         public IReadOnlyList<SummaryRow> Rows => rows;
 
-        /// <summary>While controls are laid out only: between that and drawing no row may come.</summary>
+        /// <summary>Updates the rows when they are due, but only while Unity lays out the Inspector: the number of rows
+        /// must not change before it draws.</summary>
         public void Update(T subject)
         {
             double nowSeconds = EditorApplication.timeSinceStartup;
-            if (Event.current.type == EventType.Layout && nowSeconds - madeSeconds >= PeriodSeconds)
+            if (Event.current.type == EventType.Layout && nowSeconds - lastUpdateSeconds >= PeriodSeconds)
             {
-                madeSeconds = nowSeconds;
+                lastUpdateSeconds = nowSeconds;
                 rows.Clear();
                 Read(subject);
             }
@@ -34,6 +34,6 @@ namespace HaptoFlow.Editor
         protected void Add(string name, string value) => rows.Add(new SummaryRow(name, value));
 
         protected void Add(string name, string format, params object[] values) =>
-            Add(name, string.Format(CultureInfo.InvariantCulture, format, values));
+            Add(name, SummaryRow.Format(format, values));
     }
 }

@@ -4,7 +4,7 @@ using UnityEditor;
 
 namespace HaptoFlow.Editor
 {
-    /// <summary>Draws figures of a running scene.</summary>
+    /// <summary>Draws the figures of a running scene.</summary>
     internal static class ReadoutView
     {
         public static void Draw(string title, IReadOnlyList<SummaryRow> rows)

@@ -2,7 +2,7 @@
 
 namespace HaptoFlow.Editor
 {
-    /// <summary>Why nothing is felt, in words and with the remedy where there is one.</summary>
+    /// <summary>Describes why nothing is felt, with the remedy where there is one.</summary>
     internal static class SilenceWords
     {
         public static string Of(in VoiceStatistics voice)
@@ -10,7 +10,7 @@ namespace HaptoFlow.Editor
             switch (voice.Silence)
             {
                 case HapticSilence.None:
-                    return "it sounds";
+                    return "none: it plays";
                 case HapticSilence.Rest:
                     return "rest: nothing touches, or the tip does not slide";
                 case HapticSilence.Stale:
@@ -20,21 +20,22 @@ namespace HaptoFlow.Editor
                 case HapticSilence.Paused:
                     return "the application is paused";
                 case HapticSilence.Panic:
-                    return "panic: the next touch-down sounds";
+                    return "panic: it plays again from the next touch-down on";
                 case HapticSilence.Rate when !voice.IsRateSupported:
-                    return "the device's sample rate is outside 8 to 192 kHz";
+                    return $"the device's sample rate is outside {OutputRules.MinimumRateHz} to " +
+                        $"{OutputRules.MaximumRateHz} Hz";
                 case HapticSilence.Rate:
                     return "the device changed its sample rate";
                 case HapticSilence.Closing:
                     return "the voice is being closed";
                 case HapticSilence.WorkerDead:
-                    return "the thread that generates has ended";
+                    return "the worker thread has ended";
                 default:
-                    return "a reason that this version does not know: " + (int)voice.Silence;
+                    return "unknown reason " + (int)voice.Silence;
             }
         }
 
-        /// <summary>Why a stylus has no voice.</summary>
+        /// <summary>Describes why a stylus has no voice.</summary>
         public static string OfMissingVoice(HapticStylus stylus)
         {
             HapticOutput? output = stylus.Output;

@@ -1,12 +1,12 @@
 #nullable enable
 namespace HaptoFlow.Editor
 {
-    /// <summary>What a stylus touches, and how its voice does.</summary>
+    /// <summary>What a stylus touches, and the state of its voice.</summary>
     internal sealed class StylusReadout : Readout<HapticStylus>
     {
         private const double SamplesPerMillisecond = 2.0;
 
-        private static readonly string[] Names =
+        private static readonly string[] EffectNames =
         {
             "Texture", "Impact", "Edge", "Delay", "Compensation", "Exposure Guard", "Tone", "Signal",
         };
@@ -20,7 +20,7 @@ namespace HaptoFlow.Editor
             if (stylus.IsTouching)
             {
                 HapticContact contact = stylus.Contact;
-                Add("Touches", contact.Collider != null ? contact.Collider.name : "something that is gone");
+                Add("Touches", contact.Collider != null ? contact.Collider.name : "an object that no longer exists");
                 Add("Feels like", FeltWords.Of(contact));
                 Add("Because of", contact.Explain());
                 Add("Force", "{0:0.00} N", contact.ForceNewtons);
@@ -44,17 +44,17 @@ namespace HaptoFlow.Editor
             }
             Add("Underruns", "{0}", voice.Underruns);
             Add("Lead", "{0:0.0} ms", voice.LeadSamples / SamplesPerMillisecond);
-            ReadChain(stylus);
-            ulong repaired = voice.Sanitised + voice.NonFiniteSamples + voice.Failures;
-            if (repaired > 0)
+            ReadEffects(stylus);
+            ulong corrected = voice.Sanitised + voice.NonFiniteSamples + voice.Failures;
+            if (corrected > 0)
             {
-                Add("Put right", "{0} inputs, {1} samples, {2} failed runs",
+                Add("Corrected", "{0} inputs, {1} samples, {2} failed runs",
                     voice.Sanitised, voice.NonFiniteSamples, voice.Failures);
             }
         }
 
-        /// <summary>The stages that run, or have run; those that nobody asked for do not show.</summary>
-        private void ReadChain(HapticStylus stylus)
+        /// <summary>Adds the effects that run or have run.</summary>
+        private void ReadEffects(HapticStylus stylus)
         {
             for (HapticEffect effect = HapticEffect.Impact; effect <= HapticEffect.Signal; ++effect)
             {
@@ -65,9 +65,10 @@ namespace HaptoFlow.Editor
                 }
                 double microseconds = stage.Runs > 0 ? stage.Microseconds / stage.Runs : 0.0;
                 string counted = effect == HapticEffect.Signal
-                    ? "begun {0} times, {1:0.0} us a block"
-                    : "{0} blows, {1:0.0} us a block";
-                Add(Names[(int)effect], stage.Events > 0 ? counted : "{1:0.0} us a block", stage.Events, microseconds);
+                    ? "started {0} times, {1:0.0} us a block"
+                    : "{0} impacts, {1:0.0} us a block";
+                Add(EffectNames[(int)effect],
+                    stage.Events > 0 ? counted : "{1:0.0} us a block", stage.Events, microseconds);
             }
         }
     }

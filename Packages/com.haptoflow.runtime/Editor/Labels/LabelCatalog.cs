@@ -7,14 +7,14 @@ using HaptoFlow.Model;
 
 namespace HaptoFlow.Editor
 {
-    /// <summary>The labels that can be chosen: those of the project's model, or of the package's own where none is
-    /// chosen. Main thread; read anew only when the model is another.</summary>
+    /// <summary>The labels that can be chosen: those of the project's model, or of the package's model if the project
+    /// names none. They are read again when the model changes. Main thread.</summary>
     internal sealed class LabelCatalog
     {
         private static LabelCatalog? current;
 
         private readonly byte[] file;
-        private readonly Dictionary<string, string> shown = new Dictionary<string, string>(StringComparer.Ordinal);
+        private readonly Dictionary<string, string> texts = new Dictionary<string, string>(StringComparer.Ordinal);
         private readonly Dictionary<string, string> stiffness =
             new Dictionary<string, string>(StringComparer.OrdinalIgnoreCase);
 
@@ -30,15 +30,15 @@ namespace HaptoFlow.Editor
             }
         }
 
-        /// <summary>Never null; empty where the project has no usable model.</summary>
+        /// <summary>The current labels; empty when the project has no usable model.</summary>
         public static LabelCatalog Current
         {
             get
             {
-                byte[] wanted = ModelInUse()?.File ?? Array.Empty<byte>();
-                if (current == null || !ReferenceEquals(current.file, wanted))
+                byte[] file = ModelInUse()?.File ?? Array.Empty<byte>();
+                if (current == null || !ReferenceEquals(current.file, file))
                 {
-                    current = new LabelCatalog(wanted);
+                    current = new LabelCatalog(file);
                 }
                 return current;
             }
@@ -46,25 +46,26 @@ namespace HaptoFlow.Editor
 
         public LabelNames Names { get; }
 
-        /// <summary>False for every name where there is no model: then nobody can tell.</summary>
+        /// <summary>Whether the model lacks a label of this name. False when there is no model.</summary>
         public bool IsUnknown(string name) =>
             name.Length > 0 && Names.All.Count > 0 && !Names.TryFind(name, out _);
 
-        /// <summary>The name, with a remark where the model does not have it; "none" for an empty one.</summary>
+        /// <summary>The name, with a remark if the model does not have it; "none" for an empty name.</summary>
         public string TextOf(string name)
         {
-            if (!shown.TryGetValue(name, out string text))
+            if (!texts.TryGetValue(name, out string text))
             {
                 text = name.Length == 0 ? "none" : IsUnknown(name) ? name + " (not in model)" : name;
-                shown[name] = text;
+                texts[name] = text;
             }
             return text;
         }
 
-        /// <summary>What a stiffness of 0 stands for; empty where the label is not known.</summary>
+        /// <summary>The stiffness that 0 stands for, as text; empty for an unknown label.</summary>
         public string StiffnessRemark(string name) =>
             stiffness.TryGetValue(name, out string remark) ? remark : "";
 
+        /// <summary>The project's model, else the package's own; null when neither exists.</summary>
         public static HapticModelAsset? ModelInUse()
         {
             HaptoFlowSettings? settings = ProjectSettingsAsset.Find();
@@ -80,7 +81,7 @@ namespace HaptoFlow.Editor
             }
             catch (HaptoFlowException)
             {
-                // The model's own Inspector and the scene check say what is wrong with it.
+                // The model's Inspector and the scene check report the problem.
                 return Array.Empty<ModelLabel>();
             }
         }

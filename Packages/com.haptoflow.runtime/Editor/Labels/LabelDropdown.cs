@@ -9,8 +9,8 @@ namespace HaptoFlow.Editor
     /// <summary>A searchable list of labels.</summary>
     internal sealed class LabelDropdown : AdvancedDropdown
     {
-        private const float LeastWidth = 200f;
-        private const float LeastHeight = 280f;
+        private const float MinimumWidth = 200f;
+        private const float MinimumHeight = 280f;
 
         private readonly IReadOnlyList<LabelOption> options;
         private readonly Action<string> choose;
@@ -20,7 +20,7 @@ namespace HaptoFlow.Editor
         {
             this.options = options;
             this.choose = choose;
-            minimumSize = new Vector2(LeastWidth, LeastHeight);
+            minimumSize = new Vector2(MinimumWidth, MinimumHeight);
         }
 
         protected override AdvancedDropdownItem BuildRoot()

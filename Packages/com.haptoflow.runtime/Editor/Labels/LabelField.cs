@@ -4,7 +4,7 @@ using UnityEngine;
 
 namespace HaptoFlow.Editor
 {
-    /// <summary>A field that keeps a label by its name and lets one of the model's be chosen.</summary>
+    /// <summary>Draws a field for a label of the model, which is serialised by its name.</summary>
     internal static class LabelField
     {
         private const string SeveralValues = "\u2014";
@@ -19,7 +19,7 @@ namespace HaptoFlow.Editor
             string present = several ? "" : property.stringValue;
             Button.text = several ? SeveralValues : catalog.TextOf(present);
             Button.tooltip = catalog.IsUnknown(present)
-                ? "The model has no such label: open the list for near matches."
+                ? "The model does not have this label. The list offers similar ones."
                 : scope.content.tooltip;
             if (EditorGUI.DropdownButton(field, Button, FocusType.Keyboard))
             {
@@ -30,7 +30,7 @@ namespace HaptoFlow.Editor
         private static void Open(
             Rect field, SerializedProperty property, LabelCatalog catalog, string present, bool canBeEmpty)
         {
-            // The list is answered later, when the Inspector's own serialized object may be gone.
+            // The user chooses later, when the Inspector's serialised object may no longer exist.
             Object[] targets = property.serializedObject.targetObjects;
             string path = property.propertyPath;
             new LabelDropdown(LabelOptions.For(catalog, present, canBeEmpty), name => Write(targets, path, name))
@@ -41,9 +41,7 @@ namespace HaptoFlow.Editor
         {
             if (System.Array.TrueForAll(targets, target => target != null))
             {
-                using var serialized = new SerializedObject(targets);
-                serialized.FindProperty(path).stringValue = name;
-                serialized.ApplyModifiedProperties();
+                SerializedFields.Set(targets, path, property => property.stringValue = name);
             }
         }
     }

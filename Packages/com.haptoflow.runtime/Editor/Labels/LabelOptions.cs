@@ -6,7 +6,7 @@ using HaptoFlow.Model;
 
 namespace HaptoFlow.Editor
 {
-    /// <summary>One line of a label's dropdown.</summary>
+    /// <summary>An entry in the dropdown list of a label.</summary>
     internal readonly struct LabelOption
     {
         public LabelOption(string text, string label)
@@ -17,23 +17,23 @@ namespace HaptoFlow.Editor
 
         public string Text { get; }
 
-        /// <summary>What is chosen by it; empty for none.</summary>
+        /// <summary>The label that the entry chooses; empty for none.</summary>
         public string Label { get; }
     }
 
-    /// <summary>What a label's dropdown offers.</summary>
+    /// <summary>The entries in the dropdown list of a label.</summary>
     internal static class LabelOptions
     {
-        /// <summary>The present name first where the model does not have it, then what it may have meant, then none
-        /// where that is allowed, then all labels by name.</summary>
-        public static IReadOnlyList<LabelOption> For(LabelCatalog catalog, string present, bool canBeEmpty)
+        /// <summary>The entries in this order: the current name if the model does not have it, labels with similar
+        /// names, none if that is allowed, and all labels sorted by name.</summary>
+        public static IReadOnlyList<LabelOption> For(LabelCatalog catalog, string current, bool canBeEmpty)
         {
             var options = new List<LabelOption>();
-            if (catalog.IsUnknown(present))
+            if (catalog.IsUnknown(current))
             {
-                options.Add(new LabelOption(catalog.TextOf(present), present));
-                options.AddRange(catalog.Names.NearMatches(present)
-                    .Select(near => new LabelOption($"{near} (near \"{present}\")", near)));
+                options.Add(new LabelOption(catalog.TextOf(current), current));
+                options.AddRange(catalog.Names.NearMatches(current)
+                    .Select(near => new LabelOption($"{near} (near \"{current}\")", near)));
             }
             if (canBeEmpty)
             {

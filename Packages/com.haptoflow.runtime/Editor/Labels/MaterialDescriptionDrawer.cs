@@ -4,8 +4,8 @@ using UnityEngine;
 
 namespace HaptoFlow.Editor
 {
-    /// <summary>Draws a <see cref="MaterialDescription"/>, wherever a component has one: labels from a searchable list,
-    /// units and what the model says.</summary>
+    /// <summary>Draws a <see cref="MaterialDescription"/> in any Inspector, with a searchable list of labels, with
+    /// units, and with the stiffness of the model.</summary>
     [CustomPropertyDrawer(typeof(MaterialDescription))]
     internal sealed class MaterialDescriptionDrawer : PropertyDrawer
     {
@@ -13,43 +13,46 @@ namespace HaptoFlow.Editor
         private const float RemarkWidth = 110f;
 
         private static readonly GUIContent Label = new GUIContent("Label",
-            "What it is made of: a label of the model, kept by its name.");
+            "The label of the model names the material. It is saved by its name.");
         private static readonly GUIContent LabelBehind = new GUIContent("Label",
-            "Felt where the learnt material cannot be: while it is on its way to the engine, and under another model.");
+            "The label replaces the learnt material where that cannot be used: until the engine has it, and with " +
+            "another model.");
         private static readonly GUIContent Learnt = new GUIContent("Learnt Material",
-            "A Haptic Material that was learnt from a recording, in the place of the label; none for the label.");
+            "The learnt material is a Haptic Material learnt from a recording. It replaces the label. It may be " +
+            "empty.");
         private static readonly GUIContent ItsOwn = new GUIContent("Learnt Material",
-            "This asset carries what it was learnt from.");
+            "The learnt material is part of this asset.");
         private static readonly GUIContent Itself = new GUIContent("this asset");
         private static readonly GUIContent SecondLabel = new GUIContent("Second Label",
-            "A label to blend with; none for the first alone.");
+            "The second label is blended with the first. It may be empty.");
         private static readonly GUIContent Blend = new GUIContent("Blend",
-            "0: the first label alone. 1: the second alone.");
+            "The blend is 0 for the first label alone and 1 for the second label alone.");
         private static readonly GUIContent Stiffness = new GUIContent("Stiffness (N/m)",
-            "Of the spring model: force a metre of penetration. 0: what the model says of the label.");
+            "The stiffness of the spring model is the force per metre of penetration depth. 0 takes the model's " +
+            "value for the label.");
         private static readonly GUIContent Effects = new GUIContent("Effects",
-            "What the tip feels here. What no surface asks for costs nothing.");
+            "The effects are what the tip feels here. An effect that no surface uses takes no time.");
         private static readonly (string Name, GUIContent Content)[] EffectToggles =
         {
             ("texture", new GUIContent("Texture", "The tip feels the material's texture while it slides.")),
-            ("impact", new GUIContent("Impact", "The tip feels a landing, as hard as it was fast.")),
+            ("impact", new GUIContent("Impact", "The tip feels an impact at touch-down, stronger the faster it " +
+                "arrives.")),
             ("edge", new GUIContent("Edge",
-                "The tip feels rims, and the crossing to a rougher or smoother label.")),
+                "The tip feels edges, and the transition to a rougher or smoother label.")),
         };
         private static readonly GUIContent Strength = new GUIContent("Strength",
-            "Gain of the output while this is touched, 0 to 1.");
+            "Strength is the gain of the output while this material is touched, from 0 to 1.");
 
         private static readonly GUIContent FeatureScale = new GUIContent("Feature Scale",
-            "The material's features, its ribs included, are this many times as large, 0.25 to 4. The level stays as " +
-            "it is.");
+            "The features of the material, its ribs included, are larger by this factor, 0.25 to 4. The level does " +
+            "not change.");
         private static readonly GUIContent Tone = new GUIContent("Tone (dB/octave)",
-            "The spectrum is tilted about 150 Hz, -12 to 12: above 0 is brighter, below 0 darker.");
-
-        private static float RowHeight =>
-            EditorGUIUtility.singleLineHeight + EditorGUIUtility.standardVerticalSpacing;
+            "The tone tilts the spectrum about 150 Hz, by -12 to 12 dB per octave. Above 0 is brighter, below 0 " +
+            "darker.");
 
         public override float GetPropertyHeight(SerializedProperty property, GUIContent label) =>
-            RowHeight * (FieldRows + (label.text.Length > 0 ? 1 : 0)) - EditorGUIUtility.standardVerticalSpacing;
+            InspectorRows.Height * (FieldRows + (label.text.Length > 0 ? 1 : 0)) -
+            EditorGUIUtility.standardVerticalSpacing;
 
         public override void OnGUI(Rect position, SerializedProperty property, GUIContent label)
         {
@@ -57,34 +60,34 @@ namespace HaptoFlow.Editor
             if (label.text.Length > 0)
             {
                 EditorGUI.LabelField(row, label.text, EditorStyles.boldLabel);
-                row.y += RowHeight;
+                row.y += InspectorRows.Height;
             }
             SerializedProperty first = property.FindPropertyRelative("label");
             SerializedProperty second = property.FindPropertyRelative("secondLabel");
             bool isLearnt = DrawLearnt(row, property);
-            row.y += RowHeight;
+            row.y += InspectorRows.Height;
             LabelField.Draw(row, first, isLearnt ? LabelBehind : Label, false);
-            row.y += RowHeight;
+            row.y += InspectorRows.Height;
             LabelField.Draw(row, second, SecondLabel, true);
-            row.y += RowHeight;
+            row.y += InspectorRows.Height;
             bool blends = second.hasMultipleDifferentValues || second.stringValue.Length > 0;
             using (new EditorGUI.DisabledScope(!blends))
             {
                 EditorGUI.PropertyField(row, property.FindPropertyRelative("blend"), Blend);
             }
-            row.y += RowHeight;
+            row.y += InspectorRows.Height;
             DrawStiffness(row, property.FindPropertyRelative("stiffnessNewtonsPerMetre"), first);
-            row.y += RowHeight;
+            row.y += InspectorRows.Height;
             EditorGUI.PropertyField(row, property.FindPropertyRelative("strength"), Strength);
-            row.y += RowHeight;
+            row.y += InspectorRows.Height;
             EditorGUI.PropertyField(row, property.FindPropertyRelative("featureScale"), FeatureScale);
-            row.y += RowHeight;
+            row.y += InspectorRows.Height;
             EditorGUI.PropertyField(row, property.FindPropertyRelative("toneDbPerOctave"), Tone);
-            row.y += RowHeight;
+            row.y += InspectorRows.Height;
             DrawEffects(row, property);
         }
 
-        /// <returns>Something that was learnt goes before the label.</returns>
+        /// <returns>Whether a learnt material replaces the label.</returns>
         private static bool DrawLearnt(Rect row, SerializedProperty property)
         {
             SerializedProperty learnt = property.FindPropertyRelative("learnt");
@@ -108,10 +111,10 @@ namespace HaptoFlow.Editor
                 using (var drawn = new EditorGUI.PropertyScope(place, content, toggle))
                 using (var changed = new EditorGUI.ChangeCheckScope())
                 {
-                    bool asked = EditorGUI.ToggleLeft(place, drawn.content, toggle.boolValue);
+                    bool isOn = EditorGUI.ToggleLeft(place, drawn.content, toggle.boolValue);
                     if (changed.changed)
                     {
-                        toggle.boolValue = asked;
+                        toggle.boolValue = isOn;
                     }
                 }
                 place.x += place.width;

@@ -7,39 +7,40 @@ using UnityEditor;
 
 namespace HaptoFlow.Editor
 {
-    /// <summary>Saves learnt materials in the project: as assets that carry them, each one step of undo, or as files.
-    /// Main thread.</summary>
+    /// <summary>Saves learnt materials in the project, as assets with one step of undo each, or as files. Main thread.
+    /// </summary>
     internal static class MaterialAssets
     {
-        private const string MaterialEnding = "asset";
+        private const string AssetExtension = "asset";
 
-        /// <summary>Asks where, and saves there.</summary>
-        /// <param name="text">Of a material file.</param>
-        /// <param name="label">Felt where the material cannot be.</param>
-        /// <param name="describe">What else the asset's description says; null for what it says already.</param>
-        /// <returns>Null where the user thought better of it.</returns>
+        /// <summary>Asks for a path and saves there.</summary>
+        /// <param name="text">The text of a material file.</param>
+        /// <param name="label">The label that replaces the material where it cannot be used.</param>
+        /// <param name="describe">Sets further fields of the asset's description; null to keep them.</param>
+        /// <returns>The asset; null when the user cancels.</returns>
         public static HapticMaterial? SaveAs(string text, string label, Action<MaterialDescription>? describe = null)
         {
             string path = EditorUtility.SaveFilePanelInProject("Save as Haptic Material", MaterialFile.Read(text).Name,
-                MaterialEnding, "The material and what it was learnt from become an asset; the model stays as it is.");
+                AssetExtension, "The learnt material is saved as an asset. The model does not change.");
             return path.Length > 0 ? Save(path, text, label, describe) : null;
         }
 
-        /// <summary>A material that is there already carries the text from now on, for whoever uses it.</summary>
-        /// <param name="describe">What else the asset's description says; null for what it says already.</param>
+        /// <summary>Saves at a path. An existing material at this path takes the text, and everything that uses it with
+        /// it.</summary>
+        /// <param name="describe">Sets further fields of the asset's description; null to keep them.</param>
         public static HapticMaterial Save(
             string path, string text, string label, Action<MaterialDescription>? describe = null)
         {
-            var present = AssetDatabase.LoadAssetAtPath<HapticMaterial>(path);
-            if (present != null)
+            var existing = AssetDatabase.LoadAssetAtPath<HapticMaterial>(path);
+            if (existing != null)
             {
-                Undo.RecordObject(present, "Save " + present.name);
-                present.Description.Label = label;
-                describe?.Invoke(present.Description);
-                present.Carry(text);
-                EditorUtility.SetDirty(present);
-                AssetDatabase.SaveAssetIfDirty(present);
-                return present;
+                Undo.RecordObject(existing, "Save " + existing.name);
+                existing.Description.Label = label;
+                describe?.Invoke(existing.Description);
+                existing.Carry(text);
+                EditorUtility.SetDirty(existing);
+                AssetDatabase.SaveAssetIfDirty(existing);
+                return existing;
             }
             HapticMaterial made = HapticMaterial.Create(text, label);
             describe?.Invoke(made.Description);
@@ -49,7 +50,7 @@ namespace HaptoFlow.Editor
         }
 
         /// <summary>Writes a .haptomaterial file, for the command line and other programs.</summary>
-        /// <returns>What went wrong; null where nothing did.</returns>
+        /// <returns>The problem; null on success.</returns>
         public static string? Export(string path, string text)
         {
             try

@@ -1,14 +1,13 @@
 #nullable enable
 using System;
 using System.Collections.Generic;
-using System.Globalization;
 using System.Linq;
 using HaptoFlow.Model;
 
 namespace HaptoFlow.Editor
 {
-    /// <summary>What an Inspector says of a learnt material: what it is nearest to, what it was learnt from, and
-    /// whether it can be felt under the project's model.</summary>
+    /// <summary>The text of a learnt material's Inspector: its nearest label, its recording, and whether it can be used
+    /// with the project's model.</summary>
     internal sealed class MaterialSummary
     {
         private MaterialSummary(string problem) => Problem = problem;
@@ -23,13 +22,14 @@ namespace HaptoFlow.Editor
                 ? null
                 : model == null
                     ? "The project has no usable model, so nothing is felt."
-                    : "Its label is felt instead: " + MaterialRegistration.ForeignSpace(material.Space, model.Id);
+                    : "Its label is used instead: " + MaterialRegistration.ForeignSpace(material.Space, model.Id);
         }
 
-        /// <summary>What is wrong with the file; null where nothing is. Then everything else is empty.</summary>
+        /// <summary>The problem of a file that cannot be used, which leaves all other properties empty; else null.
+        /// </summary>
         public string? Problem { get; }
 
-        /// <summary>Why it is not felt under the project's model; null where it is.</summary>
+        /// <summary>Why it cannot be used with the project's model; null when it can.</summary>
         public string? Mismatch { get; }
 
         public string Title { get; } = "";
@@ -38,8 +38,8 @@ namespace HaptoFlow.Editor
 
         public IReadOnlyList<SummaryRow> Rows { get; } = new SummaryRow[0];
 
-        /// <param name="text">Of a material file.</param>
-        /// <param name="model">The model that it would be felt under; null for none.</param>
+        /// <param name="text">The text of a material file.</param>
+        /// <param name="model">The model in use; null for none.</param>
         public static MaterialSummary Of(string text, HapticModelAsset? model)
         {
             try
@@ -52,7 +52,7 @@ namespace HaptoFlow.Editor
             }
         }
 
-        /// <summary>Null where there is no usable model.</summary>
+        /// <summary>The space of a model; null without a usable model.</summary>
         public static ModelSpace? SpaceOf(HapticModelAsset? model)
         {
             try
@@ -61,7 +61,7 @@ namespace HaptoFlow.Editor
             }
             catch (HaptoFlowException)
             {
-                // The model's own Inspector says what is wrong with it.
+                // The model's Inspector reports the problem.
                 return null;
             }
         }
@@ -70,21 +70,19 @@ namespace HaptoFlow.Editor
         {
             yield return new SummaryRow("Category", material.Category);
             yield return new SummaryRow("Nearest Label", model?.NearestLabel(material.Embedding) ?? "");
-            yield return new SummaryRow("Recording", material.Seconds > 0.0 ? Text("{0:0.#} s", material.Seconds) : "");
+            yield return new SummaryRow("Recording",
+                material.Seconds > 0.0 ? SummaryRow.Format("{0:0.#} s", material.Seconds) : "");
             yield return new SummaryRow("Recordings", material.Recordings);
             yield return new SummaryRow("Licence", material.Licence);
             yield return new SummaryRow("Provenance", material.Statement);
             yield return new SummaryRow("Created", material.Created);
             yield return new SummaryRow("Learnt Speeds", Interval(material.Json["range"]["speed_mps"], "m/s"));
             yield return new SummaryRow("Learnt Forces", Interval(material.Json["range"]["force_newtons"], "N"));
-            yield return new SummaryRow("Stiffness", Text("{0:0} N/m", material.StiffnessNewtonsPerMetre));
+            yield return new SummaryRow("Stiffness", SummaryRow.Format("{0:0} N/m", material.StiffnessNewtonsPerMetre));
             yield return new SummaryRow("Space", material.Space);
         }
 
         private static string Interval(JsonValue bounds, string unit) =>
-            Text("{0:0.###} to {1:0.###} {2}", bounds[0].AsNumber(), bounds[1].AsNumber(), unit);
-
-        private static string Text(string format, params object[] values) =>
-            string.Format(CultureInfo.InvariantCulture, format, values);
+            SummaryRow.Format("{0:0.###} to {1:0.###} {2}", bounds[0].AsNumber(), bounds[1].AsNumber(), unit);
     }
 }

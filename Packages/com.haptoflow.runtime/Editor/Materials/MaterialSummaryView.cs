@@ -3,22 +3,22 @@ using UnityEditor;
 
 namespace HaptoFlow.Editor
 {
-    /// <summary>Draws what a learnt material says of itself; read anew only when text or model are others.</summary>
+    /// <summary>Draws the summary of a learnt material, and updates it when the text or the model changes.</summary>
     internal sealed class MaterialSummaryView
     {
         private string text = "";
         private HapticModelAsset? model;
         private MaterialSummary? summary;
 
-        /// <param name="material">The text of its file.</param>
+        /// <param name="material">The text of a material file.</param>
         public void Draw(string material)
         {
-            HapticModelAsset? present = LabelCatalog.ModelInUse();
-            if (summary == null || !ReferenceEquals(material, text) || !ReferenceEquals(present, model))
+            HapticModelAsset? current = LabelCatalog.ModelInUse();
+            if (summary == null || !ReferenceEquals(material, text) || !ReferenceEquals(current, model))
             {
                 text = material;
-                model = present;
-                summary = MaterialSummary.Of(material, present);
+                model = current;
+                summary = MaterialSummary.Of(material, current);
             }
             Draw(summary);
         }

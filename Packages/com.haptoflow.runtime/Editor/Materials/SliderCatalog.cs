@@ -7,8 +7,8 @@ using UnityEditor;
 
 namespace HaptoFlow.Editor
 {
-    /// <summary>The sliders of a model: a file beside it, or the package's own for the package's model. Main thread;
-    /// read anew only when the model is another.</summary>
+    /// <summary>The sliders of a model: those in a file beside it, or the package's sliders for the package's model.
+    /// They are read again when the model changes. Main thread.</summary>
     internal sealed class SliderCatalog
     {
         public const string DefaultPath = "Packages/com.haptoflow.runtime/Editor/Sliders/default.sliders.json";
@@ -24,24 +24,25 @@ namespace HaptoFlow.Editor
             Problem = problem;
         }
 
-        /// <summary>Null where the model has none.</summary>
+        /// <summary>The sliders; null when the model has none.</summary>
         public SliderSet? Sliders { get; }
 
-        /// <summary>Why there are no sliders; null where there are.</summary>
+        /// <summary>Why there are no sliders; null when there are.</summary>
         public string? Problem { get; }
 
-        /// <param name="model">Null where there is none.</param>
+        /// <summary>The sliders of a model.</summary>
+        /// <param name="model">The model; null for none.</param>
         public static SliderCatalog Of(HapticModelAsset? model)
         {
             byte[] file = model != null ? model.File : Array.Empty<byte>();
             if (current == null || !ReferenceEquals(current.modelFile, file))
             {
-                current = model != null ? Read(model) : new SliderCatalog(file, null, "There is no model to move.");
+                current = model != null ? Read(model) : new SliderCatalog(file, null, "There is no model.");
             }
             return current;
         }
 
-        /// <summary>Looks again: files came or went.</summary>
+        /// <summary>Reads the sliders again at the next call, because files may have changed.</summary>
         public static void Forget() => current = null;
 
         private static SliderCatalog Read(HapticModelAsset model)
@@ -54,9 +55,9 @@ namespace HaptoFlow.Editor
                 SliderSet sliders = SliderSet.Read(File.ReadAllText(FileUtil.GetPhysicalPath(path)));
                 return sliders.Space == space
                     ? new SliderCatalog(model.File, sliders, null)
-                    : new SliderCatalog(model.File, null, $"This model has no sliders: those of {path} are for the " +
-                        $"space {sliders.Space}, and the model's is {space}. `haptoflow-training sliders` " +
-                        "makes its own, which belong beside the model with the ending .sliders.json.");
+                    : new SliderCatalog(model.File, null, $"This model has no sliders: {path} is for the space " +
+                        $"{sliders.Space}, but the model has the space {space}. Create its sliders with " +
+                        "`haptoflow-training sliders`, and put them beside the model with the ending .sliders.json.");
             }
             catch (Exception error) when (error is HaptoFlowException || error is IOException)
             {

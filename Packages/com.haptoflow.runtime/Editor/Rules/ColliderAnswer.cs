@@ -5,11 +5,11 @@ using UnityEngine;
 
 namespace HaptoFlow.Editor
 {
-    /// <summary>The answer to "Why does this feel like wood?" for one collider.</summary>
+    /// <summary>What a collider feels like, and why: by a Haptic Surface or by the rules of maps.</summary>
     internal sealed class ColliderAnswer
     {
-        /// <param name="surface">The surface that counts; null where rules do.</param>
-        /// <param name="byRules">What the rules say, or would say without the surface.</param>
+        /// <param name="surface">The surface that assigns the material; null when rules do.</param>
+        /// <param name="byRules">The material by the rules, which applies when there is no surface.</param>
         public ColliderAnswer(Collider collider, HapticSurface? surface, FeltCollider byRules)
         {
             Collider = collider;
@@ -25,7 +25,7 @@ namespace HaptoFlow.Editor
 
         public bool CanBeFelt => Surface is object || ByRules.CanBeFelt;
 
-        /// <summary>What it feels like: one material, or one for each of its parts that differ.</summary>
+        /// <summary>The material as text, or the different materials of its parts.</summary>
         public string Material
         {
             get
@@ -39,7 +39,7 @@ namespace HaptoFlow.Editor
             }
         }
 
-        /// <summary>Why, by the parts of <see cref="Material"/>.</summary>
+        /// <summary>The reasons for the parts of <see cref="Material"/>, as text.</summary>
         public string Reason => Surface is object
             ? $"Haptic Surface on \"{Surface.name}\""
             : string.Join("; ", Distinct().Select(part => part.Explain()));

@@ -6,10 +6,12 @@ using UnityEngine;
 
 namespace HaptoFlow.Editor
 {
-    /// <summary>What something feels like, and why, in words.</summary>
+    /// <summary>Describes in words what something feels like.</summary>
     internal static class FeltWords
     {
-        /// <summary>What a tip feels: "wood", "wood 60 %, stone 40 %", "nothing".</summary>
+        private const int MaximumNames = 8;
+
+        /// <summary>The labels of a contact: "wood", "wood 60 %, stone 40 %", "nothing".</summary>
         public static string Of(in HapticContact contact)
         {
             LabelBlend blend = contact.Labels;
@@ -22,8 +24,8 @@ namespace HaptoFlow.Editor
                     NameOf(blend.Label(entry)), 100f * blend.Weight(entry))));
         }
 
-        /// <summary>What a description is: "wood", "wood and stone", with a remark where the model has no such label.
-        /// </summary>
+        /// <summary>The labels of a description: "wood" or "wood and stone", with a remark for a label that the model
+        /// does not have. </summary>
         public static string Of(MaterialDescription material)
         {
             LabelCatalog catalog = LabelCatalog.Current;
@@ -31,7 +33,7 @@ namespace HaptoFlow.Editor
             return material.SecondLabel.Length == 0 ? first : first + " and " + catalog.TextOf(material.SecondLabel);
         }
 
-        /// <summary>What an asset is: its name and its labels, one of them where both are the same.</summary>
+        /// <summary>The name and the labels of an asset, or just the name when both are the same.</summary>
         public static string Of(HapticMaterial? material)
         {
             if (material == null)
@@ -42,7 +44,7 @@ namespace HaptoFlow.Editor
             return material.name == labels ? labels : $"{material.name} ({labels})";
         }
 
-        /// <summary>What a part of a collider is, with its mask.</summary>
+        /// <summary>The material of a part of a collider, with its mask.</summary>
         public static string Of(in FeltPart part)
         {
             string material = Of(part.Material);
@@ -50,10 +52,10 @@ namespace HaptoFlow.Editor
         }
 
         /// <summary>The first few names, and how many more there are.</summary>
-        public static string Names(IReadOnlyCollection<Collider> colliders, int most)
+        public static string Names(IReadOnlyCollection<Object> objects, int maximum = MaximumNames)
         {
-            string names = string.Join(", ", colliders.Take(most).Select(each => each.name));
-            return colliders.Count <= most ? names : $"{names} and {colliders.Count - most} more";
+            string names = string.Join(", ", objects.Take(maximum).Select(each => each.name));
+            return objects.Count <= maximum ? names : $"{names} and {objects.Count - maximum} more";
         }
 
         private static string NameOf(int label)

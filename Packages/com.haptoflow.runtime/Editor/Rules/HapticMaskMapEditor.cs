@@ -6,34 +6,34 @@ using UnityEngine;
 
 namespace HaptoFlow.Editor
 {
-    /// <summary>The Inspector of a mask: its texture, what its channels say, and baking.</summary>
+    /// <summary>The Inspector of a mask: its texture, its channels, and a button to bake it.</summary>
     [CustomEditor(typeof(HapticMaskMap))]
     internal sealed class HapticMaskMapEditor : UnityEditor.Editor
     {
         private static readonly GUIContent Source = new GUIContent("Texture",
-            "What the channels are baked from. It must be readable while it is baked; at run time only the copy " +
-            "counts.");
+            "The mask is baked from this texture, which has to be readable meanwhile. At run time only the baked " +
+            "copy is used.");
         private static readonly GUIContent Size = new GUIContent("Largest Size",
-            "In texels, of the longer side. A larger texture is baked at half its size, or half of that, until it " +
+            "The longer side of the baked mask has at most this many texels. A larger texture is halved until it " +
             "fits.");
         private static readonly GUIContent Second = new GUIContent("Second Coordinates",
-            "Off: the mesh's first texture coordinates count. On: its second.");
+            "When it is on, the mask lies over the second texture coordinates of the mesh, else over the first.");
         private static readonly GUIContent Tiling = new GUIContent("Tiling",
-            "How often the texture repeats over the texture coordinates.");
+            "The texture repeats this often over the texture coordinates.");
         private static readonly GUIContent Offset = new GUIContent("Offset",
-            "Shifts the texture over the texture coordinates.");
+            "The texture is shifted by this much over the texture coordinates.");
         private static readonly (string Name, GUIContent Content)[] Channels =
         {
-            ("red", new GUIContent("Red", "What the red channel says.")),
-            ("green", new GUIContent("Green", "What the green channel says.")),
-            ("blue", new GUIContent("Blue", "What the blue channel says.")),
-            ("alpha", new GUIContent("Alpha", "What the alpha channel says.")),
+            ("red", new GUIContent("Red", "The red channel selects a material or scales a property.")),
+            ("green", new GUIContent("Green", "The green channel selects a material or scales a property.")),
+            ("blue", new GUIContent("Blue", "The blue channel selects a material or scales a property.")),
+            ("alpha", new GUIContent("Alpha", "The alpha channel selects a material or scales a property.")),
         };
 
         public override void OnInspectorGUI()
         {
             var mask = (HapticMaskMap)target;
-            // What is shown is decided before anything is changed: nothing is drawn that was not laid out.
+            // Read before any field is drawn, so that layout and drawing show the same controls.
             string? problem = MaskBake.ProblemOf(mask);
             Repair[] repairs = MaskBake.RepairsOf(mask).ToArray();
             serializedObject.Update();

@@ -7,32 +7,26 @@ using UnityEngine;
 
 namespace HaptoFlow.Editor
 {
-    /// <summary>The Inspector of a map: its rules, what each matches in the open scenes, and what is wrong with it.
+    /// <summary>The Inspector of a map: its rules, what each of them matches in the open scenes, and their problems.
     /// </summary>
     [CustomEditor(typeof(HapticMaterialMap))]
     internal sealed class HapticMaterialMapEditor : UnityEditor.Editor
     {
-        private const int MostNames = 3;
+        private const int MaximumNames = 3;
         private static readonly GUIContent Rules = new GUIContent("Rules",
-            "The first rule that matches counts. A Haptic Surface on an object wins over every rule.");
+            "The first rule that matches assigns the material. A Haptic Surface on an object takes precedence over " +
+            "every rule.");
         private static readonly GUIContent Default = new GUIContent("Default",
-            "What no rule matches feels like this; empty to ask the next map, and to feel nothing where there is " +
-            "none.");
+            "Objects that no rule matches have the default material. When it is empty, the next map decides, or they " +
+            "are not felt.");
 
         private IReadOnlyList<(string Text, MessageType Kind)> lines = Array.Empty<(string, MessageType)>();
+        private SceneChanges? changes;
         private bool isStale = true;
 
-        private void OnEnable()
-        {
-            EditorApplication.hierarchyChanged += Forget;
-            ObjectChangeEvents.changesPublished += OnChanges;
-        }
+        private void OnEnable() => changes = new SceneChanges(MarkStale);
 
-        private void OnDisable()
-        {
-            EditorApplication.hierarchyChanged -= Forget;
-            ObjectChangeEvents.changesPublished -= OnChanges;
-        }
+        private void OnDisable() => changes?.Dispose();
 
         public override void OnInspectorGUI()
         {
@@ -41,9 +35,9 @@ namespace HaptoFlow.Editor
             EditorGUILayout.PropertyField(serializedObject.FindProperty("defaultMaterial"), Default);
             if (serializedObject.ApplyModifiedProperties())
             {
-                Forget();
+                MarkStale();
             }
-            // Between laying out and drawing no line may come.
+            // Only during layout: the number of lines must not change before Unity draws.
             if (isStale && Event.current.type == EventType.Layout)
             {
                 isStale = false;
@@ -57,14 +51,14 @@ namespace HaptoFlow.Editor
             }
         }
 
-        /// <summary>One for each rule, and for the default where there is one.</summary>
+        /// <summary>A line for each rule, and one for the default material if there is one.</summary>
         internal static IEnumerable<(string Text, MessageType Kind)> LinesOf(HapticMaterialMap map)
         {
             var maps = new SceneMaps();
             if (!maps.All.Contains(map))
             {
-                yield return ("This map counts nowhere: choose it in Project Settings > HaptoFlow, or name it in a " +
-                    "Haptic Material Map Scope of an open scene.", MessageType.Info);
+                yield return ("This map is not in use: choose it in Project Settings > HaptoFlow, or in a Haptic " +
+                    "Material Map Scope of an open scene.", MessageType.Info);
             }
             ColliderAnswer[] answers = SceneColliders.InScenes().Select(maps.Ask).ToArray();
             for (int rule = 0; rule < map.Rules.Count; ++rule)
@@ -90,12 +84,10 @@ namespace HaptoFlow.Editor
                 .Where(answer => answer.Surface is null &&
                     answer.ByRules.Parts.Any(part => ReferenceEquals(part.Map, map) && part.Rule == rule))
                 .Select(answer => answer.Collider).ToArray();
-            return matched.Length == 0 ? "no collider" : FeltWords.Names(matched, MostNames);
+            return matched.Length == 0 ? "no collider" : FeltWords.Names(matched, MaximumNames);
         }
 
-        private void OnChanges(ref ObjectChangeEventStream stream) => Forget();
-
-        private void Forget()
+        private void MarkStale()
         {
             isStale = true;
             Repaint();

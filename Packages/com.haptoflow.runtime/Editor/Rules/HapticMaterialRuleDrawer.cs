@@ -4,59 +4,59 @@ using UnityEngine;
 
 namespace HaptoFlow.Editor
 {
-    /// <summary>Draws one rule of a map: its number, what it looks for, what that feels like.</summary>
+    /// <summary>Draws a rule of a map: its number, its condition, its material and mask.</summary>
     [CustomPropertyDrawer(typeof(HapticMaterialRule))]
     internal sealed class HapticMaterialRuleDrawer : PropertyDrawer
     {
         private const int Rows = 5;
 
         private static readonly GUIContent Subject = new GUIContent("Looks At",
-            "What of an object this rule looks at.");
-        private static readonly GUIContent Tag = new GUIContent("Tag", "The Unity tag of the collider's object.");
-        private static readonly GUIContent Layer = new GUIContent("Layer", "The layer of the collider's object.");
+            "The rule compares this property of an object.");
+        private static readonly GUIContent Tag = new GUIContent("Tag", "The rule matches colliders whose object has " +
+            "this Unity tag.");
+        private static readonly GUIContent Layer = new GUIContent("Layer", "The rule matches colliders whose object " +
+            "is on this layer.");
         private static readonly GUIContent PhysicsMaterial = new GUIContent("Physics Material",
-            "The collider's physics material.");
+            "The rule matches colliders with this physics material.");
         private static readonly GUIContent RendererMaterial = new GUIContent("Renderer Material",
-            "A material of the object's renderer. On a mesh collider each submesh goes by its own; on other " +
-            "colliders the first counts.");
+            "The rule matches this material of the object's renderer. A mesh collider is compared by submesh, any " +
+            "other collider by the first material.");
         private static readonly GUIContent TerrainLayer = new GUIContent("Terrain Layer",
-            "A layer that a terrain is painted with. Layers are mixed as they are painted.");
+            "The rule matches this layer of a terrain. Where several layers are painted, their materials are blended.");
         private static readonly GUIContent Mesh = new GUIContent("Mesh",
-            "The mesh whose submesh counts; empty for every mesh.");
-        private static readonly GUIContent Submesh = new GUIContent("Submesh", "Number of the submesh, from 0.");
+            "The rule matches a submesh of this mesh. When it is empty, it matches every mesh.");
+        private static readonly GUIContent Submesh = new GUIContent("Submesh", "The rule matches the submesh of this " +
+            "number, counted from 0.");
         private static readonly GUIContent Name = new GUIContent("Name",
-            "The name of the collider's object. A * stands for any characters; upper and lower case count alike.");
+            "The rule matches colliders whose object has this name. A * stands for any characters; case is ignored.");
         private static readonly GUIContent Material = new GUIContent("Feels Like",
-            "The material; empty for nothing, and no later rule is asked.");
+            "Matching objects have this material. When it is empty they are not felt, and no later rule applies.");
         private static readonly GUIContent Mask = new GUIContent("Mask",
-            "Further materials by a texture, at the place that is touched; empty for none.");
-
-        private static float RowHeight =>
-            EditorGUIUtility.singleLineHeight + EditorGUIUtility.standardVerticalSpacing;
+            "The mask selects further materials by a texture at the touched point. It may be empty.");
 
         public override float GetPropertyHeight(SerializedProperty property, GUIContent label) =>
-            RowHeight * (Rows + (SubjectOf(property) == MaterialRuleSubject.Submesh ? 1 : 0)) -
+            InspectorRows.Height * (Rows + (SubjectOf(property) == MaterialRuleSubject.Submesh ? 1 : 0)) -
             EditorGUIUtility.standardVerticalSpacing;
 
         public override void OnGUI(Rect position, SerializedProperty property, GUIContent label)
         {
-            // Decided before it is changed: nothing is drawn that was not laid out.
+            // Read before any field is drawn, so that layout and drawing show the same fields.
             MaterialRuleSubject subject = SubjectOf(property);
             var row = new Rect(position.x, position.y, position.width, EditorGUIUtility.singleLineHeight);
             EditorGUI.LabelField(row, Title(property), EditorStyles.boldLabel);
-            row.y += RowHeight;
+            row.y += InspectorRows.Height;
             EditorGUI.PropertyField(row, property.FindPropertyRelative("subject"), Subject);
-            row.y += RowHeight;
-            row = DrawWanted(row, property, subject);
+            row.y += InspectorRows.Height;
+            row = DrawCondition(row, property, subject);
             EditorGUI.PropertyField(row, property.FindPropertyRelative("material"), Material);
-            row.y += RowHeight;
+            row.y += InspectorRows.Height;
             EditorGUI.PropertyField(row, property.FindPropertyRelative("mask"), Mask);
         }
 
         private static MaterialRuleSubject SubjectOf(SerializedProperty property) =>
             (MaterialRuleSubject)property.FindPropertyRelative("subject").enumValueIndex;
 
-        /// <summary>"Rule 3": as the answers name it.</summary>
+        /// <summary>The title, for example "Rule 3".</summary>
         private static string Title(SerializedProperty property)
         {
             string path = property.propertyPath;
@@ -66,7 +66,7 @@ namespace HaptoFlow.Editor
                 : "Rule";
         }
 
-        private static Rect DrawWanted(Rect row, SerializedProperty property, MaterialRuleSubject subject)
+        private static Rect DrawCondition(Rect row, SerializedProperty property, MaterialRuleSubject subject)
         {
             switch (subject)
             {
@@ -87,14 +87,14 @@ namespace HaptoFlow.Editor
                     break;
                 case MaterialRuleSubject.Submesh:
                     EditorGUI.PropertyField(row, property.FindPropertyRelative("mesh"), Mesh);
-                    row.y += RowHeight;
+                    row.y += InspectorRows.Height;
                     EditorGUI.PropertyField(row, property.FindPropertyRelative("submesh"), Submesh);
                     break;
                 default:
                     EditorGUI.PropertyField(row, property.FindPropertyRelative("namePattern"), Name);
                     break;
             }
-            row.y += RowHeight;
+            row.y += InspectorRows.Height;
             return row;
         }
 

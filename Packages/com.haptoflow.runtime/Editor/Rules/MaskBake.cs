@@ -6,22 +6,24 @@ using UnityEngine;
 
 namespace HaptoFlow.Editor
 {
-    /// <summary>Makes a mask map's compact copy of its texture.</summary>
+    /// <summary>Bakes the texture of a mask map into its compact copy.</summary>
     internal static class MaskBake
     {
-        /// <summary>What is wrong with the mask; null where nothing is.</summary>
+        /// <summary>The problem of a mask; null without one.</summary>
         public static string? ProblemOf(HapticMaskMap mask)
         {
             Texture2D? texture = mask.Texture;
             if (texture == null)
             {
-                return mask.IsBaked ? null : $"{mask.name} names no texture to bake: it has no effect.";
+                return mask.IsBaked ? null : $"{mask.name} has no texture to bake: it has no effect.";
             }
             if (!texture.isReadable)
             {
-                string then = mask.IsBaked ? "changes of it cannot be baked" : "it cannot be baked and has no effect";
-                return $"{mask.name}: the texture {texture.name} is not readable, so {then}. Switch on Read/Write in " +
-                    "its import settings.";
+                string consequence = mask.IsBaked
+                    ? "its changes cannot be baked"
+                    : "it cannot be baked and has no effect";
+                return $"{mask.name}: the texture {texture.name} is not readable, so {consequence}. Switch on " +
+                    "Read/Write in its import settings.";
             }
             if (!mask.IsBaked)
             {
@@ -32,7 +34,7 @@ namespace HaptoFlow.Editor
                 : null;
         }
 
-        /// <summary>Readability first, then baking.</summary>
+        /// <summary>A button that makes the texture readable, else a button that bakes.</summary>
         public static IEnumerable<Repair> RepairsOf(HapticMaskMap mask)
         {
             if (mask.Texture == null)
@@ -50,15 +52,15 @@ namespace HaptoFlow.Editor
             }
         }
 
-        /// <summary>Bakes; one step of undo.</summary>
-        /// <exception cref="InvalidOperationException">There is no texture, or it is not readable; the mask is as it
-        /// was.</exception>
+        /// <summary>Bakes the mask, as one step of undo.</summary>
+        /// <exception cref="InvalidOperationException">There is no texture, or it is not readable. The mask does not
+        /// change.</exception>
         public static void Bake(HapticMaskMap mask)
         {
             Texture2D? texture = mask.Texture;
             if (texture == null)
             {
-                throw new InvalidOperationException($"{mask.name} names no texture to bake");
+                throw new InvalidOperationException($"{mask.name} has no texture to bake");
             }
             if (!texture.isReadable)
             {
@@ -72,7 +74,7 @@ namespace HaptoFlow.Editor
             }
             int width = Math.Max(1, texture.width >> halvings);
             int height = Math.Max(1, texture.height >> halvings);
-            Color32[] pixels = Smaller(texture.GetPixels32(), texture.width, texture.height, width, height);
+            Color32[] pixels = Shrink(texture.GetPixels32(), texture.width, texture.height, width, height);
             Undo.RecordObject(mask, "Bake the Mask");
             mask.SetPixels(width, height, pixels, texture.wrapMode == TextureWrapMode.Repeat);
             mask.BakedContents = ContentsOf(mask, texture);
@@ -82,8 +84,8 @@ namespace HaptoFlow.Editor
         private static string ContentsOf(HapticMaskMap mask, Texture2D texture) =>
             $"{texture.imageContentsHash} at {mask.LargestSize}, {texture.wrapMode}";
 
-        /// <summary>Means over the texels that fall into one.</summary>
-        private static Color32[] Smaller(Color32[] pixels, int width, int height, int newWidth, int newHeight)
+        /// <summary>Scales pixels down: each new pixel is the mean of those that it covers.</summary>
+        private static Color32[] Shrink(Color32[] pixels, int width, int height, int newWidth, int newHeight)
         {
             if (width == newWidth && height == newHeight)
             {

@@ -4,25 +4,22 @@ using UnityEngine;
 
 namespace HaptoFlow.Editor
 {
-    /// <summary>Draws what one channel of a mask says: a material, or a factor between two values.</summary>
+    /// <summary>Draws a channel of a mask: a material, or a factor between two values.</summary>
     [CustomPropertyDrawer(typeof(MaskChannel))]
     internal sealed class MaskChannelDrawer : PropertyDrawer
     {
         private static readonly GUIContent Material = new GUIContent("Material",
-            "There is more of it where the channel is brighter; empty for nothing.");
+            "The material has more weight where the channel is brighter. When it is empty, that share is not felt.");
         private static readonly GUIContent Lowest = new GUIContent("At Black",
-            "The factor where the channel is black.");
+            "At Black is the factor where the channel is black.");
         private static readonly GUIContent Highest = new GUIContent("At White",
-            "The factor where the channel is white.");
-
-        private static float RowHeight =>
-            EditorGUIUtility.singleLineHeight + EditorGUIUtility.standardVerticalSpacing;
+            "At White is the factor where the channel is white.");
 
         public override float GetPropertyHeight(SerializedProperty property, GUIContent label)
         {
             MaskChannelUse use = UseOf(property);
             int rows = use == MaskChannelUse.Nothing ? 1 : use == MaskChannelUse.Material ? 2 : 3;
-            return RowHeight * rows - EditorGUIUtility.standardVerticalSpacing;
+            return InspectorRows.Height * rows - EditorGUIUtility.standardVerticalSpacing;
         }
 
         public override void OnGUI(Rect position, SerializedProperty property, GUIContent label)
@@ -35,14 +32,14 @@ namespace HaptoFlow.Editor
                 return;
             }
             using var indent = new EditorGUI.IndentLevelScope();
-            row.y += RowHeight;
+            row.y += InspectorRows.Height;
             if (use == MaskChannelUse.Material)
             {
                 EditorGUI.PropertyField(row, property.FindPropertyRelative("material"), Material);
                 return;
             }
             EditorGUI.PropertyField(row, property.FindPropertyRelative("lowest"), Lowest);
-            row.y += RowHeight;
+            row.y += InspectorRows.Height;
             EditorGUI.PropertyField(row, property.FindPropertyRelative("highest"), Highest);
         }
 

@@ -6,12 +6,13 @@ using UnityEngine;
 
 namespace HaptoFlow.Editor
 {
-    /// <summary>Makes imported meshes and textures readable where that is a matter of their import settings.</summary>
+    /// <summary>Makes imported meshes and textures readable through their import settings.</summary>
     internal static class Readability
     {
         private const string Caption = "Enable Read/Write";
 
-        /// <summary>None for meshes and textures that no importer made. An import cannot be undone.</summary>
+        /// <summary>A button for the imported ones among the assets; none if all were created by scripts. An import
+        /// cannot be undone.</summary>
         public static IEnumerable<Repair> RepairsOf(IEnumerable<Object> assets)
         {
             string[] paths = assets.Select(AssetDatabase.GetAssetPath)

@@ -6,42 +6,42 @@ using UnityEngine;
 
 namespace HaptoFlow.Editor
 {
-    /// <summary>Rules that can never match, and why.</summary>
+    /// <summary>Finds rules that can never match.</summary>
     internal static class RuleCheck
     {
-        /// <summary>Null for a rule that can match something.</summary>
+        /// <summary>Why a rule can never match, as the end of a sentence; null for a rule that can match.</summary>
         public static string? ProblemOf(HapticMaterialMap map, int index)
         {
             HapticMaterialRule rule = map.Rules[index];
             if (!rule.IsComplete)
             {
-                return "names nothing to look for";
+                return "has an empty condition";
             }
             if (rule.Subject == MaterialRuleSubject.Tag && !InternalEditorUtility.tags.Contains(rule.Tag))
             {
-                return "looks for a tag that the project does not have";
+                return "matches a tag that the project does not have";
             }
             if (rule.Subject == MaterialRuleSubject.Layer && LayerMask.LayerToName(rule.Layer).Length == 0)
             {
-                return "looks for a layer that the project gives no name";
+                return "matches a layer that has no name in the project";
             }
             if (rule.Subject == MaterialRuleSubject.Submesh && rule.Mesh != null &&
                 rule.Submesh >= rule.Mesh.subMeshCount)
             {
-                return $"looks for submesh {rule.Submesh} of a mesh whose last is {rule.Mesh.subMeshCount - 1}";
+                return $"matches submesh {rule.Submesh} of a mesh whose last submesh is {rule.Mesh.subMeshCount - 1}";
             }
             for (int before = 0; before < index; ++before)
             {
                 if (Covers(map.Rules[before], rule))
                 {
-                    return $"never matches: rule {before + 1} ({map.Rules[before].Describe()}) comes first and takes " +
-                        "everything that it would match";
+                    return $"never matches: rule {before + 1} ({map.Rules[before].Describe()}) comes first and " +
+                        "matches everything that it would match";
                 }
             }
             return null;
         }
 
-        /// <summary>Everything that the second matches is matched by the first.</summary>
+        /// <summary>Whether the first rule matches everything that the second matches.</summary>
         private static bool Covers(HapticMaterialRule first, HapticMaterialRule second)
         {
             if (!first.IsComplete)
@@ -71,7 +71,7 @@ namespace HaptoFlow.Editor
                 case MaterialRuleSubject.Submesh:
                     return first.Submesh == second.Submesh && (first.Mesh == null || first.Mesh == second.Mesh);
                 default:
-                    // A star of the second is a character that only a star of the first takes.
+                    // A * in the second pattern is treated as a character, which only a * in the first one matches.
                     return NamePattern.Matches(first.NamePattern, second.NamePattern);
             }
         }

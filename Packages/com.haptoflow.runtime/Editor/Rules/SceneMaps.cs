@@ -5,8 +5,8 @@ using UnityEngine;
 
 namespace HaptoFlow.Editor
 {
-    /// <summary>The maps that count in the open scenes, by the rules that <see cref="MaterialMaps"/> goes by in play
-    /// mode.</summary>
+    /// <summary>The maps in use in the open scenes, found in the same way as <see cref="MaterialMaps"/> finds them in
+    /// play mode.</summary>
     internal sealed class SceneMaps
     {
         private readonly HapticMaterialMapScope[] scopes;
@@ -25,11 +25,11 @@ namespace HaptoFlow.Editor
             project = settings != null && settings.MaterialMap != null ? settings.MaterialMap : null;
         }
 
-        /// <summary>Those of scenes and the project's.</summary>
+        /// <summary>The maps of the open scenes and that of the project.</summary>
         public IReadOnlyList<HapticMaterialMap> All => scopes.Select(scope => scope.Map!).Append(project!)
             .Where(map => map != null).Distinct().ToArray();
 
-        /// <summary>In the order in which they are asked.</summary>
+        /// <summary>The maps for an object, in the order in which they apply.</summary>
         public IReadOnlyList<HapticMaterialMap> For(GameObject owner)
         {
             List<HapticMaterialMap> maps = scopes
@@ -41,13 +41,13 @@ namespace HaptoFlow.Editor
             return maps;
         }
 
-        /// <summary>What a collider feels like, and why. An explicit surface wins.</summary>
+        /// <summary>What a collider feels like, and why. A surface takes precedence over rules.</summary>
         public ColliderAnswer Ask(Collider collider)
         {
             HapticSurface? surface = SceneColliders.SurfaceOf(collider);
-            bool counts = surface != null && surface.enabled && surface.gameObject.activeInHierarchy;
+            bool isActive = surface != null && surface.enabled && surface.gameObject.activeInHierarchy;
             return new ColliderAnswer(
-                collider, counts ? surface : null, new FeltCollider(collider, For(collider.gameObject)));
+                collider, isActive ? surface : null, new FeltCollider(collider, For(collider.gameObject)));
         }
     }
 }

@@ -5,7 +5,7 @@ using HaptoFlow.Numerics;
 
 namespace HaptoFlow.Editor
 {
-    /// <summary>What a line of the contact's drawing means.</summary>
+    /// <summary>The meaning of a line in the drawing of a contact.</summary>
     internal enum MarkKind
     {
         Point,
@@ -31,18 +31,18 @@ namespace HaptoFlow.Editor
         public Double3 To { get; }
     }
 
-    /// <summary>What is drawn of a contact.</summary>
+    /// <summary>The values of a contact that are drawn.</summary>
     internal struct MarkedContact
     {
         public Double3 PointMetres;
 
-        /// <summary>Unit length, out of the surface.</summary>
+        /// <summary>The surface normal, of unit length.</summary>
         public Double3 Normal;
 
-        /// <summary>Unit length, along the surface.</summary>
+        /// <summary>A tangent of unit length.</summary>
         public Double3 FirstAxis;
 
-        /// <summary>Unit length, along the surface.</summary>
+        /// <summary>A tangent of unit length.</summary>
         public Double3 SecondAxis;
 
         public Double3 TangentialVelocityMps;
@@ -54,13 +54,13 @@ namespace HaptoFlow.Editor
     /// </summary>
     internal static class ContactMarks
     {
-        /// <summary>The velocity's arrow is the way of one segment.</summary>
+        /// <summary>The length of the velocity arrow is the distance covered in this time, one segment.</summary>
         public const double VelocitySeconds = 0.1;
 
         public const double NormalMetres = 0.02;
         private const double CrossMetres = 0.002;
         private const double HeadShare = 0.2;
-        private const double SlowestMps = 1e-3;
+        private const double MinimumMps = 1e-3;
 
         public static IReadOnlyList<MarkLine> Of(in MarkedContact contact)
         {
@@ -71,10 +71,11 @@ namespace HaptoFlow.Editor
             lines.Add(new MarkLine(MarkKind.Point, point - first, point + first));
             lines.Add(new MarkLine(MarkKind.Point, point - second, point + second));
             AddArrow(lines, MarkKind.Normal, point, contact.Normal * NormalMetres, contact.FirstAxis);
-            if (contact.TangentialVelocityMps.Length >= SlowestMps)
+            if (contact.TangentialVelocityMps.Length >= MinimumMps)
             {
-                Double3 way = contact.TangentialVelocityMps * VelocitySeconds;
-                AddArrow(lines, MarkKind.Velocity, point, way, Double3.Cross(contact.Normal, way / way.Length));
+                Double3 displacement = contact.TangentialVelocityMps * VelocitySeconds;
+                AddArrow(lines, MarkKind.Velocity, point, displacement,
+                    Double3.Cross(contact.Normal, displacement / displacement.Length));
             }
             lines.Add(new MarkLine(
                 MarkKind.Penetration, point, point - contact.Normal * contact.PenetrationMetres));
@@ -86,12 +87,12 @@ namespace HaptoFlow.Editor
             CultureInfo.InvariantCulture, "{0:0.00} N, {1:0} mm/s, {2:0.0} mm deep", contact.ForceNewtons,
             1000.0 * contact.TangentialVelocityMps.Length, 1000.0 * contact.PenetrationMetres);
 
-        /// <param name="side">Unit length, across the arrow.</param>
-        private static void AddArrow(List<MarkLine> lines, MarkKind kind, Double3 from, Double3 way, Double3 side)
+        /// <param name="side">A vector of unit length across the arrow.</param>
+        private static void AddArrow(List<MarkLine> lines, MarkKind kind, Double3 from, Double3 shaft, Double3 side)
         {
-            Double3 tip = from + way;
-            Double3 back = way * HeadShare;
-            Double3 aside = side * (0.5 * HeadShare * way.Length);
+            Double3 tip = from + shaft;
+            Double3 back = shaft * HeadShare;
+            Double3 aside = side * (0.5 * HeadShare * shaft.Length);
             lines.Add(new MarkLine(kind, from, tip));
             lines.Add(new MarkLine(kind, tip, tip - back + aside));
             lines.Add(new MarkLine(kind, tip, tip - back - aside));

@@ -5,27 +5,27 @@ using UnityEngine;
 
 namespace HaptoFlow.Editor
 {
-    /// <summary>What the editor says of colliders before play mode has registered any: by the rules that
-    /// <see cref="HapticSurface"/> goes by.</summary>
+    /// <summary>Finds the colliders that can be felt and their surfaces in edit mode, in the same way as
+    /// <see cref="HapticSurface"/> does in play mode.</summary>
     internal static class SceneColliders
     {
-        /// <summary>A kind of collider that a tip can feel.</summary>
+        /// <summary>Whether the collider is of a kind that a tip can feel.</summary>
         public static bool CanBeFelt(Collider collider) => !collider.isTrigger && ColliderProbe.IsFeltKind(collider);
 
-        /// <summary>The surface whose material the collider has; null for an untagged one.</summary>
+        /// <summary>The surface that a collider belongs to; null for an untagged collider.</summary>
         public static HapticSurface? SurfaceOf(Collider collider)
         {
             HapticSurface? owner = SurfaceRegistry.OwnerOf(collider.transform);
-            bool reached = owner != null &&
+            bool isIncluded = owner != null &&
                 (owner.IncludeChildren || ReferenceEquals(owner.gameObject, collider.gameObject));
-            return reached ? owner : null;
+            return isIncluded ? owner : null;
         }
 
-        /// <summary>Everything that could be felt in the open scenes, by name.</summary>
+        /// <summary>The colliders in the open scenes that can be felt, sorted by name.</summary>
         public static IReadOnlyList<Collider> InScenes() => Sorted(
             Object.FindObjectsByType<Collider>(FindObjectsInactive.Exclude, FindObjectsSortMode.None));
 
-        /// <summary>Everything that could be felt on these objects and below them, by name.</summary>
+        /// <summary>The colliders on these objects and their children that can be felt, sorted by name.</summary>
         public static IReadOnlyList<Collider> Below(IEnumerable<GameObject> roots)
         {
             var all = new HashSet<Collider>();

@@ -4,7 +4,7 @@ using UnityEngine;
 
 namespace HaptoFlow.Editor
 {
-    /// <summary>Draws a stylus's tip, and what it touches while it touches.</summary>
+    /// <summary>Draws the tip of a stylus, and its contact while it touches.</summary>
     internal static class StylusGizmos
     {
         private static readonly Color TipColour = new Color(0.95f, 0.95f, 0.95f, 0.8f);

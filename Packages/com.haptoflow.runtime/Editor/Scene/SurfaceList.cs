@@ -5,7 +5,7 @@ using UnityEngine;
 
 namespace HaptoFlow.Editor
 {
-    /// <summary>One line of the overlay.</summary>
+    /// <summary>A line of the overlay.</summary>
     internal readonly struct SurfaceLine
     {
         public SurfaceLine(Collider collider, string text)
@@ -19,8 +19,8 @@ namespace HaptoFlow.Editor
         public string Text { get; }
     }
 
-    /// <summary>What colliders feel like and by which rule, and which are not felt: of the selection where there is
-    /// one, else of the scene.</summary>
+    /// <summary>Lists what colliders feel like and by which rule, and which colliders are not felt: those of the
+    /// selection, or those of the open scenes when the selection has none.</summary>
     internal sealed class SurfaceList
     {
         private SurfaceList(IReadOnlyList<Collider> colliders, bool ofSelection)
@@ -38,16 +38,17 @@ namespace HaptoFlow.Editor
 
         public IReadOnlyList<SurfaceLine> NotFelt { get; }
 
-        /// <param name="selected">Objects; where none of them has a collider, the scene is listed.</param>
+        /// <summary>Lists the colliders of the selected objects, or of the open scenes.</summary>
+        /// <param name="selected">The selected objects.</param>
         public static SurfaceList Of(IReadOnlyList<GameObject> selected)
         {
-            IReadOnlyList<Collider> near = SceneColliders.Below(selected);
-            return near.Count > 0
-                ? new SurfaceList(near, true)
+            IReadOnlyList<Collider> ofSelection = SceneColliders.Below(selected);
+            return ofSelection.Count > 0
+                ? new SurfaceList(ofSelection, true)
                 : new SurfaceList(SceneColliders.InScenes(), false);
         }
 
-        /// <summary>A surface's own line needs no reason; what a rule decides does, also where it is nothing.</summary>
+        /// <summary>The line of a collider, with the reason when a rule decides.</summary>
         private static SurfaceLine LineOf(ColliderAnswer answer)
         {
             string felt = answer.CanBeFelt ? $"{answer.Collider.name}: {answer.Material}" : answer.Collider.name;

@@ -6,15 +6,17 @@ using UnityEngine;
 
 namespace HaptoFlow.Editor
 {
-    /// <summary>In the scene view: which colliders can be felt as what, and which not. A click shows one.</summary>
+    /// <summary>An overlay of the Scene view that lists the colliders that are felt, with their materials, and those
+    /// that are not.</summary>
     [Overlay(typeof(SceneView), "haptoflow-surfaces", "HaptoFlow Surfaces", true)]
     internal sealed class SurfaceOverlay : IMGUIOverlay
     {
-        private const int MostLines = 12;
+        private const int MaximumLines = 12;
         private const float Width = 300f;
 
-        private static readonly GUIContent Line = new GUIContent("", "Click to show it in the Hierarchy.");
+        private static readonly GUIContent Line = new GUIContent("", "A click shows this object in the Hierarchy.");
         private SurfaceList? list;
+        private SceneChanges? changes;
         private bool isStale = true;
         private string title = "";
         private string feltTitle = "";
@@ -22,23 +24,19 @@ namespace HaptoFlow.Editor
 
         public override void OnCreated()
         {
-            Selection.selectionChanged += Forget;
-            EditorApplication.hierarchyChanged += Forget;
-            EditorApplication.projectChanged += Forget;
-            ObjectChangeEvents.changesPublished += OnChanges;
+            Selection.selectionChanged += MarkStale;
+            changes = new SceneChanges(MarkStale);
         }
 
         public override void OnWillBeDestroyed()
         {
-            Selection.selectionChanged -= Forget;
-            EditorApplication.hierarchyChanged -= Forget;
-            EditorApplication.projectChanged -= Forget;
-            ObjectChangeEvents.changesPublished -= OnChanges;
+            Selection.selectionChanged -= MarkStale;
+            changes?.Dispose();
         }
 
         public override void OnGUI()
         {
-            // Between laying out and drawing no line may come.
+            // Only during layout: the number of lines must not change before Unity draws.
             if (list == null || (isStale && Event.current.type == EventType.Layout))
             {
                 Read();
@@ -51,9 +49,7 @@ namespace HaptoFlow.Editor
             }
         }
 
-        private void OnChanges(ref ObjectChangeEventStream stream) => Forget();
-
-        private void Forget() => isStale = true;
+        private void MarkStale() => isStale = true;
 
         private void Read()
         {
@@ -67,7 +63,7 @@ namespace HaptoFlow.Editor
         private static void Draw(string caption, IReadOnlyList<SurfaceLine> lines)
         {
             GUILayout.Label(caption, EditorStyles.boldLabel);
-            for (int index = 0; index < lines.Count && index < MostLines; ++index)
+            for (int index = 0; index < lines.Count && index < MaximumLines; ++index)
             {
                 Line.text = lines[index].Text;
                 if (GUILayout.Button(Line, EditorStyles.label) && lines[index].Collider != null)
@@ -75,7 +71,7 @@ namespace HaptoFlow.Editor
                     EditorGUIUtility.PingObject(lines[index].Collider.gameObject);
                 }
             }
-            if (lines.Count > MostLines)
+            if (lines.Count > MaximumLines)
             {
                 GUILayout.Label("\u2026", EditorStyles.miniLabel);
             }

@@ -4,8 +4,8 @@ using UnityEngine;
 
 namespace HaptoFlow.Editor
 {
-    /// <summary>Ties the engine to the editor's life: it must not outlive the scripts, play mode or the process that
-    /// hold it, and play mode takes the project's settings. Holds with domain reload on and off.</summary>
+    /// <summary>Shuts the engine down when scripts reload, play mode changes or the editor quits, and gives play mode
+    /// the project's settings. Works with domain reload on and off.</summary>
     internal static class EditorLifecycle
     {
         private static HaptoFlowSettings? builtIn;
@@ -21,7 +21,7 @@ namespace HaptoFlow.Editor
             EditorApplication.quitting += HapticLearning.EndAll;
             EditorApplication.playModeStateChanged += OnPlayModeChanged;
             EditorApplication.projectChanged += ProjectSettingsAsset.Forget;
-            // A running scene does not look for new names by itself: reading them makes garbage.
+            // In play mode, names of objects are read again only after this call, because reading them allocates.
             EditorApplication.hierarchyChanged += MaterialMaps.Change;
         }
 
@@ -36,7 +36,7 @@ namespace HaptoFlow.Editor
             }
         }
 
-        // Not saved with any scene, it would stay in memory from one reload to the next.
+        // HideAndDontSave objects survive a domain reload, so they have to be destroyed explicitly.
         private static void ForgetBuiltIn()
         {
             if (builtIn != null)
@@ -51,7 +51,8 @@ namespace HaptoFlow.Editor
             return settings != null ? settings : BuiltIn();
         }
 
-        /// <summary>So that a first scene plays before anybody has looked for settings.</summary>
+        /// <summary>Settings with the package's model for projects without settings, so that a first scene plays at
+        /// once.</summary>
         private static HaptoFlowSettings? BuiltIn()
         {
             HapticModelAsset? model = ProjectSettingsAsset.DefaultModel();
@@ -68,8 +69,8 @@ namespace HaptoFlow.Editor
             builtIn.Model = model;
             if (Application.isPlaying)
             {
-                Debug.Log("HaptoFlow: this project has no settings, so the package's own model plays with " +
-                    "built-in ones. Player builds need them: Project Settings > HaptoFlow.");
+                Debug.Log("HaptoFlow: this project has no settings, so the editor uses built-in ones with the " +
+                    "package's model. Player builds need settings: create them in Project Settings > HaptoFlow.");
             }
             return builtIn;
         }

@@ -17,8 +17,8 @@ namespace HaptoFlow.Editor
             HaptoFlowSettingsFields.Draw(serializedObject);
             if (!isOfProject && targets.Length == 1)
             {
-                EditorGUILayout.HelpBox("The project uses other settings (Project Settings > HaptoFlow). These count " +
-                    "where a script sets HaptoFlowSettings.Active.", MessageType.Info);
+                EditorGUILayout.HelpBox("The project uses other settings (Project Settings > HaptoFlow). These are " +
+                    "used only where a script sets HaptoFlowSettings.Active.", MessageType.Info);
             }
         }
     }

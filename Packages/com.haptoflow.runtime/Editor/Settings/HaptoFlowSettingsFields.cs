@@ -7,26 +7,28 @@ namespace HaptoFlow.Editor
     /// <summary>The fields of the settings, as their Inspector and the project settings page show them.</summary>
     internal static class HaptoFlowSettingsFields
     {
-        private static readonly GUIContent Model = new GUIContent("Model", "The .haptoflow model that renders.");
+        private static readonly GUIContent Model = new GUIContent("Model", "The model is the .haptoflow file that " +
+            "generates the vibration.");
         private static readonly GUIContent Quality = new GUIContent("Quality",
-            "Which tier generates. Auto measures this machine and takes the most accurate tier that fits the budget; " +
-            "Fine takes the most accurate one where the model has no tier of that name.");
+            "The quality chooses the tier of the model. Auto measures this machine and chooses the most accurate " +
+            "tier that fits the budget. Fine chooses the most accurate tier if the model has none of that name.");
         private static readonly GUIContent Budget = new GUIContent("Budget Share",
-            "Auto: share of the time between two contact states that inference may take, 0.01 to 1.");
+            "With the quality Auto, inference may take this share of the time between two contact states, 0.01 to 1.");
         private static readonly GUIContent Follow = new GUIContent("Follow Display",
-            "The update rate is the refresh rate of the headset, or of the screen, as it is when the engine starts.");
+            "The update rate is the refresh rate of the headset, or of the screen, read when the engine starts.");
         private static readonly GUIContent Rate = new GUIContent("Update Rate (Hz)",
-            "Contact states a second: counts where the display is not followed, or does not say its rate.");
+            "The update rate is the number of contact states per second. It is used when Follow Display is off, or " +
+            "when the display does not report its rate.");
         private static readonly GUIContent Ceiling = new GUIContent("Safety Ceiling",
-            "No output sample is above this, whatever happens; 1 is full scale.");
+            "The safety ceiling is the largest magnitude of an output sample. 1 is full scale.");
         private static readonly GUIContent FullScale = new GUIContent("Full Scale (m/s\u00b2)",
-            "Acceleration that is full scale in the output. Smaller is stronger.");
+            "The full scale is the acceleration of an output sample of 1. A smaller value gives a stronger output.");
 
         private static readonly GUIContent MaterialMap = new GUIContent("Material Map",
-            "Says by rules which object is which material, in every scene. Empty: only objects with a Haptic Surface " +
-            "are felt, and what maps of single scenes name.");
+            "The material map assigns materials to objects by rules, in every scene. When it is empty, only objects " +
+            "with a Haptic Surface are felt, and those that the map of a single scene matches.");
 
-        /// <summary>Found by the search box of Project Settings.</summary>
+        /// <summary>The words under which the search box of Project Settings finds the page.</summary>
         public static readonly string[] Keywords =
         {
             "HaptoFlow", "haptic", "texture", "model", "quality", "draft", "standard", "fine", "update rate", "display",
@@ -38,17 +40,17 @@ namespace HaptoFlow.Editor
             settings.Update();
             SerializedProperty model = settings.FindProperty("model");
             SerializedProperty quality = settings.FindProperty("quality");
-            // Decided before it is changed: nothing is drawn that was not laid out.
+            // Read before any field is drawn, so that layout and drawing show the same fields.
             bool lacksModel = model.objectReferenceValue == null && !model.hasMultipleDifferentValues;
             EditorGUILayout.PropertyField(model, Model);
             if (lacksModel)
             {
-                EditorGUILayout.HelpBox("Without a model nothing is felt.", MessageType.Warning);
+                EditorGUILayout.HelpBox("The field Model is empty: nothing is felt.", MessageType.Warning);
             }
             EditorGUILayout.PropertyField(quality, Quality);
-            bool budgetCounts = quality.hasMultipleDifferentValues ||
+            bool usesBudget = quality.hasMultipleDifferentValues ||
                 quality.enumValueIndex == (int)HapticQuality.Auto;
-            using (new EditorGUI.DisabledScope(!budgetCounts))
+            using (new EditorGUI.DisabledScope(!usesBudget))
             {
                 EditorGUILayout.PropertyField(settings.FindProperty("budgetShare"), Budget);
             }
@@ -59,7 +61,7 @@ namespace HaptoFlow.Editor
             EditorGUILayout.PropertyField(settings.FindProperty("materialMap"), MaterialMap);
             if (settings.ApplyModifiedProperties() && Application.isPlaying)
             {
-                // Quality counts from the next segment on, the rest when an engine starts anew.
+                // The quality changes with the next segment, all other fields when the engine is restarted.
                 HapticSession.Existing?.SetQuality(HaptoFlowSettings.Active.Quality);
             }
         }

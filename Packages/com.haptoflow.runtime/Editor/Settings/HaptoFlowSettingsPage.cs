@@ -4,15 +4,15 @@ using UnityEngine;
 
 namespace HaptoFlow.Editor
 {
-    /// <summary>Project Settings > HaptoFlow.</summary>
+    /// <summary>The page Project Settings > HaptoFlow.</summary>
     internal static class HaptoFlowSettingsPage
     {
         public const string Path = "Project/HaptoFlow";
 
         private static readonly GUIContent Asset = new GUIContent("Asset",
-            "Where these settings are kept.");
+            "The settings are saved in this asset.");
         private static readonly GUIContent Restart = new GUIContent("Restart Engine",
-            "Play mode: takes over model, update rate, budget and full scale now.");
+            "Restart Engine applies changes of model, update rate, budget and full scale in play mode.");
 
         private static SerializedObject? edited;
 
@@ -29,7 +29,7 @@ namespace HaptoFlow.Editor
             if (settings == null)
             {
                 edited = null;
-                DrawOffer();
+                DrawCreate();
                 return;
             }
             if (edited == null || edited.targetObject != settings)
@@ -49,10 +49,10 @@ namespace HaptoFlow.Editor
             DrawRestart();
         }
 
-        private static void DrawOffer()
+        private static void DrawCreate()
         {
-            EditorGUILayout.HelpBox("This project has no HaptoFlow settings. In the editor the package's own model " +
-                "plays with built-in settings; a player build would have no model and stay silent.",
+            EditorGUILayout.HelpBox("This project has no HaptoFlow settings. The editor uses built-in ones with the " +
+                "package's model; a player build would have no model and stay silent.",
                 MessageType.Warning);
             if (GUILayout.Button("Create Settings"))
             {
@@ -63,7 +63,7 @@ namespace HaptoFlow.Editor
         private static void DrawMissingPreload(HaptoFlowSettings settings)
         {
             EditorGUILayout.HelpBox("These settings are not among the preloaded assets: a player build would not " +
-                "have them.", MessageType.Warning);
+                "include them.", MessageType.Warning);
             if (GUILayout.Button("Add to Preloaded Assets"))
             {
                 ProjectSettingsAsset.Preload(settings);

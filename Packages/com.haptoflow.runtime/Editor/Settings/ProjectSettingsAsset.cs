@@ -7,9 +7,8 @@ using Object = UnityEngine.Object;
 
 namespace HaptoFlow.Editor
 {
-    /// <summary>The settings asset of the project: the one among the preloaded assets, which players load at their
-    /// start, or the one in a Resources folder, which they find there. Nothing is made before somebody asks for it.
-    /// </summary>
+    /// <summary>Finds and creates the settings asset of the project. Player builds include it as a preloaded asset, or
+    /// from a Resources folder.</summary>
     internal static class ProjectSettingsAsset
     {
         public const string DefaultModelPath = "Packages/com.haptoflow.runtime/Runtime/Models/default.haptoflow";
@@ -20,8 +19,8 @@ namespace HaptoFlow.Editor
         private static HaptoFlowSettings? found;
         private static bool searched;
 
-        /// <summary>The preloaded one, else one in a Resources folder, else the first in the project; null where there
-        /// is none.</summary>
+        /// <summary>The preloaded settings, else those in a Resources folder, else the first in the project; null
+        /// without settings.</summary>
         public static HaptoFlowSettings? Find()
         {
             if (found == null && !searched)
@@ -32,22 +31,22 @@ namespace HaptoFlow.Editor
             return found;
         }
 
-        /// <summary>Looks again: assets came or went.</summary>
+        /// <summary>Searches again at the next call, because assets may have changed.</summary>
         public static void Forget()
         {
             found = null;
             searched = false;
         }
 
-        /// <summary>Whether a player build has it.</summary>
+        /// <summary>Whether player builds include the settings.</summary>
         public static bool ReachesPlayers(HaptoFlowSettings settings) =>
             IsPreloaded(settings) || IsInResources(AssetDatabase.GetAssetPath(settings));
 
         public static bool IsPreloaded(HaptoFlowSettings settings) =>
             Array.IndexOf(PlayerSettings.GetPreloadedAssets(), settings) >= 0;
 
-        /// <summary>Makes the asset where the project has none, with the package's own model, and puts it among the
-        /// preloaded assets where players would not have it.</summary>
+        /// <summary>The settings of the project. Creates them with the package's model if there are none, and adds them
+        /// to the preloaded assets if player builds would not include them.</summary>
         public static HaptoFlowSettings FindOrCreate()
         {
             Forget();
@@ -64,7 +63,7 @@ namespace HaptoFlow.Editor
             return settings;
         }
 
-        /// <summary>Gives the asset to player builds, in the place of another one.</summary>
+        /// <summary>Adds the settings to the preloaded assets, in place of any other settings.</summary>
         public static void Preload(HaptoFlowSettings settings)
         {
             if (IsPreloaded(settings))
@@ -78,7 +77,7 @@ namespace HaptoFlow.Editor
             Forget();
         }
 
-        /// <summary>The model that the package brings; null where it is not there.</summary>
+        /// <summary>The model of the package; null if it is missing.</summary>
         public static HapticModelAsset? DefaultModel() =>
             AssetDatabase.LoadAssetAtPath<HapticModelAsset>(DefaultModelPath);
 
@@ -105,7 +104,8 @@ namespace HaptoFlow.Editor
             settings.Model = DefaultModel();
             AssetDatabase.CreateAsset(settings, AssetDatabase.GenerateUniqueAssetPath(Path));
             AssetDatabase.SaveAssetIfDirty(settings);
-            Debug.Log($"HaptoFlow: made {AssetDatabase.GetAssetPath(settings)} and put it among the preloaded assets.",
+            Debug.Log($"HaptoFlow: created {AssetDatabase.GetAssetPath(settings)} and added it to the preloaded " +
+                "assets.",
                 settings);
             return settings;
         }

@@ -4,18 +4,18 @@ using UnityEngine;
 
 namespace HaptoFlow.Editor
 {
-    /// <summary>GameObject > HaptoFlow: what a first scene needs, each one step of undo.</summary>
+    /// <summary>The menu GameObject > HaptoFlow: creates objects, each as one step of undo.</summary>
     internal static class CreateMenu
     {
-        private const int Place = 10;
+        private const int Priority = 10;
 
-        // Where Unity puts the camera of a new scene: too far from a cube of 30 cm.
-        private static readonly Vector3 CameraOfNewScenes = new Vector3(0f, 1f, -10f);
-        private static readonly Vector3 CameraPlace = new Vector3(0f, 0.4f, -0.45f);
+        // The camera position in a new scene, which is too far from a plate of 30 cm.
+        private static readonly Vector3 DefaultCameraPosition = new Vector3(0f, 1f, -10f);
+        private static readonly Vector3 NearCameraPosition = new Vector3(0f, 0.4f, -0.45f);
         private static readonly Vector3 PlateSize = new Vector3(0.3f, 0.02f, 0.3f);
 
-        /// <summary>A plate to touch, a pen under the mouse, an output: ready to play.</summary>
-        [MenuItem("GameObject/HaptoFlow/First Scene", false, Place - 3)]
+        /// <summary>Creates a plate, a pen under the mouse and an output: a scene that is ready to play.</summary>
+        [MenuItem("GameObject/HaptoFlow/First Scene", false, Priority - 3)]
         internal static void CreateFirstScene(MenuCommand command)
         {
             Undo.IncrementCurrentGroup();
@@ -30,24 +30,24 @@ namespace HaptoFlow.Editor
             Undo.CollapseUndoOperations(group);
         }
 
-        /// <summary>A cube of one metre made of wood.</summary>
-        [MenuItem("GameObject/HaptoFlow/Tagged Cube", false, Place - 2)]
+        /// <summary>Creates a wooden cube of one metre.</summary>
+        [MenuItem("GameObject/HaptoFlow/Tagged Cube", false, Priority - 2)]
         internal static void CreateTaggedCube(MenuCommand command) => Add(TaggedCube("Tagged Cube"), command);
 
-        /// <summary>A stylus under the mouse or a graphics pen.</summary>
-        [MenuItem("GameObject/HaptoFlow/Mouse Pen", false, Place - 1)]
+        /// <summary>Creates a stylus under the mouse or a graphics pen.</summary>
+        [MenuItem("GameObject/HaptoFlow/Mouse Pen", false, Priority - 1)]
         internal static void CreateMousePen(MenuCommand command) => Add(MousePen.Create(null).gameObject, command);
 
-        /// <summary>A stylus on MX Ink or a controller in the right hand.</summary>
-        [MenuItem("GameObject/HaptoFlow/XR Pen (Right Hand)", false, Place - 1)]
+        /// <summary>Creates a stylus on MX Ink or a controller in the right hand.</summary>
+        [MenuItem("GameObject/HaptoFlow/XR Pen (Right Hand)", false, Priority - 1)]
         internal static void CreateRightPen(MenuCommand command) => CreateXrPen(command, PenHand.Right);
 
-        /// <summary>A stylus on MX Ink or a controller in the left hand.</summary>
-        [MenuItem("GameObject/HaptoFlow/XR Pen (Left Hand)", false, Place - 1)]
+        /// <summary>Creates a stylus on MX Ink or a controller in the left hand.</summary>
+        [MenuItem("GameObject/HaptoFlow/XR Pen (Left Hand)", false, Priority - 1)]
         internal static void CreateLeftPen(MenuCommand command) => CreateXrPen(command, PenHand.Left);
 
-        /// <summary>Tip and component, ready to be put on whatever is tracked.</summary>
-        [MenuItem("GameObject/HaptoFlow/Haptic Stylus", false, Place)]
+        /// <summary>Creates a stylus with a tip, to be put below a tracked object.</summary>
+        [MenuItem("GameObject/HaptoFlow/Haptic Stylus", false, Priority)]
         internal static void CreateStylus(MenuCommand command)
         {
             var owner = new GameObject("Haptic Stylus");
@@ -57,8 +57,8 @@ namespace HaptoFlow.Editor
             Add(owner, command);
         }
 
-        /// <summary>Where the wave goes; on every channel until one is chosen.</summary>
-        [MenuItem("GameObject/HaptoFlow/Haptic Output", false, Place)]
+        /// <summary>Creates an output. It plays on every channel until one is chosen.</summary>
+        [MenuItem("GameObject/HaptoFlow/Haptic Output", false, Priority)]
         internal static void CreateOutput(MenuCommand command)
         {
             var owner = new GameObject("Haptic Output");
@@ -66,7 +66,8 @@ namespace HaptoFlow.Editor
             Add(owner, command);
         }
 
-        /// <summary>Poses are in tracking space, which is what the camera of an XR rig lies below.</summary>
+        /// <summary>Creates the pen below the parent of the main camera, which is the tracking space in an XR rig.
+        /// </summary>
         private static void CreateXrPen(MenuCommand command, PenHand hand)
         {
             Camera? camera = Camera.main;
@@ -80,7 +81,7 @@ namespace HaptoFlow.Editor
         {
             GameObject cube = GameObject.CreatePrimitive(PrimitiveType.Cube);
             cube.name = name;
-            // The scene keeps a reference to it, so that players have it, too; the user may put another in its place.
+            // Assigned here and not by a Pipeline Material, so that the scene refers to it and the user can replace it.
             Material? ofPipeline = PipelineMaterial.OfPipeline();
             if (ofPipeline != null)
             {
@@ -98,14 +99,14 @@ namespace HaptoFlow.Editor
             return made;
         }
 
-        /// <summary>A camera that somebody placed stays where it is.</summary>
+        /// <summary>Moves the main camera near to the plate, unless the user has moved it.</summary>
         private static void BringCameraNear()
         {
             Camera? camera = Camera.main;
-            if (camera != null && Vector3.Distance(camera.transform.position, CameraOfNewScenes) < 1e-3f)
+            if (camera != null && Vector3.Distance(camera.transform.position, DefaultCameraPosition) < 1e-3f)
             {
                 Undo.RecordObject(camera.transform, "Bring Camera Near");
-                camera.transform.position = CameraPlace;
+                camera.transform.position = NearCameraPosition;
                 camera.transform.rotation = Quaternion.AngleAxis(40f, Vector3.right);
             }
         }

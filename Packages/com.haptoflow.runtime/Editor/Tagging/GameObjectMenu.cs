@@ -6,19 +6,19 @@ using UnityEngine;
 
 namespace HaptoFlow.Editor
 {
-    /// <summary>GameObject > HaptoFlow: tags what is there.</summary>
+    /// <summary>The menu GameObject > HaptoFlow > Tag Selected: adds labels to the selected objects.</summary>
     internal static class GameObjectMenu
     {
         private const string Tag = "GameObject/HaptoFlow/Tag Selected by Name or Physics Material";
-        private const int Place = 11;
+        private const int Priority = 11;
 
-        [MenuItem(Tag, true, Place)]
+        [MenuItem(Tag, true, Priority)]
         internal static bool CanTag() => SelectedInScene().Length > 0;
 
-        [MenuItem(Tag, false, Place)]
+        [MenuItem(Tag, false, Priority)]
         internal static void TagSelected(MenuCommand command)
         {
-            // The Hierarchy's context menu calls once for each selected object.
+            // The Hierarchy's context menu calls this method once for each selected object.
             if (command.context == null || command.context == Selection.activeObject)
             {
                 TagSelected(SelectedInScene(), new LabelMatcher(LabelCatalog.Current.Names));
@@ -32,7 +32,8 @@ namespace HaptoFlow.Editor
             Debug.Log(Report(plan));
         }
 
-        /// <summary>Prefabs that are selected as assets are opened to be changed.</summary>
+        /// <summary>The selected objects of scenes. Prefab assets are left out, because they have to be opened to be
+        /// changed.</summary>
         private static GameObject[] SelectedInScene() =>
             Selection.gameObjects.Where(each => !EditorUtility.IsPersistent(each)).ToArray();
 
@@ -46,11 +47,11 @@ namespace HaptoFlow.Editor
                 ? "tagged nothing"
                 : "tagged " + string.Join(", ", plan.Proposals.Select(
                     each => $"{each.Owner.name} as {each.Label} ({each.Reason})"));
-            string left = plan.Unmatched.Count == 0
+            string untagged = plan.Unmatched.Count == 0
                 ? ""
-                : "; left untagged, since neither name nor physics material suggests a label of the model: " +
+                : "; left untagged, because neither name nor physics material suggests a label of the model: " +
                     string.Join(", ", plan.Unmatched.Select(each => each.name));
-            return $"HaptoFlow: {tagged}{left}.";
+            return $"HaptoFlow: {tagged}{untagged}.";
         }
     }
 }

@@ -7,8 +7,8 @@ using HaptoFlow.Model;
 
 namespace HaptoFlow.Editor
 {
-    /// <summary>Guesses a label from the name of an object or a physics material: "Oak_Table" is wood where the model
-    /// has wood. Proposes nothing but labels of the model.</summary>
+    /// <summary>Proposes a label of the model from the name of an object or a physics material: for example wood for
+    /// "Oak_Table".</summary>
     internal sealed class LabelMatcher
     {
         private readonly LabelNames labels;
@@ -24,21 +24,21 @@ namespace HaptoFlow.Editor
                 .ToArray();
         }
 
-        /// <summary>A label's own name counts before words that mean it, an earlier word before a later one, and
-        /// "metal mesh" before "metal". Null where nothing fits.</summary>
+        /// <summary>The label that a name suggests; null without one. The name of a label takes precedence over a
+        /// synonym, an earlier word over a later one, and "metal mesh" over "metal".</summary>
         public string? Propose(string name)
         {
             string[] words = WordsOf(name).ToArray();
-            return Named(words) ?? words.Select(Meant).FirstOrDefault(label => label != null);
+            return FindName(words) ?? words.Select(FindSynonym).FirstOrDefault(label => label != null);
         }
 
-        private string? Named(string[] words)
+        private string? FindName(string[] words)
         {
             for (int start = 0; start < words.Length; ++start)
             {
-                foreach ((string label, string[] wanted) in byLength)
+                foreach ((string label, string[] labelWords) in byLength)
                 {
-                    if (IsAt(words, start, wanted))
+                    if (IsAt(words, start, labelWords))
                     {
                         return label;
                     }
@@ -47,17 +47,17 @@ namespace HaptoFlow.Editor
             return null;
         }
 
-        private static bool IsAt(string[] words, int start, string[] wanted)
+        private static bool IsAt(string[] words, int start, string[] labelWords)
         {
-            bool fits = start + wanted.Length <= words.Length;
-            for (int index = 0; fits && index < wanted.Length; ++index)
+            bool fits = start + labelWords.Length <= words.Length;
+            for (int index = 0; fits && index < labelWords.Length; ++index)
             {
-                fits = Forms(words[start + index]).Contains(wanted[index]);
+                fits = Forms(words[start + index]).Contains(labelWords[index]);
             }
             return fits;
         }
 
-        private string? Meant(string word)
+        private string? FindSynonym(string word)
         {
             foreach (string form in Forms(word))
             {
@@ -71,7 +71,7 @@ namespace HaptoFlow.Editor
 
         private string? InModel(string label) => labels.TryFind(label, out int index) ? labels.All[index] : null;
 
-        /// <summary>The word, and what it may be the plural of.</summary>
+        /// <summary>The word itself, and its possible singular forms.</summary>
         private static IEnumerable<string> Forms(string word)
         {
             yield return word;
@@ -85,16 +85,17 @@ namespace HaptoFlow.Editor
             }
         }
 
-        /// <summary>"OakTable_02" is oak, table: words end at anything that is no letter and at capitals.</summary>
+        /// <summary>Splits a name into words at capitals and at characters that are no letters: "OakTable_02" into oak
+        /// and table.</summary>
         private static IEnumerable<string> WordsOf(string name)
         {
             var word = new StringBuilder();
             for (int index = 0; index < name.Length; ++index)
             {
                 char letter = name[index];
-                bool begins = char.IsUpper(letter) && word.Length > 0 &&
+                bool startsWord = char.IsUpper(letter) && word.Length > 0 &&
                     (!char.IsUpper(name[index - 1]) || (index + 1 < name.Length && char.IsLower(name[index + 1])));
-                if ((begins || !char.IsLetter(letter)) && word.Length > 0)
+                if ((startsWord || !char.IsLetter(letter)) && word.Length > 0)
                 {
                     yield return word.ToString();
                     word.Clear();

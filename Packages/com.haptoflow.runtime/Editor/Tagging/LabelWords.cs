@@ -4,8 +4,8 @@ using System.Collections.Generic;
 
 namespace HaptoFlow.Editor
 {
-    /// <summary>Words that mean a material, each with the labels that stand nearest to it, the nearest first. Only
-    /// words that hardly mean anything else in the name of an object: "mesh" and "mat" are left out.</summary>
+    /// <summary>Synonyms for materials, each with the labels that fit it, the best first. Words that often mean
+    /// something else in the name of an object, such as "mesh" and "mat", are left out.</summary>
     internal static class LabelWords
     {
         private static readonly (string Labels, string Words)[] Groups =
@@ -35,10 +35,10 @@ namespace HaptoFlow.Editor
             ("carpet, cotton", "rug doormat tatami moquette"),
         };
 
-        /// <summary>Lower case; labels in order of preference.</summary>
-        public static IReadOnlyDictionary<string, string[]> All { get; } = Unfold();
+        /// <summary>The labels for a word in lower case, in order of preference.</summary>
+        public static IReadOnlyDictionary<string, string[]> All { get; } = ByWord();
 
-        private static Dictionary<string, string[]> Unfold()
+        private static Dictionary<string, string[]> ByWord()
         {
             var all = new Dictionary<string, string[]>(StringComparer.Ordinal);
             foreach ((string labels, string words) in Groups)

@@ -5,7 +5,7 @@ using UnityEngine;
 
 namespace HaptoFlow.Editor
 {
-    /// <summary>An object that could be tagged, with the label that its name or physics material suggests.</summary>
+    /// <summary>An object that can be tagged, with the label that its name or physics material suggests.</summary>
     internal readonly struct TagProposal
     {
         public TagProposal(GameObject owner, string label, string reason)
@@ -19,11 +19,11 @@ namespace HaptoFlow.Editor
 
         public string Label { get; }
 
-        /// <summary>What suggested it.</summary>
+        /// <summary>What suggests the label: "name" or the physics material.</summary>
         public string Reason { get; }
     }
 
-    /// <summary>Which objects would be tagged as what. Nothing is changed by making one.</summary>
+    /// <summary>The labels proposed for untagged colliders. Creating a plan changes no object.</summary>
     internal sealed class TagPlan
     {
         private readonly List<TagProposal> proposals = new List<TagProposal>();
@@ -38,9 +38,9 @@ namespace HaptoFlow.Editor
         /// <summary>Objects with untagged colliders for which nothing suggests a label.</summary>
         public IReadOnlyList<GameObject> Unmatched => unmatched;
 
-        /// <summary>For every untagged collider: its physics material, then its object's name, then the names of the
-        /// objects above it up to its root.</summary>
-        /// <param name="roots">Names above these do not count.</param>
+        /// <summary>Plans a label for every untagged collider. The physics material is compared first, then the name of
+        /// the object, then the names of its parents up to a root.</summary>
+        /// <param name="roots">Parents above these objects are not compared.</param>
         public static TagPlan For(
             IEnumerable<Collider> colliders, IReadOnlyCollection<GameObject> roots, LabelMatcher matcher)
         {

@@ -5,7 +5,7 @@ using UnityEngine;
 
 namespace HaptoFlow.Editor
 {
-    /// <summary>Puts labels on objects, one step of undo for all.</summary>
+    /// <summary>Adds labels to objects, as one step of undo.</summary>
     internal static class Tagging
     {
         public static void Apply(IReadOnlyCollection<TagProposal> proposals, string undoName)

@@ -6,13 +6,13 @@ using NUnit.Framework;
 
 namespace HaptoFlow.RepositoryTests.Outputs
 {
-    /// <summary>What a simulated motor is told.</summary>
+    /// <summary>The commands that a simulated motor receives.</summary>
     public sealed class AmplitudeQueueTests
     {
         private const double FrameSeconds = 1.0 / 72.0;
 
         [Test]
-        public void TenMinutesKeepTheMotorGoingWithoutEverBeingFasterThanIt([Values(45.0, 72.0, 500.0)] double rateHz)
+        public void TheMotorIsUpdatedForTenMinutesAndNeverFasterThanItAccepts([Values(45.0, 72.0, 500.0)] double rateHz)
         {
             var motor = new SimulatedMotor { RateHz = rateHz };
             AmplitudeQueue queue = QueueFor(motor, SimulatedWave.Sine(120.0));
@@ -29,62 +29,63 @@ namespace HaptoFlow.RepositoryTests.Outputs
             }
             Assert.That(silent, Is.Zero);
             Assert.That(queue.Statistics.Gaps, Is.Zero);
-            Assert.That(motor.Told.Count, Is.LessThanOrEqualTo(600.0 * Math.Min(rateHz, 85.0) + 2.0));
-            Assert.That(motor.Told.Count, Is.GreaterThan(600.0 * Math.Min(0.9 * rateHz, 70.0)));
+            Assert.That(motor.Commands.Count, Is.LessThanOrEqualTo(600.0 * Math.Min(rateHz, 85.0) + 2.0));
+            Assert.That(motor.Commands.Count, Is.GreaterThan(600.0 * Math.Min(0.9 * rateHz, 70.0)));
         }
 
         [Test]
-        public void AToneThatTheMotorCanPlayKeepsItsAmplitudeAndFrequency([Values(0.05, 0.2, 0.6)] double amplitude)
+        public void APlayableToneKeepsItsAmplitudeAndFrequency([Values(0.05, 0.2, 0.6)] double amplitude)
         {
             var motor = new SimulatedMotor { MinFrequencyHz = 60.0, MaxFrequencyHz = 400.0 };
             Play(motor, QueueFor(motor, SimulatedWave.Sine(216.0, amplitude)), 0.0, 1.0);
-            Assert.That(motor.Told.Skip(8).Select(each => (double)each.Amplitude),
+            Assert.That(motor.Commands.Skip(8).Select(each => (double)each.Amplitude),
                 Is.All.EqualTo(amplitude).Within(0.08 * amplitude));
-            Assert.That(motor.Told.Skip(8).Select(each => (double)each.Hertz), Is.All.EqualTo(216.0).Within(12.0));
+            Assert.That(motor.Commands.Skip(8).Select(each => (double)each.Hertz), Is.All.EqualTo(216.0).Within(12.0));
         }
 
         [Test]
-        public void AMotorOfWhichNothingIsKnownPlaysAToneOf160HertzThatIsAsIntense()
+        public void AnUnknownMotorPlays160HertzOfTheSameIntensity()
         {
             var motor = new SimulatedMotor();
             AmplitudeQueue queue = QueueFor(motor, SimulatedWave.Sine(400.0, 0.2));
             queue.FullScaleMps2 = 60f;
             Play(motor, queue, 0.0, 1.0);
-            // At 400 Hz the threshold is 0.56 m/s^2 and at 160 Hz 0.03: 12 m/s^2 feel as strong as much less there.
-            Assert.That(motor.Told.Skip(8).Select(each => (double)each.Amplitude), Is.All.InRange(0.002, 0.1));
-            Assert.That(motor.Told.Skip(8).Select(each => each.Hertz), Is.All.EqualTo(160f));
+            // The threshold of perception is 0.56 m/s^2 at 400 Hz and 0.03 m/s^2 at 160 Hz, so 12 m/s^2 at 400 Hz feel
+            // as intense as much less at 160 Hz.
+            Assert.That(motor.Commands.Skip(8).Select(each => (double)each.Amplitude), Is.All.InRange(0.002, 0.1));
+            Assert.That(motor.Commands.Skip(8).Select(each => each.Hertz), Is.All.EqualTo(160f));
         }
 
         [Test]
-        public void TheEnvelopeIsFollowedWithinAFrame()
+        public void TheAmplitudeFollowsTheEnvelopeWithinAFrame()
         {
-            // 3 Hz of amplitude modulation.
+            // The amplitude is modulated at 3 Hz.
             static double Envelope(double seconds) => 0.4 + 0.3 * Math.Sin(2.0 * Math.PI * 3.0 * seconds);
             var motor = new SimulatedMotor { MinFrequencyHz = 60.0, MaxFrequencyHz = 400.0 };
             Play(motor, QueueFor(motor, new SimulatedWave(seconds =>
                 Envelope(seconds) * Math.Sin(2.0 * Math.PI * 216.0 * seconds))), 0.0, 3.0);
-            foreach ((double seconds, float amplitude, _, _) in motor.Told.Skip(5))
+            foreach ((double seconds, float amplitude, _, _) in motor.Commands.Skip(5))
             {
-                double heard = seconds - 0.5 * FrameSeconds - WaveFeatures.LatencySeconds - 0.004;
-                Assert.That(amplitude, Is.EqualTo(Envelope(heard)).Within(0.06));
+                double waveSeconds = seconds - 0.5 * FrameSeconds - WaveFeatures.LatencySeconds - 0.004;
+                Assert.That(amplitude, Is.EqualTo(Envelope(waveSeconds)).Within(0.06));
             }
         }
 
         [Test]
-        public void AKnockIsPlayedAtItsOwnFrequency()
+        public void AnImpactIsPlayedAtItsOwnFrequency()
         {
-            // 100 Hz all the time, and a knock of 320 Hz at 0.5 s.
+            // A tone of 100 Hz, and an impact of 320 Hz at 0.5 s.
             var motor = new SimulatedMotor { MinFrequencyHz = 60.0, MaxFrequencyHz = 400.0 };
             Play(motor, QueueFor(motor, new SimulatedWave(seconds =>
                 0.02 * Math.Sin(2.0 * Math.PI * 100.0 * seconds) + (seconds < 0.5 ? 0.0 : 0.6 *
                     Math.Exp(-80.0 * (seconds - 0.5)) * Math.Sin(2.0 * Math.PI * 320.0 * (seconds - 0.5))))), 0.0, 1.0);
-            (double _, float amplitude, float hertz, float _) = motor.Told.OrderBy(each => each.Amplitude).Last();
+            (double _, float amplitude, float hertz, float _) = motor.Commands.OrderBy(each => each.Amplitude).Last();
             Assert.That(hertz, Is.EqualTo(320f).Within(40f));
             Assert.That(amplitude, Is.EqualTo(0.5f).Within(0.15f));
         }
 
         [Test]
-        public void AHitchIsAGapAndNeverAStuckVibration()
+        public void AHitchCausesAGapAndNoStuckVibration()
         {
             var motor = new SimulatedMotor();
             AmplitudeQueue queue = QueueFor(motor, SimulatedWave.Sine(160.0));
@@ -92,11 +93,11 @@ namespace HaptoFlow.RepositoryTests.Outputs
             Assert.That(motor.AmplitudeAt(now + AmplitudeQueue.LongestSeconds), Is.Zero);
             Play(motor, queue, now + 0.2, 0.5);
             Assert.That(queue.Statistics.Gaps, Is.EqualTo(1));
-            Assert.That(motor.Told.Last().Amplitude, Is.EqualTo(0.3f).Within(0.05f));
+            Assert.That(motor.Commands.Last().Amplitude, Is.EqualTo(0.3f).Within(0.05f));
         }
 
         [Test]
-        public void AStopReachesTheMotorWithTheSameFrame()
+        public void AStopReachesTheMotorInTheSameFrame()
         {
             var motor = new SimulatedMotor();
             SimulatedWave wave = SimulatedWave.Sine(120.0);
@@ -104,11 +105,11 @@ namespace HaptoFlow.RepositoryTests.Outputs
             double now = Play(motor, queue, 0.0, 1.0);
             wave.IsStopped = true;
             now = Play(motor, queue, now, 0.5 * FrameSeconds);
-            AssertRestsUntold(motor, queue, now);
+            AssertStopsWithoutFurtherCommands(motor, queue, now);
         }
 
         [Test]
-        public void SilenceReachesTheMotorWithTheFilterOfTheFeatures()
+        public void SilenceReachesTheMotorAfterTheFeatureFilter()
         {
             var motor = new SimulatedMotor();
             SimulatedWave wave = SimulatedWave.Sine(120.0);
@@ -119,20 +120,20 @@ namespace HaptoFlow.RepositoryTests.Outputs
             now = Play(motor, queue, now, 2.5 * FrameSeconds);
             Assert.That(motor.AmplitudeAt(now), Is.LessThan(0.04f * before), "-28 dB after 35 ms");
             now = Play(motor, queue, now, 4.0 * FrameSeconds);
-            AssertRestsUntold(motor, queue, now);
+            AssertStopsWithoutFurtherCommands(motor, queue, now);
         }
 
-        /// <summary>The motor stands still, and is not told so again and again.</summary>
-        private static void AssertRestsUntold(SimulatedMotor motor, AmplitudeQueue queue, double now)
+        /// <summary>The motor is off, and receives no repeated stop commands.</summary>
+        private static void AssertStopsWithoutFurtherCommands(SimulatedMotor motor, AmplitudeQueue queue, double now)
         {
-            int told = motor.Told.Count;
+            int commandCount = motor.Commands.Count;
             Assert.That(motor.AmplitudeAt(now), Is.Zero);
             Play(motor, queue, now, 1.0);
-            Assert.That(motor.Told.Count, Is.EqualTo(told));
+            Assert.That(motor.Commands.Count, Is.EqualTo(commandCount));
         }
 
         [Test]
-        public void RandomStrokesHitchesStopsAndLossesNeverLeaveAVibrationBehind([Range(1, 12)] int seed)
+        public void RandomStrokesHitchesStopsAndLossesLeaveNoStuckVibration([Range(1, 12)] int seed)
         {
             var random = new Random(seed);
             var motor = new SimulatedMotor();
@@ -156,11 +157,11 @@ namespace HaptoFlow.RepositoryTests.Outputs
                     Assert.That(motor.AmplitudeAt(now), Is.Zero);
                 }
             }
-            Assert.That(motor.Told.Max(each => each.Amplitude), Is.LessThanOrEqualTo(0.7f));
+            Assert.That(motor.Commands.Max(each => each.Amplitude), Is.LessThanOrEqualTo(0.7f));
         }
 
         [Test]
-        public void FramesMakeNoGarbage()
+        public void FramesAllocateNothing()
         {
             var motor = new SimulatedMotor { Records = false };
             AmplitudeQueue queue = QueueFor(motor, SimulatedWave.Sine(100.0));

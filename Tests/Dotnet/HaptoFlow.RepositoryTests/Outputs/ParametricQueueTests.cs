@@ -6,14 +6,14 @@ using NUnit.Framework;
 
 namespace HaptoFlow.RepositoryTests.Outputs
 {
-    /// <summary>What a simulated device gets that plays amplitude and frequency over time. The device throws where a rule
-    /// of streams is broken.</summary>
+    /// <summary>The stream of a simulated device that plays amplitude and frequency over time. The device throws if a
+    /// rule of streams is violated.</summary>
     public sealed class ParametricQueueTests
     {
         private const double FrameSeconds = 1.0 / 72.0;
 
         [Test]
-        public void TenMinutesNeitherStarveNorGrow(
+        public void TheQueueNeitherStarvesNorGrowsInTenMinutes(
             [Values(0.0, 45.0, 100.0)] double rateHz, [Values(-0.005, 0.0, 0.005)] double drift)
         {
             var device = new SimulatedParametricDevice { RateHz = rateHz, Drift = drift };
@@ -34,7 +34,7 @@ namespace HaptoFlow.RepositoryTests.Outputs
         }
 
         [Test]
-        public void IntensityIsThatOfTheWaveInEveryStretchOf8Milliseconds()
+        public void EveryIntervalOf8MillisecondsHasTheIntensityOfTheWave()
         {
             static double Envelope(double seconds) => 0.4 + 0.3 * Math.Sin(2.0 * Math.PI * 6.0 * seconds);
             var device = new SimulatedParametricDevice();
@@ -51,8 +51,8 @@ namespace HaptoFlow.RepositoryTests.Outputs
                 began = double.IsNaN(began) && queue.IsPlaying ? now - FrameSeconds : began;
                 for (double at = now; at < now + FrameSeconds && now > 0.2; at += 0.008)
                 {
-                    // The wave began a frame before its stream did, an amplitude is that of the 5 ms before it, and the
-                    // features' low-pass delays by 1.5 ms.
+                    // The wave begins a frame before its stream, an amplitude is that of the previous 5 ms, and the
+                    // low-pass of the features delays by 1.5 ms.
                     double expected = Envelope(at - began - FrameSeconds - 0.5 * ParametricQueue.PointSeconds - 0.0015);
                     worst = Math.Max(worst, Math.Abs(device.AmplitudeAt(at) - expected));
                 }
@@ -63,7 +63,7 @@ namespace HaptoFlow.RepositoryTests.Outputs
         }
 
         [Test]
-        public void AnOnsetIsATransient()
+        public void AnOnsetIsPlayedAsATransient()
         {
             var device = new SimulatedParametricDevice();
             Play(device, QueueFor(device, new SimulatedWave(seconds => seconds % 0.5 < 0.25
@@ -73,7 +73,7 @@ namespace HaptoFlow.RepositoryTests.Outputs
         }
 
         [Test]
-        public void AHitchIsAGapAfterWhichTheStreamBeginsFromSilence()
+        public void AStreamBeginsFromSilenceAfterAHitch()
         {
             var device = new SimulatedParametricDevice();
             ParametricQueue queue = QueueFor(device, SimulatedWave.Sine(150.0));
@@ -88,7 +88,7 @@ namespace HaptoFlow.RepositoryTests.Outputs
         }
 
         [Test]
-        public void AStopReachesTheDeviceWithTheSameFrameAndSilenceEndsTheStream()
+        public void AStopReachesTheDeviceInTheSameFrameAndSilenceEndsTheStream()
         {
             var device = new SimulatedParametricDevice();
             SimulatedWave wave = SimulatedWave.Sine(150.0);
@@ -110,7 +110,7 @@ namespace HaptoFlow.RepositoryTests.Outputs
         }
 
         [Test]
-        public void RandomStrokesHitchesStopsAndLossesKeepTheRulesOfStreams([Range(1, 12)] int seed)
+        public void RandomStrokesHitchesStopsAndLossesObeyTheRulesOfStreams([Range(1, 12)] int seed)
         {
             var random = new Random(seed);
             var device = new SimulatedParametricDevice { Drift = 0.01 * (random.NextDouble() - 0.5) };
@@ -136,7 +136,7 @@ namespace HaptoFlow.RepositoryTests.Outputs
         }
 
         [Test]
-        public void FramesMakeNoGarbage()
+        public void FramesAllocateNothing()
         {
             var motor = new Silent();
             var queue = new ParametricQueue(motor, SimulatedWave.Sine(100.0));

@@ -5,7 +5,7 @@ using HaptoFlow.Outputs;
 
 namespace HaptoFlow.RepositoryTests.Outputs
 {
-    /// <summary>A motor that keeps what it was told for as long as it was told.</summary>
+    /// <summary>A motor that plays each command for its duration.</summary>
     internal sealed class SimulatedMotor : IAmplitudeSink
     {
         private double endsSeconds;
@@ -23,7 +23,7 @@ namespace HaptoFlow.RepositoryTests.Outputs
 
         public double Now { get; set; }
 
-        public List<(double Seconds, float Amplitude, float Hertz, float Duration)> Told { get; } =
+        public List<(double Seconds, float Amplitude, float Hertz, float Duration)> Commands { get; } =
             new List<(double, float, float, float)>();
 
         public int Stops { get; private set; }
@@ -38,17 +38,17 @@ namespace HaptoFlow.RepositoryTests.Outputs
             return IsThere;
         }
 
-        public bool Submit(float wanted, float frequencyHz, float durationSeconds)
+        public bool Submit(float newAmplitude, float frequencyHz, float durationSeconds)
         {
             if (!IsThere)
             {
                 return false;
             }
-            amplitude = wanted;
+            amplitude = newAmplitude;
             endsSeconds = Now + durationSeconds;
             if (Records)
             {
-                Told.Add((Now, wanted, frequencyHz, durationSeconds));
+                Commands.Add((Now, newAmplitude, frequencyHz, durationSeconds));
             }
             return true;
         }
@@ -60,8 +60,8 @@ namespace HaptoFlow.RepositoryTests.Outputs
         }
     }
 
-    /// <summary>A device that plays streams of points on a clock of its own, and checks the rules of its makers: a stream
-    /// that gets nothing more goes on for 50 ms.</summary>
+    /// <summary>A device that plays streams of points on its own clock, and checks the rules of its makers. A stream
+    /// without new points continues for 50 ms.</summary>
     internal sealed class SimulatedParametricDevice : IParametricSink
     {
         private const double ExtensionSeconds = 0.05;
@@ -76,7 +76,7 @@ namespace HaptoFlow.RepositoryTests.Outputs
 
         public double RateHz { get; set; }
 
-        public double LeastFirstSeconds { get; set; } = 0.02;
+        public double MinimumFirstSeconds { get; set; } = 0.02;
 
         public bool IsThere { get; set; } = true;
 
@@ -90,10 +90,10 @@ namespace HaptoFlow.RepositoryTests.Outputs
 
         public float LastFrequency { get; private set; }
 
-        /// <summary>Of the stream, what is not yet played.</summary>
+        /// <summary>The part of the stream that is not yet played, in seconds.</summary>
         public double DepthSeconds => points.Count == 0 || hasEnded ? 0.0 : points[^1].Seconds - StreamTime(Now);
 
-        /// <summary>Nothing was left though the stream had not ended.</summary>
+        /// <summary>How often the points ran out before the stream ended.</summary>
         public bool IsStarved => points.Count > 0 && !hasEnded && StreamTime(Now) > points[^1].Seconds;
 
         public float AmplitudeAt(double seconds)
@@ -117,7 +117,7 @@ namespace HaptoFlow.RepositoryTests.Outputs
 
         public bool TryGetCapabilities(out HapticSinkCapabilities capabilities)
         {
-            capabilities = new HapticSinkCapabilities(RateHz, 500, 50.0, 450.0, LeastFirstSeconds);
+            capabilities = new HapticSinkCapabilities(RateHz, 500, 50.0, 450.0, MinimumFirstSeconds);
             return IsThere;
         }
 
@@ -139,11 +139,11 @@ namespace HaptoFlow.RepositoryTests.Outputs
                 beganSeconds = Now;
                 hasEnded = false;
                 Require(amplitudes[0].Seconds == 0.0 && frequencies[0].Seconds == 0.0, "a stream begins at 0");
-                Require(amplitudes[^1].Seconds >= LeastFirstSeconds - 1e-9, "the first frame is too short");
+                Require(amplitudes[^1].Seconds >= MinimumFirstSeconds - 1e-9, "the first frame is too short");
             }
             else
             {
-                Require(!hasEnded, "there is no stream to go on with");
+                Require(!hasEnded, "there is no stream to continue");
             }
             foreach (ParametricPoint point in amplitudes)
             {

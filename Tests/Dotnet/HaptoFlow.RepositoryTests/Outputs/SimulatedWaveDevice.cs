@@ -5,8 +5,8 @@ using HaptoFlow.Outputs;
 
 namespace HaptoFlow.RepositoryTests.Outputs
 {
-    /// <summary>A controller with a clock of its own: it plays what it was sent, one sample after the other, and 0 where
-    /// it has none. A submission that replaces is played from the moment of the call.</summary>
+    /// <summary>A controller with its own clock. It plays submitted samples one after another, and 0 when it has none.
+    /// A submission that replaces the previous one is played from the moment of the call.</summary>
     internal sealed class SimulatedWaveDevice : IWaveformSink
     {
         private readonly Queue<float> waiting = new Queue<float>();
@@ -22,7 +22,7 @@ namespace HaptoFlow.RepositoryTests.Outputs
 
         public string Name => "simulated";
 
-        /// <summary>A device with another rate is another device: it knows nothing of what was sent.</summary>
+        /// <summary>Changing the rate simulates another device, which has no samples.</summary>
         public double RateHz
         {
             get => rateHz;
@@ -41,10 +41,10 @@ namespace HaptoFlow.RepositoryTests.Outputs
 
         public int Capacity { get; set; } = 4000;
 
-        /// <summary>When each sample was played, and what it was.</summary>
+        /// <summary>The time and value of each played sample.</summary>
         public List<(double Seconds, float Sample)> Played { get; } = new List<(double, float)>();
 
-        /// <summary>Samples that were due while nothing was left.</summary>
+        /// <summary>The number of samples that were due while the queue was empty.</summary>
         public int Starved { get; private set; }
 
         public double DepthSeconds => waiting.Count / (RateHz * (1.0 + Drift));

@@ -4,18 +4,18 @@ using HaptoFlow.Outputs;
 
 namespace HaptoFlow.RepositoryTests.Outputs
 {
-    /// <summary>A wave that is known at every position.</summary>
+    /// <summary>A wave that can be evaluated at every position.</summary>
     internal sealed class SimulatedWave : IWaveSource
     {
         private readonly Func<double, double> wave;
 
-        /// <param name="wave">From seconds of wave time to a sample.</param>
+        /// <param name="wave">Maps a time in seconds to a sample.</param>
         public SimulatedWave(Func<double, double> wave) => this.wave = wave;
 
         public static SimulatedWave Sine(double hertz, double amplitude = 0.3) =>
             new SimulatedWave(seconds => amplitude * Math.Sin(2.0 * Math.PI * hertz * seconds));
 
-        /// <summary>Noise between two frequencies, the same for every position: a sum of sines.</summary>
+        /// <summary>Noise between two frequencies as a sum of sines, reproducible at every position.</summary>
         public static SimulatedWave Noise(double lowHz, double highHz, double rms)
         {
             const int partials = 40;

@@ -5,11 +5,11 @@ using NUnit.Framework;
 
 namespace HaptoFlow.RepositoryTests.Outputs
 {
-    /// <summary>The spectrum that remains of a wave at a device's rate.</summary>
+    /// <summary>The spectrum of a wave after decimation to a device's rate.</summary>
     public sealed class WaveDecimatorTests
     {
         [Test]
-        public void WhatADeviceCanPlayKeepsItsLevel(
+        public void PlayableFrequenciesKeepTheirLevel(
             [Values(1000.0, 2000.0, 8000.0, 24000.0)] double rateHz, [Values(0.02, 0.1, 0.25, 0.39)] double share)
         {
             double hertz = share * Math.Min(rateHz, WaveHistory.RateHz);
@@ -17,12 +17,12 @@ namespace HaptoFlow.RepositoryTests.Outputs
         }
 
         [Test]
-        public void WhatWouldFoldIsHeldBack(
+        public void AliasingFrequenciesAreSuppressed(
             [Values(1000.0, 2000.0)] double rateHz, [Values(0.61, 0.75, 1.0, 1.4)] double share) =>
             Assert.That(LevelDb(rateHz, share * rateHz), Is.LessThan(-50.0));
 
         [Test]
-        public void ALowRatePaysWithAWiderTransitionRatherThanWithDelay([Values(45.0, 150.0, 320.0)] double rateHz)
+        public void ALowRateWidensTheTransitionBandWithoutMoreDelay([Values(45.0, 150.0, 320.0)] double rateHz)
         {
             Assert.That(new WaveDecimator(rateHz).DelaySeconds, Is.LessThanOrEqualTo(Math.Max(0.0121, 1.6 / rateHz)));
             Assert.That(LevelDb(rateHz, 0.05 * rateHz), Is.EqualTo(0.0).Within(0.6));
@@ -40,7 +40,7 @@ namespace HaptoFlow.RepositoryTests.Outputs
             var decimator = new WaveDecimator(rateHz);
             double energy = 0.0;
             int count = 0;
-            // A step that no wave repeats with: every phase of the filter is asked.
+            // The step is not a multiple of any period, so that every phase of the filter is used.
             for (double position = 1400.0; position < 2600.0; position += 3.0307)
             {
                 double sample = decimator.SampleAt(wave, position);

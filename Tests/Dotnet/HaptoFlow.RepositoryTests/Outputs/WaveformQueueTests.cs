@@ -6,17 +6,17 @@ using NUnit.Framework;
 
 namespace HaptoFlow.RepositoryTests.Outputs
 {
-    /// <summary>What arrives at a simulated device that plays waves on a clock of its own.</summary>
+    /// <summary>The samples that reach a simulated device with its own clock.</summary>
     public sealed class WaveformQueueTests
     {
         private const double FrameSeconds = 1.0 / 72.0;
 
-        // The filter at 45 Hz reads 1.5 of the device's samples ahead, and a sample lasts 22 ms.
-        private static double MostLatencyMs(double rateHz) => 1000.0 * (FramePace.MaximumDepthSeconds +
+        // At 45 Hz the filter reads 1.5 samples of the device ahead, and a sample lasts 22 ms.
+        private static double MaximumLatencyMs(double rateHz) => 1000.0 * (FramePace.MaximumDepthSeconds +
             2.0 / rateHz + Math.Max(0.012, 1.6 / rateHz));
 
         [Test]
-        public void TenMinutesNeitherStarveNorGrowAtAnyRateAndDrift(
+        public void TheQueueNeitherStarvesNorGrowsInTenMinutesAtAnyRateAndDrift(
             [Values(45.0, 320.0, 2000.0)] double rateHz, [Values(-0.005, 0.0, 0.005)] double drift,
             [Values] bool replaces)
         {
@@ -41,11 +41,11 @@ namespace HaptoFlow.RepositoryTests.Outputs
             Assert.That(device.Starved, Is.Zero);
             Assert.That(queue.Statistics.Gaps, Is.Zero);
             Assert.That(deepest, Is.LessThan(0.030 + 2.0 / rateHz));
-            Assert.That(longestLatency, Is.InRange(1000.0 * FrameSeconds, MostLatencyMs(rateHz)));
+            Assert.That(longestLatency, Is.InRange(1000.0 * FrameSeconds, MaximumLatencyMs(rateHz)));
         }
 
         [Test]
-        public void AHitchIsAGapThatBeginsAndEndsWithAFade([Values(0.003, 0.2, 1.0)] double hitchSeconds,
+        public void AHitchCausesAGapWithAFadeAtBothEnds([Values(0.003, 0.2, 1.0)] double hitchSeconds,
             [Values(0, 1, 2, 3, 4, 5, 6, 7)] int moment)
         {
             var device = new SimulatedWaveDevice(2000.0);
@@ -56,7 +56,7 @@ namespace HaptoFlow.RepositoryTests.Outputs
             device.AdvanceTo(now);
             queue.Update(now);
             Play(device, queue, now, 0.3);
-            // The steepest that a sine of 50 Hz is at 2 kHz, and what a fade over 2 ms adds to it.
+            // The largest step of a sine of 50 Hz at 2 kHz, plus that of a fade over 2 ms.
             double steepest = 0.5 * 2.0 * Math.PI * 50.0 / 2000.0 + 0.5 / 4.0;
             float[] played = Between(device, 0.1, now + 0.3);
             int worst = Enumerable.Range(1, played.Length - 1)
@@ -74,7 +74,7 @@ namespace HaptoFlow.RepositoryTests.Outputs
         }
 
         [Test]
-        public void AHitchOfADeviceThatQueuesEndsWhereTheWaveIsSmallAndComesBackWithAFade(
+        public void AHitchOfAQueueingDeviceEndsAtASmallSampleAndFadesIn(
             [Values(0, 1, 2, 3, 4, 5, 6, 7)] int moment)
         {
             var device = new SimulatedWaveDevice(2000.0, 0.0, false);
@@ -88,12 +88,12 @@ namespace HaptoFlow.RepositoryTests.Outputs
             float[] gap = Between(device, begins, now);
             int last = Array.FindLastIndex(gap, sample => sample != 0f);
             Assert.That(last, Is.LessThan(0.03 * 2000.0));
-            Assert.That(Math.Abs(gap[last]), Is.LessThan(0.17), "of an amplitude of 0.5");
+            Assert.That(Math.Abs(gap[last]), Is.LessThan(0.17), "for an amplitude of 0.5");
             Assert.That(Math.Abs(Between(device, now - 0.0001, now + 0.0006).Last()), Is.LessThan(0.15));
         }
 
         [Test]
-        public void AStopReachesTheDeviceWithTheSameFrame([Values] bool replaces)
+        public void AStopReachesTheDeviceInTheSameFrame([Values] bool replaces)
         {
             var device = new SimulatedWaveDevice(2000.0, 0.0, replaces);
             SimulatedWave wave = SimulatedWave.Sine(100.0);
@@ -131,22 +131,22 @@ namespace HaptoFlow.RepositoryTests.Outputs
         }
 
         [Test]
-        public void WhatIsPlayedHasTheWavesSpectrum([Values(90.0, 200.0, 400.0)] double hertz,
+        public void ThePlayedSamplesHaveTheSpectrumOfTheWave([Values(90.0, 200.0, 400.0)] double hertz,
             [Values(-0.005, 0.0, 0.005)] double drift, [Values] bool replaces)
         {
             var device = new SimulatedWaveDevice(2000.0, drift, replaces);
             Play(device, new WaveformQueue(device, SimulatedWave.Sine(hertz)), 0.0, 4.0);
-            // Where submissions queue, the phase jumps when the device is set to the clock, about twice a second.
+            // When submissions queue, aligning the device with the clock causes a phase jump about twice a second.
             double elsewhereDb = ElsewhereDb(device, hertz, 1.0, 3.5);
             TestContext.WriteLine($"{hertz} Hz, drift {drift}, replaces {replaces}: {elsewhereDb:0.0} dB elsewhere");
             Assert.That(elsewhereDb, Is.LessThan(drift == 0.0 && !replaces ? -40.0 : replaces ? -20.0 : -14.0));
         }
 
         [Test]
-        public void TheWaveIsFeltAfterTheReportedDelay([Values(320.0, 1000.0, 2000.0)] double rateHz,
+        public void TheWaveIsPlayedAfterTheReportedDelay([Values(320.0, 1000.0, 2000.0)] double rateHz,
             [Values] bool replaces)
         {
-            // A step of the level after 1 s of wave.
+            // The level changes after 1 s of the wave.
             var wave = new SimulatedWave(seconds =>
                 (seconds < 1.0 ? 0.05 : 0.5) * Math.Sin(2.0 * Math.PI * 70.0 * seconds));
             var device = new SimulatedWaveDevice(rateHz, 0.0, replaces);
@@ -166,7 +166,7 @@ namespace HaptoFlow.RepositoryTests.Outputs
         }
 
         [Test]
-        public void ADeviceThatVanishesSleepsAndComesBackAsAnotherIsPlayedAgain([Values] bool replaces)
+        public void ADisconnectedDevicePlaysAgainWhenItReturns([Values] bool replaces)
         {
             var device = new SimulatedWaveDevice(2000.0, 0.0, replaces);
             SimulatedWave wave = SimulatedWave.Sine(60.0);
@@ -176,7 +176,7 @@ namespace HaptoFlow.RepositoryTests.Outputs
             now = Play(device, queue, now, 0.5);
             long slept = wave.Position;
             now = Play(device, queue, now, 1.0);
-            Assert.That(wave.Position, Is.EqualTo(slept), "without a device the wave's clock rests");
+            Assert.That(wave.Position, Is.EqualTo(slept), "without a device the clock of the wave stops");
             Assert.That(queue.Statistics.RateHz, Is.Zero);
             device.IsThere = true;
             device.RateHz = 320.0;
@@ -189,7 +189,7 @@ namespace HaptoFlow.RepositoryTests.Outputs
         }
 
         [Test]
-        public void RandomStrokesHitchesStopsAndLossesNeverLeaveAVibrationBehind([Values] bool replaces,
+        public void RandomStrokesHitchesStopsAndLossesLeaveNoStuckVibration([Values] bool replaces,
             [Range(1, 12)] int seed)
         {
             var random = new Random(seed);
@@ -222,7 +222,7 @@ namespace HaptoFlow.RepositoryTests.Outputs
         }
 
         [Test]
-        public void SamplesThatAreNoNumbersNeverReachTheDevice()
+        public void SamplesThatAreNotNumbersNeverReachTheDevice()
         {
             var device = new SimulatedWaveDevice(2000.0);
             var queue = new WaveformQueue(device, new SimulatedWave(seconds =>
@@ -232,7 +232,7 @@ namespace HaptoFlow.RepositoryTests.Outputs
         }
 
         [Test]
-        public void FramesMakeNoGarbage([Values] bool replaces)
+        public void FramesAllocateNothing([Values] bool replaces)
         {
             var device = new SimulatedWaveDevice(2000.0, 0.005, replaces) { Records = false };
             var queue = new WaveformQueue(device, SimulatedWave.Sine(100.0));
@@ -243,7 +243,7 @@ namespace HaptoFlow.RepositoryTests.Outputs
         }
 
         [Test]
-        public void ADeviceThatTakesOnlyPartOfASubmissionGetsTheRestLater()
+        public void ADeviceThatAcceptsPartOfASubmissionGetsTheRestLater()
         {
             var device = new SimulatedWaveDevice(2000.0, 0.0, false) { Capacity = 30 };
             var queue = new WaveformQueue(device, SimulatedWave.Sine(80.0));
@@ -251,7 +251,8 @@ namespace HaptoFlow.RepositoryTests.Outputs
             Assert.That(Rms(Between(device, 0.5, now)), Is.EqualTo(0.3 / Math.Sqrt(2.0)).Within(0.03));
         }
 
-        /// <summary>Energy further than 15 Hz from a frequency, in dB of all of it; Hann windows of 0.25 s.</summary>
+        /// <summary>The energy more than 15 Hz from a frequency, in dB of the total energy, with Hann windows of 0.25
+        /// s.</summary>
         private static double ElsewhereDb(SimulatedWaveDevice device, double hertz, double from, double to)
         {
             double near = 0.0;

@@ -3,7 +3,7 @@ using NUnit.Framework;
 
 namespace HaptoFlow.SampleTests.Similarity
 {
-    /// <summary>A rectangle of 20 x 15 cm; a tip within 1 cm of an edge is on it.</summary>
+    /// <summary>Tracing of a rectangle of 20 x 15 cm with a tolerance of 1 cm.</summary>
     public sealed class EdgeTracingTests
     {
         private EdgeTracing tracing = null!;
@@ -12,7 +12,7 @@ namespace HaptoFlow.SampleTests.Similarity
         public void Begin() => tracing = new EdgeTracing(0.2, 0.15, 0.01, 0.9);
 
         [Test]
-        public void AllFourEdgesInAnyOrderAndDirectionCompleteIt()
+        public void TracingAllEdgesInAnyOrderCompletesTheRectangle()
         {
             Line(0.1, 0.075, 0.1, -0.075);
             Line(-0.1, 0.075, 0.1, 0.075);
@@ -24,7 +24,7 @@ namespace HaptoFlow.SampleTests.Similarity
 
         [TestCase(0.85, false)]
         [TestCase(0.95, true)]
-        public void AnEdgeIsTracedAtItsWantedShare(double share, bool isTraced)
+        public void AnEdgeIsTracedWhenItsRequiredShareIsCovered(double share, bool isTraced)
         {
             Line(-0.1, -0.075, -0.1 + 0.2 * share, -0.075);
             Assert.That(tracing.IsTraced(0), Is.EqualTo(isTraced));
@@ -39,7 +39,7 @@ namespace HaptoFlow.SampleTests.Similarity
         }
 
         [Test]
-        public void FewPlacesOfAFastHandAreJoined()
+        public void PositionsOfAFastHandAreConnected()
         {
             for (double x = -0.1; x <= 0.1001; x += 0.04)
             {
@@ -49,7 +49,7 @@ namespace HaptoFlow.SampleTests.Similarity
         }
 
         [Test]
-        public void WhatWasLiftedOverIsNotTraced()
+        public void PartsPassedWhileLiftedAreNotTraced()
         {
             for (double x = -0.1; x <= 0.1001; x += 0.04)
             {
@@ -60,7 +60,7 @@ namespace HaptoFlow.SampleTests.Similarity
         }
 
         [Test]
-        public void AJumpFromEndToEndIsNoLine()
+        public void AJumpAlongAnEdgeTracesNothingBetween()
         {
             tracing.Add(-0.1, -0.075);
             tracing.Add(0.1, -0.075);
@@ -68,7 +68,7 @@ namespace HaptoFlow.SampleTests.Similarity
         }
 
         [Test]
-        public void WhatIsBegunAnewIsForgotten()
+        public void StartingAnewClearsTheTracedEdges()
         {
             Line(-0.1, -0.075, 0.1, -0.075);
             tracing.Begin();
@@ -76,7 +76,7 @@ namespace HaptoFlow.SampleTests.Similarity
         }
 
         [Test]
-        public void PlacesThatAreNoNumbersTraceNothing()
+        public void PositionsThatAreNotNumbersTraceNothing()
         {
             tracing.Add(double.NaN, double.NaN);
             tracing.Add(double.PositiveInfinity, 0.0);

@@ -8,7 +8,7 @@ using UnityShim;
 
 namespace HaptoFlow.SampleTests.Similarity
 {
-    /// <summary>The real sample lies lower than the scene has it, and turned.</summary>
+    /// <summary>Alignment with a real sample that is lower than in the scene, and rotated.</summary>
     public sealed class SimilarityAlignmentTests : SimilarityTest
     {
         private readonly Vector3 place = new Vector3(0.04f, -0.05f, 0.03f);
@@ -26,10 +26,10 @@ namespace HaptoFlow.SampleTests.Similarity
         }
 
         [TearDown]
-        public void LeaveNoPlace() => scene.Alignment.Alignment.ForgetSaved();
+        public void DeleteTheSavedPlace() => scene.Alignment.Alignment.ForgetSaved();
 
         [Test]
-        public void WithoutThreeTouchedPointsTheStudyDoesNotBegin()
+        public void TheStudyDoesNotBeginBeforeThreePointsAreTouched()
         {
             scene.Begin(7);
             Assert.That((scene.CanBegin, scene.Session), Is.EqualTo((false, (StudySession?)null)));
@@ -39,7 +39,7 @@ namespace HaptoFlow.SampleTests.Similarity
         }
 
         [Test]
-        public void ThreeTouchedCornersPutBothObjectsInPlaceAndTheStudyIsDoneThere()
+        public void ThreeTouchedCornersAlignBothObjectsAndTheStudyRuns()
         {
             Align();
             Assert.That(scene.Alignment.Text, Does.StartWith("Aligned; 0."));
@@ -62,7 +62,7 @@ namespace HaptoFlow.SampleTests.Similarity
         }
 
         [Test]
-        public void APenThatIsAlignedAndDoesNotPressTracesNothing()
+        public void AnAlignedPenThatDoesNotPressTracesNothing()
         {
             Align();
             scene.Begin(7);
@@ -85,7 +85,7 @@ namespace HaptoFlow.SampleTests.Similarity
         }
 
         [Test]
-        public void APointIsTakenByTheOperatorForAPenWithoutForceAndTakenBack()
+        public void TheOperatorTakesAndRemovesPointsForAPenWithoutForce()
         {
             scene.Alignment.Begin();
             Vector3[] corners = Corners();
@@ -112,7 +112,7 @@ namespace HaptoFlow.SampleTests.Similarity
             Assert.That(Shown(), Is.Zero);
         }
 
-        /// <summary>Models and frames are there; the alignment is not.</summary>
+        /// <summary>Waits until everything but the alignment is ready.</summary>
         private void PrepareWithoutAlignment()
         {
             var until = DateTime.UtcNow.AddMinutes(2);

@@ -3,6 +3,7 @@ using System.IO;
 using System.Linq;
 using System.Reflection;
 using System.Text.RegularExpressions;
+using HaptoFlow.Studies;
 using HaptoFlow.Samples.SimilarityStudy;
 using HaptoFlow.Tests;
 using HaptoFlow.Tests.Support;
@@ -12,23 +13,23 @@ using UnityShim;
 
 namespace HaptoFlow.SampleTests.Similarity
 {
-    /// <summary>The scene and the settings that the sample brings along, as text.</summary>
+    /// <summary>The scene file and the settings asset of the sample.</summary>
     public sealed class SimilarityAssetTests : SimilarityTest
     {
         private static string Asset => File.ReadAllText(SampleFile("SimilarityStudy", "SimilarityStudySettings.asset"));
 
         [Test]
-        public void TheSettingsNameEveryFieldOnceAndNoOther()
+        public void TheSettingsAssetContainsEveryFieldExactlyOnce()
         {
             IEnumerable<string> keys = Regex.Matches(Asset, @"^  ([a-z]\w*):", RegexOptions.Multiline)
                 .Select(match => match.Groups[1].Value).Where(key => !key.StartsWith("m_"));
-            Assert.That(keys, Is.EquivalentTo(FieldsOf<SimilarityStudySettings>()));
+            Assert.That(keys, Is.EquivalentTo(FieldsOf<SimilarityStudySettings>().Concat(FieldsOf<StudySettings>())));
             Assert.That(KeysOfEntries("materials"), Is.EquivalentTo(FieldsOf<StudyMaterial>()));
             Assert.That(KeysOfEntries("methods"), Is.EquivalentTo(FieldsOf<StudyMethod>()));
         }
 
         [Test]
-        public void TheSettingsCompareTwoTiersOfThePackagesModelOnThePapersSixMaterials()
+        public void TheSettingsAssetComparesTwoTiersOnSixMaterials()
         {
             string[] labels = Values("label").ToArray();
             Assert.That(labels, Is.EquivalentTo(new[] { "ceramic", "jute", "wood", "plastic", "fur", "metal" }));
@@ -48,7 +49,7 @@ namespace HaptoFlow.SampleTests.Similarity
 
         [TestCase("SimilarityStudyScene.cs")]
         [TestCase("SimilarityStudySettings.asset")]
-        public void TheSceneFileHoldsTheBootstrapAndItsSettings(string name)
+        public void TheSceneFileRefersToItsScriptAndItsSettings(string name)
         {
             string meta = File.ReadAllText(SampleFile("SimilarityStudy", name + ".meta"));
             string guid = Regex.Match(meta, "guid: (\\w{32})").Groups[1].Value;

@@ -22,9 +22,9 @@ namespace HaptoFlow.SampleTests.Similarity
         [TestCase(6, 4)]
         [TestCase(2, 3)]
         [TestCase(1, 2)]
-        public void EveryTrialIsLoggedOnceAlsoWhereTheSessionWasInterruptedInMidTrial(int materials, int methods)
+        public void AnInterruptedSessionLogsEveryTrialExactlyOnce(int materials, int methods)
         {
-            // The project itself names no model.
+            // The settings of the project have no model.
             HaptoFlowSettings.Active.Model = null;
             SimilarityStudySettings settings = Settings(materials, methods);
             settings.Simulated = true;
@@ -42,7 +42,7 @@ namespace HaptoFlow.SampleTests.Similarity
             int rests = 1 + (materials * methods - 1) / 12;
             Assert.That(pauses.Count(pause => pause == StudyPause.Rest), Is.EqualTo(rests));
             Assert.That(pauses.Count(pause => pause == StudyPause.Begin), Is.EqualTo(2));
-            // Another sample is mounted for every material but those that come after a rest or the interruption.
+            // Every change of the material is a pause, unless a rest or the interruption comes first.
             int changes = Enumerable.Range(1, plan.Trials.Count - 1).Count(next => !plan.Trials[next].RestBefore &&
                 plan.Trials[next].Trial != stopAt && plan.Trials[next].Material != plan.Trials[next - 1].Material);
             Assert.That(pauses.Count(pause => pause == StudyPause.Sample), Is.EqualTo(changes));
@@ -65,7 +65,7 @@ namespace HaptoFlow.SampleTests.Similarity
                 {
                     Assert.That(Number(row, column), Is.GreaterThan(0.0), $"{where}, {column}");
                 }
-                // The virtual object alone: its perimeter of 0.676 m and a stroke of 0.12 m.
+                // Only the path on the virtual object counts: its perimeter of 0.676 m and a stroke of 0.12 m.
                 Assert.That(Number(row, "path_mm"), Is.InRange(650.0, 850.0), where);
                 Assert.That(row["underruns"], Is.EqualTo("0"), where);
             }
@@ -89,7 +89,7 @@ namespace HaptoFlow.SampleTests.Similarity
         }
 
         [Test]
-        public void AnAnswerThatTheDiskRefusesIsWrittenLaterAndNoTrialIsLostOrRepeated()
+        public void AnAnswerThatCannotBeWrittenIsWrittenLater()
         {
             Begin(Settings(1, 2));
             TakePart(2);
@@ -114,7 +114,7 @@ namespace HaptoFlow.SampleTests.Similarity
         }
 
         [Test]
-        public void WhereTheModelEndsInMidTrialTheSessionPausesAndNamesTheMethod()
+        public void AFailingModelPausesTheSessionAndNamesTheMethod()
         {
             Begin(Settings(1, 2));
             scene.Session!.Continue();
@@ -127,7 +127,7 @@ namespace HaptoFlow.SampleTests.Similarity
         }
 
         [Test]
-        public void APenThatIsNotTrackedForAWhileGoesOnWhereItWas()
+        public void APenThatLosesTrackingContinuesTheTrialLater()
         {
             Begin(Settings(1, 2));
             scene.Session!.Continue();
@@ -142,7 +142,7 @@ namespace HaptoFlow.SampleTests.Similarity
         }
 
         [Test]
-        public void AsLongAsNoPenWasTrackedTheMouseTakesPartAndThenThePen()
+        public void TheMousePenTakesPartUntilAPenIsTracked()
         {
             Open(Settings(1, 2), hasPen: false);
             Prepare();
@@ -163,7 +163,7 @@ namespace HaptoFlow.SampleTests.Similarity
         }
 
         [Test]
-        public void WithoutTheInputSystemKeysAnswer()
+        public void KeysAnswerWithoutTheInputSystem()
         {
             LegacyPanel panel = LegacyPanel.Create(Vector3.zero, Quaternion.identity);
             LegacyButtons.Create(panel, Legacy::HaptoFlow.PenHand.Right);
@@ -179,7 +179,7 @@ namespace HaptoFlow.SampleTests.Similarity
         }
 
         [Test]
-        public void WhileTheOperatorMountsAnotherSampleNothingIsAskedOrFelt()
+        public void APauseForANewSampleMutesTheOutputAndClosesTheQuestion()
         {
             Begin(Settings(2, 2));
             while (scene.Session!.Pause != StudyPause.Sample || scene.Session.Phase != StudyPhase.Paused)
@@ -204,7 +204,7 @@ namespace HaptoFlow.SampleTests.Similarity
         }
 
         [Test]
-        public void OnTheRealSampleNothingIsFeltAndOnTheVirtualOneSomethingIs()
+        public void TheOutputIsMutedOnTheRealSampleAndPlaysOnTheVirtualObject()
         {
             Begin(Settings(2, 2));
             scene.Session!.Continue();
@@ -226,7 +226,7 @@ namespace HaptoFlow.SampleTests.Similarity
         }
 
         [Test]
-        public void WhileTheRealSampleIsTracedTheVirtualObjectIsMutedToo()
+        public void TheVirtualObjectIsMutedWhileTheRealSampleIsTraced()
         {
             Begin(Settings(1, 2));
             Slide(Corner(scene.Virtual.Frame, 0), Corner(scene.Virtual.Frame, 2));
@@ -238,7 +238,7 @@ namespace HaptoFlow.SampleTests.Similarity
         }
 
         [Test]
-        public void WithoutAllFourEdgesTheTrialDoesNotGoOn()
+        public void ATrialContinuesOnlyAfterAllFourEdgesAreTraced()
         {
             Begin(Settings(1, 2));
             scene.Session!.Continue();
@@ -248,7 +248,7 @@ namespace HaptoFlow.SampleTests.Similarity
             Trace(scene.Real.Frame, 4, 0.02f);
             Assert.That(Procedure.Stage, Is.EqualTo(TrialStage.RealEdges), "edges in the air are not traced");
             TraceVirtual();
-            Assert.That(Procedure.Stage, Is.EqualTo(TrialStage.RealEdges), "the other object's edges are others");
+            Assert.That(Procedure.Stage, Is.EqualTo(TrialStage.RealEdges), "the edges of the other object do not count");
             Answer(4);
             Assert.That(scene.Panel.IsOpen, Is.False);
             TraceReal();
@@ -262,7 +262,7 @@ namespace HaptoFlow.SampleTests.Similarity
         }
 
         [Test]
-        public void AnAnswerIsChosenAndConfirmedAndCountsOnce()
+        public void AConfirmedAnswerCountsOnce()
         {
             Begin(Settings(1, 2));
             scene.Session!.Continue();
@@ -289,7 +289,7 @@ namespace HaptoFlow.SampleTests.Similarity
         }
 
         [Test]
-        public void AButtonThatIsHeldWhileTheQuestionOpensIsNoAnswer()
+        public void AButtonHeldWhileTheQuestionOpensIsIgnored()
         {
             Begin(Settings(1, 2));
             scene.Session!.Continue();
@@ -302,7 +302,7 @@ namespace HaptoFlow.SampleTests.Similarity
         }
 
         [Test]
-        public void ATrialThatTheOperatorPausedBeginsAnewWithTheRealSample()
+        public void APausedTrialStartsAgainWithTheRealSample()
         {
             Begin(Settings(1, 2));
             scene.Session!.Continue();
@@ -321,7 +321,7 @@ namespace HaptoFlow.SampleTests.Similarity
         }
 
         [Test]
-        public void NothingThatTheParticipantSeesNamesMaterialOrMethodAndBothObjectsAlwaysLookAlike()
+        public void NothingVisibleRevealsMaterialOrMethod()
         {
             SimilarityStudySettings settings = Settings(3, 4);
             string[] words = settings.Materials.SelectMany(each => new[] { each.Name, each.Label })
@@ -346,7 +346,7 @@ namespace HaptoFlow.SampleTests.Similarity
         }
 
         [Test]
-        public void TheHandThatAnswersFeelsNothingAndTheMouseRestsWhileAPenIsTracked()
+        public void TheAnsweringHandHasNoPenAndTheMousePenIsOffWhileAPenIsTracked()
         {
             Begin(Settings(1, 2));
             SimulatedInput.SetControl(Left + "isTracked", 1f);
@@ -376,7 +376,8 @@ namespace HaptoFlow.SampleTests.Similarity
             PlayFor(0.3);
         }
 
-        /// <summary>Both objects, their colours and sizes; and no word in text or names tells anything.</summary>
+        /// <summary>Checks that both objects have the same colour and size, and that no text or name reveals anything.
+        /// </summary>
         private string LooksOf(string[] words)
         {
             IEnumerable<string> seen = FindAll<TextMesh>().Select(each => each.text)

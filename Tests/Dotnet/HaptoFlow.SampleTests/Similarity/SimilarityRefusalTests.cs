@@ -13,11 +13,11 @@ using UnityShim;
 
 namespace HaptoFlow.SampleTests.Similarity
 {
-    /// <summary>What stops the study before it begins, and is named.</summary>
+    /// <summary>Problems that stop the study before it begins, and their messages.</summary>
     public sealed class SimilarityRefusalTests : SimilarityTest
     {
         [Test]
-        public void AModelThatDoesNotLoadStopsTheStudyByTheNameOfItsMethodAndFile()
+        public void AModelThatDoesNotLoadStopsTheStudyAndNamesMethodAndFile()
         {
             SimilarityStudySettings settings = Settings(1, 2);
             settings.Compare(settings.Materials, settings.Methods.Append(
@@ -26,7 +26,7 @@ namespace HaptoFlow.SampleTests.Similarity
         }
 
         [Test]
-        public void AMethodWithoutModelStopsTheStudy()
+        public void AMethodWithoutAModelStopsTheStudy()
         {
             SimilarityStudySettings settings = Settings(1, 2);
             settings.Compare(settings.Materials, settings.Methods.Append(
@@ -47,7 +47,7 @@ namespace HaptoFlow.SampleTests.Similarity
         public void TheSameTierUnderTwoNamesStopsTheStudy()
         {
             SimilarityStudySettings settings = Settings(1, 3);
-            // The package's model has no tier "fine": its best one is "standard".
+            // The package's model has no tier "fine"; its most accurate one is "standard".
             settings.Compare(settings.Materials, settings.Methods.Append(
                 new StudyMethod("Best", DefaultModel.Asset(), HapticQuality.Fine)));
             Refused(settings, "\"Ours\" and \"Best\" are the same tier \"standard\"");
@@ -63,7 +63,7 @@ namespace HaptoFlow.SampleTests.Similarity
         }
 
         [Test]
-        public void AMaterialOfNothingStopsTheStudy()
+        public void AMaterialWithoutALabelStopsTheStudy()
         {
             SimilarityStudySettings settings = Settings(1, 2);
             settings.Compare(settings.Materials.Append(new StudyMaterial("Void", " ")), settings.Methods);
@@ -71,7 +71,7 @@ namespace HaptoFlow.SampleTests.Similarity
         }
 
         [Test]
-        public void ALearntMaterialOfAnotherModelStopsTheStudyAndOneOfTheSameDoesNot()
+        public void OnlyALearntMaterialOfAnotherModelStopsTheStudy()
         {
             HapticMaterial denim =
                 HapticMaterial.Create(MaterialText.OfLabel(DefaultModel.Asset().File, "glass"), "cotton");
@@ -95,7 +95,7 @@ namespace HaptoFlow.SampleTests.Similarity
         [TestCase("Ours")]
         [TestCase("")]
         [TestCase("a,b")]
-        public void ANameThatCannotStandInALogStopsTheStudy(string name)
+        public void ANameThatIsInvalidInALogStopsTheStudy(string name)
         {
             SimilarityStudySettings settings = Settings(1, 3);
             settings.Compare(settings.Materials, settings.Methods.Append(
@@ -104,7 +104,7 @@ namespace HaptoFlow.SampleTests.Similarity
         }
 
         [Test]
-        public void SettingsWithoutMaterialsMethodsOrAtAllStopTheStudy()
+        public void MissingSettingsMaterialsOrMethodsStopTheStudy()
         {
             Refused(Settings(0, 2), "materials: a study needs at least one");
             Crash();
@@ -114,7 +114,7 @@ namespace HaptoFlow.SampleTests.Similarity
         }
 
         [Test]
-        public void AMethodThatIsSlowerThanTheEqualDelayStopsTheStudyByName()
+        public void AMethodSlowerThanTheEqualDelayStopsTheStudyAndIsNamed()
         {
             SimilarityStudySettings settings = Settings(1, 2);
             settings.EqualDelayMilliseconds = 60f;
@@ -122,12 +122,12 @@ namespace HaptoFlow.SampleTests.Similarity
             Open(settings);
             Prepare();
             scene.Begin(7);
-            Assert.That(scene.Problem, Does.Contain("method \"Rival quick\" cannot be given 60 ms"));
+            Assert.That(scene.Problem, Does.Contain("method \"Rival quick\" cannot have a delay of 60 ms"));
             Assert.That((scene.Session, Directory.Exists(folder)), Is.EqualTo(((StudySession?)null, false)));
         }
 
         [Test]
-        public void AMeasurementThatFailsStopsTheStudyByName()
+        public void AFailedMeasurementStopsTheStudyAndNamesTheMethod()
         {
             measure = (_, _) => Task.FromException<double>(new InvalidOperationException("no voice is free"));
             Open(Settings(1, 2));
@@ -137,7 +137,7 @@ namespace HaptoFlow.SampleTests.Similarity
         }
 
         [Test]
-        public void AParticipantWhoIsDoneIsRefusedAndAnotherCanBegin()
+        public void AFinishedParticipantIsRefusedAndAnotherCanBegin()
         {
             SimilarityStudySettings settings = Settings(1, 1);
             Begin(settings);
@@ -152,7 +152,7 @@ namespace HaptoFlow.SampleTests.Similarity
         }
 
         [Test]
-        public void AnInterruptedSessionKeepsItsDelayThoughTheMachineIsMeasuredAnew()
+        public void AResumedSessionKeepsItsDelay()
         {
             SimilarityStudySettings settings = Settings(1, 2);
             inference = new Dictionary<string, double> { ["Ours quick"] = 20.0 };
@@ -170,7 +170,7 @@ namespace HaptoFlow.SampleTests.Similarity
         }
 
         [Test]
-        public void AnInterruptedSessionIsNotGoneOnWithWhereAMethodBecameTooSlowForItsDelay()
+        public void AnInterruptedSessionIsNotResumedWhenAMethodHasBecomeTooSlow()
         {
             SimilarityStudySettings settings = Settings(1, 2);
             Begin(settings);
@@ -181,7 +181,7 @@ namespace HaptoFlow.SampleTests.Similarity
             Open(settings);
             Prepare();
             scene.Begin(7);
-            Assert.That(scene.Problem, Does.Contain("method \"Ours quick\" cannot be given"));
+            Assert.That(scene.Problem, Does.Contain("method \"Ours quick\" cannot have a delay of"));
             Assert.That(File.ReadAllBytes(Csv), Is.EqualTo(before));
         }
 

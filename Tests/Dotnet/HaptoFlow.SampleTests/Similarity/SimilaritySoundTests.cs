@@ -10,7 +10,7 @@ using UnityShim;
 
 namespace HaptoFlow.SampleTests.Similarity
 {
-    /// <summary>What a trial sounds like: its model, its material, its delay.</summary>
+    /// <summary>The output of a trial: its model, its material, its delay.</summary>
     public sealed class SimilaritySoundTests : SimilarityTest
     {
         private const int OutputHz = 48000;
@@ -18,7 +18,7 @@ namespace HaptoFlow.SampleTests.Similarity
         private static readonly string[] Two = { "wood", "metal mesh" };
 
         [Test]
-        public void EachTrialIsGeneratedByThePlannedModelAndTierAlone()
+        public void EveryTrialUsesOnlyThePlannedModelAndTier()
         {
             Begin(Settings(2, 4));
             int trials = 0;
@@ -51,7 +51,7 @@ namespace HaptoFlow.SampleTests.Similarity
         }
 
         [Test]
-        public void ATrialSoundsAsStrongAsItsModelMakesItsMaterialInAnyOtherScene()
+        public void ATrialHasTheSameLevelAsTheMaterialInAnyOtherScene()
         {
             SimilarityStudySettings settings = Settings(
                 Two.Select(label => new StudyMaterial("Sample of " + label, label)), Settings(1, 2).Methods);
@@ -79,17 +79,17 @@ namespace HaptoFlow.SampleTests.Similarity
                 TraceVirtual();
                 double level = LevelOfCircle(scene.Virtual.Frame.position, scene.Output.Channel);
                 string label = settings.Materials.Single(each => each.Name == trial.Material).Label;
-                double wanted = expected[label + trial.Method];
-                Assert.That(level, Is.EqualTo(wanted).Within(0.1 * wanted), $"{label}, {trial.Method}");
+                double expectedLevel = expected[label + trial.Method];
+                Assert.That(level, Is.EqualTo(expectedLevel).Within(0.1 * expectedLevel), $"{label}, {trial.Method}");
                 Answer(4);
             }
         }
 
         [Test]
-        public void TheVoiceIsDelayedByWhatTheMethodLacksToTheSlowest()
+        public void EveryMethodIsDelayedToTheSlowestOne()
         {
             inference = new Dictionary<string, double> { ["Ours quick"] = 3.0, ["Rival quick"] = 33.0 };
-            // A block for each frame: a touch comes at the same place of a block in every trial.
+            // One audio block per frame, so that a touch comes at the same position of a block in every trial.
             World.FrameRateHz = OutputHz / (double)BlockFrames;
             Begin(Settings(1, 2));
             var onset = new Dictionary<string, double>();
@@ -111,7 +111,7 @@ namespace HaptoFlow.SampleTests.Similarity
                 Dictionary<string, string> row = Rows().Last();
                 artificial[method] = Number(row, "artificial_delay_ms");
                 double system = Number(row, "system_delay_ms");
-                // Frame, method, block, and the 20 ms that the settings say of the device.
+                // The sum of frame, method, block, and the device delay of 20 ms in the settings.
                 Assert.That(system, Is.EqualTo(block + inference[method] + block + 20.0).Within(0.1));
                 Assert.That(Number(row, "delay_ms"), Is.EqualTo(Math.Ceiling(2.0 * block + 33.0 + 20.0 + 2.0)));
                 Assert.That(set, Is.EqualTo(artificial[method]).Within(1e-3));
@@ -123,7 +123,7 @@ namespace HaptoFlow.SampleTests.Similarity
         }
 
         [Test]
-        public void WithoutALaboratorysOwnMeasurementEveryMethodIsMeasuredLiveBeforeTheStudy()
+        public void EveryMethodIsMeasuredLiveByDefault()
         {
             measure = null;
             Open(Settings(1, 2));
@@ -138,7 +138,7 @@ namespace HaptoFlow.SampleTests.Similarity
         }
 
         [Test]
-        public void TheHeadphonesGetTheNoiseAndTheActuatorDoesNot()
+        public void TheNoisePlaysInTheHeadphonesAndNotOnTheActuator()
         {
             Open(Settings(1, 2));
             PlayFor(0.5);
@@ -148,7 +148,7 @@ namespace HaptoFlow.SampleTests.Similarity
             Assert.That(LoudestFelt(), Is.Zero);
         }
 
-        /// <summary>Root mean square of the actuator's channel while the pen draws circles.</summary>
+        /// <summary>The root mean square of the actuator's channel while the pen draws circles.</summary>
         private double LevelOfCircle(Vector3 middle, int channel)
         {
             Vector3 At(int frame) => middle + 0.001f * Vector3.up + new Vector3(
@@ -167,7 +167,7 @@ namespace HaptoFlow.SampleTests.Similarity
             return level;
         }
 
-        /// <summary>The same circles in a scene that knows nothing of studies.</summary>
+        /// <summary>Draws the same circles in a scene without a study.</summary>
         private double LevelElsewhere(HapticModelAsset model, string label)
         {
             Haptics.Restart();
@@ -197,7 +197,7 @@ namespace HaptoFlow.SampleTests.Similarity
         private static double Level(int channel) => Math.Sqrt(Enumerable.Range(0, AudioDevice.RecordedFrames)
             .Average(frame => AudioDevice.Sample(frame, channel) * (double)AudioDevice.Sample(frame, channel)));
 
-        /// <summary>From the frame of a touch-down to the first vibration.</summary>
+        /// <summary>The time from the frame of a touch-down to the first vibration.</summary>
         private double OnsetMilliseconds()
         {
             Vector3 place = Corner(scene.Virtual.Frame, 0);

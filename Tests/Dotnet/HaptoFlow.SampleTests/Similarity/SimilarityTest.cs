@@ -13,8 +13,8 @@ using UnityShim;
 
 namespace HaptoFlow.SampleTests.Similarity
 {
-    /// <summary>The similarity study with a scripted participant: a pen in the right hand, an answer from the left.
-    /// </summary>
+    /// <summary>A test of the similarity study with a simulated participant, who holds the pen in the right hand and
+    /// answers with the left one.</summary>
     public abstract class SimilarityTest : SampleTest
     {
         protected const string Left = "<XRController>{LeftHand}/";
@@ -53,7 +53,8 @@ namespace HaptoFlow.SampleTests.Similarity
             }
         }
 
-        /// <summary>Up to six labels, and up to four methods: two tiers of two models.</summary>
+        /// <summary>Creates settings with up to six labels and up to four methods, which are two tiers of two models.
+        /// </summary>
         private protected SimilarityStudySettings Settings(int materials, int methods) => Settings(
             Labels.Take(materials).Select(label => new StudyMaterial("Sample of " + label, label)),
             new[]
@@ -82,11 +83,11 @@ namespace HaptoFlow.SampleTests.Similarity
             return model;
         }
 
-        /// <summary>The scene as its file has it.</summary>
+        /// <summary>Builds the scene with the camera of the scene file.</summary>
         private protected void Open(SimilarityStudySettings? settings, string saveName = "", bool hasPen = true)
         {
             Camera camera = CameraOf(new SceneFile(SampleFile("SimilarityStudy", "SimilarityStudy.unity")));
-            // As in the scene file, the camera hears.
+            // The camera carries the Audio Listener, as in the scene file.
             foreach (AudioListener each in FindAll<AudioListener>())
             {
                 UnityEngine.Object.DestroyImmediate(each);
@@ -105,7 +106,7 @@ namespace HaptoFlow.SampleTests.Similarity
             }
         }
 
-        /// <summary>Until the models are there, or the study refused.</summary>
+        /// <summary>Waits until the models are loaded, or the study has refused to begin.</summary>
         private protected void Prepare()
         {
             var until = DateTime.UtcNow.AddMinutes(2);
@@ -123,16 +124,16 @@ namespace HaptoFlow.SampleTests.Similarity
             Assert.That(scene.Problem, Is.Null);
         }
 
-        /// <summary>The application is gone from one moment to the next; what was written is what there is.</summary>
+        /// <summary>Ends the application without warning. Only what has been written remains.</summary>
         private protected void Crash()
         {
             World.LoadEmptyScene();
             Make("Stepper").AddComponent<EngineStepper>();
         }
 
-        /// <summary>Goes through every trial and every pause until the plan is done.</summary>
-        /// <param name="stopAt">The trial in whose middle it stops; 0 for none.</param>
-        /// <returns>The pauses that the operator ended.</returns>
+        /// <summary>Runs every trial and every pause until the plan is finished.</summary>
+        /// <param name="stopAt">The trial in which to stop; 0 for none.</param>
+        /// <returns>The pauses that the operator has ended.</returns>
         private protected List<StudyPause> TakePart(int stopAt = 0)
         {
             var pauses = new List<StudyPause>();
@@ -160,7 +161,7 @@ namespace HaptoFlow.SampleTests.Similarity
             return pauses;
         }
 
-        /// <summary>What the scripted participant answers: another rating for each pair.</summary>
+        /// <summary>The answer of the simulated participant, another rating for each pair.</summary>
         private protected static int RatingOf(PlannedTrial trial) => 1 + (trial.Trial * 3 + trial.Method!.Length) % 7;
 
         private protected void Answer(int rating)
@@ -173,7 +174,7 @@ namespace HaptoFlow.SampleTests.Similarity
 
         private protected void TraceVirtual() => Trace(scene.Virtual.Frame, EdgeTracing.EdgeCount);
 
-        /// <summary>Slides along so many edges, pressing, and lifts.</summary>
+        /// <summary>Slides along a number of edges, and lifts off.</summary>
         private protected void Trace(Transform frame, int edges, float heightMetres = -DeepMetres)
         {
             Hold(Corner(frame, 0) + 0.02f * Vector3.up);
@@ -192,7 +193,8 @@ namespace HaptoFlow.SampleTests.Similarity
             Hold(to + 0.03f * Vector3.up);
         }
 
-        /// <summary>Of an object's top, a little inside: 0 near left, then near right, far right, far left.</summary>
+        /// <summary>A point near a corner of an object's top: 0 near left, 1 near right, 2 far right, 3 far left.
+        /// </summary>
         private protected Vector3 Corner(Transform frame, int corner)
         {
             Vector3 size = scene.Settings!.SampleMetres;
@@ -211,7 +213,7 @@ namespace HaptoFlow.SampleTests.Similarity
             }
         }
 
-        /// <summary>The pen is here for a frame.</summary>
+        /// <summary>Moves the pen to a place for one frame.</summary>
         private protected void Hold(Vector3 place)
         {
             tip = place;
@@ -229,7 +231,7 @@ namespace HaptoFlow.SampleTests.Similarity
             World.Frame();
         }
 
-        /// <summary>Largest magnitude on the actuator's channel since <see cref="AudioDevice.Forget"/>.</summary>
+        /// <summary>The largest magnitude on the actuator's channel since <see cref="AudioDevice.Forget"/>.</summary>
         private protected float LoudestFelt()
         {
             float loudest = 0f;
@@ -240,7 +242,7 @@ namespace HaptoFlow.SampleTests.Similarity
             return loudest;
         }
 
-        /// <summary>The rows of the log by column.</summary>
+        /// <summary>The rows of the log as dictionaries by column name.</summary>
         private protected List<Dictionary<string, string>> Rows()
         {
             string[] lines = File.ReadAllText(Csv).TrimEnd('\n').Split('\n');

@@ -21,15 +21,7 @@ namespace HaptoFlow.Studies
         }
 
         /// <summary>Of the audio device at present.</summary>
-        public static int Channels => AudioSettings.GetConfiguration().speakerMode switch
-        {
-            AudioSpeakerMode.Mono => 1,
-            AudioSpeakerMode.Quad => 4,
-            AudioSpeakerMode.Surround => 5,
-            AudioSpeakerMode.Mode5point1 => 6,
-            AudioSpeakerMode.Mode7point1 => 8,
-            _ => 2,
-        };
+        public static int Channels => SpeakerChannels.Count(AudioSettings.GetConfiguration().speakerMode);
 
         /// <summary>Application, platform and audio device, for the record. Makes garbage.</summary>
         /// <param name="headset">The headset in the operator's words; empty without one.</param>

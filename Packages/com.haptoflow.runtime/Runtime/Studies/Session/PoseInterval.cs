@@ -9,13 +9,19 @@ namespace HaptoFlow.Studies
     {
         private const int Frames = 128;
 
+        // The median of fewer frames is too uncertain for a delay budget.
+        private const int MinimumFrames = 64;
+
         private readonly double[] ring = new double[Frames];
         private readonly double[] sorted = new double[Frames];
         private int count;
         private int next;
 
-        /// <summary>Frames that count by now, at most 128.</summary>
+        /// <summary>The number of frames in the median, at most 128.</summary>
         public int Count => count;
+
+        /// <summary>Whether there have been enough frames for a reliable median.</summary>
+        public bool IsMeasured => count >= MinimumFrames;
 
         /// <summary>Half of the last frames took less, in ms; 0 before the first.</summary>
         public double MedianMilliseconds

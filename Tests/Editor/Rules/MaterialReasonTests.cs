@@ -7,16 +7,16 @@ using UnityEngine;
 
 namespace HaptoFlow.EditorTests
 {
-    /// <summary>"Why does this feel like wood?" before play mode: the overlay's lines and a map's own.</summary>
-    public sealed class WhyTests : EditorTest
+    /// <summary>The reasons for a collider's material in edit mode, in the overlay and in the Inspector of a map.
+    /// </summary>
+    public sealed class MaterialReasonTests : EditorTest
     {
         private HapticMaterialMap map = null!;
 
         [SetUp]
-        public void GiveTheProjectAMap()
+        public void AddAMapToTheProject()
         {
-            map = ScriptableObject.CreateInstance<HapticMaterialMap>();
-            AssetDatabase.CreateAsset(map, Folder + "/Rooms.asset");
+            map = CreateMap();
             Settings().MaterialMap = map;
             ProjectSettingsAsset.Forget();
             map.Add(HapticMaterialRule.ForTag("Finish", Material("stone")));
@@ -24,7 +24,7 @@ namespace HaptoFlow.EditorTests
         }
 
         [Test]
-        public void TheOverlaySaysWhatIsFeltAndByWhichRule()
+        public void TheOverlayListsMaterialsAndRules()
         {
             Tagged("Table", "wood");
             Box("Step").tag = "Finish";
@@ -42,7 +42,7 @@ namespace HaptoFlow.EditorTests
         }
 
         [Test]
-        public void AScopeOfTheSceneComesBeforeTheProjectsMap()
+        public void AScopeOfTheSceneTakesPrecedenceOverTheProjectsMap()
         {
             HapticMaterialMap ofScene = ScriptableObject.CreateInstance<HapticMaterialMap>();
             ofScene.name = "Cellar";
@@ -57,7 +57,7 @@ namespace HaptoFlow.EditorTests
         }
 
         [Test]
-        public void ASurfaceThatIsOffLeavesTheColliderToTheRules()
+        public void RulesApplyToTheColliderOfADisabledSurface()
         {
             HapticSurface table = Tagged("Table", "wood");
             table.gameObject.tag = "Finish";
@@ -67,7 +67,7 @@ namespace HaptoFlow.EditorTests
         }
 
         [Test]
-        public void AMapSaysWhatEachOfItsRulesMatches()
+        public void AMapShowsWhatEachOfItsRulesMatches()
         {
             Box("Step").tag = "Finish";
             Assert.That(HapticMaterialMapEditor.LinesOf(map).Select(line => line.Text), Is.EqualTo(new[]
@@ -75,7 +75,7 @@ namespace HaptoFlow.EditorTests
                 "Rule 1: tag \"Finish\" \u2192 stone: Step", "Rule 2: name \"Ghost*\" \u2192 nothing: no collider",
             }));
             HapticMaterialMap idle = ScriptableObject.CreateInstance<HapticMaterialMap>();
-            Assert.That(HapticMaterialMapEditor.LinesOf(idle).Single().Text, Does.StartWith("This map counts nowhere"));
+            Assert.That(HapticMaterialMapEditor.LinesOf(idle).Single().Text, Does.StartWith("This map is not in use"));
         }
 
         private static string Line(GameObject owner)

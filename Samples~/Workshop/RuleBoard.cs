@@ -3,23 +3,23 @@ using UnityEngine;
 
 namespace HaptoFlow.Samples.Workshop
 {
-    /// <summary>A line of text that says which rule decides what the pen feels.</summary>
-    public sealed class WhyBoard : MonoBehaviour
+    /// <summary>A line of text that says which rule assigns the material that the pen touches.</summary>
+    public sealed class RuleBoard : MonoBehaviour
     {
         private HapticStylus stylus = null!;
         private TextMesh line = null!;
         private Collider? shown;
         private MaterialDescription? shownMaterial;
 
-        /// <summary>What it says.</summary>
+        /// <summary>The text that the board shows.</summary>
         public string Text => line.text;
 
-        /// <summary>A board at a place of the scene.</summary>
-        public static WhyBoard Create(HapticStylus stylus, Vector3 position, Quaternion rotation)
+        /// <summary>Creates a board at a place of the scene.</summary>
+        public static RuleBoard Create(HapticStylus stylus, Vector3 position, Quaternion rotation)
         {
-            TextMesh line = Build.Text("", position, rotation);
-            line.gameObject.name = "Why Board";
-            var board = line.gameObject.AddComponent<WhyBoard>();
+            TextMesh line = SceneObjects.AddText("", position, rotation);
+            line.gameObject.name = "Rule Board";
+            var board = line.gameObject.AddComponent<RuleBoard>();
             board.stylus = stylus;
             board.line = line;
             return board;
@@ -32,7 +32,7 @@ namespace HaptoFlow.Samples.Workshop
                 return;
             }
             HapticContact contact = stylus.Contact;
-            // Words make garbage: they are put together when something else is felt.
+            // Composing the text allocates, so it happens only when collider or material changes.
             if (!ReferenceEquals(contact.Collider, shown) || !ReferenceEquals(contact.Material, shownMaterial))
             {
                 shown = contact.Collider;

@@ -3,15 +3,18 @@
 using System;
 using UnityEngine.InputSystem;
 
-namespace HaptoFlow.Samples.LatencyStudy
+namespace HaptoFlow
 {
-    /// <summary>One of several buttons that do the same.</summary>
+    /// <summary>Detects that one of several buttons with the same function goes down. Main thread.</summary>
+    /// <remarks>InputAction.WasPressedThisFrame would do the same, but the Input System has it only from version 1.1,
+    /// and this package accepts 1.0.</remarks>
     public sealed class ButtonPress : IDisposable
     {
         private readonly InputAction[] actions;
         private bool wasDown;
 
-        /// <param name="bindings">Paths of controls.</param>
+        /// <summary>Enables the buttons.</summary>
+        /// <param name="bindings">Control paths of the Input System, for example "&lt;Keyboard&gt;/y".</param>
         public ButtonPress(params string[] bindings)
         {
             actions = Array.ConvertAll(bindings, path => new InputAction(binding: path));
@@ -21,7 +24,12 @@ namespace HaptoFlow.Samples.LatencyStudy
             }
         }
 
-        /// <summary>True in the frame in which one goes down. Once a frame.</summary>
+        /// <summary>The path of the controller in the hand that does not hold the pen, with a slash at its end.
+        /// </summary>
+        public static string ControllerOppositeTo(PenHand penHand) =>
+            "<XRController>{" + (penHand == PenHand.Right ? PenHand.Left : PenHand.Right) + "Hand}/";
+
+        /// <summary>True in the frame in which a button goes down while none was held. Call it once a frame.</summary>
         public bool IsNew()
         {
             bool isDown = false;
@@ -34,7 +42,7 @@ namespace HaptoFlow.Samples.LatencyStudy
             return isNew;
         }
 
-        /// <summary>Lets go of the buttons.</summary>
+        /// <summary>Disables and releases the buttons.</summary>
         public void Dispose()
         {
             foreach (InputAction action in actions)

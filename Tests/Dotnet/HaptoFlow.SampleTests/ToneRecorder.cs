@@ -4,11 +4,11 @@ using UnityShim;
 
 namespace HaptoFlow.SampleTests
 {
-    /// <summary>Compares what a pen does with what reaches a channel of the audio device: both in frames of the device
-    /// since <see cref="Begin"/>.</summary>
-    internal sealed class ToneWatch
+    /// <summary>Compares the motion of a pen with the output on a channel of the audio device. Both are counted in
+    /// frames of the device since <see cref="Begin"/>.</summary>
+    internal sealed class ToneRecorder
     {
-        // Longer than a half wave of 200 Hz.
+        // Longer than half a period of 200 Hz.
         private const int LongestGapFrames = 240;
         private const float TrembleMetres = 1e-5f;
 
@@ -16,16 +16,16 @@ namespace HaptoFlow.SampleTests
         private Vector3 place;
         private bool wasMoving;
 
-        public ToneWatch(HapticStylus stylus, int channel)
+        public ToneRecorder(HapticStylus stylus, int channel)
         {
             this.channel = channel;
             stylus.TouchMoved += OnMoved;
         }
 
-        /// <summary>When the pen set off: the next block hears of it first.</summary>
+        /// <summary>The frame in which the pen set off. The next audio block is the first that can react.</summary>
         public List<int> Starts { get; } = new List<int>();
 
-        /// <summary>When the pen stopped.</summary>
+        /// <summary>The frame in which the pen stopped.</summary>
         public List<int> Stops { get; } = new List<int>();
 
         public void Begin()
@@ -35,7 +35,7 @@ namespace HaptoFlow.SampleTests
             Stops.Clear();
         }
 
-        /// <summary>Where the channel sounded, first and last frame.</summary>
+        /// <summary>The first and last frame of each audible stretch on the channel.</summary>
         public List<(int First, int Last)> Tones()
         {
             var tones = new List<(int First, int Last)>();
@@ -57,9 +57,9 @@ namespace HaptoFlow.SampleTests
             return tones;
         }
 
-        /// <summary>By the pen's places alone: the frame in which it is elsewhere than in the last is the first of a
-        /// motion.</summary>
-        private void OnMoved(HapticStylus told, in HapticContact contact)
+        /// <summary>Detects motion from the positions of the pen: it begins in the first frame with a changed position.
+        /// </summary>
+        private void OnMoved(HapticStylus stylus, in HapticContact contact)
         {
             bool moves = Vector3.Distance(contact.Point, place) > TrembleMetres;
             if (moves != wasMoving)
