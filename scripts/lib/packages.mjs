@@ -3,7 +3,8 @@ export const packagesByPurpose = {
   build: [
     'cmake', 'ninja-build', 'g++', 'pkg-config', 'libglm-dev', 'nlohmann-json3-dev', 'libcli11-dev', 'libsndfile1-dev',
   ],
-  test: ['libgtest-dev', 'libgmock-dev', 'libsoxr-dev', 'libkissfft-dev', 'binutils'],
+  // ccache: what was compiled before is not compiled again.
+  test: ['ccache', 'libgtest-dev', 'libgmock-dev', 'libsoxr-dev', 'libkissfft-dev', 'binutils'],
   libcxx: ['clang-16', 'libc++-16-dev', 'libc++abi-16-dev'],
   realtime: ['clang-22', 'libclang-rt-22-dev'],
   python: [

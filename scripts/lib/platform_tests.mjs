@@ -57,7 +57,7 @@ const emulators = {
 };
 
 /** The Unity package of ONNX Runtime has no Linux arm64; a package of its own does, 214 MB, wanted by nothing else. */
-async function bringArmRuntime() {
+export async function bringArmRuntime() {
   if (existsSync(inRepository('Tests', 'Platforms', 'node_modules', 'onnxruntime-node'))) return;
   console.log('setup: npm ci in Tests/Platforms (ONNX Runtime for Linux arm64)');
   await runNpmOrFail(['ci', '--prefix', inRepository('Tests', 'Platforms')]);
