@@ -1,11 +1,28 @@
 /**
  * Tests that only the long form runs (`./run test --all`, every night), and why the default run loses nothing by it.
- * `docs` of Documentation~/testing.md lists the same; Tests/Package/long-tests.test.mjs holds both to the sources.
+ * Documentation~/testing.md lists the same; Tests/Package/long-tests.test.mjs compares both with the sources.
  * @type {Record<string, {because: string, tests: string[]}[]>} tests: patterns of GoogleTest for native, parts of names of
  *   the others
  */
 export const longTests = {
-  native: [],
+  native: [
+    {
+      because: 'every pair of labels is rendered from the shipped model; BlendSoundTest blends single pairs, and blend_ribs_test.cpp the arithmetic',
+      tests: ['BlendSoundTest.NoPairOfLabelsIsLouderOrSofterThanBothByMoreThanHalfADecibel'],
+    },
+    {
+      because: 'the command line is started for every example of every help text; EveryCommandLineOfEveryPageRuns starts it for those of the pages',
+      tests: ['DocumentationExamplesTest.EveryExampleOfTheHelpRuns'],
+    },
+    {
+      because: 'materials are learnt three times over; LearningApiTest.EqualOptionsGiveEqualBytes learns two through the C interface',
+      tests: ['LearnerTest.EqualSeedsGiveEqualBytesAndAnotherSeedAnotherMaterial'],
+    },
+    {
+      because: 'the figures of the benchmark are measured once more for each device; TheReportHasEveryKeyOfTheContract reads a whole report',
+      tests: ['BenchCommandTest.LatenciesHaveARowForEachDeviceWithItsGoalAndTheUsualBlocksFiguresInFront'],
+    },
+  ],
   training: [
     {
       because: 'all labels are rendered from the shipped model for minutes and told apart; the classifier and the order of levels have tests of their own on short renders',
