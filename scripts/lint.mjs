@@ -6,6 +6,7 @@ import { setUp } from './lib/setup.mjs';
 import { checkFormat, checkTidy } from './lint/cpp_checks.mjs';
 import { checkContent, checkJson, checkThreadTags } from './lint/house_checks.mjs';
 import { checkPythonSyntax, checkScriptSyntax } from './lint/syntax_checks.mjs';
+import { checkWorkflows } from './lint/workflow_checks.mjs';
 import { changedFiles, repositoryFiles } from './lint/files.mjs';
 
 const help = `usage: ./run lint [--all]
@@ -31,6 +32,7 @@ await runMain('lint', async (words) => {
     ['clang-tidy', () => checkTidy(tidied)],
     ['syntax of Python', () => checkPythonSyntax(files)],
     ['syntax of scripts', () => checkScriptSyntax(files)],
+    ['workflows', () => checkWorkflows(files)],
     ['JSON', () => checkJson(files)],
     ['thread tags of the C ABI', () => checkThreadTags(files)],
     ['content', () => checkContent(files)],

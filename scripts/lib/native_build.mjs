@@ -20,12 +20,15 @@ export async function buildNative({ preset = 'release', tests = false, targets =
   const hasTests = cachedVariable(cached, 'HAPTOFLOW_BUILD_TESTS') === 'ON';
   if (!configured || (tests && !hasTests)) {
     console.log(`build: configuring ${folder}`);
-    await runOrFail('cmake', ['--preset', preset, `-DHAPTOFLOW_BUILD_TESTS=${tests ? 'ON' : 'OFF'}`], { env: launchers(), quiet: true });
+    await runOrFail('cmake', ['--preset', preset, `-DHAPTOFLOW_BUILD_TESTS=${tests ? 'ON' : 'OFF'}`, ...vcpkgFeatures(preset, tests)], { env: launchers(), quiet: true });
   }
   console.log(`build: ${targets.length > 0 ? targets.join(', ') : 'everything'} in ${folder}`);
   const targetArgs = targets.length > 0 ? ['--target', ...targets] : [];
   await runOrFail('cmake', ['--build', '--preset', preset, '-j', String(os.cpus().length), ...targetArgs], { quiet: !process.stdout.isTTY });
 }
+
+/** The feature of vcpkg.json that brings the tests' libraries, for a preset whose libraries come from vcpkg. */
+const vcpkgFeatures = (name, tests) => (tests && findPreset(name).toolchainFile?.includes('VCPKG_ROOT') ? ['-DVCPKG_MANIFEST_FEATURES=tests'] : []);
 
 /** Where ccache is installed, what it has compiled before is not compiled again; CMake's own variables win. */
 function launchers() {
@@ -35,10 +38,12 @@ function launchers() {
 
 const pick = (values, ...names) => Object.fromEntries(names.filter((name) => values[name] !== undefined).map((name) => [name, values[name]]));
 
-/** The build folder of a configure preset, relative to the repository. */
-export function presetFolder(preset) {
+function findPreset(preset) {
   const presets = JSON.parse(readFileSync(inRepository('CMakePresets.json'), 'utf8')).configurePresets;
   const found = presets.find((candidate) => candidate.name === preset && candidate.binaryDir);
   if (!found) throw new CommandError(`CMakePresets.json has no configure preset "${preset}" with a binaryDir`, 2);
-  return found.binaryDir.replace('${sourceDir}/', '');
+  return found;
 }
+
+/** The build folder of a configure preset, relative to the repository. */
+export const presetFolder = (preset) => findPreset(preset).binaryDir.replace('${sourceDir}/', '');
