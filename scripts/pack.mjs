@@ -51,7 +51,7 @@ function requiredPlatforms(names) {
   });
 }
 
-/** A package without a library, or without one that was asked for, would be silent: said before it is made. */
+/** Refuses to pack without any library, or without one that --require names: scenes would be silent. */
 function requireNatives({ found, absent }, required) {
   if (found.length === 0) {
     throw new CommandError(`there is no native library, and without one every scene is silent; no tarball was made\n${absent.map(({ platform, why }) => `  ${platform.name}: ${why}`).join('\n')}`);

@@ -3,7 +3,7 @@ import { run, runMain } from './lib/process.mjs';
 import { inRepository, standingIn } from './lib/repository.mjs';
 import { pythonOrFail, setUp } from './lib/setup.mjs';
 
-// The default model and what the tests compare it with belong together: one run writes both.
+// One run writes the default model and the reference values that the tests compare it with, so that they match.
 const defaults = [
   'train-tiers',
   '--out', inRepository('out', 'train', 'default'),

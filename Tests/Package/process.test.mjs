@@ -47,5 +47,5 @@ test('an npm that cannot reach its registry says so, and what to do, although th
 
 test('an npm that fails for another reason shows its words and where to learn more, one without words says that', () => {
   assert.match(npmComplaint(['ci'], 1, 'npm ERR! lock file is wrong\n'), /^npm ERR! lock file is wrong\n`npm ci` ended with 1: `npm ci --loglevel=verbose` says more$/);
-  assert.match(npmComplaint(['ci'], 1, ''), /^npm said nothing\n/);
+  assert.match(npmComplaint(['ci'], 1, ''), /^npm printed nothing\n/);
 });

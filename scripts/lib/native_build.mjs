@@ -9,7 +9,7 @@ export function cachedVariable(cacheText, name) {
 }
 
 /**
- * Configures a preset where it is not configured yet (or lacks the tests that are asked for) and builds it.
+ * Builds a preset. Configures it first where it is not configured, or is configured without the tests that `tests` requests.
  * @param {{preset?: string, tests?: boolean, targets?: string[]}} options targets: empty builds all
  */
 export async function buildNative({ preset = 'release', tests = false, targets = [] } = {}) {
@@ -30,7 +30,7 @@ export async function buildNative({ preset = 'release', tests = false, targets =
 /** The feature of vcpkg.json that brings the tests' libraries, for a preset whose libraries come from vcpkg. */
 const vcpkgFeatures = (name, tests) => (tests && findPreset(name).toolchainFile?.includes('VCPKG_ROOT') ? ['-DVCPKG_MANIFEST_FEATURES=tests'] : []);
 
-/** Where ccache is installed, what it has compiled before is not compiled again; CMake's own variables win. */
+/** The compiler launcher: ccache where it is installed, unless CMake's own variables name another. */
 function launchers() {
   if (!succeeds('ccache', ['--version'])) return {};
   return { CMAKE_C_COMPILER_LAUNCHER: 'ccache', CMAKE_CXX_COMPILER_LAUNCHER: 'ccache', ...pick(process.env, 'CMAKE_C_COMPILER_LAUNCHER', 'CMAKE_CXX_COMPILER_LAUNCHER') };

@@ -40,12 +40,12 @@ const sanitized = [
   { preset: 'rtsan', program: 'unity', long: true },
 ];
 
-/** Where Clang 22 is missing, set-up has said where it can be had; its runs count as skipped. */
+/** Whether the compiler of a preset is installed. Without Clang 22, set-up names its source and the runs count as skipped. */
 const canBuild = ({ preset }) => preset !== 'rtsan' || succeeds('clang++-22', ['--version']);
 
 /**
- * The library and the command line as the compiler and the library of Android, macOS and iOS read them, warnings as errors;
- * then that this command line says of a stroke what the other one says.
+ * Two tests: library and command line build without warnings with Clang and libc++, as on Android, macOS and iOS, and that
+ * command line prints the same contact states as the release build.
  */
 async function libcxx() {
   if (!succeeds('clang++-16', ['--version'])) return { ...noCounts, skipped: 2 };
@@ -65,10 +65,10 @@ async function libcxx() {
   return { ...noCounts, passed: isSame ? 2 : 1, failed: isSame ? 0 : 1 };
 }
 
-/** Visual Studio's preset on Windows, vcpkg's on macOS, elsewhere the build that ships. */
+/** The preset of the native tests: Visual Studio on Windows, libraries from vcpkg on macOS, elsewhere the release build. */
 const nativePreset = { win32: 'windows-msvc', darwin: 'macos-tests' }[process.platform] ?? 'release';
 
-/** What the default form runs under sanitizers only: nothing of it depends on the optimiser, on speed or on sound. */
+/** Programs that the default form runs under sanitizers only, since they depend on neither speed nor optimisation. */
 const sanitizedOnly = ['model'];
 
 function nativePrograms(all) {

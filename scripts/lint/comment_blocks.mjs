@@ -20,7 +20,7 @@ const endsValue = (before) => /[\w$)\]}]$/.test(before) && !/\b(return|typeof|ca
 function cComments(text, name) {
   const isScript = /\.m?js$/.test(name);
   const comments = [];
-  // Depths of braces at which a template literal goes on.
+  // Brace depths at which a template literal continues.
   const templates = [];
   let depth = 0;
   let at = 0;

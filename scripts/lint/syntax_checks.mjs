@@ -1,7 +1,7 @@
 import { run } from '../lib/process.mjs';
 import { endingIn } from './files.mjs';
 
-// Parses each file without writing byte code, and finds names that nothing defines a module for.
+// Parses each file without writing byte code, and finds imports that the file does not use.
 const pythonProgram = `
 import ast, sys
 for name in sys.argv[1:]:

