@@ -2,11 +2,12 @@ import assert from 'node:assert/strict';
 import { mkdirSync, mkdtempSync, rmSync, writeFileSync } from 'node:fs';
 import path from 'node:path';
 import test from 'node:test';
-import { succeeds } from '../../scripts/lib/process.mjs';
 import { inRepository, repositoryRoot } from '../../scripts/lib/repository.mjs';
 import { findingsOfTidy } from '../../scripts/lint/cpp_checks.mjs';
-import { exceptions, sharedWords, warningsIn, warningsOf } from '../../scripts/lint/warning_checks.mjs';
+import { exceptions, installedCompilers, sharedWords, warningsIn, warningsOf } from '../../scripts/lint/warning_checks.mjs';
 import { functionsWithoutThreadTag, machineTraces } from '../../scripts/lint/house_checks.mjs';
+
+const [clang] = installedCompilers();
 
 test('a function without a thread tag in its own comment is found', () => {
   const header = [
@@ -53,13 +54,13 @@ test('warnings in files of this repository are complaints, each once, and those 
   assert.deepEqual(warningsIn(`${own}\n/usr/include/b.h:1:1: warning: c [-Wd]\n${own}\n1 warning generated.`), [own]);
 });
 
-test('a planted warning is found, and every exception states a reason', { skip: succeeds('clang++-16', ['--version']) ? false : 'Clang 16 is not installed' }, async () => {
+test('a planted warning is found, and every exception states a reason', { skip: clang === undefined ? 'Clang is not installed' : false }, async () => {
   mkdirSync(inRepository('build'), { recursive: true });
   const folder = mkdtempSync(inRepository('build', 'planted-'));
   try {
     const file = path.join(folder, 'planted.cpp');
     writeFileSync(file, 'int planted(long value);\nint planted(long value) { return static_cast<int>(value) + (value > 0 ? 1u : 0u); }\n');
-    assert.match((await warningsOf({ command: 'clang++-16', args: [] }, ['-std=c++20'], file)).join('\n'), /planted\.cpp:2:.*-Wsign-(conversion|compare)/);
+    assert.match((await warningsOf({ ...clang, args: [] }, ['-std=c++20'], file)).join('\n'), /planted\.cpp:2:.*-Wsign-(conversion|compare)/);
   } finally {
     rmSync(folder, { recursive: true, force: true });
   }

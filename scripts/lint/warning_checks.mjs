@@ -22,11 +22,14 @@ export const exceptions = {
   'global-constructors': 'constant tables of strings are made when the library is loaded',
 };
 
-/** Compilers, the oldest that is supported first, with the library of Android and Apple. */
+/** Clang 16 with the library of Android and Apple, and the newest Clang that set-up installs. */
 const compilers = [
   { command: 'clang++-16', args: ['-stdlib=libc++'] },
   { command: 'clang++-22', args: [] },
 ];
+
+/** Those that are installed. */
+export const installedCompilers = () => compilers.filter(({ command }) => succeeds(command, ['--version']));
 
 const warningFlags = ['-fsyntax-only', '-ferror-limit=0', '-Weverything', ...Object.keys(exceptions).map((name) => `-Wno-${name}`)];
 
@@ -54,8 +57,7 @@ export async function warningsOf({ command, args }, words, file) {
 export async function checkWarnings() {
   const commands = JSON.parse(readFileSync(inRepository(presetFolder('lint'), 'compile_commands.json'), 'utf8'));
   const shipped = commands.filter(({ file }) => file.startsWith(inRepository('NativePlugin', 'src')) && existsSync(file));
-  const installed = compilers.filter(({ command }) => succeeds(command, ['--version']));
-  const queue = installed.flatMap((compiler) => shipped.map(({ file, command }) => ({ compiler, file, words: sharedWords(command) })));
+  const queue = installedCompilers().flatMap((compiler) => shipped.map(({ file, command }) => ({ compiler, file, words: sharedWords(command) })));
   const checked = queue.length;
   const complaints = [];
   const worker = async () => {
