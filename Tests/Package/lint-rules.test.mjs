@@ -25,7 +25,7 @@ test('a tag of the previous function does not count for the next', () => {
   assert.deepEqual(functionsWithoutThreadTag(header), ['haptoflow_b']);
 });
 
-test('of clang-tidy\'s lines, errors and warnings in this repository are findings, and what it cannot read of a standard library is not', () => {
+test('clang-tidy\'s errors and warnings in this repository are findings, and errors in headers of the standard library are not', () => {
   const own = `${inRepository('NativePlugin', 'src', 'a.hpp')}:3:1: error: use auto [modernize-use-auto]`;
   const foreign = '/usr/include/c++/12/bits/iterator_concepts.h:982:13: error: no matching function [clang-diagnostic-error]';
   assert.deepEqual(findingsOfTidy(`${foreign}\n${own}\n    auto a = 1;\n1 error generated.\n`), [own]);

@@ -11,7 +11,7 @@ test('names of native tests are found in their sources, parametrised ones too', 
 });
 
 for (const [platform, groups] of Object.entries(leftOut)) {
-  test(`everything that ${platform} leaves out is there, and no more than a fifth of all tests is left out`, () => {
+  test(`every test that ${platform} leaves out exists, and at most a fifth of all tests is left out`, () => {
     const patterns = groups.flatMap(({ tests }) => tests);
     for (const filter of patterns) {
       assert.ok(all.some((name) => patternOf(filter).test(name)), `${filter} names no test`);
@@ -20,7 +20,7 @@ for (const [platform, groups] of Object.entries(leftOut)) {
     assert.ok(all.filter(isLeftOut).length < all.length / 5);
   });
 
-  test(`${platform} says why it leaves tests out`, () => {
+  test(`${platform} states a reason for each group of tests that it leaves out`, () => {
     for (const { because, tests } of groups) {
       assert.ok(because.length > 20 && tests.length > 0, tests.join());
     }
