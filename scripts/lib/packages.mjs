@@ -19,7 +19,7 @@ export const packagesByPurpose = {
   dotnet: ['ca-certificates', 'curl', 'libicu-dev'],
   // git lists the files that belong to the project.
   files: ['git'],
-  lint: ['git', 'clang-format', 'clang-tidy', 'python3'],
+  lint: ['git', 'clang-format', 'clang-tidy', 'python3', 'shellcheck'],
 };
 
 /** Programs that scripts and tests start, with the package above that contains each. `run` installs Node and npm. */
@@ -32,6 +32,7 @@ export const packageOfProgram = {
   git: 'git',
   'clang-format': 'clang-format',
   'clang-tidy': 'clang-tidy',
+  shellcheck: 'shellcheck',
   'clang-16': 'clang-16',
   'clang++-16': 'clang-16',
   'clang-22': 'clang-22',
