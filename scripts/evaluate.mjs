@@ -7,7 +7,7 @@ import { pythonOrFail, setUp } from './lib/setup.mjs';
 const help = `usage: ./run evaluate [ARGUMENTS]
 
 Measures accuracy over time, every row through the engine. Arguments are those of \`haptoflow-training evaluate\`.
-Paths are relative to where you stand. With the Python packages in place, PYTHONPATH=Training /usr/bin/python3 -m haptoflow_training evaluate --help lists them.`;
+Paths are relative to the current folder. With the Python packages in place, PYTHONPATH=Training /usr/bin/python3 -m haptoflow_training evaluate --help lists them.`;
 
 await runMain('evaluate', async (words) => {
   await setUp(['build', 'python']);

@@ -20,7 +20,7 @@ out/package, checks it as Unity would read it, and makes out/com.haptoflow.runti
 Beside it goes the tarball of com.github.asus4.onnxruntime (ONNX Runtime for Unity), which the package needs.
 In Unity: Window > Package Manager > + > Install package from tarball, that one first.
 
-  --no-build   take the libraries as they lie in build/ (HAPTOFLOW_NATIVE_DIR stands for build/native)
+  --no-build   pack the libraries that are in build/ (HAPTOFLOW_NATIVE_DIR replaces build/native)
   --require    names of platforms whose library must go in, for example linux-x64,windows-x64,android-arm64: without one of
                them no tarball is made and the exit code is 1
   --help       this text

@@ -15,7 +15,7 @@ const help = `usage: ./run train [ARGUMENTS]
 
 Trains the default model, all tiers, and writes its .haptoflow file and the golden file that the tests compare it with.
 Interrupted, it goes on where it was. With arguments, those of \`haptoflow-training train\` and none of the defaults.
-Paths are relative to where you stand.
+Paths are relative to the current folder.
 With the Python packages in place, PYTHONPATH=Training /usr/bin/python3 -m haptoflow_training train --help lists them.`;
 
 await runMain('train', async (words) => {

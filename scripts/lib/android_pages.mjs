@@ -35,7 +35,7 @@ export async function judgeAndroidPages() {
     await runOrFail('aarch64-linux-gnu-gcc', ['-shared', '-fPIC', source, '-o', library, ...pageOptions(link)], { quiet: true });
     const alignment = loadAlignment(readFileSync(library));
     if (alignment === androidPageBytes) return { passed: 1, failed: 0, skipped: 0 };
-    console.error(`test: for Android the library's segments are aligned to ${alignment} bytes; expected ${androidPageBytes}`);
+    console.error(`test: the segments of the Android library are aligned to ${alignment} bytes; expected ${androidPageBytes}`);
   } catch (error) {
     if (!(error instanceof CommandError)) throw error;
     console.error(`test: ${error.message}`);

@@ -27,7 +27,7 @@ export async function buildNative({ preset = 'release', tests = false, targets =
   await runOrFail('cmake', ['--build', '--preset', preset, '-j', String(os.cpus().length), ...targetArgs], { quiet: !process.stdout.isTTY });
 }
 
-/** The feature of vcpkg.json that brings the tests' libraries, for a preset whose libraries come from vcpkg. */
+/** The option that makes vcpkg install the tests' libraries, for a preset whose libraries come from vcpkg. */
 const vcpkgFeatures = (name, tests) => (tests && findPreset(name).toolchainFile?.includes('VCPKG_ROOT') ? ['-DVCPKG_MANIFEST_FEATURES=tests'] : []);
 
 /** The compiler launcher: ccache where it is installed, unless CMake's own variables name another. */

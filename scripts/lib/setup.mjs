@@ -77,7 +77,7 @@ async function runApt(asRoot, words) {
     await runOrFail(command, args, { quiet: true });
   } catch (error) {
     if (!(error instanceof CommandError)) throw error;
-    throw new CommandError(`${error.message}\nThe system packages could not be installed: is the network there, and do the sources of apt answer (sudo apt-get update)?`, 2);
+    throw new CommandError(`${error.message}\nThe system packages could not be installed: check the network and the sources of apt (sudo apt-get update)`, 2);
   }
 }
 

@@ -61,7 +61,7 @@ async function libcxx() {
   const words = ['contact', path.join(folder, 'crossing.scene.json'), '--stroke', path.join(folder, 'crossing.stroke.csv')];
   const [here, there] = await Promise.all(['release', 'libcxx'].map((preset) => run(inRepository(presetFolder(preset), 'haptoflow'), words, { quiet: true })));
   const isSame = here.exitCode === 0 && here.output.length > 1000 && here.output === there.output;
-  if (!isSame) console.error(`test: the command line built with libc++ says something else of ${words[1]} (exit code ${there.exitCode})`);
+  if (!isSame) console.error(`test: the command line built with libc++ prints other contact states for ${words[1]} than the release build (exit code ${there.exitCode})`);
   return { ...noCounts, passed: isSame ? 2 : 1, failed: isSame ? 0 : 1 };
 }
 

@@ -46,7 +46,7 @@ export function sharedWords(command) {
 export const warningsIn = (output) =>
   [...new Set(output.split('\n').filter((line) => /: (warning|error|fatal error): /.test(line) && line.startsWith(`${repositoryRoot}${path.sep}`)))];
 
-/** What one compiler says of a source with every warning on that is no exception. */
+/** The warnings of one compiler about a source, without the exceptions. */
 export async function warningsOf({ command, args }, words, file) {
   const { exitCode, output } = await run(command, [...args, ...warningFlags, ...words, file], { quiet: true });
   const found = warningsIn(output);
