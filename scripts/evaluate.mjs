@@ -1,7 +1,7 @@
 // evaluate: accuracy over time, every row measured through the engine (arguments: those of haptoflow-training evaluate)
 import { buildNative } from './lib/native_build.mjs';
 import { run, runMain } from './lib/process.mjs';
-import { inRepository, standingIn } from './lib/repository.mjs';
+import { inRepository, callerFolder } from './lib/repository.mjs';
 import { pythonOrFail, setUp } from './lib/setup.mjs';
 
 const help = `usage: ./run evaluate [ARGUMENTS]
@@ -13,6 +13,6 @@ await runMain('evaluate', async (words) => {
   await setUp(['build', 'python']);
   await buildNative({ targets: ['audioplugin_haptoflow', 'haptoflow_cli'] });
   const args = ['-m', 'haptoflow_training', 'evaluate', ...words];
-  const { exitCode } = await run(pythonOrFail(), args, { cwd: standingIn(), env: { PYTHONPATH: inRepository('Training'), OPENBLAS_NUM_THREADS: '1' } });
+  const { exitCode } = await run(pythonOrFail(), args, { cwd: callerFolder(), env: { PYTHONPATH: inRepository('Training'), OPENBLAS_NUM_THREADS: '1' } });
   return exitCode;
 }, { help });

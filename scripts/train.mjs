@@ -1,6 +1,6 @@
 // train: trains the default model, all tiers, and writes its .haptoflow file (with arguments: haptoflow-training train)
 import { run, runMain } from './lib/process.mjs';
-import { inRepository, standingIn } from './lib/repository.mjs';
+import { inRepository, callerFolder } from './lib/repository.mjs';
 import { pythonOrFail, setUp } from './lib/setup.mjs';
 
 // One run writes the default model and the reference values that the tests compare it with, so that they match.
@@ -21,6 +21,6 @@ With the Python packages in place, PYTHONPATH=Training /usr/bin/python3 -m hapto
 await runMain('train', async (words) => {
   await setUp(['python']);
   const args = ['-m', 'haptoflow_training', ...(words.length > 0 ? ['train', ...words] : defaults)];
-  const { exitCode } = await run(pythonOrFail(), args, { cwd: standingIn(), env: { PYTHONPATH: inRepository('Training'), OPENBLAS_NUM_THREADS: '1' } });
+  const { exitCode } = await run(pythonOrFail(), args, { cwd: callerFolder(), env: { PYTHONPATH: inRepository('Training'), OPENBLAS_NUM_THREADS: '1' } });
   return exitCode;
 }, { help });

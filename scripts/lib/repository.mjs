@@ -11,4 +11,4 @@ export const inRepository = (...parts) => path.join(repositoryRoot, ...parts);
 export const commandLinePath = () => inRepository('build', 'native', process.platform === 'win32' ? 'haptoflow.exe' : 'haptoflow');
 
 /** The folder in which npm or ./run was typed. Paths in arguments are relative to it, though npm runs scripts in the root. */
-export const standingIn = () => path.resolve(process.env.INIT_CWD || process.cwd());
+export const callerFolder = () => path.resolve(process.env.INIT_CWD || process.cwd());

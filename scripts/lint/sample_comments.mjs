@@ -3,7 +3,7 @@ import { readFileSync } from 'node:fs';
 import path from 'node:path';
 import { parseArgs } from 'node:util';
 import { CommandError, runMain } from '../lib/process.mjs';
-import { inRepository, repositoryRoot, standingIn } from '../lib/repository.mjs';
+import { inRepository, repositoryRoot, callerFolder } from '../lib/repository.mjs';
 import { commentBlocks, draw, hasComments } from './comment_blocks.mjs';
 import { repositoryFiles } from './files.mjs';
 
@@ -36,7 +36,7 @@ function optionsOf(words) {
 
 /** The files at or below `paths`, which are relative to where the command was typed; all files where there are none. */
 function filesBelow(files, paths) {
-  const wanted = paths.map((name) => path.relative(repositoryRoot, path.resolve(standingIn(), name)).split(path.sep).join('/'));
+  const wanted = paths.map((name) => path.relative(repositoryRoot, path.resolve(callerFolder(), name)).split(path.sep).join('/'));
   const isBelow = (name, folder) => folder === '' || name === folder || name.startsWith(`${folder}/`);
   const unknown = wanted.findIndex((folder) => !files.some((name) => isBelow(name, folder)));
   if (unknown !== -1) throw new CommandError(`${paths[unknown]}: no C++, C#, Python or JavaScript file of this repository is there`, 2);

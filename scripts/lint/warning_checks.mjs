@@ -17,6 +17,7 @@ export const exceptions = {
   'unsafe-buffer-usage': 'the C interface and ONNX Runtime\'s take pointers and sizes; the address sanitizer watches them',
   'double-promotion': 'float to double is exact, and intended where sums need it',
   'float-equal': 'values that were assigned are compared exactly, for example with zero',
+  'ctad-maybe-unsupported': 'std::lock_guard and the like are meant to deduce their arguments; GCC\'s library does not mark them',
   'weak-vtables': 'interfaces without a source of their own cost a few bytes in each user',
   'exit-time-destructors': 'tables that live as long as the library end with it',
   'global-constructors': 'constant tables of strings are made when the library is loaded',

@@ -3,7 +3,7 @@ import { existsSync, readFileSync } from 'node:fs';
 import path from 'node:path';
 import { androidPageBytes, loadAlignment } from '../lib/android_pages.mjs';
 import { CommandError, runMain } from '../lib/process.mjs';
-import { standingIn } from '../lib/repository.mjs';
+import { callerFolder } from '../lib/repository.mjs';
 import { kindOfLibrary } from '../pack/natives.mjs';
 
 const help = `usage: node scripts/release/check_pages.mjs LIBRARY
@@ -12,7 +12,7 @@ Reads the program headers of an arm64 ELF library. Ends with 1 unless its segmen
 
 await runMain('check_pages', async ([word, ...others]) => {
   if (word === undefined || others.length > 0) throw new CommandError(`expected one library\n\n${help}`, 2);
-  const file = path.resolve(standingIn(), word);
+  const file = path.resolve(callerFolder(), word);
   if (!existsSync(file)) throw new CommandError(`${file}: is not there; \`npm run build -- --platform android-arm64\` makes it`, 2);
   const bytes = readFileSync(file);
   const kind = kindOfLibrary(bytes);

@@ -3,7 +3,7 @@ import { existsSync, readFileSync } from 'node:fs';
 import path from 'node:path';
 import { parseArgs } from 'node:util';
 import { CommandError, runMain } from '../lib/process.mjs';
-import { standingIn } from '../lib/repository.mjs';
+import { callerFolder } from '../lib/repository.mjs';
 import { checkPackage } from '../pack/check_package.mjs';
 import { kindOfLibrary, platforms, pluginsFolder } from '../pack/natives.mjs';
 import { PackageFiles } from '../pack/package_files.mjs';
@@ -39,7 +39,7 @@ await runMain('check_tarball', async (words) => {
   const required = values.require.split(',').filter((name) => name !== '');
   const unknown = required.find((name) => !platforms.some(({ id }) => id === name));
   if (unknown !== undefined) throw new CommandError(`--require ${unknown}: expected some of ${platforms.map(({ id }) => id).join(', ')}`, 2);
-  const file = path.resolve(standingIn(), positionals[0]);
+  const file = path.resolve(callerFolder(), positionals[0]);
   if (!existsSync(file)) throw new CommandError(`${file}: is not there; \`npm run pack\` makes it`, 2);
   const contents = [...readTarball(readFileSync(file))].map(([name, bytes]) => [name.replace(/^package\//, ''), bytes]);
   const files = new PackageFiles(new Map(contents));

@@ -3,7 +3,7 @@ import { copyFileSync, mkdirSync, readdirSync } from 'node:fs';
 import path from 'node:path';
 import { presetFolder } from '../lib/native_build.mjs';
 import { CommandError, runMain } from '../lib/process.mjs';
-import { inRepository, standingIn } from '../lib/repository.mjs';
+import { inRepository, callerFolder } from '../lib/repository.mjs';
 import { findNatives, platforms } from '../pack/natives.mjs';
 
 const help = `usage: node scripts/release/collect_natives.mjs FOLDER [DESTINATION]
@@ -36,7 +36,7 @@ export function collectNatives(folder, destination) {
 
 if (process.argv[1]?.endsWith('collect_natives.mjs')) {
   await runMain('collect_natives', async (words) => {
-    const [folder, destination = inRepository()] = words.map((word) => path.resolve(standingIn(), word));
+    const [folder, destination = inRepository()] = words.map((word) => path.resolve(callerFolder(), word));
     if (folder === undefined || words.length > 2) throw new CommandError(`expected a folder\n\n${help}`, 2);
     const { placed, absent } = collectNatives(folder, destination);
     for (const { id, file } of placed) console.log(`collect_natives: ${id}: ${path.relative(destination, file)}`);

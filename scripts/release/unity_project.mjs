@@ -3,7 +3,7 @@ import { copyFileSync, existsSync, mkdirSync, readFileSync, readdirSync, rmSync,
 import path from 'node:path';
 import { parseArgs } from 'node:util';
 import { CommandError, runMain } from '../lib/process.mjs';
-import { inRepository, standingIn } from '../lib/repository.mjs';
+import { inRepository, callerFolder } from '../lib/repository.mjs';
 import { dependencyName } from '../pack/dependency.mjs';
 import { packageName } from '../pack/layout.mjs';
 
@@ -19,7 +19,7 @@ function optionsOf(words) {
   try {
     const { values, positionals } = parseArgs({ args: words, options, allowPositionals: true });
     if (positionals.length !== 1 || !/^\d+\.\d+\.\d+\w+$/.test(values.unity ?? '')) throw new CommandError(`expected a folder and --unity VERSION\n\n${help}`, 2);
-    const [folder, tarballs] = [positionals[0], values.tarballs].map((word) => path.resolve(standingIn(), word));
+    const [folder, tarballs] = [positionals[0], values.tarballs].map((word) => path.resolve(callerFolder(), word));
     return { folder, tarballs, unity: values.unity };
   } catch (error) {
     throw error instanceof CommandError ? error : new CommandError(error.message, 2);

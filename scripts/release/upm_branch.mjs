@@ -4,7 +4,7 @@ import os from 'node:os';
 import path from 'node:path';
 import { parseArgs } from 'node:util';
 import { CommandError, run, runMain, runOrFail } from '../lib/process.mjs';
-import { inRepository, standingIn } from '../lib/repository.mjs';
+import { inRepository, callerFolder } from '../lib/repository.mjs';
 import { readTarball } from '../pack/tarball.mjs';
 
 const help = `usage: node scripts/release/upm_branch.mjs TARBALL --remote URL [--branch upm] [--dry-run]
@@ -22,7 +22,7 @@ function optionsOf(words) {
   try {
     const { values, positionals } = parseArgs({ args: words, options, allowPositionals: true });
     if (positionals.length !== 1 || values.remote === undefined) throw new CommandError(`expected one tarball and --remote\n\n${help}`, 2);
-    return { ...values, tarball: path.resolve(standingIn(), positionals[0]) };
+    return { ...values, tarball: path.resolve(callerFolder(), positionals[0]) };
   } catch (error) {
     throw error instanceof CommandError ? error : new CommandError(error.message, 2);
   }

@@ -5,13 +5,13 @@ import os from 'node:os';
 import path from 'node:path';
 import test from 'node:test';
 import { run } from '../../scripts/lib/process.mjs';
-import { inRepository, repositoryRoot, standingIn } from '../../scripts/lib/repository.mjs';
+import { inRepository, repositoryRoot, callerFolder } from '../../scripts/lib/repository.mjs';
 
 const posixOnly = process.platform === 'win32' ? 'run is a POSIX script' : false;
 
 /** Calls a function with a temporary folder outside the repository. */
 async function elsewhere(body) {
-  const folder = realpathSync(mkdtempSync(path.join(os.tmpdir(), 'haptoflow-standing-')));
+  const folder = realpathSync(mkdtempSync(path.join(os.tmpdir(), 'haptoflow-caller-')));
   try {
     return await body(folder);
   } finally {
@@ -30,9 +30,9 @@ test('the folder of the user is npm\'s INIT_CWD, and without npm the current fol
   const before = process.env.INIT_CWD;
   try {
     process.env.INIT_CWD = os.tmpdir();
-    assert.equal(standingIn(), path.resolve(os.tmpdir()));
+    assert.equal(callerFolder(), path.resolve(os.tmpdir()));
     delete process.env.INIT_CWD;
-    assert.equal(standingIn(), process.cwd());
+    assert.equal(callerFolder(), process.cwd());
   } finally {
     if (before === undefined) delete process.env.INIT_CWD;
     else process.env.INIT_CWD = before;
