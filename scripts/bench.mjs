@@ -35,7 +35,7 @@ function optionsOf(words) {
   }
 }
 
-/** Makes the model file of the paper's architecture where it is missing or older than what it is made from. */
+/** Makes the model file of the paper's architecture where it is missing or older than its sources. */
 async function makePaperModel() {
   const config = inRepository('Training', 'configs', 'evaluation', 'paper-codec-size.toml');
   const program = inRepository('scripts', 'bench', 'paper_model.py');
@@ -47,7 +47,7 @@ async function makePaperModel() {
   await runOrFail(pythonOrFail(), [program, config, paperModel], { env, quiet: true });
 }
 
-/** Runs the command line with its progress on this terminal; shows and returns its tables. */
+/** Runs the command line with its progress shown on this terminal; prints and returns its tables. */
 function measure(args) {
   return new Promise((resolve, reject) => {
     const child = spawn(commandLinePath(), args, { stdio: ['ignore', 'pipe', 'inherit'] });

@@ -8,7 +8,7 @@ import { CommandError, runMain } from './lib/process.mjs';
 import { inRepository } from './lib/repository.mjs';
 import { setUp } from './lib/setup.mjs';
 
-/** What --platform takes, what a machine needs for it, and how it is built: by a preset, or by finding Android's tools. */
+/** The values of --platform: what each needs, and how it is built (a preset, or the Android tools found on the machine). */
 const platforms = {
   'linux-x64': { preset: () => 'release', purposes: ['build'], needs: 'a Linux x64 machine' },
   'windows-x64': { preset: () => (process.platform === 'win32' ? 'windows-msvc' : 'windows-x64'), purposes: ['build', 'platforms'], needs: 'mingw-w64 on Linux, Visual Studio 2022 on Windows' },
@@ -31,7 +31,7 @@ function optionsOf(words) {
   }
 }
 
-/** On Debian the build tools are brought; elsewhere Android's own are looked for, and nothing else is needed. */
+/** On Debian set-up installs the build tools; on other systems those of the Android SDK are enough. */
 async function buildForAndroid() {
   await setUp(existsSync('/etc/debian_version') ? ['build'] : []);
   const library = await buildAndroid(androidTools());

@@ -18,7 +18,7 @@ await runMain('demo', async () => {
   await setUp(['build']);
   await buildNative({ targets: ['haptoflow_cli'] });
 
-  // The page's modules need npm packages that set-up may only just have brought.
+  // Imported here, since these modules need npm packages that set-up may just have installed.
   const { plannedRenders, render } = await import('./demo/renders.mjs');
   const { assembleReport } = await import('./demo/report.mjs');
   const { readFloatWav } = await import('./demo/wav.mjs');

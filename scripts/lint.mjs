@@ -1,4 +1,4 @@
-// lint: checks format, C++ rules, syntax and the house's own rules (--all: clang-tidy on every file)
+// lint: checks format, C++ rules, syntax, workflows and this repository's own rules (--all: every file, every warning)
 import { parseArgs } from 'node:util';
 import { buildNative } from './lib/native_build.mjs';
 import { CommandError, runMain } from './lib/process.mjs';
@@ -6,13 +6,15 @@ import { setUp } from './lib/setup.mjs';
 import { checkFormat, checkTidy } from './lint/cpp_checks.mjs';
 import { checkContent, checkJson, checkThreadTags } from './lint/house_checks.mjs';
 import { checkPythonSyntax, checkScriptSyntax } from './lint/syntax_checks.mjs';
+import { checkWorkflows } from './lint/workflow_checks.mjs';
+import { checkWarnings } from './lint/warning_checks.mjs';
 import { changedFiles, repositoryFiles } from './lint/files.mjs';
 
 const help = `usage: ./run lint [--all]
 
-Checks format, C++ rules, syntax and the house's own rules.
+Checks format, C++ rules, syntax, workflows and this repository's own rules.
 
-  --all   clang-tidy on every file, not only on changed ones`;
+  --all   clang-tidy on every file, not only on changed ones, and every warning of Clang on the shipped sources`;
 
 await runMain('lint', async (words) => {
   let all;
@@ -22,6 +24,7 @@ await runMain('lint', async (words) => {
     throw new CommandError(error.message, 2);
   }
   await setUp(['build', 'test', 'lint']);
+  if (all) await setUp(['libcxx', 'realtime']);
   await buildNative({ preset: 'lint', tests: true, targets: ['help'] });
 
   const files = await repositoryFiles();
@@ -29,8 +32,10 @@ await runMain('lint', async (words) => {
   const checks = [
     ['format of C++', () => checkFormat(files)],
     ['clang-tidy', () => checkTidy(tidied)],
+    ...(all ? [['warnings of Clang', checkWarnings]] : []),
     ['syntax of Python', () => checkPythonSyntax(files)],
     ['syntax of scripts', () => checkScriptSyntax(files)],
+    ['workflows', () => checkWorkflows(files)],
     ['JSON', () => checkJson(files)],
     ['thread tags of the C ABI', () => checkThreadTags(files)],
     ['content', () => checkContent(files)],

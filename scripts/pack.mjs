@@ -20,7 +20,7 @@ out/package, checks it as Unity would read it, and makes out/com.haptoflow.runti
 Beside it goes the tarball of com.github.asus4.onnxruntime (ONNX Runtime for Unity), which the package needs.
 In Unity: Window > Package Manager > + > Install package from tarball, that one first.
 
-  --no-build   take the libraries as they lie in build/ (HAPTOFLOW_NATIVE_DIR stands for build/native)
+  --no-build   pack the libraries that are in build/ (HAPTOFLOW_NATIVE_DIR replaces build/native)
   --require    names of platforms whose library must go in, for example linux-x64,windows-x64,android-arm64: without one of
                them no tarball is made and the exit code is 1
   --help       this text
@@ -51,7 +51,7 @@ function requiredPlatforms(names) {
   });
 }
 
-/** A package without a library, or without one that was asked for, would be silent: said before it is made. */
+/** Refuses to pack without any library, or without one that --require names: scenes would be silent. */
 function requireNatives({ found, absent }, required) {
   if (found.length === 0) {
     throw new CommandError(`there is no native library, and without one every scene is silent; no tarball was made\n${absent.map(({ platform, why }) => `  ${platform.name}: ${why}`).join('\n')}`);

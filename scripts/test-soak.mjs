@@ -1,4 +1,4 @@
-// test:soak: the long forms of the live engine's proofs: ten minutes on each label, a million watched callbacks (--publish)
+// test:soak: runs the live engine for long: ten minutes on each label, a million observed callbacks (--publish)
 import { readFileSync, writeFileSync } from 'node:fs';
 import os from 'node:os';
 import { judgeJunit, results } from './lib/judge_junit.mjs';
@@ -21,7 +21,7 @@ const proofs = [
 const page = inRepository('Documentation~', 'stability.md');
 const resultOf = (index) => `soak-${index}.xml`;
 
-/** The figures of this run into the stability page, with the model that they belong to. */
+/** Writes the figures of this run, and the model that they belong to, into the stability page. */
 function publish() {
   const ran = proofs.map(({ about }, index) => ({ about, xml: readFileSync(results(resultOf(index)), 'utf8') }));
   const machine = `${os.cpus()[0]?.model.trim() ?? 'unknown processor'}, ${os.cpus().length} cores, ${os.type()}`;

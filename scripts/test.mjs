@@ -1,31 +1,27 @@
-// test: runs every test and sums them into out/test/summary.json (--only native|sanitizers|platforms|training|dotnet|package)
+// test: runs the tests and sums them into out/test/summary.json (--all: the long form; --only NAME; --help)
 import { mkdirSync, writeFileSync } from 'node:fs';
 import { parseArgs } from 'node:util';
 import { CommandError, runMain } from './lib/process.mjs';
 import { inRepository } from './lib/repository.mjs';
 import { setUp } from './lib/setup.mjs';
 import { addCounts, closingLine, noCounts } from './lib/test_counts.mjs';
-import { runners } from './lib/test_runners.mjs';
+import { chosenRunners, purposesOf, runners } from './lib/test_runners.mjs';
 
-function chosenRunners(words) {
-  const names = Object.keys(runners);
-  let only;
+function optionsOf(words) {
   try {
-    ({ values: { only } } = parseArgs({ args: words, options: { only: { type: 'string' } } }));
+    return parseArgs({ args: words, options: { only: { type: 'string' }, all: { type: 'boolean', default: false } } }).values;
   } catch (error) {
     throw new CommandError(error.message, 2);
   }
-  if (only !== undefined && !names.includes(only)) throw new CommandError(`--only ${only}: expected one of ${names.join(', ')}`, 2);
-  return only === undefined ? names : [only];
 }
 
-/** Runs one runner; whatever stops it from running is one failure of its own. */
-async function execute(name) {
+/** Runs one runner. An error that keeps it from running counts as one failed test. */
+async function execute(name, all) {
   const begin = performance.now();
   console.log(`test: ${name}`);
   let counts;
   try {
-    counts = await runners[name].execute();
+    counts = await runners[name].execute({ all });
   } catch (error) {
     if (!(error instanceof CommandError)) throw error;
     console.error(`test: ${name}: ${error.message}`);
@@ -40,17 +36,24 @@ function showTable(rows) {
   for (const row of rows) console.log(line([row.name, row.passed, row.failed, row.skipped, row.seconds.toFixed(1)]));
 }
 
-const help = `usage: ./run test [--only ${Object.keys(runners).join('|')}]
+const namesOf = (wanted) => Object.keys(runners).filter((name) => (runners[name].long ?? false) === wanted).join(', ');
 
-Installs what is missing (Debian, with root or sudo; the .NET SDK 10 without), builds, runs every test or those of one
-runner, and sums them into out/test/summary.json. What the system's packages do not have is named, counted as skipped, and
-said where it can be had.`;
+const help = `usage: ./run test [--all] [--only NAME]
+
+Installs what is missing (Debian, with root or sudo; the .NET SDK 10 without), builds, runs the tests and sums them into
+out/test/summary.json. What the system's packages do not have is named, with where to get it, and counted as skipped.
+
+  --all        the long form: every test, all sanitizers, libc++ and the other platforms
+  --only NAME  one runner. Of the default form: ${namesOf(false)}; of the long form: ${namesOf(true)}
+
+Documentation~/testing.md says which tests only the long form runs.`;
 
 await runMain('test', async (words) => {
-  const chosen = chosenRunners(words);
-  const leftOut = await setUp([...new Set(chosen.flatMap((name) => runners[name].purposes))]);
+  const { only, all } = optionsOf(words);
+  const chosen = chosenRunners({ only, all });
+  const leftOut = await setUp([...new Set(chosen.flatMap((name) => purposesOf(name, all)))]);
   const rows = [];
-  for (const name of chosen) rows.push(await execute(name));
+  for (const name of chosen) rows.push(await execute(name, all));
   const { passed, failed, skipped } = rows.reduce(addCounts, noCounts);
   mkdirSync(inRepository('out', 'test'), { recursive: true });
   writeFileSync(inRepository('out', 'test', 'summary.json'), `${JSON.stringify({ passed, failed, skipped, left_out: leftOut, runners: rows }, null, 2)}\n`);

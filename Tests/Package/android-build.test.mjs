@@ -1,4 +1,4 @@
-// Android's library: tools found in made-up installations of three systems, and the commands that use them.
+// The build for Android: finding its tools in simulated installations of three systems, and the commands that use them.
 import assert from 'node:assert/strict';
 import { chmodSync, existsSync, mkdirSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import os from 'node:os';
@@ -27,7 +27,7 @@ const makeNdk = (folder, revision = '23.1.7779620') => {
   return folder;
 };
 
-/** A machine without anything, below a folder. */
+/** A simulated machine without any tools, whose files are below a folder. */
 const bare = (folder, platform, more = {}) => ({
   platform,
   env: {},
@@ -38,7 +38,7 @@ const bare = (folder, platform, more = {}) => ({
   ...more,
 });
 
-/** Where Unity's Hub has its editors, and the Android support within one, on each system. */
+/** The folder of Unity Hub's editors, and of the Android support in an editor, on each system. */
 const systems = {
   win32: (folder) => ({ env: { ProgramFiles: path.join(folder, 'Program Files') }, hub: path.join(folder, 'Program Files', 'Unity', 'Hub', 'Editor'), inEditor: ['Editor', 'Data'] }),
   darwin: (folder) => ({ env: {}, hub: path.join(folder, 'Applications', 'Unity', 'Hub', 'Editor'), inEditor: [] }),
@@ -86,7 +86,7 @@ for (const [platform, layout] of Object.entries(systems)) {
       assert.equal(findNdk(bare(folder, platform)).ndk, newest);
     }));
 
-  test(`${platform}: where there is none, every place that was looked at is named`, () =>
+  test(`${platform}: without an NDK every place searched is named`, () =>
     inFolder((folder) => {
       const { env, hub } = layout(folder);
       const { ndk, looked } = findNdk(bare(folder, platform, { env }));
@@ -96,7 +96,7 @@ for (const [platform, layout] of Object.entries(systems)) {
     }));
 }
 
-test('ANDROID_NDK_HOME counts before what is installed; a wrong one is named and not taken', () =>
+test('ANDROID_NDK_HOME takes precedence over installed NDKs, and a wrong one is named and not used', () =>
   inFolder((folder) => {
     const installed = makeNdk(path.join(folder, 'home', 'Android', 'Sdk', 'ndk', '26.1.1'), '26.1.1');
     const own = makeNdk(path.join(folder, 'own ndk'));
@@ -109,7 +109,7 @@ test('ANDROID_NDK_HOME counts before what is installed; a wrong one is named and
     assert.match(found(folder).looked[0], /has no build\/cmake\/android.toolchain.cmake$/);
   }));
 
-test('CMake and Ninja on PATH count where they are new enough', () =>
+test('CMake and Ninja on PATH are used where they are new enough', () =>
   inFolder((folder) => {
     const sdk = path.join(folder, 'home', 'Android', 'Sdk', 'cmake', '3.31.0', 'bin');
     write(path.join(sdk, 'cmake'));
@@ -120,7 +120,7 @@ test('CMake and Ninja on PATH count where they are new enough', () =>
     assert.equal(findCmake(bare(path.join(folder, 'none'), 'linux')).cmake, null);
   }));
 
-test('the JSON library is found where vcpkg, the system or the user has it', () =>
+test('the JSON library is found in vcpkg, in the system and in a folder that the user names', () =>
   inFolder((folder) => {
     assert.equal(findJsonHeader(bare(folder, 'linux'), folder).folder, null);
     write(path.join(folder, 'include', 'nlohmann', 'json.hpp'));
@@ -133,7 +133,7 @@ test('the JSON library is found where vcpkg, the system or the user has it', () 
     assert.equal(findJsonHeader(bare(folder, 'win32', { env: { HAPTOFLOW_JSON_INCLUDE_DIR: own } }), folder).folder, own);
   }));
 
-test('without an NDK the command ends with the module to add in Unity\'s Hub and every place it looked at', () =>
+test('without an NDK the command names the module to add in Unity Hub and every place searched', () =>
   inFolder((folder) => {
     assert.throws(() => androidTools(bare(folder, 'linux')), (error) => {
       assert.equal(error.exitCode, 2);
@@ -143,7 +143,7 @@ test('without an NDK the command ends with the module to add in Unity\'s Hub and
     });
   }));
 
-test('without CMake, or without the JSON library, the command says which and where it looked', () =>
+test('without CMake or without the JSON library the command names what is missing and every place searched', () =>
   inFolder((folder) => {
     const env = { ANDROID_NDK_HOME: makeNdk(path.join(folder, 'ndk')) };
     assert.throws(() => androidTools(bare(folder, 'darwin', { env })), /no CMake 3\.22 or newer[\s\S]*cmake: cannot be started/);
@@ -153,7 +153,7 @@ test('without CMake, or without the JSON library, the command says which and whe
     assert.throws(() => androidTools(bare(folder, 'win32', { env, versionOf: both })), /nlohmann-json[\s\S]*vcpkg install/);
   }));
 
-test('the command line has the preset\'s settings, the toolchain and Ninja, and no preset, which old CMake cannot read', () => {
+test('the command line has the preset\'s variables, the toolchain and Ninja, and no preset, which old CMake cannot read', () => {
   const tools = { ndk: path.join('an ndk'), cmake: 'some-cmake', ninja: 'some-ninja', json: 'headers' };
   const { configure, build } = androidCommands(tools, 'out folder');
   assert.deepEqual(configure.slice(0, 1).concat(configure.slice(3, 7)), ['some-cmake', '-B', 'out folder', '-G', 'Ninja']);
@@ -166,7 +166,7 @@ test('the command line has the preset\'s settings, the toolchain and Ninja, and 
   assert.equal(presetVariables('android-arm64').ANDROID_PLATFORM, 'android-29');
 });
 
-test('pack brings the library up to date with the tools of the build, without their being named again', { skip: process.platform === 'win32' }, () =>
+test('pack rebuilds the library with the tools of the earlier build', { skip: process.platform === 'win32' }, () =>
   inFolder(async (folder) => {
     const cmake = path.join(folder, 'its cmake');
     write(cmake, `#!/bin/sh\necho "$@" > '${folder}/log'\n: > '${folder}/libaudioplugin_haptoflow.so'\n`);

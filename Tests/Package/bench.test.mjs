@@ -9,7 +9,7 @@ import { inRepository } from '../../scripts/lib/repository.mjs';
 const page = readFileSync(inRepository('Documentation~', 'benchmarks.md'), 'utf8');
 const bench = (...words) => spawnSync(process.execPath, [inRepository('scripts', 'bench.mjs'), ...words], { encoding: 'utf8' });
 
-test('published tables replace what stood between the page\'s markers and nothing else', () => {
+test('published tables replace the text between the page\'s markers and nothing else', () => {
   const once = withMeasuredTables(page, '\nfirst table\n', 'a'.repeat(64));
   const twice = withMeasuredTables(once, '\nsecond table\n', 'b'.repeat(64));
   assert.match(once, /```\nfirst table\n```/);
@@ -20,14 +20,14 @@ test('published tables replace what stood between the page\'s markers and nothin
   assert.deepEqual(outside(twice), outside(page));
 });
 
-test('the page and the report name the model that was measured', () => {
+test('the page and the report name the measured model', () => {
   const sha256 = 'c'.repeat(64);
   assert.equal(modelOfPage(withMeasuredTables(page, 'table', sha256)), sha256);
   const report = { model: { name: 'default', crc32: '12' }, onset_ms: { p50: 1 } };
   assert.deepEqual(withModelSha256(report, sha256), { model: { name: 'default', crc32: '12', sha256 }, onset_ms: { p50: 1 } });
 });
 
-test('a page that lost its markers is refused', () => {
+test('a page without markers is refused', () => {
   assert.throws(() => withMeasuredTables('# Benchmarks\n', 'table', 'a'.repeat(64)), /measured: begin/);
 });
 
@@ -36,7 +36,7 @@ test('the page explains every key that bench.json promises', () => {
   for (const key of promised) assert.match(page, new RegExp(`^\\| \`${key}\` \\| \\S`, 'm'), key);
 });
 
-test('options reach the command line, and the paper\'s architecture only where it is wanted', () => {
+test('options are passed to the command line, and the paper\'s architecture only on request', () => {
   assert.deepEqual(benchArguments({ quick: true, only: 'idle,contact' }, 'r.json', null), ['bench', '--output', 'r.json', '--quick', '--only', 'idle,contact']);
   assert.deepEqual(benchArguments({ events: '5' }, 'r.json', 'p.haptoflow'), ['bench', '--output', 'r.json', '--paper-model', 'p.haptoflow', '--events', '5']);
 });

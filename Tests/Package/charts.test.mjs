@@ -22,20 +22,20 @@ test('a band escapes its label', () => {
   assert.ok(!bandLane([{ timeSeconds: 0, label: '<i>' }], 1).includes('<i>'));
 });
 
-test('the waveform axis is in m/s^2 and ends where it is told to', () => {
+test('the waveform axis is in m/s^2 and ends at the given value', () => {
   const lane = waveformLane(Float32Array.from([0, 0.5, -0.25, 0]), 60, 30, 'w');
   assert.ok(lane.includes('+30') && lane.includes('−30'));
 });
 
-test('a CSV without a column that is needed says which', () => {
+test('a CSV without a required column is refused with the column\'s name', () => {
   assert.throws(() => parseCsv('t,x\n0,1\n', 'stroke.csv', ['t', 'y']), /stroke\.csv, line 1: .* y not there/);
 });
 
-test('a CSV row of the wrong length says which', () => {
+test('a CSV row of the wrong length is refused with its number', () => {
   assert.throws(() => parseCsv('t,x\n0,1\n1\n', 'stroke.csv', ['t']), /row 2: expected 2 fields, got 1/);
 });
 
-test('contacts carry the label of the surface, the speed and where the stroke is', () => {
+test('contact states carry the label of the surface, the speed and the position of the stroke', () => {
   const scene = { surfaces: [{ name: 'board', material: { stone: 0.2, wood: 0.8 } }] };
   const contact = 't,surface,touching,vx_mps,vy_mps,force_n\n5,,0,0,0,0\n5.5,board,1,0.3,0.4,1.5\n';
   const stroke = 't,x,y,z\n5,0,0,0\n6,1,2,4\n';

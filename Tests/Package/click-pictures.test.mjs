@@ -1,4 +1,4 @@
-// The drawings of clicks: what the script draws, honest about what they are, shown where they belong.
+// The drawings of menus and clicks: they equal what the script draws, say that they are drawings, and are on their pages.
 import assert from 'node:assert/strict';
 import { existsSync, readFileSync } from 'node:fs';
 import test from 'node:test';
@@ -8,14 +8,14 @@ import { drawn, pictureFile, pictures } from '../../scripts/pack/click_pictures.
 const read = (...parts) => readFileSync(inRepository(...parts), 'utf8');
 const names = Object.keys(pictures);
 
-test('the drawings in the documentation are what the script draws', () => {
+test('the drawings in the documentation equal those that the script draws', () => {
   for (const name of names) {
     assert.ok(existsSync(pictureFile(name)), name);
     assert.equal(readFileSync(pictureFile(name), 'utf8'), drawn(name), `${name}: run node scripts/pack/click_pictures.mjs`);
   }
 });
 
-test('each drawing says that it is one', () => {
+test('each drawing says that it is a drawing and no screenshot', () => {
   for (const name of names) assert.match(drawn(name), /A drawing after Unity&?[^<]*not a screenshot/, name);
 });
 
@@ -33,7 +33,7 @@ test('the drawn entries of GameObject > HaptoFlow are entries of the menu', () =
   assert.deepEqual(menus.filter((menu) => shown.includes(menu)), ['First Scene', 'Tagged Cube', 'Mouse Pen', 'XR Pen (Right Hand)', 'XR Pen (Left Hand)']);
 });
 
-test('the drawn tarballs bear the names that pack gives them', () => {
+test('the drawn tarballs have the names that pack gives them', () => {
   const { name, version, dependencies } = JSON.parse(read('Packages', 'com.haptoflow.runtime', 'package.json'));
   const picture = drawn('install-3-two-files');
   assert.ok(picture.includes(`>${name}-${version}.tgz<`));

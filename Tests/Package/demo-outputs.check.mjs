@@ -1,4 +1,4 @@
-// Run after the demo: what it left in out/demo must be what the page and the report promise.
+// Run after the demo: the files in out/demo must match the page and the report.
 import assert from 'node:assert/strict';
 import { existsSync, readFileSync } from 'node:fs';
 import path from 'node:path';
@@ -29,7 +29,7 @@ test('the report lists the crossing scene, every traced label and the taps', () 
   assert.equal(typeof report.model, 'string');
 });
 
-test('every object of the report has exactly the keys that are promised', () => {
+test('every object of the report has exactly the documented keys', () => {
   const keys = ['name', 'labels', 'wav', 'seconds', 'rms_mps2', 'peak', 'segments', 'inference_ms', 'nonfinite', 'underruns'];
   assert.deepEqual(Object.keys(report), ['model', 'renders']);
   for (const render of report.renders) {
@@ -38,11 +38,11 @@ test('every object of the report has exactly the keys that are promised', () => 
   }
 });
 
-test('every traced render names the label it was asked for', () => {
+test('every traced render names the label that it was made for', () => {
   for (const render of report.renders.slice(1, -1)) assert.deepEqual(render.labels, [render.name]);
 });
 
-test('every file is as long, as strong and as loud as its report says', () => {
+test('the length, the level and the peak of every file equal those in its report', () => {
   for (const render of report.renders) {
     const { samples, rateHz } = waveOf(render);
     assert.equal(rateHz, 48000, render.name);
@@ -81,7 +81,7 @@ test('labels differ in level: stone is stronger than glass', () => {
   assert.ok(level('stone') > 1.5 * level('glass'), `stone ${level('stone')}, glass ${level('glass')} m/s^2`);
 });
 
-test('each of the nine taps is felt, and the harder the higher it came from', () => {
+test('each of the nine taps makes a pulse, which is stronger the higher the tap began', () => {
   const { samples, rateHz } = waveOf(report.renders.at(-1));
   const { samples: quiet } = waveOf(report.renders[0]);
   assert.ok(quiet.length > 0);
@@ -92,7 +92,7 @@ test('each of the nine taps is felt, and the harder the higher it came from', ()
   assert.equal(taps.length, 9, `${taps.map((block) => (block * 0.02).toFixed(2))} s`);
 });
 
-test('the page is one file that asks nothing of the network', () => {
+test('the page is one file without references to the network', () => {
   const page = readFileSync(path.join(folder, 'index.html'), 'utf8');
   assert.ok(!/(?:src|href)="(?!data:|#)/.test(page), 'a source or link leads outside the page');
   assert.ok(!/url\(|@import|https?:/.test(page), 'a style or script leads outside the page');
@@ -102,7 +102,7 @@ test('the page is one file that asks nothing of the network', () => {
   assert.ok(!/undefined|NaN/.test(page.replace(/data:[^"]*/g, '')), 'a value of the page is missing');
 });
 
-test('the scenes that were rendered lie beside the sound', () => {
+test('the rendered scenes are in the folder of the sound files', () => {
   for (const render of report.renders) {
     assert.ok(existsSync(path.join(folder, 'scenes', render.wav.replace(/\.wav$/, '.scene.json'))), render.name);
   }

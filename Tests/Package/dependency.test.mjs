@@ -1,4 +1,4 @@
-// ONNX Runtime's own tarball, which pack puts beside the package's.
+// The tarball of ONNX Runtime, which pack writes beside the package's.
 import assert from 'node:assert/strict';
 import { spawnSync } from 'node:child_process';
 import { existsSync, mkdirSync, mkdtempSync, readFileSync, readdirSync, rmSync, symlinkSync, writeFileSync } from 'node:fs';
@@ -18,7 +18,7 @@ async function inFolder(act) {
   }
 }
 
-/** An unpacked package as npm leaves it, and the manifest that asks for it. */
+/** An unpacked package as npm installs it, and a manifest that depends on it. */
 function makeUp(folder, version = '1.2.3') {
   const source = path.join(folder, 'source');
   const files = {
@@ -51,7 +51,7 @@ test('the tarball has every file of the package as it is, licence included, in t
     for (const [name, text] of Object.entries(files)) assert.equal(packed.get(`package/${name}`).toString(), text, name);
   }));
 
-test('tar reads it, and npm finds in it the same files as in its own tarball', { skip: process.platform === 'win32' }, () =>
+test('tar reads the tarball, and npm lists the same files as in its own', { skip: process.platform === 'win32' }, () =>
   inFolder(async (folder) => {
     const { source, manifest } = makeUp(folder);
     const deep = `Runtime/${'folder/'.repeat(15)}${'n'.repeat(80)}.cs`;
@@ -68,7 +68,7 @@ test('tar reads it, and npm finds in it the same files as in its own tarball', {
     for (const [name, content] of npms) assert.deepEqual(ours.get(name), content, name);
   }));
 
-test('what is no plain file, and a name that no header holds, are refused', { skip: process.platform === 'win32' }, () =>
+test('anything but a plain file, and a name too long for a header, are refused', { skip: process.platform === 'win32' }, () =>
   inFolder(async (folder) => {
     const linked = makeUp(path.join(folder, 'linked'));
     symlinkSync('LICENSE', path.join(linked.source, 'link'));
@@ -89,7 +89,7 @@ test('a tarball of that version is kept, since a version never changes', () =>
     assert.equal(readFileSync(file, 'utf8'), 'made before');
   }));
 
-test('what an interrupted pack left is thrown away', () =>
+test('the partial file of an interrupted pack is replaced', () =>
   inFolder(async (folder) => {
     const { source, manifest } = makeUp(folder);
     const out = path.join(folder, 'out');
@@ -100,7 +100,7 @@ test('what an interrupted pack left is thrown away', () =>
     assert.deepEqual(readdirSync(out), [path.basename(file)]);
   }));
 
-test('another version than the manifest asks for, none at all, or one without licence is refused', () =>
+test('a package of another version than the manifest\'s, a missing package and one without licence are refused', () =>
   inFolder(async (folder) => {
     const other = makeUp(path.join(folder, 'other'), '1.2.4');
     await assert.rejects(packDependency(folder, other), /holds com\.github\.asus4\.onnxruntime 1\.2\.4; expected com\.github\.asus4\.onnxruntime 1\.2\.3: run `npm ci`/);

@@ -20,7 +20,7 @@ const words = {
   RMSE: /root mean square error/i,
 };
 
-/** The line of a page in which a word stands first, with its neighbours: a sentence may be broken over them. */
+/** The first line of a page that has a word, with the lines before and after it, since a sentence may span them. */
 function firstPlace(text, word) {
   const lines = text.split('\n');
   const at = lines.findIndex((line) => new RegExp(`\\b${word}\\b`).test(line));
@@ -37,7 +37,7 @@ for (const [word, meaning] of Object.entries(words)) {
   });
 }
 
-test('an explanation counts beside the first place of a word, not further down', () => {
+test('a word must be explained where it first appears, not further down', () => {
   const text = 'intro\n\nGFC is high\n\nfar away\n\nGFC, goodness of fit\n';
   assert.doesNotMatch(firstPlace(text, 'GFC'), words.GFC);
   assert.match(firstPlace('its goodness of\nfit (goodness of fit, GFC)\n', 'GFC'), words.GFC);
@@ -53,7 +53,7 @@ test('the paper is cited by title, authors and year: in the README, with the tab
   }
 });
 
-test('no page says what people feel: nobody has taken part in a study yet', () => {
+test('no page claims what people feel, since no study has had participants yet', () => {
   const claims = pages.filter((page) => /nobody (feels|notices)|imperceptible|just.noticeable/i.test(read(page)));
   assert.deepEqual(claims, []);
 });

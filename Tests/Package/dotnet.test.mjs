@@ -9,7 +9,7 @@ import { bringDotnet, dotnetEnvironment, findDotnet } from '../../scripts/lib/do
 const posixOnly = process.platform === 'win32' ? 'the programs of this test are shell scripts' : false;
 const sdk = (version) => `test "$1" = --list-sdks && echo "${version} [/somewhere]"`;
 
-/** Acts on a machine that has only the programs given: name -> shell text. `log` has what they noted. */
+/** Runs a function on a simulated machine that has only the given programs: name -> shell text. `log` holds what they wrote. */
 async function onMachine(programs, act) {
   const root = mkdtempSync(path.join(os.tmpdir(), 'haptoflow-dotnet-'));
   try {
@@ -34,7 +34,7 @@ async function onMachine(programs, act) {
 const noApt = 'echo "N: Unable to locate package"';
 const aptOffers = 'printf "dotnet-sdk-10.0:\\n  Installed: (none)\\n  Candidate: 10.0.1\\n  Version table:\\n"';
 const aptInstalls = 'echo "apt $*" >> $LOG; printf "#!/bin/sh\\n%s\\n" \'echo "10.0.100 [/x]"\' > $BIN/dotnet; chmod +x $BIN/dotnet';
-// Writes, in place of Microsoft's script, one that notes its words and puts an SDK into the folder that it is told.
+// A stand-in for Microsoft's script that logs its arguments and puts an SDK into the folder named in them.
 const curlBrings = `echo "curl $*" >> $LOG
 while [ $# -gt 1 ]; do [ "$1" = -o ] && to="$2"; shift; done
 cat > "$to" <<'SCRIPT'
@@ -44,13 +44,13 @@ printf '#!/bin/sh\\necho "10.0.203 [/y]"\\n' > "$to/dotnet"
 chmod +x "$to/dotnet"
 SCRIPT`;
 
-test('an SDK 10 on PATH is used and nothing is brought', { skip: posixOnly }, () =>
+test('an SDK 10 on PATH is used and nothing is installed', { skip: posixOnly }, () =>
   onMachine({ dotnet: sdk('10.0.401'), 'apt-cache': aptOffers, 'apt-get': aptInstalls, curl: curlBrings }, async ({ place, notes }) => {
     assert.equal(await bringDotnet({ ...place, asRoot: [] }), 'dotnet');
     assert.equal(notes(), '');
   }));
 
-test('an older SDK does not count, and apt brings the right one where it offers it', { skip: posixOnly }, () =>
+test('an older SDK is not used, and apt installs the right one where it offers it', { skip: posixOnly }, () =>
   onMachine({ dotnet: sdk('8.0.100'), 'apt-cache': aptOffers, 'apt-get': aptInstalls, curl: curlBrings }, async ({ place, notes }) => {
     assert.equal(findDotnet(place), null);
     assert.equal(await bringDotnet({ ...place, asRoot: [] }), 'dotnet');
@@ -58,7 +58,7 @@ test('an older SDK does not count, and apt brings the right one where it offers 
     assert.doesNotMatch(notes(), /curl/);
   }));
 
-test('where apt has none the install script brings it into the folder, without root, and from there it is used', { skip: posixOnly }, () =>
+test('without an offer of apt the install script puts the SDK into the folder, without root, and it is used from there', { skip: posixOnly }, () =>
   onMachine({ 'apt-cache': noApt, 'apt-get': aptInstalls, curl: curlBrings }, async ({ place, folder, notes }) => {
     const brought = await bringDotnet({ ...place, asRoot: null });
     assert.equal(brought, path.join(folder, 'dotnet'));
@@ -72,7 +72,7 @@ test('where apt has none the install script brings it into the folder, without r
     assert.equal(notes().match(/^curl/gm).length, 1);
   }));
 
-test('without root an offer of apt is passed over for the script', { skip: posixOnly }, () =>
+test('without root the install script is used instead of apt', { skip: posixOnly }, () =>
   onMachine({ 'apt-cache': aptOffers, 'apt-get': aptInstalls, curl: curlBrings }, async ({ place, folder, notes }) => {
     assert.equal(await bringDotnet({ ...place, asRoot: null }), path.join(folder, 'dotnet'));
     assert.doesNotMatch(notes(), /^apt /m);
@@ -91,7 +91,7 @@ for (const [what, curl] of [['cannot be fetched', 'echo "curl: (6) Could not res
     }));
 }
 
-test('on a machine without curl, too, the line says what is missing', { skip: posixOnly }, () =>
+test('on a machine without curl the message says that curl is missing', { skip: posixOnly }, () =>
   onMachine({ 'apt-cache': noApt }, async ({ place }) => {
     await assert.rejects(bringDotnet({ ...place, asRoot: [] }), /cannot start `curl`: it is not installed/);
   }));

@@ -8,7 +8,7 @@ const read = (...parts) => readFileSync(inRepository(...parts), 'utf8');
 const runtime = ['Packages', 'com.haptoflow.runtime', 'Runtime'];
 const measured = JSON.parse(read('Training', 'results', 'default', 'full-scale.json'));
 
-/** The number that the one line of this form in a file gives. */
+/** The number in the only line of a file that matches a pattern. */
 function numberIn(parts, pattern) {
   const found = [...read(...parts).matchAll(new RegExp(pattern, 'g'))];
   assert.equal(found.length, 1, `${parts.join('/')}: expected one line of the form ${pattern}`);
@@ -27,13 +27,13 @@ test('every language has the same default full scale as the C header', () => {
   for (const [language, value] of Object.entries(homes)) assert.equal(value, header, language);
 });
 
-test('the measurement counts from where the engine\'s knee begins', () => {
+test('the measurement of full scale uses the engine\'s knee', () => {
   const engine = numberIn(['NativePlugin', 'src', 'dsp', 'limiter.hpp'], ' knee = ([\\d.]+)F;');
   assert.equal(numberIn(['Training', 'haptoflow_training', 'evaluation', 'full_scale.py'], '\\nKNEE = ([\\d.]+)'), engine);
   assert.equal(measured.knee, engine);
 });
 
-test('the pages that name the default full scale name this one', () => {
+test('every page that states the default full scale states the current one', () => {
   const sentences = {
     'getting-started.md': /±1 is (\d+) m\/s²/,
     'actuator-wiring.md': /\*\*Full Scale\*\* \(Project Settings > HaptoFlow, (\d+) m\/s\^2\)/,

@@ -1,4 +1,4 @@
-// Published figures and pictures belong to the shipped model. What fails here is measured or drawn anew, not edited.
+// Published figures and pictures belong to the shipped model. Mend a failure by measuring or drawing again, not by editing.
 import assert from 'node:assert/strict';
 import { readFileSync, readdirSync } from 'node:fs';
 import path from 'node:path';
@@ -28,7 +28,7 @@ const results = {
   'Training/results/default/label-discrimination.json': 'haptoflow-training discriminate',
 };
 
-/** Pictures that show no model: the recorder's own. */
+/** Pictures that do not depend on a model: those of the recorder. */
 const withoutModel = ['recorder-spectra.png'];
 const pictures = ['Documentation~/images', 'Samples~/StylusTracing', 'Samples~/TextureGallery', 'Samples~/Workshop', 'Training/results/default']
   .flatMap((folder) => readdirSync(inRepository(...folder.split('/'))).map((name) => `${folder}/${name}`))
@@ -52,13 +52,13 @@ for (const file of pictures) {
   });
 }
 
-test('pictures of the pages and the samples are looked at', () => {
+test('the pictures of the pages and of the samples are checked', () => {
   for (const name of ['demo.png', 'texture-preview.png', 'accuracy-time.png', 'label-spectra.png', 'StylusTracing.png', 'TextureGallery.png']) {
     assert.ok(pictures.some((file) => file.endsWith(`/${name}`)), name);
   }
 });
 
-test('a stamped picture shows the same and names its model, the newest stamp alone', () => {
+test('a stamped picture has the same pixels and names its model, with the newest stamp only', () => {
   const drawn = new PNG({ width: 3, height: 2 });
   drawn.data.set(Array.from({ length: 24 }, (_, index) => 10 * index));
   const plain = PNG.sync.write(drawn);
@@ -69,7 +69,7 @@ test('a stamped picture shows the same and names its model, the newest stamp alo
   assert.deepEqual(PNG.sync.read(twice, { checkCRC: true }).data, PNG.sync.read(plain).data);
 });
 
-test('a page names the model that its line says, none without a line, and never two', () => {
+test('a page names one model in one line, none without such a line, and two are an error', () => {
   assert.equal(modelOfPage(`# Page\n\n${modelLine(sha('c'))}\n`), sha('c'));
   assert.equal(modelOfPage('Model: some other\n'), null);
   assert.throws(() => modelOfPage(`${modelLine(sha('c'))}\n\n${modelLine(sha('d'))}\n`), RangeError);

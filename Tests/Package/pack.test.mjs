@@ -53,7 +53,7 @@ function macho(machine) {
   return bytes;
 }
 
-test('--help teaches and builds nothing', () => {
+test('--help explains the command and builds nothing', () => {
   const { status, stdout } = pack('--help');
   assert.equal(status, 0);
   for (const word of ['--no-build', 'Install package from tarball', 'HAPTOFLOW_NATIVE_DIR']) assert.ok(stdout.includes(word), word);
@@ -75,7 +75,7 @@ test('a platform that does not exist cannot be required', () => {
 
 test('without the library of a required platform, or without any, no tarball is made', () => {
   inFolder((folder) => {
-    // A copy of the scripts has a build folder of its own, with nothing in it.
+    // A copy of the scripts has its own, empty build folder.
     for (const name of ['scripts', 'package.json', 'CMakePresets.json']) cpSync(inRepository(name), path.join(folder, name), { recursive: true });
     symlinkSync(inRepository('node_modules'), path.join(folder, 'node_modules'), 'junction');
     const there = (...words) => spawnSync(process.execPath, [path.join(folder, 'scripts', 'pack.mjs'), '--no-build', ...words], { encoding: 'utf8', env: { ...process.env, HAPTOFLOW_NATIVE_DIR: path.join(folder, 'natives') } });
@@ -95,7 +95,7 @@ test('without the library of a required platform, or without any, no tarball is 
   });
 });
 
-test('libraries are told apart by their first bytes', () => {
+test('the platform of a library is read from its first bytes', () => {
   assert.equal(kindOfLibrary(elf(62)), 'elf-x86-64');
   assert.equal(kindOfLibrary(elf(183)), 'elf-arm64');
   assert.equal(kindOfLibrary(pe(0x8664)), 'pe-x86-64');
@@ -124,7 +124,7 @@ test('each platform takes a library of its own kind from the folders of its own 
   });
 });
 
-test('a platform without library says which preset builds one and what that needs', () => {
+test('a platform without a library is listed with the preset that builds it and what the preset needs', () => {
   const { absent } = findNatives(() => []);
   assert.equal(absent.length, platforms.length);
   assert.match(absent.find(({ platform }) => platform.name === 'Android arm64').why, /preset android-arm64 needs the Android NDK/);
@@ -142,7 +142,7 @@ test('the presets are those of CMakePresets.json, and HAPTOFLOW_NATIVE_DIR stand
   }
 });
 
-test('files of the repository go to their places, others stay behind', () => {
+test('files of the package go to their places, and other files of the repository are not packed', () => {
   assert.equal(placeInPackage('Packages/com.haptoflow.runtime/Runtime/HaptoFlow.asmdef'), 'Runtime/HaptoFlow.asmdef');
   assert.equal(placeInPackage('Samples~/StylusTracing/README.md'), 'Samples~/StylusTracing/README.md');
   assert.equal(placeInPackage('Tests/Runtime/Support/SceneTest.cs'), 'Tests/Runtime/Support/SceneTest.cs');
@@ -183,7 +183,7 @@ function entry(name, content, type = '0', prefix = '') {
   return Buffer.concat([header, body]);
 }
 
-test('an archive gives its files, long names included', () => {
+test('the files of an archive are read, long names included', () => {
   const long = `package/${'n'.repeat(120)}.cs`;
   const archive = gzipSync(Buffer.concat([
     entry('package/', Buffer.alloc(0), '5'),

@@ -27,7 +27,7 @@ const peakOf = (wav) => {
   return peak / 32767;
 };
 
-test('the players share one gain: the loudest reaches -1 dBFS, a signal ten times weaker stays so', () => {
+test('the players share one gain: the loudest peaks at -1 dBFS, and a signal ten times weaker stays ten times weaker', () => {
   const [loud, quiet] = audioOf(pageOf([renderOf('crossing', 0.2), renderOf('wood', 0.02), renderOf('taps and rims', 0.01)])).map(peakOf);
   assert.ok(Math.abs(20 * Math.log10(loud) + 1) < 0.01, `${loud}`);
   assert.ok(Math.abs(loud / quiet - 10) < 0.02, `${loud / quiet}`);
@@ -40,23 +40,23 @@ test('the page states the gain, the model, its origin and the measured figures',
   for (const figure of [(fullScaleMps2 * 0.2 / Math.SQRT2).toFixed(2), (fullScaleMps2 * 0.2).toFixed(1), '0.41', '0.73']) assert.ok(page.includes(`>${figure}<`), figure);
 });
 
-test('the page asks nothing of the network and has no hole in it', () => {
+test('the page has no reference to the network and no unfilled placeholder', () => {
   const page = pageOf([renderOf('crossing', 0.2), renderOf('wood', 0.02), renderOf('taps and rims', 0.01)]);
   assert.ok(!/(?:src|href)="(?!data:|#)/.test(page));
   assert.ok(!/\{\{|undefined|NaN/.test(page.replace(/data:[^"]*/g, '')));
 });
 
-test('names with markup in them are shown, not obeyed', () => {
+test('markup in names is escaped', () => {
   const page = pageOf([renderOf('crossing', 0.2, '<u>model'), renderOf('<script>boom', 0.02, '<u>model'), renderOf('taps and rims', 0.01, '<u>model')]);
   assert.ok(!page.includes('<script>boom') && !page.includes('<u>model'));
 });
 
-test('silent renders still make a page', () => {
+test('a page is made of silent renders, too', () => {
   const page = pageOf([renderOf('crossing', 0), renderOf('wood', 0)]);
   assert.ok(!/NaN|Infinity/.test(page.replace(/data:[^"]*/g, '')));
 });
 
-test('each player is one stop of the keyboard: a button, and nothing else that takes the focus', () => {
+test('each player has one element that takes the keyboard focus: its button', () => {
   const page = pageOf([renderOf('crossing', 0.2), renderOf('wood', 0.02), renderOf('glass', 0.01)]);
   const articles = [...page.matchAll(/<article[\s\S]*?<\/article>/g)].map(([article]) => article);
   assert.equal(articles.length, 3);
@@ -78,6 +78,6 @@ test('all waveforms have one scale, which the page states, and a weaker render i
   assert.ok(Math.abs(loud / quiet - 10) < 0.1, `${loud} and ${quiet}`);
 });
 
-test('each label says its level in figures beside its name', () => {
+test('each label\'s level is written beside its name', () => {
   assert.match(pageOf([renderOf('crossing', 0.2), renderOf('wood', 0.02), renderOf('taps and rims', 0.01)]), /<span>wood <em>2\.8 m\/s² RMS<\/em><\/span>/);
 });

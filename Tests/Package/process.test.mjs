@@ -7,7 +7,7 @@ import os from 'node:os';
 import path from 'node:path';
 import { inRepository } from '../../scripts/lib/repository.mjs';
 
-test('a program that hangs is ended at its limit and has failed, with the limit in what is said', async () => {
+test('a program that hangs is ended at its limit and counts as failed, and the message states the limit', async () => {
   const hanging = ['-e', 'setInterval(() => {}, 1000)'];
   const { exitCode, output } = await run(process.execPath, hanging, { quiet: true, limitSeconds: 0.3 });
   assert.notEqual(exitCode, 0);
@@ -19,11 +19,11 @@ test('a program that ends within its limit is judged by itself', async () => {
   assert.deepEqual({ exitCode, output }, { exitCode: 0, output: 'whole\n' });
 });
 
-test('an option that nothing knows is refused, so that a variable for the child cannot be lost among them', () => {
+test('an unknown option is refused, so that an environment variable given as an option is not lost', () => {
   assert.throws(() => run(process.execPath, ['--version'], { quiet: true, HAPTOFLOW_TEST_CALLBACKS: '1' }), /unknown options HAPTOFLOW_TEST_CALLBACKS/);
 });
 
-/** What `runNpmOrFail` says in a process around which an npm was told to be silent, of a registry where nobody answers. */
+/** The result of `runNpmOrFail` below a silent npm, with a registry that does not answer. */
 function npmWithoutRegistry() {
   const folder = mkdtempSync(path.join(os.tmpdir(), 'haptoflow-npm-'));
   try {
@@ -38,14 +38,14 @@ function npmWithoutRegistry() {
   }
 }
 
-test('an npm that cannot reach its registry says so, and what to do, although the npm around it was told to be silent', () => {
+test('an npm that cannot reach its registry says so with a remedy, even below an npm that runs with --silent', () => {
   const { status, stderr } = npmWithoutRegistry();
   assert.equal(status, 9, stderr);
   assert.match(stderr, /ECONNREFUSED/);
   assert.match(stderr, /`npm install` ended with 1: npm's registry cannot be reached: check the network/);
 });
 
-test('an npm that fails for another reason shows its words and where to learn more, one without words says that', () => {
+test('an npm that fails for another reason shows its output and the command for more, and one without output says so', () => {
   assert.match(npmComplaint(['ci'], 1, 'npm ERR! lock file is wrong\n'), /^npm ERR! lock file is wrong\n`npm ci` ended with 1: `npm ci --loglevel=verbose` says more$/);
-  assert.match(npmComplaint(['ci'], 1, ''), /^npm said nothing\n/);
+  assert.match(npmComplaint(['ci'], 1, ''), /^npm printed nothing\n/);
 });

@@ -7,7 +7,7 @@ const ofCommandLine = {
   inference_ms: { p50: 0.4, p99: 0.7 }, nonfinite: 0, underruns: 0, solver: 'midpoint', steps: 2,
 };
 
-test('the report has the model once and of each render exactly the promised keys, in order', () => {
+test('the report names the model once and has the documented keys of each render, in order', () => {
   const report = assembleReport([{ name: 'wood', report: ofCommandLine }]);
   assert.deepEqual(Object.keys(report), ['model', 'renders']);
   assert.equal(report.model, 'default');

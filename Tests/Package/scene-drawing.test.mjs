@@ -17,7 +17,7 @@ const extent = (points, axis) => {
 };
 const crossing = JSON.parse(readFileSync(inRepository('Samples~', 'HeadlessScenes', 'crossing.scene.json'), 'utf8'));
 
-test('names and labels with markup in them are shown, not obeyed', () => {
+test('markup in names and labels is escaped', () => {
   const surface = { ...still, name: '<script>"&', shape: { sphere: { radius: 0.1 } }, material: '<b>' };
   const drawing = drawScene({ surfaces: [surface] }, path).join('\n');
   assert.ok(!drawing.includes('<script>') && !drawing.includes('<b>'));

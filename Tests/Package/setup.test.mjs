@@ -7,11 +7,11 @@ import { cachedVariable } from '../../scripts/lib/native_build.mjs';
 import { inRepository } from '../../scripts/lib/repository.mjs';
 import { runners } from '../../scripts/lib/test_runners.mjs';
 
-test('the demo asks for no Python, no PyTorch, no test library and no cross compiler', () => {
+test('the demo installs no Python, no PyTorch, no test library and no cross compiler', () => {
   for (const name of selectPackages(['build'])) assert.doesNotMatch(name, /python|torch|gtest|mingw|aarch64|wine|clang/);
 });
 
-test('purposes add up, each package once', () => {
+test('the packages of several purposes are joined, each package once', () => {
   const selected = selectPackages(['python', 'lint']);
   assert.equal(new Set(selected).size, selected.length);
   for (const name of [...packagesByPurpose.python, ...packagesByPurpose.lint]) assert.ok(selected.includes(name), name);
@@ -55,7 +55,7 @@ test('the lock file names no host and pins every development package to one vers
   for (const [name, version] of Object.entries(devDependencies)) assert.match(version, /^\d+\.\d+\.\d+$/, name);
 });
 
-test('packages are offered where apt names a candidate', () => {
+test('a package is offered where apt names a candidate version', () => {
   const policy = [
     'clang-22:', '  Installed: (none)', '  Candidate: 1:22.1.8-1~deb12u1', '  Version table:', '     1:22.1.8 500',
     'libclang-rt-22-dev:', '  Installed: (none)', '  Candidate: (none)', '  Version table:',
@@ -65,7 +65,7 @@ test('packages are offered where apt names a candidate', () => {
   assert.deepEqual(offeredPackages(['git'], ''), []);
 });
 
-test('what may be left out says what it needs and where that can be had', () => {
+test('the sentence of each optional purpose names its packages and where to get them', () => {
   for (const [purpose, sentence] of Object.entries(optionalPurposes)) {
     assert.ok(packagesByPurpose[purpose].length > 0, purpose);
     assert.match(sentence, /is left out: it needs .+ Debian 12/, purpose);
@@ -95,27 +95,27 @@ const startPatterns = [
   /find_program\(\w+ NAMES ([\w.+-]+)/g,
 ];
 
-/** Programs that a text starts by name. */
+/** The programs that a source starts by name. */
 function programsIn(text) {
   return [...new Set(startPatterns.flatMap((pattern) => [...text.matchAll(pattern)].map(([, name]) => name)))];
 }
 
-// On every Debian, or brought by `run`; or started where it is known to be there, or may be missing.
+// Programs of every Debian, programs that `run` installs, and programs that are only started where they exist.
 const always = new Set(['sh', '/bin/sh', 'bash', 'tar', 'apt-get', 'apt-cache', 'dpkg-query', 'sudo', 'npm', 'node', 'dotnet', 'ccache']);
 
-/** The purposes that a script sets up itself. */
+/** The purposes that a script passes to set-up. */
 const purposesOf = (script) => [...readFileSync(inRepository('scripts', script), 'utf8').matchAll(/setUp\(\[([^\]]*)\]\)/g)].flatMap(([, list]) => [...list.matchAll(/'(\w+)'/g)].map(([, name]) => name));
 
 const purposesOfRunners = (...names) => names.flatMap((name) => runners[name].purposes);
 
-/** Who starts what, and what is set up before. Other scripts set up what they say themselves. */
+/** Sources that start programs, and the purposes that are set up before they run. */
 const starters = [
   { files: () => [...filesBelow('Tests/Package', /(?<!setup\.test)\.mjs$/), 'scripts/lint/files.mjs'], purposes: purposesOfRunners('package') },
   { files: () => [...filesBelow('Tests/Training', /\.py$/), ...filesBelow('Training', /\.py$/)], purposes: purposesOfRunners('training') },
   { files: () => filesBelow('Tests/Native', /\.(cpp|hpp|txt|cmake)$/), purposes: purposesOfRunners('native') },
   { files: () => filesBelow('NativePlugin/cmake', /\.cmake$/), purposes: purposesOfRunners('platforms') },
   { files: () => ['scripts/lib/platform_tests.mjs', 'scripts/lib/exported_names.mjs', 'scripts/lib/android_pages.mjs', 'Tests/Platforms/android-stand-in.cmake'], purposes: purposesOfRunners('platforms') },
-  { files: () => ['CMakePresets.json', 'scripts/lib/test_runners.mjs', 'scripts/lib/native_build.mjs'], purposes: Object.values(runners).flatMap(({ purposes }) => purposes) },
+  { files: () => ['CMakePresets.json', 'scripts/lib/test_runners.mjs', 'scripts/lib/native_build.mjs'], purposes: Object.values(runners).flatMap(({ purposes, longPurposes = [] }) => [...purposes, ...longPurposes]) },
   { files: () => ['scripts/lib/dotnet.mjs'], purposes: purposesOfRunners('dotnet') },
   { files: () => filesBelow('scripts/lint', /\.mjs$/), purposes: purposesOf('lint.mjs') },
   { files: () => filesBelow('scripts/pack', /\.(mjs|py)$/), purposes: purposesOf('pack.mjs') },

@@ -23,7 +23,7 @@ test('the soak\'s table has the worst and the median of the labels, and the size
   assert.equal(modelOfPage(table), modelSha256);
 });
 
-test('a proof that tells no figures has its counts alone', () => {
+test('a proof without figures shows its counts only', () => {
   assert.match(soakTable([{ about: 'random calls', xml: suites(4, 1) }], run), /\| random calls \| 3 of 4 \| 13 \|  \|$/);
 });
 
@@ -42,7 +42,7 @@ test('a misspelt option of the soak ends with 2 before anything is built', () =>
   assert.equal(stdout, '');
 });
 
-test('the soak takes --publish, and of several words names the one that it does not know', () => {
+test('the soak accepts --publish, and an unknown option beside it is named', () => {
   const { status, stderr } = spawnSync(process.execPath, [inRepository('scripts', 'test-soak.mjs'), '--publish', '--publsh'], { encoding: 'utf8' });
   assert.equal(status, 2);
   assert.match(stderr, /'--publsh'/);

@@ -22,7 +22,7 @@ test('the picture covers 0 to the top frequency, 100 columns a second', () => {
   assert.ok((picture.rows - 1) * picture.hzPerRow <= 1000 && picture.rows * picture.hzPerRow > 1000);
 });
 
-test('a tone that starts half-way is seen half-way', () => {
+test('a tone that starts half-way begins in the middle column', () => {
   const samples = tone(500, 1, 2);
   samples.fill(0, 0, rateHz);
   const picture = spectrogram(samples, rateHz, 1000);
@@ -37,7 +37,7 @@ test('the colour map grows lighter at every step', () => {
   steps.slice(1).forEach((value, index) => assert.ok(value > steps[index], `step ${index + 1}`));
 });
 
-test('shares beyond the scale take the colours of its ends', () => {
+test('values beyond the scale have the colours of its ends', () => {
   assert.deepEqual(colourOf(-Infinity), colourOf(0));
   assert.deepEqual(colourOf(7), colourOf(1));
 });

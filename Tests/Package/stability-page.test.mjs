@@ -11,7 +11,7 @@ const sources = readdirSync(native)
   .flatMap((folder) => (folder.includes('.') ? [] : readdirSync(path.join(native, folder)).map((name) => path.join(native, folder, name))))
   .filter((file) => file.endsWith('_test.cpp'));
 
-test('every test that the stability page names is there', () => {
+test('every test that the stability page names exists', () => {
   const text = sources.map((file) => readFileSync(file, 'utf8')).join('\n');
   // "…" stands for the rest of a name; what a program makes of a number is left off.
   const names = [...page.matchAll(/`(?:OnModel\/)?(…?)([A-Z][A-Za-z0-9]{4,})(…?)\/?`/g)];
@@ -25,7 +25,7 @@ test('every test that the stability page names is there', () => {
   assert.deepEqual(missing, []);
 });
 
-test('every file that the stability page names is there', () => {
+test('every file that the stability page names exists', () => {
   const files = [...page.matchAll(/Tests\/Native\/[\w/.]*\.cpp/g)].map(([file]) => file);
   assert.ok(files.length > 5);
   assert.deepEqual(files.filter((file) => !existsSync(inRepository(file))), []);

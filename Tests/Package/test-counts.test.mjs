@@ -17,7 +17,7 @@ test('node\'s TAP is read, cancelled tests counted as failed', () => {
   assert.deepEqual(countsOfTap(tap), { passed: 2, failed: 2, skipped: 1 });
 });
 
-test('a TRX file of dotnet test is read, what neither passed nor was left out counted as failed', () => {
+test('a TRX file of dotnet test is read, and tests that neither passed nor were skipped count as failed', () => {
   const trx = '<ResultSummary outcome="Failed">\n<Counters total="9" executed="8" passed="5" failed="1" error="1" timeout="1" aborted="0" ' +
     'inconclusive="0" notExecuted="1" passedButRunAborted="0" /></ResultSummary>';
   assert.deepEqual(countsOfTrx(trx), { passed: 5, failed: 3, skipped: 1 });
@@ -36,7 +36,7 @@ test('a runner that ran nothing has failed, even with exit code 0', () => {
   assert.equal(judged({ passed: 0, failed: 0, skipped: 3 }, 0).failed, 1);
 });
 
-test('a runner that ended badly has failed, even where every test it counted passed', () => {
+test('a runner with a non-zero exit code has failed, even where every counted test passed', () => {
   assert.equal(judged({ passed: 7, failed: 0, skipped: 0 }, 139).failed, 1);
 });
 

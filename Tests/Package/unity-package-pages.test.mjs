@@ -1,4 +1,4 @@
-// Pages name what exists: messages, menus, components, members, markers, commands.
+// Everything that the pages name exists: messages, menus, components, members, profiler markers, commands.
 import assert from 'node:assert/strict';
 import { readFileSync, readdirSync } from 'node:fs';
 import path from 'node:path';
@@ -18,17 +18,17 @@ const sources = files
   .map((name) => ({ name, text: read(name) }));
 const runtime = sources.filter(({ name }) => name.includes('/Runtime/'));
 
-/** What C# source logs or says for people: string literals that begin with "HaptoFlow", joined over +, holes as null. */
+/** The messages of a C# source: string literals that begin with "HaptoFlow", joined over +, with null for interpolations. */
 function messagesOf(text) {
   const joined = text.replace(/"\s*\+\s*\$?"/g, '');
   return [...joined.matchAll(/\$?"(HaptoFlow(?::|'s)(?:[^"\\]|\\.)*)"/g)].map(([, literal]) => literal.replaceAll('\\"', '"').split(/\{[^}]*\}/));
 }
 
-test('there is a page for each part that the package promises', () => {
+test('there is a page for each part of the package', () => {
   for (const name of ofUnity) assert.ok(pageNames.includes(`${name}.md`), name);
 });
 
-test('troubleshooting has every message that the runtime says', () => {
+test('troubleshooting lists every message of the runtime', () => {
   const page = read('Documentation~', 'troubleshooting.md');
   const messages = runtime.flatMap(({ name, text }) => messagesOf(text).map((pieces) => ({ name, pieces })));
   assert.ok(messages.length >= 8, `${messages.length} messages found in the sources`);

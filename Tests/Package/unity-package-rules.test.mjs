@@ -48,7 +48,7 @@ MonoBehaviour:
   view: {fileID: 100}
 `;
 
-/** The smallest package that keeps to every rule. */
+/** A minimal package that satisfies every rule. */
 function goodFiles() {
   const manifest = {
     name: 'com.example.felt', version: '1.2.3', displayName: 'Felt', description: 'Feels.', unity: '2022.3', license: 'MIT',
@@ -86,7 +86,7 @@ const importerOf = (name) => {
   return name === 'package.json' ? 'PackageManifestImporter:' : 'DefaultImporter:';
 };
 
-/** The good package, its .meta files made, then changed: a text or bytes for a file, null takes it away. */
+/** The good package with its .meta files and with changes: text or bytes for a file, null to remove it. */
 function packageWith(changes = {}) {
   const contents = new Map(Object.entries(goodFiles()));
   const imported = (name) => !/(^|\/)[^/]*~(\/|$)/.test(name) || name.startsWith('Samples~/Touch/');
@@ -101,7 +101,7 @@ function packageWith(changes = {}) {
   return new PackageFiles(contents);
 }
 
-/** Exactly the rule named complains, once, in words that match. */
+/** Asserts that only the named rule complains, once, with a message that matches. */
 function complains(rule, changes, pattern) {
   const files = packageWith(changes);
   const found = Object.entries(rules).flatMap(([name, check]) => check(files).map((complaint) => [name, complaint]));
@@ -173,7 +173,7 @@ test('UnityEngine in an assembly without engine references is found', () => comp
 test('an editor assembly for all platforms is found', () => {
   assert.match(rules['assembly platforms'](packageWith({ 'Editor/Felt.Editor.asmdef': edited({ includePlatforms: [] }) }))[0], /"includePlatforms": \["Editor"\]/);
 });
-test('a test assembly in every project is found', () => {
+test('a test assembly without a define constraint for tests is found', () => {
   complains('assembly platforms', { 'Tests/Runtime/Felt.Tests.asmdef': edited({ references: ['Felt'], defineConstraints: [] }) }, /UNITY_INCLUDE_TESTS/);
 });
 

@@ -1,4 +1,4 @@
-// Packs the package as it is and reads the tarball as Unity would.
+// Packs the package and reads the tarball as Unity would.
 import assert from 'node:assert/strict';
 import { mkdtempSync, readFileSync, rmSync } from 'node:fs';
 import os from 'node:os';
@@ -30,9 +30,9 @@ before(async () => {
 
 after(() => rmSync(folder, { recursive: true, force: true }));
 
-test('Unity would refuse, leave out and lose nothing of it', () => assert.deepEqual(checkPackage(files), []));
+test('Unity would refuse, leave out and lose nothing of the package', () => assert.deepEqual(checkPackage(files), []));
 
-test('npm left nothing out of what was staged', () => {
+test('the tarball has every staged file', () => {
   assert.deepEqual(files.names, PackageFiles.inFolder(path.join(folder, 'staged')).names);
 });
 
@@ -46,7 +46,7 @@ test('the tarball is named by the manifest\'s name and version, which are the re
   assert.equal(dependencies['com.github.asus4.onnxruntime'], locked);
 });
 
-test('every built library is in it with its settings, and none of another platform', () => {
+test('the tarball has every built library with its import settings, and no settings of other platforms', () => {
   for (const { platform, file } of found) {
     const name = `${pluginsFolder}/${platform.place}`;
     assert.deepEqual(files.bytes(name), readFileSync(file), name);
@@ -57,7 +57,7 @@ test('every built library is in it with its settings, and none of another platfo
   }
 });
 
-test('model, samples, documentation, tests, licence and notices are in it', () => {
+test('the tarball has model, samples, documentation, tests, licence and notices', () => {
   const parts = [
     'Runtime/Models/default.haptoflow', 'Runtime/Mixer/HaptoFlow.mixer', 'Runtime/Core/HaptoFlow.Core.asmdef', 'Editor/HaptoFlow.Editor.asmdef',
     'Samples~/StylusTracing/StylusTracing.unity', 'Samples~/TextureGallery/TextureGallery.unity', 'Samples~/Workshop/Workshop.unity', 'Samples~/SimilarityStudy/SimilarityStudy.unity', 'Samples~/HeadlessScenes/crossing.scene.json',
@@ -68,7 +68,7 @@ test('model, samples, documentation, tests, licence and notices are in it', () =
   assert.equal(files.text('LICENSE.md'), read('LICENSE'));
 });
 
-test('nothing of the repository\'s tools, build outputs or other tests is in it', () => {
+test('the tarball has no tools, build outputs or other tests of the repository', () => {
   const strangers = files.names.filter((name) => /(^|\/)(bin|obj|node_modules)\/|^Tests\/(?!Runtime|Editor)|\.(cpp|hpp|py|mjs|csproj)$/.test(name));
   assert.deepEqual(strangers, []);
 });

@@ -2,7 +2,7 @@ import assert from 'node:assert/strict';
 import test from 'node:test';
 import { commonGain, peakOf, readFloatWav, writePcm16Wav } from '../../scripts/demo/wav.mjs';
 
-/** A float WAV with an odd-sized chunk before its data, as editors write. */
+/** A float WAV with a chunk of odd size before its data, as audio editors write it. */
 function floatWav(samples, rateHz, { format = 3, channels = 1, bits = 32 } = {}) {
   const data = Buffer.from(Float32Array.from(samples).buffer);
   const head = Buffer.alloc(36);
@@ -21,7 +21,7 @@ function floatWav(samples, rateHz, { format = 3, channels = 1, bits = 32 } = {})
   return Buffer.concat([head, odd, size, data]);
 }
 
-test('a float file gives its rate and its samples, chunks it does not know skipped', () => {
+test('rate and samples of a float file are read, and unknown chunks are skipped', () => {
   const { rateHz, samples } = readFloatWav(floatWav([0, 0.5, -1], 48000), 'a.wav');
   assert.equal(rateHz, 48000);
   assert.deepEqual([...samples], [0, 0.5, -1]);
@@ -31,7 +31,7 @@ test('a file that is no WAV is refused by name', () => {
   assert.throws(() => readFloatWav(Buffer.from('not a sound file'), 'b.wav'), /b\.wav: expected a RIFF\/WAVE file/);
 });
 
-test('stereo and 16-bit files are refused, saying what they are', () => {
+test('stereo and 16-bit files are refused, and the message states their format', () => {
   assert.throws(() => readFloatWav(floatWav([0, 0], 48000, { channels: 2 }), 'c.wav'), /2 channels/);
   assert.throws(() => readFloatWav(floatWav([0, 0], 48000, { format: 1, bits: 16 }), 'c.wav'), /16 bits/);
 });
@@ -48,7 +48,7 @@ test('16-bit output carries rate, length and scaled samples, and clips instead o
   assert.deepEqual([0, 1, 2, 3].map((index) => bytes.readInt16LE(44 + 2 * index)), [0, 16384, -16383, 32767]);
 });
 
-test('the common gain brings the loudest of all signals to -1 dBFS and the others keep their distance', () => {
+test('with the common gain the loudest signal peaks at -1 dBFS, and the ratios of the signals stay', () => {
   const loud = Float32Array.from([0.1, -0.4]);
   const quiet = Float32Array.from([0.04]);
   const gain = commonGain([quiet, loud]);
@@ -56,6 +56,6 @@ test('the common gain brings the loudest of all signals to -1 dBFS and the other
   assert.ok(Math.abs(peakOf(loud) / peakOf(quiet) - 10) < 1e-5);
 });
 
-test('silence keeps a gain of one', () => {
+test('silent signals have a gain of 1', () => {
   assert.equal(commonGain([new Float32Array(8)]), 1);
 });

@@ -1,12 +1,12 @@
 import { withMeasuredPart } from '../lib/measured_part.mjs';
 import { modelLine } from '../lib/model_stamp.mjs';
 
-/** `document` with the text between its two markers replaced by the model's SHA-256 and the tables, as they were printed. */
+/** `document` with the text between its two markers replaced by the model's SHA-256 and the printed tables. */
 export function withMeasuredTables(document, tables, modelSha256) {
   return withMeasuredPart(document, 'npm run bench -- --publish', `${modelLine(modelSha256)}\n\n\`\`\`\n${tables.trim()}\n\`\`\``);
 }
 
-/** The report with the SHA-256 of the model that was measured beside what it says of the model. */
+/** The report with the SHA-256 of the measured model added to its description of the model. */
 export const withModelSha256 = (report, sha256) => ({ ...report, model: { ...report.model, sha256 } });
 
 /**

@@ -6,7 +6,7 @@ import { CommandError, runOrFail } from '../lib/process.mjs';
 import { inRepository, repositoryRoot } from '../lib/repository.mjs';
 import { findCmake, findJsonHeader, findNdk, thisMachine } from './android_tools.mjs';
 
-/** The preset whose settings are taken; CMake of Android's SDK is too old to read presets itself. */
+/** The preset whose cache variables are passed on the command line: the CMake of Android's SDK is too old to read presets. */
 export const androidPreset = 'android-arm64';
 export const androidTarget = 'audioplugin_haptoflow';
 
@@ -20,8 +20,8 @@ export function presetVariables(name, presets = JSON.parse(readFileSync(inReposi
 const list = (looked) => looked.map((line) => `  ${line}`).join('\n');
 
 /**
- * What the build needs, found on a machine.
- * @throws CommandError that says where it looked and what to install
+ * Finds the tools that the Android build needs.
+ * @throws CommandError that lists the places searched and what to install
  */
 export function androidTools(machine = thisMachine()) {
   const { ndk, looked } = findNdk(machine);
@@ -49,7 +49,7 @@ export function androidTools(machine = thisMachine()) {
   return { ndk, cmake: programs.cmake, ninja: programs.ninja, json: json.folder };
 }
 
-/** The two command lines that make the library: to configure and to build. */
+/** The command lines that configure and build the library. */
 export function androidCommands({ ndk, cmake, ninja, json }, folder) {
   const variables = {
     ...presetVariables(androidPreset),
@@ -65,8 +65,8 @@ export function androidCommands({ ndk, cmake, ninja, json }, folder) {
 }
 
 /**
- * Brings a library that was built before up to date with the tools that its folder was configured with: whoever named an
- * NDK for the build need not name it again for `pack`. @returns {Promise<string>} its path
+ * Rebuilds a library in the folder of an earlier build, with the tools that this folder is configured with, so that `pack`
+ * needs no NDK in the environment. @returns {Promise<string>} the library's path
  */
 export async function rebuildAndroid(folder = inRepository(presetFolder(androidPreset))) {
   const cmake = cachedVariable(readFileSync(path.join(folder, 'CMakeCache.txt'), 'utf8'), 'CMAKE_COMMAND');
@@ -75,7 +75,7 @@ export async function rebuildAndroid(folder = inRepository(presetFolder(androidP
   return builtLibrary(folder);
 }
 
-/** Builds Android's library. @returns {Promise<string>} its path */
+/** Builds the Android library. @returns {Promise<string>} its path */
 export async function buildAndroid(tools = androidTools(), folder = inRepository(presetFolder(androidPreset))) {
   console.log(`build: with the NDK ${tools.ndk}`);
   forgetOtherToolchain(folder, path.join(tools.ndk, 'build', 'cmake', 'android.toolchain.cmake'));
@@ -90,7 +90,7 @@ function builtLibrary(folder) {
   return library;
 }
 
-/** CMake does not change the toolchain of a folder that was configured with another. */
+/** Deletes the cache of a folder configured with another toolchain, since CMake cannot change the toolchain of a folder. */
 function forgetOtherToolchain(folder, toolchain) {
   const cache = path.join(folder, 'CMakeCache.txt');
   if (existsSync(cache) && cachedVariable(readFileSync(cache, 'utf8'), 'CMAKE_TOOLCHAIN_FILE') !== toolchain) {

@@ -3,11 +3,11 @@ import { existsSync, readFileSync, readdirSync } from 'node:fs';
 import os from 'node:os';
 import path from 'node:path';
 
-/** Oldest that the sources compile with: C++20's library, and what the CMake files ask for. */
+/** The oldest NDK with the C++20 library that the sources need, and the oldest CMake that the CMake files accept. */
 const oldestNdkMajor = 23;
 const oldestCmake = [3, 22];
 
-/** This machine, as the search sees it; tests pass made-up ones. */
+/** What the search reads of this machine. Tests pass machines of their own. */
 export const thisMachine = () => ({
   env: process.env,
   platform: process.platform,
@@ -21,7 +21,7 @@ export const thisMachine = () => ({
 
 const numbers = (text) => (text.match(/\d+/g) ?? []).map(Number);
 
-/** Newest first: "2022.3.9f1" before "2022.3.10f1" would be wrong by letters. */
+/** Orders versions by their numbers, newest first: by letters, "2022.3.9f1" would come before "2022.3.10f1". */
 const byVersion = (one, other) => {
   const [a, b] = [numbers(one), numbers(other)];
   const place = a.findIndex((value, index) => value !== b[index]);
@@ -39,7 +39,7 @@ function hubSettings({ env, platform, home }) {
   return platform === 'darwin' ? path.join(home, 'Library', 'Application Support', 'UnityHub') : path.join(home, '.config', 'UnityHub');
 }
 
-/** The folder that the Hub's user chose for editors; null where none was chosen. */
+/** The editor folder set in Unity Hub; null where none is set. */
 function chosenEditors(machine) {
   try {
     const chosen = JSON.parse(readFileSync(path.join(hubSettings(machine), 'secondaryInstallPath.json'), 'utf8'));
@@ -49,7 +49,7 @@ function chosenEditors(machine) {
   }
 }
 
-/** Folders that hold a folder for each version of Unity. */
+/** Folders with one subfolder for each installed version of Unity. */
 function editorFolders(machine) {
   const { env, platform, home, applications } = machine;
   const usual = {
@@ -59,7 +59,7 @@ function editorFolders(machine) {
   return [chosenEditors(machine), usual].filter((folder) => folder !== null);
 }
 
-/** Unity's Android support of each installed version, the newest version of a folder first. */
+/** The Android support folder of every installed version of Unity; within one editor folder, newest first. */
 function androidPlayers(machine) {
   const inEditor = machine.platform === 'darwin' ? [] : ['Editor', 'Data'];
   return editorFolders(machine).flatMap((folder) =>
@@ -67,7 +67,7 @@ function androidPlayers(machine) {
   );
 }
 
-/** Android SDKs outside of Unity: Android Studio's. */
+/** Android SDKs that Android Studio installed. */
 function androidSdks({ env, platform, home }) {
   const usual = {
     win32: path.join(env.LOCALAPPDATA ?? path.join(home, 'AppData', 'Local'), 'Android', 'Sdk'),
@@ -76,7 +76,7 @@ function androidSdks({ env, platform, home }) {
   return [...new Set([env.ANDROID_HOME, env.ANDROID_SDK_ROOT, usual].filter(Boolean))];
 }
 
-/** Why a folder is no NDK that can be used; null for one that can. */
+/** The reason why a folder is not a usable NDK; null for a usable one. */
 function whyNoNdk(folder) {
   if (!existsSync(folder)) return 'is not there';
   if (!existsSync(path.join(folder, 'build', 'cmake', 'android.toolchain.cmake'))) return 'has no build/cmake/android.toolchain.cmake';
@@ -87,8 +87,8 @@ function whyNoNdk(folder) {
 }
 
 /**
- * The Android NDK: one that the environment names, else one that Unity's Hub installed, else Android Studio's.
- * @returns {{ndk: string | null, looked: string[]}} looked: each place in turn, and why it is none
+ * Finds the Android NDK: from the environment, else installed by Unity Hub, else by Android Studio.
+ * @returns {{ndk: string | null, looked: string[]}} looked: each place searched, with the reason why it was not used
  */
 export function findNdk(machine = thisMachine()) {
   const named = ['ANDROID_NDK_HOME', 'ANDROID_NDK_ROOT'].filter((name) => machine.env[name]).map((name) => ({ place: machine.env[name], label: `${name}=` }));
@@ -112,7 +112,7 @@ const isAtLeast = (version, oldest) => {
 };
 
 /**
- * CMake and Ninja: those on PATH, else those of an Android SDK, which Unity's Hub installs side by side.
+ * Finds CMake and Ninja: on PATH, else in an Android SDK, where Unity Hub installs both.
  * @returns {{cmake: string | null, ninja: string | null, looked: string[]}}
  */
 export function findCmake(machine = thisMachine()) {
@@ -132,7 +132,7 @@ export function findCmake(machine = thisMachine()) {
 }
 
 /**
- * The folder that holds nlohmann/json.hpp, the one library that the plugin's sources include.
+ * Finds the folder that holds nlohmann/json.hpp, the only third-party library that the plugin's sources include.
  * @returns {{folder: string | null, looked: string[]}}
  */
 export function findJsonHeader(machine = thisMachine(), repository = '.') {

@@ -12,7 +12,7 @@ export function niceCeiling(value) {
 
 const shown = (value) => Number(value.toPrecision(3)).toString();
 
-/** One lane of a figure: what is drawn, with its axis in the gutter on the left. */
+/** One lane of a figure: its content, with the axis in the margin on the left. */
 function lane(name, axis, picture, className = '') {
   const ticks = axis.map(({ text, share }) => `<span style="bottom:${(100 * share).toFixed(1)}%">${escapeMarkup(text)}</span>`).join('');
   return `<div class="lane ${className}"><div class="axis"><b>${escapeMarkup(name)}</b>${ticks}</div><div class="picture">${picture}</div></div>`;
@@ -22,7 +22,7 @@ const svg = (label, content) =>
   `<svg viewBox="0 0 ${pictureWidth} ${pictureHeight}" preserveAspectRatio="none" role="img" aria-label="${escapeMarkup(label)}">${content}</svg>`;
 
 /**
- * The waveform as the band between the lowest and highest sample of each column.
+ * The waveform as a band between the minimum and maximum of each column.
  * @param {Float32Array} samples +-1 @param {number} fullScaleMps2 what 1 means @param {number} top of the axis in m/s^2
  */
 export function waveformLane(samples, fullScaleMps2, top, label) {
@@ -51,7 +51,7 @@ export function spectrogramLane(png, topHz, label) {
   return lane('Hz', axis, `<img src="${source}" alt="${escapeMarkup(label)}">`, 'spectrogram');
 }
 
-/** A quantity of the contact over time, as a filled line from zero. */
+/** A quantity of the contact state over time, as a line with the area below it filled. */
 export function quantityLane(name, unit, times, values, seconds) {
   const top = niceCeiling(Math.max(...values));
   const points = values.map((value, index) => `${((pictureWidth * times[index]) / seconds).toFixed(1)},${(pictureHeight * (1 - value / top)).toFixed(1)}`);
@@ -72,7 +72,7 @@ export function labelStretches(readings) {
   return stretches.filter((stretch) => stretch.label !== null);
 }
 
-/** What is touched when, as coloured bands; `text` takes the place of the labels' names. */
+/** The touched label over time, as coloured bands. `text`, where given, is written instead of label names. */
 export function bandLane(readings, seconds, text) {
   const bands = labelStretches(readings).map(({ label, begin, end }) => {
     const place = `left:${((100 * begin) / seconds).toFixed(2)}%;width:${((100 * (end - begin)) / seconds).toFixed(2)}%`;
@@ -81,7 +81,7 @@ export function bandLane(readings, seconds, text) {
   return lane('touches', [], bands.join(''), 'bands');
 }
 
-/** Seconds under a figure. */
+/** The time axis below a figure, in seconds. */
 export function timeAxis(seconds) {
   const step = seconds > 7 ? 2 : 1;
   const marks = Array.from({ length: Math.floor(seconds / step) + 1 }, (_, index) => index * step);

@@ -1,2 +1,2 @@
-/** The acceleration that is +-1 in a rendered file: the command line's default, as in the C header. */
+/** Full scale of a rendered file in m/s^2: the default of the command line, equal to the one in the C header. */
 export const fullScaleMps2 = 200;

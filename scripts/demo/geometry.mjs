@@ -1,15 +1,15 @@
-/** What the drawings need of a scene's geometry: rotated outlines, a moving object's place. Metres, Unity's frame. */
+/** Geometry for the drawings of a scene: rotated outlines and positions of moving objects. Metres, Unity's frame. */
 
 const add = (a, b) => a.map((value, axis) => value + b[axis]);
 const cross = (a, b) => [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
 
-/** `v` turned by the unit quaternion [x, y, z, w]. */
+/** `v` rotated by the unit quaternion [x, y, z, w]. */
 export function rotate([x, y, z, w], v) {
   const twice = cross([x, y, z], v).map((value) => 2 * value);
   return add(add(v, twice.map((value) => w * value)), cross([x, y, z], twice));
 }
 
-/** Corners of the smallest convex polygon around points of a plane, counter-clockwise. */
+/** Convex hull of points in a plane: its corners, counter-clockwise. */
 export function convexHull(points) {
   const sorted = [...points].sort((a, b) => a[0] - b[0] || a[1] - b[1]);
   const turn = (o, a, b) => (a[0] - o[0]) * (b[1] - o[1]) - (a[1] - o[1]) * (b[0] - o[0]);
@@ -25,13 +25,13 @@ export function convexHull(points) {
   return [...chain(sorted), ...chain(sorted.reverse())];
 }
 
-/** Where the drawing shows a surface at rest: its own pose, or the first keyframe of its motion. */
+/** The pose at which a drawing shows a surface: its own, or the first keyframe of its motion. */
 export function restPose(surface) {
   const pose = surface.motion?.keyframes[0] ?? surface;
   return { position: pose.position ?? [0, 0, 0], rotation: pose.rotation ?? [0, 0, 0, 1] };
 }
 
-/** Points whose hull, seen along an axis of the world, is the surface's outline; null for a plane. */
+/** Points whose convex hull in any view along a world axis is the surface's outline; null for a plane. */
 function outlinePoints(surface, project) {
   const { position, rotation } = restPose(surface);
   const placed = (local) => project(add(rotate(rotation, local), position));
@@ -60,7 +60,7 @@ export function outline(surface, project) {
   return points && convexHull(points);
 }
 
-/** Where a surface's keyframes put it, as the engine moves it: a cubic whose velocity is continuous. */
+/** Position of a moving surface at a time, interpolated as the engine does it: a cubic with continuous velocity. */
 export function positionAt(surface, timeSeconds) {
   const keyframes = surface.motion?.keyframes;
   if (!keyframes) return restPose(surface).position;
@@ -85,7 +85,7 @@ export function positionAt(surface, timeSeconds) {
   });
 }
 
-/** Mean velocity between a keyframe's neighbours; the two ends of a closed loop are one keyframe. */
+/** Velocity at a keyframe: the mean between its neighbours. The first and last keyframe of a closed loop are the same. */
 function velocityAt(keyframes, index, loop) {
   const end = keyframes.length - 1;
   const chord = (from, to, wrap = 0) =>

@@ -5,7 +5,7 @@ const colours = {
   sandpaper: '#d98e2b', carpet: '#5f8f5a',
 };
 
-/** A label's colour wherever it is drawn; labels of other models share one. */
+/** The colour of a label in every drawing. Labels that the shipped model does not have share one colour. */
 export const colourOfLabel = (label) => colours[label] ?? '#7a7a7a';
 
 /** Label names of a surface's material (a name, or weights by name), strongest first. */

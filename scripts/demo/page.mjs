@@ -24,7 +24,7 @@ export function demoPage(report, renders) {
   const loudest = Math.max(...pictures.map(({ amplitudes }) => amplitudes.reduce((a, b) => Math.max(a, b), 0)));
   const topDb = loudest > 0 ? 5 * Math.ceil((20 * Math.log10(loudest * fullScaleMps2)) / 5) : 0;
   const range = { bottomDb: topDb - dynamicRangeDb, topDb };
-  // One scale for all: what is drawn lower is weaker.
+  // All waveforms share one scale, so that their heights can be compared.
   const topMps2 = niceCeiling(fullScaleMps2 * Math.max(...renders.map(({ samples }) => peakOf(samples))));
   const isWhole = (index) => index === 0 || index === renders.length - 1;
   const figures = renders.map((render, index) => figureOf(render, pictures[index], { ...range, topMps2, gain }, isWhole(index)));

@@ -1,4 +1,4 @@
-// One button for each player: it plays and pauses, arrow keys seek. The playhead, the tip and the moving objects follow.
+// Each player has one button that plays and pauses; arrow keys seek. Playhead, tip and moving objects follow the sound.
 (() => {
   const trackRateHz = 30;
   const seekSeconds = 0.5;

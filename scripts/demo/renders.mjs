@@ -11,7 +11,7 @@ export const tracedLabels = ['wood', 'metal mesh', 'corduroy', 'sandpaper', 'gla
 
 export const tapsName = 'taps and rims';
 
-/** What the demo renders: the crossing scene, the traced plate once for each label, and last the taps with all effects. */
+/** The renders of the demo: the crossing scene, the traced plate once for each label, and the taps with all effects. */
 export function plannedRenders() {
   const crossing = { name: 'crossing', scene: readScene('crossing'), stroke: path.join(samples, 'crossing.stroke.csv') };
   const plate = readScene('tracing');
@@ -26,7 +26,7 @@ export function plannedRenders() {
   return [crossing, ...traced, taps];
 }
 
-/** The same scene with every surface of one label. */
+/** A copy of the scene in which every surface has the given label. */
 export const withMaterial = (scene, label) => ({
   ...scene,
   surfaces: scene.surfaces.map((surface) => ({ ...surface, material: label })),
@@ -35,7 +35,7 @@ export const withMaterial = (scene, label) => ({
 const readScene = (name) => JSON.parse(readFileSync(path.join(samples, `${name}.scene.json`), 'utf8'));
 
 /**
- * Renders one stroke with the command line program; its files go to `folder`.
+ * Renders one stroke with the command line and writes its files to `folder`.
  * @returns {Promise<{name, scene, report, wavPath, contacts}>}
  */
 export async function render({ name, scene, stroke, effects }, folder) {

@@ -5,7 +5,7 @@ const pixelsPerMetre = 1000;
 const marginMetres = 0.05;
 const trackRateHz = 30;
 
-/** The two ways of looking: which axes of the world go right and up, and which axis orders far before near. */
+/** The two views: the world axes that point right and up, and the axis along which far objects are drawn before near ones. */
 const views = [
   { name: 'top', caption: 'Seen from above', right: 0, up: 2, depth: (position) => position[1] },
   { name: 'side', caption: 'Seen from the front', right: 0, up: 1, depth: (position) => -position[2] },
@@ -32,7 +32,7 @@ function drawView(view, scene, path) {
   const drawnPlanes = planes.map((plane) => drawPlane(view, plane, frame, toPicture)).join('');
   const drawnSolids = solids.map((surface) => drawSolid(surface, project, toPicture, path.at(-1).timeSeconds)).join('');
   const layers = view.name === 'top' ? drawnPlanes + drawnSolids : drawnSolids + drawnPlanes;
-  // Nearer objects would hide each other's names from the front; the colours say which is which.
+  // The front view has no names: nearer objects would cover them. Colours identify the objects.
   const names = view.name === 'top' ? solids.map((surface) => nameOf(surface, project, toPicture)).join('') : '';
   const title = `${view.caption}: ${scene.surfaces.map((surface) => `${surface.name} (${labelsOf(surface.material).join(' and ')})`).join(', ')}`;
   return `<figure class="view"><svg viewBox="0 0 ${frame.width} ${frame.height}" role="img" aria-label="${escapeMarkup(title)}">
@@ -45,7 +45,7 @@ function frameAround(view, scene, path, project) {
   const [left, right] = [Math.min, Math.max].map((pick, side) => pick(...points.map(([x]) => x)) + (side ? 1 : -1) * marginMetres);
   const top = Math.max(...points.map(([, y]) => y)) + marginMetres;
   const floor = scene.surfaces.filter((surface) => surface.shape.plane).map((plane) => restPose(plane).position[1]);
-  // Seen from the front, what lies under the table is hidden by it.
+  // In the front view the table covers everything below it.
   const lowest = view.name === 'side' && floor.length > 0 ? Math.min(...floor) : Math.min(...points.map(([, y]) => y));
   const bottom = lowest - marginMetres;
   return { left, top, width: Math.round((right - left) * pixelsPerMetre), height: Math.round((top - bottom) * pixelsPerMetre) };

@@ -41,7 +41,7 @@ const inferno = [
   [242, 234, 105], [252, 255, 164],
 ];
 
-/** Red, green, blue (0-255) for a share from 0 to 1. */
+/** Red, green, blue (0-255) of a value from 0 to 1. */
 export function colourOf(share) {
   const place = Math.max(0, Math.min(1, share)) * (inferno.length - 1);
   const lower = Math.min(Math.floor(place), inferno.length - 2);

@@ -2,9 +2,9 @@ import { parseCsv } from './csv.mjs';
 import { labelsOf } from './labels.mjs';
 
 /**
- * What a stroke does in a scene, from the output of `haptoflow contact` and the stroke itself.
+ * Combines a stroke with the contact states that `haptoflow contact` computed for it.
  * @returns {{timeSeconds: number, position: number[], touching: boolean, label: string | null, speedMps: number, forceNewtons: number}[]}
- *   times count from the stroke's start; speed is the tip's along the surface, 0 without touch
+ *   times are relative to the start of the stroke; speed is tangential to the surface, 0 without touch
  */
 export function readContacts(contactCsv, strokeCsv, scene) {
   const stroke = parseCsv(strokeCsv, 'stroke', ['t', 'x', 'y', 'z']).map((row) => ({

@@ -61,7 +61,7 @@ export function peakOf(samples) {
   return peak;
 }
 
-/** The one gain that brings the loudest of several signals to -1 dBFS; 1 where all are silent. */
+/** The gain at which the loudest of several signals peaks at -1 dBFS; 1 where all are silent. */
 export function commonGain(signals) {
   const loudest = Math.max(0, ...signals.map(peakOf));
   return loudest > 0 ? 10 ** (-1 / 20) / loudest : 1;

@@ -13,13 +13,12 @@ export function loadAlignment(elf) {
   return Math.max(0, ...headers.filter((header) => header.readUInt32LE(0) === load).map((header) => Number(header.readBigUInt64LE(48))));
 }
 
-/** The options of a link command that CMake makes for the library, by which its pages are chosen. */
+/** The linker options for the page size in a link command. */
 export const pageOptions = (command) => [...command.matchAll(/-Wl,-z,max-page-size=\S+/g)].map(([option]) => option);
 
 /**
- * One test: CMake links the library for Android with segments that a device with pages of 16 KiB loads. The library is
- * configured for an Android without an NDK, its link options are taken from the build that CMake wrote, and a small library
- * is linked with them.
+ * One test: CMake links the Android library with segments that a device with pages of 16 KiB loads. Without an NDK, the
+ * project is configured for a stand-in of Android, and a small library is linked with the link options of that build.
  */
 export async function judgeAndroidPages() {
   const folder = inRepository('build', 'android-stand-in');
@@ -36,7 +35,7 @@ export async function judgeAndroidPages() {
     await runOrFail('aarch64-linux-gnu-gcc', ['-shared', '-fPIC', source, '-o', library, ...pageOptions(link)], { quiet: true });
     const alignment = loadAlignment(readFileSync(library));
     if (alignment === androidPageBytes) return { passed: 1, failed: 0, skipped: 0 };
-    console.error(`test: for Android the library's segments are aligned to ${alignment} bytes; expected ${androidPageBytes}`);
+    console.error(`test: the segments of the Android library are aligned to ${alignment} bytes; expected ${androidPageBytes}`);
   } catch (error) {
     if (!(error instanceof CommandError)) throw error;
     console.error(`test: ${error.message}`);

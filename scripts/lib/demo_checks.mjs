@@ -3,7 +3,7 @@ import { inRepository } from './repository.mjs';
 import { closingLine } from './test_counts.mjs';
 import { runNodeTests } from './test_runners.mjs';
 
-// Checks what `npm run demo` left in out/demo; the counts go to out/test/demo-summary.json.
+// Checks the files that `npm run demo` wrote to out/demo and writes the counts to out/test/demo-summary.json.
 const counts = await runNodeTests([inRepository('Tests', 'Package', 'demo-outputs.check.mjs')]);
 mkdirSync(inRepository('out', 'test'), { recursive: true });
 writeFileSync(inRepository('out', 'test', 'demo-summary.json'), `${JSON.stringify(counts, null, 2)}\n`);

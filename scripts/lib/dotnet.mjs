@@ -8,12 +8,12 @@ import { inRepository } from './repository.mjs';
 const aptPackage = 'dotnet-sdk-10.0';
 const script = 'https://dot.net/v1/dotnet-install.sh';
 
-/** Where set-up puts the SDK that no package brings. */
+/** The folder into which set-up installs the SDK where no Debian package has it. */
 export const dotnetFolder = () => inRepository('build', 'dotnet');
 
 /**
- * The `dotnet` whose SDK 10 the C# tests run with: the one that set-up brought, else the one on PATH; null where there
- * is none.
+ * The `dotnet` with SDK 10 that runs the C# tests: the one that set-up installed, else the one on PATH; null where neither
+ * exists.
  * @param {{folder?: string, env?: NodeJS.ProcessEnv}} place
  */
 export function findDotnet({ folder = dotnetFolder(), env = process.env } = {}) {
@@ -24,19 +24,19 @@ export function findDotnet({ folder = dotnetFolder(), env = process.env } = {}) 
   }) ?? null;
 }
 
-/** What `dotnet` needs in its environment: one in a folder of its own is not found by the programs that it starts. */
+/** The environment for `dotnet`: programs started by it find an SDK outside the system's folders by DOTNET_ROOT only. */
 export function dotnetEnvironment(dotnet) {
   const own = path.isAbsolute(dotnet) ? { DOTNET_ROOT: path.dirname(dotnet) } : {};
   return { ...own, DOTNET_CLI_TELEMETRY_OPTOUT: '1', DOTNET_NOLOGO: '1' };
 }
 
 /**
- * Brings the .NET SDK 10 where it is missing: from apt where it is offered and may be installed, else by Microsoft's own
- * install script into `folder`, without root.
+ * Installs the .NET SDK 10 where it is missing: with apt where apt offers it and this process may install, else with
+ * Microsoft's install script into `folder`, without root.
  * @param {{folder?: string, env?: NodeJS.ProcessEnv, asRoot: string[] | null}} place asRoot: the words before apt-get,
  *   null where this process may not install
  * @returns {Promise<string>} the command
- * @throws CommandError (2), one line with the command to run, where neither can be reached
+ * @throws CommandError with exit code 2 and one command to run where neither source can be reached
  */
 export async function bringDotnet({ folder = dotnetFolder(), env = process.env, asRoot }) {
   const present = findDotnet({ folder, env });
@@ -45,13 +45,13 @@ export async function bringDotnet({ folder = dotnetFolder(), env = process.env, 
   const brought = findDotnet({ folder, env });
   if (brought) return brought;
   throw new CommandError(
-    `the C# tests need the .NET SDK 10 and it could not be brought (${reasons.filter(Boolean).join('; ')}). Run this where ` +
+    `the C# tests need the .NET SDK 10 and it could not be installed (${reasons.filter(Boolean).join('; ')}). Run this where ` +
       `the network allows it, then again what you ran: curl -fsSL ${script} | bash -s -- --channel 10.0 --install-dir ${folder}`,
     2,
   );
 }
 
-/** Null where it went well, else why not. */
+/** Null on success, else the reason for the failure. */
 async function installFromApt(env, asRoot) {
   const policy = spawnSync('apt-cache', ['policy', aptPackage], { encoding: 'utf8', env: { ...env, LC_ALL: 'C' } });
   if (offeredPackages([aptPackage], policy.stdout ?? '').length === 0) return `apt has no ${aptPackage}`;

@@ -2,21 +2,21 @@ import { readFileSync } from 'node:fs';
 import { run } from './process.mjs';
 import { inRepository } from './repository.mjs';
 
-/** What Unity looks up by name, declared in its own SDK and not in haptoflow.h. */
+/** The entry point that Unity looks up by name; Unity's plugin SDK declares it, not haptoflow.h. */
 const unitysEntry = 'UnityGetAudioEffectDefinitions';
 
-/** Names that a library of HaptoFlow exports, by the text of haptoflow.h: what Tests/Native/capi/exports_test.cpp asks of an ELF. */
+/** The names that the library must export, from the text of haptoflow.h. Tests/Native/capi/exports_test.cpp checks the same of an ELF. */
 export function declaredNames(headerText) {
   return [...headerText.matchAll(/^HAPTOFLOW_API [^(;]*?(haptoflow_\w+)\(/gm)].map(([, name]) => name).concat(unitysEntry).sort();
 }
 
-/** Names in the export table that `objdump -p` prints of a DLL. */
+/** The exported names in the output of `objdump -p` for a DLL. */
 export function exportedNames(objdumpText) {
   const table = objdumpText.split('[Ordinal/Name Pointer] Table')[1]?.split(/\n\s*\n/)[0] ?? '';
   return [...table.matchAll(/^\s*\[\s*\d+\]\s+(?:\+base\[\s*\d+\]\s+(?:[0-9a-f]+\s+)?)?(\S+)$/gm)].map(([, name]) => name).sort();
 }
 
-/** One test: that DLL exports the header's functions and Unity's entry only. Names what is missing and what is too much. */
+/** One test: a DLL exports exactly the functions of the header and Unity's entry. Missing and additional names are printed. */
 export async function judgeExportsOfDll(dll) {
   const { exitCode, output } = await run('x86_64-w64-mingw32-objdump', ['-p', dll], { quiet: true });
   const declared = declaredNames(readFileSync(inRepository('NativePlugin', 'include', 'haptoflow', 'haptoflow.h'), 'utf8'));

@@ -3,11 +3,11 @@ import { run } from './process.mjs';
 import { inRepository } from './repository.mjs';
 import { countsOfJunit, judged, noCounts } from './test_counts.mjs';
 
-/** Where a test run's result of that name lies. */
+/** The path of a result file of a test run. */
 export const results = (name) => inRepository('out', 'test', name);
 
 /**
- * Runs a command that writes a JUnit file and judges what it wrote; a stale file cannot stand in for a new one.
+ * Runs a command that writes a JUnit file and counts its tests. A file of an earlier run is deleted first.
  * @param {{env?: Record<string, string>, limitSeconds?: number}} options as of `run`
  */
 export async function judgeJunit(file, command, args, options = {}) {

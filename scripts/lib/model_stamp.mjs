@@ -1,27 +1,27 @@
-// Which model a published figure was measured with: its SHA-256, in pages, results and pictures.
+// Stamps pages, results and pictures with the SHA-256 of the model that they were made with, and reads the stamps.
 import { createHash } from 'node:crypto';
 import { readFileSync } from 'node:fs';
 import { inRepository } from './repository.mjs';
 
 export const shippedModel = inRepository('Packages', 'com.haptoflow.runtime', 'Runtime', 'Models', 'default.haptoflow');
 
-/** The key of a picture's text that says it; Python and C# write the same. */
+/** The keyword of the PNG text chunk that holds the stamp. Python and C# write the same. */
 const pictureKey = 'Model-SHA-256';
 const signatureLength = 8;
 
 export const sha256Of = (file) => createHash('sha256').update(readFileSync(file)).digest('hex');
 
-/** The line of a page with figures. */
+/** The line of a page that names the model. */
 export const modelLine = (sha256) => `Model: SHA-256 \`${sha256}\`.`;
 
-/** SHA-256 that a page names; null where it names none. Throws RangeError where it names two. */
+/** The SHA-256 that a page names; null where it names none. Throws RangeError where it names two. */
 export function modelOfPage(text) {
   const named = new Set([...text.matchAll(/^Model: SHA-256 `([0-9a-f]{64})`\.$/gm)].map(([, sha256]) => sha256));
   if (named.size > 1) throw new RangeError(`the page names ${named.size} models`);
   return [...named][0] ?? null;
 }
 
-/** A PNG file's chunks: name, content and where they stand. */
+/** The chunks of a PNG file: name, content and offset. */
 function* chunks(png) {
   for (let at = signatureLength; at < png.length; ) {
     const length = png.readUInt32BE(at);
@@ -33,7 +33,7 @@ function* chunks(png) {
 
 const textOf = ({ name, content }) => (name === 'tEXt' ? content.toString('latin1').split('\0') : []);
 
-/** SHA-256 that a PNG file says it was drawn with; null where it says nothing. */
+/** The SHA-256 of the model that a PNG file is stamped with; null where it has no stamp. */
 export function modelOfPicture(png) {
   for (const chunk of chunks(png)) {
     const [key, value] = textOf(chunk);
@@ -42,7 +42,7 @@ export function modelOfPicture(png) {
   return null;
 }
 
-/** The same PNG file, saying which model it was drawn with. */
+/** The PNG file with a stamp of the model that it was drawn with; an older stamp is removed. */
 export function stampedPicture(png, sha256) {
   const kept = [...chunks(png)].filter((chunk) => textOf(chunk)[0] !== pictureKey).map(({ at, end }) => png.subarray(at, end));
   const typed = Buffer.from(`tEXt${pictureKey}\0${sha256}`, 'latin1');
@@ -54,7 +54,7 @@ export function stampedPicture(png, sha256) {
   return Buffer.concat([png.subarray(0, signatureLength), header, chunk, ...rest]);
 }
 
-/** CRC-32 as PNG has it: Node has it from version 22 on only. */
+/** CRC-32 of the PNG specification. Node has the function from version 22 on. */
 function checksum(bytes) {
   let remainder = 0xffffffff;
   for (const byte of bytes) {

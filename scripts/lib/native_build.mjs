@@ -9,7 +9,7 @@ export function cachedVariable(cacheText, name) {
 }
 
 /**
- * Configures a preset where it is not configured yet (or lacks the tests that are asked for) and builds it.
+ * Builds a preset. Configures it first where it is not configured, or is configured without the tests that `tests` requests.
  * @param {{preset?: string, tests?: boolean, targets?: string[]}} options targets: empty builds all
  */
 export async function buildNative({ preset = 'release', tests = false, targets = [] } = {}) {
@@ -20,14 +20,17 @@ export async function buildNative({ preset = 'release', tests = false, targets =
   const hasTests = cachedVariable(cached, 'HAPTOFLOW_BUILD_TESTS') === 'ON';
   if (!configured || (tests && !hasTests)) {
     console.log(`build: configuring ${folder}`);
-    await runOrFail('cmake', ['--preset', preset, `-DHAPTOFLOW_BUILD_TESTS=${tests ? 'ON' : 'OFF'}`], { env: launchers(), quiet: true });
+    await runOrFail('cmake', ['--preset', preset, `-DHAPTOFLOW_BUILD_TESTS=${tests ? 'ON' : 'OFF'}`, ...vcpkgFeatures(preset, tests)], { env: launchers(), quiet: true });
   }
   console.log(`build: ${targets.length > 0 ? targets.join(', ') : 'everything'} in ${folder}`);
   const targetArgs = targets.length > 0 ? ['--target', ...targets] : [];
   await runOrFail('cmake', ['--build', '--preset', preset, '-j', String(os.cpus().length), ...targetArgs], { quiet: !process.stdout.isTTY });
 }
 
-/** Where ccache is installed, what it has compiled before is not compiled again; CMake's own variables win. */
+/** The option that makes vcpkg install the tests' libraries, for a preset whose libraries come from vcpkg. */
+const vcpkgFeatures = (name, tests) => (tests && findPreset(name).toolchainFile?.includes('VCPKG_ROOT') ? ['-DVCPKG_MANIFEST_FEATURES=tests'] : []);
+
+/** The compiler launcher: ccache where it is installed, unless CMake's own variables name another. */
 function launchers() {
   if (!succeeds('ccache', ['--version'])) return {};
   return { CMAKE_C_COMPILER_LAUNCHER: 'ccache', CMAKE_CXX_COMPILER_LAUNCHER: 'ccache', ...pick(process.env, 'CMAKE_C_COMPILER_LAUNCHER', 'CMAKE_CXX_COMPILER_LAUNCHER') };
@@ -35,10 +38,12 @@ function launchers() {
 
 const pick = (values, ...names) => Object.fromEntries(names.filter((name) => values[name] !== undefined).map((name) => [name, values[name]]));
 
-/** The build folder of a configure preset, relative to the repository. */
-export function presetFolder(preset) {
+function findPreset(preset) {
   const presets = JSON.parse(readFileSync(inRepository('CMakePresets.json'), 'utf8')).configurePresets;
   const found = presets.find((candidate) => candidate.name === preset && candidate.binaryDir);
   if (!found) throw new CommandError(`CMakePresets.json has no configure preset "${preset}" with a binaryDir`, 2);
-  return found.binaryDir.replace('${sourceDir}/', '');
+  return found;
 }
+
+/** The build folder of a configure preset, relative to the repository. */
+export const presetFolder = (preset) => findPreset(preset).binaryDir.replace('${sourceDir}/', '');

@@ -3,7 +3,8 @@ export const packagesByPurpose = {
   build: [
     'cmake', 'ninja-build', 'g++', 'pkg-config', 'libglm-dev', 'nlohmann-json3-dev', 'libcli11-dev', 'libsndfile1-dev',
   ],
-  test: ['libgtest-dev', 'libgmock-dev', 'libsoxr-dev', 'libkissfft-dev', 'binutils'],
+  // ccache makes every build after the first one short.
+  test: ['ccache', 'libgtest-dev', 'libgmock-dev', 'libsoxr-dev', 'libkissfft-dev', 'binutils'],
   libcxx: ['clang-16', 'libc++-16-dev', 'libc++abi-16-dev'],
   realtime: ['clang-22', 'libclang-rt-22-dev'],
   python: [
@@ -14,16 +15,16 @@ export const packagesByPurpose = {
     'g++-mingw-w64-x86-64-posix', 'binutils-mingw-w64-x86-64', 'wine', 'wine64', 'g++-aarch64-linux-gnu', 'qemu-user',
     'googletest',
   ],
-  // What the SDK itself is made of, and what brings it where apt does not: see dotnet.mjs.
+  // Libraries that the SDK needs, and curl for Microsoft's install script: see dotnet.mjs.
   dotnet: ['ca-certificates', 'curl', 'libicu-dev'],
   // The font of the charts that the C# tests draw.
   pictures: ['fonts-inter'],
-  // Which files belong to the project, `git` says.
+  // git lists the files that belong to the project.
   files: ['git'],
-  lint: ['git', 'clang-format', 'clang-tidy', 'python3'],
+  lint: ['git', 'clang-format', 'clang-tidy', 'python3', 'shellcheck'],
 };
 
-/** Programs that scripts and tests start, and the package above that brings each. Node and npm are brought by `run`. */
+/** Programs that scripts and tests start, with the package above that contains each. `run` installs Node and npm. */
 export const packageOfProgram = {
   cmake: 'cmake',
   ctest: 'cmake',
@@ -33,6 +34,7 @@ export const packageOfProgram = {
   git: 'git',
   'clang-format': 'clang-format',
   'clang-tidy': 'clang-tidy',
+  shellcheck: 'shellcheck',
   'clang-16': 'clang-16',
   'clang++-16': 'clang-16',
   'clang-22': 'clang-22',
@@ -51,8 +53,8 @@ export const packageOfProgram = {
 };
 
 /**
- * Purposes whose packages some releases of Debian do not have: what is left out there, and where it can be had. Every
- * other purpose must be whole.
+ * Purposes whose packages some releases of Debian lack, with the sentence that says what is skipped there and where to get
+ * the packages. The packages of every other purpose are required.
  */
 export const optionalPurposes = {
   libcxx:
@@ -73,7 +75,7 @@ export function selectPackages(purposes) {
   return [...selected];
 }
 
-/** The packages of `wanted` that `dpkg-query -W -f '${Package} ${db:Status-Status}\n'` does not list as installed. */
+/** The packages of `wanted` that are not installed, by the output of `dpkg-query -W -f '${Package} ${db:Status-Status}\n'`. */
 export function missingPackages(wanted, dpkgOutput) {
   const installed = new Set(
     dpkgOutput
@@ -85,14 +87,14 @@ export function missingPackages(wanted, dpkgOutput) {
   return wanted.filter((name) => !installed.has(name));
 }
 
-/** The packages of `wanted` that `apt-cache policy ...` offers a version of. */
+/** The packages of `wanted` that apt can install, by the output of `apt-cache policy ...`. */
 export function offeredPackages(wanted, policyOutput) {
   const offered = new Set([...policyOutput.matchAll(/^(\S+):\n(?: {2}.*\n)*? {2}Candidate: (?!\(none\))\S/gm)].map(([, name]) => name));
   return wanted.filter((name) => offered.has(name));
 }
 
 /**
- * What of a package-lock.json (version 3) is not in node_modules as the lock says.
+ * The entries of a package-lock.json (version 3) that node_modules lacks or has in another version.
  * @param {object} lock parsed lock file
  * @param {(location: string) => string | null} installedVersion version of the package at a location, null where none is
  * @returns {string[]} locations, for example "node_modules/pngjs"

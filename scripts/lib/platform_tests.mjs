@@ -8,13 +8,13 @@ import { runNpmOrFail } from './process.mjs';
 import { inRepository } from './repository.mjs';
 import { addCounts, noCounts } from './test_counts.mjs';
 
-/** Programs of Tests/Native: arithmetic and threads as this platform does them, then the library as shipped, through its C interface and as Unity's mixer meets it. */
+/** Programs of Tests/Native that run on emulated platforms: parts of the library, then the whole library through its C interface and as a mixer effect. */
 const programs = ['model', 'dsp', 'contact', 'engine', 'capi', 'unity'];
 
 /**
- * What an emulated platform leaves out, and why it shows nothing there that it does not show elsewhere. Everything runs on
- * this machine's own platform. ONNX Runtime takes at least 50 times as long under qemu, so that a trained network is asked there
- * for a segment or two, and no more.
+ * Tests that an emulated platform leaves out, and why they show nothing there that they do not show natively, where all
+ * tests run. ONNX Runtime takes at least 50 times as long under qemu, so that a trained network generates only one or two
+ * segments there.
  * @type {Record<string, {because: string, tests: string[]}[]>}
  */
 export const leftOut = {
@@ -42,10 +42,10 @@ export const leftOut = {
   ],
 };
 
-/** A program takes a minute at most where nothing else runs; one that hangs must not take the others' results along. */
+/** Limit for one program, which takes at most a minute on an idle machine: a program that hangs must not lose the results of the others. */
 const limitSeconds = 600;
 
-/** What stands between this machine and each platform's programs. */
+/** The emulator of each platform. */
 const emulators = {
   'windows-x64': {
     command: 'wine',
@@ -56,14 +56,14 @@ const emulators = {
   'linux-arm64': { command: 'qemu-aarch64', args: ['-L', '/usr/aarch64-linux-gnu'], env: {}, suffix: '' },
 };
 
-/** The Unity package of ONNX Runtime has no Linux arm64; a package of its own does, 214 MB, wanted by nothing else. */
-async function bringArmRuntime() {
+/** Installs ONNX Runtime for Linux arm64 (214 MB), which the Unity package of ONNX Runtime lacks; only these tests need it. */
+export async function bringArmRuntime() {
   if (existsSync(inRepository('Tests', 'Platforms', 'node_modules', 'onnxruntime-node'))) return;
   console.log('setup: npm ci in Tests/Platforms (ONNX Runtime for Linux arm64)');
   await runNpmOrFail(['ci', '--prefix', inRepository('Tests', 'Platforms')]);
 }
 
-/** Builds the plugin for every platform that this one can build for, and runs its tests under emulation. */
+/** Builds the tests for every platform with a cross compiler here, and runs them under emulation. */
 export async function platformTests() {
   await bringArmRuntime();
   let counts = noCounts;
@@ -77,7 +77,7 @@ export async function platformTests() {
       console.log(`test: ${name} on ${preset}`);
       counts = addCounts(counts, await judgeJunit(file, command, [...args, program, ...gtest], { env, limitSeconds }));
     }
-    // Of an ELF capi itself reads the exports.
+    // The capi tests check the exports of an ELF themselves.
     if (preset === 'windows-x64') {
       console.log(`test: exports on ${preset}`);
       counts = addCounts(counts, await judgeExportsOfDll(inRepository(presetFolder(preset), 'audioplugin_haptoflow.dll')));

@@ -2,7 +2,7 @@ import { spawn, spawnSync } from 'node:child_process';
 import { readFileSync } from 'node:fs';
 import { repositoryRoot } from './repository.mjs';
 
-/** A failure whose message is all that a person needs: main prints it without a stack. */
+/** An error that is shown by its message alone, without a stack. */
 export class CommandError extends Error {
   /** @param {string} message what went wrong and what to do  @param {number} exitCode 1 failed, 2 cannot start */
   constructor(message, exitCode = 1) {
@@ -15,14 +15,15 @@ export class CommandError extends Error {
  * Runs a child to its end with this process's output and no input.
  * @param {string} command @param {string[]} args
  * @param {{env?: Record<string, string>, cwd?: string, quiet?: boolean, shell?: boolean, limitSeconds?: number}} options
- *   cwd: where the child stands, by default the repository's root; quiet: collect output instead of showing it; limitSeconds: a child that takes longer is killed and has failed
+ *   cwd: working folder, by default the repository's root; quiet: collect the output instead of showing it;
+ *   limitSeconds: a child that takes longer is killed and counts as failed
  * @returns {Promise<{exitCode: number, output: string}>} output is empty unless quiet
  */
 export function run(command, args, options = {}) {
   const unknown = Object.keys(options).filter((name) => !['env', 'cwd', 'quiet', 'shell', 'limitSeconds'].includes(name));
   if (unknown.length > 0) throw new TypeError(`run: unknown options ${unknown.join(', ')}`);
   return new Promise((resolve, reject) => {
-    // Before the child, whose limit begins with it; and a timer may be a millisecond early.
+    // Taken before the child starts, since its limit counts from the start. The comparison below allows a timer that is early.
     const begin = performance.now();
     const child = spawn(command, args, {
       cwd: options.cwd ?? repositoryRoot,
@@ -59,8 +60,8 @@ export async function runOrFail(command, args, options = {}) {
 }
 
 /**
- * Runs npm: the one that runs this script, where one does, else the one on PATH. Its output is collected; where it fails
- * the reason is shown, with what to do, even where an npm around this one was told to be silent.
+ * Runs npm: the one that runs this script, else the one on PATH. Its output is collected. A failure shows the reason and a
+ * remedy, even below an npm that runs with --silent.
  */
 export async function runNpmOrFail(words) {
   const underNpm = process.env.npm_execpath;
@@ -71,13 +72,13 @@ export async function runNpmOrFail(words) {
   return output;
 }
 
-/** What to say when npm failed: its own words, and what to do. */
+/** The message for a failed npm: its own output, and a remedy. */
 export function npmComplaint(words, exitCode, output) {
   const cannotReach = /\b(ENOTFOUND|EAI_AGAIN|ECONNREFUSED|ECONNRESET|ETIMEDOUT|ENETUNREACH|EHOSTUNREACH|ERR_SOCKET_TIMEOUT|CERT|certificate)/i.test(output);
   const remedy = cannotReach
-    ? 'npm\'s registry cannot be reached: check the network, and behind a proxy `npm config set proxy` and NODE_EXTRA_CA_CERTS; `npm config get registry` says which registry is asked'
+    ? 'npm\'s registry cannot be reached: check the network, and behind a proxy `npm config set proxy` and NODE_EXTRA_CA_CERTS; `npm config get registry` says which registry is used'
     : `\`npm ${words.join(' ')} --loglevel=verbose\` says more`;
-  return [output.trimEnd() || 'npm said nothing', `\`npm ${words[0]}\` ended with ${exitCode}: ${remedy}`].join('\n');
+  return [output.trimEnd() || 'npm printed nothing', `\`npm ${words[0]}\` ended with ${exitCode}: ${remedy}`].join('\n');
 }
 
 /** True when `command args` starts and ends with 0. */
@@ -100,7 +101,7 @@ export async function runMain(name, main, { help, takesWords = true } = {}) {
       console.log(help ?? `usage: ./run ${name}${takesWords ? ' [ARGUMENTS]' : ''}\n\n${firstLineOf(process.argv[1])}`);
       return;
     }
-    if (!takesWords && words.length > 0) throw new CommandError(`"${words[0]}" is not understood: \`./run ${name}\` takes no arguments`, 2);
+    if (!takesWords && words.length > 0) throw new CommandError(`"${words[0]}" is not an argument: \`./run ${name}\` takes no arguments`, 2);
     process.exitCode = (await main(words)) ?? 0;
   } catch (error) {
     if (!(error instanceof CommandError)) throw error;
@@ -109,7 +110,7 @@ export async function runMain(name, main, { help, takesWords = true } = {}) {
   }
 }
 
-/** What a script's first line says that it does. */
+/** The description in a script's first line. */
 function firstLineOf(file) {
   return readFileSync(file, 'utf8').split('\n', 1)[0].replace(/^\/\/ [\w:]+: /, '');
 }

@@ -7,8 +7,8 @@ export const repositoryRoot = path.resolve(path.dirname(fileURLToPath(import.met
 /** Absolute path of something in the repository. */
 export const inRepository = (...parts) => path.join(repositoryRoot, ...parts);
 
-/** Where the command line program lies after a release build. */
+/** Absolute path of the command line program of a release build. */
 export const commandLinePath = () => inRepository('build', 'native', process.platform === 'win32' ? 'haptoflow.exe' : 'haptoflow');
 
-/** Where the person stands who ran npm or ./run: paths in arguments are relative to it. npm runs its scripts elsewhere. */
-export const standingIn = () => path.resolve(process.env.INIT_CWD || process.cwd());
+/** The folder in which npm or ./run was typed. Paths in arguments are relative to it, though npm runs scripts in the root. */
+export const callerFolder = () => path.resolve(process.env.INIT_CWD || process.cwd());

@@ -6,9 +6,9 @@ import { CommandError, runNpmOrFail, runOrFail, succeeds } from './process.mjs';
 import { inRepository } from './repository.mjs';
 
 /**
- * Brings what a command needs and is not there, and says so: system packages (Debian), the .NET SDK, then npm packages.
+ * Installs what a command needs and prints what it installs: system packages (Debian), the .NET SDK, then npm packages.
  * @param {string[]} purposes of packages.mjs
- * @returns {Promise<string[]>} what had to be left out (see optionalPurposes), a sentence each
+ * @returns {Promise<string[]>} a sentence for each optional purpose that is skipped (see optionalPurposes)
  * @throws CommandError with exit code 2 and one command to type where this process may not install.
  */
 export async function setUp(purposes) {
@@ -19,7 +19,7 @@ export async function setUp(purposes) {
   return leftOut;
 }
 
-/** The words that make root of a command: none for root itself; null where this process cannot become root. */
+/** The words that run a command as root: none for root itself, null where this process cannot become root. */
 function rootCommand() {
   if (process.getuid?.() === 0) return [];
   return succeeds('sudo', ['-n', 'true']) ? ['sudo', '-n'] : null;
@@ -57,7 +57,7 @@ async function installSystemPackages(purposes) {
   return leftOut.filter((sentence) => sentence !== null);
 }
 
-/** Null where a purpose's packages are there now, else the sentence that says what is left out. */
+/** Installs the packages of an optional purpose. Null on success, else the sentence that says what is skipped. */
 async function installOptional(purpose, asRoot) {
   const wanted = selectPackages([purpose]);
   const missing = missingOf(wanted);
@@ -77,14 +77,14 @@ async function runApt(asRoot, words) {
     await runOrFail(command, args, { quiet: true });
   } catch (error) {
     if (!(error instanceof CommandError)) throw error;
-    throw new CommandError(`${error.message}\nThe system packages could not be installed: is the network there, and do the sources of apt answer (sudo apt-get update)?`, 2);
+    throw new CommandError(`${error.message}\nThe system packages could not be installed: check the network and the sources of apt (sudo apt-get update)`, 2);
   }
 }
 
-/** The program by which a purpose is known to be there on systems without apt. */
+/** The program whose presence stands for a purpose on systems without apt. */
 const programOf = (purpose) => ({ libcxx: 'clang++-16', realtime: 'clang++-22' })[purpose];
 
-/** Elsewhere nothing is installed for you: say what is missing and which file lists it. */
+/** On other systems nothing is installed: names what is missing, and the file that lists it. */
 function checkForeignSystem(purposes) {
   const wants = [];
   if (purposes.includes('build')) {

@@ -9,7 +9,7 @@ function median(values) {
   return ordered.length % 2 === 1 ? ordered[middle] : (ordered[middle - 1] + ordered[middle]) / 2;
 }
 
-/** What a proof's result file tells beside its counts; empty where it tells nothing. */
+/** The figures in a proof's result file besides its counts; empty where there are none. */
 function found(xml) {
   const changes = property(xml, 'level_change_db').map(Math.abs);
   if (changes.length === 0) return '';

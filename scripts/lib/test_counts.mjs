@@ -1,4 +1,4 @@
-/** What test runners say about themselves, read into one form: {passed, failed, skipped}. */
+/** Reads the results of several test runners as {passed, failed, skipped}. */
 
 const attribute = (tag, name) => Number(tag.match(new RegExp(`\\b${name}="(\\d+)"`))?.[1] ?? 0);
 
@@ -33,8 +33,8 @@ export const addCounts = (a, b) => ({ passed: a.passed + b.passed, failed: a.fai
 export const noCounts = { passed: 0, failed: 0, skipped: 0 };
 
 /**
- * A runner's verdict. One that ended badly without naming a failed test, or that ran no test at all, has failed once
- * more: nothing that did not run may pass.
+ * The counts of a runner, with one failure added where its exit code reports one that the counts do not have, or where it
+ * ran no test.
  */
 export function judged(counts, exitCode) {
   const ranNothing = counts.passed + counts.failed === 0;

@@ -2,44 +2,55 @@ import { existsSync, readdirSync, readFileSync, rmSync } from 'node:fs';
 import os from 'node:os';
 import path from 'node:path';
 import { dotnetEnvironment, findDotnet } from './dotnet.mjs';
+import { judgePrograms, nativeJob } from './gtest_programs.mjs';
 import { judgeJunit, results } from './judge_junit.mjs';
+import { longTestsOf } from './long_tests.mjs';
 import { buildNative, presetFolder } from './native_build.mjs';
-import { platformTests } from './platform_tests.mjs';
+import { bringArmRuntime, platformTests } from './platform_tests.mjs';
 import { CommandError, run, succeeds } from './process.mjs';
 import { inRepository } from './repository.mjs';
 import { pythonOrFail } from './setup.mjs';
 import { addCounts, countsOfTap, countsOfTrx, judged, noCounts } from './test_counts.mjs';
 
+/** Programs of Tests/Native that every platform builds. */
+const portablePrograms = ['model', 'dsp', 'effects', 'contact', 'inference', 'learning', 'engine', 'capi', 'unity'];
+
 /**
- * What runs under which sanitizers: folders of Tests/Native, and of their tests those that the sanitizers are for
- * (programs that read untrusted input, hand memory across the C ABI, or share it between threads).
+ * What runs under which sanitizers: programs that read untrusted input, hand memory across the C ABI, or share it between
+ * threads. The default run has one build, that of the address and undefined-behaviour sanitizers, and of it the programs
+ * that reach all code of the shipped library from outside; `long` entries are those of `--all`.
  */
 const sanitized = [
-  { preset: 'asan-ubsan', folder: 'model' },
-  { preset: 'asan-ubsan', folder: 'contact' },
-  { preset: 'asan-ubsan', folder: 'engine', tests: 'LiveVoice|LiveEngine|StallTest|LeadTest|WaveformTimeline|MaterialLibrary|ToneVoice|SignalVoice' },
-  { preset: 'asan-ubsan', folder: 'learning', except: 'LearnerTest' },
-  { preset: 'asan-ubsan', folder: 'capi', except: 'ClosedLoop|Hard(Case|Scene)Test.*Shipped|RangeSweepSound' },
-  { preset: 'tsan', folder: 'engine', tests: 'LiveEngine|Mailbox|SegmentQueue|MaterialLibrary' },
-  { preset: 'asan-ubsan', folder: 'unity' },
-  { preset: 'tsan', folder: 'capi', tests: 'ApiStorm|EngineApi|GeneratorApi|MaterialApi|VoiceTable' },
-  { preset: 'tsan', folder: 'unity', tests: 'AudioThread' },
-  // VoiceTable holds a render up inside the voice, which is what this one watches for.
-  { preset: 'rtsan', folder: 'capi', except: 'ClosedLoop|Shipped|OpenModel|VoiceTable' },
-  { preset: 'rtsan', folder: 'unity' },
+  { preset: 'asan-ubsan', program: 'capi', except: ['*ClosedLoop*', '*HardCaseTest.*Shipped*', '*HardSceneTest.*Shipped*', '*RangeSweepSound*'] },
+  { preset: 'asan-ubsan', program: 'unity' },
+  { preset: 'asan-ubsan', program: 'model' },
+  { preset: 'asan-ubsan', program: 'contact', long: true },
+  { preset: 'asan-ubsan', program: 'learning', except: ['*LearnerTest*'], long: true },
+  {
+    preset: 'asan-ubsan',
+    program: 'engine',
+    tests: ['*LiveVoice*', '*LiveEngine*', '*StallTest*', '*LeadTest*', '*WaveformTimeline*', '*MaterialLibrary*', '*ToneVoice*', '*SignalVoice*'],
+    long: true,
+  },
+  { preset: 'tsan', program: 'capi', tests: ['*ApiStorm*', '*EngineApi*', '*GeneratorApi*', '*MaterialApi*', '*VoiceTable*'], long: true },
+  { preset: 'tsan', program: 'engine', tests: ['*LiveEngine*', '*Mailbox*', '*SegmentQueue*', '*MaterialLibrary*'], long: true },
+  { preset: 'tsan', program: 'unity', tests: ['*AudioThread*'], long: true },
+  // RealtimeSanitizer ends a program that waits inside a render, which is what VoiceTable's tests make a render do.
+  { preset: 'rtsan', program: 'capi', except: ['*ClosedLoop*', '*Shipped*', '*OpenModel*', '*VoiceTable*'], long: true },
+  { preset: 'rtsan', program: 'unity', long: true },
 ];
 
-/** Where Clang 22 is missing, set-up has said where it can be had; its runs count as skipped. */
+/** Whether the compiler of a preset is installed. Without Clang 22, set-up names its source and the runs count as skipped. */
 const canBuild = ({ preset }) => preset !== 'rtsan' || succeeds('clang++-22', ['--version']);
 
 /**
- * The library and the command line as the compiler and the library of Android, macOS and iOS read them, warnings as errors;
- * then that this command line says of a stroke what the other one says.
+ * Two tests: library and command line build without warnings with Clang and libc++, as on Android, macOS and iOS, and that
+ * command line prints the same contact states as the release build.
  */
-async function withLibcxx() {
+async function libcxx() {
   if (!succeeds('clang++-16', ['--version'])) return { ...noCounts, skipped: 2 };
-  console.log('test: Clang and libc++');
   try {
+    await buildNative({ targets: ['haptoflow_cli'] });
     await buildNative({ preset: 'libcxx', targets: ['audioplugin_haptoflow', 'haptoflow_cli'] });
   } catch (error) {
     if (!(error instanceof CommandError)) throw error;
@@ -50,60 +61,72 @@ async function withLibcxx() {
   const words = ['contact', path.join(folder, 'crossing.scene.json'), '--stroke', path.join(folder, 'crossing.stroke.csv')];
   const [here, there] = await Promise.all(['release', 'libcxx'].map((preset) => run(inRepository(presetFolder(preset), 'haptoflow'), words, { quiet: true })));
   const isSame = here.exitCode === 0 && here.output.length > 1000 && here.output === there.output;
-  if (!isSame) console.error(`test: the command line built with libc++ says something else of ${words[1]} (exit code ${there.exitCode})`);
+  if (!isSame) console.error(`test: the command line built with libc++ prints other contact states for ${words[1]} than the release build (exit code ${there.exitCode})`);
   return { ...noCounts, passed: isSame ? 2 : 1, failed: isSame ? 0 : 1 };
 }
 
-async function native() {
-  await buildNative({ tests: true });
-  return addCounts(await nativeTests(), await withLibcxx());
+/** The preset of the native tests: Visual Studio on Windows, libraries from vcpkg on macOS, elsewhere the release build. */
+const nativePreset = { win32: 'windows-msvc', darwin: 'macos-tests' }[process.platform] ?? 'release';
+
+/** Programs that the default form runs under sanitizers only, since they depend on neither speed nor optimisation. */
+const sanitizedOnly = ['model'];
+
+function nativePrograms(all) {
+  // The realtime program traps system calls of Linux x64; the command line is not built on Windows.
+  const programs = [...(process.platform === 'win32' ? [] : ['cli']), ...portablePrograms];
+  if (process.platform === 'linux' && process.arch === 'x64') programs.push('realtime');
+  return all || process.platform !== 'linux' ? programs : programs.filter((name) => !sanitizedOnly.includes(name));
 }
 
-function nativeTests() {
-  return judgeJunit('native.xml', 'ctest', ['--preset', 'release', '-j', String(os.cpus().length), '--progress', '--output-junit', results('native.xml')]);
+async function native({ all }) {
+  if (process.platform === 'linux' && process.arch === 'arm64') await bringArmRuntime();
+  const programs = nativePrograms(all);
+  const targets = ['audioplugin_haptoflow', ...programs.map((name) => `${name}_tests`)];
+  await buildNative({ preset: nativePreset, tests: true, targets });
+  const except = all ? [] : longTestsOf('native');
+  const counts = await judgePrograms(programs.map((program) => nativeJob({ preset: nativePreset, program, except })));
+  if (nativePreset !== 'release') return counts;
+  const args = ['--preset', 'release', '-R', '^InstalledPackage', '--output-junit', results('installed-package.xml')];
+  return addCounts(counts, await judgeJunit('installed-package.xml', 'ctest', args));
 }
 
-async function sanitizers() {
+async function sanitizers({ all }) {
   const env = {
     LSAN_OPTIONS: `suppressions=${inRepository('Tests', 'Native', 'lsan.supp')}:print_suppressions=0`,
     UBSAN_OPTIONS: 'print_stacktrace=1',
     TSAN_OPTIONS: `suppressions=${inRepository('Tests', 'Native', 'tsan.supp')}:halt_on_error=1:second_deadlock_stack=1`,
   };
-  const possible = sanitized.filter(canBuild);
+  const chosen = sanitized.filter((entry) => all || !entry.long);
+  const possible = chosen.filter(canBuild);
   for (const preset of new Set(possible.map((entry) => entry.preset))) {
-    const targets = possible.filter((entry) => entry.preset === preset).map((entry) => `${entry.folder}_tests`);
+    const targets = possible.filter((entry) => entry.preset === preset).map((entry) => `${entry.program}_tests`);
     await buildNative({ preset, tests: true, targets });
   }
-  let counts = { ...noCounts, skipped: sanitized.length - possible.length };
-  for (const { preset, folder, tests = '.', except = '^$' } of possible) {
-    const file = `${preset}-${folder}.xml`;
-    const args = ['--test-dir', inRepository(presetFolder(preset), 'Tests', 'Native', folder), '-R', tests, '-E', except];
-    args.push('-j', String(os.cpus().length), '--timeout', '300', '--output-on-failure', '--progress', '--output-junit', results(file));
-    counts = addCounts(counts, await judgeJunit(file, 'ctest', args, { env }));
-  }
-  return counts;
+  const long = all ? [] : longTestsOf('native');
+  const counts = await judgePrograms(possible.map((entry) => nativeJob({ ...entry, env, except: [...(entry.except ?? []), ...long] })));
+  return { ...counts, skipped: counts.skipped + chosen.length - possible.length };
 }
 
-async function training() {
+async function training({ all }) {
   const args = ['-m', 'pytest', inRepository('Tests', 'Training'), '-q', '-n', String(os.cpus().length), '--junitxml', results('training.xml')];
+  if (!all) args.push('-k', `not (${longTestsOf('training').join(' or ')})`);
   const env = { OPENBLAS_NUM_THREADS: '1', PYTHONPATH: inRepository('Training'), PYTHONDONTWRITEBYTECODE: '1' };
   return judgeJunit('training.xml', pythonOrFail(), args, { env, limitSeconds: 1800 });
 }
 
-/**
- * The package's C# against the shim, all of it as players run it, and what must not allocate as the editor runs it too.
- */
+/** The package's C# against the shim: all of it as players run it, and in the long form what must not allocate as the editor runs it. */
 const managed = [
   { configuration: 'Release', target: 'HaptoFlow.slnx' },
-  { configuration: 'Debug', target: 'HaptoFlow.ShimTests', tests: 'FullyQualifiedName~Garbage' },
+  { configuration: 'Debug', target: 'HaptoFlow.ShimTests', tests: 'FullyQualifiedName~Garbage', long: true },
 ];
 
-async function dotnet() {
+async function dotnet({ all }) {
   const command = findDotnet();
   if (command === null) throw new CommandError('the C# tests need the .NET SDK 10, on PATH or in build/dotnet', 2);
   await buildNative({ targets: ['audioplugin_haptoflow'] });
+  const shortForm = longTestsOf('dotnet').map((name) => `FullyQualifiedName!~${name}`).join('&');
   let counts = noCounts;
-  for (const { configuration, target, tests } of managed) {
+  for (const { configuration, target, tests = all ? '' : shortForm } of managed.filter(({ long }) => all || !long)) {
     const folder = results(`dotnet-${configuration.toLowerCase()}`);
     rmSync(folder, { recursive: true, force: true });
     const args = ['test', inRepository('Tests', 'Dotnet', target), '-m:1', '-c', configuration, '--nologo', '--logger', 'trx'];
@@ -130,12 +153,29 @@ export async function runNodeTests(files) {
   return judged(countsOfTap(output), exitCode);
 }
 
-/** The runners of `npm test`: what each needs installed, and how it runs. Names are what --only takes. */
+/**
+ * The runners of `npm test`: what each needs installed, and how it runs. Names are what --only takes.
+ * @type {Record<string, {purposes: string[], longPurposes?: string[], long?: boolean, execute: (form: {all: boolean}) => Promise<object>}>}
+ *   longPurposes: what the long form needs besides; long: true for a runner of the long form, which runs by `--all` or by its
+ *   name; all: true for the long form
+ */
 export const runners = {
-  native: { purposes: ['build', 'test', 'libcxx'], execute: native },
-  sanitizers: { purposes: ['build', 'test', 'realtime'], execute: sanitizers },
+  native: { purposes: ['build', 'test'], execute: native },
+  sanitizers: { purposes: ['build', 'test'], longPurposes: ['realtime'], execute: sanitizers },
   training: { purposes: ['python', 'files'], execute: training },
-  platforms: { purposes: ['build', 'test', 'platforms'], execute: platformTests },
   dotnet: { purposes: ['build', 'dotnet', 'pictures'], execute: dotnet },
   package: { purposes: ['files'], execute: packageTests },
+  libcxx: { purposes: ['build', 'libcxx'], long: true, execute: libcxx },
+  platforms: { purposes: ['build', 'test', 'platforms'], long: true, execute: platformTests },
 };
+
+/** The names of the runners to run: the one of --only, else those of the form. */
+export function chosenRunners({ only, all }) {
+  const names = Object.keys(runners);
+  if (only === undefined) return names.filter((name) => all || !runners[name].long);
+  if (!names.includes(only)) throw new CommandError(`--only ${only}: expected one of ${names.join(', ')}`, 2);
+  return [only];
+}
+
+/** What has to be installed for a runner. */
+export const purposesOf = (name, all) => [...runners[name].purposes, ...(all ? (runners[name].longPurposes ?? []) : [])];

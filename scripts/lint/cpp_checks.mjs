@@ -8,7 +8,7 @@ import { endingIn } from './files.mjs';
 
 const lines = (output) => output.split('\n').filter((line) => line.trim() !== '');
 
-/** clang-format would change nothing. */
+/** Checks that clang-format would change nothing. */
 export async function checkFormat(files) {
   const sources = endingIn(files, '.cpp', '.hpp', '.h');
   const { exitCode, output } = await run('clang-format', ['--dry-run', '-Werror', ...sources], { quiet: true });
@@ -17,14 +17,14 @@ export async function checkFormat(files) {
 }
 
 /**
- * What clang-tidy says of this repository's files. What an older clang cannot read of a newer standard library is no finding,
- * and the compilers that read it build everything.
+ * The findings of clang-tidy in files of this repository. Errors in headers of the standard library are left out: an older
+ * clang cannot read a newer library, and the compilers of the builds can.
  */
 export function findingsOfTidy(output) {
   return lines(output).filter((line) => /: (error|warning): /.test(line) && line.startsWith(`${repositoryRoot}${path.sep}`));
 }
 
-/** clang-tidy finds nothing in the files that a build compiles. */
+/** Checks that clang-tidy finds nothing in the files that a build compiles. */
 export async function checkTidy(files) {
   const folder = presetFolder('lint');
   const commands = JSON.parse(readFileSync(inRepository(folder, 'compile_commands.json'), 'utf8'));

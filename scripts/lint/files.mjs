@@ -8,7 +8,7 @@ const git = async (...args) =>
 /** Every file that git tracks or would track, relative to the root. */
 export const repositoryFiles = () => git('ls-files', '-z', '--cached', '--others', '--exclude-standard');
 
-/** Those of `files` that differ from the last commit. */
+/** The files of `files` that differ from the last commit. */
 export async function changedFiles(files) {
   const changed = new Set([
     ...(await git('diff', '-z', '--name-only', 'HEAD')),

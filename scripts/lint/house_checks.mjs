@@ -20,7 +20,7 @@ export async function checkJson(files) {
 
 const publicHeader = 'NativePlugin/include/haptoflow/haptoflow.h';
 
-/** Functions of a C header that no comment with a thread tag, such as [any-thread], stands directly before. */
+/** Functions of a C header without a comment directly before them that has a thread tag, such as [any-thread]. */
 export function functionsWithoutThreadTag(header) {
   const untagged = [];
   for (const declaration of header.matchAll(/^HAPTOFLOW_API\b[^;(]*?\b(haptoflow_\w+)\s*\(/gm)) {
@@ -49,7 +49,7 @@ const forbidden = [
   { what: 'a package host', pattern: new RegExp('registry\\.npm' + 'js|registry\\.yarn' + 'pkg|pypi\\.or' + 'g|files\\.python' + 'hosted|deb\\.debian\\.or' + 'g|nuget\\.or' + 'g/v3') },
 ];
 
-/** What of a text belongs to one machine or one package host: "line: what". */
+/** Paths of one machine and package hosts in a text: "line: what". */
 export function machineTraces(text) {
   return text.split('\n').flatMap((line, index) =>
     forbidden.filter(({ pattern }) => pattern.test(line)).map(({ what }) => `${index + 1}: ${what}: ${line.trim().slice(0, 80)}`),

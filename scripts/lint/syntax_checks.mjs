@@ -1,7 +1,7 @@
-import { run } from '../lib/process.mjs';
+import { run, succeeds } from '../lib/process.mjs';
 import { endingIn } from './files.mjs';
 
-// Parses each file without writing byte code, and finds names that nothing defines a module for.
+// Parses each file without writing byte code, and finds imports that the file does not use.
 const pythonProgram = `
 import ast, sys
 for name in sys.argv[1:]:
@@ -32,11 +32,12 @@ export async function checkPythonSyntax(files) {
   return { checked: sources.length, complaints: exitCode !== 0 && complaints.length === 0 ? [`python ended with ${exitCode}`] : complaints };
 }
 
-/** Every script parses: JavaScript by Node, shell by its own shell. */
+/** Every script parses: JavaScript by Node, shell by its own shell and, where it is installed, by shellcheck. */
 export async function checkScriptSyntax(files) {
   const checks = [
     ...endingIn(files, '.mjs', '.js').map((name) => [process.execPath, ['--check', name], name]),
     ...(process.platform === 'win32' ? [] : [['sh', ['-n', 'run'], 'run'], ['bash', ['-n', '.ci/run'], '.ci/run']]),
+    ...(succeeds('shellcheck', ['--version']) ? ['run', '.ci/run'].map((name) => ['shellcheck', ['--format=gcc', name], name]) : []),
   ];
   const complaints = [];
   for (const [command, args, name] of checks) {

@@ -7,7 +7,7 @@ import { checkModelImporter, checkModelReferences } from './rules/models.mjs';
 import { checkCase, checkPathLengths } from './rules/names.mjs';
 import { checkPlugins } from './rules/plugins.mjs';
 
-/** What a package must keep to, each rule by its name. */
+/** The rules of a package by name. */
 export const rules = {
   manifest: checkManifest,
   'path lengths': checkPathLengths,
@@ -31,7 +31,7 @@ export const rules = {
 };
 
 /**
- * Looks a package over for what Unity would refuse, leave out or lose.
+ * Checks a package for what Unity would refuse, leave out or lose.
  * @param {import('./package_files.mjs').PackageFiles} files
  * @returns {string[]} one line for each complaint: the file, what is wrong, what was expected; empty for a good package
  */

@@ -1,5 +1,5 @@
-// Draws the pictures of clicks for Documentation~: `node scripts/pack/click_pictures.mjs`. They are drawings after
-// Unity's menus, not screenshots, and each says so.
+// Draws the pictures of menus and clicks in Documentation~: `node scripts/pack/click_pictures.mjs`. They imitate Unity's
+// menus and are no screenshots, and each says so.
 import { readFileSync, writeFileSync } from 'node:fs';
 import path from 'node:path';
 import { fileURLToPath } from 'node:url';
@@ -18,11 +18,11 @@ const box = (x, y, w, h, fill, edge = colours.edge) => `<rect x="${x}" y="${y}" 
 const text = (x, y, words, { size = 13, fill = colours.text, anchor = 'start' } = {}) =>
   `<text x="${x}" y="${y}" font-size="${size}" fill="${fill}" text-anchor="${anchor}">${escaped(words)}</text>`;
 
-/** A click: its number in a disc. */
+/** The mark of a click: its number in a disc. */
 const click = (x, y, number) =>
   `<circle cx="${x}" cy="${y}" r="11" fill="${colours.click}"/>${text(x, y + 5, String(number), { size: 14, fill: '#1a1a1a', anchor: 'middle' })}`;
 
-/** A list of entries; the chosen one is lit and has the number of its click. */
+/** A menu; the chosen entry is highlighted and carries the number of its click. */
 function menu(x, y, w, entries, chosen, number) {
   const lines = entries.map((entry, index) => {
     const top = y + 4 + index * row;
@@ -33,7 +33,7 @@ function menu(x, y, w, entries, chosen, number) {
   return box(x, y, w, entries.length * row + 8, colours.field) + lines.join('');
 }
 
-/** A window: its title, and what is in it. */
+/** A window with title and content. */
 const windowed = (x, y, w, h, title, inside) => box(x, y, w, h, colours.ground) + box(x, y, w, 24, colours.bar) + text(x + 10, y + 17, title) + inside;
 
 const button = (x, y, w, words, number) => box(x, y, w, 24, '#585858') + text(x + w / 2, y + 17, words, { anchor: 'middle' }) + (number ? click(x + w + 14, y + 12, number) : '');
@@ -48,7 +48,7 @@ const mainMenu = (chosen, number) => {
   }).join('');
 };
 
-/** Each picture: its name, its height, and what is drawn. Names of menus are Unity's, in version 2022.3 and 6. */
+/** Name, height and content of each picture. Menu names are those of Unity 2022.3 and 6. */
 export const pictures = {
   'install-1-package-manager': [250, mainMenu('Window', 1) + menu(430, 32, 190, ['General', 'Rendering', 'Package Manager', 'Asset Store', 'HaptoFlow'], 'Package Manager', 2)
     + text(16, 100, 'newer versions of Unity 6: Window > Package Management >', { fill: colours.soft }) + text(16, 120, 'Package Manager', { fill: colours.soft })],

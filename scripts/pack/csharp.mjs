@@ -1,6 +1,6 @@
-/** What the package checker needs to know of C# sources: which lines the editor alone compiles. */
+/** Reads C# sources for the package checker: which lines only the editor compiles. */
 
-/** The source with comments and the insides of strings blanked, line by line as before. */
+/** The source with comments and the content of strings replaced by spaces; line numbers stay. */
 export function withoutCommentsAndStrings(source) {
   const blank = (text) => text.replace(/[^\n]/g, ' ');
   const pattern = /\/\/[^\n]*|\/\*[\s\S]*?\*\/|\$?@"(?:[^"]|"")*"|@\$"(?:[^"]|"")*"|\$?"(?:\\.|[^"\\\n])*"|'(?:\\.|[^'\\\n])+'/g;
@@ -10,7 +10,7 @@ export function withoutCommentsAndStrings(source) {
 const onlyInEditor = (condition) => /(^|[^!\w])UNITY_EDITOR\b/.test(condition) && !condition.includes('||');
 
 /**
- * The lines that a player compiles too, numbered from 1: those that stand in no branch of UNITY_EDITOR.
+ * The lines that a player compiles, numbered from 1: those outside the branches for UNITY_EDITOR.
  * @returns {{number: number, text: string}[]}
  */
 export function playerLines(source) {
@@ -34,5 +34,5 @@ export function playerLines(source) {
   return lines;
 }
 
-/** Lines that name a namespace or one below it, as "UnityEditor" or "UnityEditor.Build". */
+/** Lines that name a namespace or one nested in it, such as "UnityEditor" or "UnityEditor.Build". */
 export const linesNaming = (lines, namespace) => lines.filter(({ text }) => new RegExp(`(^|[^\\w.])${namespace}\\b`).test(text));

@@ -5,14 +5,14 @@ import { inRepository } from '../lib/repository.mjs';
 import { manifestPath } from './layout.mjs';
 import { streamTarball } from './stream_tarball.mjs';
 
-/** The package that HaptoFlow's needs beside it: ONNX Runtime for Unity, as npm installed it. */
+/** The package that HaptoFlow depends on: ONNX Runtime for Unity, installed by npm. */
 export const dependencyName = 'com.github.asus4.onnxruntime';
 
 const readJson = (file) => JSON.parse(readFileSync(file, 'utf8'));
 
 /**
- * Puts the dependency's own tarball beside HaptoFlow's, so that a project needs no scoped registry: the
- * unpacked package is streamed into it, licence and notices included. One that is there already is kept: a version never changes.
+ * Writes the dependency's tarball beside HaptoFlow's, so that a project needs no scoped registry. The unpacked package is
+ * streamed into it, licence and notices included. An existing tarball is kept: a published version never changes.
  * @param {string} destination folder for the tarball
  * @param {{source?: string, manifest?: string}} options the unpacked package, and the manifest that names its version
  * @returns {Promise<{file: string, bytes: number, isNew: boolean}>}
@@ -30,7 +30,7 @@ export async function packDependency(destination, { source = inRepository('node_
   return { file, bytes: statSync(file).size, isNew };
 }
 
-/** Under its name only when it is whole: a build that was interrupted leaves nothing that looks finished. */
+/** Writes to a temporary name and renames at the end, so that an interrupted run leaves no incomplete tarball. */
 async function makeWhole(source, destination, file) {
   mkdirSync(destination, { recursive: true });
   const partial = `${file}.partial`;

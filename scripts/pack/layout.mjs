@@ -3,10 +3,10 @@ import { inRepository } from '../lib/repository.mjs';
 /** Name of the package, as in its manifest. */
 export const packageName = 'com.haptoflow.runtime';
 
-/** Where the manifest of the package in git lies. */
+/** Path of the package's manifest in the repository. */
 export const manifestPath = inRepository('Packages', packageName, 'package.json');
 
-/** Folders of the repository and where in the package their files go. */
+/** Folders of the repository and their places in the package. */
 export const parts = [
   { from: `Packages/${packageName}`, to: '' },
   { from: 'Samples~', to: 'Samples~' },
@@ -15,7 +15,7 @@ export const parts = [
   { from: 'Tests/Editor', to: 'Tests/Editor' },
 ];
 
-/** GUIDs of folders that exist in the package only, so that git has no .meta of theirs. */
+/** GUIDs of folders that exist only in the package; git has no .meta for them. */
 export const folderGuids = {
   Tests: 'b5f0a2d1c6e84f6f9a3d0c7e51482b96',
   'Tests/Runtime': '3c9d71e85ab24f0ebd6a8f274c10e5d3',
@@ -34,7 +34,7 @@ DefaultImporter:
 `;
 
 /**
- * Where a file of the repository goes in the package; null for a file that stays behind.
+ * The place of a repository file in the package; null for a file that is not packed.
  * @param {string} name relative to the repository, with slashes
  */
 export function placeInPackage(name) {

@@ -8,8 +8,8 @@ import { inRepository } from '../lib/repository.mjs';
 export const pluginsFolder = 'Runtime/Plugins';
 
 /**
- * The platforms of the package: place of the library below Runtime/Plugins, what its first bytes must say, the presets
- * that build it, and what a machine needs for the first of them.
+ * The platforms of the package: the library's place below Runtime/Plugins, its binary format, the presets that build it, and
+ * what the first of them needs.
  */
 export const platforms = [
   { name: 'Linux x86-64', id: 'linux-x64', place: 'Linux/x64/libaudioplugin_haptoflow.so', kind: 'elf-x86-64', presets: ['release'], needs: 'a Linux x64 machine' },
@@ -22,7 +22,7 @@ const elfMachines = { 62: 'elf-x86-64', 183: 'elf-arm64' };
 const peMachines = { 0x8664: 'pe-x86-64', 0xaa64: 'pe-arm64' };
 const machoMachines = { 0x0100000c: 'arm64', 0x01000007: 'x86-64' };
 
-/** What a library runs on, from the first bytes of its file: "elf-x86-64" and the like; null for anything else. */
+/** The format and processor of a library by the first bytes of its file, such as "elf-x86-64"; null for anything else. */
 export function kindOfLibrary(bytes) {
   if (bytes.length >= 20 && bytes.readUInt32BE(0) === 0x7f454c46) return elfMachines[bytes.readUInt16LE(18)] ?? null;
   if (bytes.length >= 8 && bytes.readUInt32LE(0) === 0xfeedfacf) return `macho-${machoMachines[bytes.readUInt32LE(4)] ?? 'other'}`;
@@ -48,7 +48,7 @@ function beginningOf(file) {
   }
 }
 
-/** Builds this machine's library, and those of presets that were configured before: none in the package is stale. */
+/** Builds the library of this machine and of every configured preset, so that no library in the package is out of date. */
 export async function buildNatives() {
   const own = process.platform === 'darwin' ? 'macos' : 'release';
   const configured = platforms.flatMap(({ presets }) => presets).filter((preset) => existsSync(inRepository(presetFolder(preset), 'build.ninja')));
@@ -58,15 +58,15 @@ export async function buildNatives() {
   }
 }
 
-/** Folders that may hold a platform's library; HAPTOFLOW_NATIVE_DIR stands for that of the preset "release". */
+/** Folders that may hold a platform's library. HAPTOFLOW_NATIVE_DIR replaces the folder of the preset "release". */
 export function foldersFor(platform) {
   const folderOf = (preset) => (preset === 'release' && process.env.HAPTOFLOW_NATIVE_DIR) || inRepository(presetFolder(preset));
-  // Visual Studio puts its outputs below the name of the configuration.
+  // Visual Studio writes to a subfolder named after the configuration.
   return platform.presets.map(folderOf).flatMap((folder) => [folder, path.join(folder, 'Release')]);
 }
 
 /**
- * The libraries that are built, and the platforms that have none.
+ * Finds the built libraries, and the platforms without one.
  * @param {(platform: object) => string[]} folders where to look, in this order
  * @returns {{found: {platform: object, file: string}[], absent: {platform: object, why: string}[]}}
  */

@@ -3,7 +3,7 @@ import path from 'node:path';
 
 /**
  * A package as Unity would read it: every file by its name in the package, slashes between folders.
- * Folders that end in "~" and names that begin with a dot are there, and Unity imports none of them.
+ * Folders that end in "~" and names that begin with a dot are included, though Unity imports none of them.
  */
 export class PackageFiles {
   /** @param {Map<string, Buffer | string>} contents */
@@ -51,7 +51,7 @@ export function parentsOf(name) {
   return pieces.map((_, index) => pieces.slice(0, index + 1).join('/'));
 }
 
-/** Unity imports it: no part of the name ends in "~" or begins with a dot. */
+/** Whether Unity imports a file: no part of its name ends in "~" or begins with a dot. */
 export const isImported = (name) => name.split('/').every((piece) => !piece.endsWith('~') && !piece.startsWith('.'));
 
 /** The sample a file belongs to, for example "Samples~/StylusTracing"; null outside of samples. */

@@ -5,7 +5,7 @@ import { folderGuids, folderMeta, placeInPackage } from './layout.mjs';
 import { pluginsFolder } from './natives.mjs';
 
 /**
- * Puts the package together in a folder, which is emptied first.
+ * Assembles the package in a folder. The folder is emptied first.
  * @param {string} folder of the package's root @param {string[]} files of the repository, relative to its root
  * @param {{platform: object, file: string}[]} natives built libraries
  */
@@ -28,7 +28,7 @@ function copyTo(from, to) {
   copyFileSync(from, to);
 }
 
-/** Git has the .meta of every platform's library; those of libraries that were not built stay behind, folders as well. */
+/** Deletes the .meta files of libraries that were not built, and folders left empty: git has the .meta of every platform. */
 function dropMetasOfAbsent(folder) {
   if (!existsSync(folder)) return;
   for (const entry of readdirSync(folder, { withFileTypes: true })) {

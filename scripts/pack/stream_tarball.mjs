@@ -6,7 +6,7 @@ import { createGzip } from 'node:zlib';
 import { CommandError } from '../lib/process.mjs';
 
 const blockBytes = 512;
-// npm's own: the same package gives the same tarball everywhere.
+// The time that npm writes: the same package gives the same tarball on every machine.
 const timeSeconds = Date.UTC(1985, 9, 26, 8, 15) / 1000;
 
 /** The files below a folder, with slashes, in order. */
@@ -61,5 +61,5 @@ async function* entries(folder) {
   yield Buffer.alloc(2 * blockBytes);
 }
 
-/** Packs a folder as npm packs it, piece by piece: npm itself holds a whole tarball in memory. */
+/** Packs a folder as npm does, but as a stream: npm keeps the whole tarball in memory. */
 export const streamTarball = (folder, file) => pipeline(Readable.from(entries(folder)), createGzip(), createWriteStream(file));

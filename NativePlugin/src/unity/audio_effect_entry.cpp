@@ -132,6 +132,9 @@ AudioEffectDefinition makeDefinition() noexcept {
 /// Unity calls this function after it has loaded the library, whose file name must begin with `audioplugin`. Sets
 /// *definitions to the effects' definitions, which live as long as the library, and returns their number.
 // NOLINTNEXTLINE(readability-identifier-naming): Unity looks the function up by this name.
+extern "C" HAPTOFLOW_API int UnityGetAudioEffectDefinitions(haptoflow::unity::AudioEffectDefinition*** definitions);
+
+// NOLINTNEXTLINE(readability-identifier-naming): Unity looks the function up by this name.
 extern "C" HAPTOFLOW_API int UnityGetAudioEffectDefinitions(haptoflow::unity::AudioEffectDefinition*** definitions) {
     if (definitions == nullptr) {
         return 0;

@@ -5,14 +5,14 @@ import { guidsByName } from './metas.mjs';
 const testConstraint = 'UNITY_INCLUDE_TESTS';
 const testAssemblies = ['UnityEngine.TestRunner', 'UnityEditor.TestRunner'];
 
-/** Assemblies of packages that a project may lack, and the package whose version define must stand beside them. */
+/** Assemblies of optional packages, and the package whose version define must guard a reference to them. */
 const optionalAssemblies = {
   'Unity.InputSystem': 'com.unity.inputsystem',
   'Unity.XR.OpenXR': 'com.unity.xr.openxr',
   'Oculus.VR': 'com.meta.xr.sdk.core',
 };
 
-/** The assembly definitions of a package: {file, folder, definition}; those that are no JSON are left to the rules. */
+/** The assembly definitions of a package: {file, folder, definition}. Files that are not JSON are reported by another rule. */
 export function assembliesOf(files) {
   return files.endingIn('.asmdef').flatMap((file) => {
     try {
@@ -26,7 +26,7 @@ export function assembliesOf(files) {
 const isEditorOnly = ({ definition }) => JSON.stringify(definition.includePlatforms ?? []) === '["Editor"]';
 const isTest = ({ definition }) => (definition.defineConstraints ?? []).includes(testConstraint);
 
-/** Every assembly definition parses, and has a name of its own. */
+/** Every assembly definition parses, and no two have the same name. */
 export function checkAssemblyNames(files) {
   const complaints = [];
   const owners = new Map();
@@ -45,7 +45,7 @@ export function checkAssemblyNames(files) {
   return complaints;
 }
 
-/** References lead to assemblies of the package, of its dependencies, or of optional packages behind a version define. */
+/** References name assemblies of the package, of its dependencies, or of optional packages guarded by a version define. */
 export function checkReferences(files) {
   const assemblies = assembliesOf(files);
   const byName = new Map(assemblies.map((assembly) => [assembly.definition.name, assembly]));
@@ -85,13 +85,13 @@ function whyNotOutside({ definition }, reference, dependencies) {
   return isGuarded ? null : `expected a version define of ${needed}, which a project may lack`;
 }
 
-/** The assembly that compiles a source: the one in the nearest folder above it. */
+/** The assembly that compiles a source: the definition in the nearest folder above it. */
 function ownerOf(name, assemblies) {
   const above = assemblies.filter(({ folder }) => folder === '' || name.startsWith(`${folder}/`));
   return above.sort((a, b) => b.folder.length - a.folder.length)[0] ?? null;
 }
 
-/** Every script belongs to an assembly: Unity compiles those of packages that do not into none. */
+/** Every script belongs to an assembly definition: Unity does not compile other scripts of a package. */
 export function checkScriptsBelong(files) {
   const assemblies = assembliesOf(files);
   return files
@@ -100,7 +100,7 @@ export function checkScriptsBelong(files) {
     .map((name) => `${name}: no assembly definition in its folder or above`);
 }
 
-/** Players get no editor code, and assemblies without engine references no engine. */
+/** Runtime assemblies use no editor namespace, and assemblies without engine references no engine namespace. */
 export function checkNamespaces(files) {
   const assemblies = assembliesOf(files);
   const complaints = [];
@@ -118,7 +118,7 @@ export function checkNamespaces(files) {
   return complaints;
 }
 
-/** What lies in folders named Editor and Tests is for the editor, and for projects that run tests. */
+/** Assemblies in folders named Editor are for the editor only, and those in Tests only for projects that run tests. */
 export function checkPlatforms(files) {
   return assembliesOf(files).flatMap((assembly) => {
     const complaints = [];

@@ -1,7 +1,7 @@
 import { sampleOf } from '../package_files.mjs';
 import { guidsByName } from './metas.mjs';
 
-/** Unity's own: its default resources, its built-in extra resources, and those of its editor. */
+/** GUIDs built into Unity: default resources, built-in extra resources, and resources of the editor. */
 const builtIn = new Set(['0000000000000000e000000000000000', '0000000000000000f000000000000000', '0000000000000000d000000000000000']);
 const noGuid = '0'.repeat(32);
 
@@ -10,7 +10,7 @@ const yamlEndings = ['.unity', '.prefab', '.mixer', '.asset', '.mat', '.controll
 const references = (text) => [...text.matchAll(/\{fileID: (-?\d+)(?:, guid: ([0-9a-f]{32}), type: \d)?\}/g)].map(([, id, guid]) => ({ id, guid }));
 const lineOf = (text, index) => text.slice(0, index).split('\n').length;
 
-/** GUIDs in scenes, prefabs, mixers and other assets lead to files of the package, or to Unity's own. */
+/** GUIDs in scenes, prefabs, mixers and other assets belong to files of the package or are built into Unity. */
 export function checkAssetGuids(files) {
   const owners = new Map([...guidsByName(files)].map(([name, guid]) => [guid, name]));
   const complaints = [];
@@ -28,7 +28,7 @@ export function checkAssetGuids(files) {
   return complaints;
 }
 
-/** Within a YAML asset, a fileID without GUID is the anchor of one of its own objects, and no two anchors are the same. */
+/** In a YAML asset, a fileID without GUID refers to an object of the same asset, and no two objects share an anchor. */
 export function checkAnchors(files) {
   const complaints = [];
   for (const name of files.endingIn(...yamlEndings)) {
@@ -43,7 +43,7 @@ export function checkAnchors(files) {
   return complaints;
 }
 
-/** A script that a scene names is a file whose class bears the file's name; Unity finds it by that. */
+/** A script that a scene refers to has a class with the name of its file, by which Unity finds the class. */
 export function checkSceneScripts(files) {
   const owners = new Map([...guidsByName(files)].map(([name, guid]) => [guid, name]));
   const complaints = [];

@@ -1,4 +1,4 @@
-/** Relative links of Markdown pages lead to files of the package: pages are read there too. */
+/** Relative links of Markdown pages lead to files of the package, since the pages are also read there. */
 export function checkLinks(files) {
   const complaints = [];
   for (const name of files.endingIn('.md')) {
@@ -13,7 +13,7 @@ export function checkLinks(files) {
   return complaints;
 }
 
-/** Where a relative link leads; null above the package. */
+/** The target of a relative link; null for a target outside the package. */
 function resolved(name, target) {
   const pieces = name.split('/').slice(0, -1);
   for (const piece of decodeURI(target).replace(/\/$/, '').split('/')) {

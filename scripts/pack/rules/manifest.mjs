@@ -9,7 +9,7 @@ const fields = [
   ['license', (value) => value.length > 0, 'the name of a licence'],
 ];
 
-/** package.json is what Unity's package manager takes: names, versions, dependencies, samples that are there. */
+/** package.json is valid for Unity's Package Manager: names, versions, dependencies, and samples that exist. */
 export function checkManifest(files) {
   let manifest;
   try {

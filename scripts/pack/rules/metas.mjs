@@ -13,8 +13,9 @@ export function guidsByName(files) {
 }
 
 /**
- * Every file and folder that Unity imports has a .meta. An immutable package leaves out whatever has none. In a sample
- * with a .meta everything has one: Unity copies it to Assets, where a script without its .meta gets another GUID.
+ * Every file and folder that Unity imports has a .meta: from an immutable package Unity ignores files without one. In a
+ * sample that has .meta files every file has one: Unity copies samples to Assets, where a script without .meta gets a new
+ * GUID.
  */
 export function checkMetasAreThere(files) {
   const samplesWithMetas = new Set(files.names.filter((name) => isMeta(name)).map(sampleOf).filter(Boolean));
@@ -24,7 +25,7 @@ export function checkMetasAreThere(files) {
     .map((name) => `${name}: has no .meta; Unity leaves it out of an immutable package`);
 }
 
-/** No .meta without its file: Unity warns of it and deletes it. */
+/** Every .meta has its file: Unity warns of a .meta without one and deletes it. */
 export function checkMetasAreWanted(files) {
   const there = new Set([...files.folders, ...files.names]);
   return files.names
@@ -32,7 +33,7 @@ export function checkMetasAreWanted(files) {
     .map((name) => `${name}: belongs to no file`);
 }
 
-/** Every .meta has a GUID, and no two the same: of two, Unity gives one another GUID, and references to it break. */
+/** Every .meta has a unique GUID: Unity would give one of two files with the same GUID a new one and break its references. */
 export function checkGuids(files) {
   const owners = new Map();
   const complaints = [];
@@ -45,7 +46,7 @@ export function checkGuids(files) {
   return complaints;
 }
 
-/** The importers of Unity by kind of file, where the wrong one in a .meta loses settings. */
+/** Unity's importer for each kind of file whose settings are lost when the .meta names another importer. */
 const importers = [
   [/\.cs$/, 'MonoImporter'],
   [/\.prefab$/, 'PrefabImporter'],
@@ -57,7 +58,7 @@ const importers = [
   [/^package\.json$/, 'PackageManifestImporter'],
 ];
 
-/** A .meta names the importer of its kind of file. */
+/** Every .meta names the importer for its kind of file. */
 export function checkImporters(files) {
   const complaints = [];
   for (const name of files.names.filter((candidate) => files.has(candidate + metaEnding))) {

@@ -7,13 +7,13 @@ const modelEnding = '.haptoflow';
 const importerOfModels = (files) =>
   files.endingIn('.cs').find((name) => /\[ScriptedImporter\([^\]]*"haptoflow"/.test(files.text(name))) ?? null;
 
-/** The identifier under which the importer of models adds its main object; null where there is no such importer. */
+/** The identifier with which the model importer adds its main object; null without such an importer. */
 function modelIdentifier(files) {
   const importer = importerOfModels(files);
   return importer && (files.text(importer).match(/AddObjectToAsset\(\s*"([^"]+)"/)?.[1] ?? null);
 }
 
-/** The .meta of a model names the script of its importer: an immutable package cannot be told later. */
+/** The .meta of a model names the script of its importer, since Unity cannot change a .meta of an immutable package. */
 export function checkModelImporter(files) {
   const importer = importerOfModels(files);
   const guid = guidsByName(files).get(importer);
@@ -24,7 +24,7 @@ export function checkModelImporter(files) {
   });
 }
 
-/** Scenes refer to a model by its GUID and by the fileID that its importer's identifier gives. */
+/** Scenes refer to a model by its GUID and by the fileID derived from the importer's identifier. */
 export function checkModelReferences(files) {
   const models = new Map([...guidsByName(files)].filter(([name]) => name.endsWith(modelEnding)).map(([name, guid]) => [guid, name]));
   const complaints = [];

@@ -1,13 +1,13 @@
 export const longestPath = 100;
 
-/** Windows' 260 characters have to hold the project's own path and Unity's cache folder as well. */
+/** The maximum length of a path in the package: the limit of 260 characters of Windows includes project path and cache folder. */
 export function checkPathLengths(files) {
   return files.names
     .filter((name) => name.length > longestPath)
     .map((name) => `${name}: the path has ${name.length} characters; expected at most ${longestPath}`);
 }
 
-/** Names that differ in case only are one file on Windows and macOS. */
+/** No two names differ in case only: on Windows and macOS they would be the same file. */
 export function checkCase(files) {
   const seen = new Map();
   const complaints = [];

@@ -1,6 +1,6 @@
 import { kindOfLibrary, platforms, pluginsFolder } from '../natives.mjs';
 
-/** What the .meta of each platform's library must say, so that Unity loads it there and nowhere else. */
+/** The import settings with which Unity loads each platform's library on that platform only. */
 const settings = {
   'Linux x86-64': { player: 'Linux64', editor: 'Linux' },
   'Windows x86-64': { player: 'Win64', editor: 'Windows' },
@@ -14,7 +14,7 @@ export function platformData(meta) {
   return [...meta.matchAll(pattern)].map(([, first, enabled, text]) => ({ name: first.split(': ').at(-1).trim(), isEnabled: enabled === '1', text }));
 }
 
-/** Native libraries are of the kind that their folder says, enabled there, loaded at start, and nowhere else enabled. */
+/** Each native library has the format of its folder's platform, is enabled for that platform only, and is loaded at start. */
 export function checkPlugins(files) {
   const complaints = [];
   for (const name of files.endingIn('.so', '.dll', '.dylib')) {

@@ -5,13 +5,13 @@ import os from 'node:os';
 import path from 'node:path';
 import test from 'node:test';
 import { run } from '../../scripts/lib/process.mjs';
-import { inRepository, repositoryRoot, standingIn } from '../../scripts/lib/repository.mjs';
+import { inRepository, repositoryRoot, callerFolder } from '../../scripts/lib/repository.mjs';
 
 const posixOnly = process.platform === 'win32' ? 'run is a POSIX script' : false;
 
-/** Calls body in a folder of its own, which is not the repository. */
+/** Calls a function with a temporary folder outside the repository. */
 async function elsewhere(body) {
-  const folder = realpathSync(mkdtempSync(path.join(os.tmpdir(), 'haptoflow-standing-')));
+  const folder = realpathSync(mkdtempSync(path.join(os.tmpdir(), 'haptoflow-caller-')));
   try {
     return await body(folder);
   } finally {
@@ -19,27 +19,27 @@ async function elsewhere(body) {
   }
 }
 
-test('a child stands where the person does if that is asked for, and in the repository otherwise', () =>
+test('a child runs in the folder of the user on request, and in the repository otherwise', () =>
   elsewhere(async (folder) => {
     const words = ['-e', 'console.log(process.cwd())'];
     assert.equal((await run(process.execPath, words, { cwd: folder, quiet: true })).output.trim(), folder);
     assert.equal((await run(process.execPath, words, { quiet: true })).output.trim(), realpathSync(repositoryRoot));
   }));
 
-test('npm tells its scripts where the person stands, and without npm that is the current folder', () => {
+test('the folder of the user is npm\'s INIT_CWD, and without npm the current folder', () => {
   const before = process.env.INIT_CWD;
   try {
     process.env.INIT_CWD = os.tmpdir();
-    assert.equal(standingIn(), path.resolve(os.tmpdir()));
+    assert.equal(callerFolder(), path.resolve(os.tmpdir()));
     delete process.env.INIT_CWD;
-    assert.equal(standingIn(), process.cwd());
+    assert.equal(callerFolder(), process.cwd());
   } finally {
     if (before === undefined) delete process.env.INIT_CWD;
     else process.env.INIT_CWD = before;
   }
 });
 
-test('paths of ./run train are relative to where the person stands', { skip: posixOnly }, () =>
+test('paths of ./run train are relative to the folder of the user', { skip: posixOnly }, () =>
   elsewhere((folder) => {
     const words = ['train', '--recordings', 'gone', '--labels', 'labels.toml', '--out', 'out'];
     const asked = spawnSync(inRepository('run'), words, { cwd: folder, encoding: 'utf8' });

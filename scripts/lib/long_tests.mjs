@@ -1,0 +1,61 @@
+/**
+ * Tests that only the long form runs (`./run test --all`, every night), and why the default run loses nothing by it.
+ * Documentation~/testing.md lists the same; Tests/Package/long-tests.test.mjs compares both with the sources.
+ * @type {Record<string, {because: string, tests: string[]}[]>} tests: patterns of GoogleTest for native, parts of names of
+ *   the others
+ */
+export const longTests = {
+  native: [
+    {
+      because: 'every pair of labels is rendered from the shipped model; BlendSoundTest blends single pairs, and blend_ribs_test.cpp the arithmetic',
+      tests: ['BlendSoundTest.NoPairOfLabelsIsLouderOrSofterThanBothByMoreThanHalfADecibel'],
+    },
+    {
+      because: 'the command line is started for every example of every help text; EveryCommandLineOfEveryPageRuns starts it for those of the pages',
+      tests: ['DocumentationExamplesTest.EveryExampleOfTheHelpRuns'],
+    },
+    {
+      because: 'materials are learnt three times over; LearningApiTest.EqualOptionsGiveEqualBytes learns two through the C interface',
+      tests: ['LearnerTest.EqualSeedsGiveEqualBytesAndAnotherSeedAnotherMaterial'],
+    },
+    {
+      because: 'the figures of the benchmark are measured once more for each device; TheReportHasEveryKeyOfTheContract reads a whole report',
+      tests: ['BenchCommandTest.LatenciesHaveARowForEachDeviceWithItsGoalAndTheUsualBlocksFiguresInFront'],
+    },
+  ],
+  training: [
+    {
+      because: 'all labels are rendered from the shipped model for minutes and told apart; the classifier and the order of levels have tests of their own on short renders',
+      tests: ['test_the_shipped_model_s_renders_of_unseen_strokes_are_named_right_and_in_order_of_level'],
+    },
+    {
+      because: 'recorded strokes are rendered from the shipped model; RealStrokesTest (C++) runs their contact and ARealStrokeTouchesOnce (C#) their sound',
+      tests: ['test_every_stroke_touches_and_sounds', 'test_no_sample_is_non_finite_or_clipped', 'test_hop_boundaries_hide_in_the_wave_around_them'],
+    },
+    {
+      because: 'two models are trained and exported to compare their sound; that a shifted level is the label\'s own is tested on the network alone',
+      tests: ['test_a_level_shifted_in_the_file_scales_the_closed_loop_by_just_that'],
+    },
+    {
+      because: 'a material is calibrated from far off; that it meets its targets as shipped is tested for four materials',
+      tests: ['test_calibration_mends_a_material_that_was_put_out_of_tune'],
+    },
+    {
+      because: 'two processes of PyTorch start and find each other; what they compute is tested in one process',
+      tests: ['test_two_processes_under_torchrun_end_with_one_set_of_weights_where_the_machines_name_does_not_resolve'],
+    },
+    {
+      because: 'a network is trained to be compared with fast recordings; the arithmetic of the law is tested without a network',
+      tests: ['test_the_level_law_comes_nearer_to_fast_recordings_than_clamping', 'test_reading_the_edge_s_wave_faster_puts_the_fundamental_where_recordings_have_it'],
+    },
+  ],
+  dotnet: [
+    {
+      because: 'a material is learnt to its end, several times; one learning to its end stays, and cancelling, saving and options have tests of their own',
+      tests: ['TwoAtOnceLearnEachItsOwnAndTheSameSeedGivesTheSameBytes', 'TouchingTheButtonLearnsTheRecordingAndTheSpecimenFeelsLikeIt'],
+    },
+  ],
+};
+
+/** The names of a runner's long tests. */
+export const longTestsOf = (runner) => longTests[runner].flatMap(({ tests }) => tests);
