@@ -11,10 +11,10 @@ import matplotlib
 import numpy as np
 import pytest
 
-from haptoflow_training.evaluation.accuracy_time_chart import PANELS, chart_lines, chart_points, draw_chart, draw_panel
-from haptoflow_training.evaluation.judged_figures import BY_KEY
-from haptoflow_training.evaluation.row_store import read_row
-from haptoflow_training.evaluation.row_summary import median_interval, with_interval
+from haptoflow_benchmark.metrics.judged_figures import BY_KEY
+from haptoflow_benchmark.report.accuracy_time_chart import PANELS, chart_lines, chart_points, draw_chart, draw_panel
+from haptoflow_benchmark.rows.row_store import read_row
+from haptoflow_benchmark.rows.row_summary import median_interval, with_interval
 
 matplotlib.use("Agg")
 from matplotlib import pyplot

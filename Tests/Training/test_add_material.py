@@ -10,9 +10,9 @@ import numpy as np
 import pytest
 from own_samples import csv_one_axis, stroke
 
+from haptoflow_benchmark.engine.engine_render import read_wav, render_motion
 from haptoflow_training.cli import main
 from haptoflow_training.errors import InputError
-from haptoflow_training.evaluation.engine_render import read_wav, render_motion
 from haptoflow_training.export.material_file import model_space, read_material
 from haptoflow_training.export.model_file import ModelFile, read_model_file
 from haptoflow_training.fewshot.add_label import with_label

@@ -9,12 +9,12 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from haptoflow_training.evaluation import accuracy
-from haptoflow_training.evaluation.cell_figures import measure_cell
-from haptoflow_training.evaluation.closed_loop import run_closed_loop
-from haptoflow_training.evaluation.judged_figures import BY_KEY
-from haptoflow_training.evaluation.reference_conditions import Condition, is_on_other_label
-from haptoflow_training.evaluation.reference_set import ReferencePair
+from haptoflow_benchmark.metrics.cell_figures import measure_cell
+from haptoflow_benchmark.metrics.judged_figures import BY_KEY
+from haptoflow_benchmark.reference.reference_conditions import Condition, is_on_other_label
+from haptoflow_benchmark.reference.reference_set import ReferencePair
+from haptoflow_benchmark.rows import accuracy
+from haptoflow_training.closed_loop.render import run_closed_loop
 
 _SAMPLES = 24000
 _NOTHING = np.zeros(0, dtype=np.float32)

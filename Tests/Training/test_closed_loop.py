@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from haptoflow_training.evaluation.closed_loop import hop_positions, run_closed_loop, spliced
+from haptoflow_training.closed_loop.render import hop_positions, run_closed_loop, spliced
 
 
 class Probe:

@@ -9,9 +9,9 @@ import pytest
 import torch
 from torch import Tensor
 
+from haptoflow_benchmark.codec.codec_reconstruction import codec_reconstruction
+from haptoflow_benchmark.codec.small_codec import SmallCodec, SmallCodecShape
 from haptoflow_training.errors import InputError
-from haptoflow_training.models.codec.codec_reconstruction import codec_reconstruction
-from haptoflow_training.models.codec.small_codec import SmallCodec, SmallCodecShape
 
 
 @pytest.fixture

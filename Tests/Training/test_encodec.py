@@ -6,9 +6,9 @@ from pathlib import Path
 import pytest
 import torch
 
+from haptoflow_benchmark.codec.causal_layers import CausalConvolution, fold_weight_norm
+from haptoflow_benchmark.codec.encodec import EnCodec
 from haptoflow_training.errors import InputError
-from haptoflow_training.models.codec.causal_layers import CausalConvolution, fold_weight_norm
-from haptoflow_training.models.codec.encodec import EnCodec
 
 # A sample of the published checkpoint's names and shapes, written out by hand.
 PUBLISHED = {

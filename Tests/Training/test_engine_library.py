@@ -8,9 +8,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from haptoflow_benchmark.engine.engine_library import EngineGenerator, EngineLibrary, default_engine
+from haptoflow_benchmark.engine.timing import TimedSource, time_sources
 from haptoflow_training.errors import InputError
-from haptoflow_training.evaluation.engine_library import EngineGenerator, EngineLibrary, default_engine
-from haptoflow_training.evaluation.timing import TimedSource, time_sources
 
 ROOT = Path(__file__).parents[2]
 GOLDEN = ROOT / "Tests" / "Golden" / "model"

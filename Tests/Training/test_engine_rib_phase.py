@@ -7,13 +7,14 @@ from pathlib import Path
 
 import numpy as np
 
-from haptoflow_training.evaluation.engine_library import EngineGenerator, default_engine
+from haptoflow_benchmark.engine.engine_library import EngineGenerator, default_engine
 
 ROOT = Path(__file__).parents[2]
 sys.path.insert(0, str(ROOT / "Tests" / "Golden" / "model"))
 
 import make_tiny_model  # noqa: E402
 import tiny_graphs  # noqa: E402
+
 from haptoflow_writer import write_model  # noqa: E402
 
 WEIGHTS = np.array([[0.5], [-0.25]], dtype=np.float32)

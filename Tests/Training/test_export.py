@@ -12,14 +12,14 @@ import pytest
 from test_trainer import ALONE, _config
 from training_fixtures import FakeStore, make_store
 
+from haptoflow_benchmark.codec.small_codec import SmallCodec, SmallCodecShape
+from haptoflow_benchmark.report.annotation import annotate_model
 from haptoflow_training.errors import InputError
-from haptoflow_training.export.annotation import annotate_model
 from haptoflow_training.export.exponents import fit_exponents
 from haptoflow_training.export.exporter import Provenance, export_run
 from haptoflow_training.export.label_info import LabelInfo
 from haptoflow_training.export.model_file import ModelFile, read_model_file
 from haptoflow_training.export.seed_bank import build_seed_bank
-from haptoflow_training.models.codec.small_codec import SmallCodec, SmallCodecShape
 from haptoflow_training.recordings.landing import Landing, LandingMode
 from haptoflow_training.training.config import ModelConfig
 from haptoflow_training.training.held_out import HeldOut

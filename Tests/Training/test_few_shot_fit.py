@@ -9,9 +9,9 @@ import numpy as np
 import pytest
 from scipy.signal import lfilter
 
+from haptoflow_benchmark.few_shot.few_shot_rivals import fit_autoregressive
+from haptoflow_benchmark.metrics.waveform_metrics import power_spectrum
 from haptoflow_training.errors import InputError
-from haptoflow_training.evaluation.few_shot_rivals import fit_autoregressive
-from haptoflow_training.evaluation.metrics import power_spectrum
 from haptoflow_training.export.material_sound import LevelTable, ToneTable
 from haptoflow_training.export.model_file import ModelFile, read_model_file
 from haptoflow_training.fewshot.embedding_fit import FitOptions

@@ -9,10 +9,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from haptoflow_training.cli import main
-from haptoflow_training.evaluation.few_shot_cases import SECONDS, FewShotCase, make_case, study_materials
-from haptoflow_training.evaluation.few_shot_figures import condition_figures, summarised
-from haptoflow_training.evaluation.few_shot_report import (
+from haptoflow_benchmark.cli import main
+from haptoflow_benchmark.few_shot.few_shot_cases import SECONDS, FewShotCase, make_case, study_materials
+from haptoflow_benchmark.few_shot.few_shot_figures import condition_figures, summarised
+from haptoflow_benchmark.few_shot.few_shot_report import (
     OTHER_DRAW,
     ROWS,
     assembled,
@@ -22,9 +22,9 @@ from haptoflow_training.evaluation.few_shot_report import (
     write_chart,
     write_results,
 )
-from haptoflow_training.evaluation.few_shot_study import StudyPlan, cells_of
-from haptoflow_training.evaluation.model_stamp import with_measured_words
+from haptoflow_benchmark.few_shot.few_shot_study import StudyPlan, cells_of
 from haptoflow_training.export.model_file import read_model_file
+from haptoflow_training.model_stamp import with_measured_words
 from haptoflow_training.models.file_model import FileModel
 from haptoflow_training.recordings.synthetic import load_materials
 

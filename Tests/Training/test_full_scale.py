@@ -11,11 +11,10 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from haptoflow_training.cli import main
-from haptoflow_training.commands import measure_full_scale
-from haptoflow_training.errors import InputError
-from haptoflow_training.evaluation.engine_render import FULL_SCALE_MPS2, write_scene
-from haptoflow_training.evaluation.full_scale import (
+from haptoflow_benchmark.cli import main
+from haptoflow_benchmark.commands import measure_full_scale
+from haptoflow_benchmark.engine.engine_render import FULL_SCALE_MPS2, write_scene
+from haptoflow_benchmark.full_scale.measurement import (
     ALLOWED_SHARE,
     KNEE,
     StrokeLevel,
@@ -25,7 +24,8 @@ from haptoflow_training.evaluation.full_scale import (
     smallest_full_scale,
     summarise,
 )
-from haptoflow_training.strokes.recorded_strokes import onto_table, read_recorded_strokes
+from haptoflow_benchmark.full_scale.recorded_strokes import onto_table, read_recorded_strokes
+from haptoflow_training.errors import InputError
 
 ROOT = Path(__file__).parents[2]
 STROKES = ROOT.parent / "shared" / "strokes" / "vr-pen-on-surface" / "strokes.csv"

@@ -10,10 +10,11 @@ import onnx
 import pytest
 import torch
 
+from haptoflow_benchmark.codec.representation import CodecRepresentation
+from haptoflow_benchmark.codec.small_codec import SmallCodec, SmallCodecShape
+from haptoflow_benchmark.rivals import ARCHITECTURES
 from haptoflow_training.export.onnx_graphs import export_level_model, export_network
-from haptoflow_training.models.baselines import ARCHITECTURES
-from haptoflow_training.models.codec.small_codec import SmallCodec, SmallCodecShape
-from haptoflow_training.models.representation import CodecRepresentation, build_representation
+from haptoflow_training.models.representation import build_representation
 from haptoflow_training.training.config import TrainingConfig, load_config
 from haptoflow_training.training.trainer import build_model
 

@@ -13,17 +13,17 @@ import torch
 from numpy.typing import NDArray
 from training_fixtures import FakeRecording, FakeStore, travelled_mm
 
-from haptoflow_training.evaluation.level_calibration import level_offsets_db
-from haptoflow_training.evaluation.reference_conditions import conditions
+from haptoflow_benchmark.codec.small_codec_config import read_small_codec_config
+from haptoflow_benchmark.codec.trainer import SegmentSampler
+from haptoflow_benchmark.reference.reference_conditions import conditions
+from haptoflow_training.closed_loop.level_calibration import level_offsets_db
 from haptoflow_training.export.exponents import fit_exponents
 from haptoflow_training.export.recorded_windows import draw_windows
 from haptoflow_training.export.seed_bank import build_seed_bank
 from haptoflow_training.preprocessing.pipeline import preprocess_recording
 from haptoflow_training.preprocessing.settings import PreprocessingSettings
 from haptoflow_training.recordings.synthetic import load_materials, machine_conditions, record_machine_condition
-from haptoflow_training.models.codec.small_codec_config import read_small_codec_config
 from haptoflow_training.training.batches import SegmentBatches
-from haptoflow_training.training.codec_trainer import SegmentSampler
 from haptoflow_training.training.config import BatchConfig, load_config
 from haptoflow_training.training.held_out import HeldOut, clear_spans
 

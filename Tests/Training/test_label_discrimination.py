@@ -10,9 +10,9 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from haptoflow_training.evaluation.engine_render import write_stroke
-from haptoflow_training.evaluation.label_classifier import LabelClassifier, concatenate, window_features
-from haptoflow_training.evaluation.label_discrimination import (
+from haptoflow_benchmark.engine.engine_render import write_stroke
+from haptoflow_benchmark.metrics.label_classifier import LabelClassifier, concatenate, window_features
+from haptoflow_benchmark.own_model.label_discrimination import (
     DiscriminationReport,
     StrokeOutcome,
     discriminate,

@@ -8,8 +8,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from haptoflow_training.cli import main
-from haptoflow_training.evaluation.learn_figures import LearnFigures, _as_table, _families, chosen_materials, table
+from haptoflow_benchmark.cli import main
+from haptoflow_benchmark.few_shot.learn_figures import LearnFigures, _as_table, _families, chosen_materials, table
 from haptoflow_training.recordings.material_recording import MaterialRecording
 from haptoflow_training.recordings.synthetic import load_materials
 

@@ -12,7 +12,7 @@ from test_export import INFOS, PROVENANCE
 from test_trainer import ALONE, _config
 from training_fixtures import make_store
 
-from haptoflow_training.evaluation.level_calibration import TierSource, hops, level_offsets_db
+from haptoflow_training.closed_loop.level_calibration import TierSource, hops, level_offsets_db
 from haptoflow_training.export.exporter import export_run
 from haptoflow_training.export.model_file import read_model_file
 from haptoflow_training.export.trained_tier import load_tiers

@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 from training_fixtures import RATE_HZ, FakeRecording, FakeStore, travelled_mm
 
-from haptoflow_training.evaluation.level_calibration import ClosedLoopLevels, TierSource, closed_loop_levels
-from haptoflow_training.evaluation.level_following import level_tables
+from haptoflow_training.closed_loop.level_calibration import ClosedLoopLevels, TierSource, closed_loop_levels
+from haptoflow_training.closed_loop.level_following import level_tables
 from haptoflow_training.export.exponents import LabelExponents, fit_exponents
 from haptoflow_training.export.exporter import _label_entry
 from haptoflow_training.export.label_info import LabelInfo

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from haptoflow_training.evaluation import metrics
+from haptoflow_benchmark.metrics import waveform_metrics as metrics
 
 RATE_HZ = 2000
 

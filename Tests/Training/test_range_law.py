@@ -9,7 +9,7 @@ import pytest
 import torch
 from training_fixtures import FakeRecording, FakeStore, travelled_mm
 
-from haptoflow_training.evaluation.metrics import fundamental_hz
+from haptoflow_benchmark.metrics.waveform_metrics import fundamental_hz
 from haptoflow_training.export.exponents import LabelExponents, fit_exponents
 from haptoflow_training.models.level_model import LevelModel, level_loss
 from haptoflow_training.preprocessing.pipeline import preprocess_recording

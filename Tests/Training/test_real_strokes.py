@@ -11,8 +11,8 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from haptoflow_training.evaluation.engine_render import read_wav
-from haptoflow_training.strokes.recorded_strokes import onto_table, read_recorded_strokes
+from haptoflow_benchmark.engine.engine_render import read_wav
+from haptoflow_benchmark.full_scale.recorded_strokes import onto_table, read_recorded_strokes
 
 ROOT = Path(__file__).parents[2]
 STROKES = ROOT.parent / "shared" / "strokes" / "vr-pen-on-surface" / "strokes.csv"

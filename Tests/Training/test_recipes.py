@@ -12,6 +12,8 @@ import torch
 from test_trainer import ALONE, _config
 from training_fixtures import make_store
 
+from haptoflow_benchmark.objectives.mean_flow import mean_flow_loss
+from haptoflow_benchmark.objectives.reflow import ReflowPairs, reflow_loss
 from haptoflow_training.errors import InputError
 from haptoflow_training.export.trained_tier import TrainedTier, load_tiers
 from haptoflow_training.models.rib_comb import PARTIALS
@@ -25,8 +27,6 @@ from haptoflow_training.training.energy_distance import (
     spectra,
 )
 from haptoflow_training.training.losses import Losses
-from haptoflow_training.training.mean_flow import mean_flow_loss
-from haptoflow_training.training.reflow import ReflowPairs, reflow_loss
 from haptoflow_training.training.trainer import Trainer, build_model, load_trained, planned_steps
 
 

@@ -10,7 +10,8 @@ from typing import Any
 import numpy as np
 import pytest
 
-from haptoflow_training.evaluation.reference_conditions import (
+from haptoflow_benchmark.reference import reference_set as subject
+from haptoflow_benchmark.reference.reference_conditions import (
     CONSTANT_SPEEDS_MPS,
     Condition,
     conditions,
@@ -18,8 +19,7 @@ from haptoflow_training.evaluation.reference_conditions import (
     motion_of,
     rib_rates_hz,
 )
-from haptoflow_training.evaluation import reference_set as subject
-from haptoflow_training.evaluation.reference_set import record_pair, rib_phases
+from haptoflow_benchmark.reference.reference_set import record_pair, rib_phases
 from haptoflow_training.recordings.synthetic import HELD_OUT_SPECIMEN, Material, load_materials
 
 MATERIALS = load_materials()

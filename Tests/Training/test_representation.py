@@ -8,13 +8,14 @@ import pytest
 import torch
 from torch import nn
 
+from haptoflow_benchmark.codec.encodec import EnCodec
+from haptoflow_benchmark.codec.latent_normaliser import LatentNormaliser
+from haptoflow_benchmark.codec.polyphase_resampler import PolyphaseResampler
+from haptoflow_benchmark.codec.representation import CodecRepresentation
+from haptoflow_benchmark.codec.resampled_encodec import ResampledEnCodec
+from haptoflow_benchmark.codec.small_codec import SmallCodec, SmallCodecShape
 from haptoflow_training.errors import InputError
-from haptoflow_training.models.codec.encodec import EnCodec
-from haptoflow_training.models.codec.latent_normaliser import LatentNormaliser
-from haptoflow_training.models.codec.polyphase_resampler import PolyphaseResampler
-from haptoflow_training.models.codec.resampled_encodec import ResampledEnCodec
-from haptoflow_training.models.codec.small_codec import SmallCodec, SmallCodecShape
-from haptoflow_training.models.representation import CodecRepresentation, Representation, build_representation
+from haptoflow_training.models.representation import Representation, build_representation
 
 
 @pytest.fixture(scope="module")

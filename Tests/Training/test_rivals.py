@@ -18,17 +18,17 @@ from test_trainer import ALONE
 from torch import Tensor
 from training_fixtures import make_store
 
+from haptoflow_benchmark.rivals import build_rival
+from haptoflow_benchmark.rivals.autoregressive import AutoregressiveRival
+from haptoflow_benchmark.rivals.rival import Rival
+from haptoflow_benchmark.rivals.spsi import SpsiRival
+from haptoflow_benchmark.rows.row_plan import PlannedRow, load_plan
+from haptoflow_training.closed_loop.measured_levels import MeasuredLevels
 from haptoflow_training.commands import train
-from haptoflow_training.commands.level_offsets import MeasuredLevels
 from haptoflow_training.errors import InputError
-from haptoflow_training.evaluation.row_plan import PlannedRow, load_plan
 from haptoflow_training.export.exporter import export_run
 from haptoflow_training.export.label_info import LabelInfo
 from haptoflow_training.export.model_file import read_model_file
-from haptoflow_training.models.baselines import build_baseline
-from haptoflow_training.models.baselines.autoregressive import AutoregressiveBaseline
-from haptoflow_training.models.baselines.baseline import Baseline
-from haptoflow_training.models.baselines.spsi import SpsiBaseline
 from haptoflow_training.training.batches import SegmentBatches
 from haptoflow_training.training.config import BatchConfig, ModelConfig, TrainingConfig, load_config
 from haptoflow_training.training.losses import Losses
@@ -138,8 +138,8 @@ def test_what_a_form_cannot_do_is_refused_by_its_key(text: str, key: str, tmp_pa
 
 def test_a_rival_without_ribs_has_no_lines_and_one_with_them_is_silent_there_until_taught() -> None:
     torch.manual_seed(2)
-    with_ribs = build_baseline("autoregressive", ribs=True)
-    assert build_baseline("autoregressive").comb is None and with_ribs.comb is not None
+    with_ribs = build_rival("autoregressive", ribs=True)
+    assert build_rival("autoregressive").comb is None and with_ribs.comb is not None
     assert with_ribs.lines is not None
     past = torch.randn(4, 1, 200)
     lines, rest = with_ribs.lines(past, *_condition(4, speed_mps=0.4))
@@ -173,7 +173,7 @@ def _ribbed_texture(count: int, seed: int) -> tuple[Tensor, Tensor, tuple[Tensor
     return wave[:, None, :200], wave[:, None, 200:], (embedding, motion, phase)
 
 
-def _learn(baseline: Baseline, steps: int) -> None:
+def _learn(baseline: Rival, steps: int) -> None:
     optimiser, generator = torch.optim.Adam(baseline.parameters(), lr=5e-3), torch.Generator().manual_seed(1)
     for step in range(steps):
         previous, segment, condition = _ribbed_texture(24, step)
@@ -189,10 +189,10 @@ def _line_of(wave: Tensor, phase: Tensor) -> Tensor:
     return 2.0 * (wave[:, 0] * torch.cos(2.0 * math.pi * turns)).mean(dim=1)
 
 
-def _learned_autoregressive(seed: int) -> AutoregressiveBaseline:
+def _learned_autoregressive(seed: int) -> AutoregressiveRival:
     """Autoregressive filters with ribs that have learned the ribbed texture."""
     torch.manual_seed(seed)
-    baseline = AutoregressiveBaseline(ribs=True)
+    baseline = AutoregressiveRival(ribs=True)
     _learn(baseline, 250)
     return baseline
 
@@ -222,7 +222,7 @@ def test_an_autoregressive_segment_goes_on_where_its_past_ended_with_lines_as_wi
 
 def test_a_distance_between_draws_teaches_the_lines_and_leaves_the_filter_to_its_likelihood() -> None:
     torch.manual_seed(7)
-    baseline = AutoregressiveBaseline(ribs=True)
+    baseline = AutoregressiveRival(ribs=True)
     previous, segment, condition = _ribbed_texture(4, 1)
     made = baseline(torch.randn(4, 1, 200), previous, *condition)
     (made - segment).square().mean().backward()
@@ -233,7 +233,7 @@ def test_a_distance_between_draws_teaches_the_lines_and_leaves_the_filter_to_its
 
 def test_spsi_that_draws_states_the_mean_power_and_not_the_geometric_mean() -> None:
     torch.manual_seed(5)
-    baseline, generator = SpsiBaseline(sampled=True), torch.Generator().manual_seed(1)
+    baseline, generator = SpsiRival(sampled=True), torch.Generator().manual_seed(1)
     optimiser = torch.optim.Adam(baseline.parameters(), lr=3e-3)
     condition = _condition(64, 0.2)
     for step in range(120):
@@ -251,7 +251,7 @@ def test_spsi_that_draws_states_the_mean_power_and_not_the_geometric_mean() -> N
 @pytest.mark.parametrize("architecture", ["transformer", "dstn"])
 def test_a_network_given_noise_draws_another_segment_for_another_noise(architecture: str) -> None:
     torch.manual_seed(6)
-    baseline, condition = build_baseline(architecture, sampled=True), _condition(2, 0.2)
+    baseline, condition = build_rival(architecture, sampled=True), _condition(2, 0.2)
     previous = torch.randn(1, 1, 200).expand(2, -1, -1)
     same = tuple(part[:1].expand(2, -1) for part in condition)
     made = baseline(torch.randn(2, 1, 200), previous, *same)
@@ -290,7 +290,7 @@ def test_the_level_that_a_trained_row_makes_too_loud_is_taken_back_at_its_export
 
 
 def _train(words: list[str]) -> int:
-    from haptoflow_training.cli import main
+    from haptoflow_benchmark.cli import main
 
     return main(["train", *words])
 

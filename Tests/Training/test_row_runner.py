@@ -8,14 +8,14 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from haptoflow_benchmark.reference.reference_conditions import Condition
+from haptoflow_benchmark.reference.reference_set import ReferencePair
+from haptoflow_benchmark.rows.accuracy import Yardstick, make_yardstick
+from haptoflow_benchmark.rows.row_plan import PlannedRow
+from haptoflow_benchmark.rows.row_runner import made_from, measure_rows
+from haptoflow_benchmark.rows.row_store import stored_row
+from haptoflow_benchmark.rows.workplace import Workplace
 from haptoflow_training.errors import InputError
-from haptoflow_training.evaluation.accuracy import Yardstick, make_yardstick
-from haptoflow_training.evaluation.reference_conditions import Condition
-from haptoflow_training.evaluation.reference_set import ReferencePair
-from haptoflow_training.evaluation.row_plan import PlannedRow
-from haptoflow_training.evaluation.row_runner import made_from, measure_rows
-from haptoflow_training.evaluation.row_store import stored_row
-from haptoflow_training.evaluation.workplace import Workplace
 
 _ROWS = [PlannedRow(name, "reference") for name in ("silence", "white-noise", "mean-spectrum")]
 

@@ -8,9 +8,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from haptoflow_benchmark.metrics.temporal_metrics import rib_modulation_depth
+from haptoflow_benchmark.metrics.waveform_metrics import power_spectrum
 from haptoflow_training.cli import main
-from haptoflow_training.evaluation.metrics import power_spectrum
-from haptoflow_training.evaluation.temporal_metrics import rib_modulation_depth
 from haptoflow_training.export.material_file import model_space
 from haptoflow_training.export.material_sound import LevelTable
 from haptoflow_training.export.model_file import ModelFile, read_model_file

@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 
 from haptoflow_training.cli import main
-from haptoflow_training.evaluation.model_stamp import with_measured_words
+from haptoflow_training.model_stamp import with_measured_words
 from haptoflow_training.studies.bench_figures import read_bench
 from haptoflow_training.studies.delay_budget import page_words as budget_words
 from haptoflow_training.studies.log_columns import COLUMNS

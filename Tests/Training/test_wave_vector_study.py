@@ -7,9 +7,9 @@ from pathlib import Path
 
 import pytest
 
-from haptoflow_training.cli import main
-from haptoflow_training.evaluation import wave_vector_study
-from haptoflow_training.evaluation.wave_vector_study import measured, study_surfaces
+from haptoflow_benchmark.cli import main
+from haptoflow_benchmark.few_shot import wave_vector_study
+from haptoflow_benchmark.few_shot.wave_vector_study import measured, study_surfaces
 
 ROOT = Path(__file__).parents[2]
 

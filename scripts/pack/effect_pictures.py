@@ -31,8 +31,8 @@ from sample_pictures import MODEL, ROOT, save
 from scipy.io import wavfile
 from scipy.signal import welch
 
-from haptoflow_training.evaluation.engine_library import default_engine
-from haptoflow_training.evaluation.model_stamp import model_line, sha256_of, with_measured_words
+from haptoflow_benchmark.engine.engine_library import default_engine
+from haptoflow_training.model_stamp import model_line, sha256_of, with_measured_words
 
 ENGINE = ROOT / "build/native/haptoflow"
 IMAGES = ROOT / "Documentation~/images"

@@ -12,7 +12,7 @@ import numpy as np
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "Training"))
 
-from haptoflow_training.evaluation.engine_library import EngineLibrary, options_of  # noqa: E402
+from haptoflow_benchmark.engine.engine_library import EngineLibrary, options_of  # noqa: E402
 
 RATE_HZ = 8000
 BLOCK_FRAMES = 111

@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
-from haptoflow_training.commands.level_offsets import MeasuredLevels, calibrates, measured_levels
+from haptoflow_training.closed_loop.measured_levels import MeasuredLevels, calibrates, measured_levels
 from haptoflow_training.export.exporter import export_run
 from haptoflow_training.training.recordings_source import open_source
 from haptoflow_training.training.trainer import load_trained

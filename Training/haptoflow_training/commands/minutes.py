@@ -6,8 +6,8 @@ import copy
 import time
 from dataclasses import dataclass
 
-from haptoflow_training.commands.level_offsets import calibrates, seconds_of_a_measurement
-from haptoflow_training.evaluation.level_calibration import Extent
+from haptoflow_training.closed_loop.level_calibration import Extent
+from haptoflow_training.closed_loop.measured_levels import calibrates, seconds_of_a_measurement
 from haptoflow_training.export.onnx_graphs import export_level_model, export_network
 from haptoflow_training.export.trained_tier import TrainedTier
 from haptoflow_training.models.haptoflow_model import HaptoFlowModel

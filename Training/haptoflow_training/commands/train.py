@@ -9,11 +9,11 @@ import sys
 import time
 from pathlib import Path
 
+from haptoflow_training.closed_loop.level_calibration import Extent
+from haptoflow_training.closed_loop.measured_levels import MeasuredLevels, by_label, calibrates, measured_levels
 from haptoflow_training.commands.export import announce
-from haptoflow_training.commands.level_offsets import MeasuredLevels, by_label, calibrates, measured_levels
 from haptoflow_training.commands.minutes import SHORTEST_MINUTES, Minutes, share_out
 from haptoflow_training.errors import InputError
-from haptoflow_training.evaluation.level_calibration import Extent
 from haptoflow_training.export.exporter import export_run
 from haptoflow_training.training.config import TrainingConfig, load_config
 from haptoflow_training.training.processes import join_processes

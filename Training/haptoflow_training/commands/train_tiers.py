@@ -8,8 +8,8 @@ from pathlib import Path
 
 from tqdm import tqdm
 
+from haptoflow_training.closed_loop.measured_levels import MeasuredLevels, by_label, measured_offsets_db
 from haptoflow_training.commands.export import announce
-from haptoflow_training.commands.level_offsets import MeasuredLevels, by_label, measured_offsets_db
 from haptoflow_training.errors import InputError
 from haptoflow_training.export.exporter import export_run
 from haptoflow_training.training.config import load_config

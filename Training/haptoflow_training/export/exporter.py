@@ -24,7 +24,6 @@ from haptoflow_training.export.seed_bank import SEED_SAMPLES, build_seed_bank
 from haptoflow_training.export.trained_tier import TrainedTier, load_tiers
 from haptoflow_training.models.conditioning import EMBEDDING_SIZE
 from haptoflow_training.models.level_model import LevelModel, shift_level
-from haptoflow_training.models.representation import CodecRepresentation
 from haptoflow_training.models.velocity_field import parameter_count
 from haptoflow_training.recordings.landing import Landing
 from haptoflow_training.training.batches import SEGMENT_SAMPLES, SegmentBatches, Store
@@ -158,7 +157,7 @@ def _described(config: TrainingConfig) -> dict[str, Any]:
 def _graphs(tier: TrainedTier) -> dict[str, bytes]:
     representation = tier.model.representation
     graphs = {f"{tier.name}.field": export_network(tier.model, tier.kind)}
-    if isinstance(representation, CodecRepresentation):
+    if representation.is_latent:
         with tempfile.TemporaryDirectory() as folder:
             for name in ("encoder", "decoder"):
                 path = Path(folder) / f"{name}.onnx"
@@ -189,7 +188,7 @@ def export_run(
 
     Golden vectors are of the raw tiers: a latent one starts from noise that only the engine extends. further_tiers:
     folders of runs trained with `--base folder`, each one more tier of the same file. level_offsets_db: what the level
-    gives too much of each label (evaluation/level_calibration.py), to be taken back. level_tables: by index, of labels
+    gives too much of each label (closed_loop/level_calibration.py), to be taken back. level_tables: by index, of labels
     whose level has a table of its own.
     """
     tiers = load_tiers([folder, *further_tiers])

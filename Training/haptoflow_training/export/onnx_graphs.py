@@ -9,9 +9,9 @@ import onnx
 import torch
 from torch import Tensor, nn
 
-from haptoflow_training.models.baselines import Baseline, BaselineGraph
 from haptoflow_training.models.conditioning import EMBEDDING_SIZE
 from haptoflow_training.models.haptoflow_model import HaptoFlowModel
+from haptoflow_training.models.segment_network import SegmentNetwork, SegmentNetworkGraph
 
 OPSET = 16
 
@@ -74,8 +74,8 @@ class _AverageVelocity(nn.Module):
         return self.field(noisy, time, previous, embedding, motion, rib_phase, interval)
 
 
-def _export_baseline(baseline: Baseline) -> bytes:
-    """A baseline as a direct tier's graph, with the inputs that it reads."""
+def _export_segment_network(network: SegmentNetwork) -> bytes:
+    """The graph of a direct tier, with the inputs that the network reads."""
     wave = torch.zeros(2, 1, 200)
     examples = {
         "noisy": wave,
@@ -84,7 +84,7 @@ def _export_baseline(baseline: Baseline) -> bytes:
         "motion": torch.full((2, 3), 0.1),
         "rib_phase": torch.full((2, 2), 0.25),
     }
-    return _export(BaselineGraph(baseline), {name: examples[name] for name in baseline.inputs}, "segment")
+    return _export(SegmentNetworkGraph(network), {name: examples[name] for name in network.inputs}, "segment")
 
 
 def export_network(model: HaptoFlowModel, kind: str) -> bytes:
@@ -93,8 +93,8 @@ def export_network(model: HaptoFlowModel, kind: str) -> bytes:
     A direct tier's graph has no flow time: a field taught by the energy distance is only valid in one step from 0.
     """
     batch, field = 2, model.field
-    if isinstance(field, Baseline):
-        return _export_baseline(field)
+    if isinstance(field, SegmentNetwork):
+        return _export_segment_network(field)
     wave = torch.zeros(batch, field.channels, field.positions)
     moment = torch.zeros(batch, 1)
     conditions = {

@@ -9,8 +9,8 @@ import torch
 from torch import Tensor
 
 from haptoflow_training.errors import InputError
-from haptoflow_training.models.baselines import Baseline
 from haptoflow_training.models.haptoflow_model import HaptoFlowModel
+from haptoflow_training.models.segment_network import SegmentNetwork
 from haptoflow_training.training.config import TrainingConfig
 from haptoflow_training.training.flow_matching import solve
 from haptoflow_training.training.trainer import load_trained
@@ -34,7 +34,7 @@ class TrainedTier:
 
     @property
     def kind(self) -> str:
-        if self.config.recipe.energy_steps or isinstance(self.model.field, Baseline):
+        if self.config.recipe.energy_steps or isinstance(self.model.field, SegmentNetwork):
             return "direct"
         return "average-velocity" if self.config.recipe.objective == "average-velocity" else "flow"
 

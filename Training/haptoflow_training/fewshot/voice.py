@@ -9,7 +9,7 @@ import numpy as np
 import torch
 from numpy.typing import NDArray
 
-from haptoflow_training.evaluation.closed_loop import ClosedLoopRun, run_closed_loop
+from haptoflow_training.closed_loop.render import ClosedLoopRun, run_closed_loop
 from haptoflow_training.export.material_sound import ToneTable
 from haptoflow_training.fewshot.level_law import LevelLaw
 from haptoflow_training.models.file_model import FileTier

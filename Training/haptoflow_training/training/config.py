@@ -9,7 +9,12 @@ from pathlib import Path
 from typing import Any, TypeVar
 
 from haptoflow_training.errors import InputError
-from haptoflow_training.models.baselines import ARCHITECTURES, REGRESSING
+
+
+# Rivals of the velocity field, which other packages build (extensions.py).
+ARCHITECTURES = ("transformer", "dstn", "spsi", "autoregressive")
+# Those that predict the mean as published; with `sampled` they draw a segment.
+REGRESSING = ("transformer", "dstn", "spsi")
 
 
 @dataclass(frozen=True)

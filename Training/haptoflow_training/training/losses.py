@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
-from typing import Literal
+from collections.abc import Callable
+from typing import Literal, Protocol
 
 import torch
 from torch import Tensor, nn
 
+from haptoflow_training.extensions import extension
 from haptoflow_training.models.haptoflow_model import HaptoFlowModel
 from haptoflow_training.models.label_embedding import rib_frequencies_hz, rib_phase
 from haptoflow_training.models.level_model import level_loss
@@ -16,8 +18,6 @@ from haptoflow_training.training.batches import Chain, SegmentBatch
 from haptoflow_training.training.config import SolverConfig
 from haptoflow_training.training.energy_distance import energy_distance_loss, envelopes, halves_of, spectra
 from haptoflow_training.training.flow_matching import flow_matching_loss, solve
-from haptoflow_training.training.mean_flow import AverageField, mean_flow_loss
-from haptoflow_training.training.reflow import ReflowPairs, reflow_loss
 from haptoflow_training.training.label_balance import LabelBalance, label_features
 
 # `own`: what a baseline is trained for by its own form.
@@ -26,6 +26,19 @@ Objective = Literal["level", "flow", "average-velocity", "reflow", "energy", "ow
 _BALANCE_WEIGHT = 2.0
 # Power of a past in unit scale, and change of the level's logarithm within a segment, beyond which it counts less.
 _LOUD_PAST, _UNSTEADY_LOG_LEVEL = 4.0, 0.4
+
+
+AverageField = Callable[[Tensor, Tensor, Tensor], Tensor]
+
+
+class TrainingPairs(Protocol):
+    """Pairs of noise and segment that a network made itself, for the reflow objective."""
+
+    def draw(self, count: int, generator: torch.Generator) -> TrainingPairs:
+        """`count` pairs at random."""
+
+    def loss(self, model: HaptoFlowModel, generator: torch.Generator) -> Tensor:
+        """The mean error of the model's velocity over the pairs, a scalar."""
 
 
 class Losses(nn.Module):
@@ -54,7 +67,7 @@ class Losses(nn.Module):
         batch: SegmentBatch,
         objective: Objective,
         generator: torch.Generator,
-        pairs: ReflowPairs | None = None,
+        pairs: TrainingPairs | None = None,
     ) -> tuple[Tensor, Tensor]:
         level = self._level_loss(batch)
         if objective == "level":
@@ -62,22 +75,13 @@ class Losses(nn.Module):
         if objective == "reflow":
             if pairs is None:
                 raise ValueError("the reflow objective needs pairs")
-            return level, self._reflow_loss(pairs, generator)
+            return level, pairs.loss(self.model, generator)
         return level, self._field_loss(batch, objective, generator)
 
     def _level_loss(self, batch: SegmentBatch) -> Tensor:
         if not self._train_level:
             return torch.zeros(())
         return level_loss(self.model.log_level(batch.label, batch.level_motion), batch.level_mean_square_mps2)
-
-    def _reflow_loss(self, pairs: ReflowPairs, generator: torch.Generator) -> Tensor:
-        embedding = self.model.embedding(pairs.label)
-        phase = rib_phase(embedding, pairs.position_mm)
-
-        def field(noisy: Tensor, time: Tensor) -> Tensor:
-            return self.model.field(noisy, time, pairs.previous, embedding, pairs.motion, phase)
-
-        return reflow_loss(field, pairs, generator)
 
     def _field_loss(self, batch: SegmentBatch, objective: Objective, generator: torch.Generator) -> Tensor:
         model = self.model
@@ -116,7 +120,9 @@ class Losses(nn.Module):
         if objective == "flow":
             return flow_matching_loss(field, segment, generator, 1.0 / power)
         if objective == "average-velocity":
-            return mean_flow_loss(bound, segment, generator, 1.0 / power)
+            mean_flow_loss = extension("objective", "average-velocity")
+            average_loss: Tensor = mean_flow_loss(bound, segment, generator, 1.0 / power)
+            return average_loss
         # Both draws in one pass: many small products cost less as few large ones.
         noise = torch.randn(2 * len(segment), *segment.shape[1:], generator=generator)
         condition = [torch.cat([part, part]) for part in (previous, embedding, batch.motion, phase)]

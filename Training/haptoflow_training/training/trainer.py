@@ -24,20 +24,20 @@ from torch.nn.parallel import DistributedDataParallel
 from tqdm import tqdm
 
 from haptoflow_training.errors import InputError
-from haptoflow_training.models.baselines import Baseline, build_baseline
+from haptoflow_training.extensions import extension
 from haptoflow_training.models.haptoflow_model import HaptoFlowModel
 from haptoflow_training.models.level_model import ConstantLevel, LevelModel
 from haptoflow_training.models.representation import build_representation
+from haptoflow_training.models.segment_network import SegmentNetwork
 from haptoflow_training.models.velocity_field import VelocityField
 from haptoflow_training.training.batches import SegmentBatches, Store
 from haptoflow_training.training.budget import Budget
 from haptoflow_training.training.config import TrainingConfig, config_from_dict
-from haptoflow_training.training.losses import Losses, Objective
+from haptoflow_training.training.label_balance import LabelBalance
+from haptoflow_training.training.losses import Losses, Objective, TrainingPairs
 from haptoflow_training.training.moving_average import MovingAverage
 from haptoflow_training.training.processes import Processes
-from haptoflow_training.training.reflow import ReflowPairs, join_pairs
 from haptoflow_training.training.run_log import MetricsLog, plot_metrics, source_commit, write_json
-from haptoflow_training.training.label_balance import LabelBalance
 
 _COLUMNS = ("step", "phase", "field_loss", "level_loss", "validation_field_loss", "validation_level_loss", "seconds")
 _LOG_EVERY = 100
@@ -74,7 +74,7 @@ def build_model(config: TrainingConfig, wave_vectors: WaveVectors) -> HaptoFlowM
     shape = config.model
     representation = build_representation(shape.representation)
     channels, positions = representation.shape
-    field: VelocityField | Baseline
+    field: VelocityField | SegmentNetwork
     if shape.architecture == "unet":
         field = VelocityField(
             channels=channels,
@@ -89,7 +89,8 @@ def build_model(config: TrainingConfig, wave_vectors: WaveVectors) -> HaptoFlowM
             levels=shape.levels,
         )
     else:
-        field = build_baseline(shape.architecture, ribs=shape.ribs, sampled=shape.sampled)
+        build = extension("architecture", shape.architecture)
+        field = build(shape.architecture, ribs=shape.ribs, sampled=shape.sampled)
     level = LevelModel() if shape.level == "law" else ConstantLevel()
     return HaptoFlowModel(wave_vectors=wave_vectors, representation=representation, level=level, field=field)
 
@@ -184,7 +185,7 @@ class Trainer:
         self._losses = Losses(
             self.model, config.solver, train_level=not config.recipe.shares_base, balance=self._balance
         )
-        self._pairs: ReflowPairs | None = None
+        self._pairs: TrainingPairs | None = None
         self._average = MovingAverage(self.model, optimiser.average_decay)
         self._optimiser = torch.optim.AdamW(
             self.model.parameters(), lr=optimiser.learning_rate, weight_decay=optimiser.weight_decay, foreach=True
@@ -363,7 +364,7 @@ class Trainer:
             for parameter in (*self.model.field.parameters(), *self.model.embedding.parameters()):
                 parameter.requires_grad_(False)
 
-    def _make_pairs(self) -> ReflowPairs:
+    def _make_pairs(self) -> TrainingPairs:
         """Noise and what the flow makes of it; the same set whenever a run is resumed would need the flow's old
         weights, so a resumed run draws its pairs from the network as it is."""
         generator = torch.Generator().manual_seed(self._config.seed + 17)
@@ -372,7 +373,8 @@ class Trainer:
         parts = []
         for _ in tqdm(range(0, count, size), desc="pairs", unit="batch", disable=not self._processes.is_first):
             parts.append(teacher.make_pairs(self._batches.draw(size), generator))
-        return join_pairs(parts)
+        pairs: TrainingPairs = extension("objective", "reflow").joined(parts)
+        return pairs
 
     def _train_step(self, losses: nn.Module, phase: _Phase) -> tuple[Tensor, Tensor]:
         for group in self._optimiser.param_groups:

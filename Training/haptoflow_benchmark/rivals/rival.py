@@ -1,0 +1,73 @@
+"""What all baselines share: one signature, one way into a graph, and the ribs' lines where they are given the same."""
+
+from __future__ import annotations
+
+import torch
+from torch import Tensor
+
+from haptoflow_benchmark.rivals.rib_lines import RibLines
+from haptoflow_training.models.rib_comb import RibComb
+from haptoflow_training.models.segment_network import INPUTS, SegmentNetwork
+
+RIB_INPUTS = ("previous", "rib_phase")
+
+
+class Rival(SegmentNetwork):
+    """A segment network that may add rib lines to what its published form makes of the rest."""
+
+    def __init__(self, *, ribs: bool = False) -> None:
+        super().__init__()
+        self.lines = RibLines() if ribs else None
+
+    @property
+    def comb(self) -> RibComb | None:
+        return None if self.lines is None else self.lines.comb
+
+    def forward(self, noisy: Tensor, previous: Tensor, embedding: Tensor, motion: Tensor, rib_phase: Tensor) -> Tensor:
+        if self.lines is None:
+            return self.own_form(noisy, previous, embedding, motion)
+        lines, rest = self.lines(previous, embedding, motion, rib_phase)
+        return lines + self.own_form(noisy, rest, embedding, motion)
+
+    def own_form(self, noisy: Tensor, previous: Tensor, embedding: Tensor, motion: Tensor) -> Tensor:
+        """[B, 1, 200]: what the rival makes in the form that was published, from the past as the ribs' lines leave it."""
+        raise NotImplementedError
+
+    def rest(
+        self, segment: Tensor, previous: Tensor, embedding: Tensor, motion: Tensor, rib_phase: Tensor
+    ) -> tuple[Tensor, Tensor]:
+        """What the ribs' lines leave of a recorded segment and of the past before it, [B, 1, 200] each: what the published
+        form is fitted to."""
+        if self.lines is None:
+            return segment, previous
+        lines, rest = self.lines(previous, embedding, motion, rib_phase)
+        return segment - lines, rest
+
+
+class RegressingRival(Rival):
+    """One answer for one question: trained by mean squared error on the segment, no noise read. `sampled`: it reads
+    noise, and the mean squared error is no more than a start."""
+
+    def __init__(self, *, ribs: bool = False, sampled: bool = False) -> None:
+        super().__init__(ribs=ribs)
+        self.is_sampled = sampled
+        self.inputs = reads(*(("noisy",) if sampled else ()), "previous", ribs=ribs)
+
+    def loss(
+        self,
+        segment: Tensor,
+        previous: Tensor,
+        embedding: Tensor,
+        motion: Tensor,
+        rib_phase: Tensor,
+        generator: torch.Generator,
+    ) -> Tensor:
+        noise = torch.randn(segment.shape, generator=generator)
+        answer = self(noise, previous, embedding, motion, rib_phase)
+        return (answer - segment).square().mean(dim=(1, 2))
+
+
+def reads(*own: str, ribs: bool) -> tuple[str, ...]:
+    """The inputs of a baseline in their order: its own, material and motion, and what the ribs' lines read."""
+    wanted = {*own, "embedding", "motion", *(RIB_INPUTS if ribs else ())}
+    return tuple(name for name in INPUTS if name in wanted)

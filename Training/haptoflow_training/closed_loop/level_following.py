@@ -1,0 +1,91 @@
+"""Which labels' levels leave the level model's law, and the tables that follow their recordings.
+
+What is compared is what is heard: a finished network in closed loop beside the recordings, by speed. Where the two differ
+by more than the least change of level that is felt, the label gets a table, and the table is corrected by what is still
+measured with it.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping
+
+import numpy as np
+from numpy.typing import NDArray
+
+from haptoflow_training.closed_loop.level_calibration import ClosedLoopLevels, offsets_db
+from haptoflow_training.export.exponents import LabelExponents
+from haptoflow_training.export.level_table import LevelTable, bin_speed_mps, speed_bins, table_through
+
+# The least change of a vibration's amplitude that is felt is 2.2 to 2.5 dB.
+FELT_DB = 2.5
+_FEWEST_WINDOWS = 8
+_SLOWEST_MPS = 0.005
+_ROUNDS = 2
+_NATURAL_PER_DB = math.log(10.0) / 20.0
+
+Measure = Callable[[Mapping[int, LevelTable]], ClosedLoopLevels]
+
+
+def level_tables(
+    levels: ClosedLoopLevels, exponents: Mapping[int, LabelExponents], measure: Measure
+) -> dict[int, LevelTable]:
+    """By label, for those that need one. levels: with the level model alone. exponents: of every label. measure: what is
+    heard of the labels that are given tables, with these."""
+    labels = len(exponents)
+    offsets = offsets_db(levels, labels)
+    tables: dict[int, LevelTable] = {}
+    for label in range(labels):
+        bins, recorded, excess = _by_speed(levels, label, exponents[label])
+        if len(bins) >= 2 and np.abs(excess - offsets[label]).max() > FELT_DB:
+            tables[label] = _table(levels, label, bins, recorded, exponents[label])
+    for _ in range(_ROUNDS if tables else 0):
+        heard = measure(tables)
+        tables = {label: _corrected(table, heard, label, exponents[label]) for label, table in tables.items()}
+    return tables
+
+
+def _by_speed(
+    levels: ClosedLoopLevels, label: int, exponents: LabelExponents
+) -> tuple[NDArray[np.int64], NDArray[np.float64], NDArray[np.float64]]:
+    """Bins of speed that were heard often enough; natural log of the recorded RMS at the label's median force in each;
+    and by how many decibels more was generated."""
+    own = (levels.owners == label) & (levels.speeds_mps > _SLOWEST_MPS) & (levels.forces_newtons > 0.02)
+    bins = speed_bins(levels.speeds_mps[own])
+    powers = levels.powers[own] + 1e-8
+    force = np.log(levels.forces_newtons[own] / _usual_force(levels, label))
+    at_usual_force = powers[:, 1] * np.exp(-2.0 * exponents.level_force * force)
+    numbers, counts = np.unique(bins, return_counts=True)
+    numbers = numbers[counts >= _FEWEST_WINDOWS]
+    recorded = np.array([0.5 * math.log(float(at_usual_force[bins == number].mean())) for number in numbers])
+    excess = [10.0 * math.log10(float(np.divide(*powers[bins == number].sum(axis=0)))) for number in numbers]
+    return numbers, recorded, np.array(excess)
+
+
+def _usual_force(levels: ClosedLoopLevels, label: int) -> float:
+    own = (levels.owners == label) & (levels.speeds_mps > _SLOWEST_MPS) & (levels.forces_newtons > 0.02)
+    return float(np.clip(np.median(levels.forces_newtons[own]), 0.05, 50.0))
+
+
+def _table(
+    levels: ClosedLoopLevels,
+    label: int,
+    bins: NDArray[np.int64],
+    log_levels: NDArray[np.float64],
+    exponents: LabelExponents,
+) -> LevelTable:
+    return table_through(
+        np.array([bin_speed_mps(int(number)) for number in bins]),
+        log_levels,
+        force_newtons=_usual_force(levels, label),
+        force_exponent=exponents.level_force,
+        speed_exponent=exponents.level_speed,
+    )
+
+
+def _corrected(table: LevelTable, heard: ClosedLoopLevels, label: int, exponents: LabelExponents) -> LevelTable:
+    """Less by what is still too much at each speed."""
+    bins, _, excess = _by_speed(heard, label, exponents)
+    speeds = np.array([bin_speed_mps(int(number)) for number in bins])
+    levels = table.log_level(speeds, table.force_newtons) - _NATURAL_PER_DB * excess
+    return _table(heard, label, bins, levels, exponents)
