@@ -369,12 +369,6 @@ def test_a_wrong_labels_file_is_refused_by_entry_and_key(tmp_path: Path, text: s
         load_labels(path)
 
 
-def test_a_selection_of_labels_keeps_the_order_asked_for() -> None:
-    assert load_labels().select(["metal", "wood"]).names == ["metal", "wood"]
-    with pytest.raises(InputError, match="label 'cheese' is not defined"):
-        load_labels().select(["cheese"])
-
-
 def test_an_unreadable_file_is_a_named_problem(file_release: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     def refuse(path: Path) -> None:
         raise PermissionError(13, "Permission denied")

@@ -3,6 +3,9 @@
 from __future__ import annotations
 
 import ast
+import os
+import subprocess
+import sys
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -36,3 +39,24 @@ def test_no_module_of_the_training_package_imports_the_benchmark_package(path: P
     ]
     assert not found, "\n".join(found)
     assert "haptoflow_benchmark" not in text, "the training package names no module of the benchmark package"
+
+
+@pytest.mark.parametrize(
+    ("configuration", "part"),
+    [("spsi", "architecture 'spsi'"), ("mean-flow", "objective 'average-velocity'"), ("reflow", "objective 'reflow'"),
+     ("paper-codec", "representation")],
+)  # fmt: skip
+def test_the_training_program_refuses_a_row_of_the_benchmark_and_names_the_other_program(
+    tmp_path: Path, configuration: str, part: str
+) -> None:
+    config = TRAINING / "configs" / "evaluation" / f"{configuration}.toml"
+    words = ["train", "--config", str(config), "--out", str(tmp_path / "run")]
+    # A process of its own: other tests of this one import haptoflow_benchmark, which registers the parts.
+    ended = subprocess.run(
+        [sys.executable, "-m", "haptoflow_training", *words],
+        cwd=tmp_path, env={**os.environ, "PYTHONPATH": str(TRAINING)}, capture_output=True, text=True, check=False,
+        timeout=60,
+    )  # fmt: skip
+    assert ended.returncode == 3, ended.stderr
+    assert part in ended.stderr and "haptoflow-benchmark" in ended.stderr
+    assert not any(tmp_path.iterdir())

@@ -9,7 +9,8 @@ import numpy as np
 import torch
 from numpy.typing import NDArray
 
-from haptoflow_benchmark.codec.small_codec import SEGMENT_SAMPLES, SmallCodec
+from haptoflow_benchmark.codec.small_codec import SmallCodec
+from haptoflow_training.waveform import SEGMENT_SAMPLES
 
 # Below a hundredth of a metre per second squared nothing can be felt: silence stays silence.
 _QUIET_RMS_MPS2 = 0.01

@@ -8,8 +8,8 @@ from torch import Tensor, nn
 from haptoflow_benchmark.codec.encodec import ENCODEC_RATE_HZ, FRAME_SAMPLES, LATENT_CHANNELS, EnCodec
 from haptoflow_benchmark.codec.latent_normaliser import LatentNormaliser
 from haptoflow_benchmark.codec.polyphase_resampler import PolyphaseResampler
+from haptoflow_training.waveform import SEGMENT_SAMPLES
 
-SEGMENT_SAMPLES = 200
 WAVEFORM_RATE_HZ = 2_000
 # EnCodec was trained on sound within +-1; waveforms in unit scale have an RMS of 1 and peaks of several.
 DEFAULT_WAVEFORM_SCALE = 0.1

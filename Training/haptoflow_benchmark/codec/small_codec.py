@@ -11,8 +11,8 @@ from torch import Tensor, nn
 from haptoflow_benchmark.codec.checkpoint_file import load_state, read_tensors
 from haptoflow_benchmark.codec.latent_normaliser import LatentNormaliser
 from haptoflow_training.errors import InputError
+from haptoflow_training.waveform import SEGMENT_SAMPLES
 
-SEGMENT_SAMPLES = 200
 
 _STAGES = 3
 _FILE_KIND = "haptoflow small codec 1"

@@ -25,12 +25,13 @@ from haptoflow_benchmark.codec.reconstruction_loss import (
     spectral_loss,
     time_loss,
 )
-from haptoflow_benchmark.codec.small_codec import SEGMENT_SAMPLES, SmallCodec
+from haptoflow_benchmark.codec.small_codec import SmallCodec
 from haptoflow_benchmark.codec.small_codec_config import SmallCodecConfig
 from haptoflow_training.errors import InputError
 from haptoflow_training.training.config import load_config
 from haptoflow_training.training.held_out import HeldOut, clear_spans
 from haptoflow_training.training.run_log import MetricsLog
+from haptoflow_training.waveform import SEGMENT_SAMPLES
 
 CHECKPOINT_NAME = "checkpoint.pt"
 LOG_NAME = "log.csv"

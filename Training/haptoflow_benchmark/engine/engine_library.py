@@ -13,8 +13,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from haptoflow_training.errors import InputError
+from haptoflow_training.waveform import SEGMENT_SAMPLES
 
-SEGMENT_SAMPLES = 200
 RIB_COUNT = 2
 MAXIMUM_BATCH = 256
 SOLVERS = {"tier": 0, "euler": 1, "midpoint": 2, "heun": 3}

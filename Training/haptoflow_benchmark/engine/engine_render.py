@@ -14,7 +14,9 @@ from numpy.typing import NDArray
 from scipy.io import wavfile
 from scipy.signal import resample_poly
 
+from haptoflow_training.closed_loop.render import UPDATE_RATE_HZ
 from haptoflow_training.errors import InputError
+from haptoflow_training.waveform import SAMPLE_RATE_HZ
 
 # The command line's default, as in the C header.
 FULL_SCALE_MPS2 = 200.0
@@ -80,7 +82,7 @@ def render_motion(
     *,
     model: Path | None = None,
     seed: int = 1,
-    update_rate_hz: float = 72.0,
+    update_rate_hz: float = UPDATE_RATE_HZ,
     options: tuple[str, ...] = (),
 ) -> EngineRender:
     """Run `haptoflow render`; InputError carries the command's own message when it fails."""
@@ -97,5 +99,5 @@ def render_motion(
         raise InputError(f"{engine}: cannot be run ({error.strerror}); build it with `npm run build`") from error
     if done.returncode != 0:
         raise InputError(f"{engine} render failed: {done.stderr.strip()}")
-    waveform = resample_poly(read_wav(wav).astype(np.float64), 1, _RENDER_RATE_HZ // 2000) * FULL_SCALE_MPS2
+    waveform = resample_poly(read_wav(wav).astype(np.float64), 1, _RENDER_RATE_HZ // SAMPLE_RATE_HZ) * FULL_SCALE_MPS2
     return EngineRender(waveform[: len(motion)], json.loads(report.read_text(encoding="utf-8")))

@@ -16,6 +16,7 @@ from haptoflow_training.recordings.material_recording import MaterialRecording
 from haptoflow_training.recordings.recording import RecordingIdentity
 from haptoflow_training.recordings.synthetic import Material, load_materials, record_condition, record_hand_condition
 from haptoflow_training.recordings.synthetic.specimens import HELD_OUT_SPECIMEN, TRAINING_SPECIMENS
+from haptoflow_training.waveform import SAMPLE_RATE_HZ
 
 SECONDS = (3.0, 10.0, 30.0, 120.0)
 # Median speed (mm/s) and force (mN) of each ride in turn, so that few seconds already hold slow and fast.
@@ -139,7 +140,7 @@ def _as_recording(name: str, label: str, prepared: PreparedRecording) -> Materia
 
 
 def _cut(recording: MaterialRecording, seconds: float) -> MaterialRecording:
-    count = round(2000.0 * seconds)
+    count = round(SAMPLE_RATE_HZ * seconds)
     return MaterialRecording(
         recording.name,
         recording.label,

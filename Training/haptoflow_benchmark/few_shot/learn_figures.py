@@ -28,6 +28,7 @@ from haptoflow_training.models.file_model import FileModel
 from haptoflow_training.recordings.material_recording import MaterialRecording
 from haptoflow_training.recordings.synthetic import load_materials
 from haptoflow_training.recordings.synthetic.materials import Material
+from haptoflow_training.waveform import SAMPLE_RATE_HZ
 
 SECONDS = 10.0
 LEARNT, AUTOREGRESSIVE, OTHER_DRAW = "learn", "autoregressive", "other draw"
@@ -103,7 +104,7 @@ def _learnt(
 ) -> tuple[Path, dict[str, Any]]:
     recording, material, report = (folder / f"{name}.{end}" for end in ("csv", "haptomaterial", "report.json"))
     recording.write_text(_as_table(recordings), encoding="utf-8")
-    recording.with_suffix(".json").write_text('{"rate_hz": 2000}', encoding="utf-8")
+    recording.with_suffix(".json").write_text(json.dumps({"rate_hz": SAMPLE_RATE_HZ}), encoding="utf-8")
     command = [str(engine), "learn", str(recording), "-o", str(material), "--report", str(report), "--name", name]
     # No limit of seconds that another program's work could reach: the result is the same on every run.
     command += ["--model", str(model), "--seed", str(seed), "--seconds-limit", "3600", "--quiet"]

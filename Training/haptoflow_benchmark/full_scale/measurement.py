@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 
 from haptoflow_benchmark.engine.engine_render import read_wav, write_scene
 from haptoflow_benchmark.full_scale.recorded_strokes import onto_table
+from haptoflow_training.closed_loop.render import UPDATE_RATE_HZ
 from haptoflow_training.errors import InputError
 
 # The limiter is linear up to this share of the full scale (SoftLimiter::knee).
@@ -27,7 +28,6 @@ ALLOWED_SHARE = 0.001
 FORCES_NEWTONS = (0.5, 1.0, 2.0, 3.0)
 # Far above any texture: the wave leaves the limiter as it went in.
 _UNBENT_FULL_SCALE_MPS2 = 1000.0
-_UPDATE_RATE_HZ = 72.0
 _RATE_HZ = 48000
 # Keeps the pen on the table in touch in spite of some millimetres of tracking error and bent tables.
 _TIP_RADIUS_METRES = 0.005
@@ -77,7 +77,7 @@ def _render(
     engine: Path, model: Path, folder: Path, label: str, stroke: NDArray[np.float64], force_newtons: float
 ) -> NDArray[np.float32]:
     scene, table, wav = (folder / name for name in ("scene.json", "stroke.csv", "out.wav"))
-    write_scene(scene, label, _UPDATE_RATE_HZ, _TIP_RADIUS_METRES)
+    write_scene(scene, label, UPDATE_RATE_HZ, _TIP_RADIUS_METRES)
     columns = np.c_[onto_table(stroke), np.full(len(stroke), force_newtons)]
     np.savetxt(table, columns, fmt="%.7f", delimiter=",", header="t,x,y,z,force", comments="")
     command = [str(engine), "render", str(scene), "--stroke", str(table), "-o", str(wav), "--model", str(model)]

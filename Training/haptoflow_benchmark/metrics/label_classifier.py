@@ -8,9 +8,10 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.signal import welch
 
-RATE_HZ = 2000.0
+from haptoflow_training.waveform import SAMPLE_RATE_HZ
+
 WINDOW_SECONDS = 1.0
-_WINDOW = int(RATE_HZ * WINDOW_SECONDS)
+_WINDOW = int(SAMPLE_RATE_HZ * WINDOW_SECONDS)
 _BAND_EDGES_HZ = 22.4 * 2.0 ** (np.arange(17) / 3.0)
 _SLOWEST_MPS = 0.01
 
@@ -42,7 +43,7 @@ def window_features(
         speed = np.hypot(velocity[:, 0], velocity[:, 1])
         if np.quantile(speed, 0.2) < _SLOWEST_MPS or force < 0.05:
             continue
-        frequency, power = welch(waveform_mps2[start : start + _WINDOW], RATE_HZ, nperseg=400)
+        frequency, power = welch(waveform_mps2[start : start + _WINDOW], SAMPLE_RATE_HZ, nperseg=400)
         bands = np.digitize(frequency, _BAND_EDGES_HZ)
         energy = np.array([power[bands == band].sum() for band in range(1, len(_BAND_EDGES_HZ))])
         spectra.append(10.0 * np.log10(energy * (frequency[1] - frequency[0]) + 1e-8))

@@ -9,7 +9,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from haptoflow_benchmark.metrics.waveform_metrics import SAMPLE_RATE_HZ
+from haptoflow_training.waveform import SAMPLE_RATE_HZ
+
 
 # Frames of 5 ms: shorter than the hand's resolution in time, longer than the periods that make its pitch.
 ENVELOPE_SAMPLES = 10

@@ -13,8 +13,9 @@ from numpy.typing import NDArray
 
 from haptoflow_benchmark.metrics.cell_figures import SETTLING_SAMPLES
 from haptoflow_benchmark.metrics.temporal_metrics import ENVELOPE_SAMPLES, crest_factor, kurtosis, variation
-from haptoflow_benchmark.metrics.waveform_metrics import CRITICAL_BAND_EDGES_HZ, SAMPLE_RATE_HZ
+from haptoflow_benchmark.metrics.waveform_metrics import CRITICAL_BAND_EDGES_HZ
 from haptoflow_benchmark.reference.reference_set import ReferencePair
+from haptoflow_training.waveform import SAMPLE_RATE_HZ
 
 EXCERPT_SAMPLES = SAMPLE_RATE_HZ
 _MODULATION_EDGES_HZ = (2.0, 5.0, 10.0, 20.0, 40.0, 100.0)

@@ -8,7 +8,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-SAMPLE_RATE_HZ = 2000
+from haptoflow_training.waveform import SAMPLE_RATE_HZ
+
 # Bark band edges (Zwicker 1961) inside the band that the system renders.
 CRITICAL_BAND_EDGES_HZ = (20.0, 100.0, 200.0, 300.0, 400.0, 510.0, 630.0, 770.0, 920.0, 1000.0)
 _FLOOR = 1e-9

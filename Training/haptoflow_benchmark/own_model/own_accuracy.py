@@ -16,10 +16,10 @@ from numpy.typing import NDArray
 
 from haptoflow_benchmark.engine.engine_render import render_motion
 from haptoflow_benchmark.metrics.waveform_metrics import gfc_recording, level_error_db, log_spectral_distance_db, power_spectrum
+from haptoflow_training.waveform import SAMPLE_RATE_HZ
 
 _Floats = NDArray[np.floating]
 
-RATE_HZ = 2000
 _WINDOW_SAMPLES = 400
 # The engine's start from a seed, and the end of its resampler.
 _SETTLING_SAMPLES = 200
@@ -119,7 +119,7 @@ def label_accuracy(label: str, rendered: Sequence[RenderedPart]) -> LabelAccurac
     return LabelAccuracy(
         label,
         len(rendered),
-        len(windows) * _WINDOW_SAMPLES / RATE_HZ,
+        len(windows) * _WINDOW_SAMPLES / SAMPLE_RATE_HZ,
         tuple(level_error_db(made, heard) for made, heard, _ in windows),
         float(np.mean(gfc)) if gfc else None,
         float(np.mean(lsd)) if lsd else None,
@@ -129,7 +129,7 @@ def label_accuracy(label: str, rendered: Sequence[RenderedPart]) -> LabelAccurac
 
 def spectra_db(rendered: Sequence[RenderedPart]) -> tuple[_Floats, _Floats, _Floats]:
     """(Hz, recorded, rendered): mean power of a label's parts, dB over 1 (m/s^2)^2 per bin of 7.8 Hz."""
-    frequency = np.fft.rfftfreq(_LSD_WINDOW, 1.0 / RATE_HZ)
+    frequency = np.fft.rfftfreq(_LSD_WINDOW, 1.0 / SAMPLE_RATE_HZ)
     waves = [(one.part.recorded, one.rendered) for one in rendered]
     sums = []
     for side in (0, 1):

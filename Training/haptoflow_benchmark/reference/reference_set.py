@@ -23,10 +23,10 @@ from haptoflow_training.preprocessing.pipeline import PreparedRecording, preproc
 from haptoflow_training.preprocessing.settings import PreprocessingSettings
 from haptoflow_training.recordings import synthetic
 from haptoflow_training.recordings.synthetic import HELD_OUT_SPECIMEN, Material, load_materials, record_condition
+from haptoflow_training.waveform import SAMPLE_RATE_HZ
 
 _Floats = NDArray[np.float32]
 
-_RATE_HZ = 2000
 _INDEPENDENT_SEED = 100_000
 
 
@@ -48,7 +48,7 @@ def _record(material: Material, motion: NDArray[np.float64], seed: int) -> Prepa
         material,
         velocity_mps=(motion[:, 0], motion[:, 1]),
         force_newtons=motion[:, 2],
-        duration_seconds=len(motion) / _RATE_HZ,
+        duration_seconds=len(motion) / SAMPLE_RATE_HZ,
         seed=seed,
         specimen=HELD_OUT_SPECIMEN,
     )
@@ -62,7 +62,7 @@ def record_pair(task: tuple[Condition, Material, Material]) -> ReferencePair:
     motion = motion_of(condition, material, trim)
     prepared = [_record(material, motion, condition.seed + repeat) for repeat in (0, _INDEPENDENT_SEED)]
     waves = [entry.waveform_mps2 for entry in prepared]
-    lead = round(trim * _RATE_HZ)
+    lead = round(trim * SAMPLE_RATE_HZ)
     length = min(len(motion) - 2 * lead, *(len(wave) for wave in waves))
     if condition.kind == "change":
         elsewhere = is_on_other_label(length)
@@ -79,7 +79,7 @@ def record_pair(task: tuple[Condition, Material, Material]) -> ReferencePair:
 
 def _travelled_mm(motion: _Floats) -> NDArray[np.float64]:
     """Where the tip is before each sample, from its first one on, [n, 2]."""
-    step = motion[:, :2].astype(np.float64) * (1000.0 / _RATE_HZ)
+    step = motion[:, :2].astype(np.float64) * (1000.0 / SAMPLE_RATE_HZ)
     return np.cumsum(step, axis=0) - step
 
 

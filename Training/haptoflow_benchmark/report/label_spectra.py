@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from haptoflow_benchmark.metrics.waveform_metrics import power_spectrum
 from haptoflow_benchmark.reference.reference_set import ReferencePair
 from haptoflow_training.model_stamp import picture_metadata
+from haptoflow_training.waveform import SAMPLE_RATE_HZ
 
 
 def draw_spectra(
@@ -26,7 +27,7 @@ def draw_spectra(
     columns = 5
     count = -(-len(labels) // columns)
     figure, axes = pyplot.subplots(count, columns, figsize=(15.0, 2.5 * count), sharex=True, squeeze=False)
-    frequency = np.fft.rfftfreq(256, 1.0 / 2000.0)
+    frequency = np.fft.rfftfreq(256, 1.0 / SAMPLE_RATE_HZ)
     for axis, label in zip(axes.flat, labels, strict=False):
         rows = [index for index, pair in enumerate(pairs) if pair.condition.label == label]
         for name, colour, chosen in (

@@ -16,7 +16,8 @@ from haptoflow_benchmark.metrics.label_classifier import LabelClassifier, concat
 from haptoflow_benchmark.metrics.told_apart import told_apart_percent
 from haptoflow_benchmark.reference.reference_conditions import is_on_other_label
 from haptoflow_benchmark.reference.reference_set import ReferencePair, rib_phases
-from haptoflow_training.closed_loop.render import SAMPLE_RATE_HZ, SegmentSource, hop_positions, run_closed_loop
+from haptoflow_training.closed_loop.render import SegmentSource, hop_positions, run_closed_loop
+from haptoflow_training.waveform import SAMPLE_RATE_HZ
 
 _Floats = NDArray[np.float32]
 # Largest number of recordings in a batch. All are padded to the longest, so that large batches generate many segments

@@ -24,10 +24,10 @@ from haptoflow_benchmark.rows.row_plan import PlannedRow
 from haptoflow_benchmark.rows.row_store import read_row, stored_row, write_row
 from haptoflow_benchmark.rows.row_summary import over_labels
 from haptoflow_benchmark.rows.workplace import Workplace
-from haptoflow_training.closed_loop.render import hop_positions, run_closed_loop
+from haptoflow_training.closed_loop.render import UPDATE_RATE_HZ, hop_positions, run_closed_loop
 from haptoflow_training.export.model_file import read_model_file
+from haptoflow_training.waveform import SAMPLE_RATE_HZ
 
-UPDATE_RATE_HZ = 72.0
 UPDATE_RATES_HZ = (30.0, 72.0, 120.0)
 FAST_SPEEDS_MPS = (0.5, 1.0, 1.5)
 _SEED = 31
@@ -208,7 +208,7 @@ def _is_fast(pair: ReferencePair) -> bool:
 def _level_kinks(generator: EngineGenerator) -> dict[str, float]:
     """How smooth the level is across speed, in dB for a step of log speed: median and worst label."""
     speeds = np.geomspace(0.02, 1.5, _SWEEP_SPEEDS)
-    samples = int(2000 * _SWEEP_SECONDS)
+    samples = int(SAMPLE_RATE_HZ * _SWEEP_SECONDS)
     kinks = []
     for embedding in generator.embeddings:
         motions = np.zeros((_SWEEP_SPEEDS, samples, 3), dtype=np.float32)

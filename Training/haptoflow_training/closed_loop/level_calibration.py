@@ -14,7 +14,7 @@ import numpy as np
 import torch
 from numpy.typing import NDArray
 
-from haptoflow_training.closed_loop.render import SegmentSource, hop_positions, run_closed_loop
+from haptoflow_training.closed_loop.render import UPDATE_RATE_HZ, SegmentSource, hop_positions, run_closed_loop
 from haptoflow_training.export.level_table import LevelTable
 from haptoflow_training.export.trained_tier import TrainedTier
 from haptoflow_training.models.unit_scale import scaled_previous
@@ -23,7 +23,6 @@ from haptoflow_training.training.held_out import HeldOut
 
 _Floats = NDArray[np.float32]
 
-_UPDATE_RATE_HZ = 72.0
 _RECORDINGS_PER_LABEL = 24
 _SEED = 17
 _WINDOW_SAMPLES = 200
@@ -55,7 +54,7 @@ class ClosedLoopLevels:
 def hops(store: Store, extent: Extent = Extent()) -> int:
     """Hops that `level_offsets_db` makes: what its progress counts."""
     longest = max(_length(recording, extent) for recording in _chosen(store, extent))
-    return len(hop_positions(longest, _UPDATE_RATE_HZ))
+    return len(hop_positions(longest, UPDATE_RATE_HZ))
 
 
 def level_offsets_db(
@@ -96,7 +95,7 @@ def closed_loop_levels(
     motions = np.stack([_padded(store.motion[_span(recording, extent)], longest) for recording in chosen])
     labels = np.array([recording.label_index for recording in chosen])
     run = run_closed_loop(
-        source, embeddings[labels], motions, update_rate_hz=_UPDATE_RATE_HZ, seed=_SEED, advance=advance
+        source, embeddings[labels], motions, update_rate_hz=UPDATE_RATE_HZ, seed=_SEED, advance=advance
     )
     made, heard, speeds, forces, owners = [], [], [], [], []
     for recording, wave in zip(chosen, run.waves, strict=True):

@@ -9,9 +9,10 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-SAMPLE_RATE_HZ = 2000
-SEGMENT_SAMPLES = 200
+from haptoflow_training.waveform import SAMPLE_RATE_HZ, SEGMENT_SAMPLES
+
 SPLICE_SAMPLES = 4
+UPDATE_RATE_HZ = 72.0
 _CORRELATION_SAMPLES = 32
 
 _Floats = NDArray[np.float32]

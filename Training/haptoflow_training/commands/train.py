@@ -15,7 +15,7 @@ from haptoflow_training.commands.export import announce
 from haptoflow_training.commands.minutes import SHORTEST_MINUTES, Minutes, share_out
 from haptoflow_training.errors import InputError
 from haptoflow_training.export.exporter import export_run
-from haptoflow_training.training.config import TrainingConfig, load_config
+from haptoflow_training.training.config import TrainingConfig, check_available, load_config
 from haptoflow_training.training.processes import join_processes
 from haptoflow_training.training.recordings_source import Source, open_source
 from haptoflow_training.training.run_log import write_json
@@ -125,6 +125,7 @@ def report_left_out(source: Source) -> None:
 def run(options: argparse.Namespace) -> int:
     begun = time.monotonic()
     config = configuration(options)
+    check_available(config)
     store_folder = options.store or options.out.parent / "store"
     with join_processes() as processes:
         if processes.is_first:

@@ -9,6 +9,7 @@ import numpy as np
 from haptoflow_training.export.recorded_windows import draw_windows
 from haptoflow_training.training.batches import Store
 from haptoflow_training.training.held_out import HeldOut
+from haptoflow_training.waveform import SAMPLE_RATE_HZ
 
 _SLIDING_MPS = 0.008
 
@@ -50,7 +51,7 @@ def fit_exponents(
     if periodic:
         frequency = 1.0
     else:
-        centroid, *_ = np.linalg.lstsq(design, np.log(_centroid_hz(windows.waves[sliding], 2000.0)), rcond=None)
+        centroid, *_ = np.linalg.lstsq(design, np.log(_centroid_hz(windows.waves[sliding], SAMPLE_RATE_HZ)), rcond=None)
         frequency = float(np.clip(centroid[1], 0.0, 1.0))
     return LabelExponents(
         level_speed=float(np.clip(level[1], 0.0, 2.0)),

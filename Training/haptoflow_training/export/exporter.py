@@ -26,10 +26,11 @@ from haptoflow_training.models.conditioning import EMBEDDING_SIZE
 from haptoflow_training.models.level_model import LevelModel, shift_level
 from haptoflow_training.models.velocity_field import parameter_count
 from haptoflow_training.recordings.landing import Landing
-from haptoflow_training.training.batches import SEGMENT_SAMPLES, SegmentBatches, Store
+from haptoflow_training.training.batches import SegmentBatches, Store
 from haptoflow_training.training.config import TrainingConfig
 from haptoflow_training.training.held_out import HeldOut
 from haptoflow_training.training.run_log import source_commit
+from haptoflow_training.waveform import SAMPLE_RATE_HZ, SEGMENT_SAMPLES
 
 _PERCENTILES = (5, 25, 50, 75, 95)
 
@@ -129,7 +130,7 @@ def _header(
             "configuration": _described(config),
             "created": provenance.created,
         },
-        "sample_rate_hz": 2000,
+        "sample_rate_hz": SAMPLE_RATE_HZ,
         "segment_samples": SEGMENT_SAMPLES,
         "normalisation": {"unit": "m/s^2", "peak_mps2": float(store.peak_mps2)},
         "range": _range(store),

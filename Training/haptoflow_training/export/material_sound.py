@@ -14,8 +14,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from haptoflow_training.models.conditioning import REST_FORCE_NEWTONS, REST_SPEED_MPS
+from haptoflow_training.waveform import SAMPLE_RATE_HZ
 
-SAMPLE_RATE_HZ = 2000.0
 KERNEL_SAMPLES = 64
 RESPONSE_SAMPLES = 256
 MAXIMUM_LEVEL_SPEEDS, MAXIMUM_TONE_SPEEDS, MAXIMUM_TONE_FREQUENCIES = 16, 8, 32

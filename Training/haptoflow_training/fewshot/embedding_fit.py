@@ -30,8 +30,8 @@ from haptoflow_training.training.energy_distance import (
     spectra,
     spectral_distance,
 )
+from haptoflow_training.waveform import SEGMENT_SAMPLES
 
-SEGMENT_SAMPLES = 200
 HOP_SAMPLES = 28
 _PREVIOUS_LIMIT = 16.0
 _EMPTY_PAST_SHARE = 0.05

@@ -6,6 +6,7 @@ import numpy as np
 
 from haptoflow_training.fewshot.level_law import SLOWEST_MPS
 from haptoflow_training.fewshot.stroke_recording import Windows
+from haptoflow_training.waveform import SAMPLE_RATE_HZ
 
 _FEWEST_WINDOWS = 12
 _BAND_HZ = (20.0, 900.0)
@@ -22,7 +23,7 @@ def frequency_exponent(windows: Windows) -> float:
         return _EXPECTED
     waves = windows.waves[sliding] * np.hanning(windows.waves.shape[1])
     power = np.square(np.abs(np.fft.rfft(waves, axis=1)))
-    frequency = np.fft.rfftfreq(windows.waves.shape[1], 1.0 / 2000.0)
+    frequency = np.fft.rfftfreq(windows.waves.shape[1], 1.0 / SAMPLE_RATE_HZ)
     band = (frequency >= _BAND_HZ[0]) & (frequency <= _BAND_HZ[1])
     centroid = (power[:, band] * frequency[band]).sum(axis=1) / (power[:, band].sum(axis=1) + 1e-12)
     place = np.log(speed[sliding])

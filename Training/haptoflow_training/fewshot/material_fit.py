@@ -30,6 +30,7 @@ from haptoflow_training.fewshot.voice import Voice
 from haptoflow_training.models.file_model import FileModel, FileTier
 from haptoflow_training.preprocessing.wave_vectors import estimate_wave_vectors
 from haptoflow_training.recordings.material_recording import MaterialRecording
+from haptoflow_training.waveform import SAMPLE_RATE_HZ
 
 # Lines of ribs move with the speed, a tone does not: it may only say the broad of it.
 RULED_TONE = ToneOptions(size=0.5, step=0.15, bend=0.1, speed_step=0.12)
@@ -74,7 +75,7 @@ def prepared(
     seconds = sum(len(each.vibration_mps2) for each in usable) / 2000.0
     if seconds < LEAST_SECONDS:
         raise InputError(
-            f"{seconds:.1f} s of recording are left in stretches of {_LONG_ENOUGH_SAMPLES / 2000.0:g} s or more; a "
+            f"{seconds:.1f} s of recording are left in stretches of {_LONG_ENOUGH_SAMPLES / SAMPLE_RATE_HZ:g} s or more; a "
             f"material needs {LEAST_SECONDS:g} s at least, {RECOMMENDED_SECONDS:g} s are recommended"
         )
     turned = tuple(StrokeRecording.of(each, frame) for each in usable)

@@ -16,8 +16,8 @@ from numpy.typing import NDArray
 
 from haptoflow_training.models.label_embedding import WAVE_NUMBERS, WAVE_VECTORS
 from haptoflow_training.recordings.material_recording import MaterialRecording
+from haptoflow_training.waveform import SAMPLE_RATE_HZ
 
-SAMPLE_RATE_HZ = 2000
 
 _Floats = NDArray[np.float32]
 
@@ -112,10 +112,6 @@ class Windows:
 
     def chosen(self, mask: NDArray[np.bool_]) -> Windows:
         return Windows(self.waves[mask], self.motion[mask], self.position_mm[mask])
-
-
-def seconds_of(recordings: Sequence[StrokeRecording]) -> float:
-    return sum(len(recording) for recording in recordings) / SAMPLE_RATE_HZ
 
 
 def windows_of(recordings: Sequence[StrokeRecording], samples: int, hop: int) -> Windows:

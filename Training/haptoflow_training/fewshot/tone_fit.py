@@ -14,9 +14,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from haptoflow_training.export.material_sound import TONE_LIMIT_DB, ToneTable
+from haptoflow_training.waveform import SAMPLE_RATE_HZ
 
 WINDOW_SAMPLES = 512
-_RATE_HZ = 2000.0
 _LOWEST_HZ, _HIGHEST_HZ, _FREQUENCIES = 20.0, 900.0, 24
 _BAND_EDGES = 56
 _DECIBELS = 20.0 / math.log(10.0)
@@ -38,7 +38,7 @@ class ToneOptions:
 def band_powers(waves: NDArray[np.floating]) -> tuple[_Doubles, _Doubles, _Doubles]:
     """Of waves [n, 512]: powers [n, bands], the bands' centres in Hz and how many bins each has."""
     spectrum = np.square(np.abs(np.fft.rfft(np.asarray(waves, dtype=np.float64) * np.hanning(waves.shape[1]), axis=1)))
-    frequency = np.fft.rfftfreq(waves.shape[1], 1.0 / _RATE_HZ)
+    frequency = np.fft.rfftfreq(waves.shape[1], 1.0 / SAMPLE_RATE_HZ)
     edges = np.geomspace(_LOWEST_HZ * 0.9, 980.0, _BAND_EDGES)
     members = np.digitize(frequency, edges)
     powers, centres, counts = [], [], []

@@ -9,12 +9,11 @@ import numpy as np
 import torch
 from numpy.typing import NDArray
 
-from haptoflow_training.closed_loop.render import ClosedLoopRun, run_closed_loop
+from haptoflow_training.closed_loop.render import UPDATE_RATE_HZ, ClosedLoopRun, run_closed_loop
 from haptoflow_training.export.material_sound import ToneTable
 from haptoflow_training.fewshot.level_law import LevelLaw
 from haptoflow_training.models.file_model import FileTier
 
-UPDATE_RATE_HZ = 72.0
 _KERNELS = 24
 _PREVIOUS_LIMIT = 16.0
 

@@ -11,9 +11,10 @@ import torch
 from scipy.signal import firwin2
 from torch import Tensor, nn
 
+from haptoflow_training.waveform import SAMPLE_RATE_HZ
+
 TAPS = 129
 _REACH = TAPS // 2
-_SAMPLE_RATE_HZ = 2000.0
 # What the step down to 2 kHz leaves of a flat spectrum: Hz and dB (preprocessing/filters.py).
 _SKIRT_HZ = (0.0, 950.0, 970.0, 985.0, 1000.0)
 _SKIRT_DB = (0.0, 0.0, -0.8, -2.7, -6.0)
@@ -35,7 +36,7 @@ class BandLimit(nn.Module):
     def __init__(self, samples: int = 200) -> None:
         super().__init__()
         gains = [10.0 ** (level / 20.0) for level in _SKIRT_DB]
-        taps = torch.tensor(firwin2(TAPS, _SKIRT_HZ, gains, fs=_SAMPLE_RATE_HZ), dtype=torch.float32)
+        taps = torch.tensor(firwin2(TAPS, _SKIRT_HZ, gains, fs=SAMPLE_RATE_HZ), dtype=torch.float32)
         self.weight = nn.Parameter(taps.reshape(1, 1, TAPS))
         # A window's samples are made from its own and three windows on each side: of [16 + 3] windows of past, segment
         # and mirrored segment those that each reads, [8, 7]; and the tap by which each of their samples counts for each

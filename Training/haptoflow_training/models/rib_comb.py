@@ -17,8 +17,8 @@ import torch
 from torch import Tensor, nn
 
 from haptoflow_training.models.label_embedding import WAVE_VECTORS, signed_rib_frequencies_hz
+from haptoflow_training.waveform import SAMPLE_RATE_HZ
 
-SAMPLE_RATE_HZ = 2000.0
 # A pulse train at a crawl has its power far above the fundamental.
 HARMONICS = 14
 PARTIALS = WAVE_VECTORS * HARMONICS

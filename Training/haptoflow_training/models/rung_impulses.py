@@ -12,7 +12,8 @@ import math
 import torch
 from torch import Tensor, nn
 
-SAMPLE_RATE_HZ = 2000.0
+from haptoflow_training.waveform import SAMPLE_RATE_HZ
+
 RUNGS = (2.0, 2.6, 3.1, 3.5)
 TAPS = 64
 _RINGS_HZ = (50.0, 90.0, 160.0, 280.0, 500.0, 800.0)

@@ -13,12 +13,13 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.linalg import solve_toeplitz
 
+from haptoflow_training.waveform import SAMPLE_RATE_HZ
+
 if TYPE_CHECKING:
     from haptoflow_training.recordings.material_recording import MaterialRecording
 
 _Doubles = NDArray[np.float64]
 
-RATE_HZ = 2000.0
 # A path that long holds many ribs, and a tracker's error over it is less than one rib.
 _PATH_MM = 35.0
 _SHORTEST_SAMPLES, _LONGEST_SAMPLES = 160, 1000
@@ -57,18 +58,18 @@ def path_windows(recordings: Sequence[MaterialRecording]) -> PathWindows:
     for recording, white in zip(recordings, _whitened(recordings), strict=True):
         velocity = 1000.0 * recording.velocity_mps.astype(np.float64)
         speed = np.linalg.norm(velocity, axis=1)
-        place = np.concatenate([np.zeros((1, 2)), np.cumsum(velocity, axis=0) / RATE_HZ])
+        place = np.concatenate([np.zeros((1, 2)), np.cumsum(velocity, axis=0) / SAMPLE_RATE_HZ])
         resting = np.concatenate([[0], np.cumsum(speed <= _SLOWEST_MMPS)])
         start = _PREDICTOR_ORDER
         while start + _SHORTEST_SAMPLES <= len(white):
-            wanted = _PATH_MM * RATE_HZ / max(float(speed[start]), _SLOWEST_MMPS)
+            wanted = _PATH_MM * SAMPLE_RATE_HZ / max(float(speed[start]), _SLOWEST_MMPS)
             count = int(np.clip(wanted, _SHORTEST_SAMPLES, _LONGEST_SAMPLES))
             end = start + count
             if end > len(white) or resting[end] > resting[start]:
                 start += _SHORTEST_SAMPLES // 2
                 continue
             chord = place[end] - place[start]
-            path = float(speed[start:end].sum()) / RATE_HZ
+            path = float(speed[start:end].sum()) / SAMPLE_RATE_HZ
             straight = float(np.linalg.norm(chord))
             power = float(np.square(white[start:end]).mean())
             if straight >= _LEAST_STRAIGHT * path and path >= _SHORTEST_PATH_MM and power > 0.0:
@@ -90,7 +91,7 @@ def _stacked(found: Sequence[tuple[_Doubles, _Doubles, _Doubles, float]]) -> Pat
         hann[index, : len(values)] = window
         place[index, : len(values)] = places
     path = np.array([each[3] for each in found])
-    seconds = np.array([len(each[0]) for each in found]) / RATE_HZ
+    seconds = np.array([len(each[0]) for each in found]) / SAMPLE_RATE_HZ
     direction = np.array([each[2] for each in found]).reshape(-1, 2)
     return PathWindows(wave, hann, place, direction, path / seconds if len(found) else path, path)
 

@@ -92,22 +92,6 @@ class SegmentStore:
     def split(self, name: Split) -> list[StoredRecording]:
         return [recording for recording in self.recordings if recording.split == name]
 
-    def window_starts(
-        self, split: Split, window_samples: int, hop_samples: int
-    ) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
-        """(starts [w], recording index [w]) of every window that lies wholly inside one recording of
-        `split`.
-        """
-        starts, owners = [], []
-        for index, recording in enumerate(self.recordings):
-            if recording.split == split:
-                last = recording.start + recording.length - window_samples
-                found = np.arange(recording.start, last + 1, hop_samples, dtype=np.int64)
-                starts.append(found)
-                owners.append(np.full(len(found), index, dtype=np.int64))
-        empty = np.zeros(0, dtype=np.int64)
-        return np.concatenate([empty, *starts]), np.concatenate([empty, *owners])
-
     @classmethod
     def open(cls, path: Path | str) -> SegmentStore:
         """InputError names file and remedy where the store is missing, unfinished, damaged or newer."""

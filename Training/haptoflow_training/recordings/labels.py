@@ -52,15 +52,6 @@ class LabelMap:
                     return definition.name
         return None
 
-    def select(self, names: Iterable[str]) -> LabelMap:
-        """Only these labels, in the order given; InputError for one that is not defined."""
-        by_name = {definition.name: definition for definition in self.definitions}
-        wanted = list(names)
-        for name in wanted:
-            if name not in by_name:
-                raise InputError(f"label '{name}' is not defined; expected one of {', '.join(by_name)}")
-        return LabelMap(tuple(by_name[name] for name in wanted))
-
 
 def plain_name(name: str) -> str:
     """A texture's name without case, spaces and punctuation: releases spell them differently."""

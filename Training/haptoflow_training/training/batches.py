@@ -14,8 +14,8 @@ from torch import Tensor
 from haptoflow_training.errors import InputError
 from haptoflow_training.training.config import BatchConfig
 from haptoflow_training.training.held_out import HeldOut, clear_spans
+from haptoflow_training.waveform import SEGMENT_SAMPLES
 
-SEGMENT_SAMPLES = 200
 LEVEL_WINDOW_SAMPLES = 100
 # Where inside a segment its motion is told, for the level to follow: every 10 ms, both ends included.
 _KNOTS = np.linspace(0, SEGMENT_SAMPLES - 1, 11).round().astype(np.int64)

@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any, TypeVar
 
 from haptoflow_training.errors import InputError
+from haptoflow_training.extensions import extension
 
 
 # Rivals of the velocity field, which other packages build (extensions.py).
@@ -263,6 +264,19 @@ def config_from_dict(table: dict[str, Any], path: Path) -> TrainingConfig:
     config = _read_section(TrainingConfig, table, "", path)
     _check(config, path)
     return config
+
+
+
+def check_available(config: TrainingConfig) -> None:
+    """InputError where the run needs a network, representation or objective that no imported package has registered."""
+    if config.model.architecture != "unet":
+        extension("architecture", config.model.architecture)
+    if config.model.representation.get("kind") != "raw":
+        extension("representation", str(config.model.representation.get("kind")))
+    if config.recipe.objective == "average-velocity":
+        extension("objective", "average-velocity")
+    if config.recipe.reflow_steps:
+        extension("objective", "reflow")
 
 
 def _check(config: TrainingConfig, path: Path) -> None:

@@ -19,6 +19,8 @@ from typing import TypeVar
 import torch
 from torch import Tensor
 
+from haptoflow_training.waveform import SAMPLE_RATE_HZ
+
 # The longest window spans past and segment: it resolves 5 Hz, and a ruled surface's lines smear there when the
 # segment does not keep the phase of what came before it.
 WINDOW_SAMPLES = (16, 32, 64, 128, 200, 400)
@@ -105,7 +107,7 @@ def _modulation_basis(frames: int) -> Tensor:
     hann = hann / hann.square().sum().sqrt()
     low, high, step = _MODULATION_HZ
     frequency = torch.arange(low, high + 0.5 * step, step, dtype=torch.float64)
-    angle = 2.0 * math.pi * samples[:, None] * frequency[None, :] * (_MODULATION_HOP / 2000.0)
+    angle = 2.0 * math.pi * samples[:, None] * frequency[None, :] * (_MODULATION_HOP / SAMPLE_RATE_HZ)
     return torch.cat([hann[:, None] * angle.cos(), hann[:, None] * angle.sin()], dim=1).float()
 
 
