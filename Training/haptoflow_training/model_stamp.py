@@ -1,4 +1,4 @@
-"""Which model a published figure was measured with: its SHA-256, in pages, results and pictures."""
+"""Stamps that name the model a published figure was measured with, by its SHA-256, in pages, results and pictures."""
 
 from __future__ import annotations
 
@@ -10,33 +10,34 @@ from haptoflow_training.errors import InputError
 from haptoflow_training.export.model_file import read_model_file
 
 SHIPPED_MODEL = Path("Packages") / "com.haptoflow.runtime" / "Runtime" / "Models" / "default.haptoflow"
-# The key of a PNG file's text; JavaScript and C# write the same.
+# Key of the text chunk in a PNG file; the JavaScript and C# tools write the same key.
 _PICTURE_KEY = "Model-SHA-256"
 
 
 def sha256_of(path: Path) -> str:
-    """Of a file's bytes, in hexadecimal."""
+    """SHA-256 of a file's bytes, in hexadecimal."""
     return hashlib.sha256(path.read_bytes()).hexdigest()
 
 
 def graphs_sha256(path: Path) -> str:
-    """Of what a model file computes with, without its header, which holds figures that are measured with it."""
+    """SHA-256 of a model file's graphs. The header is left out, because it holds figures measured with the model."""
     graphs = read_model_file(path).graphs
     return hashlib.sha256(b"".join(graphs[name] for name in sorted(graphs))).hexdigest()
 
 
 def model_line(sha256: str) -> str:
-    """The line of a page with figures."""
+    """The line of a page that names the model of its figures."""
     return f"Model: SHA-256 `{sha256}`."
 
 
 def picture_metadata(sha256: str) -> dict[str, str]:
-    """For matplotlib's savefig to PNG."""
+    """Metadata for matplotlib's savefig to PNG."""
     return {_PICTURE_KEY: sha256}
 
 
 def read_measured_page(path: Path) -> str:
-    """A page that has a measured part to write anew; InputError where it has none, before anything is measured."""
+    """Read a page whose measured part is to be replaced. InputError if it has none, so that nothing is measured in
+    vain."""
     try:
         page = path.read_text(encoding="utf-8")
     except (OSError, UnicodeDecodeError) as error:
@@ -49,7 +50,7 @@ def read_measured_page(path: Path) -> str:
 
 
 def with_measured_words(page: str, words: str) -> str:
-    """The page with `words` between its markers; InputError where it has none."""
+    """The page with `words` between its markers; InputError if it has no markers."""
     found = re.search(r"(<!-- measured: begin [^>]*-->\n).*?(<!-- measured: end -->)", page, re.DOTALL)
     if found is None:
         raise InputError("the page has no `<!-- measured: begin (command) -->` before a `<!-- measured: end -->`")

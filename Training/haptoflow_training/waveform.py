@@ -1,4 +1,4 @@
-"""The waveform that every network and file of this package works on (model-format.md)."""
+"""The waveform that every network and model file works on (model-format.md)."""
 
 from __future__ import annotations
 

@@ -1,8 +1,9 @@
-"""What a finished network makes too loud or too quiet of each label once it lives on its own output.
+"""The level error of a finished network for each label, in closed loop.
 
-The level model is fitted to recordings, the network to the shape of their waves; what the two make together in closed
-loop is a tenth or two of a decibel off, label by label. It is measured here on recordings, so that the file's level can
-take it back: a shift of the level scales the closed loop's output and nothing else, since the past is divided by it.
+The level model is fitted to recordings, the network to the shape of their waveforms. Together, in closed loop, they
+miss the recorded level by a tenth or two of a decibel, differently for each label. The error is measured here so that
+the exported level model can be shifted by it. A shift of the level scales the closed loop's output and changes nothing
+else, because the previous waveform is divided by the level.
 """
 
 from __future__ import annotations
@@ -26,7 +27,7 @@ _Floats = NDArray[np.float32]
 _RECORDINGS_PER_LABEL = 24
 _SEED = 17
 _WINDOW_SAMPLES = 200
-# The loop starts from silence, a recording in the middle of things.
+# The loop starts from silence, while a recording may start in the middle of a stroke.
 _SETTLING_WINDOWS = 2
 _SPEED_BORDERS_MPS = (0.02, 0.05, 0.1, 0.2, 0.4, 0.8, 1.6)
 _FEWEST_WINDOWS = 10
@@ -34,7 +35,8 @@ _FEWEST_WINDOWS = 10
 
 @dataclass(frozen=True)
 class Extent:
-    """How much is compared: recordings of each label, and the samples of each from its beginning (None for all)."""
+    """How much is compared: recordings of each label, and the samples of each recording from its beginning (None for
+    all)."""
 
     recordings_per_label: int = _RECORDINGS_PER_LABEL
     longest_samples: int | None = None
@@ -42,8 +44,8 @@ class Extent:
 
 @dataclass(frozen=True)
 class ClosedLoopLevels:
-    """Windows of 0.1 s. powers [n, 2]: generated and recorded mean square, (m/s^2)^2; speeds_mps, forces_newtons [n];
-    owners [n]: labels."""
+    """Windows of 0.1 s. powers [n, 2]: generated and recorded mean square, (m/s^2)^2; speeds_mps, forces_newtons
+    [n]; owners [n]: label indices."""
 
     powers: NDArray[np.float64]
     speeds_mps: NDArray[np.float64]
@@ -52,7 +54,7 @@ class ClosedLoopLevels:
 
 
 def hops(store: Store, extent: Extent = Extent()) -> int:
-    """Hops that `level_offsets_db` makes: what its progress counts."""
+    """The number of hops that `level_offsets_db` renders, for a progress bar."""
     longest = max(_length(recording, extent) for recording in _chosen(store, extent))
     return len(hop_positions(longest, UPDATE_RATE_HZ))
 
@@ -64,17 +66,18 @@ def level_offsets_db(
     held_out: HeldOut,
     advance: Callable[[int], None] = lambda count: None,
 ) -> list[float]:
-    """By label, generated level over recorded in dB, in closed loop at 72 Hz: the mean over classes of speed (borders
-    20 mm/s to 1.6 m/s), so that a speed at which hands linger counts no more than another; 0 where nothing was heard.
+    """For each label, the generated level over the recorded level in dB, in closed loop at 72 Hz; 0 where too little
+    was recorded. It is the mean over classes of speed (borders from 20 mm/s to 1.6 m/s), so that a speed that is
+    recorded often does not weigh more than another.
 
-    embeddings [labels, 64]. Recordings that the test split keeps are left alone, and windows of which a sample lies in a
-    held-out band are not compared.
+    embeddings [labels, 64]. Recordings of the test split are not used, and windows with a sample in a held-out band are
+    not compared.
     """
     return offsets_db(closed_loop_levels(source, embeddings, store, held_out, advance), len(store.labels))
 
 
 def offsets_db(levels: ClosedLoopLevels, labels: int) -> list[float]:
-    """See `level_offsets_db`."""
+    """As `level_offsets_db`, from levels that are already measured."""
     classes = np.digitize(levels.speeds_mps, _SPEED_BORDERS_MPS)
     owned = [levels.owners == label for label in range(labels)]
     return [_offset_db(levels.powers[own], classes[own]) for own in owned]
@@ -89,7 +92,8 @@ def closed_loop_levels(
     extent: Extent = Extent(),
     labels_wanted: frozenset[int] | None = None,
 ) -> ClosedLoopLevels:
-    """What `source` makes of the recordings that train, beside them. labels_wanted: only these; None for all."""
+    """The levels that `source` generates for the motion of training recordings, with the recorded ones.
+    labels_wanted: only these label indices; None for all."""
     chosen = [one for one in _chosen(store, extent) if labels_wanted is None or one.label_index in labels_wanted]
     longest = max(_length(recording, extent) for recording in chosen)
     motions = np.stack([_padded(store.motion[_span(recording, extent)], longest) for recording in chosen])
@@ -120,7 +124,7 @@ def closed_loop_levels(
 
 
 def _offset_db(powers: NDArray[np.float64], classes: NDArray[np.int64]) -> float:
-    """powers [n, 2]: generated and recorded, window by window."""
+    """The mean level difference in dB. powers [n, 2]: generated and recorded, one row for each window."""
     ratios = []
     for speed_class in range(1, len(_SPEED_BORDERS_MPS)):
         inside = powers[classes == speed_class]
@@ -131,7 +135,7 @@ def _offset_db(powers: NDArray[np.float64], classes: NDArray[np.int64]) -> float
 
 
 def _chosen(store: Store, extent: Extent) -> list[StoredRecording]:
-    """Of each label the same number, spread evenly over what there is."""
+    """The same number of recordings for each label, spread evenly over what there is."""
     chosen = []
     for label in range(len(store.labels)):
         own = [entry for entry in store.recordings if entry.label_index == label and entry.split != "test"]
@@ -153,8 +157,8 @@ def _padded(motion: _Floats, samples: int) -> _Floats:
 
 
 class TierSource:
-    """A trained tier as a source of segments, without the engine: what is calibrated is not a file yet. tables: the
-    level of labels that have one of their own, by index."""
+    """A trained tier as a source of segments, without the engine: calibration runs before the model file exists.
+    tables: level tables by label index."""
 
     def __init__(self, tier: TrainedTier, tables: Mapping[int, LevelTable] | None = None) -> None:
         self._tier = tier
@@ -175,7 +179,7 @@ class TierSource:
                 speed = float(np.hypot(motions[row, 0], motions[row, 1]))
                 log_level[row, 0] = float(table.log_level(speed, motions[row, 2]))
         previous = model.representation.encode(scaled_previous(torch.from_numpy(previous_mps2).unsqueeze(1), log_level))
-        # A latent's noise has a shape of its own.
+        # A latent has another shape than a waveform, so its noise is drawn here.
         drawn = torch.randn(previous.shape) if model.representation.is_latent else torch.from_numpy(noise).unsqueeze(1)
         made = tier.generate(
             drawn, previous, embedding, motion, torch.from_numpy(rib_phase), tier.solver, tier.steps

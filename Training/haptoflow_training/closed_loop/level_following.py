@@ -1,8 +1,8 @@
-"""Which labels' levels leave the level model's law, and the tables that follow their recordings.
+"""Level tables for labels whose recorded level departs from the level model's law.
 
-What is compared is what is heard: a finished network in closed loop beside the recordings, by speed. Where the two differ
-by more than the least change of level that is felt, the label gets a table, and the table is corrected by what is still
-measured with it.
+The level of a finished network in closed loop is compared with the recordings, by speed. A label gets a table where the
+two differ by more than the smallest difference that people perceive; the table is then corrected by the error that is
+still measured with it.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from haptoflow_training.closed_loop.level_calibration import ClosedLoopLevels, o
 from haptoflow_training.export.exponents import LabelExponents
 from haptoflow_training.export.level_table import LevelTable, bin_speed_mps, speed_bins, table_through
 
-# The least change of a vibration's amplitude that is felt is 2.2 to 2.5 dB.
+# The smallest perceptible change of a vibration's amplitude is 2.2 to 2.5 dB.
 FELT_DB = 2.5
 _FEWEST_WINDOWS = 8
 _SLOWEST_MPS = 0.005
@@ -30,8 +30,8 @@ Measure = Callable[[Mapping[int, LevelTable]], ClosedLoopLevels]
 def level_tables(
     levels: ClosedLoopLevels, exponents: Mapping[int, LabelExponents], measure: Measure
 ) -> dict[int, LevelTable]:
-    """By label, for those that need one. levels: with the level model alone. exponents: of every label. measure: what is
-    heard of the labels that are given tables, with these."""
+    """Level tables by label index, for the labels that need one. levels: measured with the level model alone.
+    exponents: of every label. measure: measures the labels that have tables, with these tables."""
     labels = len(exponents)
     offsets = offsets_db(levels, labels)
     tables: dict[int, LevelTable] = {}
@@ -48,7 +48,7 @@ def level_tables(
 def _by_speed(
     levels: ClosedLoopLevels, label: int, exponents: LabelExponents
 ) -> tuple[NDArray[np.int64], NDArray[np.float64], NDArray[np.float64]]:
-    """Bins of speed that were heard often enough; natural log of the recorded RMS at the label's median force in each;
+    """Bins of speed with enough windows; natural log of the recorded RMS at the label's median force in each bin;
     and by how many decibels more was generated."""
     own = (levels.owners == label) & (levels.speeds_mps > _SLOWEST_MPS) & (levels.forces_newtons > 0.02)
     bins = speed_bins(levels.speeds_mps[own])
@@ -84,7 +84,7 @@ def _table(
 
 
 def _corrected(table: LevelTable, heard: ClosedLoopLevels, label: int, exponents: LabelExponents) -> LevelTable:
-    """Less by what is still too much at each speed."""
+    """The table, lowered by the level error that is still measured at each speed."""
     bins, _, excess = _by_speed(heard, label, exponents)
     speeds = np.array([bin_speed_mps(int(number)) for number in bins])
     levels = table.log_level(speeds, table.force_newtons) - _NATURAL_PER_DB * excess

@@ -1,5 +1,5 @@
-"""What `train`, `train-tiers` and `export` have in common at the end: the level that the finished network makes is taken
-back, and follows the recordings where they leave the level model's law."""
+"""The level measurement that ends `train`, `train-tiers` and `export`: level offsets for each label, and level
+tables for labels whose recordings depart from the level model's law."""
 
 from __future__ import annotations
 
@@ -33,19 +33,21 @@ from haptoflow_training.training.recordings_source import Source
 
 @dataclass(frozen=True)
 class MeasuredLevels:
-    """offsets_db: None where nothing was measured. tables: by the label's index."""
+    """offsets_db: None where nothing was measured. tables: by label index."""
 
     offsets_db: list[float] | None = None
     tables: Mapping[int, LevelTable] = field(default_factory=dict)
 
 
 def calibrates(config: TrainingConfig) -> bool:
-    """Whether an export of this run takes levels back: where it asks for that, and for everybody's own recordings."""
+    """Whether an export of this run corrects its levels: if the configuration says so, and always for recordings
+    from folders."""
     return config.model.level == "law" and (config.recipe.calibrate_level or config.data.source == "folders")
 
 
 def measured_levels(folder: Path, source: Source, extent: Extent = Extent()) -> MeasuredLevels:
-    """Of the finished run in `folder`; tables only for recordings from folders, whose levels nobody has chosen."""
+    """Measure the finished run in `folder`. Tables are made only for recordings from folders: the levels of
+    synthetic recordings follow the law by construction."""
     torch.set_num_threads(1)
     tier = load_tiers([folder])[0]
     if not calibrates(tier.config):
@@ -68,8 +70,8 @@ def measured_levels(folder: Path, source: Source, extent: Extent = Extent()) -> 
 
 
 def measured_offsets_db(folder: Path, source: Source) -> list[float] | None:
-    """What the finished run in `folder` gives too much of each label, in dB, for the export to take back; None where the
-    level is one for all labels."""
+    """The level error of the finished run in `folder` for each label, in dB; None if one constant level serves all
+    labels."""
     torch.set_num_threads(1)
     tier = load_tiers([folder])[0]
     if not isinstance(tier.model.level, LevelModel):
@@ -80,7 +82,7 @@ def measured_offsets_db(folder: Path, source: Source) -> list[float] | None:
 
 
 def seconds_of_a_measurement(tier: TrainedTier, source: Source, extent: Extent) -> float:
-    """How long `measured_levels` takes for one round, from a few of its hops."""
+    """How long one round of `measured_levels` takes, in seconds, estimated from a few of its hops."""
     torch.set_num_threads(1)
     made = TierSource(tier)
     few = Extent(extent.recordings_per_label, _TRIED_SAMPLES)
@@ -93,7 +95,7 @@ _TRIED_SAMPLES = 600
 
 
 def by_label(measured: MeasuredLevels, source: Source) -> dict[str, Any]:
-    """What export.json says of them; nothing where none were measured."""
+    """The measured levels as export.json states them; empty where none were measured."""
     if measured.offsets_db is None:
         return {}
     names = [info.name for info in source.labels]

@@ -1,4 +1,4 @@
-"""Closed loop: the network lives on its own output, hop after hop, as it does under a stylus."""
+"""Closed-loop rendering: the network runs on its own output, hop after hop, as it does under a stylus."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ _Floats = NDArray[np.float32]
 
 
 class SegmentSource(Protocol):
-    """What makes segments [n, 200] in m/s^2: the engine, or a reference row of the evaluation."""
+    """Generates segments [n, 200] in m/s^2: the engine, a trained tier, or a reference row of the benchmark."""
 
     def generate(
         self, embeddings: _Floats, motions: _Floats, previous_mps2: _Floats, noise: _Floats, rib_phase: _Floats
@@ -28,22 +28,23 @@ class SegmentSource(Protocol):
 
 @dataclass(frozen=True)
 class ClosedLoopRun:
-    """waves [n, samples] in m/s^2; hop_starts: where each new segment took over."""
+    """waves [n, samples] in m/s^2; hop_starts: the sample at which each new segment takes over."""
 
     waves: _Floats
     hop_starts: NDArray[np.int64]
 
 
 def hop_positions(samples: int, update_rate_hz: float) -> NDArray[np.int64]:
-    """Sample positions of the updates, from 0 on, before `samples`."""
+    """Sample positions of the updates, starting at 0, below `samples`."""
     count = int(np.ceil(samples * update_rate_hz / SAMPLE_RATE_HZ))
     positions = np.floor(np.arange(count) * SAMPLE_RATE_HZ / update_rate_hz + 1e-9).astype(np.int64)
     return positions[positions < samples]
 
 
 def spliced(continuation: _Floats, successor: _Floats) -> _Floats:
-    """The successor [n, 200] with its first samples taken over from the running segment, as the engine's splice does:
-    gains (1 - a) / k and a / k with k = sqrt((1-a)^2 + a^2 + 2 a (1-a) rho) hold the level for any correlation rho."""
+    """The new segment [n, 200], with its first samples crossfaded from the running segment as in the engine's
+    splice: gains (1 - a) / k and a / k with k = sqrt((1-a)^2 + a^2 + 2 a (1-a) rho) keep the level constant for any
+    correlation rho."""
     one, other = continuation[:, :_CORRELATION_SAMPLES], successor[:, :_CORRELATION_SAMPLES]
     power = np.sqrt((one**2).sum(axis=1) * (other**2).sum(axis=1))
     product = (one * other).sum(axis=1)
@@ -67,28 +68,28 @@ def run_closed_loop(
 ) -> ClosedLoopRun:
     """Render `motions` [n, samples, 3] for `embeddings` [n, 64], or [n, hops, 64] where labels change, from silence.
 
-    Each segment is told the mean motion of the hop before it, which is all that a tracker can know, and takes over
-    by the engine's splice. The rib phase is counted from these motions, as the engine counts it.
+    The condition of each segment is the mean motion of the hop before it, because a tracker knows no more. The rib
+    phase is integrated from the same motions, as in the engine.
     """
     rows, samples, _ = motions.shape
-    # Before the wave's beginning lies silence, long enough to be the first segment's past.
+    # The waveform is preceded by silence, long enough to be the first segment's previous waveform.
     out = np.zeros((rows, SEGMENT_SAMPLES + samples + SEGMENT_SAMPLES), dtype=np.float32)
     wave = out[:, SEGMENT_SAMPLES:]
     starts = hop_positions(samples, update_rate_hz)
     generator = np.random.default_rng(seed)
     wave_vectors, phase = np.zeros((rows, 2, 2)), np.zeros((rows, 2))
-    told = np.zeros((rows, 3), dtype=np.float32)
+    condition = np.zeros((rows, 3), dtype=np.float32)
     before = 0
     for hop, start in enumerate(starts):
-        travelled_mm = told[:, :2].astype(np.float64) * (1000.0 * (start - before) / SAMPLE_RATE_HZ)
+        travelled_mm = condition[:, :2].astype(np.float64) * (1000.0 * (start - before) / SAMPLE_RATE_HZ)
         phase = np.mod(phase + np.einsum("rkc,rc->rk", wave_vectors, travelled_mm), 1.0)
         embedding = embeddings if embeddings.ndim == 2 else embeddings[:, hop]
         wave_vectors = embedding[:, -4:].astype(np.float64).reshape(rows, 2, 2)
         known = motions[:, before:start] if start > before else motions[:, :1]
         past = out[:, start : start + SEGMENT_SAMPLES].copy()
         noise = generator.standard_normal((rows, SEGMENT_SAMPLES)).astype(np.float32)
-        told = known.mean(axis=1).astype(np.float32)
-        segment = source.generate(embedding, told, past, noise, phase.astype(np.float32))
+        condition = known.mean(axis=1).astype(np.float32)
+        segment = source.generate(embedding, condition, past, noise, phase.astype(np.float32))
         if start > 0:
             segment = spliced(wave[:, start : start + SEGMENT_SAMPLES], segment)
         wave[:, start : start + SEGMENT_SAMPLES] = segment

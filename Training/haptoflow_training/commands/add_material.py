@@ -1,4 +1,5 @@
-"""`haptoflow-training add-material`: a new material from seconds of recording, beside or inside a model file."""
+"""`haptoflow-training add-material`: fit a new material to seconds of recording, as a file of its own or as a
+further label."""
 
 from __future__ import annotations
 
@@ -126,7 +127,8 @@ def _name(options: argparse.Namespace, recordings: Sequence[MaterialRecording]) 
 
 
 def _file_name(name: str) -> str:
-    """Letters and digits of any script, dots and dashes: a label may say anything, a file in this folder may not."""
+    """A file name for the material: letters and digits of any script, dots and dashes; everything else becomes a
+    dash."""
     return re.sub(r"[^\w.-]+", "-", name).strip("-.") or "material"
 
 
@@ -168,6 +170,6 @@ def _report(out: Path, model: FileModel, material: Material, fitted: FittedMater
     for tier in fitted.far_tiers:
         fitted_for = next(iter(fitted.distances_db))
         print(f"  tier {tier} is further off by more than 0.3 dB: the tone was fitted for {fitted_for}")
-    # The ends of a recording are trimmed.
+    # Recordings are trimmed at both ends, so a little less than the recommended time is accepted.
     if fitted.seconds < RECOMMENDED_SECONDS - 1.0:
         print(f"  {fitted.seconds:.1f} s is little; {RECOMMENDED_SECONDS:g} s of slow and fast slides are recommended")

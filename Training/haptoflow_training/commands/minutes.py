@@ -1,4 +1,5 @@
-"""`train --minutes N`: what of N minutes is left for training once all else has its share."""
+"""`train --minutes N`: how much of N minutes remains for training once preparation, measurement and export have
+theirs."""
 
 from __future__ import annotations
 
@@ -16,7 +17,7 @@ from haptoflow_training.training.recordings_source import Source
 from haptoflow_training.training.trainer import TimeLimit
 
 SHORTEST_MINUTES = 0.1
-# Levels are measured once without tables and up to twice with them.
+# Levels are measured once without level tables and at most twice with them.
 _ROUNDS = 3.0
 _LARGEST_SHARE_AFTER = 0.25
 _LEAST_SHARE_OF_TRAINING = 0.3
@@ -26,7 +27,7 @@ _FEWEST_RECORDINGS = 2
 
 @dataclass(frozen=True)
 class Minutes:
-    """limit: of training. extent: of the levels that are measured afterwards."""
+    """limit: the time limit of training. extent: how much is compared when levels are measured afterwards."""
 
     limit: TimeLimit
     extent: Extent
@@ -35,10 +36,11 @@ class Minutes:
 def share_out(
     minutes: float, begun: float, config: TrainingConfig, source: Source, untrained: HaptoFlowModel, *, exports: bool
 ) -> Minutes:
-    """From what measuring levels and writing graphs takes with the network as it is, which training does not change.
+    """Share out the minutes. What measuring levels and writing graphs takes is timed on the untrained network, because
+    training does not change it.
 
-    begun: time.monotonic() when the command began. Where recordings took most of the time, training still gets three
-    tenths of the minutes.
+    begun: time.monotonic() when the command began. Training gets at least three tenths of the minutes, even if
+    preparing the recordings took most of them.
     """
     whole = 60.0 * minutes
     extent = Extent(longest_samples=_LONGEST_COMPARED_SAMPLES)

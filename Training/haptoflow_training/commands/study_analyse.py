@@ -1,4 +1,4 @@
-"""`haptoflow-training study analyse`: logs in, a report out."""
+"""`haptoflow-training study analyse`: write the report of a folder of logs."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""`haptoflow-training study budget`: the delay budget from the benchmark's figures."""
+"""`haptoflow-training study budget`: compute the delay budget from the benchmark's figures."""
 
 from __future__ import annotations
 

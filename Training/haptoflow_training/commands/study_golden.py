@@ -1,4 +1,4 @@
-"""`haptoflow-training study golden`: the test vectors of plans."""
+"""`haptoflow-training study golden`: write the test vectors of the study plans."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""`haptoflow-training study merge`: one table for each study."""
+"""`haptoflow-training study merge`: write one table for each study."""
 
 from __future__ import annotations
 

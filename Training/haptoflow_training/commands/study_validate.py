@@ -1,4 +1,4 @@
-"""`haptoflow-training study validate`: the analysis on studies whose truth is known."""
+"""`haptoflow-training study validate`: check the analysis on simulated studies with known results."""
 
 from __future__ import annotations
 

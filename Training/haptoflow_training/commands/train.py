@@ -1,4 +1,4 @@
-"""`haptoflow-training train`: recordings to a trained run to a model file, in one go."""
+"""`haptoflow-training train`: train on recordings, write the run and, on request, its model file."""
 
 from __future__ import annotations
 
@@ -30,8 +30,8 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser], su
         help=summary,
         description=(
             "Prepares the recordings that the configuration names (once), trains the level model and the velocity "
-            "field, and writes checkpoint.pt, metrics.csv, metrics.png and run.json into --out. Run it again to go on "
-            "after an interruption: the result is the same. Paths are relative to where you stand; those in a configuration "
+            "field, and writes checkpoint.pt, metrics.csv, metrics.png and run.json into --out. Run it again to resume "
+            "after an interruption: the result is the same. Paths are relative to the current folder; those in a configuration "
             "file are relative to that file."
         ),
         epilog=(
@@ -51,7 +51,7 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser], su
         default=OWN_CONFIGURATION,
         help="the run's TOML file, for example Training/configs/cluster.toml (default: Training/configs/own.toml)",
     )
-    parser.add_argument("--out", type=Path, required=True, help="folder of the run; made, or gone on with")
+    parser.add_argument("--out", type=Path, required=True, help="folder of the run; created if absent, otherwise the run in it is resumed")
     parser.add_argument(
         "--store", type=Path, help="folder of the prepared recordings (default: `store` beside the run's folder)"
     )
@@ -92,7 +92,7 @@ def _minutes(text: str) -> float:
 
 
 def configuration(options: argparse.Namespace) -> TrainingConfig:
-    """The configuration file, overridden by the command line's --recordings, --labels, --minutes and --seed."""
+    """The configuration file, with the command line's --recordings, --labels, --minutes and --seed applied."""
     config = load_config(options.config)
     if options.recordings:
         data = dataclasses.replace(
@@ -111,7 +111,7 @@ def configuration(options: argparse.Namespace) -> TrainingConfig:
 
 
 def report_left_out(source: Source) -> None:
-    """Say which recordings are not learnt from, and why."""
+    """Print which recordings are not used for training, and why."""
     for skipped in source.store.skipped:
         print(f"skipped: {skipped}", file=sys.stderr)
     for line in source.left_out:
@@ -133,7 +133,7 @@ def run(options: argparse.Namespace) -> int:
         processes.wait()
         source = open_source(config.data, store_folder, options.workers)
         if options.minutes is not None and processes.count > 1:
-            raise InputError("--minutes is of one process; leave it out under torchrun")
+            raise InputError("--minutes works with one process only; leave it out under torchrun")
         trainer = Trainer(
             config, source.store, options.out, processes, options.base, source.wave_vectors, options.start
         )

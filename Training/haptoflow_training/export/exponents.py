@@ -1,4 +1,4 @@
-"""Exponents per label for speeds and forces beyond the recordings, fitted to the recordings themselves."""
+"""Level and frequency exponents of each label for speeds and forces beyond the recordings, fitted to the recordings."""
 
 from __future__ import annotations
 
@@ -35,9 +35,9 @@ def _centroid_hz(waves: np.ndarray, rate_hz: float) -> np.ndarray:
 def fit_exponents(
     store: Store, label_index: int, *, periodic: bool, seed: int, held_out: HeldOut
 ) -> LabelExponents:
-    """Least squares of log RMS over log speed and log force in the upper half of the recorded speeds, where the
-    law will be continued; the frequency exponent of a periodic label is 1 (v / wavelength), that of another is
-    the slope of the log spectral centroid."""
+    """Least squares of log RMS over log speed and log force in the upper half of the recorded speeds, because the
+    law is extrapolated from there. The frequency exponent of a periodic label is 1 (frequency = v / wavelength); for
+    other labels it is the slope of the log spectral centroid."""
     windows = draw_windows(store, label_index, samples=400, count=3000, seed=seed, held_out=held_out)
     sliding = (windows.speed_mps > _SLIDING_MPS) & (windows.unsteadiness < 0.35) & (windows.motion[:, 2] > 0.05)
     if sliding.sum() >= 40:

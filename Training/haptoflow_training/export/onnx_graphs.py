@@ -19,8 +19,8 @@ OPSET = 16
 def _export(module: nn.Module, inputs: dict[str, Tensor], output: str) -> bytes:
     buffer = io.BytesIO()
     with warnings.catch_warnings():
-        # Tracing warns about Python integers that are constants of the architecture here, and the exporter about
-        # shapes that it does not infer; the checker below says what matters.
+        # Tracing warns about Python integers that are constants of the architecture, and the exporter about shapes that
+        # it does not infer. The checker below finds the errors that matter.
         warnings.simplefilter("ignore")
         torch.onnx.export(
             module.eval(),
@@ -34,14 +34,15 @@ def _export(module: nn.Module, inputs: dict[str, Tensor], output: str) -> bytes:
         )
     graph = onnx.load_from_string(buffer.getvalue())
     onnx.checker.check_model(graph, full_check=True)
-    # The exporter's notes on source lines would carry paths of the machine that trained.
+    # The exporter stores source locations, which would contain paths of this machine.
     for node in graph.graph.node:
         node.doc_string = ""
     return graph.SerializeToString()
 
 
 class _OneStep(nn.Module):
-    """A network taught to be whole in one step, as a graph: noise in, segment out, flow time folded to a constant."""
+    """A network trained to produce the whole segment in one step, as a graph: noise in, segment out, with the flow
+    time as a constant."""
 
     def __init__(self, model: HaptoFlowModel) -> None:
         super().__init__()
@@ -55,7 +56,7 @@ class _OneStep(nn.Module):
 
 
 class _AverageVelocity(nn.Module):
-    """The average field with its inputs in the order of the format."""
+    """The average velocity field, with its inputs in the order of the model format."""
 
     def __init__(self, field: nn.Module) -> None:
         super().__init__()
@@ -90,7 +91,8 @@ def _export_segment_network(network: SegmentNetwork) -> bytes:
 def export_network(model: HaptoFlowModel, kind: str) -> bytes:
     """The graph of a tier of `kind` "flow", "average-velocity" or "direct" (model-format.md, Graphs).
 
-    A direct tier's graph has no flow time: a field taught by the energy distance is only valid in one step from 0.
+    A direct tier's graph has no flow time: a field trained by the energy distance is valid only for one step from time
+    0.
     """
     batch, field = 2, model.field
     if isinstance(field, SegmentNetwork):
@@ -118,7 +120,7 @@ def export_network(model: HaptoFlowModel, kind: str) -> bytes:
 
 
 def export_level_model(level: nn.Module) -> bytes:
-    """Inputs embedding, motion; output log_level."""
+    """The graph of the level model: inputs embedding, motion; output log_level."""
     batch = 2
     return _export(
         level, {"embedding": torch.zeros(batch, EMBEDDING_SIZE), "motion": torch.full((batch, 3), 0.1)}, "log_level"

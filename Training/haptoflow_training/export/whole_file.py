@@ -1,4 +1,4 @@
-"""Files that are written whole or not at all."""
+"""Files that are written completely or not at all."""
 
 from __future__ import annotations
 
@@ -11,22 +11,21 @@ from haptoflow_training.errors import InputError
 
 
 def write_whole(path: Path, content: bytes) -> None:
-    """Write atomically; makes the folder. A full disk leaves the old file as it was; InputError says what stood in the
-    way."""
+    """Write atomically; creates the folder. A full disk leaves the old file unchanged; InputError names the cause."""
     temporary = path.with_suffix(path.suffix + ".part")
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
         temporary.write_bytes(content)
         os.replace(temporary, path)
     except OSError as error:
-        # Where the folder is a file, there is nothing to take away, and the first error is the one to tell.
+        # If the folder is a file, there is nothing to remove, and the first error is the one to report.
         with contextlib.suppress(OSError):
             temporary.unlink(missing_ok=True)
         raise InputError(f"{path}: cannot be written ({error.strerror})") from error
 
 
 def check_writable(path: Path) -> None:
-    """InputError where `write_whole` could not write this file, to be known before minutes of work. Leaves nothing behind
+    """InputError if `write_whole` could not write this file; called before minutes of work. Leaves nothing behind
     but the file's folder."""
     temporary = path.with_suffix(path.suffix + ".part")
     try:

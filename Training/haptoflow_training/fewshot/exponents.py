@@ -1,4 +1,4 @@
-"""How the pitch of a material follows the speed beyond what was recorded."""
+"""The frequency exponent of a material, for speeds beyond the recorded ones."""
 
 from __future__ import annotations
 
@@ -10,13 +10,13 @@ from haptoflow_training.waveform import SAMPLE_RATE_HZ
 
 _FEWEST_WINDOWS = 12
 _BAND_HZ = (20.0, 900.0)
-# The published textures' spectra hardly move with the speed.
+# The spectra of the published textures hardly move with the speed.
 _EXPECTED, _CERTAINTY = 0.1, 4.0
 
 
 def frequency_exponent(windows: Windows) -> float:
-    """Slope of the log spectral centroid over log speed in the faster half, 0 to 1, from windows [n, 400] of a surface
-    without ribs: drawn towards 0.1 where there is little to tell from."""
+    """Slope of the log spectral centroid over log speed in the faster half, 0 to 1, from windows [n, 400] of a
+    surface without ribs. With little data the result is drawn towards 0.1."""
     speed = windows.speed_mps
     sliding = (speed > max(SLOWEST_MPS, float(np.median(speed)))) & (windows.unsteadiness < 0.5)
     if sliding.sum() < _FEWEST_WINDOWS:

@@ -1,4 +1,4 @@
-"""From recordings of one material to the material: frame, level, embedding, tone, exponents, seeds."""
+"""Fits a material to its recordings: frame, level, embedding, tone, exponents, seeds."""
 
 from __future__ import annotations
 
@@ -32,21 +32,22 @@ from haptoflow_training.preprocessing.wave_vectors import estimate_wave_vectors
 from haptoflow_training.recordings.material_recording import MaterialRecording
 from haptoflow_training.waveform import SAMPLE_RATE_HZ
 
-# Lines of ribs move with the speed, a tone does not: it may only say the broad of it.
+# The partials of ribs move with the speed, but a tone does not, so a ruled material's tone may only shape the broad
+# spectrum.
 RULED_TONE = ToneOptions(size=0.5, step=0.15, bend=0.1, speed_step=0.12)
 LEAST_SECONDS = 2.0
 RECOMMENDED_SECONDS = 10.0
 _LONG_ENOUGH_SAMPLES = 1000
 _CHUNKS = 24
-# A tier that is further off by this does not share the material well.
+# A tier whose spectra are further off than the default tier's by this much is reported.
 TIER_TOLERANCE_DB = 0.3
 
 
 @dataclass(frozen=True)
 class FittedMaterial:
-    """frame: how the material lies to its recording. plain: the voice without tone. nearest: index of the label it
-    began from. distances_db: of the spectra of recording and closed-loop output in narrow bands, by tier, on the
-    recording."""
+    """frame: the material's orientation in its recording. plain: the voice without tone. nearest: index of the label
+    the fit began from. distances_db: by tier, the distance in narrow bands between the spectra of the recording and
+    of closed-loop output."""
 
     voice: Voice
     plain: Voice
@@ -60,7 +61,7 @@ class FittedMaterial:
 
     @property
     def far_tiers(self) -> list[str]:
-        """Tiers that are further off than the first, for which the tone was fitted."""
+        """Tiers with a larger distance than the first tier, for which the tone was fitted."""
         first, *others = self.distances_db
         return [name for name in others if self.distances_db[name] > self.distances_db[first] + TIER_TOLERANCE_DB]
 
@@ -68,7 +69,7 @@ class FittedMaterial:
 def prepared(
     recordings: Sequence[MaterialRecording], wave_vectors_per_mm: Sequence[tuple[float, float]] | None
 ) -> tuple[Frame, tuple[StrokeRecording, ...]]:
-    """The material's frame and its recordings in it. wave_vectors_per_mm: None estimates them."""
+    """The material's frame and its recordings in that frame. wave_vectors_per_mm: None estimates them."""
     vectors = estimate_wave_vectors(recordings) if wave_vectors_per_mm is None else tuple(wave_vectors_per_mm)
     frame = Frame.of(vectors)
     usable = [each for each in recordings if len(each.vibration_mps2) >= _LONG_ENOUGH_SAMPLES]
@@ -94,8 +95,8 @@ def fit_material(
     compare_tiers: bool = True,
     advance: Callable[[], None] = lambda: None,
 ) -> FittedMaterial:
-    """advance is called once for each of ``steps_of(model, options)` times. tier: the default one; a trainable one
-    moves its weights, too, with weights_learning_rate."""
+    """Fit a material. advance is called `steps_of(model, options)` times. tier: the default one; a trainable tier's
+    weights are fitted too, with weights_learning_rate."""
     frame, strokes = prepared(recordings, wave_vectors_per_mm)
     prior = LabelPrior.of(model.file)
     level = fit_level(windows_of(strokes, LEVEL_WINDOW_SAMPLES, LEVEL_HOP_SAMPLES), prior)
@@ -137,8 +138,8 @@ def as_material(
     description: str,
     provenance: MaterialProvenance,
 ) -> Material:
-    """The fitted material as a file states it; what no recording of a slide tells (stiffness, friction, how it answers
-    a landing) is the nearest label's."""
+    """The fitted material as a file states it. What a recording of slides does not contain (stiffness, friction,
+    impact) is taken from the nearest label."""
     nearest = model.labels[fitted.fit.nearest]
     windows = windows_of(fitted.recordings, 400, 200)
     speed, force = windows.speed_mps, windows.force_newtons

@@ -1,4 +1,4 @@
-"""Seeds of a material: steady stretches of its recording, as they are before tone."""
+"""Seeds of a material: steady stretches of its recording, before tone."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ def choose_seeds(
     *,
     ruled: bool,
 ) -> tuple[MaterialSeed, ...]:
-    """At most eight, spread evenly over the log of the recorded speeds, the steadiest of each neighbourhood. turns: rib
+    """At most eight seeds, spread evenly over the log of the recorded speeds, the steadiest near each. turns: rib
     phase [n, 2] of each recording's samples."""
     undone = tone
     if tone is not None:
