@@ -38,12 +38,12 @@ def test_no_more_jobs_run_at_a_time_than_there_are_lanes_and_progress_counts_the
     jobs = [_careful(tmp_path, f"job{number}", 0.3) for number in range(5)]
     most, heard = 0, []
 
-    def watch(finished: int) -> None:
+    def progress(finished: int) -> None:
         nonlocal most
         heard.append(finished)
         most = max(most, len(list(tmp_path.glob("*.began"))) - finished)
 
-    run_jobs(jobs, 2, watch)
+    run_jobs(jobs, 2, progress)
     assert most <= 2 and heard == sorted(heard) and heard[-1] == 5
     assert all(job.product.exists() for job in jobs)
 

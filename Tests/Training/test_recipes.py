@@ -180,7 +180,7 @@ def test_living_through_a_chain_appends_each_hop_of_what_was_generated() -> None
     chain = SegmentBatches(store, "train", BatchConfig(chain_hops=(2, 2)), 4).draw_chains(3).chain
     assert chain is not None
     label = torch.tensor([0, 1, 0])
-    lived = losses.live_through(chain, label, "flow", torch.Generator().manual_seed(1))
+    lived = losses.render_chain(chain, label, "flow", torch.Generator().manual_seed(1))
     generator = torch.Generator().manual_seed(1)
 
     def hop(number: int, previous: torch.Tensor) -> torch.Tensor:

@@ -218,11 +218,11 @@ def test_a_segment_s_partials_are_told_as_the_surface_sees_them_wherever_the_tip
     for turns in (0.0, 0.21, 0.8):
         phase = 2.0 * math.pi * (turns + 200.0 * torch.arange(200) / 2000.0)
         segments = torch.stack([phase.cos(), phase.sin(), (2.0 * phase).cos()]).unsqueeze(0)
-        seen, told_apart = comb.profile(embedding, motion, torch.tensor([[turns, 0.0]]), segments)
+        seen, resolved = comb.profile(embedding, motion, torch.tensor([[turns, 0.0]]), segments)
         expected = torch.zeros(3, 2, PARTIALS)
         expected[0, 0, 0] = expected[1, 1, 0] = expected[2, 0, 1] = 1.0
         torch.testing.assert_close(seen[0], expected, rtol=0.0, atol=0.02)
-        assert told_apart[0].nonzero().flatten().tolist() == [0, 1, 2, 3]
+        assert resolved[0].nonzero().flatten().tolist() == [0, 1, 2, 3]
 
 
 def test_the_energy_distance_prefers_draws_that_hold_the_recording_s_phase_over_draws_that_do_not() -> None:

@@ -27,7 +27,7 @@ def started(monkeypatch: pytest.MonkeyPatch) -> list[Job]:
     """The jobs that would be run."""
     jobs: list[Job] = []
 
-    def remember(given: Sequence[Job], lanes: int, watch: object) -> None:
+    def remember(given: Sequence[Job], lanes: int, progress: object) -> None:
         jobs.extend(given)
 
     monkeypatch.setattr(row_training, "run_jobs", remember)

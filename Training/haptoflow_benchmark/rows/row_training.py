@@ -34,12 +34,12 @@ def train_models(place: Workplace, rows: Sequence[tuple[PlannedRow, int]], lanes
     codecs = {job.product: job for model, _ in wanted.values() for job in _codec_training(place, model)}
     with tqdm(total=len(jobs) + len(codecs), desc="trainings", unit="model") as bar:
 
-        def watch(finished: int) -> None:
+        def show_progress(finished: int) -> None:
             bar.n = finished
             bar.refresh()
 
-        run_jobs(list(codecs.values()), lanes, watch)
-        run_jobs(jobs, lanes, lambda finished: watch(len(codecs) + finished))
+        run_jobs(list(codecs.values()), lanes, show_progress)
+        run_jobs(jobs, lanes, lambda finished: show_progress(len(codecs) + finished))
 
 
 def _is_as_configured(place: Workplace, model: str, seed: int) -> bool:

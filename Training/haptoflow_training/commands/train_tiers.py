@@ -89,11 +89,11 @@ def _train_all(files: list[Path], out: Path, lanes: int, more: list[str]) -> Non
     total = sum(sum(planned_steps(load_config(path))) for path in files)
     with tqdm(total=total, unit="step", desc=", ".join(path.stem for path in files)) as bar:
 
-        def watch(finished: int) -> None:
+        def show_progress(finished: int) -> None:
             bar.n = sum(last_step(out / path.stem / "metrics.csv") for path in files)
             bar.refresh()
 
-        run_jobs([_job(path, out, more) for path in files], lanes, watch)
+        run_jobs([_job(path, out, more) for path in files], lanes, show_progress)
 
 
 def _job(path: Path, out: Path, more: list[str]) -> Job:

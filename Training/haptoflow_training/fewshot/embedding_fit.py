@@ -117,7 +117,7 @@ class _Corpus:
         index = torch.from_numpy(starts)[:, None] + torch.arange(-before, after)[None, :]
         return values[index]
 
-    def told(self, starts: NDArray[np.int64]) -> Tensor:
+    def known_motion(self, starts: NDArray[np.int64]) -> Tensor:
         """[B, 3]: the mean motion of the hop before each start, which is all that a tracker knows."""
         return self.stretch(self.motion, starts, HOP_SAMPLES, 0).mean(dim=1)
 
@@ -294,7 +294,7 @@ class EmbeddingFitter:
         self, tier: FileTier, learnt: Tensor, offset: Tensor, starts: NDArray[np.int64], chain: _Chains | None
     ) -> Tensor:
         corpus, rows = self._corpus, len(starts)
-        motion = corpus.told(starts)
+        motion = corpus.known_motion(starts)
         embedding = torch.cat([learnt, self._wave_numbers]).expand(rows, -1)
         begun = torch.from_numpy(starts)
         # One offset for all recordings, or one for each.

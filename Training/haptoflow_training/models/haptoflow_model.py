@@ -1,4 +1,4 @@
-"""Everything that is trained together: embedding, level model, velocity field."""
+"""The modules that are trained together: embedding, level model, velocity field."""
 
 from __future__ import annotations
 
@@ -36,8 +36,8 @@ class HaptoFlowModel(nn.Module):
     def one_step(
         self, noise: Tensor, previous: Tensor, embedding: Tensor, motion: Tensor, rib_phase: Tensor
     ) -> Tensor:
-        """The segment [B, 1, 200] that a network taught to be whole in one step makes; all in unit scale. rib_phase
-        [B, 2] in turns, at the segment's first sample."""
+        """The segment [B, 1, 200] of a network trained to produce it in one step; all waveforms in unit scale.
+        rib_phase [B, 2] in turns, at the segment's first sample."""
         if isinstance(self.field, SegmentNetwork):
             return self.field(noise, previous, embedding, motion, rib_phase)
         change = self.field(noise, torch.zeros(1, 1), previous, embedding, motion, rib_phase)

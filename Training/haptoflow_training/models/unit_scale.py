@@ -1,11 +1,12 @@
-"""Unit scale: waves divided by their level, which is what every network here sees and makes."""
+"""Unit scale: waveforms divided by their level, in which all networks work."""
 
 from __future__ import annotations
 
 import torch
 from torch import Tensor
 
-# What a previous waveform is limited to: a burst that no level foresaw must not drive the network out of its range.
+# Limit of a previous waveform, so that a burst that the level did not predict cannot drive the network out of its
+# range.
 PREVIOUS_LIMIT = 16.0
 
 
@@ -15,5 +16,5 @@ def unit_scale(wave_mps2: Tensor, log_level: Tensor) -> Tensor:
 
 
 def scaled_previous(previous_mps2: Tensor, log_level: Tensor) -> Tensor:
-    """The previous waveform [B, 1, N] as the network hears it: in unit scale, limited."""
+    """The previous waveform [B, 1, N] as the network's input: in unit scale, limited."""
     return unit_scale(previous_mps2, log_level).clamp(-PREVIOUS_LIMIT, PREVIOUS_LIMIT)

@@ -1,6 +1,6 @@
-"""Windows of a recording along its path: about 35 mm of fairly straight sliding each, whitened and placed on the surface.
+"""Windows along a recording's path: about 35 mm of nearly straight sliding each, whitened and placed on the surface.
 
-`NativePlugin/src/learning/path_windows.cpp` does the same; `Tests/Golden/wave-vectors` holds both to it.
+`NativePlugin/src/learning/path_windows.cpp` implements the same; `Tests/Golden/wave-vectors` compares both with it.
 """
 
 from __future__ import annotations
@@ -20,11 +20,11 @@ if TYPE_CHECKING:
 
 _Doubles = NDArray[np.float64]
 
-# A path that long holds many ribs, and a tracker's error over it is less than one rib.
+# This much path holds many ribs, while a tracker's error over it is less than one rib.
 _PATH_MM = 35.0
 _SHORTEST_SAMPLES, _LONGEST_SAMPLES = 160, 1000
 _SLOWEST_MMPS = 4.0
-# A window whose path bends more, or is shorter, says little about a direction.
+# A window whose path bends more, or is shorter, carries little information about a direction.
 _LEAST_STRAIGHT, _SHORTEST_PATH_MM = 0.96, 4.0
 _PREDICTOR_ORDER = 10
 _LEVEL_REACH_SAMPLES = 100
@@ -33,8 +33,8 @@ _MOST_WINDOWS = 200
 
 @dataclass(frozen=True)
 class PathWindows:
-    """wave and hann [windows, samples], zero behind a window's end; place_mm [windows, samples, 2] from the window's
-    middle; direction [windows, 2] of unit length; speed_mmps and path_mm [windows]."""
+    """wave and hann [windows, samples], zero after a window's end; place_mm [windows, samples, 2] relative to the
+    window's middle; direction [windows, 2] of unit length; speed_mmps and path_mm [windows]."""
 
     wave: _Doubles
     hann: _Doubles
@@ -53,7 +53,7 @@ class PathWindows:
 
 
 def path_windows(recordings: Sequence[MaterialRecording]) -> PathWindows:
-    """At most 200 windows, half overlapped, evenly drawn from all there are."""
+    """At most 200 windows that overlap by half, chosen evenly from all."""
     found = []
     for recording, white in zip(recordings, _whitened(recordings), strict=True):
         velocity = 1000.0 * recording.velocity_mps.astype(np.float64)
@@ -97,8 +97,8 @@ def _stacked(found: Sequence[tuple[_Doubles, _Doubles, _Doubles, float]]) -> Pat
 
 
 def _whitened(recordings: Sequence[MaterialRecording]) -> list[_Doubles]:
-    """The error of one linear predictor for all recordings: it takes away what surface and tool colour all of the
-    sound, and leaves lines. Before it, each sample is divided by the RMS of its tenth of a second."""
+    """The residual of one linear predictor for all recordings: it removes the spectral shape that surface and tool
+    give to everything, and leaves lines. Before that, each sample is divided by the RMS of its 100 ms."""
     even = [_evened(recording.vibration_mps2.astype(np.float64)) for recording in recordings]
     correlation = np.zeros(_PREDICTOR_ORDER + 1)
     for wave, recording in zip(even, recordings, strict=True):

@@ -1,4 +1,4 @@
-"""Finds recordings that cannot be right: wrong units, glitches, a dead sensor."""
+"""Finds implausible recordings: wrong units, glitches, a dead sensor."""
 
 from __future__ import annotations
 
@@ -10,16 +10,16 @@ from numpy.typing import NDArray
 
 from haptoflow_training.recordings.recording import Recording
 
-# An accelerometer at rest measures 1 g, which is 9.81 m/s^2 or 1000 mg; less when its signal is high-passed.
+# An accelerometer at rest measures 1 g, 9.81 m/s^2 or 1000 mg; less if its signal is high-passed.
 _GRAVITY_IN_MPS2 = (6.0, 14.0)
 _GRAVITY_IN_MG = (500.0, 2000.0)
-# No stroke of a hand or a machine makes a stylus vibrate this strongly.
+# No stroke by hand or machine makes a stylus vibrate more strongly.
 _HIGHEST_RMS_G = 40.0
-# A larger ratio of measured to named value means a wrong unit: no protocol misses its condition by that much.
+# A larger ratio between measured and nominal value means a wrong unit: no protocol misses its condition by that much.
 _LARGEST_RATIO = 4.0
 _STRONGEST_NEWTONS = 100.0
 _WEAKEST_NEWTONS = 0.002
-# A hand only roughly follows the speed in its recording's name, and below the second value it may rest.
+# A hand follows the speed in its recording's name only roughly, and below the second value it may rest.
 _LARGEST_RATIO_OF_A_HAND = 30.0
 _SLOWEST_COMPARED_MMPS = 20.0
 _FASTEST_MPS = 10.0
@@ -31,7 +31,7 @@ _LONGEST_FROZEN_SECONDS = 0.2
 
 
 class Implausibility(NamedTuple):
-    """Why a recording cannot be right. sensor: acceleration, force or position."""
+    """Why a recording is implausible. sensor: acceleration, force or position."""
 
     sensor: str
     found: str
@@ -42,7 +42,7 @@ class Implausibility(NamedTuple):
 
 
 def implausible(recording: Recording) -> Iterator[Implausibility]:
-    """Everything that is wrong with a recording. All of its values must be finite."""
+    """Everything implausible about a recording. All of its values must be finite."""
     yield from _acceleration(recording)
     yield from _force(recording)
     yield from _position(recording)
@@ -104,7 +104,7 @@ def _position(recording: Recording) -> Iterator[Implausibility]:
 
 
 def _runs(holds: NDArray[np.bool_]) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
-    """Where each run of true values starts, and where it has ended."""
+    """The start and the end of each run of true values."""
     edges = np.flatnonzero(np.diff(np.concatenate([[False], holds, [False]]).astype(np.int8)))
     return edges[::2], edges[1::2]
 
@@ -116,7 +116,8 @@ def _longest_run(holds: NDArray[np.bool_], time: NDArray[np.floating]) -> float:
 
 
 def _clipped_share(values: NDArray[np.float64]) -> float:
-    """The share of samples that stand at an end of the range in runs of several; 0 for an axis that nobody recorded."""
+    """The share of samples at an end of the range, counting only runs of several; 0 for an axis that was not
+    recorded."""
     if float(np.ptp(values)) == 0.0:
         return 0.0
     share = 0.0

@@ -31,7 +31,7 @@ STORED_FLOAT = np.dtype("<f4")
 
 @dataclass(frozen=True)
 class StoredRecording:
-    """Where one recording lies in the arrays: [start, start + length), silence put at its ends included."""
+    """The place of one recording in the arrays: [start, start + length), including the silence added at its ends."""
 
     name: str
     label: str
@@ -55,13 +55,13 @@ class StoredRecording:
 
     @property
     def recorded_samples(self) -> slice:
-        """Without the silence that preparation put before and after."""
+        """The samples without the silence that preparation added before and after."""
         return slice(self.start + self.padding_before, self.start + self.length - self.padding_after)
 
 
 @dataclass(frozen=True)
 class SkippedRecording:
-    """A recording that could not be prepared, and why."""
+    """A recording that could not be prepared, with the reason."""
 
     name: str
     reason: str
@@ -72,9 +72,9 @@ class SkippedRecording:
 
 @dataclass(frozen=True)
 class SegmentStore:
-    """waveform: [total] float32, unit scale (not clipped: a fifth of the recordings peaks above 1).
-    motion: [total, 3] float32: vx, vy in m/s, force in N. position_mm: [total, 2] float32: the place on the surface.
-    All are read-only memory maps, safe to share."""
+    """waveform: [total] float32, unit scale (not clipped: a fifth of the recordings peaks above 1). motion: [total,
+    3] float32: vx, vy in m/s, force in N. position_mm: [total, 2] float32: the place on the surface. All are
+    read-only memory maps, which processes can share."""
 
     path: Path
     waveform: NDArray[np.float32]
@@ -94,7 +94,8 @@ class SegmentStore:
 
     @classmethod
     def open(cls, path: Path | str) -> SegmentStore:
-        """InputError names file and remedy where the store is missing, unfinished, damaged or newer."""
+        """Open a store. InputError names file and remedy if it is missing, unfinished, damaged or of a newer
+        version."""
         root = Path(path)
         header = _read_header(root)
         try:
@@ -130,7 +131,7 @@ def write_header(
     settings: PreprocessingSettings,
     provenance: dict[str, Any],
 ) -> None:
-    """Declare the store in `root` finished."""
+    """Write the header, which marks the store in `root` as complete."""
     header = {
         "version": STORE_VERSION,
         "sample_rate_hz": settings.sample_rate_hz,

@@ -1,13 +1,12 @@
-"""Wave vectors of ribs and threads from recordings of a surface: lines of the spectrum that follow the speed, by
-direction.
+"""Estimates wave vectors of ribs and threads from recordings: spectral lines that follow the speed, by direction.
 
-A ruled surface with wave vector k sounds at |k . v|: with the place x on the surface, it is a line at exp(2 pi i k . x),
-whatever speed and direction do meanwhile. Every window of the path gives a spectrum along its own direction. The mean of
-these spectra at k, over that of its neighbours, is the evidence for a line there; a rib's evidence is that of its first
-six harmonics together. A resonance stays in place while the speed changes, and is averaged out; one speed alone shows
-nothing.
+A ruled surface with wave vector k vibrates at |k . v|: as a function of the place x on the surface, that is a line at
+exp(2 pi i k . x), whatever speed and direction do. Every window of the path gives a spectrum along its own direction.
+The mean of these spectra at k, over that of neighbouring wave vectors, is the evidence for a line there; the evidence
+for ribs is that of their first six harmonics together. A resonance stays at its frequency while the speed changes and
+is averaged out; recordings at a single speed therefore show nothing.
 
-`NativePlugin/src/learning/wave_vectors.cpp` does the same; `Tests/Golden/wave-vectors` holds both to it.
+`NativePlugin/src/learning/wave_vectors.cpp` implements the same; `Tests/Golden/wave-vectors` compares both with it.
 """
 
 from __future__ import annotations
@@ -31,36 +30,36 @@ WaveVector = tuple[float, float]
 SHORTEST_WAVELENGTH_MM, LONGEST_WAVELENGTH_MM = 0.4, 8.0
 _MOST_WAVE_VECTORS = 2
 _STEP_PER_MM, _HIGHEST_PER_MM = 0.01, 4.0
-# Multiples of the step from 0 to a little above the highest wave number.
+# Multiples of the step from 0 to slightly above the highest wave number.
 _STEPS = round(_HIGHEST_PER_MM / _STEP_PER_MM) + 2
 _DIRECTIONS = 120
 _HARMONICS = 6
-# Where a line can be told from the hand's own motion and from the end of the band.
+# Below, a line cannot be distinguished from the hand's own motion; above, the band ends.
 _LOWEST_HZ, _HIGHEST_HZ, _LOWEST_ALONG_PER_MM = 15.0, 800.0, 0.08
 _FEWEST_WINDOWS, _HEARING_SHARE = 6, 5
 _LEAST_SPEED_RATIO = 1.25
-# Times the mean power of noise: one loud window must not stand for many.
+# Limit in multiples of the mean noise power, so that one loud window does not count as many.
 _LARGEST_POWER = 30.0
 _NEIGHBOURS = 41
-# Half overlapped windows tell 0.6 of what separate ones would.
+# Windows that overlap by half carry 0.6 of the information of separate ones.
 _INDEPENDENT_SHARE = 0.6
-# In natural logarithms of the likelihood ratio. Noise alone reaches 15 on none of 38 surfaces without ribs.
+# Natural logarithms of likelihood ratios. Noise alone reaches 15 on none of 38 surfaces without ribs.
 _SURE, _SURE_BESIDE_KNOWN, _PRICE_OF_A_HARMONIC, _OWN_LINES = 20.0, 24.0, 3.0, 8.0
 _OWN_LINES_SHARE, _SHARE_OF_FIRST, _LOW_HARMONICS_SHARE = 0.06, 0.04, 0.3
 _LEAST_RATIO = 1.6
-# Threads cross at right angles more often than not: among equals, that one.
+# Threads usually cross at right angles, so such a pair is preferred among equals.
 _CROSSING_BONUS, _CROSSING_DEGREES, _LEAST_TURN_DEGREES = 0.2, 8.0, 20.0
-# Half a main lobe of a window is 1.6 of its bins; ribs that are not quite even smear their higher harmonics.
+# Half the main lobe of a window is 1.6 of its bins; slightly irregular ribs broaden their higher harmonics.
 _LOBE_BINS, _WIDER_BY_ORDER, _TAKEN_HARMONICS = 1.6, 0.1, 8
 _TRIES = 6
 
 
 def estimate_wave_vectors(recordings: Sequence[MaterialRecording]) -> tuple[WaveVector, ...]:
-    """Up to two wave vectors (x, y) in cycles per millimetre, the clearest first; empty where there are none, or where
-    the recordings cannot tell: less than about 0.2 m of path, or always the same speed.
+    """Up to two wave vectors (x, y) in cycles per millimetre, the clearest first; empty if there are none, or if the
+    recordings do not suffice: less than about 0.2 m of path, or a single speed.
 
-    Wavelengths of 0.4 to 8 mm. Of a ruled surface that was recorded in one direction only, the vector found lies along
-    that direction.
+    Finds wavelengths of 0.4 to 8 mm. For a ruled surface that was recorded in one direction only, the vector found lies
+    along that direction.
     """
     windows = path_windows([each for each in recordings if len(each.vibration_mps2) > 160])
     if len(windows) < _FEWEST_WINDOWS or not _speed_changes(windows):
@@ -109,12 +108,12 @@ class _Evidence:
         enough = count >= max(_FEWEST_WINDOWS, len(windows) // _HEARING_SHARE)
         neighbours = median_filter(np.where(enough, mean, 1.0), size=(1, _NEIGHBOURS), mode="nearest")
         ratio = np.where(enough, mean / np.maximum(neighbours, 1.0), 0.0)
-        # Of exponentially distributed powers whose mean is `ratio` instead of 1, at the most likely ratio.
+        # For exponentially distributed powers with mean `ratio` instead of 1, at the most likely ratio.
         gain = _INDEPENDENT_SHARE * count * (ratio - 1.0 - np.log(np.maximum(ratio, 1e-9)))
         return _Evidence(np.where(ratio > 1.0, gain, 0.0), ratio)
 
     def clearest(self, known: Sequence[_Doubles], first: float) -> tuple[_Doubles, list[int], float] | None:
-        """(vector, its audible harmonics, score) or None. first: score of the first vector where one is known."""
+        """(vector, its audible harmonics, score) or None. first: the score of the first vector, if one is known."""
         scores = self._scores(known)
         sure = max(_SURE_BESIDE_KNOWN, _SHARE_OF_FIRST * first) if known else _SURE
         for _ in range(_TRIES):
@@ -153,7 +152,8 @@ class _Evidence:
         return np.where(inside, values[row, np.minimum(places, values.shape[1] - 1)], 0.0)
 
     def _near(self, row: int, step: int) -> _Doubles:
-        """[6]: the largest gain beside each harmonic of a fundamental that is known to half a step, less its price."""
+        """[6]: the largest gain near each harmonic of a fundamental that is known to half a step, less the price of
+        a harmonic."""
         gains = np.zeros(_HARMONICS)
         rows = slice(max(row - 1, 0), row + 2)
         for order in range(1, _HARMONICS + 1):
@@ -164,8 +164,9 @@ class _Evidence:
         return gains
 
     def _pitch(self, row: int, step: int) -> int:
-        """The fundamental's step. A fraction of it has the same lines, so the largest multiple that keeps them is
-        right; and a harmonic may be louder than its fundamental, so the lowest fraction with lines of its own is."""
+        """The fundamental's step. A fraction of the true step has the same lines, so the largest multiple that keeps
+        them is right; and a harmonic may be louder than its fundamental, so the lowest fraction with lines of its
+        own is."""
         orders = np.arange(1, _HARMONICS + 1)
         for divisor in (4, 3, 2):
             if divisor * step * _STEP_PER_MM <= 1.0 / SHORTEST_WAVELENGTH_MM:
@@ -197,7 +198,7 @@ def _spectra(windows: PathWindows, wave: _Doubles) -> _Doubles:
         turned *= step
     band = _band(windows)
     for index in range(len(windows)):
-        # The median of a chi-squared variable of two degrees is ln 2 of its mean.
+        # The median of a chi-squared variable with two degrees of freedom is ln 2 of its mean.
         usual = float(np.median(power[index, band[index]])) / np.log(2.0) if band[index].any() else 1.0
         power[index] /= usual if usual > 0.0 else 1.0
     return power
@@ -209,7 +210,7 @@ def _band(windows: PathWindows) -> NDArray[np.bool_]:
 
 
 def _heard(windows: PathWindows, known: Sequence[_Doubles]) -> NDArray[np.bool_]:
-    """[windows, steps]: inside the band, and nothing that a harmonic of a known vector would explain."""
+    """[windows, steps]: inside the band, and not explained by a harmonic of a known vector."""
     heard = _band(windows)
     places = np.arange(_STEPS)[None] * _STEP_PER_MM
     for vector in known:
@@ -227,7 +228,7 @@ def _heard_at(windows: PathWindows, vectors: _Doubles) -> NDArray[np.bool_]:
 
 
 def _refined(windows: PathWindows, wave: _Doubles, vector: _Doubles, orders: Sequence[int]) -> _Doubles:
-    """To a fiftieth of the plane's step: uphill on the sum of the lines' amplitudes."""
+    """The vector refined to a fiftieth of the plane's step, by ascent on the sum of the lines' amplitudes."""
 
     def amplitude(vectors: _Doubles) -> _Doubles:
         total = np.zeros(len(vectors))
@@ -251,7 +252,7 @@ def _refined(windows: PathWindows, wave: _Doubles, vector: _Doubles, orders: Seq
 
 
 def _without(windows: PathWindows, wave: _Doubles, vector: _Doubles) -> _Doubles:
-    """The windows less the lines of a vector, which must not pass for another one's."""
+    """The windows without the lines of a vector, which could be mistaken for another vector's."""
     left = wave.copy()
     weight = windows.hann.sum(axis=1)
     for order in range(1, _TAKEN_HARMONICS + 1):
@@ -263,6 +264,7 @@ def _without(windows: PathWindows, wave: _Doubles, vector: _Doubles) -> _Doubles
 
 
 def _upward(vector: _Doubles) -> WaveVector:
-    """The opposite vector is the same ribs: the one whose larger component is positive, to five digits."""
+    """Of the two opposite vectors, which describe the same ribs, the one whose larger component is positive, to five
+    digits."""
     sign = 1.0 if vector[np.abs(vector).argmax()] > 0.0 else -1.0
     return round(sign * float(vector[0]), 5), round(sign * float(vector[1]), 5)

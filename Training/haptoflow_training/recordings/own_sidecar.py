@@ -1,4 +1,4 @@
-"""What stands beside a recording of one's own: NAME.json, and recordings.json with defaults for its folder."""
+"""The sidecar of an own recording: NAME.json, and recordings.json with defaults for its folder."""
 
 from __future__ import annotations
 
@@ -21,10 +21,10 @@ LOWEST_RATE_HZ, HIGHEST_RATE_HZ = 1000.0, 192_000.0
 
 @dataclass(frozen=True)
 class Sidecar:
-    """What the files beside a recording say of it; None or empty for what they leave to its columns.
+    """The contents of the sidecar files; None or empty for what is in the columns instead.
 
-    path: the sidecar's, whether it exists or not. velocity_mps: a speed lies along the first axis. motion: a file of its
-    own clock.
+    path: of the sidecar, whether it exists or not. velocity_mps: a speed lies along the first axis. motion: a file with
+    its own clock.
     """
 
     path: Path
@@ -39,7 +39,7 @@ class Sidecar:
 
 
 def read_sidecar(recording: Path) -> Sidecar:
-    """Of one recording's file; where a key stands in both files, the sidecar's own wins.
+    """Read the sidecar of one recording; its own keys override those of recordings.json.
 
     DatasetFileError names the file, the key, what was found and what is expected.
     """

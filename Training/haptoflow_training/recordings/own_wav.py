@@ -1,4 +1,4 @@
-"""A WAV file of one's own: acceleration of one or three axes, scaled by its sidecar."""
+"""Reads an own WAV file: acceleration of one or three axes, scaled by its sidecar."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from haptoflow_training.recordings.own_sidecar import HIGHEST_RATE_HZ, LOWEST_RA
 from haptoflow_training.recordings.own_table import Series
 
 _EXPECTED = "a WAV file of 1 or 3 channels, PCM or float"
-# What stands for +1 in each kind of sample; 24 bits are read into the upper part of 32.
+# The value that represents +1 in each sample type; 24-bit samples are read into the upper bits of 32.
 _FULL_SCALE = {"uint8": 2.0**7, "int16": 2.0**15, "int32": 2.0**31, "int64": 2.0**63}
 
 

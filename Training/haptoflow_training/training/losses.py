@@ -1,4 +1,4 @@
-"""What a training step minimises, objective by objective, on one batch."""
+"""The losses of a training step on one batch, by objective."""
 
 from __future__ import annotations
 
@@ -20,11 +20,11 @@ from haptoflow_training.training.energy_distance import energy_distance_loss, en
 from haptoflow_training.training.flow_matching import flow_matching_loss, solve
 from haptoflow_training.training.label_balance import LabelBalance, label_features
 
-# `own`: what a baseline is trained for by its own form.
+# `own`: a rival's published training loss.
 Objective = Literal["level", "flow", "average-velocity", "reflow", "energy", "own"]
 
 _BALANCE_WEIGHT = 2.0
-# Power of a past in unit scale, and change of the level's logarithm within a segment, beyond which it counts less.
+# Power of a past in unit scale, and change of the log level within a segment, beyond which the segment weighs less.
 _LOUD_PAST, _UNSTEADY_LOG_LEVEL = 4.0, 0.4
 
 
@@ -44,8 +44,8 @@ class TrainingPairs(Protocol):
 class Losses(nn.Module):
     """Level and field loss in one forward pass, so that several processes synchronise all gradients at once.
 
-    train_level False keeps the level as it is: a tier that shares another run's. balance: what the network has made of
-    every label so far; without it, the energy objective is the energy distance alone, as for validation.
+    train_level: False for a tier that shares another run's level. balance: running averages by label; without it, as in
+    validation, the energy objective is the energy distance alone.
     """
 
     def __init__(
@@ -86,16 +86,16 @@ class Losses(nn.Module):
     def _field_loss(self, batch: SegmentBatch, objective: Objective, generator: torch.Generator) -> Tensor:
         model = self.model
         embedding = model.embedding(batch.label)
-        # The field sees waves of unit scale; it must not move the level to make its own task easier.
+        # The field works in unit scale; its loss must not move the level to make the task easier.
         log_level = model.log_level(batch.label, batch.motion).detach()
         steady_segment, unsteadiness = self._steady_segment(batch, embedding)
         segment = model.representation.encode(steady_segment)
         recorded_previous = scaled_previous(batch.previous, log_level)
         previous = recorded_previous
         if batch.chain is not None:
-            own_previous = self.live_through(batch.chain, batch.label, objective, generator)
+            own_previous = self.render_chain(batch.chain, batch.label, objective, generator)
             previous = scaled_previous(own_previous, log_level)
-        # A burst that the level cannot foresee (an impact, the first motion after a rest) is learnt, but must not
+        # Bursts that the level cannot predict (an impact, the first motion after a rest) are learnt, but must not
         # outweigh a hundred ordinary segments.
         power = segment.square().mean(dim=(1, 2)).clamp(min=1.0)
         encoded_previous = model.representation.encode(previous)
@@ -114,7 +114,8 @@ class Losses(nn.Module):
 
         if objective == "own":
             own = model.field.loss(segment, encoded_previous, embedding, batch.motion, phase, generator)
-            # A likelihood is of all segments alike: weighted down by what it has to foresee, it would foresee less.
+            # A likelihood weighs all segments alike: weighting down unpredictable ones would bias it towards too little
+            # variance.
             weight = torch.ones_like(power) if model.field.is_sampled else power.reciprocal()
             return (weight * own).sum() / weight.sum()
         if objective == "flow":
@@ -123,7 +124,7 @@ class Losses(nn.Module):
             mean_flow_loss = extension("objective", "average-velocity")
             average_loss: Tensor = mean_flow_loss(bound, segment, generator, 1.0 / power)
             return average_loss
-        # Both draws in one pass: many small products cost less as few large ones.
+        # Both draws in one pass: few large matrix products are faster than many small ones.
         noise = torch.randn(2 * len(segment), *segment.shape[1:], generator=generator)
         condition = [torch.cat([part, part]) for part in (previous, embedding, batch.motion, phase)]
         first, second = model.one_step(noise, *condition).chunk(2)
@@ -141,8 +142,8 @@ class Losses(nn.Module):
         phase: Tensor,
         weight: Tensor,
     ) -> Tensor:
-        """Of a recording (past and segment) and two draws that follow `past`, [B, 1, 200] each, in unit scale; phase
-        [B, 2]: the rib phase; weight [B] of each segment."""
+        """The energy loss of a recording (past and segment) and two draws that follow `past`, [B, 1, 200] each, in
+        unit scale; phase [B, 2]: the rib phase; weight [B] of each segment."""
         segments = [wave.squeeze(1) for wave in (recorded[1], *drawn)]
         true = recorded[0].squeeze(1), segments[0]
         # Both draws in one pass here, too.
@@ -172,21 +173,21 @@ class Losses(nn.Module):
     def _partials(
         self, batch: SegmentBatch, embedding: Tensor, segments: tuple[Tensor, ...], phase: Tensor
     ) -> tuple[list[Tensor], Tensor]:
-        """For each segment, its partials [B, 2, P] relative to the rib phase; and a mask [B, P] of those that one segment
-        can resolve. Both are zero for a network without ribs."""
+        """For each segment, its partials [B, 2, P] relative to the rib phase; and a mask [B, P] of those that one
+        segment can resolve. Both are zero for a network without ribs."""
         comb = self.model.field.comb
         if comb is None:
             nothing = torch.zeros(len(batch.label), 2, PARTIALS)
             return [nothing] * len(segments), nothing[:, 0]
-        profiles, told_apart = comb.profile(embedding, batch.motion, phase, torch.cat(segments, dim=1))
+        profiles, resolved = comb.profile(embedding, batch.motion, phase, torch.cat(segments, dim=1))
         recorded, *drawn = profiles.unbind(dim=1)
-        return [recorded.detach(), *drawn], told_apart
+        return [recorded.detach(), *drawn], resolved
 
     @torch.no_grad()
-    def live_through(
+    def render_chain(
         self, chain: Chain, label: Tensor, objective: Objective, generator: torch.Generator
     ) -> Tensor:
-        """The previous waveform [B, 1, 200] in m/s^2 that the network itself leaves after the chain's hops."""
+        """The previous waveform [B, 1, 200] in m/s^2 after the chain's hops, rendered by the network itself."""
         model, previous = self.model, chain.start
         for hop in range(chain.motion.shape[1]):
             where = chain.motion[:, hop], chain.position_mm[:, hop]
@@ -205,7 +206,7 @@ class Losses(nn.Module):
         objective: Objective,
         generator: torch.Generator,
     ) -> Tensor:
-        """One segment [B, 1, 200] in m/s^2, made as the objective's tier is run."""
+        """One segment [B, 1, 200] in m/s^2, generated in the way the objective's tier is run."""
         model = self.model
         embedding = model.embedding(label)
         phase = rib_phase(embedding, position_mm)
@@ -229,7 +230,8 @@ class Losses(nn.Module):
     def make_pairs(
         self, batch: SegmentBatch, generator: torch.Generator
     ) -> tuple[Tensor, Tensor, Tensor, SegmentBatch]:
-        """(noise, what the flow makes of it, previous in unit scale, batch): what reflow straightens."""
+        """(noise, the segment that the flow makes of it, previous in unit scale, batch): the pairs that reflow is
+        trained on."""
         model = self.model
         embedding = model.embedding(batch.label)
         previous = scaled_previous(batch.previous, model.level(embedding, batch.motion))
@@ -243,9 +245,9 @@ class Losses(nn.Module):
         return noise, solve(field, noise, "midpoint", 4), previous, batch
 
     def _steady_segment(self, batch: SegmentBatch, embedding: Tensor) -> tuple[Tensor, Tensor]:
-        """The segment in unit scale as if the motion went on as it began: each sample is divided by the level of its
-        own moment, since at run time the hand's next tenth of a second is not known. And how far the logarithm of the
-        level goes from that of the condition, [B]."""
+        """The segment in unit scale, as if the motion continued as it began: each sample is divided by the level at
+        its time, because the next 100 ms of motion are unknown at run time. Also the largest deviation of the log
+        level within the segment from that of the condition, [B]."""
         rows, knots, _ = batch.motion_path.shape
         path = batch.motion_path.reshape(rows * knots, 3)
         with torch.no_grad():
@@ -258,8 +260,9 @@ class Losses(nn.Module):
 
 
 def _steadiness(unsteadiness: Tensor, previous: Tensor) -> Tensor:
-    """[B]: the weight of a segment by what is known before it: near 1 where the level holds within a few decibels and the
-    past [B, 1, 200] is about as loud as it should be. What a stop or a start leaves in unit scale looks like a blow, and
-    is none. A weight that knew the segment itself would ask for fewer blows than were recorded."""
+    """[B]: the weight of a segment, from what is known before it: near 1 where the level changes by less than a few
+    decibels and the past [B, 1, 200] is about as loud as the level predicts. In unit scale, a stop or a start looks
+    like an impact. A weight that depended on the segment itself would bias the network towards fewer impacts than
+    recorded."""
     loudness = (previous.square().mean(dim=(1, 2)) / _LOUD_PAST).clamp(min=1.0)
     return loudness.rsqrt() / (1.0 + (unsteadiness / _UNSTEADY_LOG_LEVEL).pow(4))

@@ -1,8 +1,8 @@
 """The training loop: level model first, then level and velocity field together, then the level once more.
 
-Resumable: a checkpoint holds weights, moving average, optimiser, generators and position; a run that is started
-again in the same folder goes on from it and ends with the same weights as one that was never stopped. A run with a
-budget of time goes on with what is left of it; how many steps that makes is the machine's matter.
+Resumable: a checkpoint holds weights, moving average, optimiser, random generators and position. A run that is started
+again in the same folder continues and ends with the same weights as one that was never interrupted. A run with a time
+budget continues with the time that is left; its number of steps depends on the machine.
 """
 
 from __future__ import annotations
@@ -43,12 +43,12 @@ _COLUMNS = ("step", "phase", "field_loss", "level_loss", "validation_field_loss"
 _LOG_EVERY = 100
 _CHECKPOINT_EVERY = 1000
 _VALIDATION_BATCH = 512
-# Of each phase, to see what its steps cost before a budget is shared out; the first ones warm up.
+# Steps of each phase that are timed before a budget is divided, after warm-up steps.
 _REHEARSED_STEPS, _WARM_UP_STEPS = 12, 2
-# Of a run that somebody waits for, at most; fewer steps are tried where there is little time.
+# The largest share of a time limit that this timing may use; with little time, fewer steps are timed.
 _REHEARSED_SHARE = 0.08
 _SHORTEST_TRAINING_SECONDS = 1.0
-# The unit is where the time left is shown: what the bar itself would guess takes all steps for equally long.
+# The time left is shown as the bar's unit: the bar's own estimate assumes that all steps take equally long.
 _LIMITED_BAR = "{desc}: {percentage:3.0f}%|{bar}| {unit} [{elapsed}{postfix}]"
 _SECONDS_BETWEEN_BARS = 0.5
 _REHEARSED_PAIRS = 500
@@ -60,7 +60,8 @@ class TrainingStopped(Exception):
 
 @dataclass(frozen=True)
 class TimeLimit:
-    """What a run may take by the clock on the wall. seconds_after: what follows training and is shown as left too."""
+    """The wall-clock time of a run. seconds_after: the time of what follows training, included in the time shown as
+    left."""
 
     training_seconds: float
     seconds_after: float = 0.0
@@ -70,7 +71,7 @@ WaveVectors = Sequence[Sequence[tuple[float, float]]]
 
 
 def build_model(config: TrainingConfig, wave_vectors: WaveVectors) -> HaptoFlowModel:
-    """The untrained model that `config` describes. wave_vectors: of each label's ribs, empty for none."""
+    """The untrained model of `config`. wave_vectors: of each label's ribs, empty for none."""
     shape = config.model
     representation = build_representation(shape.representation)
     channels, positions = representation.shape
@@ -97,7 +98,7 @@ def build_model(config: TrainingConfig, wave_vectors: WaveVectors) -> HaptoFlowM
 
 @dataclass(frozen=True)
 class _Phase:
-    """steps of one objective. own_previous_every: every so many steps on chains of the network's own output
+    """Steps of one objective. own_previous_every: every so many steps use chains of the network's own output
     (self-forcing); 0 for never."""
 
     name: str
@@ -119,11 +120,11 @@ def _phases(config: TrainingConfig) -> tuple[_Phase, ...]:
     if config.model.architecture != "unet":
         flow = "own"
     last: Objective = "energy" if recipe.energy_steps else "reflow" if recipe.reflow_steps else flow
-    # A tier that shares another run's level has nothing to fit there.
+    # A tier that shares another run's level has no level to fit.
     level_steps, polish_steps = (0, 0) if recipe.shares_base else (optimiser.level_steps, optimiser.level_polish_steps)
     batch, energy_batch = optimiser.batch_size, recipe.energy_batch_size
     forced_batch = energy_batch if last == "energy" else batch
-    # What a recorded past has to be followed by is forgotten when all pasts are the network's own.
+    # If all pasts were the network's own, it would forget how to continue a recorded one.
     forced_every = 2 if last == "energy" else 1
     planned: list[tuple[str, Objective, int, float, int, int]] = [
         ("level", "level", level_steps, optimiser.learning_rate, 8 * batch, 0),
@@ -142,7 +143,7 @@ def _phases(config: TrainingConfig) -> tuple[_Phase, ...]:
 
 
 def planned_steps(config: TrainingConfig) -> list[int]:
-    """Steps of each phase that a run of `config` goes through."""
+    """The steps of each phase of a run of `config`."""
     return [phase.steps for phase in _phases(config)]
 
 
@@ -171,7 +172,7 @@ class Trainer:
         torch.manual_seed(config.seed)
         self.model = build_model(config, wave_vectors or [()] * len(store.labels))
         if optimiser.budget_seconds and processes.count > 1:
-            raise InputError("optimiser.budget_seconds is of one process; leave it out under torchrun")
+            raise InputError("optimiser.budget_seconds works with one process only; leave it out under torchrun")
         if config.recipe.shares_base != (base is not None):
             raise InputError(
                 "--base FOLDER and recipe.shares_base = true go together: the one names the run whose level is kept, "
@@ -199,13 +200,13 @@ class Trainer:
         self._stop = False
 
     def limit_time(self, limit: TimeLimit) -> None:
-        """Before `run`, for somebody who waits: in place of the configuration's budget and steps. One process only."""
+        """Call before `run`: a wall-clock limit in place of the configuration's budget and steps. One process only."""
         self._limit = limit
         self._clock = time.monotonic
 
     @property
     def averaged_model(self) -> HaptoFlowModel:
-        """The moving average: what is validated and exported."""
+        """The moving average of the model, which is validated and exported."""
         return self._average.module  # type: ignore[return-value]
 
     @property
@@ -217,14 +218,14 @@ class Trainer:
         return self._phases[-1].end
 
     def run(self) -> None:
-        """Train to the end, or until SIGINT or SIGTERM: then write a checkpoint and raise TrainingStopped. A finished run
-        stays as it is: its summary tells the commit that trained it."""
+        """Train to the end, or until SIGINT or SIGTERM: then write a checkpoint and raise TrainingStopped. A
+        finished run is left unchanged, with the commit that trained it in its summary."""
         self._folder.mkdir(parents=True, exist_ok=True)
         if self.checkpoint_path.exists():
             self._load()
             if self._step == self._total and (self._folder / "run.json").exists():
                 return
-        # Of the code that trains, which is that of now, whatever the tree holds when the run ends.
+        # The commit at the start of training; the tree may change while the run goes on.
         commit = source_commit(Path(__file__).parent)
         log = MetricsLog(self._folder / "metrics.csv", _COLUMNS, self._step) if self._processes.is_first else None
         previous_handlers = {
@@ -278,7 +279,7 @@ class Trainer:
         bar.close()
 
     def _show_progress(self, bar: tqdm) -> None:
-        """Steps; of a run with a limit, its time: that of the phases as it was measured, and what comes after training."""
+        """Show steps; with a time limit, show the estimated time left, including what follows training."""
         if self._limit is None or self._budget is None:
             bar.total = self._total
             bar.update()
@@ -293,7 +294,7 @@ class Trainer:
             bar.refresh()
 
     def _paced(self, index: int) -> _Phase:
-        """The phase that runs, as long as its share of the budget lets it be by now."""
+        """The running phase, with its length adjusted to its share of the budget."""
         if self._budget is not None:
             self._budget.spend(index)
             done = self._step - self._phases[index].first_step
@@ -311,7 +312,8 @@ class Trainer:
             first += count
 
     def _shared_out_budget(self) -> Budget:
-        """Of a run that is about to begin: what steps cost is tried on a network that is thrown away."""
+        """The budget of a run that is about to begin: the cost of steps is measured on a network that is then
+        discarded."""
         config = self._config
         seconds = config.optimiser.budget_seconds
         begun = self._clock()
@@ -355,18 +357,18 @@ class Trainer:
 
     def _enter(self, phase: _Phase) -> None:
         if self._step == phase.first_step and phase.name in ("reflow", "energy", "polish"):
-            # These phases refine what would be exported; the last noisy step is not where they should begin.
+            # These phases refine the exported average, so they start from it rather than from the last noisy step.
             self.model.load_state_dict(self.averaged_model.state_dict())
         if phase.objective == "reflow":
             self._pairs = self._make_pairs()
         if phase.name == "polish":
-            # The level is fitted anew to the averaged embedding, which is the one that will be exported.
+            # The level is fitted again to the averaged embedding, which is the one that is exported.
             for parameter in (*self.model.field.parameters(), *self.model.embedding.parameters()):
                 parameter.requires_grad_(False)
 
     def _make_pairs(self) -> TrainingPairs:
-        """Noise and what the flow makes of it; the same set whenever a run is resumed would need the flow's old
-        weights, so a resumed run draws its pairs from the network as it is."""
+        """Noise and the segments that the flow makes of it. A resumed run draws new pairs with its present weights,
+        because the earlier weights are gone."""
         generator = torch.Generator().manual_seed(self._config.seed + 17)
         size, count = 500, self._config.recipe.reflow_pairs // self._processes.count
         teacher = Losses(self.averaged_model, self._config.solver)
@@ -429,7 +431,7 @@ class Trainer:
         bar.set_postfix(phase=phase.name, field=f"{field.item():.4f}", level=f"{level.item():.3f}")
 
     def _save(self) -> None:
-        # Every process has its own generators, and has heard its own batches; weights are the same everywhere.
+        # Each process has its own generators and running averages; the weights are the same everywhere.
         own = {
             "noise": self._noise.get_state(),
             "batches": self._batches.state(),
@@ -507,18 +509,18 @@ def _save_atomically(content: dict[str, object], path: Path) -> None:
 
 
 def adopt_base(model: HaptoFlowModel, folder: Path, labels: list[str]) -> None:
-    """Give `model` the embedding and level of the finished run in `folder`, and hold them still."""
+    """Copy the embedding and level of the finished run in `folder` into `model`, and freeze them."""
     weights = _averaged_weights(folder, labels, "--base")
     for name, part in (("embedding", model.embedding), ("level", model.level)):
-        # The base's own network, if it has one, is of no concern here.
+        # The base's own network, if it has one, is ignored.
         prefix = f"{name}."
         part.load_state_dict({key[len(prefix) :]: value for key, value in weights.items() if key.startswith(prefix)})
         part.requires_grad_(False)
 
 
 def adopt_start(model: HaptoFlowModel, folder: Path, labels: list[str]) -> None:
-    """Begin with the averaged weights of the run in `folder`, of the same labels. A layer that has more outputs than it
-    had there keeps those it had; InputError names a layer that has another shape."""
+    """Start from the averaged weights of the run in `folder`, of the same labels. A layer with more outputs than in
+    that run keeps its initial weights for the new ones; InputError names a layer with another shape."""
     own = model.state_dict()
     for name, weights in _averaged_weights(folder, labels, "--from").items():
         if name not in own or weights.shape[1:] != own[name].shape[1:] or weights.shape[:1] > own[name].shape[:1]:

@@ -1,7 +1,7 @@
 """The two protocols: the published data set's machine design, and free hand strokes.
 
-Every recording is seeded by (seed, its identity): order, subset and parallelism change nothing. The identity also says
-which of the training specimens is recorded.
+Every recording is seeded by (seed, its identity), so order, subset and parallelism have no effect. The identity also
+determines which training specimen is recorded.
 """
 
 from __future__ import annotations
@@ -45,7 +45,7 @@ def machine_conditions(
 def hand_conditions(material: Material, *, seed: int, recordings: int) -> list[RecordingIdentity]:
     """The identities of one material's hand recordings: speeds and forces spread evenly on a log scale.
 
-    The first n of a longer list are not the list of n: speeds are stratified over `recordings`.
+    Speeds are stratified over `recordings`, so a shorter list is not the beginning of a longer one.
     """
     rng = np.random.default_rng([seed, material.texture_id, 2])
     order = rng.permutation(recordings)
@@ -64,7 +64,7 @@ def hand_conditions(material: Material, *, seed: int, recordings: int) -> list[R
 def record_machine_condition(
     material: Material, identity: RecordingIdentity, *, seed: int, specimen: int | None = None
 ) -> Recording:
-    """One machine pass. specimen: None is the one that the training protocol records under this identity."""
+    """One machine pass. specimen: None selects the one that the training protocol records under this identity."""
     if identity.direction_degrees is None:
         raise ValueError(f"{identity.name} is not a machine recording")
     rng = _generator(seed, identity)
@@ -87,9 +87,9 @@ def record_hand_condition(
     guided_share: float = 0.0,
     specimen: int | None = None,
 ) -> Recording:
-    """One hand stroke: free, or guided for `guided_share` of all, spread evenly over the repeats.
+    """One hand stroke: free, or guided for a `guided_share` of all, spread evenly over the repeats.
 
-    specimen: None is the one that the training protocol records under this identity.
+    specimen: None selects the one that the training protocol records under this identity.
     """
     rng = _generator(seed, identity)
     guided = int((identity.repeat + 1) * guided_share) > int(identity.repeat * guided_share)
