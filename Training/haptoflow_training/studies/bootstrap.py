@@ -1,4 +1,7 @@
-"""Intervals and standard errors over participants, because a participant's answers depend on each other."""
+"""Intervals and standard errors over participants, because the answers of one participant are correlated.
+
+scipy.stats.bootstrap has percentile, basic and BCa intervals, but not the expanded percentile interval used here.
+"""
 
 from __future__ import annotations
 
@@ -26,10 +29,10 @@ def participant_weights(participants: int, resamples: int, seed: int) -> np.ndar
 
 
 def expanded_interval(values: np.ndarray, participants: int) -> Interval:
-    """Expanded percentile interval of resampled values, 95 %; values that are nan are left out.
+    """Expanded percentile interval of resampled values, 95 %; nan values are left out.
 
     Hesterberg (2015), What teachers should know about the bootstrap: percentiles of a resampled statistic are too
-    narrow by sqrt((n - 1) / n) and have a normal's tails where Student's t are due; the levels are moved out by both.
+    narrow by sqrt((n - 1) / n) and use normal instead of Student's t tails; the levels are moved outwards for both.
     """
     percentile_levels = expanded_levels(participants)
     low, high = np.quantile(values[~np.isnan(values)], percentile_levels)
@@ -37,15 +40,15 @@ def expanded_interval(values: np.ndarray, participants: int) -> Interval:
 
 
 def expanded_levels(participants: int) -> tuple[float, float]:
-    """In place of 0.025 and 0.975."""
+    """The two levels of the expanded interval, in place of 0.025 and 0.975."""
     outer = np.sqrt(participants / (participants - 1)) * t.ppf(0.5 + CONFIDENCE / 2.0, participants - 1)
     return float(norm.cdf(-outer)), float(norm.cdf(outer))
 
 
 def jackknife_error(without_one: np.ndarray) -> float | None:
-    """Standard error from a statistic's values with each participant left out in turn; None where one has no value.
+    """Standard error from a statistic's values with each participant left out in turn; None if one has no value.
 
-    Unlike the resamples' standard deviation, it is not carried away by a few resamples whose curve is almost flat.
+    Unlike the resamples' standard deviation, it is not dominated by a few resamples whose curve is almost flat.
     """
     if np.isnan(without_one).any():
         return None

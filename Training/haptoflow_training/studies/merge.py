@@ -1,4 +1,4 @@
-"""All sessions of a study as one table, a row an answered trial."""
+"""Merges all sessions of a study into one table with a row for each answered trial."""
 
 from __future__ import annotations
 

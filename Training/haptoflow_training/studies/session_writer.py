@@ -1,4 +1,4 @@
-"""Writing a session's two files, as the Unity samples do."""
+"""Writes a session's two files in the format of the Unity samples."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from haptoflow_training.studies.log_columns import COLUMNS, FORMAT, VERSION
 
 
 def write_session(folder: Path, sidecar: Mapping[str, Any], rows: Sequence[Mapping[str, Any]]) -> Path:
-    """The rows' file. A column that a row does not have stays empty."""
+    """Write the table of rows. A column that a row does not have stays empty."""
     stem = f"{sidecar['study']}-P{sidecar['participant']:02d}-{sidecar['session']}"
     names = [column.name for column in COLUMNS[sidecar["study"]]]
     lines = [",".join(names), *(",".join(field_text(row.get(name)) for name in names) for row in rows)]
@@ -24,7 +24,7 @@ def write_session(folder: Path, sidecar: Mapping[str, Any], rows: Sequence[Mappi
 
 
 def field_text(value: object) -> str:
-    """Numbers to six decimals; None is empty."""
+    """Numbers with six decimals; None is an empty field."""
     if value is None:
         return ""
     return f"{value:.6f}".rstrip("0").rstrip(".") if isinstance(value, float) else str(value)

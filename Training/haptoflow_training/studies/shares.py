@@ -1,4 +1,4 @@
-"""How often something happened in simulated studies, with the interval that so many studies allow."""
+"""Shares of simulated studies, with their confidence intervals."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from scipy import stats
 
 @dataclass(frozen=True)
 class Share:
-    """low, high: Wilson's interval of 95 % for the rate behind it."""
+    """low, high: Wilson's interval of 95 % for the underlying rate."""
 
     count: int
     of: int
@@ -31,6 +31,6 @@ class Share:
 
 
 def share(count: int, of: int) -> Share:
-    """of: 1 at least."""
+    """The share of `count` among `of` studies; of: at least 1."""
     interval = stats.binomtest(count, of).proportion_ci(0.95, method="wilson")
     return Share(count, of, float(interval.low), float(interval.high))
