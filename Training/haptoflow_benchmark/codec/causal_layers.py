@@ -11,10 +11,10 @@ from torch.nn.utils import remove_weight_norm, weight_norm
 
 
 class CausalConvolution(nn.Module):
-    """Convolution of [B, C, N] to [B, D, ceil(N / stride)] that sees no later sample than its own stride's.
+    """Convolution of [B, C, N] to [B, D, ceil(N / stride)] that reads no sample after its own stride.
 
-    All padding lies on the left, mirrored, but for what the last stride needs to be full. Mirroring shows the
-    first outputs up to `kernel - stride` later samples; N must exceed that number, or ValueError is raised.
+    All padding is on the left, mirrored, except what the last stride needs to be full. Because of the mirroring, the
+    first outputs depend on up to `kernel - stride` later samples; N must exceed that number, or ValueError is raised.
     """
 
     def __init__(self, inputs: int, outputs: int, kernel: int, stride: int = 1) -> None:
@@ -75,9 +75,9 @@ class ResidualLstm(nn.Module):
 
 
 def fold_weight_norm(module: nn.Module) -> None:
-    """Turn every weight-normalised layer into a plain one of the same output, in place; not for training.
+    """Replace every weight-normalised layer by a plain one with the same output, in place; not for training.
 
-    Weights are then worked out once instead of in every call; the state dict loses its published names.
+    Weights are then computed once instead of in every call; the state dict loses its published names.
     """
     for layer in module.modules():
         if hasattr(layer, "weight_g"):

@@ -1,4 +1,4 @@
-"""Reading weights that someone else wrote: no code is unpickled, every name and shape is checked."""
+"""Reads weights from untrusted files: no code is unpickled, every name and shape is checked."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ _CHUNK_BYTES = 1 << 20
 
 
 def verify_sha256(path: Path, expected: str) -> None:
-    """Compare a file with a SHA-256 (64 hexadecimal digits, or the first 8 or more); InputError if other."""
+    """Compare a file with a SHA-256 (64 hexadecimal digits, or the first 8 or more); InputError if they differ."""
     wanted = expected.strip().lower()
     if not re.fullmatch(rf"[0-9a-f]{{{_MINIMUM_DIGEST_DIGITS},64}}", wanted):
         raise InputError(

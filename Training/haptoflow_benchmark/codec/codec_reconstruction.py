@@ -1,4 +1,4 @@
-"""What a codec alone leaves of a recording: the best that a row in its latents could score."""
+"""Recordings encoded and decoded by a codec: the best that a row in its latents can score."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from haptoflow_benchmark.codec.small_codec import SmallCodec
 from haptoflow_training.waveform import SEGMENT_SAMPLES
 
-# Below a hundredth of a metre per second squared nothing can be felt: silence stays silence.
+# Vibration below 0.01 m/s^2 cannot be felt; such segments are set to silence.
 _QUIET_RMS_MPS2 = 0.01
 _SEGMENTS_AT_A_TIME = 512
 
@@ -21,10 +21,10 @@ _Wave = NDArray[np.float32]
 
 @torch.no_grad()
 def codec_reconstruction(checkpoint: Path | str, waves: Sequence[_Wave], hop_samples: int = 28) -> list[_Wave]:
-    """Waves [n] in m/s^2 at 2 kHz, encoded and decoded by the small codec in `checkpoint`, as long as they were.
+    """Waves [n] in m/s^2 at 2 kHz, encoded and decoded by the small codec in `checkpoint`, at their original length.
 
-    As a latent row is played: a segment of 200 samples begins at every hop (28 samples are 72 Hz), in unit scale by its
-    own RMS, and its first `hop_samples` sound. InputError if the checkpoint is not a small codec's.
+    Processed like a latent row: a segment of 200 samples begins at every hop (28 samples are 72 Hz), in unit scale by
+    its own RMS, and its first `hop_samples` are played. InputError if the checkpoint is not a small codec's.
     """
     codec = SmallCodec.load(checkpoint).eval()
     return [_reconstructed(codec, np.asarray(wave, dtype=np.float32), hop_samples) for wave in waves]

@@ -1,4 +1,4 @@
-"""Latents to unit scale, channel by channel, so that the flow's standard normal noise fits them."""
+"""Scales latents to unit variance, channel by channel, to match the flow's standard normal noise."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from torch import Tensor, nn
 
 from haptoflow_benchmark.codec.checkpoint_file import load_state, read_tensors
 
-# A channel the codec left unused must not be blown up to unit scale: its noise would be all there is.
+# A channel that the codec does not use must not be amplified to unit variance: only its noise would remain.
 _SMALLEST_RELATIVE_DEVIATION = 1e-3
 
 

@@ -1,4 +1,7 @@
-"""Between 2 kHz and a whole multiple of it by one fixed FIR filter, in operations an ONNX graph has."""
+"""Resamples between 2 kHz and a whole multiple of it by one fixed FIR filter, in operations that ONNX graphs have.
+
+SciPy's resample_poly cannot be exported to a graph.
+"""
 
 from __future__ import annotations
 
@@ -6,15 +9,16 @@ import torch
 from scipy.signal import firwin
 from torch import Tensor, nn
 
-# 63 dB of stop band; with 16 samples a side the pass band reaches 880 of 1,000 Hz.
+# 63 dB stop band; with 16 samples a side the pass band reaches 880 of 1,000 Hz.
 _KAISER_BETA = 6.0
 _HALF_WIDTH = 16
 
 
 def _continued(waveform: Tensor, reach: int) -> Tensor:
-    """Turned about its end points, so that value and slope go on; [B, 1, N] to [B, 1, N + 2 reach].
+    """Extended by point reflection about its ends, so that value and slope are continuous; [B, 1, N] to [B, 1, N + 2
+    reach].
 
-    A plain mirror image leaves a kink: band noise of 20-450 Hz came back with 42 dB instead of 58 dB.
+    A plain mirror image has a kink: band noise of 20-450 Hz was reconstructed with 42 dB instead of 58 dB.
     """
     before = 2.0 * waveform[..., :1] - waveform[..., 1 : reach + 1].flip(-1)
     after = 2.0 * waveform[..., -1:] - waveform[..., -reach - 1 : -1].flip(-1)

@@ -1,4 +1,4 @@
-"""How far a decoded segment lies from the original: in time and in spectra of several resolutions."""
+"""The distance between a decoded segment and the original, in time and in spectra of several resolutions."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ def _magnitudes(waveform: Tensor, window: int) -> Tensor:
 
 
 def time_loss(decoded: Tensor, original: Tensor) -> Tensor:
-    """Batch mean of the RMS of the difference, both [B, 1, N]. Not squared: good segments still count."""
+    """Batch mean of the RMS of the difference, both [B, 1, N]. Not squared, so that good segments still count."""
     return (decoded - original).square().mean(dim=(1, 2)).add(1e-8).sqrt().mean()
 
 

@@ -43,10 +43,10 @@ class _Graph(nn.Module):
 
 
 class CodecRepresentation(Representation):
-    """A codec that stays as it is: no gradients to its weights, eval mode whatever `train` says.
+    """A frozen codec: no gradients to its weights, always in eval mode.
 
-    Gradients still flow through it to its input, so that a loss on the decoded waveform can train the
-    velocity field. The codec given is changed: weight normalisation is folded into its weights.
+    Gradients still flow through it to its input, so that a loss on the decoded waveform can train the velocity field.
+    The given codec is modified: weight normalisation is folded into its weights.
     """
 
     is_latent = True
@@ -83,7 +83,8 @@ class CodecRepresentation(Representation):
     def _export(self, path: Path, function: Callable[[Tensor], Tensor], source: _Port, target: _Port) -> None:
         example = torch.zeros(2, *source[1], device=next(self.codec.parameters()).device)
         with warnings.catch_warnings():
-            # Lengths are meant to be constants, and an LSTM without initial state takes any batch.
+            # The exporter warns that lengths become constants, which is intended, and about the LSTM without initial
+            # state, which works for any batch.
             warnings.simplefilter("ignore")
             torch.onnx.export(
                 _Graph(self.codec, function).eval(),
@@ -95,7 +96,7 @@ class CodecRepresentation(Representation):
                 dynamic_axes={name: {0: "batch"} for name, _ in (source, target)},
             )
         model = onnx.load(str(path))
-        # The exporter loses sight of lengths at slices; whoever reads the graph must find its shape.
+        # The exporter does not infer lengths after slices; store the output shape for readers of the graph.
         dimensions = model.graph.output[0].type.tensor_type.shape.dim[1:]
         for dimension, size in zip(dimensions, target[1], strict=True):
             dimension.dim_value = size

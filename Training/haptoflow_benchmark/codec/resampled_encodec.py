@@ -1,4 +1,4 @@
-"""EnCodec behind the project's own rate: 200 samples at 2 kHz in, 128 x 8 latent, 200 samples out."""
+"""EnCodec at the rate of this project: 200 samples at 2 kHz in, latent of 128 x 8, 200 samples out."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ _SAMPLES_24_KHZ = SEGMENT_SAMPLES * _FACTOR
 
 
 class ResampledEnCodec(nn.Module):
-    """Scale, upsample 12 times, encode, normalise; and back. Unit scale at 2 kHz on the outside."""
+    """Scale, upsample 12 times, encode, normalise; and the inverse. Input and output are in unit scale at 2 kHz."""
 
     latent_shape = (LATENT_CHANNELS, -(-_SAMPLES_24_KHZ // FRAME_SAMPLES))
 

@@ -64,9 +64,10 @@ def _decoder(shape: SmallCodecShape) -> nn.Sequential:
 
 
 class SmallCodec(nn.Module):
-    """Three stages of stride 2 either way, residual blocks, zero padding; not causal, segments are whole.
+    """Three stages of stride 2 each way, residual blocks, zero padding; not causal, because segments are processed
+    whole.
 
-    Waveforms are in unit scale at 2 kHz. The latent is un-normalised while training and of unit scale per
+    Waveforms are in unit scale at 2 kHz. The latent is un-normalised during training, and of unit variance in each
     channel once `normaliser` is fitted.
     """
 

@@ -1,4 +1,4 @@
-"""What `configs/codec-small.toml` may say."""
+"""The configuration of the small codec, `configs/codec-small.toml`."""
 
 from __future__ import annotations
 
@@ -17,10 +17,10 @@ Table = TypeVar("Table")
 class SmallCodecConfig:
     """One training run of the small codec.
 
-    output_folder: checkpoint, log and result are written there. steps: of `batch` segments each.
-    learning_rate: falls by a cosine over the second half. spectral_weight: of the spectral loss beside the
-    time loss. held_out_as: the configuration of a network, whose held-out bands are the codec's too; none where it is
-    missing. validate_every_steps: also the interval of log and checkpoint. threads: of PyTorch.
+    output_folder: for checkpoint, log and result. steps: of `batch` segments each. learning_rate: falls by a cosine
+    over the second half. spectral_weight: of the spectral loss beside the time loss. held_out_as: the configuration of
+    a network whose held-out bands the codec excludes too; none if missing. validate_every_steps: also the interval of
+    log and checkpoint. threads: of PyTorch.
     """
 
     output_folder: Path
@@ -60,9 +60,9 @@ def _checked(table: type[Table], values: dict[str, Any], path: Path, section: st
 
 
 def read_small_codec_config(path: Path | str) -> SmallCodecConfig:
-    """Read a TOML file with the tables [codec] and [training]; InputError names file, key and what to expect.
+    """Read a TOML file with the tables [codec] and [training]; InputError names file, key and the expected value.
 
-    A relative output_folder counts from the folder the command runs in, a relative held_out_as from the file's own.
+    A relative output_folder refers to the current folder, a relative held_out_as to the file's own.
     """
     path = Path(path)
     try:

@@ -38,9 +38,9 @@ LOG_NAME = "log.csv"
 RESULT_NAME = "small-codec.pt"
 
 _LOG_COLUMNS = ("step", "time_loss", "spectral_loss", "validation_snr_db", "learning_rate", "elapsed_seconds")
-# The velocity field's unit scale comes from a level model that errs by a few dB; the codec must not mind.
+# The level model that defines unit scale is off by a few dB, so the codec is trained on random gains.
 _GAIN_SPREAD_DB = 9.0
-# Segments quieter than this share of the store's RMS stay quiet: their sensor noise is no material.
+# Segments quieter than this share of the store's RMS are not amplified: they contain sensor noise.
 _QUIET_RELATIVE_RMS = 0.01
 _GRADIENT_LIMIT = 2.0
 _WEIGHT_DECAY = 1e-4
@@ -48,7 +48,7 @@ _NOT_COMPARED_ON_RESUME = ("output_folder", "threads", "held_out_as")
 
 
 class RecordingSpan(Protocol):
-    """Where one recording lies in the store's waveform, in samples; `split` is train, validation or test."""
+    """The place of one recording in the store's waveform, in samples; `split` is train, validation or test."""
 
     @property
     def start(self) -> int: ...
@@ -70,7 +70,7 @@ class WaveformStore(Protocol):
 
 
 class SegmentSampler:
-    """Random segments of one split in unit scale, every start outside the held-out bands equally likely."""
+    """Random segments of one split in unit scale, with uniformly distributed starts outside the held-out bands."""
 
     def __init__(self, store: WaveformStore, split: str, held_out: HeldOut) -> None:
         spans = [span for span in store.recordings if span.split == split]
@@ -101,7 +101,7 @@ class SegmentSampler:
         return np.asarray(self._store.waveform[starts[:, None] + self._offsets], dtype=np.float64)
 
     def draw(self, generator: np.random.Generator, count: int) -> Tensor:
-        """[count, 1, 200] float32, RMS 1 give or take a random gain."""
+        """[count, 1, 200] float32, RMS 1 times a random gain."""
         segments = self._cut(generator, count)
         rms = np.sqrt(np.mean(np.square(segments), axis=1, keepdims=True))
         gain = 10.0 ** (generator.uniform(-_GAIN_SPREAD_DB, _GAIN_SPREAD_DB, size=(count, 1)) / 20.0)
@@ -119,15 +119,15 @@ def _held_out(config: SmallCodecConfig) -> HeldOut:
 
 
 def _comparable(config: SmallCodecConfig, held_out: HeldOut) -> dict[str, Any]:
-    """What a resumed run must share with the one that wrote the checkpoint, as JSON would give it back. The held-out bands
-    are compared, not the file that names them."""
+    """The settings that a resumed run must share with its checkpoint, as JSON. The held-out bands are compared, not
+    the file that names them."""
     named = {key: value for key, value in asdict(config).items() if key not in _NOT_COMPARED_ON_RESUME}
     described: dict[str, Any] = json.loads(json.dumps({**named, **asdict(held_out)}))
     return described
 
 
 class _Run:
-    """What a checkpoint holds: codec, optimiser, the steps done, the seconds spent."""
+    """The contents of a checkpoint: codec, optimiser, steps done, seconds spent."""
 
     def __init__(self, config: SmallCodecConfig, held_out: HeldOut) -> None:
         self.config = config
@@ -142,7 +142,7 @@ class _Run:
 
     def save(self) -> None:
         temporary = self.path.with_suffix(".partial")
-        # PyTorch 1.13 reads no bare float from a file it does not trust: those go as text and as a tensor.
+        # PyTorch 1.13 does not load plain floats with weights_only: they are stored as text and as a tensor.
         torch.save(
             {
                 "config": json.dumps(self.comparable),
@@ -197,10 +197,10 @@ def validate(codec: SmallCodec, segments: Tensor) -> float:
 
 
 def train_small_codec(store: WaveformStore, config: SmallCodecConfig) -> SmallCodec:
-    """Train, or go on from output_folder's checkpoint; returns the codec, statistics fitted, in eval mode.
+    """Train, or resume from output_folder's checkpoint; returns the codec with fitted statistics, in eval mode.
 
-    Writes checkpoint.pt, log.csv and small-codec.pt into output_folder. Raises InputError if a split is empty
-    or the checkpoint belongs to another configuration.
+    Writes checkpoint.pt, log.csv and small-codec.pt into output_folder. Raises InputError if a split is empty or the
+    checkpoint belongs to another configuration.
     """
     torch.set_num_threads(config.threads)
     config.output_folder.mkdir(parents=True, exist_ok=True)

@@ -1,4 +1,4 @@
-"""`haptoflow-benchmark discriminate`: can a classifier trained on recordings name what the engine renders?"""
+"""`haptoflow-benchmark discriminate`: check that a classifier trained on recordings recognises rendered labels."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""haptoflow-benchmark evaluate: accuracy over time, every row of the plan."""
+"""`haptoflow-benchmark evaluate`: measure accuracy and time of every row of the plan."""
 
 from __future__ import annotations
 
@@ -116,7 +116,7 @@ def run(options: argparse.Namespace) -> int:
 def _measured(
     place: Workplace, yardstick: Yardstick, rows: list[PlannedRow], workers: int
 ) -> dict[str, list[dict[str, Any]]]:
-    """Figures of every row whose first seed can be measured, that one's first; says which rows are left out."""
+    """Figures of every row whose first seed can be measured, first seed first; prints which rows are left out."""
     wanted: list[tuple[PlannedRow, int]] = []
     for row in rows:
         seeds = [seed for seed in place.seeds_of(row) if _can_be_measured(place, yardstick, row, seed)]
@@ -135,7 +135,7 @@ def _measured(
 
 
 def _stored(place: Workplace, yardstick: Yardstick, row: PlannedRow) -> list[dict[str, Any]]:
-    """What was measured of a row before and still holds, the first seed's first; nothing without that one."""
+    """The stored figures of a row that are still valid, first seed first; empty without the first seed."""
     found = [stored_row(place, row, seed, made_from(place, yardstick, row, seed)) for seed in place.seeds_of(row)]
     return [result for result in found if result is not None] if found and found[0] is not None else []
 
@@ -163,7 +163,7 @@ def _pairs(options: argparse.Namespace) -> list[ReferencePair]:
 
 
 def _time_rows(place: Workplace, rows: list[PlannedRow], quick: bool, is_complete: bool) -> dict[str, Any]:
-    """A run of the timing history."""
+    """Time the rows; returns a run of the timing history."""
     before = os.getloadavg()
     generators = [generator_of(place, row, row.seeds[0]) for row in rows]
     sources = [TimedSource(row.name, generator) for row, generator in zip(rows, generators, strict=True)]
@@ -222,7 +222,7 @@ def _write(
     shipped = place.root / SHIPPED_MODEL
     result = with_times(result, published_run(history, graphs_sha256(shipped), timed_rows(result)))
     _print(result)
-    # The file's own tiers are annotated first: that changes its bytes, and the figures are to name what is shipped.
+    # Annotate the file's own tiers first: that changes its bytes, and the figures must name the shipped file.
     _annotate(place, plan, result)
     result = {**result, "model_sha256": sha256_of(shipped), "model_bytes": shipped.stat().st_size}
     write_json(out, result)
@@ -243,7 +243,7 @@ def _write(
 
 
 def _annotate(place: Workplace, plan: list[PlannedRow], result: dict[str, Any]) -> None:
-    """The shipped model carries its own tiers' figures."""
+    """Write the tiers' figures into the shipped model."""
     measured = {row["name"]: row for row in result["rows"]}
     tiers = {row.tier: row for row in plan if row.tier and row.name in measured and row.model.endswith(".haptoflow")}
     for file in {row.model for row in tiers.values()}:

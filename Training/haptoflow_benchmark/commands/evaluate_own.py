@@ -1,4 +1,4 @@
-"""`haptoflow-benchmark evaluate --model FILE --recordings PATH`: one model beside recordings of one's own."""
+"""`haptoflow-benchmark evaluate --model FILE --recordings PATH`: compare a model with own recordings."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from haptoflow_training.model_stamp import SHIPPED_MODEL, sha256_of
 
 
 def run(options: argparse.Namespace) -> int:
-    """Print the table; write it with its figures and the picture where --out names a folder."""
+    """Print the table; with --out, write it with its figures and the picture into that folder."""
     model = options.model or Path(__file__).resolve().parents[3] / SHIPPED_MODEL
     require_engine(options.engine)
     with tempfile.TemporaryDirectory() as temporary:

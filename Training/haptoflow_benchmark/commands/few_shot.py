@@ -1,4 +1,5 @@
-"""`haptoflow-benchmark few-shot`: the study of materials from seconds, on materials that the model never saw."""
+"""`haptoflow-benchmark few-shot`: measure materials fitted to seconds of recording, on materials unknown to the
+model."""
 
 from __future__ import annotations
 
@@ -67,7 +68,7 @@ def _run(options: argparse.Namespace) -> int:
     for place in (options.results, options.chart, options.page):
         if place is not None:
             check_writable(place)
-    # One core is what the study's seconds are stated for.
+    # The published fitting times are those of one core.
     torch.set_num_threads(1)
     model = FileModel(read_model_file(options.model))
     plan = StudyPlan(options.model, options.work, options.seed)

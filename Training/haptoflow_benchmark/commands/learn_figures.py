@@ -1,4 +1,4 @@
-"""`haptoflow-benchmark learn-figures`: what `haptoflow learn` makes of materials that the model never saw."""
+"""`haptoflow-benchmark learn-figures`: measure `haptoflow learn` on materials unknown to the model."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""`haptoflow-benchmark measure-full-scale`: which acceleration should be +-1, from people's strokes on every label."""
+"""`haptoflow-benchmark measure-full-scale`: which acceleration should be +-1, from recorded strokes on every label."""
 
 from __future__ import annotations
 

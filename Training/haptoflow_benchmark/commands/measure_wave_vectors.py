@@ -1,4 +1,4 @@
-"""`haptoflow-benchmark measure-wave-vectors`: how often ribs are found from seconds of strokes."""
+"""`haptoflow-benchmark measure-wave-vectors`: how often ribs are found in seconds of strokes."""
 
 from __future__ import annotations
 

@@ -1,4 +1,5 @@
-"""Recordings for `evaluate` and `discriminate` of a model: prepared as for its training, so that what it saw is known."""
+"""Recordings for `evaluate` and `discriminate` of a model, prepared as for its training, so that the split is the
+same."""
 
 from __future__ import annotations
 
@@ -23,14 +24,14 @@ ENGINE = ROOT / "build" / "native" / "haptoflow"
 
 @dataclass(frozen=True)
 class OwnParts:
-    """held_out: what the model's training did not see. seen: what it saw, or may have seen."""
+    """held_out: recordings outside the model's training. seen: recordings of its training, or possibly of it."""
 
     held_out: list[HeldOutPart]
     seen: list[HeldOutPart]
 
 
 def add_options(parser: argparse.ArgumentParser) -> None:
-    """--recordings, --labels and --all, which mean the same in both commands."""
+    """Add --recordings, --labels and --all, which mean the same in both commands."""
     parser.add_argument(
         "--recordings", type=Path, nargs="+", metavar="PATH",
         help="folders of recordings, or files, to compare a model with",
@@ -45,13 +46,14 @@ def add_options(parser: argparse.ArgumentParser) -> None:
 
 
 def require_engine(engine: Path) -> None:
-    """InputError where the command line is not built."""
+    """InputError if the command line is not built."""
     if not engine.is_file():
         raise InputError(f"{engine} does not exist: run `npm run build`, or name the command line with --engine")
 
 
 def own_parts(options: argparse.Namespace, model: Path, folder: Path) -> OwnParts:
-    """Prepared into `folder`; says which recordings are left out, and why. InputError where nothing can be compared."""
+    """Prepare the recordings into `folder`; prints which are left out, and why. InputError if nothing can be
+    compared."""
     if not options.recordings:
         raise InputError("--recordings is missing: name the folder of recordings to compare the model with")
     header = read_model_file(model).header
@@ -98,7 +100,7 @@ def _say_what_is_left_out(datasets: list[Dataset], known: list[str], model: Path
 def _prepared(
     entries: list[RecordingFile], known: list[str], header: dict[str, Any], out: Path, everything: bool
 ) -> SegmentStore:
-    """Split as the model's training split them."""
+    """The recordings, split as for the model's training."""
     found = {entry.label for entry in entries}
     labels = [name for name in known if name in found]
     data = header.get("provenance", {}).get("configuration", {}).get("data", {})

@@ -1,4 +1,4 @@
-"""haptoflow-benchmark train-codec: the small codec behind latent tiers."""
+"""`haptoflow-benchmark train-codec`: train the small codec for latent tiers."""
 
 from __future__ import annotations
 

@@ -1,1 +1,1 @@
-"""The native engine from Python: its C interface, whole renders, the time a segment takes."""
+"""The native engine from Python: its C interface, whole renders, and timing."""

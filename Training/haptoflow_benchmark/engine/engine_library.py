@@ -1,4 +1,4 @@
-"""The native library from Python: segments made by the shipped C++ code, in batches, through its C interface."""
+"""The native library from Python: batches of segments through its C interface."""
 
 from __future__ import annotations
 
@@ -65,12 +65,12 @@ class _Batch(ctypes.Structure):
 
 
 def options_of(structure: type[ctypes.Structure], **values: Any) -> ctypes.Structure:
-    """A descriptor of the C interface, its size filled in."""
+    """A structure of the C interface with its size field set."""
     return structure(struct_size=ctypes.sizeof(structure), **values)
 
 
 class EngineLibrary:
-    """The loaded library with ONNX Runtime behind it. Handles live until the process ends."""
+    """The loaded library with ONNX Runtime. Handles live until the process ends."""
 
     def __init__(self, library: Path, onnx_runtime: Path) -> None:
         for path, remedy in ((library, "npm run build"), (onnx_runtime, "npm ci")):
@@ -87,7 +87,7 @@ class EngineLibrary:
         return self._runtime
 
     def call(self, name: str, *arguments: Any) -> None:
-        """Call a function of the C interface; InputError with the library's own message when it fails."""
+        """Call a function of the C interface; InputError with the library's own message if it fails."""
         status = getattr(self._library, name)(*arguments)
         if status != 0:
             raise InputError(f"{name}: {self._library.haptoflow_last_message().decode()}")
@@ -107,7 +107,7 @@ class EngineLibrary:
 
 
 class EngineGenerator:
-    """One tier of a model file behind the C interface, ready to make batches of segments; close it after use."""
+    """One tier of a model file behind the C interface, which generates batches of segments; close it after use."""
 
     def __init__(
         self, engine: EngineLibrary, model: Path, tier: str | None = None, solver: str = "tier", steps: int = 0
@@ -137,7 +137,7 @@ class EngineGenerator:
         self.close()
 
     def close(self) -> None:
-        """Free the generator; harmless when it is closed already."""
+        """Free the generator; does nothing if it is closed already."""
         self._engine.call("haptoflow_generator_close", ctypes.byref(self._handle))
         self._engine.call("haptoflow_model_close", ctypes.byref(self._model))
 
@@ -176,7 +176,7 @@ class EngineGenerator:
 
 
 def default_engine(root: Path) -> EngineLibrary:
-    """The library that `npm run build` makes in the repository at `root`, with the ONNX Runtime that npm installed."""
+    """The library that `npm run build` makes in the repository at `root`, with the ONNX Runtime from npm."""
     if sys.platform != "linux":
         raise InputError("evaluation runs the Linux library only; on Windows or macOS use a Linux machine or container")
     runtime = root / "node_modules" / "com.github.asus4.onnxruntime" / "Plugins" / "Linux" / "x64" / "libonnxruntime.so"

@@ -1,4 +1,4 @@
-"""Renders a prescribed motion on one label through the command line of the engine: the shipped path, end to end."""
+"""Renders a prescribed motion on one label with the engine's command line, the shipped path from end to end."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from haptoflow_training.closed_loop.render import UPDATE_RATE_HZ
 from haptoflow_training.errors import InputError
 from haptoflow_training.waveform import SAMPLE_RATE_HZ
 
-# The command line's default, as in the C header.
+# The default full scale, as in the C header (a test compares all languages).
 FULL_SCALE_MPS2 = 200.0
 _RENDER_RATE_HZ = 8000
 _STROKE_STEP = 16
@@ -33,7 +33,7 @@ class EngineRender:
 
 
 def write_scene(path: Path, label: str, update_rate_hz: float, tip_radius_metres: float = 0.001) -> None:
-    """A plane of the label, its grain along the first axis of motion."""
+    """Write a scene with a plane of the label whose grain lies along the first axis of motion."""
     scene = {
         "surfaces": [
             {
@@ -51,7 +51,7 @@ def write_scene(path: Path, label: str, update_rate_hz: float, tip_radius_metres
 
 
 def write_stroke(path: Path, motion: NDArray[np.floating]) -> None:
-    """A stroke on the plane y = 0 with the motion [n, 3] (vx, vy in m/s, force in N at 2 kHz), sampled at 125 Hz.
+    """Write a stroke on the plane y = 0 with the motion [n, 3] (vx, vy in m/s, force in N at 2 kHz), sampled at 125 Hz.
 
     The surface's second tangent axis is Unity's -z (axis 1 x axis 2 = normal in the left-handed frame).
     """
@@ -66,9 +66,9 @@ def write_stroke(path: Path, motion: NDArray[np.floating]) -> None:
 
 
 def read_wav(path: Path) -> NDArray[np.float32]:
-    """Samples of a file that the engine wrote, +-1 = FULL_SCALE_MPS2."""
+    """Samples of a WAV file that the engine wrote, +-1 = FULL_SCALE_MPS2."""
     with warnings.catch_warnings():
-        # The writer's padding chunk is legal; SciPy warns of every chunk it does not know.
+        # SciPy warns of the engine's padding chunk, which is valid.
         warnings.simplefilter("ignore", wavfile.WavFileWarning)
         samples: NDArray[np.float32] = wavfile.read(path)[1]
     return samples
@@ -85,7 +85,7 @@ def render_motion(
     update_rate_hz: float = UPDATE_RATE_HZ,
     options: tuple[str, ...] = (),
 ) -> EngineRender:
-    """Run `haptoflow render`; InputError carries the command's own message when it fails."""
+    """Run `haptoflow render`; InputError carries the command's own message if it fails."""
     scene, stroke, wav, report = (folder / name for name in ("scene.json", "stroke.csv", "out.wav", "report.json"))
     write_scene(scene, label, update_rate_hz)
     write_stroke(stroke, motion)

@@ -1,7 +1,7 @@
-"""What a segment costs: one at a time through the engine, every row in the same run, in random order.
+"""The time of a segment: one at a time through the engine, every row in the same run, in random order.
 
-Two paces: hot (one after the other) and live (one every 1/72 s, with the caches of a machine that does other things in
-between): times about double there, and that is the pace that counts under a stylus.
+Two paces: hot (one after the other) and live (one every 1/72 s, with the caches of a machine that does other work in
+between). Times about double at the live pace, which is the one that matters in use.
 """
 
 from __future__ import annotations
@@ -51,7 +51,7 @@ def time_sources(
 ) -> dict[str, Milliseconds]:
     """p50 and p99 of each source; period_seconds 0 for hot, else the time from one segment's start to the next.
 
-    Blocks of all sources are shuffled together, so that a noisy minute of the machine falls on everybody.
+    Blocks of all sources are shuffled together, so that a disturbance of the machine affects all of them.
     """
     generator = np.random.default_rng(seed)
     times: dict[str, list[float]] = {entry.name: [] for entry in sources}

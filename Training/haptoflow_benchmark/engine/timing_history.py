@@ -1,8 +1,8 @@
-"""Every timing run, kept; which of them is published is decided by order alone, so that nobody can pick.
+"""The history of all timing runs. Which run is published follows from their order alone, so that none can be picked.
 
-The first run with the shipped model that holds every row of the table is the one that the table shows; as long as there
-is none, the first that left out no row by request. A later one joins the history and changes nothing, until the model
-changes. Models are told by their graphs: the header holds figures that come after the measurement.
+The published run is the first one with the shipped model that holds every row of the table; without such a run, the
+first one that left out no row by request. Later runs are added to the history and change nothing until the model
+changes. Models are identified by their graphs, because the header holds figures that are written after the measurement.
 """
 
 from __future__ import annotations
@@ -30,8 +30,8 @@ def timing_run(
     load_before: Sequence[float],
     load_after: Sequence[float],
 ) -> dict[str, Any]:
-    """A run as the history keeps it. graphs_sha256: of the shipped model. is_complete: every row was timed whose model
-    is there. load_*: the machine's load averages over 1, 5 and 15 minutes."""
+    """A run as stored in the history. graphs_sha256: of the shipped model. is_complete: every row whose model exists
+    was timed. load_*: the machine's load averages over 1, 5 and 15 minutes."""
     rows = {name: {"ms_per_segment": _shown(hot[name]), "ms_paced": _shown(paced[name])} for name in hot}
     loads = [[round(value, 2) for value in load] for load in (load_before, load_after)]
     return {
@@ -45,7 +45,7 @@ def _shown(times: Milliseconds) -> dict[str, float]:
 
 
 def read_history(path: Path) -> list[dict[str, Any]]:
-    """All runs, the oldest first; none where the file is not there yet."""
+    """All runs, oldest first; none if the file does not exist yet."""
     if not path.exists():
         return []
     runs: list[dict[str, Any]] = json.loads(path.read_text(encoding="utf-8"))["runs"]
@@ -53,7 +53,7 @@ def read_history(path: Path) -> list[dict[str, Any]]:
 
 
 def append_run(path: Path, run: Mapping[str, Any]) -> list[dict[str, Any]]:
-    """The history with `run` at its end, written; what stands there already is never touched."""
+    """Append `run` to the history and write it; existing entries never change."""
     runs = [*read_history(path), dict(run)]
     lines = ",\n".join(f"    {json.dumps(entry, ensure_ascii=False)}" for entry in runs)
     write_text(path, f'{{\n  "runs": [\n{lines}\n  ]\n}}\n')
@@ -63,7 +63,7 @@ def append_run(path: Path, run: Mapping[str, Any]) -> list[dict[str, Any]]:
 def published_run(
     runs: Sequence[Mapping[str, Any]], graphs_sha256: str, wanted: Collection[str]
 ) -> Mapping[str, Any] | None:
-    """The model's first run that holds every wanted row, or else its first complete one; None where there is neither."""
+    """The model's first run that holds every wanted row, else its first complete one; None if there is neither."""
     of_model = [run for run in runs if run["graphs_sha256"] == graphs_sha256]
     whole = (run for run in of_model if set(wanted) <= set(run["rows"]))
     return next(whole, next((run for run in of_model if run["is_complete"]), None))

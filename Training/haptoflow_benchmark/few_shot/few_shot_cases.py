@@ -1,4 +1,4 @@
-"""Held-out materials of the few-shot study: recordings to learn from, and what they should sound like elsewhere."""
+"""Held-out materials of the few-shot study: recordings to fit, and reference recordings of other motions."""
 
 from __future__ import annotations
 
@@ -19,11 +19,11 @@ from haptoflow_training.recordings.synthetic.specimens import HELD_OUT_SPECIMEN,
 from haptoflow_training.waveform import SAMPLE_RATE_HZ
 
 SECONDS = (3.0, 10.0, 30.0, 120.0)
-# Median speed (mm/s) and force (mN) of each ride in turn, so that few seconds already hold slow and fast.
+# Median speed (mm/s) and force (mN) of each ride in turn, so that even few seconds hold slow and fast motion.
 _RIDES = ((35, 800), (100, 1200), (22, 1400), (70, 600), (150, 1000), (48, 900))
 RIDE_SECONDS = 5.0
 _SHORTEST_RIDE_SECONDS = 1.5
-# Between the speeds of every protocol; forces and directions go through their ranges.
+# Speeds between those of every protocol; forces and directions cover their ranges.
 _CONDITIONS = ((0.02, 0.5, 20.0), (0.034, 1.35, 110.0), (0.056, 0.9, 200.0), (0.085, 0.6, 300.0), (0.13, 1.8, 65.0),
                (0.18, 1.1, 160.0))  # fmt: skip
 _CONDITION_SECONDS = 6.0
@@ -32,8 +32,8 @@ _RULED_STEP_DEGREES = 35.0
 
 @dataclass(frozen=True)
 class FewShotCondition:
-    """motion [n, 3] in the recorder's frame; recorded and other_draw [n] in m/s^2: the held-out piece of the material
-    and one of those that were learnt from."""
+    """motion [n, 3] in the recorder's frame; recorded and other_draw [n] in m/s^2: of the held-out specimen, and of
+    a specimen that was fitted."""
 
     speed_mps: float
     force_newtons: float
@@ -46,14 +46,14 @@ class FewShotCondition:
 
 @dataclass(frozen=True)
 class FewShotCase:
-    """rides: 5 s each, to be taken from the front."""
+    """rides: 5 s each, used in order."""
 
     material: Material
     rides: tuple[MaterialRecording, ...]
     conditions: tuple[FewShotCondition, ...]
 
     def recordings(self, seconds: float) -> list[MaterialRecording]:
-        """The first seconds: whole rides, or of the first two a piece each."""
+        """The first seconds: whole rides, or a part of each of the first two."""
         if seconds < 2.0 * RIDE_SECONDS:
             return [_cut(ride, max(_SHORTEST_RIDE_SECONDS, seconds / 2.0)) for ride in self.rides[:2]]
         return [_cut(ride, RIDE_SECONDS) for ride in self.rides[: round(seconds / RIDE_SECONDS)]]
@@ -64,7 +64,7 @@ def study_materials(count: int, seed: int) -> tuple[Material, ...]:
 
 
 def make_case(material: Material, seed: int, longest_seconds: float = SECONDS[-1]) -> FewShotCase:
-    """Deterministic by material and seed."""
+    """The case of a material; deterministic by material and seed."""
     rides = make_rides(material, seed, max(2, round(longest_seconds / RIDE_SECONDS)))
     settings = PreprocessingSettings()
     return FewShotCase(
@@ -77,7 +77,7 @@ def make_case(material: Material, seed: int, longest_seconds: float = SECONDS[-1
 def make_rides(
     material: Material, seed: int, count: int, *, guided_share: float = 1.0
 ) -> tuple[MaterialRecording, ...]:
-    """`count` rides of 5 s in the recorder's frame, slow and fast, light and firm in turn."""
+    """`count` rides of 5 s in the recorder's frame, alternately slow and fast, light and firm."""
     settings = PreprocessingSettings()
     rides = []
     for number in range(count):
@@ -97,7 +97,7 @@ def make_rides(
 def _condition(material: Material, number: int, seed: int, settings: PreprocessingSettings) -> FewShotCondition:
     speed, force, direction = _CONDITIONS[number]
     if material.rulings:
-        # Across the ribs, and at most 35 degrees off.
+        # Across the ribs, at most 35 degrees off.
         across = max(material.rulings, key=lambda ruling: ruling.relative_height).direction_degrees
         direction = across + _RULED_STEP_DEGREES * (number % 3 - 1) + 180.0 * (number % 2)
     angle = math.radians(direction)

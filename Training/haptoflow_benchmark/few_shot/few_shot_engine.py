@@ -1,4 +1,4 @@
-"""The few-shot study's main row through the engine: the material files that it fitted, rendered by the command line."""
+"""The few-shot study's main row in the engine: its fitted material files, rendered by the command line."""
 
 from __future__ import annotations
 
@@ -18,8 +18,8 @@ from haptoflow_training.recordings.synthetic.materials import Material
 
 
 def engine_cells(plan: StudyPlan, engine: Path, surface: Material) -> list[dict[str, float]]:
-    """Figures of every condition, made now or read from the plan's folder; InputError where the study has not fitted
-    the material yet, or the engine refuses it."""
+    """Figures of every condition, computed or read from the plan's folder; InputError if the study has not fitted
+    the material yet, or the engine fails."""
     path = plan.work / f"{surface.label}.engine.json"
     if path.exists():
         stored: list[dict[str, float]] = json.loads(path.read_text(encoding="utf-8"))

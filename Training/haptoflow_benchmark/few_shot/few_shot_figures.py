@@ -25,7 +25,7 @@ Cell = Mapping[str, float]
 def condition_figures(
     condition: FewShotCondition, wave: NDArray[np.floating], hop_starts: NDArray[np.int64] | None
 ) -> dict[str, float]:
-    """A figure that a condition cannot have is left out."""
+    """The figures of one condition; those that do not apply to it are left out."""
     made, recorded = wave[SETTLING_SAMPLES:], condition.recorded[SETTLING_SAMPLES:]
     crest = [temporal.crest_factor(each) for each in (made, recorded)]
     cell = {
@@ -64,7 +64,7 @@ _SUMMARIES = {
 
 
 def summarised(cells_by_material: Sequence[Sequence[Cell]]) -> dict[str, Any]:
-    """Each figure over all conditions of all materials, with the interval of 95 % from resampling materials."""
+    """Each figure over all conditions of all materials, with a 95 % interval from resampling materials."""
     drawn = np.random.default_rng(_SEED).integers(len(cells_by_material), size=(_RESAMPLES, len(cells_by_material)))
     summary: dict[str, Any] = {}
     for name, (key, reduce) in _SUMMARIES.items():

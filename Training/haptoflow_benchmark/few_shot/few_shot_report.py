@@ -1,4 +1,4 @@
-"""The few-shot study as results file, table and chart."""
+"""The few-shot study as results file, tables and chart."""
 
 from __future__ import annotations
 
@@ -74,7 +74,7 @@ def table(results: Mapping[str, Any], seconds: float, group: str = "all") -> str
 
 
 def curve_table(results: Mapping[str, Any], figure: str, group: str = "all") -> str:
-    """Markdown: one figure over the lengths of recording, with the intervals."""
+    """Markdown: one figure for each length of recording, with the intervals."""
     rows = results["results"][group]
     lengths = results["seconds"]
     lines = ["| | " + " | ".join(f"{seconds:g} s" for seconds in lengths) + " |", "|---|" + "---|" * len(lengths)]
@@ -86,7 +86,7 @@ def curve_table(results: Mapping[str, Any], figure: str, group: str = "all") -> 
 
 
 def page_words(results: Mapping[str, Any], chart: str) -> str:
-    """Markdown: what a page says of the study, with `chart` as the picture's address; every group that there is."""
+    """Markdown: the measured part of the page, with `chart` as the picture's address."""
     main = [table(results, _MAIN_SECONDS)]
     if "without ribs" in results["results"]:
         main += ["Without the ruled materials:", table(results, _MAIN_SECONDS, "without ribs")]

@@ -1,9 +1,8 @@
-"""What a material from seconds is compared with: autoregressive models fitted to the same recording, with the same
-level.
+"""The rivals of a material fitted to seconds: autoregressive models of the same recording, with the same level.
 
-Order 20, by the autocorrelation of the recording in unit scale (Levinson's recursion), driven by Gaussian noise: the
-published form for textures, of which Culbertson et al. fit one a speed and force. Ten seconds leave room for three bins
-of speed, or for one model of all speeds.
+Order 20, from the autocorrelation of the recording in unit scale (Levinson's recursion), driven by Gaussian noise: the
+published form for textures, of which Culbertson et al. fit one for each speed and force. Ten seconds suffice for three
+bins of speed, or for one model of all speeds.
 """
 
 from __future__ import annotations
@@ -24,7 +23,7 @@ ORDER = 20
 _WINDOW_SAMPLES, _HOP_SAMPLES = 400, 200
 _FEWEST_WINDOWS = 4
 _SLOWEST_SLIDE_MPS, _UNSTEADIEST = 0.012, 0.5
-# As much white noise as sensors have: keeps the filter of a silent band stable.
+# White noise at the level of sensor noise keeps the filter of a silent band stable.
 _WHITENING = 1e-5
 
 _Doubles = NDArray[np.float64]
@@ -32,13 +31,13 @@ _Doubles = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class AutoregressiveMaterial:
-    """filters: (upper border of the bin in m/s, a_1..a_20, RMS of the drive for a wave of RMS 1), borders rising."""
+    """filters: (upper border of the bin in m/s, a_1..a_20, RMS of the drive for a wave of RMS 1), borders ascending."""
 
     filters: tuple[tuple[float, _Doubles, float], ...]
     level: LevelLaw
 
     def render(self, motion: NDArray[np.floating], seed: int) -> NDArray[np.float32]:
-        """For one motion [n, 3] whose speed stays in one bin, in m/s^2."""
+        """Render one motion [n, 3] whose speed stays in one bin, in m/s^2."""
         speed = float(np.hypot(motion[:, 0], motion[:, 1]).mean())
         _, predictor, drive = next(entry for entry in self.filters if speed <= entry[0])
         settling = 2000
@@ -50,9 +49,9 @@ class AutoregressiveMaterial:
 def fit_autoregressive(
     recordings: Sequence[StrokeRecording], level: LevelLaw, bins: int
 ) -> AutoregressiveMaterial:
-    """Bins hold equally many windows; one with too few shares its neighbour's."""
+    """Fit the filters. Bins hold equally many windows; a bin with too few uses its neighbour's filter."""
     windows = windows_of(recordings, _WINDOW_SAMPLES, _HOP_SAMPLES)
-    # A filter of slow slides would otherwise be one of starts, stops and sensor noise.
+    # Slower slides consist of starts, stops and sensor noise.
     sliding = (windows.speed_mps > _SLOWEST_SLIDE_MPS) & (windows.unsteadiness < _UNSTEADIEST)
     if sliding.sum() < bins * _FEWEST_WINDOWS:
         sliding = windows.speed_mps > SLOWEST_MPS
@@ -72,7 +71,10 @@ def fit_autoregressive(
 
 
 def _levinson(waves: _Doubles) -> tuple[_Doubles, float]:
-    """a_1..a_20 of A(z) = 1 + sum a_i z^-i, and the RMS of the drive that gives a wave of RMS 1."""
+    """a_1..a_20 of A(z) = 1 + sum a_i z^-i, and the RMS of the drive that gives a wave of RMS 1.
+
+    (scipy.linalg.solve_toeplitz gives the coefficients but not the residual power.)
+    """
     waves = waves / np.sqrt(np.square(waves).mean())
     lags = np.array(
         [(waves[:, lag:] * waves[:, : waves.shape[1] - lag]).sum() / waves.size for lag in range(ORDER + 1)]

@@ -1,6 +1,6 @@
-"""The few-shot study: what seconds of a material give, beside rivals that are given the same.
+"""The few-shot study: materials fitted to seconds of recording, beside rivals fitted to the same.
 
-One file of cells for each material, so that a study that is cut short goes on where it was.
+One file of cells for each material, so that an interrupted study can be resumed.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ from haptoflow_training.fewshot.voice import Voice, render
 from haptoflow_training.models.file_model import FileModel, FileTier
 from haptoflow_training.recordings.synthetic.materials import Material as Surface
 
-# Of recording: where the other tier, the moved network and the engine are measured, too.
+# The length of recording at which the other tier, the trained network and the engine are measured too.
 MAIN_SECONDS = 10.0
 NETWORK_STEPS, NETWORK_LEARNING_RATE = 80, 5e-4
 _RENDER_SEED = 23
@@ -48,7 +48,7 @@ class StudyPlan:
 
 
 def cells_of(plan: StudyPlan, model: FileModel, material: Surface, advance: Callable[[], None]) -> dict[str, Any]:
-    """By row and seconds ("fit 10"), the figures of every condition; made now or read from the plan's folder."""
+    """By row and seconds ("fit 10"), the figures of every condition; computed or read from the plan's folder."""
     path = plan.work / f"{material.label}.json"
     if path.exists():
         stored: dict[str, Any] = json.loads(path.read_text(encoding="utf-8"))
@@ -119,7 +119,7 @@ def _as_material(model: FileModel, case: FewShotCase, fitted: FittedMaterial) ->
 
 
 def nearest_voice(model: FileModel, tier: FileTier, fitted: FittedMaterial, seed: int) -> Voice:
-    """The label that the fit began from, with the material's wave vectors and a level fitted as the material's is."""
+    """The label that the fit began from, with the material's wave vectors and a level fitted as the material's."""
     embedding = np.concatenate([model.label_embeddings[fitted.fit.nearest, :-4].numpy(), fitted.frame.wave_numbers])
     level = fit_level(windows_of(fitted.recordings, LEVEL_WINDOW_SAMPLES, LEVEL_HOP_SAMPLES), fitted.prior)
     plain = Voice(embedding.astype(np.float32), level)
@@ -130,7 +130,7 @@ def nearest_voice(model: FileModel, tier: FileTier, fitted: FittedMaterial, seed
 def _network_moved(
     plan: StudyPlan, model: FileModel, case: FewShotCase, seconds: float
 ) -> tuple[FittedMaterial, FileTier]:
-    """The embedding and all weights of the network, then level and tone as for the others."""
+    """A fit of the embedding together with all weights of the network, then of level and tone as for the others."""
     tier = model.trainable_tier()
     options = FitOptions(steps=plan.network_steps)
     fitted = fit_material(
@@ -148,7 +148,7 @@ def _network_moved(
 def _heard(
     case: FewShotCase, tier: FileTier, voices: list[Voice], frames: list[Frame]
 ) -> list[list[dict[str, float]]]:
-    """Figures of every voice in every condition, all in one batch."""
+    """Figures of every voice in every condition, rendered in one batch."""
     length = min(len(condition.motion) for condition in case.conditions)
     motions: list[NDArray[np.float32]] = [
         frame.turned_motion(condition.motion[:length]) for frame in frames for condition in case.conditions

@@ -1,5 +1,5 @@
-"""What `haptoflow learn` makes of ten seconds of a material that no model has heard: learnt and rendered by the command
-line, compared with the surface elsewhere."""
+"""Measures `haptoflow learn` on ten seconds of a material unknown to the model: fitted and rendered by the command
+line, compared with reference recordings of other motions."""
 
 from __future__ import annotations
 
@@ -32,15 +32,15 @@ from haptoflow_training.waveform import SAMPLE_RATE_HZ
 
 SECONDS = 10.0
 LEARNT, AUTOREGRESSIVE, OTHER_DRAW = "learn", "autoregressive", "other draw"
-# Between two rides, so that nothing is learnt from the step from one to the next.
+# Samples left out between two rides, so that the step from one to the next is not learnt.
 _MISSING_SAMPLES = 20
 _DRAWN_MATERIALS = 60
 
 
 @dataclass(frozen=True)
 class LearnFigures:
-    """rows: of each condition, by row. found: how many of the surface's families of ribs were found within 2 %; wrong:
-    how many of what was found are none of them."""
+    """rows: figures of each condition, by row. found: how many of the surface's families of ribs were found within 2
+    %; wrong: how many of the found ones do not exist."""
 
     material: str
     families: int
@@ -51,14 +51,14 @@ class LearnFigures:
 
 
 def chosen_materials(plain: int, ruled: int, seed: int) -> tuple[Material, ...]:
-    """The first of so many without ribs and with them."""
+    """The first materials without ribs and the first with ribs."""
     drawn = unseen_materials(load_materials(), _DRAWN_MATERIALS, seed)
     without, across = ([each for each in drawn if bool(each.rulings) == known] for known in (False, True))
     return (*without[:plain], *across[:ruled])
 
 
 def measured(engine: Path, model: FileModel, path: Path, case: FewShotCase, folder: Path, seed: int) -> LearnFigures:
-    """path: of the model. folder: for what is written on the way. InputError where the engine refuses something."""
+    """path: of the model. folder: for intermediate files. InputError if the engine fails."""
     recordings = case.recordings(SECONDS)
     material, report = _learnt(engine, path, recordings, case.material.label, folder, seed)
     turn = Frame(math.radians(report["turn_degrees"]), np.zeros(4, dtype=np.float32))
@@ -106,7 +106,7 @@ def _learnt(
     recording.write_text(_as_table(recordings), encoding="utf-8")
     recording.with_suffix(".json").write_text(json.dumps({"rate_hz": SAMPLE_RATE_HZ}), encoding="utf-8")
     command = [str(engine), "learn", str(recording), "-o", str(material), "--report", str(report), "--name", name]
-    # No limit of seconds that another program's work could reach: the result is the same on every run.
+    # The limit of seconds is set out of reach, so that the result does not depend on the machine's load.
     command += ["--model", str(model), "--seed", str(seed), "--seconds-limit", "3600", "--quiet"]
     try:
         done = subprocess.run(command, capture_output=True, text=True, check=False)

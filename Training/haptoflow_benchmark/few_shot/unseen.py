@@ -1,8 +1,7 @@
-"""Materials that no training protocol records: between two labels of the recorder, with tool modes and ribs of their
-own.
+"""Materials unknown to every model: between two labels of the recorder, with tool modes and ribs of their own.
 
-Drawn once from a seed and used as drawn. What sorts of surface there are (ribs, impacts, stick-slip, a nap) goes round,
-so that a dozen of them holds each.
+Drawn from a seed and used as drawn. The kinds of surface (ribs, impacts, stick-slip, a nap) alternate, so that a dozen
+materials contain each.
 """
 
 from __future__ import annotations
@@ -15,7 +14,7 @@ import numpy as np
 
 from haptoflow_training.recordings.synthetic.materials import Calibrated, Material
 
-# One of the labels a material lies between; the other is drawn.
+# The first of the two labels that a material lies between; the other one is drawn.
 _SORTS = (
     "wood", "concrete", "corduroy", "rubber", "ceramic", "metal mesh",
     "cardboard", "sandpaper", "jute", "leather", "metal", "stone", "carpet", "glass",
@@ -25,7 +24,7 @@ _MODE_HZ, _MODE_DB, _MODE_Q = (110.0, 850.0), (-8.0, 9.0), (1.2, 6.0)
 
 
 def unseen_materials(materials: Sequence[Material], count: int, seed: int) -> tuple[Material, ...]:
-    """`count` materials; names `unseen-01` on, texture ids from 1000 on, so that no recording's seed recurs."""
+    """`count` materials, named `unseen-01` on, with texture ids from 1000 on, so that no recording's seed recurs."""
     known = {material.label: material for material in materials}
     made = []
     for number in range(count):

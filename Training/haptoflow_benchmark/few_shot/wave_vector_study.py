@@ -16,7 +16,7 @@ from haptoflow_training.recordings.synthetic import Material, load_materials
 
 SECONDS = (10.0, 30.0)
 CLOSE, NEAR = 0.02, 0.05
-# Of guided strokes (straight, even) and of free ones; the labels get some of both.
+# The share of guided strokes (straight and even) against free ones; the labels are recorded with both.
 _GUIDED, _FREE, _LABELS = 1.0, 0.3, 0.6
 _GUIDED_SEEDS, _FREE_SEEDS, _PLAIN_SEEDS = (2026, 7, 8, 9, 10, 11), (2026, 8, 10), (2026, 7)
 _MATERIALS_A_SEED = 10
@@ -38,7 +38,7 @@ class StudySurface:
 
 
 def study_surfaces() -> Iterator[StudySurface]:
-    """30 ruled surfaces and 38 without ribs: unseen materials under guided and free strokes, and every label."""
+    """30 ruled surfaces and 38 without ribs: unseen materials with guided and with free strokes, and every label."""
     labels = load_materials()
     for seed in _GUIDED_SEEDS:
         for material in unseen_materials(labels, _MATERIALS_A_SEED, seed):
@@ -53,7 +53,8 @@ def study_surfaces() -> Iterator[StudySurface]:
 
 
 def measured(surfaces: Sequence[StudySurface], advance: Callable[[], None] = lambda: None) -> dict[str, Any]:
-    """By seconds of recording: families of ribs, how many are found within 2 and 5 %, and vectors that are wrong."""
+    """For each length of recording: families of ribs, how many are found within 2 and 5 %, and how many found
+    vectors are wrong."""
     totals = {
         f"{seconds:g}": {"ruled_surfaces": 0, "families": 0, "within_2_percent": 0, "within_5_percent": 0,
                          "wrong_on_ruled": 0, "unruled_surfaces": 0, "wrong_on_unruled": 0}
@@ -83,6 +84,6 @@ def measured(surfaces: Sequence[StudySurface], advance: Callable[[], None] = lam
 
 
 def relative_error(found: WaveVector | NDArray[np.float64], vector: NDArray[np.float64]) -> float:
-    """The distance from `found` to `vector` over the length of `vector`; the opposite vector is the same ribs."""
+    """The distance from `found` to `vector` over the length of `vector`; opposite vectors describe the same ribs."""
     distance = min(float(np.linalg.norm(np.asarray(found) - sign * vector)) for sign in (1.0, -1.0))
     return distance / float(np.linalg.norm(vector))

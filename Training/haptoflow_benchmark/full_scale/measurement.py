@@ -1,4 +1,4 @@
-"""Which acceleration should be +-1: the level of people's strokes on every label, as the engine renders them."""
+"""Measures which acceleration should be full scale: the level of recorded strokes on every label, in the engine."""
 
 from __future__ import annotations
 
@@ -22,20 +22,20 @@ from haptoflow_training.errors import InputError
 
 # The limiter is linear up to this share of the full scale (SoftLimiter::knee).
 KNEE = 0.7
-# So that less than one sample in a thousand is bent.
+# Less than one sample in a thousand may exceed the knee.
 ALLOWED_SHARE = 0.001
 # Of a hand that strokes or presses with a tool: the recordings' range (0.5 and 1 N) and what hands do beyond it.
 FORCES_NEWTONS = (0.5, 1.0, 2.0, 3.0)
-# Far above any texture: the wave leaves the limiter as it went in.
+# Far above any texture, so that the limiter does not change the waveform.
 _UNBENT_FULL_SCALE_MPS2 = 1000.0
 _RATE_HZ = 48000
-# Keeps the pen on the table in touch in spite of some millimetres of tracking error and bent tables.
+# Keeps the pen in contact despite some millimetres of tracking error and uneven tables.
 _TIP_RADIUS_METRES = 0.005
 
 
 @dataclass(frozen=True)
 class StrokeLevel:
-    """magnitudes_mps2: of every sample that sounds, ascending, before the limiter."""
+    """magnitudes_mps2: of all samples above 0, ascending, before the limiter."""
 
     label: str
     stroke: str
@@ -44,7 +44,7 @@ class StrokeLevel:
 
 
 def model_labels(engine: Path, model: Path) -> list[str]:
-    """Of a model file, as the engine reads it."""
+    """The labels of a model file, as the engine reads it."""
     described = json.loads(_run([str(engine), "inspect", str(model), "--json"]))
     return [label["name"] for label in described["header"]["labels"]]
 
@@ -59,7 +59,7 @@ def measure_levels(
     workers: int = 1,
     advance: Callable[[int], object] = lambda _: None,
 ) -> list[StrokeLevel]:
-    """Render every stroke on a plane of every label with every force, held for the whole stroke."""
+    """Render every stroke on a plane of every label with every force, constant over the stroke."""
 
     def measure(case: tuple[str, str, float]) -> StrokeLevel:
         label, stroke, force = case
@@ -99,7 +99,7 @@ def _run(command: list[str]) -> str:
 
 
 def share_in_knee(levels: Sequence[StrokeLevel], full_scale_mps2: float) -> float:
-    """Of all their sounding samples, those above the knee."""
+    """The share of samples above the knee."""
     knee_mps2 = KNEE * full_scale_mps2
     bent = sum(len(level.magnitudes_mps2) - _count_up_to(level, knee_mps2) for level in levels)
     return bent / max(1, sum(len(level.magnitudes_mps2) for level in levels))
@@ -110,7 +110,7 @@ def _count_up_to(level: StrokeLevel, mps2: float) -> int:
 
 
 def smallest_full_scale(levels: Sequence[StrokeLevel], allowed_share: float = ALLOWED_SHARE) -> float:
-    """In m/s^2, a multiple of 10: the smallest with less than the allowed share of samples in the knee."""
+    """In m/s^2, the smallest multiple of 10 with less than the allowed share of samples above the knee."""
     everything = np.concatenate([level.magnitudes_mps2 for level in levels])
     full_scale = 10.0 * max(1, math.floor(float(np.quantile(everything, 1.0 - allowed_share)) / KNEE / 10.0))
     while share_in_knee(levels, full_scale) >= allowed_share:
@@ -143,7 +143,7 @@ def summarise(levels: Sequence[StrokeLevel], full_scales_mps2: Sequence[float]) 
 
 
 def full_scale_table(report: Mapping[str, Any]) -> str:
-    """Of a report, for a page: the share of samples in the knee at each full scale."""
+    """A Markdown table: the share of samples above the knee at each full scale."""
     lines = ["| full scale, m/s^2 | samples in the knee, all labels | of the loudest label |", "|---|---|---|"]
     for entry in report["full_scales"]:
         label, share = max(entry["share_in_knee_by_label"].items(), key=lambda item: item[1])

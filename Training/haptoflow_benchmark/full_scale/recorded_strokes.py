@@ -1,4 +1,5 @@
-"""Strokes of people's pens on a table, as CSV (`stroke_id,t_s,x_m,y_m,z_m,...`), brought into a scene's frame."""
+"""Reads recorded pen strokes on a table from CSV (`stroke_id,t_s,x_m,y_m,z_m,...`) and transforms them to a scene's
+frame."""
 
 from __future__ import annotations
 
@@ -12,12 +13,13 @@ from numpy.typing import NDArray
 from haptoflow_training.errors import InputError
 
 _COLUMNS = ("t_s", "x_m", "y_m", "z_m")
-# A pen that is lifted at the ends of a stroke spends well over this share of its samples on the table.
+# Even with lifts at its ends, a stroke has well over this share of its samples on the table.
 _SHARE_ON_TABLE = 0.6
 
 
 def read_recorded_strokes(path: Path) -> dict[str, NDArray[np.float64]]:
-    """Name to [n, 4]: seconds and metres as recorded, the table roughly the x-y plane. InputError names the line."""
+    """Strokes by name, [n, 4]: seconds and metres as recorded, with the table roughly in the x-y plane. InputError
+    names the line."""
     rows: dict[str, list[list[float]]] = defaultdict(list)
     try:
         with path.open(newline="", encoding="utf-8") as file:
@@ -35,8 +37,8 @@ def read_recorded_strokes(path: Path) -> dict[str, NDArray[np.float64]]:
 
 
 def onto_table(stroke: NDArray[np.float64]) -> NDArray[np.float64]:
-    """[n, 4] seconds from 0 and metres in a scene's frame, y up: the plane fitted to the samples on the table is y = 0,
-    the stroke's middle is above the origin."""
+    """[n, 4] in seconds from 0 and metres in a scene's frame, y up: the plane fitted to the samples on the table is
+    y = 0, and the stroke's middle is above the origin."""
     points = stroke[:, 1:4]
     plane = points
     for _ in range(5):

@@ -1,4 +1,4 @@
-"""Every figure of one cell: a recording and what was generated for its motion."""
+"""The figures of one cell: a recording and the waveform generated for its motion."""
 
 from __future__ import annotations
 
@@ -14,10 +14,10 @@ from haptoflow_benchmark.reference.reference_set import ReferencePair
 
 _Floats = NDArray[np.float32]
 
-# The loop starts from silence; what it needs to swing in is not what is asked about.
+# The closed loop starts from silence; its settling is not measured.
 SETTLING_SAMPLES = 400
 _FUNDAMENTALS_HZ = (20.0, 800.0)
-# Jitter and noise bury shallower ribs, and ribs that do not keep step in the recording have no step to keep.
+# Shallower ribs are masked by jitter and noise; with less coherence in the recording, there is nothing to reproduce.
 _SHALLOWEST_DEPTH, _LEAST_COHERENCE = 0.1, 0.4
 _BEFORE_CHANGE, _AFTER_CHANGE = 100, 200
 
@@ -27,8 +27,8 @@ IDENTITY = ("label", "kind", "speed_mps", "force_newtons", "direction_degrees", 
 def measure_cell(
     pair: ReferencePair, closed: _Floats, opened: _Floats, hop_starts: NDArray[np.int64]
 ) -> dict[str, Any]:
-    """closed: the closed loop's wave; opened: segments from true previous waveforms, joined, or empty. A figure that a
-    cell cannot have is left out."""
+    """closed: the closed loop's waveform; opened: segments from true previous waveforms, concatenated, or empty.
+    Figures that do not apply to the cell are left out."""
     condition = pair.condition
     cell: dict[str, Any] = {key: getattr(condition, key) for key in IDENTITY}
     if condition.kind == "change":
@@ -65,7 +65,7 @@ def _temporal_figures(generated: _Floats, recorded: _Floats) -> dict[str, float]
 
 
 def _rib_figures(condition: Condition, generated: _Floats, recorded: _Floats) -> dict[str, float]:
-    """The worst family's, where a surface has two; the harmonics are those of the dominant one."""
+    """The figures of the worst family if a surface has two; harmonics are those of the dominant family."""
     if not condition.rib_rates_hz or metrics.rms(generated) == 0.0:
         return {}
     found: dict[str, float] = {}
@@ -92,8 +92,8 @@ def _rib_figures(condition: Condition, generated: _Floats, recorded: _Floats) ->
 
 
 def _change_figures(generated: _Floats, recorded: _Floats) -> dict[str, float]:
-    """Around changes of label, 50 ms before to 100 ms after: level (of the label gone to that is further off) and
-    crest, of waves over the recorded level of the label that is under the tip."""
+    """Around changes of label, from 50 ms before to 100 ms after: level (of the worse new label) and crest, of
+    waveforms divided by the recorded level of the label under the tip."""
     on_other = is_on_other_label(len(recorded))
     levels = np.array([metrics.rms(recorded[on_other == side]) for side in (False, True)]) + 1e-9
     scaled = [np.asarray(wave, dtype=np.float64) / levels[on_other.astype(int)] for wave in (generated, recorded)]

@@ -1,4 +1,4 @@
-"""Which figures a row is judged by, and how much of each is wrong: one list for table, verdicts, goals and page."""
+"""The figures by which a row is judged, and their errors: one list for table, verdicts, goals and page."""
 
 from __future__ import annotations
 
@@ -14,9 +14,9 @@ _Cell = Mapping[str, Any]
 
 @dataclass(frozen=True)
 class JudgedFigure:
-    """words: as a page names it. limit: the size of error that the goals allow nine cells in ten; how bad a cell is is
-    told in multiples of it. is_share: 1 is right and less is wrong, else 0 is right. over_labels: the figure belongs to
-    labels, not to cells."""
+    """words: the figure's name on a page. limit: the error that the goals allow nine cells in ten; errors are stated
+    in multiples of it. is_share: 1 is right and less is wrong; otherwise 0 is right. over_labels: the figure belongs
+    to labels rather than to cells."""
 
     key: str
     words: str
@@ -25,11 +25,11 @@ class JudgedFigure:
     over_labels: bool = False
 
     def size(self, value: float) -> float:
-        """Of the error: 0 or more, 0 is right."""
+        """The error's magnitude: 0 or more, 0 is right."""
         return max(0.0, 1.0 - value) if self.is_share else abs(value)
 
     def shown(self, size: float) -> float:
-        """A size of error as the figure that has it."""
+        """An error's magnitude as the value of the figure with that error."""
         return 1.0 - size if self.is_share else size
 
 
@@ -52,14 +52,14 @@ BY_KEY = {figure.key: figure for figure in JUDGED}
 
 
 def sizes(cells: Sequence[_Cell], figure: JudgedFigure) -> list[float]:
-    """Sizes of error, of each cell that has the figure, or of each label where it belongs to labels."""
+    """Errors of each cell that has the figure, or of each label if the figure belongs to labels."""
     if figure.over_labels:
         return [figure.size(float(np.mean(values))) for values in by_label(cells, figure.key).values()]
     return [figure.size(cell[figure.key]) for cell in cells if cell.get(figure.key) is not None]
 
 
 def spread(cells: Sequence[_Cell], figure: JudgedFigure) -> dict[str, float] | None:
-    """{median, p90, worst}: p90 is what nine in ten are at least as good as; None where no cell has the figure."""
+    """{median, p90, worst}: nine in ten are at least as good as p90; None if no cell has the figure."""
     found = sizes(cells, figure)
     if not found:
         return None

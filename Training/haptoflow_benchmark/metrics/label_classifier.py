@@ -1,4 +1,4 @@
-"""A simple classifier of materials: averaged spectrum and level, judged at the speed and force of the stroke."""
+"""A simple classifier of materials: averaged spectrum and level, given the speed and force of the stroke."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ _SLOWEST_MPS = 0.01
 
 @dataclass(frozen=True)
 class WindowFeatures:
-    """spectra [n, 17]: bands' level in dB (m/s^2), third octaves from 22 Hz to 900 Hz: spectrum and level at once.
+    """spectra [n, 17]: band levels in dB (m/s^2), third octaves from 22 Hz to 900 Hz, which include the level.
     conditions [n, 6]: 1, log speed, its square, log force, and cosine and sine of twice the direction."""
 
     spectra: NDArray[np.float64]
@@ -64,9 +64,11 @@ def concatenate(parts: list[WindowFeatures]) -> WindowFeatures:
 
 
 class LabelClassifier:
-    """One linear prediction of the spectrum from the condition per label, one covariance per label, most likely wins.
+    """A linear prediction of the spectrum from the condition and a covariance for each label; the most likely label
+    wins.
 
     Gaussian discriminant analysis with the condition as covariate; covariances are drawn a fifth towards their mean.
+    (scikit-learn is no dependency of this project.)
     """
 
     def __init__(self, training: dict[str, WindowFeatures], fewest_windows: int = 30) -> None:
@@ -96,5 +98,6 @@ class LabelClassifier:
         return np.stack(columns, axis=1)
 
     def name(self, features: WindowFeatures) -> str:
-        """The label of one stroke: its windows' likelihoods are averaged, since neighbours overlap."""
+        """The label of one stroke: the likelihoods of its windows are averaged, because neighbouring windows
+        overlap."""
         return self.labels[int(self.log_likelihood(features).mean(axis=0).argmax())]

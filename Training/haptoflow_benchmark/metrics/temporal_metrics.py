@@ -1,7 +1,7 @@
-"""How near a generated vibration comes to a recorded one in time: impacts, the swing of its envelope, and ribs.
+"""Measures in time of a generated waveform beside a recorded one: impacts, modulation of the envelope, and ribs.
 
-Averaged spectra say nothing of these: Gaussian noise of the right spectrum passes them all. Waves are one-dimensional,
-2 kHz, m/s^2. Documentation~/accuracy-and-time.md repeats the definitions.
+Averaged spectra do not show these: Gaussian noise with the right spectrum would pass. Waveforms are one-dimensional, 2
+kHz, m/s^2. Documentation~/accuracy-and-time.md repeats the definitions.
 """
 
 from __future__ import annotations
@@ -12,15 +12,15 @@ from numpy.typing import NDArray
 from haptoflow_training.waveform import SAMPLE_RATE_HZ
 
 
-# Frames of 5 ms: shorter than the hand's resolution in time, longer than the periods that make its pitch.
+# Frames of 5 ms: shorter than the hand's resolution in time, longer than the periods of perceived pitch.
 ENVELOPE_SAMPLES = 10
 ENVELOPE_RATE_HZ = SAMPLE_RATE_HZ / ENVELOPE_SAMPLES
 MODULATION_EDGES_HZ = (2.0, 3.0, 4.0, 6.0, 8.0, 12.0, 16.0, 24.0, 32.0, 48.0, 64.0, 100.0)
-# One band without any modulation in it is no worse than this.
+# A band without any modulation counts as this much.
 _WORST_BAND_DB = 20.0
-# Ribs that pass faster or slower than this are neither heard as a line nor followed for half a second.
+# Ribs at other rates are neither a line nor followed for half a second.
 RIB_RATES_HZ = (4.0, 800.0)
-# The system's waves begin at 20 Hz. Slower ribs are felt as a swing of the power alone.
+# The system's waveforms begin at 20 Hz; slower ribs are felt only as modulation of the power.
 _SLOWEST_LINE_HZ = 25.0
 _COHERENCE_LAG_SECONDS = 0.5
 _DEPTH_WINDOW_SECONDS = 0.5
@@ -31,7 +31,8 @@ _Doubles = NDArray[np.float64]
 
 
 def kurtosis(values: _Wave) -> float:
-    """E[(x - m)^4] / E[(x - m)^2]^2: 3 for Gaussian noise, 1.5 for a sine, more where rare events stand out."""
+    """E[(x - m)^4] / E[(x - m)^2]^2: 3 for Gaussian noise, 1.5 for a sine, more with rare events.
+    (scipy.stats.kurtosis(fisher=False), written out for silent input.)"""
     centred = np.asarray(values, dtype=np.float64) - np.mean(values)
     power = np.square(centred).mean()
     return float(np.mean(centred**4) / (power**2 + _FLOOR**2)) if power > 0.0 else 0.0
@@ -58,8 +59,8 @@ def variation(values: _Doubles) -> float:
 def modulation_spectrum_db(wave: _Wave, edges_hz: tuple[float, ...] = MODULATION_EDGES_HZ) -> _Doubles:
     """Power of the envelope in bands of modulation frequency, dB over its squared mean, [len(edges_hz) - 1].
 
-    The envelope is divided by its mean; Hann windows of one second, half overlapped, each without its mean. So 0 dB in
-    a band is a swing of 100 % RMS there, and level does not matter.
+    The envelope is divided by its mean; Hann windows of one second, half overlapped, each without its mean. 0 dB in a
+    band is a modulation of 100 % RMS, and the level has no effect.
     """
     values = envelope(wave)
     values = values / (values.mean() + _FLOOR)
@@ -76,17 +77,17 @@ def modulation_spectrum_db(wave: _Wave, edges_hz: tuple[float, ...] = MODULATION
 
 
 def modulation_error_db(generated: _Wave, recorded: _Wave) -> float:
-    """Mean over bands from 2 to 100 Hz of the size of the difference of modulation spectra in dB, 20 dB at most in
+    """Mean over bands from 2 to 100 Hz of the absolute difference of modulation spectra in dB, limited to 20 dB in
     each band."""
     difference = np.abs(modulation_spectrum_db(generated) - modulation_spectrum_db(recorded))
     return float(np.minimum(difference, _WORST_BAND_DB).mean())
 
 
 def rib_modulation_depth(wave: _Wave, rib_rate_hz: float) -> float:
-    """Depth m with which the power swings at the rib rate: x^2 = P (1 + m cos(2 pi f t) + ...), 0 to 2.
+    """Depth m of the power's modulation at the rib rate: x^2 = P (1 + m cos(2 pi f t) + ...), 0 to 2.
 
     m^2 = 4 mean over windows of |sum w x^2 e^(-2 pi i f t)|^2 / (sum w)^2 / P^2, less the same at frequencies beside f,
-    which is what noise alone would give. Hann windows of half a second or four ribs, half overlapped.
+    which noise alone would give. Hann windows of half a second or four ribs, half overlapped.
     """
     power = np.square(np.asarray(wave, dtype=np.float64))
     mean = power.mean()
@@ -103,18 +104,18 @@ def rib_modulation_depth(wave: _Wave, rib_rate_hz: float) -> float:
 
 
 def rib_modulation_error_db(generated: _Wave, recorded: _Wave, rib_rate_hz: float) -> float:
-    """20 log10 of the generated depth over the recorded one; below zero where the ribs are felt too little. A depth
-    below 0.01 counts as 0.01."""
+    """20 log10 of the generated depth over the recorded one; negative if the ribs are too weak. A depth below 0.01
+    counts as 0.01."""
     depths = [max(0.01, rib_modulation_depth(wave, rib_rate_hz)) for wave in (generated, recorded)]
     return 20.0 * float(np.log10(depths[0] / depths[1]))
 
 
 def rib_coherence(wave: _Wave, rib_rate_hz: float) -> float:
-    """How well the ribs keep step over half a second: |E[z(t + 0.5 s) z*(t)]| / E|z|^2, 0 to 1.
+    """How well the ribs keep their phase over half a second: |E[z(t + 0.5 s) z*(t)]| / E|z|^2, 0 to 1.
 
-    z is the wave brought down by e^(-2 pi i f t) and averaged by a Hann window of half a second, so that neighbours half
-    a second apart share nothing and a line exactly at f does not turn. For constant straight strokes. Below 25 Hz, where
-    the system's waves have no fundamental, z is taken of the power x^2, which swings at the same rate.
+    z is the waveform times e^(-2 pi i f t), averaged by a Hann window of half a second, so that values half a second
+    apart share no samples and a line exactly at f does not rotate. For constant straight strokes. Below 25 Hz, where
+    the system's waveforms have no fundamental, z is computed from the power x^2, which is modulated at the same rate.
     """
     values = np.asarray(wave, dtype=np.float64)
     if rib_rate_hz < _SLOWEST_LINE_HZ:
@@ -133,7 +134,7 @@ def rib_coherence(wave: _Wave, rib_rate_hz: float) -> float:
 
 
 def folded(ratio: float) -> float:
-    """The smaller of a ratio and its inverse, so that too much counts as too little does; 0 for 0."""
+    """The smaller of a ratio and its inverse, so that too much and too little count alike; 0 for 0."""
     return min(ratio, 1.0 / ratio) if ratio > 0.0 else 0.0
 
 

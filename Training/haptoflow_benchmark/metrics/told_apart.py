@@ -1,7 +1,7 @@
-"""Whether a hand that felt both for a while would tell renders from recordings, label by label.
+"""Whether renders can be told from recordings, label by label: the error rate of a classifier of one-second excerpts.
 
-One-second excerpts, logistic regression over what a hand has of them. A motion is learnt from or asked about, never
-both, so that no recording and no render is on both sides.
+Logistic regression over features that a hand perceives. Each motion is used either for fitting or for testing, so that
+no recording and no render is on both sides.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ from haptoflow_training.waveform import SAMPLE_RATE_HZ
 
 EXCERPT_SAMPLES = SAMPLE_RATE_HZ
 _MODULATION_EDGES_HZ = (2.0, 5.0, 10.0, 20.0, 40.0, 100.0)
-# A hand feels nothing below a hundredth of a m/s^2; a sensor's noise must not tell a recording from a silence.
+# Vibration below 0.01 m/s^2 cannot be felt; sensor noise must not distinguish a recording from silence.
 _FELT_MPS2 = 0.01
 _FOLDS = 4
 _PENALTY = 1.0
@@ -29,8 +29,8 @@ _Doubles = NDArray[np.float64]
 
 
 def features(wave: NDArray[np.floating]) -> _Doubles:
-    """Of each whole second after the settling, [excerpts, 17]: nine critical-band energies and crest in dB, ln of the
-    envelope's kurtosis and of its coefficient of variation, the envelope's power in five bands of modulation, dB."""
+    """For each whole second after the settling, [excerpts, 17]: nine critical-band energies and crest in dB, ln of
+    the envelope's kurtosis and of its coefficient of variation, the envelope's power in five modulation bands, dB."""
     settled = np.asarray(wave[SETTLING_SAMPLES:], dtype=np.float64)
     count = len(settled) // EXCERPT_SAMPLES
     excerpts = settled[: count * EXCERPT_SAMPLES].reshape(count, EXCERPT_SAMPLES)
@@ -60,8 +60,8 @@ def _sums(power: _Doubles, seconds: float, edges_hz: Sequence[float]) -> _Double
 
 
 def told_apart_percent(pairs: Sequence[ReferencePair], waves: Sequence[NDArray[np.floating]]) -> list[float | None]:
-    """For each pair, the percentage of its excerpts (of `recorded` and of its wave) that are given their own side by
-    regressions that learnt from other motions of the label; chance is 50. None for changes of label."""
+    """For each pair, the percentage of its excerpts (of `recorded` and of its wave) that regressions fitted to other
+    motions of the label classify correctly; chance is 50. None for changes of label."""
     result: list[float | None] = [None] * len(pairs)
     labels: dict[str, list[int]] = {}
     for index, pair in enumerate(pairs):
@@ -94,8 +94,11 @@ def _cross_validated(recorded: list[_Doubles], made: list[_Doubles]) -> list[flo
 
 
 def logistic_regression(given: _Doubles, sides: _Doubles) -> _Doubles:
-    """Weights [features + 1], the constant last, that minimise the logistic loss and half the squared weights (but not
-    the constant), by Newton's method."""
+    """Weights [features + 1], the constant last, that minimise the logistic loss plus half the squared weights (without
+    the constant), by Newton's method.
+
+    (scikit-learn is no dependency of this project.)
+    """
     design = np.column_stack([given, np.ones(len(given))])
     penalty = _PENALTY * np.eye(design.shape[1])
     penalty[-1, -1] = 1e-6
@@ -116,5 +119,5 @@ def _chance(logits: _Doubles) -> _Doubles:
 
 
 def _named_made(given: _Doubles, weights: _Doubles) -> NDArray[np.float64]:
-    """1 where an excerpt is taken for a render, 0 where for a recording."""
+    """1 where an excerpt is classified as a render, 0 where as a recording."""
     return (np.column_stack([given, np.ones(len(given))]) @ weights > 0.0).astype(np.float64)

@@ -1,6 +1,6 @@
-"""How near a generated vibration comes to a recorded one. Documentation~/accuracy-and-time.md defines every figure.
+"""Measures of a generated waveform beside a recorded one. Documentation~/accuracy-and-time.md defines every figure.
 
-All waves are one-dimensional, 2 kHz, m/s^2. Nothing here knows what made them.
+All waveforms are one-dimensional, 2 kHz, m/s^2.
 """
 
 from __future__ import annotations
@@ -40,12 +40,12 @@ def _cosine(first: _Doubles, second: _Doubles) -> float:
 
 
 def gfc_recording(generated: _Wave, recorded: _Wave) -> float:
-    """Goodness of fit of the spectra of whole recordings: window min(L, 1024), 1024-point FFT."""
+    """GFC (goodness of fit criterion) of the spectra of whole recordings: window min(L, 1024), 1024-point FFT."""
     return _cosine(mean_spectrum(generated, 1024, 1024), mean_spectrum(recorded, 1024, 1024))
 
 
 def gfc_segment(generated: _Wave, recorded: _Wave, segment: int = 200) -> float:
-    """The same, segment by segment, averaged: what the paper reports. Correct randomness costs it about 0.2."""
+    """The GFC segment by segment, averaged, as the paper reports it. Correct randomness lowers it by about 0.2."""
     count = min(len(generated), len(recorded)) // segment
     window = np.hanning(segment + 1)[:-1]
     cut = [np.asarray(wave[: count * segment], dtype=np.float64) for wave in (generated, recorded)]
@@ -65,7 +65,7 @@ def rms(wave: _Wave) -> float:
 
 
 def level_error_db(generated: _Wave, recorded: _Wave) -> float:
-    """Signed: below zero is too weak."""
+    """Signed level error; negative is too weak."""
     return 20.0 * float(np.log10((rms(generated) + _FLOOR) / (rms(recorded) + _FLOOR)))
 
 
@@ -94,7 +94,7 @@ def critical_band_errors_db(generated: _Wave, recorded: _Wave) -> _Doubles:
 
 
 def fundamental_hz(wave: _Wave, expected_hz: float) -> float:
-    """The strongest line within 12 % of `expected_hz`, between bins by zero-padding."""
+    """The strongest line within 12 % of `expected_hz`, interpolated between bins by zero-padding."""
     wave = np.asarray(wave, dtype=np.float64)
     spectrum = np.abs(np.fft.rfft(wave * np.hanning(len(wave)), _FREQUENCY_POINTS))
     frequency = np.fft.rfftfreq(_FREQUENCY_POINTS, 1.0 / SAMPLE_RATE_HZ)
@@ -113,7 +113,8 @@ def harmonic_share(wave: _Wave, fundamental: float) -> float:
 
 
 def hop_jump_ratio(wave: _Wave, hop_starts: NDArray[np.int64]) -> float:
-    """RMS of the sample differences at hop boundaries over that of all others: 1 means that no seam shows."""
+    """RMS of the sample differences at hop boundaries over that of all others: 1 means that seams cannot be
+    detected."""
     differences = np.diff(np.asarray(wave, dtype=np.float64))
     at = np.zeros(len(differences), dtype=np.bool_)
     inside = hop_starts[(hop_starts > 0) & (hop_starts <= len(differences))]
@@ -122,7 +123,7 @@ def hop_jump_ratio(wave: _Wave, hop_starts: NDArray[np.int64]) -> float:
 
 
 def drift_db_per_minute(wave: _Wave) -> float:
-    """Slope of the level of one-second pieces."""
+    """Slope of the level over pieces of one second."""
     seconds = len(wave) // SAMPLE_RATE_HZ
     pieces = np.asarray(wave[: seconds * SAMPLE_RATE_HZ], dtype=np.float64).reshape(seconds, SAMPLE_RATE_HZ)
     level = 10.0 * np.log10(np.square(pieces).mean(axis=1) + _FLOOR)
@@ -130,5 +131,5 @@ def drift_db_per_minute(wave: _Wave) -> float:
 
 
 def kink_db(levels_db: _Doubles) -> float:
-    """Largest second difference of a level curve sampled evenly in log speed: how sharp its sharpest corner is."""
+    """The largest second difference of a level curve sampled evenly in log speed."""
     return float(np.abs(np.diff(levels_db, 2)).max())

@@ -1,4 +1,5 @@
-"""Strokes nobody trained on, rendered by the engine for every label, named by a classifier trained on recordings."""
+"""Discrimination: strokes outside the training, rendered for every label and classified by a classifier of
+recordings."""
 
 from __future__ import annotations
 
@@ -28,13 +29,13 @@ from haptoflow_training.recordings.synthetic import (
 )
 
 _SLIDING_MPS = 0.01
-# Of recordings of one's own, which are short: windows of a second overlap more, and fewer are enough.
+# Own recordings are short: windows of a second overlap more, and fewer suffice.
 _OWN_STEP_SAMPLES, _FEWEST_OWN_WINDOWS = 250, 12
 
 
 @dataclass(frozen=True)
 class StrokeOutcome:
-    """One stroke on one label: what render and recording were taken for, and their RMS while sliding, m/s^2."""
+    """One stroke on one label: the labels assigned to render and recording, and their RMS while sliding, m/s^2."""
 
     label: str
     stroke: str
@@ -52,7 +53,7 @@ class StrokeOutcome:
 
 @dataclass(frozen=True)
 class DiscriminationReport:
-    """All outcomes, with the figures that the acceptance is about."""
+    """All outcomes, with the figures of the acceptance criteria."""
 
     labels: list[str]
     outcomes: list[StrokeOutcome]
@@ -87,7 +88,7 @@ class DiscriminationReport:
         return float(np.quantile([abs(outcome.level_error_db) for outcome in self.outcomes], 0.9))
 
     def confusion(self) -> NDArray[np.int64]:
-        """[true label, named label] counts of the renders."""
+        """Counts of the renders by [true label, assigned label]."""
         matrix = np.zeros((len(self.labels), len(self.labels)), dtype=np.int64)
         for outcome in self.outcomes:
             if outcome.named_render in self.labels:
@@ -120,7 +121,7 @@ def train_classifier(
     advance: Callable[[int], object],
     workers: int = 1,
 ) -> LabelClassifier:
-    """From fresh hand recordings of every material; `advance` is told of each label's recordings."""
+    """Train on new hand recordings of every material; `advance` is called with each label's number of recordings."""
     training: dict[str, WindowFeatures] = {}
     with ProcessPoolExecutor(max_workers=workers) as pool:
         made = pool.map(_training_features, materials, repeat(recordings_per_label), repeat(seed))
@@ -147,7 +148,7 @@ def discriminate(
     folder: Path,
     advance: Callable[[int], object],
 ) -> DiscriminationReport:
-    """Render every stroke on its label and name it; the recording of the same stroke is the yardstick."""
+    """Render every stroke on its label and classify it; the recording of the same stroke is the reference."""
     outcomes: list[StrokeOutcome] = []
     for material in materials:
         for number, (name, truth) in enumerate(_prepared(material, strokes_per_label, seed)):
@@ -191,8 +192,8 @@ def discriminate_parts(
     folder: Path,
     advance: Callable[[int], object],
 ) -> DiscriminationReport:
-    """As `discriminate`, of recordings of one's own: a classifier of what was seen names what was held out. InputError
-    where a label has too little of either, or where there is only one label."""
+    """As `discriminate`, for own recordings: a classifier of the training recordings classifies the held-out ones.
+    InputError if a label has too little of either, or if there is only one label."""
     training: dict[str, list[WindowFeatures]] = {}
     for part in seen:
         training.setdefault(part.label, []).append(window_features(part.recorded, part.motion, _OWN_STEP_SAMPLES))
@@ -221,7 +222,7 @@ def discriminate_parts(
 
 
 def write_report(report: DiscriminationReport, out: Path, model_sha256: str) -> None:
-    """label-discrimination.json, .md and .png in `out`, each with the model that was heard."""
+    """Write label-discrimination.json, .md and .png into `out`, each with the model's SHA-256."""
     out.mkdir(parents=True, exist_ok=True)
     figures = {
         "model_sha256": model_sha256,

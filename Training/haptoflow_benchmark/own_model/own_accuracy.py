@@ -1,7 +1,7 @@
-"""A model beside recordings of one's own: the parts that no training saw, rendered by the engine with their own motion.
+"""Compares a model with own recordings: held-out parts, rendered by the engine with their own motion.
 
-Nothing is assumed of labels, speeds or protocols. Figures are of windows in which the tip moves: their level, and the
-spectra of all windows of one range of speed together, so that a few loud ones do not stand for the rest.
+Makes no assumption about labels, speeds or protocols. Figures are computed over windows in which the tip moves: their
+level, and the spectra of all windows of one range of speed together, so that a few loud windows do not dominate.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ _WINDOW_SAMPLES = 400
 # The engine's start from a seed, and the end of its resampler.
 _SETTLING_SAMPLES = 200
 _SLOWEST_MPS = 0.005
-# Spectra of less are mostly chance.
+# Spectra of fewer samples are mostly chance.
 _FEWEST_SAMPLES_OF_A_SPECTRUM = 1024
 _SPEED_BORDERS_MPS = (0.02, 0.04, 0.08, 0.16, 0.32, 0.64)
 _LSD_WINDOW = 256
@@ -42,7 +42,7 @@ class HeldOutPart:
 
 @dataclass(frozen=True)
 class RenderedPart:
-    """The same motion through the engine, as long as its recording."""
+    """The same motion rendered by the engine, as long as its recording."""
 
     part: HeldOutPart
     rendered: _Floats
@@ -50,8 +50,8 @@ class RenderedPart:
 
 @dataclass(frozen=True)
 class LabelAccuracy:
-    """seconds: compared. level_errors_db: of each window, above zero is too strong. gfc, lsd_db: means over ranges of
-    speed; None where no range had enough. by_speed: (lowest m/s, level error in dB) of each range."""
+    """seconds: compared. level_errors_db: of each window, positive is too strong. gfc, lsd_db: means over ranges of
+    speed; None if no range has enough samples. by_speed: (lowest m/s, level error in dB) of each range."""
 
     label: str
     parts: int
@@ -67,7 +67,7 @@ class LabelAccuracy:
 
     @property
     def level_error_p90_db(self) -> float:
-        """Of its size."""
+        """The 90th percentile of the level error's magnitude."""
         return float(np.quantile(np.abs(self.level_errors_db), 0.9))
 
     def to_json(self) -> dict[str, Any]:
@@ -86,7 +86,7 @@ class LabelAccuracy:
 def render_parts(
     parts: Sequence[HeldOutPart], *, engine: Path, model: Path, folder: Path, advance: Callable[[int], object]
 ) -> list[RenderedPart]:
-    """InputError carries the command line's own message when it fails."""
+    """InputError carries the command line's own message if it fails."""
     rendered = []
     for number, part in enumerate(parts):
         made = render_motion(engine, part.label, part.motion, folder, model=model, seed=1 + number)
@@ -96,7 +96,7 @@ def render_parts(
 
 
 def label_accuracy(label: str, rendered: Sequence[RenderedPart]) -> LabelAccuracy | None:
-    """None where the label's parts hold no window in which the tip moves."""
+    """None if the label's parts hold no window in which the tip moves."""
     windows: list[tuple[_Floats, _Floats, float]] = []
     for entry in rendered:
         count = min(len(entry.rendered), len(entry.part.recorded))

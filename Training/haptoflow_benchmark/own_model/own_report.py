@@ -1,4 +1,5 @@
-"""What `evaluate --model --recordings` leaves: a table, its figures as JSON, and a picture of every label's spectra."""
+"""The output of `evaluate --model --recordings`: a table, its figures as JSON, and a picture of every label's
+spectra."""
 
 from __future__ import annotations
 
@@ -15,7 +16,7 @@ _HEADINGS = ("label", "parts", "seconds", "level dB, median", "level dB, p90", "
 
 
 def table_rows(found: Sequence[LabelAccuracy]) -> Iterator[tuple[str, ...]]:
-    """Headings, a row for each label, and the median of all labels where there are several."""
+    """Headings, a row for each label, and the median of all labels if there are several."""
     yield _HEADINGS
     for one in found:
         yield (
@@ -52,7 +53,7 @@ def lines(found: Sequence[LabelAccuracy]) -> Iterator[str]:
 def write_own_report(
     out: Path, found: Sequence[LabelAccuracy], rendered: dict[str, list[RenderedPart]], model_sha256: str
 ) -> None:
-    """own-accuracy.json, .md and .png in `out`."""
+    """Write own-accuracy.json, .md and .png into `out`."""
     out.mkdir(parents=True, exist_ok=True)
     write_json(out / "own-accuracy.json", {"model_sha256": model_sha256, "labels": [one.to_json() for one in found]})
     heading, *rows = table_rows(found)

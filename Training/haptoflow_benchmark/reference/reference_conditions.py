@@ -1,7 +1,7 @@
-"""The grid that every row is measured on: which motions, on which labels, for how long.
+"""The grid of conditions on which every row is measured: motions, labels and durations.
 
-0.275 m/s, 1.35 N and the direction of 225 degrees lie inside the bands that training leaves out. Directions are
-counter-clockwise from the surface's first axis, as the velocities (vx, vy) themselves are.
+0.275 m/s, 1.35 N and the direction of 225 degrees lie inside the held-out bands of training. Directions are
+counter-clockwise from the surface's first axis, as the velocities (vx, vy) themselves.
 """
 
 from __future__ import annotations
@@ -17,10 +17,10 @@ from haptoflow_benchmark.metrics.temporal_metrics import RIB_RATES_HZ
 from haptoflow_training.recordings.synthetic import Material, hand_conditions
 from haptoflow_training.recordings.synthetic.carriers import hand_ride
 
-# Speeds in m/s with the seconds that a recording lasts there. Slow surfaces show few asperities a second.
+# Speeds in m/s with the duration of a recording in seconds. At low speed, few asperities are struck a second.
 _SECONDS_AT = {0.01: 24.0, 0.03: 24.0, 0.08: 20.0, 0.15: 16.0, 0.275: 16.0, 0.5: 12.0, 1.0: 12.0, 1.5: 12.0}
 CONSTANT_SPEEDS_MPS = tuple(_SECONDS_AT)
-# A kurtosis of 40 comes from a dozen blows a minute: rare blows need time.
+# A kurtosis of 40 comes from a dozen impacts a minute, so rare impacts need long recordings.
 _IMPACT_FACTOR, _FASTEST_RARE_IMPACTS_MPS = 2.5, 0.15
 _FORCES_NEWTONS = (0.2, 0.6, 1.35, 3.0)
 _CORNERS = ((0.03, 3.0), (0.15, 0.2), (0.5, 3.0))
@@ -35,7 +35,7 @@ _HAND_SECONDS = 16.0
 _REVERSAL_PERIOD_SECONDS, _TURN_SECONDS = 2.0, 0.1
 _SLIDE_SECONDS, _REST_SECONDS, _RAMP_SECONDS = 1.0, 0.5, 0.08
 CHANGE_SECONDS = 0.5
-# How many labels further on the other label of a change is: of another category.
+# The index distance to the other label of a change, which belongs to another category.
 _CHANGE_STEP = 7
 _MOTION_RATE_HZ = 2000
 _HAND_SEED = 4003
@@ -46,10 +46,10 @@ STEADY_KINDS = ("constant", "oblique", "nap")
 
 @dataclass(frozen=True)
 class Condition:
-    """kind: `constant`, `oblique` (ribs crossed at crossing_degrees), `nap` (along or against it), `reversal` (a straight
-    stroke that turns back every second), `stop` (slides of a second, rests of half a one), `varying` (a free hand), or
-    `change` (every half second label and other_label take turns). speed_mps and force_newtons: 0 for a hand.
-    rib_rates_hz: how often ribs pass, of each family whose rate a wave can show, the dominant first."""
+    """kind: `constant`, `oblique` (ribs crossed at crossing_degrees), `nap` (along or against it), `reversal` (a
+    straight stroke that turns back every second), `stop` (slides of a second, rests of half a second), `varying` (a
+    free hand), or `change` (label and other_label alternate every half second). speed_mps and force_newtons: 0 for a
+    hand. rib_rates_hz: the rate of ribs of each family whose rate a waveform can show, the dominant family first."""
 
     label: str
     label_index: int
@@ -66,12 +66,12 @@ class Condition:
 
     @property
     def is_steady(self) -> bool:
-        """Whether speed, direction and force hold, so that what varies is the surface's doing."""
+        """Whether speed, direction and force are constant, so that all variation comes from the surface."""
         return self.kind in STEADY_KINDS
 
 
 def conditions(materials: tuple[Material, ...]) -> list[Condition]:
-    """Of every label; ruled labels and those with a nap have some more."""
+    """The conditions of every label; ruled labels and those with a nap have additional ones."""
     return [entry for index, material in enumerate(materials) for entry in _of_label(materials, index, material)]
 
 
@@ -98,7 +98,7 @@ def _of_label(materials: tuple[Material, ...], index: int, material: Material) -
 
 
 def _steady(index: int, material: Material) -> Iterator[tuple[str, float, float, float, float, float]]:
-    """(kind, speed, force, direction, crossing, seconds) of what holds still."""
+    """(kind, speed, force, direction, crossing, seconds) of the steady conditions."""
     ruling = material.dominant_ruling
     across = ruling.direction_degrees if ruling else 0.0
     for number, (speed, seconds) in enumerate(_SECONDS_AT.items()):
@@ -110,7 +110,7 @@ def _steady(index: int, material: Material) -> Iterator[tuple[str, float, float,
         yield "constant", speed, force, across, 0.0, _long_enough(material, speed, _SECONDS)
     for crossing in CROSSINGS_DEGREES if ruling else ():
         for speed in _CROSSED_SPEEDS_MPS:
-            # Crossed at 45 degrees from behind, the direction is the one that is held out.
+            # Crossed at 45 degrees from behind, the direction is the held-out one.
             behind = 180.0 if crossing == 45.0 else 0.0
             yield "oblique", speed, 1.0, (across + crossing + behind) % 360.0, crossing, _SECONDS
     for speed in _NAP_SPEEDS_MPS if material.nap else ():
@@ -134,7 +134,7 @@ def rib_rates_hz(material: Material, speed_mps: float, direction_degrees: float)
 
 
 def motion_of(condition: Condition, material: Material, lead_seconds: float) -> NDArray[np.float64]:
-    """The motion [n, 3] (vx, vy in m/s, force in N) at 2 kHz; it begins `lead_seconds` before and ends as long after."""
+    """The motion [n, 3] (vx, vy in m/s, force in N) at 2 kHz, with `lead_seconds` added before and after."""
     count = round(_MOTION_RATE_HZ * (condition.seconds + 2.0 * lead_seconds))
     time = np.arange(count) / _MOTION_RATE_HZ - lead_seconds
     if condition.kind == "varying":
@@ -147,7 +147,7 @@ def motion_of(condition: Condition, material: Material, lead_seconds: float) -> 
 
 def _speed_profile(kind: str, time: NDArray[np.float64]) -> NDArray[np.float64]:
     if kind == "reversal":
-        # A tanh is at 0.96 of its height half a turn after the middle.
+        # tanh reaches 0.96 of its height half a turn after the middle.
         swing = np.sin(2.0 * np.pi * (time / _REVERSAL_PERIOD_SECONDS + 0.25))
         return np.tanh(swing * 4.0 * _REVERSAL_PERIOD_SECONDS / (2.0 * np.pi * _TURN_SECONDS))
     if kind == "stop":
@@ -171,5 +171,5 @@ def _hand_motion(material: Material, condition: Condition, count: int) -> NDArra
 
 
 def is_on_other_label(samples: int) -> NDArray[np.bool_]:
-    """Of a `change`: where the other label is under the tip, [samples]."""
+    """For a `change`: where the other label is under the tip, [samples]."""
     return np.arange(samples) // round(CHANGE_SECONDS * _MOTION_RATE_HZ) % 2 == 1

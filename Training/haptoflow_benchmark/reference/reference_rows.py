@@ -1,4 +1,4 @@
-"""Rows without a network: what perfection, ignorance and silence score. Every figure is read beside them."""
+"""Reference rows without a network: an independent recording, a codec alone, noise, and silence."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from haptoflow_benchmark.metrics.waveform_metrics import power_spectrum
 from haptoflow_benchmark.reference.reference_set import ReferencePair
 
 REFERENCE_ROWS = ("independent-draw", "mean-spectrum", "white-noise", "silence")
-# What the small codec alone leaves of each recording: the best that a row in its latents could score.
+# The recordings encoded and decoded by the small codec: the best that a row in its latents can score.
 CODEC_ROW = "small-codec-reconstruction"
 _ENVELOPE_SAMPLES = 200
 _SPECTRUM_WINDOW = 400
@@ -25,7 +25,7 @@ def _true_level(wave: NDArray[np.floating]) -> NDArray[np.float64]:
 
 
 def _shaped_noise(spectrum: NDArray[np.float64], samples: int, generator: np.random.Generator) -> NDArray[np.float64]:
-    """Gaussian noise of RMS 1 whose power spectrum has the form of `spectrum` (any number of bins, 0 to 1 kHz)."""
+    """Gaussian noise of RMS 1 whose power spectrum is proportional to `spectrum` (any number of bins, 0 to 1 kHz)."""
     white = np.fft.rfft(generator.standard_normal(samples))
     places = np.linspace(0.0, 1.0, len(white))
     gain = np.sqrt(np.interp(places, np.linspace(0.0, 1.0, len(spectrum)), spectrum))
@@ -34,7 +34,7 @@ def _shaped_noise(spectrum: NDArray[np.float64], samples: int, generator: np.ran
 
 
 def reference_waves(name: str, pairs: list[ReferencePair], seed: int) -> list[_Floats]:
-    """One wave for each pair, as long as its recording, m/s^2.
+    """One waveform for each pair, as long as its recording, m/s^2.
 
     independent-draw: another recording of the same condition. mean-spectrum: noise with the label's mean spectrum over
     all its conditions, at the recording's own level. white-noise: at that level too.

@@ -1,7 +1,7 @@
-"""What the evaluation compares with: recordings that nobody trained on, each with a second, independent one.
+"""The reference recordings of the evaluation: outside all training, each with an independent second one.
 
-Both of a pair follow the same motion on different places of a specimen that training never saw: the second, an
-independent draw of the true process, is the ceiling that no generator can pass.
+Both of a pair follow the same motion on different places of the held-out specimen. The second one, an independent draw
+of the true process, is the best that any generator can score.
 """
 
 from __future__ import annotations
@@ -32,7 +32,8 @@ _INDEPENDENT_SEED = 100_000
 
 @dataclass(frozen=True)
 class ReferencePair:
-    """recorded and independent [n] in m/s^2; motion [n, 3] of both. start_mm: where on the surface `recorded` begins."""
+    """recorded and independent [n] in m/s^2; motion [n, 3] of both. start_mm: the place on the surface where
+    `recorded` begins."""
 
     condition: Condition
     recorded: _Floats
@@ -42,8 +43,7 @@ class ReferencePair:
 
 
 def _record(material: Material, motion: NDArray[np.float64], seed: int) -> PreparedRecording:
-    """One recording of the motion [n, 3] at 2 kHz on the specimen that training never sees, trimmed as every recording
-    is."""
+    """One recording of the motion [n, 3] at 2 kHz on the held-out specimen, trimmed like every recording."""
     recording = record_condition(
         material,
         velocity_mps=(motion[:, 0], motion[:, 1]),
@@ -56,7 +56,7 @@ def _record(material: Material, motion: NDArray[np.float64], seed: int) -> Prepa
 
 
 def record_pair(task: tuple[Condition, Material, Material]) -> ReferencePair:
-    """A condition on its material and, for a change, on the other one in turn."""
+    """The pair of a condition: its material and, for a change, the other one alternately."""
     condition, material, other = task
     trim = PreprocessingSettings().trim_seconds
     motion = motion_of(condition, material, trim)
@@ -69,29 +69,29 @@ def record_pair(task: tuple[Condition, Material, Material]) -> ReferencePair:
         for number, repeat in enumerate((0, _INDEPENDENT_SEED)):
             there = _record(other, motion, condition.seed + repeat).waveform_mps2[:length]
             waves[number] = np.where(elsewhere, there, waves[number][:length])
-    # The motion is known exactly here; the sensors' own noise on it is not what is asked about.
+    # The motion is prescribed and known exactly; the sensors' noise on it is not measured.
     told = motion[lead : lead + length].astype(np.float32)
     travelled = _travelled_mm(told)
-    # Averaged over the recording, since a single reading is a tenth of a millimetre off.
+    # Averaged over the recording, because a single reading is off by up to 0.1 mm.
     start = (prepared[0].position_mm[:length] - travelled).mean(axis=0)
     return ReferencePair(condition, waves[0][:length], waves[1][:length], told, (float(start[0]), float(start[1])))
 
 
 def _travelled_mm(motion: _Floats) -> NDArray[np.float64]:
-    """Where the tip is before each sample, from its first one on, [n, 2]."""
+    """The position of the tip before each sample, relative to the first, [n, 2]."""
     step = motion[:, :2].astype(np.float64) * (1000.0 / SAMPLE_RATE_HZ)
     return np.cumsum(step, axis=0) - step
 
 
 def rib_phases(pair: ReferencePair, embedding: _Floats, samples: NDArray[np.int64]) -> _Floats:
-    """Of the recording's ribs at these samples, in turns along the embedding's two wave vectors, [n, 2]."""
+    """Rib phases of the recording at these samples, in turns along the embedding's two wave vectors, [n, 2]."""
     wave_vectors = embedding[-4:].astype(np.float64).reshape(2, 2)
     places = np.asarray(pair.start_mm) + _travelled_mm(pair.motion)[samples]
     return np.mod(places @ wave_vectors.T, 1.0).astype(np.float32)
 
 
 def _recorder_crc32() -> str:
-    """Of the code that records and prepares: what it makes is made anew where it has changed."""
+    """CRC-32 of the code that records and prepares; cached recordings are made again if it has changed."""
     folders = [Path(module.__file__ or "").parent for module in (synthetic, preprocessing)]
     sources = b"".join(path.read_bytes() for folder in folders for path in sorted(folder.glob("*.py")))
     return f"{zlib.crc32(sources):08x}"
@@ -100,7 +100,7 @@ def _recorder_crc32() -> str:
 def reference_set(
     cache: Path, workers: int, advance: Callable[[int], None] = lambda count: None
 ) -> list[ReferencePair]:
-    """Record all pairs, or read them from `cache` where they were made from the same materials, conditions and code."""
+    """Record all pairs, or read them from `cache` if they were made from the same materials, conditions and code."""
     materials = load_materials()
     wanted = conditions(materials)
     made_from = json.dumps([[asdict(entry) for entry in wanted], [asdict(entry) for entry in materials], _recorder_crc32()])

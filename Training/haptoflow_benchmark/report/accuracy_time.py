@@ -1,4 +1,4 @@
-"""accuracy-time.json: every row's accuracy beside its cost, as the chart and the documentation read it."""
+"""accuracy-time.json: every row's accuracy and cost, from which the chart and the page are generated."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ _TIMES = ("ms_per_segment", "ms_paced")
 
 
 def machine_words() -> str:
-    """Processor and system, in words: times mean nothing without them."""
+    """Processor and system of this machine, which published times must state."""
     model = platform.processor() or platform.machine()
     try:
         lines = Path("/proc/cpuinfo").read_text(encoding="utf-8").splitlines()
@@ -31,8 +31,8 @@ def machine_words() -> str:
 
 
 def table(plan: Sequence[PlannedRow], measured: Mapping[str, Sequence[dict[str, Any]]]) -> dict[str, Any]:
-    """measured: for each row's name one result per seed (row_runner.measure_row), the first one's first. Rows that were
-    not measured are left out and named in `not_measured`. Times are put in by `with_times`."""
+    """measured: by row name one result for each seed (row_runner.measure_row), the first seed first. Rows that were
+    not measured are left out and named in `not_measured`. Times are added by `with_times`."""
 
     def judged_against(row: PlannedRow) -> Sequence[dict[str, Any]]:
         own = row.against == row.name or row.against not in measured
@@ -44,12 +44,12 @@ def table(plan: Sequence[PlannedRow], measured: Mapping[str, Sequence[dict[str, 
 
 
 def timed_rows(table: Mapping[str, Any]) -> set[str]:
-    """Names of the rows that a complete timing run holds: all but the references."""
+    """Names of the rows that a complete timing run holds: all except the references."""
     return {row["name"] for row in table["rows"] if row["block"] != "reference"}
 
 
 def with_times(table: dict[str, Any], run: Mapping[str, Any] | None) -> dict[str, Any]:
-    """The table with the times of one run alone; a row that it does not hold has none."""
+    """The table with the times of one run; rows that it does not hold have no times."""
     nothing = dict.fromkeys(_TIMES)
     times = {} if run is None else run["rows"]
     rows = [{**row, **nothing, **times.get(row["name"], {})} for row in table["rows"]]
@@ -97,7 +97,7 @@ def _row(
 
 
 def _by_seed(results: Sequence[dict[str, Any]]) -> dict[str, Any]:
-    """Figures of each seed on the recordings that all of them were measured on."""
+    """Figures of each seed on the recordings that all seeds were measured on."""
     keyed = [{tuple(cell[key] for key in IDENTITY): cell for cell in result["conditions"]} for result in results]
     shared = [key for key in keyed[0] if all(key in other for other in keyed)]
     common = [[cells[key] for key in shared] for cells in keyed]
@@ -115,7 +115,7 @@ def _by_seed(results: Sequence[dict[str, Any]]) -> dict[str, Any]:
 
 
 def _rounded(value: Any) -> Any:
-    """To four digits, at any depth."""
+    """Rounded to four digits, at any depth."""
     if isinstance(value, dict):
         return {key: _rounded(entry) for key, entry in value.items()}
     if isinstance(value, list):

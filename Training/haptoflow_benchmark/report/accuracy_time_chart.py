@@ -1,4 +1,4 @@
-"""The picture of accuracy over time: what each tier and its rivals cost, and how far off they are."""
+"""The chart of accuracy over time: the cost and the error of each tier and its rivals."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from haptoflow_benchmark.rows.row_plan import ABLATION, AS_PUBLISHED, OURS, REFE
 from haptoflow_training.model_stamp import picture_metadata
 
 _OURS = "HaptoFlow"
-# What a part of the network is worth is for the table; the chart is for the choice.
+# Ablations and references are in the table only.
 _NOT_DRAWN = (ABLATION, REFERENCE)
 _OTHERS = ("other architectures", "#2f7d57")
 _LEGEND = {
@@ -20,7 +20,7 @@ _LEGEND = {
     "other recipes": ("other few-step recipes: MeanFlow, reflow", "#8a5fb0"),
     "baselines": _OTHERS,
 }
-# The points that carry the message, in words; all others are told apart in the table.
+# The points that are named in the chart; the others can be found in the table.
 _NAMED = {
     "draft": "draft",
     "standard": "standard",
@@ -47,7 +47,7 @@ class Panel:
 
 @dataclass(frozen=True)
 class ChartPoint:
-    """value and the ends of its 95 % interval; name is empty where the table tells it."""
+    """value and the ends of its 95 % interval; name is empty for points that are not named."""
 
     row: str
     family: str
@@ -72,9 +72,9 @@ def panel_value(row: Mapping[str, Any], key: str) -> float | None:
 
 
 def chart_points(rows: Sequence[dict[str, Any]], key: str) -> list[ChartPoint]:
-    """Every row that is drawn, timed and measured. Rows on every fourth recording are left out of what is told apart: a
-    classifier that learns from fewer recordings tells less apart. Ours on a quarter is left out everywhere: it is drawn
-    with all recordings already."""
+    """Every row that is drawn, timed and measured. Rows on every fourth recording are left out of the told-apart
+    panel: a classifier fitted to fewer recordings is weaker. Our own row on a quarter is left out everywhere,
+    because the row on all recordings is drawn."""
     points = []
     for row in rows:
         value = panel_value(row, key)
@@ -88,7 +88,7 @@ def chart_points(rows: Sequence[dict[str, Any]], key: str) -> list[ChartPoint]:
 
 
 def chart_lines(points: Sequence[ChartPoint]) -> list[list[ChartPoint]]:
-    """One network and solver at rising numbers of steps: what is joined by a line."""
+    """One network and solver at increasing numbers of steps: points joined by a line."""
     grouped: dict[str, list[ChartPoint]] = {}
     for point in points:
         stem, _, steps = point.row.rpartition("-")
@@ -98,8 +98,8 @@ def chart_lines(points: Sequence[ChartPoint]) -> list[list[ChartPoint]]:
 
 
 def draw_chart(table: dict[str, Any], path: Path) -> None:
-    """One panel for what a hand tells apart, one for the spectrum, over milliseconds. What lies beyond a panel stands at
-    its edge with its value."""
+    """One panel for the classifier, one for the spectrum, over milliseconds. Values beyond a panel are drawn at its
+    edge and written out."""
     import matplotlib
 
     matplotlib.use("Agg")
@@ -195,8 +195,8 @@ def _draw_point(axis: Any, panel: Panel, point: ChartPoint) -> None:
         )  # fmt: skip
 
 
-# Places of names that would cover each other, by panel and row: points right of the marker, points above it, and the
-# horizontal alignment of the text there.
+# Positions of names that would overlap, by panel and row: points right of the marker, points above it, and the
+# horizontal alignment.
 _NAME_PLACES = {
     ("told_apart_percent", "draft"): (2.0, -14.0, "right"),
     ("told_apart_percent", "standard"): (-4.0, -14.0, "left"),

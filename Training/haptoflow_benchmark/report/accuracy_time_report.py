@@ -47,7 +47,8 @@ def write_document(table: dict[str, Any], out: Path, images: Path, picture: bool
 
 
 def _outcome(table: Mapping[str, Any]) -> list[str]:
-    """Two lines at the page's top: whom `standard` is ahead of, even with and behind, and where a rival wins."""
+    """Two lines at the top of the page: which rivals `standard` is ahead of, even with and behind, and where a rival
+    wins."""
     lines = []
     for block in RIVAL_BLOCKS:
         title = block.replace("-", " ").capitalize()
@@ -74,7 +75,8 @@ _MEANINGS = {
 
 
 def _explained(lines: Sequence[str]) -> list[str]:
-    """The lines with each short word's meaning where it stands first: they come before the page's list of short words."""
+    """The lines with each abbreviation explained at its first use, because they precede the page's list of
+    abbreviations."""
     text = "\n".join(lines)
     for word, meaning in _MEANINGS.items():
         text = re.sub(rf"\b{word}\b", f"{word} ({meaning})", text, count=1)
@@ -110,7 +112,7 @@ def _spread(values: Mapping[str, float] | None, digits: int) -> str:
 
 
 def _factor(values: Mapping[str, float] | None) -> str:
-    """Of a spread of logarithms: the factor by which the median (and p90) is off."""
+    """For a spread of logarithms: the factor by which the median (and p90) is off."""
     return "" if values is None else f"{math.exp(values['median']):.2f} ({math.exp(values['p90']):.1f})"
 
 
@@ -207,7 +209,7 @@ def _goal_table(table: dict[str, Any]) -> list[str]:
 
 
 def _label_table(rows: Sequence[_Row]) -> list[str]:
-    """Of the default tier, or the first of ours that is there."""
+    """The table by label, of the default tier or the first of our rows that was measured."""
     row = next((row for row in rows if row.get("by_label")), None)
     if row is None:
         return []

@@ -1,4 +1,4 @@
-"""The standing words of Documentation~/accuracy-and-time.md: what the rows are, and what every figure means."""
+"""The fixed text of Documentation~/accuracy-and-time.md: what the rows are, and the definition of every figure."""
 
 INTRODUCTION = """\
 | short | what it is |

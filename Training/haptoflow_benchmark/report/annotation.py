@@ -1,4 +1,4 @@
-"""Measured figures in a model file's header: what each tier is worth and what it costs."""
+"""Writes measured figures into a model file's header: accuracy and cost of each tier."""
 
 from __future__ import annotations
 
@@ -17,8 +17,8 @@ _ACCURACY = ("level_error_db", "level_error_p90_db", "gfc_recording", "lsd_db", 
 def annotate_model(path: Path, machine: str, rows: Mapping[str, Mapping[str, Any]], parity: Path | None = None) -> int:
     """Write `accuracy` and `cost` of the tiers named in `rows` (rows of accuracy-time.json by tier) into the file.
 
-    Returns the file's new CRC-32, which also goes into the golden vectors `parity`, since they name the file they
-    belong to.
+    Returns the file's new CRC-32, which is also written to the golden vectors `parity`, because they name their model
+    file.
     """
     file = read_model_file(path)
     header = json.loads(json.dumps(file.header))

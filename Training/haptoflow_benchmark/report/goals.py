@@ -1,4 +1,4 @@
-"""What the default tier is meant to reach, held against accuracy-time.json: what is missed is stated like what is met."""
+"""The goals of the default tier, compared with accuracy-time.json; missed goals are reported like met ones."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ _NOT_MEASURED = "not measured"
 
 @dataclass(frozen=True)
 class Goal:
-    """what: in words. wanted and measured: as a reader reads them. holds: None where a row that it needs is missing."""
+    """what: the goal in words. wanted and measured: printable values. holds: None if a row that it needs is missing."""
 
     what: str
     wanted: str
@@ -29,7 +29,7 @@ class Goal:
 
 
 def judge(table: Mapping[str, Any]) -> list[Goal]:
-    """Every goal; empty where the default tier was not measured."""
+    """Every goal; empty if the default tier was not measured."""
     rows = {row["name"]: row for row in table["rows"]}
     if "standard" not in rows:
         return []
@@ -46,8 +46,8 @@ def judge(table: Mapping[str, Any]) -> list[Goal]:
     return [*goals, *(_fast_strokes(standard["fast"]) if "fast" in standard else [])]
 
 
-# What, where in the row, limit, and whether the figure may at most be that, or must at least. Spreads are of sizes of
-# errors over cells: their p90 is what nine cells in ten keep, of a share the tenth percentile.
+# Goal, path of the figure in the row, limit, and whether the limit is a maximum. Spreads are of error magnitudes over
+# cells: nine cells in ten are at least as good as p90 (for a share, the tenth percentile).
 _BOUNDS: tuple[tuple[str, tuple[str, ...], float, bool], ...] = (
     ("level, nine cells in ten, dB", ("cells", "level_error_db", "p90"), 2.2, True),
     ("level at 10 mm/s, nine cells in ten, dB", ("special", "slow_level_error_db", "p90"), 2.2, True),
@@ -73,7 +73,7 @@ def _found(row: _Row, path: Sequence[str]) -> float | None:
         value = None if value is None else value.get(key)
     if value is None:
         return None
-    # A ratio of kurtoses is kept as its logarithm.
+    # A ratio of kurtoses is stored as its logarithm.
     return math.exp(value) if path[-2:-1] == ("impact_kurtosis_log_ratio",) else float(value)
 
 
@@ -116,7 +116,7 @@ def _beside_eight_steps(standard: _Row, reference: _Row | None) -> list[Goal]:
 
 
 def _tiers(rows: Mapping[str, _Row]) -> list[Goal]:
-    """A tier that takes more time is behind in no judged figure; a tier that is gone is not judged."""
+    """A slower tier must not be behind a faster one in any judged figure; a missing tier is not judged."""
     goals = [_no_figure("standard behind draft", rows.get("draft"), BEHIND)]
     if "fine" in rows:
         goals.append(_no_figure("fine behind standard", rows["fine"], AHEAD))
@@ -131,7 +131,7 @@ def _no_figure(what: str, row: _Row | None, outcome: str) -> Goal:
 
 
 def _not_behind(rows: Sequence[_Row], block: str) -> Goal:
-    """Beside every rival: counted over rivals and figures, and named where one wins."""
+    """The comparison with every rival: counts over rivals and figures, with the figures where one wins."""
     what = f"behind a rival, {block.replace('-', ' ')}"
     found = rivals(rows, (block,))
     if not found:

@@ -1,4 +1,4 @@
-"""Who is ahead: differences between two rows on the same recordings, called only where chance cannot have made them."""
+"""Verdicts between two rows on the same recordings: a difference counts only if chance is excluded."""
 
 from __future__ import annotations
 
@@ -16,11 +16,11 @@ AHEAD, EVEN, BEHIND = "ahead", "even", "behind"
 
 
 def verdict(ours: Sequence[_Cell], rival: Sequence[_Cell]) -> dict[str, str]:
-    """For each judged figure that both have: whether ours is ahead of the rival, even with it or behind it.
+    """For each judged figure that both rows have: whether ours is ahead of the rival, even with it or behind it.
 
-    Judged is the size of the error, rival's less ours, of each recording that both were measured on; the mean over
-    labels of each label's mean. Ahead or behind means that its 95 % bootstrap interval, over recordings within labels,
-    excludes zero.
+    Compared is the error magnitude, rival's less ours, of each recording that both were measured on, averaged over the
+    mean of each label. Ahead or behind means that its 95 % bootstrap interval, over recordings within labels, excludes
+    zero.
     """
     by_identity = {_identity(cell): cell for cell in ours}
     pairs = [(by_identity[_identity(cell)], cell) for cell in rival if _identity(cell) in by_identity]
@@ -49,7 +49,7 @@ def _differences(pairs: Sequence[tuple[_Cell, _Cell]], figure: JudgedFigure) -> 
 
 @dataclass(frozen=True)
 class RivalVerdict:
-    """A rival in every figure, by its best variant in each: variants names that row by figure."""
+    """A rival in every figure, by its best variant in each: `variants` names that row by figure."""
 
     rival: str
     block: str
@@ -61,9 +61,9 @@ class RivalVerdict:
 
 
 def rivals(rows: Sequence[Mapping[str, Any]], blocks: Sequence[str]) -> list[RivalVerdict]:
-    """Every rival of the blocks: rows of one network at several numbers of steps are one, and stand by the best of
-    them, figure by figure: by the median that is furthest ahead of the row that it is judged against, since not all are
-    measured on the same recordings."""
+    """Every rival of the blocks. Rows of one network at several numbers of steps are one rival, represented in each
+    figure by its best row: the one whose median is furthest ahead of the row it is judged against, because not all
+    are measured on the same recordings."""
     by_name = {row["name"]: row for row in rows}
     grouped: dict[tuple[str, str], list[Mapping[str, Any]]] = {}
     for row in rows:

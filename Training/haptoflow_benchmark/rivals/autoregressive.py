@@ -1,10 +1,10 @@
-"""Our form of the autoregressive baseline (Culbertson et al. 2014): white noise through an all-pole filter.
+"""The autoregressive rival (after Culbertson et al. 2014): white noise through an all-pole filter.
 
-The published models fit a filter of order 14 to 20 at every recorded speed and force and interpolate line
-spectral frequencies over a Delaunay triangulation of that plane, one plane a material. Ours is of order 16
-and lets a perceptron give reflection coefficients: it follows a direction and blended labels too, both of
-which a triangulated plane has no place for, and tanh keeps every filter stable, as the line spectral
-frequencies' order does there.
+The published models fit a filter of order 14 to 20 at every recorded speed and force and interpolate line spectral
+frequencies over a Delaunay triangulation of that plane, one plane for each material. Ours is of order 16, and a
+perceptron predicts reflection coefficients. It therefore also follows directions and blended labels, for which a
+triangulated plane has no place, and tanh keeps every filter stable, as the order of the line spectral frequencies does
+there.
 """
 
 from __future__ import annotations
@@ -20,12 +20,12 @@ from haptoflow_training.models.unit_scale import PREVIOUS_LIMIT
 from haptoflow_training.waveform import SEGMENT_SAMPLES
 
 ORDER = 16
-# tanh(3.8) = 0.999. In single precision tanh reaches 1, where a filter rings for ever.
+# tanh(3.8) = 0.999. In single precision tanh reaches 1, where a filter never decays.
 REFLECTION_ARGUMENT_LIMIT = 3.8
-# Every pole's radius is multiplied by it: what rings longest falls to 1/e in 250 ms, a line 1.3 Hz wide.
+# Factor on every pole's radius: the longest response falls to 1/e in 250 ms, a line 1.3 Hz wide.
 POLE_DAMPING = 0.998
-# 50 dB from the noise to the wave. Reflection coefficients below 1 are stable on paper only: with several
-# near 1, rounding the predictor to single precision moves poles out of the unit circle.
+# Limit of 50 dB between noise and waveform. Filters with reflection coefficients below 1 are stable in theory only:
+# with several near 1, rounding the predictor to single precision moves poles out of the unit circle.
 LOG_RESONANCE_LIMIT = math.log(10.0 ** (50.0 / 20.0))
 LOG_LEVEL_LIMIT = 2.0
 # A block is longer than the filter's memory.
@@ -56,10 +56,9 @@ def _lags(size: int, offset: int = 0) -> Tensor:
 class AllPoleFilter(nn.Module):
     """x_t = drive_t - sum a_i x_(t-i): drive [B, 200], coefficients [B, 16], the 16 samples before [B, 16].
 
-    Solved a block at a time, exactly: 8 small products take the place of 200 steps of a loop. The inverse of
-    a block's triangular matrix is the impulse response h, found by doubling: its second half is the first
-    half carried over, h[n:2n] = -toeplitz(h[:n]) carry h[:n]. That is forward substitution in another order,
-    as stable.
+    Solved exactly, one block at a time: 8 small matrix products replace a loop of 200 steps. The inverse of a block's
+    triangular matrix is the impulse response h, computed by doubling: h[n:2n] = -toeplitz(h[:n]) carry h[:n]. This is
+    forward substitution in another order, with the same stability.
     """
 
     def __init__(self) -> None:
@@ -105,9 +104,9 @@ def _log_cosh(argument: Tensor) -> Tensor:
 
 
 class AutoregressiveRival(Rival):
-    """Material and motion to a filter and a level; the noise drives it on from the previous waveform.
+    """Predicts a filter and a level from material and motion; noise continues the previous waveform through the filter.
 
-    With ribs, it drives on what of the previous waveform is not of the ribs, and their lines are added.
+    With ribs, it continues the previous waveform without its rib lines, and the lines are added.
     """
 
     damping: Tensor
@@ -123,26 +122,27 @@ class AutoregressiveRival(Rival):
     def process(self, embedding: Tensor, motion: Tensor) -> tuple[Tensor, Tensor]:
         """Coefficients a_1..a_16 [B, 16] of A(z) and the log RMS [B, 1] of the noise that drives it.
 
-        The perceptron states an RMS of the wave, and that of the noise follows from it, sigma_e^2 = sigma_x^2
-        prod(1 - k_i^2): the wave stays in bounds however much the filter resonates. Damping multiplies the
-        impulse response's n-th sample by 0.998^n, which can only lower the wave from there.
+        The perceptron predicts the RMS of the waveform; that of the noise follows from it, sigma_e^2 = sigma_x^2 prod(1
+        - k_i^2), so that the waveform stays bounded however much the filter resonates. Damping multiplies the impulse
+        response's n-th sample by 0.998^n, which can only lower the level.
         """
         raw = self.perceptron(embedding, motion)
         argument = raw[:, :ORDER].clamp(-REFLECTION_ARGUMENT_LIMIT, REFLECTION_ARGUMENT_LIMIT)
-        # log cosh is convex and 0 at 0, so a scaled argument has at most the scaled sum.
+        # log cosh is convex and 0 at 0, so that a scaled argument gives at most the scaled sum.
         resonance = _log_cosh(argument).sum(dim=1, keepdim=True)
         argument = argument * (LOG_RESONANCE_LIMIT / resonance.clamp(min=LOG_RESONANCE_LIMIT))
-        # For k = tanh(u), log sqrt(1 - k^2) = -log cosh(u), without the difference of nearly equal numbers.
+        # For k = tanh(u), log sqrt(1 - k^2) = -log cosh(u), which avoids the difference of nearly equal numbers.
         log_level = LOG_LEVEL_LIMIT * torch.tanh(raw[:, ORDER:] / LOG_LEVEL_LIMIT)
         log_gain = log_level - _log_cosh(argument).sum(dim=1, keepdim=True)
         return step_up(torch.tanh(argument)) * self.damping, log_gain
 
     def own_form(self, noisy: Tensor, previous: Tensor, embedding: Tensor, motion: Tensor) -> Tensor:
-        # The likelihood alone fits the filter: a distance between draws, which teaches the lines, only blurs it.
+        # Only the likelihood fits the filter; the energy distance, which trains the lines, would only blur it.
         coefficients, log_gain = (part.detach() for part in self.process(embedding, motion))
         drive = noisy[:, 0] * log_gain.exp()
         wave = self.filter(drive, coefficients, previous[:, 0, -ORDER:])
-        # A past that another filter made can swing a slow one far out; no network is shown more than this.
+        # A past from another filter can drive a slowly decaying one far out of range; the networks' input limit applies
+        # here too.
         return wave.clamp(-PREVIOUS_LIMIT, PREVIOUS_LIMIT).unsqueeze(1)
 
     def loss(
@@ -154,12 +154,12 @@ class AutoregressiveRival(Rival):
         rib_phase: Tensor,
         generator: torch.Generator,
     ) -> Tensor:
-        """[B]: Gaussian negative log-likelihood per sample of the one-step prediction errors of what the ribs leave."""
+        """[B]: Gaussian negative log-likelihood per sample of the one-step prediction errors, without the rib lines."""
         coefficients, log_gain = self.process(embedding, motion)
         rest, past = self.rest(segment, previous, embedding, motion, rib_phase)
         wave = torch.cat([past[:, 0, -ORDER:], rest[:, 0]], dim=1)
         taps = torch.cat([torch.ones_like(log_gain), coefficients], dim=1)
-        # Windows run forwards in time, the filter backwards.
+        # Windows run forwards in time, filter coefficients backwards.
         windows = wave.unfold(1, ORDER + 1, 1)
         error = torch.matmul(windows, torch.flip(taps, dims=[1]).unsqueeze(-1)).squeeze(-1)
         return (log_gain + 0.5 * error.square() * torch.exp(-2.0 * log_gain)).mean(dim=1)

@@ -1,4 +1,4 @@
-"""How a baseline hears of material and motion."""
+"""The condition inputs of rivals: material and motion."""
 
 from __future__ import annotations
 

@@ -1,9 +1,9 @@
-"""Our form of the DSTN baseline (Joolee and Jeon 2022): convolutions, an LSTM encoder-decoder, attention.
+"""The DSTN rival (after Joolee and Jeon 2022): convolutions, an LSTM encoder-decoder, attention.
 
-Layer sizes are not public. Here: two strided convolutions shorten the previous waveform to 20 steps, an LSTM
-of 128 reads them, an LSTM of 128 writes the segment 10 samples a step and attends to the reader's states;
-material and motion start the reader and enter every step of the writer. It is trained on its own earlier
-steps, as it runs.
+Layer sizes are not published. Here: two strided convolutions shorten the previous waveform to 20 steps, an LSTM of 128
+encodes them, an LSTM of 128 decodes the segment 10 samples a step and attends to the encoder's states; material and
+motion initialise the encoder and enter every step of the decoder. It is trained on its own earlier steps, as at run
+time.
 """
 
 from __future__ import annotations
@@ -24,12 +24,12 @@ STEPS = SEGMENT_SAMPLES // STEP_SAMPLES
 
 
 class DecoderCell(nn.Module):
-    """One LSTM step by hand: 20 exported LSTM nodes would each carry a copy of the weights."""
+    """One LSTM step written out: 20 exported LSTM nodes would each carry a copy of the weights."""
 
     def __init__(self, inputs: int) -> None:
         super().__init__()
         self.gates = nn.Linear(inputs + STATE, 4 * STATE)
-        # A cell that remembers from the start learns long continuations sooner (Jozefowicz et al. 2015).
+        # A positive forget bias speeds up learning of long continuations (Jozefowicz et al. 2015).
         nn.init.constant_(self.gates.bias[STATE : 2 * STATE], 1.0)
 
     def forward(self, inputs: Tensor, hidden: Tensor, cell: Tensor) -> tuple[Tensor, Tensor]:
@@ -39,8 +39,8 @@ class DecoderCell(nn.Module):
 
 
 class DstnRival(RegressingRival):
-    """Previous waveform, material and motion to the segment, 20 steps of 10 samples. Sampled, each step of the writer
-    hears the noise of its own 10 samples too."""
+    """Previous waveform, material and motion to the segment, in 20 steps of 10 samples. If sampled, each decoder
+    step also reads the noise of its own 10 samples."""
 
     def __init__(self, *, ribs: bool = False, sampled: bool = False) -> None:
         super().__init__(ribs=ribs, sampled=sampled)
@@ -64,7 +64,7 @@ class DstnRival(RegressingRival):
     def own_form(self, noisy: Tensor, previous: Tensor, embedding: Tensor, motion: Tensor) -> Tensor:
         condition = self.condition(embedding, motion)
         features = self.convolutions(previous).permute(2, 0, 1)
-        # A first state made from the condition has the batch's size by itself, in the exported graph too.
+        # A first state computed from the condition has the batch's size, in the exported graph too.
         first_hidden, first_cell = torch.tanh(self.first_state(condition)).unsqueeze(0).split(STATE, dim=2)
         states, (hidden, cell) = self.encoder(features, (first_hidden, first_cell))
         states, hidden, cell = states.permute(1, 0, 2), hidden.squeeze(0), cell.squeeze(0)

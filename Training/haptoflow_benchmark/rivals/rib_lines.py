@@ -1,7 +1,7 @@
-"""The ribs of a ruled surface for rivals that are given the same: lines beside what their own form makes.
+"""Rib lines for rivals of the block given-the-same, added to their own output.
 
-The lines are those of our network (models/rib_comb.py), their gains a perceptron's of material and motion. What the
-rival's own form has to make is the rest.
+The partials are those of our network (models/rib_comb.py), with gains from a perceptron of material and motion. The
+rival's own form models the rest.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ _HIDDEN = 96
 
 
 class RibLines(nn.Module):
-    """Lines in a segment and in the past before it; silent until trained."""
+    """The rib lines of a segment and of its previous waveform; zero until trained."""
 
     spread: Tensor
 
@@ -30,7 +30,7 @@ class RibLines(nn.Module):
         nn.init.zeros_(last.bias)
 
     def forward(self, previous: Tensor, embedding: Tensor, motion: Tensor, rib_phase: Tensor) -> tuple[Tensor, Tensor]:
-        """The lines of the segment, and what they leave of the previous waveform, [B, 1, 200] each, in unit scale."""
+        """The lines of the segment, and the previous waveform without its lines, [B, 1, 200] each, in unit scale."""
         mirrored = torch.flip(previous, dims=[2])
         ribs = self.comb.ribs(embedding, motion, rib_phase)
         gains = torch.index_select(self.gains(embedding, motion), 1, self.spread)

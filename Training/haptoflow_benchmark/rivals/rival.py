@@ -1,4 +1,4 @@
-"""What all baselines share: one signature, one way into a graph, and the ribs' lines where they are given the same."""
+"""The base class of all rivals, with the rib lines of the block given-the-same."""
 
 from __future__ import annotations
 
@@ -30,14 +30,14 @@ class Rival(SegmentNetwork):
         return lines + self.own_form(noisy, rest, embedding, motion)
 
     def own_form(self, noisy: Tensor, previous: Tensor, embedding: Tensor, motion: Tensor) -> Tensor:
-        """[B, 1, 200]: what the rival makes in the form that was published, from the past as the ribs' lines leave it."""
+        """[B, 1, 200]: the output of the published form, from the previous waveform without its rib lines."""
         raise NotImplementedError
 
     def rest(
         self, segment: Tensor, previous: Tensor, embedding: Tensor, motion: Tensor, rib_phase: Tensor
     ) -> tuple[Tensor, Tensor]:
-        """What the ribs' lines leave of a recorded segment and of the past before it, [B, 1, 200] each: what the published
-        form is fitted to."""
+        """A recorded segment and its previous waveform without their rib lines, [B, 1, 200] each, to which the
+        published form is fitted."""
         if self.lines is None:
             return segment, previous
         lines, rest = self.lines(previous, embedding, motion, rib_phase)
@@ -45,8 +45,8 @@ class Rival(SegmentNetwork):
 
 
 class RegressingRival(Rival):
-    """One answer for one question: trained by mean squared error on the segment, no noise read. `sampled`: it reads
-    noise, and the mean squared error is no more than a start."""
+    """A rival that predicts the mean: trained by mean squared error on the segment, without noise input. `sampled`:
+    it reads noise, and the mean squared error is only its first training phase."""
 
     def __init__(self, *, ribs: bool = False, sampled: bool = False) -> None:
         super().__init__(ribs=ribs)
@@ -68,6 +68,6 @@ class RegressingRival(Rival):
 
 
 def reads(*own: str, ribs: bool) -> tuple[str, ...]:
-    """The inputs of a baseline in their order: its own, material and motion, and what the ribs' lines read."""
+    """The inputs of a rival in the order of `INPUTS`: its own, material and motion, and those of the rib lines."""
     wanted = {*own, "embedding", "motion", *(RIB_INPUTS if ribs else ())}
     return tuple(name for name in INPUTS if name in wanted)

@@ -1,8 +1,8 @@
-"""Our form of the SPSI baseline (Heravi et al., Transactions on Haptics 2024).
+"""The SPSI rival (after Heravi et al., Transactions on Haptics 2024).
 
-A perceptron predicts the magnitudes of a Hann-windowed DFT of 200 samples from material and motion;
-single-pass spectrogram inversion (Beauregard et al. 2015) finds phases for frames 20 samples apart. No
-previous waveform: a segment does not continue the one before it.
+A perceptron predicts the magnitudes of a Hann-windowed DFT of 200 samples from material and motion; single-pass
+spectrogram inversion (Beauregard et al. 2015) finds phases for frames 20 samples apart. It reads no previous waveform:
+a segment does not continue the one before it.
 """
 
 from __future__ import annotations
@@ -18,11 +18,11 @@ from haptoflow_training.waveform import SEGMENT_SAMPLES
 
 BINS = SEGMENT_SAMPLES // 2 + 1
 HOP_SAMPLES = 20
-# Every frame that has a part in the segment, from one that only ends in it to one that only begins in it.
+# All frames that overlap the segment.
 FRAMES = 2 * SEGMENT_SAMPLES // HOP_SAMPLES - 1
 POWER_FLOOR = 1e-4
 LOG_MAGNITUDE_LIMIT = 8.0
-# Doubling the way 7 times climbs 128 bins: more than there are.
+# Seven doublings cover 128 bins, more than there are.
 CLIMBS = 7
 
 
@@ -54,7 +54,7 @@ class SinglePassInversion(nn.Module):
         angles = 2.0 * math.pi * bins.unsqueeze(1) * torch.arange(SEGMENT_SAMPLES) / SEGMENT_SAMPLES
         weights = sides.repeat(2).unsqueeze(1) / SEGMENT_SAMPLES
         inverse = weights * torch.cat([torch.cos(angles), -torch.sin(angles)])
-        # A sample meets the analysis and the synthesis window: their summed square is divided out.
+        # Divide by the summed square of the analysis and synthesis windows.
         overlap = window.square().sum() / HOP_SAMPLES
         constants = {
             "bins": bins.unsqueeze(0),
@@ -84,9 +84,9 @@ class SinglePassInversion(nn.Module):
         below = torch.cat([magnitudes[:, :1], magnitudes[:, :-1]], dim=1)
         above = torch.cat([magnitudes[:, 1:], magnitudes[:, -1:]], dim=1)
         curvature = below - 2.0 * magnitudes + above
-        # A flat top has no curvature and lies where it is; the first and last bin have one neighbour only.
-        # The division there is by 1 and not by a curvature that may be zero: masked afterwards, its infinite gradient
-        # would still become NaN.
+        # A flat top has no curvature and is taken as it is; the first and the last bin have one neighbour only. The
+        # divisor is 1 there rather than a curvature that may be zero: an infinite gradient would become NaN even if
+        # masked afterwards.
         is_peaked = curvature < -1e-6 * magnitudes
         offset = 0.5 * (below - above) / torch.where(is_peaked, curvature, torch.ones_like(curvature))
         return (offset * is_peaked.to(magnitudes.dtype) * self.interior).clamp(-0.5, 0.5)
@@ -109,8 +109,8 @@ class SinglePassInversion(nn.Module):
         wave = nn.functional.conv_transpose1d(
             spectra, self.synthesis, stride=HOP_SAMPLES, padding=SEGMENT_SAMPLES - HOP_SAMPLES
         )
-        # Frames that disagree in phase lose power where they overlap (1.8 dB for a flat spectrum): what the
-        # magnitudes state is restored.
+        # Frames with different phases lose power where they overlap (1.8 dB for a flat spectrum); restore the power
+        # that the magnitudes state.
         stated = torch.matmul(magnitudes.square(), self.power_weights).unsqueeze(-1)
         found = wave.square().mean(dim=2, keepdim=True)
         return wave * torch.sqrt(stated / (found + 1e-12))
