@@ -117,12 +117,12 @@ class SinglePassInversion(nn.Module):
 
 
 class SpsiRival(Rival):
-    """Material and motion to magnitudes; the noise chooses the phases of the first frame.
+    """Predicts magnitudes from material and motion; the noise chooses the phases of the first frame.
 
-    As published, the squared error of log magnitudes settles on their geometric mean: for a Gaussian texture that is
-    2.5 dB below the level of the recording. This belongs to the method and is not corrected. `sampled`: trained by the
-    likelihood of the power spectrum instead (Whittle 1953: each bin's power is exponential about its mean), which
-    settles on the mean power and has no such bias.
+    As published, the squared error of log magnitudes leads to their geometric mean: for a Gaussian texture that is 2.5
+    dB below the level of the recording. This belongs to the method and is not corrected. `sampled`: trained by the
+    likelihood of the power spectrum instead (Whittle 1953: each bin's power is exponentially distributed about its
+    mean), which leads to the mean power and has no such bias.
     """
 
     def __init__(self, *, ribs: bool = False, sampled: bool = False) -> None:
@@ -131,18 +131,19 @@ class SpsiRival(Rival):
         self.inputs = reads("noisy", ribs=ribs)
         self.perceptron = ConditionPerceptron(BINS)
         if sampled:
-            # White noise of unit scale: a likelihood that begins far below the recordings' power overshoots.
+            # The level of white noise in unit scale: a likelihood that starts far below the recordings' power
+            # overshoots.
             nn.init.constant_(self.perceptron.layers[-1].bias, 0.5 * math.log(float(hann_window().square().sum())))
         self.inversion = SinglePassInversion()
 
     def log_magnitudes(self, embedding: Tensor, motion: Tensor) -> Tensor:
-        """[B, 101]: natural logarithm of what `magnitude_spectrum` is expected to return: of the magnitude, or, sampled,
-        of the root of the mean power."""
+        """[B, 101]: natural logarithm of the expected `magnitude_spectrum`: of the magnitude, or, if sampled, of the
+        root of the mean power."""
         return self.perceptron(embedding, motion)
 
     def own_form(self, noisy: Tensor, previous: Tensor, embedding: Tensor, motion: Tensor) -> Tensor:
         limited = self.log_magnitudes(embedding, motion).clamp(-LOG_MAGNITUDE_LIMIT, LOG_MAGNITUDE_LIMIT)
-        # The normal distribution function makes uniform phases of normal noise.
+        # The normal distribution function turns normal noise into uniform phases.
         turns = 0.5 * torch.erf(noisy[:, 0, :BINS] * math.sqrt(0.5))
         return self.inversion(limited.exp(), turns)
 

@@ -1,8 +1,8 @@
-"""Our form of the Transformer baseline (Cai and Zhu, adjunct proceedings of ISMAR 2022).
+"""The Transformer rival (after Cai and Zhu, adjunct proceedings of ISMAR 2022).
 
-Two pages without layer sizes were published. Here: the previous waveform as 20 tokens of 10 samples and one
-token for material and motion; two encoder and two decoder layers of width 128 with four heads; 20 learned
-queries that become the segment in one pass. Layers normalise before they act, which trains without a warm-up.
+Two pages without layer sizes were published. Here: the previous waveform as 20 tokens of 10 samples and one token for
+material and motion; two encoder and two decoder layers of width 128 with four heads; 20 learnt queries that become the
+segment in one pass. Layers normalise their input, which trains without a warm-up.
 """
 
 from __future__ import annotations
@@ -19,8 +19,7 @@ from haptoflow_training.waveform import SEGMENT_SAMPLES
 WIDTH = 128
 HEADS = 4
 HEAD_WIDTH = WIDTH // HEADS
-# Twice the width, not the usual four times: the whole is then about as large as the velocity field it stands
-# beside.
+# Twice the width instead of the usual four times, so that the whole is about as large as the velocity field.
 HIDDEN = 2 * WIDTH
 LAYERS = 2
 TOKEN_SAMPLES = 10
@@ -31,7 +30,7 @@ MEMORY_TOKENS = TOKENS + 1
 class Attention(nn.Module):
     """Scaled dot-product attention; queries [B, query_tokens, 128] over memory [B, memory_tokens, 128].
 
-    The numbers of tokens are fixed, so that only the batch stays free in the exported graph.
+    The numbers of tokens are fixed, so that only the batch size varies in the exported graph.
     """
 
     def __init__(self, query_tokens: int, memory_tokens: int) -> None:
@@ -58,7 +57,7 @@ def _feed_forward() -> nn.Sequential:
 
 
 class EncoderLayer(nn.Module):
-    """Tokens [B, 21, 128] that look at each other."""
+    """Self-attention over tokens [B, 21, 128]."""
 
     def __init__(self) -> None:
         super().__init__()
@@ -73,7 +72,7 @@ class EncoderLayer(nn.Module):
 
 
 class DecoderLayer(nn.Module):
-    """Tokens [B, 20, 128] that look at each other, then at memory [B, 21, 128]."""
+    """Self-attention over tokens [B, 20, 128], then attention over memory [B, 21, 128]."""
 
     def __init__(self) -> None:
         super().__init__()
@@ -91,16 +90,16 @@ class DecoderLayer(nn.Module):
 
 
 class TransformerRival(RegressingRival):
-    """Previous waveform, material and motion to the segment, all 20 tokens at once. Sampled, each query hears the noise
-    of its own 10 samples too."""
+    """Previous waveform, material and motion to the segment, all 20 tokens at once. If sampled, each query also
+    reads the noise of its own 10 samples."""
 
     def __init__(self, *, ribs: bool = False, sampled: bool = False) -> None:
         super().__init__(ribs=ribs, sampled=sampled)
         self.condition = ConditionEncoder(WIDTH)
         self.enter = nn.Linear(TOKEN_SAMPLES, WIDTH)
         self.enter_noise = nn.Linear(TOKEN_SAMPLES, WIDTH, bias=False) if sampled else None
-        # As large as the tokens they are added to: with a tenth of it, attention cannot tell positions apart
-        # and training stays at silence, the mean of all phases.
+        # As large as the tokens they are added to: at a tenth of it, attention cannot distinguish positions and
+        # training stays at silence, the mean over all phases.
         self.positions = nn.Parameter(torch.randn(1, MEMORY_TOKENS, WIDTH))
         self.queries = nn.Parameter(torch.randn(1, TOKENS, WIDTH))
         self.encoder = nn.ModuleList(EncoderLayer() for _ in range(LAYERS))
@@ -115,7 +114,7 @@ class TransformerRival(RegressingRival):
         for layer in self.encoder:
             memory = layer(memory)
         memory = self.memory_norm(memory)
-        # Broadcasting makes the queries as many as the batch has rows.
+        # Broadcasting repeats the queries for each row of the batch.
         tokens = self.queries + condition
         if self.enter_noise is not None:
             tokens = tokens + self.enter_noise(noisy.reshape(-1, TOKENS, TOKEN_SAMPLES))

@@ -1,4 +1,4 @@
-"""One row of the evaluation: a generator through both protocols, condition by condition."""
+"""Measures one row of the evaluation: a generator in both protocols, condition by condition."""
 
 from __future__ import annotations
 
@@ -20,15 +20,15 @@ from haptoflow_training.closed_loop.render import SegmentSource, hop_positions, 
 from haptoflow_training.waveform import SAMPLE_RATE_HZ
 
 _Floats = NDArray[np.float32]
-# Largest number of recordings in a batch. All are padded to the longest, so that large batches generate many segments
-# which nobody uses; they are no faster per segment.
+# The largest number of recordings in a batch. All are padded to the longest, so large batches generate many unused
+# segments, and they are no faster per segment.
 _MAXIMUM_ROWS = 32
 
 
 @dataclass(frozen=True)
 class GeneratedSet:
-    """closed: one closed-loop wave for each pair; opened: segments from true previous waveforms, joined, or empty, as for
-    a change of label."""
+    """closed: one closed-loop waveform for each pair; opened: segments from true previous waveforms, concatenated,
+    or empty, as for a change of label."""
 
     closed: list[_Floats]
     opened: list[_Floats]
@@ -75,15 +75,15 @@ def generate_set(
 
 
 def _other_embedding(embeddings: _Floats, pair: ReferencePair) -> _Floats:
-    """Of the label that a change goes to; the label's own elsewhere."""
+    """The embedding of the other label of a change; elsewhere that of the label itself."""
     other = pair.condition.other_index
     chosen: _Floats = embeddings[other if other >= 0 else pair.condition.label_index]
     return chosen
 
 
 def open_loop_wave(source: SegmentSource, embedding: _Floats, pair: ReferencePair, *, seed: int) -> _Floats:
-    """Segments end to end, each from the true waveform before it (the paper's protocol); the first 200 samples, which
-    have none, are left out."""
+    """Segments end to end, each generated from the true waveform before it (the paper's protocol); the first 200
+    samples, which have none, are left out."""
     count = len(pair.recorded) // 200 - 1
     previous = pair.recorded[: count * 200].reshape(count, 200)
     motion = pair.motion[: count * 200].reshape(count, 200, 3)[:, -28:].mean(axis=1)
@@ -94,7 +94,7 @@ def open_loop_wave(source: SegmentSource, embedding: _Floats, pair: ReferencePai
 
 
 def measure(pairs: Sequence[ReferencePair], made: GeneratedSet) -> list[dict[str, Any]]:
-    """Every figure of every pair, a cell each."""
+    """Every figure of every pair, one cell for each."""
     told = told_apart_percent(pairs, made.closed)
     cells = []
     for pair, closed, opened, starts, percent in zip(
@@ -107,7 +107,7 @@ def measure(pairs: Sequence[ReferencePair], made: GeneratedSet) -> list[dict[str
 
 @dataclass(frozen=True)
 class Yardstick:
-    """What every row is held against. classifier: trained on the independent recordings."""
+    """The references that all rows are compared with. classifier: trained on the independent recordings."""
 
     pairs: list[ReferencePair]
     classifier: LabelClassifier
@@ -125,7 +125,7 @@ def make_yardstick(pairs: list[ReferencePair]) -> Yardstick:
 
 
 def every_fourth(pairs: Sequence[ReferencePair]) -> list[ReferencePair]:
-    """A quarter of the pairs: of each label another quarter, so that over the labels every condition counts alike."""
+    """A quarter of the pairs, another quarter for each label, so that over the labels every condition counts alike."""
     places: dict[int, int] = {}
     chosen = []
     for pair in pairs:
@@ -138,7 +138,7 @@ def every_fourth(pairs: Sequence[ReferencePair]) -> list[ReferencePair]:
 
 
 def label_discrimination(classifier: LabelClassifier, pairs: Sequence[ReferencePair], waves: Sequence[_Floats]) -> float:
-    """Share of waves, one for each pair of one label, that the classifier gives their own label."""
+    """Share of waveforms, one for each pair of one label, that the classifier assigns to their own label."""
     right, asked = 0, 0
     for pair, wave in zip(pairs, waves, strict=True):
         if pair.condition.kind == "change":

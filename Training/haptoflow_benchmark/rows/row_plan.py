@@ -1,4 +1,4 @@
-"""Which rows the evaluation has: one TOML file names them, their models and how those are trained."""
+"""The plan of the evaluation: one TOML file names the rows, their models and how those are trained."""
 
 from __future__ import annotations
 
@@ -22,16 +22,16 @@ DEFAULT_AGAINST = "standard"
 
 @dataclass(frozen=True)
 class PlannedRow:
-    """block: `ours`, `as-published` (a rival in its own form), `given-the-same` (a rival with our inputs and budget),
-    `ablation` or `reference`. rival: whose row it is, in words; rows of one network at several numbers of steps are one
-    rival and bear the same name (default: the row's own). family: colours the chart.
-    against: the row that this one is judged against; one that was trained as long.
-    model: a .haptoflow file from the repository's root, or the name of a training in the plan's own folder (its
-    TOML file without the ending); empty for a reference row. seeds: of the training; those after the first are measured
-    on every fourth recording, to tell how much of a row is chance. seeds_model: the training that further seeds are of,
-    where `model` is a file. quick: measured by --quick too. extended: the long measurements too (ten minutes of drift,
-    speeds by update rates, level across speed). every_fourth: measured on every fourth recording, as further seeds are,
-    and judged against a row that is too. time_only: random weights of a true size, no accuracy is measured."""
+    """block: `ours`, `as-published` (a rival in its published form), `given-the-same` (a rival with our inputs and
+    budget), `ablation` or `reference`. rival: the rival's name; rows of one network at several numbers of steps are
+    one rival and have the same name (default: the row's own). family: the colour group of the chart. against: the
+    row that this one is judged against, which was trained for the same time. model: a .haptoflow file, relative to
+    the repository's root, or the name of a training in the plan's folder (its TOML file without the ending); empty
+    for a reference row. seeds: of the training; those after the first are measured on every fourth recording, to
+    estimate the spread between trainings. seeds_model: the training of the further seeds, if `model` is a file.
+    quick: measured by --quick too. extended: the long measurements too (ten minutes of drift, speeds by update
+    rates, level across speed). every_fourth: measured on every fourth recording, as further seeds are, and judged
+    against such a row. time_only: random weights of the real size; no accuracy is measured."""
 
     name: str
     block: str
@@ -59,7 +59,7 @@ class PlannedRow:
         return self.rival or self.name
 
     def model_of(self, seed: int) -> str:
-        """The file or the training that a seed of the row is measured with."""
+        """The file or the training with which a seed of the row is measured."""
         return self.seeds_model if self.seeds_model and seed != self.seeds[0] else self.model
 
 
@@ -96,8 +96,8 @@ def _check_against(row: PlannedRow, rows: Sequence[PlannedRow], where: str) -> N
         return
     is_judged = row.block in (*RIVAL_BLOCKS, ABLATION) and not row.time_only
     if is_judged and row.every_fourth != reference.every_fourth:
-        # What is told apart depends on how many recordings the classifier learns from, so that a difference between such
-        # rows would not be theirs alone.
+        # The classifier depends on the number of recordings it is fitted to, so such rows would differ for that reason
+        # alone.
         raise InputError(
             f"{where}: key 'against' names '{row.against}', which is measured on other recordings; "
             "give both every_fourth or neither"

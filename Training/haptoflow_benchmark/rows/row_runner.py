@@ -1,4 +1,5 @@
-"""Measures the planned rows, several at a time; what is measured is kept, so that a stopped evaluation goes on."""
+"""Measures the planned rows, several at a time; finished rows are stored, so that an interrupted evaluation can be
+resumed."""
 
 from __future__ import annotations
 
@@ -31,7 +32,7 @@ from haptoflow_training.waveform import SAMPLE_RATE_HZ
 UPDATE_RATES_HZ = (30.0, 72.0, 120.0)
 FAST_SPEEDS_MPS = (0.5, 1.0, 1.5)
 _SEED = 31
-# Raised where a metric changes its meaning: what was measured by an earlier one is measured again.
+# Increased when a metric changes its meaning; rows of an earlier edition are measured again.
 _METRICS_EDITION = 2
 _SHORT_DRIFT_SECONDS, _LONG_DRIFT_SECONDS = 60.0, 600.0
 _FAST_FIGURES = ("level_error_db", "gfc_recording", "lsd_db", "f0_error_percent", "continuity")
@@ -72,7 +73,7 @@ def _measure_in_worker(row: PlannedRow, seed: int) -> dict[str, Any]:
 
 
 def measure_row(place: Workplace, yardstick: Yardstick, row: PlannedRow, seed: int) -> dict[str, Any]:
-    """Figures of one row and seed, from its file where it was measured before on the same model and recordings."""
+    """Figures of one row and seed, read from its file if it was measured before with the same model and recordings."""
     origin = made_from(place, yardstick, row, seed)
     if stored := stored_row(place, row, seed, origin):
         return stored
@@ -88,7 +89,7 @@ def measure_row(place: Workplace, yardstick: Yardstick, row: PlannedRow, seed: i
 
 
 def made_from(place: Workplace, yardstick: Yardstick, row: PlannedRow, seed: int) -> dict[str, Any]:
-    """What a row's figures depend on; graphs_crc32 is None where its model is not there to look at."""
+    """Everything that a row's figures depend on; graphs_crc32 is None if its model does not exist."""
     return {
         "configuration_crc32": place.configuration_crc32(row, seed),
         "graphs_crc32": _graphs_crc32(place, row, seed),
@@ -108,7 +109,7 @@ def _graphs_crc32(place: Workplace, row: PlannedRow, seed: int) -> str | None:
     model = place.model_file(row, seed)
     if not model.exists():
         return None
-    # Of what computes alone: the header carries figures that this evaluation writes.
+    # Without the header, which contains figures that this evaluation writes.
     return f"{zlib.crc32(b''.join(read_model_file(model).graphs.values())):08x}"
 
 
@@ -177,7 +178,7 @@ def _engine_figures(place: Workplace, yardstick: Yardstick, row: PlannedRow, see
 
 
 def _sizes(generator: EngineGenerator, row: PlannedRow) -> dict[str, int]:
-    """Parameters of the network, and bytes of all graphs that a segment goes through."""
+    """Parameters of the network, and bytes of all graphs that generate a segment."""
     header = generator.header
     tier = next(entry for entry in header["tiers"] if entry["name"] == (row.tier or header["default_tier"]))
     names = [tier[key] for key in ("field", "level", "encoder", "decoder") if key in tier]
@@ -186,7 +187,7 @@ def _sizes(generator: EngineGenerator, row: PlannedRow) -> dict[str, int]:
 
 
 def _fast_speeds(generator: EngineGenerator, pairs: list[ReferencePair]) -> list[dict[str, Any]]:
-    """Every fast speed at every update rate."""
+    """The figures of every fast speed at every update rate."""
     table = []
     fast = [pair for pair in pairs if _is_fast(pair)]
     for rate in UPDATE_RATES_HZ:
@@ -206,7 +207,7 @@ def _is_fast(pair: ReferencePair) -> bool:
 
 
 def _level_kinks(generator: EngineGenerator) -> dict[str, float]:
-    """How smooth the level is across speed, in dB for a step of log speed: median and worst label."""
+    """The largest kinks of the level across speed, in dB for a step of log speed: median and worst label."""
     speeds = np.geomspace(0.02, 1.5, _SWEEP_SPEEDS)
     samples = int(SAMPLE_RATE_HZ * _SWEEP_SECONDS)
     kinks = []

@@ -1,7 +1,7 @@
-"""Measured rows as files: what is measured once need not be again, on another machine neither.
+"""Stores measured rows as files, so that a row is measured only once.
 
-A row's file holds, by recording, every figure that was measured there; what is summed up of them is not kept, so that
-it can be summed up in another way without measuring again.
+A row's file holds all figures of each recording. Summaries are not stored, so that they can be defined anew without
+measuring again.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ _DIGITS = 4
 
 
 def write_row(path: Path, result: dict[str, Any]) -> None:
-    """Write a row, its recordings as a table: columns, then a line for each."""
+    """Write a row, with its recordings as a table: columns, then a line for each."""
     recordings = [[_rounded(entry.get(column)) for column in _COLUMNS] for entry in result.get("conditions", [])]
     head = {key: value for key, value in result.items() if key != "conditions"}
     text = json.dumps({**head, "columns": _COLUMNS, "conditions": []}, indent=2, ensure_ascii=False)
@@ -35,7 +35,7 @@ def write_row(path: Path, result: dict[str, Any]) -> None:
 
 
 def read_row(path: Path) -> dict[str, Any]:
-    """A row as it was measured, to four digits."""
+    """Read a row, which is stored to four digits."""
     stored: dict[str, Any] = json.loads(path.read_text(encoding="utf-8"))
     columns = stored.pop("columns")
     cells = [dict(zip(columns, line, strict=True)) for line in stored["conditions"]]
@@ -44,8 +44,8 @@ def read_row(path: Path) -> dict[str, Any]:
 
 
 def stored_row(place: Workplace, row: PlannedRow, seed: int, made_from: dict[str, Any]) -> dict[str, Any] | None:
-    """The row's file, where it was measured from just this; a value None in `made_from` (a model that is not there)
-    agrees with any."""
+    """The row's file if it was measured from exactly this; a value None in `made_from` (a missing model) matches
+    any."""
     path = place.row_file(row, seed)
     if not path.exists():
         return None

@@ -1,4 +1,4 @@
-"""A row's cells summed up: medians with bootstrap intervals, what nine in ten cells keep, and the worst of them."""
+"""Summaries of a row's cells: medians with bootstrap intervals, percentiles, and the worst cells."""
 
 from __future__ import annotations
 
@@ -16,9 +16,9 @@ _Cell = Mapping[str, Any]
 
 _DRAWS = 500
 _INTERVAL = (0.025, 0.975)
-# Figures with a headline of their own: the median over labels of each label's mean, signed where it has a sign.
+# Figures with a headline of their own: the median over labels of each label's mean, with its sign.
 _HEADLINES = ("level_error_db", "gfc_recording", "gfc_segment", "rmse", "lsd_db", "continuity")
-# Figures whose spread stands under their own name; those of the others, which have headlines, stand under `cells`.
+# Figures whose spread is stored under their own name; those of figures with headlines are stored under `cells`.
 SPREAD_KEYS = (
     "crest_error_db",
     "kurtosis_log_ratio",
@@ -36,8 +36,8 @@ _WORST_CELLS = 3
 
 
 def summary(cells: Sequence[_Cell]) -> dict[str, Any]:
-    """Everything that a row of accuracy-time.json says of accuracy; empty without cells. Intervals are 95 % bootstrap
-    intervals over recordings, within labels."""
+    """The accuracy part of a row of accuracy-time.json; empty without cells. Intervals are 95 % bootstrap intervals
+    over recordings, within labels."""
     if not cells:
         return {}
     result: dict[str, Any] = {}
@@ -62,7 +62,7 @@ def summary(cells: Sequence[_Cell]) -> dict[str, Any]:
 
 
 def label_table(cells: Sequence[_Cell]) -> dict[str, dict[str, float]]:
-    """For each label, what nine in ten of its cells are at least as good as, figure by figure."""
+    """For each label and figure, the error that nine in ten of its cells do not exceed."""
     table: dict[str, dict[str, float]] = {}
     for label in dict.fromkeys(cell["label"] for cell in cells):
         own = [cell for cell in cells if cell["label"] == label]
@@ -72,7 +72,7 @@ def label_table(cells: Sequence[_Cell]) -> dict[str, dict[str, float]]:
 
 
 def worst_cells(cells: Sequence[_Cell]) -> list[dict[str, Any]]:
-    """The three cells that are furthest beyond a limit, each with the figure in which it is, and by how many times."""
+    """The three cells that are furthest beyond a limit, each with the figure and the multiple of its limit."""
     found = []
     for cell in cells:
         over = [
@@ -88,7 +88,7 @@ def worst_cells(cells: Sequence[_Cell]) -> list[dict[str, Any]]:
 
 
 def special_figures(cells: Sequence[_Cell]) -> dict[str, Any]:
-    """Figures of a part of the grid that goals ask for; None where no cell is of that part."""
+    """Figures of parts of the grid that goals need; None if there is no such cell."""
     steady = [cell for cell in cells if cell["kind"] in STEADY_KINDS]
     impacts = [cell for cell in steady if (cell.get("recorded_kurtosis") or 0.0) > _IMPACT_KURTOSIS]
     ribs = [cell for cell in steady if _RIB_SPEEDS_MPS[0] <= cell["speed_mps"] <= _RIB_SPEEDS_MPS[1]]
@@ -127,7 +127,8 @@ def _plain_spread(cells: Sequence[_Cell], key: str) -> dict[str, float] | None:
 
 
 def _nap_error_db(cells: Sequence[_Cell]) -> float | None:
-    """The largest error, over labels with a nap and speeds, of the difference between against and along."""
+    """The largest error, over labels with a nap and speeds, of the difference between motion against and along the
+    nap."""
     levels: dict[tuple[str, float], list[float]] = {}
     for cell in cells:
         if cell["kind"] == "nap" and cell.get("level_error_db") is not None:
@@ -137,12 +138,12 @@ def _nap_error_db(cells: Sequence[_Cell]) -> float | None:
 
 
 def level_error_p90_db(cells: Sequence[_Cell]) -> float:
-    """What the size of the level error of nine in ten recordings stays below."""
+    """The level error's magnitude that nine in ten recordings do not exceed."""
     return float(np.quantile(np.abs(_values(cells, "level_error_db")), 0.9))
 
 
 def over_labels(cells: Sequence[_Cell], key: str) -> float | None:
-    """Median over labels of each label's mean; None where no cell has the figure."""
+    """Median over labels of each label's mean; None if no cell has the figure."""
     grouped = by_label(cells, key)
     return float(np.median([np.mean(values) for values in grouped.values()])) if grouped else None
 

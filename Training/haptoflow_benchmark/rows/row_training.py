@@ -15,14 +15,14 @@ from haptoflow_benchmark.rows.workplace import Workplace, is_of_repository
 from haptoflow_training.training.config import load_config
 from haptoflow_training.training.job_lanes import Job, run_jobs
 
-# Rows train rivals and codecs, which haptoflow_training alone does not have.
+# Rows need rivals and codecs, which haptoflow_training alone does not have.
 _PROGRAM = (sys.executable, "-m", "haptoflow_benchmark")
 
 
 def train_models(place: Workplace, rows: Sequence[tuple[PlannedRow, int]], lanes: int) -> None:
-    """Train what rows and seeds need and is not there yet, `lanes` models at a time; goes on after an interruption.
+    """Train the models of rows and seeds that do not exist yet, `lanes` at a time; an interrupted training is resumed.
 
-    InputError names the log of a training that failed, as one does whose folder belongs to another configuration.
+    InputError names the log of a training that failed, for example because its folder belongs to another configuration.
     """
     trained = [(row, seed) for row, seed in rows if not (row.is_reference or is_of_repository(row, seed))]
     wanted = {place.model_file(row, seed): (row.model_of(seed), seed) for row, seed in trained}
@@ -43,7 +43,7 @@ def train_models(place: Workplace, rows: Sequence[tuple[PlannedRow, int]], lanes
 
 
 def _is_as_configured(place: Workplace, model: str, seed: int) -> bool:
-    """Whether a model that is there was trained as its configuration says today; True where nothing tells."""
+    """Whether an existing model was trained with its present configuration; True if it has no summary."""
     summary = place.run_folder(model, seed) / "run.json"
     if not summary.exists():
         return True
@@ -59,7 +59,7 @@ def _training(place: Workplace, model: str, seed: int, out: Path) -> Job:
 
 
 def _codec_training(place: Workplace, model: str) -> list[Job]:
-    """Of the small codec that the model's latents come from, where it is not trained yet."""
+    """The training of the small codec whose latents the model uses, unless it is trained already."""
     representation = load_config(place.config_file(model)).model.representation
     if representation["kind"] != "small-codec":
         return []

@@ -1,4 +1,4 @@
-"""Where the evaluation finds configurations and keeps models, trainings and figures."""
+"""The files and folders of the evaluation: configurations, models, trainings and figures."""
 
 from __future__ import annotations
 
@@ -18,8 +18,8 @@ _CODEC_CONFIGURATION = "paper-codec"
 
 @dataclass(frozen=True)
 class Workplace:
-    """root: the repository. work: where trainings and models are kept (not committed). results: where measured rows are.
-    quick: every fourth recording and no long measurements, and results apart from the whole ones."""
+    """root: the repository. work: for trainings and models (not committed). results: for measured rows. quick: every
+    fourth recording and no long measurements, with results kept apart from the complete ones."""
 
     root: Path
     plan: Path
@@ -30,18 +30,18 @@ class Workplace:
 
     @property
     def codec_checkpoint(self) -> Path:
-        """The small codec's, which rows in its latents bring with their training."""
+        """The small codec's checkpoint, trained for the rows in its latents."""
         representation = load_config(self.config_file(_CODEC_CONFIGURATION)).model.representation
         return self.root / str(representation["checkpoint"])
 
     def model_file(self, row: PlannedRow, seed: int) -> Path:
-        """The row's model: of the repository, or as its training exports it."""
+        """The row's model: a file of the repository, or the file that its training exports."""
         if is_of_repository(row, seed):
             return self.root / row.model
         return self.work / "models" / f"{row.model_of(seed)}-{seed}.haptoflow"
 
     def seeds_of(self, row: PlannedRow) -> list[int]:
-        """The row's seeds but for those of a training that the plan's folder does not describe."""
+        """The row's seeds, without those of a training whose configuration is missing."""
         return [
             seed for seed in row.seeds
             if row.is_reference or is_of_repository(row, seed) or self.config_file(row.model_of(seed)).exists()
@@ -52,7 +52,7 @@ class Workplace:
         return self.plan.parent / f"{model}.toml"
 
     def configuration(self, model: str, seed: int) -> dict[str, Any]:
-        """How a model and seed are trained today, as JSON would give it back."""
+        """The present configuration of a model and seed, as JSON."""
         config = dataclasses.replace(load_config(self.config_file(model)), seed=seed)
         described: dict[str, Any] = json.loads(json.dumps(config.to_dict()))
         return described
@@ -62,11 +62,11 @@ class Workplace:
         return self.work / "runs" / f"{model}-{seed}"
 
     def row_file(self, row: PlannedRow, seed: int) -> Path:
-        """Figures of a row and seed."""
+        """The file with the figures of a row and seed."""
         return (self.work / "rows-quick" if self.quick else self.results / "rows") / f"{row.name}-{seed}.json"
 
     def configuration_crc32(self, row: PlannedRow, seed: int) -> str:
-        """Of how a row's model is trained; empty where nothing is trained for it."""
+        """CRC-32 of the training configuration; empty if nothing is trained for the row."""
         if row.is_reference or is_of_repository(row, seed):
             return ""
         described = json.dumps(self.configuration(row.model_of(seed), seed), sort_keys=True)
@@ -74,5 +74,5 @@ class Workplace:
 
 
 def is_of_repository(row: PlannedRow, seed: int) -> bool:
-    """Whether the model of a row's seed is a file of the repository, and not one that the evaluation trains."""
+    """Whether the model of a row's seed is a file of the repository rather than one that the evaluation trains."""
     return row.model_of(seed).endswith(".haptoflow")
