@@ -55,7 +55,7 @@ def _figures(pairs: list[ReferencePair], name: str, gain: float = 1.0) -> dict[s
     }  # fmt: skip
 
 
-def test_the_reference_rows_stand_where_theory_puts_them(pairs: list[ReferencePair]) -> None:
+def test_the_reference_rows_have_the_figures_that_theory_predicts(pairs: list[ReferencePair]) -> None:
     found = {name: _figures(pairs, name) for name in REFERENCE_ROWS}
     draw, mean, white, silence = (summary(found[name]["conditions"]) for name in REFERENCE_ROWS)
     assert abs(draw["level_error_db"]) < 0.3 and draw["gfc_recording"] > 0.99 and draw["lsd_db"] < 1.0  # type: ignore[index]
@@ -83,14 +83,14 @@ FIGURES = (
 )  # fmt: skip
 
 
-def test_the_table_keeps_the_plan_s_order_and_leaves_out_what_was_not_measured(pairs: list[ReferencePair]) -> None:
+def test_the_table_keeps_the_plan_s_order_and_leaves_out_unmeasured_rows(pairs: list[ReferencePair]) -> None:
     result = table(PLAN, _measured(pairs))
     assert [row["name"] for row in result["rows"]] == ["standard", "rival", "size", "independent-draw"]
     assert [row["seeds"] for row in result["rows"]] == [2, 1, 1, 1] and "by_seed" not in result["rows"][1]
     assert result["not_measured"] == ["missing"] and timed_rows(result) == {"standard", "rival", "size"}
 
 
-def test_a_rival_is_judged_against_the_row_that_it_names_and_not_at_all_where_that_was_not_measured(
+def test_a_rival_is_judged_against_its_named_row_and_not_judged_if_that_row_is_unmeasured(
     pairs: list[ReferencePair],
 ) -> None:
     measured = _measured(pairs)
@@ -106,7 +106,7 @@ def test_a_rival_is_judged_against_the_row_that_it_names_and_not_at_all_where_th
     assert "verdict" not in {row["name"]: row for row in table(plan, measured)["rows"]}["rival"]
 
 
-def test_every_row_has_median_ninetieth_percentile_and_worst_of_what_time_says_and_a_verdict(
+def test_every_row_has_spreads_of_the_temporal_figures_and_a_verdict(
     pairs: list[ReferencePair],
 ) -> None:
     rows = {row["name"]: row for row in table(PLAN, _measured(pairs))["rows"]}
@@ -124,7 +124,7 @@ def test_every_row_has_median_ninetieth_percentile_and_worst_of_what_time_says_a
     json.dumps(rows)
 
 
-def test_a_page_is_written_of_what_is_there_and_says_at_its_top_who_is_ahead(
+def test_the_page_covers_the_measured_rows_and_starts_with_who_is_ahead(
     pairs: list[ReferencePair], tmp_path: Path
 ) -> None:
     times = {"p50": 0.2, "p99": 0.3}
@@ -150,7 +150,7 @@ def test_a_page_is_written_of_what_is_there_and_says_at_its_top_who_is_ahead(
     assert all((images / name).stat().st_size > 5000 for name in ("accuracy-time.png", "label-spectra.png"))
 
 
-def test_a_page_is_written_before_anything_is_timed_or_measured(tmp_path: Path) -> None:
+def test_the_page_can_be_written_before_anything_is_timed_or_measured(tmp_path: Path) -> None:
     result = with_times({"model_sha256": "0" * 64, **table(PLAN, {})}, None)
     (tmp_path / "images").mkdir()
     draw_chart(result, tmp_path / "images" / "accuracy-time.png")
@@ -191,7 +191,7 @@ def test_every_fourth_recording_is_a_quarter_of_each_label_and_another_quarter_o
 
 
 @pytest.mark.parametrize("tier", ["draft", "standard"])
-def test_the_kept_row_of_each_shipped_tier_was_measured_with_the_graphs_that_are_shipped(tier: str) -> None:
+def test_the_stored_row_of_each_shipped_tier_was_measured_with_the_shipped_graphs(tier: str) -> None:
     graphs = read_model_file(ROOT / SHIPPED_MODEL).graphs
     row = json.loads((ROOT / "Training" / "results" / "rows" / f"{tier}-1.json").read_text(encoding="utf-8"))
     assert row["made_from"]["graphs_crc32"] == f"{zlib.crc32(b''.join(graphs.values())):08x}"

@@ -108,7 +108,7 @@ def test_a_segment_becomes_25_positions_and_200_samples_again() -> None:
     assert codec.decode(latent).shape == (3, 1, 200)
 
 
-def test_training_reaches_ten_decibels_on_recordings_it_has_not_seen(
+def test_training_reaches_ten_decibels_on_held_out_recordings(
     store: Store, trained: tuple[SmallCodec, SmallCodecConfig]
 ) -> None:
     codec, config = trained
@@ -186,7 +186,7 @@ def test_segments_stay_inside_recordings_of_their_split() -> None:
     assert segments.std(dim=2).max() < 1e-6
 
 
-def test_segments_have_unit_scale_give_or_take_the_gain_spread(store: Store) -> None:
+def test_segments_have_unit_scale_within_the_gain_spread(store: Store) -> None:
     segments = SegmentSampler(store, "train", HeldOut()).draw(np.random.default_rng(2), 400)
     level_db = 10.0 * torch.log10(segments.square().mean(dim=(1, 2)))
     assert level_db.abs().max() <= 9.001
@@ -207,7 +207,7 @@ def test_a_file_of_another_kind_is_no_small_codec(tmp_path: Path) -> None:
         SmallCodec.load(tmp_path / "other.pt")
 
 
-def test_the_spectral_loss_sees_a_wrong_frequency_and_forgives_a_shift() -> None:
+def test_the_spectral_loss_detects_a_wrong_frequency_and_ignores_a_time_shift() -> None:
     time_seconds = torch.arange(200) / 2000.0
     tone, shifted, higher = (
         torch.sin(2.0 * torch.pi * frequency_hz * time_seconds + phase).reshape(1, 1, -1)

@@ -28,7 +28,7 @@ def _rib_graph() -> bytes:
     return graph.finish({"rib_phase": ["B", 2]}, {"segment": ["B", 1, tiny_graphs.SAMPLES]})
 
 
-def test_each_request_of_a_batch_brings_its_own_rib_phase_and_none_means_zero(tmp_path: Path) -> None:
+def test_each_row_of_a_batch_has_its_own_rib_phase_and_none_means_zero(tmp_path: Path) -> None:
     model = tmp_path / "ribs.haptoflow"
     write_model(model, make_tiny_model.header(), {**make_tiny_model.blobs(), "direct_field": _rib_graph()})
     random = np.random.default_rng(1)

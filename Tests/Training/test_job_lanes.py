@@ -49,7 +49,7 @@ def test_no_more_jobs_run_at_a_time_than_there_are_lanes_and_progress_counts_the
 
 
 @pytest.mark.parametrize("program", ["raise SystemExit(3)", "print('ended well, made nothing')"])
-def test_a_failing_job_is_named_with_its_log_and_the_others_are_asked_to_stop(tmp_path: Path, program: str) -> None:
+def test_a_failing_job_is_named_with_its_log_and_the_others_are_terminated(tmp_path: Path, program: str) -> None:
     waits = f"import pathlib, time\nwhile not pathlib.Path({str(tmp_path / 'long.began')!r}).exists(): time.sleep(0.05)\n"
     failing = Job("failing", (waits + program,), tmp_path / "logs" / "failing.log", tmp_path / "never", program=_PYTHON)
     with pytest.raises(InputError, match=r"failing: .*failing\.log says why"):
@@ -57,7 +57,7 @@ def test_a_failing_job_is_named_with_its_log_and_the_others_are_asked_to_stop(tm
     assert (tmp_path / "long.stopped").exists()
 
 
-def test_a_parent_that_is_terminated_takes_its_jobs_along(tmp_path: Path) -> None:
+def test_terminating_the_parent_terminates_its_jobs(tmp_path: Path) -> None:
     parent = (
         "import sys\nfrom pathlib import Path\nfrom haptoflow_training.training.job_lanes import Job, run_jobs\n"
         f"folder = Path({str(tmp_path)!r})\n"

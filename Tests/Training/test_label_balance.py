@@ -57,7 +57,7 @@ def test_a_network_with_a_gain_for_each_label_and_frequency_learns_the_recording
     assert smooth.abs().max().item() < 1.5
 
 
-def test_what_is_stated_is_half_the_squared_error_of_the_averages_and_its_slope_is_the_batch_s_share() -> None:
+def test_the_balance_loss_is_half_the_squared_log_error_and_its_gradient_is_the_batch_s_share() -> None:
     balance, generator = LabelBalance(1), torch.Generator().manual_seed(2)
     label, flat = torch.zeros(ROWS, dtype=torch.long), torch.ones(ROWS, 201)
     gain = torch.tensor(1.25, requires_grad=True)
@@ -72,7 +72,7 @@ def test_what_is_stated_is_half_the_squared_error_of_the_averages_and_its_slope_
     assert slope.item() == pytest.approx(math.log(1.25) / 1.25 * (1.0 + 0.5 * (1.0 + 9.0)), rel=0.15)
 
 
-def test_labels_and_speeds_are_averaged_apart_and_one_that_was_hardly_heard_says_nothing() -> None:
+def test_labels_and_speeds_are_averaged_separately_and_too_few_segments_give_no_loss() -> None:
     balance, generator = LabelBalance(2), torch.Generator().manual_seed(3)
     label, flat = torch.zeros(ROWS, dtype=torch.long), torch.ones(ROWS, 201)
 
@@ -88,7 +88,7 @@ def test_labels_and_speeds_are_averaged_apart_and_one_that_was_hardly_heard_says
     assert loss(label[:4], 0.9, 2.0) == 0.0
 
 
-def test_noise_between_the_lines_of_a_ruled_surface_is_heard_apart_from_the_lines() -> None:
+def test_noise_between_the_lines_of_a_ruled_surface_is_measured_separately() -> None:
     generator = torch.Generator().manual_seed(4)
     time = torch.arange(400) / 2000.0
     lines = sum(torch.sin(2.0 * math.pi * 100.0 * order * time) for order in range(1, 9)).expand(64, 400)
@@ -106,7 +106,7 @@ def test_noise_between_the_lines_of_a_ruled_surface_is_heard_apart_from_the_line
     assert _features(noise, (30.0, 0.0)).counted[:, _BANDS].max() == 0.0, "lines too close for the window"
 
 
-def test_blows_as_loud_as_even_noise_differ_from_it_in_their_moments_and_a_scale_learns_how_rare_they_are() -> None:
+def test_rare_impacts_differ_from_noise_of_equal_power_in_their_moments_and_their_rate_can_be_learnt() -> None:
     generator = torch.Generator().manual_seed(5)
 
     def blows(share: torch.Tensor) -> torch.Tensor:
@@ -129,7 +129,7 @@ def test_blows_as_loud_as_even_noise_differ_from_it_in_their_moments_and_a_scale
     assert share.item() == pytest.approx(0.6, abs=0.12)
 
 
-def test_a_balance_that_is_restored_goes_on_where_the_other_stood() -> None:
+def test_a_restored_balance_continues_from_the_saved_state() -> None:
     label, flat = torch.zeros(ROWS, dtype=torch.long), torch.ones(ROWS, 201)
     balances = LabelBalance(1), LabelBalance(1)
     waves = [_noise(torch.Generator().manual_seed(seed), flat) for seed in range(3)]

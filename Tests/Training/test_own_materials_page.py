@@ -124,7 +124,7 @@ def test_the_template_can_be_inspected_and_prepared_as_it_is(
     assert training.main(["prepare", "--recordings", "recordings", "--labels", "labels.toml", "--out", "store"]) == 0
 
 
-def test_every_column_and_key_of_the_page_is_one_that_is_read_and_none_is_missing() -> None:
+def test_the_page_lists_exactly_the_columns_and_keys_that_are_read() -> None:
     from haptoflow_training.recordings import own_sidecar, own_table
 
     section = PAGE.read_text(encoding="utf-8").split(f"\n## {HEADINGS[0]}\n")[1].split("\n## ")[0]
@@ -148,7 +148,7 @@ def test_every_column_and_key_of_the_page_is_one_that_is_read_and_none_is_missin
         (["evaluate", "--recordings", "recordings", "--engine", "gone"], "run `npm run build`"),
     ],
 )
-def test_what_is_missing_is_said_in_one_line(
+def test_missing_input_is_reported_in_one_line(
     standing: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], words: list[str], said: str
 ) -> None:
     monkeypatch.chdir(standing)
@@ -157,7 +157,7 @@ def test_what_is_missing_is_said_in_one_line(
     assert re.search(said, error), error
 
 
-def test_minutes_that_are_no_minutes_are_refused(capsys: pytest.CaptureFixture[str]) -> None:
+def test_invalid_minutes_are_refused(capsys: pytest.CaptureFixture[str]) -> None:
     for wrong in ("0", "ten", "nan"):
         with pytest.raises(SystemExit):
             training.main(["train", "--recordings", "r", "--out", "o", "--minutes", wrong])

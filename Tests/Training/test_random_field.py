@@ -45,7 +45,7 @@ def test_no_octave_repeats_along_thirty_metres_or_half_a_minute_of_straight_stro
     assert beyond_the_main_lobe.max() < chance, np.argmax(beyond_the_main_lobe) * step
 
 
-def test_asperities_do_not_repeat_along_thirty_metres_of_straight_stroke_and_keep_no_beat() -> None:
+def test_asperities_neither_repeat_nor_keep_a_beat_along_thirty_metres_of_straight_stroke() -> None:
     rate = 8000.0
     velocity = np.tile([1000.0, 0.0], (int(30 * rate), 1))
     path = TipPath(np.cumsum(velocity, axis=0) / rate, velocity)

@@ -102,13 +102,15 @@ def _level_errors_db(taught: Taught, speed_mps: float) -> tuple[np.ndarray, np.n
 
 
 @pytest.mark.parametrize("speed_mps", FAST_MPS)
-def test_the_level_law_comes_nearer_to_fast_recordings_than_clamping(taught: Taught, speed_mps: float) -> None:
+def test_extrapolating_the_level_law_is_closer_to_fast_recordings_than_clamping(
+    taught: Taught, speed_mps: float
+) -> None:
     law, clamped = _level_errors_db(taught, speed_mps)
     assert np.median(law) < 0.6 * np.median(clamped), (law.round(1), clamped.round(1))
 
 
 @pytest.mark.parametrize("speed_mps", [0.15, 0.5])
-def test_reading_the_edge_s_wave_faster_puts_the_fundamental_where_recordings_have_it(
+def test_faster_playback_beyond_the_range_gives_the_recorded_fundamental(
     taught: Taught, speed_mps: float
 ) -> None:
     for label, wavelength_metres in (("metal mesh", 1.2e-3), ("corduroy", 2.5e-3)):

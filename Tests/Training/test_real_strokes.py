@@ -78,7 +78,7 @@ def renders(tmp_path_factory: pytest.TempPathFactory) -> dict[str, tuple[dict[st
 Renders = dict[str, tuple[dict[str, object], NDArray[np.float32]]]
 
 
-def test_every_stroke_touches_and_sounds(renders: Renders) -> None:
+def test_every_stroke_touches_and_vibrates(renders: Renders) -> None:
     assert len(renders) == 20
     for name, (report, samples) in renders.items():
         assert report["segments"], name
@@ -92,7 +92,7 @@ def test_no_sample_is_non_finite_or_clipped(renders: Renders) -> None:
         assert report["nonfinite"] == 0 and report["failures"] == 0 and report["underruns"] == 0, name
 
 
-def test_hop_boundaries_hide_in_the_wave_around_them(renders: Renders) -> None:
+def test_hop_boundaries_do_not_stand_out_from_the_waveform(renders: Renders) -> None:
     seams = [report["seams"] for report, _ in renders.values()]
     counts = np.array([seam["count"] for seam in seams], dtype=float)  # type: ignore[index]
     shares = np.array([seam["outlier_share"] for seam in seams])  # type: ignore[index]

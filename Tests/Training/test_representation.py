@@ -165,7 +165,7 @@ class _Recorder(nn.Module):
         return self.heard[..., :samples]
 
 
-def test_the_scale_at_which_encodec_hears_a_segment_is_taken_back_afterwards() -> None:
+def test_the_input_scale_of_encodec_is_undone_in_its_output() -> None:
     recorder = _Recorder()
     codec = ResampledEnCodec(recorder, waveform_scale=0.2)  # type: ignore[arg-type]
     tone = _tones((100.0,))
@@ -174,7 +174,7 @@ def test_the_scale_at_which_encodec_hears_a_segment_is_taken_back_afterwards() -
     torch.testing.assert_close(restored, tone, atol=0.02, rtol=0.0)
 
 
-def test_encodec_needs_weights_or_a_word_that_random_ones_are_meant() -> None:
+def test_encodec_needs_weights_or_an_explicit_request_for_random_ones() -> None:
     with pytest.raises(InputError, match="expected either checkpoint"):
         build_representation({"kind": "encodec"})
     with pytest.raises(InputError, match="expected either checkpoint"):
@@ -182,7 +182,7 @@ def test_encodec_needs_weights_or_a_word_that_random_ones_are_meant() -> None:
 
 
 @torch.no_grad()
-def test_encodec_from_a_checkpoint_with_latent_statistics_codes_as_its_parts_do(tmp_path: Path) -> None:
+def test_encodec_from_a_checkpoint_with_latent_statistics_equals_its_parts(tmp_path: Path) -> None:
     torch.manual_seed(6)
     codec = ResampledEnCodec(EnCodec().eval(), waveform_scale=0.2)
     waveforms = torch.randn(8, 1, 200)
@@ -203,7 +203,7 @@ def test_encodec_from_a_checkpoint_with_latent_statistics_codes_as_its_parts_do(
     torch.testing.assert_close(built.decode(latent), codec.decode(latent), atol=1e-4, rtol=1e-4)
 
 
-def test_the_normaliser_and_its_inverse_cancel_and_an_unused_channel_is_not_blown_up() -> None:
+def test_the_normaliser_and_its_inverse_cancel_and_an_unused_channel_is_not_amplified() -> None:
     latents = torch.randn(64, 3, 25) * torch.tensor([2.0, 0.5, 0.0]).reshape(1, 3, 1) + 4.0
     normaliser = LatentNormaliser(3)
     normaliser.fit(latents)

@@ -98,7 +98,7 @@ def _answer_always(module: AutoregressiveRival, raw: Tensor) -> None:
 
 
 @pytest.mark.parametrize("form", FORMS)
-def test_a_baseline_returns_a_finite_segment_for_every_row(form: str) -> None:
+def test_a_rival_returns_a_finite_segment_for_every_row(form: str) -> None:
     segment = _built(form)(**_inputs(3))
     assert segment.shape == (3, 1, 200)
     assert torch.isfinite(segment).all()
@@ -106,7 +106,7 @@ def test_a_baseline_returns_a_finite_segment_for_every_row(form: str) -> None:
 
 
 @pytest.mark.parametrize("form", FORMS)
-def test_a_baseline_s_loss_is_one_number_for_every_row(form: str) -> None:
+def test_a_rival_s_loss_is_one_number_for_every_row(form: str) -> None:
     inputs = _inputs(3)
     segment, generator = inputs.pop("noisy"), torch.Generator().manual_seed(0)
     baseline = _built(form)
@@ -119,14 +119,14 @@ def test_a_baseline_s_loss_is_one_number_for_every_row(form: str) -> None:
 
 
 @pytest.mark.parametrize("form", FORMS)
-def test_rows_of_a_baseline_s_batch_do_not_touch_each_other(form: str) -> None:
+def test_rows_of_a_rival_s_batch_are_independent(form: str) -> None:
     baseline, inputs = _built(form), _inputs(4)
     alone = baseline(**{name: value[2:3] for name, value in inputs.items()})
     torch.testing.assert_close(baseline(**inputs)[2:3], alone, rtol=1e-4, atol=1e-5)
 
 
 @pytest.mark.parametrize("form", FORMS)
-def test_exactly_the_named_inputs_reach_a_baseline_s_output(form: str) -> None:
+def test_exactly_the_named_inputs_affect_a_rival_s_output(form: str) -> None:
     baseline, inputs = _built(form), _inputs(2)
     before = baseline(**inputs)
     for name in INPUTS:
@@ -134,24 +134,24 @@ def test_exactly_the_named_inputs_reach_a_baseline_s_output(form: str) -> None:
         assert torch.equal(before, after) == (name not in baseline.inputs), name
 
 
-def test_deterministic_baselines_ignore_the_noise_and_random_ones_read_it() -> None:
+def test_deterministic_rivals_ignore_the_noise_and_sampled_ones_read_it() -> None:
     assert sorted(DETERMINISTIC + RANDOM) == sorted(ARCHITECTURES)
     assert all("noisy" not in _built(architecture).inputs for architecture in DETERMINISTIC)
     assert all("noisy" in _built(architecture).inputs for architecture in RANDOM)
 
 
-def test_an_unknown_baseline_is_refused_with_the_known_names() -> None:
+def test_an_unknown_rival_is_refused_with_the_known_names() -> None:
     with pytest.raises(ValueError, match="'gan'.*transformer, dstn, spsi, autoregressive"):
         build_rival("gan")
 
 
-def test_baselines_have_the_stated_numbers_of_parameters() -> None:
+def test_rivals_have_the_stated_numbers_of_parameters() -> None:
     counts = {architecture: parameter_count(build_rival(architecture)) for architecture in ARCHITECTURES}
     assert counts == {"transformer": 714_698, "dstn": 350_474, "spsi": 112_997, "autoregressive": 91_409}
 
 
 @pytest.mark.parametrize(("architecture", "steps", "rate"), [("transformer", 40, 1e-3), ("dstn", 50, 4e-3)])
-def test_deterministic_baselines_learn_to_continue_a_sinusoid(
+def test_deterministic_rivals_learn_to_continue_a_sinusoid(
     architecture: str, steps: int, rate: float
 ) -> None:
     baseline = _built(architecture)
@@ -163,7 +163,7 @@ def test_deterministic_baselines_learn_to_continue_a_sinusoid(
     assert (continued - segment).square().mean() < 0.2
 
 
-def test_spsi_learns_a_spectrum_and_sounds_at_the_level_that_it_states() -> None:
+def test_spsi_learns_a_spectrum_and_renders_at_the_stated_level() -> None:
     frequencies = torch.linspace(0.0, 1.0, 101)
     shape = (-((frequencies - 0.3) / 0.1).square()).exp() + 0.05
 
@@ -271,7 +271,7 @@ def test_extreme_filters_stay_bounded_and_forget_a_foreign_past(seed: int | None
     assert wave.square().mean().sqrt() < 1.5 * level
 
 
-def test_the_autoregressive_baseline_learns_the_poles_and_level_of_a_process() -> None:
+def test_the_autoregressive_rival_learns_the_poles_and_level_of_a_process() -> None:
     radius, angle = 0.95, 2.0 * math.pi * 0.08
     truth = np.array([1.0, -2.0 * radius * math.cos(angle), radius**2])
     gain = 0.2
@@ -313,7 +313,7 @@ def _exported(baseline: Rival, batch: int) -> onnx.ModelProto:
 
 
 @pytest.mark.parametrize("form", FORMS)
-def test_a_baseline_exports_as_one_plain_graph_for_every_batch_size(form: str) -> None:
+def test_a_rival_exports_as_one_graph_for_every_batch_size(form: str) -> None:
     baseline = _built(form)
     model = _exported(baseline, 2)
     onnx.checker.check_model(model, full_check=True)

@@ -39,7 +39,7 @@ def _place(folder: Path) -> Workplace:
     return Workplace(folder, folder / "rows.toml", folder / "work", folder / "store", folder / "results")
 
 
-def test_two_processes_find_what_one_does_and_leave_every_row_s_file(tmp_path: Path, yardstick: Yardstick) -> None:
+def test_two_processes_give_the_same_figures_as_one_and_store_every_row(tmp_path: Path, yardstick: Yardstick) -> None:
     wanted = [(row, 1) for row in _ROWS]
     done: list[int] = []
     together = measure_rows(_place(tmp_path / "two"), yardstick, wanted, 2, done.append)
@@ -61,7 +61,7 @@ def test_a_row_on_every_fourth_recording_has_a_quarter_of_the_cells_and_another_
     assert len(measure_rows(place, yardstick, [(quarter, 1)], 1)["white-noise", 1]["conditions"]) == 3
 
 
-def test_what_one_row_cannot_be_measured_with_is_told_and_the_others_are_kept(
+def test_a_row_that_cannot_be_measured_is_reported_and_the_others_are_stored(
     tmp_path: Path, yardstick: Yardstick
 ) -> None:
     place = _place(tmp_path)

@@ -58,7 +58,7 @@ def test_rows_of_the_same_model_share_one_training_for_each_seed(place: Workplac
     assert started[1].product == place.model_file(_ROW, 2) and "--seed 2" in " ".join(started[1].words)
 
 
-def test_a_model_trained_as_its_configuration_says_today_is_taken_as_it_is(
+def test_a_model_trained_with_its_present_configuration_is_not_trained_again(
     place: Workplace, started: list[Job]
 ) -> None:
     _leave_as_trained(place, seed=1)
@@ -74,7 +74,7 @@ def test_a_model_whose_configuration_has_changed_since_is_trained_again(place: W
     assert [job.name for job in started] == ["small, seed 1"]
 
 
-def test_a_row_in_a_codec_s_latents_brings_the_codec_s_training_once(place: Workplace, started: list[Job]) -> None:
+def test_rows_in_a_codec_s_latents_train_the_codec_once(place: Workplace, started: list[Job]) -> None:
     latent = '\n[model]\npatch = 5\n[model.representation]\nkind = "small-codec"\ncheckpoint = "codec/small-codec.pt"\n'
     for name in ("one", "two"):
         text = f'name = "{name}"\n[data]\nsource = "synthetic"\n{latent}'
@@ -93,13 +93,13 @@ def test_further_seeds_of_the_shipped_model_are_trainings_of_its_recipe(place: W
     assert [job.name for job in started] == ["small, seed 2"]
 
 
-def test_seeds_of_a_training_that_nobody_describes_are_left_out_and_the_shipped_file_is_not(place: Workplace) -> None:
+def test_seeds_without_a_training_configuration_are_left_out_but_not_the_shipped_file(place: Workplace) -> None:
     shipped = PlannedRow("standard", "ours", model="a/default.haptoflow", seeds=(1, 2), seeds_model="nowhere")
     assert place.seeds_of(shipped) == [1] and place.seeds_of(PlannedRow("r", "as-published", model="nowhere")) == []
     assert place.seeds_of(_ROW) == [1] and place.seeds_of(PlannedRow("silence", "reference")) == [1]
 
 
-def test_what_the_codec_alone_leaves_is_a_ruler_without_a_model_and_needs_the_codec(place: Workplace) -> None:
+def test_the_codec_reconstruction_row_needs_the_codec_but_no_model(place: Workplace) -> None:
     text = '[model]\npatch = 5\n[model.representation]\nkind = "small-codec"\ncheckpoint = "codec/small-codec.pt"\n'
     (place.root / "paper-codec.toml").write_text(text, encoding="utf-8")
     row = PlannedRow("small-codec-reconstruction", "reference")

@@ -89,7 +89,7 @@ def test_no_combination_of_sliders_leaves_the_spread_of_the_labels(file: ModelFi
             assert (along <= sliders.highest + 1e-4).all()
 
 
-def test_a_material_outside_the_spread_stays_where_it_is_and_is_led_no_further(sliders: Sliders) -> None:
+def test_a_material_outside_the_spread_is_not_moved_further(sliders: Sliders) -> None:
     far = sliders.mean + 3.0 * sliders.highest[0] * sliders.axes[0]
     assert sliders.slid(far, {}) == pytest.approx(far)
     for name, direction in sliders.directions.items():

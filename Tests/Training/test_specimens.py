@@ -111,7 +111,7 @@ def test_no_recording_of_the_default_training_is_of_the_held_out_specimen(monkey
     assert max(counted.values()) < 1.3 * min(counted.values())
 
 
-def test_recordings_say_their_specimen_and_the_protocols_record_the_one_that_the_identity_gives() -> None:
+def test_recordings_state_their_specimen_which_follows_from_their_identity() -> None:
     materials = list(MATERIALS.values())
     hand = list(record_hand(materials, seed=1, labels=["glass"], recordings_per_label=5, duration_seconds=2.0))
     machine = list(record_machine(materials, seed=1, labels=["glass"], speeds_mmps=[60], forces_millinewtons=[500]))

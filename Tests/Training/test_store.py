@@ -98,7 +98,7 @@ def test_the_peak_is_the_80th_percentile_of_the_training_recordings_peaks(store:
     assert header["sample_rate_hz"] == 2000
 
 
-def test_every_recording_is_in_one_split_and_all_splits_occur(store: SegmentStore) -> None:
+def test_every_recording_is_in_exactly_one_split_and_all_splits_occur(store: SegmentStore) -> None:
     names = [{stored.name for stored in store.split(split)} for split in SPLITS]
     assert all(names)
     assert sum(map(len, names)) == len(set.union(*names)) == len(store.recordings)

@@ -80,7 +80,7 @@ def test_every_column_and_key_of_the_logs_is_explained() -> None:
         assert key in named, key
 
 
-def test_what_the_page_says_of_counterbalancing_is_what_the_plans_give() -> None:
+def test_the_page_states_the_counterbalancing_of_the_plans() -> None:
     text = " ".join(LOGS.read_text(encoding="utf-8").split())
     materials: Counter[tuple[str, int]] = Counter()
     methods: Counter[tuple[str, str, int]] = Counter()
@@ -117,7 +117,7 @@ def test_the_analysis_page_shows_the_committed_validation_and_the_factors() -> N
         assert ", ".join(map(str, factors(methods))) in text
 
 
-def test_the_committed_validation_is_as_the_issue_demands() -> None:
+def test_the_committed_validation_meets_its_criteria() -> None:
     found = json.loads((ROOT / "Training" / "results" / "study-validation.json").read_text(encoding="utf-8"))
     assert found["participants"] == 24
     for condition, truth in (("turn-on", 130.25), ("turn-off", 107.74)):

@@ -22,7 +22,7 @@ RESULTS = ROOT / "Training" / "results" / "study-validation.json"
 
 
 @pytest.mark.parametrize("between", [0.0, 0.3, 0.9])
-def test_simulated_answers_follow_the_curve_however_alike_a_participants_answers_are(between: float) -> None:
+def test_simulated_answers_follow_the_curve_whatever_their_correlation(between: float) -> None:
     model = AnswerModel(between=between)
     random = np.random.default_rng(3)
     own = random.standard_normal((40000, 1))
@@ -53,7 +53,7 @@ def test_intervals_hold_the_thresholds_at_their_nominal_rate_over_200_studies() 
     assert narrow.differ.rate > found.differ.rate
 
 
-def test_no_test_of_ratings_finds_what_is_not_there_more_often_than_its_level() -> None:
+def test_no_test_of_ratings_exceeds_its_false_positive_rate() -> None:
     random = np.random.default_rng(5)
     results = [analysed(RatingModel(["m"]).ratings(random, 24)[0]) for _ in range(300)]
     friedman = sum(one.friedman is not None and one.friedman.p < 0.05 for one in results)
@@ -83,7 +83,7 @@ def test_the_planned_power_of_one_pair_is_that_of_wilcoxons_test_on_normal_diffe
     assert share(found, 1000).covers(planned_signed_rank_power(24, 0.67))
 
 
-def test_more_participants_find_more_and_no_difference_is_found_at_the_level() -> None:
+def test_power_grows_with_participants_and_equals_the_level_without_a_difference() -> None:
     few, many = (rating_power(count, 3, 0.67, simulations=80, seed=4) for count in (10, 40))
     assert many.pair.rate > few.pair.rate and many.equivalence is not None and few.equivalence is not None
     assert many.equivalence.rate > few.equivalence.rate

@@ -75,14 +75,14 @@ def _spectrum(tap: NDArray[np.float64]) -> NDArray[np.float64]:
     return spectrum
 
 
-def test_every_drop_is_felt_once_and_the_harder_the_higher(taps: dict[str, NDArray[np.float64]]) -> None:
+def test_every_drop_gives_one_impact_and_higher_drops_give_stronger_ones(taps: dict[str, NDArray[np.float64]]) -> None:
     for label, waves in taps.items():
         peaks = np.abs(waves).max(axis=1)
         assert peaks.min() > 1.0, label
         assert np.corrcoef(peaks, np.sqrt(HEIGHTS_METRES))[0, 1] > 0.9, label
 
 
-def test_a_classifier_tells_rubber_wood_and_stone_apart_by_the_spectrum_of_taps_it_never_heard(
+def test_a_classifier_distinguishes_unseen_taps_on_rubber_wood_and_stone_by_spectrum(
     taps: dict[str, NDArray[np.float64]]
 ) -> None:
     spectra = {label: np.stack([_spectrum(tap) for tap in waves]) for label, waves in taps.items()}

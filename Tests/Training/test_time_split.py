@@ -95,7 +95,7 @@ def test_labels_with_recordings_enough_for_every_split_are_split_by_their_names(
     assert {one.split for one in store.recordings} == set(SPLITS)
 
 
-def test_a_short_recording_keeps_most_of_itself(tmp_path: Path) -> None:
+def test_trimming_keeps_most_of_a_short_recording(tmp_path: Path) -> None:
     csv_one_axis(tmp_path / "data", "denim", "denim", stroke(1.0, seed=1))
     store = prepare_store(list(open_own_dataset(tmp_path / "data")), ["denim"], tmp_path / "store", progress=False)
     (one,) = store.recordings
@@ -103,7 +103,7 @@ def test_a_short_recording_keeps_most_of_itself(tmp_path: Path) -> None:
     assert max(one.padding_before, one.padding_after) <= 0.34 * 0.6 * 2000
 
 
-def test_recordings_as_long_as_the_published_ones_give_the_same_store_as_ever(tmp_path: Path) -> None:
+def test_recordings_of_published_length_give_the_same_store_as_before(tmp_path: Path) -> None:
     materials = load_materials()
     chosen = (materials[0], materials[13])
     recordings = []

@@ -65,7 +65,7 @@ def test_a_run_leaves_its_configuration_seed_commit_metrics_and_plot(tmp_path: P
     assert (tmp_path / "metrics.png").stat().st_size > 1000
 
 
-def test_a_finished_run_that_is_asked_again_keeps_what_it_said_of_itself(tmp_path: Path) -> None:
+def test_a_finished_run_that_is_started_again_keeps_its_summary(tmp_path: Path) -> None:
     store = make_store()
     Trainer(_config(), store, tmp_path, ALONE).run()
     said = (tmp_path / "run.json").read_text(encoding="utf-8")
@@ -75,7 +75,7 @@ def test_a_finished_run_that_is_asked_again_keeps_what_it_said_of_itself(tmp_pat
     assert "older " in json.loads((tmp_path / "run.json").read_text(encoding="utf-8"))["commit"]
 
 
-def test_a_stopped_run_goes_on_to_the_weights_of_one_that_was_never_stopped(tmp_path: Path) -> None:
+def test_a_resumed_run_ends_with_the_weights_of_an_uninterrupted_one(tmp_path: Path) -> None:
     store = make_store()
     Trainer(_config(), store, tmp_path / "whole", ALONE).run()
 
@@ -126,7 +126,7 @@ def _free_port() -> str:
         return str(listener.getsockname()[1])
 
 
-def test_two_processes_under_torchrun_end_with_one_set_of_weights_where_the_machines_name_does_not_resolve(
+def test_two_torchrun_processes_end_with_equal_weights_on_a_machine_whose_name_does_not_resolve(
     tmp_path: Path,
 ) -> None:
     script = Path(__file__).with_name("two_process_training.py")

@@ -14,7 +14,7 @@ from haptoflow_benchmark.few_shot.wave_vector_study import measured, study_surfa
 ROOT = Path(__file__).parents[2]
 
 
-def test_found_missed_and_wrong_vectors_are_counted_apart(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_found_missed_and_wrong_vectors_are_counted_separately(monkeypatch: pytest.MonkeyPatch) -> None:
     surfaces = list(study_surfaces())
     corduroy = next(each for each in surfaces if each.name == "corduroy")
     mesh = next(each for each in surfaces if each.name == "metal mesh")
