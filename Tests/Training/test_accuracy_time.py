@@ -1,4 +1,4 @@
-"""From reference rows to accuracy-time.json, its document and its pictures."""
+"""From reference rows to accuracy-time.json, its page and its pictures."""
 
 from __future__ import annotations
 
@@ -116,7 +116,7 @@ def test_every_row_has_spreads_of_the_temporal_figures_and_a_verdict(
             assert set(values) == {"median", "p90", "worst"} and values["median"] <= values["p90"] <= values["worst"]
             low, high = rows[name][f"{figure}_interval"]
             assert low <= values["median"] <= high
-        # Neither label has ribs: the figures are there, and empty.
+        # Neither label has ribs: the keys are present, with no value.
         assert rows[name]["rib_modulation_error_db"] is None and rows[name]["rib_coherence"] is None
     assert rows["rival"]["verdict"]["lsd_db"] == "ahead" and rows["rival"]["verdict"]["gfc_recording"] == "ahead"
     assert set(rows["independent-draw"]["verdict"].values()) == {"even"} and "verdict" not in rows["standard"]
@@ -160,7 +160,7 @@ def test_the_page_can_be_written_before_anything_is_timed_or_measured(tmp_path: 
 
 
 def test_seeds_are_compared_on_the_recordings_that_all_of_them_were_measured_on() -> None:
-    # GFC 0.9 everywhere but at the one speed that the second seed was not measured at.
+    # GFC 0.9 everywhere except at the speed at which the second seed was not measured.
     def cell(label: str, speed: float, gfc: float) -> dict[str, object]:
         figures = dict.fromkeys(("level_error_db", "gfc_segment", "rmse", "lsd_db", "continuity"), 0.5)
         motion = {"label": label, "kind": "constant", "speed_mps": speed, "force_newtons": 1.0, "direction_degrees": 0.0}

@@ -1,4 +1,4 @@
-"""The picture of accuracy over time: linear axes, bars, a legend, and few names."""
+"""The chart of accuracy over time: linear axes, bars, a legend, and few names."""
 
 from __future__ import annotations
 
@@ -146,6 +146,6 @@ def test_no_two_names_in_the_shipped_picture_overlap(axes: Any, panel: Any) -> N
         for index, first in enumerate(axes.texts) for other, second in enumerate(axes.texts)
         if index < other and boxes[index].overlaps(boxes[other])
     ]  # fmt: skip
-    # Our tiers, the ruler and the paper's time at the least.
+    # At least our tiers, the reference and the paper's time.
     assert len(boxes) >= 4 and np.all([box.width > 0 for box in boxes])
     assert covered == []

@@ -1,4 +1,4 @@
-"""`haptoflow-training add-material`: a material from recordings, beside a model file or inside, and what is refused."""
+"""`haptoflow-training add-material`: material files, further labels, and refused input."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Training pairs: aligned, inside their split, with the condition of the segment's beginning."""
+"""Training pairs: aligned, inside their split, conditioned on the motion at the segment's beginning."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ PLAIN = BatchConfig(silence_probability=0.0, switch_probability=0.0)
 
 
 def _positions(store_wave: np.ndarray, segment: torch.Tensor) -> int:
-    """Where in the store the segment lies."""
+    """The position of each segment in the store."""
     wave = (segment.numpy() / 10.0).astype(np.float32)
     matches = np.flatnonzero(np.isclose(store_wave[: -len(wave)], wave[0], rtol=1e-5))
     for start in matches:

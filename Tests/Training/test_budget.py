@@ -1,4 +1,4 @@
-"""A budget of time: phases lengthened or shortened by one factor, ended by the clock, gone on with after a stop."""
+"""Time budgets: phases scaled by one factor, ended by the clock, continued after an interruption."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ SECONDS_PER_STEP = {"level": 1.0, "field": 4.0, "polish": 1.0}
 
 
 class _Clock:
-    """Computing time that passes with training steps alone."""
+    """Computing time that passes only with training steps."""
 
     def __init__(self, monkeypatch: pytest.MonkeyPatch) -> None:
         self.now = 0.0

@@ -1,4 +1,4 @@
-"""What is measured of one recording: the right figures for its motion, and only those that it can have."""
+"""The figures of one recording: correct values, and only those that apply to its motion."""
 
 from __future__ import annotations
 
@@ -89,7 +89,7 @@ def test_a_change_of_label_is_judged_near_the_changes_only_and_in_each_direction
     right = measure_cell(pair, _noise(2) * levels, _NOTHING, _STARTS)
     assert abs(right["change_level_error_db"]) < 0.7 and abs(right["change_crest_error_db"]) < 0.7
     assert "level_error_db" not in right and "told_apart_percent" not in right
-    # The generator that goes on with the old label for a tenth of a second is heard both ways.
+    # A generator that keeps the old label for 100 ms is detected in both directions.
     late = np.roll(levels, 200)
     assert abs(measure_cell(pair, _noise(2) * late, _NOTHING, _STARTS)["change_level_error_db"]) > 3.0
     away = (np.arange(_SAMPLES) % 1000 > 300) & (np.arange(_SAMPLES) % 1000 < 800)

@@ -1,4 +1,4 @@
-"""The closed loop: hops, conditions, splices and past as the engine has them."""
+"""The closed loop: hops, conditions, splices and previous waveforms as in the engine."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from haptoflow_training.closed_loop.render import hop_positions, run_closed_loop
 
 
 class Probe:
-    """Keeps what it is asked and answers with segments that count upwards."""
+    """Records its requests and returns segments that count upwards."""
 
     def __init__(self) -> None:
         self.motions: list[np.ndarray] = []
@@ -64,7 +64,7 @@ def test_the_level_is_constant_across_a_splice_of_uncorrelated_segments() -> Non
     generator = np.random.default_rng(2)
     old, new = (generator.standard_normal((20000, 200)).astype(np.float32) for _ in range(2))
     power = np.square(spliced(old, new)).mean(axis=0)
-    # The correlation is estimated from 32 samples and never negative: a bias of a few per cent.
+    # The correlation is estimated from 32 samples and never negative, which biases it by a few per cent.
     np.testing.assert_allclose(power[:8], 1.0, atol=0.1)
 
 
@@ -73,7 +73,7 @@ def test_the_rib_phase_is_the_travelled_distance_along_each_wave_vector_modulo_o
     probe = Probe()
     embeddings = np.zeros((2, 64), np.float32)
     embeddings[0, -4:], embeddings[1, -4:] = (0.4, 0.0, 0.0, 0.8), (-1.1, 0.3, 0.0, 0.0)
-    # There, and with the same speed back: the phase is to come back to where it began.
+    # There and back at the same speed: the phase must return to its start.
     motions = np.zeros((2, 4000, 3), np.float32)
     motions[:, :2000, 0], motions[:, :2000, 1] = 0.7, -0.2
     motions[:, 2000:, :2] = -motions[:, :2000, :2]

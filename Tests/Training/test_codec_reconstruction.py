@@ -1,4 +1,4 @@
-"""What a codec alone leaves of a recording."""
+"""Recordings encoded and decoded by a codec."""
 
 from __future__ import annotations
 

@@ -42,7 +42,7 @@ class Store:
 
 @dataclass
 class StoppingStore:
-    """Fails at the n-th reading, as a killed run would."""
+    """Fails at the n-th reading, like a killed run."""
 
     store: Store
     readings_left: int
@@ -64,7 +64,7 @@ class StoppingStore:
 
 
 def _texture(generator: np.random.Generator, samples: int) -> NDArray[np.float32]:
-    """A tone in low-passed noise, scaled at random: what a material's acceleration looks like."""
+    """A tone in low-passed noise with random gain, similar to a material's acceleration."""
     noise = np.convolve(generator.standard_normal(samples + 7), np.hanning(8), mode="valid")
     time_seconds = np.arange(samples) / 2000.0
     frequency_hz = generator.uniform(40.0, 300.0)
@@ -142,7 +142,7 @@ def test_a_resumed_run_equals_the_uninterrupted_one(store: Store, tmp_path: Path
     counting = StoppingStore(store, readings_left=10_000)
     resumed = train_small_codec(counting, _config(tmp_path / "stopped", 10))
 
-    # Two probes, the validation draw, the four steps after the checkpoint of step 6, the statistics' draw.
+    # Two probes, the validation draw, the four steps after the checkpoint of step 6, the draw for the statistics.
     assert 10_000 - counting.readings_left == 3 + 4 + 1
     expected = straight.state_dict()
     assert all(torch.equal(value, expected[name]) for name, value in resumed.state_dict().items())

@@ -51,7 +51,7 @@ def csv_in_place_of_parquet(path: Path) -> pandas.DataFrame:
 
 
 def to_hub_release(root: Path) -> Path:
-    """The same columns, one folder a texture; the table reader of these tests reads CSV under that name."""
+    """The same columns, one folder for each texture; the tests' table reader reads CSV under that name."""
     for path in sorted((root / "sensor_data").glob("*/*.csv")):
         folder = path.parent / path.stem.split("_")[0]
         folder.mkdir(exist_ok=True)
@@ -64,7 +64,7 @@ def sensor_file(root: Path, kind: str, name: str = NAMES[1]) -> Path:
 
 
 def only_problem(dataset: ClusterDataset) -> DatasetFileError:
-    """The one problem that loading every recording meets."""
+    """The single problem that occurs when every recording is loaded."""
     found = []
     for entry in dataset:
         try:

@@ -1,4 +1,4 @@
-"""The native library through ctypes: what the evaluation measures is what the engine makes."""
+"""The native library through ctypes: the evaluation measures what the engine generates."""
 
 from __future__ import annotations
 

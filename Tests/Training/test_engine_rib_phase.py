@@ -1,4 +1,4 @@
-"""The rib phase on its way from Python through the C interface into a graph."""
+"""The rib phase from Python through the C interface into a graph."""
 
 from __future__ import annotations
 

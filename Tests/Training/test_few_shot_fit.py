@@ -1,4 +1,4 @@
-"""A material from seconds: level, tone, frame, seeds and embedding follow what was recorded."""
+"""A material fitted to seconds: level, tone, frame, seeds and embedding match the recording."""
 
 from __future__ import annotations
 
@@ -161,7 +161,7 @@ def test_a_constant_spectrum_gives_a_frequency_exponent_near_zero() -> None:
 
 
 def test_a_label_rendered_by_the_model_is_recognised_and_fitted(model: FileModel) -> None:
-    """What the model itself makes of paper, at another level and through a tone, comes back as paper at that level."""
+    """The model's own rendering of paper, at another level and through a tone, is fitted as paper at that level."""
     names = [label["name"] for label in model.labels]
     speed = np.concatenate([swept(5.0, 0.02, 0.1), swept(5.0, 0.05, 0.2)])
     motion = motion_of(speed)

@@ -1,4 +1,4 @@
-"""The commands of "A new material from ten seconds, in Python" run as they stand there."""
+"""Runs the commands of "A new material from ten seconds, in Python" as printed on the page."""
 
 from __future__ import annotations
 
@@ -45,7 +45,7 @@ def test_every_command_of_the_page_runs_and_writes_what_it_names(
             "add-material": ["--steps", "2"],
             "sliders": [],
             "measure-wave-vectors": ["--every", "60"],
-            # What takes minutes is stored already.
+            # The slow cells are stored already.
             "few-shot": ["--materials", "1", "--work", str(work)],
         }[words[0]]
         assert PROGRAMS[program]([*words, *quick]) == 0, words

@@ -1,4 +1,4 @@
-"""The few-shot study: its materials are unseen, its figures mean what they say, and it goes on where it was stopped."""
+"""The few-shot study: unseen materials, correct figures, resumption after an interruption."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Flow matching and its solvers against fields whose integral is known."""
+"""Flow matching and its solvers, compared with fields whose integral is known."""
 
 from __future__ import annotations
 

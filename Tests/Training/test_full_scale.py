@@ -1,4 +1,4 @@
-"""The default full scale: at most two samples in a thousand of people's strokes lie above the limiter's knee."""
+"""The default full scale: at most two samples in a thousand of recorded strokes lie above the limiter's knee."""
 
 from __future__ import annotations
 
@@ -109,9 +109,9 @@ def test_the_loudest_labels_leave_less_than_two_samples_in_a_thousand_in_the_kne
     assert len(levels) == 18 and all(len(level.magnitudes_mps2) > 10000 for level in levels)
     for label in _LOUDEST:
         own = [level for level in levels if level.label == label]
-        # Full scale was chosen with a model that did not strike: of the loudest label's blows a few more are bent.
+        # Full scale was chosen with a model without impacts; the loudest label exceeds the knee a little more often.
         assert share_in_knee(own, FULL_SCALE_MPS2) < 2.0 * ALLOWED_SHARE, label
-        # The default before this one: the measurement tells the two apart.
+        # The previous default: the measurement distinguishes the two.
         assert share_in_knee(own, 60.0) > 10.0 * ALLOWED_SHARE, label
 
 

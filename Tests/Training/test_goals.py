@@ -1,4 +1,4 @@
-"""The goals of the default tier, judged from accuracy-time.json: neither met by chance nor missed in silence."""
+"""The goals of the default tier, judged from accuracy-time.json."""
 
 from __future__ import annotations
 

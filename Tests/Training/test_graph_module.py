@@ -1,5 +1,4 @@
-"""A model file's graphs in PyTorch answer as the golden vectors say, and their gradients are those of what they
-answer."""
+"""A model file's graphs in PyTorch reproduce the golden vectors, with correct gradients."""
 
 from __future__ import annotations
 
@@ -123,7 +122,7 @@ def test_a_missing_tier_and_a_latent_tier_are_refused() -> None:
 
 
 def test_every_solver_gives_the_engine_s_expected_results() -> None:
-    """tiny.expected.json holds what the tiny model's tiers answer, worked out by hand."""
+    """tiny.expected.json holds the results of the tiny model's tiers, computed by hand."""
     file = read_model_file(GOLDEN / "tiny.haptoflow")
     usable = {name: graph for name, graph in file.graphs.items() if not name.startswith(("wrong", "not_finite"))}
     document = json.loads((GOLDEN / "tiny.expected.json").read_text(encoding="utf-8"))

@@ -1,4 +1,4 @@
-"""Whatever the training exports, the reader of model files takes: opset 16, no other domain, operators of the list."""
+"""Every exported graph can be read by the engine: opset 16, no other domain, listed operators only."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What the evaluation asks about is not learnt from: counted, sample by sample, on a store that is full of it."""
+"""Held-out motion is never used for training: checked sample by sample on a store that is full of it."""
 
 from __future__ import annotations
 
@@ -43,8 +43,8 @@ def _wandering(
 
 
 def _store(seconds: float = 60.0) -> FakeStore:
-    """Two labels, hand and machine, whose strokes wander through all bands. The wave tells the place: each sample's
-    value is its index, so that whatever is drawn says where it was taken from."""
+    """Two labels, hand and machine, whose strokes cross all bands. Each sample's value is its index, so that drawn
+    samples reveal their place."""
     generator = np.random.default_rng(4)
     count = int(2000 * seconds)
     motions, recordings = [], []
@@ -137,7 +137,7 @@ def test_seeds_and_exponents_use_only_windows_outside_the_bands(monkeypatch: pyt
 
 
 def test_the_level_is_calibrated_only_on_windows_outside_the_bands() -> None:
-    # Inside the bands the recording is a thousand times louder: one such window would be heard.
+    # Inside the bands the recording is a thousand times louder, so a single such window would be detected.
     motion = STORE.motion
     held = HELD_OUT.holds(motion)
     level = np.where(held, 1000.0, 1.0).astype(np.float32)

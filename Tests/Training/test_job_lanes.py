@@ -1,4 +1,4 @@
-"""Trainings side by side: never more than asked for, none left behind, failures named."""
+"""Parallel trainings: at most the given number, none left behind, failures named."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from haptoflow_training.errors import InputError
 from haptoflow_training.training.job_lanes import Job, run_jobs
 
 _PYTHON = (sys.executable, "-c")
-# Writes that it began, waits, writes its product; asked to stop, it writes that it heard so.
+# Writes that it began, waits, writes its product; when terminated, it writes that too.
 _CAREFUL = """
 import pathlib, signal, sys, time
 folder, name, seconds = pathlib.Path(sys.argv[1]), sys.argv[2], float(sys.argv[3])

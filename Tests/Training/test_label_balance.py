@@ -1,4 +1,4 @@
-"""Mean spectra and moments by label and speed: what the loss sees, and where it leads."""
+"""The loss on mean spectra and moments by label and speed: its value, and what it trains."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ _MOMENTS = slice(101 + PARTIALS + 8, None)
 
 
 def _features(wave: torch.Tensor, ribs_hz: tuple[float, float] = (0.0, 0.0)) -> LabelFeatures:
-    """Of waves [B, 400]."""
+    """Features of waveforms [B, 400]."""
     nothing = torch.zeros(len(wave), 2, PARTIALS)
     ribs = torch.tensor([ribs_hz] * len(wave))
     heard = spectra(wave[:, :200], wave[:, 200:])
@@ -25,7 +25,7 @@ def _features(wave: torch.Tensor, ribs_hz: tuple[float, float] = (0.0, 0.0)) -> 
 
 
 def _noise(generator: torch.Generator, shape: torch.Tensor) -> torch.Tensor:
-    """Rows of noise, [B, 400], of the magnitudes [B, 201]."""
+    """Rows of noise, [B, 400], with magnitudes [B, 201]."""
     return torch.fft.irfft(torch.fft.rfft(torch.randn(len(shape), 400, generator=generator)) * shape, 400)
 
 
@@ -65,8 +65,8 @@ def test_the_balance_loss_is_half_the_squared_log_error_and_its_gradient_is_the_
     for _ in range(20):
         waves = [_noise(generator, flat) for _ in range(3)]
         loss = _heard(balance, label, 0.2, waves[0], gain * waves[1], gain * waves[2])
-    # No line and no ribs: of four kinds of features there are two; half of the moments grow with the gain, half with
-    # its third power.
+    # No lines and no ribs: two of four kinds of features apply; half of the moments grow with the gain, half with its
+    # third power.
     assert loss.item() == pytest.approx(0.5 * math.log(1.25) ** 2 * (1.0 + 0.5 * (1.0 + 9.0)), rel=0.15)
     (slope,) = torch.autograd.grad(loss, gain)
     assert slope.item() == pytest.approx(math.log(1.25) / 1.25 * (1.0 + 0.5 * (1.0 + 9.0)), rel=0.15)
@@ -110,7 +110,7 @@ def test_rare_impacts_differ_from_noise_of_equal_power_in_their_moments_and_thei
     generator = torch.Generator().manual_seed(5)
 
     def blows(share: torch.Tensor) -> torch.Tensor:
-        """Even noise and rare blows by share of power, [32, 400]."""
+        """Even noise and rare impacts by share of power, [32, 400]."""
         rare = torch.randn(ROWS, 400, generator=generator)
         rare = rare * (torch.rand(ROWS, 400, generator=generator) < 0.02) / 0.02**0.5
         return share.sqrt() * rare + (1.0 - share).sqrt() * torch.randn(ROWS, 400, generator=generator)

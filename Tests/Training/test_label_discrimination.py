@@ -1,4 +1,4 @@
-"""Materials are told apart: the classifier on known spectra, then the shipped model through the engine."""
+"""Discrimination of materials: the classifier on known spectra, then the shipped model through the engine."""
 
 from __future__ import annotations
 

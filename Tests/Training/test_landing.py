@@ -1,4 +1,4 @@
-"""What a landing on each material sounds like: harder is higher and springs back more, and files can hold it."""
+"""The touch-down vibration of each material: stiffer is higher and bounces more, within the format's limits."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ def test_every_touch_down_vibration_is_within_the_model_format_s_limits(material
 
 
 def test_a_tip_on_an_undamped_spring_would_start_with_its_speed_times_the_angular_frequency() -> None:
-    # The hand leaves 15 percent of v sqrt(k / m).
+    # The coupling to the hand leaves 15 per cent of v sqrt(k / m).
     landing = landing_of(dataclasses.replace(MATERIALS["wood"], stiffness_newtons_per_metre=2500.0))
     mode = landing.modes[0]
     assert mode.gain_per_second == pytest.approx(0.15 * 2.0 * math.pi * mode.frequency_hz)

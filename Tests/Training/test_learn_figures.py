@@ -1,4 +1,4 @@
-"""What `learn-figures` says of learnt materials: which ribs are right, and what stands in its table."""
+"""`learn-figures`: which ribs count as found, and the contents of its table."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The level that a network makes in closed loop is measured and taken back, label by label."""
+"""The closed-loop level of a network is measured and corrected, label by label."""
 
 from __future__ import annotations
 
@@ -24,7 +24,8 @@ _Floats = NDArray[np.float32]
 
 
 class _KnownSource:
-    """Noise at the store's own law of level, louder by `gain_db` of each label; the embedding's first value names it."""
+    """Noise at the store's own level, multiplied by `gain_db` of each label; the embedding's first value identifies
+    it."""
 
     def __init__(self, gain_db: tuple[float, float]) -> None:
         self._gain = 10.0 ** (np.array(gain_db) / 20.0)

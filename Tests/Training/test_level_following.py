@@ -1,4 +1,4 @@
-"""A level that breaks a power law gets a table; one that follows it gets none."""
+"""A label whose level departs from a power law gets a table; others get none."""
 
 from __future__ import annotations
 
@@ -48,7 +48,7 @@ def brick_and_wood() -> FakeStore:
 
 
 class LawOrTables:
-    """A perfect network under a level model that knows power laws only, or under tables: noise of that level."""
+    """A perfect network whose level model has power laws only, or tables: noise of that level."""
 
     LAWS = ((2.6, 1.0), (3.0, 1.0))
 

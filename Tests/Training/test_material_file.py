@@ -1,4 +1,4 @@
-"""Material files: what is written is read again, and what is not a material is refused by key."""
+"""Material files: written files are read again, and invalid ones are refused with the key named."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ def golden(name: str) -> Material:
 
 
 def patched(document: Any, patch: list[dict[str, Any]]) -> Any:
-    """JSON Patch, as far as the golden file uses it."""
+    """The part of JSON Patch that the golden file uses."""
     changed = copy.deepcopy(document)
     for change in patch:
         *parents, last = [int(part) if part.isdigit() else part for part in change["path"][1:].split("/")]

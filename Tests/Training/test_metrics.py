@@ -1,4 +1,4 @@
-"""Metrics of the evaluation on waves whose figures are known."""
+"""Metrics of the evaluation on waveforms whose figures are known."""
 
 from __future__ import annotations
 

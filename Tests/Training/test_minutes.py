@@ -1,4 +1,4 @@
-"""`train --minutes`: the time is shared out by what steps were measured to take, and a whole model comes out."""
+"""`train --minutes`: time is divided according to measured steps, and the model is complete at the end."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ SECONDS_PER_STEP = {"level": 1.0, "field": 4.0, "polish": 1.0}
 
 @pytest.fixture
 def wall(monkeypatch: pytest.MonkeyPatch) -> list[float]:
-    """A clock on the wall that moves with training steps alone."""
+    """A wall clock that advances only with training steps."""
     now = [0.0]
     monkeypatch.setattr(trainer_module.time, "monotonic", lambda: now[0])
     train_step = Trainer._train_step

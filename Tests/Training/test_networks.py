@@ -26,7 +26,7 @@ def _inputs(batch: int, channels: int = 1, positions: int = 200) -> dict[str, to
 
 
 def _trained_like(field: VelocityField) -> VelocityField:
-    """Layers that start at zero get weights, so that every input can reach the output."""
+    """Gives weights to layers that start at zero, so that every input can affect the output."""
     torch.manual_seed(1)
     for module in field.modules():
         if isinstance(module, torch.nn.Conv2d | torch.nn.ConvTranspose2d):

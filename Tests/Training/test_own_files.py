@@ -1,4 +1,4 @@
-"""A recording of one's own in every form reads as the same stroke; what is wrong is named with its remedy."""
+"""Own recordings in every form read as the same stroke; errors are named with a remedy."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ def read(path: Path) -> MaterialRecording:
 
 
 def assert_is_the_stroke(recording: MaterialRecording, made: Stroke, moving: bool = True) -> None:
-    """The stroke at 2 kHz, without the 0.3 s that are trimmed at each end."""
+    """Assert the stroke at 2 kHz, without the 0.3 s trimmed at each end."""
     count = len(recording.vibration_mps2)
     assert count == pytest.approx(2000 * (made.time_seconds[-1] - 0.6), abs=25)
     at = made.time_seconds[0] + 0.3 + np.arange(count) / 2000.0

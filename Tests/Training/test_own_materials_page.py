@@ -1,4 +1,4 @@
-"""The commands of two headings of own-materials.md, as they stand there, on recordings of every form."""
+"""Runs the commands of two sections of own-materials.md as printed, on recordings of every form."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ LABELS = (
     '[[label]]\nname = "{name}"\ncategory = "own"\nstiffness_newtons_per_metre = 400.0\nfriction_coefficient = 0.4\n'
     "wave_vectors_per_mm = []\n"
 )
-# In place of Training/configs/own.toml: the same phases in miniature.
+# In place of Training/configs/own.toml: the same phases with few steps.
 SMALL = """
 name = "own"
 threads = 1
@@ -72,7 +72,7 @@ def commands(heading: str) -> list[list[str]]:
 
 @pytest.fixture(scope="module")
 def standing(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """A folder with recordings of every form, a label each, one recording a label."""
+    """A folder with recordings of every form, one label and one recording each."""
     folder = tmp_path_factory.mktemp("own")
     made = folder / "recordings"
     csv_one_axis(made, "denim", "denim", stroke(11.0, hertz=90, seed=1), licence="CC0 1.0", source="a jacket")
@@ -104,7 +104,7 @@ def test_every_command_of_the_page_runs_where_the_recordings_are(
     assert {one["label"] for one in accuracy["labels"]} == {"denim", "tile", "felt"}
     for one in accuracy["labels"]:
         assert one["seconds"] >= 1.0 and np.isfinite(one["level_error_median_db"]) and 0.0 <= one["gfc"] <= 1.0
-        # What is left of a wrong level after it was taken back, even of a network that has hardly been trained.
+        # The remaining level error after calibration, even for a barely trained network.
         assert abs(one["level_error_median_db"]) < 12.0
     assert (standing / "out" / "own" / "accuracy" / "own-accuracy.png").stat().st_size > 5000
     discrimination = json.loads((standing / "out" / "own" / "discrimination" / "label-discrimination.json").read_text())

@@ -1,4 +1,4 @@
-"""Recordings that are nobody's published data set: nothing is claimed of them, and no label is guessed."""
+"""Recordings of unknown origin: no origin is claimed for them, and no label is guessed."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ NAMES = (*FEW, "0_45_30_500_1", *GRID)
 
 @pytest.fixture
 def folder(tmp_path: Path) -> Path:
-    """Denim and felt, under the ids that wood and steel have in the Cluster's data set."""
+    """Denim and felt, under the ids of wood and steel in the Cluster data set."""
     return recorded(tmp_path / "recordings", NAMES)
 
 

@@ -1,4 +1,4 @@
-"""Wrong units, glitches and dead sensors are told from recordings, before anybody trains on them."""
+"""Wrong units, glitches and dead sensors are detected before training."""
 
 from __future__ import annotations
 

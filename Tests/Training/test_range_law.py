@@ -1,4 +1,5 @@
-"""Beyond the recorded range: a level taught at 20-60 mm/s, continued by its label's exponents, against recordings."""
+"""Beyond the recorded range: a level fitted at 20-60 mm/s, extrapolated by its label's exponents, against
+recordings."""
 
 from __future__ import annotations
 
@@ -24,7 +25,7 @@ FAST_MPS = (0.15, 0.5, 1.5)
 
 @dataclass(frozen=True)
 class Taught:
-    """A level model and exponents that have seen nothing faster than 60 mm/s."""
+    """A level model and exponents fitted to nothing faster than 60 mm/s."""
 
     level: LevelModel
     embedding: torch.Tensor
@@ -89,7 +90,7 @@ def _recorded(label: str, speed_mps: float, seed: int) -> np.ndarray:
 
 
 def _level_errors_db(taught: Taught, speed_mps: float) -> tuple[np.ndarray, np.ndarray]:
-    """(with the law, clamped at the edge): size of the error of each label's level, dB."""
+    """(with the law, clamped at the edge): magnitude of the error of each label's level, dB."""
     law, clamped = [], []
     for row, label in enumerate(LABELS):
         wave = _recorded(label, speed_mps, 78)

@@ -1,4 +1,4 @@
-"""Real pen strokes, recorded by people, through the shipped engine and model: nothing breaks, clicks or clips."""
+"""Recorded pen strokes through the shipped engine and model: no errors, clicks or clipping."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ STROKES = ROOT.parent / "shared" / "strokes" / "vr-pen-on-surface" / "strokes.cs
 ENGINE = Path(os.environ.get("HAPTOFLOW_ENGINE", ROOT / "build" / "native" / "haptoflow"))
 UPDATE_RATE_HZ = 72.0
 
-# Left to right under every stroke: hard, periodic, soft and rough surfaces side by side.
+# From left to right under every stroke: hard, periodic, soft and rough surfaces side by side.
 MATERIALS = ("wood", "metal mesh", "rubber", "sandpaper", "corduroy", "glass")
 
 

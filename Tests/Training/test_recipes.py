@@ -1,4 +1,4 @@
-"""The training recipes: each one's loss is least where it should be, and each phase leaves a network that runs."""
+"""The training recipes: each loss is minimal where it should be, and each phase leaves a network that runs."""
 
 from __future__ import annotations
 

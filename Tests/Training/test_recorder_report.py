@@ -25,7 +25,7 @@ from haptoflow_training.recordings.synthetic.measurement import (
 )
 
 MATERIALS = {material.label: material for material in load_materials()}
-# From 20 mm/s as the report: ribs that are met at less than 20 Hz there bend the level law of a ruled label.
+# From 20 mm/s like the report: at lower speeds ribs are met at less than 20 Hz, which bends a ruled label's level law.
 SMALL = Design(
     speeds_mmps=(20.0, 80.0, 200.0),
     forces_newtons=(0.5, 1.0, 2.0),

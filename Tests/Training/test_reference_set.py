@@ -1,4 +1,4 @@
-"""The recordings that everything is held against: what two of a pair share is the process, not the spot."""
+"""The reference recordings: the two of a pair share the process, not the place."""
 
 from __future__ import annotations
 
@@ -149,7 +149,7 @@ def test_both_recordings_of_a_pair_are_of_the_held_out_specimen(monkeypatch: pyt
 
 
 def test_the_phase_of_the_ribs_is_that_of_the_place_on_the_surface_where_the_recording_is() -> None:
-    # Ribs as high as corduroy's: the recorded power swings with the phase that the place gives, at its start and later.
+    # Ribs of corduroy's height: the recorded power is modulated with the phase of the place, at its start and later.
     condition = dataclasses.replace(_first("corduroy", "constant", speed_mps=0.03), seconds=6.0)
     pair = record_pair((condition, _material("corduroy"), _material("glass")))
     ruling = _material("corduroy").dominant_ruling

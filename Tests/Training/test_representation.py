@@ -79,7 +79,7 @@ def test_a_codec_stays_frozen_inside_a_network_that_trains(name: str, request: p
     assert network["field"].training
     assert not any(module.training for module in representation.modules())
     assert not any(parameter.requires_grad for parameter in representation.parameters())
-    # Weight normalisation left in would work out every weight anew in each call.
+    # Weight normalisation would recompute every weight in each call.
     assert not any(name.endswith("weight_g") for name in representation.state_dict())
 
 
@@ -141,7 +141,7 @@ def test_upsampling_keeps_the_samples_and_adds_no_delay() -> None:
     raised = resampler.upsample(tones)
     assert raised.shape == (3, 1, 2400)
     torch.testing.assert_close(raised[..., ::12], tones, atol=5e-4, rtol=0.0)
-    # Between the samples the tone goes on as a tone.
+    # Between the samples the tone must continue as a tone.
     fine_seconds = torch.arange(2400, dtype=torch.float64) / 24000.0
     expected = torch.sin(2.0 * torch.pi * 437.0 * fine_seconds + 0.7).float()
     torch.testing.assert_close(raised[1, 0, 400:2000], expected[400:2000], atol=2e-3, rtol=0.0)
@@ -155,7 +155,7 @@ def test_downsampling_removes_what_would_alias() -> None:
 
 
 class _Recorder(nn.Module):
-    """Stands where EnCodec stands, keeps the 24 kHz waveform and gives it back."""
+    """Replaces EnCodec: stores the 24 kHz waveform and returns it."""
 
     def encode(self, waveform: torch.Tensor) -> torch.Tensor:
         self.heard = waveform

@@ -1,4 +1,4 @@
-"""Ruled surfaces: their wave vectors, the comb that carries their pitch, and strokes steady enough to learn it from."""
+"""Ruled surfaces: their wave vectors, the rib comb, and strokes that are steady enough to learn a pitch."""
 
 from __future__ import annotations
 
@@ -51,7 +51,7 @@ def _comb(
     gains: torch.Tensor | None = None,
     turns: tuple[float, float] = (0.0, 0.0),
 ) -> torch.Tensor:
-    """[B, 5, 200]: past carried on by both families of ribs, pulses of both, lines."""
+    """[B, 5, 200]: the past continued by both families of ribs, pulses of both, lines."""
     count = len(past)
     motion = torch.tensor([[speed_mps, 0.0, 1.0]] * count)
     embedding = EMBEDDING(torch.tensor([label] * count))
@@ -104,13 +104,13 @@ def test_a_reversed_stroke_meets_the_same_ribs_in_reverse() -> None:
     gains = torch.randn(1, GAINS, generator=torch.Generator().manual_seed(4))
     gains[:, : 2 * PARTIALS] = gains[:, 4 * PARTIALS :] = 0.0
     against = gains.clone()
-    # Seen from the other side, what lagged behind is ahead.
+    # Seen from the other side, a phase lag becomes a lead.
     against[:, 3 * PARTIALS : 4 * PARTIALS] *= -1.0
     silence = torch.zeros(1, 1, 200)
     position_mm = 7.31
     turn = rib_phase(EMBEDDING(torch.tensor([0])), torch.tensor([[position_mm, 0.0]]))[0, 0].item()
     there = _comb(silence, 0, 0.2, gains, (turn, 0.0))[0, 4]
-    # The way back begins where the way there has come to with its last sample.
+    # The way back starts where the way there ended with its last sample.
     end = (turn + 0.4 * 200.0 * 199.0 / 2000.0) % 1.0
     back = _comb(silence, 0, -0.2, against, (end, 0.0))[0, 4]
     torch.testing.assert_close(back, torch.flip(there, [0]), rtol=0.0, atol=2e-3)
@@ -125,7 +125,7 @@ def test_a_wandering_profile_continues_from_its_offset_in_the_past(
     gains = torch.zeros(1, GAINS)
     profile = gains[0, 4 * PARTIALS : 6 * PARTIALS].view(2, PARTIALS)
     profile[0, :4], profile[1, :4] = torch.tensor([0.5, -0.4, 0.3, 0.3]), torch.tensor([0.2, 0.3, -0.4, 0.2])
-    # Sharp: what is asked about is the offset.
+    # Sharp, because this test is about the offset.
     gains[0, 6 * PARTIALS : 6 * PARTIALS + 2] = 3.0
 
     def wave(start: int, stop: int) -> torch.Tensor:
@@ -199,7 +199,7 @@ def test_pulses_occur_at_the_rib_rate_and_a_silent_past_gives_no_continuation() 
         for place in range(2, 198)
         if combed[0, 2, place] > 2.0 and combed[0, 2, place] == combed[0, 2, place - 2 : place + 3].max()
     ]
-    # 0.4 ribs a millimetre at 100 mm/s: every 50 samples one, the first half a rib away.
+    # 0.4 ribs a millimetre at 100 mm/s: one every 50 samples, the first half a rib away.
     assert peaks == [25, 75, 125, 175]
     assert combed[:, 0].abs().max().item() == 0.0
     assert combed[:, 3].abs().max().item() == 0.0, "a second family of ribs that is not there"

@@ -1,4 +1,4 @@
-"""The paper's baselines in our form: shapes, independence, learning, stability, and their graphs."""
+"""The rivals' networks: shapes, independence, learning, stability, and their graphs."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ from haptoflow_training.models.velocity_field import parameter_count
 DETERMINISTIC = ("transformer", "dstn")
 RANDOM = ("spsi", "autoregressive")
 SAMPLED = ("transformer", "dstn", "spsi")
-# As published, and given the same as our network.
+# In the forms as published and given the same.
 FORMS = {
     **{architecture: {"architecture": architecture} for architecture in ARCHITECTURES},
     "autoregressive with ribs": {"architecture": "autoregressive", "ribs": True},
@@ -58,7 +58,7 @@ def _built(form: str) -> Rival:
     torch.manual_seed(1)
     baseline = build_rival(**FORMS[form]).eval()
     if baseline.lines is not None:
-        # Lines are silent until trained.
+        # Lines are zero until trained.
         torch.nn.init.normal_(baseline.lines.gains.layers[-1].bias, std=0.2)
     return baseline
 
@@ -70,7 +70,7 @@ def _one_condition(batch: int) -> tuple[Tensor, Tensor, Tensor]:
 
 
 def _train(baseline: Rival, draw: Batch, steps: int, rate: float) -> list[float]:
-    """Losses of every step on batches of (previous, segment) that `draw` makes, all of one condition."""
+    """Losses of every step on batches of (previous, segment) from `draw`, all of one condition."""
     optimiser = torch.optim.Adam(baseline.parameters(), lr=rate)
     generator, losses = torch.Generator().manual_seed(0), []
     for step in range(steps):
@@ -90,7 +90,7 @@ def _sinusoids(step: int) -> tuple[Tensor, Tensor]:
 
 
 def _answer_always(module: AutoregressiveRival, raw: Tensor) -> None:
-    """Makes the perceptron answer raw [17], whatever it is asked."""
+    """Makes the perceptron return raw [17] for every input."""
     last = module.perceptron.layers[-1]
     with torch.no_grad():
         last.weight.zero_()
@@ -321,5 +321,5 @@ def test_a_rival_exports_as_one_graph_for_every_batch_size(form: str) -> None:
     for value in (*model.graph.input, *model.graph.output):
         assert value.type.tensor_type.shape.dim[0].dim_param == "batch"
     assert not {"Loop", "Scan", "If"} & {node.op_type for node in model.graph.node}
-    # A batch size that tracing froze into a constant would differ.
+    # Differs if tracing has made the batch size a constant.
     assert model.graph.SerializeToString() == _exported(baseline, 3).graph.SerializeToString()

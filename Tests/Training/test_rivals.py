@@ -1,4 +1,4 @@
-"""Rivals that are given the same: each new form learns what it is for, keeps its phases, and becomes a model file."""
+"""Rivals given the same: each form learns its task, keeps phases, and becomes a model file."""
 
 from __future__ import annotations
 
@@ -44,7 +44,7 @@ WAVE_VECTORS = [[(0.5, 0.0)], []]
 
 
 def _shortened(name: str) -> TrainingConfig:
-    """The shipped configuration, a few steps a phase."""
+    """The shipped configuration with a few steps a phase."""
     config = load_config(CONFIGS / f"{name}.toml")
     few = {
         key: min(4, getattr(config.recipe, key)) for key in ("reflow_steps", "energy_steps", "self_forcing_steps")
@@ -148,7 +148,7 @@ def test_a_rival_without_ribs_has_no_lines_and_untrained_rib_lines_are_zero() ->
 
 
 def _condition(count: int, speed_mps: float) -> tuple[Tensor, Tensor, Tensor]:
-    """Embedding with ribs of 2 mm along x, motion across them, rib phase from the count."""
+    """An embedding with ribs of 2 mm along x, motion across them, and the counted rib phase."""
     embedding = torch.full((1, 64), 0.3)
     embedding[:, -4:] = torch.tensor([0.5, 0.0, 0.0, 0.0])
     motion = torch.tensor([[speed_mps, 0.0, 1.0]])
@@ -162,8 +162,8 @@ _LINE = 0.8
 
 
 def _ribbed_texture(count: int, seed: int) -> tuple[Tensor, Tensor, tuple[Tensor, Tensor, Tensor]]:
-    """Previous and segment [count, 1, 200] of an autoregressive texture under ribs that pass at 100 Hz, in the phase that
-    the surface has, and their conditions."""
+    """Previous and segment [count, 1, 200] of an autoregressive texture with ribs that pass at 100 Hz in the
+    surface's phase, and their conditions."""
     generator = np.random.default_rng(seed)
     noise = scipy.signal.lfilter([_DRIVE], _RINGING, generator.standard_normal((count, 900)))[:, 500:]
     embedding, motion, phase = _condition(count, 0.2)
@@ -204,7 +204,7 @@ def test_autoregressive_noise_models_the_rest_beside_the_rib_lines() -> None:
         made = baseline(torch.randn(256, 1, 200), previous, *condition)
         coefficients, log_gain = baseline.process(*condition[:2])
     assert _line_of(made, condition[2]).mean().item() == pytest.approx(_LINE, rel=0.1)
-    # Without the lines, the prediction error would hold what the filter cannot foresee of them.
+    # Without the lines, the prediction error would include their unpredictable part.
     assert log_gain.exp().mean().item() == pytest.approx(_DRIVE, rel=0.1)
     learned = np.concatenate([[1.0], coefficients[0].double().numpy()])
     response = [np.abs(scipy.signal.freqz([1.0], a, worN=128)[1]) for a in (_RINGING, learned)]
@@ -244,7 +244,7 @@ def test_sampled_spsi_predicts_the_mean_power_and_not_the_geometric_mean() -> No
         optimiser.step()
     with torch.no_grad():
         made = baseline(torch.randn(64, 1, 200), torch.zeros(64, 1, 200), *condition)
-    # A published one would stay 2.5 dB below.
+    # The published form would stay 2.5 dB below.
     assert 20.0 * math.log10(made.square().mean().sqrt().item() / 2.0) == pytest.approx(0.0, abs=0.4)
 
 

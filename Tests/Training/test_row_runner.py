@@ -1,4 +1,4 @@
-"""Rows measured by several processes: the same figures as one process finds, kept as they come."""
+"""Rows measured by several processes: the same figures as with one process, stored as they are finished."""
 
 from __future__ import annotations
 
@@ -57,7 +57,7 @@ def test_a_row_on_every_fourth_recording_has_a_quarter_of_the_cells_and_another_
     whole = next(row for row in _ROWS if row.name == "white-noise")
     quarter = dataclasses.replace(whole, every_fourth=True)
     assert len(measure_rows(place, yardstick, [(whole, 1)], 1)["white-noise", 1]["conditions"]) == 12
-    # What was measured on all is not taken for it.
+    # The row measured on all recordings is not used for it.
     assert len(measure_rows(place, yardstick, [(quarter, 1)], 1)["white-noise", 1]["conditions"]) == 3
 
 

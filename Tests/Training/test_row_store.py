@@ -1,4 +1,4 @@
-"""Measured rows as files: read as written, and taken only where nothing they were measured from has changed."""
+"""Measured rows as files: read as written, and used only if nothing they depend on has changed."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Which trainings the evaluation's rows start, and which they take as done."""
+"""Which trainings the evaluation's rows start, and which count as done."""
 
 from __future__ import annotations
 
@@ -81,7 +81,7 @@ def test_rows_in_a_codec_s_latents_train_the_codec_once(place: Workplace, starte
         (place.root / f"{name}.toml").write_text(text, encoding="utf-8")
     train_models(place, [(PlannedRow(name, "as-published", model=name), 1) for name in ("one", "two")], 1)
     assert [job.name for job in started] == ["the small codec", "one, seed 1", "two, seed 1"]
-    # The checkpoint's path is relative to the repository, wherever the evaluation is started from.
+    # The checkpoint's path is relative to the repository, whatever the current folder.
     assert {job.folder for job in started} == {place.root}
 
 

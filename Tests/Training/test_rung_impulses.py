@@ -1,4 +1,4 @@
-"""Rare events from Gaussian noise: how rare, how loud, with what ring, and that a field can learn them."""
+"""Rare events from Gaussian noise: rate, strength, ringing, and whether a field can learn them."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Sliders move what they say, never leave the labels' spread, and the shipped file is what the command writes."""
+"""Sliders move the embedding as named and stay inside the labels' spread; the shipped file is reproduced."""
 
 from __future__ import annotations
 

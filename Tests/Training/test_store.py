@@ -25,7 +25,7 @@ LABELS = ["stone", "wood"]
 
 @dataclass(frozen=True)
 class OnDemand:
-    """A recording that is made in the worker that prepares it."""
+    """A recording that is generated in the worker that prepares it."""
 
     name: str
     label: str

@@ -1,4 +1,4 @@
-"""Logs in, report out: what is found, what is said in place of a number, and that simulated studies are called so."""
+"""From logs to a report: what is found, the reasons in place of numbers, and the mark of simulated studies."""
 
 from __future__ import annotations
 
@@ -55,7 +55,7 @@ def test_a_report_of_real_participants_is_not_marked_as_simulated(tmp_path: Path
     logs = similarity_study(latency_study(tmp_path / "logs", 6), 6)
     make_real(logs)
     page, results = analysed(logs, tmp_path)
-    # The names of the simulated headset and program stay in what was analysed.
+    # The names of the simulated headset and program are reported too.
     shown = re.sub(r"none: simulated", "", page)
     assert "SIMULATED" not in shown and results["simulated"] is False
     assert all("SIMULATED" not in picture and "simulated" not in picture for picture in pictures_of(page))

@@ -1,4 +1,4 @@
-"""The delay budget: what it reads of the benchmark, what it adds up, and what it refuses."""
+"""The delay budget: what it reads from the benchmark, its sums, and refused input."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Logs of studies: what is read, what is refused and how the place of the fault is named, and the merged tables."""
+"""Study logs: accepted and refused files, the named places of errors, and the merged tables."""
 
 from __future__ import annotations
 

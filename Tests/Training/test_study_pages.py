@@ -1,4 +1,4 @@
-"""The commands of the studies' pages, as they stand there, and the pages' figures, keys and columns."""
+"""Runs the commands of the studies' pages as printed, and checks the pages' figures, keys and columns."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ from haptoflow_training.studies.validation_words import page_words as validation
 ROOT = Path(__file__).parents[2]
 PAGES = ROOT / "Documentation~"
 LOGS, ANALYSIS, BUDGET = (PAGES / f"{name}.md" for name in ("study-logs", "study-analysis", "delay-budget"))
-# What a command gets behind its own words, so that a test does not take minutes.
+# Options added to a command, so that a test does not take minutes.
 SHORTER = {
     "power": ["--simulations", "10"],
     "validate": ["--studies", "2", "--simulations", "2"],
@@ -125,7 +125,7 @@ def test_the_committed_validation_meets_its_criteria() -> None:
         assert one["truth_ms"] == truth and one["covered"]["of"] == 200
         assert one["covered"]["low"] <= 0.95 <= one["covered"]["high"]
     for name, rate in found["false_positives"].items():
-        # Equivalence is judged against a bound that is itself estimated; the page says so and gives its rate.
+        # Equivalence is judged against a bound that is itself estimated; the page states this and the rate.
         if name != "equivalence_at_the_bound":
             assert rate["low"] <= 0.05, name
     for name in ("friedman", "pair", "pair_alone"):

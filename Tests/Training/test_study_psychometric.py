@@ -1,4 +1,4 @@
-"""The psychometric fit: the maximum of the likelihood, honest intervals, and words where no number means anything."""
+"""The psychometric fit: maximum likelihood, correct intervals, and reasons where there is no number."""
 
 from __future__ import annotations
 

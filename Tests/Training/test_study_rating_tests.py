@@ -1,4 +1,4 @@
-"""Tests and effect sizes of ratings with ties, zeros and nothing to test at all."""
+"""Tests and effect sizes of ratings with ties, with zeros and without differences."""
 
 from __future__ import annotations
 

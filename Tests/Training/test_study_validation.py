@@ -1,4 +1,4 @@
-"""The analysis on studies whose truth is known, in a short form; `study validate` is the long one."""
+"""The analysis on studies with known truth, in a short form of `study validate`."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ def test_thresholds_of_24_simulated_participants_are_recovered_from_their_logs()
     for condition in CONDITIONS:
         one = found[condition]
         assert one["mean_ms"] == pytest.approx(PAPER_CURVES[condition].x0, abs=6.0)
-        # At 95 %, 12 or fewer of 16 would come up less than once in a hundred times.
+        # At 95 %, 12 or fewer of 16 would occur less than once in a hundred times.
         assert one["covered"]["rate"] * 16 >= 12.5
         assert one["mean_standard_error_ms"] == pytest.approx(one["spread_ms"], rel=0.5)
 
@@ -60,7 +60,7 @@ def test_no_test_of_ratings_exceeds_its_false_positive_rate() -> None:
     any_pair = sum(any(pair.p_shaffer is not None and pair.p_shaffer < 0.05 for pair in one.pairs) for one in results)
     alone = sum(one.pairs[0].p is not None and one.pairs[0].p < 0.05 for one in results)
     for count in (friedman, any_pair, alone):
-        # More than 25 of 300 would come up less than once in a hundred times at 5 %.
+        # More than 25 of 300 would occur less than once in a hundred times at 5 %.
         assert count <= 25
     assert min(friedman, alone) >= 5
 

@@ -1,6 +1,4 @@
-"""The synthetic recorder's physics and protocols: each trait that a believable recorder has, and
-determinism.
-"""
+"""The synthetic recorder's physics and protocols, and its determinism."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Metrics of time on waves whose figures are known by theory."""
+"""Temporal metrics on waveforms whose figures are known from theory."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Renders and recordings told apart as a hand would: by chance alone where they are draws of one process."""
+"""Classification of renders and recordings: at chance level for draws of one process."""
 
 from __future__ import annotations
 
@@ -73,7 +73,7 @@ def test_changes_of_label_are_not_classified() -> None:
 
 
 def test_no_motion_is_used_for_both_fitting_and_testing() -> None:
-    # Every motion has its own pitch. Learnt by heart, each would name its render; from other motions, none does.
+    # Every motion has its own pitch. Memorised, each would identify its render; from other motions, none does.
     generator = np.random.default_rng(3)
     time = np.arange(_SAMPLES) / 2000.0
     motion = np.zeros((_SAMPLES, 3), dtype=np.float32)

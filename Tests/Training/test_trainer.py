@@ -1,4 +1,4 @@
-"""The loop: it learns, it resumes to the same weights, it shares a batch between processes."""
+"""The training loop: it learns, it resumes to the same weights, it shares a batch between processes."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ def _config(steps: int = 30) -> TrainingConfig:
 
 
 def ask_to_stop_after(trainer: Trainer, step: int) -> None:
-    """Ask the trainer to stop as soon as it has made this many steps, as a signal would."""
+    """Ask the trainer to stop after this many steps, as a signal would."""
     train_step = trainer._train_step
 
     def stop_in_the_middle(*arguments: object) -> object:
@@ -69,7 +69,7 @@ def test_a_finished_run_that_is_started_again_keeps_its_summary(tmp_path: Path) 
     store = make_store()
     Trainer(_config(), store, tmp_path, ALONE).run()
     said = (tmp_path / "run.json").read_text(encoding="utf-8")
-    # The commit of the day on which it is asked again is not the one that trained.
+    # The present commit is not the one that trained.
     (tmp_path / "run.json").write_text(said.replace('"commit": "', '"commit": "older '), encoding="utf-8")
     Trainer(_config(), store, tmp_path, ALONE).run()
     assert "older " in json.loads((tmp_path / "run.json").read_text(encoding="utf-8"))["commit"]
@@ -83,7 +83,7 @@ def test_a_resumed_run_ends_with_the_weights_of_an_uninterrupted_one(tmp_path: P
     ask_to_stop_after(interrupted, 33)
     with pytest.raises(TrainingStopped, match="step 33 of 60"):
         interrupted.run()
-    # Half of its phases are missing: it would be exported as if it were whole.
+    # Half of its phases are missing, so it must not be exported as finished.
     with pytest.raises(InputError, match="interrupted at step 33 of 60; go on with"):
         load_trained(tmp_path / "halves")
     Trainer(_config(), store, tmp_path / "halves", ALONE).run()
@@ -112,7 +112,7 @@ def test_a_run_that_was_never_trained_cannot_be_loaded(tmp_path: Path) -> None:
         load_trained(tmp_path)
 
 
-# A bare machine's own name resolves to nothing: torchrun must be told the loopback address.
+# A bare machine's own name does not resolve: torchrun needs the loopback address.
 _TORCHRUN_ON_A_NAMELESS_MACHINE = """
 import runpy, socket
 socket.gethostname = lambda: "this-name-does-not-resolve.invalid"

@@ -1,4 +1,4 @@
-"""Ahead, even and behind: called only where chance cannot have made the difference, and for a rival as a whole."""
+"""Verdicts: differences count only if chance is excluded, and rivals are judged as a whole."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ _LABELS = "abcdef"
 
 
 def _cells(seed: int, size: float, noise: float = 0.3, **more: Any) -> list[dict[str, Any]]:
-    """Of each label ten cells, whose level errors have both signs and about this size."""
+    """Ten cells for each label, whose level errors have both signs and about this magnitude."""
     generator = np.random.default_rng(seed)
     return [
         {
@@ -39,7 +39,7 @@ def test_chance_differences_are_judged_even() -> None:
 
 
 def test_only_recordings_common_to_both_rows_are_compared() -> None:
-    # The rival was spared the cells that are hard for everybody.
+    # The rival was not measured on the cells that are hard for every row.
     hard = [{**cell, "seed": 100 + cell["seed"], "level_error_db": 9.0} for cell in _cells(1, 0.0)]
     assert verdict([*_cells(1, 0.5), *hard], _cells(2, 2.0))["level_error_db"] == "ahead"
     assert "level_error_db" not in verdict(_cells(1, 0.5), hard)
@@ -72,7 +72,7 @@ def test_solver_variants_of_one_network_are_one_rival_by_its_best_row_in_each_fi
 
 def test_a_variant_measured_on_easier_recordings_gains_no_advantage() -> None:
     full, quarter = _row("ours", "", 1.0, 1.0, "", ""), _row("ours-quarter", "", 0.2, 1.0, "", "")
-    # Half as much again as ours on the same recordings, and three times as much.
+    # 1.5 times our error on the same recordings, and 3 times.
     one = {**_row("one", "plain", 1.5, 2.0, "behind", "ahead"), "against": "ours"}
     two = {**_row("two", "plain", 0.9, 2.5, "ahead", "ahead"), "against": "ours-quarter"}
     found = rivals([{**full, "block": "ours"}, {**quarter, "block": "ours"}, one, two], ("as-published",))

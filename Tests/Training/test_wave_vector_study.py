@@ -1,4 +1,4 @@
-"""The count of ribs found, missed and made up, and the page that states it."""
+"""The counts of found, missed and wrong ribs, and the page that states them."""
 
 from __future__ import annotations
 

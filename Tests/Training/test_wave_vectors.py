@@ -1,4 +1,4 @@
-"""Ribs are found from recordings: within 2 % where there are some, none where there are none."""
+"""Ribs are found in recordings: within 2 % where there are some, none where there are none."""
 
 from __future__ import annotations
 
@@ -41,7 +41,7 @@ def recorded(material: Material, seed: int, velocity: np.ndarray) -> MaterialRec
 @pytest.mark.parametrize("material", MATERIALS, ids=lambda material: material.label)
 def test_every_family_of_ribs_is_found_within_2_percent_and_none_on_a_surface_without(material: Material) -> None:
     seed = 100 + material.texture_id
-    # Threads that are not even have another spacing at every place: their mean is told from several.
+    # Uneven threads have another spacing at every place; their mean is estimated from several.
     places = 4 if any(ruling.jitter > 0.05 for ruling in material.rulings) else 1
     strokes = [recorded(material, seed + place, straight_strokes(12.0, seed + place)) for place in range(places)]
     found = estimate_wave_vectors(strokes)
