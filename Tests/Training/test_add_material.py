@@ -207,7 +207,7 @@ def test_a_material_of_another_space_does_not_become_a_label() -> None:
 
 
 def render_wav(folder: Path, label: str, *options: str | Path) -> bytes:
-    """Bytes of a WAV of half a second on a plane of the label."""
+    """The bytes of a WAV file of half a second on a plane of the label."""
     folder.mkdir()
     motion = np.tile(np.array([0.08, 0.02, 1.0]), (1000, 1))
     made = render_motion(ENGINE, label, motion, folder, options=("--quiet", *map(str, options)))

@@ -1,5 +1,8 @@
-"""The measurements behind the published tables: rivals, codecs, rows, studies. Builds on haptoflow_training, which never
-imports it; importing this package makes its networks, codecs and objectives available in run configurations."""
+"""The measurements behind the published tables: rivals, codecs, rows, studies.
+
+Builds on haptoflow_training, which never imports it. Importing this package makes its networks, codecs and objectives
+available in run configurations.
+"""
 
 from __future__ import annotations
 

@@ -13,12 +13,16 @@ def _command(summary: str, name: str) -> Command:
 
 
 _COMMANDS = {
-    "evaluate": _command("measure accuracy and time of every row of the plan, or accuracy of your own model", "evaluate"),
+    "evaluate": _command(
+        "measure accuracy and time of every row of the plan, or accuracy of your own model", "evaluate"
+    ),
     "discriminate": _command(
         "check that a classifier trained on recordings recognises the label of what the engine renders", "discriminate"
     ),
     "few-shot": _command("measure materials fitted to ten seconds of recording, beside rivals", "few_shot"),
-    "learn-figures": _command("measure materials fitted by `haptoflow learn` to ten seconds of recording", "learn_figures"),
+    "learn-figures": _command(
+        "measure materials fitted by `haptoflow learn` to ten seconds of recording", "learn_figures"
+    ),
     "measure-wave-vectors": _command(
         "count ribs found, missed and falsely found in seconds of strokes", "measure_wave_vectors"
     ),

@@ -15,8 +15,8 @@ from haptoflow_training.training.flow_matching import Field, interpolate
 
 @dataclass(frozen=True)
 class ReflowPairs:
-    """Noise [n, C, N] and the segments [n, C, N] the teacher made of it, with their conditions; previous waveform in unit
-    scale."""
+    """Noise [n, C, N] and the segments [n, C, N] that the teacher made of it, with their conditions; previous
+    waveform in unit scale."""
 
     noise: Tensor
     target: Tensor

@@ -1,4 +1,4 @@
-"""Rivals: the methods that the HaptoFlow paper compares itself with. Their layer sizes are not published; these are ours."""
+"""Rivals: the methods that the HaptoFlow paper compares itself with. The sizes of their layers were not published."""
 
 from __future__ import annotations
 

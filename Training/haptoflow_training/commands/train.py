@@ -31,8 +31,8 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser], su
         description=(
             "Prepares the recordings that the configuration names (once), trains the level model and the velocity "
             "field, and writes checkpoint.pt, metrics.csv, metrics.png and run.json into --out. Run it again to resume "
-            "after an interruption: the result is the same. Paths are relative to the current folder; those in a configuration "
-            "file are relative to that file."
+            "after an interruption: the result is the same. Paths are relative to the current folder; those in a "
+            "configuration file are relative to that file."
         ),
         epilog=(
             "examples:\n"
@@ -51,7 +51,9 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser], su
         default=OWN_CONFIGURATION,
         help="the run's TOML file, for example Training/configs/cluster.toml (default: Training/configs/own.toml)",
     )
-    parser.add_argument("--out", type=Path, required=True, help="folder of the run; created if absent, otherwise the run in it is resumed")
+    parser.add_argument(
+        "--out", type=Path, required=True, help="folder of the run; created if absent, otherwise the run in it is resumed"
+    )
     parser.add_argument(
         "--store", type=Path, help="folder of the prepared recordings (default: `store` beside the run's folder)"
     )

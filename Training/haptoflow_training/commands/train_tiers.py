@@ -41,7 +41,9 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser], su
         "--configs", type=Path, default=CONFIGURATIONS, metavar="DIR",
         help="folder with base.toml and one TOML file for each tier (default: %(default)s)",
     )  # fmt: skip
-    parser.add_argument("--out", type=Path, required=True, help="folder of the runs; created if absent, otherwise its runs are resumed")
+    parser.add_argument(
+        "--out", type=Path, required=True, help="folder of the runs; created if absent, otherwise its runs are resumed"
+    )
     parser.add_argument("--lanes", type=int, default=os.cpu_count() or 1, help="trainings at a time (default: cores)")
     parser.add_argument("--workers", type=int, default=2, help="processes that prepare recordings (default: 2)")
     parser.add_argument("--export", type=Path, metavar="FILE", help="write the .haptoflow model file here at the end")

@@ -14,8 +14,8 @@ from haptoflow_training.waveform import SEGMENT_SAMPLES
 
 
 class Representation(nn.Module):
-    """shape: (channels, positions) that the velocity field works on. is_latent: the exported tier needs the graphs of an
-    encoder and a decoder."""
+    """The form of a segment that the velocity field works on. shape: (channels, positions). is_latent: the exported
+    tier needs the graphs of an encoder and a decoder."""
 
     shape: tuple[int, int]
     is_latent: bool
@@ -29,11 +29,11 @@ class Representation(nn.Module):
         raise NotImplementedError
 
     def export_encoder(self, path: Path | str) -> None:
-        """Write the encoder of a latent representation as an ONNX graph: `waveform` [B, 1, 200] to `latent` [B, *shape]."""
+        """Write the ONNX graph of a latent representation's encoder: `waveform` [B, 1, 200] to `latent` [B, *shape]."""
         raise NotImplementedError
 
     def export_decoder(self, path: Path | str) -> None:
-        """Write the decoder of a latent representation as an ONNX graph: `latent` [B, *shape] to `waveform` [B, 1, 200]."""
+        """Write the ONNX graph of a latent representation's decoder: `latent` [B, *shape] to `waveform` [B, 1, 200]."""
         raise NotImplementedError
 
 
