@@ -9,8 +9,7 @@ import torch
 
 from haptoflow_training.models.band_limit import BandLimit
 from haptoflow_training.models.conditioning import EMBEDDING_SIZE, MotionFeatures
-from haptoflow_training.models.level_model import LevelModel, level_loss
-from haptoflow_training.models.unit_scale import unit_scale
+from haptoflow_training.models.level_model import LevelModel, level_loss, unit_scale
 from haptoflow_training.models.velocity_field import FilmBlock, VelocityField, parameter_count
 
 

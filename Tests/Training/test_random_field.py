@@ -16,7 +16,7 @@ from haptoflow_training.recordings.synthetic.surface import OCTAVE_WAVELENGTHS_M
 MATERIALS = {material.label: material for material in load_materials()}
 STROKE_MM = 30_000.0
 # An octave is silent above a certain rate, so half a minute meets at most this many wavelengths.
-MOST_WAVES = 30 * 2000
+MAXIMUM_WAVES = 30 * 2000
 
 
 def _line(count: int, step_mm: float, degrees: float) -> np.ndarray:
@@ -37,7 +37,7 @@ def _autocorrelation(values: np.ndarray) -> np.ndarray:
 def test_no_octave_repeats_along_thirty_metres_or_half_a_minute_of_straight_stroke(octave: int, degrees: float) -> None:
     wavelength = OCTAVE_WAVELENGTHS_MM[octave]
     step = wavelength / 4.0
-    count = 4 * min(int(STROKE_MM / wavelength), MOST_WAVES)
+    count = 4 * min(int(STROKE_MM / wavelength), MAXIMUM_WAVES)
     seen = _autocorrelation(RandomField(1003, 0, octave, wavelength).at(_line(count, step, degrees)))
     # Six standard deviations of a correlation over as many independent wavelengths as the stroke has.
     chance = 6.0 / np.sqrt(0.5 * count * step / wavelength)

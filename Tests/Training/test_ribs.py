@@ -15,7 +15,7 @@ from training_fixtures import make_store
 from haptoflow_training.models.label_embedding import LabelEmbedding, rib_frequencies_hz, rib_phase
 from haptoflow_training.models.rib_comb import GAINS, PARTIALS, RibComb, spread_gains
 from haptoflow_training.models.velocity_field import VelocityField
-from haptoflow_training.recordings.synthetic.carriers import FASTEST_MMPS, guided_ride
+from haptoflow_training.recordings.synthetic.carriers import MAXIMUM_SPEED_MMPS, guided_ride
 from haptoflow_training.recordings.synthetic.contact import SIMULATION_RATE_HZ
 from haptoflow_training.training.config import ModelConfig, RecipeConfig
 from haptoflow_training.training.energy_distance import energy_distance_loss, envelopes, spectra
@@ -269,7 +269,7 @@ def test_a_guided_stroke_holds_its_velocity_for_most_tenths_of_a_second_and_chan
     spread = np.hypot(*np.ptp(tenths, axis=1).T) / np.hypot(*tenths.mean(axis=1).T)
     assert np.mean(spread < 0.03) > 0.7
     assert len(np.unique(np.round(np.log(np.hypot(*tenths.mean(axis=1).T)), 1))) >= 4
-    assert np.hypot(*ride.path.velocity_mmps.T).max() <= FASTEST_MMPS + 1.0
+    assert np.hypot(*ride.path.velocity_mmps.T).max() <= MAXIMUM_SPEED_MMPS + 1.0
     assert np.hypot(*ride.path.velocity_mmps[[0, -1]].T).max() < 1.0
     assert ride.force_newtons.min() > 0.0
 

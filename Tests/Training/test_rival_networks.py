@@ -23,8 +23,8 @@ from haptoflow_benchmark.rivals.autoregressive import (
 )
 from haptoflow_benchmark.rivals.spsi import SinglePassInversion, SpsiRival, magnitude_spectrum
 from haptoflow_training.models.conditioning import EMBEDDING_SIZE
+from haptoflow_training.models.level_model import PREVIOUS_LIMIT
 from haptoflow_training.models.segment_network import INPUTS, SegmentNetworkGraph
-from haptoflow_training.models.unit_scale import PREVIOUS_LIMIT
 from haptoflow_training.models.velocity_field import parameter_count
 
 DETERMINISTIC = ("transformer", "dstn")

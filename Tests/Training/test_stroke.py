@@ -7,7 +7,7 @@ import pytest
 
 from haptoflow_training.cli import main
 from haptoflow_training.strokes.hand_stroke import (
-    FASTEST_SPEED_MPS,
+    MAXIMUM_SPEED_MPS,
     force_profile,
     random_planar_stroke,
     scripted_stroke,
@@ -63,7 +63,7 @@ def test_a_random_stroke_has_the_median_speed_asked_for_and_stays_within_what_ha
     )
     speed = stroke.speed_mps
     assert np.median(speed[speed > 0.05 * median]) == pytest.approx(median, rel=0.1)
-    assert speed.max() <= FASTEST_SPEED_MPS
+    assert speed.max() <= MAXIMUM_SPEED_MPS
     assert speed[0] == 0.0 and speed[-1] == 0.0
     assert np.percentile(speed, 95) > 1.4 * median
     assert np.ptp(stroke.position_metres, axis=0).max() < 1.0

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from scipy import optimize, special
 
-from haptoflow_training.studies.bootstrap import expanded_interval, jackknife_error, participant_weights
+from haptoflow_training.studies.intervals import expanded_interval, jackknife_error, participant_weights
 from haptoflow_training.studies.psychometric import (
     Answers, Curve, degenerate_statement, fit, fit_curve, percent_yes, threshold_difference,
 )  # fmt: skip

@@ -10,10 +10,10 @@ import pytest
 from scipy import stats
 
 from haptoflow_training.cli import main
+from haptoflow_training.studies.intervals import share
 from haptoflow_training.studies.plans import CONDITIONS
 from haptoflow_training.studies.power import latency_power, planned_signed_rank_power, rating_power
 from haptoflow_training.studies.rating_tests import analysed
-from haptoflow_training.studies.shares import share
 from haptoflow_training.studies.simulated_participants import PAPER_CURVES, AnswerModel, RatingModel
 from haptoflow_training.studies.validation import bca_interval, recovered_differences, recovered_thresholds
 

@@ -10,7 +10,7 @@ from torch import Tensor, nn
 from haptoflow_benchmark.codec.checkpoint_file import load_state, read_tensors
 
 # A channel that the codec does not use must not be amplified to unit variance: only its noise would remain.
-_SMALLEST_RELATIVE_DEVIATION = 1e-3
+_MINIMUM_RELATIVE_DEVIATION = 1e-3
 
 
 class LatentNormaliser(nn.Module):
@@ -34,7 +34,7 @@ class LatentNormaliser(nn.Module):
     def fit(self, latents: Tensor) -> None:
         """Take mean and deviation over items and positions of latents [K, C, P] as they are; K P >= 2."""
         deviation = latents.std(dim=(0, 2), keepdim=True)
-        floor = (deviation.max() * _SMALLEST_RELATIVE_DEVIATION).clamp(min=torch.finfo(deviation.dtype).tiny)
+        floor = (deviation.max() * _MINIMUM_RELATIVE_DEVIATION).clamp(min=torch.finfo(deviation.dtype).tiny)
         self.mean.copy_(latents.mean(dim=(0, 2), keepdim=True))
         self.standard_deviation.copy_(deviation.clamp(min=floor))
 

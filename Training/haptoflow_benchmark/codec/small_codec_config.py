@@ -37,7 +37,7 @@ class SmallCodecConfig:
 
 
 _PATHS = {"Path": "folder", "Path | None": "file"}
-_LEAST = {"seed": 0, "spectral_weight": 0.0, "learning_rate": 1e-8}
+_MINIMUM = {"seed": 0, "spectral_weight": 0.0, "learning_rate": 1e-8}
 
 
 def _checked(table: type[Table], values: dict[str, Any], path: Path, section: str) -> dict[str, Any]:
@@ -52,7 +52,7 @@ def _checked(table: type[Table], values: dict[str, Any], path: Path, section: st
             continue
         whole = known[key] == "int"
         allowed = int if whole else (int, float)
-        least = _LEAST.get(key, 1)
+        least = _MINIMUM.get(key, 1)
         if isinstance(value, bool) or not isinstance(value, allowed) or not least <= value < float("inf"):
             kind = "a whole number" if whole else "a number"
             raise InputError(f"{path}: [{section}] {key} = {value!r}, expected {kind} of at least {least}")

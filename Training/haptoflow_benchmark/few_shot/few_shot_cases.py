@@ -22,7 +22,7 @@ SECONDS = (3.0, 10.0, 30.0, 120.0)
 # Median speed (mm/s) and force (mN) of each ride in turn, so that even few seconds hold slow and fast motion.
 _RIDES = ((35, 800), (100, 1200), (22, 1400), (70, 600), (150, 1000), (48, 900))
 RIDE_SECONDS = 5.0
-_SHORTEST_RIDE_SECONDS = 1.5
+_MINIMUM_RIDE_SECONDS = 1.5
 # Speeds between those of every protocol; forces and directions cover their ranges.
 _CONDITIONS = ((0.02, 0.5, 20.0), (0.034, 1.35, 110.0), (0.056, 0.9, 200.0), (0.085, 0.6, 300.0), (0.13, 1.8, 65.0),
                (0.18, 1.1, 160.0))  # fmt: skip
@@ -55,7 +55,7 @@ class FewShotCase:
     def recordings(self, seconds: float) -> list[MaterialRecording]:
         """The first seconds: whole rides, or a part of each of the first two."""
         if seconds < 2.0 * RIDE_SECONDS:
-            return [_cut(ride, max(_SHORTEST_RIDE_SECONDS, seconds / 2.0)) for ride in self.rides[:2]]
+            return [_cut(ride, max(_MINIMUM_RIDE_SECONDS, seconds / 2.0)) for ride in self.rides[:2]]
         return [_cut(ride, RIDE_SECONDS) for ride in self.rides[: round(seconds / RIDE_SECONDS)]]
 
 

@@ -15,7 +15,7 @@ from haptoflow_benchmark.metrics import waveform_metrics as metrics
 BAND_HZ = (20.0, 450.0)
 SETTLING_SAMPLES = 400
 _LINES_HZ = (20.0, 800.0)
-_SHALLOWEST_DEPTH = 0.1
+_MINIMUM_DEPTH = 0.1
 _RESAMPLES, _SEED = 400, 11
 _INTERVAL = (0.025, 0.975)
 
@@ -42,7 +42,7 @@ def condition_figures(
         if _LINES_HZ[0] < rate < _LINES_HZ[1]:
             pitch = [metrics.fundamental_hz(each, rate) for each in (made, recorded)]
             cell["rib_fundamental_error_percent"] = 100.0 * abs(pitch[0] / pitch[1] - 1.0)
-        if temporal.rib_modulation_depth(recorded, rate) >= _SHALLOWEST_DEPTH:
+        if temporal.rib_modulation_depth(recorded, rate) >= _MINIMUM_DEPTH:
             cell["rib_modulation_error_db"] = temporal.rib_modulation_error_db(made, recorded, rate)
     return cell
 

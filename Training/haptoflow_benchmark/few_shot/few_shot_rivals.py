@@ -16,13 +16,13 @@ from numpy.typing import NDArray
 from scipy.linalg import solve_toeplitz
 from scipy.signal import lfilter
 
-from haptoflow_training.fewshot.level_law import SLOWEST_MPS, LevelLaw
+from haptoflow_training.fewshot.level_law import MINIMUM_SPEED_MPS, LevelLaw
 from haptoflow_training.fewshot.stroke_recording import StrokeRecording, windows_of
 
 ORDER = 20
 _WINDOW_SAMPLES, _HOP_SAMPLES = 400, 200
-_FEWEST_WINDOWS = 4
-_SLOWEST_SLIDE_MPS, _UNSTEADIEST = 0.012, 0.5
+_MINIMUM_WINDOWS = 4
+_MINIMUM_SLIDE_SPEED_MPS, _MAXIMUM_UNSTEADINESS = 0.012, 0.5
 # White noise at the level of sensor noise keeps the filter of a silent band stable.
 _WHITENING = 1e-5
 
@@ -52,12 +52,12 @@ def fit_autoregressive(
     """Fit the filters. Bins hold equally many windows; a bin with too few uses its neighbour's filter."""
     windows = windows_of(recordings, _WINDOW_SAMPLES, _HOP_SAMPLES)
     # Slower slides consist of starts, stops and sensor noise.
-    sliding = (windows.speed_mps > _SLOWEST_SLIDE_MPS) & (windows.unsteadiness < _UNSTEADIEST)
-    if sliding.sum() < bins * _FEWEST_WINDOWS:
-        sliding = windows.speed_mps > SLOWEST_MPS
+    sliding = (windows.speed_mps > _MINIMUM_SLIDE_SPEED_MPS) & (windows.unsteadiness < _MAXIMUM_UNSTEADINESS)
+    if sliding.sum() < bins * _MINIMUM_WINDOWS:
+        sliding = windows.speed_mps > MINIMUM_SPEED_MPS
     windows = windows.chosen(sliding)
     unit = windows.waves / np.exp(level.log_level(windows.motion))
-    bins = max(1, min(bins, len(windows) // _FEWEST_WINDOWS))
+    bins = max(1, min(bins, len(windows) // _MINIMUM_WINDOWS))
     order = np.argsort(windows.speed_mps)
     parts = np.array_split(order, bins)
     filters = []

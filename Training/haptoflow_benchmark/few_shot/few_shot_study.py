@@ -79,14 +79,14 @@ def _measured(plan: StudyPlan, model: FileModel, case: FewShotCase) -> dict[str,
             notes["wave_numbers"] = [round(float(value), 4) for value in fitted.frame.wave_numbers]
             for entry in model.file.header["tiers"]:
                 if entry["name"] != tier.name and entry["representation"] == "raw":
-                    rows[f"{entry['name']} {seconds:g}"] = _heard(
+                    rows[f"{entry['name']} {seconds:g}"] = _figures_of_voices(
                         case, model.tier(entry["name"]), [fitted.voice], [fitted.frame]
                     )[0]
             write_material(plan.work / f"{case.material.label}.haptomaterial", _as_material(model, case, fitted))
             begun = time.process_time()
             moved, wrapped = _network_moved(plan, model, case, seconds)
             spent[f"network {seconds:g}"] = time.process_time() - begun
-            rows[f"network {seconds:g}"] = _heard(case, wrapped, [moved.voice], [moved.frame])[0]
+            rows[f"network {seconds:g}"] = _figures_of_voices(case, wrapped, [moved.voice], [moved.frame])[0]
         begun = time.process_time()
         level = fit_level(
             windows_of(fitted.recordings, LEVEL_WINDOW_SAMPLES, LEVEL_HOP_SAMPLES), fitted.prior
@@ -98,8 +98,8 @@ def _measured(plan: StudyPlan, model: FileModel, case: FewShotCase) -> dict[str,
                 for number, condition in enumerate(case.conditions)
             ]
         spent[f"autoregressive {seconds:g}"] = time.process_time() - begun
-    heard = _heard(case, tier, [voice for _, voice, _ in voices], [frame for _, _, frame in voices])
-    rows |= {name: cells for (name, _, _), cells in zip(voices, heard, strict=True)}
+    figures = _figures_of_voices(case, tier, [voice for _, voice, _ in voices], [frame for _, _, frame in voices])
+    rows |= {name: cells for (name, _, _), cells in zip(voices, figures, strict=True)}
     rows["other draw"] = [condition_figures(each, each.other_draw, None) for each in case.conditions]
     return {
         "material": case.material.label,
@@ -145,7 +145,7 @@ def _network_moved(
     return fitted, tier
 
 
-def _heard(
+def _figures_of_voices(
     case: FewShotCase, tier: FileTier, voices: list[Voice], frames: list[Frame]
 ) -> list[list[dict[str, float]]]:
     """Figures of every voice in every condition, rendered in one batch."""

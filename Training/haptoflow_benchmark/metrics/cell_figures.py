@@ -18,7 +18,7 @@ _Floats = NDArray[np.float32]
 SETTLING_SAMPLES = 400
 _FUNDAMENTALS_HZ = (20.0, 800.0)
 # Shallower ribs are masked by jitter and noise; with less coherence in the recording, there is nothing to reproduce.
-_SHALLOWEST_DEPTH, _LEAST_COHERENCE = 0.1, 0.4
+_MINIMUM_DEPTH, _MINIMUM_COHERENCE = 0.1, 0.4
 _BEFORE_CHANGE, _AFTER_CHANGE = 100, 200
 
 IDENTITY = ("label", "kind", "speed_mps", "force_newtons", "direction_degrees", "crossing_degrees", "seed")
@@ -71,9 +71,9 @@ def _rib_figures(condition: Condition, generated: _Floats, recorded: _Floats) ->
     found: dict[str, float] = {}
     swings, steps, errors = [], [], []
     for rate in condition.rib_rates_hz:
-        if temporal.rib_modulation_depth(recorded, rate) >= _SHALLOWEST_DEPTH:
+        if temporal.rib_modulation_depth(recorded, rate) >= _MINIMUM_DEPTH:
             swings.append(temporal.rib_modulation_error_db(generated, recorded, rate))
-        if (reference := temporal.rib_coherence(recorded, rate)) >= _LEAST_COHERENCE:
+        if (reference := temporal.rib_coherence(recorded, rate)) >= _MINIMUM_COHERENCE:
             steps.append(min(1.0, temporal.rib_coherence(generated, rate) / reference))
         if _FUNDAMENTALS_HZ[0] < rate < _FUNDAMENTALS_HZ[1]:
             made, truth = (metrics.fundamental_hz(wave, rate) for wave in (generated, recorded))

@@ -13,7 +13,7 @@ from haptoflow_training.waveform import SAMPLE_RATE_HZ
 WINDOW_SECONDS = 1.0
 _WINDOW = int(SAMPLE_RATE_HZ * WINDOW_SECONDS)
 _BAND_EDGES_HZ = 22.4 * 2.0 ** (np.arange(17) / 3.0)
-_SLOWEST_MPS = 0.01
+_MINIMUM_SPEED_MPS = 0.01
 
 
 @dataclass(frozen=True)
@@ -41,7 +41,7 @@ def window_features(
         part = motion[start : start + _WINDOW]
         velocity, force = part[:, :2], part[:, 2].mean()
         speed = np.hypot(velocity[:, 0], velocity[:, 1])
-        if np.quantile(speed, 0.2) < _SLOWEST_MPS or force < 0.05:
+        if np.quantile(speed, 0.2) < _MINIMUM_SPEED_MPS or force < 0.05:
             continue
         frequency, power = welch(waveform_mps2[start : start + _WINDOW], SAMPLE_RATE_HZ, nperseg=400)
         bands = np.digitize(frequency, _BAND_EDGES_HZ)

@@ -21,7 +21,7 @@ _WORST_BAND_DB = 20.0
 # Ribs at other rates are neither a line nor followed for half a second.
 RIB_RATES_HZ = (4.0, 800.0)
 # The system's waveforms begin at 20 Hz; slower ribs are felt only as modulation of the power.
-_SLOWEST_LINE_HZ = 25.0
+_MINIMUM_LINE_HZ = 25.0
 _COHERENCE_LAG_SECONDS = 0.5
 _DEPTH_WINDOW_SECONDS = 0.5
 _FLOOR = 1e-12
@@ -118,7 +118,7 @@ def rib_coherence(wave: _Wave, rib_rate_hz: float) -> float:
     the system's waveforms have no fundamental, z is computed from the power x^2, which is modulated at the same rate.
     """
     values = np.asarray(wave, dtype=np.float64)
-    if rib_rate_hz < _SLOWEST_LINE_HZ:
+    if rib_rate_hz < _MINIMUM_LINE_HZ:
         values = np.square(values)
     values = values - values.mean()
     length = int(SAMPLE_RATE_HZ * _COHERENCE_LAG_SECONDS)

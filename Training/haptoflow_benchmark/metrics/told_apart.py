@@ -87,7 +87,7 @@ def _cross_validated(recorded: list[_Doubles], made: list[_Doubles]) -> list[flo
         mean, deviation = given.mean(axis=0), given.std(axis=0) + 1e-9
         weights = logistic_regression((given - mean) / deviation, sides)
         for row in asked:
-            named = [_named_made((set_[row] - mean) / deviation, weights) for set_ in (recorded, made)]
+            named = [_classified_as_render((set_[row] - mean) / deviation, weights) for set_ in (recorded, made)]
             if len(named[0]) and len(named[1]):
                 found[row] = 50.0 * float((1.0 - named[0].mean()) + named[1].mean())
     return found
@@ -118,6 +118,6 @@ def _chance(logits: _Doubles) -> _Doubles:
     return 1.0 / (1.0 + np.exp(-np.clip(logits, -30.0, 30.0)))
 
 
-def _named_made(given: _Doubles, weights: _Doubles) -> NDArray[np.float64]:
+def _classified_as_render(given: _Doubles, weights: _Doubles) -> NDArray[np.float64]:
     """1 where an excerpt is classified as a render, 0 where as a recording."""
     return (np.column_stack([given, np.ones(len(given))]) @ weights > 0.0).astype(np.float64)

@@ -30,7 +30,7 @@ from haptoflow_training.recordings.synthetic import (
 
 _SLIDING_MPS = 0.01
 # Own recordings are short: windows of a second overlap more, and fewer suffice.
-_OWN_STEP_SAMPLES, _FEWEST_OWN_WINDOWS = 250, 12
+_OWN_STEP_SAMPLES, _MINIMUM_OWN_WINDOWS = 250, 12
 
 
 @dataclass(frozen=True)
@@ -201,12 +201,12 @@ def discriminate_parts(
     if len(together) < 2:
         raise InputError(f"only {', '.join(together) or 'nothing'} to tell apart: --recordings needs two labels at least")
     for label, features in together.items():
-        if len(features) < _FEWEST_OWN_WINDOWS:
+        if len(features) < _MINIMUM_OWN_WINDOWS:
             raise InputError(
                 f"label '{label}' has {len(features)} windows of a second of sliding to learn from, expected "
-                f"{_FEWEST_OWN_WINDOWS}: record 10 s at least, above 10 mm/s and 0.05 N"
+                f"{_MINIMUM_OWN_WINDOWS}: record 10 s at least, above 10 mm/s and 0.05 N"
             )
-    classifier = LabelClassifier(together, _FEWEST_OWN_WINDOWS)
+    classifier = LabelClassifier(together, _MINIMUM_OWN_WINDOWS)
     outcomes: list[StrokeOutcome] = []
     for number, part in enumerate(held_out):
         features = window_features(part.recorded, part.motion, _OWN_STEP_SAMPLES)

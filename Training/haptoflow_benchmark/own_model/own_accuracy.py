@@ -23,9 +23,9 @@ _Floats = NDArray[np.floating]
 _WINDOW_SAMPLES = 400
 # The engine's start from a seed, and the end of its resampler.
 _SETTLING_SAMPLES = 200
-_SLOWEST_MPS = 0.005
+_MINIMUM_SPEED_MPS = 0.005
 # Spectra of fewer samples are mostly chance.
-_FEWEST_SAMPLES_OF_A_SPECTRUM = 1024
+_MINIMUM_SAMPLES_OF_A_SPECTRUM = 1024
 _SPEED_BORDERS_MPS = (0.02, 0.04, 0.08, 0.16, 0.32, 0.64)
 _LSD_WINDOW = 256
 
@@ -103,7 +103,7 @@ def label_accuracy(label: str, rendered: Sequence[RenderedPart]) -> LabelAccurac
         speed = np.hypot(entry.part.motion[:count, 0], entry.part.motion[:count, 1])
         for start in range(_SETTLING_SAMPLES, count - _WINDOW_SAMPLES + 1, _WINDOW_SAMPLES):
             window = slice(start, start + _WINDOW_SAMPLES)
-            if speed[window].mean() > _SLOWEST_MPS:
+            if speed[window].mean() > _MINIMUM_SPEED_MPS:
                 windows.append((entry.rendered[window], entry.part.recorded[window], float(speed[window].mean())))
     if not windows:
         return None
@@ -111,16 +111,16 @@ def label_accuracy(label: str, rendered: Sequence[RenderedPart]) -> LabelAccurac
     gfc, lsd, by_speed = [], [], []
     for speed_class in np.unique(classes):
         own = [window for window, found in zip(windows, classes, strict=True) if found == speed_class]
-        made, heard = (np.concatenate([window[side] for window in own]) for side in (0, 1))
-        by_speed.append(((0.0, *_SPEED_BORDERS_MPS)[speed_class], level_error_db(made, heard)))
-        if len(made) >= _FEWEST_SAMPLES_OF_A_SPECTRUM:
-            gfc.append(gfc_recording(made, heard))
-            lsd.append(log_spectral_distance_db(made, heard))
+        made, reference = (np.concatenate([window[side] for window in own]) for side in (0, 1))
+        by_speed.append(((0.0, *_SPEED_BORDERS_MPS)[speed_class], level_error_db(made, reference)))
+        if len(made) >= _MINIMUM_SAMPLES_OF_A_SPECTRUM:
+            gfc.append(gfc_recording(made, reference))
+            lsd.append(log_spectral_distance_db(made, reference))
     return LabelAccuracy(
         label,
         len(rendered),
         len(windows) * _WINDOW_SAMPLES / SAMPLE_RATE_HZ,
-        tuple(level_error_db(made, heard) for made, heard, _ in windows),
+        tuple(level_error_db(made, reference) for made, reference, _ in windows),
         float(np.mean(gfc)) if gfc else None,
         float(np.mean(lsd)) if lsd else None,
         tuple(by_speed),

@@ -21,7 +21,7 @@ from haptoflow_training.recordings.synthetic.carriers import hand_ride
 _SECONDS_AT = {0.01: 24.0, 0.03: 24.0, 0.08: 20.0, 0.15: 16.0, 0.275: 16.0, 0.5: 12.0, 1.0: 12.0, 1.5: 12.0}
 CONSTANT_SPEEDS_MPS = tuple(_SECONDS_AT)
 # A kurtosis of 40 comes from a dozen impacts a minute, so rare impacts need long recordings.
-_IMPACT_FACTOR, _FASTEST_RARE_IMPACTS_MPS = 2.5, 0.15
+_IMPACT_FACTOR, _MAXIMUM_RARE_IMPACT_SPEED_MPS = 2.5, 0.15
 _FORCES_NEWTONS = (0.2, 0.6, 1.35, 3.0)
 _CORNERS = ((0.03, 3.0), (0.15, 0.2), (0.5, 3.0))
 _DIRECTIONS_DEGREES = (0.0, 225.0, 110.0, 315.0)
@@ -119,8 +119,8 @@ def _steady(index: int, material: Material) -> Iterator[tuple[str, float, float,
 
 
 def _long_enough(material: Material, speed_mps: float, seconds: float) -> float:
-    has_rare_blows = material.impact_density > 0.0 and speed_mps <= _FASTEST_RARE_IMPACTS_MPS
-    return seconds * (_IMPACT_FACTOR if has_rare_blows else 1.0)
+    has_rare_impacts = material.impact_density > 0.0 and speed_mps <= _MAXIMUM_RARE_IMPACT_SPEED_MPS
+    return seconds * (_IMPACT_FACTOR if has_rare_impacts else 1.0)
 
 
 def rib_rates_hz(material: Material, speed_mps: float, direction_degrees: float) -> tuple[float, ...]:

@@ -70,11 +70,11 @@ def record_pair(task: tuple[Condition, Material, Material]) -> ReferencePair:
             there = _record(other, motion, condition.seed + repeat).waveform_mps2[:length]
             waves[number] = np.where(elsewhere, there, waves[number][:length])
     # The motion is prescribed and known exactly; the sensors' noise on it is not measured.
-    told = motion[lead : lead + length].astype(np.float32)
-    travelled = _travelled_mm(told)
+    known_motion = motion[lead : lead + length].astype(np.float32)
+    travelled = _travelled_mm(known_motion)
     # Averaged over the recording, because a single reading is off by up to 0.1 mm.
     start = (prepared[0].position_mm[:length] - travelled).mean(axis=0)
-    return ReferencePair(condition, waves[0][:length], waves[1][:length], told, (float(start[0]), float(start[1])))
+    return ReferencePair(condition, waves[0][:length], waves[1][:length], known_motion, (float(start[0]), float(start[1])))
 
 
 def _travelled_mm(motion: _Floats) -> NDArray[np.float64]:

@@ -97,7 +97,7 @@ def _timing_line(run: Mapping[str, Any] | None) -> str:
     loads = " and ".join(" / ".join(f"{value:.2f}" for value in run[key]) for key in ("load_before", "load_after"))
     return (
         f"Times are those of the first complete run with this model: {run['date']}, {run['machine']}, commit "
-        f"`{run['commit'][:12]}`, load averages before and after {loads}. Every run stands in "
+        f"`{run['commit'][:12]}`, load averages before and after {loads}. All runs are in "
         "`Training/results/timing-history.json`."
     )
 
@@ -202,7 +202,7 @@ def _goal_table(table: dict[str, Any]) -> list[str]:
     if not goals:
         return []
     verdicts = {True: "yes", False: "**no**", None: "not judged"}
-    lines = ["## What the default tier was meant to reach", ""]
+    lines = ["## Goals of the default tier", ""]
     lines += ["| figure | goal | measured | holds |", "|---|---|---|---|"]
     lines += [f"| {goal.what} | {goal.wanted} | {goal.measured} | {verdicts[goal.holds]} |" for goal in goals]
     return [*lines, ""]
@@ -249,10 +249,10 @@ def _seed_table(rows: Sequence[_Row]) -> list[str]:
         return []
     counts = sorted({row["by_seed"]["recordings"] for row in repeated})
     lines = [
-        "## How much is chance",
+        "## Spread between trainings",
         "",
         f"Rows whose training was repeated with other seeds, each measured on the same {' or '.join(map(str, counts))} "
-        "recordings (of every label another quarter of its conditions), so that the first seed's figures are others than "
+        "recordings (of every label another quarter of its conditions), so that the first seed's figures differ from those "
         "above.",
         "",
         "| row | seeds | level dB | level p90 dB | GFC | LSD dB | told apart % | crest dB | kurtosis, ln "

@@ -7,15 +7,15 @@ INTRODUCTION = """\
 | LSD | log-spectral distance between the power spectra, dB: 0 is the recording's own spectrum and level |
 | crest | 99.9th percentile over RMS: how far impacts stand out |
 | RMSE | root mean square error, sample by sample |
-| modulation | spectrum of the envelope from 2 to 100 Hz: how the vibration swells and fades |
-| told apart | share of one-second excerpts that a trained classifier gives to the right side, recording or render: 50 % is chance |
+| modulation | spectrum of the envelope from 2 to 100 Hz: how the vibration rises and falls |
+| told apart | share of one-second excerpts that a trained classifier assigns correctly to recording or render: 50 % is chance |
 | plain | flow matching without further training, integrated by Euler's, Heun's or the midpoint rule in so many steps |
 | MeanFlow, reflow | recipes that train flow matching for few steps: the mean velocity over an interval; straightened paths |
 | AR | autoregressive filters, one for each condition, interpolated (after Culbertson et al. 2014) |
-| SPSI | single-pass spectrogram inversion: a network names the magnitudes, the phase is found behind it (Heravi et al. 2024) |
+| SPSI | single-pass spectrogram inversion: a network predicts the magnitudes, the phases are derived from them (Heravi et al. 2024) |
 | DSTN | deep spatial-temporal network: convolutions and a recurrent encoder and decoder (Joolee and Jeon 2022) |
 | Transformer | an encoder and decoder with attention over the past waveform (Cai and Zhu 2022) |
-| paper-codec | flow matching on the latents of a small codec, as in the paper; `paper-codec-size` has the sizes of the paper's networks, untrained, for the time alone |
+| paper-codec | flow matching on the latents of a small codec, as in the paper; `paper-codec-size` has the sizes of the paper's networks, untrained, to measure time only |
 
 The paper is Eguchi, Hiroi and Hiraki, *HaptoFlow: High-Fidelity Real-Time Vibrotactile Generation via Flow Matching for
 Virtual Reality* (2026, to appear in an IEEE VGTC sponsored conference;
@@ -25,21 +25,21 @@ sizes are not published, so ours are sensible small ones. Every figure is define
 
 BLOCK_TITLES = {
     "ours": "Ours",
-    "as-published": "As published: each rival in its own form",
+    "as-published": "As published: each rival in its published form",
     "given-the-same": "Given the same: rivals with our inputs, level model and training time",
-    "ablation": "What the parts are worth",
-    "reference": "Rulers",
+    "ablation": "Ablations: our recipe without one part",
+    "reference": "References",
 }
 
 DEFINITIONS = """\
 ## What the figures mean
 
-Everything is measured on recordings that nobody trained on, through the C++ engine, in closed loop at 72 Hz: the
+Everything is measured on held-out recordings, through the C++ engine, in closed loop at 72 Hz: the
 network's previous waveform is its own output, from silence on. The recordings are synthetic (`recorder-report.md`).
 
 **The grid.** Every label is stroked at 0.01, 0.03, 0.08, 0.15, 0.275, 0.5, 1 and 1.5 m/s with 0.2 to 3 N, 12 to 60
-seconds each, longest where blows are rare. Ruled labels are also crossed at 15, 30, 45 and 60 degrees from the straight
-way, those with a nap along and against it. Further recordings turn back every second, start and stop, follow a free hand,
+seconds each, longest where impacts are rare. Ruled labels are also crossed at 15, 30, 45 and 60 degrees from the straight
+direction, those with a nap along and against it. Further recordings turn back every second, start and stop, follow a free hand,
 or change label every half second. 0.25-0.3 m/s, 1.2-1.5 N and directions from 215 to 235 degrees are left out of
 training, level calibration, seeds and exponents. A cell is one recording.
 
@@ -69,11 +69,11 @@ more than one evaluation a segment are measured on every fourth recording (¼), 
 | modulation | mean over eleven bands from 2 to 100 Hz of the size of the difference, dB, of the power spectra of the envelope over its mean; 20 dB at most in a band |
 | ribs | 20 log10 of the ratio of depths m at which the power swings at the rib rate k·v: x² = P (1 + m cos 2πft + ...), noise taken off; judged where the recording's m is 0.1 or more |
 | coherence | of the ribs' fundamental over half a second, \\|E[z(t + 0.5 s) z*(t)]\\| / E\\|z\\|², z the wave brought down by f and averaged over half a second (below 25 Hz, where waves have no fundamental, that of the power); over the recording's, at most 1 |
-| told apart | logistic regression over nine critical-band energies, crest, kurtosis and variation of the envelope and its power in five bands of modulation, of excerpts of one second; for each label, learnt from three quarters of the motions, asked about the last |
+| told apart | logistic regression over nine critical-band energies, crest, kurtosis and variation of the envelope and its power in five bands of modulation, of excerpts of one second; for each label, fitted to three quarters of the motions, tested on the last |
 | segment GFC, RMSE | of single 100 ms segments made from the true previous waveform (the paper's protocol): GFC; RMS of sample differences over the recording's RMS |
 | seams | RMS of sample differences at hop boundaries over that of all others |
 | drift | size of the slope of the level at 0.15 m/s and 1 N, dB a minute (ten minutes for rows marked extended in the plan, one otherwise) |
-| named right | share of renders that a classifier trained on the independent recordings gives their own label |
+| named right | share of renders that a classifier trained on the independent recordings assigns to their own label |
 | ms | one segment through the engine, one thread; hot: one after the other; live: one every 1/72 s. All rows in one run, in random order |
 
 Two of these are traps, and are here because the paper reports them: segment GFC punishes correct randomness (an

@@ -14,7 +14,7 @@ from haptoflow_benchmark.rows.row_plan import RIVAL_BLOCKS
 _Row = Mapping[str, Any]
 
 _MEBIBYTE = 2**20
-_LARGEST_FILE_MEBIBYTES = 12.0
+_MAXIMUM_FILE_MEBIBYTES = 12.0
 _NOT_MEASURED = "not measured"
 
 
@@ -42,7 +42,7 @@ def judge(table: Mapping[str, Any]) -> list[Goal]:
     goals += [_not_behind(table["rows"], block) for block in RIVAL_BLOCKS]
     goals += list(_times(rows))
     size = table.get("model_bytes")
-    goals.append(_bound("size of the model file, MiB", size and size / _MEBIBYTE, _LARGEST_FILE_MEBIBYTES, True))
+    goals.append(_bound("size of the model file, MiB", size and size / _MEBIBYTE, _MAXIMUM_FILE_MEBIBYTES, True))
     return [*goals, *(_fast_strokes(standard["fast"]) if "fast" in standard else [])]
 
 

@@ -16,7 +16,7 @@ from torch import Tensor, nn
 
 from haptoflow_benchmark.rivals.condition import ConditionPerceptron
 from haptoflow_benchmark.rivals.rival import Rival, reads
-from haptoflow_training.models.unit_scale import PREVIOUS_LIMIT
+from haptoflow_training.models.level_model import PREVIOUS_LIMIT
 from haptoflow_training.waveform import SEGMENT_SAMPLES
 
 ORDER = 16

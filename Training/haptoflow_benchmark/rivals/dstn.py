@@ -74,8 +74,8 @@ class DstnRival(RegressingRival):
         drawn = noisy.reshape(-1, SEGMENT_SAMPLES).split(STEP_SAMPLES, dim=1) if self.is_sampled else None
         for step in range(STEPS):
             context = self._attend(hidden, states)
-            heard = [written, condition, context] + ([drawn[step]] if drawn is not None else [])
-            hidden, cell = self.decoder(torch.cat(heard, dim=1), hidden, cell)
+            inputs = [written, condition, context] + ([drawn[step]] if drawn is not None else [])
+            hidden, cell = self.decoder(torch.cat(inputs, dim=1), hidden, cell)
             written = self.leave(torch.cat([hidden, context], dim=1))
             steps.append(written)
         return torch.cat(steps, dim=1).unsqueeze(1)

@@ -63,8 +63,8 @@ def generate_set(
         hops = hop_positions(longest, update_rate_hz)
         elsewhere = np.array([pairs[row].condition.kind == "change" for row in rows])
         is_other = elsewhere[:, None] & is_on_other_label(longest)[hops][None, :]
-        told = np.where(is_other[:, :, None], others[:, None], chosen[:, None])
-        run = run_closed_loop(source, told, motions, update_rate_hz=update_rate_hz, seed=seed + first)
+        condition_embeddings = np.where(is_other[:, :, None], others[:, None], chosen[:, None])
+        run = run_closed_loop(source, condition_embeddings, motions, update_rate_hz=update_rate_hz, seed=seed + first)
         for place, row in enumerate(rows):
             length = len(pairs[row].recorded)
             closed[row] = run.waves[place, :length]
@@ -89,16 +89,16 @@ def open_loop_wave(source: SegmentSource, embedding: _Floats, pair: ReferencePai
     motion = pair.motion[: count * 200].reshape(count, 200, 3)[:, -28:].mean(axis=1)
     noise = np.random.default_rng(seed).standard_normal((count, 200)).astype(np.float32)
     phases = rib_phases(pair, embedding, 200 * np.arange(1, count + 1))
-    told = np.tile(embedding, (count, 1))
-    return source.generate(told, motion.astype(np.float32), previous, noise, phases).reshape(-1)
+    condition_embeddings = np.tile(embedding, (count, 1))
+    return source.generate(condition_embeddings, motion.astype(np.float32), previous, noise, phases).reshape(-1)
 
 
 def measure(pairs: Sequence[ReferencePair], made: GeneratedSet) -> list[dict[str, Any]]:
     """Every figure of every pair, one cell for each."""
-    told = told_apart_percent(pairs, made.closed)
+    told_apart = told_apart_percent(pairs, made.closed)
     cells = []
     for pair, closed, opened, starts, percent in zip(
-        pairs, made.closed, made.opened, made.hop_starts, told, strict=True
+        pairs, made.closed, made.opened, made.hop_starts, told_apart, strict=True
     ):
         cell = measure_cell(pair, closed, opened, starts)
         cells.append(cell if percent is None else {**cell, "told_apart_percent": percent})

@@ -30,9 +30,9 @@ SPREAD_KEYS = (
     "told_apart_percent",
 )
 _IMPACT_KURTOSIS = 4.0
-_SLOWEST_MPS = 0.01
+_MINIMUM_SPEED_MPS = 0.01
 _RIB_SPEEDS_MPS = (0.01, 0.5)
-_WORST_CELLS = 3
+_LISTED_CELLS = 3
 
 
 def summary(cells: Sequence[_Cell]) -> dict[str, Any]:
@@ -84,7 +84,7 @@ def worst_cells(cells: Sequence[_Cell]) -> list[dict[str, Any]]:
             times, figure = max(over, key=lambda entry: entry[0])
             identity = {key: cell[key] for key in IDENTITY}
             found.append({**identity, "figure": figure.key, "value": cell[figure.key], "times_limit": times})
-    return sorted(found, key=lambda entry: -entry["times_limit"])[:_WORST_CELLS]
+    return sorted(found, key=lambda entry: -entry["times_limit"])[:_LISTED_CELLS]
 
 
 def special_figures(cells: Sequence[_Cell]) -> dict[str, Any]:
@@ -108,7 +108,7 @@ def special_figures(cells: Sequence[_Cell]) -> dict[str, Any]:
         "ruled_lsd_db": _part([cell for cell in cells if cell["label"] in ruled], "lsd_db"),
         "straight_lsd_db": over_labels(straight, "lsd_db"),
         "oblique_lsd_db": over_labels(oblique, "lsd_db"),
-        "slow_level_error_db": _part([cell for cell in steady if cell["speed_mps"] == _SLOWEST_MPS], "level_error_db"),
+        "slow_level_error_db": _part([cell for cell in steady if cell["speed_mps"] == _MINIMUM_SPEED_MPS], "level_error_db"),
         "nap_error_db": _nap_error_db(cells),
         "change_level_error_db": _plain_spread(cells, "change_level_error_db"),
         "change_crest_error_db": _plain_spread(cells, "change_crest_error_db"),

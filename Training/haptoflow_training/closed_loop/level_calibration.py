@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 from haptoflow_training.closed_loop.render import UPDATE_RATE_HZ, SegmentSource, hop_positions, run_closed_loop
 from haptoflow_training.export.level_table import LevelTable
 from haptoflow_training.export.trained_tier import TrainedTier
-from haptoflow_training.models.unit_scale import scaled_previous
+from haptoflow_training.models.level_model import scaled_previous
 from haptoflow_training.training.batches import Store, StoredRecording
 from haptoflow_training.training.held_out import HeldOut
 
@@ -30,7 +30,7 @@ _WINDOW_SAMPLES = 200
 # The loop starts from silence, while a recording may start in the middle of a stroke.
 _SETTLING_WINDOWS = 2
 _SPEED_BORDERS_MPS = (0.02, 0.05, 0.1, 0.2, 0.4, 0.8, 1.6)
-_FEWEST_WINDOWS = 10
+_MINIMUM_WINDOWS = 10
 
 
 @dataclass(frozen=True)
@@ -101,14 +101,14 @@ def closed_loop_levels(
     run = run_closed_loop(
         source, embeddings[labels], motions, update_rate_hz=UPDATE_RATE_HZ, seed=_SEED, advance=advance
     )
-    made, heard, speeds, forces, owners = [], [], [], [], []
+    made, recorded_powers, speeds, forces, owners = [], [], [], [], []
     for recording, wave in zip(chosen, run.waves, strict=True):
         recorded = store.waveform[_span(recording, extent)] * store.peak_mps2
         motion = store.motion[_span(recording, extent)]
         count = len(motion) // _WINDOW_SAMPLES
         held = held_out.holds(motion[: count * _WINDOW_SAMPLES]).reshape(count, _WINDOW_SAMPLES).any(axis=1)
         compared = np.flatnonzero(~held[_SETTLING_WINDOWS:]) + _SETTLING_WINDOWS
-        for values, into in ((wave, made), (recorded, heard)):
+        for values, into in ((wave, made), (recorded, recorded_powers)):
             windows = values[: count * _WINDOW_SAMPLES].reshape(count, _WINDOW_SAMPLES)
             into.append(np.square(windows, dtype=np.float64).mean(axis=1)[compared])
         speed = np.hypot(motion[:, 0], motion[:, 1])[: count * _WINDOW_SAMPLES].reshape(count, _WINDOW_SAMPLES)
@@ -116,7 +116,7 @@ def closed_loop_levels(
         forces.append(motion[: count * _WINDOW_SAMPLES, 2].reshape(count, _WINDOW_SAMPLES).mean(axis=1)[compared])
         owners.append(np.full(len(speeds[-1]), recording.label_index))
     return ClosedLoopLevels(
-        np.stack([np.concatenate(made), np.concatenate(heard)], axis=1),
+        np.stack([np.concatenate(made), np.concatenate(recorded_powers)], axis=1),
         np.concatenate(speeds),
         np.concatenate(forces),
         np.concatenate(owners),
@@ -128,7 +128,7 @@ def _offset_db(powers: NDArray[np.float64], classes: NDArray[np.int64]) -> float
     ratios = []
     for speed_class in range(1, len(_SPEED_BORDERS_MPS)):
         inside = powers[classes == speed_class]
-        if len(inside) >= _FEWEST_WINDOWS and inside[:, 1].sum() > 0.0:
+        if len(inside) >= _MINIMUM_WINDOWS and inside[:, 1].sum() > 0.0:
             generated, recorded = inside.sum(axis=0)
             ratios.append(10.0 * np.log10((generated + 1e-12) / recorded))
     return float(np.mean(ratios)) if ratios else 0.0

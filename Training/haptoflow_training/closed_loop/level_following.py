@@ -19,8 +19,8 @@ from haptoflow_training.export.level_table import LevelTable, bin_speed_mps, spe
 
 # The smallest perceptible change of a vibration's amplitude is 2.2 to 2.5 dB.
 FELT_DB = 2.5
-_FEWEST_WINDOWS = 8
-_SLOWEST_MPS = 0.005
+_MINIMUM_WINDOWS = 8
+_MINIMUM_SPEED_MPS = 0.005
 _ROUNDS = 2
 _NATURAL_PER_DB = math.log(10.0) / 20.0
 
@@ -40,8 +40,8 @@ def level_tables(
         if len(bins) >= 2 and np.abs(excess - offsets[label]).max() > FELT_DB:
             tables[label] = _table(levels, label, bins, recorded, exponents[label])
     for _ in range(_ROUNDS if tables else 0):
-        heard = measure(tables)
-        tables = {label: _corrected(table, heard, label, exponents[label]) for label, table in tables.items()}
+        measured = measure(tables)
+        tables = {label: _corrected(table, measured, label, exponents[label]) for label, table in tables.items()}
     return tables
 
 
@@ -50,20 +50,20 @@ def _by_speed(
 ) -> tuple[NDArray[np.int64], NDArray[np.float64], NDArray[np.float64]]:
     """Bins of speed with enough windows; natural log of the recorded RMS at the label's median force in each bin;
     and by how many decibels more was generated."""
-    own = (levels.owners == label) & (levels.speeds_mps > _SLOWEST_MPS) & (levels.forces_newtons > 0.02)
+    own = (levels.owners == label) & (levels.speeds_mps > _MINIMUM_SPEED_MPS) & (levels.forces_newtons > 0.02)
     bins = speed_bins(levels.speeds_mps[own])
     powers = levels.powers[own] + 1e-8
     force = np.log(levels.forces_newtons[own] / _usual_force(levels, label))
     at_usual_force = powers[:, 1] * np.exp(-2.0 * exponents.level_force * force)
     numbers, counts = np.unique(bins, return_counts=True)
-    numbers = numbers[counts >= _FEWEST_WINDOWS]
+    numbers = numbers[counts >= _MINIMUM_WINDOWS]
     recorded = np.array([0.5 * math.log(float(at_usual_force[bins == number].mean())) for number in numbers])
     excess = [10.0 * math.log10(float(np.divide(*powers[bins == number].sum(axis=0)))) for number in numbers]
     return numbers, recorded, np.array(excess)
 
 
 def _usual_force(levels: ClosedLoopLevels, label: int) -> float:
-    own = (levels.owners == label) & (levels.speeds_mps > _SLOWEST_MPS) & (levels.forces_newtons > 0.02)
+    own = (levels.owners == label) & (levels.speeds_mps > _MINIMUM_SPEED_MPS) & (levels.forces_newtons > 0.02)
     return float(np.clip(np.median(levels.forces_newtons[own]), 0.05, 50.0))
 
 
@@ -83,9 +83,9 @@ def _table(
     )
 
 
-def _corrected(table: LevelTable, heard: ClosedLoopLevels, label: int, exponents: LabelExponents) -> LevelTable:
+def _corrected(table: LevelTable, measured: ClosedLoopLevels, label: int, exponents: LabelExponents) -> LevelTable:
     """The table, lowered by the level error that is still measured at each speed."""
-    bins, _, excess = _by_speed(heard, label, exponents)
+    bins, _, excess = _by_speed(measured, label, exponents)
     speeds = np.array([bin_speed_mps(int(number)) for number in bins])
     levels = table.log_level(speeds, table.force_newtons) - _NATURAL_PER_DB * excess
-    return _table(heard, label, bins, levels, exponents)
+    return _table(measured, label, bins, levels, exponents)

@@ -16,13 +16,13 @@ from haptoflow_training.training.config import TrainingConfig
 from haptoflow_training.training.recordings_source import Source
 from haptoflow_training.training.trainer import TimeLimit
 
-SHORTEST_MINUTES = 0.1
+MINIMUM_MINUTES = 0.1
 # Levels are measured once without level tables and at most twice with them.
 _ROUNDS = 3.0
-_LARGEST_SHARE_AFTER = 0.25
-_LEAST_SHARE_OF_TRAINING = 0.3
-_LONGEST_COMPARED_SAMPLES = 16000
-_FEWEST_RECORDINGS = 2
+_MAXIMUM_SHARE_AFTER = 0.25
+_MINIMUM_SHARE_OF_TRAINING = 0.3
+_MAXIMUM_COMPARED_SAMPLES = 16000
+_MINIMUM_RECORDINGS = 2
 
 
 @dataclass(frozen=True)
@@ -43,7 +43,7 @@ def share_out(
     preparing the recordings took most of them.
     """
     whole = 60.0 * minutes
-    extent = Extent(longest_samples=_LONGEST_COMPARED_SAMPLES)
+    extent = Extent(longest_samples=_MAXIMUM_COMPARED_SAMPLES)
     after = 0.0
     if exports:
         model = copy.deepcopy(untrained).eval().requires_grad_(False)
@@ -53,11 +53,11 @@ def share_out(
         export_level_model(model.level)
         after = 1.5 * (time.monotonic() - started) + 1.0
         if calibrates(config):
-            one = Extent(_FEWEST_RECORDINGS, extent.longest_samples)
+            one = Extent(_MINIMUM_RECORDINGS, extent.longest_samples)
             seconds = _ROUNDS * seconds_of_a_measurement(tier, source, one) / one.recordings_per_label
-            affordable = int(max(0.0, _LARGEST_SHARE_AFTER * whole - after) / max(seconds, 1e-6))
-            count = min(extent.recordings_per_label, max(_FEWEST_RECORDINGS, affordable))
+            affordable = int(max(0.0, _MAXIMUM_SHARE_AFTER * whole - after) / max(seconds, 1e-6))
+            count = min(extent.recordings_per_label, max(_MINIMUM_RECORDINGS, affordable))
             extent = Extent(count, extent.longest_samples)
             after += seconds * count
     training = whole - (time.monotonic() - begun) - after
-    return Minutes(TimeLimit(max(training, _LEAST_SHARE_OF_TRAINING * whole), after), extent)
+    return Minutes(TimeLimit(max(training, _MINIMUM_SHARE_OF_TRAINING * whole), after), extent)

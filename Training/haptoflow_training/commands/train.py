@@ -12,7 +12,7 @@ from pathlib import Path
 from haptoflow_training.closed_loop.level_calibration import Extent
 from haptoflow_training.closed_loop.measured_levels import MeasuredLevels, by_label, calibrates, measured_levels
 from haptoflow_training.commands.export import announce
-from haptoflow_training.commands.minutes import SHORTEST_MINUTES, Minutes, share_out
+from haptoflow_training.commands.minutes import MINIMUM_MINUTES, Minutes, share_out
 from haptoflow_training.errors import InputError
 from haptoflow_training.export.exporter import export_run
 from haptoflow_training.training.config import TrainingConfig, check_available, load_config
@@ -88,8 +88,8 @@ def _minutes(text: str) -> float:
         minutes = float(text)
     except ValueError:
         minutes = math.nan
-    if not SHORTEST_MINUTES <= minutes <= 1e5:
-        raise argparse.ArgumentTypeError(f"'{text}'; expected minutes, {SHORTEST_MINUTES} at least")
+    if not MINIMUM_MINUTES <= minutes <= 1e5:
+        raise argparse.ArgumentTypeError(f"'{text}'; expected minutes, {MINIMUM_MINUTES} at least")
     return minutes
 
 

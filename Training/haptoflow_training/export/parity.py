@@ -9,7 +9,7 @@ import torch
 
 from haptoflow_training.export.trained_tier import TrainedTier
 from haptoflow_training.models.label_embedding import rib_phase
-from haptoflow_training.models.unit_scale import scaled_previous
+from haptoflow_training.models.level_model import scaled_previous
 from haptoflow_training.training.batches import SegmentBatch
 from haptoflow_training.training.run_log import write_json
 

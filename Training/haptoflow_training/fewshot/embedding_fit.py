@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from torch import Tensor
 
 from haptoflow_training.fewshot.label_prior import LabelPrior
-from haptoflow_training.fewshot.level_law import SLOWEST_MPS, LevelLaw
+from haptoflow_training.fewshot.level_law import MINIMUM_SPEED_MPS, LevelLaw
 from haptoflow_training.fewshot.stroke_recording import StrokeRecording
 from haptoflow_training.models.file_model import FileModel, FileTier
 from haptoflow_training.models.label_embedding import WAVE_NUMBERS, WAVE_VECTORS
@@ -38,7 +38,7 @@ _PREVIOUS_LIMIT = 16.0
 _EMPTY_PAST_SHARE = 0.05
 _LINE_WEIGHT = 2.0
 # Below this speed, sensor noise outweighs the texture; above this unsteadiness, the next samples are unpredictable.
-_SLOWEST_MPS, _UNSTEADIEST = 0.01, 0.8
+_MINIMUM_SPEED_MPS, _MAXIMUM_UNSTEADINESS = 0.01, 0.8
 _TRIED_LABELS, _TRIED_OFFSETS, _PLACED_RECORDINGS = 4, 8, 8
 
 
@@ -93,9 +93,9 @@ class _Corpus:
         moved = np.log(speed + 0.002)
         unsteadiness = np.abs(moved[starts + SEGMENT_SAMPLES - 1] - moved[starts])
         speed = speed[starts]
-        moving = (speed > _SLOWEST_MPS) & (unsteadiness < _UNSTEADIEST)
+        moving = (speed > _MINIMUM_SPEED_MPS) & (unsteadiness < _MAXIMUM_UNSTEADINESS)
         if moving.sum() < SEGMENT_SAMPLES:
-            moving = speed > SLOWEST_MPS
+            moving = speed > MINIMUM_SPEED_MPS
         self.starts, speed = (starts[moving], speed[moving]) if moving.any() else (starts, speed)
         self._limits = np.sort(ends)
         # Classes of log speed are drawn equally often, so that speeds that are recorded often do not dominate.
@@ -317,10 +317,10 @@ class EmbeddingFitter:
             with torch.no_grad():
                 chain.advance(drawn[rows - own : rows] * torch.exp(log_level[-own:]))
         first, second = drawn.chunk(2)
-        heard = [spectra(recorded, segment), *halves_of(spectra(torch.cat([past, past]), drawn))]
+        all_spectra = [spectra(recorded, segment), *halves_of(spectra(torch.cat([past, past]), drawn))]
         own_shapes = [part.chunk(2) for part in envelopes(torch.cat([past, past]), drawn)]
         shapes = [envelopes(recorded, segment), *zip(*own_shapes, strict=True)]
-        loss = energy_score(heard[0], (heard[1], heard[2]), spectral_distance)
+        loss = energy_score(all_spectra[0], (all_spectra[1], all_spectra[2]), spectral_distance)
         loss = loss + energy_score(shapes[0], (list(shapes[1]), list(shapes[2])), envelope_distance)
         followed = energy_score(segment, (first, second), sample_distance)
         if own:

@@ -10,10 +10,10 @@ from numpy.typing import NDArray
 from haptoflow_training.export.model_file import ModelFile
 from haptoflow_training.models.label_embedding import WAVE_NUMBERS
 
-_FEWEST_LABELS = 4
+_MINIMUM_LABELS = 4
 # With few labels the spread of the exponents is unknown; these values are those of the published textures.
 _FORCE_EXPONENT, _SPEED_EXPONENT = (0.25, 0.2), (0.95, 0.25)
-_LEAST_SPREAD = 0.1
+_MINIMUM_SPREAD = 0.1
 
 
 @dataclass(frozen=True)
@@ -40,9 +40,9 @@ class LabelPrior:
 
         def spread_of(key: str, known: tuple[float, float]) -> tuple[float, float]:
             values = [label["level_exponents"][key] for label in labels]
-            if len(values) < _FEWEST_LABELS:
+            if len(values) < _MINIMUM_LABELS:
                 return known
-            return float(np.mean(values)), max(_LEAST_SPREAD, float(np.std(values)))
+            return float(np.mean(values)), max(_MINIMUM_SPREAD, float(np.std(values)))
 
         return cls(
             mean,

@@ -21,7 +21,7 @@ from haptoflow_training.models.level_model import LEVEL_FLOOR_MPS2
 
 _Doubles = NDArray[np.float64]
 
-SLOWEST_MPS = 0.004
+MINIMUM_SPEED_MPS = 0.004
 _KNOTS_PER_E_FOLD = 2.2
 # Standard deviations: of the log level of a tenth of a second about the law, and of the change of slope between two
 # knots.
@@ -57,12 +57,12 @@ class LevelLaw:
 def fit_level(windows: Windows, prior: LabelPrior) -> LevelLaw:
     """Fit the law to windows of about 100 ms that overlap by half. InputError if no window moves."""
     speed, force = windows.speed_mps.astype(np.float64), windows.force_newtons.astype(np.float64)
-    moving = (speed > SLOWEST_MPS) & (windows.unsteadiness < 0.6)
+    moving = (speed > MINIMUM_SPEED_MPS) & (windows.unsteadiness < 0.6)
     if moving.sum() < 8:
-        moving = speed > SLOWEST_MPS
+        moving = speed > MINIMUM_SPEED_MPS
     if not moving.any():
         raise InputError(
-            f"no tenth of a second of the recording moves faster than {1000.0 * SLOWEST_MPS:g} mm/s; a texture is felt "
+            f"no tenth of a second of the recording moves faster than {1000.0 * MINIMUM_SPEED_MPS:g} mm/s; a texture is felt "
             "while the tip slides: check the unit of the speed"
         )
     power = np.square(windows.waves[moving], dtype=np.float64).mean(axis=1) + LEVEL_FLOOR_MPS2**2

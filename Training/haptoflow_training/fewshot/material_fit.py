@@ -12,7 +12,7 @@ from haptoflow_training.export.material_file import Material, MaterialProvenance
 from haptoflow_training.fewshot.embedding_fit import EmbeddingFit, EmbeddingFitter, FitOptions
 from haptoflow_training.fewshot.exponents import frequency_exponent
 from haptoflow_training.fewshot.label_prior import LabelPrior
-from haptoflow_training.fewshot.level_law import SLOWEST_MPS, LevelLaw, fit_level
+from haptoflow_training.fewshot.level_law import MINIMUM_SPEED_MPS, LevelLaw, fit_level
 from haptoflow_training.fewshot.seeds import choose_seeds
 from haptoflow_training.fewshot.sound_fit import (
     LEVEL_HOP_SAMPLES,
@@ -35,7 +35,7 @@ from haptoflow_training.waveform import SAMPLE_RATE_HZ
 # The partials of ribs move with the speed, but a tone does not, so a ruled material's tone may only shape the broad
 # spectrum.
 RULED_TONE = ToneOptions(size=0.5, step=0.15, bend=0.1, speed_step=0.12)
-LEAST_SECONDS = 2.0
+MINIMUM_SECONDS = 2.0
 RECOMMENDED_SECONDS = 10.0
 _LONG_ENOUGH_SAMPLES = 1000
 _CHUNKS = 24
@@ -74,10 +74,10 @@ def prepared(
     frame = Frame.of(vectors)
     usable = [each for each in recordings if len(each.vibration_mps2) >= _LONG_ENOUGH_SAMPLES]
     seconds = sum(len(each.vibration_mps2) for each in usable) / 2000.0
-    if seconds < LEAST_SECONDS:
+    if seconds < MINIMUM_SECONDS:
         raise InputError(
             f"{seconds:.1f} s of recording are left in stretches of {_LONG_ENOUGH_SAMPLES / SAMPLE_RATE_HZ:g} s or more; a "
-            f"material needs {LEAST_SECONDS:g} s at least, {RECOMMENDED_SECONDS:g} s are recommended"
+            f"material needs {MINIMUM_SECONDS:g} s at least, {RECOMMENDED_SECONDS:g} s are recommended"
         )
     turned = tuple(StrokeRecording.of(each, frame) for each in usable)
     return frame, turned
@@ -143,7 +143,7 @@ def as_material(
     nearest = model.labels[fitted.fit.nearest]
     windows = windows_of(fitted.recordings, 400, 200)
     speed, force = windows.speed_mps, windows.force_newtons
-    moving = speed > SLOWEST_MPS
+    moving = speed > MINIMUM_SPEED_MPS
     if not moving.any():
         moving = np.ones_like(moving)
     ruled = fitted.frame.is_ruled

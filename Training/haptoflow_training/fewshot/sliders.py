@@ -27,7 +27,7 @@ from haptoflow_training.recordings.synthetic.materials import Material
 
 FORMAT, VERSION = "haptoflow-sliders", 1
 LEVEL_DB = 12.0
-_FEWEST_LABELS = 8
+_MINIMUM_LABELS = 8
 # Ridge weight, relative to the squared standard deviation of a parameter summed over the labels.
 _RIDGE = 3.0
 # A slider at 1 is this many standard deviations of its parameter among the labels.
@@ -97,9 +97,9 @@ def find_sliders(model: ModelFile, materials: Sequence[Material]) -> Sliders:
     """Find the sliders of a model. InputError if too few of its labels are materials of the recorder."""
     known = {material.label: material for material in materials}
     shared = [label for label in model.header["labels"] if label["name"] in known]
-    if len(shared) < _FEWEST_LABELS:
+    if len(shared) < _MINIMUM_LABELS:
         raise InputError(
-            f"the model shares {len(shared)} labels with the recorder's materials; sliders need {_FEWEST_LABELS} at "
+            f"the model shares {len(shared)} labels with the recorder's materials; sliders need {_MINIMUM_LABELS} at "
             "least, because they are found from the recorder's parameters"
         )
     table = model.tensors["embedding"].astype(np.float64)[:, :-WAVE_NUMBERS]

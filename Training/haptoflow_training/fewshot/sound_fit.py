@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from haptoflow_training.export.material_sound import LevelTable, ToneTable
 from haptoflow_training.fewshot.label_prior import LabelPrior
-from haptoflow_training.fewshot.level_law import SLOWEST_MPS, LevelLaw, fit_level
+from haptoflow_training.fewshot.level_law import MINIMUM_SPEED_MPS, LevelLaw, fit_level
 from haptoflow_training.fewshot.stroke_recording import StrokeRecording, Windows, windows_of
 from haptoflow_training.fewshot.tone_fit import (
     WINDOW_SAMPLES,
@@ -31,7 +31,7 @@ SETTLING_SAMPLES = 400
 _RENDERED_CHUNKS, _DRAWS = 24, 3
 _ROUNDS = 2
 _AUDIBLE_SHARE = 1e-3
-_SLOWEST_MPS, _UNSTEADIEST, _FEWEST_WINDOWS = 0.01, 0.5, 6
+_MINIMUM_SPEED_MPS, _MAXIMUM_UNSTEADINESS, _MINIMUM_WINDOWS = 0.01, 0.5, 6
 LEVEL_WINDOW_SAMPLES, LEVEL_HOP_SAMPLES = 200, 100
 
 _Floats = NDArray[np.float32]
@@ -91,9 +91,9 @@ def fit_sound(
     recorded = _settled(rendered.chunks, WINDOW_SAMPLES)
     speed = recorded.speed_mps
     # A tone matters only while the tip moves; at rest it cannot be estimated.
-    moving = (speed > _SLOWEST_MPS) & (recorded.unsteadiness < _UNSTEADIEST)
-    if moving.sum() < _FEWEST_WINDOWS:
-        moving = speed > SLOWEST_MPS
+    moving = (speed > _MINIMUM_SPEED_MPS) & (recorded.unsteadiness < _MAXIMUM_UNSTEADINESS)
+    if moving.sum() < _MINIMUM_WINDOWS:
+        moving = speed > MINIMUM_SPEED_MPS
     if not moving.any():
         moving = np.ones_like(moving)
     knots = speed_knots(speed[moving], seconds)
@@ -124,20 +124,20 @@ def calibrated(
     """The level with which the rendering is as loud as the recording: the same law is fitted to both, and the
     difference is subtracted."""
     made = [chunk for draw in rendered.draws for chunk in _toned(draw, tone)]
-    heard = fit_level(_settled(made, LEVEL_WINDOW_SAMPLES), prior)
+    rendered_law = fit_level(_settled(made, LEVEL_WINDOW_SAMPLES), prior)
     wanted = fit_level(_settled(rendered.chunks, LEVEL_WINDOW_SAMPLES), prior)
     whole = fit_level(windows_of(recordings, LEVEL_WINDOW_SAMPLES, LEVEL_HOP_SAMPLES), prior)
     table = whole.table
     middle = table.force_newtons
     speeds = np.array(table.speeds_mps)
-    shift = wanted.table.log_level(speeds, middle, wanted.speed_exponent) - heard.table.log_level(
-        speeds, middle, heard.speed_exponent
+    shift = wanted.table.log_level(speeds, middle, wanted.speed_exponent) - rendered_law.table.log_level(
+        speeds, middle, rendered_law.speed_exponent
     )
     shift += level.table.log_level(speeds, middle, level.speed_exponent) - whole.table.log_level(
         speeds, middle, whole.speed_exponent
     )
     moved = whole.shifted(speeds, np.clip(shift, -1.5, 1.5))
-    exponent = table.force_exponent + wanted.force_exponent - heard.force_exponent
+    exponent = table.force_exponent + wanted.force_exponent - rendered_law.force_exponent
     exponent += level.force_exponent - whole.force_exponent
     exponent = round(float(np.clip(exponent, -4.0, 4.0)), 4)
     return LevelLaw(
@@ -152,8 +152,8 @@ def band_distance_db(rendered: Rendered, tone: ToneTable | None) -> float:
     recorded = _settled(rendered.chunks, WINDOW_SAMPLES)
     order = np.argsort(recorded.speed_mps)
     powers = band_powers(recorded.waves)[0]
-    heard = [_settled(_toned(draw, tone), WINDOW_SAMPLES) for draw in rendered.draws]
-    made = np.mean([band_powers(windows.waves)[0] for windows in heard], axis=0)
+    settled = [_settled(_toned(draw, tone), WINDOW_SAMPLES) for draw in rendered.draws]
+    made = np.mean([band_powers(windows.waves)[0] for windows in settled], axis=0)
     errors = []
     for part in np.array_split(order, 3):
         if len(part):

@@ -18,7 +18,7 @@ from haptoflow_training.export.material_sound import TONE_LIMIT_DB, ToneTable
 from haptoflow_training.waveform import SAMPLE_RATE_HZ
 
 WINDOW_SAMPLES = 512
-_LOWEST_HZ, _HIGHEST_HZ, _FREQUENCIES = 20.0, 900.0, 24
+_MINIMUM_HZ, _MAXIMUM_HZ, _FREQUENCIES = 20.0, 900.0, 24
 _BAND_EDGES = 56
 _DECIBELS = 20.0 / math.log(10.0)
 
@@ -40,7 +40,7 @@ def band_powers(waves: NDArray[np.floating]) -> tuple[_Doubles, _Doubles, _Doubl
     """For waves [n, 512]: powers [n, bands], the centres of the bands in Hz, and the number of bins in each."""
     spectrum = np.square(np.abs(np.fft.rfft(np.asarray(waves, dtype=np.float64) * np.hanning(waves.shape[1]), axis=1)))
     frequency = np.fft.rfftfreq(waves.shape[1], 1.0 / SAMPLE_RATE_HZ)
-    edges = np.geomspace(_LOWEST_HZ * 0.9, 980.0, _BAND_EDGES)
+    edges = np.geomspace(_MINIMUM_HZ * 0.9, 980.0, _BAND_EDGES)
     members = np.digitize(frequency, edges)
     powers, centres, counts = [], [], []
     for band in range(1, len(edges)):
@@ -71,8 +71,8 @@ def fit_tone(
     options: ToneOptions = ToneOptions(),
 ) -> ToneTable:
     """recorded and made [windows, bands]: powers of the recording, and the expected powers of the output."""
-    frequencies = np.geomspace(_LOWEST_HZ, _HIGHEST_HZ, _FREQUENCIES)
-    across = _hats(np.log(np.clip(centres_hz, _LOWEST_HZ, _HIGHEST_HZ)), np.log(frequencies))
+    frequencies = np.geomspace(_MINIMUM_HZ, _MAXIMUM_HZ, _FREQUENCIES)
+    across = _hats(np.log(np.clip(centres_hz, _MINIMUM_HZ, _MAXIMUM_HZ)), np.log(frequencies))
     known = np.log(np.array(knots_mps))
     along = _hats(np.clip(np.log(np.maximum(speed_mps, 1e-6)), known[0], known[-1]), known)
     floor = 1e-4 * made.mean()

@@ -1,7 +1,7 @@
 """The level model: log RMS from embedding and motion, fitted by Gaussian likelihood.
 
-The network then shapes only the waveform: target and previous waveform are divided by the level, the result is
-multiplied by it. Quiet materials are therefore learnt as well as loud ones, and the level falls to zero with the speed.
+The network works in unit scale: target and previous waveform are divided by the level, and its output is multiplied by
+it. Quiet materials are therefore learnt as well as loud ones, and the level falls to zero with the speed.
 """
 
 from __future__ import annotations
@@ -20,6 +20,9 @@ _CORRECTION_LIMIT = 0.9
 # Vibration below 0.01 m/s^2 cannot be felt. Without a floor, digital silence at rest would pull the law towards minus
 # infinity.
 LEVEL_FLOOR_MPS2 = 0.01
+# Limit of a previous waveform, so that a burst that the level did not predict cannot drive the network out of its
+# range.
+PREVIOUS_LIMIT = 16.0
 
 
 class LevelModel(nn.Module):
@@ -81,3 +84,13 @@ def level_loss(log_level: Tensor, mean_square_mps2: Tensor) -> Tensor:
     s + 0.5 meansquare exp(-2 s), both [B, 1]."""
     power = mean_square_mps2 + LEVEL_FLOOR_MPS2**2
     return (log_level + 0.5 * power * torch.exp(-2.0 * log_level)).mean()
+
+
+def unit_scale(wave_mps2: Tensor, log_level: Tensor) -> Tensor:
+    """[B, 1, N] in m/s^2 divided by the level exp(log_level) [B, 1]."""
+    return wave_mps2 * torch.exp(-log_level).unsqueeze(-1)
+
+
+def scaled_previous(previous_mps2: Tensor, log_level: Tensor) -> Tensor:
+    """The previous waveform [B, 1, N] as the network's input: in unit scale, limited."""
+    return unit_scale(previous_mps2, log_level).clamp(-PREVIOUS_LIMIT, PREVIOUS_LIMIT)

@@ -31,12 +31,12 @@ GAINS = 6 * PARTIALS + 2 * WAVE_VECTORS
 _PAIRS = 2 * HARMONICS
 # A sine that has all the power of unit scale has amplitude 1.4. A partial above this limit is not continued at its own
 # amplitude, so that one whose gain is slightly above 1 cannot grow without bound in closed loop.
-_LARGEST_AMPLITUDE = 1.5
+_MAXIMUM_AMPLITUDE = 1.5
 # The past contains a partial if it contains nearly a period of the fundamental; the surface contains one whenever the
 # tip moves.
-_LOWEST_IN_PAST_HZ, _LOWEST_HZ, _HIGHEST_HZ = 9.0, 0.5, 960.0
+_MINIMUM_IN_PAST_HZ, _MINIMUM_HZ, _MAXIMUM_HZ = 9.0, 0.5, 960.0
 # Below this fundamental, the partials of one segment cannot be resolved.
-_LOWEST_RESOLVED_HZ = 5.0
+_MINIMUM_RESOLVED_HZ = 5.0
 # Partials of unit size in phase add up to pulses 14 times as high as one of them.
 _PULSE_SCALE = 0.3
 _SMALL = 1e-5
@@ -44,7 +44,7 @@ _SMALL = 1e-5
 # determines the offset, and of how close to the rib phase it stays (as the concentration of a von Mises distribution).
 _OFFSETS = 64
 _SHARPNESS, _NEARNESS = 8.0, 2.0
-_LARGEST_LOGARITHM = 3.0
+_MAXIMUM_LOGARITHM = 3.0
 # Sines are computed at every 20th sample, and at the 20 samples after such a place.
 _STRIDE = 20
 
@@ -157,7 +157,7 @@ class RibComb(nn.Module):
         and a quarter turn behind; and a mask [B, 28] of those that can be resolved."""
         ribs = self.ribs(embedding, motion, rib_phase)
         fundamental = signed_rib_frequencies_hz(embedding.detach(), motion).abs().unsqueeze(1)
-        resolved = (fundamental > _LOWEST_RESOLVED_HZ).to(motion.dtype) * ribs.sounding
+        resolved = (fundamental > _MINIMUM_RESOLVED_HZ).to(motion.dtype) * ribs.sounding
         projected = segments * self.even @ ribs.waves.transpose(1, 2)
         amplitudes = projected.reshape(len(motion), -1, WAVE_VECTORS, _PAIRS)
         # Turn back by the surface's phase, which negates the terms in `across`.
@@ -175,7 +175,7 @@ class RibComb(nn.Module):
         # A matrix sums the squares of each pair without reshaping. The small constant keeps the root's gradient finite
         # at zero.
         size = torch.sqrt((carried * carried) @ self.pairs + _SMALL**2)
-        from_past = carried * ((kept * size.clamp(max=_LARGEST_AMPLITUDE) + held) / size)
+        from_past = carried * ((kept * size.clamp(max=_MAXIMUM_AMPLITUDE) + held) / size)
 
         # For a partial p cos(P + a) + q sin(P + a): cosine p cos P + q sin P, sine q cos P - p sin P.
         turned = profiles * ribs.ahead + self._swapped(profiles) * ribs.across
@@ -191,7 +191,7 @@ class RibComb(nn.Module):
         the mean over offsets, each weighted by its overlap with the continued past and its closeness to the rib
         phase; as (cosine, cosine) and (sine, -sine), [B, 1, 2, 28] each. by_family [B, 4]: logarithms of the two
         weights' sharpness."""
-        weights = by_family.clamp(-_LARGEST_LOGARITHM, _LARGEST_LOGARITHM).exp()
+        weights = by_family.clamp(-_MAXIMUM_LOGARITHM, _MAXIMUM_LOGARITHM).exp()
         sharp, near = weights.reshape(-1, 2, WAVE_VECTORS, 1).split(1, dim=1)
         overlap = torch.cat([carried * profile, carried * self._swapped(profile)], dim=3) @ self.overlaps
         likely = torch.softmax(sharp * overlap + near * self.nearness, dim=3)
@@ -247,8 +247,8 @@ def _angles_and_limits(order: Tensor, strides: int) -> tuple[Tensor, Tensor]:
     added = [lead_of_place.repeat(PARTIALS), lead_of_sample.repeat(PARTIALS)]
     added += [torch.tensor(lead, dtype=torch.float64).repeat(PARTIALS) for lead in leads]
     # Limits of the fundamental: from the lowest frequency up to where the harmonic reaches the highest.
-    highest = _HIGHEST_HZ / order.repeat(WAVE_VECTORS)
-    for lowest in (_LOWEST_IN_PAST_HZ, _LOWEST_HZ):
+    highest = _MAXIMUM_HZ / order.repeat(WAVE_VECTORS)
+    for lowest in (_MINIMUM_IN_PAST_HZ, _MINIMUM_HZ):
         centre, reach = 0.5 * (highest + lowest), 0.5 * (highest - lowest)
         by_size.append((family / reach).repeat_interleave(2, dim=1))
         added.append((-centre / reach).repeat_interleave(2))

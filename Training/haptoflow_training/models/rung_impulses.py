@@ -78,8 +78,8 @@ class RungImpulses(nn.Module):
         # Gather whole windows, and do so before the rungs split one signal into four: in ONNX Runtime, copying a single
         # sample takes as long as copying a window.
         padded = nn.functional.pad(noise, (self.reach, 0)).reshape(-1, self.windows + _WINDOWS_BEFORE, _WINDOW)
-        heard = padded[:, self.read].reshape(-1, self.windows, 1, self.sources)
-        excess = heard - torch.maximum(torch.minimum(heard, self.rungs), -self.rungs)
+        gathered = padded[:, self.read].reshape(-1, self.windows, 1, self.sources)
+        excess = gathered - torch.maximum(torch.minimum(gathered, self.rungs), -self.rungs)
         struck = (excess * self.scales).reshape(-1, self.windows, len(RUNGS) * self.sources)
         kernels = (gains.reshape(-1, ATOMS) @ self.struck_atoms).reshape(-1, len(RUNGS) * self.sources, _WINDOW)
         return (struck @ kernels).reshape(-1, 1, self.samples)

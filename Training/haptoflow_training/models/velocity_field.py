@@ -120,8 +120,8 @@ class VelocityField(nn.Module):
         self.motion = MotionEncoder()
         self.comb = RibComb(positions) if ribs else None
         self.impulses = RungImpulses(positions) if impulses else None
-        heard = channels + (COMB_CHANNELS if ribs else 0) + (1 if impulses else 0)
-        self.enter = nn.Conv2d(heard, width, (1, patch), stride=(1, patch))
+        entering = channels + (COMB_CHANNELS if ribs else 0) + (1 if impulses else 0)
+        self.enter = nn.Conv2d(entering, width, (1, patch), stride=(1, patch))
         self.previous_fine = nn.Conv2d(
             channels, previous_width, (1, 3 * patch), stride=(1, patch), padding=(0, patch)
         )
@@ -169,8 +169,8 @@ class VelocityField(nn.Module):
         moment = self.time(time)
         if self.interval is not None and interval is not None:
             moment = moment + self.interval(interval)
-        told = torch.cat([embedding, self.motion(motion)], dim=1)
-        condition = nn.functional.silu(self._condition(told, moment))
+        given = torch.cat([embedding, self.motion(motion)], dim=1)
+        condition = nn.functional.silu(self._condition(given, moment))
         film, line_gains, impulse_gains = self._modulation(condition)
         film_parts = film.reshape(-1, sum(self._film_sizes), 1, 1).split(self._film_sizes, dim=1)
 
@@ -180,18 +180,18 @@ class VelocityField(nn.Module):
         mirrored = previous[:, :, self.newest_first]
         past = self.previous_fine(mirrored.unsqueeze(2))
 
-        heard, added = [noisy], []
+        entering, added = [noisy], []
         if self.comb is not None:
             if rib_phase is None:
                 raise ValueError("a field with ribs needs the rib phase")
             combed = self.comb(mirrored, embedding, motion, rib_phase, line_gains)
-            heard.append(combed)
+            entering.append(combed)
             added.append(combed[:, -1:])
         if self.impulses is not None:
             struck = self.impulses(noisy, impulse_gains)
-            heard.append(struck)
+            entering.append(struck)
             added.append(struck)
-        entered = self.enter(torch.cat(heard, dim=1).unsqueeze(2))
+        entered = self.enter(torch.cat(entering, dim=1).unsqueeze(2))
         fine = self.fine_down(torch.cat([entered, past], dim=1), film_parts[0], film_parts[1])
         if self.levels == 2:
             past_coarse = self.previous_coarse(nn.functional.silu(past))
@@ -222,12 +222,12 @@ class VelocityField(nn.Module):
         lines, impulses = (gains.pop(0) if size else film[:, :0] for size in sizes[1:])
         return film, lines, impulses
 
-    def _condition(self, told: Tensor, moment: Tensor) -> Tensor:
+    def _condition(self, given: Tensor, moment: Tensor) -> Tensor:
         """The condition vector. A flow time that is the same for all rows becomes a constant of the layer, which
         saves a node."""
         if moment.shape[0] > 1:
-            return self.told(told) + self.moment(moment)
-        return nn.functional.linear(told, self.told.weight, self.told.bias + self.moment(moment).squeeze(0))
+            return self.told(given) + self.moment(moment)
+        return nn.functional.linear(given, self.told.weight, self.told.bias + self.moment(moment).squeeze(0))
 
     def _leave(self, features: Tensor) -> Tensor:
         """The transposed convolution `leave`, [B, C, N]: since patches do not overlap, one linear layer for each

@@ -12,9 +12,9 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import fft
 
-_LARGEST_CORRECTION = 10.0 ** (6.0 / 20.0)
+_MAXIMUM_CORRECTION = 10.0 ** (6.0 / 20.0)
 _CORRECTION_ROUNDS = 3
-_LOWEST_BAND = -19  # third octaves from 1 kHz: 12.4 Hz
+_MINIMUM_BAND = -19  # third octaves from 1 kHz: 12.4 Hz
 
 
 def dft321(axes: NDArray[np.floating], rate_hz: float, frame_seconds: float = 0.035) -> NDArray[np.float64]:
@@ -38,7 +38,7 @@ def restore_band_energies(
     spectrum = fft.rfft(combined, size)
     wanted_power = np.sum(np.abs(fft.rfft(axes, size, axis=0)) ** 2, axis=1)
     frequencies = fft.rfftfreq(size, 1.0 / rate_hz)
-    centres = 1000.0 * 2.0 ** (np.arange(_LOWEST_BAND, 40) / 3.0)
+    centres = 1000.0 * 2.0 ** (np.arange(_MINIMUM_BAND, 40) / 3.0)
     centres = centres[centres * 2.0 ** (1.0 / 6.0) < rate_hz / 2]
     edges = np.searchsorted(
         frequencies, np.append(centres / 2.0 ** (1.0 / 6.0), centres[-1] * 2.0 ** (1.0 / 6.0))
@@ -57,7 +57,7 @@ def restore_band_energies(
         ratio = np.divide(
             wanted, found, out=np.ones_like(wanted), where=found > 1e-20 * max(wanted.max(), 1e-300)
         )
-        band_gain = np.clip(band_gain * np.sqrt(ratio), 1.0 / _LARGEST_CORRECTION, _LARGEST_CORRECTION)
+        band_gain = np.clip(band_gain * np.sqrt(ratio), 1.0 / _MAXIMUM_CORRECTION, _MAXIMUM_CORRECTION)
         gain = np.exp(np.interp(position, np.log(centres), np.log(band_gain)))
     return fft.irfft(spectrum * gain, size)[:count]
 

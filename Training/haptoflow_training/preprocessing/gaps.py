@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from haptoflow_training.recordings.recording import Recording
 
 # A cubic spline through the samples needs this many.
-_FEWEST_SAMPLES = 4
+_MINIMUM_SAMPLES = 4
 
 
 def parts_between_gaps(recording: Recording, longest_gap_seconds: float) -> list[Recording]:
@@ -25,12 +25,12 @@ def parts_between_gaps(recording: Recording, longest_gap_seconds: float) -> list
 
 
 def _cut(recording: Recording, first: int, last: int) -> Recording | None:
-    if last - first < _FEWEST_SAMPLES:
+    if last - first < _MINIMUM_SAMPLES:
         return None
     time = recording.acceleration_time_seconds[first:last]
     force = _around(recording.force_time_seconds, float(time[0]), float(time[-1]))
     position = _around(recording.position_time_seconds, float(time[0]), float(time[-1]))
-    if min(force.stop - force.start, position.stop - position.start) < _FEWEST_SAMPLES:
+    if min(force.stop - force.start, position.stop - position.start) < _MINIMUM_SAMPLES:
         return None
     return dataclasses.replace(
         recording,

@@ -19,7 +19,7 @@ from haptoflow_training.preprocessing.settings import PreprocessingSettings
 PaddingState = Literal["rest", "contact", "air"]
 PADDING_STATES: tuple[PaddingState, ...] = ("rest", "contact", "air")
 # Largest share of a recording's length at each end, so that silence does not outweigh the recording.
-_LARGEST_SHARE = 1.0 / 3.0
+_MAXIMUM_SHARE = 1.0 / 3.0
 
 
 @dataclass(frozen=True)
@@ -38,7 +38,7 @@ def pad_recording(
     an end is at most a third of the recording's length."""
     digest = hashlib.blake2b(f"padding/{seed}/{name}".encode(), digest_size=8).digest()
     generator = np.random.default_rng(int.from_bytes(digest, "little"))
-    longest = int(_LARGEST_SHARE * len(prepared.waveform_mps2))
+    longest = int(_MAXIMUM_SHARE * len(prepared.waveform_mps2))
     before = _draw(generator, settings, longest)
     after = _draw(generator, settings, longest)
     if before is not None:

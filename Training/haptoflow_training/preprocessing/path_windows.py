@@ -22,13 +22,13 @@ _Doubles = NDArray[np.float64]
 
 # This much path holds many ribs, while a tracker's error over it is less than one rib.
 _PATH_MM = 35.0
-_SHORTEST_SAMPLES, _LONGEST_SAMPLES = 160, 1000
-_SLOWEST_MMPS = 4.0
+_MINIMUM_SAMPLES, _MAXIMUM_SAMPLES = 160, 1000
+_MINIMUM_SPEED_MMPS = 4.0
 # A window whose path bends more, or is shorter, carries little information about a direction.
-_LEAST_STRAIGHT, _SHORTEST_PATH_MM = 0.96, 4.0
+_MINIMUM_STRAIGHTNESS, _MINIMUM_PATH_MM = 0.96, 4.0
 _PREDICTOR_ORDER = 10
 _LEVEL_REACH_SAMPLES = 100
-_MOST_WINDOWS = 200
+_MAXIMUM_WINDOWS = 200
 
 
 @dataclass(frozen=True)
@@ -59,25 +59,25 @@ def path_windows(recordings: Sequence[MaterialRecording]) -> PathWindows:
         velocity = 1000.0 * recording.velocity_mps.astype(np.float64)
         speed = np.linalg.norm(velocity, axis=1)
         place = np.concatenate([np.zeros((1, 2)), np.cumsum(velocity, axis=0) / SAMPLE_RATE_HZ])
-        resting = np.concatenate([[0], np.cumsum(speed <= _SLOWEST_MMPS)])
+        resting = np.concatenate([[0], np.cumsum(speed <= _MINIMUM_SPEED_MMPS)])
         start = _PREDICTOR_ORDER
-        while start + _SHORTEST_SAMPLES <= len(white):
-            wanted = _PATH_MM * SAMPLE_RATE_HZ / max(float(speed[start]), _SLOWEST_MMPS)
-            count = int(np.clip(wanted, _SHORTEST_SAMPLES, _LONGEST_SAMPLES))
+        while start + _MINIMUM_SAMPLES <= len(white):
+            wanted = _PATH_MM * SAMPLE_RATE_HZ / max(float(speed[start]), _MINIMUM_SPEED_MMPS)
+            count = int(np.clip(wanted, _MINIMUM_SAMPLES, _MAXIMUM_SAMPLES))
             end = start + count
             if end > len(white) or resting[end] > resting[start]:
-                start += _SHORTEST_SAMPLES // 2
+                start += _MINIMUM_SAMPLES // 2
                 continue
             chord = place[end] - place[start]
             path = float(speed[start:end].sum()) / SAMPLE_RATE_HZ
             straight = float(np.linalg.norm(chord))
             power = float(np.square(white[start:end]).mean())
-            if straight >= _LEAST_STRAIGHT * path and path >= _SHORTEST_PATH_MM and power > 0.0:
+            if straight >= _MINIMUM_STRAIGHTNESS * path and path >= _MINIMUM_PATH_MM and power > 0.0:
                 found.append((white[start:end] / np.sqrt(power), place[start:end] - place[start + count // 2],
                               chord / straight, path))  # fmt: skip
             start += count // 2
-    if len(found) > _MOST_WINDOWS:
-        found = [found[place * len(found) // _MOST_WINDOWS] for place in range(_MOST_WINDOWS)]
+    if len(found) > _MAXIMUM_WINDOWS:
+        found = [found[place * len(found) // _MAXIMUM_WINDOWS] for place in range(_MAXIMUM_WINDOWS)]
     return _stacked(found)
 
 
@@ -102,7 +102,7 @@ def _whitened(recordings: Sequence[MaterialRecording]) -> list[_Doubles]:
     even = [_evened(recording.vibration_mps2.astype(np.float64)) for recording in recordings]
     correlation = np.zeros(_PREDICTOR_ORDER + 1)
     for wave, recording in zip(even, recordings, strict=True):
-        slides = 1000.0 * np.linalg.norm(recording.velocity_mps, axis=1) > _SLOWEST_MMPS
+        slides = 1000.0 * np.linalg.norm(recording.velocity_mps, axis=1) > _MINIMUM_SPEED_MMPS
         for lag in range(min(_PREDICTOR_ORDER + 1, len(wave))):
             first = _PREDICTOR_ORDER
             correlation[lag] += float(np.sum((wave[first:] * wave[first - lag : len(wave) - lag])[slides[first:]]))

@@ -18,7 +18,7 @@ from haptoflow_training.recordings.recording import STANDARD_GRAVITY_MPS2, Recor
 
 _CONTEXT_SECONDS = 0.2
 # Limit for recordings shorter than 1.5 s, so that trimming does not remove most of them.
-_LARGEST_TRIM_SHARE = 0.2
+_MAXIMUM_TRIM_SHARE = 0.2
 
 
 @dataclass(frozen=True)
@@ -62,7 +62,7 @@ def preprocess_parts(recording: Recording, settings: PreprocessingSettings) -> l
 def _prepared(recording: Recording, settings: PreprocessingSettings) -> PreparedRecording:
     start, stop = _common_span(recording)
     # The filters run over a little of what is trimmed, so that they do not ring at the cut.
-    trim = min(settings.trim_seconds, _LARGEST_TRIM_SHARE * (stop - start))
+    trim = min(settings.trim_seconds, _MAXIMUM_TRIM_SHARE * (stop - start))
     context = min(_CONTEXT_SECONDS, trim)
     step = 1.0 / settings.sample_rate_hz
     kept = int((stop - start - 2 * trim) / step)

@@ -14,20 +14,20 @@ from haptoflow_training.recordings.recording import Recording
 _GRAVITY_IN_MPS2 = (6.0, 14.0)
 _GRAVITY_IN_MG = (500.0, 2000.0)
 # No stroke by hand or machine makes a stylus vibrate more strongly.
-_HIGHEST_RMS_G = 40.0
+_MAXIMUM_RMS_G = 40.0
 # A larger ratio between measured and nominal value means a wrong unit: no protocol misses its condition by that much.
-_LARGEST_RATIO = 4.0
-_STRONGEST_NEWTONS = 100.0
+_MAXIMUM_RATIO = 4.0
+_MAXIMUM_FORCE_NEWTONS = 100.0
 _WEAKEST_NEWTONS = 0.002
 # A hand follows the speed in its recording's name only roughly, and below the second value it may rest.
-_LARGEST_RATIO_OF_A_HAND = 30.0
-_SLOWEST_COMPARED_MMPS = 20.0
-_FASTEST_MPS = 10.0
+_MAXIMUM_RATIO_OF_A_HAND = 30.0
+_MINIMUM_COMPARED_SPEED_MMPS = 20.0
+_MAXIMUM_SPEED_MPS = 10.0
 _SPIKE_NEWTONS = 20.0
 _SPIKE_RATIO = 8.0
 _CLIPPED_RUN = 4
-_LARGEST_CLIPPED_SHARE = 0.02
-_LONGEST_FROZEN_SECONDS = 0.2
+_MAXIMUM_CLIPPED_SHARE = 0.02
+_MAXIMUM_FROZEN_SECONDS = 0.2
 
 
 class Implausibility(NamedTuple):
@@ -58,14 +58,14 @@ def _acceleration(recording: Recording) -> Iterator[Implausibility]:
     elif _GRAVITY_IN_MG[0] < rest < _GRAVITY_IN_MG[1]:
         found = f"rests at {rest:.0f}, which looks like mg"
         yield Implausibility("acceleration", found, "g (1 at rest): divide by 1000")
-    elif rms > _HIGHEST_RMS_G:
-        yield Implausibility("acceleration", f"has an RMS of {rms:.0f}", f"g, at most {_HIGHEST_RMS_G:.0f}")
+    elif rms > _MAXIMUM_RMS_G:
+        yield Implausibility("acceleration", f"has an RMS of {rms:.0f}", f"g, at most {_MAXIMUM_RMS_G:.0f}")
     time = recording.acceleration_time_seconds
     frozen = _longest_run(np.all(np.diff(values, axis=0) == 0.0, axis=1), time)
-    if frozen > _LONGEST_FROZEN_SECONDS:
+    if frozen > _MAXIMUM_FROZEN_SECONDS:
         yield Implausibility("acceleration", f"stays the same for {frozen:.2f} s", "a sensor that is never quite still")
     clipped = max(_clipped_share(axis) for axis in values.T)
-    if clipped > _LARGEST_CLIPPED_SHARE:
+    if clipped > _MAXIMUM_CLIPPED_SHARE:
         found = f"is clipped for {100.0 * clipped:.0f} % of the time"
         yield Implausibility("acceleration", found, "a sensor of a larger range")
 
@@ -75,7 +75,7 @@ def _force(recording: Recording) -> Iterator[Implausibility]:
     median, usual = float(np.median(values)), float(np.percentile(values, 95))
     nominal = recording.identity.force_millinewtons / 1000.0 if recording.identity.protocol == "machine" else 0.0
     ratio = median / nominal if nominal > 0.0 else 1.0
-    if median > _STRONGEST_NEWTONS or ratio > _LARGEST_RATIO:
+    if median > _MAXIMUM_FORCE_NEWTONS or ratio > _MAXIMUM_RATIO:
         named = f" where the name says {nominal:g} N" if nominal else ""
         expected = "newtons (a thousandth for mN, times 0.00981 for grams)"
         yield Implausibility("force", f"is {median:.4g}{named}", expected)
@@ -89,17 +89,17 @@ def _force(recording: Recording) -> Iterator[Implausibility]:
 def _position(recording: Recording) -> Iterator[Implausibility]:
     speeds_mmps = recording.speeds_mmps
     nominal = float(recording.identity.speed_mmps)
-    largest = _LARGEST_RATIO if recording.identity.protocol == "machine" else _LARGEST_RATIO_OF_A_HAND
+    largest = _MAXIMUM_RATIO if recording.identity.protocol == "machine" else _MAXIMUM_RATIO_OF_A_HAND
     moving = speeds_mmps[speeds_mmps > 0.2 * np.percentile(speeds_mmps, 95)]
-    if nominal >= _SLOWEST_COMPARED_MMPS and len(moving) > 0:
+    if nominal >= _MINIMUM_COMPARED_SPEED_MMPS and len(moving) > 0:
         median = float(np.median(moving))
         if not nominal / largest < median < nominal * largest:
             found = f"moves with {median:.3g} a second where the name says {nominal:g} mm/s"
             yield Implausibility("position", found, "millimetres")
             return
     fastest = float(speeds_mmps.max()) / 1000.0
-    if fastest > _FASTEST_MPS:
-        expected = f"a tracker without jumps, at most {_FASTEST_MPS:.0f} m/s"
+    if fastest > _MAXIMUM_SPEED_MPS:
+        expected = f"a tracker without jumps, at most {_MAXIMUM_SPEED_MPS:.0f} m/s"
         yield Implausibility("position", f"jumps with {fastest:.0f} m/s", expected)
 
 

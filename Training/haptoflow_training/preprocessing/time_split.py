@@ -17,7 +17,7 @@ from haptoflow_training.recordings.recording import RecordingIdentity
 
 _ROUND_SECONDS = 10.0
 # A training pair needs two segments; a split cannot use fewer.
-_FEWEST_SEGMENTS = {"train": 4, "validation": 2, "test": 2}
+_MINIMUM_SEGMENTS = {"train": 4, "validation": 2, "test": 2}
 
 
 @dataclass(frozen=True)
@@ -54,7 +54,7 @@ def time_parts(samples: int, settings: PreprocessingSettings) -> list[TimePart]:
 
 
 def _fewest(split: Split, settings: PreprocessingSettings) -> int:
-    return _FEWEST_SEGMENTS[split] * settings.segment_samples + 1
+    return _MINIMUM_SEGMENTS[split] * settings.segment_samples + 1
 
 
 def cut(prepared: PreparedRecording, part: TimePart) -> PreparedRecording:

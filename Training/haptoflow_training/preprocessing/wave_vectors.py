@@ -27,28 +27,28 @@ if TYPE_CHECKING:
 _Doubles = NDArray[np.float64]
 WaveVector = tuple[float, float]
 
-SHORTEST_WAVELENGTH_MM, LONGEST_WAVELENGTH_MM = 0.4, 8.0
-_MOST_WAVE_VECTORS = 2
-_STEP_PER_MM, _HIGHEST_PER_MM = 0.01, 4.0
+MINIMUM_WAVELENGTH_MM, MAXIMUM_WAVELENGTH_MM = 0.4, 8.0
+_MAXIMUM_WAVE_VECTORS = 2
+_STEP_PER_MM, _MAXIMUM_PER_MM = 0.01, 4.0
 # Multiples of the step from 0 to slightly above the highest wave number.
-_STEPS = round(_HIGHEST_PER_MM / _STEP_PER_MM) + 2
+_STEPS = round(_MAXIMUM_PER_MM / _STEP_PER_MM) + 2
 _DIRECTIONS = 120
 _HARMONICS = 6
 # Below, a line cannot be distinguished from the hand's own motion; above, the band ends.
-_LOWEST_HZ, _HIGHEST_HZ, _LOWEST_ALONG_PER_MM = 15.0, 800.0, 0.08
-_FEWEST_WINDOWS, _HEARING_SHARE = 6, 5
-_LEAST_SPEED_RATIO = 1.25
+_MINIMUM_HZ, _MAXIMUM_HZ, _MINIMUM_ALONG_PER_MM = 15.0, 800.0, 0.08
+_MINIMUM_WINDOWS, _HEARING_SHARE = 6, 5
+_MINIMUM_SPEED_RATIO = 1.25
 # Limit in multiples of the mean noise power, so that one loud window does not count as many.
-_LARGEST_POWER = 30.0
+_MAXIMUM_POWER = 30.0
 _NEIGHBOURS = 41
 # Windows that overlap by half carry 0.6 of the information of separate ones.
 _INDEPENDENT_SHARE = 0.6
 # Natural logarithms of likelihood ratios. Noise alone reaches 15 on none of 38 surfaces without ribs.
 _SURE, _SURE_BESIDE_KNOWN, _PRICE_OF_A_HARMONIC, _OWN_LINES = 20.0, 24.0, 3.0, 8.0
 _OWN_LINES_SHARE, _SHARE_OF_FIRST, _LOW_HARMONICS_SHARE = 0.06, 0.04, 0.3
-_LEAST_RATIO = 1.6
+_MINIMUM_RATIO = 1.6
 # Threads usually cross at right angles, so such a pair is preferred among equals.
-_CROSSING_BONUS, _CROSSING_DEGREES, _LEAST_TURN_DEGREES = 0.2, 8.0, 20.0
+_CROSSING_BONUS, _CROSSING_DEGREES, _MINIMUM_TURN_DEGREES = 0.2, 8.0, 20.0
 # Half the main lobe of a window is 1.6 of its bins; slightly irregular ribs broaden their higher harmonics.
 _LOBE_BINS, _WIDER_BY_ORDER, _TAKEN_HARMONICS = 1.6, 0.1, 8
 _TRIES = 6
@@ -62,10 +62,10 @@ def estimate_wave_vectors(recordings: Sequence[MaterialRecording]) -> tuple[Wave
     along that direction.
     """
     windows = path_windows([each for each in recordings if len(each.vibration_mps2) > 160])
-    if len(windows) < _FEWEST_WINDOWS or not _speed_changes(windows):
+    if len(windows) < _MINIMUM_WINDOWS or not _speed_changes(windows):
         return ()
     wave, found, first = windows.wave, [], 0.0
-    while len(found) < _MOST_WAVE_VECTORS:
+    while len(found) < _MAXIMUM_WAVE_VECTORS:
         evidence = _Evidence.of(windows, wave, found)
         clearest = evidence.clearest(found, first)
         if clearest is None:
@@ -80,7 +80,7 @@ def estimate_wave_vectors(recordings: Sequence[MaterialRecording]) -> tuple[Wave
 
 def _speed_changes(windows: PathWindows) -> bool:
     speeds = np.sort(windows.speed_mmps)
-    return bool(speeds[len(speeds) * 9 // 10] >= _LEAST_SPEED_RATIO * speeds[len(speeds) // 10])
+    return bool(speeds[len(speeds) * 9 // 10] >= _MINIMUM_SPEED_RATIO * speeds[len(speeds) // 10])
 
 
 @dataclass(frozen=True)
@@ -94,18 +94,18 @@ class _Evidence:
     @staticmethod
     def of(windows: PathWindows, wave: _Doubles, known: Sequence[_Doubles]) -> _Evidence:
         spectra = _spectra(windows, wave)
-        heard = _heard(windows, known)
-        spectra = np.minimum(spectra, _LARGEST_POWER)
+        audible = _audible(windows, known)
+        spectra = np.minimum(spectra, _MAXIMUM_POWER)
         rows = np.arange(len(windows))[:, None]
         mean, count = np.zeros((_DIRECTIONS, _STEPS)), np.zeros((_DIRECTIONS, _STEPS))
         for index, angle in enumerate(_angles()):
             share = np.abs(windows.direction @ [np.cos(angle), np.sin(angle)])
             along = share[:, None] * np.arange(_STEPS)[None]
             column = np.floor(along + 0.5).astype(int)
-            counted = heard[rows, column] & (along * _STEP_PER_MM > _LOWEST_ALONG_PER_MM)
+            counted = audible[rows, column] & (along * _STEP_PER_MM > _MINIMUM_ALONG_PER_MM)
             count[index] = counted.sum(axis=0)
             mean[index] = np.where(counted, spectra[rows, column], 0.0).sum(axis=0) / np.maximum(count[index], 1.0)
-        enough = count >= max(_FEWEST_WINDOWS, len(windows) // _HEARING_SHARE)
+        enough = count >= max(_MINIMUM_WINDOWS, len(windows) // _HEARING_SHARE)
         neighbours = median_filter(np.where(enough, mean, 1.0), size=(1, _NEIGHBOURS), mode="nearest")
         ratio = np.where(enough, mean / np.maximum(neighbours, 1.0), 0.0)
         # For exponentially distributed powers with mean `ratio` instead of 1, at the most likely ratio.
@@ -123,7 +123,7 @@ class _Evidence:
                 return None
             step = self._pitch(row, place)
             gains, ratios = self._lines(self.gains, row, step), self._lines(self.ratios, row, step)
-            if ratios.max() >= _LEAST_RATIO and gains[:2].sum() >= _LOW_HARMONICS_SHARE * score:
+            if ratios.max() >= _MINIMUM_RATIO and gains[:2].sum() >= _LOW_HARMONICS_SHARE * score:
                 angle = _angles()[row]
                 orders = [order for order, gain in enumerate(gains, start=1) if gain > 2.0 * _PRICE_OF_A_HARMONIC]
                 return step * _STEP_PER_MM * np.array([np.cos(angle), np.sin(angle)]), orders or [1], score
@@ -133,7 +133,7 @@ class _Evidence:
     def _scores(self, known: Sequence[_Doubles]) -> _Doubles:
         """The sum over the harmonics of each fundamental."""
         scores = np.zeros_like(self.gains)
-        low, high = (round(1.0 / (each * _STEP_PER_MM)) for each in (LONGEST_WAVELENGTH_MM, SHORTEST_WAVELENGTH_MM))
+        low, high = (round(1.0 / (each * _STEP_PER_MM)) for each in (MAXIMUM_WAVELENGTH_MM, MINIMUM_WAVELENGTH_MM))
         for order in range(1, _HARMONICS + 1):
             places = np.arange(low, min(high, (_STEPS - 1) // order + 1))
             scores[:, places] += np.maximum(self.gains[:, order * places] - _PRICE_OF_A_HARMONIC, 0.0)
@@ -141,7 +141,7 @@ class _Evidence:
             turn = np.degrees(np.abs(_angles() - np.arctan2(vector[1], vector[0])) % np.pi)
             turn = np.minimum(turn, 180.0 - turn)
             scores *= (1.0 + _CROSSING_BONUS * np.exp(-np.square((turn - 90.0) / _CROSSING_DEGREES)))[:, None]
-            scores[turn < _LEAST_TURN_DEGREES] = 0.0
+            scores[turn < _MINIMUM_TURN_DEGREES] = 0.0
         return scores
 
     @staticmethod
@@ -169,7 +169,7 @@ class _Evidence:
         own is."""
         orders = np.arange(1, _HARMONICS + 1)
         for divisor in (4, 3, 2):
-            if divisor * step * _STEP_PER_MM <= 1.0 / SHORTEST_WAVELENGTH_MM:
+            if divisor * step * _STEP_PER_MM <= 1.0 / MINIMUM_WAVELENGTH_MM:
                 gains = self._near(row, step)
                 own = gains[orders % divisor > 0].sum()
                 lost = self._near(row, divisor * step).sum() <= 0.6 * gains.sum()
@@ -177,7 +177,7 @@ class _Evidence:
                     return divisor * step
         for divisor in (4, 3, 2):
             for lower in (step // divisor, -(-step // divisor)):
-                if lower * _STEP_PER_MM >= 1.0 / LONGEST_WAVELENGTH_MM:
+                if lower * _STEP_PER_MM >= 1.0 / MAXIMUM_WAVELENGTH_MM:
                     gains = self._near(row, lower)
                     if gains[orders % divisor > 0].sum() > _OWN_LINES and gains[0] > _OWN_LINES:
                         return lower
@@ -206,25 +206,25 @@ def _spectra(windows: PathWindows, wave: _Doubles) -> _Doubles:
 
 def _band(windows: PathWindows) -> NDArray[np.bool_]:
     hertz = np.arange(_STEPS)[None] * _STEP_PER_MM * windows.speed_mmps[:, None]
-    return np.asarray((hertz >= _LOWEST_HZ) & (hertz <= _HIGHEST_HZ))
+    return np.asarray((hertz >= _MINIMUM_HZ) & (hertz <= _MAXIMUM_HZ))
 
 
-def _heard(windows: PathWindows, known: Sequence[_Doubles]) -> NDArray[np.bool_]:
+def _audible(windows: PathWindows, known: Sequence[_Doubles]) -> NDArray[np.bool_]:
     """[windows, steps]: inside the band, and not explained by a harmonic of a known vector."""
-    heard = _band(windows)
+    audible = _band(windows)
     places = np.arange(_STEPS)[None] * _STEP_PER_MM
     for vector in known:
         fundamental = np.abs(windows.direction @ vector)[:, None]
         for order in range(_TAKEN_HARMONICS + 1):
             reach = (1.0 + _WIDER_BY_ORDER * order) * _LOBE_BINS / windows.path_mm[:, None]
-            heard &= np.abs(places - order * fundamental) >= reach
-    return heard
+            audible &= np.abs(places - order * fundamental) >= reach
+    return audible
 
 
-def _heard_at(windows: PathWindows, vectors: _Doubles) -> NDArray[np.bool_]:
+def _is_audible_at(windows: PathWindows, vectors: _Doubles) -> NDArray[np.bool_]:
     """[vectors, windows]: whether the line of a wave vector lies inside the band."""
     hertz = np.abs(vectors @ windows.direction.T) * windows.speed_mmps
-    return np.asarray((hertz >= _LOWEST_HZ) & (hertz <= _HIGHEST_HZ))
+    return np.asarray((hertz >= _MINIMUM_HZ) & (hertz <= _MAXIMUM_HZ))
 
 
 def _refined(windows: PathWindows, wave: _Doubles, vector: _Doubles, orders: Sequence[int]) -> _Doubles:
@@ -235,7 +235,7 @@ def _refined(windows: PathWindows, wave: _Doubles, vector: _Doubles, orders: Seq
         for order in orders:
             for index, each in enumerate(order * vectors):
                 lines = np.abs((wave * np.exp(-2j * np.pi * (windows.place_mm @ each))).sum(axis=1))
-                total[index] += float(lines[_heard_at(windows, each[None])[0]].sum())
+                total[index] += float(lines[_is_audible_at(windows, each[None])[0]].sum())
         return total
 
     around = np.array([[1.0, 0.0], [-1.0, 0.0], [0.0, 1.0], [0.0, -1.0]])
@@ -256,10 +256,10 @@ def _without(windows: PathWindows, wave: _Doubles, vector: _Doubles) -> _Doubles
     left = wave.copy()
     weight = windows.hann.sum(axis=1)
     for order in range(1, _TAKEN_HARMONICS + 1):
-        heard = _heard_at(windows, order * vector[None])[0]
+        audible = _is_audible_at(windows, order * vector[None])[0]
         line = np.exp(2j * np.pi * order * (windows.place_mm @ vector))
         amplitude = (left * line.conj()).sum(axis=1) / weight
-        left -= np.where(heard[:, None], windows.hann * 2.0 * (amplitude[:, None] * line).real, 0.0)
+        left -= np.where(audible[:, None], windows.hann * 2.0 * (amplitude[:, None] * line).real, 0.0)
     return left
 
 

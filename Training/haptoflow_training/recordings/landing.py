@@ -16,13 +16,13 @@ from haptoflow_training.recordings.synthetic.materials import Material
 
 # A tip of about 1 g: the stylus's own mass is coupled to the hand.
 _TIP_KILOGRAMS = 1.0 / (2.0 * math.pi * 5.0) ** 2
-_LOWEST_HZ, _HIGHEST_HZ = 25.0, 450.0
+_MINIMUM_HZ, _MAXIMUM_HZ = 25.0, 450.0
 _SHARE_LEFT_BY_THE_HAND = 0.15
-_SLOWEST_DECAY_PER_SECOND, _DECAY_PER_HERTZ = 60.0, 0.15
+_MINIMUM_DECAY_PER_SECOND, _DECAY_PER_HERTZ = 60.0, 0.15
 _USUAL_DAMPING = 0.4
 _SHARE_OF_A_RESONANCE = 0.3
 # A tip does not bounce off the softest material; each tenfold stiffness adds this to the share of speed that it keeps.
-_RESTITUTION_PER_DECADE, _SOFTEST_NEWTONS_PER_METRE, _LARGEST_RESTITUTION = 0.2, 200.0, 0.35
+_RESTITUTION_PER_DECADE, _SOFTEST_NEWTONS_PER_METRE, _MAXIMUM_RESTITUTION = 0.2, 200.0, 0.35
 
 
 @dataclass(frozen=True)
@@ -48,14 +48,14 @@ def landing_of(material: Material) -> Landing:
     """The touch-down vibration of one material."""
     stiffness = material.stiffness_newtons_per_metre
     frequency = math.sqrt(stiffness / _TIP_KILOGRAMS) / (2.0 * math.pi)
-    frequency = min(max(frequency, _LOWEST_HZ), _HIGHEST_HZ)
+    frequency = min(max(frequency, _MINIMUM_HZ), _MAXIMUM_HZ)
     damping = material.contact_damping / _USUAL_DAMPING
     gain = _SHARE_LEFT_BY_THE_HAND * 2.0 * math.pi * frequency
-    modes = [LandingMode(frequency, damping * (_SLOWEST_DECAY_PER_SECOND + _DECAY_PER_HERTZ * frequency), gain)]
+    modes = [LandingMode(frequency, damping * (_MINIMUM_DECAY_PER_SECOND + _DECAY_PER_HERTZ * frequency), gain)]
     ringing = [mode for mode in material.tool_modes if mode[1] > 0.0 and mode[0] < 950.0]
     if ringing:
         ring_hz, gain_db, quality = max(ringing, key=lambda mode: mode[1])
         share = _SHARE_OF_A_RESONANCE * min(1.0, 10.0 ** ((gain_db - 6.0) / 20.0))
-        modes.append(LandingMode(ring_hz, max(_SLOWEST_DECAY_PER_SECOND, math.pi * ring_hz / quality), share * gain))
+        modes.append(LandingMode(ring_hz, max(_MINIMUM_DECAY_PER_SECOND, math.pi * ring_hz / quality), share * gain))
     decades = max(0.0, math.log10(stiffness / _SOFTEST_NEWTONS_PER_METRE))
-    return Landing(tuple(modes), min(_LARGEST_RESTITUTION, _RESTITUTION_PER_DECADE * decades))
+    return Landing(tuple(modes), min(_MAXIMUM_RESTITUTION, _RESTITUTION_PER_DECADE * decades))

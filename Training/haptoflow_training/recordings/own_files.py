@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from scipy import signal
 
 from haptoflow_training.recordings.cluster_dataset_files import DatasetFileError
-from haptoflow_training.recordings.own_sidecar import HIGHEST_RATE_HZ, LOWEST_RATE_HZ, Sidecar, read_sidecar
+from haptoflow_training.recordings.own_sidecar import MAXIMUM_RATE_HZ, MINIMUM_RATE_HZ, Sidecar, read_sidecar
 from haptoflow_training.recordings.own_table import (
     FORCE_FORMS,
     POSITION_FORMS,
@@ -32,7 +32,7 @@ TABLE_ENDINGS = (".csv", ".parquet")
 OWN_ENDINGS = (*TABLE_ENDINGS, ".wav")
 _MOTION_MARK = ".motion"
 # Above this rate a recording is filtered before it is resampled, to prevent aliasing.
-_HIGHEST_UNFILTERED_HZ = 8400.0
+_MAXIMUM_UNFILTERED_HZ = 8400.0
 _KEPT_HZ = 2500.0
 _CONSTANT_STEPS = 64
 
@@ -117,7 +117,7 @@ def _one(path: Path, found: Iterable[Series | None], what: str) -> Series | None
 
 def _require_rate(path: Path, acceleration: Series) -> None:
     rate_hz = 1.0 / float(np.median(np.diff(acceleration.time_seconds)))
-    if not 0.99 * LOWEST_RATE_HZ <= rate_hz <= 1.01 * HIGHEST_RATE_HZ:
+    if not 0.99 * MINIMUM_RATE_HZ <= rate_hz <= 1.01 * MAXIMUM_RATE_HZ:
         expected = "1000 to 192000 (time_s is in seconds)"
         raise DatasetFileError(path, f"{rate_hz:.4g} samples a second by time_s", expected)
 
@@ -175,7 +175,7 @@ def _band_limited(acceleration: Series) -> tuple[NDArray[np.float64], NDArray[np
     time, values = acceleration.time_seconds, acceleration.values
     step = float(np.median(np.diff(time)))
     stride = int(1.0 / (step * 8000.0))
-    if 1.0 / step <= _HIGHEST_UNFILTERED_HZ or stride < 1 or len(time) < 64:
+    if 1.0 / step <= _MAXIMUM_UNFILTERED_HZ or stride < 1 or len(time) < 64:
         return time, values
     sections = signal.butter(6, _KEPT_HZ, "lowpass", fs=1.0 / step, output="sos")
     filtered = signal.sosfiltfilt(sections, values, axis=0, padlen=min(len(values) - 1, round(30 * 0.0004 / step)))

@@ -191,7 +191,7 @@ def misread_units(table: OwnTable) -> Iterator[DatasetFileError]:
         yield from _misread_motion(table.path, table.motion)
 
 
-_FASTEST_MPS, _SLOWEST_MPS = 10.0, 0.0005
+_MAXIMUM_SPEED_MPS, _MINIMUM_SPEED_MPS = 10.0, 0.0005
 _OTHER_UNIT = {
     "velocity_x_mps": "m/s (a thousandth of mm/s)",
     "speed_mps": "m/s; name the column speed_mmps where it is in mm/s",
@@ -207,7 +207,7 @@ def _misread_motion(path: Path, motion: Series) -> Iterator[DatasetFileError]:
     if len(moving) == 0:
         return
     median = float(np.median(moving))
-    if not _SLOWEST_MPS < median < _FASTEST_MPS:
+    if not _MINIMUM_SPEED_MPS < median < _MAXIMUM_SPEED_MPS:
         found = f"{motion.columns[0]} gives a speed of {median:.3g} m/s"
         yield DatasetFileError(path, found, _OTHER_UNIT[motion.columns[0]])
 

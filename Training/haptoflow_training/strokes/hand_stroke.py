@@ -13,7 +13,7 @@ from scipy.signal import butter, sosfiltfilt
 from haptoflow_training.strokes.sigma_lognormal import Submovement, summed_velocity
 
 # The largest tip speed of a stroke: the 99th percentile of real pen strokes in VR is 1.4 m/s.
-FASTEST_SPEED_MPS = 1.5
+MAXIMUM_SPEED_MPS = 1.5
 # Root mean square of physiological postural tremor of a supported hand, 8-12 Hz.
 DEFAULT_TREMOR_METRES = 5e-5
 TREMOR_BAND_HZ = (8.0, 12.0)
@@ -54,7 +54,7 @@ def random_planar_stroke(
     """Free scribbling: overlapping submovements with curves, reversals, pauses, slow and fast passages.
 
     The median speed of the moving samples (above 5 % of the requested median) is `median_speed_mps`; no sample is
-    faster than FASTEST_SPEED_MPS. The tip starts in the middle of a square of side `extent_metres` and turns back near
+    faster than MAXIMUM_SPEED_MPS. The tip starts in the middle of a square of side `extent_metres` and turns back near
     an edge, so that it leaves the square by about one submovement at most.
     """
     time = np.arange(int(round(duration_seconds * rate_hz))) / rate_hz
@@ -105,7 +105,7 @@ def _random_submovements(
 
 
 def _with_median(velocity: NDArray[np.float64], median_speed_mps: float) -> NDArray[np.float64]:
-    """The stroke scaled to the median, with its peaks rounded off towards FASTEST_SPEED_MPS."""
+    """The stroke scaled to the median, with its peaks rounded off towards MAXIMUM_SPEED_MPS."""
     limited = velocity
     for _ in range(3):
         speed = np.hypot(limited[:, 0], limited[:, 1])
@@ -113,7 +113,7 @@ def _with_median(velocity: NDArray[np.float64], median_speed_mps: float) -> NDAr
         if moving.size:
             velocity = velocity * (median_speed_mps / float(np.median(moving)))
         speed = np.hypot(velocity[:, 0], velocity[:, 1])
-        limited = velocity / ((1.0 + (speed / FASTEST_SPEED_MPS) ** 8) ** 0.125)[:, None]
+        limited = velocity / ((1.0 + (speed / MAXIMUM_SPEED_MPS) ** 8) ** 0.125)[:, None]
     return limited
 
 

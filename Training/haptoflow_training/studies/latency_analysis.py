@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from haptoflow_training.studies.bootstrap import Interval
+from haptoflow_training.studies.intervals import Interval
 from haptoflow_training.studies.plans import CONDITIONS, MAIN
 from haptoflow_training.studies.psychometric import RESAMPLES, Answers, Fit, fit, percent_yes, threshold_difference
 from haptoflow_training.studies.session_file import Session

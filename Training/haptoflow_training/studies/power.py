@@ -10,10 +10,10 @@ from dataclasses import dataclass
 import numpy as np
 from scipy import stats
 
+from haptoflow_training.studies.intervals import Share, share
 from haptoflow_training.studies.plans import CONDITIONS
 from haptoflow_training.studies.psychometric import Answers, fit, threshold_difference
 from haptoflow_training.studies.rating_tests import SIGNIFICANCE, RatingResult, analysed
-from haptoflow_training.studies.shares import Share, share
 from haptoflow_training.studies.simulated_participants import LEVELS_MS, AnswerModel, RatingModel
 
 _RESAMPLES = 1000

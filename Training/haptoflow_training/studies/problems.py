@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-_LONGEST_SHOWN = 60
+_MAXIMUM_SHOWN = 60
 
 
 @dataclass(frozen=True)
@@ -30,7 +30,7 @@ def shown(value: object) -> str:
 
 
 def shortened(text: str) -> str:
-    return text if len(text) <= _LONGEST_SHOWN else f"{text[:_LONGEST_SHOWN]}..."
+    return text if len(text) <= _MAXIMUM_SHOWN else f"{text[:_MAXIMUM_SHOWN]}..."
 
 
 def ranges(numbers: Sequence[int]) -> str:

@@ -13,12 +13,12 @@ from dataclasses import dataclass
 import numpy as np
 from scipy import special
 
-from haptoflow_training.studies.bootstrap import Interval, expanded_interval, jackknife_error, participant_weights
+from haptoflow_training.studies.intervals import Interval, expanded_interval, jackknife_error, participant_weights
 
 RESAMPLES = 2000
-FEWEST_PARTICIPANTS = 5
+MINIMUM_PARTICIPANTS = 5
 # With a larger share of resamples without a curve, an interval over the others would be biased.
-_LARGEST_SHARE_WITHOUT_CURVE = 0.05
+_MAXIMUM_SHARE_WITHOUT_CURVE = 0.05
 _NEWTON_STEPS = 60
 
 
@@ -116,13 +116,13 @@ def fit(answers: Answers, *, resamples: int = RESAMPLES, seed: int = 0) -> Fit:
         return Fit(None, statement or "yes does not become more frequent as the delay grows: there is no threshold")
     notes = _range_notes(answers, curve)
     count = answers.participants
-    if count < FEWEST_PARTICIPANTS:
-        words = f"{count} participants are too few to resample, which takes {FEWEST_PARTICIPANTS}"
+    if count < MINIMUM_PARTICIPANTS:
+        words = f"{count} participants are too few to resample, which takes {MINIMUM_PARTICIPANTS}"
         return Fit(curve, interval_statement=words, notes=notes)
     counted = _counted(answers)
     k, x0 = _curves(counted, participant_weights(count, resamples, seed))
     without = float(np.isnan(k).mean())
-    if without > _LARGEST_SHARE_WITHOUT_CURVE:
+    if without > _MAXIMUM_SHARE_WITHOUT_CURVE:
         words = f"{100 * without:.0f} % of the resamples have no curve, because yes and no hardly overlap"
         return Fit(curve, interval_statement=words, notes=notes)
     threshold_interval = expanded_interval(x0, count)

@@ -26,7 +26,7 @@ SIGNIFICANCE = 0.05
 TREND = 0.1
 # Cohen's d of the smallest difference that counts as relevant: "large" in Cohen's terms, as in the paper.
 EQUIVALENCE_BOUND = 0.8
-_MOST_COUNTED_SIGNS = 12
+_MAXIMUM_COUNTED_SIGNS = 12
 # Rounding restores ties that a shift by an equivalence bound breaks in the last bits.
 _DECIMALS = 9
 
@@ -86,7 +86,7 @@ def signed_rank_p(differences: np.ndarray, alternative: str = "two-sided") -> fl
     nonzero = int(np.count_nonzero(rounded))
     if nonzero == 0:
         return None
-    if nonzero <= _MOST_COUNTED_SIGNS:
+    if nonzero <= _MAXIMUM_COUNTED_SIGNS:
         return _counted_p(rounded, alternative)
     result = stats.wilcoxon(rounded, zero_method="pratt", correction=False, alternative=alternative, method="approx")
     return float(result.pvalue)

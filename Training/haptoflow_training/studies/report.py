@@ -7,9 +7,9 @@ from dataclasses import dataclass
 from typing import Any
 
 from haptoflow_training.studies import report_words as words
-from haptoflow_training.studies.bootstrap import Interval
 from haptoflow_training.studies.figures import SIMULATED_WORDS, latency_figure, similarity_figure
 from haptoflow_training.studies.html import heading, listing, page, paragraph, picture, table
+from haptoflow_training.studies.intervals import Interval
 from haptoflow_training.studies.latency_analysis import LatencyResult
 from haptoflow_training.studies.plans import CONDITIONS
 from haptoflow_training.studies.psychometric import Fit

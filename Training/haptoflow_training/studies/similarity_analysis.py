@@ -13,8 +13,8 @@ from haptoflow_training.studies.plans import MAIN
 from haptoflow_training.studies.rating_tests import RatingResult, analysed
 from haptoflow_training.studies.session_file import Session
 
-_FEWEST_PARTICIPANTS = 3
-_MOST_METHODS = 12
+_MINIMUM_PARTICIPANTS = 3
+_MAXIMUM_METHODS = 12
 
 
 @dataclass(frozen=True)
@@ -33,11 +33,11 @@ class SimilarityResult:
 
 def analyse_similarity(sessions: Sequence[Session]) -> SimilarityResult:
     """Analyse the sessions; practice trials are left out. InputError names a rating that is missing or duplicate."""
-    if len(sessions) < _FEWEST_PARTICIPANTS:
-        raise InputError(f"{len(sessions)} participants of the similarity study; its tests need {_FEWEST_PARTICIPANTS}")
+    if len(sessions) < _MINIMUM_PARTICIPANTS:
+        raise InputError(f"{len(sessions)} participants of the similarity study; its tests need {_MINIMUM_PARTICIPANTS}")
     materials, methods = _names(sessions, "material"), _names(sessions, "method")
-    if not 2 <= len(methods) <= _MOST_METHODS:
-        raise InputError(f"{len(methods)} methods in the similarity study; it can compare 2 to {_MOST_METHODS}")
+    if not 2 <= len(methods) <= _MAXIMUM_METHODS:
+        raise InputError(f"{len(methods)} methods in the similarity study; it can compare 2 to {_MAXIMUM_METHODS}")
     ratings = np.full((len(materials), len(sessions), len(methods)), np.nan)
     for place, session in enumerate(sessions):
         for row in session.rows:

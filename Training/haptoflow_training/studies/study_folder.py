@@ -14,7 +14,7 @@ from haptoflow_training.studies.log_columns import STUDIES
 from haptoflow_training.studies.problems import Problem
 from haptoflow_training.studies.session_file import NAME, Session, read_session
 
-_MOST_SHOWN = 20
+_MAXIMUM_SHOWN = 20
 _OWN_SETTINGS = ("pen_hand",)
 _NOT_NAMED = "not named as a session, STUDY-PARTICIPANT-SESSION, for example latency-P07-1a2b3c4d; take it out"
 
@@ -60,7 +60,7 @@ def read_faultless(folder: Path) -> StudyFolder:
     """As read_folder; InputError names the problems."""
     read = read_folder(folder)
     if read.problems:
-        shown = [str(problem) for problem in read.problems[:_MOST_SHOWN]]
+        shown = [str(problem) for problem in read.problems[:_MAXIMUM_SHOWN]]
         rest = len(read.problems) - len(shown)
         if rest:
             shown.append(f"and {rest} further problems: `haptoflow-training study check {folder}` names them")

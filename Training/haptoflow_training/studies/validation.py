@@ -12,7 +12,7 @@ import numpy as np
 import scipy
 from scipy.stats import norm
 
-from haptoflow_training.studies.bootstrap import Interval
+from haptoflow_training.studies.intervals import Interval, Share, share
 from haptoflow_training.studies.latency_analysis import analyse_latency
 from haptoflow_training.studies.log_columns import LATENCY, SIMILARITY
 from haptoflow_training.studies.plans import CONDITIONS
@@ -21,7 +21,6 @@ from haptoflow_training.studies.psychometric import Answers, Fit, fit, leave_one
 from haptoflow_training.studies.rating_tests import (
     EQUIVALENCE_BOUND, SIGNIFICANCE, analysed, equivalence, signed_rank_p,
 )  # fmt: skip
-from haptoflow_training.studies.shares import Share, share
 from haptoflow_training.studies.similarity_analysis import analyse_similarity
 from haptoflow_training.studies.simulated_participants import (
     MATERIALS, METHODS, PAPER_CURVES, PLANNED_DZ, AnswerModel, RatingModel, planted,

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from haptoflow_training.training.config import BatchConfig
 
 # Below this speed the tip counts as resting: its direction would be sensor noise.
-_SLOWEST_MOVING_MPS = 0.002
+_MINIMUM_MOVING_SPEED_MPS = 0.002
 
 
 @dataclass(frozen=True)
@@ -39,7 +39,7 @@ class HeldOut:
         if self.direction_degrees:
             low, high = self.direction_degrees
             direction = np.degrees(np.arctan2(motion[..., 1], motion[..., 0]))
-            held |= (np.mod(direction - low, 360.0) < high - low) & (speed >= _SLOWEST_MOVING_MPS)
+            held |= (np.mod(direction - low, 360.0) < high - low) & (speed >= _MINIMUM_MOVING_SPEED_MPS)
         return held
 
 

@@ -23,13 +23,13 @@ from haptoflow_training.training.energy_distance import WINDOW_SAMPLES, Spectra
 _SPEED_BORDERS_MPS = (0.03, 0.08, 0.2, 0.5)
 _SPEED_CLASSES = len(_SPEED_BORDERS_MPS) + 1
 # How many segments of one label and speed class an average remembers, and the number below which it is not used.
-_MEMORY_SEGMENTS, _FEWEST_SEGMENTS = 80.0, 16.0
-_LARGEST_ERROR = 1.0
+_MEMORY_SEGMENTS, _MINIMUM_SEGMENTS = 80.0, 16.0
+_MAXIMUM_ERROR = 1.0
 _FLOOR = 1e-3
 _BINS = 101
 _BANDS = 8
 # A Hann window of 400 samples resolves lines that are this far apart.
-_CLOSEST_LINES_HZ = 40.0
+_MINIMUM_LINE_SPACING_HZ = 40.0
 _LONG_BINS_HZ = torch.arange(201) * 5.0
 
 
@@ -47,7 +47,7 @@ _MOMENTS = (1.0, 3.0)
 _FRAME_SAMPLES = 10
 # Magnitudes are limited to this multiple of the level, so that a single stronger impact does not dominate the average
 # for long.
-_LARGEST_SIZE = 16.0
+_MAXIMUM_SIZE = 16.0
 _KINDS = (_BINS, PARTIALS, _BANDS, 2 * len(_MOMENTS))
 FEATURES = sum(_KINDS)
 # All kinds of features weigh the same.
@@ -56,7 +56,7 @@ _SHARES = torch.cat([torch.full((count,), 1.0 / count) for count in _KINDS])
 
 def _moments(segment: Tensor) -> list[Tensor]:
     """[B] each, of a segment [B, 200] in unit scale."""
-    sizes = segment.abs().clamp(max=_LARGEST_SIZE)
+    sizes = segment.abs().clamp(max=_MAXIMUM_SIZE)
     frames = (sizes.square().reshape(len(sizes), -1, _FRAME_SAMPLES).mean(dim=2) + 1e-8).sqrt()
     return [values.pow(order).mean(dim=1) for values in (sizes, frames) for order in _MOMENTS]
 
@@ -73,7 +73,7 @@ def label_features(
     bins = short.mean(dim=1)
     amplitudes = (partials.square().sum(dim=1) + 1e-8).sqrt()
     # For lines at multiples of a spacing, sin^4(pi f / spacing) keeps what lies between them.
-    resolved = ribs_hz > _CLOSEST_LINES_HZ
+    resolved = ribs_hz > _MINIMUM_LINE_SPACING_HZ
     spacing = torch.where(resolved, ribs_hz, torch.ones_like(ribs_hz)).unsqueeze(2)
     between = torch.sin(math.pi * _LONG_BINS_HZ / spacing).pow(4)
     between = torch.where(resolved.unsqueeze(2), between, torch.ones_like(between)).prod(dim=1)[:, 1:]
@@ -143,5 +143,5 @@ class LabelBalance:
         """(log ratio of drawn to recorded average, 0 where there are too few segments; average drawn), [groups, K]."""
         count = self._sums["count"].clamp(min=1e-6)
         recorded, drawn = (self._sums[name] / count + _FLOOR for name in ("recorded", "drawn"))
-        error = (drawn / recorded).log().clamp(-_LARGEST_ERROR, _LARGEST_ERROR)
-        return torch.where(self._sums["count"] >= _FEWEST_SEGMENTS, error, torch.zeros_like(error)), drawn
+        error = (drawn / recorded).log().clamp(-_MAXIMUM_ERROR, _MAXIMUM_ERROR)
+        return torch.where(self._sums["count"] >= _MINIMUM_SEGMENTS, error, torch.zeros_like(error)), drawn

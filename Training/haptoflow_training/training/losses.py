@@ -11,9 +11,8 @@ from torch import Tensor, nn
 from haptoflow_training.extensions import extension
 from haptoflow_training.models.haptoflow_model import HaptoFlowModel
 from haptoflow_training.models.label_embedding import rib_frequencies_hz, rib_phase
-from haptoflow_training.models.level_model import level_loss
+from haptoflow_training.models.level_model import level_loss, scaled_previous
 from haptoflow_training.models.rib_comb import PARTIALS
-from haptoflow_training.models.unit_scale import scaled_previous
 from haptoflow_training.training.batches import Chain, SegmentBatch
 from haptoflow_training.training.config import SolverConfig
 from haptoflow_training.training.energy_distance import energy_distance_loss, envelopes, halves_of, spectra
@@ -148,12 +147,12 @@ class Losses(nn.Module):
         true = recorded[0].squeeze(1), segments[0]
         # Both draws in one pass here, too.
         own = torch.cat([past, past]).squeeze(1), torch.cat(segments[1:])
-        heard = [spectra(*true), *halves_of(spectra(*own))]
+        all_spectra = [spectra(*true), *halves_of(spectra(*own))]
         shapes = [envelopes(*true), *zip(*(shape.chunk(2) for shape in envelopes(*own)), strict=True)]
         partials, audible = self._partials(batch, embedding, (recorded[1], *drawn), phase)
         loss = energy_distance_loss(
-            heard[0],
-            (heard[1], heard[2]),
+            all_spectra[0],
+            (all_spectra[1], all_spectra[2]),
             weight,
             waves=None if batch.chain is not None else tuple(segments),
             lines=tuple(partials),
@@ -164,7 +163,7 @@ class Losses(nn.Module):
         ribs_hz = rib_frequencies_hz(embedding.detach(), batch.motion).squeeze(2)
         features = [
             label_features(spectrum, ribs_hz, partial, audible, segment)
-            for spectrum, partial, segment in zip(heard, partials, segments, strict=True)
+            for spectrum, partial, segment in zip(all_spectra, partials, segments, strict=True)
         ]
         speed_mps = batch.motion[:, 0:2].norm(dim=1)
         balance = self._balance.loss(batch.label, speed_mps, features[0], (features[1], features[2]), weight)
@@ -252,8 +251,8 @@ class Losses(nn.Module):
         path = batch.motion_path.reshape(rows * knots, 3)
         with torch.no_grad():
             log_level = self.model.level(embedding.repeat_interleave(knots, dim=0), path).reshape(rows, 1, knots)
-            told = self.model.level(embedding, batch.motion).unsqueeze(1)
-            unsteadiness = (log_level - told).abs().amax(dim=(1, 2))
+            condition_level = self.model.level(embedding, batch.motion).unsqueeze(1)
+            unsteadiness = (log_level - condition_level).abs().amax(dim=(1, 2))
         samples = batch.segment.shape[-1]
         log_level = nn.functional.interpolate(log_level, size=samples, mode="linear", align_corners=True)
         return batch.segment * torch.exp(-log_level), unsteadiness

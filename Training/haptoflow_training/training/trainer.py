@@ -47,7 +47,7 @@ _VALIDATION_BATCH = 512
 _REHEARSED_STEPS, _WARM_UP_STEPS = 12, 2
 # The largest share of a time limit that this timing may use; with little time, fewer steps are timed.
 _REHEARSED_SHARE = 0.08
-_SHORTEST_TRAINING_SECONDS = 1.0
+_MINIMUM_TRAINING_SECONDS = 1.0
 # The time left is shown as the bar's unit: the bar's own estimate assumes that all steps take equally long.
 _LIMITED_BAR = "{desc}: {percentage:3.0f}%|{bar}| {unit} [{elapsed}{postfix}]"
 _SECONDS_BETWEEN_BARS = 0.5
@@ -329,7 +329,7 @@ class Trainer:
         longest = math.inf if self._limit is None else _REHEARSED_SHARE * self._limit.training_seconds
         seconds_per_step = [tried._seconds_per_step(phase, longest / len(tried._phases)) for phase in tried._phases]
         if self._limit is not None:
-            seconds = max(self._limit.training_seconds - (self._clock() - begun), _SHORTEST_TRAINING_SECONDS)
+            seconds = max(self._limit.training_seconds - (self._clock() - begun), _MINIMUM_TRAINING_SECONDS)
         budget = Budget.shared_out(
             seconds,
             self._planned_steps,

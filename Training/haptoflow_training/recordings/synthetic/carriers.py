@@ -25,7 +25,7 @@ _HAND_EXTENT_METRES = 0.3
 _HAND_TREMOR_METRES = 3e-6
 _FULL_STEP_MM = 0.2
 _CHANGE_SECONDS = 0.06
-FASTEST_MMPS, HEAVIEST_NEWTONS = 1500.0, 5.0
+MAXIMUM_SPEED_MMPS, HEAVIEST_NEWTONS = 1500.0, 5.0
 # Hz and damping of the printer frame.
 _FRAME_RESONANCE = (90.0, 0.25)
 
@@ -138,7 +138,7 @@ def guided_ride(
     log_speed = rng.uniform(-0.5, 1.2, holds)[hold] + (drift * rng.normal(0.0, 0.03, holds))[hold] * within
     angle = heading[hold] + (drift * rng.normal(0.0, 0.1, holds))[hold] * within
     press = np.exp(rng.normal(0.0, 0.3, holds))[hold]
-    speed = np.minimum(median_speed_mmps * np.exp(log_speed), FASTEST_MMPS)
+    speed = np.minimum(median_speed_mmps * np.exp(log_speed), MAXIMUM_SPEED_MMPS)
     ramp = np.clip(np.minimum(time, duration_seconds - time) / REST_SECONDS - 1.0, 0.0, 1.0)
     moving = 0.5 - 0.5 * np.cos(math.pi * ramp)
     velocity = (speed * moving)[:, None] * np.stack([np.cos(angle), np.sin(angle)], axis=1)

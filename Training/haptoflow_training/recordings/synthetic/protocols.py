@@ -20,7 +20,7 @@ MACHINE_DIRECTIONS_DEGREES = tuple(range(0, 360, 45))
 MACHINE_SPEEDS_MMPS = (20, 30, 40, 50, 60)
 MACHINE_FORCES_MILLINEWTONS = (500, 1000)
 MACHINE_REPEATS = 2
-SLOWEST_HAND_MMPS, FASTEST_HAND_MMPS = 6.0, 900.0
+MINIMUM_HAND_SPEED_MMPS, MAXIMUM_HAND_SPEED_MMPS = 6.0, 900.0
 LIGHTEST_HAND_NEWTONS, HEAVIEST_HAND_NEWTONS = 0.15, 3.5
 
 
@@ -53,7 +53,7 @@ def hand_conditions(material: Material, *, seed: int, recordings: int) -> list[R
     for repeat in range(recordings):
         share = (repeat + rng.random()) / recordings
         press = (order[repeat] + rng.random()) / recordings
-        speed = SLOWEST_HAND_MMPS * (FASTEST_HAND_MMPS / SLOWEST_HAND_MMPS) ** share
+        speed = MINIMUM_HAND_SPEED_MMPS * (MAXIMUM_HAND_SPEED_MMPS / MINIMUM_HAND_SPEED_MMPS) ** share
         force = LIGHTEST_HAND_NEWTONS * (HEAVIEST_HAND_NEWTONS / LIGHTEST_HAND_NEWTONS) ** press
         identities.append(
             RecordingIdentity(material.texture_id, None, round(speed), round(1e3 * force), repeat)

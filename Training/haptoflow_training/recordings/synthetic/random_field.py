@@ -41,13 +41,13 @@ class RandomField:
         total = x.own_weight * y.own_weight * self._patch(x.cells, y.cells, x.own, y.own)
         beside, above = np.flatnonzero(x.faded), np.flatnonzero(y.faded)
         corner = beside[y.faded[beside]]
-        for heard, i, j, weight in (
+        for rows, i, j, weight in (
             (beside, x.neighbour, y.own, x.neighbour_weight[beside] * y.own_weight[beside]),
             (above, x.own, y.neighbour, x.own_weight[above] * y.neighbour_weight[above]),
             (corner, x.neighbour, y.neighbour, x.neighbour_weight[corner] * y.neighbour_weight[corner]),
         ):
-            if heard.size:
-                total[heard] += weight * self._patch(x.cells[heard], y.cells[heard], i[heard], j[heard])
+            if rows.size:
+                total[rows] += weight * self._patch(x.cells[rows], y.cells[rows], i[rows], j[rows])
         return total
 
     def _cells(self, position_mm: _Floats) -> tuple[_Floats, _Floats]:

@@ -19,7 +19,7 @@ from haptoflow_training.recordings.synthetic import filters
 _FULL_SCALE_G = 16.0
 _STEP_G = 1e-3
 _NOISE_G_PER_ROOT_HZ = 75e-6
-_SHORTEST_STEP_SECONDS, _LONGEST_STEP_SECONDS = 130e-6, 210e-6
+_MINIMUM_STEP_SECONDS, _MAXIMUM_STEP_SECONDS = 130e-6, 210e-6
 _MOUNT_RESONANCE = (1400.0, 4.0, 2.0)
 _LOAD_CELL_HZ, _LOAD_CELL_UPDATES_HZ, _LOAD_CELL_STEP_NEWTONS = 6000.0, 80.0, 0.01
 _LOAD_CELL_ACCURACY_NEWTONS = 0.05
@@ -73,9 +73,9 @@ def soft_limit(values: NDArray[np.float64], limit: float) -> NDArray[np.float64]
 
 
 def _irregular_stamps(rng: np.random.Generator, duration_seconds: float) -> NDArray[np.float64]:
-    count = int(duration_seconds / _SHORTEST_STEP_SECONDS) + 1
+    count = int(duration_seconds / _MINIMUM_STEP_SECONDS) + 1
     spread = rng.beta(1.2, 2.5, size=count)
-    steps = _SHORTEST_STEP_SECONDS + (_LONGEST_STEP_SECONDS - _SHORTEST_STEP_SECONDS) * spread
+    steps = _MINIMUM_STEP_SECONDS + (_MAXIMUM_STEP_SECONDS - _MINIMUM_STEP_SECONDS) * spread
     stamps = np.round(np.concatenate([[0.0], np.cumsum(steps)]), 6)
     return stamps[: np.searchsorted(stamps, duration_seconds)]
 

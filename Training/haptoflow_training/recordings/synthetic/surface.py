@@ -61,13 +61,13 @@ def random_height(
     tilt = np.zeros(len(position))
     for octave, wavelength in enumerate(OCTAVE_WAVELENGTHS_MM):
         weight = band_weight(speed / wavelength)
-        felt = np.flatnonzero(weight)
-        if felt.size == 0:
+        audible = np.flatnonzero(weight)
+        if audible.size == 0:
             continue
         field = RandomField(material.surface_seed, specimen, octave, wavelength)
-        part = octave_height(material, wavelength) * weight[felt] * field.at(position[felt])
-        height[felt] += part
-        tilt[felt] += part if octave % 2 else -part
+        part = octave_height(material, wavelength) * weight[audible] * field.at(position[audible])
+        height[audible] += part
+        tilt[audible] += part if octave % 2 else -part
     return calibrated.height_micrometres * height, calibrated.height_micrometres * tilt
 
 

@@ -1,4 +1,4 @@
-"""Intervals and standard errors over participants, because the answers of one participant are correlated.
+"""Intervals and standard errors: over participants, whose own answers are correlated, and of shares of studies.
 
 scipy.stats.bootstrap has percentile, basic and BCa intervals, but not the expanded percentile interval used here.
 """
@@ -8,7 +8,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.stats import norm, t
+from scipy.stats import binomtest, norm, t
 
 CONFIDENCE = 0.95
 
@@ -54,3 +54,32 @@ def jackknife_error(without_one: np.ndarray) -> float | None:
         return None
     count = len(without_one)
     return float(np.sqrt((count - 1) / count * np.sum((without_one - without_one.mean()) ** 2)))
+
+
+@dataclass(frozen=True)
+class Share:
+    """low, high: Wilson's interval of 95 % for the underlying rate."""
+
+    count: int
+    of: int
+    low: float
+    high: float
+
+    @property
+    def rate(self) -> float:
+        return self.count / self.of
+
+    def covers(self, rate: float) -> bool:
+        return self.low <= rate <= self.high
+
+    def as_json(self) -> dict[str, float]:
+        return {"rate": round(self.rate, 4), "low": round(self.low, 4), "high": round(self.high, 4), "of": self.of}
+
+    def __str__(self) -> str:
+        return f"{100 * self.rate:.1f} % ({100 * self.low:.1f}-{100 * self.high:.1f})"
+
+
+def share(count: int, of: int) -> Share:
+    """The share of `count` among `of` studies; of: at least 1."""
+    interval = binomtest(count, of).proportion_ci(0.95, method="wilson")
+    return Share(count, of, float(interval.low), float(interval.high))
